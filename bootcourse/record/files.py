@@ -1,0 +1,83 @@
+"""Writing and reading files so that nothing is lost and nothing damaged is believed.
+
+A file is written under a temporary name in its own folder, synced, and renamed: what existed before
+stays whole until the new file is complete. No pickles.
+"""
+
+import hashlib
+import json
+import os
+import tempfile
+import zipfile
+from pathlib import Path
+
+import numpy as np
+
+from bootcourse.errors import BootcourseError
+
+
+def write_bytes(path: Path, data: bytes) -> None:
+    """Replace `path` by `data`, all or nothing. Raises BootcourseError if the disk refuses."""
+    path = Path(path)
+    temporary = None
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.NamedTemporaryFile(dir=path.parent, prefix=f".{path.name}.", delete=False) as file:
+            temporary = file.name
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+        os.chmod(temporary, 0o666 & ~_umask())
+        os.replace(temporary, path)
+    except OSError as error:
+        if temporary and os.path.exists(temporary):
+            os.unlink(temporary)
+        reason = error.strerror or error
+        raise BootcourseError(f"Cannot write {path}: {reason}. Free some space or choose another folder.") from None
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
+
+
+def write_json(path: Path, value) -> None:
+    write_bytes(path, (json.dumps(value, indent=2, sort_keys=True) + "\n").encode())
+
+
+def read_bytes(path: Path) -> bytes:
+    try:
+        return Path(path).read_bytes()
+    except OSError as error:
+        raise BootcourseError(f"Cannot read {path}: {error.strerror or error}.") from None
+
+
+def read_json(path: Path):
+    try:
+        return json.loads(read_bytes(path))
+    except ValueError:
+        raise BootcourseError(f"{path} is damaged: it is not JSON. Delete it, or restore it from a copy.") from None
+
+
+def write_arrays(path: Path, arrays: dict[str, np.ndarray]) -> None:
+    """Write named arrays as a compressed `.npz` without pickles."""
+    import io
+
+    buffer = io.BytesIO()
+    np.savez_compressed(buffer, **arrays)
+    write_bytes(path, buffer.getvalue())
+
+
+def read_arrays(path: Path) -> dict[str, np.ndarray]:
+    """Every array of a `.npz`. Raises BootcourseError if the file is missing, cut short or has pickles."""
+    read_bytes(path)  # says in one sentence what is wrong with a missing file
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            return {name: file[name] for name in file.files}
+    except (ValueError, OSError, EOFError, KeyError, zipfile.BadZipFile):
+        raise BootcourseError(f"{path} is damaged or cut short: record it again, or restore it from a copy.") from None
+
+
+def sha256(path: Path) -> str:
+    return hashlib.sha256(read_bytes(path)).hexdigest()

@@ -1,0 +1,37 @@
+"""`@compiled`: a function that numba turns into machine code, kept on disk between sessions.
+
+numba's own cache looks only at the file of the function that is called. A change in formulas.py
+would leave the old formula inside the cached loop of twin.py. Here the cache lives in a folder
+named after the text of every compiled file, so a changed formula is always compiled again.
+"""
+
+import hashlib
+import os
+from pathlib import Path
+
+import numba
+from platformdirs import user_cache_dir
+
+PACKAGE = Path(__file__).resolve().parent.parent
+SOURCES = sorted((PACKAGE / "road").glob("*.py")) + [PACKAGE / "rule.py"]
+
+
+def _cache_folder() -> Path:
+    text = b"".join(source.read_bytes() for source in SOURCES if source.exists())
+    name = f"numba-{hashlib.sha256(text).hexdigest()[:12]}"
+    beside = PACKAGE / "__pycache__"
+    writable = os.access(beside if beside.exists() else PACKAGE, os.W_OK)
+    return (beside if writable else Path(user_cache_dir("bootcourse"))) / name
+
+
+CACHE_FOLDER = _cache_folder()
+
+
+def compiled(function):
+    """Compile `function` in numba's nopython mode, with numpy's rules for division by zero."""
+    before = numba.config.CACHE_DIR
+    numba.config.CACHE_DIR = str(CACHE_FOLDER)
+    try:
+        return numba.njit(cache=True, error_model="numpy", nogil=True)(function)
+    finally:
+        numba.config.CACHE_DIR = before

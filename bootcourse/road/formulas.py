@@ -1,0 +1,159 @@
+"""One scalar function for each formula of the road, written as the equation is written.
+
+The traffic's formulas follow highway-env (`IDMVehicle`, `ControlledVehicle`, `Vehicle`), which the
+tests hold them to; the paper's equation stands beside each. All are compiled, and all can be called
+from Python with plain numbers. Units: metres, seconds, radians.
+"""
+
+import math
+
+from bootcourse.road.compiled import compiled
+
+EPSILON = 1e-2  # highway-env keeps divisors this far from zero
+MAX_STEERING = math.pi / 3  # rad, highway-env's limit of the front wheels' angle
+
+
+@compiled
+def clip(value, low, high):
+    return min(max(value, low), high)
+
+
+@compiled
+def not_zero(value):
+    """The value, or ±0.01 if it is closer to zero than that."""
+    if abs(value) > EPSILON:
+        return value
+    return EPSILON if value >= 0 else -EPSILON
+
+
+@compiled
+def wrap_to_pi(angle):
+    """The same angle in [-π, π)."""
+    return (angle + math.pi) % (2 * math.pi) - math.pi
+
+
+@compiled
+def desired_gap(v, dv, s0, time_gap, a_max, b):
+    """s* of the IDM: the gap that a driver wants at speed v, closing in at dv (m/s).
+
+    s* = s0 + T v + v Δv / (2 √(a_max b))
+    """
+    return s0 + v * time_gap + v * dv / (2 * math.sqrt(a_max * b))
+
+
+@compiled
+def idm_acceleration(v, v_desired, gap, s_star, a_max, delta):
+    """The Intelligent Driver Model: acceleration (m/s²) at speed v behind a car `gap` metres ahead.
+
+    a = a_max [1 - (v / v_desired)^δ - (s* / s)²]. An infinite gap is a free road.
+    """
+    acceleration = a_max * (1 - (max(v, 0.0) / abs(not_zero(v_desired))) ** delta)
+    if gap < math.inf:
+        acceleration -= a_max * (s_star / not_zero(gap)) ** 2
+    return acceleration
+
+
+@compiled
+def mobil_incentive(own_gain, new_follower_gain, old_follower_gain, politeness):
+    """MOBIL: what a lane change gains for its driver and, at the rate of politeness, for the others.
+
+    Δa_ego + p (Δa_rear + Δa_front); the change is worth it from a_threshold on.
+    """
+    return own_gain + politeness * (new_follower_gain + old_follower_gain)
+
+
+@compiled
+def lane_keeping_steering(offset, heading, v, length, tau_lateral, tau_heading):
+    """Steering angle (rad) that brings a car back to its lane's centre: position -> heading -> wheels.
+
+    offset: metres to the right of the centre. tau_lateral, tau_heading: time constants in seconds.
+    A heading gain times the time step above 2 is unstable: 0.5 s / 0.2 s = 2.5 (highway-env's
+    default at 2 Hz), 0.5 s / 0.6 s = 0.83 (ours).
+    """
+    if offset == 0.0 and heading == 0.0:
+        return 0.0
+    lateral_speed = -(1 / tau_lateral) * offset
+    heading_wanted = clip(math.asin(clip(lateral_speed / not_zero(v), -1.0, 1.0)), -math.pi / 4, math.pi / 4)
+    heading_rate = (1 / tau_heading) * wrap_to_pi(heading_wanted - heading)
+    slip = math.asin(clip(length / 2 / not_zero(v) * heading_rate, -1.0, 1.0))
+    return clip(math.atan(2 * math.tan(slip)), -MAX_STEERING, MAX_STEERING)
+
+
+@compiled
+def bicycle_step(x, y, heading, v, acceleration, steering, length, dt):
+    """One Euler step of highway-env's bicycle model; returns the next (x, y, heading, v).
+
+    slip β = arctan(½ tan θ);  ẋ = v cos(ψ + β);  ẏ = v sin(ψ + β);  ψ̇ = v sin β / (length / 2)
+    """
+    slip = math.atan(0.5 * math.tan(steering)) if steering != 0.0 else 0.0
+    direction = heading + slip
+    x += v * math.cos(direction) * dt
+    y += v * math.sin(direction) * dt
+    heading += v * math.sin(slip) / (length / 2) * dt
+    return x, y, heading, v + acceleration * dt
+
+
+@compiled
+def nearest_lane(y, heading, lanes, lane_width):
+    """The lane whose centre is nearest; on the line between two, the left one."""
+    best, best_distance = 0, math.inf
+    angle = abs(wrap_to_pi(heading))
+    for lane in range(lanes):
+        distance = abs(y - lane * lane_width) + angle  # highway-env adds the angle, and so its rounding
+        if distance < best_distance:
+            best, best_distance = lane, distance
+    return best
+
+
+@compiled
+def _separated(dx, dy, cos_a, sin_a, cos_b, sin_b, length, width):
+    """Does one of rectangle a's two axes separate it from rectangle b, (dx, dy) away?"""
+    along, across = dx * cos_a + dy * sin_a, -dx * sin_a + dy * cos_a
+    cos_ab = abs(cos_a * cos_b + sin_a * sin_b)
+    sin_ab = abs(cos_a * sin_b - sin_a * cos_b)
+    reach_along = (length + length * cos_ab + width * sin_ab) / 2
+    reach_across = (width + length * sin_ab + width * cos_ab) / 2
+    return abs(along) > reach_along or abs(across) > reach_across
+
+
+@compiled
+def overlap(x_a, y_a, heading_a, x_b, y_b, heading_b, length, width):
+    """Do two equal rectangles touch? By the separating axis theorem; positions are the centres."""
+    dx, dy = x_b - x_a, y_b - y_a
+    if dx * dx + dy * dy > length * length + width * width:
+        return False
+    cos_a, sin_a, cos_b, sin_b = math.cos(heading_a), math.sin(heading_a), math.cos(heading_b), math.sin(heading_b)
+    return not (
+        _separated(dx, dy, cos_a, sin_a, cos_b, sin_b, length, width)
+        or _separated(dx, dy, cos_b, sin_b, cos_a, sin_a, length, width)
+    )
+
+
+@compiled
+def speed_reward(v_lon):
+    """r_v of the paper: 0 up to 5 m/s, gently up to 12.5, steeply up to 1 at 15, gone above."""
+    if v_lon > 15:
+        return math.exp(-((v_lon - 15) ** 2))
+    if v_lon > 12.5:
+        return 8 / 25 * v_lon - 19 / 5
+    if v_lon > 5:
+        return 2 / 75 * v_lon - 2 / 15
+    return 0.0
+
+
+@compiled
+def centring_reward(offset):
+    """r_y = exp(-1.5 d_e²), d_e in metres from the lane's centre."""
+    return math.exp(-1.5 * offset**2)
+
+
+@compiled
+def steering_reward(theta):
+    """r_θ = -|sin θ|, θ in radians."""
+    return -abs(math.sin(theta))
+
+
+@compiled
+def weighted_reward(r_v, r_y, r_theta, w_v, w_y, w_theta):
+    """The paper's reward without an accident: the weighted mean of its three terms."""
+    return (w_v * r_v + w_y * r_y + w_theta * r_theta) / (w_v + w_y + w_theta)

@@ -1,0 +1,87 @@
+"""The 26 numbers that the ego sees (Section III-C, "State"), scaled to order one.
+
+s = (p, x, y, v_lon, v_lat, d_e) of the ego, then (p, Δx, Δy, Δv_lon, Δv_lat) of the four nearest
+cars within 200 m, nearest first; a missing car is five zeros. Both roads and the lessons use this.
+"""
+
+import math
+
+import numpy as np
+
+from bootcourse.road.compiled import compiled
+from bootcourse.road.state import EGO, HEADING, LANE, SPEED, X, Y
+from bootcourse.scenario import Scenario
+
+# An observation is the physical number divided by its scale.
+X_SCALE = 1000.0  # m
+Y_SCALE = 4.0  # m, one lane
+V_LON_SCALE = 15.0  # m/s, the speed that pays best
+V_LAT_SCALE = 2.0  # m/s
+OFFSET_SCALE = 2.0  # m, half a lane
+DX_SCALE = 50.0  # m
+DV_SCALE = 5.0  # m/s
+
+EGO_NAMES = ("presence", "x", "y", "v_lon", "v_lat", "d_e")
+NEIGHBOUR_NAMES = ("presence", "dx", "dy", "dv_lon", "dv_lat")
+EGO_SCALES = (1.0, X_SCALE, Y_SCALE, V_LON_SCALE, V_LAT_SCALE, OFFSET_SCALE)
+NEIGHBOUR_SCALES = (1.0, DX_SCALE, Y_SCALE, DV_SCALE, V_LAT_SCALE)
+
+
+def scales(scenario: Scenario) -> np.ndarray:
+    """What each number of an observation was divided by, (observation_size,)."""
+    return np.array(EGO_SCALES + scenario.sight.neighbours * NEIGHBOUR_SCALES)
+
+
+def names(scenario: Scenario) -> list[str]:
+    """A name for each number of an observation, such as "x" and "car 2 dx"."""
+    cars = range(1, scenario.sight.neighbours + 1)
+    return [*EGO_NAMES, *(f"car {n} {name}" for n in cars for name in NEIGHBOUR_NAMES)]
+
+
+def bounds(scenario: Scenario) -> tuple[np.ndarray, np.ndarray]:
+    """Finite limits, low and high, that no observation leaves; float32, (observation_size,)."""
+    s = scenario
+    fastest = max(s.ego.max_speed, s.road.speed_limit) + 10  # m/s, one step of acceleration and more
+    overshoot = fastest * s.clock.dt  # m, how far beyond the edge the last step can end
+    across = s.road.lanes * s.road.lane_width + 2 * overshoot
+    ego = [1, s.road.length + overshoot, across, fastest, fastest, across]
+    neighbour = [1, s.sight.distance, across, 2 * fastest, 2 * fastest]
+    high = np.array(ego + s.sight.neighbours * neighbour) / scales(s)
+    low = np.where(np.array(names(s), dtype=object) == "presence", 0.0, -high)
+    low[6::5] = 0.0  # the neighbours' presence
+    return low.astype(np.float32), high.astype(np.float32)
+
+
+@compiled
+def observe(cars, c, out):
+    """Write the observation of one road, cars (vehicles, 10), into out (observation_size,)."""
+    x, y = cars[EGO, X], cars[EGO, Y]
+    v_lon, v_lat = cars[EGO, SPEED] * math.cos(cars[EGO, HEADING]), cars[EGO, SPEED] * math.sin(cars[EGO, HEADING])
+    out[0] = 1.0
+    out[1], out[2] = x / X_SCALE, y / Y_SCALE
+    out[3], out[4] = v_lon / V_LON_SCALE, v_lat / V_LAT_SCALE
+    out[5] = (y - cars[EGO, LANE] * c.lane_width) / OFFSET_SCALE
+    out[6:] = 0.0
+    previous, previous_row = -1.0, -1
+    for n in range(c.neighbours):
+        row, best = -1, c.sight**2
+        for j in range(1, cars.shape[0]):
+            squared = (cars[j, X] - x) ** 2 + (cars[j, Y] - y) ** 2
+            later = squared > previous or (squared == previous and j > previous_row)
+            if later and squared < best:
+                row, best = j, squared
+        if row < 0:
+            return
+        previous, previous_row = best, row
+        k = 6 + 5 * n
+        out[k] = 1.0
+        out[k + 1], out[k + 2] = (cars[row, X] - x) / DX_SCALE, (cars[row, Y] - y) / Y_SCALE
+        out[k + 3] = (cars[row, SPEED] * math.cos(cars[row, HEADING]) - v_lon) / DV_SCALE
+        out[k + 4] = (cars[row, SPEED] * math.sin(cars[row, HEADING]) - v_lat) / V_LAT_SCALE
+
+
+@compiled
+def observe_all(cars, c, out):
+    """Observations of every road: cars (roads, vehicles, 10) -> out (roads, observation_size)."""
+    for road in range(cars.shape[0]):
+        observe(cars[road], c, out[road])

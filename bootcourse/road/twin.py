@@ -1,0 +1,186 @@
+"""The compiled road: thousands of roads, one decision per call.
+
+The loop that `TrapEnv` runs through highway-env's objects, run here over arrays. It knows nothing
+of gymnasium, episodes or random numbers: arrays in, arrays out. `tests/agreement.py` holds the two
+roads to each other.
+"""
+
+import math
+
+import numpy as np
+
+from bootcourse.road.compiled import compiled
+from bootcourse.road.formulas import (
+    bicycle_step,
+    centring_reward,
+    nearest_lane,
+    overlap,
+    speed_reward,
+    steering_reward,
+    weighted_reward,
+)
+from bootcourse.road.state import (
+    ACCELERATION,
+    COLUMNS,
+    CRASHED,
+    EGO,
+    HEADING,
+    LANE,
+    SPEED,
+    STEERING,
+    TARGET_LANE,
+    TIMER,
+    TRAFFIC,
+    TRAP_1,
+    TRAP_2,
+    Accident,
+    X,
+    Y,
+)
+from bootcourse.road.traffic import act
+
+NO_ACCIDENT, COLLISION = int(Accident.NONE), int(Accident.COLLISION)
+ROAD_DEPARTURE, STOPPAGE = int(Accident.ROAD_DEPARTURE), int(Accident.STOPPAGE)
+NO_TRACE = np.empty((0, 0, 0, 0))
+
+
+def uniforms_needed(vehicles: int) -> int:
+    """Random numbers in [0, 1) that one start takes: D1, D2, the traffic's lanes, speeds, and distances between."""
+    return 2 + max(0, 3 * (vehicles - TRAFFIC) - 1)
+
+
+@compiled
+def place(uniforms, c, cars):
+    """Fill `cars` (vehicles, 10) with a start of an episode made from `uniforms_needed` numbers in [0, 1)."""
+    traffic = cars.shape[0] - TRAFFIC
+    cars[:] = 0.0
+    rightmost = c.lanes - 1
+    d1 = c.d1_low + uniforms[0] * (c.d1_high - c.d1_low)
+    d2 = c.d2_low + uniforms[1] * (c.d2_high - c.d2_low)
+    for i in range(cars.shape[0]):
+        if i == EGO:
+            x, lane, speed = 0.0, rightmost, c.ego_speed
+        elif i == TRAP_1:
+            x, lane, speed = d1, rightmost, c.trap_speed
+        elif i == TRAP_2:
+            x, lane, speed = d2, rightmost - 1, c.trap_speed
+        else:
+            k = 2 + i - TRAFFIC
+            lane = min(int(uniforms[k] * c.lanes), rightmost)
+            speed = c.speed_low + uniforms[k + traffic] * (c.speed_high - c.speed_low)
+            x = d1 + c.lead
+            if i > TRAFFIC:
+                spacing = c.spacing_low + uniforms[k - 1 + 2 * traffic] * (c.spacing_high - c.spacing_low)
+                x = cars[i - 1, X] + c.headway * spacing
+        cars[i, X], cars[i, Y], cars[i, SPEED] = x, lane * c.lane_width, speed
+        cars[i, LANE] = cars[i, TARGET_LANE] = lane
+        if i != EGO:  # highway-env's way of not letting all drivers think at the same moment
+            cars[i, TIMER] = (x + cars[i, Y]) * math.pi % c.lane_change_delay if c.lane_change_delay > 0 else 0.0
+
+
+@compiled
+def move(cars, i, c):
+    """One simulation step of car i under its present steering and acceleration."""
+    v = cars[i, SPEED]
+    fastest = c.max_speed if i == EGO else c.speed_limit
+    if cars[i, CRASHED] != 0:
+        cars[i, STEERING], cars[i, ACCELERATION] = 0.0, -v
+    if v > fastest:
+        cars[i, ACCELERATION] = min(cars[i, ACCELERATION], fastest - v)
+    elif v < 0:
+        cars[i, ACCELERATION] = max(cars[i, ACCELERATION], -v)
+    if i != EGO:
+        cars[i, TIMER] += c.dt
+    cars[i, X], cars[i, Y], cars[i, HEADING], cars[i, SPEED] = bicycle_step(
+        cars[i, X], cars[i, Y], cars[i, HEADING], v, cars[i, ACCELERATION], cars[i, STEERING], c.length, c.dt
+    )
+    cars[i, LANE] = nearest_lane(cars[i, Y], cars[i, HEADING], c.lanes, c.lane_width)
+    if i == EGO:  # the ego tells nobody where it is going
+        cars[i, TARGET_LANE] = cars[i, LANE]
+
+
+@compiled
+def collide(cars, c):
+    """Mark every car that touches another."""
+    reach = math.sqrt(c.length**2 + c.width**2)
+    for i in range(cars.shape[0]):
+        for j in range(i + 1, cars.shape[0]):
+            if abs(cars[i, X] - cars[j, X]) <= reach and overlap(
+                cars[i, X], cars[i, Y], cars[i, HEADING], cars[j, X], cars[j, Y], cars[j, HEADING], c.length, c.width
+            ):
+                cars[i, CRASHED] = cars[j, CRASHED] = 1.0
+
+
+@compiled
+def ego_accident(cars, c):
+    """The kind of the ego's accident, an `Accident`'s number."""
+    if cars[EGO, CRASHED] != 0:
+        return COLLISION
+    if not -c.lane_width / 2 <= cars[EGO, Y] <= (c.lanes - 0.5) * c.lane_width:
+        return ROAD_DEPARTURE
+    if cars[EGO, SPEED] < c.min_speed:
+        return STOPPAGE
+    return NO_ACCIDENT
+
+
+@compiled
+def command(cars, action, c):
+    """Give the ego one of the nine actions: 3 x (brake, keep, accelerate) + (left, straight, right)."""
+    cars[EGO, ACCELERATION] = (action // 3 - 1) * c.ego_acceleration
+    cars[EGO, STEERING] = (action % 3 - 1) * c.ego_steering
+
+
+@compiled
+def simulate(cars, directions, c):
+    """One simulation step of one road; returns the ego's accident."""
+    for i in range(cars.shape[0]):
+        directions[i, 0], directions[i, 1] = math.cos(cars[i, HEADING]), math.sin(cars[i, HEADING])
+    for i in range(1, cars.shape[0]):
+        act(cars, directions, i, c)
+    for i in range(cars.shape[0]):
+        move(cars, i, c)
+    collide(cars, c)
+    return ego_accident(cars, c)
+
+
+@compiled
+def reward_terms(cars, c):
+    """(r_v, r_y, r_θ) of the state that the ego has reached."""
+    offset = cars[EGO, Y] - cars[EGO, LANE] * c.lane_width
+    return (
+        speed_reward(cars[EGO, SPEED] * math.cos(cars[EGO, HEADING])),
+        centring_reward(offset),
+        steering_reward(cars[EGO, STEERING]),
+    )
+
+
+@compiled
+def decide(cars, actions, asleep, c, rewards, terms, accidents, trace):
+    """One decision on every road that is not asleep, in place.
+
+    cars (roads, vehicles, 10), actions (roads,) in 0..8, asleep (roads,) bool -> rewards (roads,),
+    terms (roads, 3), accidents (roads,). trace is NO_TRACE, or (roads, steps, vehicles, 10) and
+    then takes the state after each simulation step; after an accident, its last state.
+    """
+    directions = np.empty((cars.shape[1], 2))
+    for road in range(cars.shape[0]):
+        if asleep[road]:
+            continue
+        command(cars[road], actions[road], c)
+        accident = NO_ACCIDENT
+        for step in range(c.steps):
+            if accident == NO_ACCIDENT:
+                accident = simulate(cars[road], directions, c)
+            if trace.shape[0] > 0:
+                trace[road, step] = cars[road]
+        accidents[road] = accident
+        r_v, r_y, r_theta = reward_terms(cars[road], c)
+        terms[road, 0], terms[road, 1], terms[road, 2] = r_v, r_y, r_theta
+        if accident == NO_ACCIDENT:
+            rewards[road] = weighted_reward(r_v, r_y, r_theta, c.w_v, c.w_y, c.w_theta)
+        else:
+            rewards[road] = c.accident
+
+
+def empty_cars(roads: int, vehicles: int) -> np.ndarray:
+    return np.zeros((roads, vehicles, COLUMNS))

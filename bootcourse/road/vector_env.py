@@ -1,0 +1,142 @@
+"""`gym.make_vec("bootcourse:Trap-v0", num_envs=256)`: the compiled road as a gymnasium VectorEnv."""
+
+import gymnasium as gym
+import numpy as np
+from gymnasium.utils import seeding
+from gymnasium.vector import AutoresetMode, VectorEnv
+from gymnasium.vector.utils import batch_space
+
+from bootcourse.errors import BootcourseError
+from bootcourse.road import twin
+from bootcourse.road.constants import constants
+from bootcourse.road.observation import bounds, observe_all
+from bootcourse.road.state import EGO, SPEED, TRAP_1, X
+from bootcourse.scenario import DEFAULT, N_ACTIONS, Scenario
+
+
+class TrapVectorEnv(VectorEnv):
+    """`num_envs` roads that decide together.
+
+    observation (num_envs, 26) float32; action (num_envs,) in 0..8; reward (num_envs,) float64.
+    Road i, reset with `seed`, drives exactly what `TrapEnv` reset with `seed + i` drives.
+    A road that ends starts anew in the same step (same-step autoreset): its last observation is
+    infos["final_obs"], its last infos are infos["final_info"]. With
+    `autoreset_mode=AutoresetMode.DISABLED` it rests, with reward 0, until
+    `reset(options={"reset_mask": ...})` wakes it.
+
+    `cars` (num_envs, vehicles, 10) is the true state (columns in `bootcourse.road.state`); with
+    `record=True`, `trace` (num_envs, steps, vehicles, 10) holds each simulation step of the last decision.
+    """
+
+    def __init__(
+        self,
+        num_envs: int = 1,
+        scenario: Scenario = DEFAULT,
+        autoreset_mode: AutoresetMode = AutoresetMode.SAME_STEP,
+        record: bool = False,
+        render_mode: str | None = None,
+    ):
+        if not isinstance(num_envs, (int, np.integer)) or num_envs < 1:
+            raise BootcourseError(f"num_envs = {num_envs!r}: give a whole number of roads, 1 or more.")
+        if not isinstance(scenario, Scenario):
+            raise BootcourseError(f"scenario = {scenario!r}: give a bootcourse.scenario.Scenario.")
+        if autoreset_mode not in (AutoresetMode.SAME_STEP, AutoresetMode.DISABLED):
+            raise BootcourseError(f"autoreset_mode = {autoreset_mode!r}: the compiled road has SAME_STEP and DISABLED.")
+        if render_mode is not None:
+            raise BootcourseError("The compiled road draws nothing: render with gym.make('bootcourse:Trap-v0').")
+        self.metadata = {"autoreset_mode": autoreset_mode, "render_modes": []}
+        self.num_envs, self.scenario, self.render_mode = int(num_envs), scenario, None
+        low, high = bounds(scenario)
+        self.single_observation_space = gym.spaces.Box(low, high, dtype=np.float32)
+        self.single_action_space = gym.spaces.Discrete(N_ACTIONS)
+        self.observation_space = batch_space(self.single_observation_space, self.num_envs)
+        self.action_space = batch_space(self.single_action_space, self.num_envs)
+
+        n, vehicles = self.num_envs, scenario.vehicles
+        self.constants = constants(scenario)
+        self.cars = twin.empty_cars(n, vehicles)
+        steps = self.constants.steps
+        self.trace = np.zeros((n, steps, vehicles, self.cars.shape[2])) if record else twin.NO_TRACE
+        self.decisions = np.zeros(n, dtype=np.int64)
+        self.asleep = np.ones(n, dtype=bool)
+        self._uniforms = twin.uniforms_needed(vehicles)
+        self._generators = [seeding.np_random()[0] for _ in range(n)]
+        self._observations = np.zeros((n, scenario.observation_size), dtype=np.float32)
+        self._rewards, self._terms = np.zeros(n), np.zeros((n, 3))
+        self._accidents = np.zeros(n, dtype=np.int64)
+
+    def reset(self, *, seed: int | list[int | None] | None = None, options: dict | None = None):
+        """Start every road, or those of options["reset_mask"]. Road i takes `seed + i`, or `seed[i]`."""
+        mask = np.ones(self.num_envs, dtype=bool)
+        if options and "reset_mask" in options:
+            mask = np.asarray(options["reset_mask"], dtype=bool)
+            if mask.shape != (self.num_envs,):
+                raise BootcourseError(f"reset_mask has shape {mask.shape}: give one value for each of {self.num_envs} roads.")
+        if seed is not None:
+            seeds = [seed + i for i in range(self.num_envs)] if isinstance(seed, (int, np.integer)) else list(seed)
+            if len(seeds) != self.num_envs:
+                raise BootcourseError(f"{len(seeds)} seeds for {self.num_envs} roads: give one seed, or one for each road.")
+            for i in np.flatnonzero(mask):
+                if seeds[i] is not None:
+                    self._generators[i] = seeding.np_random(int(seeds[i]))[0]
+            super().reset(seed=seeds[0])
+        self._start(mask)
+        self._rewards[mask], self._terms[mask], self._accidents[mask] = 0.0, 0.0, 0
+        observe_all(self.cars, self.constants, self._observations)
+        return self._observations.copy(), self._infos(mask)
+
+    def step(self, actions):
+        """One decision on every road. Raises BootcourseError for an action outside 0..8."""
+        actions = np.asarray(actions)
+        if actions.shape != (self.num_envs,) or actions.dtype.kind not in "iu":
+            raise BootcourseError(f"actions have shape {actions.shape} and type {actions.dtype}: give {self.num_envs} whole numbers.")
+        if actions.min() < 0 or actions.max() >= N_ACTIONS:
+            raise BootcourseError(f"Action {int(actions[(actions < 0) | (actions >= N_ACTIONS)][0])} is outside 0..8.")
+        self._rewards[self.asleep], self._terms[self.asleep] = 0.0, 0.0
+        twin.decide(
+            self.cars, actions.astype(np.int64), self.asleep, self.constants,
+            self._rewards, self._terms, self._accidents, self.trace,
+        )  # fmt: skip
+        self.decisions[~self.asleep] += 1
+        terminated = self._accidents != 0
+        truncated = ~terminated & (self.decisions >= self.scenario.clock.decisions)
+        rewards = self._rewards.copy()
+        observe_all(self.cars, self.constants, self._observations)
+        infos = self._infos(~self.asleep)
+        done = terminated | truncated
+        if self.metadata["autoreset_mode"] is AutoresetMode.DISABLED:
+            self.asleep |= done
+        elif done.any():
+            infos = self._restart(done, infos)
+        return self._observations.copy(), rewards, terminated, truncated, infos
+
+    def _start(self, mask: np.ndarray) -> None:
+        for i in np.flatnonzero(mask):
+            twin.place(self._generators[i].random(self._uniforms), self.constants, self.cars[i])
+        self.decisions[mask] = 0
+        self.asleep[mask] = False
+
+    def _restart(self, done: np.ndarray, infos: dict) -> dict:
+        final_obs = np.full(self.num_envs, None, dtype=object)
+        for i in np.flatnonzero(done):
+            final_obs[i] = self._observations[i].copy()
+        final_info = {name: value for name, value in infos.items() if not name.startswith("_")}
+        final_info |= {f"_{name}": done.copy() for name in final_info}
+        self._start(done)
+        self._terms[done], self._accidents[done] = 0.0, 0
+        observe_all(self.cars, self.constants, self._observations)
+        infos = self._infos(np.ones(self.num_envs, dtype=bool))
+        return infos | {"final_obs": final_obs, "_final_obs": done.copy(), "final_info": final_info, "_final_info": done.copy()}
+
+    def _infos(self, mask: np.ndarray) -> dict:
+        """gymnasium's vector infos: an array for each name, and under _name which roads it holds for."""
+        infos = {
+            "r_v": self._terms[:, 0].copy(),
+            "r_y": self._terms[:, 1].copy(),
+            "r_theta": self._terms[:, 2].copy(),
+            "accident": self._accidents.copy(),
+            "is_success": self.cars[:, EGO, X] > self.cars[:, TRAP_1, X],
+            "distance": self.cars[:, EGO, X].copy(),
+            "speed": self.cars[:, EGO, SPEED].copy(),
+        }
+        return infos | {f"_{name}": mask.copy() for name in infos}
