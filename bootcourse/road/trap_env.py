@@ -104,6 +104,7 @@ class TrapEnv(AbstractEnv):
         self.constants = constants(scenario)
         self.accident = Accident.NONE
         self._terms = (0.0, 0.0, 0.0)
+        self.trace: list[np.ndarray] = []  # the state after each simulation step of the last decision
         self._observation = np.zeros(scenario.observation_size, dtype=np.float32)
         super().__init__(config, render_mode)
         self.update_metadata()
@@ -140,7 +141,7 @@ class TrapEnv(AbstractEnv):
         self._reset()
         if self.render_mode == "human":
             self.render()
-        return self._observe(), self._info()
+        return self._observe(self.cars()), self._info()
 
     def _reset(self) -> None:
         start = twin.empty_cars(1, self.scenario.vehicles)[0]
@@ -167,8 +168,8 @@ class TrapEnv(AbstractEnv):
             raise BootcourseError(f"Action {action!r} is outside 0..8.")
         self.time += 1 / self.scenario.clock.decision_rate
         self._simulate(int(action))
-        self._terms = twin.reward_terms(self.cars(), self.constants)
-        observation, reward = self._observe(), self._reward(action)
+        self._terms = twin.reward_terms(self.trace[-1], self.constants)
+        observation, reward = self._observe(self.trace[-1]), self._reward(action)
         terminated, truncated = self._is_terminated(), self._is_truncated()
         if self.render_mode == "human":
             self.render()
@@ -177,11 +178,13 @@ class TrapEnv(AbstractEnv):
     def _simulate(self, action: int) -> None:
         """One decision's simulation steps; an accident ends it."""
         self.action_type.act(action)
+        self.trace = []
         for frame in range(self.scenario.clock.steps):
             self.road.act()
             self.road.step(self.scenario.clock.dt)
             self.steps += 1
-            self.accident = Accident(twin.ego_accident(self.cars(), self.constants))
+            self.trace.append(self.cars())
+            self.accident = Accident(twin.ego_accident(self.trace[-1], self.constants))
             if self.accident:
                 break
             if frame < self.scenario.clock.steps - 1:
@@ -201,8 +204,8 @@ class TrapEnv(AbstractEnv):
             row[CRASHED] = car.crashed
         return cars
 
-    def _observe(self) -> np.ndarray:
-        observe(self.cars(), self.constants, self._observation)
+    def _observe(self, cars: np.ndarray) -> np.ndarray:
+        observe(cars, self.constants, self._observation)
         return self._observation.copy()
 
     def _reward(self, action: int) -> float:

@@ -1,0 +1,52 @@
+"""Who can drive: anything that turns what is seen into a `Choice` for each road.
+
+A driver is a callable: driver(observations (roads, 26), cars (roads, vehicles, 10)) -> Choice. A
+learned agent uses the observations, the rule uses the cars. `bootcourse.learn` adds agents.
+"""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from bootcourse.rule import rule, sample_stochastic_rule, stochastic_rule
+from bootcourse.scenario import IDLE, N_ACTIONS, Scenario
+
+
+class Choice(NamedTuple):
+    """What a driver does on each road, and what it thought, where it thinks in such terms."""
+
+    actions: np.ndarray  # (roads,) int, 0..8
+    policy: np.ndarray | None = None  # (roads, 9) probabilities π(a|s)
+    q_values: np.ndarray | None = None  # (roads, 9) Q(s, a)
+
+
+Driver = Callable[[np.ndarray, np.ndarray], Choice]
+
+
+def idle_driver(observations: np.ndarray, cars: np.ndarray) -> Choice:
+    """Neither accelerates nor steers."""
+    return Choice(np.full(len(observations), IDLE))
+
+
+def rule_driver(scenario: Scenario) -> Driver:
+    """The rule controller μ."""
+    return lambda observations, cars: Choice(rule(cars, scenario).actions)
+
+
+def stochastic_rule_driver(scenario: Scenario, rng: np.random.Generator, p: float | None = None) -> Driver:
+    """The stochastic rule π̃: draws its action. p defaults to the scenario's."""
+    p = scenario.rule.p if p is None else p
+
+    def drive(observations, cars):
+        rule_actions = rule(cars, scenario).actions
+        return Choice(sample_stochastic_rule(rule_actions, p, rng), stochastic_rule(rule_actions, p))
+
+    return drive
+
+
+def random_driver(rng: np.random.Generator) -> Driver:
+    """Every action with the same probability."""
+    return lambda observations, cars: Choice(
+        rng.integers(N_ACTIONS, size=len(observations)), np.full((len(observations), N_ACTIONS), 1 / N_ACTIONS)
+    )

@@ -1,0 +1,191 @@
+"""The rule controller (Section III-D, Algorithm 1) and its stochastic form π̃.
+
+It escapes by the backward gap: slower than both traps, it falls back until trap 2 is far enough
+ahead, moves left behind it, moves left again, and drives on. The paper gives the target speed and
+the lane; how to reach them with nine actions it leaves to a cited controller. The tracker below is
+our own. Corrections to the printed algorithm are marked (erratum).
+"""
+
+import math
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+
+from bootcourse.road.compiled import compiled
+from bootcourse.road.constants import Constants, constants
+from bootcourse.road.formulas import bicycle_step
+from bootcourse.road.state import EGO, HEADING, LANE, SPEED, X, Y
+from bootcourse.road.traffic import NOBODY, neighbours
+from bootcourse.scenario import N_ACTIONS, Scenario, check_p
+
+
+class Reason(IntEnum):
+    """Why the rule does what it does."""
+
+    FREE = 0  # nobody ahead in this lane: stay
+    CHANGE = 1  # there is room in the lane to the left: change
+    FALL_BACK = 2  # the gap to the new car ahead is shorter than the safety distance
+    WAIT_FOR_FOLLOWER = 3  # a car behind in the target lane is too close
+    LEFTMOST = 4  # no lane is left to change to: follow
+    SETTLE = 5  # still on the way into this lane: one lane at a time
+
+
+SENTENCES = {
+    Reason.FREE: "nobody ahead: stay in lane",
+    Reason.CHANGE: "room on the left: change lane",
+    Reason.FALL_BACK: "not enough room on the left: fall back",
+    Reason.WAIT_FOR_FOLLOWER: "a car comes up on the left: wait",
+    Reason.LEFTMOST: "leftmost lane: follow",
+    Reason.SETTLE: "finish this lane change first",
+}
+
+
+@compiled
+def target_speed(v_current, v_target, v_min, v_max, n):
+    """v_target: the fastest of n grid speeds that is slower than both preceding cars (m/s).
+
+    Infinity stands for no car. Where even the slowest grid speed is too fast, v_min (erratum: the
+    paper leaves this open).
+    """
+    chosen = v_min
+    for i in range(1, n):
+        v = v_min + i / (n - 1) * (v_max - v_min)
+        if v < min(v_current, v_target):
+            chosen = v
+    return chosen
+
+
+@compiled
+def safety_distance(v_ego, v_current, v_target, t_safe, floor):
+    """The bumper-to-bumper gap (m) to the new preceding car that a lane change needs.
+
+    (v_e - min(v_current, v_target)) t_safe, and never less than `floor`. (Erratum: the printed d_s
+    adds Δx_current - Δx_target, and the printed test d_s - Δx_current > 0 then says "change when
+    the gap is *shorter* than this", which never happens once the ego is slower than the traps.)
+    """
+    return max(floor, (v_ego - min(v_current, v_target)) * t_safe)
+
+
+@compiled
+def decide_rule(cars, c):
+    """Algorithm 1 on one road, cars (vehicles, 10): (target speed, target lane, safety distance, reason)."""
+    lane, x, v = int(cars[EGO, LANE]), cars[EGO, X], cars[EGO, SPEED]
+    front, _ = neighbours(cars, EGO, lane, c)
+    if front != NOBODY and cars[front, X] - x > c.sight:
+        front = NOBODY
+    v_current = cars[front, SPEED] if front != NOBODY else math.inf
+    if front == NOBODY or lane == 0:
+        reason = Reason.FREE if front == NOBODY else Reason.LEFTMOST
+        return target_speed(v_current, v_current, c.rule_v_min, c.rule_v_max, c.rule_n), lane, c.floor, reason.value
+
+    new_front, new_rear = neighbours(cars, EGO, lane - 1, c)
+    if new_front != NOBODY and cars[new_front, X] - x > c.sight:
+        new_front = NOBODY
+    v_new = cars[new_front, SPEED] if new_front != NOBODY else math.inf
+    speed = target_speed(v_current, v_new, c.rule_v_min, c.rule_v_max, c.rule_n)
+    distance = safety_distance(v, v_current, v_new, c.t_safe, c.floor)
+    if cars[EGO, Y] - lane * c.lane_width > SETTLED:
+        return speed, lane, distance, Reason.SETTLE.value
+    if new_front != NOBODY and cars[new_front, X] - x - c.length <= distance:
+        return speed, lane, distance, Reason.FALL_BACK.value
+    if new_rear != NOBODY:
+        v_rear = cars[new_rear, SPEED]
+        if x - cars[new_rear, X] - c.length <= max(c.floor, (v_rear - v) * c.t_safe):
+            return speed, lane, distance, Reason.WAIT_FOR_FOLLOWER.value
+    return speed, lane - 1, distance, Reason.CHANGE.value
+
+
+SETTLED = 0.5  # m from the lane's centre; only from here does the next lane change begin
+HEADING_COST = 20.0  # m² per rad²: how much a skewed car costs against one that is off its lane's centre
+EDGE_COST = 1e6  # a plan that leaves the road
+
+
+@compiled
+def _track(cars, speed, lane, c):
+    """Our tracker: the action (0..8) that brings the ego nearest to a speed and a lane.
+
+    Accelerate or brake when that brings the speed closer. Steer by looking three decisions ahead:
+    all 27 sequences of left, straight, right through the bicycle model, the cheapest one's first
+    step. (One decision of full steering at 15 m/s moves the car 1.4 m sideways: the nearest action
+    to a smooth controller's wish would leave the road.)
+    """
+    wish = speed - cars[EGO, SPEED]
+    sign = 0 if abs(wish) <= c.ego_acceleration / 2 else (1 if wish > 0 else -1)
+    acceleration = sign * c.ego_acceleration
+    goal, best, best_cost = lane * c.lane_width, 1, math.inf
+    for first in range(3):
+        a = _ahead((cars[EGO, Y], cars[EGO, HEADING], cars[EGO, SPEED], 0.0), acceleration, first, goal, c)
+        for second in range(3):
+            b = _ahead(a, acceleration, second, goal, c)
+            if b[3] >= best_cost:
+                continue
+            for third in range(3):
+                cost = _ahead(b, 0.0, third, goal, c)[3]
+                if cost < best_cost - 1e-12 or (cost < best_cost + 1e-12 and first == 1):
+                    best, best_cost = first, cost
+    return (sign + 1) * 3 + best
+
+
+@compiled
+def _ahead(state, acceleration, steer, goal, c):
+    """One decision of the bicycle model: (y, heading, speed, cost so far) -> the same, later."""
+    y, heading, v, cost = state
+    for _ in range(c.steps):
+        _, y, heading, v = bicycle_step(0.0, y, heading, v, acceleration, (steer - 1) * c.ego_steering, c.length, c.dt)
+    cost += (y - goal) ** 2 + HEADING_COST * heading**2
+    if not -c.lane_width / 2 <= y <= (c.lanes - 0.5) * c.lane_width:
+        cost += EDGE_COST
+    return y, heading, v, cost
+
+
+@compiled
+def drive_rule(cars, c, actions, speeds, lanes, distances, reasons):
+    """The rule on every road: cars (roads, vehicles, 10), fills the five arrays (roads,)."""
+    for road in range(cars.shape[0]):
+        speeds[road], lanes[road], distances[road], reasons[road] = decide_rule(cars[road], c)
+        actions[road] = _track(cars[road], speeds[road], lanes[road], c)
+
+
+@dataclass(frozen=True)
+class RuleDecisions:
+    """What the rule would do on each road, and why; every array is (roads,)."""
+
+    actions: np.ndarray  # int, 0..8
+    speeds: np.ndarray  # target speed, m/s
+    lanes: np.ndarray  # target lane, 0 is the leftmost
+    distances: np.ndarray  # safety distance, m, bumper to bumper
+    reasons: np.ndarray  # a Reason's number
+
+
+def rule(cars: np.ndarray, scenario: Scenario | Constants) -> RuleDecisions:
+    """The rule controller μ: cars (roads, vehicles, 10) -> `RuleDecisions`.
+
+    It reads the true state, not the observation. For TrapEnv: `rule(env.unwrapped.cars()[None], scenario)`.
+    """
+    c = scenario if isinstance(scenario, Constants) else constants(scenario)
+    n = len(cars)
+    decisions = RuleDecisions(
+        np.empty(n, np.int64), np.empty(n), np.empty(n, np.int64), np.empty(n), np.empty(n, np.int64)
+    )
+    drive_rule(
+        cars, c, decisions.actions, decisions.speeds, decisions.lanes, decisions.distances, decisions.reasons
+    )  # fmt: skip
+    return decisions
+
+
+def stochastic_rule(rule_actions: np.ndarray, p: float) -> np.ndarray:
+    """π̃(a|s): p for the rule's own action, (1 - p) / 8 for each other. (…,) int -> (…, 9).
+
+    Raises BootcourseError if p is outside [1/9, 1).
+    """
+    check_p(p)
+    rule_actions = np.asarray(rule_actions)
+    return np.where(np.arange(N_ACTIONS) == rule_actions[..., None], p, (1 - p) / (N_ACTIONS - 1))
+
+
+def sample_stochastic_rule(rule_actions: np.ndarray, p: float, rng: np.random.Generator) -> np.ndarray:
+    """An action drawn from π̃ for each of the rule's actions. (n,) int -> (n,) int."""
+    check_p(p)
+    others = (rule_actions + rng.integers(1, N_ACTIONS, size=np.shape(rule_actions))) % N_ACTIONS
+    return np.where(rng.random(np.shape(rule_actions)) < p, rule_actions, others)
