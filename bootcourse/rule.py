@@ -13,7 +13,7 @@ from enum import IntEnum
 import numpy as np
 
 from bootcourse.road.compiled import compiled
-from bootcourse.road.constants import Constants, constants
+from bootcourse.road.constants import constants
 from bootcourse.road.formulas import bicycle_step
 from bootcourse.road.state import EGO, HEADING, LANE, SPEED, X, Y
 from bootcourse.road.traffic import NOBODY, neighbours
@@ -158,12 +158,12 @@ class RuleDecisions:
     reasons: np.ndarray  # a Reason's number
 
 
-def rule(cars: np.ndarray, scenario: Scenario | Constants) -> RuleDecisions:
+def rule(cars: np.ndarray, scenario: Scenario) -> RuleDecisions:
     """The rule controller μ: cars (roads, vehicles, 10) -> `RuleDecisions`.
 
     It reads the true state, not the observation. For TrapEnv: `rule(env.unwrapped.cars()[None], scenario)`.
     """
-    c = scenario if isinstance(scenario, Constants) else constants(scenario)
+    c = constants(scenario)
     n = len(cars)
     decisions = RuleDecisions(
         np.empty(n, np.int64), np.empty(n), np.empty(n, np.int64), np.empty(n), np.empty(n, np.int64)

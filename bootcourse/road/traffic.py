@@ -83,23 +83,18 @@ def following_acceleration(cars, directions, i, front, c):
 
 
 @compiled
-def worth_changing(cars, directions, i, lane, front, rear, c):
+def worth_changing(cars, directions, i, lane, own_now, old_follower_gain, c):
     """MOBIL: is the change of car i into `lane` safe for its new follower, and worth it?
 
-    front, rear: the neighbours of car i in the lane that it drives in.
+    own_now: its present IDM acceleration; old_follower_gain: what the car behind it would gain (m/s²).
     """
     new_front, new_rear = neighbours(cars, i, lane, c)
     new_rear_after = following_acceleration(cars, directions, new_rear, i, c)
     if new_rear_after < -c.safe_braking:
         return False
-    incentive = mobil_incentive(
-        following_acceleration(cars, directions, i, new_front, c)
-        - following_acceleration(cars, directions, i, front, c),
-        new_rear_after - following_acceleration(cars, directions, new_rear, new_front, c),
-        following_acceleration(cars, directions, rear, front, c) - following_acceleration(cars, directions, rear, i, c),
-        c.politeness,
-    )
-    return incentive >= c.a_threshold
+    own_gain = following_acceleration(cars, directions, i, new_front, c) - own_now
+    new_follower_gain = new_rear_after - following_acceleration(cars, directions, new_rear, new_front, c)
+    return mobil_incentive(own_gain, new_follower_gain, old_follower_gain, c.politeness) >= c.a_threshold
 
 
 @compiled
@@ -115,8 +110,11 @@ def _somebody_else_wants_it(cars, directions, i, c):
 
 
 @compiled
-def choose_lane(cars, directions, i, front, rear, c):
-    """Set car i's target lane: give up a change in progress, or think about a new one now and then."""
+def choose_lane(cars, directions, i, front, rear, own_now, c):
+    """Set car i's target lane: give up a change in progress, or think about a new one now and then.
+
+    front, rear: its neighbours in the lane that it drives in; own_now: its IDM acceleration there.
+    """
     lane = cars[i, LANE]
     if lane != cars[i, TARGET_LANE]:
         if _somebody_else_wants_it(cars, directions, i, c):
@@ -127,8 +125,11 @@ def choose_lane(cars, directions, i, front, rear, c):
     cars[i, TIMER] = 0.0
     if abs(cars[i, SPEED]) < MIN_LANE_CHANGE_SPEED:
         return
+    old_follower_gain = following_acceleration(cars, directions, rear, front, c) - following_acceleration(
+        cars, directions, rear, i, c
+    )
     for side in (int(lane) - 1, int(lane) + 1):
-        if 0 <= side < c.lanes and worth_changing(cars, directions, i, side, front, rear, c):
+        if 0 <= side < c.lanes and worth_changing(cars, directions, i, side, own_now, old_follower_gain, c):
             cars[i, TARGET_LANE] = side
 
 
@@ -139,14 +140,14 @@ def act(cars, directions, i, c):
         return
     lane = cars[i, LANE]
     front, rear = neighbours(cars, i, lane, c)
+    acceleration = following_acceleration(cars, directions, i, front, c)
     if i >= TRAFFIC:
-        choose_lane(cars, directions, i, front, rear, c)
+        choose_lane(cars, directions, i, front, rear, acceleration, c)
     target = cars[i, TARGET_LANE]
     offset = cars[i, Y] - target * c.lane_width
     cars[i, STEERING] = lane_keeping_steering(
         offset, cars[i, HEADING], cars[i, SPEED], c.length, c.tau_lateral, c.tau_heading
     )
-    acceleration = following_acceleration(cars, directions, i, front, c)
     if target != lane:
         front, rear = neighbours(cars, i, target, c)
         acceleration = min(acceleration, following_acceleration(cars, directions, i, front, c))

@@ -18,7 +18,7 @@ from highway_env.vehicle.kinematics import Vehicle
 from bootcourse.errors import BootcourseError
 from bootcourse.road import twin
 from bootcourse.road.constants import constants
-from bootcourse.road.formulas import overlap, weighted_reward
+from bootcourse.road.formulas import weighted_reward
 from bootcourse.road.observation import bounds, observe
 from bootcourse.road.state import (
     ACCELERATION,
@@ -43,16 +43,15 @@ NODES = ("start", "end")  # highway-env names a lane (node, node, number)
 TRAP_COLOUR, TRAFFIC_COLOUR, EGO_COLOUR = (122, 31, 31), (184, 190, 198), (213, 94, 0)
 
 
-class _OverlapCollision:
-    """A collision is an overlap, now; see the head of this file."""
+class _CollidesByOverlap:
+    """A collision is an overlap now, not one predicted for the next step; see the head of this file."""
 
-    def handle_collisions(self, other, dt: float = 0) -> None:
-        x_a, y_a, x_b, y_b = *self.position, *other.position
-        if overlap(x_a, y_a, self.heading, x_b, y_b, other.heading, self.LENGTH, self.WIDTH):
-            self.crashed = other.crashed = True
+    def _is_colliding(self, other, dt: float):
+        overlapping, _, _ = super()._is_colliding(other, 0.0)
+        return overlapping, False, None
 
 
-class EgoCar(_OverlapCollision, Vehicle):
+class EgoCar(_CollidesByOverlap, Vehicle):
     """The car that decides. `target_speed` is what the traffic's MOBIL takes it to want."""
 
     def __init__(self, road, scenario: Scenario, row: np.ndarray):
@@ -63,7 +62,7 @@ class EgoCar(_OverlapCollision, Vehicle):
         self.color = EGO_COLOUR
 
 
-class TrafficCar(_OverlapCollision, IDMVehicle):
+class TrafficCar(_CollidesByOverlap, IDMVehicle):
     """A trap or a traffic car: highway-env's IDM and MOBIL with the scenario's numbers."""
 
     def __init__(self, road, scenario: Scenario, row: np.ndarray, is_trap: bool):

@@ -13,6 +13,7 @@ from bootcourse.road.compiled import compiled
 from bootcourse.road.formulas import (
     bicycle_step,
     centring_reward,
+    direction,
     nearest_lane,
     overlap,
     speed_reward,
@@ -134,7 +135,7 @@ def command(cars, action, c):
 def simulate(cars, directions, c):
     """One simulation step of one road; returns the ego's accident."""
     for i in range(cars.shape[0]):
-        directions[i, 0], directions[i, 1] = math.cos(cars[i, HEADING]), math.sin(cars[i, HEADING])
+        directions[i, 0], directions[i, 1] = direction(cars[i, HEADING])
     for i in range(1, cars.shape[0]):
         act(cars, directions, i, c)
     for i in range(cars.shape[0]):
