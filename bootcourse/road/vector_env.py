@@ -24,7 +24,8 @@ class TrapVectorEnv(VectorEnv):
     `autoreset_mode=AutoresetMode.DISABLED` it rests, with reward 0, until
     `reset(options={"reset_mask": ...})` wakes it.
 
-    `cars` (num_envs, vehicles, 10) is the true state (columns in `bootcourse.road.state`); with
+    `cars` (num_envs, vehicles, 10) is the true state (columns in `bootcourse.road.state`), `final_cars`
+    what it was before the last autoreset; with
     `record=True`, `trace` (num_envs, steps, vehicles, 10) holds each simulation step of the last decision.
     """
 
@@ -55,6 +56,7 @@ class TrapVectorEnv(VectorEnv):
         n, vehicles = self.num_envs, scenario.vehicles
         self.constants = constants(scenario)
         self.cars = twin.empty_cars(n, vehicles)
+        self.final_cars = self.cars
         steps = self.constants.steps
         self.trace = np.zeros((n, steps, vehicles, self.cars.shape[2])) if record else twin.NO_TRACE
         self.decisions = np.zeros(n, dtype=np.int64)
@@ -107,6 +109,7 @@ class TrapVectorEnv(VectorEnv):
         if self.metadata["autoreset_mode"] is AutoresetMode.DISABLED:
             self.asleep |= done
         elif done.any():
+            self.final_cars = self.cars.copy()
             infos = self._restart(done, infos)
         return self._observations.copy(), rewards, terminated, truncated, infos
 

@@ -1,0 +1,73 @@
+# make lab    JupyterLab on the first lesson      (NO_BROWSER=1 make lab: only print its address)
+# make test   every test, the notebooks included
+# make bench  how fast the road and the learner are, as ratios
+# make doctor what is right and wrong with this machine
+# make lock   resolve environment.lock and bench.lock again
+# make clean  remove .venv and the caches
+#
+# PYTHON=python3.12 make lab   uses another Python, 3.11 or newer
+
+PYTHON ?= python3
+# Where Linux finds torch without its gigabytes of CUDA. Nothing else is fetched from there.
+TORCH_INDEX ?= https://download.pytorch.org/whl/cpu
+
+BIN := .venv/bin
+PIP := $(BIN)/python -m pip --disable-pip-version-check
+# The lock is complete, so pip has nothing to resolve (--no-deps) and takes only what the hashes allow.
+INSTALL := $(PIP) install --no-deps --require-hashes
+NOTEBOOKS := $(sort $(wildcard notebooks/*.ipynb))
+NBVAL := --nbval-lax --nbval-current-env --nbval-cell-timeout=300
+
+# So that a notebook finds this `bootcourse` and this `python`.
+WITH_PATH := PATH="$(CURDIR)/$(BIN):$$PATH"
+
+.PHONY: help lab test bench doctor lock clean
+
+help:
+	@sed -n '/^$$/q;s/^# \{0,1\}//p' Makefile
+
+lab: .venv/installed
+	@$(WITH_PATH) $(BIN)/jupyter-lab --ServerApp.ip=127.0.0.1 --ServerApp.root_dir="$(CURDIR)/notebooks" \
+		--LabApp.default_url=/lab/tree/$(notdir $(firstword $(NOTEBOOKS))) --log-level=WARN \
+		$(if $(NO_BROWSER),--no-browser) $(if $(filter 0,$(shell id -u)),--allow-root)
+
+# One file or notebook stays in one process (loadfile): a notebook's cells belong to one kernel.
+# One thread each, or two workers with two torches fight over the cores.
+test: .venv/installed
+	@$(WITH_PATH) OMP_NUM_THREADS=1 $(BIN)/python -m pytest tests $(NOTEBOOKS) $(NBVAL) -n 2 --dist loadfile $(PYTEST)
+
+bench: .venv/bench
+	@OMP_NUM_THREADS=1 $(BIN)/python -m tests.bench
+
+doctor: .venv/installed
+	@$(BIN)/bootcourse doctor
+
+lock: .venv/installed
+	@$(PIP) install --quiet uv
+	@$(BIN)/python tools/lock.py
+
+clean:
+	rm -rf .venv .pytest_cache .ruff_cache build *.egg-info
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +
+
+# On Linux torch comes first and alone: from what pip is set up to use, if that has the CPU build,
+# else from torch's own index. The lock asks for +cpu there, so the CUDA build can never be taken.
+.venv/installed: environment.lock pyproject.toml
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' \
+		|| { echo "bootcourse needs Python 3.11 or newer: install it, or name yours, as in PYTHON=python3.11 make lab"; exit 1; }
+	@$(PYTHON) -m venv .venv \
+		|| { echo "Python cannot make .venv: on Debian or Ubuntu, apt install python3-venv, then run make again"; exit 1; }
+	@if [ "$$(uname -s)" = Linux ]; then \
+		sed -n '/^torch==.*linux/,/[^\\]$$/p' environment.lock > .venv/torch.lock; \
+		$(INSTALL) -r .venv/torch.lock > /dev/null 2>&1 \
+			|| $(INSTALL) --index-url $(TORCH_INDEX) -r .venv/torch.lock \
+			|| { echo "torch cannot be fetched: check the network, or name a mirror, as in TORCH_INDEX=... make lab"; exit 1; }; \
+	fi
+	@$(INSTALL) -r environment.lock \
+		|| { echo "Some packages cannot be fetched: check the network and the free disk space, then run make again"; exit 1; }
+	@$(PIP) install --quiet --no-deps --no-build-isolation --editable .
+	@touch $@
+
+.venv/bench: .venv/installed bench.lock
+	@$(INSTALL) --no-build-isolation -r bench.lock
+	@touch $@

@@ -1,0 +1,49 @@
+"""A trained agent: the networks of one agent, and how it drives."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from bootcourse.drivers import Choice, Driver
+from bootcourse.learn import sac
+from bootcourse.learn.networks import mlp
+from bootcourse.learn.settings import Settings
+
+
+@dataclass(frozen=True)
+class Agent:
+    """The weights of one agent, with an agents axis of length 1."""
+
+    settings: Settings
+    actor: list[Tensor]  # [(1, inputs, outputs), (1, 1, outputs), ...], see networks.py
+    critics: list[Tensor]  # the same for the two critics, (2, ...)
+    alpha: float  # the entropy coefficient at the end
+
+    @torch.no_grad()
+    def policy(self, observations: np.ndarray) -> np.ndarray:
+        """π(a|s): (batch, observation) -> (batch, 9)."""
+        return mlp(self.actor, torch.as_tensor(observations, dtype=torch.float32)[None])[0].softmax(-1).numpy()
+
+    @torch.no_grad()
+    def q_values(self, observations: np.ndarray) -> np.ndarray:
+        """The smaller of the two critics' Q(s,a): (batch, observation) -> (batch, 9)."""
+        states = torch.as_tensor(observations, dtype=torch.float32)[None]
+        return sac.smaller(mlp(self.critics, states.repeat(2, 1, 1))).numpy()
+
+    def driver(self, rng: np.random.Generator | None = None, with_q: bool = False) -> Driver:
+        """Drives by its most probable action; with an rng, by an action drawn from π."""
+
+        def drive(observations, cars):
+            policy = self.policy(observations)
+            actions = policy.argmax(-1) if rng is None else sample_actions(policy, rng.random(len(policy)))
+            return Choice(actions, policy, self.q_values(observations) if with_q else None)
+
+        return drive
+
+
+def sample_actions(policy: np.ndarray, uniforms: np.ndarray) -> np.ndarray:
+    """One action for each distribution, (..., 9) and (...) in [0, 1) -> (...), by the inverse of its sum."""
+    cumulative = policy.cumsum(-1)
+    return (cumulative[..., :-1] <= (uniforms * cumulative[..., -1])[..., None]).sum(-1)

@@ -1,0 +1,66 @@
+"""What the paper adds to SAC (its Section IV): a soft constraint, and demonstrations.
+
+Pure functions of tensors, shapes as in `sac.py`. `rule_actions` (..., batch) holds the rule's own
+action μ(s), in 0..8.
+"""
+
+import torch
+from torch import Tensor
+
+from bootcourse.scenario import N_ACTIONS
+
+
+def log_stochastic_rule(rule_actions: Tensor, p: Tensor) -> Tensor:
+    """log π̃(a|s): log p for the rule's action, log((1-p)/8) for each other. p (...) -> (..., batch, 9)."""
+    others = ((1 - p) / (N_ACTIONS - 1)).log()
+    is_rule = torch.arange(N_ACTIONS, device=rule_actions.device) == rule_actions.unsqueeze(-1)
+    return torch.where(is_rule, p.log()[..., None, None], others[..., None, None])
+
+
+def kl_to_rule(log_pi: Tensor, rule_actions: Tensor, p: Tensor) -> Tensor:
+    """D_KL(π(·|s) ‖ π̃(·|s)) in nats: log_pi (..., batch, 9) -> (..., batch).
+
+    It charges the policy for going where the rule would not; the other direction would charge it for
+    not going where the rule would.
+    """
+    return (log_pi.exp() * (log_pi - log_stochastic_rule(rule_actions, p))).sum(-1)
+
+
+def regularised_policy(q: Tensor, log_rule: Tensor, alpha: float, xi: float) -> Tensor:
+    """The policy that maximises Σ π Q + α H - ξ KL in closed form: softmax((Q + ξ log π̃) / (α + ξ))."""
+    return ((q + xi * log_rule) / (alpha + xi)).softmax(-1)
+
+
+def constraint_strength(alpha: Tensor, xi_multiplier: Tensor, xi_fixed: Tensor) -> Tensor:
+    """ξ = 200 α (Section IV-A), or the fixed ξ where that is 0 or more."""
+    return torch.where(xi_fixed >= 0, xi_fixed, xi_multiplier * alpha)
+
+
+def demonstration_share(episode, beta_start, beta_episodes):
+    """β after `episode` finished episodes: from beta_start in a straight line to 0 (Section IV-B)."""
+    return beta_start * (1 - episode / beta_episodes).clip(0, 1)
+
+
+def augmented_reward(reward: Tensor, is_demonstration: Tensor, bonus: Tensor) -> Tensor:
+    """r'(s, a_E) = r(s, a_E) + c for a demonstration, r for everything else."""
+    return reward + bonus * is_demonstration
+
+
+def large_margin_loss(q: Tensor, expert_actions: Tensor, margin: float = 1.0) -> Tensor:
+    """J_E(Q) = max_a [Q(s,a) + l(a_E,a)] - Q(s,a_E), l = 0 for a_E, else `margin`: (..., batch)."""
+    is_expert = torch.arange(q.shape[-1], device=q.device) == expert_actions.unsqueeze(-1)
+    q_expert = q.gather(-1, expert_actions.unsqueeze(-1)).squeeze(-1)
+    return (q + margin * (~is_expert)).amax(-1) - q_expert
+
+
+def paper_q_filter(q: Tensor, expert_actions: Tensor) -> Tensor:
+    """The printed Q-filter: on only where the demonstrator's action is greedy already. (..., batch), 0 or 1."""
+    q_expert = q.gather(-1, expert_actions.unsqueeze(-1)).squeeze(-1)
+    return (q_expert >= q.amax(-1)).to(q.dtype)
+
+
+def q_filter(q: Tensor, expert_actions: Tensor, log_pi: Tensor) -> Tensor:
+    """The usual Q-filter (Nair et al., arXiv 1709.10089): on where the demonstrator's action is worth
+    more than what the policy would do, Q(s,a_E) > Σ_a π(a|s) Q(s,a). (..., batch), 0 or 1."""
+    q_expert = q.gather(-1, expert_actions.unsqueeze(-1)).squeeze(-1)
+    return (q_expert > (log_pi.exp() * q).sum(-1)).to(q.dtype)

@@ -1,0 +1,96 @@
+"""Every setting of a learner, with its source, and the methods: each is a few settings.
+
+† Table "RL hyper-parameters" and Section IV of the paper; § our choice, measured by the study.
+"""
+
+import math
+from dataclasses import dataclass, fields, replace
+
+from bootcourse.errors import BootcourseError, nearest
+from bootcourse.scenario import check_p
+
+
+@dataclass(frozen=True)
+class Settings:
+    """One agent's settings. Agents that train side by side may differ in everything above the line."""
+
+    method: str = "bootstrapped"
+    seed: int = 0
+    gamma: float = 0.8  # † discount factor γ
+    target_entropy: float = -1.0  # nats † η; a categorical policy's entropy is never negative
+    alpha_init: float = 0.01  # † first entropy coefficient α
+    xi_multiplier: float = 200.0  # † ξ = 200 α; 0 switches the soft constraint off
+    xi_fixed: float = -1.0  # a constant ξ instead, if 0 or more
+    kl_in_target: bool = True  # ‡ the KL stands inside the return, so it is in the critic's target too
+    p: float = 0.9  # † stochasticity of π̃
+    beta_start: float = 0.6  # † share of demonstrations in a batch, at first; 0: no demonstrations
+    beta_episodes: int = 1000  # † episodes until that share is 0
+    bonus: float = 2.0  # † c, added to a demonstration's reward
+    margin: float = 0.0  # weight of the large-margin loss; 0 switches it off
+    paper_q_filter: bool = True  # † the printed Q-filter; False: the usual one
+    # ---- the same for all agents that train side by side ----
+    hidden: tuple = (64, 64)  # § neurons in each hidden layer
+    actor_lr: float = 5e-4  # † α_a
+    critic_lr: float = 1e-3  # † α_c
+    alpha_lr: float = 1e-3  # †
+    batch: int = 64  # † N
+    capacity: int = 50_000  # † D, transitions
+    tau: float = 0.005  # § share of the critics that their targets take over at each update
+    roads: int = 4  # § roads that one agent drives at once
+    updates: int = 1  # § updates for each decision of all its roads
+    warm_up: int = 256  # § decisions before the first update
+    demonstrations: int = 200  # † episodes
+
+    def __post_init__(self):
+        if self.method not in METHODS:
+            raise BootcourseError(f"Method {nearest(self.method, METHODS)}.")
+        check_p(self.p)
+        _between(self, 0.0, 1.0, "gamma", "beta_start", "tau")
+        _between(self, 0.0, math.inf, "xi_multiplier", "margin", "actor_lr", "critic_lr", "alpha_lr")
+        _between(self, 1e-12, math.inf, "alpha_init")
+        _between(self, -math.inf, math.inf, "target_entropy", "bonus", "xi_fixed")
+        _between(self, 1, math.inf, "beta_episodes", "batch", "roads", "updates", "demonstrations")
+        _between(self, 0, math.inf, "warm_up", "seed")
+        _between(self, self.batch, math.inf, "capacity")
+        if not self.hidden or any(not isinstance(size, int) or size < 1 for size in self.hidden):
+            raise BootcourseError(f"hidden = {self.hidden!r}: give the layers' sizes, such as (64, 64).")
+
+    @property
+    def needs_demonstrations(self) -> bool:
+        return self.beta_start > 0
+
+
+def _between(settings: Settings, low: float, high: float, *names: str) -> None:
+    for name in names:
+        value = getattr(settings, name)
+        ok = isinstance(value, (int, float)) and not math.isnan(value) and low <= value <= high and abs(value) < math.inf
+        if not ok:
+            raise BootcourseError(f"{name} = {value!r}: give a finite number of {low} or more" + (f", at most {high}." if high < math.inf else "."))
+
+
+# What each method switches off or on, against `bootstrapped`, the paper's.
+METHODS = {
+    "sac": {"xi_multiplier": 0.0, "beta_start": 0.0},  # plain discrete SAC
+    "soft": {"beta_start": 0.0},  # the KL soft constraint alone
+    "demos": {"xi_multiplier": 0.0},  # demonstrations with the bonus c alone
+    "bootstrapped": {},  # both: the paper's method
+    "margin": {"xi_multiplier": 0.0, "bonus": 0.0, "margin": 1.0},  # large-margin loss instead of the bonus
+    "margin_soft": {"bonus": 0.0, "margin": 1.0},  # the same, with the KL
+}
+SHARED = tuple(f.name for f in fields(Settings))[[f.name for f in fields(Settings)].index("hidden") :]
+
+
+def settings_for(method: str, **changes) -> Settings:
+    """The settings of a method, with changes. Raises BootcourseError for an unknown name or value."""
+    if method not in METHODS:
+        raise BootcourseError(f"Method {nearest(method, METHODS)}.")
+    known = {f.name for f in fields(Settings)}
+    for name in changes:
+        if name not in known:
+            raise BootcourseError(f"Setting {nearest(name, known)}.")
+    return Settings(method=method, **(METHODS[method] | changes))
+
+
+def with_seeds(settings: Settings, seeds: int, first: int = 0) -> list[Settings]:
+    """The same settings for several training seeds."""
+    return [replace(settings, seed=seed) for seed in range(first, first + seeds)]

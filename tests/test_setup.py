@@ -1,0 +1,215 @@
+"""The set-up: the lock, the doctor, and a command line that says what it wants."""
+
+import os
+import re
+import socket
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from bootcourse import __main__ as command_line
+from bootcourse import doctor
+from bootcourse.errors import BootcourseError
+
+ROOT = Path(__file__).resolve().parent.parent
+LOCKS = ("environment.lock", "bench.lock")
+
+
+def requirements(lock: str) -> list[str]:
+    """The lock's requirements, each with its hashes on one line."""
+    text = (ROOT / lock).read_text().replace("\\\n", " ")
+    return [line for line in text.splitlines() if not line.startswith("#")]
+
+
+def bootcourse(*arguments: str) -> subprocess.CompletedProcess:
+    command = [sys.executable, "-m", "bootcourse", *arguments]
+    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=120)
+
+
+# The lock
+
+
+@pytest.mark.parametrize("lock", LOCKS)
+def test_every_line_of_a_lock_is_exact_and_hashed(lock):
+    for line in requirements(lock):
+        assert re.fullmatch(r"[a-z0-9.-]+==\S+( ; [^-]+)?(\s+--hash=sha256:[0-9a-f]{64})+", line), line
+
+
+@pytest.mark.parametrize("lock", LOCKS)
+def test_a_lock_names_no_cuda_package_no_address_and_no_folder(lock):
+    text = (ROOT / lock).read_text()
+    assert not re.search(r"^(nvidia|cuda|triton)", text, flags=re.MULTILINE)
+    assert "://" not in text
+    assert "--index" not in text and "--find-links" not in text
+    assert not re.search(r"\s/\w", text)
+
+
+def test_on_linux_the_lock_takes_only_the_cpu_build_of_torch():
+    (linux,) = [line for line in requirements("environment.lock") if re.match(r"torch==.* == 'linux'", line)]
+    (others,) = [line for line in requirements("environment.lock") if re.match(r"torch==.* != 'linux'", line)]
+    assert linux.startswith("torch==2.13.0+cpu ;")
+    assert others.startswith("torch==2.13.0 ;")
+    hashes = [set(re.findall(r"sha256:(\w+)", line)) for line in (linux, others)]
+    assert not hashes[0] & hashes[1]
+
+
+def test_everything_that_pyproject_asks_for_is_in_the_lock():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    locked = {line.partition("==")[0] for line in requirements("environment.lock")}
+    asked = project["dependencies"] + project["optional-dependencies"]["test"]
+    assert {re.match(r"[\w-]+", requirement)[0] for requirement in asked} <= locked
+    assert "d3rlpy" in {line.partition("==")[0] for line in requirements("bench.lock")}
+
+
+# The import
+
+
+def test_importing_bootcourse_brings_no_heavy_package():
+    heavy = "{'torch', 'numba', 'viser', 'ipywidgets', 'highway_env', 'matplotlib', 'pandas'}"
+    code = f"import bootcourse, sys; print(sorted({heavy} & set(sys.modules)))"
+    found = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert found.stdout.strip() == "[]"
+
+
+# The doctor
+
+
+@pytest.fixture
+def healthy(monkeypatch):
+    """A doctor with one check that finds nothing wrong, so that a test can add its own."""
+    monkeypatch.setattr(doctor, "CHECKS", (doctor.python,))
+    return monkeypatch
+
+
+def test_the_doctor_finds_nothing_that_stops_the_lessons_here():
+    result = bootcourse("doctor")
+    assert "STOP" not in result.stdout
+    assert result.returncode == 0
+    assert "\033[" not in result.stdout, "colours are for terminals only"
+    assert len(result.stdout.splitlines()) < 40, "it fits on one screen"
+
+
+def test_the_doctor_names_a_package_whose_version_differs_but_the_lessons_go_on(healthy, capsys):
+    real = doctor.installed_version
+    healthy.setattr(doctor, "installed_version", lambda name: "0.0.1" if name == "gymnasium" else real(name))
+    healthy.setattr(doctor, "CHECKS", (doctor.packages,))
+    assert doctor.main() == 0
+    printed = capsys.readouterr().out
+    assert re.search(r"note  gymnasium is 0\.0\.1, and the lessons were made with \d", printed)
+    assert "make lab" in printed
+
+
+def test_the_doctor_stops_at_a_missing_package_that_the_lessons_need(healthy, capsys):
+    real = doctor.installed_version
+    healthy.setattr(doctor, "installed_version", lambda name: None if name == "numba" else real(name))
+    healthy.setattr(doctor, "CHECKS", (doctor.packages,))
+    assert doctor.main() == 1
+    assert "STOP  not installed: numba\n        -> Run `make lab`" in capsys.readouterr().out
+
+
+def test_the_doctor_only_notes_a_missing_package_that_the_tests_need(healthy, capsys):
+    real = doctor.installed_version
+    healthy.setattr(doctor, "installed_version", lambda name: None if name == "nbval" else real(name))
+    healthy.setattr(doctor, "CHECKS", (doctor.packages,))
+    assert doctor.main() == 0
+    assert "note  not installed, and only the tests need it: nbval" in capsys.readouterr().out
+
+
+def test_the_doctor_stops_when_no_local_port_can_be_opened(healthy, capsys):
+    def refuse(*arguments, **options):
+        raise PermissionError(13, "Permission denied")
+
+    healthy.setattr(socket, "create_server", refuse)
+    healthy.setattr(doctor, "CHECKS", (doctor.port,))
+    assert doctor.main() == 1
+    assert "no page can be served on 127.0.0.1" in capsys.readouterr().out
+
+
+def test_the_doctor_stops_when_a_package_cannot_be_imported(healthy, capsys):
+    healthy.setitem(sys.modules, "torch", None)
+    healthy.setattr(doctor, "CHECKS", (doctor.torch_build,))
+    assert doctor.main() == 1
+    assert "STOP  torch_build: torch is not installed" in capsys.readouterr().out
+
+
+def test_the_doctor_only_notes_that_there_is_no_browser(healthy, capsys):
+    healthy.setattr(doctor.shutil, "which", lambda name: None)
+    healthy.setattr(doctor, "CHECKS", (doctor.browser,))
+    assert doctor.main() == 0
+    assert "note  no Chromium" in capsys.readouterr().out
+
+
+def test_the_doctor_reads_the_lock_for_this_platform_only():
+    lines = ["here==1.0 ; sys_platform != 'nowhere'", "elsewhere==2.0 ; sys_platform == 'nowhere'", "plain==3.0+cpu"]
+    lock = "".join(f"{line} \\\n    --hash=sha256:00\n" for line in lines)
+    assert doctor.locked_versions(lock) == {"here": "1.0", "plain": "3.0+cpu"}
+
+
+def test_the_doctor_speaks_when_nothing_is_installed():
+    bare = [sys.executable, "-I", "-S", "bootcourse/doctor.py"]  # -S: no site-packages
+    result = subprocess.run(bare, cwd=ROOT, capture_output=True, text=True, timeout=120)
+    assert result.returncode == 1
+    assert "STOP  torch_build: torch is not installed" in result.stdout
+    assert "make lab" in result.stdout
+
+
+# The command line
+
+
+def test_help_lists_the_commands():
+    result = bootcourse("--help")
+    assert result.returncode == 0
+    assert "doctor" in result.stdout
+
+
+def test_a_mistyped_command_is_told_the_nearest_one():
+    result = bootcourse("docter")
+    assert result.returncode == 2
+    assert "Did you mean 'doctor'?" in result.stderr
+
+
+def test_the_version_is_the_packages_own():
+    import bootcourse as package
+
+    assert bootcourse("--version").stdout == f"bootcourse {package.__version__}\n"
+    assert f"\nversion: {package.__version__}\n" in (ROOT / "CITATION.cff").read_text()
+
+
+def test_a_mistake_of_the_users_is_one_sentence_and_status_2(monkeypatch, capsys):
+    def mistaken():
+        raise BootcourseError("xi = -1 is negative: give 0 or more.")
+
+    monkeypatch.setattr(doctor, "main", mistaken)
+    monkeypatch.setattr(sys, "argv", ["bootcourse", "doctor"])
+    with pytest.raises(SystemExit) as end:
+        command_line.main()
+    assert end.value.code == 2
+    assert capsys.readouterr().err == "xi = -1 is negative: give 0 or more.\n"
+
+
+def test_ctrl_c_ends_quietly_with_status_130(monkeypatch, capsys):
+    def interrupted():
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(doctor, "main", interrupted)
+    monkeypatch.setattr(sys, "argv", ["bootcourse", "doctor"])
+    with pytest.raises(SystemExit) as end:
+        command_line.main()
+    assert end.value.code == 130
+    assert capsys.readouterr().err == ""
+
+
+@pytest.mark.skipif(not Path("/bin/sh").exists(), reason="make is for Linux and macOS")
+def test_make_refuses_an_old_python_in_one_sentence(tmp_path):
+    old = tmp_path / "python3"
+    old.write_text("#!/bin/sh\nexit 1\n")
+    old.chmod(0o755)
+    for name in ("Makefile", "environment.lock", "pyproject.toml"):
+        (tmp_path / name).write_bytes((ROOT / name).read_bytes())
+    environment = {**os.environ, "PYTHON": str(old)}
+    result = subprocess.run(["make", "lab"], cwd=tmp_path, env=environment, capture_output=True, text=True)
+    assert result.returncode != 0
+    assert "bootcourse needs Python 3.11 or newer" in result.stdout
