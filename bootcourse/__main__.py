@@ -4,6 +4,7 @@ What a command needs is imported inside it, so that `bootcourse --help` answers 
 """
 
 import sys
+from pathlib import Path
 
 from bootcourse.errors import BootcourseError
 
@@ -44,6 +45,54 @@ def doctor() -> None:
     from bootcourse import doctor
 
     raise typer.Exit(doctor.main())
+
+
+@app.command()
+def train(
+    method: str = typer.Option("bootstrapped", help="sac, soft, demos, bootstrapped, margin or margin_soft."),
+    seeds: int = typer.Option(4, min=1, max=64, help="How many agents, side by side, each with its own seed."),
+    first_seed: int = typer.Option(0, min=0, help="The first training seed."),
+    episodes: int = typer.Option(1000, min=1, help="Training episodes of each agent."),
+    out: Path = typer.Option(..., help="A new folder for the runs."),
+    scenario: str = typer.Option("default", help="default or calibrated."),
+    resume: bool = typer.Option(False, "--resume", help="Go on with a training that was interrupted or killed."),
+    quiet: bool = typer.Option(False, "--quiet", help="No progress bar."),
+) -> None:
+    """Train agents and write a run for each."""
+    from bootcourse.record import commands
+
+    if resume:
+        raise typer.Exit(commands.resume(out, not quiet))
+    raise typer.Exit(commands.train(method, seeds, first_seed, episodes, out, scenario, not quiet))
+
+
+@app.command()
+def evaluate(
+    who: str = typer.Argument(..., help="rule, idle, or a folder that `bootcourse train` wrote."),
+    episodes: int = typer.Option(1000, min=1, help="Held-out episodes."),
+    seed: int = typer.Option(1, min=0, help="Which block of held-out roads."),
+    scenario: str = typer.Option("", help="default or calibrated; a run is tested on its own unless you say."),
+    sample: bool = typer.Option(False, "--sample", help="Draw an agent's actions instead of taking the most probable."),
+    as_json: bool = typer.Option(False, "--json", help="Print JSON."),
+) -> None:
+    """Drive held-out episodes and print success, return, speed, distance and accidents with 95 % intervals."""
+    from bootcourse.study import commands
+
+    commands.evaluate(who, episodes, seed, scenario, sample, as_json)
+
+
+@app.command()
+def drive(
+    who: str = typer.Argument(..., help="rule, idle, random, or a run's folder."),
+    out: Path = typer.Option(..., help="The rollout to write, such as drive.npz."),
+    seed: int = typer.Option(0, min=0, help="The road."),
+    scenario: str = typer.Option("", help="default or calibrated; a run drives its own unless you say."),
+    png: Path | None = typer.Option(None, help="Also draw the top view and the traces to this picture."),
+) -> None:
+    """Record one drive, to be drawn or replayed."""
+    from bootcourse.study import commands
+
+    commands.drive(who, out, seed, scenario, png)
 
 
 def main() -> None:

@@ -63,10 +63,8 @@ class Training:
         self.act_rngs = [np.random.default_rng(act) for act, _ in streams]
         self.sample_rngs = [np.random.default_rng(sample) for _, sample in streams]
         self.env = TrapVectorEnv(self.n_agents * self.roads, scenario)
-        self.states, _ = self.env.reset(
-            seed=[FIRST_SEED + s.seed * 1000 + road for s in settings for road in range(self.roads)]
-        )
-        self.rule_actions = rule(self.env.cars, scenario).actions
+        self.env.reset(seed=[FIRST_SEED + s.seed * 1000 + road for s in settings for road in range(self.roads)])
+        self.look()
         self.decisions, self.seconds = 0, 0.0
         self.finished_agents: dict[int, Agent] = {}  # as they were after their last episode
         self.beta_start = np.array([s.beta_start for s in settings])
@@ -80,6 +78,11 @@ class Training:
     @property
     def done(self) -> bool:
         return len(self.finished_agents) == self.n_agents
+
+    def look(self) -> None:
+        """Note what the agents see now, and what the rule would do."""
+        self.states = self.env.observe()
+        self.rule_actions = rule(self.env.cars, self.scenario).actions
 
     def step(self) -> None:
         """One decision on every road, and the updates that follow it."""

@@ -5,6 +5,7 @@ stays whole until the new file is complete. No pickles.
 """
 
 import hashlib
+import io
 import json
 import os
 import tempfile
@@ -60,12 +61,10 @@ def read_json(path: Path):
         raise BootcourseError(f"{path} is damaged: it is not JSON. Delete it, or restore it from a copy.") from None
 
 
-def write_arrays(path: Path, arrays: dict[str, np.ndarray]) -> None:
-    """Write named arrays as a compressed `.npz` without pickles."""
-    import io
-
+def write_arrays(path: Path, arrays: dict[str, np.ndarray], compress: bool = True) -> None:
+    """Write named arrays as an `.npz` without pickles."""
     buffer = io.BytesIO()
-    np.savez_compressed(buffer, **arrays)
+    (np.savez_compressed if compress else np.savez)(buffer, **arrays)
     write_bytes(path, buffer.getvalue())
 
 

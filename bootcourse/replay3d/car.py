@@ -124,7 +124,7 @@ def _wheels(radius: float, y_inner: float, y_outer: float) -> Mesh:
         for low, high in ((-y_outer, -y_inner), (y_inner, y_outer)):
             rim = np.column_stack([radius * np.sin(angles), np.zeros(WHEEL_SIDES), radius * np.cos(angles)])
             side = np.array([rim + [x, y, WHEEL_RADIUS] for y in (low, high)])
-            wheels.append(loft(side[:, ::-1]))
+            wheels.append(loft(side))
     return join(*wheels)
 
 

@@ -113,6 +113,11 @@ class TrapVectorEnv(VectorEnv):
             infos = self._restart(done, infos)
         return self._observations.copy(), rewards, terminated, truncated, infos
 
+    def observe(self) -> np.ndarray:
+        """What every ego sees now, (num_envs, 26)."""
+        observe_all(self.cars, self.constants, self._observations)
+        return self._observations.copy()
+
     def _start(self, mask: np.ndarray) -> None:
         for i in np.flatnonzero(mask):
             twin.place(self._generators[i].random(self._uniforms), self.constants, self.cars[i])

@@ -1,0 +1,117 @@
+"""The panel beside the scene: the time line, the buttons, the switches, and the head-up display."""
+
+from bootcourse.replay3d import hud, scene
+from bootcourse.replay3d.camera import CAMERAS, point
+from bootcourse.replay3d.player import SPEEDS
+from bootcourse.road.state import Accident
+
+PANEL_WIDTH = 330  # px
+PLAY, PAUSE = "Play", "Pause"
+STEPS = ("|◂", "◂", "▸", "▸|")  # to the start, one simulation step back, one forward, to the end
+
+
+class Panel:
+    """Controls for `player` and `stage`; `refresh(t)` shows a time, `restage()` is called when the scene must change."""
+
+    def __init__(self, server, player, stage, restage):
+        self.server, self.player, self.stage, self.restage = server, player, stage, restage
+        self.timelines = stage.timelines
+        self._shown = None
+        gui = server.gui
+        gui.configure_theme(dark_mode=stage.options.dark, show_logo=False, show_share_button=False)
+        gui.main_panel.dock_right()
+        gui.main_panel.set_width(PANEL_WIDTH)
+        gui.add_html(hud.STYLE)
+        self._playback(gui)
+        self._cameras(gui)
+        self.table = gui.add_html("") if len(self.timelines) > 1 else None
+        self.card = gui.add_html("")
+        gui.add_html(hud.plots(self.timelines))
+        self.cursor = gui.add_html(hud.cursor(0.0))
+        with gui.add_folder("More"):
+            self._pace(gui)
+            self._switches(gui)
+
+    def _playback(self, gui) -> None:
+        player = self.player
+        accidents = sorted({line.duration for line in self.timelines if line.rollout.accident != Accident.NONE})
+        marks = tuple((t, "⚠") for t in accidents) or None
+        self.time = gui.add_slider("Time, s", 0.0, player.duration, 0.1, 0.0, marks=marks)
+        self.play = gui.add_button(PLAY, hint="Key P")
+        steps = gui.add_button_group("Step", STEPS)
+        if accidents:
+            jump = gui.add_button("Go to the accident", color="red")
+            jump.on_click(lambda _: self._jump(accidents))
+        self.time.on_update(lambda event: player.seek(event.target.value, hold=True) if event.client else None)
+        self.play.on_click(lambda _: self._toggle())
+        steps.on_click(lambda event: self._step(event.target.value))
+        gui.add_command("Play or pause", hotkey="P").on_trigger(lambda _: self._toggle())
+        gui.add_command("Step back", hotkey="J").on_trigger(lambda _: player.step(-1))
+        gui.add_command("Step forward", hotkey="K").on_trigger(lambda _: player.step(1))
+
+    def _pace(self, gui) -> None:
+        speed = gui.add_dropdown("Speed", tuple(SPEEDS), initial_value="1×")
+        loop = gui.add_checkbox("Loop", self.player.loop)
+        speed.on_update(lambda event: setattr(self.player, "speed", SPEEDS[event.target.value]))
+        loop.on_update(lambda event: setattr(self.player, "loop", bool(event.target.value)))
+
+    def _toggle(self) -> None:
+        if self.player.playing:
+            self.player.pause()
+        else:
+            self.player.play()
+
+    def _step(self, which: str) -> None:
+        first, back, _, last = STEPS
+        if which in (first, last):
+            self.player.pause()
+            self.player.seek(0.0 if which == first else self.player.duration)
+        else:
+            self.player.step(-1 if which == back else 1)
+
+    def _jump(self, accidents: list[float]) -> None:
+        """Pause a second before the next accident, or before the first one after the last."""
+        later = [t for t in accidents if t - 1.0 > self.player.t + 1e-6]
+        self.player.pause()
+        self.player.seek((later or accidents)[0] - 1.0 if self.player.t < accidents[-1] - 1.5 else accidents[-1])
+
+    def _cameras(self, gui) -> None:
+        cameras = gui.add_button_group("Camera", CAMERAS)
+        cameras.on_click(lambda event: event.client and point(event.client.camera, event.target.value, self.stage.span))
+
+    def _switches(self, gui) -> None:
+        options = self.stage.options
+        if len(self.timelines) > 1:
+            names = tuple(f"{k + 1} {line.rollout.label}" for k, line in enumerate(self.timelines))
+            follow = gui.add_dropdown("Follow", names, initial_value=names[options.follow])
+            layout = gui.add_dropdown("Roads", scene.LAYOUTS, initial_value=options.layout)
+            follow.on_update(lambda event: self._set("follow", names.index(event.target.value), rebuild=True))
+            layout.on_update(lambda event: self._set("layout", event.target.value, rebuild=True))
+        for field, label in (("labels", "Distances to the traps"), ("path", "Path driven"), ("rule", "What the rule wants")):
+            box = gui.add_checkbox(label, getattr(options, field))
+            box.on_update(lambda event, field=field: self._set(field, bool(event.target.value)))
+        dark = gui.add_checkbox("Dark", options.dark)
+        dark.on_update(lambda event: self._set("dark", bool(event.target.value), rebuild=True))
+
+    def _set(self, name: str, value, rebuild: bool = False) -> None:
+        if getattr(self.stage.options, name) == value:
+            return
+        setattr(self.stage.options, name, value)
+        if name == "dark":
+            self.server.gui.configure_theme(dark_mode=value, show_logo=False, show_share_button=False)
+        self._shown = None
+        self.restage(rebuild)
+
+    def refresh(self, t: float) -> None:
+        """Show time t. The cursor follows every frame, the numbers ten times a second of the replay's time."""
+        with self.server.atomic():
+            self.cursor.content = hud.cursor(t / self.player.duration)
+            self.play.label = PAUSE if self.player.playing else PLAY
+            if round(t, 1) == self._shown:
+                return
+            self._shown = round(t, 1)
+            self.time.value = min(self._shown, self.player.duration)
+            follow = self.stage.options.follow
+            self.card.content = hud.card(self.timelines[follow], t)
+            if self.table is not None:
+                self.table.content = hud.table(self.timelines, t)

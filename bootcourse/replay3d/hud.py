@@ -1,0 +1,198 @@
+"""The head-up display: what the numbers say at time t, as HTML. The live panel and the exported file show the same.
+
+Everything is inline HTML and CSS, without scripts, and takes its text colour from the page. A rollout's
+label comes out of a file, so it is escaped.
+"""
+
+from html import escape
+
+import numpy as np
+
+from bootcourse.colours import ALARM, METHODS, style
+from bootcourse.replay3d.scene import ACCIDENTS
+from bootcourse.replay3d.timeline import Timeline
+from bootcourse.road.state import EGO, Accident
+from bootcourse.rule import SENTENCES, Reason, stochastic_rule
+from bootcourse.scenario import ACTION_NAMES
+
+GREEN = METHODS["rule"].colour
+STYLE = f"""<style>
+.bc {{font:12px/1.35 system-ui,sans-serif;font-variant-numeric:tabular-nums;padding:2px 10px 4px}}
+.bc h4 {{margin:2px 0;font-size:13px;font-weight:650;display:flex;gap:6px;align-items:center}}
+.bc .dot {{width:10px;height:10px;border-radius:5px;display:inline-block;flex:none}}
+.bc .badge {{margin-left:auto;padding:0 7px;border-radius:8px;color:#fff;font-weight:600;font-size:11px}}
+.bc .big {{display:grid;grid-template-columns:repeat(4,1fr);gap:2px;margin:3px 0}}
+.bc .big b {{font-size:17px;font-weight:650;display:block;line-height:1.1}}
+.bc .dim, .bc .big span, .bc th {{opacity:.65;font-size:11px;font-weight:400}}
+.bc table {{border-collapse:collapse;width:100%}}
+.bc td, .bc th {{padding:0 3px 0 0;text-align:right;white-space:nowrap}}
+.bc td:first-child, .bc th:first-child {{text-align:left}}
+.bc tr.on td {{font-weight:700}}
+.bc .bar {{width:64px;padding:0 4px 0 0}}
+.bc .bar i {{display:block;height:5px;border-radius:1px;min-width:1px}}
+.bc .bar i + i {{height:3px;margin-top:1px}}
+.bc .why {{border-left:3px solid {GREEN};padding-left:6px;margin:3px 0}}
+.bc .plot {{position:relative;margin-top:3px}}
+.bc .plot svg {{display:block;width:100%;height:44px;overflow:visible}}
+.bc .plot .name {{opacity:.65;font-size:11px;display:flex;justify-content:space-between}}
+.bc .cursor {{position:absolute;bottom:0;height:44px;width:1px;background:currentColor;opacity:.8;
+left:calc(100%*var(--bc-t,0))}}
+</style>"""
+
+
+def cursor(part: float) -> str:
+    """The style element that puts every plot's cursor at a part (0..1) of the time line."""
+    return f"<style>:root{{--bc-t:{part:.4f}}}</style>"
+
+
+def kl(policy: np.ndarray, rule_policy: np.ndarray) -> float:
+    """KL(π ‖ π̃) in nats: what the soft constraint charges the policy for going where the rule would not."""
+    likely = policy > 0
+    return float(np.sum(policy[likely] * np.log(policy[likely] / rule_policy[likely])))
+
+
+def status(timeline: Timeline, t: float) -> tuple[str, str]:
+    """(what to say about how the drive stands at time t, the colour to say it in); ("", "") while it is open."""
+    rollout, moment = timeline.rollout, timeline.at(t)
+    if t >= timeline.duration and rollout.accident != Accident.NONE:
+        return ACCIDENTS[Accident(rollout.accident)], ALARM
+    if moment.x[EGO] > moment.x[1]:
+        return ("escaped" if t >= timeline.duration else "ahead of trap 1"), GREEN
+    return ("trapped" if t >= timeline.duration else ""), "#7A1F1F"
+
+
+def card(timeline: Timeline, t: float) -> str:
+    """One drive's numbers at time t."""
+    return f'<div class="bc">{_head(timeline, t)}{_numbers(timeline, t)}{_reward(timeline, t)}{_choice(timeline, t)}</div>'
+
+
+def _head(timeline: Timeline, t: float) -> str:
+    rollout = timeline.rollout
+    text, colour = status(timeline, t)
+    badge = f'<span class="badge" style="background:{colour}">{text}</span>' if text else ""
+    dot = f'<span class="dot" style="background:{style(rollout.label).colour}"></span>'
+    return f'<h4>{dot}{escape(rollout.label)} <span class="dim">road {rollout.seed}</span>{badge}</h4>'
+
+
+def _numbers(timeline: Timeline, t: float) -> str:
+    moment, t = timeline.at(t), min(t, timeline.duration)
+    driven = moment.x[EGO] - timeline.rollout.states[0, EGO, 0]
+    cells = [
+        (f"{t:.1f}", f"of {timeline.duration:g} s"),
+        (f"{moment.speed[EGO]:.1f}", "m/s"),
+        (f"{moment.lane[EGO]}", f"lane, 0…{timeline.rollout.scenario.road.lanes - 1}"),
+        (f"{driven:.0f}", "m driven"),
+    ]
+    return '<div class="big">' + "".join(f"<div><b>{value}</b><span>{unit}</span></div>" for value, unit in cells) + "</div>"
+
+
+def _reward(timeline: Timeline, t: float) -> str:
+    rollout, weights = timeline.rollout, timeline.rollout.scenario.reward
+    earned = timeline.earned(t)
+    total = f"return <b>{timeline.returns[earned]:.2f}</b>"
+    if earned == 0:
+        return f'<div>{total} <span class="dim">no reward yet</span></div>'
+    reward, (r_v, r_y, r_theta) = rollout.rewards[earned - 1], rollout.terms[earned - 1]
+    terms = f"r<sub>v</sub> {r_v:.2f} · r<sub>y</sub> {r_y:.2f} · r<sub>θ</sub> {r_theta:.2f}"
+    hint = f"the three terms, unweighted; their weights are {weights.w_v:g}, {weights.w_y:g}, {weights.w_theta:g}"
+    return f'<div title="{hint}">{total} · reward <b>{reward:.3f}</b> <span class="dim">{terms}</span></div>'
+
+
+def _choice(timeline: Timeline, t: float) -> str:
+    """The nine actions with π, π̃ and Q, the KL between the two, and the rule's reason; whatever of it there is."""
+    rollout, k = timeline.rollout, timeline.decision(t)
+    policy = None if rollout.policy is None else rollout.policy[k]
+    q_values = None if rollout.q_values is None else rollout.q_values[k]
+    by_rule = None
+    if rollout.rule_actions is not None:
+        by_rule = stochastic_rule(rollout.rule_actions[k], rollout.scenario.rule.p)
+    own = style(rollout.label).colour
+    rows = []
+    for action, name in enumerate(ACTION_NAMES):
+        bars = ""
+        if policy is not None:
+            bars += f'<i style="width:{100 * policy[action]:.0f}%;background:{own}"></i>'
+        if by_rule is not None:
+            bars += f'<i style="width:{100 * by_rule[action]:.0f}%;background:{GREEN}"></i>'
+        cells = f'<td>{"▸" if action == rollout.actions[k] else " "} {name}</td><td class="bar">{bars}</td>'
+        cells += f"<td>{policy[action]:.2f}</td>" if policy is not None else ""
+        cells += f"<td>{by_rule[action]:.2f}</td>" if by_rule is not None else ""
+        cells += f"<td>{q_values[action]:.2f}</td>" if q_values is not None else ""
+        rows.append(f"<tr{' class=on' if action == rollout.actions[k] else ''}>{cells}</tr>")
+    heads = "<th>action</th><th></th>"
+    heads += f'<th style="color:{own}">π</th>' if policy is not None else ""
+    heads += f'<th style="color:{GREEN}">π̃</th>' if by_rule is not None else ""
+    heads += "<th>Q</th>" if q_values is not None else ""
+    text = f"<table><tr>{heads}</tr>{''.join(rows)}</table>"
+    if policy is not None and by_rule is not None:
+        text += f"<div>KL(π‖π̃) = <b>{kl(policy, by_rule):.2f}</b> nats</div>"
+    return text + _why(timeline, k)
+
+
+def _why(timeline: Timeline, k: int) -> str:
+    rollout = timeline.rollout
+    if rollout.rule_reasons is None:
+        return ""
+    text = f"<b>Rule:</b> {SENTENCES[Reason(int(rollout.rule_reasons[k]))]}"
+    if rollout.rule_lanes is not None and rollout.rule_speeds is not None:
+        text += f' <span class="dim">(lane {int(rollout.rule_lanes[k])}, {rollout.rule_speeds[k]:.1f} m/s)</span>'
+    return f'<div class="why">{text}</div>'
+
+
+def table(timelines: list[Timeline], t: float) -> str:
+    """A comparison: one line for each drive at time t."""
+    rows = []
+    for timeline in timelines:
+        moment, rollout = timeline.at(t), timeline.rollout
+        text, colour = status(timeline, t)
+        dot = f'<span class="dot" style="background:{style(rollout.label).colour}"></span>'
+        driven = moment.x[EGO] - rollout.states[0, EGO, 0]
+        rows.append(
+            f"<tr><td>{dot} {escape(rollout.label)}</td><td>{moment.speed[EGO]:.1f}</td><td>{driven:.0f}</td>"
+            f"<td>{moment.lane[EGO]}</td><td>{timeline.returns[timeline.earned(t)]:.1f}</td>"
+            f'<td style="color:{colour};font-weight:650">{text}</td></tr>'
+        )
+    head = "<tr><th>driver</th><th>m/s</th><th>m</th><th>lane</th><th>return</th><th></th></tr>"
+    return f'<div class="bc"><table>{head}{"".join(rows)}</table></div>'
+
+
+def plots(timelines: list[Timeline]) -> str:
+    """Small plots over the whole time, with a cursor that `cursor` moves and a mark at every accident."""
+    duration = max(timeline.duration for timeline in timelines)
+    curves = {"speed, m/s": [], "lane (0 is the leftmost)": [], "return": []}
+    for timeline in timelines:
+        states, width = timeline.rollout.states[:, EGO], timeline.rollout.scenario.road.lane_width
+        times = timeline.rollout.times
+        decided = np.minimum(np.arange(timeline.decisions + 1), timeline.duration)
+        curves["speed, m/s"].append((times, states[:, 3]))
+        curves["lane (0 is the leftmost)"].append((times, states[:, 1] / width))
+        curves["return"].append((decided, timeline.returns))
+    parts = []
+    for name, lines in curves.items():
+        low, high = min(y.min() for _, y in lines), max(y.max() for _, y in lines)
+        if name.startswith("lane"):
+            low, high, lines = -high, -low, [(x, -y) for x, y in lines]  # the leftmost lane on top, as one sees it
+            span = f"{-high:.1f} … {-low:.1f}"
+        else:
+            span = f"{low:.1f} … {high:.1f}"
+        parts.append(_plot(name, span, lines, timelines, duration, low, max(high - low, 1e-6)))
+    return f'<div class="bc">{"".join(parts)}</div>'
+
+
+def _plot(name, span, lines, timelines, duration, low, extent) -> str:
+    paths = []
+    for (x, y), timeline in zip(lines, timelines, strict=True):
+        points = " ".join(f"{a:.1f},{b:.1f}" for a, b in zip(x / duration * 1000, 42 - (y - low) / extent * 40, strict=True))
+        colour = style(timeline.rollout.label).colour
+        paths.append(
+            f'<polyline points="{points}" fill="none" stroke="{colour}" stroke-width="1.6" vector-effect="non-scaling-stroke"/>'
+        )
+        if timeline.rollout.accident != Accident.NONE:
+            at = timeline.duration / duration * 1000
+            paths.append(
+                f'<line x1="{at:.1f}" x2="{at:.1f}" y1="0" y2="44" stroke="{ALARM}" stroke-width="2" '
+                'stroke-dasharray="3 2" vector-effect="non-scaling-stroke"/>'
+            )
+    svg = f'<svg viewBox="0 0 1000 44" preserveAspectRatio="none">{"".join(paths)}</svg>'
+    label = f'<div class="name"><span>{name}</span><span>{span}</span></div>'
+    return f'<div class="plot">{label}{svg}<div class="cursor"></div></div>'

@@ -1,0 +1,184 @@
+"""What is drawn where at time t: plain numbers, made from rollouts alone. Nothing here knows viser.
+
+The road's y grows to the right (highway-env's way), which with z up would be a left-handed world.
+So the world's y is minus the road's y, and a world's yaw minus the road's heading: right-handed, x
+along the road, y to the left, z up. This is the one place that turns one into the other.
+
+The world is drawn around the driver: x = 0 is where the followed car is now, and the road slides by
+underneath. A camera that stands still in this world travels with the car, and the mouse can turn it
+at any time.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from bootcourse.errors import BootcourseError
+from bootcourse.replay3d.timeline import Moment, Timeline
+from bootcourse.road.state import EGO, TRAP_1, TRAP_2, Accident, X, Y
+from bootcourse.rule import Reason
+
+ROADS, GHOSTS = "side by side", "ghosts on one road"
+LAYOUTS = (ROADS, GHOSTS)
+ROAD_GAP = 5.0  # m of ground between two roads side by side
+CRUMBS = 80  # dots of the path driven, one per simulation step: the last 40 s
+CRUMB_Z, HIDDEN_Z = 0.04, -3.0  # m; a dot of the future waits below the ground
+BRAKES, PUSHES = -0.15, 0.15  # m/s²: from where on the lamps at the back show it
+TRAPS = {TRAP_1: "trap 1", TRAP_2: "trap 2"}
+NEAR = 80.0  # m: a trap further away than this has no distance label
+ACCIDENTS = {
+    Accident.NONE: "",
+    Accident.COLLISION: "collision",
+    Accident.ROAD_DEPARTURE: "left the road",
+    Accident.STOPPAGE: "stopped on the road",
+}
+
+
+def to_world(x, y):
+    """The road's (x, y) in the world's directions."""
+    return x, -y
+
+
+def to_yaw(heading):
+    """The world's yaw (rad, left is positive) of a heading on the road (right is positive)."""
+    return -heading
+
+
+def quaternion(yaw: float) -> tuple[float, float, float, float]:
+    """A turn about z as (w, x, y, z)."""
+    return math.cos(yaw / 2), 0.0, 0.0, math.sin(yaw / 2)
+
+
+@dataclass(frozen=True)
+class RuleMarks:
+    """What the rule wants, to be drawn on the road: its lane, and the gap that a lane change needs."""
+
+    lane_y: float  # world y of the target lane's centre
+    gap_x: float  # the front bumper: where the gap is measured from
+    gap_y: float  # world y of the lane whose gap counts
+    gap: float  # m, the safety distance
+    blocked: bool  # does the rule hold back because of it?
+
+
+@dataclass(frozen=True)
+class DriveView:
+    """One drive at one time, in world coordinates around `anchor`; (n,) arrays are per car, the ego first."""
+
+    anchor: float  # m along the road that is drawn at the world's x = 0
+    offset: float  # world y of the leftmost lane's centre
+    x: np.ndarray  # (n,) m
+    y: np.ndarray  # (n,) m, before `offset`
+    yaw: np.ndarray  # (n,) rad
+    lamps: tuple[str, ...]  # (n,) "brake", "power" or "off"
+    marked: np.ndarray  # (n,) bool: in an accident
+    crumbs: np.ndarray  # (CRUMBS, 4): x along the road (not around the anchor), y, z, yaw
+    rule: RuleMarks | None
+    labels: dict[int, str]  # car -> text above it
+    ended: bool
+
+
+def check_comparison(timelines: list[Timeline]) -> None:
+    """Raises BootcourseError unless the drives can be shown together."""
+    if not timelines:
+        raise BootcourseError("There is no rollout to replay: give at least one.")
+    if len(timelines) > 8:
+        raise BootcourseError(f"{len(timelines)} drives are too many to compare: choose at most 8.")
+    first = timelines[0].rollout
+    for timeline in timelines:
+        rollout = timeline.rollout
+        if not np.isfinite(rollout.states).all():
+            raise BootcourseError(f"The states of '{rollout.label}' hold NaN or infinity: record this drive again.")
+        if rollout.scenario != first.scenario:
+            raise BootcourseError(
+                f"'{rollout.label}' drove scenario '{rollout.scenario.name}', '{first.label}' drove "
+                f"'{first.scenario.name}' with other numbers: compare drives of one scenario."
+            )
+        if rollout.seed != first.seed:
+            raise BootcourseError(
+                f"'{rollout.label}' drove road {rollout.seed}, '{first.label}' road {first.seed}: "
+                "compare drives of the same seed."
+            )
+
+
+def offsets(count: int, lanes: int, lane_width: float, layout: str) -> list[float]:
+    """World y of each drive's leftmost lane; the world's y = 0 is the middle of everything."""
+    middle = (lanes - 1) / 2 * lane_width
+    pitch = lanes * lane_width + 2.0 + ROAD_GAP if layout == ROADS else 0.0
+    return [middle + pitch * ((count - 1) / 2 - k) for k in range(count)]
+
+
+def view(timelines: list[Timeline], t: float, layout: str = ROADS, follow: int = 0) -> list[DriveView]:
+    """Everything at time t. Side by side, each road moves with its own driver; ghosts share the followed one's."""
+    road = timelines[0].rollout.scenario.road
+    shifts = offsets(len(timelines), road.lanes, road.lane_width, layout)
+    moments = [timeline.at(t) for timeline in timelines]
+    views = []
+    for k, (timeline, moment) in enumerate(zip(timelines, moments, strict=True)):
+        leader = moment if layout == ROADS else moments[follow]
+        views.append(_drive(timeline, moment, t, float(leader.x[EGO]), shifts[k]))
+    return views
+
+
+def _drive(timeline: Timeline, moment: Moment, t: float, anchor: float, offset: float) -> DriveView:
+    x, y = to_world(moment.x - anchor, moment.y)
+    ended = t >= timeline.duration
+    marked = moment.crashed.copy()
+    if ended and timeline.rollout.accident != Accident.NONE:
+        marked[EGO] = True
+    return DriveView(
+        anchor=anchor,
+        offset=offset,
+        x=x,
+        y=y,
+        yaw=to_yaw(moment.heading),
+        lamps=tuple("brake" if a < BRAKES else "power" if a > PUSHES else "off" for a in moment.acceleration),
+        marked=marked,
+        crumbs=crumbs(timeline, t),
+        rule=_rule_marks(timeline, moment, t, anchor),
+        labels=_labels(timeline, moment, ended),
+        ended=ended,
+    )
+
+
+def crumbs(timeline: Timeline, t: float) -> np.ndarray:
+    """The ego's last places, one per simulation step up to time t, newest last: (CRUMBS, 4) x, y, z, yaw."""
+    states = timeline.rollout.states
+    newest = min(int(t / timeline.dt + 1e-9), len(states) - 1)
+    rows = np.arange(newest - CRUMBS + 1, newest + 1)
+    ego = states[np.clip(rows, 0, None), EGO]
+    x, y = to_world(ego[:, X], ego[:, Y])
+    z = np.where(rows >= 0, CRUMB_Z, HIDDEN_Z)
+    return np.column_stack([x, y, z, to_yaw(ego[:, 2])])
+
+
+def _rule_marks(timeline: Timeline, moment: Moment, t: float, anchor: float) -> RuleMarks | None:
+    rollout = timeline.rollout
+    if rollout.rule_lanes is None or rollout.rule_distances is None:
+        return None
+    k, width = timeline.decision(t), rollout.scenario.road.lane_width
+    lane_wanted, lane = int(rollout.rule_lanes[k]), int(moment.lane[EGO])
+    gap_lane = lane_wanted if lane_wanted != lane else max(lane - 1, 0)
+    reason = Reason(int(rollout.rule_reasons[k])) if rollout.rule_reasons is not None else Reason.FREE
+    return RuleMarks(
+        lane_y=to_world(0.0, lane_wanted * width)[1],
+        gap_x=float(moment.x[EGO]) - anchor + rollout.scenario.car.length / 2,
+        gap_y=to_world(0.0, gap_lane * width)[1],
+        gap=float(rollout.rule_distances[k]),
+        blocked=reason in (Reason.FALL_BACK, Reason.WAIT_FOR_FOLLOWER),
+    )
+
+
+def _labels(timeline: Timeline, moment: Moment, ended: bool) -> dict[int, str]:
+    length = timeline.rollout.scenario.car.length
+    labels = {}
+    for trap, name in TRAPS.items():
+        ahead = float(moment.x[trap] - moment.x[EGO])
+        gap = abs(ahead) - length
+        if gap <= 0:
+            labels[trap] = f"{name}: beside you"
+        elif abs(ahead) <= NEAR:
+            labels[trap] = f"{name}: {gap:.1f} m {'ahead' if ahead > 0 else 'behind'}"
+    if ended:
+        labels[EGO] = ACCIDENTS[Accident(timeline.rollout.accident)]
+    return {car: text for car, text in labels.items() if text}

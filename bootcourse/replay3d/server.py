@@ -1,0 +1,103 @@
+"""A viser server that stays on this machine, and the list of those that run.
+
+It binds 127.0.0.1 and nothing else, refuses viewers who ask for a public link, and ends with the
+kernel. A notebook cell that runs again replaces its own server.
+"""
+
+import contextlib
+import os
+import socket
+import threading
+
+import viser
+from rich import get_console
+
+from bootcourse.errors import BootcourseError
+
+HOST = "127.0.0.1"
+_running: dict[str, object] = {}  # cell -> the replay that it shows
+_lock = threading.Lock()
+
+
+class LocalServer(viser.ViserServer):
+    """viser lets any viewer ask the server to open a tunnel to the internet. This one says no."""
+
+    def request_share_url(self, verbose: bool = True) -> None:
+        """Refused: returns None, and opens nothing."""
+        return None
+
+    def stop(self) -> None:
+        with quiet():
+            super().stop()
+
+
+@contextlib.contextmanager
+def quiet():
+    """Hold back viser's banner and farewell, in a terminal and in a notebook."""
+    console = get_console()
+    before, console.quiet = console.quiet, True
+    try:
+        yield
+    finally:
+        console.quiet = before
+
+
+def start(port: int = 0) -> LocalServer:
+    """A running server. port 0 lets the system choose. Raises BootcourseError if the port is taken."""
+    if not 0 <= port <= 65535:
+        raise BootcourseError(f"Port {port} does not exist: choose one from 1024 to 65535, or 0 for any that is free.")
+    if port:
+        _check_free(port)
+    with quiet():
+        server = LocalServer(host=HOST, port=port, label="bootcourse replay", verbose=False)
+    if port and server.get_port() != port:  # somebody was faster; viser would go on with the next port
+        server.stop()
+        raise BootcourseError(_taken(port))
+    return server
+
+
+def _check_free(port: int) -> None:
+    with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as probe:
+        if os.name == "posix":  # a port that was closed a moment ago is free
+            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            probe.bind((HOST, port))
+        except PermissionError:
+            raise BootcourseError(f"Port {port} belongs to the system: choose one from 1024 to 65535.") from None
+        except OSError:
+            raise BootcourseError(_taken(port)) from None
+
+
+def _taken(port: int) -> str:
+    return f"Port {port} is in use: choose another one, or leave it out to take any that is free."
+
+
+def this_cell() -> str:
+    """The notebook cell that is being run; the same name for all cells where Jupyter does not tell."""
+    try:
+        from IPython import get_ipython
+
+        parent = get_ipython().kernel.get_parent()
+        return str(parent.get("metadata", {}).get("cellId", ""))
+    except (ImportError, AttributeError):
+        return ""
+
+
+def replace(cell: str, replay) -> None:
+    """Note what a cell shows now, and close what it showed before."""
+    with _lock:
+        before, _running[cell] = _running.get(cell), replay
+    if before is not None:
+        before.close()
+
+
+def forget(replay) -> None:
+    with _lock:
+        for cell in [cell for cell, shown in _running.items() if shown is replay]:
+            del _running[cell]
+
+
+def running() -> list:
+    """The replays that are open in this process."""
+    with _lock:
+        return list(_running.values())

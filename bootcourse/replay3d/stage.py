@@ -1,0 +1,232 @@
+"""The scene as viser nodes: built once, then moved. Only here (and in the GUI) is viser spoken.
+
+A car is a frame with a few meshes under it, so a frame of the replay moves two numbers per car. All
+changes of one moment go out as one batch. A property is only sent when it changes, and positions are
+rounded to a millimetre, which is what keeps an exported file small.
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from bootcourse.colours import ALARM, METHODS, TRAFFIC, TRAP, rgb, style
+from bootcourse.replay3d import scene
+from bootcourse.replay3d.camera import CHASE, FIELD_OF_VIEW, pose
+from bootcourse.replay3d.car import DARK, LAMP_BRAKE, LAMP_OFF, LAMP_POWER, LIGHT, car_parts, quad, ring
+from bootcourse.replay3d.road import AHEAD, BEHIND, GROUND_Z, SHOULDER, edges, road_parts, signs, theme
+from bootcourse.replay3d.timeline import Timeline
+from bootcourse.road.state import EGO, TRAFFIC as FIRST_OF_TRAFFIC, TRAP_1, TRAP_2, X
+
+LAMPS = {"off": rgb(LAMP_OFF), "brake": rgb(LAMP_BRAKE), "power": rgb(LAMP_POWER)}
+GHOST = 0.45  # opacity of a driver who is not the followed one
+GRAIN = 1024.0  # positions are multiples of 1/1024 m: short in memory, exact in binary
+
+
+@dataclass
+class Options:
+    """What viewers can switch; `layout` and `follow` only matter in a comparison."""
+
+    layout: str = scene.ROADS
+    follow: int = 0
+    dark: bool = False
+    labels: bool = True
+    path: bool = True
+    rule: bool = False
+
+
+@dataclass
+class Drive:
+    """The nodes of one drive."""
+
+    label: str
+    road: object = None
+    cars: dict = field(default_factory=dict)  # car -> its frame
+    lamps: dict = field(default_factory=dict)
+    rings: dict = field(default_factory=dict)
+    labels: dict = field(default_factory=dict)
+    crumbs: object = None
+    lane: object = None
+    gap: object = None
+    gap_label: object = None
+
+
+class Stage:
+    """The nodes of all drives on one viser server, and how they follow the time."""
+
+    def __init__(self, server, timelines: list[Timeline], options: Options):
+        self.server, self.timelines, self.options = server, timelines, options
+        self.drives: list[Drive] = []
+        self.build()
+
+    @property
+    def span(self) -> float:
+        """Width of all roads together, m."""
+        road = self.timelines[0].rollout.scenario.road
+        count = len(self.timelines) if self.options.layout == scene.ROADS else 1
+        one = road.lanes * road.lane_width + 2 * SHOULDER
+        return count * one + (count - 1) * scene.ROAD_GAP
+
+    def build(self) -> None:
+        """Make every node anew: at the start, and when the layout, the followed car or the theme changes."""
+        with self.server.atomic():
+            for k in range(len(self.drives)):
+                self.server.scene.remove_by_name(f"/drive{k}")
+            self._surroundings()
+            self.drives = [self._drive(k) for k in range(len(self.timelines))]
+
+    def show(self, t: float) -> None:
+        """Move everything to time t, in one batch."""
+        views = scene.view(self.timelines, t, self.options.layout, self.options.follow)
+        with self.server.atomic():
+            for drive, view in zip(self.drives, views, strict=True):
+                self._move(drive, view)
+
+    # --- building ---
+
+    def _surroundings(self) -> None:
+        colours, api = theme(self.options.dark), self.server.scene
+        self._lights(api)
+        api.configure_fog(150.0, 420.0, color=rgb(colours.horizon))
+        api.set_background_image(_sky(colours.sky, colours.horizon), format="png")
+        api.world_axes.visible = False
+        _mesh(api, "/ground", quad(-900, 900, -900, 900, GROUND_Z), colours.ground)
+        camera, place = self.server.initial_camera, pose(CHASE, self.span)
+        camera.position, camera.look_at, camera.fov = place.position, place.look_at, FIELD_OF_VIEW
+        camera.near, camera.far = 0.5, 2000.0
+
+    def _lights(self, api) -> None:
+        """Plain lights without a sky picture, so that a paint looks like its colour in a figure."""
+        api.configure_default_lights(enabled=False)
+        api.configure_environment_map(None)
+        dark = self.options.dark
+        api.add_light_ambient("/lights/ambient", intensity=0.9 if dark else 1.3)
+        api.add_light_hemisphere("/lights/sky", ground_color=(120, 120, 120), intensity=0.5 if dark else 0.9)
+        for name, place, intensity in (("sun", (-30.0, -25.0, 60.0), 1.5), ("fill", (-40.0, 30.0, 15.0), 0.5)):
+            api.add_light_directional(f"/lights/{name}", position=place, intensity=intensity * (0.7 if dark else 1.0))
+
+    def _drive(self, k: int) -> Drive:
+        timeline, options, api = self.timelines[k], self.options, self.server.scene
+        rollout, colours = timeline.rollout, theme(options.dark)
+        own = style(rollout.label).colour
+        ghost = options.layout == scene.GHOSTS and k != options.follow
+        base = f"/drive{k}"
+        views = scene.view(self.timelines, 0.0, options.layout, options.follow)
+        api.add_frame(base, show_axes=False, position=(0.0, views[k].offset, 0.0))
+        drive = Drive(rollout.label)
+        drive.road = api.add_frame(f"{base}/road", show_axes=False)
+        if not ghost:
+            self._road(f"{base}/road", rollout, colours)
+        for car in range(rollout.scenario.vehicles):
+            if ghost and car != EGO:
+                continue
+            self._car(drive, f"{base}/car{car}", rollout.scenario.car, car, own, GHOST if ghost else None)
+        drive.crumbs = _mesh(api, f"{base}/road/path", _crumb_mesh(views[k].crumbs), own, opacity=0.75)
+        names = {EGO: "name", TRAP_1: "to_trap1", TRAP_2: "to_trap2"}
+        for car, name in names.items():
+            if car == EGO or not ghost:
+                drive.labels[car] = api.add_label(
+                    f"{base}/car{car}/{name}", "", position=(0.0, 0.0, 2.6), anchor="bottom-center",
+                    font_screen_scale=0.9, visible=False,
+                )  # fmt: skip
+        if rollout.rule_lanes is not None and not ghost:
+            self._rule(drive, base, rollout.scenario.road.lane_width)
+        return drive
+
+    def _road(self, base: str, rollout, colours) -> None:
+        api, road = self.server.scene, rollout.scenario.road
+        states = rollout.states[:, :, X]
+        start, end = float(states[:, EGO].min()) - BEHIND, float(states[:, EGO].max()) + AHEAD
+        tints = {"asphalt": colours.asphalt, "lines": colours.line, "posts": colours.post}
+        for name, mesh in road_parts(road, start, end).items():
+            _mesh(api, f"{base}/{name}", mesh, tints[name])
+        right = edges(road)[1] - SHOULDER - 1.4
+        for metres in signs(start, end):
+            api.add_label(
+                f"{base}/sign{metres}", f"{metres} m", position=(float(metres), right, 1.6),
+                font_size_mode="scene", font_scene_height=0.9, depth_test=True, anchor="bottom-center",
+            )  # fmt: skip
+
+    def _car(self, drive: Drive, name: str, size, car: int, own: str, opacity: float | None) -> None:
+        api, parts = self.server.scene, car_parts(size.length, size.width)
+        paint = own if car == EGO else TRAP if car < FIRST_OF_TRAFFIC else TRAFFIC
+        drive.cars[car] = api.add_frame(name, show_axes=False)
+        for part, tint in (("paint", paint), ("dark", DARK), ("light", LIGHT)):
+            _mesh(api, f"{name}/{part}", parts[part], tint, opacity=opacity, flat=True)
+        drive.lamps[car] = _mesh(api, f"{name}/lamps", parts["lamps"], LAMP_OFF, opacity=opacity)
+        _mesh(api, f"{name}/shadow", parts["shadow"], "#000000", opacity=0.28 if opacity is None else 0.12)
+        drive.rings[car] = _mesh(api, f"{name}/ring", ring(3.1, 3.7, 40, 0.06), ALARM, visible=False)
+
+    def _rule(self, drive: Drive, base: str, lane_width: float) -> None:
+        api, green = self.server.scene, METHODS["rule"].colour
+        strip = quad(-4.0, 45.0, -0.42 * lane_width, 0.42 * lane_width)
+        drive.lane = _mesh(api, f"{base}/rule_lane", strip, green, opacity=0.3, visible=False)
+        unit = quad(0.0, 1.0, -0.3 * lane_width, 0.3 * lane_width)
+        drive.gap = _mesh(api, f"{base}/rule_gap", unit, "#F2A900", opacity=0.6, visible=False)
+        drive.gap_label = api.add_label(
+            f"{base}/rule_gap_label", "", anchor="bottom-center", font_screen_scale=0.8, visible=False
+        )
+
+    # --- moving ---
+
+    def _move(self, drive: Drive, view: scene.DriveView) -> None:
+        drive.road.position = tidy(-view.anchor, 0.0, 0.0)
+        for car, frame in drive.cars.items():
+            frame.position = tidy(view.x[car], view.y[car], 0.0)
+            frame.wxyz = tuple(round(q * 65536) / 65536 for q in scene.quaternion(view.yaw[car]))
+            drive.lamps[car].color = LAMPS[view.lamps[car]]
+            drive.rings[car].visible = bool(view.marked[car])
+        self._move_marks(drive, view)
+
+    def _move_marks(self, drive: Drive, view: scene.DriveView) -> None:
+        options = self.options
+        drive.crumbs.visible = options.path
+        if options.path:
+            drive.crumbs.vertices = _crumb_mesh(view.crumbs).vertices
+        names = len(self.timelines) > 1
+        for car, label in drive.labels.items():
+            text = view.labels.get(car, "")
+            if car == EGO and names:
+                text = f"{drive.label}: {text}" if text else drive.label
+            if text:
+                label.text = text
+            label.visible = bool(text) and (options.labels or car == EGO)
+        if drive.lane is None:
+            return
+        shown = options.rule and view.rule is not None and not view.ended
+        for node in (drive.lane, drive.gap, drive.gap_label):
+            node.visible = shown
+        if shown:
+            rule = view.rule
+            drive.lane.position = tidy(view.x[EGO], rule.lane_y, 0.03)
+            drive.gap.position = tidy(rule.gap_x, rule.gap_y, 0.05)
+            drive.gap.scale = (round(rule.gap, 2), 1.0, 1.0)
+            drive.gap_label.position = tidy(rule.gap_x + rule.gap / 2, rule.gap_y, 0.4)
+            drive.gap_label.text = f"needs {rule.gap:.1f} m" + (": waits" if rule.blocked else "")
+
+
+def tidy(x: float, y: float, z: float) -> tuple[float, float, float]:
+    return round(float(x) * GRAIN) / GRAIN, round(float(y) * GRAIN) / GRAIN, round(float(z) * GRAIN) / GRAIN
+
+
+def _mesh(api, name: str, mesh, colour: str, opacity: float | None = None, flat: bool = False, visible: bool = True):
+    return api.add_mesh_simple(
+        name, mesh.vertices.astype(np.float32), mesh.faces.astype(np.uint32), color=rgb(colour), opacity=opacity,
+        flat_shading=flat, cast_shadow=False, receive_shadow=False, visible=visible,
+    )  # fmt: skip
+
+
+def _crumb_mesh(crumbs: np.ndarray):
+    """A small dash for every crumb, along the way it was driven."""
+    dash = quad(-0.55, 0.55, -0.09, 0.09)
+    cos, sin = np.cos(crumbs[:, 3])[:, None], np.sin(crumbs[:, 3])[:, None]
+    x, y = dash.vertices[:, 0][None], dash.vertices[:, 1][None]
+    corners = np.stack([x * cos - y * sin, x * sin + y * cos, np.zeros_like(x * cos)], axis=2) + crumbs[:, None, :3]
+    faces = (np.arange(len(crumbs))[:, None, None] * 4 + dash.faces[None]).reshape(-1, 3)
+    return type(dash)(corners.reshape(-1, 3).astype(np.float32), faces)
+
+
+def _sky(top: str, horizon: str, height: int = 64) -> np.ndarray:
+    """A picture of the sky, (height, 2, 3) uint8: from the top's colour to the horizon's."""
+    part = np.clip(np.linspace(0, 4.0, height), 0, 1)[:, None]
+    column = (1 - part) * np.array(rgb(top)) + part * np.array(rgb(horizon))
+    return np.repeat(column[:, None, :], 2, axis=1).round().astype(np.uint8)

@@ -1,0 +1,146 @@
+"""A live replay: rollouts on a server of this machine, in a notebook's cell or in a browser."""
+
+import os
+import threading
+import time
+from html import escape
+from pathlib import Path
+
+from bootcourse.errors import BootcourseError
+from bootcourse.record.rollout import Rollout
+from bootcourse.replay3d import scene, server
+from bootcourse.replay3d.gui import Panel
+from bootcourse.replay3d.player import Player
+from bootcourse.replay3d.stage import Options, Stage
+from bootcourse.replay3d.timeline import Timeline
+
+HUD_RATE = 10.0  # Hz, of real time: how often the numbers in the panel change
+
+
+def as_list(rollouts) -> list[Rollout]:
+    """One rollout, or several, as a list. Raises BootcourseError for anything else."""
+    rollouts = [rollouts] if isinstance(rollouts, Rollout) else list(rollouts)
+    for rollout in rollouts:
+        if not isinstance(rollout, Rollout):
+            raise BootcourseError(f"Cannot replay {type(rollout).__name__}: give a Rollout, or a list of them.")
+    return rollouts
+
+
+class Replay:
+    """What `replay` returns. A notebook shows it as the cell's output; `close()` ends it."""
+
+    def __init__(self, rollouts: list[Rollout], options: Options, port: int = 0, height: int = 640):
+        self.timelines = [Timeline(rollout) for rollout in rollouts]
+        scene.check_comparison(self.timelines)
+        if not 0 <= options.follow < len(rollouts):
+            raise BootcourseError(f"follow = {options.follow}: there are drives 0 to {len(rollouts) - 1}.")
+        if options.layout not in scene.LAYOUTS:
+            raise BootcourseError(f"layout = '{options.layout}': choose '{scene.ROADS}' or '{scene.GHOSTS}'.")
+        self.height, self.closed = height, False
+        self._lock, self._hud_due, self._greeted = threading.Lock(), 0.0, False
+        self.server = server.start(port)
+        try:
+            self.stage = Stage(self.server, self.timelines, options)
+            duration = max(timeline.duration for timeline in self.timelines)
+            self.player = Player(duration, self.timelines[0].dt, self._frame, watched=self._watched)
+            self.panel = Panel(self.server, self.player, self.stage, self._restage)
+            self._frame(0.0)
+            self.server.on_client_connect(self._greet)
+            self.player.start()
+        except BaseException:
+            self.server.stop()
+            raise
+
+    @property
+    def port(self) -> int:
+        return self.server.get_port()
+
+    @property
+    def url(self) -> str:
+        return f"http://{server.HOST}:{self.port}"
+
+    def close(self) -> None:
+        """Stop playing, stop the server and free its port. Closing twice does nothing."""
+        if self.closed:
+            return
+        self.closed = True
+        server.forget(self)
+        self.player.stop()
+        self.server.stop()
+
+    def __enter__(self) -> "Replay":
+        return self
+
+    def __exit__(self, *_) -> None:
+        self.close()
+
+    def export(self, path: Path) -> Path:
+        """Write the same drives as one HTML file that needs nothing but a browser. Returns the path."""
+        from bootcourse.replay3d.export import export
+
+        return export([timeline.rollout for timeline in self.timelines], path, self.stage.options)
+
+    def _watched(self) -> bool:
+        return bool(self.server.get_clients())
+
+    def _greet(self, client) -> None:
+        if not self._greeted:  # the first viewer sees it start
+            self._greeted = True
+            self.player.play()
+
+    def _frame(self, t: float) -> None:
+        with self._lock, self.server.atomic():
+            self.stage.show(t)
+            now = time.monotonic()
+            if now >= self._hud_due or not getattr(self, "player", None) or not self.player.playing:
+                self._hud_due = now + 1 / HUD_RATE
+                self.panel.refresh(t)
+
+    def _restage(self, rebuild: bool) -> None:
+        with self._lock:
+            if rebuild:
+                self.stage.build()
+        self._frame(self.player.t)
+
+    def _repr_mimebundle_(self, include=None, exclude=None) -> dict:
+        return {"text/html": self._html(), "text/plain": f"<replay at {self.url}>"}
+
+    def _html(self) -> str:
+        address, advice = address_for_browser(self.port)
+        if address is None:
+            return f"<p>{escape(advice)}</p>"
+        frame = f'<iframe src="{escape(address)}" width="100%" height="{self.height}" style="border:0"></iframe>'
+        return f'{frame}<div style="font-size:smaller;opacity:.7">{escape(advice)}</div>'
+
+
+def address_for_browser(port: int) -> tuple[str | None, str]:
+    """(the address under which the reader's browser finds the server, or None; a sentence to go with it)."""
+    prefix = os.environ.get("JUPYTERHUB_SERVICE_PREFIX")
+    if prefix is None:
+        url = f"http://{server.HOST}:{port}"
+        return url, f"Live at {url} while the kernel runs. To keep it, or if it stays empty: .export('replay.html')."
+    import importlib.util
+
+    if importlib.util.find_spec("jupyter_server_proxy") is None:
+        return None, (
+            "This notebook runs behind JupyterHub, where your browser cannot reach the replay's server: install "
+            "jupyter-server-proxy and restart your server, or use bootcourse.replay3d.recording(...) instead of replay(...)."
+        )
+    return f"{prefix.rstrip('/')}/proxy/{port}/", "Live through this hub's proxy while the kernel runs."
+
+
+def replay(
+    rollouts, *, port: int = 0, height: int = 640, layout: str = scene.ROADS, follow: int = 0,
+    dark: bool = False, rule: bool = False,
+) -> Replay:  # fmt: skip
+    """Show a rollout, or several of the same seed side by side, in 3D.
+
+    port: 0 takes a free one. height: of the cell's output, pixels. layout: "side by side" or "ghosts on
+    one road". follow: which drive the numbers are of, and in whose company ghosts are seen. rule: draw
+    what the rule wants on the road. Running the same notebook cell again replaces its replay.
+    Raises BootcourseError if the drives cannot be shown together, or the port is taken.
+    """
+    cell = server.this_cell()
+    shown = Replay(as_list(rollouts), Options(layout=layout, follow=follow, dark=dark, rule=rule), port, height)
+    server.replace(cell, shown)
+    return shown
