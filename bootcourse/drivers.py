@@ -4,13 +4,15 @@ A driver is a callable: driver(observations (roads, 26), cars (roads, vehicles, 
 learned agent uses the observations, the rule uses the cars. `bootcourse.learn` adds agents.
 """
 
-from collections.abc import Callable
+import itertools
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
+from bootcourse.errors import BootcourseError, nearest
 from bootcourse.rule import rule, sample_stochastic_rule, stochastic_rule
-from bootcourse.scenario import IDLE, N_ACTIONS, Scenario
+from bootcourse.scenario import ACTION_NAMES, IDLE, N_ACTIONS, Scenario
 
 
 class Choice(NamedTuple):
@@ -50,3 +52,24 @@ def random_driver(rng: np.random.Generator) -> Driver:
     return lambda observations, cars: Choice(
         rng.integers(N_ACTIONS, size=len(observations)), np.full((len(observations), N_ACTIONS), 1 / N_ACTIONS)
     )
+
+
+def plan_driver(plan: Sequence[str | tuple[str, int]]) -> Driver:
+    """Drives a plan written in words, then idles: ["keep straight", ("accelerate left", 2)].
+
+    Each entry is one of `ACTION_NAMES`, for one decision or as many as you say. A plan drives once.
+    Raises BootcourseError for an unknown action.
+    """
+    actions = []
+    for entry in plan:
+        name, times = (entry, 1) if isinstance(entry, str) else entry
+        if name not in ACTION_NAMES:
+            raise BootcourseError(f"Action {nearest(name, ACTION_NAMES)}.")
+        actions += [ACTION_NAMES.index(name)] * times
+    coming = iter(actions)
+    return lambda observations, cars: Choice(np.full(len(observations), next(coming, IDLE)))
+
+
+def in_words(actions: Sequence[int]) -> list[tuple[str, int]]:
+    """The plan that a sequence of actions is: (name, times), the opposite of `plan_driver`."""
+    return [(ACTION_NAMES[action], len(list(run))) for action, run in itertools.groupby(actions)]

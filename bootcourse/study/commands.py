@@ -8,7 +8,7 @@ import numpy as np
 from bootcourse.drivers import Driver, idle_driver, random_driver, rule_driver
 from bootcourse.errors import BootcourseError, nearest
 from bootcourse.scenario import DEFAULT, Scenario, named
-from bootcourse.study.evaluate import Estimate, Report, drive_episodes, held_out_seeds, over_seeds, report
+from bootcourse.study.evaluate import Estimate, drive_episodes, held_out_seeds, over_seeds, report
 
 SIMPLE = ("rule", "idle", "random")
 ROWS = {
@@ -46,7 +46,8 @@ def evaluate(who: str, episodes: int, seed: int, scenario: str, sample: bool, as
     """Print the table, or JSON."""
     seeds = held_out_seeds(seed, episodes)
     reports = {
-        label: report(drive_episodes(driver, seeds, road)) for label, driver, road in drivers(who, scenario, sample, seed)
+        label: report(drive_episodes(driver, seeds, road))
+        for label, driver, road in drivers(who, scenario, sample, seed)
     }
     if as_json:
         everything = {label: each.to_dict() for label, each in reports.items()}

@@ -1,0 +1,38 @@
+"""Curves that grow in a notebook while a training runs."""
+
+import time
+
+from bootcourse.learn.train import Training
+from bootcourse.study.drawing import Picture
+
+
+class LiveCurves:
+    """A training's callback: redraws the methods' success and return, at most every `every` seconds.
+
+    The picture is replaced in place, so that the page does not jump.
+    """
+
+    def __init__(self, every: float = 3.0):
+        self.every, self.last, self.output = every, time.monotonic(), None
+
+    def __call__(self, training: Training) -> None:
+        now = time.monotonic()
+        if now - self.last < self.every or training.curves.finished.min() < 2:
+            return
+        self.last = now
+        from IPython.display import display
+
+        picture = Picture(self.draw(training))
+        if self.output is None:
+            self.output = display(picture, display_id=True)
+        elif self.output is not None:
+            self.output.update(picture)
+
+    @staticmethod
+    def draw(training: Training):
+        from bootcourse.study.figures import training_curves
+
+        methods = dict.fromkeys(settings.method for settings in training.settings)
+        rows = {m: [i for i, s in enumerate(training.settings) if s.method == m] for m in methods}
+        curves = {m: {name: v[rows[m]] for name, v in training.curves.values.items()} for m in methods}
+        return training_curves(curves, title="Training, as it happens")

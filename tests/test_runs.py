@@ -1,0 +1,135 @@
+"""Runs and checkpoints on disk: whole or not at all, and never believed when damaged."""
+
+import json
+import shutil
+
+import numpy as np
+import pytest
+from safetensors.torch import load_file, save_file
+
+from bootcourse.errors import BootcourseError
+from bootcourse.learn.settings import settings_for, with_seeds
+from bootcourse.learn.train import Training
+from bootcourse.record.files import sha256, write_bytes, write_json
+from bootcourse.record.runs import find_runs, load_checkpoint, load_run, save_checkpoint, save_runs
+
+
+def small_training(method: str = "bootstrapped", episodes: int = 12) -> Training:
+    return Training(with_seeds(settings_for(method, demonstrations=3, warm_up=16), 2), episodes)
+
+
+@pytest.fixture(scope="module")
+def result():
+    return small_training().run(progress=False)
+
+
+@pytest.fixture
+def run(result, tmp_path):
+    return save_runs(result, tmp_path / "runs")[0]
+
+
+def test_a_run_reads_back_as_it_was_written(result, run):
+    back = load_run(run)
+    observations = np.random.default_rng(0).normal(size=(5, 26))
+    np.testing.assert_array_equal(back.agent.policy(observations), result.agents[0].policy(observations))
+    np.testing.assert_array_equal(back.curves["return"], result.curves["return"][0])
+    assert back.agent.settings == result.agents[0].settings and back.scenario == result.scenario
+    assert back.provenance["seed"] == 0 and "torch" in back.provenance
+
+
+def test_every_seed_has_its_own_run(result, run):
+    assert [path.name for path in find_runs(run.parent)] == ["bootstrapped-0", "bootstrapped-1"]
+    assert find_runs(run) == [run]
+
+
+def test_a_run_is_never_overwritten(result, run):
+    with pytest.raises(BootcourseError, match="exists already"):
+        save_runs(result, run.parent)
+
+
+@pytest.mark.parametrize("name", ["config.json", "weights.safetensors", "curves.npz"])
+def test_a_damaged_file_of_a_run_is_named(run, name):
+    data = (run / name).read_bytes()
+    (run / name).write_bytes(data[: len(data) // 2])
+    with pytest.raises(BootcourseError, match=f"{name} is damaged"):
+        load_run(run)
+
+
+@pytest.mark.parametrize("name", ["config.json", "weights.safetensors", "curves.npz", "provenance.json"])
+def test_a_missing_file_of_a_run_is_named(run, name):
+    (run / name).unlink()
+    with pytest.raises(BootcourseError, match="Cannot read|is not a run"):
+        load_run(run)
+
+
+def test_weights_that_are_not_numbers_are_refused_even_with_the_right_hash(run):
+    weights = load_file(run / "weights.safetensors")
+    weights["actor.0"][0, 0, 0] = np.nan
+    save_file(weights, run / "weights.safetensors")
+    made = json.loads((run / "provenance.json").read_text())
+    made["sha256"]["weights.safetensors"] = sha256(run / "weights.safetensors")
+    write_json(run / "provenance.json", made)
+    with pytest.raises(BootcourseError, match="NaN or infinity"):
+        load_run(run)
+
+
+def test_a_folder_without_a_run_says_how_to_train_one(tmp_path):
+    with pytest.raises(BootcourseError, match="bootcourse train"):
+        find_runs(tmp_path)
+    with pytest.raises(BootcourseError, match="is not a folder"):
+        find_runs(tmp_path / "nowhere")
+
+
+def test_a_training_that_was_killed_goes_on_as_if_it_never_was(tmp_path):
+    training = small_training()
+    for _ in range(60):
+        training.step()
+    save_checkpoint(training, tmp_path / "checkpoint.npz")
+    uninterrupted = training.run(progress=False)
+    continued = load_checkpoint(tmp_path / "checkpoint.npz").run(progress=False)
+    for name, values in uninterrupted.curves.items():
+        np.testing.assert_array_equal(values, continued.curves[name], err_msg=name)
+    for before, after in zip(uninterrupted.agents[1].actor, continued.agents[1].actor, strict=True):
+        np.testing.assert_array_equal(before, after)
+
+
+def test_a_finished_agent_is_kept_as_it_was_after_its_last_episode(tmp_path):
+    training = small_training("sac", episodes=3)
+    while not training.finished_agents:
+        training.step()
+    save_checkpoint(training, tmp_path / "checkpoint.npz")
+    first = next(iter(training.finished_agents))
+    restored = load_checkpoint(tmp_path / "checkpoint.npz").finished_agents[first]
+    assert (restored.actor[0] == training.finished_agents[first].actor[0]).all()
+
+
+def test_a_damaged_checkpoint_is_refused(tmp_path):
+    path = tmp_path / "checkpoint.npz"
+    save_checkpoint(small_training(), path)
+    path.write_bytes(path.read_bytes()[:5000])
+    with pytest.raises(BootcourseError, match="damaged or cut short"):
+        load_checkpoint(path)
+
+
+def test_a_full_disk_leaves_the_old_file_whole(tmp_path, monkeypatch):
+    path = tmp_path / "file.json"
+    write_bytes(path, b"old")
+
+    def full(*args):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("os.fsync", full)
+    with pytest.raises(BootcourseError, match="No space left on device"):
+        write_bytes(path, b"new")
+    assert path.read_bytes() == b"old" and list(tmp_path.iterdir()) == [path]
+
+
+def test_a_run_that_cannot_be_written_leaves_nothing_behind(result, tmp_path, monkeypatch):
+    def full(*args):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("os.fsync", full)
+    with pytest.raises(BootcourseError, match="Cannot write"):
+        save_runs(result, tmp_path / "runs")
+    assert list((tmp_path / "runs").iterdir()) == []
+    shutil.rmtree(tmp_path / "runs")
