@@ -18,7 +18,7 @@ def pose(name: str, span: float) -> Pose:
     return {
         CHASE: Pose((-17.0 - 0.55 * more, 0.0, 7.5 + 0.32 * more), (13.0, 0.0, 0.0)),
         BIRD: Pose((2.0, 0.0, 62.0 + 0.85 * more), (12.0, 0.0, 0.0)),
-        SIDE: Pose((6.0, -24.0 - 0.9 * more, 6.0 + 0.25 * more), (6.0, 0.0, 0.5)),
+        SIDE: Pose((6.0, -20.0 - 0.9 * more, 5.0 + 0.25 * more), (6.0, 0.0, 0.0)),
         FREE: Pose((-30.0 - 0.5 * more, -24.0 - 0.6 * more, 24.0 + 0.5 * more), (12.0, 0.0, 0.0)),
     }[name]
 

@@ -106,7 +106,9 @@ def _body() -> Mesh:
 def _cabin() -> Mesh:
     sections = []
     for (x_foot, w_foot), (x_roof, w_roof) in zip(CABIN_FOOT, CABIN_ROOF, strict=True):
-        sections.append([[x_foot, -w_foot, FOOT_Z], [x_foot, w_foot, FOOT_Z], [x_roof, w_roof, ROOF_Z], [x_roof, -w_roof, ROOF_Z]])
+        sections.append(
+            [[x_foot, -w_foot, FOOT_Z], [x_foot, w_foot, FOOT_Z], [x_roof, w_roof, ROOF_Z], [x_roof, -w_roof, ROOF_Z]]
+        )
     return loft(np.array(sections))
 
 
@@ -145,7 +147,7 @@ def car_parts(length: float = 5.0, width: float = 2.0) -> dict[str, Mesh]:
             box((2.30, 0.48, 0.50), (2.48, 0.80, 0.62)),
         ),
         "lamps": join(box((-2.54, -0.80, 0.64), (-2.30, 0.80, 0.78)), box((-1.24, -0.30, 1.38), (-1.10, 0.30, 1.45))),
-        "shadow": disc(2.85, 1.25, 20, 0.03),
+        "shadow": disc(2.85, 1.25, 20, 0.085),
     }
     scale = np.array([length / 5, width / 2, width / 2])
     return {name: Mesh(mesh.vertices * scale, mesh.faces) for name, mesh in parts.items()}

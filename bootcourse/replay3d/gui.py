@@ -11,7 +11,7 @@ STEPS = ("|◂", "◂", "▸", "▸|")  # to the start, one simulation step back
 
 
 class Panel:
-    """Controls for `player` and `stage`; `refresh(t)` shows a time, `restage()` is called when the scene must change."""
+    """Controls for `player` and `stage`. refresh(t) shows a time; restage(rebuild) is called when a switch changes."""
 
     def __init__(self, server, player, stage, restage):
         self.server, self.player, self.stage, self.restage = server, player, stage, restage
@@ -87,7 +87,8 @@ class Panel:
             layout = gui.add_dropdown("Roads", scene.LAYOUTS, initial_value=options.layout)
             follow.on_update(lambda event: self._set("follow", names.index(event.target.value), rebuild=True))
             layout.on_update(lambda event: self._set("layout", event.target.value, rebuild=True))
-        for field, label in (("labels", "Distances to the traps"), ("path", "Path driven"), ("rule", "What the rule wants")):
+        switches = {"labels": "Distances to the traps", "path": "Path driven", "rule": "What the rule wants"}
+        for field, label in switches.items():
             box = gui.add_checkbox(label, getattr(options, field))
             box.on_update(lambda event, field=field: self._set(field, bool(event.target.value)))
         dark = gui.add_checkbox("Dark", options.dark)
@@ -110,7 +111,8 @@ class Panel:
             if round(t, 1) == self._shown:
                 return
             self._shown = round(t, 1)
-            self.time.value = min(self._shown, self.player.duration)
+            if not self.player.held:
+                self.time.value = min(self._shown, self.player.duration)
             follow = self.stage.options.follow
             self.card.content = hud.card(self.timelines[follow], t)
             if self.table is not None:

@@ -63,7 +63,9 @@ def status(timeline: Timeline, t: float) -> tuple[str, str]:
 
 def card(timeline: Timeline, t: float) -> str:
     """One drive's numbers at time t."""
-    return f'<div class="bc">{_head(timeline, t)}{_numbers(timeline, t)}{_reward(timeline, t)}{_choice(timeline, t)}</div>'
+    return (
+        f'<div class="bc">{_head(timeline, t)}{_numbers(timeline, t)}{_reward(timeline, t)}{_choice(timeline, t)}</div>'
+    )
 
 
 def _head(timeline: Timeline, t: float) -> str:
@@ -83,7 +85,11 @@ def _numbers(timeline: Timeline, t: float) -> str:
         (f"{moment.lane[EGO]}", f"lane, 0…{timeline.rollout.scenario.road.lanes - 1}"),
         (f"{driven:.0f}", "m driven"),
     ]
-    return '<div class="big">' + "".join(f"<div><b>{value}</b><span>{unit}</span></div>" for value, unit in cells) + "</div>"
+    return (
+        '<div class="big">'
+        + "".join(f"<div><b>{value}</b><span>{unit}</span></div>" for value, unit in cells)
+        + "</div>"
+    )
 
 
 def _reward(timeline: Timeline, t: float) -> str:
@@ -93,9 +99,9 @@ def _reward(timeline: Timeline, t: float) -> str:
     if earned == 0:
         return f'<div>{total} <span class="dim">no reward yet</span></div>'
     reward, (r_v, r_y, r_theta) = rollout.rewards[earned - 1], rollout.terms[earned - 1]
-    terms = f"r<sub>v</sub> {r_v:.2f} · r<sub>y</sub> {r_y:.2f} · r<sub>θ</sub> {r_theta:.2f}"
+    terms = f"r<sub>v</sub> {r_v:.2f} · r<sub>y</sub> {r_y:.2f} · r<sub>θ</sub> {round(r_theta, 3) + 0.0:.3f}"
     hint = f"the three terms, unweighted; their weights are {weights.w_v:g}, {weights.w_y:g}, {weights.w_theta:g}"
-    return f'<div title="{hint}">{total} · reward <b>{reward:.3f}</b> <span class="dim">{terms}</span></div>'
+    return f'<div>{total} · reward <b>{reward:.3f}</b></div><div class="dim" title="{hint}">{terms}</div>'
 
 
 def _choice(timeline: Timeline, t: float) -> str:
@@ -150,7 +156,7 @@ def table(timelines: list[Timeline], t: float) -> str:
         rows.append(
             f"<tr><td>{dot} {escape(rollout.label)}</td><td>{moment.speed[EGO]:.1f}</td><td>{driven:.0f}</td>"
             f"<td>{moment.lane[EGO]}</td><td>{timeline.returns[timeline.earned(t)]:.1f}</td>"
-            f'<td style="color:{colour};font-weight:650">{text}</td></tr>'
+            f'<td style="color:{colour};font-weight:650">{text.removesuffix(" of trap 1")}</td></tr>'
         )
     head = "<tr><th>driver</th><th>m/s</th><th>m</th><th>lane</th><th>return</th><th></th></tr>"
     return f'<div class="bc"><table>{head}{"".join(rows)}</table></div>'
@@ -182,10 +188,13 @@ def plots(timelines: list[Timeline]) -> str:
 def _plot(name, span, lines, timelines, duration, low, extent) -> str:
     paths = []
     for (x, y), timeline in zip(lines, timelines, strict=True):
-        points = " ".join(f"{a:.1f},{b:.1f}" for a, b in zip(x / duration * 1000, 42 - (y - low) / extent * 40, strict=True))
+        points = " ".join(
+            f"{a:.1f},{b:.1f}" for a, b in zip(x / duration * 1000, 42 - (y - low) / extent * 40, strict=True)
+        )
         colour = style(timeline.rollout.label).colour
         paths.append(
-            f'<polyline points="{points}" fill="none" stroke="{colour}" stroke-width="1.6" vector-effect="non-scaling-stroke"/>'
+            f'<polyline points="{points}" fill="none" stroke="{colour}" stroke-width="1.6" '
+            'vector-effect="non-scaling-stroke"/>'
         )
         if timeline.rollout.accident != Accident.NONE:
             at = timeline.duration / duration * 1000

@@ -44,6 +44,11 @@ class Player:
                 self._held_until = time.monotonic() + HOLD
         self._wake.set()
 
+    @property
+    def held(self) -> bool:
+        """Does a hand drag the time slider right now?"""
+        return time.monotonic() < self._held_until
+
     def step(self, count: int) -> None:
         """Pause, and go to the next (1) or the previous (-1) simulation step."""
         with self._lock:
@@ -57,7 +62,7 @@ class Player:
     def advance(self, seconds: float) -> bool:
         """Let `seconds` of real time pass. Returns whether the time of the replay has moved."""
         with self._lock:
-            if not self.playing or time.monotonic() < self._held_until:
+            if not self.playing or self.held:
                 return False
             self.t += seconds * self.speed
             if self.t >= self.duration:

@@ -8,13 +8,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bootcourse.replay3d.car import Mesh, box, join, quad, quads
+from bootcourse.replay3d.car import Mesh, box, join, quads
 from bootcourse.scenario import Road
 
 BEHIND, AHEAD = 120.0, 450.0  # m of road before the start and after the last car's end
 DASH, PERIOD, LINE = 4.0, 12.0, 0.16  # m: length of a dash, from dash to dash, width of a line
 SHOULDER = 1.0  # m of asphalt beyond the outer lines
 POST_EVERY, SIGN_EVERY = 25.0, 100.0  # m
+PIECE, FAR = 25.0, 900.0  # m: length of a piece of road; the land reaches so far
 GROUND_Z, LINE_Z = -0.12, 0.02  # m
 
 
@@ -27,11 +28,10 @@ class Theme(NamedTuple):
     asphalt: str
     line: str
     post: str
-    ink: str  # text
 
 
-LIGHT = Theme("#A9CBE8", "#EAF1F4", "#C9D3B8", "#666B73", "#F7F7F4", "#F4F4F2", "#1C2126")
-DARK = Theme("#0B1220", "#1B2636", "#1A2420", "#33373F", "#C9CDD3", "#8C939C", "#EEF1F4")
+LIGHT = Theme("#9CC4E6", "#E6EEF2", "#CFD8BE", "#6F747C", "#FFFFFF", "#FFFFFF")
+DARK = Theme("#0B1220", "#26344A", "#2C3A35", "#474D57", "#E2E5E9", "#9BA2AB")
 
 
 def theme(dark: bool) -> Theme:
@@ -48,16 +48,28 @@ def road_parts(road: Road, start: float, end: float) -> dict[str, Mesh]:
     left, right = edges(road)
     x = np.arange(np.floor(start / PERIOD) * PERIOD, end, PERIOD)
     dashes = [quads(x, x + DASH, y - LINE / 2, y + LINE / 2, LINE_Z) for y in divider_ys(road)]
-    solid = [quad(start, end, y - LINE / 2, y + LINE / 2, LINE_Z) for y in (left, right)]
+    solid = [strip(start, end, y - LINE / 2, y + LINE / 2, LINE_Z) for y in (left, right)]
     posts = []
     for x_post in np.arange(np.ceil(start / POST_EVERY) * POST_EVERY, end, POST_EVERY):
         for y in (left + SHOULDER + 0.6, right - SHOULDER - 0.6):
             posts.append(box((x_post - 0.06, y - 0.08, GROUND_Z), (x_post + 0.06, y + 0.08, 0.85)))
     return {
-        "asphalt": quad(start, end, right - SHOULDER, left + SHOULDER),
+        "asphalt": strip(start, end, right - SHOULDER, left + SHOULDER),
         "lines": join(*dashes, *solid),
         "posts": join(*posts),
     }
+
+
+def strip(x0: float, x1: float, y0: float, y1: float, z: float = 0.0) -> Mesh:
+    """A long flat rectangle in pieces: the depth of one triangle of two kilometres is too coarse to draw a line on."""
+    x = np.append(np.arange(x0, x1, PIECE), x1)
+    return quads(x[:-1], x[1:], y0, y1, z)
+
+
+def ground() -> Mesh:
+    """The land around the road, as far as the fog lets one see, in pieces."""
+    x = np.arange(-FAR, FAR, 4 * PIECE)
+    return join(*(quads(x, x + 4 * PIECE, y, y + 4 * PIECE, GROUND_Z) for y in x))
 
 
 def divider_ys(road: Road) -> list[float]:

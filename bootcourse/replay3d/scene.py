@@ -15,15 +15,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from bootcourse.errors import BootcourseError
+from bootcourse.record.rollout import Rollout
 from bootcourse.replay3d.timeline import Moment, Timeline
-from bootcourse.road.state import EGO, TRAP_1, TRAP_2, Accident, X, Y
+from bootcourse.road.state import EGO, HEADING, TRAP_1, TRAP_2, Accident, X, Y
 from bootcourse.rule import Reason
 
 ROADS, GHOSTS = "side by side", "ghosts on one road"
 LAYOUTS = (ROADS, GHOSTS)
 ROAD_GAP = 5.0  # m of ground between two roads side by side
 CRUMBS = 80  # dots of the path driven, one per simulation step: the last 40 s
-CRUMB_Z, HIDDEN_Z = 0.04, -3.0  # m; a dot of the future waits below the ground
+CRUMB_Z, HIDDEN_Z = 0.07, -3.0  # m; a dot of the future waits below the ground
 BRAKES, PUSHES = -0.15, 0.15  # m/s²: from where on the lamps at the back show it
 TRAPS = {TRAP_1: "trap 1", TRAP_2: "trap 2"}
 NEAR = 80.0  # m: a trap further away than this has no distance label
@@ -78,8 +79,18 @@ class DriveView:
     ended: bool
 
 
-def check_comparison(timelines: list[Timeline]) -> None:
-    """Raises BootcourseError unless the drives can be shown together."""
+def timelines_of(rollouts) -> list[Timeline]:
+    """One rollout, or several, ready to be shown together. Raises BootcourseError if they cannot be."""
+    rollouts = [rollouts] if isinstance(rollouts, Rollout) else list(rollouts)
+    for rollout in rollouts:
+        if not isinstance(rollout, Rollout):
+            raise BootcourseError(f"Cannot replay {type(rollout).__name__}: give a Rollout, or a list of them.")
+    timelines = [Timeline(rollout) for rollout in rollouts]
+    _check_comparison(timelines)
+    return timelines
+
+
+def _check_comparison(timelines: list[Timeline]) -> None:
     if not timelines:
         raise BootcourseError("There is no rollout to replay: give at least one.")
     if len(timelines) > 8:
@@ -87,8 +98,8 @@ def check_comparison(timelines: list[Timeline]) -> None:
     first = timelines[0].rollout
     for timeline in timelines:
         rollout = timeline.rollout
-        if not np.isfinite(rollout.states).all():
-            raise BootcourseError(f"The states of '{rollout.label}' hold NaN or infinity: record this drive again.")
+        if len(rollout.states) < 2 or not np.isfinite(rollout.states).all():
+            raise BootcourseError(f"The states of '{rollout.label}' are empty or not finite: record this drive again.")
         if rollout.scenario != first.scenario:
             raise BootcourseError(
                 f"'{rollout.label}' drove scenario '{rollout.scenario.name}', '{first.label}' drove "
@@ -149,7 +160,7 @@ def crumbs(timeline: Timeline, t: float) -> np.ndarray:
     ego = states[np.clip(rows, 0, None), EGO]
     x, y = to_world(ego[:, X], ego[:, Y])
     z = np.where(rows >= 0, CRUMB_Z, HIDDEN_Z)
-    return np.column_stack([x, y, z, to_yaw(ego[:, 2])])
+    return np.column_stack([x, y, z, to_yaw(ego[:, HEADING])])
 
 
 def _rule_marks(timeline: Timeline, moment: Moment, t: float, anchor: float) -> RuleMarks | None:

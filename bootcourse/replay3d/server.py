@@ -15,7 +15,7 @@ from rich import get_console
 from bootcourse.errors import BootcourseError
 
 HOST = "127.0.0.1"
-_running: dict[str, object] = {}  # cell -> the replay that it shows
+_running: dict[object, object] = {}  # cell -> the replay that it shows
 _lock = threading.Lock()
 
 
@@ -72,23 +72,29 @@ def _taken(port: int) -> str:
     return f"Port {port} is in use: choose another one, or leave it out to take any that is free."
 
 
-def this_cell() -> str:
-    """The notebook cell that is being run; the same name for all cells where Jupyter does not tell."""
+def this_cell() -> str | None:
+    """The notebook cell that is being run ("" where Jupyter does not tell which); None outside a notebook."""
     try:
         from IPython import get_ipython
 
         parent = get_ipython().kernel.get_parent()
-        return str(parent.get("metadata", {}).get("cellId", ""))
     except (ImportError, AttributeError):
-        return ""
+        return None
+    return str(parent.get("metadata", {}).get("cellId", ""))
 
 
-def replace(cell: str, replay) -> None:
-    """Note what a cell shows now, and close what it showed before."""
+def close_shown_by(cell: str | None) -> None:
+    """Close the replay that this cell showed when it ran before."""
     with _lock:
-        before, _running[cell] = _running.get(cell), replay
+        before = _running.pop(cell, None)
     if before is not None:
         before.close()
+
+
+def note(cell: str | None, replay) -> None:
+    """Remember what a cell shows."""
+    with _lock:
+        _running[cell if cell is not None else object()] = replay
 
 
 def forget(replay) -> None:

@@ -10,12 +10,14 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from bootcourse.colours import ALARM, METHODS, TRAFFIC, TRAP, rgb, style
+from bootcourse.errors import BootcourseError
 from bootcourse.replay3d import scene
 from bootcourse.replay3d.camera import CHASE, FIELD_OF_VIEW, pose
 from bootcourse.replay3d.car import DARK, LAMP_BRAKE, LAMP_OFF, LAMP_POWER, LIGHT, car_parts, quad, ring
-from bootcourse.replay3d.road import AHEAD, BEHIND, GROUND_Z, SHOULDER, edges, road_parts, signs, theme
+from bootcourse.replay3d.road import AHEAD, BEHIND, SHOULDER, edges, ground, road_parts, signs, theme
 from bootcourse.replay3d.timeline import Timeline
-from bootcourse.road.state import EGO, TRAFFIC as FIRST_OF_TRAFFIC, TRAP_1, TRAP_2, X
+from bootcourse.road.state import EGO, TRAP_1, TRAP_2, X
+from bootcourse.road.state import TRAFFIC as FIRST_OF_TRAFFIC
 
 LAMPS = {"off": rgb(LAMP_OFF), "brake": rgb(LAMP_BRAKE), "power": rgb(LAMP_POWER)}
 GHOST = 0.45  # opacity of a driver who is not the followed one
@@ -32,6 +34,13 @@ class Options:
     labels: bool = True
     path: bool = True
     rule: bool = False
+
+    def check(self, drives: int) -> None:
+        """Raises BootcourseError if these options do not fit so many drives."""
+        if not 0 <= self.follow < drives:
+            raise BootcourseError(f"follow = {self.follow}: there are drives 0 to {drives - 1}.")
+        if self.layout not in scene.LAYOUTS:
+            raise BootcourseError(f"layout = '{self.layout}': choose '{scene.ROADS}' or '{scene.GHOSTS}'.")
 
 
 @dataclass
@@ -54,6 +63,7 @@ class Stage:
     """The nodes of all drives on one viser server, and how they follow the time."""
 
     def __init__(self, server, timelines: list[Timeline], options: Options):
+        options.check(len(timelines))
         self.server, self.timelines, self.options = server, timelines, options
         self.drives: list[Drive] = []
         self.build()
@@ -81,15 +91,35 @@ class Stage:
             for drive, view in zip(self.drives, views, strict=True):
                 self._move(drive, view)
 
+    def unsettle(self) -> None:
+        """Set whatever changes to something else, so that the next `show` sends all of it, changed or not.
+
+        A recording that is wound back starts from its first moment's messages alone.
+        """
+        with self.server.atomic():
+            for drive in self.drives:
+                for node in drive.lamps.values():
+                    node.color = (1, 2, 3)
+                texts = [*drive.labels.values()] + ([drive.gap_label] if drive.gap_label else [])
+                for node in texts:
+                    node.text = "…"
+                nodes = [*drive.rings.values(), *texts, drive.crumbs]
+                for node in nodes + ([drive.lane, drive.gap] if drive.lane else []):
+                    node.visible = not node.visible
+                drive.crumbs.vertices = drive.crumbs.vertices + 1.0
+                for node in (drive.road, *drive.cars.values()):
+                    node.position = (-1.0, -1.0, -1.0)
+                    node.wxyz = (0.0, 0.0, 0.0, 1.0)
+
     # --- building ---
 
     def _surroundings(self) -> None:
         colours, api = theme(self.options.dark), self.server.scene
         self._lights(api)
-        api.configure_fog(150.0, 420.0, color=rgb(colours.horizon))
+        api.configure_fog(150.0, 420.0, color=_linear(colours.horizon))
         api.set_background_image(_sky(colours.sky, colours.horizon), format="png")
         api.world_axes.visible = False
-        _mesh(api, "/ground", quad(-900, 900, -900, 900, GROUND_Z), colours.ground)
+        _mesh(api, "/ground", ground(), colours.ground)
         camera, place = self.server.initial_camera, pose(CHASE, self.span)
         camera.position, camera.look_at, camera.fov = place.position, place.look_at, FIELD_OF_VIEW
         camera.near, camera.far = 0.5, 2000.0
@@ -98,11 +128,10 @@ class Stage:
         """Plain lights without a sky picture, so that a paint looks like its colour in a figure."""
         api.configure_default_lights(enabled=False)
         api.configure_environment_map(None)
-        dark = self.options.dark
-        api.add_light_ambient("/lights/ambient", intensity=0.9 if dark else 1.3)
-        api.add_light_hemisphere("/lights/sky", ground_color=(120, 120, 120), intensity=0.5 if dark else 0.9)
-        for name, place, intensity in (("sun", (-30.0, -25.0, 60.0), 1.5), ("fill", (-40.0, 30.0, 15.0), 0.5)):
-            api.add_light_directional(f"/lights/{name}", position=place, intensity=intensity * (0.7 if dark else 1.0))
+        api.add_light_ambient("/lights/ambient", intensity=1.0)
+        api.add_light_hemisphere("/lights/sky", ground_color=(120, 120, 120), intensity=0.7)
+        for name, place, intensity in (("sun", (-30.0, -25.0, 60.0), 1.3), ("fill", (-40.0, 30.0, 15.0), 0.4)):
+            api.add_light_directional(f"/lights/{name}", position=place, intensity=intensity)
 
     def _drive(self, k: int) -> Drive:
         timeline, options, api = self.timelines[k], self.options, self.server.scene
@@ -143,7 +172,7 @@ class Stage:
         for metres in signs(start, end):
             api.add_label(
                 f"{base}/sign{metres}", f"{metres} m", position=(float(metres), right, 1.6),
-                font_size_mode="scene", font_scene_height=0.9, depth_test=True, anchor="bottom-center",
+                font_size_mode="scene", font_scene_height=0.6, depth_test=True, anchor="bottom-center",
             )  # fmt: skip
 
     def _car(self, drive: Drive, name: str, size, car: int, own: str, opacity: float | None) -> None:
@@ -154,7 +183,7 @@ class Stage:
             _mesh(api, f"{name}/{part}", parts[part], tint, opacity=opacity, flat=True)
         drive.lamps[car] = _mesh(api, f"{name}/lamps", parts["lamps"], LAMP_OFF, opacity=opacity)
         _mesh(api, f"{name}/shadow", parts["shadow"], "#000000", opacity=0.28 if opacity is None else 0.12)
-        drive.rings[car] = _mesh(api, f"{name}/ring", ring(3.1, 3.7, 40, 0.06), ALARM, visible=False)
+        drive.rings[car] = _mesh(api, f"{name}/ring", ring(3.1, 3.7, 40, 0.11), ALARM, visible=False)
 
     def _rule(self, drive: Drive, base: str, lane_width: float) -> None:
         api, green = self.server.scene, METHODS["rule"].colour
@@ -169,7 +198,7 @@ class Stage:
     # --- moving ---
 
     def _move(self, drive: Drive, view: scene.DriveView) -> None:
-        drive.road.position = tidy(-view.anchor, 0.0, 0.0)
+        drive.road.position, drive.road.wxyz = tidy(-view.anchor, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0)
         for car, frame in drive.cars.items():
             frame.position = tidy(view.x[car], view.y[car], 0.0)
             frame.wxyz = tuple(round(q * 65536) / 65536 for q in scene.quaternion(view.yaw[car]))
@@ -197,8 +226,8 @@ class Stage:
             node.visible = shown
         if shown:
             rule = view.rule
-            drive.lane.position = tidy(view.x[EGO], rule.lane_y, 0.03)
-            drive.gap.position = tidy(rule.gap_x, rule.gap_y, 0.05)
+            drive.lane.position = tidy(view.x[EGO], rule.lane_y, 0.04)
+            drive.gap.position = tidy(rule.gap_x, rule.gap_y, 0.055)
             drive.gap.scale = (round(rule.gap, 2), 1.0, 1.0)
             drive.gap_label.position = tidy(rule.gap_x + rule.gap / 2, rule.gap_y, 0.4)
             drive.gap_label.text = f"needs {rule.gap:.1f} m" + (": waits" if rule.blocked else "")
@@ -223,6 +252,11 @@ def _crumb_mesh(crumbs: np.ndarray):
     corners = np.stack([x * cos - y * sin, x * sin + y * cos, np.zeros_like(x * cos)], axis=2) + crumbs[:, None, :3]
     faces = (np.arange(len(crumbs))[:, None, None] * 4 + dash.faces[None]).reshape(-1, 3)
     return type(dash)(corners.reshape(-1, 3).astype(np.float32), faces)
+
+
+def _linear(colour: str) -> tuple[int, int, int]:
+    """The colour in linear light: fog is mixed before the screen's gamma, everything else is given after it."""
+    return tuple(round(255 * (channel / 255) ** 2.2) for channel in rgb(colour))
 
 
 def _sky(top: str, horizon: str, height: int = 64) -> np.ndarray:

@@ -6,8 +6,6 @@ import time
 from html import escape
 from pathlib import Path
 
-from bootcourse.errors import BootcourseError
-from bootcourse.record.rollout import Rollout
 from bootcourse.replay3d import scene, server
 from bootcourse.replay3d.gui import Panel
 from bootcourse.replay3d.player import Player
@@ -17,25 +15,11 @@ from bootcourse.replay3d.timeline import Timeline
 HUD_RATE = 10.0  # Hz, of real time: how often the numbers in the panel change
 
 
-def as_list(rollouts) -> list[Rollout]:
-    """One rollout, or several, as a list. Raises BootcourseError for anything else."""
-    rollouts = [rollouts] if isinstance(rollouts, Rollout) else list(rollouts)
-    for rollout in rollouts:
-        if not isinstance(rollout, Rollout):
-            raise BootcourseError(f"Cannot replay {type(rollout).__name__}: give a Rollout, or a list of them.")
-    return rollouts
-
-
 class Replay:
     """What `replay` returns. A notebook shows it as the cell's output; `close()` ends it."""
 
-    def __init__(self, rollouts: list[Rollout], options: Options, port: int = 0, height: int = 640):
-        self.timelines = [Timeline(rollout) for rollout in rollouts]
-        scene.check_comparison(self.timelines)
-        if not 0 <= options.follow < len(rollouts):
-            raise BootcourseError(f"follow = {options.follow}: there are drives 0 to {len(rollouts) - 1}.")
-        if options.layout not in scene.LAYOUTS:
-            raise BootcourseError(f"layout = '{options.layout}': choose '{scene.ROADS}' or '{scene.GHOSTS}'.")
+    def __init__(self, timelines: list[Timeline], options: Options, port: int = 0, height: int = 640):
+        self.timelines = timelines
         self.height, self.closed = height, False
         self._lock, self._hud_due, self._greeted = threading.Lock(), 0.0, False
         self.server = server.start(port)
@@ -76,7 +60,7 @@ class Replay:
 
     def export(self, path: Path) -> Path:
         """Write the same drives as one HTML file that needs nothing but a browser. Returns the path."""
-        from bootcourse.replay3d.export import export
+        from bootcourse.replay3d.recorder import export
 
         return export([timeline.rollout for timeline in self.timelines], path, self.stage.options)
 
@@ -92,7 +76,7 @@ class Replay:
         with self._lock, self.server.atomic():
             self.stage.show(t)
             now = time.monotonic()
-            if now >= self._hud_due or not getattr(self, "player", None) or not self.player.playing:
+            if now >= self._hud_due or not self.player.playing:
                 self._hud_due = now + 1 / HUD_RATE
                 self.panel.refresh(t)
 
@@ -124,7 +108,7 @@ def address_for_browser(port: int) -> tuple[str | None, str]:
     if importlib.util.find_spec("jupyter_server_proxy") is None:
         return None, (
             "This notebook runs behind JupyterHub, where your browser cannot reach the replay's server: install "
-            "jupyter-server-proxy and restart your server, or use bootcourse.replay3d.recording(...) instead of replay(...)."
+            "jupyter-server-proxy and restart your server, or show recording(...) instead of replay(...)."
         )
     return f"{prefix.rstrip('/')}/proxy/{port}/", "Live through this hub's proxy while the kernel runs."
 
@@ -140,7 +124,10 @@ def replay(
     what the rule wants on the road. Running the same notebook cell again replaces its replay.
     Raises BootcourseError if the drives cannot be shown together, or the port is taken.
     """
+    timelines, options = scene.timelines_of(rollouts), Options(layout=layout, follow=follow, dark=dark, rule=rule)
+    options.check(len(timelines))
     cell = server.this_cell()
-    shown = Replay(as_list(rollouts), Options(layout=layout, follow=follow, dark=dark, rule=rule), port, height)
-    server.replace(cell, shown)
+    server.close_shown_by(cell)
+    shown = Replay(timelines, options, port, height)
+    server.note(cell, shown)
     return shown

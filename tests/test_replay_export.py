@@ -1,0 +1,259 @@
+"""The replay as a file: one page that needs nothing but a browser; pictures; and the command that writes them."""
+
+import io
+import os
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from bootcourse import colours
+from bootcourse.drivers import random_driver, rule_driver
+from bootcourse.errors import BootcourseError
+from bootcourse.record.drive import record
+from bootcourse.replay3d import export, pictures, recording, scene
+from bootcourse.replay3d.command import replay_command
+from bootcourse.replay3d.recorder import to_html
+from bootcourse.replay3d.stage import Options
+from bootcourse.replay3d.timeline import Timeline
+from bootcourse.road.state import EGO, Accident
+from bootcourse.scenario import CALIBRATED, DEFAULT, Clock
+from tests.browser import ARTEFACTS, CARS, close_notice, is_blank, needs_browser, open_browser
+
+ROOT = Path(__file__).resolve().parent.parent
+SHORT = replace(DEFAULT, clock=Clock(decisions=20))
+TEN_CARS = replace(DEFAULT, traffic=replace(DEFAULT.traffic, cars=7))
+NODES = """names => Object.fromEntries(names.map(name => {
+    const node = window.__viserMutable.nodeRefFromName[name];
+    return [name, node ? node.visible : null];
+}))"""
+
+
+def thinking(rollout, label="bootstrapped"):
+    rng = np.random.default_rng(0)
+    policy = rng.dirichlet(np.ones(9), size=len(rollout.actions))
+    return replace(rollout, label=label, policy=policy, q_values=rng.normal(size=policy.shape))
+
+
+@pytest.fixture(scope="module")
+def rule_drive():
+    return record(rule_driver(SHORT), [1], SHORT, "rule")[0]
+
+
+@pytest.fixture(scope="module")
+def crash():
+    drives = record(random_driver(np.random.default_rng(0)), range(30), SHORT, "random")
+    return next(d for d in drives if d.accident == Accident.COLLISION and len(d.actions) > 3)
+
+
+@pytest.fixture(scope="module")
+def whole_episode(tmp_path_factory):
+    """150 s of ten cars, exported."""
+    rollout = thinking(record(rule_driver(TEN_CARS), [1], TEN_CARS)[0])
+    return rollout, export(rollout, tmp_path_factory.mktemp("export") / "replay.html", Options(rule=True))
+
+
+def test_a_whole_episode_of_ten_cars_is_one_file_under_3_mb_that_names_no_server(whole_episode):
+    rollout, path = whole_episode
+    assert rollout.states.shape[1] == 10 and path.stat().st_size < 3e6
+    page = path.read_text()
+    assert page.count("</html>") == 1 and "<title>bootstrapped on road 1</title>" in page
+    assert '<script src="' not in page and '<link rel="stylesheet" href="http' not in page
+
+
+def go_to(page, t: float) -> None:
+    """Type a time into the page's own time box; that pauses it."""
+    box = page.locator("input").first
+    box.fill(f"{t:g}")
+    box.press("Enter")
+    page.wait_for_timeout(700)
+
+
+@needs_browser
+def test_the_file_plays_without_a_network_and_every_car_is_where_it_was(whole_episode):
+    rollout, path = whole_episode
+    timelines = scene.timelines_of(rollout)
+    cars = [f"/drive0/car{car}" for car in range(10)]
+    with open_browser(offline=True) as new_page:
+        page = new_page()
+        started = time.monotonic()
+        page.page.goto(path.as_uri())
+        page.page.wait_for_function("() => window.__viserMutable?.nodeRefFromName['/drive0/car9/paint']")
+        print(f"opened in {time.monotonic() - started:.2f} s")
+        page.page.wait_for_timeout(1500)
+        before = page.page.inner_text("#bc-numbers")
+        page.page.wait_for_timeout(2500)
+        assert page.page.inner_text("#bc-numbers") != before, "it does not play"
+        for t in (60.0, 0.0, 33.4):  # forwards and backwards
+            go_to(page.page, t)
+            placed = page.page.evaluate(CARS, cars)
+            drawn = round(t * 30) / 30  # the frame that the file holds
+            near = [scene.view(timelines, drawn + shift)[0] for shift in (-1 / 30, 0.0, 1 / 30)]
+            wrong = [
+                max(np.hypot(v.x[c] - placed[n][0], v.y[c] - placed[n][1]) for c, n in enumerate(cars)) for v in near
+            ]
+            assert min(wrong) < 5e-3, (t, wrong)
+            shown = float(page.page.inner_text("#bc-numbers .big b >> nth=0"))
+            assert abs(shown - t) <= 0.5, "the numbers lag behind"
+            rings = page.page.evaluate(NODES, [f"{car}/ring" for car in cars])
+            assert not any(rings.values())
+        close_notice(page.page)
+        picture = page.page.screenshot(path=ARTEFACTS / "test_export.png")
+        road = np.asarray(Image.open(io.BytesIO(picture)).convert("L"))[300:650, 320:]
+        assert not is_blank(picture) and (road > 200).sum() > 2000, "no markings on the road"
+        page.page.get_by_role("button", name="bird's eye").click()
+        page.page.wait_for_timeout(1500)
+        height = page.page.evaluate("window.__viserMutable.cameraControl.camera.position.y")
+        assert height > 50, "the camera does not move"
+        assert page.errors == [] and all(url.startswith(("file:", "blob:", "data:")) for url in page.requests)
+
+
+@needs_browser
+def test_a_recording_plays_inside_a_saved_page_and_marks_the_accident(crash, tmp_path):
+    shown = recording(crash)
+    bundle = shown._repr_mimebundle_()["text/html"]
+    assert "data:image/png;base64," in bundle and "<iframe srcdoc=" in bundle
+    page_path = tmp_path / "notebook.html"
+    page_path.write_text(f"<!doctype html><meta charset=utf-8><body>{bundle}</body>")
+    with open_browser(width=900, offline=True) as new_page:
+        page = new_page()
+        page.page.goto(page_path.as_uri())
+        page.page.wait_for_function("() => frames[0].__viserMutable?.nodeRefFromName['/drive0/car0/paint']")
+        inside = page.page.frames[1]
+        go_to(inside, Timeline(crash).duration)
+        page.page.wait_for_timeout(500)
+        assert "collision" in inside.inner_text("#bc-numbers")
+        assert inside.evaluate(NODES, ["/drive0/car0/ring"])["/drive0/car0/ring"]
+        go_to(inside, 0.5)
+        assert not inside.evaluate(NODES, ["/drive0/car0/ring"])["/drive0/car0/ring"], (
+            "wound back, nothing has happened yet"
+        )
+        go_to(inside, Timeline(crash).duration)
+        assert not is_blank(page.page.screenshot(path=ARTEFACTS / "test_recording_accident.png"))
+        assert page.errors == []
+
+
+def test_a_label_from_a_file_cannot_write_into_the_exported_page(crash):
+    page = to_html(replace(crash, label="<script>alert(1)</script> @PLOTS@"))
+    assert "<script>alert" not in page and page.count('id="bc-plots"') == 1
+
+
+def near(image: Image.Image, colour: str, tolerance: int = 30) -> np.ndarray:
+    """Which pixels have about that colour."""
+    return (np.abs(np.asarray(image.convert("RGB")).astype(int) - colours.rgb(colour)) < tolerance).all(axis=2)
+
+
+def test_a_picture_shows_the_cars_in_their_colours(rule_drive):
+    image = Image.open(io.BytesIO(pictures.png_bytes(rule_drive, t=5.0, size=(640, 360))))
+    assert image.size == (640, 360)
+    ego, traps = near(image, "#009E73"), near(image, colours.TRAP)
+    assert ego[200:].sum() > 300 and traps.sum() > 100
+    rows, columns = np.nonzero(ego[200:])
+    left = scene.view(scene.timelines_of(rule_drive), 5.0)[0].y[EGO] + 4.0 > 0  # of the middle of the road
+    assert (columns.mean() < 320) == left
+
+
+@pytest.mark.parametrize("options", [Options(dark=True), Options(rule=True), Options(layout=scene.GHOSTS, follow=1)])
+@pytest.mark.parametrize("camera", ["chase", "bird's eye", "side", "free"])
+def test_every_camera_paints_something(rule_drive, options, camera):
+    drives = [replace(rule_drive, label="sac"), rule_drive]
+    assert not is_blank(pictures.png_bytes(drives, 6.0, options, camera=camera, size=(320, 180)), least=100)
+
+
+def test_one_picture_shows_the_accident(crash):
+    timeline = Timeline(crash)
+    assert pictures.best_moment(timeline) == timeline.duration
+    image = Image.open(io.BytesIO(pictures.png_bytes(crash, size=(640, 360))))
+    assert near(image, colours.ALARM).sum() > 200
+
+
+def test_a_gif_moves_at_ten_frames_a_second(rule_drive):
+    image = Image.open(io.BytesIO(pictures.gif_bytes(rule_drive, start=3.0, seconds=1.0, size=(320, 180))))
+    assert image.n_frames == 11 and image.info["duration"] == 100
+    first = np.asarray(image.convert("RGB"))
+    image.seek(10)
+    assert (np.asarray(image.convert("RGB")) != first).any()
+
+
+def test_the_command_writes_what_is_asked_for(rule_drive, tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(pictures, "GIF_SECONDS", 0.5)
+    monkeypatch.setattr(pictures, "gif_bytes", lambda *a, **k: b"GIF89a")
+    file = rule_drive.save(tmp_path / "drive.npz")
+    out = {kind: tmp_path / "new" / f"replay.{kind}" for kind in ("html", "gif", "png")}
+    replay_command([file], export=out["html"], gif=out["gif"], png=out["png"])
+    assert all(path.stat().st_size > 0 for path in out.values())
+    assert str(out["html"]) in capsys.readouterr().out
+
+
+def broken_files(folder: Path, drive) -> dict:
+    """Files that cannot be replayed: name -> (paths, keyword arguments, words of the refusal)."""
+    good = drive.save(folder / "good.npz")
+    arrays = dict(np.load(good))
+    (folder / "cut.npz").write_bytes(good.read_bytes()[:2000])
+    (folder / "text.npz").write_text("not a rollout")
+    np.savez(folder / "nan.npz", **{**arrays, "states": np.where(arrays["states"] == 0, np.nan, arrays["states"])})
+    old = str(arrays["header"]).replace("bootcourse rollout 1", "bootcourse rollout 0")
+    np.savez(folder / "old.npz", **{**arrays, "header": np.array(old)})
+    np.savez(folder / "empty.npz", **{k: v[:0] if v.ndim else v for k, v in arrays.items()})
+    np.savez(folder / "pickle.npz", **{**arrays, "states": np.array([{"a": 1}], dtype=object)})
+    other = record(rule_driver(CALIBRATED), [1], CALIBRATED, "rule")[0].save(folder / "other.npz")
+    seed = record(rule_driver(SHORT), [2], SHORT, "rule")[0].save(folder / "seed.npz")
+    (folder / "file").write_text("a file where a folder is wanted")
+    html = {"export": folder / "out.html"}
+    return {
+        "no file": ([folder / "none.npz"], html, "none.npz"),
+        "cut short": ([folder / "cut.npz"], html, "cut.npz is damaged"),
+        "not a rollout": ([folder / "text.npz"], html, "text.npz"),
+        "NaN": ([folder / "nan.npz"], html, "NaN"),
+        "older format": ([folder / "old.npz"], html, "rollout 0"),
+        "no steps": ([folder / "empty.npz"], html, "no decisions"),
+        "a pickle": ([folder / "pickle.npz"], html, "damaged"),
+        "another scenario": ([good, other], html, "one scenario"),
+        "another seed": ([good, seed], html, "same seed"),
+        "no files": ([], html, "at least one"),
+        "a path that cannot be written": ([good], {"export": folder / "file" / "out.html"}, "Cannot write"),
+        "a wrong ending": ([good], {"export": folder / "out.txt"}, ".html"),
+        "a gif that is not one": ([good], {"gif": folder / "out.mp4"}, ".gif"),
+    }
+
+
+CASES = (
+    "no file, cut short, not a rollout, NaN, older format, no steps, a pickle, another scenario, another seed, "
+    "no files, a path that cannot be written, a wrong ending, a gif that is not one"
+).split(", ")
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_bad_input_gets_one_sentence_and_nothing_half_written(case, rule_drive, tmp_path):
+    cases = broken_files(tmp_path, rule_drive)
+    assert list(cases) == CASES
+    files, wanted, words = cases[case]
+    before = sorted(tmp_path.rglob("*"))
+    with pytest.raises(BootcourseError) as refusal:
+        replay_command(files, **wanted)
+    assert words in str(refusal.value) and "\n" not in str(refusal.value)
+    assert sorted(tmp_path.rglob("*")) == before
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGINT to send")
+def test_on_the_command_line_it_prints_its_address_and_ctrl_c_ends_it(rule_drive, tmp_path):
+    file = rule_drive.save(tmp_path / "drive.npz")
+    script = f"from bootcourse.replay3d.command import replay_command; replay_command([{str(file)!r}], browser=False)"
+    process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True, cwd=ROOT)
+    line = process.stdout.readline()
+    assert line.startswith("Replay at http://127.0.0.1:")
+    process.send_signal(signal.SIGINT)
+    assert process.wait(timeout=15) == 0
+
+
+def test_what_does_not_show_a_replay_does_not_import_viser():
+    code = (
+        "import bootcourse.drivers, bootcourse.record.drive, bootcourse.colours, sys; assert 'viser' not in sys.modules"
+    )
+    assert subprocess.run([sys.executable, "-c", code], cwd=ROOT).returncode == 0

@@ -1,0 +1,246 @@
+"""What is drawn where, against the rollout; the car; the numbers of the head-up display."""
+
+import math
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bootcourse import colours
+from bootcourse.drivers import idle_driver, random_driver, rule_driver
+from bootcourse.errors import BootcourseError
+from bootcourse.record.drive import record
+from bootcourse.replay3d import hud, scene
+from bootcourse.replay3d.camera import CAMERAS, pose
+from bootcourse.replay3d.car import car_parts
+from bootcourse.replay3d.road import divider_ys, edges, road_parts
+from bootcourse.replay3d.timeline import Timeline
+from bootcourse.road.state import CRASHED, EGO, HEADING, TRAP_1, Accident, X, Y
+from bootcourse.rule import stochastic_rule
+from bootcourse.scenario import CALIBRATED, DEFAULT, Clock, Road
+
+SHORT = replace(DEFAULT, clock=Clock(decisions=20))
+
+
+def thinking(rollout, label="bootstrapped"):
+    """The same drive, with the probabilities and values of an agent that nobody has trained."""
+    rng = np.random.default_rng(0)
+    policy = rng.dirichlet(np.ones(9), size=len(rollout.actions))
+    return replace(rollout, label=label, policy=policy, q_values=rng.normal(size=policy.shape))
+
+
+@pytest.fixture(scope="module")
+def rule_drive():
+    return record(rule_driver(SHORT), [1], SHORT, "rule")[0]
+
+
+@pytest.fixture(scope="module")
+def idle_drive():
+    return record(idle_driver, [1], SHORT, "sac")[0]
+
+
+@pytest.fixture(scope="module")
+def accidents():
+    """One drive of each kind that a random driver meets."""
+    drives = record(random_driver(np.random.default_rng(0)), range(30), SHORT, "random")
+    return {
+        kind: next(d for d in drives if d.accident == kind) for kind in (Accident.COLLISION, Accident.ROAD_DEPARTURE)
+    }
+
+
+def test_every_car_stands_where_the_rollout_says_with_y_mirrored(rule_drive):
+    timelines = scene.timelines_of(rule_drive)
+    for step in (0, 7, 40):
+        [view] = scene.view(timelines, step * 0.5)
+        states = rule_drive.states[step]
+        np.testing.assert_allclose(view.x + view.anchor, states[:, X], atol=1e-9)
+        np.testing.assert_allclose(view.y, -states[:, Y], atol=1e-9)
+        np.testing.assert_allclose(view.yaw, -states[:, HEADING], atol=1e-9)
+        assert view.x[EGO] == 0.0
+
+
+def test_a_car_points_where_it_goes(rule_drive):
+    timelines, h = scene.timelines_of(rule_drive), 0.05
+    for t in np.arange(0.2, 18, 0.37):
+        [a], [b] = scene.view(timelines, t), scene.view(timelines, t + h)
+        course = np.arctan2(b.y - a.y, b.x + b.anchor - a.x - a.anchor)
+        assert np.abs(course - a.yaw).max() < 0.08  # the slip angle, and what one step turns
+
+
+def test_left_on_the_road_is_left_in_the_world(rule_drive):
+    left, right = edges(DEFAULT.road)
+    assert left > right and divider_ys(DEFAULT.road) == [-2.0, -6.0]
+    assert (
+        scene.view(scene.timelines_of(rule_drive), 20.0)[0].y[EGO]
+        > scene.view(scene.timelines_of(rule_drive), 0.0)[0].y[EGO]
+    )
+
+
+def test_the_lamps_show_braking_and_accelerating(rule_drive):
+    timelines = scene.timelines_of(rule_drive)
+    braking = np.flatnonzero(rule_drive.actions // 3 == 0)[0]
+    pushing = np.flatnonzero(rule_drive.actions // 3 == 2)[0]
+    assert scene.view(timelines, braking + 0.2)[0].lamps[EGO] == "brake"
+    assert scene.view(timelines, pushing + 0.2)[0].lamps[EGO] == "power"
+
+
+def test_the_path_is_a_dot_per_step_and_the_future_is_hidden(rule_drive):
+    crumbs = scene.crumbs(Timeline(rule_drive), 3.2)
+    shown = crumbs[crumbs[:, 2] > 0]
+    np.testing.assert_allclose(shown[:, 0], rule_drive.states[:7, EGO, X])
+    np.testing.assert_allclose(shown[:, 1], -rule_drive.states[:7, EGO, Y])
+
+
+@pytest.mark.parametrize("kind", [Accident.COLLISION, Accident.ROAD_DEPARTURE])
+def test_an_accident_marks_its_cars_at_its_moment_and_says_its_kind(accidents, kind):
+    rollout = accidents[kind]
+    timelines = scene.timelines_of(rollout)
+    duration = timelines[0].duration
+    assert not scene.view(timelines, duration - 0.6)[0].marked[EGO]
+    [view] = scene.view(timelines, duration)
+    crashed = set(np.flatnonzero(rollout.states[-1, :, CRASHED])) | {EGO}
+    assert set(np.flatnonzero(view.marked)) == crashed and (len(crashed) > 1) == (kind == Accident.COLLISION)
+    assert view.labels[EGO] == scene.ACCIDENTS[kind] == hud.status(timelines[0], duration)[0]
+
+
+def test_the_rule_s_lane_and_gap_lie_where_the_rule_wants_them(rule_drive):
+    timelines = scene.timelines_of(rule_drive)
+    for k in range(0, 20, 3):
+        marks = scene.view(timelines, k + 0.0)[0].rule
+        assert marks.lane_y == -4.0 * rule_drive.rule_lanes[k] and marks.gap == rule_drive.rule_distances[k]
+        assert marks.gap_x == pytest.approx(2.5)
+
+
+def test_the_distance_to_a_trap_is_from_bumper_to_bumper(rule_drive):
+    ahead = rule_drive.states[0, TRAP_1, X] - rule_drive.states[0, EGO, X] - 5.0
+    assert scene.view(scene.timelines_of(rule_drive), 0.0)[0].labels[TRAP_1] == f"trap 1: {ahead:.1f} m ahead"
+
+
+def test_side_by_side_no_road_lies_on_another_and_each_follows_its_own_car(rule_drive, idle_drive):
+    timelines = scene.timelines_of([idle_drive, rule_drive])
+    views = scene.view(timelines, 15.0)
+    assert [view.x[EGO] for view in views] == [0.0, 0.0] and views[0].anchor != views[1].anchor
+    assert views[0].offset - views[1].offset > 3 * 4.0
+
+
+def test_ghosts_share_the_road_of_the_followed_car(rule_drive, idle_drive):
+    timelines = scene.timelines_of([idle_drive, rule_drive])
+    views = scene.view(timelines, 15.0, scene.GHOSTS, follow=1)
+    assert views[0].offset == views[1].offset and views[0].anchor == views[1].anchor and views[1].x[EGO] == 0.0
+    assert views[0].x[EGO] == pytest.approx(timelines[0].at(15.0).x[EGO] - timelines[1].at(15.0).x[EGO])
+
+
+def test_a_drive_that_ended_waits_for_the_others(accidents, idle_drive):
+    crash = accidents[Accident.COLLISION]
+    other = record(idle_driver, [crash.seed], SHORT, "sac")[0]
+    timelines = scene.timelines_of([crash, other])
+    early, late = scene.view(timelines, timelines[0].duration), scene.view(timelines, 20.0)
+    np.testing.assert_array_equal(early[0].x, late[0].x)
+    assert late[0].ended and late[1].anchor > early[1].anchor
+
+
+def with_nan(rollout):
+    broken = replace(rollout, states=rollout.states.copy())
+    broken.states[3, 0, X] = np.nan
+    return broken
+
+
+REFUSED = {
+    "nothing": (lambda r: [], "There is no rollout"),
+    "something else": (lambda r: ["drive.npz"], "Cannot replay str"),
+    "too many": (lambda r: [r] * 9, "at most 8"),
+    "another scenario": (lambda r: [r, record(rule_driver(CALIBRATED), [1], CALIBRATED)[0]], "drives of one scenario"),
+    "another seed": (lambda r: [r, record(rule_driver(SHORT), [2], SHORT)[0]], "the same seed"),
+    "NaN": (lambda r: with_nan(r), "record this drive again"),
+}
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_drives_that_cannot_be_shown_together_get_one_sentence(case, rule_drive):
+    make, sentence = REFUSED[case]
+    with pytest.raises(BootcourseError, match=sentence) as refusal:
+        scene.timelines_of(make(rule_drive))
+    assert "\n" not in str(refusal.value)
+
+
+@pytest.mark.parametrize("part", ["paint", "dark", "light", "lamps"])
+def test_the_car_is_closed_faces_outward_and_fits_its_rectangle(part):
+    mesh = car_parts()[part]
+    a, b, c = (mesh.vertices[mesh.faces[:, i]] for i in range(3))
+    assert np.einsum("ij,ij->", a, np.cross(b, c)) > 0
+    edges_of = [tuple(edge) for face in mesh.faces for edge in zip(face, np.roll(face, -1), strict=True)]
+    assert len(edges_of) == len(set(edges_of)) and {(j, i) for i, j in edges_of} == set(edges_of)
+    assert np.abs(mesh.vertices[:, 0]).max() < 2.55 and np.abs(mesh.vertices[:, 1]).max() < 1.05
+    assert mesh.vertices[:, 2].min() > -0.01
+
+
+def test_the_car_is_low_polygon_and_scales_with_the_scenario():
+    assert sum(len(mesh.faces) for mesh in car_parts().values()) < 600
+    assert np.ptp(car_parts(4.0, 1.8)["paint"].vertices[:, 0]) == pytest.approx(4.0)
+
+
+def test_the_road_reaches_from_its_start_to_its_end():
+    parts = road_parts(Road(), -100.0, 500.0)
+    assert parts["asphalt"].vertices[:, 0].min() == -100 and parts["asphalt"].vertices[:, 0].max() == 500
+    assert set(parts) == {"asphalt", "lines", "posts"}
+
+
+def test_a_camera_stands_apart_from_what_it_looks_at():
+    for name in CAMERAS:
+        place = pose(name, 14.0)
+        assert math.dist(place.position, place.look_at) > 10 and place.position[2] > 3
+        assert pose(name, 90.0).position[2] > place.position[2]
+
+
+def test_a_label_chooses_the_colour():
+    assert colours.style("bootstrapped").colour == "#D55E00" == colours.style("Bootstrapped, seed 3").colour
+    assert colours.style("my own") is colours.OTHER and colours.rgb("#0072B2") == (0, 114, 178)
+
+
+def test_kl_is_what_one_works_out_by_hand():
+    rule = stochastic_rule(np.array(0), 0.9)
+    certain = np.eye(9)[6]
+    assert hud.kl(certain, rule) == pytest.approx(math.log(8 / 0.1))
+    assert hud.kl(rule, rule) == 0.0
+
+
+def text(html):
+    return re.sub(r"\s+", " ", re.sub(r"<[^>]*>", " ", html))
+
+
+def test_the_numbers_are_those_of_the_rollout(rule_drive):
+    rollout = thinking(rule_drive)
+    shown = text(hud.card(Timeline(rollout), 7.5))
+    timeline = Timeline(rollout)
+    assert "7.5 of 20 s" in shown and f"{timeline.at(7.5).speed[EGO]:.1f} m/s" in shown
+    assert f"return {rollout.rewards[:7].sum():.2f}" in shown and f"reward {rollout.rewards[6]:.3f}" in shown
+    assert f"KL(π‖π̃) = {hud.kl(rollout.policy[7], stochastic_rule(rollout.rule_actions[7], 0.9)):.2f} nats" in shown
+    assert f"{rollout.q_values[7, 3]:.2f}" in shown and "Rule:" in shown
+
+
+def test_a_driver_without_thoughts_has_none_shown(rule_drive):
+    bare = replace(
+        rule_drive, rule_actions=None, rule_speeds=None, rule_lanes=None, rule_distances=None, rule_reasons=None
+    )
+    shown = text(hud.card(Timeline(bare), 3.0))
+    assert "KL" not in shown and "Rule:" not in shown and " Q " not in shown and "accelerate left" in shown
+    assert scene.view(scene.timelines_of(bare), 3.0)[0].rule is None
+
+
+def test_a_label_from_a_file_cannot_write_into_the_page(rule_drive):
+    nasty = replace(rule_drive, label="<script>alert(1)</script>")
+    for html in (hud.card(Timeline(nasty), 1.0), hud.table([Timeline(nasty)], 1.0), hud.plots([Timeline(nasty)])):
+        assert "<script" not in html
+
+
+def test_the_plots_mark_an_accident(accidents, idle_drive):
+    assert hud.plots([Timeline(accidents[Accident.COLLISION])]).count(colours.ALARM) == 3
+    assert colours.ALARM not in hud.plots([Timeline(idle_drive)])
+    assert hud.cursor(0.25) == "<style>:root{--bc-t:0.2500}</style>"
+
+
+def test_success_and_being_trapped_are_said_at_the_end():
+    rule, idle = (record(d, [1], DEFAULT, "x")[0] for d in (rule_driver(DEFAULT), idle_driver))
+    assert hud.status(Timeline(rule), 150.0)[0] == "escaped" and hud.status(Timeline(idle), 150.0)[0] == "trapped"
+    assert hud.status(Timeline(idle), 10.0)[0] == ""

@@ -1,0 +1,316 @@
+"""The live replay: it starts, serves, stops, frees its port, stays on this machine, and shows what was driven."""
+
+import socket
+import subprocess
+import sys
+import threading
+import time
+import urllib.request
+from dataclasses import replace
+from pathlib import Path
+
+import msgspec
+import numpy as np
+import pytest
+import viser
+import viser._viser
+from websockets.sync.client import connect
+
+from bootcourse.drivers import idle_driver, rule_driver
+from bootcourse.errors import BootcourseError
+from bootcourse.record.drive import record
+from bootcourse.replay3d import replay, scene, server, viewer
+from bootcourse.replay3d.camera import BIRD, SIDE, point, pose
+from bootcourse.replay3d.player import SPEEDS
+from bootcourse.road.state import EGO
+from bootcourse.scenario import DEFAULT, Clock
+from tests.browser import ARTEFACTS, CARS, close_notice, is_blank, needs_browser, open_browser
+
+SHORT = replace(DEFAULT, clock=Clock(decisions=20))
+
+
+@pytest.fixture(scope="module")
+def drives():
+    return [
+        record(driver, [1], SHORT, label)[0] for driver, label in ((idle_driver, "sac"), (rule_driver(SHORT), "rule"))
+    ]
+
+
+@pytest.fixture
+def shown(drives):
+    with replay(drives[1]) as live:
+        yield live
+
+
+def is_open(port: int, host: str = "127.0.0.1") -> bool:
+    with socket.socket() as probe:
+        probe.settimeout(1.0)
+        return probe.connect_ex((host, port)) == 0
+
+
+def wait_for(condition, seconds: float = 10.0) -> bool:
+    deadline = time.monotonic() + seconds
+    while not condition() and time.monotonic() < deadline:
+        time.sleep(0.02)
+    return bool(condition())
+
+
+def ask(port: int, message: dict) -> None:
+    """Speak to the server as a viewer's page does."""
+    with connect(f"ws://127.0.0.1:{port}", subprotocols=[f"viser-v{viser.__version__}"], max_size=None) as socket:
+        socket.send(msgspec.msgpack.encode(message))
+        time.sleep(0.5)
+
+
+def test_it_starts_serves_stops_and_frees_its_port_ten_times_in_a_row(drives):
+    threads = threading.active_count()
+    for _ in range(10):
+        with replay(drives[1]) as live:
+            with urllib.request.urlopen(live.url, timeout=10) as page:
+                assert page.status == 200 and b"<html" in page.read()
+            port = live.port
+        assert not is_open(port)
+        live.close()  # closing twice does nothing
+    assert not server.running() and wait_for(lambda: threading.active_count() <= threads + 1)
+
+
+def test_it_says_nothing_of_its_own(drives, capfd):
+    replay(drives[1]).close()
+    assert capfd.readouterr() == ("", "")
+
+
+def test_it_listens_on_this_machine_only(shown):
+    assert shown.server.get_host() == "127.0.0.1" and is_open(shown.port)
+    bound = [s.getsockname()[0] for s in _listening(shown.server)]
+    assert bound == ["127.0.0.1"]
+    if sys.platform == "linux":  # where all of 127.x.x.x is this machine: listening on every address would answer here
+        assert not is_open(shown.port, "127.0.0.2")
+
+
+def _listening(live):
+    loop, found = live._websock_server._background_event_loop, []
+    import gc
+    from asyncio.base_events import Server
+
+    for thing in gc.get_objects():
+        if isinstance(thing, Server) and thing.get_loop() is loop:
+            found += thing.sockets
+    return found
+
+
+class NoTunnel:
+    opened = []
+
+    def __init__(self, host, port):
+        NoTunnel.opened.append((host, port))
+
+    def get_status(self):
+        return "failed"
+
+    def close(self):
+        pass
+
+    def get_url(self):
+        return None
+
+    def on_connect(self, callback):
+        return callback
+
+    on_disconnect = on_connect
+
+
+def test_a_viewer_cannot_make_it_open_a_public_link(shown, monkeypatch):
+    monkeypatch.setattr(viser._viser, "ViserTunnel", NoTunnel)
+    NoTunnel.opened.clear()
+    ask(shown.port, {"type": "ShareUrlRequest"})
+    assert NoTunnel.opened == [] and shown.server._share_tunnel is None
+    assert shown.server.request_share_url() is None and NoTunnel.opened == []
+
+
+def test_plain_viser_would_have_opened_one(monkeypatch):
+    """The test above can fail: the same request makes an ordinary server reach for its tunnel."""
+    monkeypatch.setattr(viser._viser, "ViserTunnel", NoTunnel)
+    NoTunnel.opened.clear()
+    with server.quiet():
+        plain = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+        try:
+            ask(plain.get_port(), {"type": "ShareUrlRequest"})
+            assert wait_for(lambda: len(NoTunnel.opened) == 1)
+        finally:
+            plain.stop()
+
+
+def test_a_port_in_use_gets_one_sentence(drives):
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        port = taken.getsockname()[1]
+        with pytest.raises(BootcourseError, match=f"Port {port} is in use"):
+            replay(drives[1], port=port)
+    with pytest.raises(BootcourseError, match="does not exist"):
+        replay(drives[1], port=70_000)
+    with replay(drives[1], port=port) as live:
+        assert live.port == port
+
+
+def test_running_a_cell_again_replaces_its_replay_even_on_the_same_port(drives, monkeypatch):
+    monkeypatch.setattr(server, "this_cell", lambda: "cell 1")
+    first = replay(drives[1])
+    port = first.port
+    second = replay(drives[0], port=port)
+    assert first.closed and second.port == port and server.running() == [second]
+    monkeypatch.setattr(server, "this_cell", lambda: "cell 2")
+    third = replay(drives[1])
+    assert server.running() == [second, third]
+    second.close(), third.close()
+
+
+def test_a_refused_replay_leaves_the_cell_s_old_one_alone(drives, monkeypatch):
+    monkeypatch.setattr(server, "this_cell", lambda: "cell 1")
+    with replay(drives[1]) as live:
+        for wrong in ({"follow": 3}, {"layout": "on the moon"}):
+            with pytest.raises(BootcourseError):
+                replay(drives, **wrong)
+        assert not live.closed and is_open(live.port)
+
+
+def test_it_ends_with_its_process():
+    script = (
+        "from bootcourse.drivers import idle_driver; from bootcourse.record.drive import record; "
+        "from bootcourse.replay3d import replay; live = replay(record(idle_driver, [1])[0]); print(live.port)"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60, cwd=ROOT)
+    assert done.returncode == 0 and done.stderr == "", done.stderr
+    assert not is_open(int(done.stdout))
+
+
+ROOT = Path(__file__).resolve().parent.parent
+
+
+def test_behind_a_hub_it_goes_through_the_proxy_or_says_what_to_do(monkeypatch):
+    import importlib.util
+
+    monkeypatch.setenv("JUPYTERHUB_SERVICE_PREFIX", "/user/ada/")
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
+    address, advice = viewer.address_for_browser(4321)
+    assert address is None and "install jupyter-server-proxy" in advice
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: object())
+    assert viewer.address_for_browser(4321)[0] == "/user/ada/proxy/4321/"
+
+
+def test_a_cell_shows_a_frame_around_the_live_page(shown):
+    html = shown._repr_mimebundle_()["text/html"]
+    assert f'<iframe src="{shown.url}"' in html and ".export(" in html
+
+
+def test_without_viewers_the_clock_waits_and_nothing_is_sent(shown):
+    shown.player.play()
+    time.sleep(0.3)
+    assert shown.player.t == 0.0
+
+
+@needs_browser
+def test_in_a_browser_the_cars_are_where_they_were_and_move(drives):
+    with replay(drives, rule=True) as live, open_browser() as new_page:
+        page = new_page()
+        page.page.goto(live.url)
+        assert wait_for(lambda: live.server.get_clients(), 20), "no viewer arrived"
+        assert wait_for(lambda: live.player.t > 0.3), "it did not start to play by itself"
+        live.player.pause()
+        live.player.seek(7.3)
+        views = scene.view(live.timelines, 7.3)
+        expected = {f"/drive{k}/car{car}": (views[k].x[car], views[k].y[car]) for k in (0, 1) for car in range(9)}
+
+        def off() -> float:
+            placed = page.page.evaluate(CARS, list(expected))
+            return max(abs(np.array(placed[name][:2]) - place).max() for name, place in expected.items())
+
+        assert wait_for(lambda: off() < 2e-3, 15), off()
+        first, second = live.server.get_clients()[0], new_page()
+        second.page.goto(live.url)
+        assert wait_for(lambda: len(live.server.get_clients()) == 2, 20)
+        point(first.camera, SIDE, live.stage.span)
+        other = live.server.get_clients()[1].camera
+        assert wait_for(lambda: np.allclose(first.camera.position, pose(SIDE, live.stage.span).position, atol=0.1))
+        assert not np.allclose(other.position, first.camera.position, atol=1.0), "a camera is each viewer's own"
+        point(first.camera, BIRD, live.stage.span)
+        close_notice(page.page)
+        page.page.wait_for_timeout(1000)
+        picture = page.page.screenshot(path=ARTEFACTS / "test_live_compare.png")
+        assert not is_blank(picture)
+        assert "rule" in page.page.inner_text("body") and page.errors == [] and second.errors == []
+
+
+@needs_browser
+def test_in_a_browser_the_buttons_and_the_slider_work(drives):
+    with replay(drives[1]) as live, open_browser() as new_page:
+        page = new_page().page
+        page.goto(live.url)
+        assert wait_for(lambda: live.player.playing, 20)
+        page.get_by_role("button", name="Pause").click()
+        assert wait_for(lambda: not live.player.playing)
+        now = live.player.t
+        page.get_by_role("button", name="▸", exact=True).click()
+        assert wait_for(lambda: live.player.t > now) and live.player.t % 0.5 == 0.0
+        track = page.locator(".mantine-Slider-root").first.bounding_box()
+        page.mouse.click(track["x"] + 0.5 * track["width"], track["y"] + track["height"] / 2)
+        assert wait_for(lambda: abs(live.player.t - 10.0) < 1.0), live.player.t
+        assert wait_for(lambda: f"{live.player.t:.1f}" in page.inner_text("body"))
+        assert live.stage.options.rule is False
+        page.get_by_label("What the rule wants").click()
+        assert wait_for(lambda: live.stage.options.rule and live.stage.drives[0].lane.visible)
+
+
+def test_speeds_run_from_a_quarter_to_eight():
+    assert (min(SPEEDS.values()), max(SPEEDS.values())) == (0.25, 8.0)
+
+
+def test_one_moment_is_one_batch(shown):
+    """Whatever changes between two frames leaves within one atomic block of the server."""
+    buffer = shown.server._websock_server._broadcast_buffer
+    depths, push = [], buffer.push
+    buffer.push = lambda message: (depths.append(buffer.atomic_counter), push(message))
+    shown._frame(3.3)
+    assert len(depths) > 10 and min(depths) >= 1
+    assert shown.stage.drives[0].cars[EGO].position[0] == 0.0
+
+
+def run_in_cell(client, cell: str, code: str) -> list[dict]:
+    """Run code in a kernel as JupyterLab runs a cell; returns its outputs."""
+    content = {"code": code, "silent": False, "store_history": False, "user_expressions": {}, "allow_stdin": False}
+    message = client.session.msg("execute_request", content, metadata={"cellId": cell})
+    client.shell_channel.send(message)
+    outputs = []
+    while True:
+        reply = client.get_iopub_msg(timeout=60)
+        if reply["parent_header"].get("msg_id") != message["header"]["msg_id"]:
+            continue
+        if reply["msg_type"] == "status" and reply["content"]["execution_state"] == "idle":
+            return outputs
+        if reply["msg_type"] not in ("status", "execute_input"):
+            outputs.append(reply)
+
+
+def test_in_a_kernel_a_cell_shows_one_frame_replaces_it_when_run_again_and_ends_with_the_kernel(drives, tmp_path):
+    from jupyter_client.manager import start_new_kernel
+
+    file = drives[1].save(tmp_path / "drive.npz")
+    setup = f"""
+from bootcourse.record.rollout import Rollout
+from bootcourse.replay3d import replay
+r = Rollout.load({str(file)!r})
+"""
+    manager, client = start_new_kernel(cwd=str(ROOT))
+    try:
+        assert run_in_cell(client, "setup", setup) == []
+
+        def port_shown_by(cell: str) -> int:
+            [output] = run_in_cell(client, cell, "replay(r)")  # and no banner
+            return int(output["content"]["data"]["text/html"].split("http://127.0.0.1:")[1].split('"')[0])
+
+        first, other, again = port_shown_by("a"), port_shown_by("b"), port_shown_by("a")
+        assert not is_open(first) and is_open(other) and is_open(again)
+    finally:
+        client.stop_channels()
+        manager.shutdown_kernel()
+    assert not is_open(other) and not is_open(again)
