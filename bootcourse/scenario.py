@@ -254,13 +254,21 @@ class Scenario:
             _check(
                 isinstance(part, f.type), f"Scenario.{f.name} = {part!r}: expected {f.type.__name__}, see its fields."
             )
+        limit = self.road.speed_limit
+        for part, fastest in ((self.traps, self.traps.speed), (self.traffic, self.traffic.speed[1])):
+            _check(
+                fastest <= limit,
+                f"{type(part).__name__}.speed = {part.speed} m/s is above the road's speed limit ({limit} m/s).",
+            )
         seconds = self.clock.decisions / self.clock.decision_rate
-        head_start = self.traps.d1[1] + self.traffic.lead + self.traffic.cars * self.traffic.headway * self.traffic.spacing[1]
-        wanted = max(self.traffic.desired_speed, self.traps.speed, self.traffic.speed[1])
-        reach = max(seconds * self.ego.max_speed, head_start + seconds * min(wanted, self.road.speed_limit))
+        t = self.traffic
+        head_start = self.traps.d1[1] + t.lead + t.cars * t.headway * t.spacing[1]
+        wanted = max(t.desired_speed, self.traps.speed, t.speed[1])
+        reach = max(seconds * self.ego.max_speed, head_start + seconds * min(wanted, limit))
         _check(
             self.road.length >= reach,
-            f"Road.length = {self.road.length} m is shorter than the {reach:.0f} m that a car can drive in {seconds:.0f} s.",
+            f"Road.length = {self.road.length} m is shorter than the {reach:.0f} m that a car can drive "
+            f"in {seconds:.0f} s.",
         )
         _check(
             self.traps.d1[0] > self.car.length,
@@ -299,9 +307,12 @@ class Scenario:
 
 
 def _build(cls, data: dict):
+    if not isinstance(data, dict):
+        raise TypeError(f"{cls.__name__} is {data!r}")
     known = {f.name: f for f in fields(cls)}
-    unknown = sorted(set(data) - set(known))
+    unknown, missing = sorted(set(data) - set(known)), sorted(set(known) - set(data))
     _check(not unknown, f"{cls.__name__} has no field {', '.join(unknown)}: it was written by another version.")
+    _check(not missing, f"{cls.__name__} has no {', '.join(missing)}: it was written by another version.")
     values = {}
     for name, value in data.items():
         part = known[name].type

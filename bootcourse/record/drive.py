@@ -82,7 +82,9 @@ def record(driver: Driver, seeds: Sequence[int], scenario: Scenario = DEFAULT, l
     seeds = list(seeds)
     env = TrapVectorEnv(len(seeds), scenario, AutoresetMode.DISABLED, record=True)
     observations, _ = env.reset(seed=seeds)
-    tapes = [_Tape([cars.copy()], [observation.copy()]) for cars, observation in zip(env.cars, observations, strict=True)]
+    tapes = [
+        _Tape([cars.copy()], [observation.copy()]) for cars, observation in zip(env.cars, observations, strict=True)
+    ]
     accidents = np.zeros(len(seeds), dtype=np.int64)
     awake = np.ones(len(seeds), dtype=bool)
     while awake.any():

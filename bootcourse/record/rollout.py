@@ -58,7 +58,9 @@ class Rollout:
             if array is None:
                 continue
             shape = shapes.get(name, (decisions,))
-            _check(array.shape == shape, f"This rollout's {name} have shape {array.shape}, not {shape}: record it again.")
+            _check(
+                array.shape == shape, f"This rollout's {name} have shape {array.shape}, not {shape}: record it again."
+            )
             _check(bool(np.isfinite(array).all()), f"This rollout's {name} hold NaN or infinity: record it again.")
         per_decision = self.scenario.clock.steps
         _check(

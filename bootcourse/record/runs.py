@@ -1,9 +1,9 @@
 """A run: one trained agent in a folder, written whole or not at all, and checked when it is read back.
 
-    config.json          settings, scenario, episodes
-    weights.safetensors  actor, critics
-    curves.npz           one number for each training episode and name (`bootcourse.learn.curves`)
-    provenance.json      versions, git commit, seconds, and the hash of the three files above
+config.json          settings, scenario, episodes
+weights.safetensors  actor, critics
+curves.npz           one number for each training episode and name (`bootcourse.learn.curves`)
+provenance.json      versions, git commit, seconds, and the hash of the three files above
 """
 
 import json
@@ -50,11 +50,11 @@ def save_runs(result: Result, folder: Path) -> list[Path]:
             raise BootcourseError(f"{path} exists already: choose another folder, or move it away.")
     for i, path in enumerate(folders):
         curves = {name: values[i] for name, values in result.curves.items()}
-        _save_run(path, result.agents[i], curves, result)
+        _save_run(path, result.agents[i], curves, result, result.stopped.get(i))
     return folders
 
 
-def _save_run(path: Path, agent: Agent, curves: dict[str, np.ndarray], result: Result) -> None:
+def _save_run(path: Path, agent: Agent, curves: dict[str, np.ndarray], result: Result, stopped: int | None) -> None:
     episodes = len(curves["return"])
     config = {
         "format": FORMAT,
@@ -79,6 +79,7 @@ def _save_run(path: Path, agent: Agent, curves: dict[str, np.ndarray], result: R
             seconds=round(result.seconds, 1),
             agents=len(result.agents),
             commit=_commit(),
+            stopped_at_decision=stopped,  # where its loss was not a number; None: it drove all its episodes
             sha256={name: sha256(temporary / name) for name in HASHED},
         )
         write_json(temporary / "provenance.json", made)

@@ -41,11 +41,12 @@ def names(scenario: Scenario) -> list[str]:
 def bounds(scenario: Scenario) -> tuple[np.ndarray, np.ndarray]:
     """Finite limits, low and high, that no observation leaves; float32, (observation_size,)."""
     s = scenario
-    fastest = max(s.ego.max_speed, s.road.speed_limit) + 10  # m/s, one step of acceleration and more
+    hardest = max(s.ego.acceleration, s.traffic.a_max, s.traffic.braking_limit)  # m/s²
+    fastest = max(s.ego.max_speed, s.road.speed_limit) + hardest * s.clock.dt  # m/s, a step beyond the limit
     overshoot = fastest * s.clock.dt  # m, how far beyond the edge the last step can end
-    across = s.road.lanes * s.road.lane_width + 2 * overshoot
+    across = s.road.lanes * s.road.lane_width + overshoot
     ego = [1, s.road.length + overshoot, across, fastest, fastest, across]
-    neighbour = [1, s.sight.distance, across, 2 * fastest, 2 * fastest]
+    neighbour = [1, s.sight.distance, s.sight.distance, 2 * fastest, 2 * fastest]
     high = np.array(ego + s.sight.neighbours * neighbour) / scales(s)
     low = np.where(np.array(names(s), dtype=object) == "presence", 0.0, -high)
     low[6::5] = 0.0  # the neighbours' presence

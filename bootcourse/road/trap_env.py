@@ -33,9 +33,9 @@ from bootcourse.road.state import (
     TIMER,
     TRAFFIC,
     TRAP_1,
+    Accident,
     X,
     Y,
-    Accident,
 )
 from bootcourse.scenario import DEFAULT, N_ACTIONS, Scenario
 
@@ -147,15 +147,14 @@ class TrapEnv(AbstractEnv):
         twin.place(self.np_random.random(twin.uniforms_needed(len(start))), self.constants, start)
         network = RoadNetwork()
         shape = self.scenario.road
-        for lane in range(shape.lanes):
+        for number in range(shape.lanes):
             lines = [
-                LineType.CONTINUOUS_LINE if lane == 0 else LineType.STRIPED,
-                LineType.CONTINUOUS_LINE if lane == shape.lanes - 1 else LineType.NONE,
+                LineType.CONTINUOUS_LINE if number == 0 else LineType.STRIPED,
+                LineType.CONTINUOUS_LINE if number == shape.lanes - 1 else LineType.NONE,
             ]
-            y = lane * shape.lane_width
-            network.add_lane(
-                *NODES, StraightLane([0.0, y], [shape.length, y], shape.lane_width, lines, speed_limit=shape.speed_limit)
-            )
+            y = number * shape.lane_width
+            lane = StraightLane([0.0, y], [shape.length, y], shape.lane_width, lines, speed_limit=shape.speed_limit)
+            network.add_lane(*NODES, lane)
         self.road = Road(network, np_random=self.np_random)
         self.vehicle = EgoCar(self.road, self.scenario, start[EGO])
         others = [TrafficCar(self.road, self.scenario, start[i], i < TRAFFIC) for i in range(1, len(start))]

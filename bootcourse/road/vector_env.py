@@ -73,11 +73,13 @@ class TrapVectorEnv(VectorEnv):
         if options and "reset_mask" in options:
             mask = np.asarray(options["reset_mask"], dtype=bool)
             if mask.shape != (self.num_envs,):
-                raise BootcourseError(f"reset_mask has shape {mask.shape}: give one value for each of {self.num_envs} roads.")
+                raise BootcourseError(
+                    f"reset_mask has shape {mask.shape}: give one value for each road ({self.num_envs})."
+                )
         if seed is not None:
             seeds = [seed + i for i in range(self.num_envs)] if isinstance(seed, (int, np.integer)) else list(seed)
             if len(seeds) != self.num_envs:
-                raise BootcourseError(f"{len(seeds)} seeds for {self.num_envs} roads: give one seed, or one for each road.")
+                raise BootcourseError(f"{len(seeds)} seeds for {self.num_envs} roads: give one, or one for each road.")
             for i in np.flatnonzero(mask):
                 if seeds[i] is not None:
                     self._generators[i] = seeding.np_random(int(seeds[i]))[0]
@@ -91,7 +93,8 @@ class TrapVectorEnv(VectorEnv):
         """One decision on every road. Raises BootcourseError for an action outside 0..8."""
         actions = np.asarray(actions)
         if actions.shape != (self.num_envs,) or actions.dtype.kind not in "iu":
-            raise BootcourseError(f"actions have shape {actions.shape} and type {actions.dtype}: give {self.num_envs} whole numbers.")
+            found = f"actions have shape {actions.shape} and type {actions.dtype}"
+            raise BootcourseError(f"{found}: give {self.num_envs} whole numbers.")
         if actions.min() < 0 or actions.max() >= N_ACTIONS:
             raise BootcourseError(f"Action {int(actions[(actions < 0) | (actions >= N_ACTIONS)][0])} is outside 0..8.")
         self._rewards[self.asleep], self._terms[self.asleep] = 0.0, 0.0
@@ -134,7 +137,12 @@ class TrapVectorEnv(VectorEnv):
         self._terms[done], self._accidents[done] = 0.0, 0
         observe_all(self.cars, self.constants, self._observations)
         infos = self._infos(np.ones(self.num_envs, dtype=bool))
-        return infos | {"final_obs": final_obs, "_final_obs": done.copy(), "final_info": final_info, "_final_info": done.copy()}
+        return infos | {
+            "final_obs": final_obs,
+            "_final_obs": done.copy(),
+            "final_info": final_info,
+            "_final_info": done.copy(),
+        }
 
     def _infos(self, mask: np.ndarray) -> dict:
         """gymnasium's vector infos: an array for each name, and under _name which roads it holds for."""

@@ -1,0 +1,273 @@
+"""Recording, saving and loading drives, and what happens when a file or a disk is damaged."""
+
+import errno
+import json
+import os
+from dataclasses import fields, replace
+
+import gymnasium as gym
+import numpy as np
+import pytest
+
+import bootcourse  # noqa: F401  registers the road
+from bootcourse.drivers import Choice, idle_driver, rule_driver, stochastic_rule_driver
+from bootcourse.errors import BootcourseError
+from bootcourse.record import files
+from bootcourse.record.drive import record, record_on_highway_env
+from bootcourse.record.rollout import FORMAT, Rollout
+from bootcourse.road.state import EGO, Accident, X
+from bootcourse.scenario import CALIBRATED, DEFAULT, Clock
+
+SHORT = replace(DEFAULT, clock=Clock(decisions=12))
+
+
+def brake(observations, cars) -> Choice:
+    n = len(observations)
+    return Choice(np.full(n, 1), np.full((n, 9), 1 / 9), np.tile(np.arange(9.0), (n, 1)))
+
+
+@pytest.fixture(scope="module")
+def rollout() -> Rollout:
+    return record(brake, [3], SHORT, label="brake")[0]
+
+
+def differing_fields(a: Rollout, b: Rollout, tolerance: float = 0.0) -> list[str]:
+    different = []
+    for f in fields(Rollout):
+        x, y = getattr(a, f.name), getattr(b, f.name)
+        if isinstance(x, np.ndarray):
+            same = y is not None and x.shape == y.shape and x.dtype == y.dtype and np.abs(x - y).max() <= tolerance
+        else:
+            same = x == y
+        different += [] if same else [f.name]
+    return different
+
+
+# Recording
+
+
+@pytest.mark.parametrize("scenario", [DEFAULT, CALIBRATED], ids=lambda scenario: scenario.name)
+def test_both_roads_record_the_same_drive_of_the_rule(scenario):
+    env = gym.make("bootcourse:Trap-v0", scenario=scenario)
+    compiled = record(rule_driver(scenario), [11], scenario, label="rule")[0]
+    reference = record_on_highway_env(rule_driver(scenario), 11, env, label="rule")
+    assert differing_fields(compiled, reference, tolerance=1e-9) == []
+
+
+def test_both_roads_record_the_same_crash_with_the_same_number_of_simulation_steps():
+    def accelerate(observations, cars):
+        return Choice(np.full(len(observations), 7))
+
+    env = gym.make("bootcourse:Trap-v0")
+    for seed, compiled in zip(range(6), record(accelerate, range(6)), strict=True):
+        reference = record_on_highway_env(accelerate, seed, env)
+        assert compiled.accident == Accident.COLLISION
+        assert differing_fields(compiled, replace(reference, label="driver"), tolerance=1e-9) == []
+
+
+def test_a_rollout_tells_the_whole_drive(rollout):
+    assert rollout.accident == Accident.STOPPAGE and not rollout.success
+    decisions = len(rollout.actions)
+    assert decisions == 10, "from 10 m/s at 1 m/s² to under 1 m/s"
+    assert rollout.states.shape[0] in (2 * decisions, 2 * decisions + 1)
+    assert rollout.times[-1] == (len(rollout.states) - 1) / 2
+    assert rollout.distance == rollout.states[-1, EGO, X] > 40
+    assert rollout.rewards[-1] == -10.0
+    assert (rollout.rule_actions[0], rollout.policy.shape, rollout.q_values.shape) == (1, (10, 9), (10, 9))
+    assert {"python", "numpy", "highway-env", "bootcourse"} <= set(rollout.provenance)
+
+
+def test_many_roads_are_recorded_as_each_would_be_alone():
+    together = record(idle_driver, [1, 2], SHORT)
+    assert differing_fields(together[1], record(idle_driver, [2], SHORT)[0]) == []
+
+
+# Saving and loading
+
+
+def test_what_is_loaded_is_what_was_saved(rollout, tmp_path):
+    path = rollout.save(tmp_path / "deep" / "drive.npz")
+    assert differing_fields(Rollout.load(path), rollout) == []
+    without = replace(rollout, policy=None, q_values=None)
+    assert Rollout.load(without.save(tmp_path / "other.npz")).policy is None
+    stochastic = record(stochastic_rule_driver(SHORT, np.random.default_rng(0)), [0], SHORT)[0]
+    assert differing_fields(Rollout.load(stochastic.save(tmp_path / "drive.npz")), stochastic) == []
+
+
+def damage(path, **arrays):
+    """Save again with some arrays or header fields replaced (None: left out)."""
+    with np.load(path) as file:
+        contents = {name: file[name] for name in file.files}
+    header = json.loads(str(contents["header"]))
+    for name, value in arrays.items():
+        (header if name in header else contents)[name] = value
+    if "header" not in arrays:
+        contents["header"] = np.array(json.dumps({name: value for name, value in header.items() if value is not None}))
+    np.savez(path, **{name: value for name, value in contents.items() if value is not None})
+
+
+def refusal(path) -> str:
+    with pytest.raises(BootcourseError) as error:
+        Rollout.load(path)
+    sentence = str(error.value)
+    assert str(path) in sentence and "\n" not in sentence
+    return sentence
+
+
+@pytest.mark.parametrize("share", [0.0, 0.01, 0.5, 0.99])
+def test_a_rollout_that_was_cut_short_is_refused(rollout, tmp_path, share):
+    path = rollout.save(tmp_path / "drive.npz")
+    data = path.read_bytes()
+    path.write_bytes(data[: int(share * len(data))])
+    assert "record it again" in refusal(path)
+
+
+def test_a_flipped_byte_is_noticed(rollout, tmp_path):
+    path = rollout.save(tmp_path / "drive.npz")
+    data = bytearray(path.read_bytes())
+    data[len(data) // 3] ^= 0xFF
+    path.write_bytes(bytes(data))
+    assert "damaged" in refusal(path)
+
+
+NOT_YET = pytest.mark.xfail(reason="bootcourse.record does not refuse this in a sentence yet")
+NAN_REWARDS = np.full(10, np.nan)
+
+
+@pytest.mark.parametrize(
+    ("damages", "words"),
+    [
+        ({"rewards": NAN_REWARDS}, "rewards hold NaN"),
+        ({"rewards": np.zeros(9)}, "rewards have shape (9,), not (10,)"),
+        ({"rewards": None}, "incomplete"),
+        pytest.param({"rewards": np.array(["a"] * 10)}, "rewards", marks=NOT_YET),
+        ({"policy": np.full((10, 9), np.inf)}, "policy hold NaN or infinity"),
+        ({"actions": np.full(10, 9)}, "outside 0..8"),
+        pytest.param({"actions": np.full(10, 4.5)}, "actions", marks=NOT_YET),
+        ({"states": np.zeros((3, 9, 10))}, "simulation steps"),
+        pytest.param({"states": np.array(0.0)}, "states", marks=NOT_YET),
+        ({"accident": 7}, "accident"),
+        ({"label": None}, "incomplete"),
+        ({"scenario": {"road": {"lanes": 0}}}, "written by another version"),
+        ({"surprise": np.zeros(3)}, "surprise"),
+        ({"format": "bootcourse rollout 99"}, f"this version reads '{FORMAT}'"),
+        ({"header": np.array("{")}, "not a rollout"),
+        ({"header": np.array("[]")}, "not a rollout"),
+        ({"header": None}, "not a rollout"),
+    ],
+)
+def test_a_damaged_rollout_is_refused_in_one_sentence(rollout, tmp_path, damages, words):
+    path = rollout.save(tmp_path / "drive.npz")
+    damage(path, **damages)
+    assert words in refusal(path)
+
+
+def test_a_pickled_array_is_refused_and_never_run(rollout, tmp_path):
+    class Trap:
+        def __reduce__(self):
+            return (os.mkdir, (str(tmp_path / "sprung"),))
+
+    path = rollout.save(tmp_path / "drive.npz")
+    damage(path, rewards=np.array([Trap()], dtype=object))
+    assert "damaged" in refusal(path)
+    np.save(tmp_path / "bare.npy", np.array([Trap()], dtype=object), allow_pickle=True)
+    refusal(tmp_path / "bare.npy")
+    assert not (tmp_path / "sprung").exists()
+
+
+@NOT_YET
+def test_a_bare_array_is_refused(tmp_path):
+    np.save(tmp_path / "array.npy", np.zeros(3))
+    refusal(tmp_path / "array.npy")
+
+
+def test_a_file_that_is_something_else_or_nowhere_is_refused(tmp_path):
+    (tmp_path / "text.npz").write_text("hello")
+    np.savez(tmp_path / "others.npz", weights=np.zeros(3))
+    assert "damaged" in refusal(tmp_path / "text.npz")
+    assert "not a rollout" in refusal(tmp_path / "others.npz")
+    assert "No such file" in refusal(tmp_path / "nowhere.npz")
+    assert "directory" in refusal(tmp_path)
+
+
+def test_a_rollout_with_nan_cannot_even_be_made(rollout):
+    with pytest.raises(BootcourseError, match="rewards hold NaN"):
+        replace(rollout, rewards=NAN_REWARDS)
+
+
+# A disk that refuses
+
+
+@pytest.fixture
+def saved(rollout, tmp_path):
+    path = rollout.save(tmp_path / "drive.npz")
+    return path, path.read_bytes()
+
+
+def assert_old_file_is_whole(saved):
+    path, before = saved
+    assert path.read_bytes() == before
+    assert [entry.name for entry in path.parent.iterdir()] == ["drive.npz"], "no temporary file is left behind"
+
+
+def test_a_full_disk_leaves_the_old_file_whole(rollout, saved, monkeypatch):
+    def no_space(descriptor):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(files.os, "fsync", no_space)
+    with pytest.raises(BootcourseError, match="No space left on device"):
+        rollout.save(saved[0])
+    assert_old_file_is_whole(saved)
+
+
+def test_a_disk_that_fills_while_writing_leaves_the_old_file_whole(rollout, saved, monkeypatch):
+    real = files.tempfile.NamedTemporaryFile
+
+    def small(**options):
+        file = real(**options)
+
+        def write(data):
+            file.file.write(data[: len(data) // 2])
+            raise OSError(errno.ENOSPC, "No space left on device")
+
+        file.write = write
+        return file
+
+    monkeypatch.setattr(files.tempfile, "NamedTemporaryFile", small)
+    with pytest.raises(BootcourseError, match="Free some space"):
+        rollout.save(saved[0])
+    assert_old_file_is_whole(saved)
+
+
+@NOT_YET
+def test_an_interrupt_while_writing_leaves_the_old_file_whole(rollout, saved, monkeypatch):
+    def interrupted(descriptor):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(files.os, "fsync", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        rollout.save(saved[0])
+    assert_old_file_is_whole(saved)
+
+
+def test_a_read_only_folder_is_one_sentence_and_leaves_the_old_file_whole(rollout, saved, monkeypatch):
+    path, _ = saved
+    path.parent.chmod(0o555)
+    try:
+        if os.access(path.parent, os.W_OK):  # the superuser writes anywhere: let the system call refuse
+
+            def refuse(**options):
+                raise PermissionError(errno.EACCES, "Permission denied")
+
+            monkeypatch.setattr(files.tempfile, "NamedTemporaryFile", refuse)
+        with pytest.raises(BootcourseError, match="Permission denied"):
+            rollout.save(path)
+    finally:
+        path.parent.chmod(0o755)
+    assert_old_file_is_whole(saved)
+
+
+def test_a_path_through_a_file_is_one_sentence(rollout, saved):
+    with pytest.raises(BootcourseError, match="Cannot write"):
+        rollout.save(saved[0] / "below.npz")
+    assert_old_file_is_whole(saved)

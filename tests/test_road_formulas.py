@@ -1,0 +1,205 @@
+"""The formulas of the road, against numbers worked out by hand."""
+
+import math
+
+import numpy as np
+import pytest
+from highway_env.utils import are_polygons_intersecting
+from highway_env.vehicle.kinematics import Vehicle
+
+from bootcourse.road.formulas import (
+    bicycle_step,
+    centring_reward,
+    desired_gap,
+    idm_acceleration,
+    lane_keeping_steering,
+    mobil_incentive,
+    nearest_lane,
+    overlap,
+    speed_reward,
+    steering_reward,
+    weighted_reward,
+    wrap_to_pi,
+)
+
+A_MAX, B, S0, TIME_GAP, DESIRED, DELTA = 0.5, 0.5, 10.0, 1.5, 12.5, 4.0  # the table's traffic
+LENGTH, WIDTH = 5.0, 2.0
+
+
+def idm(v, gap, dv=0.0, delta=DELTA):
+    return idm_acceleration(v, DESIRED, gap, desired_gap(v, dv, S0, TIME_GAP, A_MAX, B), A_MAX, delta)
+
+
+# IDM
+
+
+def test_the_gap_that_idm_wants_at_10_metres_a_second_is_25_metres():
+    assert desired_gap(10.0, 0.0, S0, TIME_GAP, A_MAX, B) == 10 + 1.5 * 10
+
+
+def test_closing_in_at_2_metres_a_second_adds_20_metres_to_the_gap():
+    assert desired_gap(10.0, 2.0, S0, TIME_GAP, A_MAX, B) == pytest.approx(25 + 10 * 2 / (2 * 0.5))
+
+
+def test_idm_at_equilibrium_neither_accelerates_nor_brakes():
+    # (v / v_desired)^4 = 0.8^4 = 0.4096, so s = 25 / sqrt(1 - 0.4096) = 32.536 m
+    assert 25 / math.sqrt(0.5904) == pytest.approx(32.536, abs=1e-3)
+    assert idm(10.0, 25 / math.sqrt(0.5904)) == pytest.approx(0.0, abs=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("v", "gap", "dv", "acceleration"),
+    [
+        (0.0, math.inf, 0.0, 0.5),  # from a standstill on a free road: a_max
+        (12.5, math.inf, 0.0, 0.0),  # at the desired speed on a free road: nothing
+        (10.0, math.inf, 0.0, 0.2952),  # 0.5 (1 - 0.4096)
+        (10.0, 25.0, 0.0, -0.2048),  # 0.5 (1 - 0.4096 - 1)
+        (10.0, 50.0, 0.0, 0.1702),  # 0.5 (1 - 0.4096 - 0.25)
+        (10.0, 45.0, 2.0, -0.2048),  # s* = 45
+        (15.0, math.inf, 0.0, -0.5368),  # 0.5 (1 - 1.2^4)
+        (-1.0, math.inf, 0.0, 0.5),  # backwards counts as standing
+    ],
+)
+def test_idm_acceleration_worked_by_hand(v, gap, dv, acceleration):
+    assert idm(v, gap, dv) == pytest.approx(acceleration, abs=1e-12)
+
+
+def test_idm_takes_any_exponent():
+    assert idm(10.0, math.inf, delta=2.0) == pytest.approx(0.5 * (1 - 0.64))
+    assert idm(10.0, math.inf, delta=3.7) == pytest.approx(0.5 * (1 - 0.8**3.7))
+
+
+def test_a_gap_of_zero_and_a_desired_speed_of_zero_do_not_divide_by_zero():
+    assert math.isfinite(idm(10.0, 0.0))
+    assert math.isfinite(idm_acceleration(10.0, 0.0, 20.0, 25.0, A_MAX, DELTA))
+
+
+def test_mobil_weighs_the_others_by_politeness():
+    assert mobil_incentive(0.78125, -1.375, 0.1, 0.5) == pytest.approx(0.78125 + 0.5 * (-1.375 + 0.1))
+    assert mobil_incentive(0.78125, -1.375, 0.1, 0.0) == 0.78125
+
+
+# Steering and the bicycle model
+
+
+def test_a_centred_straight_car_is_not_steered():
+    assert lane_keeping_steering(0.0, 0.0, 10.0, LENGTH, 1.8, 0.6) == 0.0
+
+
+def test_lane_keeping_worked_by_hand_for_a_car_one_metre_to_the_right():
+    lateral_speed = -1 / 1.8
+    heading = math.asin(lateral_speed / 10)
+    slip = math.asin(2.5 / 10 * heading / 0.6)
+    expected = math.atan(2 * math.tan(slip))
+    assert expected < 0
+    assert lane_keeping_steering(1.0, 0.0, 10.0, LENGTH, 1.8, 0.6) == pytest.approx(expected, rel=1e-12)
+    assert lane_keeping_steering(-1.0, 0.0, 10.0, LENGTH, 1.8, 0.6) == pytest.approx(-expected, rel=1e-12)
+
+
+def test_lane_keeping_holds_its_limits_at_a_standstill():
+    assert abs(lane_keeping_steering(3.0, 0.5, 0.0, LENGTH, 1.8, 0.6)) <= math.pi / 3
+
+
+def test_a_straight_car_moves_by_speed_times_time():
+    assert bicycle_step(1.0, 4.0, 0.0, 10.0, 1.0, 0.0, LENGTH, 0.5) == (6.0, 4.0, 0.0, 10.5)
+
+
+def test_one_decision_of_full_steering_at_15_metres_a_second_moves_the_car_1_4_metres_sideways():
+    state = (0.0, 0.0, 0.0, 15.0)
+    for _ in range(2):
+        state = bicycle_step(*state, 0.0, math.pi / 50, LENGTH, 0.5)
+    assert state[1] == pytest.approx(1.4, abs=0.5)
+    slip = math.atan(0.5 * math.tan(math.pi / 50))
+    heading = 15 * math.sin(slip) / 2.5 * 0.5
+    assert state[1] == pytest.approx(15 * 0.5 * (math.sin(slip) + math.sin(heading + slip)))
+
+
+def test_the_compiled_bicycle_is_highway_envs():
+    rng = np.random.default_rng(0)
+    for _ in range(200):
+        x, y, v, acceleration = rng.uniform([0, 0, 0, -6], [100, 8, 25, 6])
+        heading, steering = rng.uniform(-1, 1, 2)
+        car = Vehicle(None, np.array([x, y]), heading, v)
+        car.act({"steering": steering, "acceleration": acceleration})
+        car.step(0.5)
+        expected = (*car.position, car.heading, car.speed)
+        assert bicycle_step(x, y, heading, v, acceleration, steering, LENGTH, 0.5) == pytest.approx(expected, abs=1e-12)
+
+
+def test_angles_wrap_into_half_a_turn_either_way():
+    assert wrap_to_pi(0.5) == 0.5
+    assert wrap_to_pi(math.pi) == pytest.approx(-math.pi)
+    assert wrap_to_pi(2.5 * math.pi) == pytest.approx(0.5 * math.pi)
+    assert wrap_to_pi(-1.5 * math.pi) == pytest.approx(0.5 * math.pi)
+
+
+@pytest.mark.parametrize(("y", "lane"), [(-9.0, 0), (0.0, 0), (1.99, 0), (2.0, 0), (2.01, 1), (6.5, 2), (40.0, 2)])
+def test_the_nearest_lane_is_the_left_one_on_the_line_and_the_outer_one_beyond_the_edge(y, lane):
+    assert nearest_lane(y, 0.0, 3, 4.0) == lane
+
+
+# Reward
+
+
+@pytest.mark.parametrize(
+    ("v", "r_v"),
+    [(0.0, 0.0), (5.0, 0.0), (10.0, 2 / 15), (12.5, 0.2), (13.75, 0.6), (15.0, 1.0), (16.0, math.exp(-1))],
+)
+def test_the_speed_reward_at_the_papers_corners(v, r_v):
+    assert speed_reward(v) == pytest.approx(r_v, abs=1e-15)
+
+
+def test_the_speed_reward_has_no_jumps():
+    for corner in (5.0, 12.5, 15.0):
+        assert speed_reward(corner + 1e-9) == pytest.approx(speed_reward(corner), abs=1e-8)
+
+
+def test_the_centring_and_steering_rewards():
+    assert centring_reward(0.0) == 1.0
+    assert centring_reward(1.0) == centring_reward(-1.0) == pytest.approx(math.exp(-1.5))
+    assert steering_reward(0.0) == 0.0
+    assert steering_reward(math.pi / 50) == steering_reward(-math.pi / 50) == pytest.approx(-math.sin(math.pi / 50))
+
+
+def test_idle_behind_the_trap_earns_0_15625_a_decision():
+    assert weighted_reward(speed_reward(10.0), 1.0, 0.0, 1.5, 0.05, 0.05) == pytest.approx(0.15625)
+    assert (1.5 * 2 / 15 + 0.05) / 1.6 == pytest.approx(0.15625)
+
+
+# Overlap
+
+
+@pytest.mark.parametrize(
+    ("dx", "dy", "heading_a", "heading_b", "touch"),
+    [
+        (0.0, 1.99, 0.0, 0.0, True),  # side by side, 2 m wide each
+        (0.0, 2.01, 0.0, 0.0, False),
+        (4.99, 0.0, 0.0, 0.0, True),  # nose to tail, 5 m long each
+        (5.01, 0.0, 0.0, 0.0, False),
+        (3.49, 0.0, 0.0, math.pi / 2, True),  # across the road: 2.5 + 1
+        (3.51, 0.0, 0.0, math.pi / 2, False),
+        (4.91, 0.0, 0.0, math.pi / 4, True),  # across the rotated car: √2 (1 + (2.5 + 1) / √2) = 4.914
+        (4.92, 0.0, 0.0, math.pi / 4, False),
+        (4.9, 1.9, 0.0, 0.0, True),  # two corners
+        (3.5, 3.5, math.pi / 4, math.pi / 4, True),  # nose to tail on the diagonal: 4.95 < 5
+        (3.6, 3.6, math.pi / 4, math.pi / 4, False),
+        (1.4, -1.4, math.pi / 4, math.pi / 4, True),  # side by side on the diagonal: 1.98 < 2
+        (1.5, -1.5, math.pi / 4, math.pi / 4, False),
+    ],
+)
+def test_the_overlap_of_rotated_cars_worked_by_hand(dx, dy, heading_a, heading_b, touch):
+    a, b = (10.0, 4.0, heading_a), (10.0 + dx, 4.0 + dy, heading_b)
+    assert overlap(*a, *b, LENGTH, WIDTH) is touch
+    assert overlap(*b, *a, LENGTH, WIDTH) is touch
+
+
+def test_the_overlap_is_highway_envs_own_polygon_test():
+    rng = np.random.default_rng(1)
+    touching = 0
+    for _ in range(1500):
+        (dx, dy), (heading_a, heading_b) = rng.uniform(-5.5, 5.5, 2), rng.uniform(-math.pi, math.pi, 2)
+        cars = Vehicle(None, np.zeros(2), heading_a), Vehicle(None, np.array([dx, dy]), heading_b)
+        expected = are_polygons_intersecting(cars[0].polygon(), cars[1].polygon(), np.zeros(2), np.zeros(2))[0]
+        assert overlap(0.0, 0.0, heading_a, dx, dy, heading_b, LENGTH, WIDTH) == expected
+        touching += expected
+    assert 300 < touching < 1200, "the comparison must see both answers often"
