@@ -1,6 +1,7 @@
 # make lab    JupyterLab on the first lesson      (NO_BROWSER=1 make lab: only print its address)
 # make test   every test, the notebooks included
 # make bench  how fast the road and the learner are, as ratios
+# make notebooks  execute the lessons' sources again and write the notebooks
 # make doctor what is right and wrong with this machine
 # make lock   resolve environment.lock and bench.lock again
 # make clean  remove .venv and the caches
@@ -21,7 +22,7 @@ NBVAL := --nbval-lax --nbval-current-env --nbval-cell-timeout=300
 # So that a notebook finds this `bootcourse` and this `python`.
 WITH_PATH := PATH="$(CURDIR)/$(BIN):$$PATH"
 
-.PHONY: help lab test bench doctor lock clean
+.PHONY: help lab test bench notebooks doctor lock clean
 
 help:
 	@sed -n '/^$$/q;s/^# \{0,1\}//p' Makefile
@@ -38,6 +39,9 @@ test: .venv/installed
 
 bench: .venv/bench
 	@OMP_NUM_THREADS=1 $(BIN)/python -m tests.bench
+
+notebooks: .venv/installed
+	@$(WITH_PATH) OMP_NUM_THREADS=1 $(BIN)/python tools/notebooks.py
 
 doctor: .venv/installed
 	@$(BIN)/bootcourse doctor

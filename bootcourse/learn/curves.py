@@ -1,5 +1,7 @@
 """What is noted of each training episode: the curves of the paper's training figures and more."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from bootcourse.road.vector_env import TrapVectorEnv
@@ -59,3 +61,9 @@ class Curves:
             if count:
                 means[agent] = self.values[name][agent, max(0, count - window) : count].mean()
         return means
+
+
+def by_method(settings: Sequence, curves: dict[str, np.ndarray]) -> dict[str, dict[str, np.ndarray]]:
+    """The curves of agents that trained side by side, apart for each method: {method: {name: (seeds, episodes)}}."""
+    rows = {s.method: [i for i, other in enumerate(settings) if other.method == s.method] for s in settings}
+    return {method: {name: values[its] for name, values in curves.items()} for method, its in rows.items()}

@@ -2,6 +2,7 @@
 
 import time
 
+from bootcourse.learn.curves import by_method
 from bootcourse.learn.train import Training
 from bootcourse.study.drawing import Picture
 
@@ -25,14 +26,12 @@ class LiveCurves:
         picture = Picture(self.draw(training))
         if self.output is None:
             self.output = display(picture, display_id=True)
-        elif self.output is not None:
+        else:
             self.output.update(picture)
 
     @staticmethod
     def draw(training: Training):
         from bootcourse.study.figures import training_curves
 
-        methods = dict.fromkeys(settings.method for settings in training.settings)
-        rows = {m: [i for i, s in enumerate(training.settings) if s.method == m] for m in methods}
-        curves = {m: {name: v[rows[m]] for name, v in training.curves.values.items()} for m in methods}
+        curves = by_method(training.settings, training.curves.values)
         return training_curves(curves, title="Training, as it happens")

@@ -66,7 +66,9 @@ def held_out_seeds(seed: int, episodes: int) -> range:
     return range(seed * BLOCK, seed * BLOCK + episodes)
 
 
-def drive_episodes(driver: Driver, seeds: Sequence[int], scenario: Scenario = DEFAULT, together: int = 1000) -> Episodes:
+def drive_episodes(
+    driver: Driver, seeds: Sequence[int], scenario: Scenario = DEFAULT, together: int = 1000
+) -> Episodes:
     """One episode on the road of each seed, on the compiled road, `together` at a time."""
     parts = [_drive(driver, list(seeds[i : i + together]), scenario) for i in range(0, len(seeds), together)]
     return Episodes(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))

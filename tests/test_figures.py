@@ -1,0 +1,349 @@
+"""The figures: what is drawn is what was driven, everything has words, and bad input gets a sentence."""
+
+import re
+
+import numpy as np
+import pytest
+from matplotlib.colors import to_hex
+from matplotlib.patches import FancyBboxPatch
+from PIL import Image
+
+from bootcourse.colours import ALARM, TRAP, style
+from bootcourse.drivers import idle_driver, plan_driver, rule_driver
+from bootcourse.errors import BootcourseError
+from bootcourse.record.drive import record
+from bootcourse.road.state import EGO, HEADING, LANE, SPEED, TRAP_1, X, Y
+from bootcourse.scenario import DEFAULT
+from bootcourse.study import animation
+from bootcourse.study.drawing import Picture, finish, label_ends, new_figure, plain_axes, png, styles
+from bootcourse.study.figures import save, save_drive, show, top_view, top_view_over_time, traces, training_curves
+from bootcourse.study.top_view import cars_at, doing, key_moments, overtaken, window
+from bootcourse.study.traces import PANELS, series
+
+
+@pytest.fixture(scope="module")
+def escape():
+    return record(rule_driver(DEFAULT), [3], DEFAULT, "rule")[0]
+
+
+@pytest.fixture(scope="module")
+def idle():
+    return record(idle_driver, [3], DEFAULT, "idle")[0]
+
+
+@pytest.fixture(scope="module")
+def crash():
+    return record(plan_driver([("accelerate straight", 30)]), [3], DEFAULT, "you")[0]
+
+
+def curves(agents: int = 4, episodes: int = 120, missing: int = 0) -> dict[str, np.ndarray]:
+    """Invented curves; the last agent misses its last `missing` episodes."""
+    rng = np.random.default_rng(0)
+    made = {"success": (rng.random((agents, episodes)) < 0.5) * 1.0, "return": rng.normal(20, 3, (agents, episodes))}
+    for values in made.values():
+        values[-1, episodes - missing :] = np.nan
+    return made
+
+
+def cars_drawn(ax) -> dict[str, tuple[float, float, float]]:
+    """x, y and heading of each car body in an axes, in its data coordinates."""
+    found = {}
+    for patch in ax.patches:
+        if isinstance(patch, FancyBboxPatch):
+            matrix = (patch.get_transform() - ax.transData).get_matrix()
+            found[patch.get_gid()] = (matrix[0, 2], matrix[1, 2], np.arctan2(matrix[1, 0], matrix[0, 0]))
+    return found
+
+
+def words_of(figure) -> list[str]:
+    return [text.get_text() for ax in figure.axes for text in ax.texts] + [text.get_text() for text in figure.texts]
+
+
+def overlaps(figure) -> list[tuple[str, str]]:
+    """Pairs of texts that lie on each other, in a drawn figure."""
+    figure.canvas.draw()
+    texts = [text for ax in figure.axes for text in [*ax.texts, ax.xaxis.label, ax.yaxis.label]]
+    texts = [text for text in [*texts, *figure.texts] if text.get_text() and text.get_visible()]
+    boxes = [text.get_window_extent() for text in texts]
+    return [
+        (texts[i].get_text(), texts[j].get_text())
+        for i in range(len(texts))
+        for j in range(i)
+        if boxes[i].overlaps(boxes[j])
+    ]
+
+
+# The road from above
+
+
+@pytest.mark.parametrize("time", [0.0, 5.5, 9.0, 9.25])
+def test_the_cars_are_drawn_where_they_were_driven(escape, time):
+    drawn = cars_drawn(top_view(escape, time).axes[0])
+    cars, step = cars_at(escape, time), int(time / DEFAULT.clock.dt)
+    if time == step * DEFAULT.clock.dt:
+        assert (cars == escape.states[step]).all()
+    names = {"ego": 0, "trap 1": 1, "trap 2": 2} | {f"traffic {i - 2}": i for i in range(3, DEFAULT.vehicles)}
+    assert {"ego", "trap 1", "trap 2"} <= set(drawn)
+    for gid, place in drawn.items():
+        car = cars[names[gid]]
+        assert place == pytest.approx((car[X] - cars[EGO, X], car[Y], car[HEADING]), abs=1e-9)
+
+
+def test_between_two_steps_a_car_is_half_way(escape):
+    assert cars_at(escape, 4.25)[EGO, X] == pytest.approx(escape.states[8:10, EGO, X].mean())
+
+
+def test_the_ego_has_the_colour_of_its_driver_and_the_traps_theirs(escape):
+    bodies = {patch.get_gid(): patch for patch in top_view(escape, 0).axes[0].patches if patch.get_gid()}
+    assert to_hex(bodies["ego"].get_facecolor()).upper() == style("rule").colour
+    assert to_hex(bodies["trap 1"].get_facecolor()).upper() == TRAP
+
+
+def test_the_distances_are_measured_centre_to_centre(idle):
+    d1, d2 = idle.states[0, 1:3, X] - idle.states[0, EGO, X]
+    words = words_of(top_view(idle, 0, distances=True))
+    assert f"D1 = {d1:.2f} m" in words and f"D2 = {d2:.2f} m" in words
+
+
+def test_the_film_shows_the_escape_by_the_backward_gap(escape):
+    words = words_of(top_view_over_time(escape))
+    assert {"falls back", "changes lane, left", "catches up", "ahead of trap 1"} <= set(words)
+    assert top_view_over_time(escape, times=[0, 4, 8]).axes[-1].get_xlabel() == "distance ahead of the ego (m)"
+
+
+def test_the_key_moments_are_few_in_order_and_within_the_drive(escape, idle, crash):
+    for drive in (escape, idle, crash):
+        moments = key_moments(drive)
+        assert 2 <= len(moments) <= 6 and moments == sorted(moments) and moments[0] == 0
+        assert moments[-1] <= drive.times[-1] and min(np.diff(moments)) >= 1
+    assert key_moments(crash)[-1] == crash.times[-1] and doing(crash, crash.times[-1]) == "collision"
+
+
+def test_a_moment_after_the_end_becomes_the_end_and_shows_the_accident(crash):
+    figure = top_view_over_time(crash, times=[0, 2, 500, 600])
+    assert len(figure.axes) == 3
+    assert "collision" in words_of(figure)
+    assert [line for line in figure.axes[-1].lines if line.get_gid() == "accident"]
+
+
+def test_what_is_out_of_the_picture_is_named_at_its_edge(escape):
+    end = float(escape.times[-1])
+    gap = escape.states[-1, EGO, X] - escape.states[-1, TRAP_1, X]
+    assert f"◂ trap 1, {gap:.0f} m behind" in words_of(top_view(escape, end))
+    left, right = window(escape, [0, end])
+    assert right - left <= 150
+
+
+def test_overtaken_is_the_last_time_that_the_ego_comes_ahead(escape, idle, crash):
+    passed = overtaken(escape)
+    ahead = escape.states[:, EGO, X] > escape.states[:, TRAP_1, X]
+    assert ahead[escape.times >= passed].all() and not ahead[escape.times == passed - DEFAULT.clock.dt].any()
+    assert overtaken(idle) is None and overtaken(crash) is None
+
+
+@pytest.mark.parametrize("time", [-1, 151, float("nan")])
+def test_a_time_outside_the_drive_is_refused(idle, time):
+    with pytest.raises(BootcourseError, match=r"this drive lasts 150 s, choose a time from 0 to 150"):
+        top_view(idle, time)
+
+
+@pytest.mark.parametrize("times", [[], [-1], [float("nan")]])
+def test_a_film_without_moments_is_refused(idle, times):
+    with pytest.raises(BootcourseError, match="give at least one moment"):
+        top_view_over_time(idle, times)
+
+
+# Traces
+
+
+def test_the_traces_are_the_drives_own_numbers(escape):
+    assert (series(escape, "speed")[1] == escape.states[:, EGO, SPEED]).all()
+    assert (series(escape, "distance")[1] == escape.states[:, EGO, X] - escape.states[:, TRAP_1, X]).all()
+    assert series(escape, "return")[1][-1] == pytest.approx(escape.rewards.sum())
+    assert np.abs(series(escape, "lane")[1] - escape.states[:, EGO, LANE]).max() <= 0.5 + 1e-9
+    seconds, rewards = series(escape, "reward")
+    assert seconds[-1] == 150 and len(seconds) == 151 and (rewards[1:] == escape.rewards).all()
+
+
+def test_every_panel_has_a_label_and_those_with_a_unit_say_it(escape, idle):
+    figure = traces([idle, escape])
+    labels = [ax.get_ylabel() for ax in figure.axes]
+    assert len(labels) == len(PANELS) + 1 and all(labels)
+    assert labels[0] == "speed (m/s)" and labels[1].startswith("distance ahead of trap 1 (m)")
+    assert figure.axes[-1].get_xlabel() == "time (s)"
+    assert {"±1 m/s²", "±3.6° of steering"} <= set(words_of(figure))
+
+
+def test_several_drives_are_named_where_their_lines_end(escape, idle):
+    assert {"rule controller", "idle driver", "the traps"} <= {
+        text.get_text() for text in traces([idle, escape]).axes[0].texts
+    }
+    again = [text.get_text() for text in traces([escape, escape], what=["speed"]).axes[0].texts]
+    assert {"rule controller,\nroad 3 (1)", "rule controller,\nroad 3 (2)"} <= set(again)
+
+
+def test_an_accident_is_marked_and_named(crash):
+    figure = traces(crash)
+    assert "collision" in words_of(figure)
+    for ax in figure.axes[:-1]:
+        cross = [line for line in ax.lines if line.get_gid() == "accident"]
+        assert len(cross) == 1 and cross[0].get_color() == ALARM and cross[0].get_xdata()[0] == crash.times[-1]
+
+
+def test_until_and_what_choose_a_part(escape):
+    figure = traces(escape, until=30, what=["speed", "lane"])
+    assert [ax.get_ylabel() for ax in figure.axes] == [PANELS["speed"][0], PANELS["lane"][0]]
+    assert figure.axes[0].get_xlim() == (0, 30)
+
+
+@pytest.mark.parametrize(
+    "arguments, sentence",
+    [
+        (([],), "There is no drive to draw"),
+        (("escape", None, 0.0), "give a number of seconds above 0"),
+        (("escape", None, None, ["sped"]), "'sped' is unknown: did you mean 'speed'"),
+        (("escape", None, None, []), "name one or more of speed"),
+    ],
+)
+def test_traces_of_nothing_are_refused(escape, arguments, sentence):
+    with pytest.raises(BootcourseError, match=sentence):
+        traces(*(escape if argument == "escape" else argument for argument in arguments))
+
+
+# Training curves
+
+
+def test_training_curves_have_labels_names_and_the_callers_title():
+    figure = training_curves({"sac": curves(), "bootstrapped": curves()}, "The trap opens", {"rule": {"return": 25.0}})
+    assert figure.alt.startswith("The trap opens. ") and "4 agents" in figure.alt
+    success, returns = figure.axes
+    assert "%" in success.get_ylabel() and "return" in returns.get_ylabel()
+    assert success.get_xlabel() == returns.get_xlabel() == "episode"
+    assert {"plain SAC", "bootstrapped\nSAC", "rule\ncontroller"} <= {text.get_text() for text in returns.texts}
+
+
+def test_a_rolling_mean_is_the_mean_of_the_last_episodes():
+    made = curves(agents=1)
+    line = training_curves({"sac": made}, "One agent").axes[1].lines[0]
+    window = 30  # a quarter of 120 episodes
+    assert line.get_xdata()[0] == window and line.get_xdata()[-1] == 120
+    assert line.get_ydata()[0] == pytest.approx(made["return"][0, :window].mean())
+    assert line.get_ydata()[-1] == pytest.approx(made["return"][0, -window:].mean())
+
+
+def test_an_interrupted_training_is_drawn_as_far_as_it_got():
+    figure = training_curves({"sac": curves(missing=60)}, "Interrupted")
+    *agents, middle = figure.axes[1].lines
+    assert np.isfinite(agents[0].get_ydata()[-1]) and np.isnan(agents[-1].get_ydata()[-1])
+    assert max(middle.get_xdata()) <= 60 and np.isfinite(middle.get_ydata()).all()
+
+
+def test_an_agent_that_finished_nothing_is_left_out():
+    assert len(training_curves({"sac": curves(missing=120)}, "Three of four").axes[1].lines) == 4
+
+
+def test_the_papers_value_is_an_open_diamond():
+    figure = training_curves({"sac": curves()}, "Paper", paper={"sac": {"return": 23.4}})
+    diamond = figure.axes[1].lines[-1]
+    assert diamond.get_marker() == "D" and diamond.get_ydata()[0] == 23.4 and diamond.get_markerfacecolor() == "white"
+
+
+@pytest.mark.parametrize(
+    "made, sentence",
+    [
+        ({}, "There are no curves"),
+        ({"sac": curves(missing=0) | {"success": np.full((4, 9), np.nan)}}, "has not finished an episode"),
+        ({"sac": {"success": np.ones((2, 9))}}, "have no 'return'"),
+        ({"sac": {name: np.full((2, 5), np.nan) for name in ("success", "return")}}, "has not finished an episode"),
+    ],
+)
+def test_curves_of_nothing_are_refused(made, sentence):
+    with pytest.raises(BootcourseError, match=sentence):
+        training_curves(made, "Nothing")
+
+
+# Showing and saving
+
+
+def every_figure(escape, idle, crash):
+    yield top_view(idle, 0, distances=True)
+    yield top_view(escape, 150)
+    for drive in (escape, idle, crash):
+        yield top_view_over_time(drive)
+        yield traces(drive)
+    yield traces([idle, escape, crash])
+    yield training_curves({"sac": curves(), "bootstrapped": curves()}, "A title " * 12)
+    yield animation.frame([idle, escape], 5.5)
+
+
+def test_every_figure_has_alt_text_and_no_text_lies_on_another(escape, idle, crash):
+    for figure in every_figure(escape, idle, crash):
+        assert len(figure.alt) > 60 and "\n" not in figure.alt
+        assert overlaps(figure) == []
+
+
+def test_a_notebook_gets_the_picture_with_its_alt_text(idle, capsys):
+    figure = top_view(idle, 0)
+    figure.alt = 'a "quoted" <word>'
+    bundle = Picture(figure)._repr_mimebundle_()
+    assert set(bundle) == {"text/html", "text/plain"} and bundle["text/plain"] == figure.alt
+    assert 'alt="a &quot;quoted&quot; &lt;word&gt;"' in bundle["text/html"]
+    show(figure)  # outside a notebook: the words
+    assert capsys.readouterr().out.strip() == figure.alt
+
+
+def test_nbconvert_keeps_the_alt_text(idle):
+    import nbformat
+    from nbconvert import HTMLExporter
+
+    figure = top_view(idle, 0)
+    output = nbformat.v4.new_output("display_data", data=Picture(figure)._repr_mimebundle_())
+    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell("show()", outputs=[output])])
+    page, _ = HTMLExporter().from_notebook_node(notebook)
+    alts = re.findall(r'<img [^>]*alt="([^"]*)"', page)
+    assert alts == [figure.alt]
+
+
+def test_a_saved_figure_says_what_it_shows(idle, tmp_path):
+    figure = top_view(idle, 0)
+    with Image.open(save(figure, tmp_path / "road.png")) as image:
+        assert image.width == 770 and image.text["Description"] == figure.alt
+    assert save(figure, tmp_path / "road.pdf").read_bytes().startswith(b"%PDF")
+    assert b"<svg" in save(figure, tmp_path / "road.svg").read_bytes()
+
+
+def test_a_figure_of_an_unknown_format_is_refused(idle, tmp_path):
+    with pytest.raises(BootcourseError, match="name it .png, .pdf or .svg"):
+        save(top_view(idle, 0), tmp_path / "road.xyz")
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_whole_drive_fits_on_one_page(crash, tmp_path):
+    with Image.open(save_drive(crash, tmp_path / "drive.png")) as image:
+        assert image.width == 770 and image.height > 1000 and "collision" in image.text["Description"]
+
+
+def test_no_figure_is_left_behind_in_pyplot(idle):
+    import matplotlib.pyplot as plt
+
+    png(top_view_over_time(idle))
+    assert plt.get_fignums() == []
+
+
+def test_the_same_figure_has_the_same_bytes(escape):
+    assert png(traces(escape, until=20)) == png(traces(escape, until=20))
+
+
+def test_labels_that_meet_are_moved_apart_and_keep_their_order():
+    figure = new_figure()
+    ax = figure.add_axes((0.1, 0.1, 0.7, 0.8))
+    plain_axes(ax, "height (m)")
+    label_ends(ax, [(0.5, "one", "k"), (0.5, "two", "k"), (0.51, "three", "k"), (0.0, "four", "k")])
+    assert overlaps(finish(figure, "Labels", "Labels that meet.")) == []
+    heights = {text.get_text(): text.get_position()[1] for text in ax.texts}
+    assert heights["four"] < heights["one"] < heights["two"] < heights["three"]
+
+
+def test_two_drivers_of_one_colour_get_two_lines():
+    first, second, third = styles(["you", "idle", "you"])
+    assert first.colour == second.colour and first.line != second.line and first == third
