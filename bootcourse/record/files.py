@@ -24,17 +24,18 @@ def write_bytes(path: Path, data: bytes) -> None:
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.NamedTemporaryFile(dir=path.parent, prefix=f".{path.name}.", delete=False) as file:
-            temporary = file.name
+            temporary = Path(file.name)
             file.write(data)
             file.flush()
             os.fsync(file.fileno())
-        os.chmod(temporary, 0o666 & ~_umask())
-        os.replace(temporary, path)
+        temporary.chmod(0o666 & ~_umask())
+        temporary.replace(path)
     except OSError as error:
-        if temporary and os.path.exists(temporary):
-            os.unlink(temporary)
         reason = error.strerror or error
         raise BootcourseError(f"Cannot write {path}: {reason}. Free some space or choose another folder.") from None
+    finally:  # also after an interrupt; once renamed, nothing is there any more
+        if temporary is not None:
+            temporary.unlink(missing_ok=True)
 
 
 def _umask() -> int:
@@ -72,9 +73,9 @@ def read_arrays(path: Path) -> dict[str, np.ndarray]:
     """Every array of a `.npz`. Raises BootcourseError if the file is missing, cut short or has pickles."""
     read_bytes(path)  # says in one sentence what is wrong with a missing file
     try:
-        with np.load(path, allow_pickle=False) as file:
+        with np.load(path, allow_pickle=False) as file:  # a bare array (.npy) is no context: TypeError
             return {name: file[name] for name in file.files}
-    except (ValueError, OSError, EOFError, KeyError, zipfile.BadZipFile):
+    except (ValueError, TypeError, OSError, EOFError, KeyError, zipfile.BadZipFile):
         raise BootcourseError(f"{path} is damaged or cut short: record it again, or restore it from a copy.") from None
 
 

@@ -12,6 +12,7 @@ from bootcourse.road.state import COLUMNS, EGO, TRAP_1, Accident, X
 from bootcourse.scenario import N_ACTIONS, Scenario
 
 FORMAT = "bootcourse rollout 1"
+REQUIRED = ("states", "observations", "actions", "rewards", "terms")
 OPTIONAL = ("policy", "q_values", "rule_actions", "rule_speeds", "rule_lanes", "rule_distances", "rule_reasons")
 
 
@@ -42,22 +43,29 @@ class Rollout:
     provenance: dict = field(default_factory=dict)  # versions, command, time: who made this and how
 
     def __post_init__(self):
+        whole = ("actions", "rule_actions", "rule_lanes", "rule_reasons")
+        for name in (*REQUIRED, *OPTIONAL):
+            array = getattr(self, name)
+            if array is None and name in OPTIONAL:
+                continue
+            kinds = "iu" if name in whole else "iuf"
+            _check(
+                isinstance(array, np.ndarray) and array.ndim > 0 and array.dtype.kind in kinds,
+                f"This rollout's {name} are not {'whole ' * (name in whole)}numbers in a row: record it again.",
+            )
         steps, decisions = len(self.states) - 1, len(self.actions)
         _check(decisions > 0, "This rollout has no decisions: record it again.")
         shapes = {
             "states": (steps + 1, self.scenario.vehicles, COLUMNS),
             "observations": (decisions + 1, self.scenario.observation_size),
-            "actions": (decisions,),
-            "rewards": (decisions,),
             "terms": (decisions, 3),
             "policy": (decisions, N_ACTIONS),
             "q_values": (decisions, N_ACTIONS),
         }
-        for name in (*list(shapes)[:5], *OPTIONAL):
-            array = getattr(self, name)
+        for name in (*REQUIRED, *OPTIONAL):
+            array, shape = getattr(self, name), shapes.get(name, (decisions,))
             if array is None:
                 continue
-            shape = shapes.get(name, (decisions,))
             _check(
                 array.shape == shape, f"This rollout's {name} have shape {array.shape}, not {shape}: record it again."
             )
@@ -97,7 +105,7 @@ class Rollout:
             "accident": int(self.accident),
             "provenance": self.provenance,
         }
-        names = ("states", "observations", "actions", "rewards", "terms", *OPTIONAL)
+        names = (*REQUIRED, *OPTIONAL)
         arrays = {name: getattr(self, name) for name in names if getattr(self, name) is not None}
         write_arrays(path, {**arrays, "header": np.array(json.dumps(header))})
         return Path(path)
