@@ -95,6 +95,71 @@ def drive(
     commands.drive(who, out, seed, scenario, png)
 
 
+@app.command()
+def replay(
+    files: list[Path] = typer.Argument(..., help="Rollouts of `bootcourse drive`; several of one road are compared."),
+    export: Path | None = typer.Option(None, help="Write one HTML file that plays anywhere, such as out.html."),
+    gif: Path | None = typer.Option(None, help="Write an animation for slides, such as out.gif."),
+    png: Path | None = typer.Option(None, help="Write a picture, such as out.png."),
+    port: int = typer.Option(0, min=0, max=65535, help="The server's port; 0: any free one."),
+    browser: bool = typer.Option(True, help="Open the browser, or only print the address."),
+) -> None:
+    """Show drives in 3D in the browser, or write them as a file."""
+    from bootcourse.replay3d.command import replay_command
+
+    replay_command(files, export, gif, png, port, browser)
+
+
+@app.command()
+def study(
+    out: Path = typer.Option(..., help="The study's folder: new, or one to go on with."),
+    scenario: str = typer.Option("default", help="default or calibrated; both may share a folder."),
+    seeds: int = typer.Option(10, min=1, help="Training seeds of each method."),
+    episodes: int = typer.Option(2000, min=1, help="Training episodes of each agent."),
+    tests: int = typer.Option(1000, min=1, help="Held-out episodes that each agent is tested on."),
+    only: str = typer.Option("", help="Some methods, such as sac,bootstrapped; planner is the bound."),
+    sensitivity: bool = typer.Option(False, "--sensitivity", help="Vary what the paper leaves open, 3 seeds each."),
+    backend: str = typer.Option("loky", help="loky (this machine), dask or ray."),
+    scheduler: str = typer.Option("", help="The address of a dask or ray cluster that you have."),
+    jobs: int = typer.Option(0, min=0, help="Cells at once; 0: one for each core."),
+    recompute: bool = typer.Option(False, "--recompute", help="Compute damaged cells again."),
+) -> None:
+    """Train and test every method with many seeds; write tables, figures and the fidelity report."""
+    from bootcourse.study import study_commands
+
+    how = {"backend": backend, "scheduler": scheduler, "jobs": jobs, "recompute": recompute}
+    raise typer.Exit(study_commands.study(out, scenario, seeds, episodes, tests, only, sensitivity, **how))
+
+
+@app.command()
+def sweep(
+    out: Path = typer.Option(..., help="The folder: new, a study's, or one to go on with."),
+    seeds: int = typer.Option(4, min=1, help="Training seeds of each setting."),
+    episodes: int = typer.Option(1500, min=1, help="Training episodes of each agent."),
+    tests: int = typer.Option(1000, min=1, help="Held-out episodes that each agent is tested on."),
+    backend: str = typer.Option("loky", help="loky (this machine), dask or ray."),
+    scheduler: str = typer.Option("", help="The address of a dask or ray cluster that you have."),
+    jobs: int = typer.Option(0, min=0, help="Cells at once; 0: one for each core."),
+    recompute: bool = typer.Option(False, "--recompute", help="Compute damaged cells again."),
+) -> None:
+    """Train the paper's method with many settings of p, ξ and c; write one file of results."""
+    from bootcourse.study import study_commands
+
+    how = {"backend": backend, "scheduler": scheduler, "jobs": jobs, "recompute": recompute}
+    raise typer.Exit(study_commands.sweep(out, seeds, episodes, tests, **how))
+
+
+@app.command()
+def assets(
+    what: str = typer.Argument(..., help="verify: check the shipped files. build: make them from a study's folder."),
+    study: Path | None = typer.Option(None, help="The study's folder, for build."),
+) -> None:
+    """Check what ships with the course, or make it again."""
+    from bootcourse import assets
+
+    raise typer.Exit(assets.command(what, study))
+
+
 def main() -> None:
     """Run a command. A mistake of the user's is one sentence and exit status 2; Ctrl-C is 130."""
     try:

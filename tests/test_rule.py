@@ -182,7 +182,7 @@ def test_from_anywhere_in_a_lane_it_comes_to_its_middle_and_stays_there(speed, o
     env.cars[0, EGO, Y] += offset
     for decision in range(60):
         env.step(rule(env.cars, DEFAULT).actions)
-        if decision >= 2:
+        if decision >= 2 and env.cars[0, EGO, SPEED] <= DEFAULT.rule.v_max:  # faster than that it never wants to be
             assert abs(env.cars[0, EGO, Y] - 4.0 * lane) < 1.6, "a jog is 2.6 m: it cannot always come closer"
             assert abs(env.cars[0, EGO, HEADING]) < 0.25
     assert not env.asleep[0]

@@ -4,16 +4,17 @@ Pure functions of tensors, shapes as in `sac.py`. `rule_actions` (..., batch) ho
 action μ(s), in 0..8.
 """
 
+import numpy as np
 import torch
 from torch import Tensor
 
 from bootcourse.scenario import N_ACTIONS
 
 
-def log_stochastic_rule(rule_actions: Tensor, p: Tensor) -> Tensor:
+def log_stochastic_rule(rule_actions: Tensor, p: Tensor, actions: int = N_ACTIONS) -> Tensor:
     """log π̃(a|s): log p for the rule's action, log((1-p)/8) for each other. p (...) -> (..., batch, 9)."""
-    others = ((1 - p) / (N_ACTIONS - 1)).log()
-    is_rule = torch.arange(N_ACTIONS, device=rule_actions.device) == rule_actions.unsqueeze(-1)
+    others = ((1 - p) / (actions - 1)).log()
+    is_rule = torch.arange(actions, device=rule_actions.device) == rule_actions.unsqueeze(-1)
     return torch.where(is_rule, p.log()[..., None, None], others[..., None, None])
 
 
@@ -23,7 +24,7 @@ def kl_to_rule(log_pi: Tensor, rule_actions: Tensor, p: Tensor) -> Tensor:
     It charges the policy for going where the rule would not; the other direction would charge it for
     not going where the rule would.
     """
-    return (log_pi.exp() * (log_pi - log_stochastic_rule(rule_actions, p))).sum(-1)
+    return (log_pi.exp() * (log_pi - log_stochastic_rule(rule_actions, p, log_pi.shape[-1]))).sum(-1)
 
 
 def regularised_policy(q: Tensor, log_rule: Tensor, alpha: float, xi: float) -> Tensor:
@@ -38,7 +39,7 @@ def constraint_strength(alpha: Tensor, xi_multiplier: Tensor, xi_fixed: Tensor) 
 
 def demonstration_share(episode, beta_start, beta_episodes):
     """β after `episode` finished episodes: from beta_start in a straight line to 0 (Section IV-B)."""
-    return beta_start * (1 - episode / beta_episodes).clip(0, 1)
+    return beta_start * np.clip(1 - episode / beta_episodes, 0, 1)
 
 
 def augmented_reward(reward: Tensor, is_demonstration: Tensor, bonus: Tensor) -> Tensor:

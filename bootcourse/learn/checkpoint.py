@@ -37,6 +37,7 @@ def state_of(training: Training) -> dict[str, np.ndarray]:
         "decisions": training.decisions,
         "seconds": training.seconds,
         "finished": sorted(training.finished_agents),
+        "stopped": sorted(training.stopped.items()),
     }
     return arrays | {"numbers": np.array(json.dumps(numbers))}
 
@@ -74,6 +75,7 @@ def _restore(training: Training, arrays: dict[str, np.ndarray]) -> None:
     for rng, state in zip(rngs, numbers["rngs"], strict=True):
         rng.bit_generator.state = state
     training.decisions, training.seconds = numbers["decisions"], numbers["seconds"]
+    training.stopped = dict(numbers["stopped"])
     layers = len(learner.actor)
     for i in numbers["finished"]:
         parts = [torch.from_numpy(arrays[f"finished.{i}.{k}"].copy()) for k in range(2 * layers + 1)]
@@ -89,5 +91,6 @@ def _parameters(learner) -> list[torch.Tensor]:
 
 def _tensors(learner) -> dict[str, torch.Tensor]:
     groups = {"actor": learner.actor, "critics": learner.critics, "targets": learner.target_critics}
+    groups["discriminator"] = getattr(learner, "discriminator", [])  # GAIL's
     named = {f"{name}.{i}": tensor for name, tensors in groups.items() for i, tensor in enumerate(tensors)}
     return named | {"log_alpha": learner.log_alpha}

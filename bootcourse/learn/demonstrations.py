@@ -1,6 +1,7 @@
 """Demonstrations: what the rule drove, as transitions for the replay (Section IV-B)."""
 
 import numpy as np
+import torch
 from gymnasium.vector import AutoresetMode
 from torch import Tensor
 
@@ -33,6 +34,4 @@ def collect(episodes: int = 200, scenario: Scenario = DEFAULT, driver: Driver | 
         rows.append(pack(states, next_states, actions, rewards, terminated, rule_actions, next_rule_actions)[awake])
         awake &= ~(terminated | truncated)
         states, rule_actions = next_states, next_rule_actions
-    import torch
-
     return torch.cat(rows)

@@ -42,19 +42,22 @@ class Learner:
                 parameter.requires_grad_()
         self.optimiser = torch.optim.Adam(groups, fused=True)
         names = ("gamma", "target_entropy", "xi_multiplier", "xi_fixed", "kl_in_target", "p", "bonus", "margin")
-        self.of_agent = {name: self._per_agent(name) for name in (*names, "paper_q_filter")}
+        self.of_agent = {name: self._per_agent(name) for name in (*names, "paper_q_filter", "conservative")}
 
     def _per_agent(self, name: str) -> Tensor:
         return torch.tensor([float(getattr(s, name)) for s in self.settings])
 
     def update(self, batch: Batch) -> dict[str, Tensor]:
-        """One step on every agent's own batch. Returns what a curve shows, each (agents,)."""
+        """One step on every agent's own batch. Returns what a curve shows, each (agents,).
+
+        Critics, actor and temperature step together, each from where the others stood before.
+        """
         its = {name: value[:, None] for name, value in self.of_agent.items()}  # (agents, 1), against (agents, batch)
         alpha = self.log_alpha.detach().exp()[:, None]
         xi = bootstrap.constraint_strength(alpha, its["xi_multiplier"], its["xi_fixed"])
 
         with torch.no_grad():
-            next_log_pi = mlp(self.actor, batch.next_states).log_softmax(-1)
+            next_log_pi = sac.log_policy(mlp(self.actor, batch.next_states))
             next_q = sac.smaller(self._both(self.target_critics, batch.next_states))
             next_kl = bootstrap.kl_to_rule(next_log_pi, batch.next_rule_actions, self.of_agent["p"])
             next_value = sac.soft_value(next_log_pi, next_q, alpha, its["kl_in_target"] * xi * next_kl)
@@ -65,7 +68,7 @@ class Learner:
         q_taken = q_pair.gather(-1, batch.actions.expand(2, -1, -1).unsqueeze(-1)).squeeze(-1)
         critic_loss = sac.critic_loss(q_taken, target).sum(0)
 
-        log_pi = mlp(self.actor, batch.states).log_softmax(-1)
+        log_pi = sac.log_policy(mlp(self.actor, batch.states))
         kl = bootstrap.kl_to_rule(log_pi, batch.rule_actions, self.of_agent["p"])
         q = sac.smaller(q_pair)
         actor_loss = sac.actor_loss(log_pi, q, alpha, xi * kl)
@@ -73,6 +76,9 @@ class Learner:
         temperature_loss = sac.temperature_loss(self.log_alpha, state_entropy, self.of_agent["target_entropy"])
         if self.of_agent["margin"].any():
             critic_loss = critic_loss + self.of_agent["margin"] * self._margin_loss(q_pair, log_pi.detach(), batch)
+        if self.of_agent["conservative"].any():
+            pessimism = sac.conservative_loss(q_pair, batch.actions.expand(2, -1, -1)).sum(0)
+            critic_loss = critic_loss + self.of_agent["conservative"] * pessimism
 
         self.optimiser.zero_grad()
         (critic_loss + actor_loss + temperature_loss).sum().backward()

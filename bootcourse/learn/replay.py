@@ -54,7 +54,7 @@ class Replay:
         """Draw a batch for each agent: the share beta (agents,) from the demonstrations, the rest from its own."""
         share = np.rint(beta * batch).astype(np.int64)
         if share.any() and not self.demonstrations:
-            raise BootcourseError("beta is above 0 but there are no demonstrations: collect some, or set beta_start = 0.")
+            raise BootcourseError("beta is above 0 but there are no demonstrations: collect some, or set beta to 0.")
         draws = np.stack([generator.random(batch) for generator in generators])
         is_demonstration = np.arange(batch) < share[:, None]
         own = self.first[:, None] + (draws * self.size).astype(np.int64)

@@ -28,6 +28,7 @@ class Settings:
     bonus: float = 2.0  # † c, added to a demonstration's reward
     margin: float = 0.0  # weight of the large-margin loss; 0 switches it off
     paper_q_filter: bool = True  # † the printed Q-filter; False: the usual one
+    conservative: float = 0.0  # § weight of CQL's conservative term; 0 switches it off
     # ---- the same for all agents that train side by side ----
     hidden: tuple = (64, 64)  # § neurons in each hidden layer
     actor_lr: float = 5e-4  # † α_a
@@ -40,32 +41,55 @@ class Settings:
     updates: int = 1  # § updates for each decision of all its roads
     warm_up: int = 256  # § decisions before the first update
     demonstrations: int = 200  # † episodes
+    stochastic_demonstrations: bool = False  # ‡ driven by π̃ as the paper prints, or by μ: see demonstrations.py
+    discriminator_lr: float = 3e-4  # § GAIL's discriminator
+    gradient_penalty: float = 1.0  # § on that discriminator's slope at demonstrations
 
     def __post_init__(self):
-        if self.method not in METHODS:
-            raise BootcourseError(f"Method {nearest(self.method, METHODS)}.")
+        if self.method not in ALL:
+            raise BootcourseError(f"Method {nearest(self.method, ALL)}.")
         check_p(self.p)
         _between(self, 0.0, 1.0, "gamma", "beta_start", "tau")
         _between(self, 0.0, math.inf, "xi_multiplier", "margin", "actor_lr", "critic_lr", "alpha_lr")
+        _between(self, 0.0, math.inf, "conservative", "discriminator_lr", "gradient_penalty")
         _between(self, 1e-12, math.inf, "alpha_init")
         _between(self, -math.inf, math.inf, "target_entropy", "bonus", "xi_fixed")
-        _between(self, 1, math.inf, "beta_episodes", "batch", "roads", "updates", "demonstrations")
-        _between(self, 0, math.inf, "warm_up", "seed")
-        _between(self, self.batch, math.inf, "capacity")
-        if not self.hidden or any(not isinstance(size, int) or size < 1 for size in self.hidden):
+        _between(self, 1, math.inf, "beta_episodes", "batch", "roads", "updates", "demonstrations", whole=True)
+        _between(self, 0, math.inf, "warm_up", "seed", whole=True)
+        _between(self, max(self.batch, self.roads), math.inf, "capacity", whole=True)
+        for name in ("kl_in_target", "paper_q_filter", "stochastic_demonstrations"):
+            if not isinstance(getattr(self, name), bool):
+                raise BootcourseError(f"{name} = {getattr(self, name)!r}: give True or False.")
+        sizes = self.hidden if isinstance(self.hidden, (tuple, list)) else ()
+        if not sizes or any(not isinstance(size, int) or size < 1 for size in sizes):
             raise BootcourseError(f"hidden = {self.hidden!r}: give the layers' sizes, such as (64, 64).")
+        object.__setattr__(self, "hidden", tuple(sizes))
+        self._check_label()
+
+    def _check_label(self) -> None:
+        """A method may have its ingredients switched off, but none switched on that its name says it lacks."""
+        lacks = {name for name, value in ALL[self.method].items() if value == 0}
+        lacks |= {"xi_fixed"} if "xi_multiplier" in lacks else set()
+        for name in sorted(lacks):
+            if getattr(self, name) > 0:
+                raise BootcourseError(
+                    f"{name} = {getattr(self, name)!r}, but method '{self.method}' is defined by doing without: "
+                    "choose a method that has it."
+                )
 
     @property
     def needs_demonstrations(self) -> bool:
         return self.beta_start > 0
 
 
-def _between(settings: Settings, low: float, high: float, *names: str) -> None:
+def _between(settings: Settings, low: float, high: float, *names: str, whole: bool = False) -> None:
     for name in names:
         value = getattr(settings, name)
-        ok = isinstance(value, (int, float)) and not math.isnan(value) and low <= value <= high and abs(value) < math.inf
-        if not ok:
-            raise BootcourseError(f"{name} = {value!r}: give a finite number of {low} or more" + (f", at most {high}." if high < math.inf else "."))
+        is_number = isinstance(value, int if whole else (int, float)) and not isinstance(value, bool)
+        if not is_number or not math.isfinite(value) or not low <= value <= high:
+            limits = [f"of {low:g} or more"] * (low > -math.inf) + [f"at most {high:g}"] * (high < math.inf)
+            wanted = " ".join(["whole number" if whole else "finite number", ", ".join(limits)]).strip()
+            raise BootcourseError(f"{name} = {value!r}: give a {wanted}.")
 
 
 # What each method switches off or on, against `bootstrapped`, the paper's.
@@ -77,18 +101,29 @@ METHODS = {
     "margin": {"xi_multiplier": 0.0, "bonus": 0.0, "margin": 1.0},  # large-margin loss instead of the bonus
     "margin_soft": {"bonus": 0.0, "margin": 1.0},  # the same, with the KL
 }
+# What others do with the same demonstrations, with no word from the rule beyond them. Their share of each
+# batch stays where it starts: whole for those that learn offline, half for GAIL, whose discriminator
+# compares that half with the other, and whose generator learns from the other alone.
+_APART = {"xi_multiplier": 0.0, "bonus": 0.0, "beta_episodes": 10**9}
+BASELINES = {
+    "bc": _APART | {"beta_start": 1.0},  # behaviour cloning (bc.py)
+    "cql": _APART | {"beta_start": 1.0, "conservative": 1.0},  # conservative Q-learning (cql.py)
+    "cql_sac": _APART | {"beta_start": 1.0, "conservative": 1.0},  # the same term on SAC, with its actor
+    "gail": _APART | {"beta_start": 0.5, "batch": 128},  # generative adversarial imitation (gail.py)
+}
+ALL = METHODS | BASELINES
 SHARED = tuple(f.name for f in fields(Settings))[[f.name for f in fields(Settings)].index("hidden") :]
 
 
 def settings_for(method: str, **changes) -> Settings:
     """The settings of a method, with changes. Raises BootcourseError for an unknown name or value."""
-    if method not in METHODS:
-        raise BootcourseError(f"Method {nearest(method, METHODS)}.")
-    known = {f.name for f in fields(Settings)}
+    if method not in ALL:
+        raise BootcourseError(f"Method {nearest(method, ALL)}.")
+    known = [f.name for f in fields(Settings)]
     for name in changes:
         if name not in known:
             raise BootcourseError(f"Setting {nearest(name, known)}.")
-    return Settings(method=method, **(METHODS[method] | changes))
+    return Settings(method=method, **(ALL[method] | changes))
 
 
 def with_seeds(settings: Settings, seeds: int, first: int = 0) -> list[Settings]:

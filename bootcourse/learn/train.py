@@ -8,26 +8,31 @@ Agents differ in seed and settings and never share anything but the demonstratio
 (Ctrl-C, the notebook's stop button) ends `run` early with what was learned so far.
 """
 
+import signal
+import threading
 import time
+import warnings
 from collections.abc import Callable, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import torch
 
+from bootcourse.drivers import stochastic_rule_driver
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.agent import Agent, sample_actions
+from bootcourse.learn.baselines import learner_for
 from bootcourse.learn.bootstrap import constraint_strength, demonstration_share
 from bootcourse.learn.curves import Curves
 from bootcourse.learn.demonstrations import collect
-from bootcourse.learn.learner import Learner
 from bootcourse.learn.replay import Replay, pack
 from bootcourse.learn.settings import Settings
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.rule import rule
 from bootcourse.scenario import DEFAULT, Scenario
 
+LOOK_BACK = 200  # updates; an agent whose loss is not a number falls back to weights at most this old
 FIRST_SEED = 2**33  # of the training roads; demonstrations start at 2**34, held-out roads lie below 2**32
 
 
@@ -40,6 +45,7 @@ class Result:
     scenario: Scenario
     seconds: float
     interrupted: bool
+    stopped: dict[int, int] = field(default_factory=dict)  # {agent: the decision at which its loss was not a number}
 
 
 class Training:
@@ -55,8 +61,9 @@ class Training:
         self.settings, self.episodes, self.scenario = list(settings), int(episodes), scenario
         shared, self.n_agents = self.settings[0], len(self.settings)
         self.roads = shared.roads
-        self.learner = Learner(self.settings, scenario.observation_size)
-        rows = collect(shared.demonstrations, scenario) if any(s.needs_demonstrations for s in settings) else None
+        self.learner = learner_for(self.settings, scenario.observation_size)
+        pi = stochastic_rule_driver(scenario, np.random.default_rng(0)) if shared.stochastic_demonstrations else None
+        rows = collect(shared.demonstrations, scenario, pi) if any(s.needs_demonstrations for s in settings) else None
         self.replay = Replay(self.n_agents, shared.capacity, scenario.observation_size, rows)
         self.curves = Curves(self.n_agents, self.roads, self.episodes)
         streams = [np.random.SeedSequence([s.seed]).spawn(2) for s in settings]
@@ -67,6 +74,8 @@ class Training:
         self.look()
         self.decisions, self.seconds = 0, 0.0
         self.finished_agents: dict[int, Agent] = {}  # as they were after their last episode
+        self.stopped: dict[int, int] = {}  # {agent: the decision at which its loss was not a number}
+        self.updates, self.good = 0, {}  # {agent: as it was at an update at which its loss was a number}
         self.beta_start = np.array([s.beta_start for s in settings])
         self.beta_episodes = np.array([s.beta_episodes for s in settings])
 
@@ -93,16 +102,11 @@ class Training:
         entropies = -(policy * np.log(np.maximum(policy, 1e-30))).sum(-1).ravel()
         next_states, rewards, terminated, truncated, infos = self.env.step(actions)
         done = terminated | truncated
-        reached = next_states
-        if done.any():  # a road that ended has started anew: what was reached stands in final_obs
-            reached = next_states.copy()
-            reached[done] = np.stack(infos["final_obs"][done])
         next_rule_actions = rule(self.env.cars, self.scenario).actions
-        # The rule's action in the last state of an episode: what runs out of time goes on in the target.
-        reached_rule_actions = next_rule_actions
-        if truncated.any():
-            reached_rule_actions = next_rule_actions.copy()
-            reached_rule_actions[truncated] = rule(self.env.final_cars[truncated], self.scenario).actions
+        reached, reached_rule_actions = next_states.copy(), next_rule_actions.copy()
+        if done.any():  # a road that ended has started anew already: s' is the last state of the old episode
+            reached[done] = np.stack(infos["final_obs"][done])
+            reached_rule_actions[done] = rule(self.env.final_cars[done], self.scenario).actions
         rows = pack(self.states, reached, actions, rewards, terminated, self.rule_actions, reached_rule_actions)
         self.replay.add(rows.view(*shape, -1))
         self.curves.note(self.env, rewards, entropies, done, infos, self._now())
@@ -110,10 +114,27 @@ class Training:
         self.decisions += len(actions)
         if self.decisions >= self.n_agents * self.settings[0].warm_up:
             for _ in range(self.settings[0].updates):
-                self.learner.update(self.replay.sample(self.settings[0].batch, self.beta, self.sample_rngs))
+                self.update()
         for agent in np.flatnonzero(self.curves.finished >= self.episodes):
             if agent not in self.finished_agents:
                 self.finished_agents[int(agent)] = self.agent(agent)
+
+    def update(self) -> None:
+        """One update of every agent. One whose loss is not a number stops alone, as it was when it last was one."""
+        now = {} if self.updates % LOOK_BACK else {i: self.agent(i) for i in range(self.n_agents)}
+        losses = self.learner.update(self.replay.sample(self.settings[0].batch, self.beta, self.sample_rngs))
+        finite = torch.stack([loss for name, loss in losses.items() if name.endswith("loss")]).isfinite().all(0)
+        self.updates += 1
+        self.good |= {i: agent for i, agent in now.items() if finite[i] or i not in self.good}
+        if finite.all():
+            return
+        for i in np.flatnonzero(~finite.numpy()):
+            if i not in self.finished_agents:
+                self.stopped[int(i)] = decision = self.decisions // self.n_agents
+                self.finished_agents[int(i)] = self.good[i]
+                self.curves.finished[i] = self.episodes  # nothing more is noted of it
+                who = f"{self.settings[i].method}, seed {self.settings[i].seed}"
+                warnings.warn(f"{who}: its loss was not a number at decision {decision}; it stops there.", stacklevel=2)
 
     def run(
         self,
@@ -128,13 +149,13 @@ class Training:
         """
         from tqdm.auto import tqdm
 
-        interrupted, started, before = False, time.perf_counter(), self.seconds
+        started, before = time.perf_counter(), self.seconds
         total = self.n_agents * self.episodes
-        with _one_thread(), tqdm(total=total, unit="episode", disable=not progress, mininterval=0.5) as bar:
+        bar = tqdm(total=total, unit="episode", disable=not progress, mininterval=0.5)
+        with _one_thread(), bar, _interrupt_waits() as asked_to_stop:
             try:
                 while not self.done:
-                    if stop is not None and stop():
-                        interrupted = True
+                    if asked_to_stop.is_set() or (stop is not None and stop()):
                         break
                     self.step()
                     self.seconds = before + time.perf_counter() - started
@@ -145,14 +166,14 @@ class Training:
                         bar.set_postfix_str(_success(self.curves), refresh=False)
                         bar.update(driven - bar.n)
             except KeyboardInterrupt:
-                interrupted = True
-        return self.result(interrupted)
+                asked_to_stop.set()
+        return self.result(interrupted=asked_to_stop.is_set() or not self.done)
 
     def result(self, interrupted: bool = False) -> Result:
         """What was learned so far."""
         agents = [self.finished_agents.get(i) or self.agent(i) for i in range(self.n_agents)]
         curves = {name: values.copy() for name, values in self.curves.values.items()}
-        return Result(agents, curves, self.scenario, self.seconds, interrupted)
+        return Result(agents, curves, self.scenario, self.seconds, interrupted, dict(self.stopped))
 
     def agent(self, i: int) -> Agent:
         """Agent i as it is now."""
@@ -181,3 +202,23 @@ def _one_thread():
         yield
     finally:
         torch.set_num_threads(before)
+
+
+@contextmanager
+def _interrupt_waits():
+    """An interrupt waits for the step to end, so that the training can go on from there; a second one does not wait."""
+    asked = threading.Event()
+
+    def ask(signum, frame):
+        if asked.is_set():
+            raise KeyboardInterrupt
+        asked.set()
+
+    if threading.current_thread() is not threading.main_thread():  # interrupts go to the main thread alone
+        yield asked
+        return
+    before = signal.signal(signal.SIGINT, ask)
+    try:
+        yield asked
+    finally:
+        signal.signal(signal.SIGINT, before if before is not None else signal.default_int_handler)

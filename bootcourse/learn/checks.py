@@ -1,0 +1,305 @@
+"""Are our learners right? `python -m bootcourse.learn.checks` trains them where others published figures.
+
+The same classes that learn the road - `Learner`, `ConservativeLearner`, `Imitator`, `Replay` - drive
+any gymnasium environment with a flat observation and discrete actions here, several seeds side by
+side. What belongs to the road is switched off: ξ = 0, so the rule's actions (all 0) play no part.
+So is the paper's target entropy of -1, a formula for continuous actions: the targets here are a
+share of log |A|. As on the road, observations are scaled to order one; with raw ones CartPole stays
+near 300. τ is 0.05, since what a state is worth travels one decision back in 1/τ updates, and γ = 0.99
+looks a hundred decisions ahead. The budget of environment steps never exceeds the published one.
+"""
+
+import argparse
+import math
+import sys
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import gymnasium as gym
+import numpy as np
+import torch
+from gymnasium.vector import AutoresetMode, SyncVectorEnv
+
+from bootcourse.errors import BootcourseError, nearest
+from bootcourse.learn.agent import sample_actions
+from bootcourse.learn.baselines import learner_for
+from bootcourse.learn.learner import Learner
+from bootcourse.learn.replay import Replay, pack
+from bootcourse.learn.settings import Settings, settings_for, with_seeds
+
+MakeEnv = Callable[[], gym.Env]
+Policy = Callable[[np.ndarray], np.ndarray]  # observations (envs, size) -> actions (envs,)
+TEST_SEED, DATA_SEED, TRAINING_SEED = 10**6, 2 * 10**6, 3 * 10**6
+
+
+class FixedHorizon(gym.Wrapper):
+    """CartPole that goes on for all 500 steps: 1 for each step with the pole up and the cart on its track.
+
+    Like `seals/CartPole-v0`. An episode's length would tell an imitator how well it does, which is
+    not what its discriminator is to be tested for.
+    """
+
+    def __init__(self, env: gym.Env):
+        super().__init__(env)
+        self.limits = env.unwrapped.x_threshold, env.unwrapped.theta_threshold_radians
+        env.unwrapped.x_threshold = env.unwrapped.theta_threshold_radians = math.inf
+
+    def step(self, action):
+        state, _, terminated, truncated, info = self.env.step(action)
+        up = abs(state[0]) <= self.limits[0] and abs(state[2]) <= self.limits[1]
+        return state, float(up), terminated, truncated, info
+
+
+CARTPOLE_SCALES = (1.0, 1.0, 0.1, 1.0)  # m, m/s, rad, rad/s
+ACROBOT_SCALES = (1.0, 1.0, 1.0, 1.0, 4.0, 8.0)  # two cosines and sines, rad/s
+
+
+def scaled(env: gym.Env, scales: Sequence[float]) -> gym.Env:
+    """The same environment; what it shows is divided by these scales."""
+    space, by = env.observation_space, np.array(scales, dtype=np.float32)
+    space = gym.spaces.Box(space.low / by, space.high / by, dtype=np.float32)
+    return gym.wrappers.TransformObservation(env, lambda state: (state / by).astype(np.float32), space)
+
+
+def cartpole() -> gym.Env:
+    return scaled(gym.make("CartPole-v1"), CARTPOLE_SCALES)
+
+
+def fixed_cartpole() -> gym.Env:
+    return scaled(FixedHorizon(gym.make("CartPole-v1")), CARTPOLE_SCALES)
+
+
+def acrobot() -> gym.Env:
+    return scaled(gym.make("Acrobot-v1"), ACROBOT_SCALES)
+
+
+def balance(states: np.ndarray) -> np.ndarray:
+    """A hand-written CartPole driver, the demonstrator: push to where the pole falls. (n, 4) -> (n,)."""
+    return (states @ np.array([0.1, 0.3, 0.1, 0.3]) > 0).astype(np.int64)
+
+
+def several(make_env: MakeEnv, count: int) -> SyncVectorEnv:
+    return SyncVectorEnv([make_env] * count, autoreset_mode=AutoresetMode.SAME_STEP)
+
+
+def observe(env: SyncVectorEnv, actions: np.ndarray, states: np.ndarray):
+    """One decision: the rows for a `Replay`, the next states, the rewards, which episodes ended."""
+    next_states, rewards, terminated, truncated, infos = env.step(actions)
+    done, reached = terminated | truncated, next_states
+    if done.any():
+        reached = next_states.copy()
+        reached[done] = np.stack(infos["final_obs"][done])
+    no_rule = np.zeros_like(actions)
+    return pack(states, reached, actions, rewards, terminated, no_rule, no_rule), next_states, rewards, done
+
+
+def collect(policy: Policy, make_env: MakeEnv, episodes: int, seed: int = DATA_SEED) -> tuple[torch.Tensor, np.ndarray]:
+    """Whole episodes of a policy as rows for a `Replay`, and their returns (episodes,)."""
+    env = several(make_env, episodes)
+    states, _ = env.reset(seed=seed)
+    awake, returns, kept = np.ones(episodes, dtype=bool), np.zeros(episodes), []
+    while awake.any():
+        rows, states, rewards, done = observe(env, policy(states), states)
+        kept.append(rows[torch.from_numpy(awake)])
+        returns += rewards * awake
+        awake &= ~done
+    return torch.cat(kept), returns
+
+
+def train(
+    settings: Sequence[Settings],
+    make_env: MakeEnv,
+    decisions: int,
+    demonstrations: torch.Tensor | None = None,
+    progress: bool = False,
+) -> Learner:
+    """Train agents for `decisions` decisions each, one update for every decision of their environments.
+
+    Agents that learn offline (`beta_start` = 1) take their updates from the demonstrations alone and drive nothing.
+    """
+    from tqdm.auto import tqdm
+
+    shared, agents = settings[0], len(settings)
+    roads = shared.roads
+    env = several(make_env, agents * roads)
+    size, n_actions = env.single_observation_space.shape[0], int(env.single_action_space.n)
+    learner = learner_for(settings, size, n_actions)
+    replay = Replay(agents, shared.capacity, size, demonstrations)
+    beta = np.array([s.beta_start for s in settings])
+    streams = [np.random.SeedSequence([s.seed]).spawn(2) for s in settings]
+    act_rngs, sample_rngs = ([np.random.default_rng(pair[i]) for pair in streams] for i in range(2))
+    states, _ = env.reset(seed=[TRAINING_SEED + s.seed * 1000 + road for s in settings for road in range(roads)])
+    offline = bool((beta == 1).all())
+    for decision in tqdm(range(0, decisions, roads), disable=not progress, mininterval=1, unit="update"):
+        if not offline:
+            policy = learner.policy(torch.from_numpy(states).float().view(agents, roads, -1)).double().numpy()
+            uniforms = np.stack([rng.random(roads) for rng in act_rngs])
+            rows, states, _, _ = observe(env, sample_actions(policy, uniforms).ravel(), states)
+            replay.add(rows.view(agents, roads, -1))
+        if offline or decision + roads >= shared.warm_up:
+            for _ in range(shared.updates):
+                learner.update(replay.sample(shared.batch, beta, sample_rngs))
+    return learner
+
+
+def policy_of(learner: Learner, agent: int, rng: np.random.Generator | None = None) -> Policy:
+    """Agent's most probable action; with an rng, an action drawn from its policy."""
+
+    def act(states):
+        everyone = torch.from_numpy(states).float().expand(learner.agents, *states.shape)
+        probabilities = learner.policy(everyone)[agent].double().numpy()
+        return probabilities.argmax(-1) if rng is None else sample_actions(probabilities, rng.random(len(states)))
+
+    return act
+
+
+def scores(learner: Learner, make_env: MakeEnv, episodes: int = 100) -> np.ndarray:
+    """Each agent's mean return over test episodes that are the same for all, by its most probable action: (agents,)."""
+    return np.array(
+        [collect(policy_of(learner, i), make_env, episodes, TEST_SEED)[1].mean() for i in range(learner.agents)]
+    )
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a check measured."""
+
+    scores: np.ndarray  # (seeds,)
+    note: str = ""
+
+
+def usual(method: str, n_actions: int, **changes) -> Settings:
+    """The settings of all checks: γ = 0.99, τ = 0.05, target entropy 0.3 log |A|."""
+    return settings_for(method, **{"gamma": 0.99, "tau": 0.05, "target_entropy": 0.3 * math.log(n_actions), **changes})
+
+
+def sac_check(make_env: MakeEnv, decisions: int):
+    """Discrete SAC, for `decisions` decisions of each agent."""
+
+    def measure(seeds: int, progress: bool) -> Outcome:
+        settings = with_seeds(usual("sac", int(make_env().action_space.n)), seeds)
+        return Outcome(scores(train(settings, make_env, decisions, progress=progress), make_env))
+
+    return measure
+
+
+def cql_check(seeds: int, progress: bool) -> Outcome:
+    """CQL on 20,000 transitions, half by a half-trained policy, half at random; 5,000 updates."""
+    half_trained = train([usual("sac", 2, seed=10**6)], cartpole, 10_000)
+    rng = np.random.default_rng(0)
+    parts = [
+        collect(policy_of(half_trained, 0, rng), cartpole, 300),
+        collect(lambda states: rng.integers(2, size=len(states)), cartpole, 1000),
+    ]
+    rows = torch.cat([rows[torch.from_numpy(rng.permutation(len(rows))[:10_000])] for rows, _ in parts])
+    settings = with_seeds(usual("cql", 2, roads=1), seeds)
+    learner = train(settings, cartpole, 5000, rows, progress)
+    means = [returns.mean() for _, returns in parts]
+    return Outcome(scores(learner, cartpole), f"the data's policies: {means[0]:.0f} and {means[1]:.0f}")
+
+
+def gail_check(seeds: int, progress: bool) -> Outcome:
+    """GAIL from 60 demonstrations on the CartPole of fixed length."""
+    rows, returns = collect(balance, fixed_cartpole, 60)
+    learner = train(with_seeds(usual("gail", 2), seeds), fixed_cartpole, 60_000, rows, progress)
+    return Outcome(scores(learner, fixed_cartpole), f"the demonstrator: {returns.mean():.0f}")
+
+
+@dataclass(frozen=True)
+class Check:
+    """A figure that somebody published, and how we try to reach it."""
+
+    learner: str
+    task: str
+    published: float
+    their_budget: str
+    our_budget: str
+    source: str
+    measure: Callable[[int, bool], Outcome]
+
+
+SLM = "[SLM Lab, benchmarks](https://github.com/kengz/SLM-Lab/blob/master/docs/BENCHMARKS.md)"
+CHECKS = {
+    "sac-cartpole": Check(
+        "discrete SAC", "CartPole-v1", 406.09, "200,000 frames, 4 seeds", "100,000 frames", SLM,
+        sac_check(cartpole, 100_000),
+    ),
+    "sac-acrobot": Check(
+        "discrete SAC", "Acrobot-v1", -92.60, "300,000 frames, 4 seeds", "100,000 frames", SLM,
+        sac_check(acrobot, 100_000),
+    ),
+    "cql-cartpole": Check(
+        "CQL, offline", "CartPole-v1", 170.0, "20,000 transitions, 5,000 updates", "the same",
+        "[Tianshou, test_discrete_cql.py](https://github.com/thu-ml/tianshou/blob/master/test/offline/test_discrete_cql.py)",
+        cql_check,
+    ),
+    "gail-cartpole": Check(
+        "GAIL, 60 demonstrations", "CartPole of fixed length", 500.0, "200,000 frames", "60,000 frames",
+        "[imitation, tutorial 3](https://github.com/HumanCompatibleAI/imitation/blob/master/docs/tutorials/3_train_gail.ipynb)",
+        gail_check,
+    ),
+}  # fmt: skip
+CLOSE = 0.01  # a mean within 1 % of what can be reached counts as reached: 498 of CartPole's 500
+
+
+def reached(outcome: Outcome, check: Check) -> bool:
+    return bool(outcome.scores.mean() >= check.published - CLOSE * abs(check.published))
+
+
+def table(outcomes: dict[str, Outcome], seconds: dict[str, float]) -> str:
+    """The checks as a markdown table."""
+    lines = [
+        "| learner | task | published | its budget | ours, mean [worst, best] | our budget | reached | source |",
+        "|---|---|---|---|---|---|---|---|",
+    ]
+    for name, outcome in outcomes.items():
+        check, values = CHECKS[name], outcome.scores
+        ours = f"{values.mean():.1f} [{values.min():.1f}, {values.max():.1f}], {len(values)} seeds"
+        note = f" ({outcome.note})" if outcome.note else ""
+        budget = f"{check.our_budget}, {seconds[name]:.0f} s"
+        verdict = "yes" if reached(outcome, check) else "**no**"
+        lines.append(
+            f"| {check.learner} | {check.task} | {check.published:g} | {check.their_budget} | {ours}{note} "
+            f"| {budget} | {verdict} | {check.source} |"
+        )
+    return "\n".join(lines) + "\n"
+
+
+def run(names: Sequence[str], seeds: int, progress: bool) -> tuple[dict[str, Outcome], dict[str, float]]:
+    """Run some checks: their outcomes and the seconds that each took. Raises BootcourseError for an unknown name."""
+    outcomes, seconds = {}, {}
+    for name in names:
+        if name not in CHECKS:
+            raise BootcourseError(f"Check {nearest(name, CHECKS)}.")
+    for name in names:
+        began = time.perf_counter()
+        outcomes[name] = CHECKS[name].measure(seeds, progress)
+        seconds[name] = time.perf_counter() - began
+    return outcomes, seconds
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(prog="python -m bootcourse.learn.checks", description=__doc__.split("\n")[0])
+    parser.add_argument("--only", nargs="+", default=list(CHECKS), metavar="NAME", help=", ".join(CHECKS))
+    parser.add_argument("--seeds", type=int, default=4, help="training seeds, side by side")
+    parser.add_argument("--out", type=Path, help="also write the table to this file")
+    options = parser.parse_args(arguments)
+    torch.set_num_threads(1)
+    try:
+        outcomes, seconds = run(options.only, options.seeds, sys.stderr.isatty())
+    except BootcourseError as error:
+        print(error, file=sys.stderr)
+        return 2
+    text = table(outcomes, seconds)
+    print(text)
+    if options.out:
+        from bootcourse.record.files import write_bytes
+
+        write_bytes(options.out, text.encode())
+    return 0 if all(reached(outcome, CHECKS[name]) for name, outcome in outcomes.items()) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

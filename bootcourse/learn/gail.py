@@ -1,0 +1,75 @@
+"""Generative adversarial imitation learning: drive so that a judge takes you for the demonstrator.
+
+Ho & Ermon (arXiv 1606.03476) with an off-policy generator, as in DAC (Kostrikov et al., arXiv
+1809.02925): a discriminator learns to tell demonstrations from the agent's own driving, discrete
+SAC learns to deserve its verdict. The road's reward is never used. Not here: DAC's absorbing states.
+"""
+
+from collections.abc import Sequence
+
+import torch
+import torch.nn.functional as F
+from torch import Tensor
+
+from bootcourse.errors import BootcourseError
+from bootcourse.learn.learner import Learner
+from bootcourse.learn.networks import init_mlp, mlp
+from bootcourse.learn.replay import Batch
+from bootcourse.learn.settings import Settings
+from bootcourse.scenario import N_ACTIONS
+
+
+def discriminator_loss(expert_logits: Tensor, own_logits: Tensor) -> Tensor:
+    """-E_expert[log D] - E_own[log(1 - D)] with D = σ(logit): logits (..., batch) -> (...).
+
+    D(s,a) is the probability that the demonstrator did a in s; Equation 17 of the paper, whose D is our 1 - D.
+    """
+    return F.softplus(-expert_logits).mean(-1) + F.softplus(own_logits).mean(-1)
+
+
+def imitation_reward(own_logits: Tensor) -> Tensor:
+    """r(s,a) = -log(1 - D(s,a)), any shape. It is never negative: an episode that goes on is never worse."""
+    return F.softplus(own_logits)
+
+
+def gradient_penalty(network: Sequence[Tensor], expert: Tensor) -> Tensor:
+    """E_expert[‖∇ logit‖²] / 2, "R1" (Mescheder et al., arXiv 1801.04406): keeps the judge smooth.
+
+    expert (agents, batch, inputs) -> (agents,).
+    """
+    expert = expert.detach().requires_grad_()
+    (slope,) = torch.autograd.grad(mlp(network, expert).sum(), expert, create_graph=True)
+    return slope.square().sum(-1).mean(-1) / 2
+
+
+class Imitator(Learner):
+    """SAC that is rewarded by a discriminator of its own, for several agents.
+
+    A batch must hold as many demonstrations as own transitions, the demonstrations first.
+    """
+
+    def __init__(self, settings: Sequence[Settings], observation_size: int, n_actions: int = N_ACTIONS):
+        super().__init__(settings, observation_size, n_actions)
+        self.n_actions, shared = n_actions, self.settings[0]
+        generators = [torch.Generator().manual_seed(s.seed + 2**32) for s in settings]  # not the actors' draws again
+        self.discriminator = init_mlp((observation_size + n_actions, *shared.hidden, 1), generators)
+        for parameter in self.discriminator:
+            parameter.requires_grad_()
+        self.optimiser.add_param_group({"params": self.discriminator, "lr": shared.discriminator_lr})
+
+    def update(self, batch: Batch) -> dict[str, Tensor]:
+        """One step of the discriminator, one of SAC on the own half. Returns what a curve shows, each (agents,)."""
+        half = batch.rewards.shape[1] // 2
+        if not (batch.is_demonstration[:, :half].all() and not batch.is_demonstration[:, half:].any()):
+            raise BootcourseError("GAIL compares halves: leave its beta_start at 0.5, with an even batch.")
+        pairs = torch.cat([batch.states, F.one_hot(batch.actions, self.n_actions)], dim=-1)
+        logits = mlp(self.discriminator, pairs).squeeze(-1)
+        loss = discriminator_loss(logits[:, :half], logits[:, half:])
+        penalty = gradient_penalty(self.discriminator, pairs[:, :half])
+        self.optimiser.zero_grad()  # the actor and the critics have no gradient here, so Adam leaves them alone
+        (loss + self.settings[0].gradient_penalty * penalty).sum().backward()
+        self.optimiser.step()
+        with torch.no_grad():
+            rewards = imitation_reward(mlp(self.discriminator, pairs[:, half:]).squeeze(-1))
+        mine = Batch(*(column[:, half:] for column in batch))._replace(rewards=rewards)
+        return super().update(mine) | {"discriminator_loss": loss.detach(), "imitation_reward": rewards.mean(-1)}

@@ -1,0 +1,81 @@
+"""The fidelity report: every number of the paper's two tables beside ours, with a verdict and its reason.
+
+The verdicts follow rules that stand here and were fixed before the study was run:
+
+- cannot be compared: the paper's number contradicts itself, or we have no result;
+- reproduced: at least half of our agents score so, which is to say: within the 95 % interval that the
+  paper's number has for its 20 test episodes, or `CLOSE` to that number;
+- partly: fewer do, or none but our interval over training seeds meets the paper's;
+- not reproduced: neither.
+
+Agents are counted because the paper's numbers stand, as far as it says, for one agent each.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from bootcourse.study.evaluate import Estimate, mean, rate
+from bootcourse.study.paper import COLUMNS, PRINTED, RATES, paper_interval, possible
+from bootcourse.study.results import Results
+from bootcourse.study.statistics import interval
+
+VERDICTS = ("reproduced", "partly", "not reproduced", "cannot be compared")
+CLOSE = {"success": 5.0, "returns": 1.0, "speed": 0.1, "distance": 15.0, "collision": 5.0}  # units of the column
+
+
+class Finding(NamedTuple):
+    """One number of the paper, and what we found."""
+
+    method: str
+    column: str
+    paper: Estimate
+    ours: Estimate | None
+    verdict: str
+    reason: str
+
+
+def mean_over(scores: np.ndarray, axis: int = -1) -> np.ndarray:
+    return np.mean(scores, axis=axis)
+
+
+def scores_of(results: Results, method: str, column: str) -> np.ndarray:
+    """Each agent's score in the paper's units (rates in percent), (agents,)."""
+    return results.of(method).scores(column) * (100 if column in RATES else 1)
+
+
+def estimate(results: Results, method: str, column: str) -> Estimate:
+    """Our mean in the paper's units, with its interval over agents; of a single driver, over its episodes."""
+    scale, mine = (100 if column in RATES else 1), results.of(method)
+    if len(mine) > 1:
+        return Estimate(*(scale * number for number in interval(mine.scores(column), mean_over)))
+    episodes = mine.episodes(column)[0]
+    return Estimate(*(scale * number for number in (rate(episodes > 0) if column in RATES else mean(episodes))))
+
+
+def judge(results: Results, method: str, column: str) -> Finding:
+    """The verdict on one number. The mean over agents is compared, as the paper prints means."""
+    paper = paper_interval(method, column)
+    if method not in results.methods:
+        return Finding(method, column, paper, None, "cannot be compared", "This study has not run this method.")
+    ours, scores = estimate(results, method, column), scores_of(results, method, column)
+    if not possible(method, column):
+        average, sd = PRINTED[method][column]
+        reason = f"{average:g} ± {sd:g} % is impossible for a rate, so it is not known what was measured."
+        return Finding(method, column, paper, ours, "cannot be compared", reason)
+    close = CLOSE[column]
+    low, high = min(paper.low, paper.value - close), max(paper.high, paper.value + close)
+    so, all_of_them = int(((scores >= low) & (scores <= high)).sum()), len(scores)
+    meet = ours.low <= paper.high and ours.high >= paper.low
+    verdict = "reproduced" if 2 * so >= all_of_them else "partly" if so or meet else "not reproduced"
+    unit = "" if column == "returns" else " " + COLUMNS[column].rsplit(", ")[-1]
+    gap = abs(ours.value - paper.value)
+    difference = f"{gap:.4g}{unit} {'higher' if ours.value > paper.value else 'lower'}" if gap > 1e-9 else "the same"
+    reason = f"{so} of our {all_of_them} agents" if all_of_them > 1 else "Ours does" if so else "Ours does not"
+    reason += f" score so; our mean is {difference}."
+    return Finding(method, column, paper, ours, verdict, reason)
+
+
+def fidelity(results: Results) -> list[Finding]:
+    """A finding for every number of the two tables (a row that stands in both is judged once)."""
+    return [judge(results, method, column) for method in PRINTED for column in COLUMNS]

@@ -1,0 +1,99 @@
+"""What a study is made of: its cells, as lists."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import product
+
+from bootcourse.errors import BootcourseError, nearest
+from bootcourse.learn.settings import BASELINES, METHODS, Settings, settings_for, with_seeds
+from bootcourse.scenario import DEFAULT, Scenario
+from bootcourse.study.cells import BoundCell, Cell, StayingCell
+
+GROUP = 5  # seeds that train side by side: more costs little less for each, and fills fewer cores
+PLANNER, ROADS = "planner", 50  # held-out roads that one cell of the planner searches
+VARIED = ("sac", "soft", "demos", "bootstrapped")  # the paper's ablation: what a variation is run for
+P, XI, C = (0.5, 0.9, 0.99), (0.0, 20.0, 200.0, 2000.0), (0.0, 2.0, 5.0)  # the sweep
+
+
+def methods_named(only: str) -> list[str]:
+    """ "sac, soft" -> ["sac", "soft"]; "" -> all, the planner too. Raises BootcourseError for an unknown name."""
+    everything = (*BASELINES, *METHODS, PLANNER)  # the longest first
+    names = [name.strip() for name in only.split(",") if name.strip()] or everything
+    for name in names:
+        if name not in everything:
+            raise BootcourseError(f"Method {nearest(name, everything)}.")
+    return [name for name in everything if name in names]
+
+
+def study_cells(methods: Sequence[str], seeds: int, episodes: int, scenario: Scenario, tests: int) -> list:
+    """Every method with its training seeds, GROUP at a time; "planner" is the bound, ROADS roads at a time."""
+    cells = []
+    for method, first in product((m for m in methods if m != PLANNER), range(0, seeds, GROUP)):
+        group = with_seeds(settings_for(method), min(GROUP, seeds - first), first)
+        name = f"{scenario.name}/{method}-{first}-{first + len(group) - 1}"
+        cells.append(Cell(name, tuple(group), scenario, episodes, tests))
+    for first in range(0, tests, ROADS) if PLANNER in methods else ():
+        name = f"bound-{scenario.name}/{first:04}"
+        cells.append(BoundCell(name, scenario, first, min(ROADS, tests - first)))
+    if PLANNER in methods:
+        cells.append(StayingCell(f"staying-{scenario.name}/gamma-0.8", scenario, roads=min(ROADS, tests)))
+    return cells
+
+
+def variations() -> dict[str, tuple[Scenario, dict]]:
+    """What the paper leaves open, and three of its choices: {name: (scenario, settings that differ)}."""
+
+    def traps(speed):
+        return replace(DEFAULT, name=f"traps-{speed}", traps=replace(DEFAULT.traps, speed=speed)), {}
+
+    def traffic(name, **changes):
+        return replace(DEFAULT, name=name, traffic=replace(DEFAULT.traffic, **changes)), {}
+
+    return {
+        "as it is": (DEFAULT, {}),
+        "traps at 10.3 m/s": traps(10.3),
+        "traps at 10.6 m/s": traps(10.6),
+        "traps at 11 m/s": traps(11.0),
+        "no traffic": traffic("no-traffic", cars=0),
+        "3 cars": traffic("3-cars", cars=3),
+        "12 cars": traffic("12-cars", cars=12),
+        "6 cars, twice as close": traffic("close", lead=20.0, headway=20.0),
+        "network 32 x 32": (DEFAULT, {"hidden": (32, 32)}),
+        "network 128 x 128": (DEFAULT, {"hidden": (128, 128)}),
+        "network 256 x 256": (DEFAULT, {"hidden": (256, 256)}),
+        "1 update for each decision": (DEFAULT, {"updates": 4}),
+        "demonstrations driven by π̃": (DEFAULT, {"stochastic_demonstrations": True}),
+        "target entropy 0.3": (DEFAULT, {"target_entropy": 0.3}),
+        "target entropy 1": (DEFAULT, {"target_entropy": 1.0}),
+        "γ = 0.9": (DEFAULT, {"gamma": 0.9}),
+        "γ = 0.95": (DEFAULT, {"gamma": 0.95}),
+        "γ = 0.99": (DEFAULT, {"gamma": 0.99}),
+    }
+
+
+def sensitivity_cells(seeds: int, episodes: int, tests: int) -> list[Cell]:
+    """One cell for each variation: the ablation's methods, side by side."""
+    cells = []
+    for name, (scenario, changes) in variations().items():
+        agents = [agent for method in VARIED for agent in with_seeds(settings_for(method, **changes), seeds)]
+        cells.append(Cell(f"sensitivity/{folder(name)}", tuple(agents), scenario, episodes, tests, runs=False))
+    return sorted(cells, key=lambda cell: -sum(cell.settings[0].hidden) * cell.settings[0].updates)  # the longest first
+
+
+def folder(name: str) -> str:
+    """A name as a folder: "γ = 0.9" -> "gamma-0.9"."""
+    plain = name.replace("γ", "gamma").replace("π̃", "stochastic-rule").replace(",", "")
+    return "-".join(word for word in plain.split() if word not in ("=", "x", "at", "m/s"))
+
+
+def sweep_settings(p: Sequence[float] = P, xi: Sequence[float] = XI, c: Sequence[float] = C) -> list[Settings]:
+    """One for each combination that can differ. Without ξ nothing depends on p, so that is run once."""
+    wanted = [(a if x else p[0], x, b) for a, x, b in product(p, xi, c)]
+    return [settings_for("bootstrapped", p=a, xi_multiplier=x, bonus=b) for a, x, b in dict.fromkeys(wanted)]
+
+
+def sweep_cells(seeds: int, episodes: int, tests: int, scenario: Scenario = DEFAULT, together: int = 10) -> list[Cell]:
+    """The sweep in a few large cells: its agents differ in p, ξ and c, and train side by side all the same."""
+    agents = [agent for settings in sweep_settings() for agent in with_seeds(settings, seeds)]
+    parts = [tuple(agents[i : i + together]) for i in range(0, len(agents), together)]
+    return [Cell(f"sweep/{i:02}", part, scenario, episodes, tests, runs=False) for i, part in enumerate(parts)]

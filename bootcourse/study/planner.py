@@ -1,0 +1,222 @@
+"""The bound: how much could anybody earn on this very road? A search that knows the simulator.
+
+Beam search over the compiled road: every kept drive is continued by all nine actions at once, and
+the best are kept. It sees the other cars' future, which no driver does, so it is a bound to measure
+others by and not a competitor. What it finds is a list of actions that anybody can replay.
+
+Set γ below 1 and it answers another question: is it worth leaving the trap for somebody who
+discounts like that (`is_staying_optimal`)?
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from gymnasium.vector import AutoresetMode
+
+from bootcourse.drivers import Choice, Driver, idle_driver, rule_driver
+from bootcourse.errors import BootcourseError
+from bootcourse.road import twin
+from bootcourse.road.constants import constants
+from bootcourse.road.formulas import speed_reward
+from bootcourse.road.state import EGO, HEADING, LANE, SPEED, TRAP_1, X, Y
+from bootcourse.road.vector_env import TrapVectorEnv
+from bootcourse.scenario import DEFAULT, IDLE, N_ACTIONS, Scenario
+from bootcourse.study.evaluate import Estimate, mean, rate
+
+# Two drives whose egos fall into the same cell are the same drive, as far as the search cares.
+CELL = {X: 0.25, Y: 0.2, HEADING: 0.02, SPEED: 0.5}  # m, m, rad, m/s
+
+
+@dataclass(frozen=True)
+class Search:
+    """How to search."""
+
+    beam: int = 200  # drives that are kept after each decision
+    gamma: float = 1.0  # discount factor; 1 for the return itself
+    keep_lane: bool = False  # only drives that never leave the lane they start in
+    decisions: int | None = None  # how far to look; None: to the episode's end
+
+    def __post_init__(self):
+        if self.beam < 1 or not 0 < self.gamma <= 1 or (self.decisions is not None and self.decisions < 1):
+            raise BootcourseError(f"{self}: give a beam and decisions of 1 or more, and 0 < gamma <= 1.")
+
+
+@dataclass(frozen=True)
+class Plan:
+    """The best drive that was found on one road."""
+
+    seed: int  # of the road
+    actions: np.ndarray  # (T,) int, 0..8
+    rewards: np.ndarray  # (T,) float
+    value: float  # Σ γ^t r_t
+    success: bool  # is the ego ahead of trap 1 at the end?
+
+
+def plan_episodes(
+    seeds: Sequence[int], scenario: Scenario = DEFAULT, search: Search | None = None, progress: bool = False
+) -> list[Plan]:
+    """The best drive found on the road of each seed; about a second each on a free core."""
+    from tqdm.auto import tqdm
+
+    seeds = list(seeds)
+    env = TrapVectorEnv(len(seeds), scenario, AutoresetMode.DISABLED)
+    env.reset(seed=seeds)
+    roads = tqdm(zip(seeds, env.cars, strict=True), total=len(seeds), unit="road", disable=not progress)
+    return [plan(cars, scenario, search, seed) for seed, cars in roads]
+
+
+def plan(cars: np.ndarray, scenario: Scenario = DEFAULT, search: Search | None = None, seed: int = -1) -> Plan:
+    """The best drive found from cars (vehicles, 10), the start of an episode."""
+    search = search or Search()
+    decisions = search.decisions or scenario.clock.decisions
+    worth = future_worth(scenario, decisions, search.gamma)
+    kept, values = cars[None].copy(), np.zeros(1)
+    history: list[tuple[np.ndarray, ...]] = []  # of each decision: parents, actions, rewards of the kept
+    for t in range(decisions):
+        children, rewards, accidents = expand(kept, scenario)
+        totals = (values[:, None] + search.gamma**t * rewards).ravel()
+        alive = accidents.ravel() == 0
+        if search.keep_lane:
+            alive &= children[:, EGO, LANE] == cars[EGO, LANE]
+        if alive.any():
+            scores = totals + search.gamma ** (t + 1) * np.interp(children[:, EGO, SPEED], *worth[decisions - t - 1])
+            chosen = select(children, scores, alive, search.beam)
+        else:  # every way ends in an accident: the dearest that could be bought before it
+            chosen = totals.argmax(keepdims=True)
+        history.append((chosen // N_ACTIONS, chosen % N_ACTIONS, rewards.ravel()[chosen]))
+        kept, values = children[chosen], totals[chosen]
+        if not alive.any():
+            break
+    return _trace_back(history, kept, values, seed)
+
+
+def expand(cars: np.ndarray, scenario: Scenario) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """All nine actions from each of some roads: cars (n, vehicles, 10) -> (n x 9, vehicles, 10), (n, 9), (n, 9).
+
+    The children, their rewards, their accidents (an Accident's number).
+    """
+    children = cars.repeat(N_ACTIONS, axis=0)
+    count = len(children)
+    rewards, terms, accidents = np.zeros(count), np.zeros((count, 3)), np.zeros(count, dtype=np.int64)
+    actions, asleep = np.tile(np.arange(N_ACTIONS), len(cars)), np.zeros(count, dtype=bool)
+    twin.decide(children, actions, asleep, constants(scenario), rewards, terms, accidents, twin.NO_TRACE)
+    return children, rewards.reshape(-1, N_ACTIONS), accidents.reshape(-1, N_ACTIONS)
+
+
+def select(children: np.ndarray, scores: np.ndarray, alive: np.ndarray, beam: int) -> np.ndarray:
+    """Which children to keep: the best of each cell; of those, a fair share for each lane and speed, then the best.
+
+    Half of the beam is shared out. Without that, all that is kept soon does the same: it hurries
+    towards the trap, and finds too late that it cannot brake any more.
+    """
+    order = np.flatnonzero(alive)
+    order = order[np.argsort(-scores[order], kind="stable")]
+    egos = children[order, EGO]
+    cells = np.round(egos[:, list(CELL)] / list(CELL.values()))
+    _, first = np.unique(cells, axis=0, return_index=True)
+    order, egos = order[np.sort(first)], egos[np.sort(first)]  # still best first
+    kinds = egos[:, LANE] * 1000 + np.round(egos[:, SPEED])
+    share = max(1, beam // (2 * len(np.unique(kinds))))
+    place = np.empty(len(order), dtype=np.int64)  # among its kind, 0 is the best
+    for kind in np.unique(kinds):
+        place[kinds == kind] = np.arange((kinds == kind).sum())
+    return order[np.argsort(place >= share, kind="stable")[:beam]]
+
+
+def future_worth(scenario: Scenario, decisions: int, gamma: float) -> list[tuple[np.ndarray, np.ndarray]]:
+    """What an empty road would still pay: for 0, 1, ... decisions left, (speeds, Σ γ^t r_t) to interpolate in.
+
+    The ego goes to the best speed as fast as it can and keeps its lane. No drive can do better.
+    """
+    a, weights = scenario.ego.acceleration / scenario.clock.decision_rate, scenario.reward
+    speeds = np.linspace(0.0, scenario.ego.max_speed, 401)
+    reward = weights.w_v * np.array([speed_reward(v) for v in speeds]) + weights.w_y
+    reward /= weights.w_v + weights.w_y + weights.w_theta
+    best = speeds[reward.argmax()]
+    following = speeds + np.clip(best - speeds, -a, a)
+    worth = [np.zeros_like(speeds)]
+    for _ in range(decisions):
+        worth.append(np.interp(following, speeds, reward + gamma * worth[-1]))
+    return [(speeds, values) for values in worth]
+
+
+def _trace_back(history, kept: np.ndarray, values: np.ndarray, seed: int) -> Plan:
+    row = int(values.argmax())
+    value, success = float(values[row]), bool(kept[row, EGO, X] > kept[row, TRAP_1, X])
+    actions, rewards = [], []
+    for parents, taken, earned in reversed(history):
+        actions.append(taken[row])
+        rewards.append(earned[row])
+        row = parents[row]
+    return Plan(seed, np.array(actions[::-1]), np.array(rewards[::-1]), value, success)
+
+
+def follow(plans: Sequence[Plan]) -> Driver:
+    """Drives each plan on its road, once: record(follow(plans), [p.seed for p in plans], scenario, "planner")."""
+    longest = max(len(each.actions) for each in plans)
+    table = np.full((longest, len(plans)), IDLE)
+    for road, each in enumerate(plans):
+        table[: len(each.actions), road] = each.actions
+    coming = iter(table)
+    return lambda observations, cars: Choice(next(coming, np.full(len(plans), IDLE)))
+
+
+def empty_road_return(scenario: Scenario = DEFAULT) -> float:
+    """What nobody can exceed: the return of an episode with no other car on the road."""
+    return float(np.interp(scenario.ego.speed, *future_worth(scenario, scenario.clock.decisions, 1.0)[-1]))
+
+
+@dataclass(frozen=True)
+class Staying:
+    """Discounted values from the start of an episode, Σ γ^t r_t, each over the same roads."""
+
+    gamma: float
+    idle: Estimate  # does nothing: behind the trap for ever
+    keep_lane: Estimate  # the best drive found that never leaves its lane
+    rule: Estimate  # leaves by the backward gap, as the rule does
+    best: Estimate  # the best drive found
+    gain: Estimate  # best less keep_lane, road by road
+    leaves: Estimate  # share of the roads on which the best drive found ends ahead of trap 1
+
+
+def is_staying_optimal(
+    seeds: Sequence[int], scenario: Scenario = DEFAULT, gamma: float = 0.8, beam: int = 200, progress: bool = False
+) -> Staying:
+    """At this γ, is staying behind the trap the best one can do, or a failure to find better?
+
+    Both searches end where γ^t is under a millionth. If `gain` lies above 0, an agent that stays has
+    not found what there is to find; a gain of `rule` over `keep_lane` would say that the rule's own
+    detour pays at this γ.
+    """
+    if not 0 < gamma < 1:
+        raise BootcourseError(f"gamma = {gamma}: give a discount factor between 0 and 1.")
+    seeds = list(seeds)
+    decisions = min(scenario.clock.decisions, math.ceil(math.log(1e-6) / math.log(gamma)))
+    best, kept = (
+        plan_episodes(seeds, scenario, Search(beam, gamma, keep_lane, decisions), progress)
+        for keep_lane in (False, True)
+    )
+    best_values, kept_values = (np.array([each.value for each in plans]) for plans in (best, kept))
+    return Staying(
+        gamma=gamma,
+        idle=mean(discounted_values(idle_driver, seeds, scenario, gamma)),
+        keep_lane=mean(kept_values),
+        rule=mean(discounted_values(rule_driver(scenario), seeds, scenario, gamma)),
+        best=mean(best_values),
+        gain=mean(best_values - kept_values),
+        leaves=rate(np.array([each.success for each in best])),
+    )
+
+
+def discounted_values(driver: Driver, seeds: Sequence[int], scenario: Scenario, gamma: float) -> np.ndarray:
+    """Σ γ^t r_t of a whole episode on the road of each seed, (roads,)."""
+    env = TrapVectorEnv(len(seeds), scenario, AutoresetMode.DISABLED)
+    observations, _ = env.reset(seed=list(seeds))
+    values, t = np.zeros(len(seeds)), 0
+    while not env.asleep.all():
+        observations, rewards, *_ = env.step(driver(observations, env.cars).actions)
+        values += gamma**t * rewards
+        t += 1
+    return values

@@ -1,0 +1,165 @@
+"""Compute cells: on this machine's cores, or on a cluster that you have already. joblib is the one interface.
+
+A study's folder belongs to one study at a time: the system holds its lock as long as the process
+lives, and lets go of it when that process ends, however it ends. (On a network disk without locks,
+start only one yourself.)
+"""
+
+import json
+import os
+import platform
+import socket
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+import joblib
+from filelock import FileLock, Timeout
+
+from bootcourse.errors import BootcourseError, nearest
+from bootcourse.record.files import write_json
+from bootcourse.study.cells import OtherQuestion, finished, run_cell
+
+BACKENDS = ("loky", "dask", "ray")
+CONNECT = 10.0  # s until a scheduler must answer
+
+
+def run_cells(cells: Sequence, root: Path, backend="loky", scheduler=None, jobs=None, recompute=False) -> list[str]:
+    """Compute those cells that are not done yet. Returns what went wrong, a sentence each.
+
+    scheduler: the address of a dask scheduler or a ray cluster; without one, dask and ray start
+    their own on this machine. jobs: cells at once, by default one for each core. recompute: compute
+    damaged cells again; without it one damaged cell is refused. Raises BootcourseError before
+    anything is computed.
+    """
+    if backend not in BACKENDS:
+        raise BootcourseError(f"Backend {nearest(backend, BACKENDS)}.")
+    if scheduler and backend == "loky":
+        raise BootcourseError("--scheduler needs --backend dask or --backend ray: loky uses this machine's cores.")
+    with locked(root):
+        waiting = to_do(cells, root, recompute)
+        print(f"{len(cells)} cells in {root}: {len(cells) - len(waiting)} done already, {len(waiting)} to compute.")
+        if not waiting:
+            return []
+        write_json(root / "study.json", {"cells": [cell.name for cell in cells]})
+        with workers(backend, scheduler, jobs):
+            return _compute(waiting, root.resolve(), backend)
+
+
+def _compute(waiting: list, root: Path, backend: str) -> list[str]:
+    from tqdm.auto import tqdm
+
+    how = "list" if backend == "ray" else "generator_unordered"  # ray gives its answers all at once
+    jobs = (joblib.delayed(run_cell)(cell, root) for cell in waiting)
+    try:
+        answers = joblib.Parallel(batch_size=1, pre_dispatch="all", return_as=how)(jobs)
+        return [answer for answer in tqdm(answers, total=len(waiting), unit="cell", smoothing=0) if answer]
+    except joblib.externals.loky.process_executor.TerminatedWorkerError:
+        return ["A process was killed, perhaps for want of memory: start the same command again, with fewer --jobs."]
+
+
+def to_do(cells: Sequence, root: Path, recompute: bool) -> list:
+    """The cells that are not done. Damaged ones are named and refused, or set aside if `recompute`."""
+    waiting, damaged = [], []
+    for cell in cells:
+        try:
+            if not finished(cell, root):
+                waiting.append(cell)
+        except OtherQuestion:
+            raise
+        except BootcourseError as error:
+            damaged.append(str(error))
+            waiting.append(cell)
+            if recompute:
+                os.rename(root / "cells" / cell.name, _aside(root, cell.name))
+                print(f"{error} It is computed again; the old one is in {root / 'damaged'}.")
+    if damaged and not recompute:
+        raise BootcourseError(" ".join(damaged) + " Add --recompute to compute it again.")
+    return waiting
+
+
+def _aside(root: Path, name: str) -> Path:
+    place = root / "damaged" / f"{name.replace('/', '-')}-{time.strftime('%Y%m%d-%H%M%S')}"
+    place.parent.mkdir(parents=True, exist_ok=True)
+    return place
+
+
+@contextmanager
+def locked(root: Path) -> Iterator[None]:
+    """Keep every other study out of the folder. Raises BootcourseError if one is at work there."""
+    try:
+        root.mkdir(parents=True, exist_ok=True)
+        lock = FileLock(root / ".lock")
+        lock.acquire(timeout=0)
+    except Timeout:
+        raise BootcourseError(f"{_holder(root)} is at work in {root}: wait for it, or choose another folder.") from None
+    except OSError as error:
+        raise BootcourseError(f"Cannot write {root}: {error.strerror}. Choose another folder.") from None
+    try:
+        write_json(
+            root / ".holder.json", {"pid": os.getpid(), "host": platform.node(), "since": time.strftime("%F %T")}
+        )
+        yield
+    finally:
+        lock.release()
+
+
+def _holder(root: Path) -> str:
+    try:
+        who = json.loads((root / ".holder.json").read_text())
+        return f"Another study (process {who['pid']} on {who['host']}, since {who['since']})"
+    except (OSError, ValueError, KeyError):
+        return "Another study"
+
+
+@contextmanager
+def workers(backend: str, scheduler: str | None, jobs: int | None) -> Iterator[None]:
+    """joblib's processes: loky's on this machine, or those of a dask or ray cluster."""
+    if backend == "loky":
+        with joblib.parallel_config("loky", n_jobs=jobs or -1, inner_max_num_threads=1):
+            yield
+    elif backend == "dask":
+        with _dask_client(scheduler, jobs), joblib.parallel_config("dask", n_jobs=jobs or -1):
+            yield
+    else:
+        _connect_to_ray(scheduler, jobs)
+        with joblib.parallel_config("ray", n_jobs=jobs or -1):
+            yield
+
+
+def _dask_client(scheduler: str | None, jobs: int | None):
+    try:
+        from distributed import Client
+    except ModuleNotFoundError:
+        raise BootcourseError("dask is not installed: pip install 'bootcourse[dask]'.") from None
+    if not scheduler:
+        return Client(n_workers=jobs, threads_per_worker=1, dashboard_address=None)
+    try:
+        return Client(scheduler, timeout=CONNECT)
+    except (OSError, ValueError):
+        raise BootcourseError(f"No dask scheduler answers at {scheduler}: start one, or check the address.") from None
+
+
+def _connect_to_ray(scheduler: str | None, jobs: int | None) -> None:
+    try:
+        import ray
+        from ray.util.joblib import register_ray
+    except ModuleNotFoundError:
+        raise BootcourseError("ray is not installed: pip install 'bootcourse[ray]'.") from None
+    if scheduler and not _answers(scheduler):  # ray itself would end the whole process after a minute
+        raise BootcourseError(f"No ray cluster answers at {scheduler}: start one, or check the address.")
+    if not ray.is_initialized():
+        ray.init(scheduler, num_cpus=None if scheduler else jobs, include_dashboard=False)
+    register_ray()
+
+
+def _answers(address: str) -> bool:
+    """Does anything listen at HOST:PORT? ("auto" is ray's own business.)"""
+    host, _, port = address.rpartition("://")[2].partition(":")
+    try:
+        if port:
+            socket.create_connection((host, int(port)), timeout=CONNECT).close()
+    except (OSError, ValueError):
+        return False
+    return True

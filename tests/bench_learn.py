@@ -1,0 +1,223 @@
+"""How fast the learner is: `python -m tests.bench_learn`, or `make bench` for the road too.
+
+Milliseconds per update of one agent, two hidden layers of 64 and batches of 64, on one thread:
+ours with 16 agents side by side, a plain loop of one agent, and d3rlpy's discrete SAC. All take
+turns in one run and each counts its best turn, so that the ratios hold on a busy machine too.
+"""
+
+import contextlib
+import copy
+import io
+import time
+from collections.abc import Callable
+
+import numpy as np
+import torch
+import torch.nn.functional as F
+from torch import nn
+
+from bootcourse.learn.learner import Learner
+from bootcourse.learn.replay import Batch, Replay, pack
+from bootcourse.learn.settings import Settings, settings_for, with_seeds
+from bootcourse.scenario import DEFAULT, N_ACTIONS
+from tests.bench_road import Row
+
+AGENTS = 16
+PLAIN_TARGET, D3RLPY_TARGET = 5.0, 8.0  # times faster
+
+
+class Textbook:
+    """One agent as textbooks and CleanRL write it: `nn.Sequential`, an optimiser and a backward for each loss.
+
+    The same losses as `Learner`'s, written out a second time. It is spared what it can be: the actor
+    reuses the critics' values, which CleanRL computes afresh.
+    """
+
+    def __init__(self, settings: Settings, inputs: int, actions: int = N_ACTIONS):
+        def net():
+            first, second = settings.hidden
+            layers = (
+                nn.Linear(inputs, first),
+                nn.ReLU(),
+                nn.Linear(first, second),
+                nn.ReLU(),
+                nn.Linear(second, actions),
+            )
+            return nn.Sequential(*layers)
+
+        self.settings, self.n_actions = settings, actions
+        self.actor, self.critics = net(), [net(), net()]
+        self.targets = [copy.deepcopy(critic) for critic in self.critics]
+        self.log_alpha = nn.Parameter(torch.tensor(settings.alpha_init).log())
+        self.actor_optimiser = torch.optim.Adam(self.actor.parameters(), lr=settings.actor_lr)
+        self.critic_optimisers = [torch.optim.Adam(c.parameters(), lr=settings.critic_lr) for c in self.critics]
+        self.alpha_optimiser = torch.optim.Adam([self.log_alpha], lr=settings.alpha_lr)
+
+    def kl(self, log_pi, rule_actions):
+        p = self.settings.p
+        rule = torch.full_like(log_pi, (1 - p) / (self.n_actions - 1))
+        rule.scatter_(1, rule_actions[:, None], p)
+        return (log_pi.exp() * (log_pi - rule.log())).sum(1)
+
+    def margin_loss(self, q, log_pi, batch):
+        q_expert = q.gather(1, batch.actions[:, None]).squeeze(1)
+        margins = torch.ones_like(q).scatter_(1, batch.actions[:, None], 0.0)
+        loss = (q + margins).max(1).values - q_expert
+        if self.settings.paper_q_filter:
+            keep = q_expert >= q.max(1).values
+        else:
+            keep = q_expert > (log_pi.exp() * q).sum(1)
+        return (loss * keep.detach() * batch.is_demonstration).mean()
+
+    def update(self, batch: Batch) -> None:
+        """One step on a batch without an agents axis."""
+        s = self.settings
+        alpha = self.log_alpha.exp().item()
+        xi = s.xi_fixed if s.xi_fixed >= 0 else s.xi_multiplier * alpha
+        with torch.no_grad():
+            next_log_pi = F.log_softmax(self.actor(batch.next_states), dim=1)
+            next_q = torch.min(*(target(batch.next_states) for target in self.targets))
+            next_value = (next_log_pi.exp() * (next_q - alpha * next_log_pi)).sum(1)
+            if s.kl_in_target:
+                next_value = next_value - xi * self.kl(next_log_pi, batch.next_rule_actions)
+            reward = batch.rewards + s.bonus * batch.is_demonstration
+            target = reward + s.gamma * (1 - batch.terminated) * next_value
+
+        log_pi = F.log_softmax(self.actor(batch.states), dim=1)
+        values = [critic(batch.states) for critic in self.critics]
+        for q, optimiser in zip(values, self.critic_optimisers, strict=True):
+            loss = F.mse_loss(q.gather(1, batch.actions[:, None]).squeeze(1), target)
+            if s.margin > 0:
+                loss = loss + s.margin * self.margin_loss(q, log_pi.detach(), batch)
+            optimiser.zero_grad()
+            loss.backward()
+            optimiser.step()
+
+        q = torch.min(*values).detach()
+        kl = self.kl(log_pi, batch.rule_actions)
+        actor_loss = ((log_pi.exp() * (alpha * log_pi - q)).sum(1) + xi * kl).mean()
+        self.actor_optimiser.zero_grad()
+        actor_loss.backward()
+        self.actor_optimiser.step()
+
+        entropy = -(log_pi.exp() * log_pi).sum(1).detach()
+        alpha_loss = (self.log_alpha.exp() * (entropy - s.target_entropy)).mean()
+        self.alpha_optimiser.zero_grad()
+        alpha_loss.backward()
+        self.alpha_optimiser.step()
+
+        with torch.no_grad():
+            for critic, delayed in zip(self.critics, self.targets, strict=True):
+                for parameter, average in zip(critic.parameters(), delayed.parameters(), strict=True):
+                    average.lerp_(parameter, s.tau)
+
+
+def random_rows(n: int, rng: np.random.Generator, inputs: int = DEFAULT.observation_size) -> torch.Tensor:
+    """Transitions of nowhere, (n, row): as good as real ones to measure with."""
+    states, next_states = rng.normal(size=(2, n, inputs))
+    actions, rule_actions, next_rule_actions = rng.integers(N_ACTIONS, size=(3, n))
+    rewards, terminated = rng.normal(size=n), rng.random(n) < 0.1
+    return pack(states, next_states, actions, rewards, terminated, rule_actions, next_rule_actions)
+
+
+def ours(agents: int) -> Callable[[], None]:
+    """`Learner.update` on what `Replay.sample` draws, for `agents` agents of the paper's method."""
+    settings = with_seeds(settings_for("bootstrapped"), agents)
+    rng, inputs = np.random.default_rng(0), DEFAULT.observation_size
+    learner = Learner(settings, inputs)
+    replay = Replay(agents, 2_000, inputs, random_rows(2_000, rng))
+    replay.add(random_rows(agents * 2_000, rng).view(agents, 2_000, -1))
+    beta, generators = np.full(agents, 0.6), [np.random.default_rng(s.seed) for s in settings]
+    return lambda: learner.update(replay.sample(settings[0].batch, beta, generators))
+
+
+def plain() -> Callable[[], None]:
+    """The textbook's update on the same kind of batch, drawn by the same replay."""
+    settings, rng, inputs = settings_for("bootstrapped"), np.random.default_rng(0), DEFAULT.observation_size
+    replay = Replay(1, 2_000, inputs, random_rows(2_000, rng))
+    replay.add(random_rows(2_000, rng)[None])
+    agent, beta, generators = Textbook(settings, inputs), np.array([0.6]), [np.random.default_rng(0)]
+
+    def update():
+        batch = replay.sample(settings.batch, beta, generators)
+        agent.update(Batch(*(column[0] for column in batch)))
+
+    return update
+
+
+def d3rlpy_sac() -> Callable[[], None] | None:
+    """d3rlpy's own update of plain discrete SAC; drawing the batch is not counted. None if it is not installed."""
+    try:
+        with contextlib.redirect_stderr(io.StringIO()):  # it imports the old gym, which says so at length
+            from d3rlpy.algos import DiscreteSACConfig
+            from d3rlpy.dataset import TransitionMiniBatch
+            from d3rlpy.models.encoders import VectorEncoderFactory
+    except ImportError:
+        return None
+    s, rng, inputs = settings_for("sac"), np.random.default_rng(0), DEFAULT.observation_size
+    encoder = VectorEncoderFactory(list(s.hidden))
+    config = DiscreteSACConfig(
+        actor_learning_rate=s.actor_lr, critic_learning_rate=s.critic_lr, temp_learning_rate=s.alpha_lr,
+        actor_encoder_factory=encoder, critic_encoder_factory=encoder, batch_size=s.batch, gamma=s.gamma,
+        initial_temperature=s.alpha_init,
+    )  # fmt: skip
+    algorithm = config.create(device="cpu:0")
+    algorithm.create_impl((inputs,), N_ACTIONS)
+
+    def numbers(width):
+        return rng.normal(size=(s.batch, width)).astype(np.float32)
+
+    actions = rng.integers(N_ACTIONS, size=(2, s.batch, 1)).astype(np.float32)
+    ones = np.ones((s.batch, 1), dtype=np.float32)
+    batch = TransitionMiniBatch(
+        numbers(inputs), actions[0], numbers(1), numbers(inputs), actions[1], 0 * ones, ones, transitions=[]
+    )
+    return lambda: algorithm.update(batch)
+
+
+def milliseconds(contestants: dict, turns: int, calls: int = 20) -> dict:
+    """Processor time of one call of each, in ms: they take turns of `calls` calls, and each counts its best."""
+    best = dict.fromkeys(contestants, np.inf)
+    for turn in range(turns + 1):  # the first turn only warms up
+        for name, call in contestants.items():
+            started = time.thread_time()
+            for _ in range(calls):
+                call()
+            if turn:
+                best[name] = min(best[name], 1000 * (time.thread_time() - started) / calls)
+    return best
+
+
+def table(turns: int = 25) -> list[Row]:
+    """The two ratios, and what an update costs each agent as agents grow."""
+    contestants = {"ours": ours(AGENTS), "plain": plain()}
+    if (theirs := d3rlpy_sac()) is not None:
+        contestants["d3rlpy"] = theirs
+    best, unit = milliseconds(contestants, turns), "ms per agent-update"
+    mine = best["ours"] / AGENTS
+    rows = [
+        Row(f"batched learner, {AGENTS} agents", mine, unit),
+        Row("plain eager loop, 1 agent", best["plain"], unit, best["plain"] / mine, PLAIN_TARGET),
+    ]
+    if theirs is None:
+        print("d3rlpy is not installed, so it is left out: `make bench` installs it.")
+    else:
+        rows.append(Row("d3rlpy's DiscreteSAC, 1 agent", best["d3rlpy"], unit, best["d3rlpy"] / mine, D3RLPY_TARGET))
+    return rows + growth()
+
+
+def growth(agents: tuple[int, ...] = (1, 2, 4, 8, 16, 32, 64), turns: int = 12) -> list[Row]:
+    """What an update costs each agent as agents grow."""
+    best = milliseconds({n: ours(n) for n in agents}, turns, calls=10)
+    return [Row(f"batched learner, agents grow: {n}", best[n] / n, "ms per agent-update") for n in agents]
+
+
+def main() -> None:
+    torch.set_num_threads(1)
+    for row in table():
+        ratio = "" if row.ratio is None else f"{row.ratio:8.1f} x   (wanted: {row.target:g} x)"
+        print(f"{row.name:<44} {row.value:>12.3f} {row.unit}{ratio}")
+
+
+if __name__ == "__main__":
+    main()

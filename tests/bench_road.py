@@ -1,0 +1,91 @@
+"""How many decisions a second? The compiled road against `TrapEnv`, on one thread, in one run.
+
+Both drive the same scenario in whole episodes, resets included: the compiled road through
+`VectorEnv.step` with autoreset, `TrapEnv` through its own `step` without gymnasium's wrappers and
+with its own observation, not highway-env's slow one. Time is this thread's own processor time, and
+of several repetitions of the same episodes the fastest counts, so that other programs do not.
+"""
+
+import time
+from dataclasses import dataclass
+
+import gymnasium as gym
+import numpy as np
+
+import bootcourse  # noqa: F401  registers the road
+from bootcourse.road.trap_env import TrapEnv
+from bootcourse.rule import rule
+from bootcourse.scenario import DEFAULT, IDLE
+
+ROADS, EPISODES, REPETITIONS = 256, 2, 7
+
+
+@dataclass
+class Row:
+    """One line of the table. `ratio` and `target` are None where the line is one half of a ratio."""
+
+    name: str
+    value: float
+    unit: str
+    ratio: float | None = None
+    target: float | None = None
+
+
+def by_the_rule(cars: np.ndarray) -> np.ndarray:
+    return rule(cars, DEFAULT).actions
+
+
+def seconds_of_trap_env(env: TrapEnv, driver, seed: int) -> tuple[float, int]:
+    """Processor time and decisions of one episode; without a driver the ego is idle."""
+    began, decisions, over = time.thread_time(), 0, False
+    env.reset(seed=seed)
+    while not over:
+        _, _, terminated, truncated, _ = env.step(driver(env.cars()[None])[0] if driver else IDLE)
+        decisions, over = decisions + 1, terminated or truncated
+    return time.thread_time() - began, decisions
+
+
+def seconds_of_twin(env, driver) -> tuple[float, int]:
+    """Processor time and decisions of `EPISODES` episodes on every road."""
+    idle = np.full(env.num_envs, IDLE)
+    began, steps = time.thread_time(), EPISODES * DEFAULT.clock.decisions
+    env.reset(seed=0)
+    for _ in range(steps):
+        env.step(driver(env.cars) if driver else idle)
+    return time.thread_time() - began, steps * env.num_envs
+
+
+def rates(driver) -> tuple[float, float]:
+    """Decisions per second of the compiled road and of `TrapEnv`, taking turns."""
+    reference, twin = TrapEnv(), gym.make_vec("bootcourse:Trap-v0", num_envs=ROADS).unwrapped
+    seconds_of_twin(twin, driver)  # compiles
+    ours, theirs = [], {seed: [] for seed in range(EPISODES)}
+    for _ in range(REPETITIONS):
+        ours.append(seconds_of_twin(twin, driver))
+        for seed, times in theirs.items():
+            times.append(seconds_of_trap_env(reference, driver, seed))
+    seconds, decisions = zip(*(min(times) for times in theirs.values()), strict=True)
+    best, count = min(ours)
+    return count / best, sum(decisions) / sum(seconds)
+
+
+def table() -> list[Row]:
+    """The two ratios, each with its halves."""
+    rows = []
+    for name, driver, target in (("idle ego", None, 1500.0), ("rule-driven ego", by_the_rule, 750.0)):
+        ours, theirs = rates(driver)
+        rows += [
+            Row(f"TrapEnv, {name}", theirs, "decisions/s"),
+            Row(f"compiled road, {ROADS} roads, {name}", ours, "decisions/s", ours / theirs, target),
+        ]
+    return rows
+
+
+def main() -> None:
+    for row in table():
+        ratio = "" if row.ratio is None else f"{row.ratio:8,.0f} x   (wanted: {row.target:,.0f} x)"
+        print(f"{row.name:<44} {row.value:>12,.0f} {row.unit}{ratio}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,116 @@
+"""What ships: made from a study, checked against its manifest, never silently wrong."""
+
+import json
+import shutil
+
+import pytest
+
+from bootcourse import assets
+from bootcourse.errors import BootcourseError
+from bootcourse.learn.settings import settings_for, with_seeds
+from bootcourse.record.rollout import Rollout
+from bootcourse.record.runs import find_runs, load_run
+from bootcourse.scenario import CALIBRATED, DEFAULT
+from bootcourse.study.cells import Cell, run_cell
+from bootcourse.study.results import load_results
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory):
+    """The smallest study that assets can be built from."""
+    root = tmp_path_factory.mktemp("study")
+    (root / "study.json").write_text("{}")
+    for name, scenario, method in (
+        ("default/sac", DEFAULT, "sac"),
+        ("default/soft", DEFAULT, "soft"),
+        ("calibrated/sac", CALIBRATED, "sac"),
+        ("sweep/00", DEFAULT, "sac"),
+    ):
+        agents = with_seeds(settings_for(method, warm_up=16, hidden=(8,), capacity=2000), 2)
+        assert run_cell(Cell(name, tuple(agents), scenario, 2, 3), root) == ""
+    return root
+
+
+@pytest.fixture(scope="module")
+def built(study, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("built") / "assets"
+    assets.build(study, folder)
+    return folder
+
+
+@pytest.fixture
+def shipped(built, tmp_path):
+    return shutil.copytree(built, tmp_path / "assets")
+
+
+def test_everything_that_ships_is_listed_and_right(built):
+    assert assets.verify(built) == ([], [])
+    names = {entry["file"] for entry in json.loads((built / "manifest.json").read_text())["files"]}
+    assert {"study-default.npz", "study-calibrated.npz", "sweep.npz", "demonstrations.npz", "MODEL_CARD.md"} <= names
+    assert all(
+        entry["command"].startswith("bootcourse")
+        for entry in json.loads((built / "manifest.json").read_text())["files"]
+    )
+
+
+def test_what_ships_reads_back(built):
+    assert load_results(built / "study-default.npz").methods == ["sac", "soft"]
+    assert [load_run(path).agent.settings.method for path in find_runs(built / "runs")] == [
+        "sac",
+        "sac",
+        "soft",
+        "soft",
+    ]
+    assert Rollout.load(built / "rollouts/rule.npz").success
+    card = (built / "MODEL_CARD.md").read_text()
+    assert "| sac | 2 |" in card and "3 held-out episodes" in card
+
+
+def test_a_damaged_missing_or_unlisted_file_is_named_with_the_command_that_makes_it(shipped, capsys):
+    (shipped / "sweep.npz").write_bytes(b"half")
+    (shipped / "demonstrations.npz").unlink()
+    (shipped / "notes.txt").write_text("mine")
+    problems, older = assets.verify(shipped)
+    text = "\n".join(problems)
+    assert len(problems) == 3 and older == []
+    assert "sweep.npz is damaged" in text and "demonstrations.npz is missing" in text and "notes.txt is not in" in text
+    assert "bootcourse sweep --out DIR" in text
+    assert assets.command("verify", None, shipped) == 1 and "3 wrong" in capsys.readouterr().out
+
+
+def test_a_file_made_by_older_code_is_named_and_not_called_wrong(shipped, capsys):
+    manifest = json.loads((shipped / "manifest.json").read_text())
+    for entry in manifest["files"]:
+        if entry["file"] == "sweep.npz":
+            entry["sources"] |= {"rule": "0000", "moved_since": "1111"}
+    (shipped / "manifest.json").write_text(json.dumps(manifest))
+    problems, older = assets.verify(shipped)
+    assert problems == [] and len(older) == 1 and "sweep.npz is older than the code in rule, moved_since" in older[0]
+    assert assets.command("verify", None, shipped) == 0 and "1 made by older code" in capsys.readouterr().out
+
+
+def test_assets_that_are_too_large_are_refused_and_the_old_ones_stay(study, shipped, monkeypatch):
+    monkeypatch.setattr(assets, "LIMIT", 1000)
+    with pytest.raises(BootcourseError, match="must stay under"):
+        assets.build(study, shipped)
+    monkeypatch.undo()
+    assert assets.verify(shipped) == ([], []) and [path.name for path in shipped.parent.iterdir()] == ["assets"]
+
+
+def test_a_study_that_is_not_complete_is_named(study, tmp_path):
+    shutil.copytree(study / "cells/default", tmp_path / "cells/default")
+    with pytest.raises(BootcourseError, match="no finished cells in cells/calibrated"):
+        assets.build(tmp_path, tmp_path / "assets")
+    with pytest.raises(BootcourseError, match="build needs --study"):
+        assets.command("build", None, tmp_path)
+    with pytest.raises(BootcourseError, match="did you mean 'verify'"):
+        assets.command("verfy", None, tmp_path)
+
+
+def test_the_readme_s_pictures_stay_and_are_listed(study, shipped):
+    (shipped / "readme").mkdir()
+    (shipped / "readme" / "trap.png").write_bytes(b"picture")
+    assert len(assets.verify(shipped)[0]) == 1
+    for _ in range(2):
+        assets.build(study, shipped)
+        assert assets.verify(shipped) == ([], []) and (shipped / "readme" / "trap.png").read_bytes() == b"picture"

@@ -1,0 +1,250 @@
+"""Behaviour cloning, CQL and GAIL: each loss against brute force, each ingredient at work."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import torch
+
+from bootcourse.errors import BootcourseError
+from bootcourse.learn import baselines, bc, cql, gail, sac
+from bootcourse.learn.learner import Learner
+from bootcourse.learn.networks import init_mlp, mlp
+from bootcourse.learn.replay import Batch
+from bootcourse.learn.settings import ALL, BASELINES, settings_for, with_seeds
+from bootcourse.learn.train import Training
+from bootcourse.record.runs import load_checkpoint, load_run, save_checkpoint, save_runs
+
+
+def a_batch(agents: int = 2, batch: int = 6, demonstrations: int = 3, seed: int = 0) -> Batch:
+    """Random transitions, the first of them demonstrations; 26 numbers, 9 actions."""
+    rng = np.random.default_rng(seed)
+    states, next_states = torch.from_numpy(rng.normal(size=(2, agents, batch, 26))).float()
+    actions, rule_actions, next_rule_actions = torch.from_numpy(rng.integers(9, size=(3, agents, batch)))
+    rewards = torch.from_numpy(rng.normal(size=(agents, batch))).float()
+    terminated = torch.from_numpy(rng.integers(2, size=(agents, batch))).float()
+    is_demonstration = (torch.arange(batch) < demonstrations).float().expand(agents, batch)
+    return Batch(states, next_states, actions, rewards, terminated, rule_actions, next_rule_actions, is_demonstration)
+
+
+def learner(method: str, seeds: int = 2, **changes) -> Learner:
+    return baselines.learner_for(with_seeds(settings_for(method, **changes), seeds), 26)
+
+
+def copies(tensors) -> list[torch.Tensor]:
+    return [tensor.detach().clone() for tensor in tensors]
+
+
+def same(before, after) -> bool:
+    return all(torch.equal(b, a) for b, a in zip(before, after, strict=True))
+
+
+def test_the_cloning_loss_is_the_mean_of_minus_log_pi_of_what_the_demonstrator_did():
+    log_pi = torch.randn(2, 4, 9).log_softmax(-1)
+    actions = torch.randint(9, (2, 4))
+    by_hand = [[-log_pi[i, j, actions[i, j]].item() for j in range(4)] for i in range(2)]
+    np.testing.assert_allclose(bc.cloning_loss(log_pi, actions), np.mean(by_hand, axis=1), rtol=1e-6)
+
+
+def test_the_conservative_term_is_log_sum_exp_less_the_value_of_what_the_data_did():
+    q, actions = torch.randn(2, 4, 3), torch.randint(3, (2, 4))
+    by_hand = [
+        np.mean([math.log(sum(math.exp(x) for x in row)) - row[a] for row, a in zip(rows.tolist(), taken, strict=True)])
+        for rows, taken in zip(q, actions.tolist(), strict=True)
+    ]
+    np.testing.assert_allclose(sac.conservative_loss(q, actions), by_hand, rtol=1e-5)
+
+
+def test_the_conservative_term_vanishes_where_the_data_s_action_towers_above_the_others():
+    q = torch.tensor([[[50.0, 0.0, 0.0]]])
+    assert sac.conservative_loss(q, torch.tensor([[0]])).item() == pytest.approx(0, abs=1e-6)
+    assert sac.conservative_loss(q, torch.tensor([[1]])).item() == pytest.approx(50, abs=1e-6)
+
+
+def test_double_q_learning_chooses_with_one_critic_and_values_with_the_other():
+    q, q_next = torch.tensor([[0.0, 2.0, 1.0]]), torch.tensor([[5.0, 6.0, 7.0]])
+    assert cql.greedy_value(q, q_next).tolist() == [6.0]
+
+
+def test_the_discriminator_s_loss_is_the_cross_entropy_of_telling_the_two_apart():
+    expert, own = torch.randn(2, 5), torch.randn(2, 5)
+    d_expert, d_own = (1 / (1 + np.exp(-x.double().numpy())) for x in (expert, own))
+    by_hand = -np.log(d_expert).mean(-1) - np.log(1 - d_own).mean(-1)
+    np.testing.assert_allclose(gail.discriminator_loss(expert, own), by_hand, rtol=1e-5)
+
+
+def test_the_imitation_reward_is_minus_log_of_one_minus_d_and_never_negative():
+    logits = torch.linspace(-5, 5, 11)
+    d = 1 / (1 + np.exp(-logits.double().numpy()))
+    np.testing.assert_allclose(gail.imitation_reward(logits), -np.log(1 - d), rtol=1e-5)
+    assert (gail.imitation_reward(logits) >= 0).all()
+
+
+def test_the_gradient_penalty_is_half_the_squared_slope_by_finite_differences():
+    network = [p.double() for p in init_mlp((4, 8, 1), [torch.Generator().manual_seed(i) for i in range(2)])]
+    expert = torch.randn(2, 3, 4, dtype=torch.float64)
+    step = 1e-6 * torch.eye(4, dtype=torch.float64)
+    slopes = [(mlp(network, expert + d) - mlp(network, expert - d)).squeeze(-1) / 2e-6 for d in step]
+    by_hand = (torch.stack(slopes, -1) ** 2).sum(-1).mean(-1) / 2
+    np.testing.assert_allclose(gail.gradient_penalty(network, expert).detach(), by_hand, rtol=1e-6)
+
+
+def test_the_gradient_penalty_can_itself_be_differentiated():
+    network = [p.requires_grad_() for p in init_mlp((4, 8, 1), [torch.Generator().manual_seed(0)])]
+    gail.gradient_penalty(network, torch.randn(1, 3, 4)).sum().backward()
+    assert network[0].grad.abs().sum() > 0
+
+
+@pytest.mark.parametrize("method", BASELINES)
+def test_an_agent_learns_the_same_alone_as_beside_others(method):
+    together, alone = learner(method, 2), baselines.learner_for([settings_for(method, seed=1)], 26)
+    for seed in range(3):
+        batch = a_batch(seed=seed)
+        if method in ("bc", "cql", "cql_sac"):
+            batch = batch._replace(is_demonstration=torch.ones(2, 6))
+        together.update(batch)
+        alone.update(Batch(*(column[1:] for column in batch)))
+    for both, one in zip(together.actor, alone.actor, strict=True):
+        torch.testing.assert_close(both[1:], one, rtol=1e-4, atol=1e-6)
+
+
+def test_cloning_makes_the_demonstrator_s_actions_more_probable_and_leaves_the_critics_at_zero():
+    cloner, batch = learner("bc"), a_batch(demonstrations=6)
+    before = cloner.policy(batch.states).gather(-1, batch.actions.unsqueeze(-1)).mean()
+    for _ in range(20):
+        cloner.update(batch)
+    assert cloner.policy(batch.states).gather(-1, batch.actions.unsqueeze(-1)).mean() > before
+    assert not cloner.q_values(batch.states).any()
+
+
+def test_cloning_ignores_every_reward():
+    first, second = learner("bc"), learner("bc")
+    first.update(a_batch())
+    second.update(a_batch()._replace(rewards=torch.full((2, 6), 1e3)))
+    assert same(first.actor, second.actor)
+
+
+@pytest.mark.parametrize("method", ["cql", "cql_sac"])
+def test_switching_off_the_conservative_term_changes_the_very_first_update(method):
+    with_it, without = learner(method), learner(method, conservative=0.0)
+    for one in (with_it, without):
+        one.update(a_batch())
+    assert not same(with_it.critics, without.critics)
+
+
+def test_cql_drives_by_the_softmax_of_its_first_critic_over_alpha():
+    one, batch = learner("cql", alpha_init=0.5), a_batch()
+    one.update(batch)
+    q = one._both(one.critics, batch.states)[0]
+    torch.testing.assert_close(one.policy(batch.states), (q / 0.5).softmax(-1))
+
+
+def test_cql_lowers_what_the_data_did_not_do_against_what_it_did():
+    one, batch = learner("cql"), a_batch(demonstrations=6)
+
+    def gap():
+        q = one.q_values(batch.states)
+        return (q.logsumexp(-1) - q.gather(-1, batch.actions.unsqueeze(-1)).squeeze(-1)).mean()
+
+    before = gap()
+    for _ in range(50):
+        one.update(batch)
+    assert gap() < before
+
+
+def test_the_discriminator_learns_to_tell_the_two_halves_apart():
+    one, batch = learner("gail", discriminator_lr=3e-3), a_batch(batch=32, demonstrations=16)
+    losses = [one.update(batch)["discriminator_loss"].mean().item() for _ in range(200)]
+    assert losses[0] == pytest.approx(2 * math.log(2), abs=0.2) and losses[-1] < 0.6 * losses[0]
+
+
+def test_gail_never_looks_at_the_road_s_reward():
+    first, second = learner("gail"), learner("gail")
+    first.update(a_batch())
+    second.update(a_batch()._replace(rewards=torch.full((2, 6), 1e3)))
+    assert same([*first.critics, *first.actor], [*second.critics, *second.actor])
+
+
+def test_gail_s_generator_learns_from_its_own_half_alone():
+    batch = a_batch()
+    changed = batch.next_states.clone()
+    changed[:, :3] += 1.0  # the demonstrations' s', which the discriminator does not see either
+    first, second = learner("gail"), learner("gail")
+    first.update(batch)
+    second.update(batch._replace(next_states=changed))
+    assert same([*first.critics, *first.actor], [*second.critics, *second.actor])
+
+
+def test_a_step_of_the_discriminator_leaves_the_actor_and_the_critics_alone():
+    one = learner("gail", actor_lr=0.0, critic_lr=0.0, alpha_lr=0.0)
+    before, judge = copies([*one.actor, *one.critics]), copies(one.discriminator)
+    one.update(a_batch())
+    assert same(before, [*one.actor, *one.critics]) and not same(judge, one.discriminator)
+
+
+def test_switching_off_the_gradient_penalty_changes_gail_s_second_update():
+    with_it, without = learner("gail"), learner("gail", gradient_penalty=0.0)
+    for one in (with_it, without):
+        for seed in range(2):  # Adam's first step has the same length whatever the gradient
+            one.update(a_batch(seed=seed))
+    assert not same(with_it.discriminator, without.discriminator)
+
+
+def test_a_batch_that_gail_cannot_halve_is_refused():
+    with pytest.raises(BootcourseError, match="leave its beta_start at 0.5"):
+        learner("gail").update(a_batch(demonstrations=2))
+
+
+def test_methods_whose_updates_differ_are_not_trained_side_by_side():
+    with pytest.raises(BootcourseError, match="bc, sac cannot train side by side"):
+        baselines.learner_for([settings_for("sac"), settings_for("bc")], 26)
+
+
+@pytest.mark.parametrize(("method", "share"), [("bc", 1.0), ("cql", 1.0), ("cql_sac", 1.0), ("gail", 0.5)])
+def test_the_demonstrations_share_of_a_batch_stays_where_it_starts(method, share):
+    training = Training([settings_for(method, demonstrations=2, warm_up=16)], 10)
+    for finished in (0, 5000):
+        training.curves.finished[:] = finished
+        batch = training.replay.sample(64, training.beta, training.sample_rngs) if training.replay.size else None
+        if batch is None:
+            for _ in range(4):
+                training.step()
+            batch = training.replay.sample(64, training.beta, training.sample_rngs)
+        assert batch.is_demonstration.mean().item() == share
+
+
+@pytest.mark.parametrize("method", BASELINES)
+def test_a_baseline_trains_is_saved_and_drives_like_any_other_method(method, tmp_path):
+    result = Training(with_seeds(settings_for(method, demonstrations=3, warm_up=16), 2), 4).run(progress=False)
+    assert all(np.isfinite(values).all() for values in result.curves.values())
+    back = load_run(save_runs(result, tmp_path)[1])
+    observations = np.random.default_rng(0).normal(size=(5, 26))
+    np.testing.assert_array_equal(back.agent.policy(observations), result.agents[1].policy(observations))
+    assert back.agent.settings.method == method and back.agent.driver(with_q=True)(
+        observations, None
+    ).q_values.shape == (5, 9)
+
+
+@pytest.mark.parametrize("method", BASELINES)
+def test_a_baseline_that_was_killed_goes_on_as_if_it_never_was(method, tmp_path):
+    training = Training(with_seeds(settings_for(method, demonstrations=3, warm_up=16), 2), 6)
+    for _ in range(25):
+        training.step()
+    save_checkpoint(training, tmp_path / "checkpoint.npz")
+    uninterrupted = training.run(progress=False)
+    continued = load_checkpoint(tmp_path / "checkpoint.npz").run(progress=False)
+    for before, after in zip(uninterrupted.agents, continued.agents, strict=True):
+        assert same([*before.actor, *before.critics], [*after.actor, *after.critics])
+
+
+def test_a_baseline_is_not_given_what_its_name_says_it_lacks():
+    for method in BASELINES:
+        with pytest.raises(BootcourseError, match="doing without"):
+            settings_for(method, bonus=2.0)
+
+
+def test_every_name_is_one_method_and_knows_its_settings():
+    assert len(ALL) == 6 + len(BASELINES)
+    for method in ALL:
+        assert replace(settings_for(method), seed=3).method == method

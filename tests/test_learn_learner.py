@@ -1,0 +1,249 @@
+"""The update of all agents at once, against one that is written out for a single agent, and against itself."""
+
+import copy
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import torch
+
+from bootcourse.learn.learner import Learner
+from bootcourse.learn.networks import init_mlp, mlp
+from bootcourse.learn.replay import Batch, Replay
+from bootcourse.learn.settings import METHODS, settings_for
+from bootcourse.scenario import DEFAULT
+from tests.bench_learn import Textbook, random_rows
+
+INPUTS = DEFAULT.observation_size
+EVERY_METHOD = [settings_for(method, seed=seed) for seed, method in enumerate(METHODS)]
+VARIANTS = [
+    settings_for("bootstrapped", kl_in_target=False),
+    settings_for("bootstrapped", xi_fixed=0.3),
+    settings_for("margin_soft", paper_q_filter=False, gamma=0.95, target_entropy=0.3, p=0.5),
+]
+
+
+def batches(settings, count=1, seed=0):
+    """Batches as a training would draw them early on: 0.6 of each from the demonstrations, where there are any."""
+    rng = np.random.default_rng(seed)
+    replay = Replay(len(settings), 500, INPUTS, random_rows(300, rng))
+    replay.add(random_rows(len(settings) * 500, rng).view(len(settings), 500, -1))
+    beta, generators = np.array([s.beta_start for s in settings]), [np.random.default_rng(s.seed) for s in settings]
+    return [replay.sample(settings[0].batch, beta, generators) for _ in range(count)]
+
+
+def of_one(batch: Batch, i: int) -> Batch:
+    return Batch(*(column[i : i + 1] for column in batch))
+
+
+def weights(learner: Learner, i: int = 0) -> torch.Tensor:
+    """Everything that an update changes in agent i, as one vector."""
+    n = learner.agents
+    parts = [p[i] for p in learner.actor]
+    parts += [p[j] for p in (*learner.critics, *learner.target_critics) for j in (i, n + i)]
+    return torch.cat([part.detach().reshape(-1) for part in (*parts, learner.log_alpha[i])])
+
+
+def textbook_of(learner: Learner, i: int) -> Textbook:
+    """A textbook agent with the weights of agent i."""
+    twin, n = Textbook(learner.settings[i], INPUTS), learner.agents
+    pairs = [(twin.actor, learner.actor, i)]
+    for k in range(2):
+        pairs += [(twin.critics[k], learner.critics, k * n + i), (twin.targets[k], learner.target_critics, k * n + i)]
+    with torch.no_grad():
+        for net, parameters, row in pairs:
+            for layer, (weight, bias) in zip(
+                net[::2], zip(parameters[::2], parameters[1::2], strict=True), strict=True
+            ):
+                layer.weight.copy_(weight[row].T)
+                layer.bias.copy_(bias[row, 0])
+    return twin
+
+
+def gradients_of(learner: Learner, i: int) -> list[torch.Tensor]:
+    n = learner.agents
+    rows = [(learner.actor, i), (learner.critics, i), (learner.critics, n + i)]
+    return [p.grad[row] for parameters, row in rows for p in parameters] + [learner.log_alpha.grad[i]]
+
+
+def gradients_of_textbook(twin: Textbook) -> list[torch.Tensor]:
+    found = []
+    for net in (twin.actor, *twin.critics):
+        for layer in net[::2]:
+            found += [layer.weight.grad.T, layer.bias.grad[None]]
+    return [*found, twin.log_alpha.grad]
+
+
+@pytest.mark.parametrize("settings", [EVERY_METHOD, VARIANTS], ids=["methods", "variants"])
+def test_every_gradient_is_the_one_that_separate_losses_with_separate_backwards_give(settings):
+    learner, (batch,) = Learner(settings, INPUTS), batches(settings)
+    twins = [textbook_of(learner, i) for i in range(learner.agents)]
+    learner.update(batch)
+    for i, twin in enumerate(twins):
+        twin.update(Batch(*(column[i] for column in batch)))
+        for ours, theirs in zip(gradients_of(learner, i), gradients_of_textbook(twin), strict=True):
+            torch.testing.assert_close(ours, theirs, atol=1e-5, rtol=1e-4)
+
+
+@pytest.mark.parametrize("settings", [EVERY_METHOD, VARIANTS], ids=["methods", "variants"])
+def test_ten_updates_lead_where_the_textbook_leads(settings):
+    learner = Learner(settings, INPUTS)
+    twins = [textbook_of(learner, i) for i in range(learner.agents)]
+    for batch in batches(settings, 10):
+        learner.update(batch)
+        for i, twin in enumerate(twins):
+            twin.update(Batch(*(column[i] for column in batch)))
+    states = torch.randn(50, INPUTS, generator=torch.Generator().manual_seed(0))
+    policy = learner.policy(states.expand(learner.agents, -1, -1))
+    values = learner.q_values(states.expand(learner.agents, -1, -1))
+    for i, twin in enumerate(twins):
+        with torch.no_grad():
+            torch.testing.assert_close(policy[i], twin.actor(states).softmax(1), atol=1e-4, rtol=1e-3)
+            torch.testing.assert_close(values[i], torch.min(*(c(states) for c in twin.critics)), atol=1e-3, rtol=1e-3)
+        torch.testing.assert_close(learner.log_alpha[i], twin.log_alpha, atol=1e-5, rtol=0)
+
+
+def test_agents_that_learn_together_learn_what_each_learns_alone():
+    together = Learner(EVERY_METHOD, INPUTS)
+    alone = [Learner([s], INPUTS) for s in EVERY_METHOD]
+    for i, one in enumerate(alone):
+        assert torch.equal(weights(together, i), weights(one)), "the first weights"
+    for batch in batches(EVERY_METHOD, 5):
+        told = together.update(batch)
+        for i, one in enumerate(alone):
+            told_alone = one.update(of_one(batch, i))
+            for name, value in told.items():
+                torch.testing.assert_close(value[i : i + 1], told_alone[name], atol=1e-4, rtol=1e-4)
+    for i, one in enumerate(alone):
+        torch.testing.assert_close(weights(together, i), weights(one), atol=1e-5, rtol=1e-5)
+
+
+def test_what_one_agent_sees_is_nothing_to_another():
+    settings = [settings_for("bootstrapped", seed=seed) for seed in range(3)]
+    first, second = Learner(settings, INPUTS), Learner(settings, INPUTS)
+    (batch,) = batches(settings)
+    first.update(batch)
+    other = Batch(*(column.clone() for column in batch))
+    other.states[1], other.rewards[1] = other.states[1] + 1, other.rewards[1] - 5
+    second.update(other)
+    assert torch.equal(weights(first, 0), weights(second, 0)) and torch.equal(weights(first, 2), weights(second, 2))
+    assert not torch.equal(weights(first, 1), weights(second, 1))
+
+
+def test_the_two_critics_start_apart_and_learn_apart():
+    settings = [settings_for("sac")]
+    learner, (batch,) = Learner(settings, INPUTS), batches(settings)
+    assert not torch.equal(learner.critics[0][0], learner.critics[0][1])
+    other = Learner(settings, INPUTS)
+    with torch.no_grad():
+        other.critics[0][1] += 0.1  # the second critic's first layer; targets stay
+    learner.update(batch)
+    other.update(batch)
+    for ours, theirs in zip(learner.critics, other.critics, strict=True):
+        assert torch.equal(ours[0], theirs[0])
+        assert not torch.equal(ours[1], theirs[1])
+
+
+def test_targets_follow_by_tau_and_have_no_gradient():
+    settings = [settings_for("bootstrapped", tau=0.25)]
+    learner, (batch,) = Learner(settings, INPUTS), batches(settings)
+    before = [p.clone() for p in learner.target_critics]
+    learner.update(batch)
+    for old, target, critic in zip(before, learner.target_critics, learner.critics, strict=True):
+        assert not target.requires_grad and target.grad is None
+        torch.testing.assert_close(target, 0.75 * old + 0.25 * critic.detach())
+
+
+def test_an_update_with_learning_rates_of_zero_changes_nothing():
+    settings = [settings_for("bootstrapped", actor_lr=0.0, critic_lr=0.0, alpha_lr=0.0)]
+    learner, (batch,) = Learner(settings, INPUTS), batches(settings)
+    before = weights(learner)
+    learner.update(batch)
+    torch.testing.assert_close(weights(learner), before, atol=1e-7, rtol=0)
+
+
+@pytest.mark.parametrize(
+    ("rate", "moving"), [("actor_lr", "actor"), ("critic_lr", "critics"), ("alpha_lr", "log_alpha")]
+)
+def test_each_learning_rate_moves_its_own_part_and_no_other(rate, moving):
+    still = dict.fromkeys(("actor_lr", "critic_lr", "alpha_lr"), 0.0)
+    learner = Learner([settings_for("bootstrapped", **(still | {rate: 0.01}))], INPUTS)
+    before = copy.deepcopy([learner.actor, learner.critics, [learner.log_alpha]])
+    learner.update(batches(learner.settings)[0])
+    for name, old, new in zip(
+        ("actor", "critics", "log_alpha"), before, (learner.actor, learner.critics, [learner.log_alpha]), strict=True
+    ):
+        changed = any(not torch.equal(a, b) for a, b in zip(old, new, strict=True))
+        assert changed == (name == moving), name
+
+
+# For each method, its ingredients and the setting that switches each off; the last entry of each says
+# what of the first update must then differ.
+INGREDIENTS = [
+    ("soft", {"xi_multiplier": 0.0}, ("actor", "critics")),
+    ("bootstrapped", {"xi_multiplier": 0.0}, ("actor", "critics")),
+    ("bootstrapped", {"kl_in_target": False}, ("critics",)),
+    ("bootstrapped", {"p": 0.5}, ("actor", "critics")),
+    ("bootstrapped", {"bonus": 0.0}, ("critics",)),
+    ("bootstrapped", {"beta_start": 0.0}, ("actor", "critics")),
+    ("demos", {"bonus": 0.0}, ("critics",)),
+    ("demos", {"beta_start": 0.0}, ("actor", "critics")),
+    ("margin", {"margin": 0.0}, ("critics",)),
+    ("margin", {"paper_q_filter": False}, ("critics",)),
+    ("margin", {"beta_start": 0.0}, ("actor", "critics")),
+    ("margin_soft", {"margin": 0.0}, ("critics",)),
+    ("margin_soft", {"xi_multiplier": 0.0}, ("actor", "critics")),
+    ("sac", {"gamma": 0.0}, ("critics",)),
+]
+
+
+@pytest.mark.parametrize(("method", "off", "differs"), INGREDIENTS)
+def test_every_ingredient_is_at_work_in_the_very_first_update(method, off, differs):
+    with_it = settings_for(method)
+    learners = [Learner([settings], INPUTS) for settings in (with_it, replace(with_it, **off))]
+    for learner in learners:
+        learner.update(batches(learner.settings)[0])
+    for part in ("actor", "critics"):
+        gradients = [torch.cat([p.grad.reshape(-1) for p in getattr(learner, part)]) for learner in learners]
+        assert (not torch.allclose(*gradients, atol=1e-6)) == (part in differs), part
+
+
+def test_the_methods_first_updates_all_differ():
+    learner = Learner([replace(s, seed=0) for s in EVERY_METHOD], INPUTS)
+    learner.update(batches(learner.settings)[0])
+    critics = torch.stack([torch.cat([p.grad[i].reshape(-1) for p in learner.critics]) for i in range(learner.agents)])
+    for i in range(learner.agents):
+        for j in range(i):
+            assert (critics[i] - critics[j]).abs().max() > 1e-5, (EVERY_METHOD[i].method, EVERY_METHOD[j].method)
+
+
+def test_a_methods_settings_are_what_its_name_says():
+    has = {
+        method: (s.xi_multiplier > 0, s.beta_start > 0, s.bonus > 0, s.margin > 0)
+        for method in METHODS
+        for s in [settings_for(method)]
+    }
+    assert has["sac"][:2] + has["sac"][3:] == (False, False, False)
+    assert has["soft"][:2] + has["soft"][3:] == (True, False, False)
+    assert has["demos"] == (False, True, True, False)
+    assert has["bootstrapped"] == (True, True, True, False)
+    assert has["margin"] == (False, True, False, True)
+    assert has["margin_soft"] == (True, True, False, True)
+
+
+def test_the_networks_compute_what_nn_linear_computes():
+    parameters = init_mlp((4, 8, 8, 3), [torch.Generator().manual_seed(s) for s in (1, 2)])
+    x = torch.randn(2, 5, 4)
+    out = mlp(parameters, x)
+    for i in range(2):
+        h = x[i]
+        for k in range(0, 6, 2):
+            h = torch.nn.functional.linear(h, parameters[k][i].T, parameters[k + 1][i, 0])
+            h = h.relu() if k < 4 else h
+        torch.testing.assert_close(out[i], h)
+
+
+def test_first_weights_fill_what_torch_fills_by_default():
+    (weight, bias, *_) = init_mlp((100, 400, 9), [torch.Generator().manual_seed(0)])
+    for drawn in (weight, bias):
+        assert drawn.abs().max() <= 0.1 and drawn.abs().max() > 0.098 and drawn.mean().abs() < 0.005

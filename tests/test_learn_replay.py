@@ -1,0 +1,119 @@
+"""What is remembered, and what is drawn from it."""
+
+import numpy as np
+import pytest
+import torch
+
+from bootcourse.errors import BootcourseError
+from bootcourse.learn.demonstrations import collect
+from bootcourse.learn.replay import Replay, pack
+from bootcourse.scenario import DEFAULT
+from tests.bench_learn import random_rows
+
+INPUTS = DEFAULT.observation_size
+
+
+def numbered(agents: int, roads: int, first: int) -> torch.Tensor:
+    """Rows whose reward says which agent wrote them, and when: 1000 x agent + number."""
+    numbers = np.arange(first, first + roads) + 1000.0 * np.arange(agents)[:, None]
+    states, whole = np.zeros((agents, roads, INPUTS)), np.zeros((agents, roads))
+    return pack(states, states, whole, numbers, whole, whole, whole)
+
+
+def generators(*seeds: int) -> list[np.random.Generator]:
+    return [np.random.default_rng(seed) for seed in seeds]
+
+
+def test_what_goes_in_comes_out():
+    rng = np.random.default_rng(0)
+    states, next_states = rng.normal(size=(2, 6, INPUTS)).astype(np.float32)
+    actions, rule_actions, next_rule_actions = rng.integers(9, size=(3, 6))
+    rewards, terminated = rng.normal(size=6).astype(np.float32), np.array([0, 1, 0, 0, 1, 0])
+    replay = Replay(1, 6, INPUTS)
+    replay.add(pack(states, next_states, actions, rewards, terminated, rule_actions, next_rule_actions)[None])
+    batch = replay.sample(200, np.zeros(1), generators(0))
+    which = [int(np.flatnonzero(rewards == reward.item())[0]) for reward in batch.rewards[0]]
+    assert set(which) == set(range(6))
+    np.testing.assert_array_equal(batch.states[0], states[which])
+    np.testing.assert_array_equal(batch.next_states[0], next_states[which])
+    np.testing.assert_array_equal(batch.actions[0], actions[which])
+    np.testing.assert_array_equal(batch.terminated[0], terminated[which])
+    np.testing.assert_array_equal(batch.rule_actions[0], rule_actions[which])
+    np.testing.assert_array_equal(batch.next_rule_actions[0], next_rule_actions[which])
+    assert batch.actions.dtype == batch.rule_actions.dtype == torch.int64
+    assert not batch.is_demonstration.any()
+
+
+def test_the_oldest_is_overwritten_and_nothing_else():
+    replay = Replay(2, 10, INPUTS)
+    for k in range(7):  # 28 transitions of each agent, 10 of which fit, across the end of the table
+        replay.add(numbered(2, 4, 4 * k))
+    batch = replay.sample(500, np.zeros(2), generators(0, 1))
+    for agent in range(2):
+        assert set(batch.rewards[agent].tolist()) == {1000.0 * agent + k for k in range(18, 28)}
+
+
+def test_only_what_has_been_written_is_drawn():
+    replay = Replay(1, 1000, INPUTS)
+    replay.add(numbered(1, 4, 1))
+    assert set(replay.sample(200, np.zeros(1), generators(0)).rewards[0].tolist()) == {1.0, 2.0, 3.0, 4.0}
+
+
+def test_every_transition_is_drawn_equally_often():
+    replay = Replay(1, 10, INPUTS)
+    replay.add(numbered(1, 10, 0))
+    counts = torch.bincount(replay.sample(20_000, np.zeros(1), generators(0)).rewards[0].long(), minlength=10)
+    assert (counts - 2000).abs().max() < 5 * (2000 * 0.9) ** 0.5
+
+
+@pytest.mark.parametrize(("beta", "demonstrations"), [(0.0, 0), (0.3, 19), (0.5, 32), (0.6, 38), (0.65, 42), (1.0, 64)])
+def test_the_share_of_demonstrations_is_beta_of_the_batch(beta, demonstrations):
+    demonstrated = numbered(1, 20, 500)[0]
+    replay = Replay(1, 50, INPUTS, demonstrated)
+    replay.add(numbered(1, 50, 0))
+    batch = replay.sample(64, np.array([beta]), generators(0))
+    assert batch.is_demonstration.sum() == demonstrations
+    from_demonstrations = batch.rewards[0] >= 500
+    assert torch.equal(from_demonstrations, batch.is_demonstration[0].bool())
+
+
+def test_each_agent_has_its_own_share():
+    replay = Replay(3, 50, INPUTS, random_rows(20, np.random.default_rng(0)))
+    replay.add(numbered(3, 50, 0))
+    batch = replay.sample(10, np.array([0.0, 0.5, 1.0]), generators(0, 1, 2))
+    assert batch.is_demonstration.sum(1).tolist() == [0.0, 5.0, 10.0]
+
+
+def test_what_an_agent_draws_depends_on_its_own_generator_alone():
+    together, alone = Replay(3, 50, INPUTS), Replay(1, 50, INPUTS)
+    rows = random_rows(150, np.random.default_rng(0)).view(3, 50, -1)
+    together.add(rows)
+    alone.add(rows[1:2])
+    first = together.sample(32, np.zeros(3), generators(7, 8, 9))
+    again = together.sample(32, np.zeros(3), generators(7, 8, 9))
+    single = alone.sample(32, np.zeros(1), generators(8))
+    for name in first._fields:
+        assert torch.equal(getattr(first, name), getattr(again, name))
+        assert torch.equal(getattr(first, name)[1:2], getattr(single, name))
+
+
+def test_beta_without_demonstrations_is_refused():
+    replay = Replay(1, 10, INPUTS)
+    replay.add(numbered(1, 10, 0))
+    with pytest.raises(BootcourseError, match="no demonstrations"):
+        replay.sample(64, np.array([0.6]), generators(0))
+
+
+def test_the_demonstrator_does_what_the_rule_says_and_its_episodes_run_out_of_time():
+    n, episodes = INPUTS, 3
+    rows = collect(episodes)
+    actions, rule_actions = rows[:, 2 * n], rows[:, 2 * n + 3]
+    assert len(rows) == episodes * DEFAULT.clock.decisions
+    assert torch.equal(actions, rule_actions) and not rows[:, 2 * n + 2].any()
+
+
+def test_a_demonstration_goes_on_where_it_was():
+    n, episodes = INPUTS, 3
+    rows = collect(episodes).view(DEFAULT.clock.decisions, episodes, -1)  # all on the road until time runs out
+    assert torch.equal(rows[1:, :, :n], rows[:-1, :, n : 2 * n])
+    assert torch.equal(rows[1:, :, 2 * n + 3], rows[:-1, :, 2 * n + 4])

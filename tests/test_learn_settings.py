@@ -1,0 +1,102 @@
+"""Settings: what the paper says is the default, and nonsense is refused in one sentence."""
+
+import pytest
+
+from bootcourse.errors import BootcourseError
+from bootcourse.learn.learner import Learner
+from bootcourse.learn.settings import METHODS, Settings, settings_for, with_seeds
+from bootcourse.learn.train import Training
+
+
+def test_the_defaults_are_the_papers_table():
+    s = settings_for("bootstrapped")
+    assert (s.gamma, s.actor_lr, s.critic_lr, s.alpha_lr) == (0.8, 5e-4, 1e-3, 1e-3)
+    assert (s.batch, s.capacity, s.alpha_init, s.target_entropy) == (64, 50_000, 0.01, -1.0)
+    assert (s.beta_start, s.beta_episodes, s.bonus, s.p, s.demonstrations) == (0.6, 1000, 2.0, 0.9, 200)
+    assert s.xi_multiplier * s.alpha_init == 2.0  # w_kl
+
+
+def test_a_mistyped_method_suggests_the_nearest():
+    with pytest.raises(BootcourseError, match="'bootstraped' is unknown: did you mean 'bootstrapped'"):
+        settings_for("bootstraped")
+
+
+def test_a_mistyped_setting_suggests_the_nearest():
+    with pytest.raises(BootcourseError, match="'gama' is unknown: did you mean 'gamma'"):
+        settings_for("sac", gama=0.9)
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"gamma": 1.5}, "gamma = 1.5: give a finite number of 0 or more, at most 1."),
+        ({"gamma": float("nan")}, "gamma = nan"),
+        ({"gamma": "0.8"}, "gamma = '0.8'"),
+        ({"alpha_init": 0.0}, "alpha_init = 0.0"),
+        ({"bonus": float("inf")}, "bonus = inf: give a finite number."),
+        ({"p": 0.1}, "p = 0.1"),
+        ({"p": 1.0}, "p = 1.0"),
+        ({"seed": -1}, "seed = -1: give a whole number of 0 or more."),
+        ({"batch": 64.5}, "batch = 64.5: give a whole number of 1 or more."),
+        ({"updates": True}, "updates = True"),
+        ({"roads": 0}, "roads = 0"),
+        ({"capacity": 63}, "capacity = 63: give a whole number of 64 or more."),
+        ({"capacity": 64, "roads": 65}, "capacity = 64: give a whole number of 65 or more."),
+        ({"kl_in_target": "no"}, "kl_in_target = 'no': give True or False."),
+        ({"hidden": 64}, "hidden = 64: give the layers' sizes"),
+        ({"hidden": ()}, "hidden = (): give the layers' sizes"),
+        ({"hidden": (64, 0)}, "hidden = (64, 0): give the layers' sizes"),
+    ],
+)
+def test_nonsense_is_refused_in_one_sentence(changes, sentence):
+    with pytest.raises(BootcourseError) as refusal:
+        settings_for("bootstrapped", **changes)
+    assert sentence in str(refusal.value)
+    assert "\n" not in str(refusal.value)
+
+
+@pytest.mark.parametrize(
+    ("method", "changes"),
+    [
+        ("sac", {"xi_multiplier": 200.0}),
+        ("demos", {"xi_fixed": 1.0}),
+        ("soft", {"beta_start": 0.6}),
+        ("margin_soft", {"bonus": 2.0}),
+    ],
+)
+def test_a_method_cannot_be_given_what_its_name_says_it_lacks(method, changes):
+    with pytest.raises(
+        BootcourseError, match=f"{next(iter(changes))} = .* method '{method}' is defined by doing without"
+    ):
+        settings_for(method, **changes)
+
+
+def test_sac_without_its_switches_is_refused_and_not_the_papers_method_in_disguise():
+    with pytest.raises(BootcourseError, match="method 'sac' is defined by doing without"):
+        Settings(method="sac")
+
+
+def test_an_ingredient_may_be_switched_off():
+    assert settings_for("bootstrapped", xi_multiplier=0.0, bonus=0.0, beta_start=0.0).xi_multiplier == 0.0
+
+
+def test_only_methods_with_demonstrations_ask_for_them():
+    asks = {method for method in METHODS if settings_for(method).needs_demonstrations}
+    assert asks == {"demos", "bootstrapped", "margin", "margin_soft"}
+
+
+def test_the_seeds_are_counted_from_the_first():
+    settings = with_seeds(settings_for("sac"), 3, first=5)
+    assert [s.seed for s in settings] == [5, 6, 7] and {s.method for s in settings} == {"sac"}
+
+
+def test_agents_that_cannot_share_a_batch_are_not_trained_side_by_side():
+    with pytest.raises(BootcourseError, match="need the same batch: train these apart"):
+        Learner([settings_for("sac"), settings_for("sac", batch=32)], 26)
+
+
+def test_a_training_needs_an_agent_and_an_episode():
+    with pytest.raises(BootcourseError, match="0 agents and 10 episodes"):
+        Training([], 10)
+    with pytest.raises(BootcourseError, match="1 agents and 0 episodes"):
+        Training([settings_for("sac")], 0)

@@ -1,0 +1,268 @@
+"""The training loop: what is remembered of the road, what stops it, and that it learns."""
+
+import os
+import signal
+import threading
+
+import numpy as np
+import pytest
+import torch
+from gymnasium.vector import AutoresetMode
+
+from bootcourse.learn.agent import sample_actions
+from bootcourse.learn.curves import NAMES
+from bootcourse.learn.settings import METHODS, settings_for, with_seeds
+from bootcourse.learn.train import FIRST_SEED, Training
+from bootcourse.road.vector_env import TrapVectorEnv
+from bootcourse.rule import rule
+from bootcourse.scenario import DEFAULT, IDLE
+
+INPUTS, DECISIONS = DEFAULT.observation_size, DEFAULT.clock.decisions
+QUICK = {"demonstrations": 3, "warm_up": 16}
+
+
+def training_of(*methods: str, episodes: int = 12, **changes) -> Training:
+    return Training([settings_for(m, seed=i, **(QUICK | changes)) for i, m in enumerate(methods)], episodes)
+
+
+def always(training: Training, action: int) -> Training:
+    """Agents that are sure of one action, and never learn otherwise."""
+    with torch.no_grad():
+        training.learner.actor[-1][:, :, action] += 1000.0
+    return training
+
+
+def same(first: dict, second: dict) -> bool:
+    return all(np.array_equal(first[name], second[name], equal_nan=True) for name in NAMES)
+
+
+def rows_of(training: Training, steps: int) -> torch.Tensor:
+    """What the next steps put into the replay: (steps, roads, row)."""
+    added, add = [], training.replay.add
+    training.replay.add = lambda rows: (added.append(rows.flatten(0, 1).clone()), add(rows))[1]
+    for _ in range(steps):
+        training.step()
+    return torch.stack(added)
+
+
+@pytest.mark.parametrize("sure", [True, False], ids=["idle until time runs out", "random until an accident"])
+def test_the_replay_holds_what_happened_on_the_road_and_the_true_last_state_of_each_episode(sure):
+    training = training_of("sac", "soft", warm_up=10**6)
+    rows = rows_of(always(training, IDLE) if sure else training, DECISIONS + 3)
+    n, roads = INPUTS, 2 * training.roads
+
+    road = TrapVectorEnv(roads, DEFAULT, AutoresetMode.DISABLED)  # the same roads, that rest when they end
+    states, _ = road.reset(
+        seed=[FIRST_SEED + 1000 * s.seed + i for s in training.settings for i in range(training.roads)]
+    )
+    awake = np.ones(roads, dtype=bool)
+    for step in range(DECISIONS):
+        row = rows[step].numpy()
+        np.testing.assert_array_equal(row[awake, :n], states[awake])
+        np.testing.assert_array_equal(row[awake, 2 * n + 3], rule(road.cars, DEFAULT).actions[awake])
+        states, rewards, terminated, truncated, _ = road.step(row[:, 2 * n].astype(np.int64))
+        np.testing.assert_array_equal(row[awake, n : 2 * n], states[awake])
+        np.testing.assert_array_equal(row[awake, 2 * n + 1], rewards[awake].astype(np.float32))
+        np.testing.assert_array_equal(row[awake, 2 * n + 2], terminated[awake])
+        np.testing.assert_array_equal(row[awake, 2 * n + 4], rule(road.cars, DEFAULT).actions[awake])
+        ended = awake & (terminated | truncated)
+        assert not (rows[step + 1, ended, :n].numpy() == states[ended]).all(1).any()  # the next episode is another
+        awake &= ~ended
+    assert not awake.any() and truncated.all() == sure
+
+
+def test_the_idle_policys_curves_are_those_worked_out_by_hand():
+    training = always(training_of("sac", "sac", episodes=6, warm_up=10**6), IDLE)
+    curves = training.run(progress=False).curves
+    np.testing.assert_allclose(curves["return"], 23.4375)
+    np.testing.assert_allclose(curves["distance"], 1500.0)
+    np.testing.assert_allclose(curves["speed"], 10.0)
+    for name, value in {"success": 0, "accident": 0, "decisions": 150, "beta": 0, "xi": 0, "alpha": 0.01}.items():
+        np.testing.assert_allclose(curves[name], value, rtol=1e-6)
+    np.testing.assert_allclose(curves["entropy"], 0, atol=1e-12)
+
+
+def test_every_method_trains_beside_every_other_and_notes_its_own_coefficients():
+    training = training_of(*METHODS, beta_episodes=10, alpha_init=0.02)
+    result = training.run(progress=False)
+    assert set(result.curves) == set(NAMES) and not result.interrupted
+    for values in result.curves.values():
+        assert values.shape == (6, 12) and np.isfinite(values).all()
+    assert ((result.curves["entropy"] >= 0) & (result.curves["entropy"] <= np.log(9))).all()
+    for i, s in enumerate(training.settings):
+        np.testing.assert_allclose(result.curves["xi"][i], s.xi_multiplier * result.curves["alpha"][i], rtol=1e-5)
+        assert result.curves["alpha"][i, 0] > result.curves["alpha"][i, -1]  # target entropy -1: it can only fall
+        assert result.curves["beta"][i, -1] == 0 and result.curves["beta"][i, 0] == s.beta_start
+    assert training.replay.demonstrations == 3 * DECISIONS
+
+
+def test_beta_falls_with_the_agents_own_finished_episodes():
+    training = training_of("bootstrapped", "sac", warm_up=10**6)
+    training.curves.finished[:] = [500, 900]
+    np.testing.assert_allclose(training.beta, [0.3, 0.0])
+
+
+def test_the_same_seeds_give_the_same_curves_and_others_give_others():
+    first, second = (training_of("bootstrapped", "sac").run(progress=False) for _ in range(2))
+    assert same(first.curves, second.curves)
+    for one, other in zip(first.agents, second.agents, strict=True):
+        assert all(torch.equal(a, b) for a, b in zip(one.actor, other.actor, strict=True))
+    other = Training(with_seeds(settings_for("bootstrapped", **QUICK), 2, first=7), 12).run(progress=False)
+    assert not same(first.curves, other.curves)
+
+
+def test_an_agents_curves_do_not_depend_on_what_its_neighbour_is():
+    settings = settings_for("bootstrapped", **QUICK)
+    neighbours = settings_for("soft", seed=1, **QUICK), settings_for("demos", seed=9, gamma=0.95, **QUICK)
+    first, second = (Training([settings, other], 40).run(progress=False).curves for other in neighbours)
+    for name in NAMES:
+        np.testing.assert_array_equal(first[name][0], second[name][0])
+
+
+def count_updates(training: Training) -> list[int]:
+    """The decision after which each update came."""
+    calls, update = [], training.learner.update
+    training.learner.update = lambda batch: (calls.append(training.decisions), update(batch))[1]
+    return calls
+
+
+def test_updates_begin_after_the_warm_up_and_there_are_as_many_as_asked_for():
+    training = training_of("sac", "soft", warm_up=20, updates=3)
+    calls = count_updates(training)
+    for _ in range(7):  # 4 roads each: 8 decisions a step, 40 to warm up both agents
+        training.step()
+    assert calls == [40] * 3 + [48] * 3 + [56] * 3
+
+
+def test_an_agent_that_has_driven_its_episodes_stays_as_it_was():
+    training = training_of("sac", "soft", "bootstrapped", episodes=5)
+    while not training.finished_agents:
+        training.step()
+    kept = {i: agent.actor[0].clone() for i, agent in training.finished_agents.items()}
+    assert len(kept) < 3
+    result = training.run(progress=False)
+    for i, weight in kept.items():
+        assert torch.equal(result.agents[i].actor[0], weight)
+        assert not torch.equal(training.agent(i).actor[0], weight)  # though its seat goes on
+
+
+def after(steps: int, act):
+    """A callback that acts once, after so many steps."""
+    seen = []
+
+    def callback(training):
+        seen.append(training)
+        if len(seen) == steps:
+            act()
+
+    return callback
+
+
+def raise_interrupt():
+    raise KeyboardInterrupt
+
+
+def press_ctrl_c():
+    os.kill(os.getpid(), signal.SIGINT)
+
+
+@pytest.mark.parametrize("interrupt", [raise_interrupt, press_ctrl_c])
+def test_an_interrupt_returns_what_was_learned_so_far(interrupt):
+    training = training_of("bootstrapped", "sac", episodes=500)
+    result = training.run(progress=False, callback=after(60, interrupt))
+    assert result.interrupted and len(result.agents) == 2 and result.seconds > 0
+    finished = training.curves.finished
+    assert (finished > 0).all() and (finished < 500).all()
+    for values in result.curves.values():
+        assert values.shape == (2, 500)
+        np.testing.assert_array_equal(np.isnan(values).sum(1), 500 - finished)
+    assert result.agents[0].policy(np.zeros((3, INPUTS))).shape == (3, 9)
+
+
+@pytest.mark.skipif(os.name == "nt", reason="a process cannot press Ctrl-C for itself on Windows")
+def test_a_training_interrupted_in_the_middle_of_a_step_goes_on_as_if_nothing_had_been():
+    undisturbed = training_of("bootstrapped", "sac").run(progress=False)
+    training = training_of("bootstrapped", "sac")
+    step, calls = training.env.step, []
+
+    def disturbed_step(actions):
+        calls.append(1)
+        if len(calls) % 10 == 0:
+            press_ctrl_c()
+        return step(actions)
+
+    training.env.step = disturbed_step
+    interruptions = 0
+    while (result := training.run(progress=False)).interrupted and not training.done:
+        interruptions += 1
+    assert interruptions >= 2 and same(result.curves, undisturbed.curves)
+    assert all(torch.equal(a, b) for a, b in zip(result.agents[0].actor, undisturbed.agents[0].actor, strict=True))
+
+
+@pytest.mark.skipif(os.name == "nt", reason="a process cannot press Ctrl-C for itself on Windows")
+def test_a_second_interrupt_does_not_wait():
+    reached = []
+
+    def stuck(training):
+        press_ctrl_c()
+        press_ctrl_c()
+        reached.append("after")
+
+    training = training_of("sac")
+    assert training.run(progress=False, callback=stuck).interrupted and not reached
+
+
+def test_what_the_user_had_set_is_put_back():
+    threads, handler = torch.get_num_threads(), signal.getsignal(signal.SIGINT)
+    training_of("sac").run(progress=False)
+    assert torch.get_num_threads() == threads and signal.getsignal(signal.SIGINT) is handler
+
+
+def test_it_runs_in_a_thread_of_a_notebook():
+    results = []
+    thread = threading.Thread(target=lambda: results.append(training_of("sac").run(progress=False)))
+    thread.start()
+    thread.join(60)
+    assert len(results) == 1 and not results[0].interrupted
+
+
+def test_stop_ends_it_and_running_again_goes_on():
+    whole = training_of("bootstrapped", "sac").run(progress=False)
+    training, asked = training_of("bootstrapped", "sac"), []
+    result = training.run(progress=False, stop=lambda: asked.append(1) or len(asked) > 10)
+    assert result.interrupted and training.decisions == 10 * 8
+    assert same(training.run(progress=False).curves, whole.curves)
+
+
+def test_the_bar_shows_the_running_success_rate(capsys):
+    training_of("sac", "sac").run(progress=True)
+    assert "24/24" in (text := capsys.readouterr().err) and "success" in text
+
+
+def test_actions_are_drawn_as_often_as_the_policy_says():
+    policy = np.array([0.5, 0.0, 0.25, 0.0, 0.0, 0.05, 0.0, 0.2, 0.0])
+    drawn = sample_actions(np.tile(policy, (100_000, 1)), np.random.default_rng(0).random(100_000))
+    shares = np.bincount(drawn, minlength=9) / 100_000
+    np.testing.assert_allclose(shares, policy, atol=0.006)
+    assert (shares[policy == 0] == 0).all()
+    assert sample_actions(policy[None], np.array([1 - 1e-16]))[0] == 7  # never past the last that is possible
+
+
+def test_an_agent_drives_by_its_most_probable_action_or_draws_one():
+    training = training_of("sac", "soft")
+    agent = training.run(progress=False).agents[1]
+    states = np.random.default_rng(0).normal(size=(500, INPUTS)).astype(np.float32)
+    policy = agent.policy(states)
+    np.testing.assert_allclose(policy.sum(1), 1, rtol=1e-5)
+    choice = agent.driver(with_q=True)(states, None)
+    np.testing.assert_array_equal(choice.actions, policy.argmax(1))
+    assert choice.q_values.shape == (500, 9)
+    drawn = agent.driver(np.random.default_rng(0))(states, None).actions
+    assert 0 < (drawn == choice.actions).mean() < 1
+
+
+def test_two_bootstrapped_agents_escape_within_320_episodes_and_two_of_plain_sac_do_not():
+    settings = [s for method in ("bootstrapped", "sac") for s in with_seeds(settings_for(method), 2, first=2)]
+    success = Training(settings, 320).run(progress=False).curves["success"][:, -50:].mean(1)
+    assert success[:2].mean() >= 0.8, f"bootstrapped {success[:2]}"
+    assert success[2:].max() <= 0.1, f"sac {success[2:]}"

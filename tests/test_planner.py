@@ -1,0 +1,167 @@
+"""The planner: what it finds can be driven, and nobody can exceed its bound."""
+
+import numpy as np
+import pytest
+
+from bootcourse.drivers import idle_driver, rule_driver
+from bootcourse.errors import BootcourseError
+from bootcourse.record.drive import record
+from bootcourse.road.state import CRASHED, EGO, HEADING, LANE, SPEED, X, Y
+from bootcourse.road.vector_env import TrapVectorEnv
+from bootcourse.scenario import DEFAULT, IDLE, Clock, Scenario, Traffic
+from bootcourse.study.evaluate import drive_episodes
+from bootcourse.study.planner import (
+    Search,
+    discounted_values,
+    empty_road_return,
+    expand,
+    follow,
+    future_worth,
+    is_staying_optimal,
+    plan,
+    plan_episodes,
+    select,
+)
+
+SEEDS = [2**33 - 100, 2**33 - 99, 2**33 - 98]
+SHORT = Search(beam=20, decisions=25)
+
+
+@pytest.fixture(scope="module")
+def plans():
+    return plan_episodes(SEEDS, search=Search(beam=20))
+
+
+def start(seed: int = SEEDS[0], scenario: Scenario = DEFAULT) -> np.ndarray:
+    env = TrapVectorEnv(1, scenario)
+    env.reset(seed=seed)
+    return env.cars[0].copy()
+
+
+def test_a_plan_s_replay_earns_exactly_what_the_search_said(plans):
+    for rollout, each in zip(record(follow(plans), SEEDS, DEFAULT, "planner"), plans, strict=True):
+        np.testing.assert_array_equal(rollout.actions, each.actions)
+        np.testing.assert_array_equal(rollout.rewards, each.rewards)
+        assert each.value == pytest.approx(rollout.rewards.sum(), abs=1e-9)
+        assert rollout.success == each.success and len(each.actions) == DEFAULT.clock.decisions
+
+
+def test_an_evaluation_of_the_plans_gives_their_returns(plans):
+    episodes = drive_episodes(follow(plans), SEEDS)
+    np.testing.assert_allclose(episodes.returns, [each.value for each in plans], atol=1e-9)
+    assert episodes.success.all() and not episodes.accident.any()
+
+
+def test_the_planner_beats_the_rule_by_far_and_stays_under_the_empty_road(plans):
+    by_the_rule = drive_episodes(rule_driver(DEFAULT), SEEDS).returns
+    for each, rule_return in zip(plans, by_the_rule, strict=True):
+        assert 2 * rule_return < each.value <= empty_road_return()
+
+
+def test_a_plan_does_not_depend_on_the_roads_planned_with_it(plans):
+    alone = plan_episodes(SEEDS[1:2], search=Search(beam=20))[0]
+    np.testing.assert_array_equal(alone.actions, plans[1].actions)
+
+
+def test_the_search_leaves_the_start_as_it_was():
+    cars = start()
+    before = cars.copy()
+    plan(cars, search=SHORT)
+    np.testing.assert_array_equal(cars, before)
+
+
+def test_a_beam_that_holds_everything_finds_the_best_of_all_9_to_the_3():
+    cars, (best, roads) = start(), (-np.inf, start()[None])
+    totals = np.zeros(1)
+    for _ in range(3):
+        roads, rewards, accidents = expand(roads, DEFAULT)
+        totals = (totals[:, None] + np.where(accidents == 0, rewards, -np.inf)).ravel()
+    best = totals.max()
+    assert plan(cars, search=Search(beam=9**3, decisions=3)).value == pytest.approx(best, abs=1e-6)
+
+
+def test_an_expansion_is_what_the_road_does_with_each_action():
+    env = TrapVectorEnv(9)
+    env.reset(seed=[SEEDS[0]] * 9)
+    children, rewards, _ = expand(env.cars[:1], DEFAULT)
+    _, stepped, *_ = env.step(np.arange(9))
+    np.testing.assert_array_equal(children, env.cars)
+    np.testing.assert_array_equal(rewards[0], stepped)
+
+
+def test_an_empty_road_pays_what_the_search_expects_of_it():
+    empty = Scenario("empty", traffic=Traffic(cars=0))
+    cars = start(scenario=empty)
+    cars[1:, X] -= 500.0  # the traps, far behind
+    best = plan(cars, empty, Search(beam=10))
+    assert best.value == pytest.approx(empty_road_return(empty), abs=1e-3)
+
+
+def test_what_an_empty_road_still_pays_counts_the_discount():
+    speeds, values = future_worth(DEFAULT, 3, 0.5)[3]
+    at_15 = (1.5 + 0.05) / 1.6
+    assert np.interp(15.0, speeds, values) == pytest.approx(at_15 * (1 + 0.5 + 0.25), abs=1e-3)
+
+
+def test_each_lane_and_speed_keeps_a_share_of_the_beam():
+    cars = np.zeros((40, 1, 10))
+    cars[:, EGO, X] = np.arange(40)
+    cars[20:30, EGO, SPEED], cars[30:, EGO, LANE] = 5.0, 2
+    chosen = select(cars, -np.arange(40.0), np.ones(40, dtype=bool), beam=12)
+    assert sorted(chosen) == [*range(8), 20, 21, 30, 31]
+
+
+def test_of_two_drives_in_the_same_cell_the_better_is_kept():
+    cars = np.zeros((2, 1, 10))
+    cars[:, EGO, SPEED] = 10.0, 10.01
+    assert select(cars, np.array([1.0, 2.0]), np.ones(2, dtype=bool), beam=5).tolist() == [1]
+
+
+def test_an_accident_is_never_kept():
+    cars = np.zeros((3, 1, 10))
+    cars[:, EGO, X] = 0.0, 5.0, 10.0
+    assert select(cars, np.arange(3.0), np.array([True, True, False]), beam=5).tolist() == [1, 0]
+
+
+def test_where_every_way_ends_in_an_accident_the_plan_ends_there():
+    cars = start()
+    cars[EGO, Y], cars[EGO, HEADING], cars[EGO, SPEED] = 9.99, 1.2, 15.0  # over the edge whatever it does
+    doomed = plan(cars)
+    assert len(doomed.actions) == 1 and doomed.value == -10.0 and not cars[EGO, CRASHED]
+
+
+def test_a_search_that_keeps_its_lane_never_leaves_it():
+    search = Search(beam=20, decisions=25, keep_lane=True)
+    plans = plan_episodes(SEEDS, search=search)
+    for rollout in record(follow(plans), SEEDS):
+        assert (rollout.states[: 2 * 25 + 1, EGO, LANE] == 2).all()
+    assert all(stay.value < free.value for stay, free in zip(plans, plan_episodes(SEEDS, search=SHORT), strict=True))
+
+
+def test_the_discounted_value_of_idling_is_the_geometric_series():
+    values = discounted_values(idle_driver, SEEDS, DEFAULT, 0.8)
+    np.testing.assert_allclose(values, 0.15625 * (1 - 0.8**150) / 0.2, atol=1e-9)
+
+
+def test_leaving_the_trap_is_worth_more_than_staying_even_at_the_paper_s_discount():
+    answer = is_staying_optimal(SEEDS, gamma=0.8, beam=20)
+    assert answer.idle.value < answer.keep_lane.value < answer.best.value
+    assert answer.gain.low > 0 and answer.leaves.value == 1
+    assert answer.rule.value < answer.idle.value  # the rule's own detour does not pay at this discount
+
+
+def test_a_follower_idles_after_its_plan_ends():
+    drive = follow(plan_episodes(SEEDS[:1], Scenario("short", clock=Clock(decisions=2)), Search(beam=3)))
+    taken = [int(drive(np.zeros((1, 26)), None).actions[0]) for _ in range(4)]
+    assert taken[2:] == [IDLE, IDLE]
+
+
+@pytest.mark.parametrize("change", [{"beam": 0}, {"gamma": 0.0}, {"gamma": 1.5}, {"decisions": 0}])
+def test_a_search_that_cannot_be_is_refused(change):
+    with pytest.raises(BootcourseError, match="give a beam"):
+        Search(**change)
+
+
+def test_a_gamma_of_1_has_no_discounted_question():
+    with pytest.raises(BootcourseError, match="between 0 and 1"):
+        is_staying_optimal(SEEDS, gamma=1.0)

@@ -1,0 +1,161 @@
+"""The paper's numbers, the verdicts on them, the tables, the figures and the report."""
+
+import re
+
+import numpy as np
+import pytest
+
+from bootcourse.record.files import write_json
+from bootcourse.scenario import SCENARIOS
+from bootcourse.study import tables, training_figures
+from bootcourse.study.drawing import png
+from bootcourse.study.fidelity import VERDICTS, fidelity, judge
+from bootcourse.study.paper import COLUMNS, PRINTED, TABLES, arithmetic, earned_at, paper_interval, possible
+from bootcourse.study.report import rule_results, write_report
+from bootcourse.study.results import Results, save_results
+from bootcourse.study.sources import code_only
+
+METHODS = ("bc", "cql", "gail", "sac", "soft", "demos", "bootstrapped", "margin", "margin_soft")
+
+
+def invented(methods=METHODS, seeds: int = 10, tests: int = 40, episodes: int = 90) -> Results:
+    """Agents that were never trained: scores and curves drawn at random."""
+    rng = np.random.default_rng(0)
+    agents = [{"method": method, "seed": seed} for method in methods for seed in range(seeds)]
+    shape, n = (len(agents), tests), len(agents)
+    tested = {
+        "success": (rng.random(shape) < rng.random((n, 1))).astype(np.int8),
+        "returns": rng.normal(30, 5, shape).astype(np.float32),
+        "speed": rng.normal(11, 0.5, shape).astype(np.float32),
+        "distance": rng.normal(1600, 50, shape).astype(np.float32),
+        "accident": rng.integers(0, 4, shape).astype(np.int8),
+    }
+    names = {"success": 1, "return": 30, "speed": 11, "distance": 1600, "entropy": 2}
+    curves = {name: (rng.random((n, episodes)) * top).astype(np.float32) for name, top in names.items()}
+    return Results(agents, np.full(n, -1), tested, curves)
+
+
+def scoring(method: str, column: str, scores) -> Results:
+    """Agents of a method whose score in a column is given."""
+    scores = np.asarray(scores, dtype=np.float64)
+    empty = invented((method,), len(scores), 20)
+    return Results(empty.agents, empty.stopped, empty.tested | {column: np.repeat(scores[:, None], 20, axis=1)}, {})
+
+
+def test_every_number_of_both_tables_is_there():
+    assert sum(len(methods) for methods in TABLES.values()) == 9 and {m for t in TABLES.values() for m in t} == set(
+        PRINTED
+    )
+    assert PRINTED["demos"]["collision"] == (5, 29.69) and PRINTED["rule"]["distance"] == (1727.01, 8.3)
+
+
+def test_one_collision_in_twenty_episodes_has_the_deviation_that_gail_s_row_prints():
+    assert np.std([1] + [0] * 19, ddof=1) * 100 == pytest.approx(22.36, abs=0.005)
+    assert possible("gail", "collision") and not possible("demos", "collision")
+    assert paper_interval("soft", "success").high == pytest.approx(16.84, abs=0.01)
+
+
+def test_the_arithmetic_of_a_row_is_the_road_s_own_reward():
+    assert earned_at(10.0) == pytest.approx(23.4375)
+    assert earned_at(11.51) == pytest.approx(150 * (0.025 * 11.51 - 0.09375))
+    assert "133.5 s" in arithmetic("sac") and "ended early" in arithmetic("sac")
+    assert "cannot have a deviation of 29.69" in arithmetic("demos")
+
+
+VERDICT = {
+    "all agents score so": ([26.8, 26.7, 26.9, 26.75], "reproduced"),
+    "one in four does": ([26.8, 40.0, 41.0, 42.0], "partly"),
+    "none does, but their mean cannot be told apart": ([20.0, 33.0, 20.5, 33.5], "partly"),
+    "none does": ([40.0, 41.0, 42.0, 43.0], "not reproduced"),
+}
+
+
+@pytest.mark.parametrize("case", VERDICT)
+def test_the_verdict_follows_its_rule_when(case):
+    scores, verdict = VERDICT[case]
+    finding = judge(scoring("soft", "returns", scores), "soft", "returns")
+    assert finding.verdict == verdict and finding.ours.value == pytest.approx(np.mean(scores))
+
+
+def test_an_impossible_number_and_a_method_that_was_not_run_cannot_be_compared():
+    findings = {(f.method, f.column): f for f in fidelity(invented(("demos",)))}
+    assert len(findings) == 35 and findings["demos", "collision"].verdict == "cannot be compared"
+    assert findings["cql", "speed"].reason == "This study has not run this method."
+    assert {finding.verdict for finding in findings.values()} <= set(VERDICTS)
+
+
+def test_the_rule_is_one_driver_whose_interval_is_over_episodes():
+    rule = rule_results(SCENARIOS["default"], 20)
+    finding = judge(rule, "rule", "success")
+    assert finding.verdict == "reproduced" and finding.ours.low == pytest.approx(83.16, abs=0.01)
+
+
+def test_a_result_table_has_the_paper_s_row_above_ours():
+    table = tables.result_table(invented(("sac",)), ("sac", "soft"))
+    rows = [line for line in table.splitlines() if line.startswith("|")]
+    assert "| 21.32 ± 7.39 | 10.5 ± 1.28 | 1402.16 ± 182.87 |" in rows[2]
+    assert "IQM over 10 agents" in rows[4] and rows[6].count("not run") == 7
+    assert len({row.count("|") for row in rows}) == 1
+
+
+def test_the_share_of_the_bound_is_what_was_earned_over_what_could_be():
+    results = scoring("sac", "returns", [70.0] * 10)
+    assert "50.00 [50.00, 50.00]" in tables.escape_table(results, np.full(20, 140.0))
+
+
+FIGURES = (
+    training_figures.margin_against_bonus,
+    training_figures.ablation,
+    training_figures.baselines,
+    training_figures.exploration,
+    lambda results: training_figures.final_scores(results, METHODS, "success"),
+)
+
+
+@pytest.mark.parametrize("draw", FIGURES)
+def test_every_figure_is_drawn_and_says_in_words_what_it_shows(draw):
+    figure = draw(invented())
+    assert png(figure).startswith(b"\x89PNG") and len(figure.alt) > 100 and "nan" not in figure.alt
+    labels = [ax.get_ylabel() or ax.get_xlabel() for ax in figure.axes]
+    assert all(labels)
+
+
+def test_a_curve_s_blocks_are_means_of_all_its_episodes():
+    x, y = training_figures.blocks(np.arange(10.0)[None], points=4)
+    np.testing.assert_allclose(y, [[1, 4, 7, 9]])
+    np.testing.assert_allclose(x, [1.5, 4.5, 7.5, 9.5])
+
+
+def test_an_agent_that_was_stopped_leaves_the_curve_but_not_the_report(tmp_path):
+    results = invented(("sac",), 3)
+    results.curves["return"][1, 50:] = np.nan
+    results.stopped[1] = 1234
+    training_figures.training_panels(results, ("sac",), "title")
+    report_of(results, tmp_path)
+    assert "sac, seed 1, at decision 1234" in (tmp_path / "report.md").read_text()
+
+
+def report_of(results: Results, root) -> None:
+    folder = root / "cells/default/all"
+    save_results(results, folder / "results.npz", {})
+    versions = dict.fromkeys(("bootcourse", "python", "torch", "numpy", "numba"), "1") | {"seconds": 60}
+    write_json(folder / "cell.json", {"provenance": versions, "sources": {}})
+    write_report(root)
+
+
+def test_the_report_holds_every_table_and_figure(tmp_path):
+    report_of(invented(), tmp_path)
+    text = (tmp_path / "report.md").read_text()
+    shown = re.findall(r"\]\((figures/[^)]+)\)", text)
+    assert len(shown) == 6 and all((tmp_path / name).exists() for name in shown)
+    for heading in (*TABLES, "Fidelity", "Probability of improvement", "Who escapes"):
+        assert heading in text
+    assert text.count("**reproduced**") + text.count("**partly**") + text.count("**not reproduced**") == 34
+    for column in COLUMNS.values():
+        assert f"| {column} |" in text
+
+
+def test_better_words_make_no_result_older_and_other_code_does():
+    before = '"""Doc."""\n\ndef f(x):\n    """Says."""\n    return "# no comment" + x  # yes\n'
+    after = '"""Other words."""\ndef f(x):\n    # more\n    return "# no comment" + x\n'
+    assert code_only(before) == code_only(after) != code_only(after.replace("+ x", "+ x + x"))
