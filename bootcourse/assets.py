@@ -20,6 +20,7 @@ FOLDER = Path(__file__).resolve().parent.parent / "assets"
 MANIFEST = "manifest.json"
 LIMIT = 25_000_000  # bytes, all together
 CURVES = ("success", "return", "speed", "distance", "accident", "entropy")  # the others are in runs/
+RUNS = 5  # training seeds whose weights ship; curves and scores ship of all
 BUILD = "bootcourse assets build --study DIR"
 
 
@@ -94,6 +95,7 @@ def build(study: Path, folder: Path = FOLDER) -> None:
     try:
         for part in (add_results, add_runs, add_demonstrations, add_rollouts, add_card):
             part(study, new, add)
+        keep_readme(folder, new, entries, add)
         write_json(new / MANIFEST, {"files": entries})
         size = sum(entry["bytes"] for entry in entries)
         if size >= LIMIT:
@@ -148,9 +150,11 @@ def lighter(results, curves: Sequence[str]):
 
 
 def add_runs(study: Path, new: Path, add: Callable) -> None:
-    """Every agent of the default scenario: weights, settings and curves, as `load_run` reads them."""
+    """The first agents of every method on the default scenario, as `load_run` reads them."""
     sources, versions = cells_made(study, "default")
     for run in sorted(study.glob("cells/default/*/runs/*")):
+        if int(run.name.rpartition("-")[2]) >= RUNS:
+            continue
         shutil.copytree(run, new / "runs" / run.name)
         for path in sorted((new / "runs" / run.name).iterdir()):
             add(path, f"bootcourse study --out DIR && {BUILD}", sources, versions)
@@ -193,13 +197,31 @@ def add_rollouts(study: Path, new: Path, add: Callable) -> None:
             continue
         agent, road = max(found, key=lambda place: results.tested["returns"][place])
         label = f"{method}-{results.agents[agent]['seed']}"
-        driver = load_run(new / "runs" / label).agent.driver(with_q=True)
+        run = next(study.glob(f"cells/default/*/runs/{label}"))
+        driver = load_run(run).agent.driver(with_q=True)
         rollout = record(driver, [roads[int(road)]], DEFAULT, method)[0]
         add(rollout.save(new / "rollouts" / f"{name}.npz"), how, sources | sources_hash(["learn"]), provenance())
     from bootcourse.drivers import rule_driver
 
     rollout = record(rule_driver(DEFAULT), [roads[0]], DEFAULT, "rule")[0]
     add(rollout.save(new / "rollouts" / "rule.npz"), how, sources, provenance())
+
+
+def keep_readme(folder: Path, new: Path, entries: list[dict], add: Callable) -> None:
+    """The pictures of the README, which no study makes, stay as they are."""
+    from bootcourse.record.drive import provenance
+
+    if not (folder / "readme").is_dir():
+        return
+    before = read_json(folder / MANIFEST)["files"] if (folder / MANIFEST).exists() else []
+    shutil.copytree(folder / "readme", new / "readme")
+    for path in sorted((new / "readme").iterdir()):
+        known = [entry for entry in before if entry["sha256"] == sha256(path)]
+        if known:
+            entries.append(known[0])
+        else:
+            sources = sources_hash(("scenario", "rule", "drivers", "road", "study/top_view", "study/readme_picture"))
+            add(path, "python -m bootcourse.study.readme_picture", sources, provenance())
 
 
 def add_card(study: Path, new: Path, add: Callable) -> None:
@@ -216,7 +238,10 @@ def add_card(study: Path, new: Path, add: Callable) -> None:
     table = markdown(["method", "agents", *(HEADINGS[measure] for measure in measures)], rows)
     agent = results.agents[0]
     text = CARD.format(
-        table=table, tests=results.tested["returns"].shape[1], hidden=" x ".join(map(str, agent["hidden"]))
+        table=table,
+        tests=results.tested["returns"].shape[1],
+        hidden=" x ".join(map(str, agent["hidden"])),
+        runs=RUNS,
     )
     write_bytes(new / "MODEL_CARD.md", text.encode())
     add(new / "MODEL_CARD.md", f"bootcourse study --out DIR && {BUILD}", *cells_made(study, "default"))
@@ -224,7 +249,7 @@ def add_card(study: Path, new: Path, add: Callable) -> None:
 
 CARD = """# Model card
 
-**What they are.** The agents in `runs/`: one folder for each method and training seed, trained on the
+**What they are.** The agents in `runs/`: a folder for each of the first {runs} seeds of each method, trained on the
 default scenario of this course by `bootcourse study`. Each is an actor and two critics with hidden layers of
 {hidden} neurons; it reads 26 numbers and chooses one of 9 actions, once a second. The weights are those at the
 end of training: none was selected.

@@ -12,11 +12,12 @@ from enum import IntEnum
 
 import numpy as np
 
-from bootcourse.road.compiled import compiled
+from bootcourse.errors import BootcourseError
+from bootcourse.road.compiled import compiled, compiled_loop
 from bootcourse.road.constants import constants
 from bootcourse.road.formulas import bicycle_step
-from bootcourse.road.state import EGO, HEADING, LANE, SPEED, X, Y
-from bootcourse.road.traffic import NOBODY, neighbours
+from bootcourse.road.state import COLUMNS, EGO, HEADING, LANE, SPEED, X, Y
+from bootcourse.road.traffic import FRONT, NOBODY, REAR, look_around, new_around, sort_by_x
 from bootcourse.scenario import N_ACTIONS, Scenario, check_p
 
 
@@ -68,10 +69,10 @@ def safety_distance(v_ego, v_current, v_target, t_safe, floor):
 
 
 @compiled
-def decide_rule(cars, c):
+def decide_rule(cars, around, c):
     """Algorithm 1 on one road, cars (vehicles, 10): (target speed, target lane, safety distance, reason)."""
     lane, x, v = int(cars[EGO, LANE]), cars[EGO, X], cars[EGO, SPEED]
-    front, _ = neighbours(cars, EGO, lane, c)
+    front = around[lane, EGO, FRONT]
     if front != NOBODY and cars[front, X] - x > c.sight:
         front = NOBODY
     v_current = cars[front, SPEED] if front != NOBODY else math.inf
@@ -79,7 +80,7 @@ def decide_rule(cars, c):
         reason = Reason.FREE if front == NOBODY else Reason.LEFTMOST
         return target_speed(v_current, v_current, c.rule_v_min, c.rule_v_max, c.rule_n), lane, c.floor, reason.value
 
-    new_front, new_rear = neighbours(cars, EGO, lane - 1, c)
+    new_front, new_rear = around[lane - 1, EGO, FRONT], around[lane - 1, EGO, REAR]
     if new_front != NOBODY and cars[new_front, X] - x > c.sight:
         new_front = NOBODY
     v_new = cars[new_front, SPEED] if new_front != NOBODY else math.inf
@@ -98,6 +99,7 @@ def decide_rule(cars, c):
 
 SETTLED = 0.5  # m from the lane's centre; only from here does the next lane change begin
 HEADING_COST = 20.0  # m² per rad²: how much a skewed car costs against one that is off its lane's centre
+STRAIGHT_FIRST = (1, 0, 2)  # of two plans that cost the same, the one that begins straight
 EDGE_COST = 1e6  # a plan that leaves the road
 
 
@@ -114,15 +116,15 @@ def _track(cars, speed, lane, c):
     sign = 0 if abs(wish) <= c.ego_acceleration / 2 else (1 if wish > 0 else -1)
     acceleration = sign * c.ego_acceleration
     goal, best, best_cost = lane * c.lane_width, 1, math.inf
-    for first in range(3):
+    for first in STRAIGHT_FIRST:
         a = _ahead((cars[EGO, Y], cars[EGO, HEADING], cars[EGO, SPEED], 0.0), acceleration, first, goal, c)
-        for second in range(3):
+        for second in STRAIGHT_FIRST:
             b = _ahead(a, acceleration, second, goal, c)
             if b[3] >= best_cost:
                 continue
-            for third in range(3):
+            for third in STRAIGHT_FIRST:
                 cost = _ahead(b, 0.0, third, goal, c)[3]
-                if cost < best_cost - 1e-12 or (cost < best_cost + 1e-12 and first == 1):
+                if cost < best_cost - 1e-12:
                     best, best_cost = first, cost
     return (sign + 1) * 3 + best
 
@@ -139,11 +141,14 @@ def _ahead(state, acceleration, steer, goal, c):
     return y, heading, v, cost
 
 
-@compiled
+@compiled_loop
 def drive_rule(cars, c, actions, speeds, lanes, distances, reasons):
     """The rule on every road: cars (roads, vehicles, 10), fills the five arrays (roads,)."""
+    order, around = np.arange(cars.shape[1]), new_around(cars.shape[1], c)
     for road in range(cars.shape[0]):
-        speeds[road], lanes[road], distances[road], reasons[road] = decide_rule(cars[road], c)
+        sort_by_x(cars[road], order)
+        look_around(cars[road], order, around, c)
+        speeds[road], lanes[road], distances[road], reasons[road] = decide_rule(cars[road], around, c)
         actions[road] = _track(cars[road], speeds[road], lanes[road], c)
 
 
@@ -162,7 +167,15 @@ def rule(cars: np.ndarray, scenario: Scenario) -> RuleDecisions:
     """The rule controller μ: cars (roads, vehicles, 10) -> `RuleDecisions`.
 
     It reads the true state, not the observation. For TrapEnv: `rule(env.unwrapped.cars()[None], scenario)`.
+    Raises BootcourseError if the cars are not those of the scenario's road.
     """
+    if cars.ndim != 3 or cars.shape[2] != COLUMNS:
+        raise BootcourseError(f"cars have shape {cars.shape}: give (roads, vehicles, {COLUMNS}), as in `cars[None]`.")
+    lanes = cars[:, EGO, LANE]
+    if len(cars) and not (lanes.min() >= 0 and lanes.max() < scenario.road.lanes):
+        raise BootcourseError(
+            f"The ego is in lane {lanes.max()}: this scenario has lanes 0..{scenario.road.lanes - 1}."
+        )
     c = constants(scenario)
     n = len(cars)
     decisions = RuleDecisions(

@@ -246,6 +246,19 @@ def test_actions_are_drawn_as_often_as_the_policy_says():
     np.testing.assert_allclose(shares, policy, atol=0.006)
     assert (shares[policy == 0] == 0).all()
     assert sample_actions(policy[None], np.array([1 - 1e-16]))[0] == 7  # never past the last that is possible
+    assert sample_actions(policy[None, ::-1], np.array([0.0]))[0] == 1  # nor before the first
+
+
+def test_an_agent_thinks_what_its_learner_thought():
+    training = training_of("sac", "soft", "demos")
+    for _ in range(20):
+        training.step()
+    states = torch.randn(3, 50, INPUTS)
+    policy, values = training.learner.policy(states), training.learner.q_values(states)
+    for i in range(3):
+        agent = training.agent(i)
+        np.testing.assert_allclose(agent.policy(states[i].numpy()), policy[i], atol=1e-6)
+        np.testing.assert_allclose(agent.q_values(states[i].numpy()), values[i], atol=1e-5)
 
 
 def test_an_agent_drives_by_its_most_probable_action_or_draws_one():

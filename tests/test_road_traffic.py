@@ -8,7 +8,9 @@ import pytest
 from gymnasium.vector import AutoresetMode
 
 import bootcourse  # noqa: F401  registers the road
+from bootcourse.road.constants import constants
 from bootcourse.road.state import ACCELERATION, CRASHED, HEADING, LANE, SPEED, TARGET_LANE, TIMER, TRAFFIC, X, Y
+from bootcourse.road.traffic import look_around, sort_by_x
 from bootcourse.rule import rule
 from bootcourse.scenario import DEFAULT, IDLE, Scenario, Traffic
 
@@ -81,6 +83,26 @@ def test_the_traps_never_change_lane():
     for _ in range(150):
         env.step(rule(env.cars, DEFAULT).actions)
         assert (env.cars[:, 1:3, [Y, LANE, HEADING]] == traps).all()
+
+
+def neighbours_by_search(cars: np.ndarray, i: int, lane: int) -> tuple[int, int]:
+    """Rows of the nearest car ahead of car i and behind it in a lane, from the definition; -1 for nobody."""
+    there = [j for j in range(len(cars)) if j != i and abs(cars[j, Y] - 4.0 * lane) <= 3.0]
+    ahead = [j for j in there if cars[j, X] > cars[i, X]]
+    behind = [j for j in there if cars[j, X] < cars[i, X]]
+    return min(ahead, key=lambda j: cars[j, X], default=-1), max(behind, key=lambda j: cars[j, X], default=-1)
+
+
+def test_everybody_sees_the_nearest_car_ahead_and_behind_in_every_lane():
+    rng, c = np.random.default_rng(0), constants(DEFAULT)
+    order, around = np.arange(9), np.zeros((3, 9, 2), dtype=np.int64)
+    for _ in range(200):
+        cars = np.zeros((9, 10))
+        cars[:, X], cars[:, Y] = rng.uniform(0, 200, 9), rng.uniform(-2, 10, 9)  # some between two lanes
+        sort_by_x(cars, order)
+        look_around(cars, order, around, c)
+        expected = [[neighbours_by_search(cars, i, lane) for i in range(9)] for lane in range(3)]
+        assert (around == expected).all()
 
 
 def lost_traffic(scenario: Scenario, episodes: int, seed: int) -> tuple[np.ndarray, np.ndarray]:

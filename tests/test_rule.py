@@ -144,6 +144,18 @@ def test_it_finishes_one_lane_change_before_it_begins_the_next():
     assert rule(cars, DEFAULT).reasons[0] == Reason.CHANGE
 
 
+def test_cars_of_another_road_are_refused_in_one_sentence():
+    cars = road((0.0, 2, 10.0))
+    with pytest.raises(BootcourseError, match=r"lane 2\.0: this scenario has lanes 0\.\.1"):
+        rule(cars, Scenario(road=Road(lanes=2)))
+    with pytest.raises(BootcourseError, match=r"shape \(9, 10\)"):
+        rule(cars[0], DEFAULT)
+    cars[0, EGO, LANE] = np.nan
+    with pytest.raises(BootcourseError, match="lane nan"):
+        rule(cars, DEFAULT)
+    assert rule(cars[:0], DEFAULT).actions.shape == (0,), "no roads is no mistake"
+
+
 def test_every_reason_has_a_sentence():
     assert set(SENTENCES) == set(Reason)
 

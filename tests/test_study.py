@@ -200,6 +200,12 @@ def test_results_of_several_cells_join_and_read_back(study, tmp_path):
     np.testing.assert_array_equal(sum(kinds), results.tested["accident"] > 0)
 
 
+def test_an_agent_that_two_cells_hold_counts_once(study, tmp_path):
+    root = copy(study, tmp_path)
+    assert run_cell(replace(cell("default/sac-0-0"), settings=cell().settings[:1]), root) == ""
+    assert len(load_cells(root, "default")) == 4
+
+
 def test_results_of_different_lengths_do_not_join(study, tmp_path):
     other = load_cells(study, "default")
     longer = replace(other, curves={name: np.repeat(values, 2, axis=1) for name, values in other.curves.items()})

@@ -5,8 +5,9 @@ any gymnasium environment with a flat observation and discrete actions here, sev
 side. What belongs to the road is switched off: ξ = 0, so the rule's actions (all 0) play no part.
 So is the paper's target entropy of -1, a formula for continuous actions: the targets here are a
 share of log |A|. As on the road, observations are scaled to order one; with raw ones CartPole stays
-near 300. τ is 0.05, since what a state is worth travels one decision back in 1/τ updates, and γ = 0.99
-looks a hundred decisions ahead. The budget of environment steps never exceeds the published one.
+near 300. SAC's τ is 0.05, since what a state is worth travels one decision back in 1/τ updates, and
+γ = 0.99 looks a hundred decisions ahead. CQL's weight is 10, as in the check that it is compared
+with. The budget of environment steps never exceeds the published one.
 """
 
 import argparse
@@ -171,15 +172,15 @@ class Outcome:
 
 
 def usual(method: str, n_actions: int, **changes) -> Settings:
-    """The settings of all checks: γ = 0.99, τ = 0.05, target entropy 0.3 log |A|."""
-    return settings_for(method, **{"gamma": 0.99, "tau": 0.05, "target_entropy": 0.3 * math.log(n_actions), **changes})
+    """The settings of all checks: γ = 0.99, target entropy 0.3 log |A|."""
+    return settings_for(method, gamma=0.99, target_entropy=0.3 * math.log(n_actions), **changes)
 
 
 def sac_check(make_env: MakeEnv, decisions: int):
     """Discrete SAC, for `decisions` decisions of each agent."""
 
     def measure(seeds: int, progress: bool) -> Outcome:
-        settings = with_seeds(usual("sac", int(make_env().action_space.n)), seeds)
+        settings = with_seeds(usual("sac", int(make_env().action_space.n), tau=0.05), seeds)
         return Outcome(scores(train(settings, make_env, decisions, progress=progress), make_env))
 
     return measure
@@ -187,14 +188,14 @@ def sac_check(make_env: MakeEnv, decisions: int):
 
 def cql_check(seeds: int, progress: bool) -> Outcome:
     """CQL on 20,000 transitions, half by a half-trained policy, half at random; 5,000 updates."""
-    half_trained = train([usual("sac", 2, seed=10**6)], cartpole, 10_000)
+    half_trained = train([usual("sac", 2, seed=10**6, tau=0.05)], cartpole, 10_000)
     rng = np.random.default_rng(0)
     parts = [
         collect(policy_of(half_trained, 0, rng), cartpole, 300),
         collect(lambda states: rng.integers(2, size=len(states)), cartpole, 1000),
     ]
     rows = torch.cat([rows[torch.from_numpy(rng.permutation(len(rows))[:10_000])] for rows, _ in parts])
-    settings = with_seeds(usual("cql", 2, roads=1), seeds)
+    settings = with_seeds(usual("cql", 2, roads=1, conservative=10.0), seeds)
     learner = train(settings, cartpole, 5000, rows, progress)
     means = [returns.mean() for _, returns in parts]
     return Outcome(scores(learner, cartpole), f"the data's policies: {means[0]:.0f} and {means[1]:.0f}")
@@ -203,7 +204,7 @@ def cql_check(seeds: int, progress: bool) -> Outcome:
 def gail_check(seeds: int, progress: bool) -> Outcome:
     """GAIL from 60 demonstrations on the CartPole of fixed length."""
     rows, returns = collect(balance, fixed_cartpole, 60)
-    learner = train(with_seeds(usual("gail", 2), seeds), fixed_cartpole, 60_000, rows, progress)
+    learner = train(with_seeds(usual("gail", 2), seeds), fixed_cartpole, 100_000, rows, progress)
     return Outcome(scores(learner, fixed_cartpole), f"the demonstrator: {returns.mean():.0f}")
 
 
@@ -236,7 +237,7 @@ CHECKS = {
         cql_check,
     ),
     "gail-cartpole": Check(
-        "GAIL, 60 demonstrations", "CartPole of fixed length", 500.0, "200,000 frames", "60,000 frames",
+        "GAIL, 60 demonstrations", "CartPole of fixed length", 500.0, "200,000 frames", "100,000 frames",
         "[imitation, tutorial 3](https://github.com/HumanCompatibleAI/imitation/blob/master/docs/tutorials/3_train_gail.ipynb)",
         gail_check,
     ),

@@ -3,6 +3,10 @@
 numba's own cache looks only at the file of the function that is called. A change in formulas.py
 would leave the old formula inside the cached loop of twin.py. Here the cache lives in a folder
 named after the text of every compiled file, so a changed formula is always compiled again.
+
+Two more settings make the road about three times as fast. A small function is put inside the one
+that calls it (forceinline). And only a function that makes arrays counts who holds them (_nrt): to
+count at every call costs more than the formulas do.
 """
 
 import hashlib
@@ -28,10 +32,22 @@ CACHE_FOLDER = _cache_folder()
 
 
 def compiled(function):
-    """Compile `function` in numba's nopython mode, with numpy's rules for division by zero."""
+    """Compile `function` in numba's nopython mode, with numpy's rules for division by zero.
+
+    It makes no arrays, only numbers: it fills the arrays that it is given.
+    """
+    return _compile(function, makes_arrays=False)
+
+
+def compiled_loop(function):
+    """The same for a loop over many roads, which may make the arrays that its functions work in."""
+    return _compile(function, makes_arrays=True)
+
+
+def _compile(function, makes_arrays: bool):
     before = numba.config.CACHE_DIR
     numba.config.CACHE_DIR = str(CACHE_FOLDER)
     try:
-        return numba.njit(cache=True, error_model="numpy", nogil=True)(function)
+        return numba.njit(cache=True, error_model="numpy", nogil=True, forceinline=True, _nrt=makes_arrays)(function)
     finally:
         numba.config.CACHE_DIR = before

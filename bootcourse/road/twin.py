@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-from bootcourse.road.compiled import compiled
+from bootcourse.road.compiled import compiled, compiled_loop
 from bootcourse.road.formulas import (
     bicycle_step,
     centring_reward,
@@ -38,7 +38,7 @@ from bootcourse.road.state import (
     X,
     Y,
 )
-from bootcourse.road.traffic import act
+from bootcourse.road.traffic import act, look_around, new_around, sort_by_x
 
 NO_ACCIDENT, COLLISION = int(Accident.NONE), int(Accident.COLLISION)
 ROAD_DEPARTURE, STOPPAGE = int(Accident.ROAD_DEPARTURE), int(Accident.STOPPAGE)
@@ -101,12 +101,16 @@ def move(cars, i, c):
 
 
 @compiled
-def collide(cars, c):
-    """Mark every car that touches another."""
+def collide(cars, order, c):
+    """Mark every car that touches another. `order` is sorted, so only the next few can be near."""
     reach = math.sqrt(c.length**2 + c.width**2)
-    for i in range(cars.shape[0]):
-        for j in range(i + 1, cars.shape[0]):
-            if abs(cars[i, X] - cars[j, X]) <= reach and overlap(
+    for k in range(len(order)):
+        i = order[k]
+        for m in range(k + 1, len(order)):
+            j = order[m]
+            if cars[j, X] - cars[i, X] > reach:
+                break
+            if overlap(
                 cars[i, X], cars[i, Y], cars[i, HEADING], cars[j, X], cars[j, Y], cars[j, HEADING], c.length, c.width
             ):
                 cars[i, CRASHED] = cars[j, CRASHED] = 1.0
@@ -132,15 +136,17 @@ def command(cars, action, c):
 
 
 @compiled
-def simulate(cars, directions, c):
-    """One simulation step of one road; returns the ego's accident."""
+def simulate(cars, order, around, directions, c):
+    """One simulation step of one road, whose order is sorted; returns the ego's accident."""
+    look_around(cars, order, around, c)
     for i in range(cars.shape[0]):
         directions[i, 0], directions[i, 1] = direction(cars[i, HEADING])
     for i in range(1, cars.shape[0]):
-        act(cars, directions, i, c)
+        act(cars, around, directions, i, c)
     for i in range(cars.shape[0]):
         move(cars, i, c)
-    collide(cars, c)
+    sort_by_x(cars, order)
+    collide(cars, order, c)
     return ego_accident(cars, c)
 
 
@@ -155,7 +161,7 @@ def reward_terms(cars, c):
     )
 
 
-@compiled
+@compiled_loop
 def decide(cars, actions, asleep, c, rewards, terms, accidents, trace):
     """One decision on every road that is not asleep, in place.
 
@@ -163,15 +169,17 @@ def decide(cars, actions, asleep, c, rewards, terms, accidents, trace):
     terms (roads, 3), accidents (roads,). trace is NO_TRACE, or (roads, steps, vehicles, 10) and
     then takes the state after each simulation step; after an accident, its last state.
     """
-    directions = np.empty((cars.shape[1], 2))
+    vehicles = cars.shape[1]
+    order, around, directions = np.arange(vehicles), new_around(vehicles, c), np.empty((vehicles, 2))
     for road in range(cars.shape[0]):
         if asleep[road]:
             continue
         command(cars[road], actions[road], c)
+        sort_by_x(cars[road], order)
         accident = NO_ACCIDENT
         for step in range(c.steps):
             if accident == NO_ACCIDENT:
-                accident = simulate(cars[road], directions, c)
+                accident = simulate(cars[road], order, around, directions, c)
             if trace.shape[0] > 0:
                 trace[road, step] = cars[road]
         accidents[road] = accident

@@ -145,7 +145,7 @@ class StayingCell:
         """Search; returns the seconds that it took."""
         started = time.perf_counter()
         staying = is_staying_optimal(held_out_seeds(HELD_OUT, self.roads), self.scenario, self.gamma, self.beam)
-        write_json(folder / "staying.json", dict(vars(staying).items()))
+        write_json(folder / "staying.json", vars(staying))
         return time.perf_counter() - started
 
 

@@ -99,5 +99,10 @@ def _of_kind(arrays: dict, kind: str, agents: int) -> dict[str, np.ndarray]:
 
 
 def load_cells(root: Path, part: str) -> Results:
-    """All agents of the finished cells in root/cells/part, such as "default" or "sensitivity"."""
-    return join([load_results(path) for path in sorted((Path(root) / "cells" / part).glob("*/results.npz"))])
+    """All agents of the finished cells in root/cells/part, such as "default" or "sweep".
+
+    A study that was begun with fewer seeds leaves cells that the larger ones hold again: each agent counts once.
+    """
+    found = join([load_results(path) for path in sorted((Path(root) / "cells" / part).glob("*/results.npz"))])
+    once = {json.dumps(agent, sort_keys=True): i for i, agent in enumerate(found.agents)}
+    return found.pick(sorted(once.values()))
