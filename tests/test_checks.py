@@ -1,4 +1,4 @@
-"""The harness of the independent checks. The checks themselves: `python -m bootcourse.learn.checks`."""
+"""The harness of the independent checks. The checks themselves: `python -m bootcourse.study.checks`."""
 
 from dataclasses import replace
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import torch
 
-from bootcourse.learn import checks
+from bootcourse.study import checks
 from bootcourse.learn.baselines import learner_for
 from bootcourse.learn.replay import unpack
 from bootcourse.learn.settings import settings_for, with_seeds

@@ -60,7 +60,6 @@ def variations() -> dict[str, tuple[Scenario, dict]]:
         "6 cars, twice as close": traffic("close", lead=20.0, headway=20.0),
         "network 32 x 32": (DEFAULT, {"hidden": (32, 32)}),
         "network 128 x 128": (DEFAULT, {"hidden": (128, 128)}),
-        "network 256 x 256": (DEFAULT, {"hidden": (256, 256)}),
         "1 update for each decision": (DEFAULT, {"updates": 4}),
         "demonstrations driven by π̃": (DEFAULT, {"stochastic_demonstrations": True}),
         "target entropy 0.3": (DEFAULT, {"target_entropy": 0.3}),
@@ -68,6 +67,7 @@ def variations() -> dict[str, tuple[Scenario, dict]]:
         "γ = 0.9": (DEFAULT, {"gamma": 0.9}),
         "γ = 0.95": (DEFAULT, {"gamma": 0.95}),
         "γ = 0.99": (DEFAULT, {"gamma": 0.99}),
+        "γ = 0.9, target entropy 0.3": (DEFAULT, {"gamma": 0.9, "target_entropy": 0.3}),
     }
 
 

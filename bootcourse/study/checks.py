@@ -1,4 +1,4 @@
-"""Are our learners right? `python -m bootcourse.learn.checks` trains them where others published figures.
+"""Are our learners right? `python -m bootcourse.study.checks` trains them where others published figures.
 
 The same classes that learn the road - `Learner`, `ConservativeLearner`, `Imitator`, `Replay` - drive
 any gymnasium environment with a flat observation and discrete actions here, several seeds side by
@@ -282,7 +282,7 @@ def run(names: Sequence[str], seeds: int, progress: bool) -> tuple[dict[str, Out
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    parser = argparse.ArgumentParser(prog="python -m bootcourse.learn.checks", description=__doc__.split("\n")[0])
+    parser = argparse.ArgumentParser(prog="python -m bootcourse.study.checks", description=__doc__.split("\n")[0])
     parser.add_argument("--only", nargs="+", default=list(CHECKS), metavar="NAME", help=", ".join(CHECKS))
     parser.add_argument("--seeds", type=int, default=4, help="training seeds, side by side")
     parser.add_argument("--out", type=Path, help="also write the table to this file")
