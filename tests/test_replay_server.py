@@ -16,6 +16,7 @@ import viser
 import viser._viser
 from websockets.sync.client import connect
 
+from bootcourse import one_per_cell
 from bootcourse.drivers import idle_driver, rule_driver
 from bootcourse.errors import BootcourseError
 from bootcourse.record.drive import record
@@ -71,7 +72,7 @@ def test_it_starts_serves_stops_and_frees_its_port_ten_times_in_a_row(drives):
             port = live.port
         assert not is_open(port)
         live.close()  # closing twice does nothing
-    assert not server.running() and wait_for(lambda: threading.active_count() <= threads + 1)
+    assert not one_per_cell.running() and wait_for(lambda: threading.active_count() <= threads + 1)
 
 
 def test_it_says_nothing_of_its_own(drives, capfd):
@@ -154,19 +155,19 @@ def test_a_port_in_use_gets_one_sentence(drives):
 
 
 def test_running_a_cell_again_replaces_its_replay_even_on_the_same_port(drives, monkeypatch):
-    monkeypatch.setattr(server, "this_cell", lambda: "cell 1")
+    monkeypatch.setattr(one_per_cell, "this_cell", lambda: "cell 1")
     first = replay(drives[1])
     port = first.port
     second = replay(drives[0], port=port)
-    assert first.closed and second.port == port and server.running() == [second]
-    monkeypatch.setattr(server, "this_cell", lambda: "cell 2")
+    assert first.closed and second.port == port and one_per_cell.running() == [second]
+    monkeypatch.setattr(one_per_cell, "this_cell", lambda: "cell 2")
     third = replay(drives[1])
-    assert server.running() == [second, third]
+    assert one_per_cell.running() == [second, third]
     second.close(), third.close()
 
 
 def test_a_refused_replay_leaves_the_cell_s_old_one_alone(drives, monkeypatch):
-    monkeypatch.setattr(server, "this_cell", lambda: "cell 1")
+    monkeypatch.setattr(one_per_cell, "this_cell", lambda: "cell 1")
     with replay(drives[1]) as live:
         for wrong in ({"follow": 3}, {"layout": "on the moon"}):
             with pytest.raises(BootcourseError):

@@ -1,13 +1,11 @@
-"""A viser server that stays on this machine, and the list of those that run.
+"""A viser server that stays on this machine.
 
-It binds 127.0.0.1 and nothing else, refuses viewers who ask for a public link, and ends with the
-kernel. A notebook cell that runs again replaces its own server.
+It binds 127.0.0.1 and nothing else, refuses viewers who ask for a public link, and ends with the kernel.
 """
 
 import contextlib
 import os
 import socket
-import threading
 
 import viser
 from rich import get_console
@@ -15,8 +13,6 @@ from rich import get_console
 from bootcourse.errors import BootcourseError
 
 HOST = "127.0.0.1"
-_running: dict[object, object] = {}  # cell -> the replay that it shows
-_lock = threading.Lock()
 
 
 class LocalServer(viser.ViserServer):
@@ -70,40 +66,3 @@ def _check_free(port: int) -> None:
 
 def _taken(port: int) -> str:
     return f"Port {port} is in use: choose another one, or leave it out to take any that is free."
-
-
-def this_cell() -> str | None:
-    """The notebook cell that is being run ("" where Jupyter does not tell which); None outside a notebook."""
-    try:
-        from IPython import get_ipython
-
-        parent = get_ipython().kernel.get_parent()
-    except (ImportError, AttributeError):
-        return None
-    return str(parent.get("metadata", {}).get("cellId", ""))
-
-
-def close_shown_by(cell: str | None) -> None:
-    """Close the replay that this cell showed when it ran before."""
-    with _lock:
-        before = _running.pop(cell, None)
-    if before is not None:
-        before.close()
-
-
-def note(cell: str | None, replay) -> None:
-    """Remember what a cell shows."""
-    with _lock:
-        _running[cell if cell is not None else object()] = replay
-
-
-def forget(replay) -> None:
-    with _lock:
-        for cell in [cell for cell, shown in _running.items() if shown is replay]:
-            del _running[cell]
-
-
-def running() -> list:
-    """The replays that are open in this process."""
-    with _lock:
-        return list(_running.values())

@@ -6,6 +6,7 @@ import time
 from html import escape
 from pathlib import Path
 
+from bootcourse import one_per_cell
 from bootcourse.replay3d import scene, server
 from bootcourse.replay3d.gui import Panel
 from bootcourse.replay3d.player import Player
@@ -48,7 +49,7 @@ class Replay:
         if self.closed:
             return
         self.closed = True
-        server.forget(self)
+        one_per_cell.forget(self)
         self.player.stop()
         self.server.stop()
 
@@ -126,8 +127,8 @@ def replay(
     """
     timelines, options = scene.timelines_of(rollouts), Options(layout=layout, follow=follow, dark=dark, rule=rule)
     options.check(len(timelines))
-    cell = server.this_cell()
-    server.close_shown_by(cell)
+    cell = one_per_cell.this_cell()
+    one_per_cell.close_shown_by(cell)
     shown = Replay(timelines, options, port, height)
-    server.note(cell, shown)
+    one_per_cell.note(cell, shown)
     return shown

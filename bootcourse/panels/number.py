@@ -1,0 +1,81 @@
+"""A number that can be dragged and typed: a symbol, a unit and a sentence of help; refuses what the library refuses."""
+
+from collections.abc import Callable
+from html import escape
+
+import ipywidgets as widgets
+import traitlets
+
+from bootcourse.errors import BootcourseError
+
+
+class Number(widgets.VBox):
+    """Its `value` is always one that `check` accepts; what is refused is said below it and changes nothing.
+
+    check: the library's validation, raises BootcourseError. low, high, step: of the slider; a typed
+    number may lie beyond them if `check` accepts it. logarithmic: the slider moves in powers of ten.
+    """
+
+    value = traitlets.Float()
+
+    def __init__(
+        self,
+        symbol: str,
+        value: float,
+        low: float,
+        high: float,
+        step: float,
+        help: str,
+        unit: str = "",
+        check: Callable[[float], object] = lambda value: None,
+        logarithmic: bool = False,
+    ):
+        self.check, self.symbol, self.sentence, self._busy = check, symbol, help, False
+        label = widgets.HTML(f"<b>{escape(symbol)}</b>{f' ({escape(unit)})' if unit else ''}")
+        label.layout.width = "92px"
+        make = widgets.FloatLogSlider if logarithmic else widgets.FloatSlider
+        self.slider = make(value=value, min=low, max=high, step=step, readout=False, tooltip=f"{symbol}: {help}")
+        self.slider.layout.width = "210px"
+        self.field = widgets.FloatText(value=value, step=step, tooltip=f"{symbol}, typed: {help}")
+        self.field.layout.width = "88px"
+        self.help = widgets.HTML()
+        super().__init__([widgets.HBox([label, self.slider, self.field]), self.help], value=float(value))
+        self.layout.width = "420px"
+        self._tell()
+        self.slider.observe(lambda change: self._enter(change["new"]), "value")
+        self.field.observe(lambda change: self._enter(change["new"]), "value")
+        self.observe(lambda change: self._show(), "value")
+
+    def _enter(self, value: float) -> None:
+        if self._busy:
+            return
+        value = round(float(value), 10)
+        try:
+            self.check(value)
+        except BootcourseError as error:
+            self._tell(str(error))
+        else:
+            self._tell()
+            self.value = value
+            self._show()
+
+    @traitlets.validate("value")
+    def _checked(self, proposal):
+        self.check(proposal["value"])
+        return proposal["value"]
+
+    def _show(self) -> None:
+        """Both controls say what the value is; the slider stops at its ends."""
+        self._busy = True
+        try:
+            low, high = self.slider.min, self.slider.max
+            if isinstance(self.slider, widgets.FloatLogSlider):
+                low, high = self.slider.base**low, self.slider.base**high
+            self.slider.value = min(max(self.value, low), high)
+            self.field.value = self.value
+        finally:
+            self._busy = False
+
+    def _tell(self, wrong: str = "") -> None:
+        kind = 'class="bc-quiet bc-wrong" role="alert"' if wrong else 'class="bc-quiet"'
+        self.help.value = f"<div {kind}>{escape(wrong or self.sentence)}</div>"

@@ -1,0 +1,77 @@
+"""What every panel is: a titled column of widgets, one for each notebook cell, that leaves a picture behind.
+
+A panel is a view. What it shows comes from pure functions of the library, and what a user may enter is
+decided by the library's own validation: its sentence appears in the panel.
+"""
+
+import base64
+import contextlib
+from html import escape
+
+import ipywidgets as widgets
+
+from bootcourse import one_per_cell
+from bootcourse.colours import ALARM
+from bootcourse.errors import BootcourseError
+
+STYLE = """<style>
+.bc-panel {border: 1px solid var(--jp-border-color2, #E3E7EB); border-radius: 6px; padding: 10px 14px 12px;
+  max-width: 1100px; overflow: hidden; color: var(--jp-ui-font-color1, #1F2933)}
+.bc-panel h3 {margin: 0 0 2px; font: 650 15px system-ui, sans-serif}
+.bc-panel .bc-quiet {font: 12px/1.35 system-ui, sans-serif; color: var(--jp-ui-font-color2, #5F6B77)}
+.bc-panel .bc-says {font: 600 13px/1.4 system-ui, sans-serif; min-height: 18px}
+.bc-panel .bc-wrong {color: @ALARM@}
+.bc-panel svg {display: block; max-width: 100%; height: auto}
+.bc-panel :focus-visible {outline: 2px solid var(--jp-brand-color1, #1976D2); outline-offset: 2px}
+.bc-panel .widget-html, .bc-panel .widget-html-content {line-height: normal; height: auto}
+</style>""".replace("@ALARM@", ALARM)
+
+
+class Panel(widgets.VBox):
+    """The column. A notebook cell that runs again closes what it showed before.
+
+    title: a sentence; parts: widgets from top to bottom. Subclasses say what `picture` shows.
+    """
+
+    def __init__(self, title: str, *parts: widgets.Widget):
+        self.says = widgets.HTML()
+        head = widgets.HTML(f"{STYLE}<h3>{escape(title)}</h3>")
+        super().__init__([head, *parts, self.says])
+        self.add_class("bc-panel")
+        self.closed = False
+        place = (one_per_cell.this_cell(), type(self).__name__)
+        key = None if place[0] is None else place
+        one_per_cell.close_shown_by(key)
+        one_per_cell.note(key, self)
+
+    def say(self, sentence: str = "", wrong: bool = False) -> None:
+        """Write one sentence at the foot of the panel; an empty one takes it away."""
+        kind = "bc-says bc-wrong" if wrong else "bc-says"
+        role = "alert" if wrong else "status"
+        self.says.value = f'<div class="{kind}" role="{role}">{escape(sentence)}</div>' if sentence else ""
+
+    @contextlib.contextmanager
+    def saying_what_is_wrong(self):
+        """Around what a user set off: a BootcourseError becomes its sentence in the panel; anything else is a bug."""
+        try:
+            yield
+        except BootcourseError as error:
+            self.say(str(error), wrong=True)
+
+    def picture(self) -> tuple[bytes, str, str]:
+        """(image, its type such as "image/svg+xml", alt text): what a reader sees where no kernel runs."""
+        raise NotImplementedError
+
+    def close(self) -> None:
+        """End everything that runs, and take the panel away. Closing twice does nothing."""
+        if self.closed:
+            return
+        self.closed = True
+        one_per_cell.forget(self)
+        super().close()
+
+    def _repr_mimebundle_(self, **kwargs) -> dict:
+        image, kind, alt = self.picture()
+        data = base64.b64encode(image).decode()
+        img = f'<img src="data:{kind};base64,{data}" alt="{escape(alt)}" style="max-width:100%">'
+        return super()._repr_mimebundle_(**kwargs) | {"text/html": img, "text/plain": alt}
