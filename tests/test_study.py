@@ -88,7 +88,7 @@ def test_a_damaged_cell_is_named_and_computed_again_only_on_request(study, tmp_p
 def test_a_cell_that_was_interrupted_goes_on_as_if_it_never_was(study, tmp_path, monkeypatch):
     (tmp_path / "study.json").write_text("{}")
     calls = iter([False] * 3 + [True] * 10**6)
-    monkeypatch.setattr(cells_module, "_orphaned", lambda: lambda: next(calls))
+    monkeypatch.setattr(cells_module, "_orphaned", lambda: next(calls))
     assert run_cell(cell(), tmp_path) == "default/sac-0-1: interrupted"
     assert (tmp_path / "unfinished/default/sac-0-1/checkpoint.npz").exists() and not finished(cell(), tmp_path)
     monkeypatch.undo()

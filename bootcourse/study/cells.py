@@ -30,6 +30,7 @@ from bootcourse.study.sources import sources_hash
 FORMAT = "bootcourse cell 1"
 HELD_OUT = 1  # the block of held-out roads that every method of every study is tested on
 SECONDS_BETWEEN = 60.0  # of checkpoints
+PARENT = os.getppid()  # noted at once: a worker may be busy compiling when the process that started it dies
 ROAD = ("scenario", "drivers", "rule", "road", "study/evaluate")  # the code that decides any result,
 LEARN, PLAN = (*ROAD, "learn"), (*ROAD, "study/planner")  # an agent's, the planner's
 
@@ -64,7 +65,7 @@ class Cell:
     def compute(self, folder: Path) -> float:
         """Train, or go on training, and test; returns the seconds that it took. Raises Interrupted."""
         training = self._training(folder)
-        result = training.run(progress=False, callback=_Checkpoints(folder), stop=_orphaned())
+        result = training.run(progress=False, callback=_Checkpoints(folder), stop=_orphaned)
         if result.interrupted:
             save_checkpoint(training, folder / "checkpoint.npz")
             raise Interrupted(self.name)
@@ -165,10 +166,9 @@ class _Checkpoints:
             self.last = time.monotonic()
 
 
-def _orphaned():
-    """A function that is true once the process that started this one is gone: then nobody waits for the cell."""
-    parent = os.getppid()
-    return lambda: os.getppid() != parent
+def _orphaned() -> bool:
+    """Is the process that started this one gone? Then nobody waits for the cell."""
+    return os.getppid() != PARENT
 
 
 def finished(cell, root: Path) -> bool:
