@@ -26,6 +26,7 @@ METHODS = {
     "rule": Style("#009E73", width=1.0),
     "bc": Style("#444444", marker="o"),
     "cql": Style("#777777", marker="s"),
+    "cql_sac": Style("#777777", "--", marker="s"),
     "gail": Style("#AAAAAA", marker="^"),
     "planner": Style("#000000", (0, (8, 4))),
 }

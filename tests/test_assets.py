@@ -11,6 +11,7 @@ from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.record.rollout import Rollout
 from bootcourse.record.runs import find_runs, load_run
 from bootcourse.scenario import CALIBRATED, DEFAULT
+from bootcourse.study import ship
 from bootcourse.study.cells import Cell, run_cell
 from bootcourse.study.results import load_results
 
@@ -25,6 +26,7 @@ def study(tmp_path_factory):
         ("default/soft", DEFAULT, "soft"),
         ("calibrated/sac", CALIBRATED, "sac"),
         ("sweep/00", DEFAULT, "sac"),
+        ("sensitivity/as-it-is", DEFAULT, "sac"),
     ):
         agents = with_seeds(settings_for(method, warm_up=16, hidden=(8,), capacity=2000), 2)
         assert run_cell(Cell(name, tuple(agents), scenario, 2, 3), root) == ""
@@ -34,7 +36,7 @@ def study(tmp_path_factory):
 @pytest.fixture(scope="module")
 def built(study, tmp_path_factory):
     folder = tmp_path_factory.mktemp("built") / "assets"
-    assets.build(study, folder)
+    ship.build(study, folder)
     return folder
 
 
@@ -47,6 +49,7 @@ def test_everything_that_ships_is_listed_and_right(built):
     assert assets.verify(built) == ([], [])
     names = {entry["file"] for entry in json.loads((built / "manifest.json").read_text())["files"]}
     assert {"study-default.npz", "study-calibrated.npz", "sweep.npz", "demonstrations.npz", "MODEL_CARD.md"} <= names
+    assert {"sensitivity/as-it-is.npz", "report/report.md", "report/figures/default-returns.png"} <= names
     assert all(
         entry["command"].startswith("bootcourse")
         for entry in json.loads((built / "manifest.json").read_text())["files"]
@@ -90,9 +93,9 @@ def test_a_file_made_by_older_code_is_named_and_not_called_wrong(shipped, capsys
 
 
 def test_assets_that_are_too_large_are_refused_and_the_old_ones_stay(study, shipped, monkeypatch):
-    monkeypatch.setattr(assets, "LIMIT", 1000)
+    monkeypatch.setattr(ship, "LIMIT", 1000)
     with pytest.raises(BootcourseError, match="must stay under"):
-        assets.build(study, shipped)
+        ship.build(study, shipped)
     monkeypatch.undo()
     assert assets.verify(shipped) == ([], []) and [path.name for path in shipped.parent.iterdir()] == ["assets"]
 
@@ -100,7 +103,7 @@ def test_assets_that_are_too_large_are_refused_and_the_old_ones_stay(study, ship
 def test_a_study_that_is_not_complete_is_named(study, tmp_path):
     shutil.copytree(study / "cells/default", tmp_path / "cells/default")
     with pytest.raises(BootcourseError, match="no finished cells in cells/calibrated"):
-        assets.build(tmp_path, tmp_path / "assets")
+        ship.build(tmp_path, tmp_path / "assets")
     with pytest.raises(BootcourseError, match="build needs --study"):
         assets.command("build", None, tmp_path)
     with pytest.raises(BootcourseError, match="did you mean 'verify'"):
@@ -112,5 +115,5 @@ def test_the_readme_s_pictures_stay_and_are_listed(study, shipped):
     (shipped / "readme" / "trap.png").write_bytes(b"picture")
     assert len(assets.verify(shipped)[0]) == 1
     for _ in range(2):
-        assets.build(study, shipped)
+        ship.build(study, shipped)
         assert assets.verify(shipped) == ([], []) and (shipped / "readme" / "trap.png").read_bytes() == b"picture"

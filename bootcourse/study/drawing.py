@@ -32,6 +32,7 @@ NAMES = {
     "rule": "rule controller",
     "bc": "behaviour cloning",
     "cql": "CQL",
+    "cql_sac": "CQL with an actor",
     "gail": "GAIL",
     "planner": "planner",
     "idle": "idle driver",

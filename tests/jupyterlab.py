@@ -1,0 +1,108 @@
+"""A real JupyterLab for tests: its own settings, a notebook made of some cells, seen in headless Chromium."""
+
+import contextlib
+import json
+import os
+import secrets
+import socket
+import subprocess
+import sys
+import time
+import urllib.request
+from pathlib import Path
+
+import nbformat
+
+from tests.browser import Page, open_browser
+
+CALM = {  # nothing that moves, asks or hides cells while a test looks
+    "@jupyterlab/apputils-extension:notification": {"fetchNews": "false", "checkForUpdates": False},
+    "@jupyterlab/docmanager-extension:plugin": {"autosave": False},
+    "@jupyterlab/notebook-extension:tracker": {"windowingMode": "none"},
+}
+DARK = {"@jupyterlab/apputils-extension:themes": {"theme": "JupyterLab Dark"}}
+
+
+@contextlib.contextmanager
+def running_lab(folder: Path, dark: bool = False):
+    """JupyterLab on `folder`, on 127.0.0.1 with a token. Yields its address and token."""
+    token, port = secrets.token_hex(8), _free_port()
+    places = {"JUPYTER_CONFIG_DIR": "config", "JUPYTER_DATA_DIR": "data", "JUPYTER_RUNTIME_DIR": "runtime"}
+    places |= {"JUPYTERLAB_SETTINGS_DIR": "lab-settings", "JUPYTERLAB_WORKSPACES_DIR": "workspaces", "IPYTHONDIR": "ipy"}
+    own = folder / ".lab"
+    environment = os.environ | {name: str(own / place) for name, place in places.items()}
+    for name, settings in (CALM | (DARK if dark else {})).items():
+        path = own / "lab-settings" / f"{name.replace(':', '/')}.jupyterlab-settings"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(json.dumps(settings))
+    command = [sys.executable, "-m", "jupyter", "lab", "--no-browser", "--ServerApp.ip=127.0.0.1"]
+    command += [f"--ServerApp.port={port}", "--ServerApp.port_retries=0", f"--ServerApp.root_dir={folder}"]
+    command += [f"--IdentityProvider.token={token}", "--LabApp.expose_app_in_browser=True"]
+    command += ["--allow-root"] if hasattr(os, "getuid") and os.getuid() == 0 else []
+    with open(folder / "lab.log", "w") as log:
+        lab = subprocess.Popen(command, env=environment, stdout=log, stderr=log)
+        try:
+            _wait_for(f"http://127.0.0.1:{port}/api/status?token={token}", lab, folder / "lab.log")
+            yield f"http://127.0.0.1:{port}", token
+        finally:
+            lab.terminate()
+            lab.wait(20)
+
+
+def _free_port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+def _wait_for(address: str, lab: subprocess.Popen, log: Path) -> None:
+    for _ in range(300):
+        assert lab.poll() is None, log.read_text()[-2000:]
+        with contextlib.suppress(OSError), urllib.request.urlopen(address, timeout=2):
+            return
+        time.sleep(0.2)
+    raise AssertionError(f"JupyterLab does not answer: {log.read_text()[-2000:]}")
+
+
+class Notebook:
+    """A notebook open in JupyterLab. `.page` is playwright's."""
+
+    def __init__(self, shown: Page):
+        self.shown, self.page = shown, shown.page
+
+    def run_all(self, timeout: float = 120.0) -> None:
+        """Run every cell and wait until the kernel is idle. Fails if a cell raised."""
+        self.page.evaluate("jupyterapp.commands.execute('notebook:run-all-cells')")
+        self.wait_idle(timeout)
+        errors = self.page.locator('.jp-OutputArea-output[data-mime-type="application/vnd.jupyter.error"]')
+        assert errors.count() == 0, errors.first.inner_text()
+
+    def wait_idle(self, timeout: float = 120.0) -> None:
+        self.page.wait_for_timeout(300)
+        self.page.wait_for_function(
+            "() => document.querySelectorAll('.jp-InputPrompt').length > 0 && "
+            "![...document.querySelectorAll('.jp-InputPrompt')].some(p => p.innerText.includes('*'))",
+            timeout=1000 * timeout,
+        )
+
+    def screenshot(self, path: Path) -> bytes:
+        return self.page.screenshot(path=str(path))
+
+
+@contextlib.contextmanager
+def open_notebook(folder: Path, *cells: str, width: int = 1366, height: int = 900, dark: bool = False):
+    """A notebook of these code cells in a real JupyterLab. Yields a `Notebook`, its kernel ready."""
+    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in cells])
+    notebook.metadata["kernelspec"] = {"display_name": "Python 3", "language": "python", "name": "python3"}
+    nbformat.write(notebook, folder / "lesson.ipynb")
+    with running_lab(folder, dark) as (address, token), open_browser(width, height) as new_page:
+        shown = new_page()
+        shown.page.goto(f"{address}/doc/tree/lesson.ipynb?token={token}&reset")
+        shown.page.wait_for_function("() => window.jupyterapp", timeout=60_000)
+        shown.page.wait_for_selector(".jp-Notebook .jp-Cell", timeout=60_000)
+        shown.page.wait_for_function(
+            "() => { const w = jupyterapp.shell.currentWidget; "
+            "return w && w.sessionContext && w.sessionContext.session?.kernel?.status === 'idle'; }",
+            timeout=60_000,
+        )
+        yield Notebook(shown)
