@@ -28,7 +28,7 @@ def provenance(**more) -> dict:
 
 
 @dataclass
-class _Tape:
+class Tape:
     """What is noted of one road while it is driven."""
 
     states: list = field(default_factory=list)
@@ -83,7 +83,7 @@ def record(driver: Driver, seeds: Sequence[int], scenario: Scenario = DEFAULT, l
     env = TrapVectorEnv(len(seeds), scenario, AutoresetMode.DISABLED, record=True)
     observations, _ = env.reset(seed=seeds)
     tapes = [
-        _Tape([cars.copy()], [observation.copy()]) for cars, observation in zip(env.cars, observations, strict=True)
+        Tape([cars.copy()], [observation.copy()]) for cars, observation in zip(env.cars, observations, strict=True)
     ]
     accidents = np.zeros(len(seeds), dtype=np.int64)
     awake = np.ones(len(seeds), dtype=bool)
@@ -93,11 +93,9 @@ def record(driver: Driver, seeds: Sequence[int], scenario: Scenario = DEFAULT, l
         terms = np.stack([infos["r_v"], infos["r_y"], infos["r_theta"]], axis=1)
         for road in np.flatnonzero(awake):
             tapes[road].note_choice(choice, why, road)
-            trace = env.trace[road]
-            if infos["accident"][road]:  # an accident ends the decision: the steps after it were not driven
-                trace = trace[: _steps_driven(trace)]
-            tapes[road].note_outcome(trace, observations[road], rewards[road], terms[road])
             accidents[road] = infos["accident"][road]
+            trace = driven(env.trace[road], accidents[road])
+            tapes[road].note_outcome(trace, observations[road], rewards[road], terms[road])
         awake &= ~(terminated | truncated)
     return [
         tape.rollout(scenario, label, seed, accident)
@@ -105,17 +103,19 @@ def record(driver: Driver, seeds: Sequence[int], scenario: Scenario = DEFAULT, l
     ]
 
 
-def _steps_driven(trace: np.ndarray) -> int:
-    """After an accident the compiled road repeats its last state: count the steps before that."""
+def driven(trace: np.ndarray, accident: int) -> np.ndarray:
+    """The steps of a decision's trace that were driven: after an accident the road repeats its last state."""
+    if not accident:
+        return trace
     repeats = [bool((trace[step] == trace[step - 1]).all()) for step in range(1, len(trace))]
-    return len(trace) - sum(repeats)
+    return trace[: len(trace) - sum(repeats)]
 
 
 def record_on_highway_env(driver: Driver, seed: int, env, label: str = "driver") -> Rollout:
     """Drive one episode on `TrapEnv` (as made by gym.make); the same `Rollout` as on the compiled road."""
     road, scenario = env.unwrapped, env.unwrapped.scenario
     observation, info = env.reset(seed=seed)
-    tape = _Tape([road.cars()], [observation.copy()])
+    tape = Tape([road.cars()], [observation.copy()])
     over = False
     while not over:
         cars = road.cars()[None]
