@@ -31,6 +31,7 @@ class Number(widgets.VBox):
         logarithmic: bool = False,
     ):
         self.check, self.symbol, self.sentence, self._busy = check, symbol, help, False
+        self._why_locked = ""
         label = widgets.HTML(f"<b>{escape(symbol)}</b>{f' ({escape(unit)})' if unit else ''}")
         label.layout.width = "92px"
         make = widgets.FloatLogSlider if logarithmic else widgets.FloatSlider
@@ -76,6 +77,12 @@ class Number(widgets.VBox):
         finally:
             self._busy = False
 
+    def lock(self, why: str = "") -> None:
+        """Switch it off and say why; without a reason, switch it on again."""
+        self.slider.disabled = self.field.disabled = bool(why)
+        self._why_locked = why
+        self._tell()
+
     def _tell(self, wrong: str = "") -> None:
         kind = 'class="bc-quiet bc-wrong" role="alert"' if wrong else 'class="bc-quiet"'
-        self.help.value = f"<div {kind}>{escape(wrong or self.sentence)}</div>"
+        self.help.value = f"<div {kind}>{escape(wrong or self._why_locked or self.sentence)}</div>"
