@@ -1,4 +1,4 @@
-"""What only the notebooks need: to show the library's own source, live curves, small figures."""
+"""What only the notebooks need: exercises and their checks, the library's own source, live curves, small figures."""
 
 import importlib
 import inspect
@@ -6,8 +6,16 @@ import inspect
 
 def source(module: str, *names: str):
     """The library's own code of some functions, as a notebook output: what you read is what runs."""
+    return code_of(*(getattr(importlib.import_module(module), name) for name in names))
+
+
+def code_of(*functions):
+    """The same for functions at hand."""
     from IPython.display import Code
 
-    functions = [getattr(importlib.import_module(module), name) for name in names]
-    plain = [getattr(function, "py_func", function) for function in functions]  # a compiled function holds its Python
-    return Code("\n\n".join(inspect.getsource(function).rstrip() for function in plain), language="python")
+    return Code("\n\n".join(text_of(function) for function in functions), language="python")
+
+
+def text_of(function) -> str:
+    """A function's code; a compiled function holds its Python."""
+    return inspect.getsource(getattr(function, "py_func", function)).rstrip()

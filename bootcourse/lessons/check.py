@@ -1,0 +1,69 @@
+"""What a notebook uses: `check.NAME(my_function)`, `check.hint("NAME")`, `check.solution("NAME")`.
+
+NAME is an exercise (see `exercises/`). A wrong answer is told what is wrong with it, and the notebook
+goes on, because it uses the library's own code from there. `check.strict()` is for solved notebooks:
+from then on an answer that does not pass raises `NotPassed`.
+"""
+
+import functools
+from collections.abc import Callable
+
+from bootcourse.errors import BootcourseError, nearest
+from bootcourse.lessons.exercise import Exercise
+from bootcourse.lessons.exercises import registry
+from bootcourse.lessons.judge import judge
+from bootcourse.lessons.verdict import Verdict
+
+_hints_given: dict[str, int] = {}
+_strict = False
+
+
+class NotPassed(BootcourseError):
+    """A check in strict mode did not pass."""
+
+
+def strict(on: bool = True) -> None:
+    """From now on a check that does not pass raises."""
+    global _strict
+    _strict = on
+
+
+def hint(name: str) -> Verdict:
+    """The next hint; after the last one, the last one again."""
+    exercise = _find(name)
+    number = min(_hints_given.get(name, 0) + 1, len(exercise.hints))
+    _hints_given[name] = number
+    left = len(exercise.hints) - number
+    more = f'`check.hint("{name}")` gives another.' if left else f'`check.solution("{name}")` shows the solution.'
+    return Verdict("hint", f"Hint {number} of {len(exercise.hints)}: {exercise.hints[number - 1]}", footer=more)
+
+
+def solution(name: str):
+    """The code of a right answer, shown because you ask for it."""
+    from bootcourse.lessons import code_of
+
+    return code_of(_find(name).solution)
+
+
+def _find(name: str) -> Exercise:
+    if name not in registry():
+        raise BootcourseError(f"The exercise {nearest(name, registry())}.")
+    return registry()[name]
+
+
+def _check(exercise: Exercise, answer: Callable) -> Verdict:
+    verdict = judge(exercise, answer)
+    if _strict and not verdict.passed:
+        raise NotPassed(f"{exercise.name}: {verdict}")
+    return verdict
+
+
+def __getattr__(name: str) -> Callable[[Callable], Verdict]:
+    """check.NAME"""
+    if name.startswith("_") or name not in registry():
+        raise AttributeError(f"The exercise {nearest(name, registry())}.")
+    return functools.partial(_check, registry()[name])
+
+
+def __dir__() -> list[str]:
+    return ["hint", "solution", "strict", *registry()]

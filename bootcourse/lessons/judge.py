@@ -1,0 +1,142 @@
+"""Judge an answer to an exercise: right, or what is wrong with it in the student's terms.
+
+An answer passes only if it is right in every case. What is wrong is looked for in this order: nothing
+written yet, cannot be called, raises, takes too long, changes its arguments, is one of the mistakes
+that we know by name, wrong type, shape, NaN, different each time, and at last: wrong in this case.
+"""
+
+import functools
+import inspect
+import warnings
+from collections.abc import Callable
+from copy import deepcopy
+
+import numpy as np
+
+from bootcourse.lessons import guard
+from bootcourse.lessons.exercise import Exercise
+from bootcourse.lessons.values import (
+    Plain,
+    first_difference,
+    has_nan,
+    like,
+    numbers,
+    plain,
+    same,
+    same_shape,
+    shape_words,
+)
+from bootcourse.lessons.verdict import Verdict
+
+
+def judge(exercise: Exercise, answer: Callable) -> Verdict:
+    """The verdict on a student's function. Never raises because of what the function does."""
+    if not callable(answer):
+        return wrong(exercise, f"Give the check your function itself, `check.{exercise.name}({exercise.name})`: "
+                               f"this is {plain(answer).words}.")  # fmt: skip
+    if not takes(answer, len(exercise.arguments)):
+        return wrong(exercise, f"Your function takes {inspect.signature(answer)}: the check calls `{exercise.call}`.")
+    cases = exercise.all_arguments()
+    report = guard.run(functools.partial(exercise.run, answer), cases, exercise.seconds)
+    verdict = ended_early(exercise, answer, report, cases) or judge_answers(exercise, answer, report, cases)
+    if report.printed and not verdict.passed:
+        verdict = Verdict(
+            verdict.kind, verdict.sentence, (*verdict.details, f"printed: {report.printed}"), verdict.footer
+        )
+    return verdict
+
+
+def takes(answer: Callable, how_many: int) -> bool:
+    try:
+        inspect.signature(answer).bind(*[None] * how_many)
+    except TypeError:
+        return False
+    except ValueError:  # written in C, which says nothing about its arguments
+        return True
+    return True
+
+
+def ended_early(exercise: Exercise, answer: Callable, report: guard.Report, cases: list[tuple]) -> Verdict | None:
+    """What a function did instead of answering."""
+    empty = [number for number, answer in enumerate(report.answers) if answer.kind == "NoneType"]
+    if isinstance(report.error, NotImplementedError) or empty[:1] == [0]:
+        sentence = f"Nothing to check yet: write `{exercise.name}` where the `...` stands, and end with `return`."
+        return Verdict("todo", sentence, footer=help_for(exercise))
+    if empty:
+        sentence = "Your function returns nothing in this case: look for a branch without `return`."
+        return wrong(exercise, sentence, given(exercise, cases[empty[0]]))
+    if report.out_of_time:
+        sentence = f"Your function was stopped after {exercise.seconds:g} s: look for a loop that never ends."
+        if report.still_runs:
+            sentence = (f"Your function did not answer within {exercise.seconds:g} s and cannot be stopped: "
+                        "restart the kernel if the notebook gets slow.")  # fmt: skip
+        return wrong(exercise, sentence, given(exercise, cases[min(report.case, len(cases) - 1)]))
+    if report.error is not None:
+        place = guard.where(report.error, answer)
+        what = f"{type(report.error).__name__}: {' '.join(str(report.error).split())}".strip(" :").rstrip(".")
+        sentence = f"Your function raises an error{f' in {place}' if place else ''}: {what}."
+        return wrong(exercise, sentence, given(exercise, cases[report.case]))
+    if report.changed is not None:
+        argument = exercise.case_names[report.changed[1]]
+        return wrong(exercise, f"Your function changes its argument `{argument}`, which others still need: "
+                               "compute a new value instead of writing into it.")  # fmt: skip
+    return None
+
+
+def judge_answers(exercise: Exercise, answer: Callable, report: guard.Report, cases: list[tuple]) -> Verdict:
+    """All cases were answered: are all of the answers right, and if not, what is wrong?"""
+    rights = outcomes(exercise, exercise.solution, cases)
+    pairs = list(zip(report.answers, rights, strict=True))
+    fails = [number for number, (a, right) in enumerate(pairs) if not same(a, right, exercise.tolerance)]
+    if not fails:
+        return Verdict(
+            "passed", f"Right. Your `{exercise.name}` agrees in all {len(cases)} cases, corner cases included."
+        )
+    for mistake in exercise.mistakes:
+        theirs = outcomes(exercise, mistake.answer, cases)
+        if all(same(a, m, exercise.tolerance, nan_too=True) for a, m in zip(report.answers, theirs, strict=True)):
+            return wrong(exercise, mistake.says)
+    case = fails[0]
+    mine, right = pairs[case]
+    return wrong(exercise, *unknown_mistake(exercise, answer, cases[case], mine, right))
+
+
+def unknown_mistake(exercise: Exercise, answer: Callable, case: tuple, mine: Plain, right: Plain) -> tuple[str, tuple]:
+    """(sentence, details) about an answer that is wrong in no way that we know by name."""
+    if not like(mine, right):
+        return f"Your function returns {mine.words}: the exercise asks for {right.words}.", ()
+    if not same_shape(mine, right):
+        shapes = f"Your answer has shape {shape_words(mine)}: the right one has shape {shape_words(right)}."
+        return shapes, given(exercise, case)
+    if has_nan(mine) and not has_nan(right):
+        return "Your answer is not a number (NaN) here: look for 0/0, ∞ - ∞ or log 0.", given(exercise, case)
+    again = guard.run(functools.partial(exercise.run, answer), [case], exercise.seconds)
+    if again.answers and not same(again.answers[0], mine, exercise.tolerance, nan_too=True):
+        sentence = "Your function answers the same question differently each time: it draws at random, or remembers."
+        return sentence, given(exercise, case)
+    place = first_difference(mine, right, exercise.tolerance)
+    at = f" at [{', '.join(map(str, place))}]" if place else ""
+    small = max(mine.data.size, right.data.size) <= 36 if place else True
+    values = (numbers(mine), numbers(right)) if small else (f"{mine.data[place]:.6g}", f"{right.data[place]:.6g}")
+    details = (*given(exercise, case), f"yours = {values[0]}", f"right = {values[1]}")
+    return f"Not right yet: here your answer and the right one differ{at}.", details
+
+
+def outcomes(exercise: Exercise, function: Callable, cases: list[tuple]) -> list[Plain]:
+    """What one of our own functions, right or wrong, answers."""
+    with np.errstate(all="ignore"), warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return [plain(exercise.run(function, *deepcopy(case))) for case in cases]
+
+
+def given(exercise: Exercise, case: tuple) -> tuple[str, ...]:
+    """The arguments of a case, a line each."""
+    return tuple(f"{name} = {numbers(plain(value))}" for name, value in zip(exercise.case_names, case, strict=True))
+
+
+def help_for(exercise: Exercise) -> str:
+    return f'Stuck? `check.hint("{exercise.name}")`'
+
+
+def wrong(exercise: Exercise, sentence: str, details: tuple[str, ...] = ()) -> Verdict:
+    return Verdict("wrong", sentence, details, help_for(exercise))

@@ -1,0 +1,43 @@
+"""What a check answers: a sentence, and where it helps the numbers behind it. Readable with and without HTML."""
+
+from dataclasses import dataclass
+from html import escape
+
+MARKS = {"passed": "✓", "wrong": "✗", "todo": "…", "hint": "?"}  # the same is said in words: colour alone says nothing
+COLOURS = {"passed": "#009E73", "wrong": "#D55E00", "todo": "#777777", "hint": "#0072B2"}
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """kind: passed, wrong, todo (nothing to judge yet) or hint."""
+
+    kind: str
+    sentence: str
+    details: tuple[str, ...] = ()  # one line each, as they are: numbers, code
+    footer: str = ""
+
+    @property
+    def passed(self) -> bool:
+        return self.kind == "passed"
+
+    def __repr__(self) -> str:
+        lines = [f"{MARKS[self.kind]} {self.sentence}", *(f"    {line}" for line in self.details), self.footer]
+        return "\n".join(line for line in lines if line)
+
+    def _repr_mimebundle_(self, include=None, exclude=None) -> dict[str, str]:
+        numbers = "".join(f"<div>{escape(line)}</div>" for line in self.details)
+        if numbers:
+            style = "margin: 6px 0 0; font-family: monospace; white-space: pre-wrap; overflow-wrap: anywhere"
+            numbers = f'<div style="{style}">{numbers}</div>'
+        footer = f'<div style="margin-top: 6px; opacity: 0.8">{with_code(self.footer)}</div>' if self.footer else ""
+        box = f"border-left: 4px solid {COLOURS[self.kind]}; padding: 4px 12px; max-width: 800px; line-height: 1.45"
+        html = f'<div role="status" style="{box}">{MARKS[self.kind]} {with_code(self.sentence)}{numbers}{footer}</div>'
+        return {"text/html": html, "text/plain": repr(self)}
+
+
+def with_code(sentence: str) -> str:
+    """HTML of a sentence in which `backticks` mark code."""
+    parts = escape(sentence).split("`")
+    if len(parts) % 2 == 0:  # an odd backtick stays one
+        return "`".join(parts)
+    return "".join(f"<code>{part}</code>" if i % 2 else part for i, part in enumerate(parts))

@@ -1,0 +1,356 @@
+"""The exercises: a wrong answer never passes, a right one always does, and nothing that it does ends the notebook."""
+
+import copy
+import dataclasses
+import inspect
+import io
+import itertools
+import sys
+import threading
+import time
+from contextlib import redirect_stdout
+
+import nbformat
+import numpy as np
+import pytest
+import torch
+from nbclient import NotebookClient
+
+from bootcourse.errors import BootcourseError
+from bootcourse.lessons import check, values
+from bootcourse.lessons.exercise import call_it
+from bootcourse.lessons.exercises import registry
+from bootcourse.lessons.judge import judge, outcomes
+from tests.answers import RIGHT, WRONG
+
+EXERCISES = list(registry().values())
+every_exercise = pytest.mark.parametrize("exercise", EXERCISES, ids=lambda exercise: exercise.name)
+
+
+def one_sentence(verdict) -> bool:
+    """No line breaks, a full stop at the end, and HTML without a trace of Python's own noise."""
+    html = verdict._repr_mimebundle_()["text/html"]
+    return "\n" not in verdict.sentence and verdict.sentence.endswith((".", "?")) and "Traceback" not in html
+
+
+# Every exercise -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "name, answer",
+    [(name, answer) for name in RIGHT for answer in RIGHT[name]],
+    ids=lambda x: getattr(x, "__name__", x),
+)
+def test_a_right_answer_passes(name, answer):
+    verdict = judge(registry()[name], answer)
+    assert verdict.passed, verdict
+
+
+@pytest.mark.parametrize(
+    "name, answer, words",
+    [(name, *pair) for name in WRONG for pair in WRONG[name]],
+    ids=lambda x: getattr(x, "__name__", None) or (x if x in WRONG else "says"),
+)
+def test_a_wrong_answer_is_rejected_with_its_own_message(name, answer, words):
+    verdict = judge(registry()[name], answer)
+    assert verdict.kind == "wrong" and words in verdict.sentence and one_sentence(verdict), verdict
+
+
+def test_every_table_of_answers_belongs_to_an_exercise():
+    assert set(RIGHT) | set(WRONG) <= set(registry())
+
+
+@every_exercise
+def test_an_exercise_has_five_wrong_and_two_right_answers_and_three_known_mistakes(exercise):
+    assert len(RIGHT[exercise.name]) >= 2
+    assert len(WRONG[exercise.name]) >= 5
+    assert len(exercise.mistakes) >= 3
+    assert sum(bool(words) for _, words in WRONG[exercise.name]) >= 3
+
+
+@every_exercise
+def test_the_solution_gives_what_was_worked_out_by_hand(exercise):
+    assert exercise.worked
+    arguments = [arguments for arguments, _ in exercise.worked]
+    for answer, (_, by_hand) in zip(outcomes(exercise, exercise.solution, arguments), exercise.worked, strict=True):
+        assert values.same(answer, values.plain(by_hand), exercise.tolerance), values.numbers(answer)
+
+
+@every_exercise
+def test_the_solution_passes_and_the_cases_are_many_and_the_same_each_time(exercise):
+    assert judge(exercise, exercise.solution).passed
+    first, again = ([[values.numbers(values.plain(v)) for v in c] for c in exercise.all_arguments()] for _ in range(2))
+    assert first == again and len(first) >= 20
+
+
+@every_exercise
+def test_the_cases_separate_every_mistake_from_the_right_answer_and_from_each_other(exercise):
+    cases = exercise.all_arguments()
+    answers = [outcomes(exercise, f, cases) for f in (exercise.solution, *(m.answer for m in exercise.mistakes))]
+    for (i, one), (j, other) in itertools.combinations(enumerate(answers), 2):
+        pairs = zip(one, other, strict=True)
+        assert not all(values.same(a, b, exercise.tolerance, nan_too=True) for a, b in pairs), f"{i} and {j} agree"
+
+
+@every_exercise
+def test_a_known_mistake_gets_its_message(exercise):
+    for mistake in exercise.mistakes:
+        assert judge(exercise, mistake.answer).sentence == mistake.says
+        assert mistake.says.endswith(".") and mistake.belief.endswith((".", ")"))
+
+
+@every_exercise
+@pytest.mark.parametrize("body", ["...", "pass", "return None", "raise NotImplementedError", "'''What it does.'''"])
+def test_an_untouched_stub_fails_politely(exercise, body):
+    space = {}
+    exec(f"def {exercise.call}:\n    {body}", space)
+    verdict = judge(exercise, space[exercise.name])
+    assert verdict.kind == "todo" and "Nothing to check yet" in verdict.sentence and not verdict.passed
+
+
+@every_exercise
+def test_a_wrong_type_is_said_in_one_sentence(exercise):
+    for value in (["a list"], "words", {1: 2}, object(), 1j, torch.nn.Linear(1, 1), (1.0, 2.0)):
+        verdict = judge(exercise, lambda *arguments, value=value: value)
+        assert verdict.kind == "wrong" and "returns" in verdict.sentence and one_sentence(verdict)
+
+
+def changed_values(exercise, change):
+    """An answer that computes the right thing and then changes it, a tuple part by part."""
+
+    def answer(*arguments):
+        right = exercise.solution(*arguments)
+        return tuple(map(change, right)) if isinstance(right, tuple) else change(right)
+
+    return answer
+
+
+def is_compared_as_it_is(exercise) -> bool:
+    """Numbers that nothing else is computed from before they are compared."""
+    answer = values.plain(exercise.run(exercise.solution, *copy.deepcopy(exercise.all_arguments()[0])))
+    return exercise.run is call_it and answer.kind in (*values.NUMERIC, "tuple")
+
+
+@every_exercise
+def test_a_wrong_shape_is_said_in_one_sentence(exercise):
+    stack = lambda value: torch.stack([value] * 3) if isinstance(value, torch.Tensor) else np.array([value] * 3)  # noqa: E731
+    verdict = judge(exercise, changed_values(exercise, stack))
+    assert verdict.kind == "wrong" and one_sentence(verdict)
+    assert not is_compared_as_it_is(exercise) or "shape" in verdict.sentence or "returns" in verdict.sentence
+
+
+@every_exercise
+def test_nan_is_said_in_one_sentence(exercise):
+    verdict = judge(exercise, changed_values(exercise, lambda value: value * float("nan")))
+    assert verdict.kind == "wrong" and one_sentence(verdict)
+    assert not is_compared_as_it_is(exercise) or "NaN" in verdict.sentence
+
+
+@every_exercise
+def test_changing_an_argument_in_place_is_said_in_one_sentence(exercise):
+    if not any(isinstance(a, (torch.Tensor, np.ndarray)) for a in exercise.all_arguments()[0]):
+        pytest.skip("numbers cannot be changed in place")
+
+    def in_place(*arguments):
+        answer = exercise.solution(*arguments)
+        for argument in arguments:
+            if isinstance(argument, (torch.Tensor, np.ndarray)):
+                argument[...] = 0
+        return answer
+
+    verdict = judge(exercise, in_place)
+    assert verdict.kind == "wrong" and "changes its argument `" in verdict.sentence and one_sentence(verdict)
+
+
+@every_exercise
+def test_raising_is_said_in_one_sentence_with_the_line(exercise):
+    def raises(*arguments):
+        return 1 / (len(arguments) - len(arguments))
+
+    verdict = judge(exercise, raises)
+    assert "`return 1 / (len(arguments) - len(arguments))`: ZeroDivisionError" in verdict.sentence
+    assert verdict.kind == "wrong" and one_sentence(verdict)
+
+
+@every_exercise
+def test_an_endless_loop_is_stopped_and_said_in_one_sentence(exercise):
+    def endless(*arguments):
+        while True:
+            try:
+                len(arguments)
+            except Exception:
+                pass
+
+    threads, start = threading.active_count(), time.monotonic()
+    verdict = judge(dataclasses.replace(exercise, seconds=0.2), endless)
+    assert verdict.kind == "wrong" and "stopped after 0.2 s" in verdict.sentence and one_sentence(verdict)
+    assert time.monotonic() - start < 5 and threading.active_count() == threads
+
+
+@every_exercise
+def test_a_wrong_number_of_arguments_is_said_in_one_sentence(exercise):
+    verdict = judge(exercise, lambda only, *, too: only)
+    assert f"the check calls `{exercise.call}`" in verdict.sentence and one_sentence(verdict)
+
+
+@every_exercise
+def test_hints_come_one_by_one_and_the_solution_when_asked(exercise):
+    check._hints_given.clear()
+    shown = [check.hint(exercise.name) for _ in range(len(exercise.hints) + 1)]
+    assert [hint.sentence.partition(": ")[2] for hint in shown] == [*exercise.hints, exercise.hints[-1]]
+    assert "return" in check.solution(exercise.name).data
+    assert "solution" in shown[-1].footer and "solution" not in shown[0].footer
+
+
+# The engine, on one exercise ----------------------------------------------------------------------
+
+TARGET = registry()["critic_target"]
+
+
+def test_an_answer_that_is_wrong_in_no_known_way_is_shown_its_first_case():
+    verdict = check.critic_target(lambda reward, terminated, next_value, gamma: reward + 5)
+    assert "differ at [0]" in verdict.sentence
+    assert {"gamma = 0.8", "reward = [1, -10]", "yours = [6, -5]", "right = [9, -10]"} <= set(verdict.details)
+
+
+def test_an_answer_that_is_right_in_all_but_one_case_does_not_pass():
+    seen = itertools.count()
+
+    def nearly(*arguments):
+        return TARGET.solution(*arguments) + (next(seen) == 40)
+
+    assert not judge(TARGET, nearly).passed
+
+
+def test_an_answer_that_draws_at_random_is_told_so():
+    verdict = check.critic_target(lambda reward, *rest: torch.randn_like(reward))
+    assert "differently each time" in verdict.sentence
+
+
+def test_an_answer_that_writes_every_result_into_one_tensor_is_judged_by_what_it_returned():
+    buffer = torch.zeros(100).double()
+
+    def reuse(*arguments):
+        right = TARGET.solution(*arguments)
+        buffer[: len(right)] = right
+        return buffer[: len(right)]
+
+    assert judge(TARGET, reuse).passed
+
+
+def test_a_branch_without_return_is_named():
+    def half(reward, terminated, next_value, gamma):
+        if gamma < 0.9:
+            return reward + gamma * (1 - terminated) * next_value
+
+    assert "branch without `return`" in check.critic_target(half).sentence
+
+
+def test_what_is_no_function_is_named():
+    assert "this is a number" in check.critic_target(3.0).sentence
+
+
+def test_exit_and_endless_recursion_are_errors_like_others():
+    def again(*arguments):
+        return again(*arguments)
+
+    assert "SystemExit" in check.critic_target(lambda *arguments: sys.exit()).sentence
+    assert "RecursionError" in check.critic_target(again).sentence
+
+
+def test_what_a_function_prints_is_kept_short_and_shown_with_what_is_wrong():
+    def chatty(reward, *rest):
+        print("reward is", reward.tolist())
+        return reward
+
+    def endless(*arguments):
+        while True:
+            print("again")
+
+    with redirect_stdout(io.StringIO()) as printed:
+        assert "printed: reward is [1.0, -10.0]" in check.critic_target(chatty).details[-1]
+        assert len(judge(dataclasses.replace(TARGET, seconds=0.2), endless).details[-1]) < 600
+    assert printed.getvalue() == ""
+
+
+def test_a_loop_that_cannot_be_stopped_is_left_behind_and_said():
+    enough = time.monotonic() + 4
+
+    def stubborn(*arguments):
+        while time.monotonic() < enough:
+            time.sleep(2)
+
+    verdict = judge(dataclasses.replace(TARGET, seconds=0.1), stubborn)
+    assert "cannot be stopped" in verdict.sentence and one_sentence(verdict)
+
+
+def test_strict_raises_what_does_not_pass_and_only_that():
+    check.strict()
+    try:
+        assert check.critic_target(TARGET.solution).passed
+        with pytest.raises(check.NotPassed, match="critic_target: … Nothing to check yet"):
+            check.critic_target(lambda *arguments: None)
+    finally:
+        check.strict(False)
+
+
+def test_a_misspelt_exercise_is_one_sentence_with_the_nearest_name():
+    with pytest.raises(AttributeError, match="did you mean 'critic_target'"):
+        check.critic_targets  # noqa: B018
+    with pytest.raises(BootcourseError, match="did you mean 'critic_target'"):
+        check.hint("critic_targets")
+
+
+def test_markup_in_a_message_is_shown_and_not_obeyed():
+    def evil(*arguments):
+        raise ValueError("<script>alert(1)</script>")
+
+    verdict = check.critic_target(evil)
+    assert "<script>" not in verdict._repr_mimebundle_()["text/html"] and "<script>" in repr(verdict)
+
+
+def test_gradients_can_be_compared():
+    def gradient(answer, q):
+        q = q.clone().requires_grad_()
+        (answer(q) * 3).sum().backward()
+        return q.grad if q.grad is not None else torch.zeros_like(q)
+
+    exercise = dataclasses.replace(
+        TARGET,
+        call="square(q)",
+        solution=lambda q: q * q.detach(),
+        run=gradient,
+        worked=((((torch.tensor([2.0])),), torch.tensor([6.0])),),
+        cases=lambda rng: [(torch.tensor(rng.normal(size=3)),) for _ in range(20)],
+        mistakes=(),
+    )
+    assert judge(exercise, lambda q: q.detach() * q).passed
+    assert judge(exercise, lambda q: q * q).kind == "wrong"
+
+
+# In a notebook's kernel ---------------------------------------------------------------------------
+
+
+def test_a_kernel_outlives_everything_that_an_answer_does():
+    cells = [
+        "import threading, time\nfrom bootcourse.lessons import check, exercises\nbefore = threading.active_count()",
+        "object.__setattr__(exercises.registry()['critic_target'], 'seconds', 0.3)",
+        "def f(*a):\n    while True: pass\ncheck.critic_target(f)",
+        "def f(*a):\n    x = 1\n    return x + 'a'\ncheck.critic_target(f)",
+        "import sys\ncheck.critic_target(lambda *a: sys.exit())",
+        "def f(reward, *a):\n    ...\n\n\ncheck.critic_target(f)",
+        "time.sleep(0.1); print('alive', threading.active_count() - before)",
+    ]
+    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in cells])
+    NotebookClient(notebook, timeout=60).execute()
+    said = [cell.outputs[0] for cell in notebook.cells[2:]]
+    assert "stopped after 0.3 s" in said[0].data["text/plain"] and "✗" in said[0].data["text/html"]
+    assert "in line 3, `return x + 'a'`: TypeError" in said[1].data["text/plain"]
+    assert "SystemExit" in said[2].data["text/plain"]
+    assert "Nothing to check yet" in said[3].data["text/plain"]
+    assert said[4].text == "alive 0\n"
+
+
+def test_check_offers_its_exercises_for_completion():
+    assert {"hint", "solution", *registry()} <= set(dir(check))
+    assert inspect.getdoc(check)
