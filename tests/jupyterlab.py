@@ -28,7 +28,8 @@ def running_lab(folder: Path, dark: bool = False):
     """JupyterLab on `folder`, on 127.0.0.1 with a token. Yields its address and token."""
     token, port = secrets.token_hex(8), _free_port()
     places = {"JUPYTER_CONFIG_DIR": "config", "JUPYTER_DATA_DIR": "data", "JUPYTER_RUNTIME_DIR": "runtime"}
-    places |= {"JUPYTERLAB_SETTINGS_DIR": "lab-settings", "JUPYTERLAB_WORKSPACES_DIR": "workspaces", "IPYTHONDIR": "ipy"}
+    places |= {"JUPYTERLAB_SETTINGS_DIR": "lab-settings", "JUPYTERLAB_WORKSPACES_DIR": "workspaces"}
+    places |= {"IPYTHONDIR": "ipython"}
     own = folder / ".lab"
     environment = os.environ | {name: str(own / place) for name, place in places.items()}
     for name, settings in (CALM | (DARK if dark else {})).items():

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 import torch
 
-from bootcourse.study import checks
 from bootcourse.learn.baselines import learner_for
 from bootcourse.learn.replay import unpack
 from bootcourse.learn.settings import settings_for, with_seeds
+from bootcourse.study import checks
 
 
 def test_the_demonstrator_balances_every_pole_to_the_end():
