@@ -117,3 +117,12 @@ def test_the_readme_s_pictures_stay_and_are_listed(study, shipped):
     for _ in range(2):
         ship.build(study, shipped)
         assert assets.verify(shipped) == ([], []) and (shipped / "readme" / "trap.png").read_bytes() == b"picture"
+
+
+def test_what_a_study_has_not_computed_stays_as_it_ships(study, shipped, tmp_path):
+    before = (shipped / "study-default.npz").read_bytes()
+    shutil.copytree(study / "cells/sweep", tmp_path / "later/cells/sweep")
+    (shipped / "sweep.npz").write_bytes(b"old")
+    ship.build(tmp_path / "later", shipped)
+    assert assets.verify(shipped) == ([], []) and load_results(shipped / "sweep.npz").methods == ["sac"]
+    assert (shipped / "study-default.npz").read_bytes() == before

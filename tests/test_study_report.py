@@ -10,6 +10,7 @@ from bootcourse.scenario import SCENARIOS
 from bootcourse.study import tables, training_figures
 from bootcourse.study.drawing import png
 from bootcourse.study.fidelity import VERDICTS, fidelity, judge
+from bootcourse.study.found import in_study
 from bootcourse.study.paper import COLUMNS, PRINTED, TABLES, arithmetic, earned_at, paper_interval, possible
 from bootcourse.study.report import rule_results, write_report
 from bootcourse.study.results import Results, save_results
@@ -140,7 +141,7 @@ def report_of(results: Results, root) -> None:
     save_results(results, folder / "results.npz", {})
     versions = dict.fromkeys(("bootcourse", "python", "torch", "numpy", "numba"), "1") | {"seconds": 60}
     write_json(folder / "cell.json", {"provenance": versions, "sources": {}})
-    write_report(root)
+    write_report(in_study(root), root)
 
 
 def test_the_report_holds_every_table_and_figure(tmp_path):

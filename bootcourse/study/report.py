@@ -7,16 +7,16 @@ import numpy as np
 
 from bootcourse.drivers import rule_driver
 from bootcourse.errors import BootcourseError
-from bootcourse.record.files import read_arrays, read_json, write_bytes
+from bootcourse.record.files import write_bytes
 from bootcourse.scenario import SCENARIOS, Scenario
 from bootcourse.study import tables, training_figures
 from bootcourse.study.cells import HELD_OUT
 from bootcourse.study.drawing import save
 from bootcourse.study.evaluate import Estimate, drive_episodes, held_out_seeds, mean
 from bootcourse.study.fidelity import CLOSE, VERDICTS, fidelity
+from bootcourse.study.found import Found
 from bootcourse.study.paper import COLUMNS, PRINTED, ROWS, TABLES, arithmetic
-from bootcourse.study.plan import folder, variations
-from bootcourse.study.results import Results, join, load_cells, load_results
+from bootcourse.study.results import Results, join
 
 FIGURES = {  # name: (function, the methods that it cannot do without)
     "margin-against-bonus": (training_figures.margin_against_bonus, ("margin", "demos")),
@@ -32,29 +32,27 @@ def rule_results(scenario: Scenario, tests: int) -> Results:
     return Results([{"method": "rule", "seed": 0}], np.array([-1]), tested, {})
 
 
-def write_report(root: Path) -> Path:
-    """Write root/report.md and its pictures. Raises BootcourseError if no cell is finished."""
-    parts = {name: load_cells(root, name) for name in SCENARIOS if list(root.glob(f"cells/{name}/*/results.npz"))}
-    if not parts:
-        raise BootcourseError(f"No cell is finished in {root}: run `bootcourse study --out {root}`.")
-    text = [HEAD, took(root)]
-    findings = {}
-    for name, results in parts.items():
+def write_report(found: Found, folder: Path) -> Path:
+    """Write folder/report.md and its pictures, folder/figures. Raises BootcourseError if nothing was found."""
+    if not found.results:
+        raise BootcourseError("No cell of this study is finished: run `bootcourse study --out DIR` first.")
+    text, findings = [HEAD], {}
+    for name, results in found.results.items():
         rule = rule_results(SCENARIOS[name], results.tested["returns"].shape[1])
         everyone = join([Results(results.agents, results.stopped, results.tested, {}), rule])
         findings[name] = fidelity(everyone)
-        text += [f"## Scenario: {name}\n", *scenario_part(root, name, results, rule, everyone)]
+        text += [f"## Scenario: {name}\n", *scenario_part(found, name, rule, everyone, folder)]
     text += ["## Fidelity: every number of the paper's two tables\n", FIDELITY.format(close=close()), counted(findings)]
     text += [tables.fidelity_table(findings), "### What each row's own numbers say\n"]
     text += ["\n".join(f"- **{ROWS[method]}.** {arithmetic(method)}" for method in PRINTED) + "\n"]
-    text += sensitivity_part(root)
-    path = root / "report.md"
+    text += sensitivity_part(found)
+    path = folder / "report.md"
     write_bytes(path, "\n".join(text).encode())
     return path
 
 
-def scenario_part(root: Path, name: str, results: Results, rule: Results, everyone: Results) -> list[str]:
-    text, best = [], bound(root, name, everyone.tested["returns"].shape[1])
+def scenario_part(found: Found, name: str, rule: Results, everyone: Results, folder: Path) -> list[str]:
+    results, text, best = found.results[name], [], found.bound.get(name)
     for title, methods in TABLES.items():
         text += [f"### {title}\n", tables.result_table(everyone, methods)]
     others = [method for method in results.methods if not any(method in methods for methods in TABLES.values())]
@@ -63,14 +61,14 @@ def scenario_part(root: Path, name: str, results: Results, rule: Results, everyo
     text += ["### Who escapes\n", tables.escape_table(everyone, best)]
     if best is not None:
         text += [f"Best known return of the planner: {tables.bracketed(mean(best))}, {len(best)} episodes.\n"]
-    text += staying(root, name)
+    text += staying(found.staying.get(name))
     if "bootstrapped" in results.methods and len(results.methods) > 1:
         text += ["### Probability of improvement\n", tables.improvement_table(everyone)]
-    text += ["### Training\n", *pictures(root, name, results, rule)]
+    text += ["### Training\n", *pictures(folder, name, results, rule)]
     return text + [stopped(results)]
 
 
-def pictures(root: Path, name: str, results: Results, rule: Results) -> list[str]:
+def pictures(folder: Path, name: str, results: Results, rule: Results) -> list[str]:
     """Draw what can be drawn with these methods; Markdown that shows it."""
     figures = {}
     for title, (draw, needed) in FIGURES.items():
@@ -81,23 +79,15 @@ def pictures(root: Path, name: str, results: Results, rule: Results) -> list[str
     figures["returns"] = training_figures.final_scores(results, results.methods, "returns")
     figures["success"] = training_figures.final_scores(results, results.methods, "success")
     for title, figure in figures.items():
-        save(figure, root / "figures" / f"{name}-{title}.png")
+        save(figure, folder / "figures" / f"{name}-{title}.png")
     return [f"![{figure.alt}](figures/{name}-{title}.png)\n" for title, figure in figures.items()]
 
 
-def bound(root: Path, name: str, tests: int) -> np.ndarray | None:
-    """The best known return of each held-out episode, (tests,), if the planner has looked at them all."""
-    cells = [read_arrays(path) for path in root.glob(f"cells/bound-{name}/*/results.npz")]
-    found = {int(cell["first"]) + i: value for cell in cells for i, value in enumerate(cell["returns"])}
-    return np.array([found[i] for i in range(tests)]) if set(range(tests)) <= set(found) else None
-
-
-def staying(root: Path, name: str) -> list[str]:
+def staying(answer: dict | None) -> list[str]:
     """Is staying in the trap optimal at the paper's γ, as far as the planner can tell?"""
-    path = root / f"cells/staying-{name}/gamma-0.8/staying.json"
-    if not path.exists():
+    if answer is None:
         return []
-    worth = {key: Estimate(*value) for key, value in read_json(path).items() if key != "gamma"}
+    worth = {key: Estimate(*value) for key, value in answer.items() if key != "gamma"}
     names = {
         "idle": "doing nothing",
         "keep_lane": "the best drive found that keeps its lane",
@@ -125,17 +115,14 @@ def stopped(results: Results) -> str:
     )
 
 
-def sensitivity_part(root: Path) -> list[str]:
-    found = {}
-    for name in variations():
-        path = root / "cells" / "sensitivity" / folder(name) / "results.npz"
-        if path.exists():
-            found[name] = load_results(path)
-    if not found:
+def sensitivity_part(found: Found) -> list[str]:
+    if not found.sensitivity:
         return []
-    seeds = len(next(iter(found.values())).of("sac"))
+    seeds = len(next(iter(found.sensitivity.values())).of("sac"))
     text = ["## Sensitivity\n", f"{seeds} seeds each: mean (lowest to highest seed). Too few for intervals.\n"]
-    return text + [tables.sensitivity_table(found, measure) for measure in ("success", "returns", "collision")]
+    return text + [
+        tables.sensitivity_table(found.sensitivity, measure) for measure in ("success", "returns", "collision")
+    ]
 
 
 def close() -> str:
@@ -148,16 +135,6 @@ def counted(findings: dict) -> str:
         count = Counter(finding.verdict for finding in its)
         lines.append(f"- {scenario}: " + ", ".join(f"{count[verdict]} {verdict}" for verdict in VERDICTS) + ".")
     return "\n".join(lines) + "\n"
-
-
-def took(root: Path) -> str:
-    cells = [read_json(path) for path in sorted(root.glob("cells/*/*/cell.json"))]
-    seconds = sum(cell["provenance"]["seconds"] for cell in cells)
-    made = cells[0]["provenance"]
-    versions = ", ".join(f"{name} {made[name]}" for name in ("bootcourse", "python", "torch", "numpy", "numba"))
-    return (
-        f"{len(cells)} cells (a sweep in this folder included) took {seconds / 60:.0f} core-minutes, with {versions}.\n"
-    )
 
 
 HEAD = """# The study

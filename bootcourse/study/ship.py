@@ -5,16 +5,23 @@ Each file is listed in the manifest with the command that makes it and the code 
 """
 
 import shutil
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from bootcourse.assets import FOLDER, LIMIT, MANIFEST
+from bootcourse.drivers import rule_driver
 from bootcourse.errors import BootcourseError
-from bootcourse.record.drive import provenance
+from bootcourse.record.drive import provenance, record
 from bootcourse.record.files import read_json, sha256, write_arrays, write_bytes, write_json
+from bootcourse.record.runs import load_run
+from bootcourse.scenario import DEFAULT
+from bootcourse.study.cells import HELD_OUT
+from bootcourse.study.evaluate import held_out_seeds
+from bootcourse.study.found import in_assets, in_study
+from bootcourse.study.report import write_report
 from bootcourse.study.results import load_cells, load_results, save_results
 from bootcourse.study.sources import sources_hash
 
@@ -24,25 +31,48 @@ BUILD = "bootcourse assets build --study DIR"
 STUDY = f"bootcourse study --out DIR && {BUILD}"
 
 
-def build(study: Path, folder: Path = FOLDER) -> None:
-    """Make every shipped file from a study's folder. Raises BootcourseError if something is missing there.
+class Shipment:
+    """The new folder while it is filled. What the study has not computed stays as it ships today."""
 
-    What is in the folder already is replaced when everything is there, and not before.
+    def __init__(self, study: Path, now: Path, new: Path):
+        self.study, self.new = study, new
+        self.entries: dict[str, dict] = {}
+        if (now / MANIFEST).exists():
+            shutil.copytree(now, new)
+            self.entries = {entry["file"]: entry for entry in read_json(now / MANIFEST)["files"]}
+
+    def has(self, part: str) -> bool:
+        """Has the study finished cells of this part?"""
+        return any((self.study / "cells" / part).rglob("cell.json"))
+
+    def clear(self, pattern: str) -> None:
+        """Take away what is to be made anew."""
+        for path in [path for path in self.new.glob(pattern) if path.is_file()]:
+            path.unlink()
+            self.entries.pop(path.relative_to(self.new).as_posix(), None)
+
+    def add(self, path: Path, how: str, sources: dict[str, str], versions: dict) -> None:
+        """List a file that was just made."""
+        name = path.relative_to(self.new).as_posix()
+        entry = {"file": name, "sha256": sha256(path), "bytes": path.stat().st_size}
+        self.entries[name] = entry | {"command": how, "sources": sources, "versions": versions}
+
+
+def build(study: Path, folder: Path = FOLDER) -> None:
+    """Make the shipped files from a study's folder; parts that it has not computed stay as they are.
+
+    `folder` is replaced when everything is there, and not before. Raises BootcourseError if something
+    is neither in the study nor there already.
     """
     new = folder.parent / f".{folder.name}.new"
     shutil.rmtree(new, ignore_errors=True)
-    entries: list[dict] = []
-
-    def add(path: Path, how: str, sources: dict[str, str], versions: dict) -> None:
-        entry = {"file": path.relative_to(new).as_posix(), "sha256": sha256(path), "bytes": path.stat().st_size}
-        entries.append(entry | {"command": how, "sources": sources, "versions": versions})
-
     try:
-        for part in (add_results, add_sensitivity, add_report, add_runs, add_demonstrations, add_rollouts, add_card):
-            part(study, new, add)
-        keep_readme(folder, new, entries, add)
-        write_json(new / MANIFEST, {"files": entries})
-        size = sum(entry["bytes"] for entry in entries)
+        shipment = Shipment(study, folder, new)
+        for part in (add_results, add_sensitivity, add_runs, add_demonstrations, add_rollouts, add_report, add_card):
+            part(shipment)
+        add_readme(shipment, folder)
+        write_json(new / MANIFEST, {"files": [shipment.entries[name] for name in sorted(shipment.entries)]})
+        size = sum(entry["bytes"] for entry in shipment.entries.values())
         if size >= LIMIT:
             raise BootcourseError(
                 f"These assets would hold {size / 1e6:.1f} MB: they must stay under {LIMIT / 1e6:.0f} MB."
@@ -67,49 +97,53 @@ def cells_made(study: Path, part: str) -> tuple[dict[str, str], dict]:
     return sources, versions
 
 
-def add_results(study: Path, new: Path, add: Callable) -> None:
-    """Curves and scores of both scenarios, the planner's bound, the sensitivity and the sweep."""
-    from bootcourse.study.report import bound
-
-    commands = {
-        "default": "bootcourse study --out DIR",
-        "calibrated": "bootcourse study --out DIR --scenario calibrated",
-        "sweep": "bootcourse sweep --out DIR",
-    }
-    for part, how in commands.items():
-        sources, versions = cells_made(study, part)
-        name = "sweep.npz" if part == "sweep" else f"study-{part}.npz"
-        results = load_cells(study, part)
-        save_results(lighter(results, CURVES[:2] if part == "sweep" else CURVES), new / name, versions)
-        add(new / name, f"{how} && {BUILD}", sources, versions)
-        best = None if part == "sweep" else bound(study, part, results.tested["returns"].shape[1])
-        if best is not None:
-            write_arrays(new / f"bound-{part}.npz", {"returns": best.astype(np.float32)})
-            add(new / f"bound-{part}.npz", f"{how} --only planner && {BUILD}", *cells_made(study, f"bound-{part}"))
+COMMANDS = {
+    "default": "bootcourse study --out DIR",
+    "calibrated": "bootcourse study --out DIR --scenario calibrated",
+    "sweep": "bootcourse sweep --out DIR",
+}
 
 
-def add_sensitivity(study: Path, new: Path, add: Callable) -> None:
+def add_results(to: Shipment) -> None:
+    """Curves and scores of both scenarios and of the sweep, the planner's bound and its answer."""
+    found = in_study(to.study)
+    for part, how in COMMANDS.items():
+        path, how = to.new / ("sweep.npz" if part == "sweep" else f"study-{part}.npz"), f"{how} && {BUILD}"
+        if not to.has(part):
+            if not path.exists():
+                raise BootcourseError(f"{to.study} has no finished cells in cells/{part}: compute them first.")
+            continue
+        sources, versions = cells_made(to.study, part)
+        results = load_cells(to.study, part)
+        save_results(lighter(results, CURVES[:2] if part == "sweep" else CURVES), path, versions)
+        to.add(path, how, sources, versions)
+        if part in found.bound:
+            best = to.new / f"bound-{part}.npz"
+            write_arrays(best, {"returns": found.bound[part].astype(np.float32)})
+            to.add(best, how, *cells_made(to.study, f"bound-{part}"))
+        if part in found.staying:
+            answer = to.new / f"staying-{part}.json"
+            write_json(answer, found.staying[part])
+            to.add(answer, how, *cells_made(to.study, f"staying-{part}"))
+
+
+def add_sensitivity(to: Shipment) -> None:
     """Scores and curves of every variation that was run, a file each."""
     how = f"bootcourse study --out DIR --sensitivity --episodes 1500 && {BUILD}"
-    for cell in sorted(study.glob("cells/sensitivity/*/results.npz")):
-        sources, versions = cells_made(study, f"sensitivity/{cell.parent.name}")
-        path = new / "sensitivity" / f"{cell.parent.name}.npz"
+    for cell in sorted(to.study.glob("cells/sensitivity/*/results.npz")):
+        sources, versions = cells_made(to.study, f"sensitivity/{cell.parent.name}")
+        path = to.new / "sensitivity" / f"{cell.parent.name}.npz"
         save_results(lighter(load_results(cell), CURVES[:2]), path, versions)
-        add(path, how, sources, versions)
+        to.add(path, how, sources, versions)
 
 
-def add_report(study: Path, new: Path, add: Callable) -> None:
-    """The study's report with its figures."""
-    from bootcourse.study.report import write_report
-
-    report = write_report(study)
-    sources, versions = cells_made(study, "default")
-    pictures = sorted((study / "figures").glob("*.png"))
-    for path in (report, *pictures):
-        target = new / "report" / path.relative_to(study)
-        target.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy(path, target)
-        add(target, STUDY, sources, versions)
+def add_report(to: Shipment) -> None:
+    """The report with its figures, from the very files that ship."""
+    to.clear("report/**/*")
+    write_report(in_assets(to.new), to.new / "report")
+    for path in sorted((to.new / "report").rglob("*")):
+        if path.is_file():
+            to.add(path, STUDY, sources_hash(("study/report", "study/tables", "study/fidelity")), provenance())
 
 
 def lighter(results, curves: Sequence[str]):
@@ -117,44 +151,43 @@ def lighter(results, curves: Sequence[str]):
     return replace(results, curves={name: results.curves[name].astype(np.float16) for name in curves})
 
 
-def add_runs(study: Path, new: Path, add: Callable) -> None:
+def add_runs(to: Shipment) -> None:
     """The first agents of every method on the default scenario, as `load_run` reads them."""
-    sources, versions = cells_made(study, "default")
-    for run in sorted(study.glob("cells/default/*/runs/*")):
+    if not to.has("default"):
+        return
+    to.clear("runs/**/*")
+    sources, versions = cells_made(to.study, "default")
+    for run in sorted(to.study.glob("cells/default/*/runs/*")):
         if int(run.name.rpartition("-")[2]) >= RUNS:
             continue
-        shutil.copytree(run, new / "runs" / run.name)
-        for path in sorted((new / "runs" / run.name).iterdir()):
-            add(path, STUDY, sources, versions)
+        shutil.copytree(run, to.new / "runs" / run.name, dirs_exist_ok=True)
+        for path in sorted((to.new / "runs" / run.name).iterdir()):
+            to.add(path, STUDY, sources, versions)
 
 
-def add_demonstrations(study: Path, new: Path, add: Callable) -> None:
+def add_demonstrations(to: Shipment) -> None:
     """The 200 demonstrations, as rows for a `Replay`."""
     from bootcourse.learn.demonstrations import collect
 
-    write_arrays(new / "demonstrations.npz", {"rows": collect().numpy()})
-    sources = sources_hash(("scenario", "rule", "drivers", "road", "learn/demonstrations", "learn/replay"))
-    add(new / "demonstrations.npz", BUILD, sources, provenance())
+    path = to.new / "demonstrations.npz"
+    write_arrays(path, {"rows": collect().numpy()})
+    to.add(path, BUILD, sources_hash(("scenario", "rule", "drivers", "road", "learn")), provenance())
 
 
-def add_rollouts(study: Path, new: Path, add: Callable) -> None:
+def add_rollouts(to: Shipment) -> None:
     """A handful of drives worth watching; one that no agent drives is left out, and said so."""
-    from bootcourse.record.drive import record
-    from bootcourse.record.runs import load_run
-    from bootcourse.scenario import DEFAULT
-    from bootcourse.study.cells import HELD_OUT
-    from bootcourse.study.evaluate import held_out_seeds
-
-    results = load_cells(study, "default")
+    if not to.has("default"):
+        return
+    to.clear("rollouts/*")
+    results = load_cells(to.study, "default")
     success, accident = results.tested["success"] > 0, results.tested["accident"]
     wanted = {
         "trapped-sac": ("sac", ~success & (accident == 0)),
         "escape": ("bootstrapped", success & (accident == 0)),
         "crash": ("bootstrapped", accident == 1),
     }
-    sources = sources_hash(("scenario", "rule", "drivers", "road", "record/drive"))
-    how = STUDY
     roads = held_out_seeds(HELD_OUT, success.shape[1])
+    drives = {"rule": record(rule_driver(DEFAULT), [roads[0]], DEFAULT, "rule")[0]}
     for name, (method, fits) in wanted.items():
         mine = [i for i, agent in enumerate(results.agents) if agent["method"] == method]
         found = [(i, road) for i in mine for road in np.flatnonzero(fits[i])]
@@ -162,38 +195,30 @@ def add_rollouts(study: Path, new: Path, add: Callable) -> None:
             print(f"No agent of '{method}' drove a rollout for {name}: left out.")
             continue
         agent, road = max(found, key=lambda place: results.tested["returns"][place])
-        label = f"{method}-{results.agents[agent]['seed']}"
-        run = next(study.glob(f"cells/default/*/runs/{label}"))
+        run = next(to.study.glob(f"cells/default/*/runs/{method}-{results.agents[agent]['seed']}"))
         driver = load_run(run).agent.driver(with_q=True)
-        rollout = record(driver, [roads[int(road)]], DEFAULT, method)[0]
-        add(rollout.save(new / "rollouts" / f"{name}.npz"), how, sources | sources_hash(["learn"]), provenance())
-    from bootcourse.drivers import rule_driver
-
-    rollout = record(rule_driver(DEFAULT), [roads[0]], DEFAULT, "rule")[0]
-    add(rollout.save(new / "rollouts" / "rule.npz"), how, sources, provenance())
+        drives[name] = record(driver, [roads[int(road)]], DEFAULT, method)[0]
+    sources = sources_hash(("scenario", "rule", "drivers", "road", "record/drive", "learn"))
+    for name, rollout in drives.items():
+        to.add(rollout.save(to.new / "rollouts" / f"{name}.npz"), STUDY, sources, provenance())
 
 
-def keep_readme(folder: Path, new: Path, entries: list[dict], add: Callable) -> None:
-    """The pictures of the README, which no study makes, stay as they are."""
-
-    if not (folder / "readme").is_dir():
-        return
-    before = read_json(folder / MANIFEST)["files"] if (folder / MANIFEST).exists() else []
-    shutil.copytree(folder / "readme", new / "readme")
-    for path in sorted((new / "readme").iterdir()):
-        known = [entry for entry in before if entry["sha256"] == sha256(path)]
-        if known:
-            entries.append(known[0])
-        else:
+def add_readme(to: Shipment, now: Path) -> None:
+    """The pictures of the README, which no study makes, stay as they are; new ones are listed."""
+    if (now / "readme").is_dir():
+        shutil.copytree(now / "readme", to.new / "readme", dirs_exist_ok=True)
+    for path in sorted((to.new / "readme").glob("*")):
+        listed = to.entries.get(path.relative_to(to.new).as_posix())
+        if listed is None or listed["sha256"] != sha256(path):
             sources = sources_hash(("scenario", "rule", "drivers", "road", "study/top_view", "study/readme_picture"))
-            add(path, "python -m bootcourse.study.readme_picture", sources, provenance())
+            to.add(path, "python -m bootcourse.study.readme_picture", sources, provenance())
 
 
-def add_card(study: Path, new: Path, add: Callable) -> None:
-    """The model card, with the numbers of this very study."""
+def add_card(to: Shipment) -> None:
+    """The model card, with the numbers of the shipped study."""
     from bootcourse.study.tables import HEADINGS, bracketed, markdown, score
 
-    results = load_results(new / "study-default.npz")
+    results = load_results(to.new / "study-default.npz")
     measures = ("success", "returns", "collision", "road_departure", "stoppage")
     rows = [
         [m, len(results.of(m)), *(bracketed(score(results, m, measure)) for measure in measures)]
@@ -207,8 +232,9 @@ def add_card(study: Path, new: Path, add: Callable) -> None:
         hidden=" x ".join(map(str, agent["hidden"])),
         runs=RUNS,
     )
-    write_bytes(new / "MODEL_CARD.md", text.encode())
-    add(new / "MODEL_CARD.md", STUDY, *cells_made(study, "default"))
+    write_bytes(to.new / "MODEL_CARD.md", text.encode())
+    entry = to.entries["study-default.npz"]
+    to.add(to.new / "MODEL_CARD.md", STUDY, entry["sources"], entry["versions"])
 
 
 CARD = """# Model card

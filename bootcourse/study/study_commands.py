@@ -9,6 +9,7 @@ from bootcourse.record.commands import INTERRUPTED
 from bootcourse.record.drive import provenance
 from bootcourse.scenario import named
 from bootcourse.study import plan
+from bootcourse.study.found import in_study
 from bootcourse.study.report import write_report
 from bootcourse.study.results import load_cells, save_results
 from bootcourse.study.runner import run_cells
@@ -30,7 +31,7 @@ def study(out: Path, scenario: str, seeds: int, episodes: int, tests: int, only:
         cells = plan.study_cells(methods, seeds, episodes, road, tests)
     status = compute(cells, out, **how)
     if list(out.glob("cells/default/*/results.npz")) or list(out.glob("cells/calibrated/*/results.npz")):
-        print(write_report(out))
+        print(write_report(in_study(out), out))
     return status
 
 
