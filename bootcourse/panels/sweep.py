@@ -1,0 +1,135 @@
+"""Explore the sweep over p, ξ and c: what happened at each setting that was run, and how to run it again.
+
+sweep_panel()
+
+Nothing is trained here: `study/sweep.py` finds the agents of a setting, `sweep_view.py` draws them.
+"""
+
+from collections.abc import Callable, Sequence
+from html import escape
+from pathlib import Path
+
+import ipywidgets as widgets
+
+from bootcourse.errors import BootcourseError
+from bootcourse.panels.panel import Panel
+from bootcourse.panels.svg import printed
+from bootcourse.panels.sweep_view import choices, rerun, view
+from bootcourse.study.results import Results
+from bootcourse.study.sweep import SHIPPED, Happened, load_sweep, nearest
+
+
+class Snap(widgets.VBox):
+    """A slider over the values that were run, and a field for any other: it snaps to the nearest.
+
+    snap: a typed value -> the nearest that was run; raises BootcourseError for what cannot be.
+    """
+
+    def __init__(self, symbol: str, unit: str, help: str, values: Sequence[float], snap: Callable[[float], float]):
+        self.snap, self.sentence, self._busy = snap, help, False
+        label = widgets.HTML(f"<b>{escape(symbol)}</b>{f' ({escape(unit)})' if unit else ''}")
+        label.layout.width = "64px"
+        options = [(f"{value:g}", value) for value in values]
+        self.slider = widgets.SelectionSlider(
+            options=options, value=values[len(values) // 2], readout=False, tooltip=f"{symbol}: {help}"
+        )
+        self.slider.layout.width = "140px"
+        self.field = widgets.FloatText(value=self.slider.value, tooltip=f"{symbol}, typed: {help}")
+        self.field.layout.width = "76px"
+        self.help = widgets.HTML()
+        super().__init__([widgets.HBox([label, self.slider, self.field]), self.help])
+        self.layout.width = "310px"
+        self._tell()
+        self.slider.observe(lambda change: self._show(), "value")
+        self.field.observe(lambda change: self._typed(change["new"]), "value")
+
+    @property
+    def value(self) -> float:
+        return self.slider.value
+
+    def _typed(self, value: float) -> None:
+        if self._busy:
+            return
+        try:
+            self.slider.value = self.snap(value)
+        except BootcourseError as error:
+            self._tell(str(error), "bc-wrong")
+            return
+        self._show()
+        if value != self.slider.value:
+            self._tell(f"{value:g} was not run: this is the nearest that was.")
+
+    def _show(self) -> None:
+        self._busy = True
+        try:
+            self.field.value = self.slider.value
+        finally:
+            self._busy = False
+        self._tell()
+
+    def _tell(self, words: str = "", kind: str = "") -> None:
+        self.help.value = f'<div class="bc-quiet {kind}">{escape(words or self.sentence)}</div>'
+
+
+class SweepPanel(Panel):
+    """`.happened` is what the page shows, None if the sweep could not be read."""
+
+    def __init__(self, path: Path):
+        self.happened: Happened | None = None
+        self._views: dict[tuple, str] = {}
+        try:
+            self.sweep: Results | None = load_sweep(path)
+            ps, xis, cs = choices(self.sweep)
+        except BootcourseError as error:
+            self.sweep = None
+            super().__init__("The sweep over p, ξ and c")
+            self.say(str(error), wrong=True)
+            return
+        sweep = self.sweep
+        self.p = Snap("p", "", "How sure the stochastic rule is of itself.", ps,
+                      lambda p: nearest(sweep, p, xis[-1], cs[0]).p)  # fmt: skip
+        self.xi = Snap("ξ", "× α", "Strength of the pull towards the rule.", xis,
+                       lambda xi: nearest(sweep, ps[0], xi, cs[0]).xi_multiplier)  # fmt: skip
+        self.c = Snap("c", "", "Bonus on a demonstration's reward.", cs,
+                      lambda c: nearest(sweep, ps[0], xis[-1], c).c)  # fmt: skip
+        self.sentence, self.chart, self.code = widgets.HTML(), widgets.HTML(), widgets.HTML()
+        row = widgets.HBox([self.p, self.xi, self.c], layout={"flex_flow": "row wrap"})
+        super().__init__("The sweep over p, ξ and c", row, self.sentence, self.chart, self.code)
+        for control in (self.p, self.xi, self.c):
+            control.slider.observe(lambda change: self._draw(), "value")
+        self._draw()
+
+    def picture(self) -> tuple[bytes, str, str]:
+        if self.happened is None:
+            from bootcourse.panels.svg import drawing, text
+
+            words = "The sweep could not be read."
+            return printed(drawing(600, 40, [text(10, 25, words)], words)), "image/svg+xml", words
+        return printed(self._view()), "image/svg+xml", str(self.happened)
+
+    def _draw(self) -> None:
+        asked = (self.p.value, self.xi.value, self.c.value)
+        self.happened = nearest(self.sweep, *asked)
+        missing = "" if self.happened.exact else "This one was not run; the nearest that was: "
+        self.sentence.value = f'<div class="bc-says" role="status">{escape(missing + str(self.happened))}</div>'
+        self.chart.value = self._view()
+        self.code.value = (
+            '<div class="bc-quiet">To train these agents again:</div>'
+            '<pre style="margin:2px 0 0;font-size:12px;line-height:1.4;user-select:all;overflow-x:auto">'
+            f"{escape(rerun(self.happened))}</pre>"
+        )
+
+    def _view(self) -> str:
+        happened = self.happened
+        key = (happened.p, happened.xi_multiplier, happened.c)
+        if key not in self._views:
+            self._views[key] = view(self.sweep, happened)
+        return self._views[key]
+
+
+def sweep_panel(path: Path = SHIPPED) -> SweepPanel:
+    """What happened at every setting of p, ξ and c that was run; by default those that ship with the course.
+
+    path: what `bootcourse sweep` wrote. A file that is missing or damaged is said so in the panel.
+    """
+    return SweepPanel(Path(path))
