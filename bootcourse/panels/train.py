@@ -1,0 +1,319 @@
+"""Train while you watch: choose a method and its settings, start, stop, compare, watch in 3D, save.
+
+    train_panel()                                   # all that is learned is real
+    train_panel(drives=mine.demonstrations)         # bootstrap from your own drives (see drive_panel)
+
+The training runs in `background.py`, the drawing is `growth.py`; this file only joins them.
+"""
+
+import time
+from collections.abc import Sequence
+from dataclasses import replace
+from html import escape
+from pathlib import Path
+
+import ipywidgets as widgets
+import numpy as np
+
+from bootcourse.errors import BootcourseError
+from bootcourse.learn.settings import ALL, Settings, settings_for, with_seeds
+from bootcourse.learn.train import Result, Training
+from bootcourse.panels.background import Background
+from bootcourse.panels.growth import EARLIER, Drawn, alt_text, growth, label_of
+from bootcourse.panels.number import Number
+from bootcourse.panels.panel import Panel
+from bootcourse.panels.svg import printed
+from bootcourse.record.demonstrations import bootstrap_with
+from bootcourse.record.drive import record
+from bootcourse.record.rollout import Rollout
+from bootcourse.record.runs import save_runs
+from bootcourse.scenario import DEFAULT, Scenario
+from bootcourse.study.drawing import name
+from bootcourse.study.evaluate import held_out_seeds
+
+CONTROLLED = ("p", "xi_multiplier", "bonus", "beta_start", "gamma")
+SEEDS, EPISODES = 64, 20_000  # at most, of one training
+HELD_OUT = 1  # the block of roads that no agent has trained on
+
+
+def whole_number(called: str, low: int, high: int):
+    """A check: is it a whole number from low to high?"""
+
+    def check(value: float) -> None:
+        if not low <= value <= high or value != int(value):
+            raise BootcourseError(f"{called} = {value:g}: give a whole number from {low} to {high}.")
+
+    return check
+
+
+def without(method: str) -> dict[str, str]:
+    """Why a method has no use for a setting: {setting: sentence}. What is not in it can be chosen."""
+    own, called = ALL[method], name(method)
+    reasons = {}
+    if own.get("xi_multiplier") == 0:
+        reasons["xi_multiplier"] = f"Without use: {called} has no soft constraint."
+        reasons["p"] = f"Without use: {called} has no KL to the stochastic rule."
+    if own.get("bonus") == 0:
+        reasons["bonus"] = f"Without use: {called} adds no bonus to demonstrations."
+    if own.get("beta_start") == 0:
+        reasons["beta_start"] = f"Without use: {called} sees no demonstrations."
+        reasons["bonus"] = reasons["beta_start"]
+    if "beta_episodes" in own:
+        reasons["beta_start"] = f"Fixed: {called} learns from the same share to the end."
+    if method == "bc":
+        reasons["gamma"] = f"Without use: {called} values nothing, so it discounts nothing."
+    return reasons
+
+
+def controls(changes: dict) -> dict[str, Number]:
+    """One for each setting that the panel offers, checked as the library checks it; changes: of the paper's values."""
+    start = replace(Settings(), **{name: value for name, value in changes.items() if name in CONTROLLED})
+
+    def checked(setting):
+        return lambda value: settings_for("bootstrapped", **{setting: value})
+
+    return {
+        "p": Number("p", start.p, 0.12, 0.999, 0.001, "How sure the stochastic rule π̃ is of its own action.",
+                    check=checked("p")),
+        "xi_multiplier": Number("ξ", start.xi_multiplier, 0, 2000, 10, "Strength of the pull towards the rule.",
+                                unit="× α", check=checked("xi_multiplier")),
+        "bonus": Number("c", start.bonus, 0, 10, 0.1, "Bonus on a demonstrated action's reward.",
+                        check=checked("bonus")),
+        "beta_start": Number("β", start.beta_start, 0, 1, 0.05, "Share of demonstrations in a batch, at first.",
+                             check=checked("beta_start")),
+        "gamma": Number("γ", start.gamma, 0, 1, 0.01, "Discount: how much the next second counts.",
+                        check=checked("gamma")),
+    }  # fmt: skip
+
+
+class TrainPanel(Panel):
+    """`.result` is the last training's `Result`, `.close()` ends everything."""
+
+    background: Background | None = None
+    replay = None
+
+    def __init__(self, method: str, seeds: int, episodes: int, scenario: Scenario, drives, changes: dict):
+        self.scenario, self.drives = scenario, drives
+        self.others = {name: value for name, value in changes.items() if name not in CONTROLLED}
+        self.result: Result | None = None
+        self.drawn: list[Drawn] = []  # trainings that are over
+        self.method = widgets.Dropdown(options=[(name(method), method) for method in ALL], value=method)
+        self.method.layout.width = "300px"
+        label = widgets.HTML("<b>method</b>", layout={"width": "92px"})
+        about = widgets.HTML('<div class="bc-quiet">Who learns, and from what.</div>')
+        chooser = widgets.VBox([widgets.HBox([label, self.method]), about], layout={"width": "420px"})
+        self.numbers = controls(changes)
+        self.seeds = Number("seeds", seeds, 1, 10, 1, "Agents that learn side by side, each with its own luck.",
+                            check=whole_number("seeds", 1, SEEDS))  # fmt: skip
+        self.episodes = Number("episodes", episodes, 50, 3000, 50, "That each agent drives, 150 s each.",
+                               check=whole_number("episodes", 1, EPISODES))  # fmt: skip
+        grid = widgets.GridBox(
+            [chooser, *self.numbers.values(), self.seeds, self.episodes],
+            layout={"grid_template_columns": "repeat(auto-fit, minmax(420px, 1fr))", "grid_gap": "2px 24px"},
+        )
+        self.train = _button("Train", "play", "Train for real, in the background", "primary")
+        self.stop = _button("Stop", "stop", "Stop, and keep what was learned")
+        self.watch = _button("Watch", "eye", "Replay in 3D how it drives a road that it has never seen")
+        self.save = _button("Save", "save", "Write a run's folder for each agent")
+        self.path = widgets.Text("", placeholder="folder", tooltip="Where Save writes", layout={"width": "320px"})
+        buttons = widgets.HBox([self.train, self.stop, self.watch, self.save, self.path])
+        self.progress, self.chart, self.stage = widgets.HTML(), widgets.HTML(), widgets.HTML()
+        super().__init__("Train while you watch", grid, buttons, self.progress, self.chart, self.stage)
+        for button, press in (
+            (self.train, self._train), (self.stop, self._stop), (self.watch, self._watch), (self.save, self._save),
+        ):  # fmt: skip
+            button.on_click(lambda _, press=press: self._press(press))
+        self.method.observe(lambda change: self._choose(), "value")
+        self._choose()
+        self._show_progress("Ready.", 0.0)
+        self._buttons()
+        self._draw()
+
+    @property
+    def training(self) -> bool:
+        return self.background is not None and self.background.running
+
+    def settings(self) -> Settings:
+        """What the controls say. Raises BootcourseError."""
+        method = self.method.value
+        chosen = {each: number.value for each, number in self.numbers.items() if each not in without(method)}
+        return settings_for(method, **(self.others | chosen))
+
+    def close(self) -> None:
+        if not self.closed:
+            if self.background is not None:
+                self.background.stop()
+                self.background.wait(5.0)
+            self._close_replay()
+        super().close()
+
+    def picture(self) -> tuple[bytes, str, str]:
+        drawn = self._all_drawn()
+        return printed(growth(drawn)), "image/svg+xml", alt_text(drawn)
+
+    def _press(self, press) -> None:
+        self.say()
+        with self.saying_what_is_wrong():
+            press()
+
+    def _choose(self) -> None:
+        reasons = without(self.method.value)
+        for setting, control in self.numbers.items():
+            control.lock(reasons.get(setting, ""))
+
+    def _train(self) -> None:
+        settings = self.settings()
+        agents = with_seeds(settings, int(self.seeds.value))
+        episodes = int(self.episodes.value)
+        mine = list(self.drives or ()) if settings.needs_demonstrations else []
+
+        def make() -> Training:
+            training = Training(agents, episodes, self.scenario)
+            return bootstrap_with(training, mine) if mine else training
+
+        count = 1 + sum(1 for _ in self.drawn)
+        self._label = f"{count} {label_of(settings)}" + (f", {len(mine)} own drives" if mine else "")
+        background = Background(make, self._look, self._ended)
+        background.start()
+        self.background = background
+        self._show_progress("Preparing: roads, networks, demonstrations …", 0.0)
+        self._buttons()
+
+    def _stop(self) -> None:
+        if not self.training:
+            raise BootcourseError("No training runs in this panel.")
+        self.background.stop()
+        self._show_progress("Stopping …", 0.0)
+
+    def _look(self, training: Training) -> None:
+        """In the training's thread, a few times a second."""
+        driven, total = _driven(training)
+        left = training.seconds * (total - driven) / driven if driven else 0.0
+        speed = training.decisions / max(training.seconds, 1e-9)
+        words = f"{driven:,} of {total:,} episodes · {speed:,.0f} decisions/s"
+        self._show_progress(words + (f" · {_duration(left)} left" if driven else ""), driven / total)
+        self._draw(training)
+
+    def _ended(self, background: Background) -> None:
+        """In the training's thread, when it is over."""
+        if background.result is not None:
+            self.result, settings = background.result, background.result.agents[0].settings
+            drawn = Drawn(self._label, settings.method, self.result.curves, background.training.episodes)
+            self.drawn = [*self.drawn, drawn]
+            self.path.value = f"runs/{settings.method}-{time.strftime('%Y%m%d-%H%M%S')}"
+            driven, total = _driven(background.training)
+            how = "Stopped" if self.result.interrupted else "Done"
+            self._show_progress(
+                f"{how} after {driven:,} of {total:,} episodes, {_duration(self.result.seconds)}.", driven / total
+            )
+        else:
+            self._show_progress("Nothing was trained.", 0.0)
+        self._buttons()
+        self._draw()
+        told = [background.error] if background.error else []
+        stopped = self.result.stopped if background.result is not None else {}
+        for i, decision in sorted(stopped.items()):
+            agent = self.result.agents[i].settings
+            told.append(
+                f"{name(agent.method)}, seed {agent.seed}, diverged: its loss was not a number at decision {decision}. "
+                "What it was before that is kept."
+            )
+        if told:
+            self.say(" ".join(told), wrong=True)
+
+    def _watch(self) -> None:
+        if self.background is None:
+            raise BootcourseError("Nothing was trained yet: press Train first.")
+        result = self.background.peek()
+        agent = result.agents[max(range(len(result.agents)), key=lambda i: _last_return(result, i))]
+        road = held_out_seeds(HELD_OUT, 1)[0]
+        label = f"{agent.settings.method}, seed {agent.settings.seed}"
+        rollout = record(agent.driver(with_q=True), [road], self.scenario, label)[0]
+        self._close_replay()
+        self.replay = _replay(rollout)
+        self.stage.value = self.replay._repr_mimebundle_()["text/html"]
+        self.say(f"The best of {len(result.agents)} so far, {name(label)}, on road {road}, which no agent has seen.")
+
+    def _save(self) -> None:
+        if self.training or self.result is None:
+            raise BootcourseError("There is nothing to save: train first, or stop what runs.")
+        if not self.path.value.strip():
+            raise BootcourseError("Name a folder to save to, such as runs/mine.")
+        folders = save_runs(self.result, Path(self.path.value.strip()).expanduser())
+        self.say(f"Saved {len(folders)} run{'s' * (len(folders) > 1)} to {folders[0].parent.resolve()}.")
+
+    def _close_replay(self) -> None:
+        if self.replay is not None:
+            self.replay.close()
+            self.replay, self.stage.value = None, ""
+
+    def _buttons(self) -> None:
+        runs = self.training
+        self.train.disabled, self.stop.disabled = runs, not runs
+        self.watch.disabled = self.background is None
+        self.save.disabled = self.path.disabled = runs or self.result is None
+
+    def _show_progress(self, words: str, share: float) -> None:
+        bar = f'<progress max="1" value="{share:.4f}" style="width:300px;vertical-align:middle"></progress>'
+        self.progress.value = f'<div class="bc-quiet" role="status">{bar}&ensp;{escape(words)}</div>'
+
+    def _all_drawn(self, training: Training | None = None) -> list[Drawn]:
+        if training is None:
+            return self.drawn[-EARLIER - 1 :]
+        method = training.settings[0].method
+        curves = {curve: values.copy() for curve, values in training.curves.values.items()}
+        return [*self.drawn[-EARLIER:], Drawn(self._label, method, curves, training.episodes)]
+
+    def _draw(self, training: Training | None = None) -> None:
+        self.chart.value = growth(self._all_drawn(training))
+
+
+def _replay(rollout: Rollout):
+    """A replay that belongs to this panel and not to its cell, so that the panel closes it."""
+    from bootcourse.replay3d import scene
+    from bootcourse.replay3d.stage import Options
+    from bootcourse.replay3d.viewer import Replay
+
+    timelines, options = scene.timelines_of([rollout]), Options()
+    options.check(len(timelines))
+    return Replay(timelines, options, height=560)
+
+
+def _driven(training: Training) -> tuple[int, int]:
+    """Episodes that were driven, and that are to be driven, all agents together."""
+    driven = int(training.curves.finished.clip(max=training.episodes).sum())
+    return driven, training.n_agents * training.episodes
+
+
+def _last_return(result: Result, i: int) -> float:
+    """Agent i's mean over its last 50 episodes; minus infinity before its first."""
+    returns = result.curves["return"][i]
+    returns = returns[np.isfinite(returns)][-50:]
+    return float(returns.mean()) if returns.size else float("-inf")
+
+
+def _duration(seconds: float) -> str:
+    minutes, seconds = divmod(round(seconds), 60)
+    return f"{minutes} min {seconds:02} s" if minutes else f"{seconds} s"
+
+
+def _button(label: str, icon: str, help: str, kind: str = "") -> widgets.Button:
+    return widgets.Button(description=label, icon=icon, tooltip=help, button_style=kind, layout={"width": "104px"})
+
+
+def train_panel(
+    method: str = "bootstrapped",
+    seeds: int = 4,
+    episodes: int = 1000,
+    scenario: Scenario = DEFAULT,
+    drives: Sequence[Rollout] | None = None,
+    **changes,
+) -> TrainPanel:
+    """Choose, train for real, watch the curves grow, stop, compare, save.
+
+    drives: demonstrations to learn from instead of the rule's own, if there is at least one when Train is
+    pressed. changes: of any setting (see `bootcourse.learn.settings.Settings`); those that have a control
+    are its first value. Raises BootcourseError for a setting that cannot be.
+    """
+    settings_for(method, **changes)
+    return TrainPanel(method, seeds, episodes, scenario, drives, changes)

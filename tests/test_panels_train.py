@@ -1,0 +1,336 @@
+"""The training panel: train, look, stop, compare, watch, save, and what goes wrong on the way."""
+
+import os
+import signal
+import socket
+import threading
+import time
+from html import unescape
+
+import numpy as np
+import pytest
+
+from bootcourse import one_per_cell
+from bootcourse.drivers import rule_driver
+from bootcourse.errors import BootcourseError
+from bootcourse.learn.settings import ALL, settings_for, with_seeds
+from bootcourse.learn.train import Training
+from bootcourse.panels import background as background_module
+from bootcourse.panels.background import Background
+from bootcourse.panels.growth import Drawn, growth, label_of
+from bootcourse.panels.train import CONTROLLED, train_panel, without
+from bootcourse.record.drive import record
+from bootcourse.record.runs import find_runs, load_run
+from bootcourse.scenario import DEFAULT
+from tests.panels import from_page, inside, raise_in_callbacks, words  # noqa: F401
+
+pytestmark = pytest.mark.usefixtures("raise_in_callbacks")
+SMALL = {"hidden": (16, 16), "demonstrations": 2, "warm_up": 8}
+
+
+def small(method="soft", seeds=2, episodes=3, **more):
+    return train_panel(method, seeds, episodes, **(SMALL | more))
+
+
+def endless(**more):
+    return small(episodes=20_000, **more)
+
+
+def trained(panel):
+    panel.train.click()
+    assert panel.background.wait(60) and not panel.training
+    return panel
+
+
+def wait_for(holds, seconds=20.0):
+    until = time.monotonic() + seconds
+    while not holds():
+        assert time.monotonic() < until, "it never came"
+        time.sleep(0.02)
+
+
+def threads():
+    return [thread for thread in threading.enumerate() if thread.name.startswith("bootcourse")]
+
+
+def curves(agents=2, episodes=20):
+    rng = np.random.default_rng(0)
+    names = ("success", "return", "speed", "distance", "alpha", "xi", "beta", "entropy")
+    return {name: rng.random((agents, episodes)) for name in names}
+
+
+# ---- the drawing
+
+
+def test_the_drawing_keeps_its_size_whatever_was_trained():
+    halves = {name: np.where(np.arange(20) < 9, values, np.nan) for name, values in curves().items()}
+    none = {name: np.full_like(values, np.nan) for name, values in curves().items()}
+    sets = ([], [Drawn("1 a", "sac", none, 20)], [Drawn("1 a", "sac", curves(), 20), Drawn("2 b", "demos", halves, 20)])
+    drawings = [growth(drawn) for drawn in sets]
+    assert len({svg[: svg.index("role")] for svg in drawings}) == 1
+    assert all("nan" not in svg for svg in drawings) and "press Train" in drawings[0]
+
+
+def test_every_training_that_was_drawn_is_named_and_the_last_stands_out():
+    svg = growth([Drawn("1 plain SAC", "sac", curves(), 20), Drawn("2 bootstrapped SAC", "bootstrapped", curves(), 20)])
+    assert "1 plain SAC" in svg and "2 bootstrapped SAC" in svg
+    assert svg.count("<circle") == 8 and svg.count('stroke="#D55E00"') > svg.count('stroke="#0072B2"')
+
+
+def test_a_label_says_what_differs_from_the_method_s_own_settings():
+    assert label_of(settings_for("sac")) == "plain SAC"
+    assert label_of(settings_for("bootstrapped", p=0.5, bonus=0.0)) == "bootstrapped SAC, p = 0.5, c = 0"
+
+
+# ---- the background
+
+
+def test_a_second_training_is_refused_while_one_runs():
+    first, second = endless(), small()
+    first.train.click()
+    second.train.click()
+    assert "A training is running already" in words(second) and second.background is None
+    first.stop.click()
+    assert first.background.wait(10)
+    assert trained(second).result is not None
+
+
+def test_what_is_learned_while_it_runs_can_be_had():
+    background = Background(lambda: Training(with_seeds(settings_for("sac", **SMALL), 2), 20_000))
+    background.start()
+    wait_for(lambda: background.training is not None)
+    assert len(background.peek().agents) == 2 and background.running
+    background.stop()
+    assert background.wait(10) and background.result.interrupted
+
+
+def test_nothing_learned_yet_is_said_so():
+    with pytest.raises(BootcourseError, match="Nothing was learned yet"):
+        Background(lambda: None).peek()
+
+
+def test_looking_takes_a_small_share_of_the_time():
+    looked = []
+
+    def look(training):
+        looked.append(time.monotonic())
+        time.sleep(0.06)
+
+    background = Background(lambda: Training([settings_for("sac", **SMALL)], 20_000), look)
+    background.start()
+    wait_for(lambda: len(looked) > 3)
+    background.stop()
+    assert background.wait(10) and np.diff(looked).min() > 0.06 / background_module.SHARE * 0.9
+
+
+# ---- the panel
+
+
+def test_train_trains_and_leaves_its_result():
+    panel = trained(small())
+    assert np.isfinite(panel.result.curves["return"]).all() and len(panel.result.agents) == 2
+    assert "Done after 6 of 6 episodes" in words(panel) and panel.train.disabled is False and not threads()
+
+
+@pytest.mark.parametrize("method", ALL)
+def test_every_method_trains(method):
+    panel = small(seeds=1, episodes=2, **({"batch": 8} if method == "gail" else {}))
+    from_page(panel.method, index=list(ALL).index(method))
+    assert trained(panel).result.agents[0].settings.method == method and not panel.background.error
+
+
+def test_the_page_shows_the_curves_while_it_trains():
+    panel = endless()
+    panel.train.click()
+    wait_for(lambda: "decisions/s" in words(panel) and "<circle" in panel.chart.value)
+    shown = panel.chart.value
+    wait_for(lambda: panel.chart.value != shown)
+    panel.stop.click()
+    assert panel.background.wait(10)
+
+
+def test_stop_stops_within_a_second_and_keeps_what_was_learned():
+    panel = endless(seeds=4)
+    panel.train.click()
+    wait_for(lambda: panel.background.training is not None and panel.background.training.curves.finished.min() > 2)
+    started = time.monotonic()
+    panel.stop.click()
+    assert panel.background.wait(10) and time.monotonic() - started < 1.0
+    assert panel.result.interrupted and np.isfinite(panel.result.curves["return"][:, :3]).all()
+    assert "Stopped after" in words(panel) and not panel.save.disabled
+
+
+def test_a_second_training_is_drawn_over_the_first():
+    panel = trained(small())
+    panel.numbers["p"].value = 0.5
+    trained(panel)
+    assert len(panel.drawn) == 2 and "1 soft constraint only" in panel.chart.value
+    assert "2 soft constraint only, p = 0.5" in panel.chart.value
+
+
+def test_close_while_it_trains_ends_the_thread():
+    panel = endless()
+    panel.train.click()
+    wait_for(lambda: panel.background.training is not None)
+    panel.close()
+    panel.close()
+    assert not threads() and panel not in one_per_cell.running()
+
+
+def test_close_while_it_prepares_ends_the_thread():
+    panel = endless()
+    panel.train.click()
+    panel.close()
+    assert not threads()
+
+
+def test_running_the_cell_again_replaces_the_panel_and_ends_its_training(monkeypatch):
+    monkeypatch.setattr(one_per_cell, "this_cell", lambda: "cell 1")
+    first = endless()
+    first.train.click()
+    second = small()
+    assert first.closed and not second.closed and not threads()
+
+
+def test_an_interrupt_of_the_kernel_leaves_the_training_alone():
+    panel = endless()
+    panel.train.click()
+    wait_for(lambda: panel.background.training is not None)
+    with pytest.raises(KeyboardInterrupt):
+        os.kill(os.getpid(), signal.SIGINT)
+        time.sleep(5)
+    assert panel.training
+    panel.stop.click()
+    assert panel.background.wait(10) and panel.result is not None
+
+
+def test_the_best_agent_is_watched_on_a_road_that_none_has_seen_and_close_frees_the_port():
+    panel = trained(small())
+    panel.watch.click()
+    port = panel.replay.port
+    assert f":{port}" in panel.stage.value and "which no agent has seen" in words(panel)
+    panel.watch.click()
+    panel.close()
+    for each in {port}:
+        with socket.socket() as probe:
+            assert probe.connect_ex(("127.0.0.1", each)) != 0
+    assert not threads()
+
+
+def test_it_can_be_watched_while_it_trains():
+    panel = endless()
+    panel.train.click()
+    wait_for(lambda: panel.background.training is not None)
+    panel.watch.click()
+    assert panel.training and "<iframe" in panel.stage.value
+
+
+def test_save_writes_runs_and_never_writes_over_them(tmp_path):
+    panel = trained(small())
+    panel.path.value = str(tmp_path / "mine")
+    panel.save.click()
+    assert len(find_runs(tmp_path / "mine")) == 2 and "Saved 2 runs" in words(panel)
+    assert load_run(tmp_path / "mine" / "soft-0").agent.settings == panel.result.agents[0].settings
+    panel.save.click()
+    assert "exists already" in words(panel)
+    panel.path.value = "  "
+    panel.save.click()
+    assert "Name a folder" in words(panel)
+
+
+def test_what_has_no_sense_yet_is_said_in_a_sentence():
+    panel = small()
+    for button, sentence in (
+        (panel.stop, "No training"),
+        (panel.watch, "press Train"),
+        (panel.save, "nothing to save"),
+    ):
+        assert button.disabled
+        button.click()
+        assert sentence in words(panel)
+
+
+def test_a_training_that_diverges_names_the_agent():
+    panel = small(seeds=1, episodes=20, actor_lr=1e30, critic_lr=1e30)
+    with pytest.warns(UserWarning, match="not a number"):
+        trained(panel)
+    assert panel.result.stopped and "soft constraint only, seed 0, diverged" in words(panel)
+    assert "What it was before that is kept" in words(panel) and not panel.save.disabled
+
+
+def test_what_breaks_in_the_thread_is_a_sentence_and_keeps_what_was_learned(monkeypatch):
+    panel = small(episodes=500)
+    step = Training.step
+
+    def breaks(training):
+        step(training)
+        if training.decisions > 200:
+            raise RuntimeError("the road is closed")
+
+    monkeypatch.setattr(Training, "step", breaks)
+    trained(panel)
+    assert "The training broke off: RuntimeError: the road is closed" in words(panel)
+    assert "breaks" in panel.background.traceback and panel.result.interrupted and not panel.train.disabled
+
+
+def test_a_training_that_cannot_begin_is_a_sentence():
+    panel = train_panel("bootstrapped", 2, 2, drives=record(rule_driver(DEFAULT), [1]), **SMALL)
+    panel.drives = [*panel.drives, "not a drive"]
+    trained(panel)
+    assert "broke off" in words(panel) and panel.result is None and not panel.train.disabled
+
+
+def test_own_drives_take_the_place_of_the_rule_s():
+    mine = record(rule_driver(DEFAULT), [1])
+    panel = trained(train_panel("bootstrapped", 1, 2, drives=mine, **SMALL))
+    assert panel.background.training.replay.demonstrations == len(mine[0].actions)
+    assert "1 own drives" in panel.drawn[0].label
+
+
+def test_every_number_takes_both_ends_and_refuses_nonsense_in_a_sentence():
+    panel = small()
+    ends = {"p": (0.12, 0.999), "xi_multiplier": (0, 2000), "bonus": (0, 10), "beta_start": (0, 1), "gamma": (0, 1)}
+    from_page(panel.method, index=list(ALL).index("bootstrapped"))
+    for setting, (low, high) in ends.items():
+        control = panel.numbers[setting]
+        for value in (low, high):
+            from_page(control.slider, value=value)
+            assert getattr(panel.settings(), setting) == value
+        for wrong in (float("nan"), float("inf"), -5.0 if setting != "bonus" else -float("inf")):
+            from_page(control.field, value=wrong)
+            assert control.value == high and ("give a" in words(control) or "outside" in words(control))
+    for control in (panel.seeds, panel.episodes):
+        for value in (control.slider.max, control.slider.min, control.slider.max):
+            from_page(control.slider, value=value)
+            assert control.value == value
+        for wrong in (0, 2.5, 1e9, float("nan")):
+            from_page(control.field, value=wrong)
+            assert control.value == control.slider.max and "number" in words(control)
+
+
+@pytest.mark.parametrize("method", ALL)
+def test_what_a_method_lacks_cannot_be_set_and_says_why(method):
+    panel = small(xi_multiplier=100.0)
+    from_page(panel.method, index=list(ALL).index(method))
+    assert set(without(method)) <= set(CONTROLLED)
+    for setting, control in panel.numbers.items():
+        assert control.slider.disabled == control.field.disabled == (setting in without(method))
+        assert without(method).get(setting, control.sentence) in unescape(words(control))
+    assert panel.settings().method == method
+
+
+def test_every_button_and_field_says_what_it_does():
+    panel = small()
+    assert all(button.tooltip for button in inside(panel, type(panel.train)))
+
+
+@pytest.mark.parametrize("wrong", [{"method": "magic"}, {"p": 1.0}, {"gama": 0.5}, {"seeds": 0}, {"episodes": 1.5}])
+def test_a_panel_that_cannot_be_is_refused(wrong):
+    with pytest.raises(BootcourseError):
+        train_panel(**wrong)
+
+
+def test_a_reader_without_a_kernel_sees_the_curves():
+    panel = trained(small())
+    bundle = panel._repr_mimebundle_()
+    assert "data:image/svg+xml" in bundle["text/html"] and "1 soft constraint only, after 3" in bundle["text/plain"]
