@@ -1,0 +1,234 @@
+"""Drive the ego yourself: nine buttons or the arrow keys, step by step or in real time, against a ghost.
+
+    mine = drive_panel(seed=3)
+    mine.rollout          # what you drove, as `record` would have recorded it
+    mine.demonstrations   # what you saved as demonstrations: train_panel(drives=mine.demonstrations)
+
+The drive is `record/by_hand.py`, the drawing `cockpit.py`, the keys `pad.py`.
+"""
+
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import ipywidgets as widgets
+
+from bootcourse.drivers import Driver, rule_driver
+from bootcourse.errors import BootcourseError
+from bootcourse.panels.cockpit import alt_text, cockpit
+from bootcourse.panels.number import Number
+from bootcourse.panels.pad import Pad
+from bootcourse.panels.panel import Panel
+from bootcourse.panels.svg import printed
+from bootcourse.panels.ticker import Ticker
+from bootcourse.record.by_hand import ByHand
+from bootcourse.record.drive import record
+from bootcourse.record.rollout import Rollout
+from bootcourse.scenario import ACTION_NAMES, DEFAULT, IDLE, Scenario
+
+FRAMES = 10.0  # Hz, in real time
+STEPS, REAL = "step by step", "real time"
+PACE = (0.1, 10.0)  # s that a decision may take
+ROADS = 2**32  # held-out roads lie below
+
+
+def check_pace(value: float) -> None:
+    if not PACE[0] <= value <= PACE[1]:
+        raise BootcourseError(f"pace = {value:g} s: give {PACE[0]:g} to {PACE[1]:g} seconds for a decision.")
+
+
+def check_road(value: float) -> None:
+    if not 0 <= value < ROADS or value != int(value):
+        raise BootcourseError(f"road = {value:g}: give a whole number from 0 to {ROADS - 1}.")
+
+
+class DrivePanel(Panel):
+    """`.rollout` is the present drive (None before its first decision), `.drives` those before it."""
+
+    ticker: Ticker | None = None
+
+    def __init__(self, seed: int, scenario: Scenario, ghost_of: Callable[[int], Rollout], fixed: str):
+        self.scenario, self.ghost_of = scenario, ghost_of
+        self.drives: list[Rollout] = []
+        self.demonstrations: list[Rollout] = []
+        self._lock = threading.RLock()  # the clock's thread drives too
+        self._saved: ByHand | None = None  # the drive that is a demonstration already, and its length then
+        self.drive, self.ghost = ByHand(seed, scenario), ghost_of(seed)
+        self.shown, self.coming = 0.0, None
+        self.ticker = Ticker(self._tick, FRAMES)
+        self.pad, self.view = Pad(self.press), widgets.HTML()
+        self.mode = widgets.ToggleButtons(
+            options=[STEPS, REAL], tooltips=["A decision for each press", "A decision for each tick of the clock"]
+        )
+        self.mode.style.button_width = "118px"
+        self.go = _button("Start", "play", "Start or pause the clock (real time)", "primary")
+        self.again = _button("Drive again", "refresh", "The same road, from its start")
+        self.pace = Number("pace", 1.0, 0.2, 3.0, 0.1, "How long a decision takes in real time.", "s", check_pace)
+        self.road = Number("road", seed, 0, 99, 1, "The seed of the road. Another one begins a new drive.",
+                           check=check_road)  # fmt: skip
+        self.road.lock(fixed)
+        self.keep = _button("Demonstrate", "graduation-cap", "Save this drive as a demonstration for an agent")
+        self.save = _button("Save", "save", "Write this drive to the file, to draw or to replay it")
+        self.path = widgets.Text(_path(seed), tooltip="Where Save writes", layout={"width": "230px"})
+        mode = widgets.HBox([self.mode, self.go, self.again])
+        store = widgets.HBox([self.keep, self.save, self.path])
+        row = {"flex_flow": "row wrap", "grid_gap": "6px 28px"}
+        controls = widgets.VBox([mode, widgets.HBox([self.pace, self.road], layout={"flex_flow": "row wrap"}), store])
+        super().__init__("Drive it yourself", self.view, widgets.HBox([self.pad, controls], layout=row))
+        for button, does in (
+            (self.go, self._go), (self.again, self._again), (self.keep, self._keep), (self.save, self._save),
+        ):  # fmt: skip
+            button.on_click(lambda _, does=does: self._set_off(does))
+        self.mode.observe(lambda change: self._set_off(self._new_mode), "value")
+        self.road.observe(lambda change: self._set_off(self._again), "value")
+        self._new_mode()
+        self._draw()
+
+    @property
+    def rollout(self) -> Rollout | None:
+        with self._lock:
+            return self.drive.rollout() if self.drive.actions else None
+
+    def press(self, action: int) -> None:
+        """A button or a key: decide now, or choose what the next tick of the clock decides."""
+        with self._lock:
+            self.say()
+            if self.drive.over:
+                self.say("This drive is over: press Drive again, or choose another road.")
+            elif self.mode.value == STEPS:
+                self.drive.decide(action)
+                self.shown = self.drive.time
+                self._draw()
+            else:
+                self.coming = action
+                self.pad.mark(action)
+                self._draw()
+        if self.mode.value == REAL and not self.drive.over and not self.ticker.running:
+            self._go()
+
+    def close(self) -> None:
+        if not self.closed and self.ticker is not None:
+            self.ticker.stop()
+        super().close()
+
+    def picture(self) -> tuple[bytes, str, str]:
+        with self._lock:
+            svg = cockpit(self.drive, self.ghost, self.shown)
+            return printed(svg), "image/svg+xml", alt_text(self.drive, self.ghost, self.shown)
+
+    def _set_off(self, does: Callable[[], None]) -> None:
+        self.say()
+        with self.saying_what_is_wrong():
+            does()
+
+    def _tick(self, passed: float) -> bool:
+        """In the clock's thread, FRAMES times a second: drive on, and draw. Returns whether to go on."""
+        try:
+            with self._lock:
+                decision = 1 / self.scenario.clock.decision_rate
+                if self.shown >= self.drive.time and not self.drive.over:
+                    self.drive.decide(IDLE if self.coming is None else self.coming)
+                    self.coming = None
+                    self.pad.mark(None)
+                self.shown = min(self.shown + passed * decision / self.pace.value, self.drive.time)
+                self._draw()
+                ended = self.drive.over and self.shown >= self.drive.time
+                if ended:
+                    self._clock_stands()
+                return not ended
+        except Exception as error:  # nobody would see what a thread raises
+            self.say(f"The drive broke off: {type(error).__name__}: {error}", wrong=True)
+            self._clock_stands()
+            return False
+
+    def _go(self) -> None:
+        if self.mode.value != REAL:
+            raise BootcourseError("Step by step the clock stands: choose real time.")
+        if self.ticker.running:
+            self.ticker.stop()
+            self._clock_stands()
+        elif self.drive.over:
+            raise BootcourseError("This drive is over: press Drive again, or choose another road.")
+        else:
+            self.ticker.start()
+            self.go.description, self.go.icon = "Pause", "pause"
+
+    def _clock_stands(self) -> None:
+        self.go.description, self.go.icon = "Start", "play"
+
+    def _new_mode(self) -> None:
+        self.ticker.stop()
+        self._clock_stands()
+        with self._lock:
+            self.shown, self.coming = self.drive.time, None
+            self.pad.mark(None)
+            self.go.disabled = self.mode.value == STEPS
+            self.pace.lock("Step by step, a decision waits for you." if self.mode.value == STEPS else "")
+            self._draw()
+
+    def _again(self) -> None:
+        self.ticker.stop()
+        self._clock_stands()
+        seed = int(self.road.value)
+        with self._lock:
+            ghost = self.ghost if seed == self.drive.seed else self.ghost_of(seed)
+            if self.drive.actions:
+                self.drives.append(self.drive.rollout())
+            self.drive, self.ghost = ByHand(seed, self.scenario), ghost
+            self.shown, self.coming = 0.0, None
+            self.pad.mark(None)
+            self.path.value = _path(seed)
+            self._draw()
+
+    def _keep(self) -> None:
+        with self._lock:
+            rollout = self.drive.rollout()
+            if self._saved is self.drive:
+                self.demonstrations[-1] = rollout
+            else:
+                self.demonstrations.append(rollout)
+            self._saved = self.drive
+        count = sum(len(each.actions) for each in self.demonstrations)
+        drives = f"{len(self.demonstrations)} demonstration{'s' * (len(self.demonstrations) > 1)}"
+        self.say(f"{drives}, {count} decisions: train_panel(drives=PANEL.demonstrations) learns from them.")
+
+    def _save(self) -> None:
+        with self._lock:
+            rollout = self.drive.rollout()
+        if not self.path.value.strip():
+            raise BootcourseError("Name a file to save to, such as drives/mine.npz.")
+        path = Path(self.path.value.strip()).expanduser()
+        path = path if path.suffix == ".npz" else path.with_name(path.name + ".npz")
+        if path.exists():
+            raise BootcourseError(f"{path} exists already: choose another name.")
+        self.say(f"Saved to {rollout.save(path).resolve()}.")
+
+    def _draw(self) -> None:
+        coming = "" if self.coming is None else ACTION_NAMES[self.coming]
+        self.view.value = cockpit(self.drive, self.ghost, self.shown, coming)
+
+
+def _button(label: str, icon: str, help: str, kind: str = "") -> widgets.Button:
+    return widgets.Button(description=label, icon=icon, tooltip=help, button_style=kind, layout={"width": "124px"})
+
+
+def _path(seed: int) -> str:
+    return f"drives/road-{seed}-{time.strftime('%Y%m%d-%H%M%S')}.npz"
+
+
+def drive_panel(seed: int = 0, ghost: Rollout | Driver | None = None, scenario: Scenario = DEFAULT) -> DrivePanel:
+    """Drive the road of a seed yourself.
+
+    ghost: whom you drive against. None: the rule. A driver (such as `agent.driver()`) drives every road that you
+    choose; a rollout is one drive, of this seed and scenario. Raises BootcourseError if it is of another.
+    """
+    if isinstance(ghost, Rollout):
+        if ghost.seed != seed or ghost.scenario != scenario:
+            raise BootcourseError(
+                f"This ghost drove road {ghost.seed} of the scenario '{ghost.scenario.name}', and you drive road "
+                f"{seed} of '{scenario.name}': give a drive of the same road."
+            )
+        return DrivePanel(seed, scenario, lambda seed: ghost, fixed="The road of the ghost that you gave.")
+    driver, label = (rule_driver(scenario), "rule") if ghost is None else (ghost, "agent")
+    return DrivePanel(seed, scenario, lambda seed: record(driver, [seed], scenario, label)[0], fixed="")

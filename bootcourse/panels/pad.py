@@ -1,0 +1,91 @@
+"""Nine buttons and the arrow keys: one press, one action.
+
+ipywidgets knows no key events. A script beside the buttons listens for the arrow keys and clicks the button that
+they mean, so keys and clicks take the same way. It hangs in the `onerror` of an empty image: the page runs that
+wherever the panel is shown, again in every new view of it, while a `<script>` in a widget never runs, and an
+output with JavaScript would stay in the saved notebook apart from its panel. Where a page forbids it, the buttons
+still work with Tab and Enter.
+"""
+
+from collections.abc import Callable
+from html import escape
+
+import ipywidgets as widgets
+
+from bootcourse.colours import OTHER
+from bootcourse.scenario import ACTION_NAMES
+
+SIGNS = ("↙", "↓", "↘", "←", "•", "→", "↖", "↑", "↗")  # in the order of ACTION_NAMES
+ROWS = ((6, 7, 8), (3, 4, 5), (0, 1, 2))  # on the page: accelerate on top, as the arrow up
+TOGETHER, REPEAT = 60, 400  # ms: two keys this close are one action; a key that is held acts again
+
+# `data-lm-suppress-shortcuts` keeps JupyterLab from taking the arrows to walk from cell to cell.
+SCRIPT = """
+const image = this; let tries = 0;
+const waiting = setInterval(() => {
+  const pad = image.closest('.bc-drive');
+  if (!pad) { if (++tries > 200) clearInterval(waiting); return; }
+  clearInterval(waiting); image.remove();
+  if (pad.dataset.bcKeys) return;
+  pad.dataset.bcKeys = '1'; pad.setAttribute('data-lm-suppress-shortcuts', 'true');
+  const held = new Set(), names = {ArrowUp: 1, ArrowDown: 1, ArrowLeft: 1, ArrowRight: 1};
+  let wanted = 4, soon = null, again = null;
+  const meant = () => 3 * (1 + held.has('ArrowUp') - held.has('ArrowDown'))
+    + 1 + held.has('ArrowRight') - held.has('ArrowLeft');
+  const press = () => { soon = null; const b = pad.querySelector('.bc-pad-' + wanted); if (b) b.click(); };
+  const calm = () => { held.clear(); clearInterval(again); again = null; };
+  pad.addEventListener('keydown', event => {
+    const space = event.key === ' ' && event.target.classList.contains('bc-keys');
+    if (event.ctrlKey || event.altKey || event.metaKey || !(event.key in names || space)) return;
+    event.preventDefault(); event.stopPropagation();
+    if (event.repeat) return;
+    if (!space) held.add(event.key);
+    wanted = space ? 4 : meant();
+    if (soon === null) soon = setTimeout(press, @TOGETHER@);
+    clearInterval(again);
+    again = space ? null : setInterval(() => { wanted = meant(); press(); }, @REPEAT@);
+  });
+  pad.addEventListener('keyup', event => { held.delete(event.key); if (!held.size) calm(); });
+  pad.addEventListener('focusout', calm);
+}, 50);
+""".replace("@TOGETHER@", str(TOGETHER)).replace("@REPEAT@", str(REPEAT))
+
+STYLE = f"""<style>
+.bc-keys {{border: 1px dashed var(--jp-border-color1, #B6BEC7); border-radius: 4px; padding: 5px 8px; cursor: pointer;
+  font: 12px/1.35 system-ui, sans-serif; color: var(--jp-ui-font-color2, #5F6B77)}}
+.bc-panel .bc-keys:focus {{outline: 2px solid var(--jp-brand-color1, #1976D2); outline-offset: 1px; border-style: solid;
+  color: var(--jp-ui-font-color1, #1F2933)}}
+.bc-drive .bc-next {{box-shadow: inset 0 0 0 2px {OTHER.colour}}}
+.bc-drive button.jupyter-button {{font-size: 17px; line-height: 1; padding: 0}}
+</style>"""
+
+
+class Pad(widgets.VBox):
+    """Calls `press(action)` for each of the nine buttons and for the arrow keys that mean it."""
+
+    def __init__(self, press: Callable[[int], None]):
+        self.buttons = []
+        for action, sign in enumerate(SIGNS):
+            button = widgets.Button(description=sign, tooltip=ACTION_NAMES[action])
+            button.layout.width, button.layout.height = "66px", "36px"
+            button.add_class(f"bc-pad-{action}")
+            button.on_click(lambda _, action=action: press(action))
+            self.buttons.append(button)
+        rows = [widgets.HBox([self.buttons[action] for action in row]) for row in ROWS]
+        told = "Click here, then drive with the arrow keys. ↑ accelerates, ↓ brakes, two at once work, Space keeps."
+        keys = (
+            f'{STYLE}<div class="bc-keys" tabindex="0" role="application" aria-label="{escape(told)}">{escape(told)}'
+            f'</div><img src="data:," alt="" style="display:none" onerror="{escape(SCRIPT)}">'
+        )
+        super().__init__([*rows, widgets.HTML(keys, layout={"width": "206px"})])
+        self.layout.width = "220px"
+        self.add_class("bc-drive")
+
+    def mark(self, action: int | None) -> None:
+        """Frame the button of the action that comes next; None: no button."""
+        for i, button in enumerate(self.buttons):
+            wanted = ("bc-next" in button._dom_classes, i == action)
+            if wanted == (True, False):
+                button.remove_class("bc-next")
+            elif wanted == (False, True):
+                button.add_class("bc-next")
