@@ -1,1 +1,5 @@
 """Panels for the notebooks: one call each, which returns a widget. Everything that they show is computed elsewhere."""
+
+from bootcourse.panels.drive import drive_panel as drive_panel
+from bootcourse.panels.sweep import sweep_panel as sweep_panel
+from bootcourse.panels.train import train_panel as train_panel
