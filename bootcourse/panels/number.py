@@ -1,5 +1,6 @@
 """A number that can be dragged and typed: a symbol, a unit and a sentence of help; refuses what the library refuses."""
 
+import math
 from collections.abc import Callable
 from html import escape
 
@@ -32,6 +33,7 @@ class Number(widgets.VBox):
     ):
         self.check, self.symbol, self.sentence, self._busy = check, symbol, help, False
         self._why_locked = ""
+        self.refused: float | None = None  # what was entered last, if it was refused
         label = widgets.HTML(f"<b>{escape(symbol)}</b>{f' ({escape(unit)})' if unit else ''}")
         label.layout.width = "92px"
         make = widgets.FloatLogSlider if logarithmic else widgets.FloatSlider
@@ -52,21 +54,34 @@ class Number(widgets.VBox):
             return
         value = round(float(value), 10)
         try:
-            self.check(value)
+            self._refuse(value)
         except BootcourseError as error:
+            self.refused = value
             self._tell(str(error))
         else:
-            self._tell()
             self.value = value
             self._show()
 
+    def retry(self) -> None:
+        """Enter once more what was refused: another number may have made room for it."""
+        if self.refused is not None:
+            self._enter(self.refused)
+
+    def _refuse(self, value: float) -> None:
+        """Raise BootcourseError unless the value is finite and `check` accepts it."""
+        if not math.isfinite(value):
+            raise BootcourseError(f"{self.symbol} = {value}: give a finite number.")
+        self.check(value)
+
     @traitlets.validate("value")
     def _checked(self, proposal):
-        self.check(proposal["value"])
+        self._refuse(proposal["value"])
         return proposal["value"]
 
     def _show(self) -> None:
         """Both controls say what the value is; the slider stops at its ends."""
+        self.refused = None
+        self._tell()
         self._busy = True
         try:
             low, high = self.slider.min, self.slider.max

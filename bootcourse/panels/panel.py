@@ -33,12 +33,13 @@ class Panel(widgets.VBox):
     title: a sentence; parts: widgets from top to bottom. Subclasses say what `picture` shows.
     """
 
+    closed = False  # of the class, since a panel that was refused half-way is closed too
+
     def __init__(self, title: str, *parts: widgets.Widget):
         self.says = widgets.HTML()
         head = widgets.HTML(f"{STYLE}<h3>{escape(title)}</h3>")
         super().__init__([head, *parts, self.says])
         self.add_class("bc-panel")
-        self.closed = False
         place = (one_per_cell.this_cell(), type(self).__name__)
         key = None if place[0] is None else place
         one_per_cell.close_shown_by(key)
@@ -63,11 +64,16 @@ class Panel(widgets.VBox):
         raise NotImplementedError
 
     def close(self) -> None:
-        """End everything that runs, and take the panel away. Closing twice does nothing."""
+        """End everything that runs, and take the panel and its parts away. Closing twice does nothing."""
         if self.closed:
             return
         self.closed = True
         one_per_cell.forget(self)
+        for part in _below(self):
+            part.layout.close()
+            getattr(part, "style", part.layout).close()
+            part.close()
+        self.layout.close()
         super().close()
 
     def _repr_mimebundle_(self, **kwargs) -> dict:
@@ -75,3 +81,13 @@ class Panel(widgets.VBox):
         data = base64.b64encode(image).decode()
         img = f'<img src="data:{kind};base64,{data}" alt="{escape(alt)}" style="max-width:100%">'
         return super()._repr_mimebundle_(**kwargs) | {"text/html": img, "text/plain": alt}
+
+
+def beside(*parts: widgets.Widget) -> widgets.Box:
+    """Parts next to each other, in as many rows as the column's width asks for."""
+    return widgets.Box(parts, layout=widgets.Layout(flex_flow="row wrap", grid_gap="6px 32px", margin="6px 0 4px"))
+
+
+def _below(widget: widgets.Widget) -> list[widgets.Widget]:
+    """Every part of a widget, and theirs."""
+    return [each for part in getattr(widget, "children", ()) for each in (part, *_below(part))]

@@ -15,18 +15,19 @@ BEHIND = 0.36  # share of the picture that lies behind the ego
 
 def road(
     cars: np.ndarray, scenario: Scenario, colour: str, width: float = 1000, scale: float = 7.0,
-    ghosts: Sequence[tuple[np.ndarray, str]] = (),
+    ghosts: Sequence[tuple[np.ndarray, str]] = (), behind: float = BEHIND,
 ) -> tuple[list[str], float]:  # fmt: skip
     """The SVG parts of one moment, and their height.
 
     cars: (vehicles, 10), columns of bootcourse.road.state; colour: of the ego; scale: pixels per metre;
-    ghosts: (state (10,), colour) of egos of other drives, drawn translucent.
+    ghosts: (state (10,), colour) of egos of other drives, drawn translucent; behind: share of the width
+    that lies behind the ego.
     """
     lane_width, lanes = scenario.road.lane_width, scenario.road.lanes
     origin, height = float(cars[EGO, X]), lanes * lane_width * scale
 
     def place(car):
-        return (car[X] - origin) * scale + BEHIND * width, (car[Y] + lane_width / 2) * scale
+        return (car[X] - origin) * scale + behind * width, (car[Y] + lane_width / 2) * scale
 
     parts = [rect(0, 0, width, height, "var(--jp-layout-color2, #F1F3F5)")]
     for lane in range(lanes + 1):
@@ -34,7 +35,7 @@ def road(
         if lane in (0, lanes):
             parts.append(line(0, y, width, y, QUIET, 1.5))
             continue
-        start = (origin % PERIOD) * scale - BEHIND * width
+        start = (origin % PERIOD) * scale - behind * width
         dashes = f'stroke-dasharray="{DASH * scale} {(PERIOD - DASH) * scale}" stroke-dashoffset="{start:.1f}"'
         parts.append(line(0, y, width, y, QUIET, 1, dashes))
     for car, look in ghosts:

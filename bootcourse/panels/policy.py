@@ -1,0 +1,136 @@
+"""One moment of a drive, and what the rule's pull does to each action: bars that move with p, ξ and α.
+
+`weighing.py` computes what is seen, `policy_view.py` draws it; here are the four numbers to move.
+"""
+
+import ipywidgets as widgets
+import numpy as np
+
+from bootcourse.colours import style
+from bootcourse.errors import BootcourseError
+from bootcourse.learn.settings import Settings
+from bootcourse.panels.arguments import a_number, one_drive
+from bootcourse.panels.number import Number
+from bootcourse.panels.panel import Panel, beside
+from bootcourse.panels.policy_view import COLUMNS, GREEN, HEIGHT, ROAD, WIDTH, marks, weighing
+from bootcourse.panels.road import road
+from bootcourse.panels.svg import QUIET, drawing, printed, text
+from bootcourse.panels.weighing import check_weights, weigh
+from bootcourse.record.rollout import Rollout
+from bootcourse.road.state import EGO, SPEED
+from bootcourse.rule import SENTENCES, Reason, rule
+from bootcourse.scenario import ACTION_NAMES, check_p
+from bootcourse.study.drawing import name
+
+
+def missing(rollout: Rollout) -> str:
+    """The sentence that says what this drive did not record; empty where nothing is missing."""
+    who, remedy = name(rollout.label), "let an agent drive with `agent.driver(with_q=True)`"
+    lacks = [what for what, array in (("policy π", rollout.policy), ("Q", rollout.q_values)) if array is None]
+    return f"This drive ({who}) recorded no {' and no '.join(lacks)}: to see them, {remedy}." if lacks else ""
+
+
+class PolicyPanel(Panel):
+    """A view on `weigh` at one decision of a drive; `svg` is what it shows, `seen` the numbers."""
+
+    def __init__(self, rollout: Rollout, p: float, xi: float, alpha: float):
+        self.rollout, self.clock = rollout, rollout.scenario.clock
+        starts = rollout.states[:: self.clock.steps][: len(rollout.actions)]  # (T, vehicles, 10), at each decision
+        self.starts, self.decisions = starts, rule(np.ascontiguousarray(starts), rollout.scenario)
+        rate = self.clock.decision_rate
+        self.last = (len(rollout.actions) - 1) / rate
+        self.moment = Number(
+            "t",
+            0,
+            0,
+            max(self.last, 1 / rate),
+            1 / rate,
+            "The moment of the drive: a decision.",
+            "s",
+            self._check_moment,
+        )
+        self.p = Number("p", p, 0.12, 0.99, 0.01, "Probability that π̃ gives to the rule's own action.", check=check_p)
+        self.xi = Number(
+            "ξ", xi, 0, 5, 0.05, "Weight of the KL: how hard the rule pulls.", check=lambda v: check_weights(v, 1)
+        )
+        self.alpha = Number(
+            "α", alpha, -4, 0, 0.05, "Weight of the entropy: how much chance is left.",
+            check=lambda v: check_weights(0, v), logarithmic=True,
+        )  # fmt: skip
+        self.view = widgets.HTML()
+        numbers = (self.moment, self.p, self.xi, self.alpha)
+        super().__init__("What the rule's pull does to each action", beside(*numbers), self.view)
+        for number in numbers:
+            number.observe(self.update, "value")
+        self.update()
+        self.say(missing(rollout))
+
+    def _check_moment(self, t: float) -> None:
+        if not 0 <= t <= self.last:
+            raise BootcourseError(f"t = {t:g} s: this drive has its decisions from 0 to {self.last:g} s.")
+
+    def update(self, change=None) -> None:
+        """Compute and draw the present moment."""
+        k = int(self.moment.value * self.clock.decision_rate + 1e-9)
+        policy, q = (None if a is None else a[k] for a in (self.rollout.policy, self.rollout.q_values))
+        self.seen = weigh(policy, q, int(self.decisions.actions[k]), self.p.value, self.xi.value, self.alpha.value)
+        self.alt = self._alt(k)
+        settings = (self.p.value, self.xi.value, self.alpha.value)
+        own, head = style(self.rollout.label).colour, self._head(k)
+        view, _ = road(self.starts[k], self.rollout.scenario, own, WIDTH, self._scale())
+        parts = [*view, *head, *weighing(self.seen, *settings, name(self.rollout.label), own)]
+        parts += marks(int(self.rollout.actions[k]), int(self.decisions.actions[k]), own)
+        inner = ['<g transform="translate(8 0)">', *parts, "</g>"]
+        self.svg = drawing(WIDTH + 16, HEIGHT, inner, self.alt)
+        self.view.value = self.svg
+
+    def _scale(self) -> float:
+        return ROAD / (self.rollout.scenario.road.lanes * self.rollout.scenario.road.lane_width)
+
+    def _head(self, k: int) -> list[str]:
+        """When it is, how fast the car is, why the rule does what it does."""
+        why = SENTENCES[Reason(int(self.decisions.reasons[k]))]
+        wants = f"It aims at lane {self.decisions.lanes[k]} and {self.decisions.speeds[k]:g} m/s."
+        kl = [] if self.seen.kl is None else [f"KL(π‖π̃) = {self.seen.kl:.2f} nats"]
+        return [
+            *(text(WIDTH, ROAD + 23, words, "end", size=16, bold=True) for words in kl),
+            text(0, ROAD + 22, f"{k / self.clock.decision_rate:g} s", bold=True, size=15),
+            text(64, ROAD + 22, f"{self.starts[k, EGO, SPEED]:.1f} m/s", size=13),
+            text(COLUMNS[0], ROAD + 22, f"The rule: {why}.", fill=GREEN, size=13, bold=True),
+            text(COLUMNS[0] + 330, ROAD + 22, wants, fill=QUIET),
+        ]
+
+    def _alt(self, k: int) -> str:
+        seen, rollout = self.seen, self.rollout
+        told = [f"{k / self.clock.decision_rate:g} s into the drive of the {name(rollout.label)}."]
+        told.append(
+            f"The rule says {ACTION_NAMES[self.decisions.actions[k]]}; {ACTION_NAMES[rollout.actions[k]]} is driven."
+        )
+        if seen.kl is not None:
+            told.append(f"The KL from the rule with p = {self.p.value:g} is {seen.kl:.2f} nats.")
+        if seen.optimum is not None:
+            best = int(seen.optimum.argmax())
+            told.append(
+                f"With ξ = {self.xi.value:g} and α = {self.alpha.value:g} the best compromise gives "
+                f"{seen.optimum[best]:.2f} to {ACTION_NAMES[best]}."
+            )
+        return " ".join(told)
+
+    def picture(self) -> tuple[bytes, str, str]:
+        return printed(self.svg), "image/svg+xml", self.alt
+
+
+def policy_panel(rollout: Rollout, p: float | None = None, xi: float = 2.0, alpha: float | None = None) -> PolicyPanel:
+    """Look into one drive's decisions: π, π̃ and their best compromise while you move p, ξ and α.
+
+    rollout: a recorded drive, best of an agent with `with_q=True`. p: the scenario's if None; α: the paper's
+    first, 0.01, if None; ξ: 200 of it. Raises BootcourseError for what is none of these.
+    """
+    one_drive(rollout, "rollout")
+    p = rollout.scenario.rule.p if p is None else p
+    alpha = Settings().alpha_init if alpha is None else alpha
+    for called, value in (("p", p), ("xi", xi), ("alpha", alpha)):
+        a_number(value, called)
+    check_p(p)
+    check_weights(xi, alpha)
+    return PolicyPanel(rollout, p, xi, alpha)
