@@ -21,6 +21,7 @@ from bootcourse.lessons import check, values
 from bootcourse.lessons.exercise import call_it
 from bootcourse.lessons.exercises import registry
 from bootcourse.lessons.judge import judge, outcomes
+from bootcourse.lessons.verdict import Verdict
 from tests.answers import RIGHT, WRONG
 
 EXERCISES = list(registry().values())
@@ -307,6 +308,11 @@ def test_markup_in_a_message_is_shown_and_not_obeyed():
 
     verdict = check.critic_target(evil)
     assert "<script>" not in verdict._repr_mimebundle_()["text/html"] and "<script>" in repr(verdict)
+
+
+def test_code_and_stressed_words_look_so_in_a_notebook():
+    html = Verdict("wrong", "The *rule* counts in `x * y * z`, not 2 * 3 * 4.")._repr_mimebundle_()["text/html"]
+    assert "The <em>rule</em> counts in <code>x * y * z</code>, not 2 * 3 * 4." in html
 
 
 def test_gradients_can_be_compared():

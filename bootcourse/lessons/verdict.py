@@ -1,5 +1,6 @@
 """What a check answers: a sentence, and where it helps the numbers behind it. Readable with and without HTML."""
 
+import re
 from dataclasses import dataclass
 from html import escape
 
@@ -29,15 +30,19 @@ class Verdict:
         if numbers:
             style = "margin: 6px 0 0; font-family: monospace; white-space: pre-wrap; overflow-wrap: anywhere"
             numbers = f'<div style="{style}">{numbers}</div>'
-        footer = f'<div style="margin-top: 6px; opacity: 0.8">{with_code(self.footer)}</div>' if self.footer else ""
+        footer = f'<div style="margin-top: 6px; opacity: 0.8">{marked(self.footer)}</div>' if self.footer else ""
         box = f"border-left: 4px solid {COLOURS[self.kind]}; padding: 4px 12px; max-width: 800px; line-height: 1.45"
-        html = f'<div role="status" style="{box}">{MARKS[self.kind]} {with_code(self.sentence)}{numbers}{footer}</div>'
+        html = f'<div role="status" style="{box}">{MARKS[self.kind]} {marked(self.sentence)}{numbers}{footer}</div>'
         return {"text/html": html, "text/plain": repr(self)}
 
 
-def with_code(sentence: str) -> str:
-    """HTML of a sentence in which `backticks` mark code."""
+def marked(sentence: str) -> str:
+    """HTML of a sentence in which `backticks` mark code and *asterisks* a word that is stressed."""
     parts = escape(sentence).split("`")
     if len(parts) % 2 == 0:  # an odd backtick stays one
         return "`".join(parts)
-    return "".join(f"<code>{part}</code>" if i % 2 else part for i, part in enumerate(parts))
+    return "".join(f"<code>{part}</code>" if i % 2 else stressed(part) for i, part in enumerate(parts))
+
+
+def stressed(text: str) -> str:
+    return re.sub(r"\*(\w+)\*", r"<em>\1</em>", text)
