@@ -1,7 +1,7 @@
 # make lab    JupyterLab on the first lesson      (NO_BROWSER=1 make lab: only print its address)
 # make test   every test, the notebooks included
 # make bench  how fast the road and the learner are, as ratios
-# make notebooks  execute the lessons' sources again and write the notebooks
+# make notebooks  execute the lessons' sources again and write the notebooks, solved and not, and the instructor's pages
 # make doctor what is right and wrong with this machine
 # make lock   resolve environment.lock and bench.lock again
 # make clean  remove .venv and the caches
@@ -16,7 +16,7 @@ BIN := .venv/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check
 # The lock is complete, so pip has nothing to resolve (--no-deps) and takes only what the hashes allow.
 INSTALL := $(PIP) install --no-deps --require-hashes
-NOTEBOOKS := $(sort $(wildcard notebooks/*.ipynb))
+NOTEBOOKS := $(sort $(wildcard notebooks/*.ipynb)) $(sort $(wildcard notebooks/solved/*.ipynb))
 NBVAL := --nbval-lax --nbval-current-env --nbval-cell-timeout=300
 
 # So that a notebook finds this `bootcourse` and this `python`.

@@ -1,0 +1,113 @@
+"""The instructor's page of a lesson, made from its source and from what its exercises know.
+
+Timings, the questions to ask before a cell is run, each exercise with a right answer, and the
+misconception behind each wrong one.
+"""
+
+import re
+from pathlib import Path
+
+from bootcourse.lessons.exercise import Exercise
+from bootcourse.lessons.exercises import registry
+from tools.course.source import Cell, one_folder_down, read
+
+
+def page(path: Path) -> str:
+    """The whole page, as markdown."""
+    cells = read(path)
+    solved = f" · [solved](../solved/{path.stem}.ipynb)" if any(cell.is_exercise for cell in cells) else ""
+    parts = [
+        f"# For the instructor: {title(cells)}",
+        f"[Notebook](../{path.stem}.ipynb){solved}. Made from `source/{path.name}`: change it there.",
+        timings(cells),
+    ]
+    for heading, inside in sections(cells):
+        pieces = [piece for cell in inside for piece in of_cell(cell)]
+        if pieces:
+            parts += [f"## {heading}", *pieces]
+    return "\n\n".join(part for part in parts if part) + "\n"
+
+
+def title(cells: list[Cell]) -> str:
+    return next(
+        re.findall(r"^# (.+)", cell.student, re.M)[0] for cell in cells if re.search(r"^# ", cell.student, re.M)
+    )
+
+
+def sections(cells: list[Cell]) -> list[tuple[str, list[Cell]]]:
+    """The cells under each `##` heading; what comes before the first is called the beginning."""
+    found = [("The beginning", [])]
+    for cell in cells:
+        heading = re.search(r"^## (.+)", cell.student, re.M) if not cell.is_code else None
+        if heading:
+            found.append((heading[1], []))
+        found[-1][1].append(cell)
+    return found
+
+
+def timings(cells: list[Cell]) -> str:
+    """The lesson's own line about time, and a table: minutes of talk (metadata `minutes`) and of exercises."""
+    own = [
+        m
+        for cell in cells
+        if not cell.is_code
+        for m in re.findall(r"^\*\*Time\*\*.*?(?=\n\n|\n\*\*|\Z)", cell.student, re.M | re.S)
+    ]
+    rows, total = [], [0, 0]
+    for heading, inside in sections(cells):
+        talk = sum(cell.metadata.get("minutes", 0) for cell in inside)
+        work = sum(exercise.minutes for cell in inside for exercise in exercises(cell))
+        if talk or work:
+            rows.append(f"| {heading} | {talk or ''} | {work or ''} |")
+            total = [total[0] + talk, total[1] + work]
+    if not rows:
+        return "\n\n".join(own)
+    head = ["| part | talk (min) | exercises (min) |", "|---|---|---|"]
+    return "\n\n".join([*own, "\n".join([*head, *rows, f"| **together** | **{total[0]}** | **{total[1]}** |"])])
+
+
+def exercises(cell: Cell) -> list[Exercise]:
+    return [registry()[name] for name in cell.checks if name in registry()]
+
+
+def of_cell(cell: Cell) -> list[str]:
+    """What a cell contributes: its predictions and questions, its exercises, or all of it if it is the instructor's."""
+    if cell.is_code:
+        return [of_exercise(exercise, cell) for exercise in exercises(cell)]
+    if cell.for_instructor:
+        return [one_folder_down(cell.student)]
+    asked = [f"*Ask first:*\n\n{text.strip()}" for text in predictions(cell.student)]
+    questions = re.findall(r"^\*\*Three questions.*?\n((?:[-\d] ?.*\n?(?:  .*\n?)*)+)", cell.student, re.M)
+    return asked + [f"*To discuss:*\n\n{one_folder_down(text.strip())}" for text in questions]
+
+
+def predictions(text: str) -> list[str]:
+    """The quoted paragraphs that begin with **Predict.**"""
+    return re.findall(r"^> \*\*Predict\.\*\*.*(?:\n>.*)*", text, re.M)
+
+
+def of_exercise(exercise: Exercise, cell: Cell) -> str:
+    rows = [f"| {in_table(mistake.says)} | {in_table(mistake.belief)} |" for mistake in exercise.mistakes]
+    return "\n".join(
+        [
+            f"### Exercise `{exercise.name}` ({exercise.minutes} min, {exercise.dots})",
+            "",
+            f"{exercise.equation}. A right answer:",
+            "",
+            "```python",
+            re.sub(r"^check\..*", "", cell.solved, flags=re.M).rstrip(),
+            "```",
+            "",
+            "| The check says | They probably think |",
+            "|---|---|",
+            *rows,
+            "",
+            "Hints, on request:",
+            "",
+            *(f"{number}. {hint}" for number, hint in enumerate(exercise.hints, start=1)),
+        ]
+    )
+
+
+def in_table(text: str) -> str:
+    return " ".join(text.split()).replace("|", r"\|")

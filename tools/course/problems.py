@@ -1,0 +1,183 @@
+"""What is wrong with a lesson, as sentences: its cells, exercises, links, references to code, pictures, freshness."""
+
+import ast
+import importlib
+import inspect
+import re
+import textwrap
+from pathlib import Path
+
+import nbformat
+
+from bootcourse.lessons.exercises import registry
+from tools.course.products import IMPORTS_CHECK, SOLVED_NOTE, STRICT, out_of_date, solved_file, student_file
+from tools.course.source import Cell, body, function_in, read
+
+LONGEST_CELL = 25  # lines
+SHORTEST_ALT = 40  # letters: what a reader should see does not fit into fewer
+
+
+def problems(path: Path) -> list[str]:
+    """Everything that is wrong with a source and what was made from it; an empty list if nothing is."""
+    try:
+        cells = read(path)
+    except ValueError as error:
+        return [f"{error}."]
+    found = [*of_length(cells), *of_exercises(cells, path.stem), *of_links(cells, path), *of_references(cells)]
+    if found:
+        return found
+    late = [f"{target.parent.name}/{target.name} is out of date: run make notebooks." for target in out_of_date(path)]
+    return late or [*of_stubs(path), *of_pictures(path)]
+
+
+def begins(text: str) -> str:
+    return f"The cell that begins with `{text.strip().splitlines()[0]}`"
+
+
+def of_length(cells: list[Cell]) -> list[str]:
+    long = [cell for cell in cells if cell.is_code and len(cell.solved.splitlines()) > LONGEST_CELL]
+    return [f"{begins(cell.solved)} is longer than {LONGEST_CELL} lines." for cell in long]
+
+
+# Exercises ------------------------------------------------------------------------------------------
+
+
+def of_exercises(cells: list[Cell], lesson: str) -> list[str]:
+    """Used and registered exercises are the same; each stands as its lesson writers' README says."""
+    used = [name for cell in cells for name in cell.checks]
+    own = [exercise.name for exercise in registry().values() if exercise.lesson == lesson]
+    found = [f"check.{name}: no such exercise is registered." for name in used if name not in registry()]
+    found += [f"check.{name} belongs to lesson {registry()[name].lesson}." for name in used
+              if name in registry() and name not in own]  # fmt: skip
+    found += [f"The exercise {name} of this lesson is not used in it." for name in own if name not in used]
+    if used and not any(cell.is_code and IMPORTS_CHECK.search(cell.solved) for cell in cells):
+        found.append("The lesson uses check but has no `from bootcourse.lessons import check`.")
+    for before, cell in zip([None, *cells], cells, strict=False):
+        if cell.is_exercise and len(cell.checks) != 1:
+            found.append(f"{begins(cell.solved)} has a solution but not exactly one check.")
+        for name in cell.checks:
+            if name in own:
+                found += of_exercise(name, cell, before)
+    return found
+
+
+def of_exercise(name: str, cell: Cell, before: Cell | None) -> list[str]:
+    """The announcement, the stub and the solution of one exercise."""
+    exercise, found = registry()[name], []
+    heading = f"({exercise.minutes} min, {exercise.dots})"
+    if before is None or "**Exercise" not in before.student or heading not in before.student:
+        found.append(f"{name}: the markdown cell above has to announce it, **Exercise N.N {heading}.**")
+    stub, solved = function_in(cell.student, name), function_in(cell.solved, name)
+    if stub is None or solved is None:
+        return [*found, f"{name}: its cell defines no function of that name."]
+    if [argument.arg for argument in stub.args.args] != exercise.arguments:
+        found.append(f"{name}: its stub takes other arguments than `{exercise.call}`.")
+    if not ast.get_docstring(stub):
+        found.append(f"{name}: its stub has no docstring with shapes and units.")
+    if not cell.is_exercise:
+        found.append(f"{name}: its cell has no `# solution` ... `# end solution`.")
+    return found + of_solution(exercise, solved)
+
+
+def of_solution(exercise, solved: ast.FunctionDef) -> list[str]:
+    """A solution that stands beside the exercise, and is shown on request, is the one in the source."""
+    if not exercise.solution.__module__.startswith("bootcourse.lessons.exercises"):
+        return []  # the library's own
+    shown = ast.parse(textwrap.dedent(inspect.getsource(exercise.solution))).body[0]
+    if not isinstance(shown, ast.FunctionDef):
+        return [f"{exercise.name}: write its solution with def, so that it can be shown."]
+    if body(shown) != body(solved):
+        return [f"{exercise.name}: the source's solution is not the one that check.solution shows."]
+    return []
+
+
+def of_stubs(path: Path) -> list[str]:
+    """Every line that the student is given stands in the solved notebook, too, in the same order."""
+    if not solved_file(path).exists():
+        return []
+    note, found = SOLVED_NOTE.format(path.stem), []
+    student, solved = (nbformat.read(file, as_version=4).cells for file in (student_file(path), solved_file(path)))
+    solved = [cell for cell in solved if cell.source not in (note, STRICT)]
+    for stub, full in zip(student, solved, strict=True):
+        rest = iter(full.source.splitlines())
+        given = [line for line in stub.source.splitlines() if line.strip() != "..."]
+        if stub.cell_type == "code":
+            found += [f"Solved, the line `{line.strip()}` is missing." for line in given if line not in rest]
+    return found
+
+
+# Links and references -------------------------------------------------------------------------------
+
+
+def of_links(cells: list[Cell], path: Path) -> list[str]:
+    """Relative links lead to a file, links inside the page to a heading. (Others are not followed.)"""
+    text = "\n".join(cell.student for cell in cells if not cell.is_code)
+    anchors = {heading.strip().replace(" ", "-") for heading in re.findall(r"^#+ (.+)", text, re.M)}
+    found = []
+    for link in re.findall(r"\]\(([^)\s]+)\)", text):
+        file, _, anchor = link.partition("#")
+        if re.match(r"[a-z]+:", link):
+            continue
+        if file and not (path.parent.parent / file).exists():
+            found.append(f"The link {link} leads nowhere.")
+        elif not file and anchor not in anchors:
+            found.append(f"The link {link} leads to no heading.")
+    return found
+
+
+def of_references(cells: list[Cell]) -> list[str]:
+    """Every `bootcourse.x.y` in the text, and every source("bootcourse.x", "y"), exists."""
+    text = "\n".join(cell.student for cell in cells if not cell.is_code)
+    names = re.findall(r"`(bootcourse(?:\.\w+)+)", text)
+    for cell in cells:
+        names += shown_sources(cell.solved) if cell.is_code else []
+    return [f"The code that `{name}` names does not exist." for name in names if not exists(name)]
+
+
+def shown_sources(code: str) -> list[str]:
+    """source("a", "b", "c") -> a.b, a.c"""
+    found = []
+    for call in re.findall(r"(?<![\w.])source\(([^)]*)\)", code):
+        module, *functions = re.findall(r'"([\w.]+)"', call) or [""]
+        found += [f"{module}.{function}" for function in functions]
+    return found
+
+
+def exists(name: str) -> bool:
+    """Can it be imported: a module, or something inside one?"""
+    parts = name.split(".")
+    for length in range(len(parts), 0, -1):
+        try:
+            value = importlib.import_module(".".join(parts[:length]))
+        except ModuleNotFoundError:
+            continue
+        for part in parts[length:]:
+            if not hasattr(value, part):
+                return False
+            value = getattr(value, part)
+        return True
+    return False
+
+
+# Pictures -------------------------------------------------------------------------------------------
+
+
+def of_pictures(path: Path) -> list[str]:
+    """Every picture says what a reader should see, in the text and in the outputs."""
+    found = []
+    for file in (student_file(path), solved_file(path)):
+        for cell in nbformat.read(file, as_version=4).cells if file.exists() else []:
+            text = cell.source if cell.cell_type == "markdown" else ""
+            if re.search(r"!\[\s*\]\(", text):
+                found.append(f"{begins(text)} has a picture without alt text.")
+            for output in cell.get("outputs", []):
+                if not has_alt(output.get("data", {})):
+                    found.append(f"{begins(cell.source)} shows a picture without alt text.")
+    return found
+
+
+def has_alt(data: dict) -> bool:
+    if any(kind.startswith("image/") for kind in data):
+        return False  # JupyterLab drops the alt text of these: bootcourse.study.drawing.show keeps it
+    tags = re.findall(r"<img [^>]*>", data.get("text/html", ""))
+    return all(re.search(rf'alt="[^"]{{{SHORTEST_ALT},}}"', tag) for tag in tags)

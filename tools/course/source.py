@@ -1,0 +1,98 @@
+"""A lesson's source, notebooks/source/NAME.py in percent format, as cells with a student's and a solved text.
+
+Lines between `# solution` and `# end solution` are the student's to write: the student gets `...` for
+them. A markdown cell tagged "instructor" goes to the instructor's page only.
+"""
+
+import ast
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import jupytext
+
+NOTEBOOKS = Path(__file__).resolve().parent.parent.parent / "notebooks"
+BEGIN, END = "# solution", "# end solution"
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One cell of a source, before anything is executed."""
+
+    kind: str  # "code" or "markdown"
+    student: str
+    solved: str
+    metadata: dict
+
+    @property
+    def for_instructor(self) -> bool:
+        return "instructor" in self.metadata.get("tags", [])
+
+    @property
+    def is_exercise(self) -> bool:
+        return self.student != self.solved
+
+    @property
+    def checks(self) -> list[str]:
+        """The exercises that it checks: `check.NAME(...)`."""
+        return re.findall(r"^check\.(?!hint\b|solution\b|strict\b)(\w+)\(", self.solved, re.M) if self.is_code else []
+
+    @property
+    def is_code(self) -> bool:
+        return self.kind == "code"
+
+
+def sources(names: list[str] = (), notebooks: Path = NOTEBOOKS) -> list[Path]:
+    """The sources of these names, or all, in the order of the lessons."""
+    found = sorted((notebooks / "source").glob("*.py"))
+    return [path for path in found if not names or path.stem in names]
+
+
+def read(path: Path) -> list[Cell]:
+    """All cells of a source. Raises ValueError where the marks of a solution do not come in pairs."""
+    cells = []
+    for cell in jupytext.read(path).cells:
+        student, solved = without_solution(cell.source), without_marks(cell.source)
+        if cell.cell_type != "code":
+            student = solved = cell.source
+        cells.append(Cell(cell.cell_type, student, solved, dict(cell.metadata)))
+    return cells
+
+
+def without_solution(text: str) -> str:
+    """The stub: `...` in place of each solution."""
+    kept, inside = [], False
+    for line in text.splitlines():
+        mark = line.strip()
+        if mark in (BEGIN, END) and inside != (mark == END):
+            raise ValueError(f"`{BEGIN}` and `{END}` do not come in pairs in the cell that begins with {text[:60]!r}")
+        if mark == BEGIN:
+            kept.append(line.replace(BEGIN, "..."))
+        if mark in (BEGIN, END):
+            inside = not inside
+        elif not inside:
+            kept.append(line)
+    if inside:
+        raise ValueError(f"`{BEGIN}` has no `{END}` in the cell that begins with {text[:60]!r}")
+    return "\n".join(kept)
+
+
+def without_marks(text: str) -> str:
+    return "\n".join(line for line in text.splitlines() if line.strip() not in (BEGIN, END))
+
+
+def one_folder_down(text: str) -> str:
+    """Markdown whose relative links still lead to the same place from a folder inside notebooks/."""
+    return re.sub(r"(\]\()(?![a-z]+:|#|/)", r"\1../", text)
+
+
+def function_in(text: str, name: str) -> ast.FunctionDef | None:
+    """The function of that name that a cell defines."""
+    found = [node for node in ast.parse(text).body if isinstance(node, ast.FunctionDef) and node.name == name]
+    return found[0] if found else None
+
+
+def body(function: ast.FunctionDef) -> list[str]:
+    """What it does, for comparison: without docstring, annotations and comments."""
+    statements = function.body[1:] if ast.get_docstring(function) is not None else function.body
+    return [ast.dump(statement) for statement in statements]
