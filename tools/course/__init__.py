@@ -1,1 +1,1 @@
-"""One source, three products: the student's notebook, the solved one, the instructor's page. See notebooks/source/README.md."""
+"""One source, three products (notebooks/source/README.md): a student's notebook, a solved one, an instructor's page."""
