@@ -1,0 +1,110 @@
+"""What the bonus c does: the critic's target along a demonstration, along a trapped drive, and where they cross.
+
+`valuing.py` computes what is seen, `bonus_view.py` draws it; here are the four numbers to move.
+"""
+
+from dataclasses import replace
+
+import ipywidgets as widgets
+
+from bootcourse.colours import Style, style
+from bootcourse.drivers import idle_driver, rule_driver
+from bootcourse.errors import BootcourseError
+from bootcourse.learn.settings import Settings
+from bootcourse.panels.arguments import an_instance, one_drive
+from bootcourse.panels.bonus_view import alt_text, bonus
+from bootcourse.panels.number import Number
+from bootcourse.panels.panel import Panel, beside
+from bootcourse.panels.svg import QUIET, printed
+from bootcourse.panels.valuing import compare
+from bootcourse.record.drive import record
+from bootcourse.record.rollout import Rollout
+from bootcourse.scenario import DEFAULT
+
+
+class BonusPanel(Panel):
+    """A view on `compare` of two drives; `svg` is what it shows, `seen` the numbers."""
+
+    def __init__(self, demonstration: Rollout, trapped: Rollout, settings: Settings):
+        self.demonstration, self.trapped, self.settings = demonstration, trapped, settings
+        rate = demonstration.scenario.clock.decision_rate
+        self.last = (min(len(demonstration.actions), len(trapped.actions)) - 1) / rate
+        self.c = Number(
+            "c", settings.bonus, 0, 5, 0.05, "Bonus on every reward of a demonstration.",
+            check=lambda c: replace(settings, bonus=c),
+        )  # fmt: skip
+        self.gamma = Number(
+            "γ", settings.gamma, 0, 0.98, 0.01, "Discount: how far the critic sees, 1/(1 − γ) decisions.",
+            check=self._check_gamma,
+        )  # fmt: skip
+        self.moment = Number(
+            "t", 0, 0, max(self.last, 1 / rate), 1 / rate, "The moment at which the two are compared.", "s",
+            self._check_moment,
+        )  # fmt: skip
+        self.episode = Number(
+            "episode", 0, 0, 1.5 * settings.beta_episodes, max(1, settings.beta_episodes // 100),
+            "Episodes trained: β, the demonstrations' share, fades.", check=self._check_episode,
+        )  # fmt: skip
+        self.view = widgets.HTML()
+        numbers = (self.c, self.gamma, self.moment, self.episode)
+        super().__init__("What the bonus makes of a demonstration", beside(*numbers), self.view)
+        for number in numbers:
+            number.observe(self.update, "value")
+        self.update()
+
+    def _check_gamma(self, gamma: float) -> None:
+        replace(self.settings, gamma=gamma)
+        if gamma == 1:
+            raise BootcourseError("γ = 1: a drive that goes on forever would be worth infinity, stay below 1.")
+
+    def _check_moment(self, t: float) -> None:
+        if not 0 <= t <= self.last:
+            raise BootcourseError(f"t = {t:g} s: both drives have their decisions from 0 to {self.last:g} s.")
+
+    def _check_episode(self, episode: float) -> None:
+        if episode < 0 or episode != int(episode):
+            raise BootcourseError(f"episode = {episode:g}: give a whole number, 0 or more.")
+
+    def update(self, change=None) -> None:
+        """Compute and draw."""
+        settings = replace(self.settings, bonus=self.c.value, gamma=self.gamma.value)
+        self.seen = compare(self.demonstration, self.trapped, settings, int(self.episode.value))
+        rate = self.demonstration.scenario.clock.decision_rate
+        k = int(self.moment.value * rate + 1e-9)
+        own, other = style(self.demonstration.label), style(self.trapped.label)
+        other = Style(QUIET) if other.colour == own.colour else other
+        self.alt = alt_text(self.seen, k, rate, settings.bonus)
+        self.svg = bonus(self.seen, k, rate, settings, int(self.episode.value), own, other)
+        self.view.value = self.svg
+
+    def picture(self) -> tuple[bytes, str, str]:
+        return printed(self.svg), "image/svg+xml", self.alt
+
+
+def bonus_panel(
+    demonstration: Rollout | None = None, trapped: Rollout | None = None, settings: Settings | None = None
+) -> BonusPanel:
+    """See what the bonus c makes of a demonstration while you move c, γ and the training's episode.
+
+    demonstration: a recorded drive, the rule's if None. trapped: the drive that stays behind, on the same
+    road without doing anything if None. settings: an agent's c, γ and β (the paper's if None).
+
+    What is drawn, at each decision t of the two drives: the critic's target y = r' + γ (1 - terminated) y_next,
+    that is Σ_k γ^k r'_{t+k}, of their rewards alone (without the entropy and the KL). r' = r + c on the
+    demonstration (Section IV-B, "Demonstration-Guided Reward Augmentation"), r on the trapped drive. A drive
+    that ran out of time goes on for ever as in its last ten decisions; one that ended in an accident is over.
+    Raises BootcourseError for what is not a drive, or two drives of different scenarios.
+    """
+    settings = Settings() if settings is None else an_instance(settings, Settings, "settings")
+    if demonstration is None:
+        scenario, seed = (DEFAULT, 0) if trapped is None else (one_drive(trapped, "trapped").scenario, trapped.seed)
+        demonstration = record(rule_driver(scenario), [seed], scenario, "rule")[0]
+    one_drive(demonstration, "demonstration")
+    if trapped is None:
+        trapped = record(idle_driver, [demonstration.seed], demonstration.scenario, "idle")[0]
+    one_drive(trapped, "trapped")
+    if trapped.scenario != demonstration.scenario:
+        raise BootcourseError("The two drives are of different scenarios: record both in one.")
+    if settings.gamma == 1:
+        raise BootcourseError("gamma = 1: a drive that goes on forever would be worth infinity, stay below 1.")
+    return BonusPanel(demonstration, trapped, settings)
