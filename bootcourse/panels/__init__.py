@@ -1,5 +1,8 @@
 """Panels for the notebooks: one call each, which returns a widget. Everything that they show is computed elsewhere."""
 
+from bootcourse.panels.bonus import bonus_panel as bonus_panel
 from bootcourse.panels.drive import drive_panel as drive_panel
+from bootcourse.panels.policy import policy_panel as policy_panel
+from bootcourse.panels.scenario import scenario_panel as scenario_panel
 from bootcourse.panels.sweep import sweep_panel as sweep_panel
 from bootcourse.panels.train import train_panel as train_panel

@@ -67,6 +67,10 @@ class Number(widgets.VBox):
         if self.refused is not None:
             self._enter(self.refused)
 
+    def clear(self) -> None:
+        """Show the value again in place of what was refused."""
+        self._show()
+
     def _refuse(self, value: float) -> None:
         """Raise BootcourseError unless the value is finite and `check` accepts it."""
         if not math.isfinite(value):

@@ -45,7 +45,7 @@ def road(
         if -60 < x < width + 60:
             look = colour if i == EGO else TRAP if i in (TRAP_1, TRAP_2) else TRAFFIC
             parts.append(_car(x, y, cars[i, HEADING], look, scenario, scale))
-            if i in (TRAP_1, TRAP_2):
+            if i in (TRAP_1, TRAP_2) and scenario.car.width * scale >= 8:  # else the number is taller than the car
                 parts.append(text(x - 6, y + 4, str(i), "middle", "white", 11, bold=True))
     parts += _beyond(cars, place, width, height)
     return parts, height

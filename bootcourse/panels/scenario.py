@@ -1,0 +1,113 @@
+"""The scenario's numbers to move, with the road that they make; what does not fit is refused in the library's words.
+
+`scenario_fields.py` lists the numbers and builds the scenario, `scenario_view.py` draws it.
+"""
+
+from html import escape
+
+import ipywidgets as widgets
+
+from bootcourse.errors import BootcourseError
+from bootcourse.panels.arguments import a_number, an_instance
+from bootcourse.panels.number import Number
+from bootcourse.panels.panel import Panel, beside
+from bootcourse.panels.scenario_fields import FIELDS, GROUPS, Field, as_code, built, check_seed
+from bootcourse.panels.scenario_view import alt_text, start_of, top_view
+from bootcourse.panels.svg import printed
+from bootcourse.scenario import DEFAULT, Scenario
+
+
+class ScenarioPanel(Panel):
+    """`scenario` is always valid: a number that would not fit the others is refused, and tried again when they move."""
+
+    def __init__(self, start: Scenario, seed: int):
+        self.start, self.scenario, self._retrying = start, start, False
+        self.numbers = {field: self._number(field) for field in FIELDS}
+        self.road = Number("road", seed, 0, 99, 1, "Which road is drawn: its seed.", check=check_seed)
+        self.groups = widgets.ToggleButtons(options=list(GROUPS), tooltips=[f"Numbers of: {name}" for name in GROUPS])
+        self.groups.style.button_width = "132px"
+        self.back = widgets.Button(description="Start again", tooltip="Put every number back to where it was.")
+        self.shown = beside()
+        self.shown.layout.min_height = "176px"
+        self.view, self.code = widgets.HTML(), widgets.HTML()
+        head = widgets.HBox([self.groups, self.back])
+        super().__init__("The numbers of the scenario", head, self.shown, self.road, self.view, self.code)
+        self.groups.observe(self._choose, "value")
+        self.back.on_click(self._reset)
+        for number in self.numbers.values():
+            number.observe(self._moved, "value")
+            number.help.observe(self._tell, "value")
+        self.road.observe(self.update, "value")
+        self._choose()
+        self.update()
+
+    def _number(self, field: Field) -> Number:
+        return Number(
+            field.symbol, field.of(self.start), field.low, field.high, field.step, field.help, field.unit,
+            check=lambda value: self._with(field, value),
+        )  # fmt: skip
+
+    def _with(self, field: Field, value: float) -> Scenario:
+        """The present scenario with one number changed. Raises BootcourseError if they do not fit."""
+        return built(self.start, {each: each.of(self.scenario) for each in FIELDS} | {field: value})
+
+    def _moved(self, change) -> None:
+        """A number was accepted: it is in the scenario, and what was refused may fit now."""
+        field = next(field for field, number in self.numbers.items() if number is change["owner"])
+        self.scenario = self._with(field, change["new"])
+        if not self._retrying:
+            self._retrying = True
+            try:
+                for number in self.numbers.values():
+                    number.retry()
+            finally:
+                self._retrying = False
+            self.update()
+
+    def _choose(self, change=None) -> None:
+        self.shown.children = [self.numbers[field] for field in GROUPS[self.groups.value]]
+
+    def _reset(self, button) -> None:
+        """Every number as it was: the scenario first, so that each number meets the others that belong to it."""
+        self.scenario, self._retrying = self.start, True
+        try:
+            for field, number in self.numbers.items():
+                number.value = field.of(self.start)
+                number.clear()
+        finally:
+            self._retrying = False
+        self.update()
+
+    def update(self, change=None) -> None:
+        """Draw the road that the present numbers make."""
+        cars = start_of(self.scenario, int(self.road.value))
+        self.svg, self.alt = top_view(self.scenario, cars), alt_text(self.scenario, cars)
+        self.view.value = self.svg
+        code = escape(as_code(self.scenario, self.start))
+        self.code.value = f'<div class="bc-quiet">In Python: <code style="user-select: all">{code}</code></div>'
+        self._tell()
+
+    def _tell(self, change=None) -> None:
+        """Below the road: which numbers were refused, wherever they stand."""
+        refused = [number for number in self.numbers.values() if number.refused is not None]
+        names = ", ".join(f"{number.symbol} = {number.refused:g}" for number in refused)
+        words = ""
+        if refused:
+            try:
+                refused[0].check(refused[0].refused)
+            except BootcourseError as error:
+                words = f"Does not fit yet: {names}. {error} The road above is the last that fits."
+        self.say(words, wrong=True)
+
+    def picture(self) -> tuple[bytes, str, str]:
+        return printed(self.svg), "image/svg+xml", self.alt
+
+
+def scenario_panel(scenario: Scenario = DEFAULT, seed: int = 0) -> ScenarioPanel:
+    """Move the scenario's numbers and see the road that they make; `.scenario` is the present one.
+
+    scenario: where to start. seed: of the road that is drawn. Raises BootcourseError for what is neither.
+    """
+    an_instance(scenario, Scenario, "scenario")
+    check_seed(a_number(seed, "seed"))
+    return ScenarioPanel(scenario, int(seed))
