@@ -18,7 +18,8 @@ from bootcourse.learn.train import Training
 from bootcourse.panels import background as background_module
 from bootcourse.panels.background import Background
 from bootcourse.panels.growth import Drawn, growth, label_of
-from bootcourse.panels.train import CONTROLLED, train_panel, without
+from bootcourse.panels.train import train_panel
+from bootcourse.panels.train_controls import CONTROLLED, without
 from bootcourse.record.drive import record
 from bootcourse.record.runs import find_runs, load_run
 from bootcourse.scenario import DEFAULT

@@ -56,7 +56,7 @@ def _head(drive: ByHand, ghost: Rollout | None, time: float, coming: str) -> lis
     middle = BEHIND * WIDTH
     parts = [rect(middle - 12, 8, 14, 7, OTHER.colour, 'rx="2"'), text(middle + 7, 16, drive.label, bold=True)]
     if ghost:
-        parts.append(rect(middle + 50, 8, 14, 7, style(ghost.label).colour, 'rx="2" opacity="0.55"'))
+        parts.append(rect(middle + 50, 8, 14, 7, style(ghost.label).colour, 'rx="2" opacity="0.7"'))
         parts.append(text(middle + 69, 16, f"the ghost: {name(ghost.label)}", fill=QUIET))
     if drive.over and time >= drive.time:
         parts.append(text(WIDTH - 4, 16, f"Over: {ENDS[Accident(drive.accident)]}", "end", ALARM, 13, bold=True))
@@ -118,7 +118,7 @@ def _returns(drive: ByHand, ghost: Rollout | None, time: float, top: float) -> l
     parts = axes.frame("return, and the ghost's", "time (s)", rows=2)
     if ghost:
         look = style(ghost.label)
-        parts += axes.curve(np.arange(len(other)) / rate, other, look, 1.4, 0.5)
+        parts += axes.curve(np.arange(len(other)) / rate, other, look, 1.6, 0.75)
     parts += axes.curve(np.arange(len(mine)) / rate, mine, OTHER, 2.4)
     x, y = axes.at(min(time, end), mine[-1])
     return [*parts, f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3.5" fill="{OTHER.colour}"/>']

@@ -68,13 +68,16 @@ class DrivePanel(Panel):
         self.road = Number("road", seed, 0, 99, 1, "The seed of the road. Another one begins a new drive.",
                            check=check_road)  # fmt: skip
         self.road.lock(fixed)
-        self.keep = _button("Demonstrate", "graduation-cap", "Save this drive as a demonstration for an agent")
+        self.keep = _button(
+            "Keep as demonstration", "graduation-cap", "Save this drive as a demonstration for an agent"
+        )
+        self.keep.layout.width = "214px"
         self.save = _button("Save", "save", "Write this drive to the file, to draw or to replay it")
         self.path = widgets.Text(_path(seed), tooltip="Where Save writes", layout={"width": "230px"})
         mode = widgets.HBox([self.mode, self.go, self.again])
         store = widgets.HBox([self.keep, self.save, self.path])
         row = {"flex_flow": "row wrap", "grid_gap": "6px 28px"}
-        controls = widgets.VBox([mode, widgets.HBox([self.pace, self.road], layout={"flex_flow": "row wrap"}), store])
+        controls = widgets.VBox([mode, self.pace, self.road, store], layout={"grid_gap": "4px"})
         super().__init__("Drive it yourself", self.view, widgets.HBox([self.pad, controls], layout=row))
         for button, does in (
             (self.go, self._go), (self.again, self._again), (self.keep, self._keep), (self.save, self._save),

@@ -77,10 +77,10 @@ def _training(axes: Axes, at: np.ndarray, means: np.ndarray, look: Style, last: 
     parts = []
     if last:
         for seed in means:
-            parts += axes.curve(at, seed, look._replace(line="-"), 0.8, 0.45)
+            parts += axes.curve(at, seed, look._replace(line="-"), 0.9, 0.6)
     if whole.any():
         middle = iqm(means[:, whole], axis=0)
-        parts += axes.curve(at[whole], middle, look, 2.4 if last else 1.6, 1.0 if last else 0.38)
+        parts += axes.curve(at[whole], middle, look, 2.4 if last else 1.6, 1.0 if last else 0.5)
         if last:
             x, y = axes.at(at[whole][-1], middle[-1])
             parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3" fill="{look.colour}"/>')

@@ -33,7 +33,8 @@ class Number(widgets.VBox):
     ):
         self.check, self.symbol, self.sentence, self._busy = check, symbol, help, False
         self._why_locked = ""
-        self.refused: float | None = None  # what was entered last, if it was refused
+        self.refused: float | None = None  # what was entered last, if it was refused,
+        self.wrong = ""  # and why
         label = widgets.HTML(f"<b>{escape(symbol)}</b>{f' ({escape(unit)})' if unit else ''}")
         label.layout.width = "92px"
         make = widgets.FloatLogSlider if logarithmic else widgets.FloatSlider
@@ -42,7 +43,10 @@ class Number(widgets.VBox):
         self.field = widgets.FloatText(value=value, step=step, tooltip=f"{symbol}, typed: {help}")
         self.field.layout.width = "88px"
         self.help = widgets.HTML()
-        super().__init__([widgets.HBox([label, self.slider, self.field]), self.help], value=float(value))
+        super().__init__(
+            [widgets.HBox([label, self.slider, self.field], layout={"align_items": "center"}), self.help],
+            value=float(value),
+        )
         self.layout.width = "420px"
         self._tell()
         self.slider.observe(lambda change: self._enter(change["new"]), "value")
@@ -56,8 +60,8 @@ class Number(widgets.VBox):
         try:
             self._refuse(value)
         except BootcourseError as error:
-            self.refused = value
-            self._tell(str(error))
+            self.refused, self.wrong = value, str(error)
+            self._tell(self.wrong)
         else:
             self.value = value
             self._show()
@@ -84,7 +88,7 @@ class Number(widgets.VBox):
 
     def _show(self) -> None:
         """Both controls say what the value is; the slider stops at its ends."""
-        self.refused = None
+        self.refused, self.wrong = None, ""
         self._tell()
         self._busy = True
         try:

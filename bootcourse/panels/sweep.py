@@ -37,7 +37,7 @@ class Snap(widgets.VBox):
         self.field = widgets.FloatText(value=self.slider.value, tooltip=f"{symbol}, typed: {help}")
         self.field.layout.width = "76px"
         self.help = widgets.HTML()
-        super().__init__([widgets.HBox([label, self.slider, self.field]), self.help])
+        super().__init__([widgets.HBox([label, self.slider, self.field], layout={"align_items": "center"}), self.help])
         self.layout.width = "310px"
         self._tell()
         self.slider.observe(lambda change: self._show(), "value")

@@ -68,7 +68,7 @@ def curves(happened: Happened, top: float) -> list[str]:
             middle, low, high = band(means[:, whole])
             parts += axes.band(at[whole], low, high, look)
         for seed in means:
-            parts += axes.curve(at, seed, look, 0.8, 0.45)
+            parts += axes.curve(at, seed, look, 0.9, 0.6)
         if whole.any():
             parts += axes.curve(at[whole], middle, look, 2.6)
     return parts

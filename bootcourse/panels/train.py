@@ -8,7 +8,6 @@ The training runs in `background.py`, the drawing is `growth.py`; this file only
 
 import time
 from collections.abc import Sequence
-from dataclasses import replace
 from html import escape
 from pathlib import Path
 
@@ -23,6 +22,7 @@ from bootcourse.panels.growth import EARLIER, Drawn, alt_text, growth, label_of
 from bootcourse.panels.number import Number
 from bootcourse.panels.panel import Panel
 from bootcourse.panels.svg import printed
+from bootcourse.panels.train_controls import CONTROLLED, numbers_for, whole_number, without
 from bootcourse.record.demonstrations import bootstrap_with
 from bootcourse.record.drive import record
 from bootcourse.record.rollout import Rollout
@@ -31,59 +31,8 @@ from bootcourse.scenario import DEFAULT, Scenario
 from bootcourse.study.drawing import name
 from bootcourse.study.evaluate import held_out_seeds
 
-CONTROLLED = ("p", "xi_multiplier", "bonus", "beta_start", "gamma")
 SEEDS, EPISODES = 64, 20_000  # at most, of one training
 HELD_OUT = 1  # the block of roads that no agent has trained on
-
-
-def whole_number(called: str, low: int, high: int):
-    """A check: is it a whole number from low to high?"""
-
-    def check(value: float) -> None:
-        if not low <= value <= high or value != int(value):
-            raise BootcourseError(f"{called} = {value:g}: give a whole number from {low} to {high}.")
-
-    return check
-
-
-def without(method: str) -> dict[str, str]:
-    """Why a method has no use for a setting: {setting: sentence}. What is not in it can be chosen."""
-    own, called = ALL[method], name(method)
-    reasons = {}
-    if own.get("xi_multiplier") == 0:
-        reasons["xi_multiplier"] = f"Without use: {called} has no soft constraint."
-        reasons["p"] = f"Without use: {called} has no KL to the stochastic rule."
-    if own.get("bonus") == 0:
-        reasons["bonus"] = f"Without use: {called} adds no bonus to demonstrations."
-    if own.get("beta_start") == 0:
-        reasons["beta_start"] = f"Without use: {called} sees no demonstrations."
-        reasons["bonus"] = reasons["beta_start"]
-    if "beta_episodes" in own:
-        reasons["beta_start"] = f"Fixed: {called} learns from the same share to the end."
-    if method == "bc":
-        reasons["gamma"] = f"Without use: {called} values nothing, so it discounts nothing."
-    return reasons
-
-
-def controls(changes: dict) -> dict[str, Number]:
-    """One for each setting that the panel offers, checked as the library checks it; changes: of the paper's values."""
-    start = replace(Settings(), **{name: value for name, value in changes.items() if name in CONTROLLED})
-
-    def checked(setting):
-        return lambda value: settings_for("bootstrapped", **{setting: value})
-
-    return {
-        "p": Number("p", start.p, 0.12, 0.999, 0.001, "How sure the stochastic rule π̃ is of its own action.",
-                    check=checked("p")),
-        "xi_multiplier": Number("ξ", start.xi_multiplier, 0, 2000, 10, "Strength of the pull towards the rule.",
-                                unit="× α", check=checked("xi_multiplier")),
-        "bonus": Number("c", start.bonus, 0, 10, 0.1, "Bonus on a demonstrated action's reward.",
-                        check=checked("bonus")),
-        "beta_start": Number("β", start.beta_start, 0, 1, 0.05, "Share of demonstrations in a batch, at first.",
-                             check=checked("beta_start")),
-        "gamma": Number("γ", start.gamma, 0, 1, 0.01, "Discount: how much the next second counts.",
-                        check=checked("gamma")),
-    }  # fmt: skip
 
 
 class TrainPanel(Panel):
@@ -101,11 +50,13 @@ class TrainPanel(Panel):
         self.method.layout.width = "300px"
         label = widgets.HTML("<b>method</b>", layout={"width": "92px"})
         about = widgets.HTML('<div class="bc-quiet">Who learns, and from what.</div>')
-        chooser = widgets.VBox([widgets.HBox([label, self.method]), about], layout={"width": "420px"})
-        self.numbers = controls(changes)
+        chooser = widgets.VBox(
+            [widgets.HBox([label, self.method], layout={"align_items": "center"}), about], layout={"width": "420px"}
+        )
+        self.numbers = numbers_for(changes)
         self.seeds = Number("seeds", seeds, 1, 10, 1, "Agents that learn side by side, each with its own luck.",
                             check=whole_number("seeds", 1, SEEDS))  # fmt: skip
-        self.episodes = Number("episodes", episodes, 50, 3000, 50, "That each agent drives, 150 s each.",
+        self.episodes = Number("episodes", episodes, 50, 3000, 50, "Drives of each agent: 150 s, or until an accident.",
                                check=whole_number("episodes", 1, EPISODES))  # fmt: skip
         grid = widgets.GridBox(
             [chooser, *self.numbers.values(), self.seeds, self.episodes],
@@ -119,6 +70,8 @@ class TrainPanel(Panel):
         buttons = widgets.HBox([self.train, self.stop, self.watch, self.save, self.path])
         self.progress, self.chart, self.stage = widgets.HTML(), widgets.HTML(), widgets.HTML()
         super().__init__("Train while you watch", grid, buttons, self.progress, self.chart, self.stage)
+        self.says.layout.min_height = "22px"  # what is said stands above the curves, and moves nothing
+        self.children = (*self.children[:4], self.says, *self.children[4:-1])
         for button, press in (
             (self.train, self._train), (self.stop, self._stop), (self.watch, self._watch), (self.save, self._save),
         ):  # fmt: skip
@@ -209,7 +162,6 @@ class TrainPanel(Panel):
         else:
             self._show_progress("Nothing was trained.", 0.0)
         self._buttons()
-        self._draw()
         told = [background.error] if background.error else []
         stopped = self.result.stopped if background.result is not None else {}
         for i, decision in sorted(stopped.items()):
@@ -220,6 +172,7 @@ class TrainPanel(Panel):
             )
         if told:
             self.say(" ".join(told), wrong=True)
+        self._draw()
 
     def _watch(self) -> None:
         if self.background is None:
