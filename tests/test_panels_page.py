@@ -1,0 +1,145 @@
+"""The panels that train, sweep and drive where people meet them: in a real JupyterLab, in headless Chromium."""
+
+import statistics
+
+import pytest
+
+from bootcourse.study.results import save_results
+from tests.browser import ARTEFACTS, needs_browser
+from tests.jupyterlab import open_notebook
+from tests.test_panels_sweep import invented
+
+pytestmark = needs_browser
+CHANGED = """(number, act) => new Promise(done => {
+  const panel = document.querySelectorAll('.bc-panel')[number], svg = panel.querySelector('svg');
+  const watch = new MutationObserver(() => { watch.disconnect(); done(performance.now() - start); });
+  watch.observe(svg.parentElement, {childList: true});
+  setTimeout(() => done(-1), 5000);
+  const start = performance.now();
+  (new Function('panel', act))(panel);
+})"""
+
+
+@pytest.fixture(scope="module")
+def notebook(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("lab")
+    save_results(invented(), folder / "sweep.npz", {})
+    cells = (
+        "from bootcourse.panels import drive_panel, sweep_panel, train_panel\nmine = drive_panel(seed=3)\nmine",
+        "swept = sweep_panel('sweep.npz')\nswept",
+        "trainer = train_panel('bootstrapped', seeds=2, episodes=5000)\ntrainer",
+    )
+    with open_notebook(folder, *cells, width=1366) as it:
+        it.page.set_default_timeout(20_000)
+        it.run_all()
+        it.page.wait_for_selector(".bc-drive[data-bc-keys]")
+        yield it
+
+
+def panel(notebook, number):
+    shown = notebook.page.locator(".bc-panel").nth(number)
+    shown.scroll_into_view_if_needed()
+    return shown
+
+
+def button(notebook, number, called):
+    return notebook.page.locator(".bc-panel").nth(number).get_by_role("button", name=called)
+
+
+def changed(notebook, number, act):
+    """Milliseconds from an act on a panel of the page to its new drawing."""
+    notebook.page.wait_for_timeout(60)
+    took = notebook.page.evaluate(f"([number, act]) => ({CHANGED})(number, act)", [number, act])
+    assert took >= 0, "the drawing never changed"
+    return took
+
+
+def waits_for(notebook, number, words):
+    notebook.page.wait_for_function(
+        "([number, words]) => document.querySelectorAll('.bc-panel')[number].innerHTML.includes(words)",
+        arg=[number, words],
+    )
+
+
+def test_the_arrow_keys_drive_and_two_at_once_are_one_action(notebook):
+    shown = panel(notebook, 0)
+    shown.locator(".bc-keys").click()
+    keys = notebook.page.keyboard
+    for seconds, together in enumerate((["ArrowUp"], ["ArrowDown"], ["ArrowDown", "ArrowLeft"], [" "]), start=1):
+        for key in together:
+            keys.down(key)
+        for key in together:
+            keys.up(key)
+        waits_for(notebook, 0, f">{seconds} s<")
+    shown.screenshot(path=str(ARTEFACTS / "drive-panel.png"))
+    notebook.page.evaluate(
+        "jupyterapp.shell.currentWidget.context.sessionContext.session.kernel.requestExecute("
+        "{code: 'mine.say(str(mine.rollout.actions.tolist()))'})"
+    )
+    waits_for(notebook, 0, "[7, 1, 0, 4]")
+
+
+def test_the_arrows_leave_jupyterlab_s_own_selection_alone(notebook):
+    panel(notebook, 0).locator(".bc-keys").click()
+    active = "jupyterapp.shell.currentWidget.content.activeCellIndex"
+    before = notebook.page.evaluate(active)
+    for key in ("ArrowDown", "ArrowDown"):
+        notebook.page.keyboard.press(key)
+        notebook.page.wait_for_timeout(200)
+    assert notebook.page.evaluate(active) == before
+
+
+def test_a_press_is_on_the_page_within_a_tenth_of_a_second(notebook):
+    button(notebook, 0, "Drive again").click()
+    took = [changed(notebook, 0, "panel.querySelector('.bc-pad-4').click()") for _ in range(8)]
+    assert statistics.median(took) < 100, took
+
+
+def test_in_real_time_the_road_moves_smoothly(notebook):
+    button(notebook, 0, "Drive again").click()
+    button(notebook, 0, "real time").click()
+    button(notebook, 0, "Start").click()
+    frames = notebook.page.evaluate(
+        """() => new Promise(done => { let count = 0;
+          const watch = new MutationObserver(() => count++);
+          watch.observe(document.querySelector('.bc-panel svg').parentElement, {childList: true});
+          setTimeout(() => { watch.disconnect(); done(count); }, 2000); })"""
+    )
+    button(notebook, 0, "Pause").click()
+    assert frames >= 10
+
+
+def test_the_sweep_s_slider_shows_its_effect_within_a_tenth_of_a_second(notebook):
+    shown = panel(notebook, 1)
+    handle = shown.locator(".noUi-handle").nth(1)
+    took = []
+    for key in ("ArrowRight", "ArrowLeft") * 4:
+        handle.focus()
+        down = f"new KeyboardEvent('keydown', {{key: '{key}', bubbles: true, cancelable: true}})"
+        act = f"panel.querySelectorAll('.noUi-handle')[1].dispatchEvent({down});"
+        took.append(changed(notebook, 1, act))
+    shown.screenshot(path=str(ARTEFACTS / "sweep-panel.png"))
+    assert statistics.median(took) < 100, took
+
+
+def test_a_training_grows_on_the_page_stops_and_is_watched(notebook):
+    shown = panel(notebook, 2)
+    button(notebook, 2, "Train").click()
+    waits_for(notebook, 2, "<circle")
+    waits_for(notebook, 2, "decisions/s")
+    took = [changed(notebook, 0, "panel.querySelector('.bc-pad-4').click()") for _ in range(4)]
+    shown.screenshot(path=str(ARTEFACTS / "train-panel.png"))
+    button(notebook, 2, "Stop").click()
+    waits_for(notebook, 2, "Stopped after")
+    button(notebook, 2, "Watch").click()
+    frame = shown.locator("iframe").element_handle().content_frame()
+    frame.wait_for_selector("canvas")
+    assert statistics.median(took) < 200, took  # another panel answers while it trains
+
+
+def test_the_panels_fit_their_column_and_the_console_has_no_error(notebook):
+    widths = notebook.page.evaluate(
+        "[...document.querySelectorAll('.bc-panel')].map(p => [p.scrollWidth, p.clientWidth])"
+    )
+    assert len(widths) == 3 and all(scroll <= client for scroll, client in widths)
+    assert not [error for error in notebook.shown.errors if "WebGL" not in error]
