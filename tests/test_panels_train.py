@@ -16,6 +16,7 @@ from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import ALL, settings_for, with_seeds
 from bootcourse.learn.train import Training
 from bootcourse.panels import background as background_module
+from bootcourse.panels.axes import rolling, ticks
 from bootcourse.panels.background import Background
 from bootcourse.panels.growth import Drawn, growth, label_of
 from bootcourse.panels.train import train_panel
@@ -81,6 +82,20 @@ def test_every_training_that_was_drawn_is_named_and_the_last_stands_out():
 def test_a_label_says_what_differs_from_the_method_s_own_settings():
     assert label_of(settings_for("sac")) == "plain SAC"
     assert label_of(settings_for("bootstrapped", p=0.5, bonus=0.0)) == "bootstrapped SAC, p = 0.5, c = 0"
+
+
+def test_an_axis_has_a_few_round_numbers():
+    assert ticks(0, 100) == [0, 50, 100] and ticks(-10.4, 1.2) == [-10, -5, 0] and ticks(0, 150, 4) == [0, 50, 100, 150]
+    for low, high in ((0, 1e-6), (-3, 1e7), (9.1, 9.3)):
+        assert 2 <= len(ticks(low, high)) <= 5
+
+
+def test_a_rolling_mean_ends_where_its_agent_ends():
+    values = np.array([[1.0, 2, 3, 4], [5, 7, np.nan, np.nan]])
+    at, means = rolling(values, 2)
+    assert at.tolist() == [2, 3, 4] and means[0].tolist() == [1.5, 2.5, 3.5]
+    assert means[1][0] == 6 and np.isnan(means[1][1:]).all()
+    assert rolling(np.full((2, 3), np.nan), 2)[1].shape == (2, 0)
 
 
 # ---- the background

@@ -75,7 +75,7 @@ def ticks(low: float, high: float, about: int = 3) -> list[float]:
     """Round numbers from low to high, about so many."""
     rough = (high - low) / about
     power = 10.0 ** math.floor(math.log10(rough))
-    step = next(power * k for k in (1, 2, 2.5, 3, 4, 5, 10) if power * k >= rough * 0.999)
+    step = next(power * k for k in (1, 2, 2.5, 3, 5, 10) if power * k >= rough * 0.999)
     first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
     return [round(i * step, 12) for i in range(first, last + 1)]
 

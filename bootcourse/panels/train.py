@@ -144,7 +144,7 @@ class TrainPanel(Panel):
         left = training.seconds * (total - driven) / driven if driven else 0.0
         speed = training.decisions / max(training.seconds, 1e-9)
         words = f"{driven:,} of {total:,} episodes · {speed:,.0f} decisions/s"
-        self._show_progress(words + (f" · {_duration(left)} left" if driven else ""), driven / total)
+        self._show_progress(words + (f" · about {_duration(left)} left" if driven else ""), driven / total)
         self._draw(training)
 
     def _ended(self, background: Background) -> None:
