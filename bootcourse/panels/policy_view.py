@@ -64,7 +64,8 @@ def marks(driven: int, by_rule: int, own: str) -> list[str]:
 
 
 def _two(value: float) -> str:
-    return f"{round(float(value), 2) + 0.0:.2f}".replace("-", "−")
+    words = f"{round(float(value), 2) + 0.0:.2f}" if abs(value) < 1e4 else f"{value:.1e}"
+    return words.replace("-", "−")
 
 
 def _title(x: float, symbol: str, words: str, colour: str) -> list[str]:

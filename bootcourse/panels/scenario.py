@@ -7,7 +7,6 @@ from html import escape
 
 import ipywidgets as widgets
 
-from bootcourse.errors import BootcourseError
 from bootcourse.panels.arguments import a_number, an_instance
 from bootcourse.panels.number import Number
 from bootcourse.panels.panel import Panel, beside
@@ -91,12 +90,9 @@ class ScenarioPanel(Panel):
         """Below the road: which numbers were refused, wherever they stand."""
         refused = [number for number in self.numbers.values() if number.refused is not None]
         names = ", ".join(f"{number.symbol} = {number.refused:g}" for number in refused)
-        words = ""
-        if refused:
-            try:
-                refused[0].check(refused[0].refused)
-            except BootcourseError as error:
-                words = f"Does not fit yet: {names}. {error} The road above is the last that fits."
+        words = (
+            f"Does not fit yet: {names}. {refused[0].wrong} The road above is the last that fits." if refused else ""
+        )
         self.say(words, wrong=True)
 
     def picture(self) -> tuple[bytes, str, str]:

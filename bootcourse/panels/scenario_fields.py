@@ -3,6 +3,7 @@
 The ranges are those in which a slider teaches something; what is allowed is decided by `Scenario` alone.
 """
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 
@@ -23,6 +24,7 @@ class Field:
     step: float
     help: str
     end: int | None = None  # 0 or 1: the low or the high end of a range
+    most: float = math.inf  # what the panel tries at most, where a count costs memory
 
     def of(self, scenario: Scenario) -> float:
         """The number's value in a scenario."""
@@ -52,7 +54,7 @@ GROUPS = {
         Field("rule", "t_safe", "t safe", "s", 0.1, 4, 0.1, "Safety time of a lane change."),
         Field("rule", "v_min", "v min", "m/s", 1, 20, 0.5, "Slowest target speed."),
         Field("rule", "v_max", "v max", "m/s", 1, 30, 0.5, "Fastest target speed."),
-        Field("rule", "n", "n", "", 2, 20, 1, "Target speeds, evenly spaced from v min to v max."),
+        Field("rule", "n", "n", "", 2, 20, 1, "Target speeds, evenly spaced from v min to v max.", most=1000),
         Field("rule", "floor", "floor", "m", 0.5, 20, 0.5, "Smallest gap for a lane change, bumper to bumper."),
     ),
     "Reward": (
@@ -65,7 +67,7 @@ GROUPS = {
         Field("clock", "decisions", "decisions", "", 10, 300, 10, "Decisions of an episode."),
         Field("clock", "simulation_rate", "physics", "Hz", 1, 20, 1, "Simulation steps a second."),
         Field("clock", "decision_rate", "decide", "Hz", 1, 5, 1, "Decisions a second."),
-        Field("sight", "neighbours", "sees", "cars", 1, 10, 1, "Nearest cars in what the ego observes."),
+        Field("sight", "neighbours", "sees", "cars", 1, 10, 1, "Nearest cars in what the ego observes.", most=100),
         Field("road", "lanes", "lanes", "", 2, 8, 1, "Lanes; the traps take the two on the right."),
         Field("road", "length", "length", "m", 1000, 10000, 100, "Length of the road: no car may reach its end."),
     ),
@@ -78,11 +80,12 @@ def built(start: Scenario, values: Mapping[Field, float]) -> Scenario:
     changes: dict[str, dict] = {}
     for field, value in values.items():
         part = getattr(start, field.part)
-        before = getattr(part, field.name) if field.end is None else getattr(part, field.name)[field.end]
-        if value == before:
+        if value == field.of(start):
             continue
+        if value > field.most:
+            raise BootcourseError(f"{field.symbol} = {value:g}: this panel goes up to {field.most:g}.")
         whole = next(f for f in fields(part) if f.name == field.name).type in ("int", int)
-        value = int(value) if whole and value == int(value) else value
+        value = int(value) if whole and float(value).is_integer() else value
         own = changes.setdefault(field.part, {})
         if field.end is None:
             own[field.name] = value

@@ -3,6 +3,7 @@
 import numpy as np
 
 from bootcourse.colours import OTHER, TRAP
+from bootcourse.panels.axes import ticks
 from bootcourse.panels.road import road
 from bootcourse.panels.svg import QUIET, drawing, line, rect, text
 from bootcourse.road.formulas import speed_reward, weighted_reward
@@ -61,12 +62,9 @@ def _distances(scenario: Scenario, cars: np.ndarray, scale: float, y: float) -> 
 
 def _metres(scale: float, y: float) -> list[str]:
     """Distances from the ego, below the whole road."""
-    step = next(step for step in (20, 50, 100, 200, 500, 1000) if step * scale >= 60)
-    places = np.arange(0, (1 - BEHIND) * WIDTH / scale, step)
+    places = ticks(0, (1 - BEHIND) * WIDTH / scale, 13)
     parts = [line(BEHIND * WIDTH + m * scale, y, BEHIND * WIDTH + m * scale, y + 4, QUIET) for m in places]
-    return parts + [
-        text(BEHIND * WIDTH + m * scale, y + 16, f"{m:g} m", "middle", QUIET, 10.5) for m in places if m or 1
-    ]
+    return parts + [text(BEHIND * WIDTH + m * scale, y + 16, f"{m:g} m", "middle", QUIET, 10.5) for m in places]
 
 
 def consequences(scenario: Scenario) -> list[str]:
