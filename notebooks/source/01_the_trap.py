@@ -18,18 +18,21 @@
 # - work out by hand what doing nothing earns, and check it on the road;
 # - explain why leaving the trap looks like a bad idea, one decision at a time.
 #
-# **Time** 40 minutes, under a minute of it the machine's. **You need** Python, and no
+# **Time** 60 minutes, under a minute of it the machine's. **It builds on** nothing but Python: no
 # reinforcement learning yet.
 
 # %%
 import gymnasium as gym
 import numpy as np
 from bootcourse.drivers import idle_driver, in_words, plan_driver, random_driver, rule_driver
+from bootcourse.lessons import check
 from bootcourse.lessons.figures import reward_curve
+from bootcourse.lessons.figures_road import nine_actions
+from bootcourse.panels import drive_panel
 from bootcourse.record.drive import record
-from bootcourse.road.formulas import centring_reward, speed_reward, steering_reward, weighted_reward
+from bootcourse.road import formulas
 from bootcourse.road.observation import names, scales
-from bootcourse.road.state import TRAP_1, TRAP_2, Accident, X
+from bootcourse.road.state import EGO, LANE, TRAP_1, TRAP_2, Accident, X
 from bootcourse.scenario import ACTION_NAMES, DEFAULT
 from bootcourse.study.drawing import show
 from bootcourse.study.evaluate import drive_episodes, held_out_seeds
@@ -56,12 +59,50 @@ show(top_view(idle, time=0, distances=True))
 # %% [markdown]
 # ## Round 1: drive it
 #
-# You decide once a second. There are nine actions: −1, 0 or +1 m/s², times −π/50, 0 or +π/50 rad
-# of steering. A plan is a list of actions in words, with the number of seconds. After your plan,
-# the car keeps going straight.
+# Drive first, and think afterwards. In JupyterLab the panel below has nine buttons; click on the
+# pad once and the arrow keys work, too. You decide once a second, and the road waits for you. The
+# faint car is a **ghost**: it drives the same road, and knows the way out.
+
+# %% tags=["nbval-ignore-output"]
+drive_panel(seed=ROAD)
+
+# %% [markdown] tags=["instructor"] minutes=8
+# Let them crash. Nearly all steer left at once and hit trap 2; the second attempt is to
+# accelerate. Collect on the board what ended each attempt and after how many seconds, and ask who
+# still has a plan. Nobody needs to succeed here.
+
+# %% [markdown]
+# The nine buttons are the nine **actions**: −1, 0 or +1 m/s², times −π/50, 0 or +π/50 rad of
+# steering. Each is held for one second. A program knows them by their numbers, 0 to 8.
 
 # %%
-print(ACTION_NAMES)
+print(dict(enumerate(ACTION_NAMES)))
+show(nine_actions(seconds=2))
+
+# %% [markdown]
+# **See.** Two seconds of steering bring you more than half of the way into the next lane, and
+# leave the car turned. That is a coarse way to drive: every lane change needs a turn and a turn
+# back.
+#
+# **Exercise 1.1 (5 min, ●○○).** Turn action numbers into what the car does. The middle action, 4,
+# is "keep straight"; y grows to the *right*, so steering left is negative.
+
+
+# %%
+def decode(actions):
+    """Acceleration (m/s²) and steering (rad) of each action: whole numbers (n,) -> (n, 2)."""
+    # solution
+    acceleration = actions // 3 - 1
+    steering = (actions % 3 - 1) * np.pi / 50
+    return np.stack([acceleration, steering], axis=-1)
+    # end solution
+
+
+check.decode(decode)
+
+# %% [markdown]
+# Without a panel, a plan is a list of actions in words, with the number of seconds. After your
+# plan, the car keeps going straight.
 
 # %%
 my_plan = [("keep left", 2), ("keep right", 2)]  # change it, and run the cell again
@@ -69,12 +110,14 @@ my_plan = [("keep left", 2), ("keep right", 2)]  # change it, and run the cell a
 mine = record(plan_driver(my_plan), [ROAD], label="you")[0]
 ending = Accident(mine.accident).name.lower()
 print(f"accident: {ending}, after {len(mine.actions)} s, return {mine.rewards.sum():.2f}")
+near, far = DEFAULT.traps.d2
+print(f"trap 2 starts {near} to {far} m ahead; a car is {DEFAULT.car.length:g} m long")
 show(top_view_over_time(mine, times=[0, 1, 2, 3]))
 
 # %% [markdown]
-# **See.** The first idea of nearly everybody, "go left now", ends in trap 2: it is 4.06 to 7.43 m
-# ahead of you, centre to centre, and a car is 5 m long. On roads where it is a little further
-# ahead the same plan ends behind trap 2, at the same 10 m/s. (Try `ROAD = 7`.)
+# **See.** The first idea of nearly everybody, "go left now", ends in trap 2: from centre to centre
+# it is hardly more than a car's length ahead of you. On roads where it is a little further ahead
+# the same plan ends behind trap 2, at the same 10 m/s. (Try `ROAD = 7`.)
 #
 # There are three ways to end badly. Each ends the episode at once and pays −10.
 
@@ -91,9 +134,11 @@ for name, plan in bad_plans.items():
 # %% [markdown]
 # The paper adds all three up and calls them "collision rate". We keep them apart: a policy that
 # stops on the motorway and one that hits a car have learned different things.
+
+# %% [markdown]
+# > **Predict.** The way out exists. Does its first second accelerate, steer, or brake?
 #
-# Is there a way out at all? Here is one, found by a controller that you will meet in the next
-# lesson.
+# Is there a way out at all? Here is one, found by a controller that you will meet in lesson 3.
 
 # %%
 escape = record(rule_driver(DEFAULT), [ROAD], label="rule")[0]
@@ -130,6 +175,15 @@ print(f"trap 1 is {start[TRAP_1, X]:.2f} m ahead, trap 2 {start[TRAP_2, X]:.2f} 
 
 # %% [markdown]
 # **See.** The nearest is trap 2, and its `dy` is −4 m: one lane to the left.
+#
+# The 26 numbers are the **state** of a *Markov decision process* (MDP): a world in which what
+# comes next, and what it pays, depends on the present state and the action alone. A **policy** is
+# a rule that turns a state into an action, or into a probability for each of the nine.
+
+# %% [markdown] tags=["instructor"] minutes=6
+# Ask what is missing from the 26 numbers: how long a car has been changing lane, the traffic
+# beyond 200 m or beyond the fourth car, the seconds that are left. So the road is only nearly
+# Markov for the learner. The rule controller of lesson 3 reads the true state.
 
 # %% [markdown]
 # ## Round 3: what you are paid for
@@ -150,28 +204,95 @@ show(reward_curve())
 # **See.** Speed pays little up to 12.5 m/s, a lot up to 15, and nothing above. The road on which
 # you earn well is the free one: behind the traps you earn 0.13 of the speed term and never more.
 #
-# > **Predict.** You do nothing at all for 150 s: 10 m/s, centred, no steering. What do you earn
-# > in one second? In 150? Use the formula and the line $r_v = \frac{2}{75} v - \frac{2}{15}$ for
-# > 5 < v ≤ 12.5. Pen and paper.
+# $$ r_v = \begin{cases} \exp(-(v - 15)^2) & v > 15 \\ \frac{8}{25} v - \frac{19}{5} & 12.5 < v \le
+# 15 \\ \frac{2}{75} v - \frac{2}{15} & 5 < v \le 12.5 \\ 0 & v \le 5 \end{cases} $$
+#
+# **Exercise 1.2 (6 min, ●○○).** Write it.
+
 
 # %%
-v, offset, theta = 10.0, 0.0, 0.0
-r_v, r_y, r_theta = speed_reward(v), centring_reward(offset), steering_reward(theta)
-reward = weighted_reward(r_v, r_y, r_theta, 1.5, 0.05, 0.05)
-print(f"r_v = {r_v:.4f}, r_y = {r_y:.0f}, r_theta = {abs(r_theta):.0f}")
-print(f"{reward:.5f} a second, {150 * reward:.4f} in 150 s")
+def speed_reward(v_lon):
+    """r_v at a speed along the road (m/s), a number; no unit."""
+    # solution
+    if v_lon > 15:
+        return np.exp(-((v_lon - 15) ** 2))
+    if v_lon > 12.5:
+        return 8 / 25 * v_lon - 19 / 5
+    if v_lon > 5:
+        return 2 / 75 * v_lon - 2 / 15
+    return 0.0
+    # end solution
+
+
+check.speed_reward(speed_reward)
 
 # %% [markdown]
-# Now let the road say it. The sum of an episode's rewards is its **return**.
+# **Exercise 1.3 (6 min, ●○○).** Now the whole reward of one second. The three terms are in
+# `bootcourse.road.formulas`. An accident (1 collision, 2 road departure, 3 stoppage; 0 none) pays
+# −10 and nothing else.
+
+
+# %%
+def reward(v_lon, offset, theta, accident):
+    """r(s, a), a number. v_lon in m/s, offset d_e in m, theta in rad, accident 0 to 3."""
+    # solution
+    if accident:
+        return -10.0
+    r_v = formulas.speed_reward(v_lon)
+    r_y = formulas.centring_reward(offset)
+    r_theta = formulas.steering_reward(theta)
+    return (1.5 * r_v + 0.05 * r_y + 0.05 * r_theta) / (1.5 + 0.05 + 0.05)
+    # end solution
+
+
+check.reward(reward)
+
+# %% [markdown]
+# > **Predict.** You do nothing at all for 150 s: 10 m/s, centred, no steering. What do you earn
+# > in one second? In 150? Pen and paper, before you write the function.
+#
+# The sum of an episode's rewards is its **return**.
+#
+# **Exercise 1.4 (6 min, ●○○).** What does doing nothing earn, behind traps of some speed, in some
+# seconds?
+
+
+# %%
+def idle_return(speed, seconds):
+    """The return of driving centred and straight: speed in m/s, 5 < speed <= 12.5; a number."""
+    # solution
+    r_v, r_y, r_theta = 2 / 75 * speed - 2 / 15, 1.0, 0.0
+    return seconds * (1.5 * r_v + 0.05 * r_y + 0.05 * r_theta) / 1.6
+    # end solution
+
+
+check.idle_return(idle_return)
+
+# %% [markdown]
+# Now let the road say it.
 
 # %%
 # NBVAL_CHECK_OUTPUT
 print(f"return {idle.rewards.sum():.4f}, distance {idle.distance:.0f} m, success {idle.success}")
 
 # %% [markdown]
-# **Explain.** (1.5 · 0.1333 + 0.05) / 1.6 = 0.15625 a second, 23.4375 in all, over 1500 m.
-# Remember 23.4: a learner that ends there has learned to stay where it is. Doing nothing is a
-# *fixed point*: the trap never punishes you for it.
+# %%
+# NBVAL_CHECK_OUTPUT
+r_v, r_y = formulas.speed_reward(10.0), formulas.centring_reward(0.0)
+each = formulas.weighted_reward(r_v, r_y, 0.0, 1.5, 0.05, 0.05)
+print(f"(1.5 · {r_v:.4f} + 0.05 · {r_y:.0f}) / 1.6 = {each:.5f}, in 150 s {150 * each:.4f}")
+print(f"an accident costs what {10 / each:.0f} s of doing nothing earn")
+free = formulas.weighted_reward(1.0, 1.0, 0.0, 1.5, 0.05, 0.05)
+print(f"a free road at 15 m/s: {free:.5f} a second, {150 * free:.1f} in 150 s")
+
+# %% [markdown]
+# **Explain.** Your paper, the formula and the road agree. Remember 23.4: a learner that ends
+# there has learned to stay where it is. Doing nothing is a *fixed point*: the trap never punishes
+# you for it.
+
+# %% [markdown] tags=["instructor"] minutes=6
+# Let two or three read their number for one second aloud before the cell is run. 0.16 or 0.155
+# means that the third weight was left out of the mean, 0.25 that nothing was divided.
 
 # %% [markdown]
 # ## Round 4: why it is a trap
@@ -196,20 +317,63 @@ print(f"deepest: {np.min(np.cumsum(escape.rewards) - np.cumsum(idle.rewards)):.2
 # > out? In what share does it survive?
 
 # %%
+# NBVAL_CHECK_OUTPUT
 episodes = drive_episodes(random_driver(np.random.default_rng(0)), held_out_seeds(1, 1000))
 print(f"ahead of trap 1 at the end: {100 * episodes.success.mean():.1f} %")
 print(f"no accident in 150 s:       {100 * np.mean(episodes.accident == 0):.1f} %")
 print(f"mean return:                {episodes.returns.mean():.2f}")
+free_from = int(np.flatnonzero(escape.states[:: DEFAULT.clock.steps, EGO, LANE] == 0)[0])
+print(f"on road {ROAD} the escape takes {free_from} decisions to reach the free lane")
 
 # %% [markdown]
 # **Explain.** A learner begins with random tries and improves in small steps. Nearly every try
 # away from "follow trap 1" ends at −10 before it can pay, so the first lesson that the road
-# teaches is: stay. The escape needs about ten right decisions in a row, and pays much later. A
-# learner that explores at random almost never sees it. That is the problem that the rest of this
-# course solves.
+# teaches is: stay. The escape needs several right decisions in a row, and pays much later. A
+# learner that explores at random almost never sees it. That is the problem that the rest of this course
+# solves.
+
+# %% [markdown]
+# ## Round 5: success, and what goes wrong
 #
 # **Success** has a definition: the ego is ahead of trap 1 at the end of its episode. A crash
 # after overtaking still counts as success, and is counted again as an accident.
+#
+# > **Predict.** A driver overtakes trap 1, drives on for a minute and then hits a car. Is that a
+# > success, an accident, or both?
+#
+# **Exercise 1.5 (5 min, ●○○).** Summarise some episodes: the share that succeeds, and the share
+# that ends in each kind of accident.
+
+
+# %%
+def outcome_rates(x_ego, x_trap_1, accident):
+    """Shares of success, collision (1), road departure (2) and stoppage (3): arrays (n,) -> (4,).
+
+    Places in m at the end of each episode; accident is 0 where there was none.
+    """
+    # solution
+    success = np.mean(x_ego > x_trap_1)
+    kinds = [np.mean(accident == kind) for kind in (1, 2, 3)]
+    return np.array([success, *kinds])
+    # end solution
+
+
+check.outcome_rates(outcome_rates)
+
+# %%
+by_chance = random_driver(np.random.default_rng(0))
+drivers = {"idle": idle_driver, "rule": rule_driver(DEFAULT), "random": by_chance}
+for name, driver in drivers.items():
+    drives = record(driver, range(100))
+    ahead = np.mean([drive.success for drive in drives])
+    kinds = [sum(drive.accident == kind for drive in drives) for kind in Accident]
+    counted = ", ".join(f"{n} {k.name.lower()}" for n, k in zip(kinds, Accident, strict=True))
+    print(f"{name:7} success {100 * ahead:5.1f} %   of 100 episodes: {counted}")
+
+# %% [markdown]
+# **Explain.** Three drivers, three shapes of failure. The idle one never fails and never
+# succeeds. The random one fails in every way. "How often does it crash?" is only half of a
+# question; the other half is "what did it get done before?".
 
 # %% [markdown]
 # ## What you now know
@@ -219,8 +383,7 @@ print(f"mean return:                {episodes.returns.mean():.2f}")
 # 2. Speed pays most near 15 m/s; accidents pay −10 and end the episode.
 # 3. Doing nothing earns 23.4375 over 1500 m, for ever behind trap 1.
 # 4. The way out goes backwards: slower first, then left behind trap 2.
-# 5. The escape pays off late, and one accident on the way costs what 64 s of patience earn (10 /
-#    0.15625).
+# 5. The escape pays off late, and one accident on the way costs what a minute of patience earns.
 #
 # **Three questions to think about**
 # - Would the trap still be one if trap 2 drove 0.5 m/s faster than you?
@@ -228,6 +391,8 @@ print(f"mean return:                {episodes.returns.mean():.2f}")
 #   then do?
 # - The observation contains no memory. Which situation on this road looks the same but is not?
 #
-# **Read on**: the next lesson takes the controller apart that found the way out. highway-env, the
-# simulator under this road: Leurent, *An Environment for Autonomous Driving Decision-Making*
-# (2018).
+# **Read on**: the next lesson is about the other cars, and
+# [the one after it](02_the_rule.ipynb) takes the controller apart that found the way out.
+# highway-env, the simulator under this road: Leurent, *An Environment for Autonomous Driving
+# Decision-Making* (2018). MDPs from the beginning: Sutton and Barto, *Reinforcement Learning*
+# (2nd edition, 2018), chapter 3.
