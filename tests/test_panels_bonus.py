@@ -73,7 +73,9 @@ def test_the_share_of_demonstrations_fades_the_bonus_in_a_straight_line(panel):
 def test_a_demonstration_that_ends_in_an_accident_is_worth_nothing_afterwards():
     crash = record(plan_driver([("keep right", 20)]), [0], DEFAULT, "you")[0]
     assert crash.accident
-    seen = bonus_panel(crash).seen
+    panel = bonus_panel(crash)
+    seen = panel.seen
+    assert "less towards the accident" in panel.alt
     assert seen.plain[-1] == pytest.approx(crash.rewards[-1])
     assert seen.weight[-1] == 1.0 and len(seen.trapped) == len(crash.actions)
 

@@ -75,7 +75,7 @@ def _fading(seen: Comparison, settings: Settings, episode: int, own: Style) -> l
     c, most = settings.bonus, max(1.5 * settings.beta_episodes, episode)
     episodes = np.linspace(0, most, 151)
     values = c * demonstration_share(episodes, settings.beta_start, settings.beta_episodes)
-    axes = Axes(RIGHT[0], BOTTOM[0], RIGHT[1], BOTTOM[1], (0, most), span([*values, 0.0], 0.1))
+    axes = Axes(RIGHT[0], BOTTOM[0], RIGHT[1], BOTTOM[1], (0, most), span([*(1.3 * values), 0.0], 0.1))
     parts = axes.frame("β·c, the mean bonus in a batch", "episode of the training", 2)
     parts += axes.curve(episodes, values, own._replace(line="-"), 1.4, 0.75)
     x, y = axes.at(episode, c * seen.beta)
@@ -102,7 +102,8 @@ def whole(seen: Comparison, c: float) -> str:
     most = float(seen.crossing.max())
     leads = f"From c = {most:.2g} on it leads" if most > 0 else "Even without a bonus it leads"
     added = c * seen.weight[0]
-    return f"{leads} at every moment. A bonus of {c:g} adds {added:.3g} to the target, c / (1 − γ).".replace("-", "−")
+    how = "c / (1 − γ)" if np.ptp(seen.weight) < 1e-9 else "less towards the accident that ends it"
+    return f"{leads} at every moment. A bonus of {c:g} adds {added:.3g} to the target, {how}.".replace("-", "−")
 
 
 def alt_text(seen: Comparison, k: int, rate: float, c: float) -> str:

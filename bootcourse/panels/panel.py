@@ -84,7 +84,9 @@ class Panel(widgets.VBox):
 
 
 def beside(*parts: widgets.Widget) -> widgets.Box:
-    """Parts next to each other, in as many rows as the column's width asks for."""
+    """Parts next to each other, in as many rows as the column's width asks for; room for a sentence in each."""
+    for part in parts:
+        part.layout.width, part.layout.flex, part.layout.max_width = "auto", "1 1 420px", "512px"
     return widgets.Box(parts, layout=widgets.Layout(flex_flow="row wrap", grid_gap="6px 32px", margin="6px 0 4px"))
 
 

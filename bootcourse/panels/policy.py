@@ -90,14 +90,14 @@ class PolicyPanel(Panel):
     def _head(self, k: int) -> list[str]:
         """When it is, how fast the car is, why the rule does what it does."""
         why = SENTENCES[Reason(int(self.decisions.reasons[k]))]
-        wants = f"It aims at lane {self.decisions.lanes[k]} and {self.decisions.speeds[k]:g} m/s."
+        wants = f"It aims at lane {self.decisions.lanes[k]} (0 is the leftmost) and {self.decisions.speeds[k]:g} m/s."
         kl = [] if self.seen.kl is None else [f"KL(π‖π̃) = {self.seen.kl:.2f} nats"]
         return [
             *(text(WIDTH, ROAD + 23, words, "end", size=16, bold=True) for words in kl),
             text(0, ROAD + 22, f"{k / self.clock.decision_rate:g} s", bold=True, size=15),
             text(64, ROAD + 22, f"{self.starts[k, EGO, SPEED]:.1f} m/s", size=13),
             text(COLUMNS[0], ROAD + 22, f"The rule: {why}.", fill=GREEN, size=13, bold=True),
-            text(COLUMNS[0] + 330, ROAD + 22, wants, fill=QUIET),
+            text(COLUMNS[0], ROAD + 40, wants, fill=QUIET),
         ]
 
     def _alt(self, k: int) -> str:

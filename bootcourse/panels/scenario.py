@@ -25,8 +25,11 @@ class ScenarioPanel(Panel):
         self.road = Number("road", seed, 0, 99, 1, "Which road is drawn: its seed.", check=check_seed)
         self.groups = widgets.ToggleButtons(options=list(GROUPS), tooltips=[f"Numbers of: {name}" for name in GROUPS])
         self.groups.style.button_width = "132px"
-        self.back = widgets.Button(description="Start again", tooltip="Put every number back to where it was.")
-        self.shown = beside()
+        self.back = widgets.Button(
+            description="Start again", icon="undo", tooltip="Put every number back to where it was."
+        )
+        self.back.layout.margin = "0 0 0 24px"
+        self.shown = beside(*self.numbers.values())
         self.shown.layout.min_height = "176px"
         self.view, self.code = widgets.HTML(), widgets.HTML()
         head = widgets.HBox([self.groups, self.back])

@@ -34,7 +34,7 @@ class Field:
 
 GROUPS = {
     "Traps": (
-        Field("traps", "speed", "v trap", "m/s", 6, 20, 0.1, "Speed of the two traps; the ego starts at 10."),
+        Field("traps", "speed", "v trap", "m/s", 6, 20, 0.1, "Speed of the two traps."),
         Field("ego", "speed", "v ego", "m/s", 2, 25, 0.5, "Speed at which the ego starts."),
         Field("traps", "d1", "D1 from", "m", 6, 40, 0.01, "Trap 1, in the ego's lane, starts at least here.", 0),
         Field("traps", "d1", "D1 to", "m", 6, 40, 0.01, "And at most here: metres ahead, centre to centre.", 1),

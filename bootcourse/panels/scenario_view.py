@@ -5,7 +5,7 @@ import numpy as np
 from bootcourse.colours import OTHER, TRAP
 from bootcourse.panels.axes import ticks
 from bootcourse.panels.road import road
-from bootcourse.panels.svg import QUIET, drawing, line, rect, text
+from bootcourse.panels.svg import INK, QUIET, drawing, line, rect, text
 from bootcourse.road.formulas import speed_reward, weighted_reward
 from bootcourse.road.state import EGO, TRAP_1, TRAP_2, X
 from bootcourse.road.vector_env import TrapVectorEnv
@@ -52,9 +52,9 @@ def _distances(scenario: Scenario, cars: np.ndarray, scale: float, y: float) -> 
     ):
         level, away = y + 12 + 16 * row, float(cars[trap, X] - cars[EGO, X])
         low, high = (ego + distance * scale for distance in low_high)
-        parts.append(line(ego, level, ego + away * scale, level, TRAP, 1.5))
-        parts.append(rect(low, level - 4, max(high - low, 2), 8, TRAP, 'opacity="0.35"'))
-        parts.append(line(ego + away * scale, level - 5, ego + away * scale, level + 5, TRAP, 2))
+        parts.append(line(ego, level, ego + away * scale, level, QUIET, 1.5))
+        parts.append(rect(low, level - 4, max(high - low, 2), 8, TRAP, 'opacity="0.6"'))
+        parts.append(line(ego + away * scale, level - 5, ego + away * scale, level + 5, INK, 2))
         words = f"{name} = {away:.1f} m here, from {low_high[0]:g} to {low_high[1]:g} m"
         parts.append(text(max(high, ego + away * scale) + 10, level + 4, words, size=11.5))
     return parts
@@ -62,7 +62,7 @@ def _distances(scenario: Scenario, cars: np.ndarray, scale: float, y: float) -> 
 
 def _metres(scale: float, y: float) -> list[str]:
     """Distances from the ego, below the whole road."""
-    places = ticks(0, (1 - BEHIND) * WIDTH / scale, 13)
+    places = ticks(0, ((1 - BEHIND) * WIDTH - 20) / scale, 13)
     parts = [line(BEHIND * WIDTH + m * scale, y, BEHIND * WIDTH + m * scale, y + 4, QUIET) for m in places]
     return parts + [text(BEHIND * WIDTH + m * scale, y + 16, f"{m:g} m", "middle", QUIET, 10.5) for m in places]
 
