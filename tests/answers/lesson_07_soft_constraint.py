@@ -122,3 +122,229 @@ def a_sample_for_the_sum(log_pi, rule_action, p):
 @wrong("soft_constraint")
 def the_same_rule_for_all(log_pi, rule_action, p):
     return with_probabilities(log_pi, rule_action[:1].expand(len(rule_action)), p)
+
+
+# log_stochastic_rule --------------------------------------------------------------------------------
+
+
+@right("log_stochastic_rule")
+def with_where(rule_action, p):
+    is_rule = torch.arange(9) == rule_action[:, None]
+    return torch.where(is_rule, math.log(p), math.log((1 - p) / 8))
+
+
+@right("log_stochastic_rule")
+def one_hot(rule_action, p):
+    mine = torch.nn.functional.one_hot(rule_action, 9).double()
+    return torch.log(mine * p + (1 - mine) * (1 - p) / 8)
+
+
+@right("log_stochastic_rule")
+def row_by_row(rule_action, p):
+    rows = []
+    for action in rule_action.tolist():
+        rows.append([math.log(p) if a == action else math.log((1 - p) / 8) for a in range(9)])
+    return torch.tensor(rows)
+
+
+@wrong("log_stochastic_rule", "probabilities themselves")
+def not_logarithms(rule_action, p):
+    return pi_tilde(rule_action, p)
+
+
+@wrong("log_stochastic_rule", "*share*")
+def each_gets_the_rest(rule_action, p):
+    return pi_tilde(rule_action, p, 1 - p).log()
+
+
+@wrong("log_stochastic_rule", "eight are left")
+def nine_get_the_rest(rule_action, p):
+    return pi_tilde(rule_action, p, (1 - p) / 9).log()
+
+
+@wrong("log_stochastic_rule", "base 10")
+def to_base_ten(rule_action, p):
+    return torch.log10(pi_tilde(rule_action, p))
+
+
+@wrong("log_stochastic_rule", "prices")
+def prices(rule_action, p):
+    return -pi_tilde(rule_action, p).log()
+
+
+@wrong("log_stochastic_rule", "rule of its own")
+def the_first_for_all(rule_action, p):
+    return with_where(rule_action, p)[:1].repeat(len(rule_action), 1)
+
+
+@wrong("log_stochastic_rule")
+def columns_for_rows(rule_action, p):
+    log_rule = torch.full((len(rule_action), 9), math.log((1 - p) / 8))
+    log_rule[:, rule_action] = math.log(p)
+    return log_rule
+
+
+@wrong("log_stochastic_rule", "shape")
+def transposed(rule_action, p):
+    return with_where(rule_action, p).T
+
+
+# regularised_policy ---------------------------------------------------------------------------------
+
+
+@right("regularised_policy")
+def as_powers(q, log_rule, alpha, xi):
+    weights = torch.exp((q - q.amax(-1, keepdim=True)) / (alpha + xi)) * log_rule.exp() ** (xi / (alpha + xi))
+    return weights / weights.sum(-1, keepdim=True)
+
+
+@right("regularised_policy")
+def with_softmax(q, log_rule, alpha, xi):
+    return torch.softmax(q / (alpha + xi) + log_rule * xi / (alpha + xi), dim=1)
+
+
+@wrong("regularised_policy", "α alone")
+def by_alpha(q, log_rule, alpha, xi):
+    return torch.softmax(q / alpha + xi / alpha * log_rule, -1)
+
+
+@wrong("regularised_policy", "Q alone")
+def q_by_alpha(q, log_rule, alpha, xi):
+    return torch.softmax(q / alpha + xi * log_rule, -1)
+
+
+@wrong("regularised_policy", "pushes away")
+def minus_the_rule(q, log_rule, alpha, xi):
+    return torch.softmax((q - xi * log_rule) / (alpha + xi), -1)
+
+
+@wrong("regularised_policy", "*logarithm*")
+def plus_probabilities(q, log_rule, alpha, xi):
+    return torch.softmax((q + xi * torch.exp(log_rule)) / (alpha + xi), -1)
+
+
+@wrong("regularised_policy", "adds up to 1")
+def logarithms(q, log_rule, alpha, xi):
+    return torch.log_softmax((q + xi * log_rule) / (alpha + xi), -1)
+
+
+@wrong("regularised_policy", "over the states")
+def over_states(q, log_rule, alpha, xi):
+    return torch.softmax((q + xi * log_rule) / (alpha + xi), 0)
+
+
+@wrong("regularised_policy")
+def without_the_rule(q, log_rule, alpha, xi):
+    return torch.softmax(q / alpha, -1)
+
+
+@wrong("regularised_policy")
+def a_mixture(q, log_rule, alpha, xi):
+    return (alpha * torch.softmax(q / alpha, -1) + xi * log_rule.exp()) / (alpha + xi)
+
+
+# constrained_loss -----------------------------------------------------------------------------------
+
+
+@right("constrained_loss")
+def three_means(log_pi, q, alpha, xi, kl):
+    pi = log_pi.exp()
+    expected = (pi * q.detach()).sum(-1).mean()
+    entropy = -(pi * log_pi).sum(-1).mean()
+    return -(expected + alpha * entropy - xi * kl.mean())
+
+
+@right("constrained_loss")
+def as_a_cost(log_pi, q, alpha, xi, kl):
+    cost = (torch.exp(log_pi) * (alpha * log_pi - q.clone().detach())).sum(dim=1)
+    return torch.mean(cost + xi * kl)
+
+
+@wrong("constrained_loss", "flows into Q")
+def with_q_s_gradient(log_pi, q, alpha, xi, kl):
+    return torch.mean((log_pi.exp() * (alpha * log_pi - q)).sum(-1) + xi * kl)
+
+
+@wrong("constrained_loss", "leaving the rule")
+def kl_turned(log_pi, q, alpha, xi, kl):
+    return torch.mean((log_pi.exp() * (alpha * log_pi - q.detach())).sum(-1) - xi * kl)
+
+
+@wrong("constrained_loss", "never feels it")
+def kl_detached(log_pi, q, alpha, xi, kl):
+    return three_means(log_pi, q, alpha, xi, kl.detach())
+
+
+@wrong("constrained_loss", "made *small*")
+def the_value(log_pi, q, alpha, xi, kl):
+    return -three_means(log_pi, q, alpha, xi, kl)
+
+
+@wrong("constrained_loss", "no weight")
+def unweighted_kl(log_pi, q, alpha, xi, kl):
+    return three_means(log_pi, q, alpha, 1.0, kl)
+
+
+@wrong("constrained_loss", "charge for entropy")
+def entropy_turned(log_pi, q, alpha, xi, kl):
+    return three_means(log_pi, q, -alpha, xi, kl)
+
+
+@wrong("constrained_loss")
+def all_detached(log_pi, q, alpha, xi, kl):
+    return three_means(log_pi, q, alpha, xi, kl).detach()
+
+
+@wrong("constrained_loss")
+def policy_detached(log_pi, q, alpha, xi, kl):
+    return three_means(log_pi.detach(), q, alpha, xi, kl)
+
+
+@wrong("constrained_loss", "shape")
+def one_for_each_state(log_pi, q, alpha, xi, kl):
+    return -((log_pi.exp() * (q.detach() - alpha * log_pi)).sum(-1) - xi * kl)
+
+
+# constraint_strength --------------------------------------------------------------------------------
+
+
+@right("constraint_strength")
+def with_a_mask(alpha, multiplier, fixed):
+    is_fixed = (fixed >= 0).to(alpha.dtype)
+    return is_fixed * fixed + (1 - is_fixed) * multiplier * alpha
+
+
+@right("constraint_strength")
+def one_by_one(alpha, multiplier, fixed):
+    pairs = zip(alpha.tolist(), multiplier.tolist(), fixed.tolist(), strict=True)
+    return torch.tensor([f if f >= 0 else m * a for a, m, f in pairs])
+
+
+@wrong("constraint_strength", "of 0 counts")
+def zero_is_nothing(alpha, multiplier, fixed):
+    return torch.where(fixed > 0, fixed, alpha * multiplier)
+
+
+@wrong("constraint_strength", "never look at")
+def always_by_alpha(alpha, multiplier, fixed):
+    return alpha * multiplier
+
+
+@wrong("constraint_strength", "by α")
+def both_by_alpha(alpha, multiplier, fixed):
+    return alpha * torch.where(fixed >= 0, fixed, multiplier)
+
+
+@wrong("constraint_strength", "swapped")
+def swapped(alpha, multiplier, fixed):
+    return torch.where(fixed < 0, fixed, alpha * multiplier)
+
+
+@wrong("constraint_strength", "larger of the two")
+def the_larger(alpha, multiplier, fixed):
+    return torch.max(fixed, alpha * multiplier)
+
+
+@wrong("constraint_strength")
+def added(alpha, multiplier, fixed):
+    return alpha * multiplier + fixed.clamp_min(0)

@@ -116,6 +116,8 @@ def tidy(outputs: list) -> list:
             data.pop(WIDGET, None)
         if output.output_type == "stream" and output.name == "stderr" and "%|" in output.text:
             continue
+        if WIDGET in data and "%|" in data.get("text/plain", ""):
+            continue
         if output.output_type == "stream" and kept and kept[-1].get("name") == output.name:
             kept[-1].text += output.text
         else:

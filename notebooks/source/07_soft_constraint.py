@@ -1,0 +1,435 @@
+# ---
+# jupyter:
+#   jupytext:
+#     text_representation:
+#       extension: .py
+#       format_name: percent
+#   kernelspec:
+#     display_name: Python 3 (ipykernel)
+#     language: python
+#     name: python3
+# ---
+
+# %% [markdown]
+# # 7 · The soft constraint
+#
+# **What you will be able to do**
+# - turn a rule into a probability for each action, and say in nats what it costs to ignore it;
+# - write down the best compromise between what a learner believes and what the rule says;
+# - say where this pull enters the learner's losses, and how fast it lets go.
+#
+# **Time** 50 minutes, about one of them the machine's. **You need** the rule of lesson 3, and
+# actor, critic and soft value from lesson 4.
+
+# %%
+import math
+
+import numpy as np
+import torch
+from bootcourse.drivers import idle_driver, rule_driver
+from bootcourse.learn import bootstrap
+from bootcourse.learn.settings import settings_for, with_seeds
+from bootcourse.learn.train import Training
+from bootcourse.lessons import check, source
+from bootcourse.lessons.charts import action_bars, lines
+from bootcourse.panels import policy_panel
+from bootcourse.record.drive import record
+from bootcourse.road.formulas import centring_reward, speed_reward, weighted_reward
+from bootcourse.scenario import ACTION_NAMES, DEFAULT
+from bootcourse.study.drawing import show
+from bootcourse.study.evaluate import drive_episodes, held_out_seeds, report
+
+# %% [markdown]
+# ## Look first
+#
+# An agent that has learned nothing yet drives, and the rule looks over its shoulder. Each row is
+# one of the nine actions. The first bar is the agent's own probability, π. The second is the
+# rule's, π̃ ("pi tilde"): nearly all on one action. The third is a compromise of the two. Move the
+# numbers and watch the third.
+
+# %%
+ROAD = 10
+newborn = Training([settings_for("soft")], episodes=1).agent(0)
+first_drive = record(newborn.driver(with_q=True), [ROAD], label="soft")[0]
+policy_panel(first_drive)
+
+# %% [markdown]
+# > **Predict.** Set ξ ("xi") to 0. Which of the three columns of bars changes, and what does it
+# > look like then? Do it, and put ξ back to 2.
+
+# %% [markdown]
+# **See.** The compromise loses the rule and follows Q alone, the agent's own guesses, which are
+# still noise. ξ is how hard the rule pulls. This lesson takes the pull apart: what it costs to
+# ignore the rule, which compromise is best, where it enters the losses, and how it fades.
+
+# %% [markdown]
+# ## Round 1: what it costs to ignore the rule
+#
+# The rule names one action, μ(s). To compare it with an agent that has probabilities, we pretend
+# that the rule is a little unsure. It takes its own action with probability $p$, and the other
+# eight share what is left:
+#
+# $$ \tilde\pi(a|s) = p \text{ if } a = \mu(s), \qquad \tfrac{1-p}{8} \text{ otherwise} $$
+#
+# Call $-\log \tilde\pi(a|s)$ the **price** of an action. Its unit is the **nat**: what the natural
+# logarithm counts. An action that the rule would surely take costs 0 nats; one that it would take
+# once in $e$ times costs 1.
+#
+# > **Predict.** Raise p from 0.9 to 0.99. Any other action than the rule's becomes ten times as
+# > unlikely. Does its price grow by a factor of ten, of two, or by less?
+
+# %%
+for p in (0.5, 0.9, 0.99, 0.999):
+    own, other = -math.log(p), -math.log((1 - p) / 8)
+    print(f"p = {p:5}: the rule's own action {own:.3f} nats, any other {other:.2f} nats")
+
+# %% [markdown]
+# **See.** The price grows by $\log 10$, about 2.3 nats, each time. The rule did not become better
+# from one line to the next. It became surer of itself, and whoever ignores it pays more.
+#
+# **Exercise 7.1 (5 min, ●○○).** Write $\log\tilde\pi$ for a batch of states.
+
+
+# %%
+def log_stochastic_rule(rule_action, p):
+    """log π̃(a|s) in nats. rule_action: (batch,) in 0..8; p: float. Returns (batch, 9)."""
+    # solution
+    log_rule = torch.full((len(rule_action), 9), math.log((1 - p) / 8))
+    return log_rule.scatter(-1, rule_action.unsqueeze(-1), math.log(p))
+    # end solution
+
+
+check.log_stochastic_rule(log_stochastic_rule)
+
+# %% [markdown]
+# ## Round 2: from one action to a policy
+#
+# An agent does not take one action, it has a probability for each. What does a whole policy pay?
+# The mean price under π, less what π would pay for its own choices. That is the
+# **Kullback-Leibler divergence** (KL) from π̃:
+#
+# $$ D_\mathrm{KL}(\pi \,\|\, \tilde\pi) = \sum_a \pi(a|s) \log \frac{\pi(a|s)}{\tilde\pi(a|s)} $$
+#
+# It is 0 where the two agree in every action, and positive everywhere else.
+#
+# > **Predict.** The rule says "keep left", p = 0.9. Three agents: one is sure of "keep left", one
+# > is sure of "accelerate straight", one gives every action the same probability. Put them in
+# > order of their KL. Is any of them 0?
+
+# %%
+rule_says = torch.tensor([ACTION_NAMES.index("keep left")])
+sure = torch.full((1, 9), 1e-12).scatter(1, rule_says[:, None], 1.0)
+elsewhere = torch.full((1, 9), 1e-12).scatter(1, torch.tensor([[7]]), 1.0)
+even = torch.full((1, 9), 1 / 9)
+for words, pi in (("agrees", sure), (ACTION_NAMES[7], elsewhere), ("undecided", even)):
+    kl = bootstrap.kl_to_rule(pi.log(), rule_says, torch.tensor(0.9)).item()
+    print(f"{words:20} KL = {kl:.3f} nats")
+
+# %% [markdown]
+# **Explain.** Being sure of something else costs the full price of that action. Being sure of the
+# rule's own action is cheap, but not free: π̃ itself is only 90 % sure, and the KL is 0 for π̃ and
+# for nothing else. So the constraint asks for a little doubt, too.
+#
+# The order of the two matters. $D_\mathrm{KL}(\tilde\pi \| \pi)$ would charge an agent for *not*
+# going where the rule might go. Ours charges it for going where the rule would *not*.
+#
+# **Exercise 7.2 (5 min, ●●○).** Write the KL for a batch of states.
+
+
+# %%
+def soft_constraint(log_pi, rule_action, p):
+    """KL(π ‖ π̃) in nats. log_pi: (batch, 9); rule_action: (batch,); p: float. Returns (batch,)."""
+    # solution
+    log_rule = torch.full_like(log_pi, math.log((1 - p) / 8))
+    log_rule.scatter_(-1, rule_action.unsqueeze(-1), math.log(p))
+    return (log_pi.exp() * (log_pi - log_rule)).sum(-1)
+    # end solution
+
+
+check.soft_constraint(soft_constraint)
+
+# %% [markdown]
+# The library does the same, for many agents at once (`p[..., None, None]` makes room for the
+# batch and the actions):
+
+# %% tags=["nbval-ignore-output"]
+source("bootcourse.learn.bootstrap", "log_stochastic_rule", "kl_to_rule")
+
+# %% [markdown] tags=["instructor"] minutes=10
+# Let one half of the room minimise KL(π‖π̃) over policies with two actions, the other half the
+# reverse. "Mode seeking" and "mass covering" come up by themselves. With a rule that is a point
+# mass plus noise, both have the same minimum; what differs is the gradient far away from it.
+
+# %% [markdown]
+# ## Round 3: the best compromise
+#
+# In one state, with its guesses $Q(s,a)$, the agent now wants three things at once: actions that
+# are worth much, a little chance (entropy, weight α), and not too far from the rule (weight ξ).
+#
+# $$ \max_\pi \; \sum_a \pi(a)\, Q(a) + \alpha\, \mathcal{H}(\pi)
+# - \xi\, D_\mathrm{KL}(\pi \| \tilde\pi) $$
+#
+# Write out the KL and collect: π is multiplied by $Q + \xi \log\tilde\pi$, and $\pi \log \pi$ by
+# $-(\alpha + \xi)$. Such a sum is largest for a softmax:
+#
+# $$ \pi^*(a) \propto \exp \frac{Q(a) + \xi \log \tilde\pi(a)}{\alpha + \xi} $$
+#
+# The rule's price is subtracted from what an action is worth. And ξ stands below as well: it
+# makes the agent less sure, since π̃ is never quite sure.
+#
+# **Exercise 7.3 (8 min, ●●○).** Write it.
+
+
+# %%
+def regularised_policy(q, log_rule, alpha, xi):
+    """The best π. q, log_rule: (batch, actions); alpha, xi: floats. Returns (batch, actions)."""
+    # solution
+    return ((q + xi * log_rule) / (alpha + xi)).softmax(-1)
+    # end solution
+
+
+check.regularised_policy(regularised_policy)
+
+# %% [markdown]
+# Is it really the best? Do not believe the algebra: let an optimiser look for something better,
+# from a policy that is even.
+
+# %%
+q = torch.tensor([[0.2, 0.1, 0.0, 0.6, 0.4, 0.1, 0.3, 1.2, 0.2]])
+alpha, xi = 0.1, 0.2
+log_rule = bootstrap.log_stochastic_rule(rule_says, torch.tensor(0.9))
+logits = torch.zeros(1, 9, requires_grad=True)
+optimiser = torch.optim.Adam([logits], lr=0.05)
+for _ in range(2000):
+    pi, log_pi = logits.softmax(-1), logits.log_softmax(-1)
+    objective = (pi * (q - alpha * log_pi - xi * (log_pi - log_rule))).sum()
+    optimiser.zero_grad()
+    (-objective).backward()
+    optimiser.step()
+best = bootstrap.regularised_policy(q, log_rule, alpha, xi)
+print(f"largest difference of a probability: {(logits.softmax(-1) - best).abs().max():.1e}")
+
+# %%
+alone = (q / alpha).softmax(-1)[0].tolist()
+title = "Q would accelerate, the rule keeps left: the compromise doubts"
+show(
+    action_bars(
+        {"Q alone": alone, "rule": log_rule.exp()[0].tolist(), "both": best[0].tolist()}, title
+    )
+)
+
+# %% [markdown]
+# When does the rule win? Its action has a **head start** of $\xi \log \frac{8p}{1-p}$ in Q over
+# every other action: the difference of two prices, times ξ.
+#
+# > **Predict.** With p = 0.9 and the paper's first ξ = 2, how large is that head start? Compare it
+# > with the most that one second on the road can pay, which is 1.5/1.6 + 0.05/1.6, about 1.
+
+# %%
+step = math.log(8 * 0.9 / 0.1)
+for xi in (2.0, 0.2, 0.02, 0.002):
+    print(f"ξ = {xi:5}: a head start of {xi * step:.3f}")
+best_second = weighted_reward(speed_reward(15.0), centring_reward(0.0), 0.0, 1.5, 0.05, 0.05)
+print(
+    f"the best second pays {best_second:.2f}; γ = 0.8 sees about {1 / (1 - 0.8):.0f} of them ahead"
+)
+
+# %%
+strengths = np.geomspace(0.002, 5, 100)
+policies = [bootstrap.regularised_policy(q, log_rule, 0.01, float(xi))[0] for xi in strengths]
+probability = {
+    "rule: keep left": np.array([pi[rule_says.item()] for pi in policies]),
+    "accelerate straight": np.array([pi[7] for pi in policies]),
+}
+tie = float((q[0, 7] - q[0, rule_says.item()]) / step)
+title = f"Where Q leads by 0.6, the rule takes over at ξ = {tie:.2f}"
+show(lines(strengths, probability, title, "ξ (α = 0.01)", "probability", logarithmic="x"))
+
+# %% [markdown]
+# **Explain.** At ξ = 2 no difference between two actions that this road could teach outweighs the
+# rule: the agent is the rule, and Q does not matter. At ξ = 0.002 the rule is a tie-breaker. In
+# between lies everything interesting, and the agent travels through all of it.
+
+# %% [markdown]
+# ## Round 4: where the pull enters
+#
+# The objective of the lesson so far was for one state. A learner adds up what comes, so the KL
+# stands inside the return, at every second: each second pays $r + \alpha\mathcal{H} - \xi
+# D_\mathrm{KL}$. Two losses have to know.
+#
+# **The actor's**: minus the soft value, now with the KL in it.
+#
+# **Exercise 7.4 (8 min, ●●○).** Write it. The check also looks at where your loss sends a
+# gradient: the actor may not improve its lot by changing the critic's mind.
+
+
+# %%
+def constrained_loss(log_pi, q, alpha, xi, kl):
+    """Mean over the batch of -(Σ_a π (Q - α log π) - ξ KL), a scalar tensor.
+
+    log_pi, q: (batch, actions); kl: (batch,), nats; all with gradients. alpha, xi: floats.
+    """
+    # solution
+    value = (log_pi.exp() * (q.detach() - alpha * log_pi)).sum(-1) - xi * kl
+    return -value.mean()
+    # end solution
+
+
+check.constrained_loss(constrained_loss)
+
+# %% [markdown]
+# **The critic's**: its target $r + \gamma V(s')$ uses the soft value of the next state, and that
+# has lost $\xi D_\mathrm{KL}$, too. It is easy to forget, and the paper's text does not say it in
+# so many words. What would it change?
+#
+# > **Predict.** An agent follows trap 1 for ever, at 0.15625 a second. The rule, at every one of
+# > those seconds, would do something else. With γ = 0.8, what is this life worth to the critic
+# > without the KL, and with it, at ξ = 2?
+
+# %%
+idle = record(idle_driver, [ROAD], label="idle")[0]
+agrees = np.mean(idle.rule_actions == idle.actions)
+wants = ACTION_NAMES[np.bincount(idle.rule_actions).argmax()]
+print(f"the rule agrees with idling in {100 * agrees:.0f} % of the seconds; mostly: {wants}")
+price, pay, gamma = math.log(8 / 0.1), idle.rewards.mean(), 0.8
+for xi in (0.0, 0.02, 0.2, 2.0):
+    second = pay - xi * price
+    print(f"ξ = {xi:4}: a second is worth {second:6.3f}, all of them {second / (1 - gamma):7.2f}")
+
+# %% [markdown]
+# **Explain.** Without the KL in the target, staying behind is worth a little, and an agent that
+# has seen crashes likes it. With the KL, the same life is a disaster: every second of it is one
+# that the rule would not have. The way out, where the agent does as the rule does, costs next to
+# nothing. So the pull does more than whisper the next action: through the critic it makes whole
+# *futures* dear that the rule would not have, and that reaches states where the actor has not yet
+# learned what the rule says.
+
+# %% tags=["nbval-ignore-output"]
+source("bootcourse.learn.sac", "soft_value", "actor_loss")
+
+# %% [markdown] tags=["instructor"] minutes=8
+# In the paper the KL stands inside the discounted sum (its Equation of the KL objective). Many
+# implementations subtract it in the actor's loss only: `settings_for("soft", kl_in_target=False)`
+# does that. A good project for two students: ten seeds each, success against episodes.
+
+# %% [markdown]
+# ## Round 5: letting go
+#
+# A rule that pulls for ever makes an agent that is never better than the rule. The paper couples
+# the pull to the temperature: $\xi = 200\,\alpha$. It starts at α = 0.01, so ξ = 2, and α falls.
+# Why α falls, and cannot do otherwise here, is a part of lesson 4. How fast can it?
+# Adam, the optimiser, changes log α by at most about its learning rate, 0.001, at each update.
+#
+# **Exercise 7.5 (3 min, ●○○).** For several agents at once: ξ = multiplier · α, unless a fixed ξ
+# is given. A fixed ξ of 0 is one, too; a negative number says that there is none.
+
+
+# %%
+def constraint_strength(alpha, multiplier, fixed):
+    """ξ of each agent. alpha, multiplier, fixed: (agents,) tensors. Returns (agents,)."""
+    # solution
+    return torch.where(fixed >= 0, fixed, multiplier * alpha)
+    # end solution
+
+
+check.constraint_strength(constraint_strength)
+
+# %% [markdown]
+# > **Predict.** Four agents train, 6,000 updates each: two whose ξ fades, two whose ξ stays at 2.
+# > They have no demonstrations, nothing but the pull. After how many updates is the fading ξ a
+# > tenth of its start? Which of the two kinds will drive more like the rule at the end? Which
+# > earns more?
+
+# %%
+UPDATES, EVERY = 6000, 250
+fading = with_seeds(settings_for("soft"), 2)
+agents = fading + with_seeds(settings_for("soft", xi_fixed=2.0), 2)
+by_rule = record(rule_driver(DEFAULT), range(8), label="rule")
+seen = np.concatenate([drive.observations[:-1] for drive in by_rule])
+answers = np.concatenate([drive.rule_actions for drive in by_rule])
+notes = {"updates": [], "xi": [], "alike": []}
+
+
+def note(training):
+    """Every 250 updates: each agent's ξ, and how often its likeliest action is the rule's."""
+    if training.updates % EVERY or training.updates in notes["updates"]:
+        return
+    likeliest = [training.agent(i).policy(seen).argmax(-1) for i in range(len(agents))]
+    notes["updates"].append(training.updates)
+    notes["alike"].append([100 * np.mean(actions == answers) for actions in likeliest])
+    notes["xi"].append(200 * training.learner.log_alpha.detach().exp().numpy())
+
+
+# %%
+training = Training(agents, episodes=5000)
+result = training.run(callback=note, stop=lambda: training.updates > UPDATES)
+print(f"{result.seconds:.0f} s; episodes of each agent: {training.curves.finished.tolist()}")
+
+# %%
+updates, xi = np.array(notes["updates"]), np.array(notes["xi"]).T
+fastest = settings_for("soft").alpha_init * 200 * np.exp(-settings_for("soft").alpha_lr * updates)
+tenth = updates[np.argmax(xi[0] <= xi[0, 0] / 10)]
+named = {"soft: measured": xi[:2], "as fast as Adam can": fastest}
+title = f"ξ is a tenth of its start after {tenth} updates"
+show(lines(updates, named, title, "update", "ξ = 200 α"))
+
+# %% [markdown]
+# **See.** Exponentially, and a little more slowly than it could. The slope of α's loss is
+# proportional to α itself, and Adam measures each step against the slopes of the last thousand
+# updates, which were larger. In episodes that is not long: the agents above have driven a few
+# hundred, while demonstrations (lesson 8) fade over 1,000.
+
+# %%
+alike = np.array(notes["alike"]).T
+title = "A ξ that stays brings the agent closer and closer to the rule"
+named = {"soft: ξ fades": alike[:2], "ξ stays at 2": alike[2:]}
+show(lines(updates, named, title, "update", "likeliest action is the rule's (%)"))
+
+# %%
+rows = [(f"ξ {'fades' if i < 2 else 'stays'}", agent) for i, agent in enumerate(result.agents)]
+rows = [(f"{words}, seed {agent.settings.seed}", agent.driver()) for words, agent in rows]
+print("                  success %   return   accidents %")
+for words, driver in [*rows, ("the rule", rule_driver(DEFAULT))]:
+    r = report(drive_episodes(driver, held_out_seeds(7, 200)))
+    accidents = r.collision.value + r.road_departure.value + r.stoppage.value
+    print(f"{words:17}{100 * r.success.value:11.1f}{r.returns.value:9.1f}{100 * accidents:14.1f}")
+
+# %% [markdown]
+# **See.** Nobody gave these agents a demonstration: whoever has a success above 0 was led out by
+# the pull alone. Compare the table with your prediction, seed by seed. Two seeds are an anecdote;
+# lesson 9 has ten.
+#
+# **Explain.** Copying a rule nearly right is not driving nearly well: an agent that does as the
+# rule in most seconds can still leave the road in one of the others. The fading agents use the
+# rule to get out and then learn from the road itself, whatever the rule thinks of it. (The paper
+# reports that the soft constraint alone never escapes. On our road, with the KL in the target, you
+# have just seen what happens. When two results differ, both sides' numbers belong on the table.)
+#
+# Now look into a decision of the trained agent.
+
+# %%
+drive = record(result.agents[0].driver(with_q=True), [ROAD], label="soft")[0]
+policy_panel(drive, xi=round(float(xi[0, -1]), 3), alpha=round(result.agents[0].alpha, 6))
+
+# %% [markdown]
+# ## What you now know
+#
+# 1. A rule becomes a distribution by one number, p; the price of an action is minus the logarithm
+#    of its probability.
+# 2. The KL from π̃ to π is what a policy pays for going where the rule would not.
+# 3. The best compromise is softmax((Q + ξ log π̃) / (α + ξ)): the rule has a head start of ξ log
+#    (8p / (1 − p)) in Q.
+# 4. The KL belongs in the actor's loss and in the critic's target; there it makes the trap dear.
+# 5. With ξ = 200 α the pull fades as fast as α does, within a few thousand updates.
+#
+# **Three questions to think about**
+# - p and ξ both say how much the rule counts. Which of them can you change without changing the
+#   policy that has a KL of 0?
+# - Where the rule is wrong, which p would you want? Could p depend on the state?
+# - An agent with ξ = 2 for ever converges to something. What, and what does its critic believe
+#   about the road ahead of the traps?
+#
+# **Read on**: the KL as a price on leaving a teacher: Huang et al., *Efficient Deep Reinforcement
+# Learning with Imitative Expert Priors for Autonomous Driving* (arXiv 2103.10690). Why a softmax
+# is what solves such problems: Levine, *Reinforcement Learning and Control as Probabilistic
+# Inference* (arXiv 1805.00909).
