@@ -1,4 +1,4 @@
-"""The panels that train, sweep and drive where people meet them: in a real JupyterLab, in headless Chromium."""
+"""The panels where people meet them: in a real JupyterLab, in headless Chromium."""
 
 import statistics
 
@@ -19,6 +19,14 @@ CHANGED = """(number, act) => new Promise(done => {
   (new Function('panel', act))(panel);
 })"""
 
+THINKING = """from bootcourse.learn.settings import settings_for
+from bootcourse.learn.train import Training
+from bootcourse.panels import policy_panel
+from bootcourse.record.drive import record
+agent = Training([settings_for("bootstrapped", hidden=(16, 16))], 2).run(progress=False).agents[0]
+drive = record(agent.driver(with_q=True), [1], label="bootstrapped")[0]
+"""
+
 
 @pytest.fixture(scope="module")
 def notebook(tmp_path_factory):
@@ -28,6 +36,9 @@ def notebook(tmp_path_factory):
         "from bootcourse.panels import drive_panel, sweep_panel, train_panel\nmine = drive_panel(seed=3)\nmine",
         "swept = sweep_panel('sweep.npz')\nswept",
         "trainer = train_panel('bootstrapped', seeds=2, episodes=5000)\ntrainer",
+        THINKING + "weighed = policy_panel(drive)\nweighed",
+        "from bootcourse.panels import bonus_panel\nbonus = bonus_panel()\nbonus",
+        "from bootcourse.panels import scenario_panel\nworld = scenario_panel()\nworld",
     )
     with open_notebook(folder, *cells, width=1366) as it:
         it.page.set_default_timeout(20_000)
@@ -109,17 +120,33 @@ def test_in_real_time_the_road_moves_smoothly(notebook):
     assert frames >= 10
 
 
-def test_the_sweep_s_slider_shows_its_effect_within_a_tenth_of_a_second(notebook):
-    shown = panel(notebook, 1)
-    handle = shown.locator(".noUi-handle").nth(1)
+def drags(notebook, number, handle, times=8):
+    """Milliseconds from a step of a slider to the new drawing, several times."""
     took = []
-    for key in ("ArrowRight", "ArrowLeft") * 4:
-        handle.focus()
+    for key in ("ArrowLeft", "ArrowRight") * (times // 2):
+        panel(notebook, number).locator(".noUi-handle").nth(handle).focus()
         down = f"new KeyboardEvent('keydown', {{key: '{key}', bubbles: true, cancelable: true}})"
-        act = f"panel.querySelectorAll('.noUi-handle')[1].dispatchEvent({down});"
-        took.append(changed(notebook, 1, act))
-    shown.screenshot(path=str(ARTEFACTS / "sweep-panel.png"))
+        act = f"panel.querySelectorAll('.noUi-handle')[{handle}].dispatchEvent({down});"
+        took.append(changed(notebook, number, act))
+    return took
+
+
+SLIDERS = {"sweep": (1, 1), "policy": (3, 1), "bonus": (4, 0), "scenario": (5, 0)}  # panel, slider
+
+
+@pytest.mark.parametrize("name", SLIDERS)
+def test_a_slider_shows_its_effect_within_a_tenth_of_a_second(notebook, name):
+    number, handle = SLIDERS[name]
+    took = drags(notebook, number, handle)
+    panel(notebook, number).screenshot(path=str(ARTEFACTS / f"{name}-panel.png"))
     assert statistics.median(took) < 100, took
+
+
+def test_a_p_that_is_no_probability_is_refused_in_the_panel(notebook):
+    field = panel(notebook, 3).locator("input[type=number]").nth(1)
+    field.fill("1.5")
+    field.press("Enter")
+    waits_for(notebook, 3, "outside [1/9, 1)")
 
 
 def test_a_training_grows_on_the_page_stops_and_is_watched(notebook):
@@ -141,5 +168,5 @@ def test_the_panels_fit_their_column_and_the_console_has_no_error(notebook):
     widths = notebook.page.evaluate(
         "[...document.querySelectorAll('.bc-panel')].map(p => [p.scrollWidth, p.clientWidth])"
     )
-    assert len(widths) == 3 and all(scroll <= client for scroll, client in widths)
+    assert len(widths) == 6 and all(scroll <= client for scroll, client in widths)
     assert not [error for error in notebook.shown.errors if "WebGL" not in error]
