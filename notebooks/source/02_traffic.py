@@ -1,0 +1,367 @@
+# ---
+# jupyter:
+#   jupytext:
+#     text_representation:
+#       extension: .py
+#       format_name: percent
+#   kernelspec:
+#     display_name: Python 3 (ipykernel)
+#     language: python
+#     name: python3
+# ---
+
+# %% [markdown]
+# # 2 · Traffic
+#
+# **What you will be able to do**
+# - write down how the other cars follow (IDM) and change lane (MOBIL), and compute both by hand;
+# - grow a traffic jam out of one driver's braking, and say why it travels backwards;
+# - find out from one number whether a simulated car steers or swings.
+#
+# **Time** 55 minutes, under a minute of it the machine's. **It builds on**
+# [lesson 1](01_the_trap.ipynb).
+
+# %%
+import dataclasses
+import math
+
+import numpy as np
+from bootcourse.drivers import idle_driver
+from bootcourse.lessons import check, source
+from bootcourse.lessons.figures_traffic import changing, following, space_time, swinging
+from bootcourse.record.drive import record
+from bootcourse.road import formulas
+from bootcourse.road.state import CRASHED, SPEED, TARGET_LANE, TRAFFIC, Y
+from bootcourse.scenario import DEFAULT
+from bootcourse.study.drawing import show
+
+# %% [markdown]
+# ## Look first
+#
+# Thirty drivers in a circle, on one lane, all alike. One of them begins slower than the others.
+# Nobody overtakes, nobody makes a mistake. Each line in the picture is one car.
+
+
+# %%
+def follow(v, dv, gap, t=DEFAULT.traffic):
+    """Acceleration (m/s²) of a driver at v (m/s), closing in at dv on a car `gap` metres ahead."""
+    s_star = formulas.desired_gap(v, dv, t.s0, t.time_gap, t.a_max, t.b)
+    a = formulas.idm_acceleration(v, t.desired_speed, gap, s_star, t.a_max, t.delta)
+    return max(a, -t.braking_limit)
+
+
+def ring(spacing, cars=30, seconds=400, dt=0.5):
+    """Places (m) and speeds (m/s) of cars in a circle, both (steps, cars)."""
+    x, v = spacing * np.arange(cars, dtype=float), np.full(cars, 6.0)
+    v[0] = 1.0
+    places, speeds = [], []
+    for _ in range(int(seconds / dt)):
+        gaps = (np.roll(x, -1) - x) % (spacing * cars)
+        a = np.array([follow(*car) for car in zip(v, v - np.roll(v, -1), gaps, strict=True)])
+        x, v = x + v * dt, np.maximum(v + a * dt, 0)
+        places.append(x % (spacing * cars))
+        speeds.append(v)
+    return np.array(places), np.array(speeds)
+
+
+# %%
+rings = {f"{spacing} m apart": ring(spacing) for spacing in (20, 30)}
+title = "One slow driver: at 20 m a jam is born and travels backwards, at 30 m it dies"
+show(space_time(rings, dt=0.5, title=title))
+
+# %% [markdown]
+# > **Predict.** At 20 m the cars have room for four car lengths each. Why do they stop at all?
+# > And why does the dark band move *backwards* while every car drives forwards?
+#
+# Keep your answer. Round 2 comes back to it.
+
+# %% [markdown] tags=["instructor"] minutes=6
+# Let them find the band's speed: it falls by about 600 m in 330 s. The band is a place where
+# cars stop, not a group of cars: cars leave it at its front and join it at its back. A ring of
+# real cars did the same: Sugiyama et al., *New Journal of Physics* 10 (2008) 033001.
+
+# %% [markdown]
+# ## Round 1: the gap that a driver wants
+#
+# All cars except yours follow the **Intelligent Driver Model** (IDM). It begins with the gap that
+# a driver would like to have, at speed $v$, closing in at $\Delta v$ on the car ahead:
+#
+# $$ s^*(v, \Delta v) = s_0 + T v + \frac{v\, \Delta v}{2 \sqrt{a_{\max} b}} $$
+#
+# $s_0$ is kept even at a standstill. $T$ is a **time gap**: drive faster, and you want to be as
+# many seconds behind, so more metres. The last term asks for more room while you close in.
+#
+# > **Predict.** $s_0$ = 10 m, $T$ = 1.5 s, $a_{\max} = b$ = 0.5 m/s². What gap do you want at 10
+# > m/s behind a car at 10 m/s? Behind one at 8 m/s?
+#
+# **Exercise 2.1 (4 min, ●○○).** Write $s^*$.
+
+
+# %%
+def desired_gap(v, dv, s0, time_gap, a_max, b):
+    """s* in m. v and dv (own minus theirs) in m/s, s0 in m, time_gap in s, a_max and b in m/s²."""
+    # solution
+    return s0 + time_gap * v + v * dv / (2 * math.sqrt(a_max * b))
+    # end solution
+
+
+check.desired_gap(desired_gap)
+
+# %%
+# NBVAL_CHECK_OUTPUT
+t = DEFAULT.traffic
+for v_ahead in (10.0, 8.0):
+    wanted = formulas.desired_gap(10.0, 10.0 - v_ahead, t.s0, t.time_gap, t.a_max, t.b)
+    print(f"10 m/s behind a car at {v_ahead:g} m/s: {wanted:.0f} m")
+
+# %% [markdown]
+# **Explain.** Two metres per second of difference nearly double the wish. Distances here go from
+# centre to centre, as highway-env measures them: of each gap, one car's length is car.
+
+# %% [markdown]
+# ## Round 2: how hard to brake
+#
+# The acceleration weighs two wishes: the speed that the driver would like, and the gap.
+#
+# $$ a = a_{\max} \left[ 1 - \left( \frac{v}{v_\text{desired}} \right)^{\delta} - \left(
+# \frac{s^*}{s} \right)^2 \right] $$
+#
+# > **Predict.** A driver at exactly its desired speed, at exactly its desired gap. Does it
+# > accelerate, hold its speed, or brake?
+#
+# **Exercise 2.2 (5 min, ●○○).** Write the acceleration.
+
+
+# %%
+def idm_acceleration(v, v_desired, gap, s_star, a_max, delta):
+    """a in m/s². Speeds in m/s, gap s (infinite on a free road) and s_star in m."""
+    # solution
+    return a_max * (1 - (v / v_desired) ** delta - (s_star / gap) ** 2)
+    # end solution
+
+
+check.idm_acceleration(idm_acceleration)
+
+# %%
+at_both = formulas.idm_acceleration(12.5, 12.5, 25.0, 25.0, t.a_max, t.delta)
+print(f"at the desired speed and the desired gap: {at_both:.2f} m/s²")
+title = "A driver at 10 m/s brakes much earlier when it closes in"
+show(following(10.0, closing=(-2, 0, 2), title=title))
+
+# %% [markdown]
+# **Explain.** It brakes, with all of $a_{\max}$: the bracket is 1 − 1 − 1. So the gap at which a
+# driver is *content* is longer than $s^*$. It is where a line crosses zero in the picture.
+#
+# **Exercise 2.3 (6 min, ●●○).** Which gap does a driver settle at, behind a car at its own speed?
+# Set $a = 0$ and $\Delta v = 0$, and solve for $s$.
+
+
+# %%
+def equilibrium_gap(v, v_desired, s0, time_gap, delta):
+    """The gap (m) at which nothing changes, v < v_desired (m/s); s0 in m, time_gap in s."""
+    # solution
+    wanted = s0 + time_gap * v
+    return wanted / math.sqrt(1 - (v / v_desired) ** delta)
+    # end solution
+
+
+check.equilibrium_gap(equilibrium_gap)
+
+# %%
+# NBVAL_CHECK_OUTPUT
+for v in (0.0, 6.0, 9.5, 12.0):
+    s_star = formulas.desired_gap(v, 0.0, t.s0, t.time_gap, t.a_max, t.b)
+    settled = s_star / math.sqrt(1 - (v / t.desired_speed) ** t.delta)
+    print(f"{v:4} m/s: wants {s_star:4.1f} m, settles at {settled:5.1f} m")
+
+# %% [markdown]
+# **See.** Read the table backwards. Cars that are 20 m apart can only drive about 6 m/s, cars
+# that are 30 m apart about 9.5. That was the ring: room for four lengths is a slow road.
+#
+# And the jam? A driver who comes too close brakes below the speed of the car ahead, opens the
+# gap, and accelerates again at $a_{\max}$ = 0.5 m/s², which is slow. The driver behind has to
+# brake a little harder. At 20 m that wave grows from car to car, at 30 m it shrinks. Cars leave
+# the jam at its front and arrive at its back, so the *jam* moves backwards.
+#
+# What does that mean for your road? The traffic ahead of the traps starts with a mean distance.
+
+# %%
+for headway in (20.0, 30.0, 40.0):
+    denser = dataclasses.replace(DEFAULT.traffic, headway=headway, lead=headway)
+    drives = record(idle_driver, range(50), dataclasses.replace(DEFAULT, traffic=denser))
+    slowest = [drive.states[:, TRAFFIC:, SPEED].min() for drive in drives]
+    print(f"{headway:g} m apart: slowest car {np.mean(slowest):.1f} m/s (mean of 50 roads)")
+
+# %% [markdown]
+# **See.** With three lanes and six cars there is room to spread: the traffic slows a little and
+# never stops. The default is the thinnest of the three.
+
+# %% [markdown] tags=["instructor"] minutes=6
+# Ask for a ring of 25 m: does the jam live or die? It depends on how hard the first car is
+# disturbed, so `v[0] = 5.0` and `v[0] = 1.0` end differently. Small disturbances die where large
+# ones live: the ring has two stable states there.
+
+# %% [markdown]
+# ## Round 3: when to change lane
+#
+# **MOBIL** asks one question with the numbers that you have: if I change, who accelerates more,
+# and who less?
+#
+# $$ \Delta a_\text{ego} + p\, (\Delta a_\text{rear} + \Delta a_\text{front}) > a_\text{threshold}
+# $$
+#
+# The first term is the driver's own gain, the others are what the neighbours gain (mostly lose),
+# times a **politeness** $p$. Whoever it is, the change must not make the new follower brake
+# harder than a limit: that comes first.
+#
+# The paper speaks of "trailing and leading vehicles in the target lane". A leading car does not
+# feel who drives behind it, so its gain is zero in IDM. The two that do feel it are the **new
+# follower**, in the lane that you change to, and the **old follower**, whom you leave behind.
+# That is how MOBIL was published, and how `bootcourse.road.traffic.worth_changing` does it.
+#
+# **Exercise 2.4 (7 min, ●●○).** Decide.
+
+
+# %%
+def worth_changing(
+    own_gain, follower_before, follower_after, old_follower_gain, politeness, threshold, limit
+):
+    """True for a change that is safe and worth it. All but politeness in m/s².
+
+    follower_before, follower_after: the new follower's acceleration without and with the change;
+    limit: the hardest braking (a positive number) that a change may impose on it.
+    """
+    # solution
+    if follower_after < -limit:
+        return False
+    new_follower_gain = follower_after - follower_before
+    return own_gain + politeness * (new_follower_gain + old_follower_gain) > threshold
+    # end solution
+
+
+check.worth_changing(worth_changing)
+
+# %% [markdown]
+# You drive 11.5 m/s, 40 m behind a car at 11 m/s. The lane to the left is free ahead; a car comes
+# up in it at 12.5 m/s.
+#
+# > **Predict.** How much longer must the gap to that car be for a driver with p = 1 than for an
+# > egoist with p = 0?
+
+# %%
+own_gain = follow(11.5, 0.0, math.inf) - follow(11.5, 0.5, 40.0)
+
+
+def new_follower(gap):
+    """Its acceleration before and after you have changed into its lane (m/s²)."""
+    return follow(12.5, 0.0, math.inf), follow(12.5, 12.5 - 11.5, gap)
+
+
+print(f"your own gain: {own_gain:.2f} m/s²")
+show(changing(own_gain, new_follower, politeness=(0, 0.5, 1)))
+
+# %% [markdown]
+# **See.** The egoist goes as soon as it is safe. Politeness turns another driver's braking into a
+# cost of one's own.
+#
+# > **Predict.** Does polite traffic change lane more often or less often than rude traffic?
+
+# %%
+for p in (0.0, 0.5, 1.0):
+    kind = dataclasses.replace(DEFAULT.traffic, politeness=p)
+    drives = record(idle_driver, range(100), dataclasses.replace(DEFAULT, traffic=kind))
+    changes = [(np.diff(d.states[:, TRAFFIC:, TARGET_LANE], axis=0) != 0).sum() for d in drives]
+    print(f"politeness {p:g}: {np.mean(changes):.2f} lane changes a road (100 roads, 150 s)")
+
+# %% [markdown]
+# **Explain.** More often, on this road. Two things are weighed by the same $p$: what the new
+# follower loses, and what the *old* follower gains. Behind the leaders there is nearly always
+# somebody who gains, and the other lanes are nearly empty. A polite driver gets out of the way.
+
+# %% [markdown]
+# ## Round 4: two steps a second
+#
+# To change lane, a traffic car turns towards a heading and back. Its controller turns at a rate
+# that is proportional to the error: (wanted heading − heading) / τ, with a **time constant** τ.
+# Our simulation runs at 2 Hz, as the paper's: the wheels are held for dt = 0.5 s.
+#
+# > **Predict.** highway-env's own τ is 0.2 s: quick and precise at its usual 15 Hz. What happens
+# > at 2 Hz to a heading error of 1°?
+#
+# **Exercise 2.5 (6 min, ●●○).** Follow the error, step by step.
+
+
+# %%
+def heading_errors(error, tau, dt, steps):
+    """The heading error at the start and after each step: (steps + 1,), in the unit of error."""
+    # solution
+    return error * (1 - dt / tau) ** np.arange(steps + 1)
+    # end solution
+
+
+check.heading_errors(heading_errors)
+
+# %%
+show(swinging(taus=(0.2, 0.3, 0.6), dt=DEFAULT.clock.dt))
+
+# %% [markdown]
+# **Explain.** Each step multiplies the error by $1 - dt/\tau$. Between 0 and 1 it settles;
+# between −1 and 0 it swings and settles; below −1, that is for **gain × dt above 2**, it swings
+# and grows. The differential equation is stable for every τ. The *simulation* of it is not.
+
+
+# %%
+def broken(tau_heading, tau_lateral, rate=2, roads=100):
+    """Shares of roads on which a traffic car leaves the road, and on which traffic collides."""
+    traffic = dataclasses.replace(DEFAULT.traffic, tau_heading=tau_heading, tau_lateral=tau_lateral)
+    clock = dataclasses.replace(DEFAULT.clock, simulation_rate=rate)
+    drives = record(
+        idle_driver, range(roads), dataclasses.replace(DEFAULT, traffic=traffic, clock=clock)
+    )
+    middle = DEFAULT.road.lane_width * (DEFAULT.road.lanes - 1) / 2
+    half = DEFAULT.road.lane_width * DEFAULT.road.lanes / 2
+    off = [np.any(abs(d.states[:, TRAFFIC:, Y] - middle) > half) for d in drives]
+    return np.mean(off), np.mean([d.states[:, TRAFFIC:, CRASHED].any() for d in drives])
+
+
+# %%
+table = {"highway-env's, 2 Hz": (0.2, 0.6, 2), "highway-env's, 10 Hz": (0.2, 0.6, 10)}
+table["ours, 2 Hz"] = (t.tau_heading, t.tau_lateral, 2)
+for name, numbers in table.items():
+    off, crashed = broken(*numbers)
+    factor = 1 - 1 / numbers[2] / numbers[0]
+    print(f"{name:21} factor {factor:5.2f}: off the road {off:4.0%}, crashes {crashed:4.0%}")
+
+# %% [markdown]
+# **See.** With the default gains at 2 Hz, cars that nobody disturbs leave the road. An agent that
+# trains there learns to live with traffic that is out of its mind, and a table of results shows
+# nothing of it. So we set slower gains, on our own cars only, and test them. Before you believe
+# a simulator, look at the cars that nobody looks at.
+
+# %%
+source("bootcourse.road.formulas", "lane_keeping_steering")
+
+# %% [markdown] tags=["instructor"] minutes=6
+# Ask where else a gain meets a time step: a learning rate times a curvature above 2 diverges in
+# the same way, with the same alternating signs. That picture is worth drawing on the board.
+
+# %% [markdown]
+# ## What you now know
+#
+# 1. IDM brakes for the closing speed as much as for the gap, and settles at more than $s^*$.
+# 2. Density decides the speed; above a density, a disturbance becomes a jam that travels
+#    backwards.
+# 3. MOBIL changes lane when it is safe and the gains, the others' weighed by politeness, exceed a
+#    threshold.
+# 4. A polite driver is not one who stays where it is.
+# 5. Gain × time step above 2 is unstable, whatever the equation says.
+#
+# **Three questions to think about**
+# - The traps are IDM cars, too, with a desired speed of 10 m/s. What would trap 1 do if you
+#   stopped behind it? In front of it?
+# - Traffic takes your car for one of its own. How could a learner take advantage of that?
+# - A jam of traffic ahead of the traps: does it make the trap easier or harder to leave?
+#
+# **Read on**: Treiber, Hennecke and Helbing, *Congested traffic states in empirical observations
+# and microscopic simulations* (2000), for IDM; Kesting, Treiber and Helbing, *General
+# lane-changing model MOBIL for car-following models* (2007). Next: [the rule](02_the_rule.ipynb).
