@@ -115,10 +115,12 @@ def train(
     decisions: int,
     demonstrations: torch.Tensor | None = None,
     progress: bool = False,
+    callback: Callable[[dict[str, torch.Tensor]], None] | None = None,
 ) -> Learner:
     """Train agents for `decisions` decisions each, one update for every decision of their environments.
 
     Agents that learn offline (`beta_start` = 1) take their updates from the demonstrations alone and drive nothing.
+    callback: called after every update with what it returned, {name: (agents,)}.
     """
     from tqdm.auto import tqdm
 
@@ -141,7 +143,9 @@ def train(
             replay.add(rows.view(agents, roads, -1))
         if offline or decision + roads >= shared.warm_up:
             for _ in range(shared.updates):
-                learner.update(replay.sample(shared.batch, beta, sample_rngs))
+                seen = learner.update(replay.sample(shared.batch, beta, sample_rngs))
+                if callback is not None:
+                    callback(seen)
     return learner
 
 

@@ -73,3 +73,213 @@ def in_place(reward, terminated, next_value, gamma):
 @wrong("critic_target", "shape")
 def a_column(reward, terminated, next_value, gamma):
     return (reward + gamma * (1 - terminated) * next_value)[:, None]
+
+
+# entropy --------------------------------------------------------------------------------------------
+
+
+@right("entropy")
+def with_torch_s_own(log_pi):
+    return torch.distributions.Categorical(logits=log_pi).entropy()
+
+
+@right("entropy")
+def with_special_entr(log_pi):
+    return torch.special.entr(log_pi.exp()).sum(dim=1)
+
+
+@wrong("entropy", "never below 0")
+def no_minus(log_pi):
+    return (log_pi * log_pi.exp()).sum(-1)
+
+
+@wrong("entropy", "every action alike")
+def mean_of_logs(log_pi):
+    return -log_pi.mean(dim=1)
+
+
+@wrong("entropy", "without the weights")
+def sum_of_logs(log_pi):
+    return -log_pi.sum(dim=1)
+
+
+@wrong("entropy", "bits")
+def in_bits(log_pi):
+    return -(log_pi.exp() * torch.log2(log_pi.exp())).sum(-1)
+
+
+@wrong("entropy", "mean over the batch")
+def one_for_all(log_pi):
+    return torch.distributions.Categorical(logits=log_pi).entropy().mean()
+
+
+@wrong("entropy", "worth")
+def effective_actions(log_pi):
+    return torch.exp(-(log_pi.exp() * log_pi).sum(-1))
+
+
+@wrong("entropy")
+def of_the_logarithm(log_pi):
+    return -(log_pi * torch.log(-log_pi + 1e-12)).sum(-1)
+
+
+@wrong("entropy", "shape")
+def each_action_s(log_pi):
+    return -log_pi * log_pi.exp()
+
+
+# soft_value -----------------------------------------------------------------------------------------
+
+
+@right("soft_value")
+def value_and_entropy(log_pi, q, alpha):
+    pi = log_pi.exp()
+    return (pi * q).sum(-1) + alpha * torch.special.entr(pi).sum(-1)
+
+
+@right("soft_value")
+def as_a_product(log_pi, q, alpha):
+    return torch.einsum("ba,ba->b", torch.exp(log_pi), q - alpha * log_pi)
+
+
+@wrong("soft_value", "charge for being undecided")
+def entropy_charged(log_pi, q, alpha):
+    return (log_pi.exp() * q).sum(-1) + alpha * (log_pi.exp() * log_pi).sum(-1)
+
+
+@wrong("soft_value", "best action's value")
+def the_best(log_pi, q, alpha):
+    return q.max(dim=1).values - alpha * (log_pi.exp() * log_pi).sum(-1)
+
+
+@wrong("soft_value", "no entropy")
+def no_entropy(log_pi, q, alpha):
+    return torch.sum(log_pi.exp() * q, dim=1)
+
+
+@wrong("soft_value", "without weighing")
+def brackets(log_pi, q, alpha):
+    return torch.sum(log_pi.exp() * q - alpha * log_pi, dim=1)
+
+
+@wrong("soft_value", "*sum*")
+def divided(log_pi, q, alpha):
+    return (log_pi.exp() * q).mean(-1) - alpha * (log_pi.exp() * log_pi).sum(-1)
+
+
+@wrong("soft_value", "mean over the batch")
+def mean_value(log_pi, q, alpha):
+    return value_and_entropy(log_pi, q, alpha).mean()
+
+
+@wrong("soft_value")
+def a_drawn_action(log_pi, q, alpha):
+    drawn = torch.multinomial(log_pi.exp(), 1)
+    return (q - alpha * log_pi).gather(1, drawn)[:, 0]
+
+
+@wrong("soft_value")
+def log_sum_exp(log_pi, q, alpha):
+    return (alpha + 1e-6) * torch.logsumexp(q / (alpha + 1e-6), -1)
+
+
+# actor_loss -----------------------------------------------------------------------------------------
+
+
+@right("actor_loss")
+def mean_cost(log_pi, q, alpha):
+    return (log_pi.exp() * (alpha * log_pi - q.detach())).sum(-1).mean()
+
+
+@right("actor_loss")
+def without_a_graph(log_pi, q, alpha):
+    with torch.no_grad():
+        worth = q.clone()
+    pi = log_pi.exp()
+    entropy = -(pi * log_pi).sum(-1)
+    return -torch.mean((pi * worth).sum(-1) + alpha * entropy)
+
+
+@wrong("actor_loss", "flows into Q")
+def q_not_detached(log_pi, q, alpha):
+    return (log_pi.exp() * (alpha * log_pi - q)).sum(-1).mean()
+
+
+@wrong("actor_loss", "made *small*")
+def value_for_loss(log_pi, q, alpha):
+    return (log_pi.exp() * (q.detach() - alpha * log_pi)).sum(-1).mean()
+
+
+@wrong("actor_loss", "no gradient")
+def everything_detached(log_pi, q, alpha):
+    return mean_cost(log_pi, q, alpha).detach()
+
+
+@wrong("actor_loss", "undecided")
+def entropy_turned(log_pi, q, alpha):
+    return (log_pi.exp() * (-alpha * log_pi - q.detach())).sum(-1).mean()
+
+
+@wrong("actor_loss", "over actions, too")
+def one_mean(log_pi, q, alpha):
+    return (log_pi.exp() * (alpha * log_pi - q.detach())).mean()
+
+
+@wrong("actor_loss")
+def weights_detached(log_pi, q, alpha):
+    return (log_pi.exp().detach() * (alpha * log_pi - q.detach())).sum(-1).mean()
+
+
+@wrong("actor_loss")
+def summed_over_the_batch(log_pi, q, alpha):
+    return (log_pi.exp() * (alpha * log_pi - q.detach())).sum() * 2
+
+
+# temperature_loss -----------------------------------------------------------------------------------
+
+
+@right("temperature_loss")
+def two_means(log_alpha, state_entropy, target_entropy):
+    gap = torch.mean(state_entropy.detach() - target_entropy)
+    return torch.exp(log_alpha) * gap
+
+
+@right("temperature_loss")
+def gap_as_a_number(log_alpha, state_entropy, target_entropy):
+    gap = state_entropy.mean().item() - target_entropy.item()
+    return gap * log_alpha.exp()
+
+
+@wrong("temperature_loss", "*more* random")
+def target_minus_entropy(log_alpha, state_entropy, target_entropy):
+    return log_alpha.exp() * (target_entropy - state_entropy.detach()).mean()
+
+
+@wrong("temperature_loss", "Detach the entropy")
+def entropy_not_detached(log_alpha, state_entropy, target_entropy):
+    return log_alpha.exp() * (state_entropy - target_entropy).mean()
+
+
+@wrong("temperature_loss", "multiply by log α")
+def log_alpha_itself(log_alpha, state_entropy, target_entropy):
+    return log_alpha * (state_entropy.detach() - target_entropy).mean()
+
+
+@wrong("temperature_loss", "add the target")
+def plus_target(log_alpha, state_entropy, target_entropy):
+    return log_alpha.exp() * (state_entropy.detach() + target_entropy).mean()
+
+
+@wrong("temperature_loss", "no gradient")
+def nothing_to_move(log_alpha, state_entropy, target_entropy):
+    return (log_alpha.exp() * (state_entropy - target_entropy).mean()).detach()
+
+
+@wrong("temperature_loss", "one number for each state")
+def for_each_state(log_alpha, state_entropy, target_entropy):
+    return log_alpha.exp() * (state_entropy.detach() - target_entropy)
+
+
+@wrong("temperature_loss")
+def squared(log_alpha, state_entropy, target_entropy):
+    return log_alpha.exp() * (state_entropy.detach().mean() - target_entropy) ** 2
