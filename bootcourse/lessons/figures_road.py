@@ -1,12 +1,15 @@
-"""Small figures of the lessons on the road: what the actions do, how traffic follows, and how it steers."""
+"""Small figures of the lessons on the road: what the actions do, and when the rule changes lane."""
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from bootcourse.colours import OTHER
+from bootcourse.colours import ALARM, OTHER, style
+from bootcourse.record.rollout import Rollout
 from bootcourse.road.formulas import bicycle_step
+from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, X
+from bootcourse.rule import safety_distance
 from bootcourse.scenario import ACTION_NAMES, DEFAULT, Scenario
-from bootcourse.study.drawing import INK, QUIET, SMALL, TEXT, WIDTH, finish, new_figure
+from bootcourse.study.drawing import INK, QUIET, SMALL, TEXT, WIDTH, finish, label_ends, new_figure, plain_axes
 from bootcourse.study.top_view import draw_car, draw_road
 
 SHADES = ("#0072B2", "#444444", "#D55E00")  # brake, keep, accelerate
@@ -55,3 +58,39 @@ def path_of(action: int, seconds: int, scenario: Scenario = DEFAULT) -> np.ndarr
         state = bicycle_step(*state, acceleration, steering, scenario.car.length, scenario.clock.dt)
         places.append(state[:2])
     return np.array(places)
+
+
+def when_to_change(drive: Rollout) -> Figure:
+    """The gap to trap 2, the safety distance, and what the printed condition compares with 0, in the first lane."""
+    figure = new_figure(3.4)
+    ax = figure.add_axes((0.08, 0.17, 0.66, 0.6))
+    scenario = drive.scenario
+    states = drive.states[: 1 + int(np.argmax(drive.states[:, EGO, LANE] != drive.states[0, EGO, LANE]))]
+    seconds = np.arange(len(states)) * scenario.clock.dt
+    v, slower = states[:, EGO, SPEED], np.minimum(states[:, TRAP_1, SPEED], states[:, TRAP_2, SPEED])
+    ahead = states[:, TRAP_2, X] - states[:, EGO, X]
+    gap, t_safe = ahead - scenario.car.length, scenario.rule.t_safe
+    needed = np.array([safety_distance(a, b, b, t_safe, scenario.rule.floor) for a, b in zip(v, slower, strict=True)])
+    printed = (v - slower) * t_safe - ahead
+    curves = (
+        (gap, "gap to trap 2, bumper to bumper", style("rule").colour, "-"),
+        (needed, "safety distance", INK, "--"),
+        (printed, "printed condition: change when above 0", ALARM, "-."),
+    )
+    for values, _, colour, line in curves:
+        ax.plot(seconds, values, color=colour, linestyle=line, linewidth=1.8)
+    ax.axhline(0, color=QUIET, linewidth=1)
+    first = int(np.argmax(gap > needed))
+    ax.plot(seconds[first], gap[first], "o", color=style("rule").colour, markersize=7)
+    ax.annotate("room: change", (seconds[first], gap[first]), xytext=(-8, 10), textcoords="offset points",
+                ha="right", fontsize=TEXT, color=style("rule").colour)  # fmt: skip
+    plain_axes(ax, "metres")
+    ax.set_xlim(0, seconds[-1])
+    ax.set_xlabel("time (s)", fontsize=TEXT, color=INK)
+    label_ends(ax, [(float(values[-1]), words, colour) for values, words, colour, _ in curves])
+    alt = (
+        f"Over {seconds[-1]:g} s the gap grows from {gap[0]:.1f} to {gap[-1]:.1f} m and exceeds the safety distance of "
+        f"{needed[first]:.1f} m at {seconds[first]:g} s. The printed condition falls from {printed[0]:.1f} to "
+        f"{printed[-1]:.1f} m: it never rises above 0."
+    )
+    return finish(figure, "The gap grows past the safety distance; the printed condition only falls", alt)

@@ -329,8 +329,8 @@ print(f"on road {ROAD} the escape takes {free_from} decisions to reach the free 
 # **Explain.** A learner begins with random tries and improves in small steps. Nearly every try
 # away from "follow trap 1" ends at −10 before it can pay, so the first lesson that the road
 # teaches is: stay. The escape needs several right decisions in a row, and pays much later. A
-# learner that explores at random almost never sees it. That is the problem that the rest of this course
-# solves.
+# learner that explores at random almost never sees it. That is the problem that the rest of this
+# course solves.
 
 # %% [markdown]
 # ## Round 5: success, and what goes wrong
@@ -392,7 +392,7 @@ for name, driver in drivers.items():
 # - The observation contains no memory. Which situation on this road looks the same but is not?
 #
 # **Read on**: the next lesson is about the other cars, and
-# [the one after it](02_the_rule.ipynb) takes the controller apart that found the way out.
+# [the one after it](03_the_rule.ipynb) takes the controller apart that found the way out.
 # highway-env, the simulator under this road: Leurent, *An Environment for Autonomous Driving
 # Decision-Making* (2018). MDPs from the beginning: Sutton and Barto, *Reinforcement Learning*
 # (2nd edition, 2018), chapter 3.

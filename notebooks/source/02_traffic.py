@@ -364,4 +364,4 @@ source("bootcourse.road.formulas", "lane_keeping_steering")
 #
 # **Read on**: Treiber, Hennecke and Helbing, *Congested traffic states in empirical observations
 # and microscopic simulations* (2000), for IDM; Kesting, Treiber and Helbing, *General
-# lane-changing model MOBIL for car-following models* (2007). Next: [the rule](02_the_rule.ipynb).
+# lane-changing model MOBIL for car-following models* (2007). Next: [the rule](03_the_rule.ipynb).

@@ -1,5 +1,7 @@
 """Answers to the exercises of the lesson on the rule controller."""
 
+import numpy as np
+
 from tests.answers import right, wrong
 
 
@@ -64,3 +66,232 @@ def the_floor_above(v_ego, v_current, v_new, t_safe, floor):
 @wrong("safety_distance")
 def zero_for_the_floor(v_ego, v_current, v_new, t_safe, floor):
     return max(0.0, (v_ego - min(v_current, v_new)) * t_safe)
+
+
+@right("target_speed")
+def by_a_list(v_current, v_new, v_min, v_max, n):
+    return max([v for v in np.linspace(v_min, v_max, n) if v < v_current and v < v_new], default=v_min)
+
+
+@right("target_speed")
+def counted_down(v_current, v_new, v_min, v_max, n):
+    step = (v_max - v_min) / (n - 1)
+    for i in reversed(range(n)):
+        if v_min + i * step < min(v_current, v_new):
+            return v_min + i * step
+    return v_min
+
+
+@wrong("target_speed", "has to be *slower*")
+def equal_is_allowed(v_current, v_new, v_min, v_max, n):
+    return max([v for v in np.linspace(v_min, v_max, n) if v <= min(v_current, v_new)], default=v_min)
+
+
+@wrong("target_speed", "own lane only")
+def own_lane(v_current, v_new, v_min, v_max, n):
+    return max([v for v in np.linspace(v_min, v_max, n) if v < v_current], default=v_min)
+
+
+@wrong("target_speed", "slower than *both*")
+def than_the_faster(v_current, v_new, v_min, v_max, n):
+    return max([v for v in np.linspace(v_min, v_max, n) if v < max(v_current, v_new)], default=v_min)
+
+
+@wrong("target_speed", "one of its n speeds")
+def no_grid(v_current, v_new, v_min, v_max, n):
+    return float(np.clip(min(v_current, v_new), v_min, v_max))
+
+
+@wrong("target_speed", "the slowest of the speeds")
+def the_slowest(v_current, v_new, v_min, v_max, n):
+    return min([v for v in np.linspace(v_min, v_max, n) if v < min(v_current, v_new)], default=v_min)
+
+
+@wrong("target_speed", "n - 1 steps")
+def n_steps(v_current, v_new, v_min, v_max, n):
+    grid = [v_min + i / n * (v_max - v_min) for i in range(n)]
+    return max([v for v in grid if v < min(v_current, v_new)], default=v_min)
+
+
+@wrong("target_speed", "NaN")
+def nothing_is_left(v_current, v_new, v_min, v_max, n):
+    return max([v for v in np.linspace(v_min, v_max, n) if v < min(v_current, v_new)], default=np.nan)
+
+
+@wrong("target_speed", "raises an error")
+def without_a_default(v_current, v_new, v_min, v_max, n):
+    return max([v for v in np.linspace(v_min, v_max, n) if v < min(v_current, v_new)])
+
+
+@wrong("target_speed")
+def the_nearest(v_current, v_new, v_min, v_max, n):
+    grid = np.linspace(v_min, v_max, n)
+    return grid[np.argmin(abs(grid - min(v_current, v_new, 1e6)))]
+
+
+@right("room_to_change")
+def two_questions(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor):
+    if dx_front - length <= d_s:
+        return False
+    if dx_rear - length <= floor:
+        return False
+    return dx_rear - length > (v_rear - v_ego) * t_safe
+
+
+@right("room_to_change")
+def lengths_on_the_other_side(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor):
+    behind = (v_rear - v_ego) * t_safe
+    return int(dx_front > d_s + length) * int(dx_rear > (behind if behind > floor else floor) + length)
+
+
+@wrong("room_to_change", "as the paper prints it")
+def as_printed(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor):
+    return d_s - (dx_front - length) > 0 and dx_rear - length > max(floor, (v_rear - v_ego) * t_safe)
+
+
+@wrong("room_to_change", "centre to centre")
+def centres(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor):
+    return dx_front > d_s and dx_rear > max(floor, (v_rear - v_ego) * t_safe)
+
+
+@wrong("room_to_change", "ahead only")
+def ahead_only(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor):
+    return dx_front - length > d_s
+
+
+@wrong("room_to_change", "the *other* car closes in")
+def own_closing_speed(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor):
+    return dx_front - length > d_s and dx_rear - length > max(floor, (v_ego - v_rear) * t_safe)
+
+
+@wrong("room_to_change", "keep the floor")
+def no_floor_behind(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor):
+    return dx_front - length > d_s and dx_rear - length > (v_rear - v_ego) * t_safe
+
+
+@wrong("room_to_change", "you need both")
+def one_of_two(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor):
+    return dx_front - length > d_s or dx_rear - length > max(floor, (v_rear - v_ego) * t_safe)
+
+
+@wrong("room_to_change")
+def the_same_distance_behind(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor):
+    return dx_front - length > d_s and dx_rear - length > d_s
+
+
+@wrong("room_to_change")
+def half_a_length(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor):
+    half = length / 2
+    return dx_front - half > d_s and dx_rear - half > max(floor, (v_rear - v_ego) * t_safe)
+
+
+@right("best_first_step")
+def unravelled(costs):
+    return np.unravel_index(np.argmin(costs), costs.shape)[0]
+
+
+@right("best_first_step")
+def row_by_row(costs):
+    best = [min(cost for second in first for cost in second) for first in costs]
+    return best.index(min(best))
+
+
+@wrong("best_first_step", "0 to 26")
+def number_of_the_plan(costs):
+    return int(np.argmin(costs))
+
+
+@wrong("best_first_step", "average")
+def averaged(costs):
+    return int(np.argmin(costs.sum(axis=2).sum(axis=1)))
+
+
+@wrong("best_first_step", "*last* step")
+def the_last(costs):
+    return np.unravel_index(np.argmin(costs), costs.shape)[2]
+
+
+@wrong("best_first_step", "straight afterwards")
+def straight_afterwards(costs):
+    return costs[:, 1, 1].argmin()
+
+
+@wrong("best_first_step", "worst that may come")
+def minimax(costs):
+    return costs.max(axis=2).max(axis=1).argmin()
+
+
+@wrong("best_first_step", "dearest")
+def dearest(costs):
+    return costs.min(axis=2).min(axis=1).argmax()
+
+
+@wrong("best_first_step")
+def the_middle_step(costs):
+    return costs.min(axis=(0, 2)).argmin()
+
+
+@wrong("best_first_step")
+def counted_from_minus_one(costs):
+    return costs.min(axis=(1, 2)).argmin() - 1
+
+
+@wrong("best_first_step", "a number")
+def the_three_costs(costs):
+    return costs.min(axis=(1, 2))
+
+
+@right("stochastic_rule")
+def filled(rule_actions, p):
+    pi = np.full((len(rule_actions), 9), (1 - p) / 8)
+    pi[np.arange(len(rule_actions)), rule_actions] = p
+    return pi
+
+
+@right("stochastic_rule")
+def with_an_identity(rule_actions, p):
+    own = np.eye(9)[rule_actions]
+    return p * own + (1 - p) / 8 * (1 - own)
+
+
+@wrong("stochastic_rule", "*share*")
+def each_one_the_rest(rule_actions, p):
+    own = np.eye(9)[rule_actions]
+    return p * own + (1 - p) * (1 - own)
+
+
+@wrong("stochastic_rule", "eight are left")
+def nine_shares(rule_actions, p):
+    own = np.eye(9)[rule_actions]
+    return p * own + (1 - p) / 9 * (1 - own)
+
+
+@wrong("stochastic_rule", "more than p")
+def mixed(rule_actions, p):
+    return p * np.eye(9)[rule_actions] + (1 - p) / 9
+
+
+@wrong("stochastic_rule", "turned round")
+def turned_round(rule_actions, p):
+    own = np.eye(9)[rule_actions]
+    return (1 - p) / 8 * own + p * (1 - own)
+
+
+@wrong("stochastic_rule", "infinite")
+def only_the_rule(rule_actions, p):
+    return p * np.eye(9)[rule_actions]
+
+
+@wrong("stochastic_rule")
+def deterministic(rule_actions, p):
+    return np.eye(9)[rule_actions]
+
+
+@wrong("stochastic_rule", "shape")
+def states_in_columns(rule_actions, p):
+    return filled(rule_actions, p).T.copy()
+
+
+@wrong("stochastic_rule")
+def logarithms(rule_actions, p):
+    return np.log(filled(rule_actions, p))

@@ -1,7 +1,87 @@
 """Exercises of the lesson on the rule controller."""
 
+import numpy as np
+
 from bootcourse import rule
 from bootcourse.lessons.exercise import Exercise, Mistake
+
+# The target speed -------------------------------------------------------------------------------------
+
+
+def slower(v_current, v_new, v_min, v_max, n, count=lambda grid, limit: grid[grid < limit], other=min):
+    """The fastest grid speed below a limit, with one thing changed."""
+    grid = np.linspace(v_min, v_max, n)
+    kept = count(grid, other(v_current, v_new))
+    return float(kept[-1]) if len(kept) else float(v_min)
+
+
+def speed_cases(rng):
+    """Traps on the grid and off it, a free road, one lane free, everybody too slow; then 60 at random."""
+    inf = float("inf")
+    yield 10.0, 10.0, 6.0, 15.0, 5
+    yield 8.25, 8.25, 6.0, 15.0, 5
+    yield inf, inf, 6.0, 15.0, 5
+    yield 10.0, inf, 6.0, 15.0, 5
+    yield inf, 10.0, 6.0, 15.0, 5
+    yield 5.0, 20.0, 6.0, 15.0, 5
+    yield 16.0, 14.9, 6.0, 15.0, 2
+    for _ in range(60):
+        low = rng.uniform(3, 8)
+        yield *rng.uniform(4, 18, 2).tolist(), float(low), float(low + rng.uniform(3, 10)), int(rng.integers(2, 9))
+
+
+target_speed = Exercise(
+    call="target_speed(v_current, v_new, v_min, v_max, n)",
+    solution=rule.target_speed,
+    worked=(
+        ((10.0, 10.0, 6.0, 15.0, 5), 8.25),  # of 6, 8.25, 10.5, 12.75, 15
+        ((8.25, 12.0, 6.0, 15.0, 5), 6.0),  # *slower* than 8.25
+        ((float("inf"), float("inf"), 6.0, 15.0, 5), 15.0),
+    ),
+    cases=speed_cases,
+    mistakes=(
+        Mistake(
+            answer=lambda a, b, low, high, n: slower(a, b, low, high, n, lambda grid, limit: grid[grid <= limit]),
+            says="You allow the speed of the car ahead itself. It has to be *slower*, or the gap never grows.",
+            belief="Equal speeds are safe, so equal is allowed.",
+        ),
+        Mistake(
+            answer=lambda a, b, low, high, n: slower(a, a, low, high, n),
+            says="You look at the car in your own lane only. While you change, the new car ahead limits you, too.",
+            belief="The new lane matters once one is in it.",
+        ),
+        Mistake(
+            answer=lambda a, b, low, high, n: slower(a, b, low, high, n, other=max),
+            says="You compare with the faster of the two cars: slower than *both* means slower than the minimum.",
+            belief="One goes to the other lane because it is faster.",
+        ),
+        Mistake(
+            answer=lambda a, b, low, high, n: min(max(min(a, b), low), high),
+            says="You drive as fast as the slower car. The rule takes one of its n speeds, the fastest that is below.",
+            belief="The grid is only there to describe a range.",
+        ),
+        Mistake(
+            answer=lambda a, b, low, high, n: slower(a, b, low, high, n, lambda grid, limit: grid[grid < limit][:1]),
+            says="You take the slowest of the speeds that qualify: the rule takes the fastest.",
+            belief="Slower is safer.",
+        ),
+        Mistake(
+            answer=lambda a, b, low, high, n: slower(a, b, low, low + (high - low) * (n - 1) / n, n),
+            says="Your grid does not reach v_max: n speeds have n - 1 steps between them.",
+            belief="n speeds, n steps.",
+        ),
+    ),
+    hints=(
+        "Make the n speeds, keep those below the slower car, take the largest. What if none is left?",
+        "`np.linspace(v_min, v_max, n)` are the speeds; `min(v_current, v_new)` is the limit.",
+        "`max([v for v in np.linspace(v_min, v_max, n) if v < min(v_current, v_new)], default=v_min)`",
+    ),
+    minutes=6,
+    difficulty=1,
+    equation="v_target = max {v_i : v_i < min(v_current, v_new)}, Section III-D",
+)
+
+# The safety distance ----------------------------------------------------------------------------------
 
 
 def cases(rng):
@@ -60,4 +140,226 @@ safety_distance = Exercise(
     minutes=5,
     difficulty=1,
     equation="d_s = max(floor, (v_e - min(v_current, v_new)) t_safe), Section III-D, its sign corrected",
+)
+
+# The decision -----------------------------------------------------------------------------------------
+
+
+def change_solution(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor):
+    gap_front, gap_rear = dx_front - length, dx_rear - length
+    needed_behind = max(floor, (v_rear - v_ego) * t_safe)
+    return gap_front > d_s and gap_rear > needed_behind
+
+
+def change_cases(rng):
+    """Nobody there, trap 2 beside us, just enough and just too little, somebody fast behind; then 150 at random."""
+    inf = float("inf")
+    yield inf, inf, 5.0, 3.0, 8.25, 0.0, 1.5, 3.0
+    yield 6.0, inf, 5.0, 3.0, 8.25, 0.0, 1.5, 3.0
+    yield 9.0, inf, 5.0, 3.0, 8.25, 0.0, 1.5, 3.0
+    yield inf, 7.0, 5.0, 3.0, 8.25, 8.0, 1.5, 3.0
+    yield inf, 9.0, 5.0, 3.0, 8.0, 12.0, 1.5, 3.0  # 4 m behind, and it closes in 6 m
+    yield inf, 6.0, 5.0, 3.0, 12.0, 8.0, 1.5, 3.0  # it falls back, but is 1 m behind
+    for _ in range(150):
+        front, rear, d_s, v, v_rear = rng.uniform([4, 4, 3, 6, 6], [22, 22, 12, 15, 15]).tolist()
+        yield front, rear, 5.0, d_s, v, v_rear, 1.5, 3.0
+
+
+room_to_change = Exercise(
+    call="room_to_change(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor)",
+    solution=change_solution,
+    worked=(
+        ((12.0, float("inf"), 5.0, 3.0, 8.25, 0.0, 1.5, 3.0), True),  # 7 m of gap, 3 m needed
+        ((7.0, float("inf"), 5.0, 3.0, 8.25, 0.0, 1.5, 3.0), False),  # 2 m
+        ((30.0, 9.0, 5.0, 3.0, 8.0, 12.0, 1.5, 3.0), False),  # 4 m behind, closing in 6 m in 1.5 s
+    ),
+    cases=change_cases,
+    mistakes=(
+        Mistake(
+            answer=lambda front, rear, length, d_s, v, v_rear, t, floor: (
+                front - length < d_s and rear - length > max(floor, (v_rear - v) * t)
+            ),
+            says="You change lane when the gap ahead is *shorter* than the safety distance, as the paper prints it. "
+            "It has to be longer.",
+            belief="What is printed is right.",
+        ),
+        Mistake(
+            answer=lambda front, rear, length, d_s, v, v_rear, t, floor: (
+                front > d_s and rear > max(floor, (v_rear - v) * t)
+            ),
+            says="You measure from centre to centre. Bumpers are what meets: a car's length comes off each distance.",
+            belief="The distance between two cars is the distance between their positions.",
+        ),
+        Mistake(
+            answer=lambda front, rear, length, d_s, v, v_rear, t, floor: front - length > d_s,
+            says="You look ahead only. The car behind in the new lane must not be cut off.",
+            belief="Who drives behind has to look out.",
+        ),
+        Mistake(
+            answer=lambda front, rear, length, d_s, v, v_rear, t, floor: (
+                front - length > d_s and rear - length > max(floor, (v - v_rear) * t)
+            ),
+            says="Behind you, the *other* car closes in: the distance that you need there grows with v_rear - v_ego.",
+            belief="The same formula serves ahead and behind.",
+        ),
+        Mistake(
+            answer=lambda front, rear, length, d_s, v, v_rear, t, floor: (
+                front - length > d_s and rear - length > (v_rear - v) * t
+            ),
+            says="Behind a slow car your need is negative, and you cut in a hand's breadth ahead of it: keep the floor "
+            "there, too.",
+            belief="The floor belongs to the formula for the car ahead.",
+        ),
+        Mistake(
+            answer=lambda front, rear, length, d_s, v, v_rear, t, floor: (
+                front - length > d_s or rear - length > max(floor, (v_rear - v) * t)
+            ),
+            says="Room ahead *or* behind is not enough: you need both.",
+            belief="One good reason is a reason.",
+        ),
+    ),
+    hints=(
+        "Two gaps, from bumper to bumper, and a needed distance for each. `d_s` is the one ahead.",
+        "Behind: `max(floor, (v_rear - v_ego) * t_safe)`, because there the other car closes in on you.",
+        "`dx_front - length > d_s and dx_rear - length > max(floor, (v_rear - v_ego) * t_safe)`",
+    ),
+    minutes=6,
+    difficulty=2,
+    equation="Algorithm 1, line 2, its sign corrected, and O_dec, Section III-D",
+)
+
+# Tracking ---------------------------------------------------------------------------------------------
+
+
+def first_solution(costs):
+    cheapest = costs.min(axis=(1, 2))
+    return cheapest.argmin()
+
+
+def first_cases(rng):
+    """The best plan begins with each of the three; then 50 at random."""
+    for first in range(3):
+        costs = rng.uniform(5, 9, (3, 3, 3))
+        costs[first, (first + 1) % 3, (first + 2) % 3] = 1.0
+        yield (costs,)
+    for _ in range(50):
+        yield (rng.uniform(0, 10, (3, 3, 3)) + rng.choice([0.0, 1e6], (3, 3, 3), p=[0.8, 0.2]),)
+
+
+def one_good_plan(first, second, third):
+    costs = np.full((3, 3, 3), 5.0)
+    costs[first, second, third] = 1.0
+    return costs
+
+
+best_first_step = Exercise(
+    call="best_first_step(costs)",
+    solution=first_solution,
+    worked=(
+        ((one_good_plan(2, 0, 1),), 2),  # right, left, straight
+        ((one_good_plan(0, 2, 1),), 0),
+    ),
+    cases=first_cases,
+    mistakes=(
+        Mistake(
+            answer=lambda costs: costs.argmin(),
+            says="This is the number of the best plan, 0 to 26. What you do now is its first step only, 0, 1 or 2.",
+            belief="argmin gives the index along the first axis.",
+        ),
+        Mistake(
+            answer=lambda costs: costs.mean(axis=(1, 2)).argmin(),
+            says="You average over what may come later. You will choose those steps, too: take the best of them.",
+            belief="The future is uncertain, so it is averaged.",
+        ),
+        Mistake(
+            answer=lambda costs: costs.min(axis=(0, 1)).argmin(),
+            says="This is the *last* step of the best plan. The first axis is the step that comes now.",
+            belief="The axes are counted from the end of the plan.",
+        ),
+        Mistake(
+            answer=lambda costs: costs[:, 1, 1].argmin(),
+            says="You suppose that you will steer straight afterwards: then a lane change, which turns and turns back, "
+            "never looks good.",
+            belief="Looking ahead means holding the wheel and seeing where one arrives.",
+        ),
+        Mistake(
+            answer=lambda costs: costs.max(axis=(1, 2)).argmin(),
+            says="You compare the worst that may come after each first step. Nobody plays against you: take the best.",
+            belief="Careful means minimax.",
+        ),
+        Mistake(
+            answer=lambda costs: costs.min(axis=(1, 2)).argmax(),
+            says="You take the dearest first step: a cost is to be small.",
+            belief="argmax is what one does with a table of actions.",
+        ),
+    ),
+    hints=(
+        "27 plans, and each first step is shared by nine of them. What is a first step worth?",
+        "`costs.min(axis=(1, 2))` is the cheapest plan for each first step: three numbers.",
+        "`costs.min(axis=(1, 2)).argmin()`",
+    ),
+    minutes=5,
+    difficulty=2,
+    equation="the tracker's choice among 27 sequences of steering, bootcourse.rule",
+)
+
+# The stochastic rule ----------------------------------------------------------------------------------
+
+
+def table(actions, own, other):
+    return np.where(np.arange(9) == np.asarray(actions)[..., None], own, other)
+
+
+def stochastic_cases(rng):
+    """Every action, p = 1/9 where nothing is left of the rule; then 40 at random."""
+    yield np.arange(9), 0.9
+    yield np.array([3, 3, 8]), 1 / 9
+    yield np.array([0]), 0.999
+    for _ in range(40):
+        yield rng.integers(0, 9, int(rng.integers(1, 6))), float(rng.uniform(0.12, 0.99))
+
+
+stochastic_rule = Exercise(
+    call="stochastic_rule(rule_actions, p)",
+    solution=rule.stochastic_rule,
+    worked=(
+        ((np.array([3]), 0.9), np.array([[0.0125] * 3 + [0.9] + [0.0125] * 5])),
+        ((np.array([0, 8]), 1 / 9), np.full((2, 9), 1 / 9)),
+    ),
+    cases=stochastic_cases,
+    mistakes=(
+        Mistake(
+            answer=lambda actions, p: table(actions, p, 1 - p),
+            says="Your probabilities add up to more than 1: the eight other actions *share* 1 - p.",
+            belief="1 - p is the probability of each other action.",
+        ),
+        Mistake(
+            answer=lambda actions, p: table(actions, p, (1 - p) / 9),
+            says="You share 1 - p among nine actions. The rule's own has its p already: eight are left.",
+            belief="There are nine actions, so nine shares.",
+        ),
+        Mistake(
+            answer=lambda actions, p: table(actions, p + (1 - p) / 9, (1 - p) / 9),
+            says="You mix the rule with a uniform policy. It adds up to 1, but the rule's own action gets more than p.",
+            belief="'With probability 1 - p, anything' and 'with probability 1 - p, something else' are the same.",
+        ),
+        Mistake(
+            answer=lambda actions, p: table(actions, (1 - p) / 8, p),
+            says="Your p is turned round: the rule's own action has the small share, and the others the large one.",
+            belief="np.where takes what is false first.",
+        ),
+        Mistake(
+            answer=lambda actions, p: table(actions, p, 0.0),
+            says="The other eight actions have probability 0. Then the KL of lesson 7 is infinite: they share 1 - p.",
+            belief="The rule would never do them.",
+        ),
+    ),
+    hints=(
+        "Begin with a table (n, 9) that holds what each *other* action has.",
+        "`np.full((len(rule_actions), 9), (1 - p) / 8)`. Which one entry of each row has to become p?",
+        "`table[np.arange(len(rule_actions)), rule_actions] = p`",
+    ),
+    minutes=5,
+    difficulty=1,
+    equation="π̃(a|s), Section IV-A",
 )
