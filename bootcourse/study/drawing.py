@@ -107,7 +107,7 @@ def plain_axes(ax, label: str, grid: str = "y") -> None:
     ax.yaxis.set_label_coords(0.0, 1.03)
 
 
-def label_ends(ax, ends: list[tuple[float, str, str]], size: float = TEXT, wrap: int = 20) -> None:
+def label_ends(ax, ends: list[tuple[float, str, str]], size: float = TEXT, wrap: int = 20, gap: float = 0.015) -> None:
     """Direct labels: write each (y, text, colour) to the right of the axes, moved apart where they meet.
 
     The axes must have their final limits and position.
@@ -123,7 +123,7 @@ def label_ends(ax, ends: list[tuple[float, str, str]], size: float = TEXT, wrap:
     places = _apart(wanted, heights)
     for place, text, (_, _, colour) in zip(places, rows, ends, strict=True):
         ax.text(
-            1.015,
+            1 + gap,
             place,
             text,
             transform=ax.transAxes,

@@ -85,7 +85,7 @@ def training_panels(
     figure = new_figure(0.7 + 2.6 * rows, 9.0)
     axes = figure.subplots(rows, 2, squeeze=False)
     figure.subplots_adjust(
-        left=0.05, right=0.86, top=1 - 0.9 / (0.7 + 2.6 * rows), bottom=0.22 / rows, hspace=0.42, wspace=0.42
+        left=0.045, right=0.865, top=1 - 0.9 / (0.7 + 2.6 * rows), bottom=0.22 / rows, hspace=0.42, wspace=0.56
     )
     figure.canvas.draw()
     for i, panel in enumerate(panels):
@@ -105,7 +105,7 @@ def training_panels(
         plain_axes(ax, panel.label)
         ax.set_xlim(0, results.curves[panel.curve].shape[1])
         ax.set_xlabel("training episode", fontsize=SMALL, color=QUIET)
-        label_ends(ax, ends, size=SMALL, wrap=15)
+        label_ends(ax, ends, size=SMALL, wrap=22, gap=0.035)
     for ax in list(axes.flat)[len(panels) :]:
         ax.set_visible(False)
     figure.text(0.012, 0.01, LEGEND, fontsize=SMALL, color=QUIET)
