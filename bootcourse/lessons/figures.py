@@ -43,13 +43,13 @@ def reward_curve(traps: float = 10.0, best: float = 15.0) -> Figure:
     return finish(figure, "Most of the money lies between 12.5 and 15 m/s", alt)
 
 
-def bars(probabilities: Sequence[float], title: str) -> Figure:
-    """The nine actions' probabilities, (9,)."""
+def bars(probabilities: Sequence[float], title: str, label: str = "probability") -> Figure:
+    """The nine actions' probabilities, or another share of each, (9,)."""
     figure = new_figure(3.0)
     ax = figure.add_axes((0.08, 0.3, 0.9, 0.48))
     drawn = ax.bar(range(len(ACTION_NAMES)), probabilities, color=style("rule").colour, width=0.7)
     ax.bar_label(drawn, [f"{p:.3f}" for p in probabilities], fontsize=TEXT, color=INK, padding=2)
-    plain_axes(ax, "probability")
+    plain_axes(ax, label)
     ax.set_ylim(0, 1.1)
     ax.set_xticks(range(len(ACTION_NAMES)), [name.replace(" ", "\n") for name in ACTION_NAMES], fontsize=TEXT)
     ax.set_xlabel("action", fontsize=TEXT, color=INK)

@@ -1,0 +1,335 @@
+"""Exercises of the lesson on demonstrations and behaviour cloning."""
+
+import numpy as np
+import torch
+
+from bootcourse.learn import bc
+from bootcourse.lessons.exercise import Exercise, Mistake
+
+# Transitions ------------------------------------------------------------------------------------------
+
+
+def transitions_solution(observations, actions, rewards, accident):
+    terminated = np.zeros(len(actions))
+    terminated[-1] = accident > 0
+    return np.column_stack([observations[:-1], observations[1:], actions, rewards, terminated])
+
+
+def rows(observations, next_observations, actions, rewards, terminated):
+    return np.column_stack([observations, next_observations, actions, rewards, terminated])
+
+
+def last(actions, value):
+    ended = np.zeros(len(actions))
+    ended[-1] = value
+    return ended
+
+
+def transitions_cases(rng):
+    """Each ending, a drive of one decision; then 30 at random."""
+    endings = [0, 1, 2, 3, *rng.integers(0, 4, 30)]
+    for k, accident in enumerate(endings):
+        decisions = 1 if k == 4 else int(rng.integers(2, 6))
+        size = int(rng.integers(2, 4))
+        observations = rng.normal(size=(decisions + 1, size))
+        yield observations, rng.integers(0, 9, decisions), rng.normal(size=decisions), int(accident)
+
+
+transitions = Exercise(
+    call="transitions(observations, actions, rewards, accident)",
+    solution=transitions_solution,
+    worked=(
+        (
+            (np.array([[1.0], [2.0], [3.0]]), np.array([4, 7]), np.array([0.5, -10.0]), 2),
+            np.array([[1, 2, 4, 0.5, 0], [2, 3, 7, -10.0, 1]]),
+        ),
+        ((np.array([[1.0], [2.0]]), np.array([4]), np.array([0.5]), 0), np.array([[1, 2, 4, 0.5, 0]])),
+    ),
+    cases=transitions_cases,
+    mistakes=(
+        Mistake(
+            answer=lambda o, a, r, accident: rows(o[:-1], o[1:], a, r, last(a, 1.0)),
+            says="You end every drive. A drive whose time ran out was not terminated: its last state has a future.",
+            belief="The last row of a drive is its end.",
+        ),
+        Mistake(
+            answer=lambda o, a, r, accident: rows(o[:-1], o[1:], a, r, np.full(len(a), float(accident > 0))),
+            says="You mark the whole drive. Only the transition of the accident itself leads nowhere.",
+            belief="The accident is a property of the drive.",
+        ),
+        Mistake(
+            answer=lambda o, a, r, accident: rows(o[:-1], o[1:], a, r, np.zeros(len(a))),
+            says="You mark no end at all: after an accident nothing follows, so the last row must say 1.",
+            belief="The reward of -10 says it already.",
+        ),
+        Mistake(
+            answer=lambda o, a, r, accident: rows(o[:-1], o[1:], a, r, last(a, accident)),
+            says="Your mark is the accident's number, 0 to 3. It is 0 or 1, because the critic multiplies by it.",
+            belief="A flag may be any number.",
+        ),
+        Mistake(
+            answer=lambda o, a, r, accident: rows(o[1:], o[:-1], a, r, last(a, accident > 0)),
+            says="Your s and s' are swapped: the action leads from the earlier observation to the later one.",
+            belief="`[1:]` is where one begins.",
+        ),
+        Mistake(
+            answer=lambda o, a, r, accident: rows(o[:-1], o[:-1], a, r, last(a, accident > 0)),
+            says="Your s' is s again: the next observation stands one row further down.",
+            belief="Each decision has one observation.",
+        ),
+    ),
+    hints=(
+        "There is one observation more than there are actions. Which ones are s, and which are s'?",
+        "`observations[:-1]` and `observations[1:]`; the last column is zero but for an accident in the last row.",
+        "`np.column_stack([observations[:-1], observations[1:], actions, rewards, terminated])`",
+    ),
+    minutes=6,
+    difficulty=2,
+    equation="(s, a, r, s'), Section IV-B, and whether the episode ended there",
+)
+
+# Returns ----------------------------------------------------------------------------------------------
+
+
+def discounted_solution(rewards, gamma):
+    return np.sum(gamma ** np.arange(len(rewards)) * rewards)
+
+
+def discounted_cases(rng):
+    """γ of 0 and of 1, one reward, a late reward; then 40 at random."""
+    yield np.array([1.0, 2.0, 3.0]), 0.0
+    yield np.array([1.0, 2.0, 3.0]), 1.0
+    yield np.array([2.0]), 0.8
+    yield np.array([0.0, 0.0, 0.0, 10.0]), 0.8
+    for _ in range(40):
+        yield rng.normal(size=int(rng.integers(2, 20))), float(rng.uniform(0.3, 0.99))
+
+
+discounted_return = Exercise(
+    call="discounted_return(rewards, gamma)",
+    solution=discounted_solution,
+    worked=(
+        ((np.array([1.0, 1.0, 1.0]), 0.5), 1.75),  # 1 + 0.5 + 0.25
+        ((np.array([0.0, 0.0, 10.0]), 0.8), 6.4),
+    ),
+    cases=discounted_cases,
+    mistakes=(
+        Mistake(
+            answer=lambda rewards, gamma: np.sum(gamma ** np.arange(1, len(rewards) + 1) * rewards),
+            says="You discount the first reward, too. It comes now: its weight is γ to the power 0.",
+            belief="Counting begins at 1.",
+        ),
+        Mistake(
+            answer=lambda rewards, gamma: np.sum(rewards),
+            says="This is the return without a discount: a reward t seconds later counts γ^t.",
+            belief="Return and discounted return are the same.",
+        ),
+        Mistake(
+            answer=lambda rewards, gamma: np.sum(gamma ** np.arange(len(rewards))[::-1] * rewards),
+            says="You discount the *early* rewards. What comes first counts most.",
+            belief="The loop ran backwards, and the powers with it.",
+        ),
+        Mistake(
+            answer=lambda rewards, gamma: gamma * np.sum(rewards),
+            says="You multiply everything by γ once: the power grows with every second of waiting.",
+            belief="A discount is a fixed rebate.",
+        ),
+        Mistake(
+            answer=lambda rewards, gamma: np.mean(gamma ** np.arange(len(rewards)) * rewards),
+            says="You took the mean: a return is a sum.",
+            belief="Averages are easier to compare.",
+        ),
+    ),
+    hints=(
+        "The reward after t seconds counts γ to the power t.",
+        "`gamma ** np.arange(len(rewards))` are the weights.",
+        "`np.sum(gamma ** np.arange(len(rewards)) * rewards)`",
+    ),
+    minutes=4,
+    difficulty=1,
+    equation="Σ γ^t r_t, Section III",
+)
+
+# Imitation --------------------------------------------------------------------------------------------
+
+
+def agreement_solution(pi, actions):
+    return np.mean(pi.argmax(axis=1) == actions)
+
+
+def agreement_cases(rng):
+    """Always, never, one state; then 40 at random."""
+    yield np.eye(9)[[3, 5]], np.array([3, 5])
+    yield np.eye(9)[[3, 5]], np.array([5, 3])
+    yield np.full((1, 9), 0.05) + 0.55 * np.eye(9)[[2]], np.array([2])
+    for _ in range(40):
+        n = int(rng.integers(2, 12))
+        pi = rng.dirichlet(np.full(9, 0.5), n)
+        yield pi, np.where(rng.random(n) < 0.6, pi.argmax(1), rng.integers(0, 9, n))
+
+
+agreement = Exercise(
+    call="agreement(pi, actions)",
+    solution=agreement_solution,
+    worked=(
+        ((np.array([[0.5, 0.3, 0.2], [0.1, 0.2, 0.7]]), np.array([0, 1])), 0.5),
+        ((np.array([[0.4, 0.3, 0.3]]), np.array([0])), 1.0),
+    ),
+    cases=agreement_cases,
+    mistakes=(
+        Mistake(
+            answer=lambda pi, actions: np.mean(pi[np.arange(len(pi)), actions]),
+            says="This is the mean probability of the demonstrated action. A greedy driver takes the most probable "
+            "one, be it at 0.4 or at 0.9.",
+            belief="A policy acts as often as it is sure.",
+        ),
+        Mistake(
+            answer=lambda pi, actions: np.sum(pi.argmax(axis=1) == actions),
+            says="You count the states. The share of them is asked for.",
+            belief="The number of hits is the agreement.",
+        ),
+        Mistake(
+            answer=lambda pi, actions: np.mean(pi.argmax(axis=1) != actions),
+            says="This is the share of *disagreement*.",
+            belief="Error rate and accuracy were mixed up.",
+        ),
+        Mistake(
+            answer=lambda pi, actions: np.mean(pi[np.arange(len(pi)), actions] > 0.5),
+            says="You ask for more than one half. With nine actions the most probable one may have less.",
+            belief="Most probable means more probable than all others together.",
+        ),
+    ),
+    hints=(
+        "Which action would the policy take in each state?",
+        "`pi.argmax(axis=1)` is the most probable action of each row.",
+        "`np.mean(pi.argmax(axis=1) == actions)`",
+    ),
+    minutes=3,
+    difficulty=1,
+    equation="the share of states in which argmax π(·|s) = a_E",
+)
+
+
+def cloning_cases(rng):
+    """One state, a sure policy, a uniform one; then 40 at random."""
+    yield torch.full((1, 9), -np.log(9)).double(), torch.tensor([3])
+    yield torch.tensor(rng.normal(0, 8, (9, 9))).log_softmax(-1), torch.tensor(rng.integers(0, 9, 9))
+    for _ in range(40):
+        n = int(rng.integers(2, 8))
+        yield torch.tensor(rng.normal(0, 2, (n, 9))).log_softmax(-1), torch.tensor(rng.integers(0, 9, n))
+
+
+def chosen(log_pi, actions):
+    return log_pi.gather(-1, actions.unsqueeze(-1)).squeeze(-1)
+
+
+cloning_loss = Exercise(
+    call="cloning_loss(log_pi, expert_actions)",
+    solution=bc.cloning_loss,
+    worked=(
+        (
+            (torch.tensor([[0.5, 0.25, 0.25], [0.1, 0.1, 0.8]]).log(), torch.tensor([0, 1])),
+            torch.tensor((np.log(2) + np.log(10)) / 2),
+        ),
+    ),
+    cases=cloning_cases,
+    mistakes=(
+        Mistake(
+            answer=lambda log_pi, actions: chosen(log_pi, actions).mean(),
+            says="Your sign is turned: gradient *descent* on this makes the demonstrated actions less probable.",
+            belief="One maximises the log-likelihood, and so does the optimiser.",
+        ),
+        Mistake(
+            answer=lambda log_pi, actions: -chosen(log_pi, actions).sum(),
+            says="You add up over the batch: take the mean, or the step grows with the batch.",
+            belief="A sum and a mean differ by a constant only.",
+        ),
+        Mistake(
+            answer=lambda log_pi, actions: -chosen(log_pi, actions).exp().mean(),
+            says="You use the probability, not its logarithm: an action of probability 0.01 hardly pulls then.",
+            belief="More probability is what is wanted, so that is the loss.",
+        ),
+        Mistake(
+            answer=lambda log_pi, actions: -log_pi.mean(),
+            says="You average over all nine actions. Only the demonstrated one of each state counts.",
+            belief="The loss is a function of log π.",
+        ),
+        Mistake(
+            answer=lambda log_pi, actions: -log_pi.amax(-1).mean(),
+            says="You make the policy surer of what it prefers already. The demonstrator's action is to become likely.",
+            belief="The best action is the demonstrated one.",
+        ),
+        Mistake(
+            answer=lambda log_pi, actions: -chosen(log_pi, actions),
+            says="This is the loss of each state: take the mean over the batch.",
+            belief="The optimiser averages.",
+        ),
+    ),
+    hints=(
+        "For each state: the logarithm of the probability that the policy gives to the demonstrated action.",
+        "`log_pi.gather(-1, expert_actions.unsqueeze(-1))` picks it out.",
+        "`-log_pi.gather(-1, expert_actions.unsqueeze(-1)).mean()`",
+    ),
+    minutes=5,
+    difficulty=1,
+    equation="-E log π(a_E|s), bootcourse.learn.bc (Pomerleau 1991)",
+)
+
+
+def any_error_solution(error_rate, decisions):
+    return 1 - (1 - error_rate) ** decisions
+
+
+def any_error_cases(rng):
+    for error_rate in (0.0, 1.0, 0.5):
+        yield error_rate, 10
+    for _ in range(40):
+        yield float(rng.uniform(0.001, 0.2)), int(rng.integers(2, 151))
+
+
+any_error = Exercise(
+    call="any_error(error_rate, decisions)",
+    solution=any_error_solution,
+    worked=(
+        ((0.5, 2), 0.75),
+        ((0.1, 1), 0.1),
+        ((0.0, 150), 0.0),
+    ),
+    cases=any_error_cases,
+    mistakes=(
+        Mistake(
+            answer=lambda rate, decisions: (1 - rate) ** decisions,
+            says="This is the probability that *nothing* goes wrong. At least one error is what is left of 1.",
+            belief="The complement was forgotten at the end.",
+        ),
+        Mistake(
+            answer=lambda rate, decisions: rate * decisions,
+            says="This is the expected *number* of errors, which may exceed 1.",
+            belief="Probabilities of several chances are added.",
+        ),
+        Mistake(
+            answer=lambda rate, decisions: min(1.0, rate * decisions),
+            says="A sum that is cut off at 1 counts drives with two errors twice. Multiply the chances that all goes "
+            "well.",
+            belief="Probabilities are added until they are certain.",
+        ),
+        Mistake(
+            answer=lambda rate, decisions: rate**decisions,
+            says="This is the probability that *every* decision is wrong.",
+            belief="Independent chances are multiplied, whatever the question.",
+        ),
+        Mistake(
+            answer=lambda rate, decisions: 1 - rate**decisions,
+            says="This is the probability that not *everything* is wrong: multiply the chances of being right.",
+            belief="The opposite of 'all wrong' is 'all right'.",
+        ),
+    ),
+    hints=(
+        "What is the probability that one decision is right? That all of them are?",
+        "`(1 - error_rate) ** decisions` is the probability of no error.",
+        "`1 - (1 - error_rate) ** decisions`",
+    ),
+    minutes=3,
+    difficulty=1,
+    equation="1 - (1 - ε)^T",
+)

@@ -1,0 +1,84 @@
+"""Figures of the lesson on demonstrations: where demonstrators have been, how far a clone strays, how clones drive."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from bootcourse.colours import style
+from bootcourse.record.rollout import Rollout
+from bootcourse.road.state import EGO, TRAP_1, X, Y
+from bootcourse.study.drawing import INK, QUIET, SMALL, TEXT, finish, label_ends, new_figure, plain_axes
+
+NOISY = "#D55E00"
+
+
+def where_they_were(drives: dict[str, Sequence[Rollout]], seconds: float, title: str) -> Figure:
+    """The ego's paths, seen from trap 1, for some seconds; one panel for each named demonstrator."""
+    figure = new_figure(1.0 + 1.35 * len(drives))
+    total, told = figure.get_figheight(), []
+    for k, (name, some) in enumerate(drives.items()):
+        ax = figure.add_axes((0.08, (total - 1.75 - 1.35 * k) / total, 0.88, 0.95 / total))
+        places = []
+        for drive in some:
+            states = drive.states[: int(seconds / drive.scenario.clock.dt) + 1]
+            path = np.column_stack([states[:, EGO, X] - states[:, TRAP_1, X], states[:, EGO, Y]])
+            ax.plot(*path.T, color=style("rule").colour if k == 0 else NOISY, linewidth=0.7, alpha=0.35)
+            places.append(path)
+        scenario = some[0].scenario
+        lanes, width = scenario.road.lanes, scenario.road.lane_width
+        for edge in np.arange(lanes + 1) * width - width / 2:
+            outer = edge in (-width / 2, (lanes - 0.5) * width)
+            ax.axhline(edge, color=QUIET, linewidth=1.2 if outer else 0.6, linestyle="-" if outer else (0, (5, 5)))
+        plain_axes(ax, f"lane: {name}", grid="")
+        ax.set_yticks(np.arange(lanes) * width, range(lanes))
+        ax.set_ylim((lanes - 0.5) * width + 0.6, -width / 2 - 0.6)
+        ax.set_xlim(-60, 15)
+        last = k == len(drives) - 1
+        ax.tick_params(axis="x", labelbottom=last)
+        if last:
+            ax.set_xlabel("distance ahead of trap 1 (m)", fontsize=TEXT, color=INK)
+        all_places = np.concatenate(places)
+        cells = len(np.unique(np.round(all_places / [2.0, 0.5]), axis=0))
+        told.append(f"{name}: {len(some)} drives pass through {cells} squares of 2 by 0.5 m")
+    return finish(figure, title, f"The ego's paths seen from trap 1 in the first {seconds:g} s. {'; '.join(told)}.")
+
+
+def astray(seconds: Sequence[float], curves: dict[str, Sequence[float]], title: str) -> Figure:
+    """The distance to the nearest demonstrated state over time, one curve for each named driver."""
+    figure = new_figure(3.2)
+    ax = figure.add_axes((0.08, 0.17, 0.72, 0.6))
+    looks, ends, told = ("rule", *["bc"] * (len(curves) - 1)), [], []
+    lines = ("-", "-", "--", "-.", ":")
+    for look, line, (name, values) in zip(looks, lines, curves.items(), strict=False):
+        colour = style(look).colour
+        ax.plot(seconds, values, color=colour, linestyle=line, linewidth=1.8)
+        ends.append((float(values[-1]), name, colour))
+        told.append(f"{name}: from {values[0]:.2f} to {values[-1]:.2f}")
+    plain_axes(ax, "distance to the nearest demonstrated state (scaled numbers of the observation)")
+    ax.set_xlim(seconds[0], seconds[-1])
+    ax.set_ylim(0, None)
+    ax.set_xlabel("time (s)", fontsize=TEXT, color=INK)
+    label_ends(ax, ends)
+    return finish(figure, title, f"Medians over time. {'; '.join(told)}.")
+
+
+def clones(measured: dict[str, np.ndarray], title: str) -> Figure:
+    """How clones drive: name -> (seeds, 3) shares of agreement, success and accidents; a dot for each seed."""
+    figure = new_figure(0.95 + 0.42 * len(measured))
+    told = {name: [] for name in measured}
+    height = figure.get_figheight()
+    for k, label in enumerate(("agree with their data (%)", "escape (%)", "have an accident (%)")):
+        ax = figure.add_axes((0.25 + 0.255 * k, 0.45 / height, 0.215, 1 - 1.15 / height))
+        for row, (name, values) in enumerate(measured.items()):
+            shares = 100 * values[:, k]
+            ax.plot(shares, np.full(len(shares), row), "o", color=style("bc").colour, markersize=5, alpha=0.55)
+            ax.plot(shares.mean(), row, "|", color=NOISY, markersize=15, markeredgewidth=2)
+            told[name].append(f"{shares.mean():.0f} % {label.split('(')[0].strip()}")
+        plain_axes(ax, label, grid="x")
+        ax.set_yticks(range(len(measured)), list(measured) if k == 0 else [""] * len(measured))
+        ax.tick_params(axis="y", labelcolor=INK, labelsize=SMALL)
+        ax.set_ylim(len(measured) - 0.5, -0.5)
+        ax.set_xlim(-4, 104)
+    words = "; ".join(f"{name}: on average {', '.join(parts)}" for name, parts in told.items())
+    return finish(figure, title, f"A dot for each clone, a bar for their mean. {words}.")
