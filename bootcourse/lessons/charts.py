@@ -41,7 +41,7 @@ def lines(
     for label, look in zip(named, styles(list(named)), strict=True):
         values = np.atleast_2d(np.asarray(named[label], dtype=float))
         ax.plot(x, values.T, color=look.colour, linestyle=look.line, linewidth=2 if len(values) == 1 else 1.1)
-        ends.append((float(values[:, -1].mean()), label, look.colour))
+        ends.append((float(values[:, -1].max()), label, look.colour))
     for words, y in (marks or {}).items():
         ax.axhline(y, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
         ends.append((y, words, QUIET))
