@@ -1,0 +1,357 @@
+# ---
+# jupyter:
+#   jupytext:
+#     text_representation:
+#       extension: .py
+#       format_name: percent
+#   kernelspec:
+#     display_name: Python 3 (ipykernel)
+#     language: python
+#     name: python3
+# ---
+
+# %% [markdown]
+# # 5 · The barrier
+#
+# **What you will be able to do**
+# - train plain SAC in the trap, live, and say where it ends;
+# - find out whether it stays because leaving does not pay, or because it never sees that it pays;
+# - train agents that get out with the rule's help, and judge both kinds by their seeds.
+#
+# **Time** 50 minutes, about two of them the machine's. **You need** the trap of lesson 1, the rule
+# of lesson 3, SAC of lesson 4.
+
+# %%
+import numpy as np
+from bootcourse.drivers import idle_driver, random_driver, rule_driver
+from bootcourse.learn.settings import settings_for, with_seeds
+from bootcourse.learn.train import Training
+from bootcourse.lessons import check, source
+from bootcourse.lessons.charts import action_bars
+from bootcourse.lessons.figures import fading
+from bootcourse.lessons.live import LiveCurves
+from bootcourse.record.drive import record
+from bootcourse.scenario import ACTION_NAMES, DEFAULT
+from bootcourse.study.drawing import show
+from bootcourse.study.evaluate import drive_episodes, held_out_seeds, rate, report
+from bootcourse.study.planner import Search, follow, is_staying_optimal, plan_episodes
+from bootcourse.study.top_view import overtaken, top_view_over_time
+from bootcourse.study.traces import traces
+from bootcourse.study.training_curves import training_curves
+
+# %% [markdown]
+# ## Look first
+#
+# How well could anybody drive here? A **planner** is a driver with an unfair advantage: it tries
+# out the future before it decides. It continues a drive with all nine actions, keeps the best 50
+# drives, and does so 150 times. It sees what every other car will do. No driver can, so it is a
+# yardstick, not a rival.
+
+# %%
+ROAD = 10
+plans = plan_episodes([ROAD], search=Search(beam=50))
+planned = record(follow(plans), [ROAD], label="planner")[0]
+idle = record(idle_driver, [ROAD], label="idle")[0]
+by_rule = record(rule_driver(DEFAULT), [ROAD], label="rule")[0]
+show(traces([idle, by_rule, planned]))
+
+# %%
+for drive in (idle, by_rule, planned):
+    passed = overtaken(drive)
+    when = "never" if passed is None else f"after {passed:.0f} s"
+    print(f"{drive.label:8} return {drive.rewards.sum():6.1f}, ahead of trap 1 {when}")
+show(top_view_over_time(planned, times=[0, 2, 4, 6, 8, 12]))
+
+# %% [markdown]
+# **See.** The planner does not fall back at all. It accelerates and slips between the two traps,
+# with little room to either side, since it knows to the centimetre where they will be. The rule's
+# way is slower and safer. Either way there is a lot to earn beyond the trap, and a learner is free
+# to find it.
+
+# %% [markdown]
+# ## Round 1: let it learn
+#
+# Six agents learn with SAC, exactly as in lesson 4, from nothing but what they drive themselves.
+# Three have the paper's discount, γ = 0.8. Three look further ahead, γ = 0.95. Each gets the same
+# number of updates. You can stop it at any time (the ■ button), and what was learned is kept.
+#
+# > **Predict.** How many of the first three will leave the trap in most episodes? How many of the
+# > far-sighted three? What will the others do?
+
+# %%
+SEEDS, UPDATES = 3, 5000
+agents = with_seeds(settings_for("sac"), SEEDS) + with_seeds(settings_for("sac", gamma=0.95), SEEDS)
+training = Training(agents, episodes=20_000)
+alone = training.run(callback=LiveCurves(), stop=lambda: training.updates > UPDATES)
+print(f"{alone.seconds:.0f} s, {training.decisions:,} decisions")
+
+# %%
+seeds = held_out_seeds(5, 200)
+
+
+def table(agents):
+    """One row for each agent, on 200 roads that nobody has trained on. Returns their success."""
+    print("method            γ  seed  success %  return  accidents %")
+    successes = []
+    for agent in agents:
+        r, s = report(drive_episodes(agent.driver(), seeds)), agent.settings
+        accidents = r.collision.value + r.road_departure.value + r.stoppage.value
+        row = f"{s.method:13}{s.gamma:6}{s.seed:6}{100 * r.success.value:11.1f}"
+        print(f"{row}{r.returns.value:8.1f}{100 * accidents:13.1f}")
+        successes.append(r.success.value)
+    return np.array(successes)
+
+
+escaped_alone = table(alone.agents) >= 0.95
+print(f"{escaped_alone.sum()} of {len(agents)} leave the trap in 95 % of the episodes or more")
+
+# %%
+driven = training.curves.finished.sum()
+ahead = int(np.nansum(alone.curves["success"]))
+ended = np.nansum(alone.curves["accident"] > 0)
+print(f"In {driven:,} episodes of training, {ahead} ended ahead of trap 1;", end=" ")
+print(f"{100 * ended / driven:.0f} % of all ended in an accident.")
+
+# %% [markdown]
+# **See.** Remember 23.4, the return of doing nothing (lesson 1). Is it laziness, or is it wisdom?
+# There are two explanations, and they ask for different cures.
+#
+# - **Discount.** An agent with γ = 0.8 hardly counts what comes in 20 s. Perhaps leaving does not
+#   *pay* for it, and staying is the right answer to the question that we asked.
+# - **Exploration.** Leaving pays, also for such an agent, but what it tries never gets there.
+
+# %% [markdown]
+# ## Round 2: is it the discount?
+#
+# **Exercise 5.1 (3 min, ●○○).** What a learner maximises is a discounted sum: the reward after t
+# seconds counts $\gamma^t$. Write it.
+
+
+# %%
+def discounted_value(rewards, gamma):
+    """Σ γ^t r_t. rewards: array (T,), the first one now; gamma: float. Returns a number."""
+    # solution
+    return float(np.sum(gamma ** np.arange(len(rewards)) * rewards))
+    # end solution
+
+
+check.discounted_value(discounted_value)
+
+# %% [markdown]
+# > **Predict.** With γ = 0.8, which share of everything that a learner counts lies more than 5 s
+# > ahead? More than 20 s? And with γ = 0.95?
+#
+# **Exercise 5.2 (3 min, ●○○).** Write that share, for a pay that is the same at every second.
+
+
+# %%
+def share_of_the_future(gamma, seconds):
+    """The share of Σ γ^t, t = 0, 1, 2 ..., that comes from t ≥ seconds: in [0, 1]."""
+    # solution
+    return gamma**seconds
+    # end solution
+
+
+check.share_of_the_future(share_of_the_future)
+
+# %%
+for gamma in (0.8, 0.95):
+    shares = [f"{100 * gamma**seconds:5.1f} % after {seconds} s" for seconds in (5, 20, 60)]
+    print(f"γ = {gamma}: {', '.join(shares)}")
+
+# %% [markdown]
+# So γ = 0.8 is short-sighted. But short-sighted enough? Ask the planner, with the learner's own
+# eyes: it searches for the largest *discounted* sum, once with all actions and once without ever
+# leaving its lane.
+#
+# > **Predict.** At γ = 0.8, is the best drive worth more than the best one that stays in its lane?
+# > And is the *rule's* way worth more than that?
+
+# %%
+print("   γ   idle  best in lane  rule's way  best of all  of which leave")
+for gamma in (0.8, 0.95):
+    s = is_staying_optimal(range(4), gamma=gamma, beam=50)
+    row = f"{gamma:4} {s.idle.value:6.2f} {s.keep_lane.value:13.2f} {s.rule.value:11.2f}"
+    print(f"{row} {s.best.value:12.2f} {100 * s.leaves.value:13.0f} %")
+
+# %% [markdown]
+# **Explain.** Two answers in one table. *Leaving pays*, at both discounts, on each of these roads:
+# the best drive leaves, and is worth far more than any that stays. So an agent that stays has
+# not found what there is to find. It is not the discount.
+#
+# But look at the rule's way at γ = 0.8. Falling back for ten seconds costs at once, and what it
+# earns lies beyond the horizon. For such a learner *this* way out is worth **less** than doing
+# nothing. A critic that judges the rule's drives by their rewards would advise against them. Keep
+# that for lesson 8.
+
+# %% [markdown] tags=["instructor"] minutes=10
+# The planner's number is a lower bound on the best (a beam of 50 can miss the best drive), so "best
+# of all" above "best in lane" is safe; the other way round it would not be. Ask why (`keep_lane` is
+# a lower bound, too, but on a much smaller space: with a beam of 200 it hardly moves).
+
+# %% [markdown]
+# ## Round 3: is it exploration?
+#
+# > **Predict.** The planner's first way out needs some seconds, and a wrong action in it ends
+# > behind a trap, in it, or off the road. Suppose 2 of the 9 actions are right at each of 8
+# > decisions. How many tries does somebody need who picks at random, until one works?
+#
+# **Exercise 5.3 (5 min, ●●○).** Write the chance that at least one of `tries` works.
+
+
+# %%
+def luck(good, decisions, tries):
+    """The chance of a lucky try. good: right actions of 9; decisions: in a row."""
+    # solution
+    once = (good / 9) ** decisions
+    return 1 - (1 - once) ** tries
+    # end solution
+
+
+check.luck(luck)
+
+# %%
+for good in (2, 3, 4):
+    chances = [1 - (1 - (good / 9) ** 8) ** tries for tries in (100, 1000, 10_000)]
+    told = ", ".join(f"{100 * chance:6.2f} %" for chance in chances)
+    print(f"{good} of 9 right, 8 times in a row: {told} in 100, 1,000, 10,000 tries")
+tried = drive_episodes(random_driver(np.random.default_rng(0)), held_out_seeds(6, 5000))
+print(f"5,000 random drives: {tried.success.sum()} end ahead of trap 1", end=", ")
+print(f"{100 * np.mean(tried.accident > 0):.1f} % in an accident")
+
+# %% [markdown]
+# **See.** Chance is not nothing: a few random drives do end ahead. But a learner does not pick at
+# random for long. It learns from its accidents first, since they are everywhere, and they teach:
+# change nothing. What does the critic of such an agent say at the first second?
+
+# %%
+start = by_rule.observations[:1]
+q = alone.agents[0].q_values(start)[0]
+title = "What the critic of plain SAC, seed 0, expects of each action"
+show(action_bars({"sac: Q(s, a)": q.tolist()}, title, "value"))
+
+# %%
+temperature, policy = alone.agents[0].alpha, alone.agents[0].policy(start)[0]
+likes, does = int(q.argmax()), int(policy.argmax())
+print(f"α has fallen to {temperature:.5f}")
+print(f"the critic likes best: {ACTION_NAMES[likes]}, to which the actor gives {policy[likes]:.4f}")
+print(f"the actor's likeliest: {ACTION_NAMES[does]}, with a probability of {policy[does]:.4f}")
+
+# %% [markdown]
+# **Explain.** By now the agent is cold (lesson 4). Its policy has made up its mind, and the slope
+# of a softmax is proportional to π: an action that has lost its probability hardly gets it back,
+# even where the critic would like it best. So nothing new is tried, and nothing new is learned.
+# That is the **barrier**: the good lies behind the bad, and whoever learns in small steps from what
+# happens to it does not get across.
+
+# %% [markdown]
+# ## Round 4: with the rule's help
+#
+# The rule gets across each time, badly. The paper's method uses it twice. A **soft constraint**
+# makes the agent pay for differing from the rule (lesson 7). **Demonstrations**, drives of the
+# rule with a bonus on them, are mixed into what the agent learns from (lesson 8). Both fade.
+
+# %%
+show(fading(settings_for("bootstrapped")))
+
+# %% [markdown]
+# > **Predict.** Three agents, the same networks, γ = 0.8, the same number of updates, with the
+# > rule's help. How many escape? Will they be worse than the rule, as good, or better?
+
+# %%
+helped_training = Training(with_seeds(settings_for("bootstrapped"), SEEDS), episodes=20_000)
+helped = helped_training.run(callback=LiveCurves(), stop=lambda: helped_training.updates > UPDATES)
+print(f"{helped.seconds:.0f} s, {helped_training.decisions:,} decisions")
+
+# %%
+escaped_helped = table(helped.agents) >= 0.95
+rule_report = report(drive_episodes(rule_driver(DEFAULT), seeds))
+success = 100 * rule_report.success.value
+print(f"the rule{success:28.1f}{rule_report.returns.value:8.1f}")
+
+# %%
+first = {name: values[:SEEDS, :500] for name, values in alone.curves.items()}
+both = {"sac": first, "bootstrapped": {n: v[:, :500] for n, v in helped.curves.items()}}
+title = f"With the rule's help {escaped_helped.sum()} of {SEEDS} agents escape, "
+title += f"alone {escaped_alone[:SEEDS].sum()} of {SEEDS}"
+show(training_curves(both, title, constants={"rule": {"return": rule_report.returns.value}}))
+
+# %% [markdown]
+# **Explain.** With the rule, the way out is in the data from the first update on, and the pull
+# keeps the agent near it while it learns what each second there is worth. It does not have to find
+# the way by chance. What it does with it afterwards is its own affair: it may drive better than its
+# teacher, or worse.
+#
+# > **Predict.** If three of three agents escape, could the true rate still be one in two?
+#
+# **Exercise 5.4 (5 min, ●●○).** n of n agents have succeeded. Which true rate would make that as
+# unlikely as 2.5 %? Lower ones are ruled out: it is the lower end of the 95 % interval.
+
+
+# %%
+def lowest_rate(agents):
+    """The lower end of the exact 95 % interval of n out of n. agents: n ≥ 1. Returns a rate."""
+    # solution
+    return 0.025 ** (1 / agents)
+    # end solution
+
+
+check.lowest_rate(lowest_rate)
+
+# %%
+for n in (3, 5, 10, 20):
+    print(f"{n:2} of {n:2} agents: a true rate of {100 * rate(np.ones(n, bool)).low:.0f} % or more")
+for words, escaped in (("alone", escaped_alone[:SEEDS]), ("with the rule", escaped_helped)):
+    value, low, high = (100 * number for number in rate(escaped))
+    print(f"{words}: {value:.0f} % of our agents escape, true rate in [{low:.0f}, {high:.0f}] %")
+
+# %% [markdown]
+# **See.** Three seeds are few. They make a difference between *never* and *always* likely, and say
+# nothing about "in nine of ten". The study behind lesson 9 trains ten of each.
+
+# %% [markdown]
+# ## Round 5: watch both drive
+#
+# > **Predict.** The same road, seed 0 of each kind. What does the speed of the one that learned
+# > alone look like?
+
+# %%
+pair = [("sac", alone.agents[0]), ("bootstrapped", helped.agents[0])]
+drives = [record(agent.driver(with_q=True), [ROAD], label=label)[0] for label, agent in pair]
+show(traces([*drives, by_rule]))
+
+# %%
+last = drives[1].times[-1]
+show(top_view_over_time(drives[1], times=[t for t in (0, 4, 8, 12, 16, 24) if t <= last]))
+
+# %% [markdown]
+# **See.** Look at the lanes, too. To be in the left lane is not to be free: one has to know that
+# speed pays there, and an agent that never got past a trap has not been told.
+#
+# All that the second kind has in addition stands in these lines:
+
+# %% tags=["nbval-ignore-output"]
+source("bootcourse.learn.bootstrap", "kl_to_rule", "constraint_strength", "augmented_reward")
+
+# %% [markdown]
+# ## What you now know
+#
+# 1. Plain SAC ends behind trap 1, or in something worse, and few of its training episodes ever end
+#    ahead.
+# 2. Leaving pays at γ = 0.8 and at γ = 0.95, so staying is a failure to find, not a wise choice.
+# 3. The rule's own way out does *not* pay at γ = 0.8: its drives alone are no argument.
+# 4. Accidents come first and teach to stay; a cold policy does not look again.
+# 5. With the rule as a constraint and as data, agents get across, and a method is judged over
+#    seeds, on held-out roads, with its failures shown.
+#
+# **Three questions to think about**
+# - Would more exploration do? Raise `alpha_init`, or `target_entropy`: what happens to the
+#   accidents?
+# - Switch one of the two helps off: `settings_for("soft")` or `settings_for("demos")`. Which one
+#   carries more?
+# - Train `bootstrapped` for 1,500 episodes (some minutes). Do all seeds keep what they learned?
+#   Look at α when one does not.
+#
+# **Read on**: lessons 6 to 8 take the two helps apart. Ecoffet et al., *First return, then explore*
+# (arXiv 2004.12919), on why learners do not come back to where it was promising; Haarnoja et al.,
+# *Soft Actor-Critic* (arXiv 1801.01290).
