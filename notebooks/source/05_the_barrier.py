@@ -179,7 +179,7 @@ for gamma in (0.8, 0.95):
 # the best drive leaves, and is worth far more than any that stays. So an agent that stays has
 # not found what there is to find. It is not the discount.
 #
-# But look at the rule's way at γ = 0.8. Falling back for ten seconds costs at once, and what it
+# But look at the rule's way at γ = 0.8. Falling back costs at once, and what it
 # earns lies beyond the horizon. For such a learner *this* way out is worth **less** than doing
 # nothing. A critic that judges the rule's drives by their rewards would advise against them. Keep
 # that for lesson 8.
