@@ -120,6 +120,11 @@ print(f"{100 * ended / driven:.0f} % of all ended in an accident.")
 #   *pay* for it, and staying is the right answer to the question that we asked.
 # - **Exploration.** Leaving pays, also for such an agent, but what it tries never gets there.
 
+# %% [markdown] tags=["instructor"] minutes=8
+# The training takes half a minute on a free machine: have the predictions on the board before it
+# starts, and collect explanations for a flat line while it runs. Somebody will say "train longer".
+# Let a group do that at home (`UPDATES = 30_000`), and bring the curves.
+
 # %% [markdown]
 # ## Round 2: is it the discount?
 #
@@ -262,6 +267,11 @@ show(fading(settings_for("bootstrapped")))
 helped_training = Training(with_seeds(settings_for("bootstrapped"), SEEDS), episodes=20_000)
 helped = helped_training.run(callback=LiveCurves(), stop=lambda: helped_training.updates > UPDATES)
 print(f"{helped.seconds:.0f} s, {helped_training.decisions:,} decisions")
+
+# %% [markdown] tags=["instructor"] minutes=6
+# "So it imitates." Have them compare the return with the rule's after 5,000 updates and again after
+# three times as many (`UPDATES = 15_000`, some minutes), and the accidents: the rule has none. What
+# does an agent give up when it becomes better than its teacher?
 
 # %%
 escaped_helped = table(helped.agents) >= 0.95

@@ -314,7 +314,7 @@ temperature_loss = Exercise(
         ),
         Mistake(
             answer=lambda log_alpha, h, target: log_alpha * (h.detach().mean() - target),
-            says="You multiply by log α: here it is α itself. Some libraries take log α, and their steps have another length.",
+            says="You multiply by log α: here it is α itself. Some libraries do so, and take other steps.",
             belief="log α is the parameter, so it is what stands in the loss.",
         ),
         Mistake(
