@@ -41,6 +41,9 @@ class Exercise:
     equation: str  # what is computed and where it stands, as in "D_KL(π ‖ π̃), Equation 9"
     lesson: str = ""  # "07_soft_constraint"; the registry fills it in from the file's name
     run: Callable = field(default=call_it)  # run(answer, *case): what is compared; to take gradients, say
+    explain: Callable | None = (
+        None  # explain(cases, answers): the sentence on a mistake that has no name; plain numbers
+    )
     tolerance: float = 1e-4  # relative; absolute it is a hundredth of this
     seconds: float = 10.0  # for all cases together; a right answer needs a fraction of one
 

@@ -1,0 +1,357 @@
+"""Exercises of the lesson on a teacher of your own."""
+
+import numpy as np
+from gymnasium.vector import AutoresetMode
+
+from bootcourse.errors import BootcourseError
+from bootcourse.lessons.exercise import Exercise, Mistake
+from bootcourse.lessons.teacher import careful
+from bootcourse.lessons.values import NUMERIC, plain
+from bootcourse.record import teacher
+from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, X, Y
+from bootcourse.road.vector_env import TrapVectorEnv
+from bootcourse.scenario import DEFAULT, N_ACTIONS
+
+# Who drives ahead -----------------------------------------------------------------------------------
+
+
+def road_of(*cars):
+    """A road: the ego first; each car is (x in m, speed in m/s, lane)."""
+    rows = np.zeros((len(cars), 10))
+    for row, (x, speed, lane) in zip(rows, cars, strict=True):
+        row[[X, Y, SPEED, LANE]] = x, 4.0 * lane, speed, lane
+    return rows
+
+
+def ahead_cases(rng):
+    """Nobody there; one behind, nearer than the one ahead; two ahead, the farther first; then 40 at random."""
+    yield road_of((50, 10, 2), (60, 9, 1)), 0
+    yield road_of((50, 10, 2), (40, 9, 2), (80, 11, 2)), 2
+    yield road_of((50, 10, 2), (90, 12, 1), (70, 9, 1)), 1
+    yield road_of((50, 10, 2), (30, 12, 1)), 1
+    for _ in range(40):
+        cars = zip(rng.uniform(0, 150, 9), rng.uniform(8, 14, 9), rng.integers(0, 3, 9), strict=True)
+        yield road_of(*cars), int(rng.integers(0, 3))
+
+
+def gap_ahead_solution(cars, lane):
+    others = cars[(cars[:, LANE] == lane) & (cars[:, X] > cars[EGO, X])]
+    if len(others) == 0:
+        return np.inf
+    return others[:, X].min() - cars[EGO, X] - 5
+
+
+def gap_to(cars, others):
+    return others[:, X].min() - cars[EGO, X] - 5 if len(others) else np.inf
+
+
+def of_the_nearest(cars, lane):
+    others = cars[1:][cars[1:, LANE] == lane]
+    return others[np.abs(others[:, X] - cars[EGO, X]).argmin(), X] - cars[EGO, X] - 5 if len(others) else np.inf
+
+
+def of_the_first_row(cars, lane):
+    return gap_to(cars, cars[(cars[:, LANE] == lane) & (cars[:, X] > cars[EGO, X])][:1])
+
+
+gap_ahead = Exercise(
+    call="gap_ahead(cars, lane)",
+    solution=gap_ahead_solution,
+    worked=(
+        ((road_of((50, 10, 2), (65, 10, 2), (56, 9, 1)), 2), 10.0),  # 15 m less a car's length
+        ((road_of((50, 10, 2), (65, 10, 2), (56, 9, 1)), 1), 1.0),
+        ((road_of((50, 10, 2), (65, 10, 2), (56, 9, 1)), 0), np.inf),
+    ),
+    cases=ahead_cases,
+    mistakes=(
+        Mistake(
+            answer=lambda cars, lane: gap_ahead_solution(cars, lane) + 5,
+            says="Your gap is 5 m too long: you measure from centre to centre. The road that is free ends at a bumper.",
+            belief="A car is a point at its x.",
+        ),
+        Mistake(
+            answer=of_the_nearest,
+            says="You take the nearest car, even where it is behind you. Ahead means a larger x than the ego's.",
+            belief="The nearest car is the one that matters.",
+        ),
+        Mistake(
+            answer=lambda cars, lane: gap_to(cars, cars[cars[:, X] > cars[EGO, X]]),
+            says="You look at every lane. Only the cars whose lane is `lane` count.",
+            belief="Who is ahead is in the way.",
+        ),
+        Mistake(
+            answer=of_the_first_row,
+            says="You take the first car of the table. The rows are not in the order of the road: find the smallest x.",
+            belief="Row 1 is the car ahead, as at the start.",
+        ),
+        Mistake(
+            answer=lambda cars, lane: min(gap_ahead_solution(cars, lane), 200.0),
+            says="Where nobody is ahead, you answer with a number. An empty lane is infinity: `np.inf`.",
+            belief="Nothing is seen beyond 200 m, so 200 m is the largest gap.",
+        ),
+    ),
+    hints=(
+        "Pick the rows in two steps: those in the lane, then those with a larger x than the ego's.",
+        "If no row is left, return `np.inf`. If some are, the nearest has the smallest x.",
+        "`others = cars[(cars[:, LANE] == lane) & (cars[:, X] > cars[EGO, X])]`",
+    ),
+    minutes=6,
+    difficulty=1,
+    equation="gap to the preceding vehicle, bumper to bumper, Section III-D",
+)
+
+# A rule of your own ---------------------------------------------------------------------------------
+
+OUT, BEHIND, OUTSIDE, NOT_SAME, NOT_WHOLE, NOTHING = 0, 4, 5, 6, 7, 8  # 1 to 3 are the accidents
+ENDINGS = {
+    1: "collides",
+    2: "leaves the road",
+    3: "stops on the road",
+    BEHIND: "is still behind trap 1 at the end",
+}
+
+
+def drive_out(answer, cars, scenario):
+    """How one road ends: 0 for ahead of trap 1 at the end, without an accident, else what went wrong.
+
+    What is no number at all is handed back as it is.
+    """
+    env = TrapVectorEnv(1, scenario, AutoresetMode.DISABLED)
+    env.reset(seed=0)
+    env.cars[0] = cars
+    for second in range(scenario.clock.decisions):
+        now = cars if second == 0 else env.cars[0].copy()  # the first road is the check's own: a change is seen
+        action, again = answer(now, scenario), answer(env.cars[0].copy(), scenario)
+        wrong = no_action(action, again)
+        if wrong == NOTHING and second == 0:
+            return None
+        if wrong is not None:
+            return action if wrong == "as it is" else wrong
+        _, _, terminated, _, infos = env.step(np.array([int(action)]))
+        if terminated[0]:
+            return int(infos["accident"][0])
+    return OUT if env.cars[0, EGO, X] > env.cars[0, TRAP_1, X] else BEHIND
+
+
+def no_action(action, again):
+    """What is wrong with an answer of the rule; None if nothing is."""
+    if action is None:
+        return NOTHING
+    if plain(action).kind not in NUMERIC or plain(action).shape != ():
+        return "as it is"
+    try:
+        if teacher.whole(action) != again:
+            return NOT_SAME
+    except BootcourseError:
+        return OUTSIDE if isinstance(action, (int, np.integer)) and not isinstance(action, bool) else NOT_WHOLE
+    return None
+
+
+def explain_rule(cases, answers):
+    """What went wrong on how many of the roads."""
+    ends = [int(answer) for answer in answers]
+    if NOTHING in ends:
+        return "Your rule returns nothing in some situations: look for a branch without `return`."
+    if NOT_WHOLE in ends:
+        return "An action is a whole number, 0 to 8: yours is sometimes another kind of number."
+    if OUTSIDE in ends:
+        return f"Your rule sometimes answers a number that is no action: give a whole number from 0 to {N_ACTIONS - 1}."
+    if NOT_SAME in ends:
+        return "Your rule answers the same road differently each time: a label of the KL has to stay what it is."
+    told = ", on ".join(f"{ends.count(end)} it {words}" for end, words in ENDINGS.items() if end in ends)
+    return f"Your rule gets out on {ends.count(OUT)} of {len(ends)} roads; on {told}."
+
+
+def start_of(seed):
+    env = TrapVectorEnv(1, DEFAULT)
+    env.reset(seed=int(seed))
+    return env.cars[0].copy(), DEFAULT
+
+
+def always(action):
+    return lambda cars, scenario: action
+
+
+def by_chance(cars, scenario):
+    return int(np.random.default_rng().integers(N_ACTIONS))
+
+
+my_rule = Exercise(
+    call="my_rule(cars, scenario)",
+    solution=careful,
+    worked=((start_of(1_300_000), OUT), (start_of(1_300_001), OUT)),
+    cases=lambda rng: [start_of(seed) for seed in range(1_300_002, 1_300_024)],
+    run=drive_out,
+    mistakes=(
+        Mistake(
+            answer=always(4),
+            says="Your rule drives safely and never gets out: on every road it is still behind trap 1 at the end. "
+            "Fall back first: trap 2 has to be ahead of you before there is room on the left.",
+            belief="A way out will open by itself, if one waits long enough.",
+        ),
+        Mistake(
+            answer=always(7),
+            says="Your rule hits a car on every road. Look at the gap ahead before it accelerates or changes lane.",
+            belief="The way out is forwards.",
+        ),
+        Mistake(
+            answer=always(5),
+            says="Your rule leaves the road every time. Every turn needs a turn back: `toward` does both.",
+            belief="Steering is held until the lane is reached, and the car then drives straight.",
+        ),
+        Mistake(
+            answer=always(1),
+            says="Your rule brakes until the car stands on the road, which is an accident. Fall back at 6 m/s or more.",
+            belief="The more room, the better.",
+        ),
+        Mistake(
+            answer=always(9),
+            says="Your rule answers a number that is no action: give a whole number from 0 to 8.",
+            belief="Nine actions are numbered 1 to 9.",
+        ),
+        Mistake(
+            answer=by_chance,
+            says="Your rule answers the same road differently each time: a label of the KL has to stay what it is.",
+            belief="A stochastic teacher is made by drawing. (The probability p is added later, in π̃.)",
+        ),
+    ),
+    hints=(
+        "Three situations: no room on the left yet (be slower than both traps); room (change lane); free lane (go).",
+        "`ahead(cars, lane - 1, scenario)` says if there is room, `toward(cars, speed, lane, scenario)` goes there.",
+        "Begin a change only when the car is in the middle of its lane: `abs(cars[EGO, Y] - 4 * lane) < 0.5`.",
+    ),
+    minutes=15,
+    difficulty=3,
+    equation="μ(s), a controller of your own in place of Algorithm 1",
+    explain=explain_rule,
+)
+
+# The label of the last state ------------------------------------------------------------------------
+
+
+def next_labels_solution(now, at_end, ended):
+    return np.where(ended, at_end, now)
+
+
+def label_cases(rng):
+    """No road ended, all ended, one road; then 30 at random."""
+    for n, share in ((4, 0.0), (4, 1.0), (1, 1.0), *((int(n), 0.4) for n in rng.integers(2, 9, 30))):
+        yield rng.integers(0, 9, n), rng.integers(0, 9, n), rng.random(n) < share
+
+
+next_labels = Exercise(
+    call="next_labels(now, at_end, ended)",
+    solution=next_labels_solution,
+    worked=(
+        ((np.array([4, 4, 0]), np.array([7, 1, 8]), np.array([False, True, False])), np.array([4, 1, 0])),
+        ((np.array([2]), np.array([5]), np.array([True])), np.array([5])),
+    ),
+    cases=label_cases,
+    mistakes=(
+        Mistake(
+            answer=lambda now, at_end, ended: now,
+            says="Where an episode ended, `now` is the first second of the *next* one: a label of another state.",
+            belief="After a step, the road shows s'. (With autoreset it may show a new road.)",
+        ),
+        Mistake(
+            answer=lambda now, at_end, ended: at_end,
+            says="Where no episode ended, `at_end` is of some other time: use it only where `ended` is true.",
+            belief="The end is the end for all.",
+        ),
+        Mistake(
+            answer=lambda now, at_end, ended: np.where(ended, now, at_end),
+            says="Your two cases are swapped.",
+            belief="np.where(condition, no, yes).",
+        ),
+        Mistake(
+            answer=lambda now, at_end, ended: np.where(ended, 0, now),
+            says="Action 0 is an action, 'brake left'. An episode that ran out of time has a last state, and a label.",
+            belief="Nothing comes after the end, so its label does not matter. (Out of time is not terminated.)",
+        ),
+    ),
+    hints=(
+        "An episode that ended has already been replaced by a new one when `now` is asked.",
+        "Take `at_end` where `ended` is true, and `now` elsewhere.",
+        "`np.where(ended, ..., ...)`",
+    ),
+    minutes=4,
+    difficulty=1,
+    equation="μ(s') in a row of the memory",
+)
+
+# Does it help? --------------------------------------------------------------------------------------
+
+
+def verdict_solution(alone, taught):
+    if taught.min() > alone.max():
+        return 1
+    if taught.max() < alone.min():
+        return -1
+    return 0
+
+
+def verdict_cases(rng):
+    """All equal, ties, one seed each, means and medians that disagree, an overlap; then 60 at random."""
+    yield np.zeros(3), np.zeros(3)
+    yield np.array([10.0, 20.0, 30.0]), np.array([30.0, 40.0, 50.0])
+    yield np.array([30.0, 40.0, 50.0]), np.array([10.0, 20.0, 30.0])
+    yield np.array([20.0]), np.array([80.0])
+    yield np.array([0.0, 10.0, 90.0]), np.array([20.0, 30.0, 40.0])
+    yield np.array([0.0, 0.0, 90.0]), np.array([80.0, 100.0, 100.0])
+    yield np.array([0.0, 10.0, 20.0]), np.array([5.0, 15.0, 25.0])
+    for _ in range(60):
+        n, shift = int(rng.integers(2, 5)), rng.choice([-60, -20, 0, 20, 60])
+        yield rng.uniform(0, 40, n).round(), rng.uniform(0, 40, n).round() + shift
+
+
+def by_middle(middle):
+    return lambda alone, taught: int(np.sign(middle(taught) - middle(alone)))
+
+
+verdict = Exercise(
+    call="verdict(alone, taught)",
+    solution=verdict_solution,
+    worked=(
+        ((np.array([0.0, 0.0, 3.0]), np.array([80.0, 95.0, 100.0])), 1),
+        ((np.array([20.0, 23.0, 23.0]), np.array([5.0, -9.0, 14.0])), -1),
+        ((np.array([0.0, 0.0, 90.0]), np.array([80.0, 100.0, 100.0])), 0),
+    ),
+    cases=verdict_cases,
+    mistakes=(
+        Mistake(
+            answer=by_middle(np.mean),
+            says="You compare means. One lucky seed moves a mean of three; ask whether the two groups overlap.",
+            belief="The larger mean is the better method.",
+        ),
+        Mistake(
+            answer=by_middle(np.median),
+            says="You compare medians. They say which is better in the middle, not whether the two groups overlap.",
+            belief="A robust middle makes a comparison sound.",
+        ),
+        Mistake(
+            answer=lambda alone, taught: int(taught.min() >= alone.max()) - int(taught.max() <= alone.min()),
+            says="You count a tie as a difference: `>` is asked for, and where all are equal nothing helps or hurts.",
+            belief="At least as good is better.",
+        ),
+        Mistake(
+            answer=lambda alone, taught: int(taught.min() > alone.max()),
+            says="Your teacher never hurts. Where every taught agent is worse than every one alone, answer -1.",
+            belief="A teacher can only add.",
+        ),
+        Mistake(
+            answer=lambda alone, taught: int((taught > alone).all()) - int((taught < alone).all()),
+            says="You compare seed by seed. Agents with the same seed share nothing that makes them a pair: compare "
+            "every one with every one.",
+            belief="Seed 0 with a teacher is the same agent as seed 0 without.",
+        ),
+    ),
+    hints=(
+        "When is every taught agent better than every agent alone? Only the worst of one group and the best of the "
+        "other decide.",
+        "`taught.min() > alone.max()`",
+        "Ask the same the other way round for -1; everything else is 0.",
+    ),
+    minutes=5,
+    difficulty=2,
+    equation="complete separation of two groups of seeds",
+)

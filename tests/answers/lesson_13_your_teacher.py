@@ -1,0 +1,274 @@
+"""Answers to the exercises of the lesson on a teacher of your own."""
+
+import itertools
+
+import numpy as np
+
+from bootcourse.record import teacher
+from bootcourse.road.state import EGO, LANE, X, Y
+from tests.answers import right, wrong
+
+SECONDS = itertools.count()
+
+# gap_ahead ----------------------------------------------------------------------------------------------
+
+
+@right("gap_ahead")
+def with_a_loop(cars, lane):
+    gap = np.inf
+    for car in cars[1:]:
+        distance = car[X] - cars[EGO, X]
+        if car[LANE] == lane and 0 < distance and distance - 5 < gap:
+            gap = distance - 5
+    return gap
+
+
+@right("gap_ahead")
+def with_min(cars, lane):
+    gaps = [car[X] - cars[EGO, X] - 5 for car in cars if car[LANE] == lane and car[X] > cars[EGO, X]]
+    return min(gaps, default=float("inf"))
+
+
+@right("gap_ahead")
+def the_library_s(cars, lane):
+    return teacher.ahead(cars, lane)[0]
+
+
+@wrong("gap_ahead", "centre to centre")
+def between_centres(cars, lane):
+    return with_a_loop(cars, lane) + 5
+
+
+@wrong("gap_ahead", "behind you")
+def the_nearest(cars, lane):
+    gaps = [car[X] - cars[EGO, X] for car in cars[1:] if car[LANE] == lane]
+    return min(gaps, key=abs) - 5 if gaps else np.inf
+
+
+@wrong("gap_ahead", "every lane")
+def in_any_lane(cars, lane):
+    gaps = [x - cars[EGO, X] - 5 for x in cars[:, X] if x > cars[EGO, X]]
+    return min(gaps, default=np.inf)
+
+
+@wrong("gap_ahead", "first car of the table")
+def the_first_row(cars, lane):
+    for car in cars[1:]:
+        if car[LANE] == lane and car[X] > cars[EGO, X]:
+            return car[X] - cars[EGO, X] - 5
+    return np.inf
+
+
+@wrong("gap_ahead", "np.inf")
+def as_far_as_one_sees(cars, lane):
+    return min(200.0, with_a_loop(cars, lane))
+
+
+@wrong("gap_ahead", "raises an error")
+def without_the_empty_lane(cars, lane):
+    others = cars[(cars[:, LANE] == lane) & (cars[:, X] > cars[EGO, X])]
+    return others[:, X].min() - cars[EGO, X] - 5
+
+
+@wrong("gap_ahead", "returns")
+def with_the_speed(cars, lane):
+    return teacher.ahead(cars, lane)
+
+
+@wrong("gap_ahead")
+def zero_for_nobody(cars, lane):
+    gap = with_a_loop(cars, lane)
+    return 0.0 if gap == np.inf else gap
+
+
+# my_rule --------------------------------------------------------------------------------------------
+
+
+@right("my_rule")
+def the_course_s(cars, scenario):
+    return teacher.course_rule(cars[None], scenario)[0]
+
+
+@right("my_rule")
+def slow_then_left(cars, scenario):
+    """Falls back at 8 m/s, then one lane at a time, then 13 m/s with a distance of 20 m."""
+    lane = int(cars[EGO, LANE])
+    middle = abs(cars[EGO, Y] - 4 * lane) < 0.5
+    if lane > 0:
+        room = teacher.ahead(cars, lane - 1)[0] > 6
+        return teacher.toward(cars, 8.0, lane - 1 if room and middle else lane)
+    gap, speed = teacher.ahead(cars, 0)
+    return teacher.toward(cars, 13.0 if gap > 20 else speed - 1, 0)
+
+
+@wrong("my_rule", "never gets out")
+def follows(cars, scenario):
+    return 4
+
+
+@wrong("my_rule", "never gets out")
+def follows_with_the_tracker(cars, scenario):
+    return teacher.toward(cars, min(10.0, teacher.ahead(cars, 2)[1]), 2, scenario)
+
+
+@wrong("my_rule", "hits a car")
+def full_speed(cars, scenario):
+    return teacher.toward(cars, 15.0, 2, scenario)
+
+
+@wrong("my_rule", "turn back")
+def steers_right(cars, scenario):
+    return 5
+
+
+@wrong("my_rule", "brakes until")
+def waits_for_ever(cars, scenario):
+    return teacher.toward(cars, 0.0, 2, scenario)
+
+
+@wrong("my_rule", "no action")
+def names_no_action(cars, scenario):
+    return -1
+
+
+@wrong("my_rule", "no action")
+def names_no_action_later(cars, scenario):
+    return follows(cars, scenario) if cars[EGO, X] < 100 else 9
+
+
+@wrong("my_rule", "differently each time")
+def draws(cars, scenario):
+    return the_course_s(cars, scenario) if np.random.default_rng().random() < 0.9 else 4
+
+
+@wrong("my_rule", "differently each time")
+def remembers(cars, scenario):
+    return 1 if next(SECONDS) % 2 == 0 else 4
+
+
+@wrong("my_rule", "whole number")
+def a_float(cars, scenario):
+    return float(the_course_s(cars, scenario))
+
+
+@wrong("my_rule", "branch without `return`")
+def nothing_in_the_free_lane(cars, scenario):
+    if cars[EGO, LANE] > 0:
+        return the_course_s(cars, scenario)
+
+
+@wrong("my_rule", "collides")
+def left_at_once(cars, scenario):
+    return teacher.toward(cars, 10.0, max(int(cars[EGO, LANE]) - 1, 0), scenario)
+
+
+@wrong("my_rule", "returns")
+def speed_and_lane(cars, scenario):
+    return 9.0, 1
+
+
+# next_labels ----------------------------------------------------------------------------------------
+
+
+@right("next_labels")
+def by_index(now, at_end, ended):
+    labels = now.copy()
+    labels[ended] = at_end[ended]
+    return labels
+
+
+@right("next_labels")
+def one_by_one(now, at_end, ended):
+    return np.array([b if over else a for a, b, over in zip(now, at_end, ended, strict=True)])
+
+
+@wrong("next_labels", "*next*")
+def always_now(now, at_end, ended):
+    return now.copy()
+
+
+@wrong("next_labels", "some other time")
+def always_at_end(now, at_end, ended):
+    return at_end + 0
+
+
+@wrong("next_labels", "swapped")
+def the_other_way(now, at_end, ended):
+    return np.where(~ended, at_end, now)
+
+
+@wrong("next_labels", "brake left")
+def masked(now, at_end, ended):
+    return now * (1 - ended)
+
+
+@wrong("next_labels", "changes its argument")
+def in_place(now, at_end, ended):
+    now[ended] = at_end[ended]
+    return now
+
+
+@wrong("next_labels", "shape")
+def only_those_that_ended(now, at_end, ended):
+    return at_end[ended]
+
+
+@wrong("next_labels")
+def the_larger(now, at_end, ended):
+    return np.maximum(now, at_end * ended)
+
+
+# verdict --------------------------------------------------------------------------------------------
+
+
+@right("verdict")
+def every_one_with_every_one(alone, taught):
+    better = taught[:, None] > alone
+    worse = taught[:, None] < alone
+    return int(better.all()) - int(worse.all())
+
+
+@right("verdict")
+def sorted_by_value(alone, taught):
+    alone, taught = sorted(alone), sorted(taught)
+    if taught[0] > alone[-1]:
+        return 1
+    return -1 if taught[-1] < alone[0] else 0
+
+
+@wrong("verdict", "compare means")
+def of_means(alone, taught):
+    difference = sum(taught) / len(taught) - sum(alone) / len(alone)
+    return int(difference > 0) - int(difference < 0)
+
+
+@wrong("verdict", "medians")
+def of_medians(alone, taught):
+    return int(np.sign(np.median(taught) - np.median(alone)))
+
+
+@wrong("verdict", "tie")
+def ties_count(alone, taught):
+    if all(t >= a for t in taught for a in alone) and all(t <= a for t in taught for a in alone):
+        return 0
+    return 1 if min(taught) >= max(alone) else (-1 if max(taught) <= min(alone) else 0)
+
+
+@wrong("verdict", "never hurts")
+def only_good(alone, taught):
+    return 1 if min(taught) > max(alone) else 0
+
+
+@wrong("verdict", "seed by seed")
+def in_pairs(alone, taught):
+    return 1 if np.all(taught > alone) else (-1 if np.all(taught < alone) else 0)
+
+
+@wrong("verdict")
+def the_other_way_round(alone, taught):
+    return -every_one_with_every_one(alone, taught)
+
+
+@wrong("verdict")
+def best_against_best(alone, taught):
+    return int(np.sign(max(taught) - max(alone)))
