@@ -101,8 +101,8 @@ def test_assets_that_are_too_large_are_refused_and_the_old_ones_stay(study, ship
 
 
 def test_a_study_that_is_not_complete_is_named(study, tmp_path):
-    shutil.copytree(study / "cells/default", tmp_path / "cells/default")
-    with pytest.raises(BootcourseError, match="no finished cells in cells/calibrated"):
+    shutil.copytree(study / "cells/calibrated", tmp_path / "cells/calibrated")
+    with pytest.raises(BootcourseError, match="no finished cells in cells/default"):
         ship.build(tmp_path, tmp_path / "assets")
     with pytest.raises(BootcourseError, match="build needs --study"):
         assets.command("build", None, tmp_path)

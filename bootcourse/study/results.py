@@ -95,7 +95,7 @@ def _of_kind(arrays: dict, kind: str, agents: int) -> dict[str, np.ndarray]:
     found = {name.removeprefix(f"{kind}."): values for name, values in arrays.items() if name.startswith(f"{kind}.")}
     if not found or any(len(values) != agents for values in found.values()):
         raise ValueError(kind)
-    return found
+    return {name: values.astype(np.float32) if values.dtype == np.float16 else values for name, values in found.items()}
 
 
 def load_cells(root: Path, part: str) -> Results:

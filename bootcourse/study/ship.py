@@ -61,8 +61,8 @@ class Shipment:
 def build(study: Path, folder: Path = FOLDER) -> None:
     """Make the shipped files from a study's folder; parts that it has not computed stay as they are.
 
-    `folder` is replaced when everything is there, and not before. Raises BootcourseError if something
-    is neither in the study nor there already.
+    `folder` is replaced when everything is made, and not before. Raises BootcourseError without a study
+    of the default scenario, here or there.
     """
     new = folder.parent / f".{folder.name}.new"
     shutil.rmtree(new, ignore_errors=True)
@@ -71,6 +71,7 @@ def build(study: Path, folder: Path = FOLDER) -> None:
         for part in (add_results, add_sensitivity, add_runs, add_demonstrations, add_rollouts, add_report, add_card):
             part(shipment)
         add_readme(shipment, folder)
+        add_hunt(shipment, folder)
         write_json(new / MANIFEST, {"files": [shipment.entries[name] for name in sorted(shipment.entries)]})
         size = sum(entry["bytes"] for entry in shipment.entries.values())
         if size >= LIMIT:
@@ -110,8 +111,9 @@ def add_results(to: Shipment) -> None:
     for part, how in COMMANDS.items():
         path, how = to.new / ("sweep.npz" if part == "sweep" else f"study-{part}.npz"), f"{how} && {BUILD}"
         if not to.has(part):
-            if not path.exists():
-                raise BootcourseError(f"{to.study} has no finished cells in cells/{part}: compute them first.")
+            if part == "default" and not path.exists():
+                raise BootcourseError(f"{to.study} has no finished cells in cells/default: compute them first.")
+            print(f"{path.name} {'stays as it is' if path.exists() else 'is left out'}: {to.study} has no such cells.")
             continue
         sources, versions = cells_made(to.study, part)
         results = load_cells(to.study, part)
@@ -212,6 +214,16 @@ def add_readme(to: Shipment, now: Path) -> None:
         if listed is None or listed["sha256"] != sha256(path):
             sources = sources_hash(("scenario", "rule", "drivers", "road", "study/top_view", "study/readme_picture"))
             to.add(path, "python -m bootcourse.study.readme_picture", sources, provenance())
+
+
+def add_hunt(to: Shipment, now: Path) -> None:
+    """The agents of the bug hunt, which no study trains, stay as they are, and are listed."""
+    path = to.new / "bug_hunt.npz"
+    if (now / path.name).is_file():
+        shutil.copy2(now / path.name, path)
+    if path.is_file() and to.entries.get(path.name, {}).get("sha256") != sha256(path):
+        sources = sources_hash(("scenario", "rule", "drivers", "road", "learn", "lessons/bugs"))
+        to.add(path, "python -m bootcourse.lessons.bugs --out assets/bug_hunt.npz", sources, provenance())
 
 
 def add_card(to: Shipment) -> None:
