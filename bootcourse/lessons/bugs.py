@@ -1,0 +1,277 @@
+"""Six silent bugs that people really make, and the agents that were trained with them for the bug hunt.
+
+Each bug is a `Learner` whose update is right but for one place. Nothing raises, nothing is NaN, the
+curves look like curves.
+
+    python -m bootcourse.lessons.bugs --out assets/bug_hunt.npz    # trains all seven, some minutes
+
+The file holds curves, probes and weights; `Hunt` reads it and calls the agents A to F.
+"""
+
+import argparse
+import json
+import math
+import sys
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from bootcourse.assets import FOLDER
+from bootcourse.drivers import rule_driver
+from bootcourse.errors import BootcourseError, nearest
+from bootcourse.learn import bootstrap, sac
+from bootcourse.learn.agent import Agent
+from bootcourse.learn.learner import Learner
+from bootcourse.learn.replay import Batch, unpack
+from bootcourse.learn.settings import settings_for, with_seeds
+from bootcourse.learn.train import Training
+from bootcourse.record.drive import provenance, record
+from bootcourse.record.files import read_arrays, write_arrays
+from bootcourse.scenario import DEFAULT
+
+# The six bugs ----------------------------------------------------------------------------------------
+
+
+@contextmanager
+def swapped(module, **functions):
+    """For the length of one update, a formula of the library is another one. Not for several threads."""
+    before = {name: getattr(module, name) for name in functions}
+    try:
+        for name, function in functions.items():
+            setattr(module, name, function)
+        yield
+    finally:
+        for name, function in before.items():
+            setattr(module, name, function)
+
+
+def flipped_kl(log_pi: Tensor, rule_actions: Tensor, p: Tensor) -> Tensor:
+    """D_KL(π̃ ‖ π): it charges the policy for not going where the rule would."""
+    log_rule = bootstrap.log_stochastic_rule(rule_actions, p, log_pi.shape[-1])
+    return (log_rule.exp() * (log_rule - log_pi)).sum(-1)
+
+
+class FlippedKL(Learner):
+    """The KL divergence is taken the other way round."""
+
+    def update(self, batch: Batch) -> dict[str, Tensor]:
+        with swapped(bootstrap, kl_to_rule=flipped_kl):
+            return super().update(batch)
+
+
+class NoEnd(Learner):
+    """(1 - terminated) is missing: the target believes in a life after the accident."""
+
+    def update(self, batch: Batch) -> dict[str, Tensor]:
+        return super().update(batch._replace(terminated=torch.zeros_like(batch.terminated)))
+
+
+class Sampled(Learner):
+    """One sampled action stands for the expectation, as in SAC for continuous actions."""
+
+    def update(self, batch: Batch) -> dict[str, Tensor]:
+        with swapped(sac, soft_value=self.sampled_value):
+            return super().update(batch)
+
+    def sampled_value(self, log_pi: Tensor, q: Tensor, alpha: Tensor, constraint=0.0) -> Tensor:
+        """Q(s, a) - α log π(a|s) of one action a ~ π; a choice among nine has no gradient."""
+        self.draws = getattr(self, "draws", None) or torch.Generator().manual_seed(0)
+        action = torch.multinomial(log_pi.detach().exp().flatten(0, -2), 1, generator=self.draws)
+        action = action.view(*log_pi.shape[:-1], 1)
+        return q.gather(-1, action)[..., 0] - alpha * log_pi.gather(-1, action)[..., 0] - constraint
+
+
+def undetached_loss(log_pi: Tensor, q: Tensor, alpha: Tensor, constraint=0.0) -> Tensor:
+    """-V(s), its gradient flowing into Q as well."""
+    return -sac.soft_value(log_pi, q, alpha, constraint).mean(-1)
+
+
+class NoStop(Learner):
+    """The stop-gradient on Q is missing in the actor's loss."""
+
+    def update(self, batch: Batch) -> dict[str, Tensor]:
+        with swapped(sac, actor_loss=undetached_loss):
+            return super().update(batch)
+
+
+class BonusForAll(Learner):
+    """The bonus c is paid for the agent's own driving as well."""
+
+    def update(self, batch: Batch) -> dict[str, Tensor]:
+        return super().update(batch._replace(is_demonstration=torch.ones_like(batch.is_demonstration)))
+
+
+class ShiftedLabels(Learner):
+    """The rule was asked after the road had moved on: each label belongs to the state one second later."""
+
+    def update(self, batch: Batch) -> dict[str, Tensor]:
+        return super().update(batch._replace(rule_actions=batch.next_rule_actions))
+
+
+BUGS = {
+    "flipped_kl": FlippedKL,
+    "no_end": NoEnd,
+    "sampled": Sampled,
+    "no_stop": NoStop,
+    "bonus_for_all": BonusForAll,
+    "shifted_labels": ShiftedLabels,
+}
+LEARNERS = {"none": Learner, **BUGS}
+LETTERS = "ABCDEF"
+SHUFFLE = 2025  # the seed that says who is who
+SEEDS, UPDATES, EVERY = 2, 10_000, 250  # agents with each bug; updates of each; updates between two looks
+ROADS = range(900, 908)  # on which the rule drives while the probes look
+PROBES = ("kl", "entropy", "alike", "late", "rarest", "promise", "end")
+CURVES = ("success", "return", "accident", "alpha")
+FILE = FOLDER / "bug_hunt.npz"
+COMMAND = "python -m bootcourse.lessons.bugs --out assets/bug_hunt.npz"
+
+# Training them ---------------------------------------------------------------------------------------
+
+
+class Probe:
+    """A training's callback: looks into every agent after every 250 updates, on states that the rule drives through.
+
+    kl: mean D_KL(π ‖ π̃) in nats. entropy: mean H(π) in nats. alike: share of the states whose likeliest
+    action is the rule's. late: the same for what the rule does one second later. rarest: mean log of the
+    smallest of the nine probabilities. promise: mean Σ_a π Q. end: mean Q(s, a) of the agent's own
+    decisions that ended in an accident; their right value is -10.
+    """
+
+    def __init__(self):
+        drives = record(rule_driver(DEFAULT), ROADS)
+        self.states = np.concatenate([drive.observations[:-2] for drive in drives])
+        self.now = torch.from_numpy(np.concatenate([drive.rule_actions[:-1] for drive in drives]))
+        self.later = torch.from_numpy(np.concatenate([drive.rule_actions[1:] for drive in drives]))
+        self.updates, self.found = [], []
+
+    def __call__(self, training: Training) -> None:
+        if training.updates % EVERY or training.updates in self.updates:
+            return
+        self.updates.append(training.updates)
+        self.found.append([self.look(training, i) for i in range(training.n_agents)])
+
+    def look(self, training: Training, i: int) -> list[float]:
+        agent = training.agent(i)
+        pi, q = agent.policy(self.states), agent.q_values(self.states)
+        log_pi = torch.from_numpy(pi).clamp(min=1e-30).log()
+        likeliest = log_pi.argmax(-1)
+        found = (
+            bootstrap.kl_to_rule(log_pi, self.now, torch.tensor(DEFAULT.rule.p)),
+            sac.entropy(log_pi),
+            (likeliest == self.now).float(),
+            (likeliest == self.later).float(),
+            log_pi.amin(-1),
+            torch.from_numpy((pi * q).sum(-1)),
+        )
+        return [float(values.mean()) for values in found] + [self.at_the_end(training, i, agent)]
+
+    @staticmethod
+    def at_the_end(training: Training, i: int, agent: Agent) -> float:
+        first = training.replay.first[i]
+        rows = training.replay.table[first : first + training.replay.size]
+        own = unpack(rows, training.scenario.observation_size, rows[:, 0])
+        ended = own.terminated > 0
+        if not ended.any():
+            return math.nan
+        q = torch.from_numpy(agent.q_values(own.states[ended].numpy()))
+        return float(q.gather(-1, own.actions[ended][:, None]).mean())
+
+
+def training_with(bug: str, episodes: int = 4000) -> Training:
+    """A training of the paper's method whose learner has the bug; "none" has none."""
+    training = Training(with_seeds(settings_for("bootstrapped"), SEEDS), episodes)
+    training.learner = LEARNERS[bug](training.settings, training.scenario.observation_size)
+    return training
+
+
+def trained(bug: str, updates: int = UPDATES) -> dict[str, np.ndarray]:
+    """What is kept of a training: curves, probes, and the weights of the first agent."""
+    training, probe = training_with(bug), Probe()
+    result = training.run(progress=False, callback=probe, stop=lambda: training.updates >= updates)
+    episodes = int(training.curves.finished.max())
+    kept = {f"{bug}/{name}": result.curves[name][:, :episodes].astype(np.float16) for name in CURVES}
+    kept[f"{bug}/probes"] = np.array(probe.found, dtype=np.float32).reshape(-1, SEEDS, len(PROBES))
+    first = result.agents[0]
+    kept |= {f"{bug}/actor-{i}": weights.numpy() for i, weights in enumerate(first.actor)}
+    kept |= {f"{bug}/critics-{i}": weights.numpy() for i, weights in enumerate(first.critics)}
+    kept[f"{bug}/final_alpha"] = np.array(first.alpha)
+    return kept | {"updates": np.array(probe.updates)}
+
+
+def main(arguments: list[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(prog="python -m bootcourse.lessons.bugs", description=__doc__.split("\n")[0])
+    parser.add_argument("--out", type=Path, default=FILE, help="the file to write (default: assets/bug_hunt.npz)")
+    parser.add_argument("--updates", type=int, default=UPDATES, help=f"of each agent (default: {UPDATES})")
+    options = parser.parse_args(arguments)
+    arrays = {}
+    for bug in LEARNERS:
+        print(f"training with {bug} ...", flush=True)
+        arrays |= trained(bug, options.updates)
+    made = provenance(command=COMMAND, updates=options.updates, seeds=SEEDS)
+    write_arrays(options.out, arrays | {"provenance": np.array(json.dumps(made))})
+    return 0
+
+
+# Reading them ----------------------------------------------------------------------------------------
+
+
+class Hunt:
+    """The trained agents as the student meets them: "healthy", and A to F, who have a bug each.
+
+    Raises BootcourseError if the file is missing or damaged, or for another name.
+    """
+
+    def __init__(self, path: Path = FILE):
+        self._arrays = read_arrays(path)
+        if any(f"{bug}/probes" not in self._arrays for bug in LEARNERS):
+            raise BootcourseError(f"{path} does not hold the seven agents: make it again with `{COMMAND}`.")
+        bugs = np.random.default_rng(SHUFFLE).permutation(list(BUGS)).tolist()
+        self._bug_of = {"healthy": "none", **dict(zip(LETTERS, bugs, strict=True))}
+        self.names = tuple(self._bug_of)
+        self.updates = self._arrays["updates"]  # (points,)
+        self.provenance = json.loads(str(self._arrays["provenance"]))
+
+    def _of(self, name: str, what: str) -> np.ndarray:
+        if name not in self.names:
+            raise BootcourseError(f"The agent {nearest(name, self.names)}.")
+        return self._arrays[f"{self._bug_of[name]}/{what}"]
+
+    def curve(self, name: str, what: str) -> np.ndarray:
+        """success, return, accident (0 to 3) or alpha of every training episode: (2 seeds, episodes)."""
+        return self._of(name, what).astype(float)
+
+    def probe(self, name: str, what: str) -> np.ndarray:
+        """One of `PROBES` after each of `updates`: (2 seeds, points)."""
+        return self._of(name, "probes")[:, :, PROBES.index(what)].T.astype(float)
+
+    def curves(self, what: str, window: int = 30, points: int = 100) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        """A curve of every agent, for a picture: {name: (% of its training (points,), rolling means (2, points))}."""
+        found, shares = {}, np.linspace(0, 100, points)
+        for name in self.names:
+            rows = [row[np.isfinite(row)] for row in self.curve(name, what)]
+            rows = [np.convolve(row, np.ones(window) / window, mode="valid") for row in rows]
+            found[name] = shares, np.array([np.interp(shares, np.linspace(0, 100, len(row)), row) for row in rows])
+        return found
+
+    def probes(self, what: str) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        """A probe of every agent, for a picture: {name: (updates (points,), values (2, points))}."""
+        return {name: (self.updates, self.probe(name, what)) for name in self.names}
+
+    def agent(self, name: str) -> Agent:
+        """The first seed as it was at the end."""
+        parts = {part: [] for part in ("actor", "critics")}
+        for part, weights in parts.items():
+            while f"{self._bug_of.get(name)}/{part}-{len(weights)}" in self._arrays:
+                weights.append(torch.from_numpy(self._of(name, f"{part}-{len(weights)}")))
+        return Agent(settings_for("bootstrapped"), **parts, alpha=float(self._of(name, "final_alpha")))
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except BootcourseError as error:
+        sys.exit(str(error))

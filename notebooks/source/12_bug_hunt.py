@@ -1,0 +1,432 @@
+# ---
+# jupyter:
+#   jupytext:
+#     text_representation:
+#       extension: .py
+#       format_name: percent
+#   kernelspec:
+#     display_name: Python 3 (ipykernel)
+#     language: python
+#     name: python3
+# ---
+
+# %% [markdown]
+# # 12 · The bug hunt
+#
+# **What you will be able to do**
+# - find a silent bug in a learner from curves, probes and drives, without reading its code;
+# - write a probe: ask a trained network something whose right answer you know;
+# - repair six bugs that people really make, each in one line.
+#
+# **Time** 60 minutes, under a minute of it the machine's. **It builds on** the losses of lesson 4,
+# the soft constraint (7) and learning from demonstrations (8).
+
+# %%
+import numpy as np
+import torch
+from bootcourse.lessons import check, source
+from bootcourse.lessons.bugs import BUGS, Hunt
+from bootcourse.lessons.figures_many import many
+from bootcourse.record.drive import record
+from bootcourse.study.drawing import show
+from bootcourse.study.evaluate import drive_episodes, held_out_seeds, report
+from bootcourse.study.top_view import top_view_over_time
+
+hunt = Hunt()
+print(f"{len(hunt.names)} agents, 2 seeds each, {hunt.provenance['updates']} updates of each")
+
+# %% [markdown]
+# ## Look first
+#
+# Seven agents were trained with the paper's method. One is healthy. Each of the others, A to F,
+# has one **silent bug**: a line that is wrong, raises nothing and prints nothing. The training
+# took some minutes, so it was done before and lies in a file (the line above says how much of
+# it). What you see is real behaviour, whatever it turned out to be.
+
+# %%
+ROAD = 10
+healthy, agent_f = (record(hunt.agent(name).driver(), [ROAD])[0] for name in ("healthy", "F"))
+show(top_view_over_time(healthy, title="The healthy agent on one road"))
+
+# %%
+show(top_view_over_time(agent_f, title="Agent F on the same road"))
+
+# %% [markdown]
+# > **Predict.** Six bugs: here are their names. Write down for each what it will do to the *share
+# > of escapes* in training: nothing, a little, or a lot.
+# >
+# > - `flipped_kl`: the KL divergence is taken the other way round;
+# > - `no_end`: (1 − terminated) is missing in the critic's target;
+# > - `sampled`: one drawn action stands for the expectation over all nine;
+# > - `no_stop`: the stop-gradient on Q is missing in the actor's loss;
+# > - `bonus_for_all`: the bonus c is paid for the agent's own driving as well;
+# > - `shifted_labels`: the rule was asked after the step, so each label is one second late.
+
+# %% [markdown] tags=["instructor"] minutes=8
+# Collect the predictions in a table on the board, bugs in rows. Most people expect all six to ruin
+# the escapes. Come back to the table at the end of Round 1, and again after the verdict.
+
+# %% [markdown]
+# ## Round 1: the curves
+#
+# Grey is the healthy agent, both seeds; violet is the agent that the panel is named after.
+
+# %%
+late = {n: np.nanmean(values[:, -10:]) for n, (_, values) in hunt.curves("success").items()}
+fine = [name for name in "ABCDEF" if late[name] > 0.85]
+title = f"Judged by escapes, {len(fine)} of 6 broken agents are fine: {', '.join(fine)}"
+curves = hunt.curves("success")
+show(
+    many(curves, title, "% of training", "share of escapes, last 30 episodes", reference="healthy")
+)
+
+# %%
+curves = hunt.curves("return")
+last = {name: values[:, -10:].mean() for name, (_, values) in curves.items()}
+best = max(last, key=last.get)
+title = f"At the end of training, agent {best} has the highest return of all seven"
+show(many(curves, title, "% of training", "return, last 30 episodes", reference="healthy"))
+
+# %% [markdown]
+# **See.** Compare with your predictions. Most of these bugs do not show in the one curve that
+# everybody plots, and the agent with the highest return has a bug. A curve that looks right is no
+# evidence that the code is.
+#
+# **Explain.** The teacher covers up. It drives demonstrations, it pulls; whatever is wrong with one
+# part of the learner, another part makes good for a while. To see a part, you have to ask it alone.
+
+# %% [markdown]
+# ## Round 2: ask the critic what you know
+#
+# A **probe** asks a network something whose answer is known. Nearly nothing is known about Q, with
+# one exception: where an accident ends the episode, $y = r = -10$ and nothing is guessed.
+#
+# > **Predict.** Which of the six bugs makes Q wrong exactly there, and in which direction?
+#
+# **Exercise 12.1 (6 min, ●●○).** Write the probe: by how much is Q above r, on average, where an
+# episode ended?
+
+
+# %%
+def end_error(q, actions, rewards, terminated):
+    """Mean of Q(s, a) - r where terminated is 1, or 0. q: (batch, 9); the others (batch,)."""
+    # solution
+    taken = q[np.arange(len(actions)), actions]
+    ended = terminated > 0
+    if not ended.any():
+        return 0.0
+    return (taken[ended] - rewards[ended]).mean()
+    # end solution
+
+
+check.end_error(end_error)
+
+# %% [markdown]
+# During training each agent was asked this about its own accidents, every 250 updates. The picture
+# shows Q itself; right is −10.
+
+# %%
+probes = hunt.probes("end")
+lowest = min(probes, key=lambda name: np.nanmean(probes[name][1][:, -10:]))
+title = f"Agent {lowest} thinks that accidents cost far more than the 10 they cost"
+show(many(probes, title, "updates", "Q where an accident followed (right: −10)", "healthy"))
+
+# %% [markdown]
+# **See.** Even the healthy agents are not at −10: a network that is shown thousands of good seconds
+# for each accident smooths. So a probe needs a healthy agent beside it. What counts is who leaves
+# the grey lines, and how.
+#
+# > **Predict.** The road pays at most about 1 a second, and γ = 0.8 sees about 5 seconds ahead.
+# > What is the most that an honest critic may promise? And one that gets c = 2 on top in *every*
+# > second?
+
+# %%
+gamma, c = 0.8, 2.0
+print(f"honest: {1 / (1 - gamma):.0f}; with the bonus in every second: {(1 + c) / (1 - gamma):.0f}")
+probes = hunt.probes("promise")
+highest = {name: np.nanmax(np.abs(values)) for name, (_, values) in probes.items()}
+title = f"One agent promised {max(highest.values()):.0f} in between, on a road that pays 5"
+show(many(probes, title, "updates", "promise Σ π Q, cut off at 20", "healthy", limits=(-2, 20)))
+
+# %% [markdown]
+# **Explain.** The healthy promise may lie a little over 5: a part of each batch are demonstrations,
+# which do get the bonus (lesson 8). Two panels are beyond that, one slowly and one at once.
+# The same question can be asked of one drive: what Q promised, and what the road then paid.
+
+# %%
+for name in hunt.names:
+    drive = record(hunt.agent(name).driver(with_q=True), [ROAD])[0]
+    paid = 0.0
+    for reward in drive.rewards[::-1]:  # from the end to the start
+        paid = reward + gamma * paid
+    promised = drive.q_values[0, drive.actions[0]]
+    print(f"{name:8} at the start Q promised {promised:6.1f}, and the road paid {paid:5.1f}")
+
+# %% [markdown] tags=["instructor"] minutes=8
+# The start lies behind the trap, so every honest promise is small there, and the healthy agent's
+# includes bonuses of demonstrations. Ask which of the two numbers a supervisor should look at
+# during training, and why nobody does: the promise needs no accident to be wrong.
+
+# %% [markdown]
+# ## Round 3: ask the actor about the rule
+#
+# The other probes look at the policy, on seconds that the *rule* drove, the same ones for all.
+#
+# - **entropy** of π, in nats: 0 is sure, log 9 ≈ 2.2 is no opinion;
+# - **alike**: the share of seconds in which the likeliest action is the rule's;
+# - **late**: the same with what the rule does *one second later*;
+# - **rarest**: the logarithm of the smallest of the nine probabilities.
+#
+# Two more witnesses are in the file, if you need them: `hunt.probes("kl")`, and the temperature,
+# `hunt.curves("alpha")`.
+
+# %%
+probes = hunt.probes("entropy")
+end = {name: values[:, -1].mean() for name, (_, values) in probes.items()}
+title = f"Agent {max(end, key=end.get)} never makes up its mind"
+show(many(probes, title, "updates", "entropy of π (nats)", reference="healthy"))
+
+# %%
+early = slice(2, 6)  # after 500 to 1,250 updates
+print("early in training     as the rule now   one second later   rarest, log π (at the end)")
+for name in hunt.names:
+    now, later, rarest = (hunt.probe(name, what) for what in ("alike", "late", "rarest"))
+    seeds = [f"{100 * values[:, early].mean(1).round(2)}" for values in (now, later)]
+    print(f"{name:16} {seeds[0]:>18} % {seeds[1]:>16} %   {rarest[:, -1].round(1)}")
+
+# %%
+probes = hunt.probes("alike")
+first = {name: values[:, early].mean() for name, (_, values) in probes.items()}
+two = sorted("ABCDEF", key=first.get)[:2]
+title = f"Early on, {two[0]} and {two[1]} do least of all what the rule does"
+show(many(probes, title, "updates", "likeliest action is the rule's (share)", "healthy"))
+
+# %%
+probes = hunt.probes("rarest")
+title = "How unlikely is the least likely action?"
+show(many(probes, title, "updates", "log of the rarest action's probability", "healthy"))
+
+# %% [markdown]
+# > **Predict.** KL(π‖π̃) charges the policy for going where the rule would not. The flipped one
+# > charges it for *not* going where the rule might. The rule's noise gives every action a little
+# > probability. What does each of the two do to an action that the rule would hardly ever take?
+
+# %% [markdown]
+# **Explain.** Read the table and the last picture with that question. An action to which the rule
+# gives one in eighty, and Q nothing, may be dropped under the right KL: dropping it costs little.
+# The flipped KL grows without bound when any of the nine goes to zero. So both have nearly the same
+# favourite, and quite different tails.
+
+# %% [markdown]
+# ## Round 4: watch them drive
+#
+# Curves during training are driven with actions drawn from π. The most probable action alone may
+# drive better, or worse. Here drives the first seed of each, on 200 roads that it has not seen.
+
+# %%
+print("            escapes, most probable   escapes, drawn   return   accidents (%)")
+for name in hunt.names:
+    agent, roads = hunt.agent(name), held_out_seeds(12, 200)
+    greedy = report(drive_episodes(agent.driver(), roads))
+    drawn = report(drive_episodes(agent.driver(np.random.default_rng(0)), roads))
+    accidents = greedy.collision.value + greedy.road_departure.value + greedy.stoppage.value
+    shares = f"{100 * greedy.success.value:20.1f} {100 * drawn.success.value:18.1f}"
+    print(f"{name:8} {shares} {greedy.returns.value:12.1f} {100 * accidents:12.1f}")
+
+# %% [markdown]
+# **See.** One agent knows the way and cannot walk it: its most probable action escapes, its drawn
+# ones do not. It learned the rule and the rule's noise, and from Q nothing. Which bug would make an
+# actor deaf to Q?
+#
+# **Exercise 12.2 (15 min, ●●●).** The verdict. For each agent one of the six names. The check says
+# how many are right, and what speaks against one of the wrong ones; it does not say who it is
+# instead.
+
+
+# %%
+def diagnose(agent):
+    """The bug of an agent, "A" to "F": flipped_kl, no_end, sampled, no_stop, bonus_for_all, ..."""
+    # solution
+    bugs = {
+        "A": "flipped_kl",
+        "B": "sampled",
+        "C": "shifted_labels",
+        "D": "no_end",
+        "E": "bonus_for_all",
+        "F": "no_stop",
+    }
+    return bugs[agent]
+    # end solution
+
+
+check.diagnose(diagnose)
+
+# %% [markdown] tags=["instructor"] minutes=12
+# The order that works: F (promise leaves the scale), B (undecided, fails when drawn), D
+# (accidents), E (promise too high, the *best* return), C (slow start, later rather than now), A
+# (what is left: the rarest action). Let groups defend a verdict with one picture only. If a group
+# is stuck on A and C, ask which of the two is like the healthy agent in the first thousand
+# updates.
+
+# %% [markdown]
+# ## Round 5: six repairs
+#
+# Now the code, each piece as the buggy learner had it. First the target:
+#
+# ```python
+# target = reward + bonus + gamma * next_value
+# ```
+#
+# **Exercise 12.3 (4 min, ●○○).** Two of the six bugs are in that line. Write it right.
+
+
+# %%
+def fixed_target(reward, is_demonstration, bonus, terminated, next_value, gamma):
+    """y, (batch,). is_demonstration, terminated: 0 or 1; bonus, gamma: floats."""
+    # solution
+    return reward + bonus * is_demonstration + gamma * (1 - terminated) * next_value
+    # end solution
+
+
+check.fixed_target(fixed_target)
+
+# %% [markdown]
+# Without an end, the target of an accident contains what the critic believes of a car that has just
+# crashed. That state looks like the seconds before an accident, so it is believed to be bad, and
+# the −10 is counted again and again.
+
+# %%
+print(f"an accident: {-10:.0f}; an accident for ever, γ = 0.8: {-10 / (1 - gamma):.0f}")
+
+# %% [markdown]
+# Here that makes accidents dearer than they are, which shows in no curve. Where episodes end at a
+# goal, it would be the goal that is counted again and again.
+#
+# The value, as it is written for continuous actions, where nobody can add up all of them:
+#
+# ```python
+# action = torch.multinomial(log_pi.exp(), 1)
+# value = (q - alpha * log_pi).gather(-1, action).squeeze(-1)
+# ```
+#
+# For a critic's target that is only noisy. For the actor it is fatal: a drawn number from 0 to 8
+# has no gradient, and Q is held fixed, so nothing of Q is left in the actor's slope.
+
+# %%
+torch.manual_seed(0)
+logits = torch.zeros(1, 9, requires_grad=True)
+q = torch.tensor([[0.0, 0, 0, 0, 0, 0, 0, 5, 0]])
+slopes = {"expected": torch.zeros(9), "drawn": torch.zeros(9)}
+for _ in range(1000):
+    log_pi = logits.log_softmax(-1)
+    action = torch.multinomial(log_pi.exp(), 1)
+    values = q - 0.01 * log_pi
+    both = {"expected": (log_pi.exp() * values).sum(), "drawn": values.gather(-1, action).sum()}
+    for name, value in both.items():
+        slopes[name] += torch.autograd.grad(value, logits, retain_graph=True)[0][0] / 1000
+for name, slope in slopes.items():
+    print(f"{name:9} mean slope towards action 7, which is worth 5 more: {slope[7]:.4f}")
+
+# %% [markdown]
+# **Exercise 12.4 (4 min, ●○○).** Write the value without drawing.
+
+
+# %%
+def fixed_value(log_pi, q, alpha):
+    """V(s), (batch,). log_pi, q: (batch, 9); alpha: a float."""
+    # solution
+    return (log_pi.exp() * (q - alpha * log_pi)).sum(-1)
+    # end solution
+
+
+check.fixed_value(fixed_value)
+
+# %% [markdown]
+# The actor's loss. Two bugs:
+#
+# ```python
+# pi, rule = log_pi.exp(), log_rule.exp()
+# kl = (rule * (log_rule - log_pi)).sum(-1)
+# loss = -((pi * (q - alpha * log_pi)).sum(-1) - xi * kl).mean()
+# ```
+#
+# **Exercise 12.5 (6 min, ●●○).** Write it right. The check looks at where your loss sends a
+# gradient.
+
+
+# %%
+def fixed_loss(log_pi, q, log_rule, alpha, xi):
+    """The actor's loss, a scalar. log_pi, q, log_rule: (batch, 9); alpha, xi: floats."""
+    # solution
+    pi = log_pi.exp()
+    kl = (pi * (log_pi - log_rule)).sum(-1)
+    value = (pi * (q.detach() - alpha * log_pi)).sum(-1) - xi * kl
+    return -value.mean()
+    # end solution
+
+
+check.fixed_loss(fixed_loss)
+
+# %% [markdown]
+# The labels. After a drive the rule was asked about all of its T + 1 states, in order. The buggy
+# version began one state too late:
+#
+# ```python
+# labels = asked[1:]
+# ```
+#
+# **Exercise 12.6 (4 min, ●○○).** For each of the T decisions: the label of the state in which it
+# was made, and the label of the state to which it led.
+
+
+# %%
+def label_pairs(asked):
+    """(μ(s), μ(s')) of each decision: whole numbers (T + 1,) -> (T, 2)."""
+    # solution
+    return np.stack([asked[:-1], asked[1:]], axis=-1)
+    # end solution
+
+
+check.label_pairs(label_pairs)
+
+# %% [markdown]
+# How the six were made, without saying which letter is which: each is the right learner with one
+# piece exchanged. (Only now, please: the names of the pieces say something.)
+
+# %% tags=["nbval-ignore-output"]
+source("bootcourse.lessons.bugs", "NoEnd", "BonusForAll", "ShiftedLabels", "flipped_kl")
+
+# %% [markdown]
+# > **Predict.** Which of the six would you have found by testing your code, and not by training?
+
+# %%
+print(f"bugs: {len(BUGS)}; broken agents that escape as if nothing were wrong: {', '.join(fine)}")
+print(f"highest return at the end of training: {best}, {last[best]:.0f}")
+print(f"the healthy agent's: {last['healthy']:.0f}")
+
+# %% [markdown]
+# **Explain.** All six: every exercise of this lesson judges one of them in milliseconds. Some of
+# the bugs are nearly harmless *here*, as long as the teacher covers them up, and that is worth
+# knowing, too: it is why such bugs survive for years in code that many people use. On another
+# road, with another γ or without a teacher, the same line may decide everything. And a bug that
+# raises the return is the most dangerous: nobody looks for it. (Paying everybody a bonus for each
+# second is a
+# *different* reward. It may suit this road; it is not the method that the name promises.)
+
+# %% [markdown]
+# ## What you now know
+#
+# 1. A curve of escapes or returns can look right with a broken part behind it.
+# 2. A probe asks one part something whose answer is known, with a healthy agent beside it.
+# 3. At an accident, Q is −10; on this road, a promise far above 5 is wrong.
+# 4. A drawn action has no gradient, and an actor that may bend its critic will.
+# 5. Small functions with hand-worked cases find in milliseconds what training hides for hours.
+#
+# **Three questions to think about**
+# - You may run one probe during every training from now on. Which, and at what value does it warn?
+# - Two bugs at once: which pair would hide each other in all of the pictures above?
+# - A bug raises the return of your method in a paper's table. How would a reader ever know?
+#
+# **Read on**: what goes wrong in deep reinforcement learning, and how little of it is reported:
+# Henderson et al., *Deep Reinforcement Learning that Matters* (arXiv 1709.06560); Engstrom et al.,
+# *Implementation Matters in Deep Policy Gradients* (arXiv 2005.12729).

@@ -1,0 +1,350 @@
+"""Answers to the exercises of the bug hunt."""
+
+import itertools
+
+import numpy as np
+import torch
+
+from tests.answers import right, wrong
+
+# end_error ------------------------------------------------------------------------------------------
+
+
+@right("end_error")
+def row_by_row(q, actions, rewards, terminated):
+    errors = [row[a] - r for row, a, r, over in zip(q, actions, rewards, terminated, strict=True) if over]
+    return sum(errors) / len(errors) if errors else 0
+
+
+@right("end_error")
+def with_weights(q, actions, rewards, terminated):
+    taken = np.take_along_axis(q, actions[:, None], 1)[:, 0]
+    return ((taken - rewards) * terminated).sum() / max(terminated.sum(), 1)
+
+
+@wrong("end_error", "every row")
+def of_all(q, actions, rewards, terminated):
+    return np.mean(q[np.arange(len(q)), actions] - rewards)
+
+
+@wrong("end_error", "best action")
+def of_the_best(q, actions, rewards, terminated):
+    ended = terminated == 1
+    return (q.max(1) - rewards)[ended].mean() if ended.any() else 0.0
+
+
+@wrong("end_error", "number of accidents")
+def mean_of_the_masked(q, actions, rewards, terminated):
+    return np.mean((q[np.arange(len(q)), actions] - rewards) * terminated)
+
+
+@wrong("end_error", "sign")
+def target_minus_guess(q, actions, rewards, terminated):
+    return -row_by_row(q, actions, rewards, terminated)
+
+
+@wrong("end_error", "average over the nine")
+def of_the_mean_action(q, actions, rewards, terminated):
+    return row_by_row(q.mean(1, keepdims=True), 0 * actions, rewards, terminated)
+
+
+@wrong("end_error", "NaN")
+def nan_without_accidents(q, actions, rewards, terminated):
+    with np.errstate(invalid="ignore"):
+        return ((q[np.arange(len(q)), actions] - rewards) * terminated).sum() / terminated.sum()
+
+
+@wrong("end_error")
+def absolute(q, actions, rewards, terminated):
+    return abs(row_by_row(q, actions, rewards, terminated))
+
+
+@wrong("end_error")
+def without_the_reward(q, actions, rewards, terminated):
+    return row_by_row(q, actions, 0 * rewards, terminated)
+
+
+# diagnose -------------------------------------------------------------------------------------------
+
+TRUE = {
+    "A": "flipped_kl",
+    "B": "sampled",
+    "C": "shifted_labels",
+    "D": "no_end",
+    "E": "bonus_for_all",
+    "F": "no_stop",
+}
+CALLS = itertools.count()
+
+
+@right("diagnose")
+def with_a_dictionary(agent):
+    return TRUE[agent]
+
+
+@right("diagnose")
+def with_branches(agent):
+    if agent in "ABC":
+        return ("flipped_kl", "sampled", "shifted_labels")["ABC".index(agent)]
+    if agent == "D":
+        return "no_end"
+    return "bonus_for_all" if agent == "E" else "no_stop"
+
+
+@wrong("diagnose", "trouble is with the rule")
+def labels_and_kl(agent):
+    return {**TRUE, "A": "shifted_labels", "C": "flipped_kl"}[agent]
+
+
+@wrong("diagnose", "only where episodes end")
+def end_and_bonus(agent):
+    return {**TRUE, "D": "bonus_for_all", "E": "no_end"}[agent]
+
+
+@wrong("diagnose", "drive worst")
+def stop_and_sample(agent):
+    return {**TRUE, "B": "no_stop", "F": "sampled"}[agent]
+
+
+@wrong("diagnose", "5 of 6 are right. Look at D again")
+def one_twice(agent):
+    return {**TRUE, "D": "sampled"}[agent]
+
+
+@wrong("diagnose", "0 of 6 are right. Look at A again")
+def all_turned(agent):
+    return dict(zip("ABCDEF", [TRUE[letter] for letter in "BCDEFA"], strict=True))[agent]
+
+
+@wrong("diagnose", "1 of 6 are right")
+def one_for_all(agent):
+    return "no_stop"
+
+
+@wrong("diagnose", "the six names are")
+def in_words(agent):
+    return TRUE[agent].replace("_", " ")
+
+
+@wrong("diagnose", "raises an error")
+def five_of_them(agent):
+    return {letter: bug for letter, bug in TRUE.items() if letter != "F"}[agent]
+
+
+@wrong("diagnose")
+def another_answer_each_time(agent):
+    return list(TRUE.values())[next(CALLS) % 6]
+
+
+# fixed_target ---------------------------------------------------------------------------------------
+
+
+@right("fixed_target")
+def with_where(reward, is_demonstration, bonus, terminated, next_value, gamma):
+    future = torch.where(terminated > 0, 0.0, gamma * next_value)
+    return torch.where(is_demonstration > 0, reward + bonus, reward) + future
+
+
+@right("fixed_target")
+def in_three_lines(reward, is_demonstration, bonus, terminated, next_value, gamma):
+    y = gamma * next_value - gamma * next_value * terminated
+    y = y + reward
+    return y + is_demonstration * bonus
+
+
+@wrong("fixed_target", "Both bugs")
+def untouched(reward, is_demonstration, bonus, terminated, next_value, gamma):
+    return reward + bonus + gamma * next_value
+
+
+@wrong("fixed_target", "after an accident")
+def only_the_bonus(reward, is_demonstration, bonus, terminated, next_value, gamma):
+    return reward + is_demonstration * bonus + gamma * next_value
+
+
+@wrong("fixed_target", "own driving")
+def only_the_end(reward, is_demonstration, bonus, terminated, next_value, gamma):
+    return reward + bonus + (1 - terminated) * gamma * next_value
+
+
+@wrong("fixed_target", "mask is turned")
+def turned(reward, is_demonstration, bonus, terminated, next_value, gamma):
+    return reward + bonus * is_demonstration + gamma * terminated * next_value
+
+
+@wrong("fixed_target", "-10 of an accident vanishes")
+def everything_masked(reward, is_demonstration, bonus, terminated, next_value, gamma):
+    return (1 - terminated) * (reward + bonus * is_demonstration + gamma * next_value)
+
+
+@wrong("fixed_target")
+def bonus_for_the_others(reward, is_demonstration, bonus, terminated, next_value, gamma):
+    return reward + bonus * (1 - is_demonstration) + gamma * (1 - terminated) * next_value
+
+
+@wrong("fixed_target")
+def without_a_discount(reward, is_demonstration, bonus, terminated, next_value, gamma):
+    return reward + bonus * is_demonstration + (1 - terminated) * next_value
+
+
+# fixed_value ----------------------------------------------------------------------------------------
+
+
+@right("fixed_value")
+def entropy_apart(log_pi, q, alpha):
+    pi = log_pi.exp()
+    return (pi * q).sum(-1) + alpha * -(pi * log_pi).sum(-1)
+
+
+@right("fixed_value")
+def with_einsum(log_pi, q, alpha):
+    return torch.einsum("na,na->n", log_pi.exp(), q - alpha * log_pi)
+
+
+@wrong("fixed_value", "differently each time")
+def still_sampled(log_pi, q, alpha):
+    action = torch.multinomial(log_pi.exp(), 1)
+    return (q - alpha * log_pi).gather(-1, action)[:, 0]
+
+
+@wrong("fixed_value", "most probable action alone")
+def of_the_likeliest(log_pi, q, alpha):
+    rows = torch.arange(len(q))
+    return (q - alpha * log_pi)[rows, log_pi.argmax(1)]
+
+
+@wrong("fixed_value", "alike")
+def unweighted(log_pi, q, alpha):
+    return (q - alpha * log_pi).sum(-1) / q.shape[-1]
+
+
+@wrong("fixed_value", "charge for entropy")
+def entropy_charged(log_pi, q, alpha):
+    return (log_pi.exp() * q).sum(-1) + alpha * (log_pi.exp() * log_pi).sum(-1)
+
+
+@wrong("fixed_value", "no entropy")
+def without_entropy(log_pi, q, alpha):
+    return torch.einsum("na,na->n", log_pi.exp(), q)
+
+
+@wrong("fixed_value", "by log π")
+def by_log(log_pi, q, alpha):
+    return torch.einsum("na,na->n", log_pi, q - alpha * log_pi)
+
+
+@wrong("fixed_value")
+def greedy_in_q(log_pi, q, alpha):
+    return q.max(-1).values
+
+
+@wrong("fixed_value", "shape")
+def not_summed(log_pi, q, alpha):
+    return log_pi.exp() * (q - alpha * log_pi)
+
+
+# fixed_loss -----------------------------------------------------------------------------------------
+
+
+@right("fixed_loss")
+def in_one_line(log_pi, q, log_rule, alpha, xi):
+    return (log_pi.exp() * ((alpha + xi) * log_pi - q.detach() - xi * log_rule)).sum(-1).mean()
+
+
+@right("fixed_loss")
+def with_no_grad(log_pi, q, log_rule, alpha, xi):
+    fixed = q.clone().detach()
+    pi = log_pi.exp()
+    value = torch.einsum("na,na->n", pi, fixed) - alpha * (pi * log_pi).sum(1)
+    kl = (pi * log_pi).sum(1) - (pi * log_rule).sum(1)
+    return (xi * kl - value).mean()
+
+
+def buggy(log_pi, q, log_rule, alpha, xi, flip=True):
+    pi, rule = log_pi.exp(), log_rule.exp()
+    kl = (rule * (log_rule - log_pi)).sum(-1) if flip else (pi * (log_pi - log_rule)).sum(-1)
+    return -((pi * (q - alpha * log_pi)).sum(-1) - xi * kl).mean()
+
+
+@wrong("fixed_loss", "Both bugs")
+def untouched_loss(log_pi, q, log_rule, alpha, xi):
+    return buggy(log_pi, q, log_rule, alpha, xi)
+
+
+@wrong("fixed_loss", "bend the critic")
+def only_the_kl(log_pi, q, log_rule, alpha, xi):
+    return buggy(log_pi, q, log_rule, alpha, xi, flip=False)
+
+
+@wrong("fixed_loss", "weighed by the rule")
+def only_the_stop(log_pi, q, log_rule, alpha, xi):
+    return buggy(log_pi, q.detach(), log_rule, alpha, xi)
+
+
+@wrong("fixed_loss", "detached the policy")
+def the_wrong_stop(log_pi, q, log_rule, alpha, xi):
+    return buggy(log_pi.detach(), q, log_rule, alpha, xi, flip=False)
+
+
+@wrong("fixed_loss", "pay for leaving")
+def rewarded(log_pi, q, log_rule, alpha, xi):
+    return buggy(log_pi, q.detach(), log_rule, alpha, -xi, flip=False)
+
+
+@wrong("fixed_loss")
+def everything_detached(log_pi, q, log_rule, alpha, xi):
+    return in_one_line(log_pi.detach(), q, log_rule, alpha, xi)
+
+
+@wrong("fixed_loss")
+def summed_over_the_batch(log_pi, q, log_rule, alpha, xi):
+    return in_one_line(log_pi, q, log_rule, alpha, xi) * (len(q) + 1)
+
+
+@wrong("fixed_loss")
+def the_value_itself(log_pi, q, log_rule, alpha, xi):
+    return -in_one_line(log_pi, q, log_rule, alpha, xi)
+
+
+# label_pairs ----------------------------------------------------------------------------------------
+
+
+@right("label_pairs")
+def with_a_loop(asked):
+    return np.array([[asked[t], asked[t + 1]] for t in range(len(asked) - 1)])
+
+
+@right("label_pairs")
+def with_windows(asked):
+    return np.lib.stride_tricks.sliding_window_view(asked, 2).copy()
+
+
+@wrong("label_pairs", "one second later")
+def still_shifted(asked):
+    later = np.append(asked[1:], asked[-1])
+    return np.stack([later[:-1], later[1:]], axis=1)
+
+
+@wrong("label_pairs", "swapped")
+def the_newer_first(asked):
+    return np.stack([asked[1:], asked[:-1]], axis=1)
+
+
+@wrong("label_pairs", "the same")
+def twice_the_same(asked):
+    return np.repeat(asked[:-1, None], 2, axis=1)
+
+
+@wrong("label_pairs", "one pair too many")
+def a_row_for_each_state(asked):
+    return np.stack([asked, np.append(asked[1:], asked[-1])], axis=1)
+
+
+@wrong("label_pairs", "shape")
+def in_rows(asked):
+    return np.stack([asked[:-1], asked[1:]])
+
+
+@wrong("label_pairs")
+def around_the_end(asked):
+    return np.stack([np.roll(asked, 1)[:-1], asked[:-1]], axis=1)
