@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from bootcourse.colours import OTHER
 from bootcourse.study.drawing import INK, QUIET, SMALL, TEXT, WIDTH, finish, new_figure, plain_axes, wrapped
@@ -46,6 +47,7 @@ def many(
         plain_axes(ax, "")
         ax.text(0, 1.05, label, transform=ax.transAxes, fontsize=TEXT, color=INK, fontweight="bold", va="bottom")
         ax.set(xlim=(0, last_x), ylim=(low, high))
+        ax.xaxis.set_major_locator(MaxNLocator(3 if columns < 5 else 2))
         if column:
             ax.tick_params(labelleft=False)
         if k + columns < len(own):

@@ -236,7 +236,7 @@ for name in hunt.names:
 # %% [markdown]
 # **See.** One agent knows the way and cannot walk it: its most probable action escapes, its drawn
 # ones do not. It learned the rule and the rule's noise, and from Q nothing. Which bug would make an
-# actor deaf to Q?
+# actor deaf to Q? (And read escapes beside accidents: a crash after overtaking counts as both.)
 #
 # **Exercise 12.2 (15 min, ●●●).** The verdict. For each agent one of the six names. The check says
 # how many are right, and what speaks against one of the wrong ones; it does not say who it is
@@ -390,8 +390,7 @@ def label_pairs(asked):
 check.label_pairs(label_pairs)
 
 # %% [markdown]
-# How the six were made, without saying which letter is which: each is the right learner with one
-# piece exchanged. (Only now, please: the names of the pieces say something.)
+# How the bugs were made: each is the right learner with one piece exchanged. Four of the six:
 
 # %% tags=["nbval-ignore-output"]
 source("bootcourse.lessons.bugs", "NoEnd", "BonusForAll", "ShiftedLabels", "flipped_kl")
@@ -405,13 +404,12 @@ print(f"highest return at the end of training: {best}, {last[best]:.0f}")
 print(f"the healthy agent's: {last['healthy']:.0f}")
 
 # %% [markdown]
-# **Explain.** All six: every exercise of this lesson judges one of them in milliseconds. Some of
-# the bugs are nearly harmless *here*, as long as the teacher covers them up, and that is worth
-# knowing, too: it is why such bugs survive for years in code that many people use. On another
-# road, with another γ or without a teacher, the same line may decide everything. And a bug that
-# raises the return is the most dangerous: nobody looks for it. (Paying everybody a bonus for each
-# second is a
-# *different* reward. It may suit this road; it is not the method that the name promises.)
+# **Explain.** All six: the exercises above judge them in milliseconds. Some of the bugs are nearly
+# harmless *here*, as long as the teacher covers them up, and that is worth knowing, too: it is one
+# way in which such bugs survive. On another road, with another γ or without a teacher, the same
+# line may decide everything. And a bug that raises the return is the most dangerous: nobody looks
+# for it. (Paying everybody a bonus for each second is a *different* reward. It may suit this road;
+# it is not the method that the name promises.)
 
 # %% [markdown]
 # ## What you now know
