@@ -132,8 +132,8 @@ title = f"Agent {lowest} thinks that accidents cost far more than the 10 they co
 show(many(probes, title, "updates", "Q where an accident followed (right: −10)", "healthy"))
 
 # %% [markdown]
-# **See.** Even the healthy agents are not at −10: a network that is shown thousands of good seconds
-# for each accident smooths. So a probe needs a healthy agent beside it. What counts is who leaves
+# **See.** Even the healthy agents are not at −10: a network that is shown far more other seconds
+# than accidents smooths. So a probe needs a healthy agent beside it. What counts is who leaves
 # the grey lines, and how.
 #
 # > **Predict.** The road pays at most about 1 a second, and γ = 0.8 sees about 5 seconds ahead.
