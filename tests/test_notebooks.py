@@ -22,7 +22,7 @@ def test_a_notebook_is_committed_with_outputs_and_without_errors(notebook):
     assert "error" not in kinds and kinds
 
 
-def test_a_lesson_says_what_one_will_be_able_to_do_and_what_one_now_knows(notebook):
+def test_a_lesson_says_what_one_will_be_able_to_do_and_what_one_now_knows(notebook, request):
     text = "\n".join(cell.source for cell in notebook.cells if cell.cell_type == "markdown")
     parts = (
         "**What you will be able to do**",
@@ -31,6 +31,8 @@ def test_a_lesson_says_what_one_will_be_able_to_do_and_what_one_now_knows(notebo
         "**Three questions",
         "**Read on**",
     )
+    if request.node.callspec.id == "00_start":  # five minutes to choose a route: it teaches and asks nothing yet
+        parts = ("**What you will be able to do**", "**Predict.**", "**Read on**")
     assert [part for part in parts if part not in text] == []
 
 

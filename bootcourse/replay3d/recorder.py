@@ -19,6 +19,8 @@ from bootcourse.replay3d.camera import BIRD, CHASE, SIDE, pose
 from bootcourse.replay3d.pictures import png_bytes
 from bootcourse.replay3d.stage import Options, Stage
 from bootcourse.replay3d.timeline import Timeline
+from bootcourse.study.drawing import name, sentence
+from bootcourse.study.top_view import outcome
 
 RATES = (30, 20, 15, 10)  # frames a second: the first that fits the budget is taken
 CAR_FRAMES = 90_000  # cars x frames: ten cars for 150 s at 30 Hz make half of it, and 1.4 MB
@@ -122,8 +124,8 @@ def _with_overlay(page: str, timelines: list[Timeline], options: Options, span: 
         "TITLE": title,  # last: it comes from a file, and nothing in it is a name to replace
     }
     overlay = OVERLAY
-    for name, text in parts.items():
-        overlay = overlay.replace(f"@{name}@", text)
+    for part, text in parts.items():
+        overlay = overlay.replace(f"@{part}@", text)
     page = page.replace("<title>Viser</title>", f"<title>{title}</title>", 1)
     end = page.rindex("</body>")
     return page[:end] + overlay + page[end:]
@@ -144,8 +146,8 @@ class Recording:
     Where a notebook is not trusted, its scripts are taken out and the picture stays.
     """
 
-    def __init__(self, html: str, poster: bytes, height: int):
-        self.html, self.poster, self.height = html, poster, height
+    def __init__(self, html: str, poster: bytes, height: int, alt: str):
+        self.html, self.poster, self.height, self.alt = html, poster, height, alt
 
     def save(self, path: Path) -> Path:
         write_bytes(path, self.html.encode())
@@ -155,11 +157,11 @@ class Recording:
         picture = f"data:image/png;base64,{base64.b64encode(self.poster).decode()}"
         text = (
             f'<div style="position:relative;height:{self.height}px;overflow:hidden">'
-            f'<img src="{picture}" alt="One moment of the replay" style="width:100%;height:100%;object-fit:cover">'
+            f'<img src="{picture}" alt="{escape(self.alt)}" style="width:100%;height:100%;object-fit:cover">'
             f'<iframe srcdoc="{escape(self.html)}" style="position:absolute;inset:0;width:100%;height:100%;border:0">'
             "</iframe></div>"
         )
-        return {"text/html": text, "text/plain": "<recording of a replay>"}
+        return {"text/html": text, "text/plain": self.alt}
 
 
 def recording(
@@ -167,4 +169,11 @@ def recording(
 ) -> Recording:
     """The same as `replay`, as a recording that stays in the saved notebook (about 1.5 MB per drive)."""
     options = Options(layout=layout, follow=follow, dark=dark, rule=rule)
-    return Recording(to_html(rollouts, options), png_bytes(rollouts, options=options, size=(960, 540)), height)
+    poster = png_bytes(rollouts, options=options, size=(960, 540))
+    return Recording(to_html(rollouts, options), poster, height, alt(rollouts))
+
+
+def alt(rollouts) -> str:
+    """What somebody who cannot see the replay should know."""
+    told = (f"{name(timeline.rollout.label)}: {outcome(timeline.rollout)}" for timeline in scene.timelines_of(rollouts))
+    return f"One moment of a replay in 3D. {sentence('; '.join(told))}."

@@ -1,0 +1,46 @@
+"""What ships with the course, as a lesson asks for it: the study's results, its trained agents, its recorded drives."""
+
+from dataclasses import replace
+
+from bootcourse.assets import FOLDER
+from bootcourse.errors import BootcourseError
+from bootcourse.learn.agent import Agent
+from bootcourse.record.rollout import OPTIONAL, Rollout
+from bootcourse.record.runs import find_runs, load_run
+from bootcourse.study.found import in_assets
+from bootcourse.study.results import Results
+
+
+def shipped_results(scenario: str = "default") -> Results:
+    """Every method's agents on a scenario. Raises BootcourseError if that part does not ship."""
+    results = in_assets(FOLDER).results
+    if scenario not in results:
+        raise BootcourseError(
+            f"No results of the scenario '{scenario}' ship: there are {', '.join(results) or 'none'}."
+        )
+    return results[scenario]
+
+
+def shipped_agents(method: str) -> list[Agent]:
+    """The trained agents of a method whose weights ship, by seed. Raises BootcourseError if there are none."""
+    paths = [path for path in find_runs(FOLDER / "runs") if path.name.rpartition("-")[0] == method]
+    if not paths:
+        raise BootcourseError(f"No agents of the method '{method}' ship in {FOLDER.name}/runs.")
+    return sorted((load_run(path).agent for path in paths), key=lambda agent: agent.settings.seed)
+
+
+def shipped_drive(name: str) -> Rollout:
+    """One of the recorded drives: "escape", "crash", "rule" or "trapped-sac"."""
+    return Rollout.load(FOLDER / "rollouts" / f"{name}.npz")
+
+
+def beginning(drive: Rollout, seconds: int) -> Rollout:
+    """The first seconds of a drive, as a drive of its own; a shorter one as it is."""
+    clock = drive.scenario.clock
+    decisions = int(seconds * clock.decision_rate)
+    if decisions >= len(drive.actions):
+        return drive
+    each = {name: getattr(drive, name) for name in ("actions", "rewards", "terms", *OPTIONAL)}
+    cut = {name: values[:decisions] for name, values in each.items() if values is not None}
+    states = drive.states[: decisions * clock.steps + 1]
+    return replace(drive, states=states, observations=drive.observations[: decisions + 1], accident=0, **cut)

@@ -1,0 +1,146 @@
+# ---
+# jupyter:
+#   jupytext:
+#     text_representation:
+#       extension: .py
+#       format_name: percent
+#   kernelspec:
+#     display_name: Python 3 (ipykernel)
+#     language: python
+#     name: python3
+# ---
+
+# %% [markdown]
+# # 0 · Start
+#
+# **What you will be able to do**
+# - say what the trap is, and that the way out of it leads backwards;
+# - drive it yourself, and compare yourself with two programs that learned to drive;
+# - choose your route through the course.
+#
+# **Time** five minutes, half of one the machine's. **It builds on** nothing.
+
+# %%
+from bootcourse.lessons.shipped import beginning, shipped_agents, shipped_drive, shipped_results
+from bootcourse.panels import drive_panel
+from bootcourse.record.drive import record
+from bootcourse.replay3d import recording
+from bootcourse.scenario import DEFAULT
+from bootcourse.study.drawing import name
+from bootcourse.study.report import rule_results
+from bootcourse.study.results import KINDS
+from bootcourse.study.statistics import escapes
+from bootcourse.study.tables import bracketed, markdown, score
+from bootcourse.study.top_view import doing, outcome
+from IPython.display import Markdown
+
+# %% [markdown]
+# ## Look first
+#
+# Twice the same road. Two slow cars, dark red, hold the driver: **trap 1** ahead of it, **trap 2**
+# beside it. Behind the wheel are two **agents**, which is what we call a program that has learned
+# from its own tries. Both have driven the same number of episodes. The *bootstrapped* one had help
+# while it learned, from a rule that somebody wrote by hand. Press play, and turn the road with the
+# mouse.
+
+# %% tags=["nbval-ignore-output"]
+escape = shipped_drive("escape")  # by a bootstrapped agent
+plain = [agent.driver(with_q=True) for agent in shipped_agents("sac")]  # on the same road:
+alone = [record(driver, [escape.seed], label="sac")[0] for driver in plain]
+trapped = next((drive for drive in alone if not drive.success), alone[0])
+recording([beginning(trapped, 30), beginning(escape, 30)], height=480)
+
+# %% [markdown]
+# The same in words:
+
+# %%
+rows = [[f"{t} s", doing(trapped, t), doing(escape, t)] for t in (0, 2, 4, 6, 8, 11, 14, 20)]
+names = [name(trapped.label), name(escape.label)]
+Markdown(
+    markdown(["", *names], rows) + f"\nIn the end: {names[0]} is {outcome(trapped)}, "
+    f"return {trapped.rewards.sum():.0f}; {names[1]} is {outcome(escape)}, "
+    f"return {escape.rewards.sum():.0f}."
+)
+
+# %% [markdown]
+# The **return** is what a drive has earned: each second pays a little for speed, up to 15 m/s.
+# The way out leads backwards. It costs speed at first, and one clumsy move on it ends in a crash.
+# Staying behind never hurts, and that makes it a trap for whoever learns by trying.
+
+# %% [markdown]
+# ## Drive it yourself
+#
+# You decide once a second, and the road waits for you: nine buttons, or click on the pad and use
+# the arrow keys. The faint car is a ghost, which knows the way out.
+#
+# > **Predict.** How many tries until you are ahead of trap 1?
+
+# %% tags=["nbval-ignore-output"]
+drive_panel(seed=10)
+
+# %% [markdown] tags=["instructor"] minutes=5
+# Open with this page on the wall and let two people drive before anybody explains anything. Most of
+# them crash into trap 2. Keep the number of tries on the board for lesson 5.
+
+# %% [markdown]
+# ## What the agents do
+#
+# One drive proves little. We trained several agents of each kind, which differ only in their
+# **seed**, the number that their luck was drawn from, and let each drive the same roads, none of
+# which it had seen. SAC, *soft actor-critic*, is the method that both kinds learn by. An agent
+# **escapes** if it ends ahead of trap 1 on at least half of its roads.
+#
+# > **Predict.** Of all agents of plain SAC, how many escape? Of those with help? And does who
+# > escapes also drive safely?
+
+# %%
+study = shipped_results()
+rows = []
+for method in ("sac", "bootstrapped"):
+    mine = study.of(method)
+    success = mine.scores("success")
+    accidents = 100 * sum(mine.episodes(kind).mean() for kind in KINDS)
+    count = f"{(success >= 0.5).sum()} of {len(mine)}: {bracketed(escapes(success), 100)} %"
+    rows.append(
+        [name(method), count, bracketed(score(study, method, "returns")), f"{accidents:.0f} %"]
+    )
+rule = rule_results(DEFAULT, 200)
+accidents = 100 * sum(rule.episodes(kind).mean() for kind in KINDS)
+rows.append(
+    [name("rule"), "it always drives the same way", bracketed(score(rule, "rule", "returns"))]
+)
+rows[-1].append(f"{accidents:.0f} %")
+headings = ["", "agents that escape", "return", "drives that end in an accident"]
+Markdown(markdown(headings, rows))
+
+# %% [markdown]
+# **See.** In brackets stands the 95 % *interval*: where the truth may well lie, given how few
+# agents there are. The return is that of a typical agent (the mean of the middle half of them).
+# Read the table with three questions; the course is about them. Why does plain SAC miss a way out
+# that a rule of a few lines finds each time? How many agents does the help bring out, and why not
+# all? And those that earn more than the rule: what do they pay for it, in accidents?
+#
+# ## Choose a route
+#
+# *One evening*, to see it happen. *A week*, to be able to do it. *A researcher's*, for those who
+# know SAC and ask what holds.
+#
+# | lesson | an evening | a week | a researcher's |
+# |---|:---:|:---:|:---:|
+# | 1 · [The trap](01_the_trap.ipynb) | ● | ● | |
+# | 2 · [Traffic](02_traffic.ipynb) | | ● | |
+# | 3 · [The rule](03_the_rule.ipynb) | | ● | |
+# | 4 · [Discrete soft actor-critic](04_discrete_sac.ipynb) | | ● | |
+# | 5 · [The barrier](05_the_barrier.ipynb) | ● | ● | ● |
+# | 6 · [Demonstrations](06_demonstrations.ipynb) | | ● | |
+# | 7 · [The soft constraint](07_soft_constraint.ipynb) | ● | ● | ● |
+# | 8 · [Learning from demonstrations](08_learning_from_demonstrations.ipynb) | | ● | ● |
+# | 13 · [Your teacher](13_your_teacher.ipynb) | | ● | |
+#
+# Each lesson opens on its own, says what it builds on, and runs in a minute or two. In its
+# exercises you write a few lines, and a check says what is wrong with them in plain words;
+# `check.hint("name")` helps, and `check.solution("name")` shows the way when you ask for it.
+#
+# **Read on**: [the trap](01_the_trap.ipynb). The paper that the course follows: Zhang, Peng,
+# Yurtsever and Redmill, *Bootstrapping Reinforcement Learning with Sub-optimal Policies for
+# Autonomous Driving* (2025).
