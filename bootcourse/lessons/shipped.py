@@ -6,7 +6,7 @@ from bootcourse.assets import FOLDER
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.agent import Agent
 from bootcourse.record.rollout import OPTIONAL, Rollout
-from bootcourse.record.runs import find_runs, load_run
+from bootcourse.record.runs import Run, find_runs, load_run
 from bootcourse.study.found import in_assets
 from bootcourse.study.results import Results
 
@@ -21,12 +21,17 @@ def shipped_results(scenario: str = "default") -> Results:
     return results[scenario]
 
 
-def shipped_agents(method: str) -> list[Agent]:
-    """The trained agents of a method whose weights ship, by seed. Raises BootcourseError if there are none."""
+def shipped_runs(method: str) -> list[Run]:
+    """The trained agents of a method with their training curves, by seed. Raises BootcourseError if there are none."""
     paths = [path for path in find_runs(FOLDER / "runs") if path.name.rpartition("-")[0] == method]
     if not paths:
         raise BootcourseError(f"No agents of the method '{method}' ship in {FOLDER.name}/runs.")
-    return sorted((load_run(path).agent for path in paths), key=lambda agent: agent.settings.seed)
+    return sorted(map(load_run, paths), key=lambda run: run.agent.settings.seed)
+
+
+def shipped_agents(method: str) -> list[Agent]:
+    """Only the agents."""
+    return [run.agent for run in shipped_runs(method)]
 
 
 def shipped_drive(name: str) -> Rollout:

@@ -1,0 +1,87 @@
+"""Where drives went and how undecided the driver was there, and the map that shows it for many agents at once."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+from matplotlib.figure import Figure
+
+from bootcourse.learn.sac import entropy, log_policy
+from bootcourse.record.rollout import Rollout
+from bootcourse.road.state import EGO, LANE, TRAP_1, X
+from bootcourse.study.drawing import INK, QUIET, SMALL, TEXT, finish, new_figure, wrapped
+
+
+@dataclass(frozen=True)
+class Visits:
+    """Every decision of some drives, one after the other."""
+
+    place: np.ndarray  # (n,) m: how far the ego is ahead of trap 1; negative is behind
+    lane: np.ndarray  # (n,) 0 is the leftmost
+    policy: np.ndarray  # (n, 9) the driver's probabilities; of a driver without any, 1 for what it did
+
+    @property
+    def entropy(self) -> np.ndarray:
+        """H(π) of each decision in nats, (n,)."""
+        tiny = np.finfo(float).tiny
+        return entropy(log_policy(torch.as_tensor(np.log(np.maximum(self.policy, tiny))))).numpy()
+
+
+def visits(drives: Sequence[Rollout]) -> Visits:
+    """The decisions of all drives together."""
+    starts = [drive.states[:: drive.scenario.clock.steps][: len(drive.actions)] for drive in drives]
+    cars = np.concatenate(starts)
+    policy = [np.eye(9)[drive.actions] if drive.policy is None else drive.policy for drive in drives]
+    return Visits(cars[:, EGO, X] - cars[:, TRAP_1, X], cars[:, EGO, LANE].astype(int), np.concatenate(policy))
+
+
+def cells_seen(seen: Visits, edges: np.ndarray, lanes: int = 3) -> float:
+    """The share of the cells (a stretch between two edges, a lane) in which at least one decision was made."""
+    found, _, _ = np.histogram2d(seen.place, seen.lane, bins=[edges, np.arange(lanes + 1) - 0.5])
+    return float(np.mean(found > 0))
+
+
+def mean_in_bins(seen: Visits, values: np.ndarray, edges: np.ndarray) -> np.ndarray:
+    """The mean of some values (n,) in each stretch of road, (bins,); NaN where nobody was."""
+    total, count = (np.histogram(seen.place, bins=edges, weights=w)[0] for w in (values, np.ones(len(values))))
+    return np.where(count > 0, total / np.maximum(count, 1), np.nan)
+
+
+def map_of_places(rows: Mapping[str, np.ndarray], edges: np.ndarray, title: str, label: str) -> Figure:
+    """A row for each name, a field for each stretch of road: darker is more, empty is where nobody was.
+
+    rows: {name: (bins,)}, NaN where nobody was; edges (bins + 1,) m relative to trap 1; label says what is shown.
+    """
+    values, title = np.array(list(rows.values())), wrapped(title)
+    head = 0.62 + 0.2 * title.count("\n")
+    height = head + 0.21 * len(values) + 0.55
+    figure = new_figure(height)
+    ax = figure.add_axes((0.25, 0.5 / height, 0.73, 0.21 * len(values) / height))
+    ax.imshow(values, aspect="auto", cmap="Blues", vmin=np.nanmin(values), vmax=1.15 * np.nanmax(values))
+    middle = (np.nanmin(values) + np.nanmax(values)) / 1.6
+    for (row, column), value in np.ndenumerate(values):
+        if np.isfinite(value):
+            colour = "white" if value > middle else INK
+            ax.text(column, row, f"{value:.2f}", fontsize=SMALL - 1, color=colour, ha="center", va="center")
+    ax.set_yticks(range(len(values)), list(rows), fontsize=SMALL)
+    ax.set_xticks(np.arange(len(edges)) - 0.5, [f"{edge:g}" for edge in edges], fontsize=SMALL)
+    ax.tick_params(length=0, labelcolor=QUIET)
+    for side in ax.spines.values():
+        side.set_visible(False)
+    ax.set_xlabel("metres ahead of trap 1 (negative: behind it)", fontsize=TEXT, color=INK)
+    figure.text(0.012, 1 - (head - 0.26) / height, f"{label}; empty: never there", fontsize=TEXT, color=QUIET)
+    return finish(figure, title, f"A map of {label}. {_told(rows, edges)}")
+
+
+def _told(rows: Mapping[str, np.ndarray], edges: np.ndarray) -> str:
+    parts = []
+    for name, values in rows.items():
+        there = np.flatnonzero(np.isfinite(values))
+        if there.size:
+            best = there[values[there].argmax()]
+            parts.append(
+                f"{name}: from {edges[there[0]]:g} to {edges[there[-1] + 1]:g} m, "
+                f"most ({values[best]:.2f}) between {edges[best]:g} and {edges[best + 1]:g} m."
+            )
+    return " ".join(parts)
