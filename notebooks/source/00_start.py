@@ -135,6 +135,7 @@ Markdown(markdown(headings, rows))
 # | 6 · [Demonstrations](06_demonstrations.ipynb) | | ● | |
 # | 7 · [The soft constraint](07_soft_constraint.ipynb) | ● | ● | ● |
 # | 8 · [Learning from demonstrations](08_learning_from_demonstrations.ipynb) | | ● | ● |
+# | 9 · [The ablation](09_ablation.ipynb) | | ● | ● |
 # | 11 · [Exploration](11_exploration.ipynb) | | ● | ● |
 # | 13 · [Your teacher](13_your_teacher.ipynb) | | ● | |
 #
