@@ -137,6 +137,7 @@ Markdown(markdown(headings, rows))
 # | 8 · [Learning from demonstrations](08_learning_from_demonstrations.ipynb) | | ● | ● |
 # | 9 · [The ablation](09_ablation.ipynb) | | ● | ● |
 # | 11 · [Exploration](11_exploration.ipynb) | | ● | ● |
+# | 12 · [The bug hunt](12_bug_hunt.ipynb) | | ● | ● |
 # | 13 · [Your teacher](13_your_teacher.ipynb) | | ● | |
 #
 # Each lesson opens on its own, says what it builds on, and runs in a minute or two. In its

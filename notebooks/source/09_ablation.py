@@ -163,7 +163,7 @@ Markdown(markdown(["return", "mean", "median", "IQM", "the agents, sorted"], row
 # %% [markdown]
 # **See.** Read the last column before the others. Where it has two groups, no single number is
 # right: the IQM tells of the larger group and the mean of nobody. That is why the number of agents
-# that escape stands beside it in every table of this course.
+# that escape stands beside it in our tables.
 
 # %% [markdown]
 # ## Round 3: how sure?
@@ -173,7 +173,7 @@ Markdown(markdown(["return", "mean", "median", "IQM", "the agents, sorted"], row
 #
 # Nobody will repeat it, so we let the computer: draw ten agents out of our ten, *with* replacement,
 # so that some come twice and others not at all. Take their mean. Again, some thousand times. The
-# middle 95 % of these means are the **bootstrap interval**. (A third meaning of the word: here it
+# middle 95 % of these means are the **bootstrap interval**. (Another meaning of the word: here it
 # has nothing to do with the paper's method.)
 #
 # **Exercise 9.3 (7 min, ●●○).** Write it. The draws are given, so that yours and ours agree.

@@ -229,7 +229,7 @@ Markdown(markdown(headings, rows))
 # %% [markdown] tags=["instructor"] minutes=7
 # Ask for what the map cannot show: these are drives after training. Where the agents were in their
 # first hundred episodes is not recorded. How would they find out? (Train with `Training.run` and a
-# callback that calls `visits` on a few drives now and then, as lesson 5 does.)
+# callback that calls `visits` on a few drives now and then, as lesson 7 does.)
 
 # %% [markdown]
 # ## Round 4: undecided is not far-travelled
