@@ -1,5 +1,6 @@
 """`bootcourse replay FILE…`: open recorded drives in the browser, or write them as a file."""
 
+import contextlib
 import threading
 import webbrowser
 from pathlib import Path
@@ -25,14 +26,11 @@ def replay_command(
         return
     from bootcourse.replay3d.viewer import replay
 
-    with replay(rollouts, port=port) as shown:
+    with replay(rollouts, port=port) as shown, contextlib.suppress(KeyboardInterrupt):
         print(f"Replay at {shown.url} (Ctrl-C ends it)", flush=True)
         if browser:
             webbrowser.open(shown.url)
-        try:
-            threading.Event().wait()
-        except KeyboardInterrupt:
-            print()
+        threading.Event().wait()
 
 
 def _write(rollouts, export: Path | None, gif: Path | None, png: Path | None) -> None:
