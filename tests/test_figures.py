@@ -9,9 +9,7 @@ from matplotlib.patches import FancyBboxPatch
 from PIL import Image
 
 from bootcourse.colours import ALARM, TRAP, style
-from bootcourse.drivers import idle_driver, plan_driver, rule_driver
 from bootcourse.errors import BootcourseError
-from bootcourse.record.drive import record
 from bootcourse.road.state import EGO, HEADING, LANE, SPEED, TRAP_1, X, Y
 from bootcourse.scenario import DEFAULT
 from bootcourse.study import animation
@@ -19,21 +17,6 @@ from bootcourse.study.drawing import Picture, finish, label_ends, new_figure, pl
 from bootcourse.study.figures import save, save_drive, show, top_view, top_view_over_time, traces, training_curves
 from bootcourse.study.top_view import cars_at, doing, key_moments, overtaken, window
 from bootcourse.study.traces import PANELS, series
-
-
-@pytest.fixture(scope="module")
-def escape():
-    return record(rule_driver(DEFAULT), [3], DEFAULT, "rule")[0]
-
-
-@pytest.fixture(scope="module")
-def idle():
-    return record(idle_driver, [3], DEFAULT, "idle")[0]
-
-
-@pytest.fixture(scope="module")
-def crash():
-    return record(plan_driver([("accelerate straight", 30)]), [3], DEFAULT, "you")[0]
 
 
 def curves(agents: int = 4, episodes: int = 120, missing: int = 0) -> dict[str, np.ndarray]:

@@ -5,27 +5,9 @@ import io
 import pytest
 from PIL import Image
 
-from bootcourse.drivers import idle_driver, plan_driver, rule_driver
 from bootcourse.errors import BootcourseError
-from bootcourse.record.drive import record
-from bootcourse.scenario import DEFAULT
 from bootcourse.study import animation, readme_picture
 from bootcourse.study.top_view import overtaken
-
-
-@pytest.fixture(scope="module")
-def escape():
-    return record(rule_driver(DEFAULT), [3], DEFAULT, "rule")[0]
-
-
-@pytest.fixture(scope="module")
-def idle():
-    return record(idle_driver, [3], DEFAULT, "idle")[0]
-
-
-@pytest.fixture(scope="module")
-def crash():
-    return record(plan_driver([("accelerate straight", 30)]), [3], DEFAULT, "you")[0]
 
 
 def test_the_animation_is_small_has_every_frame_and_is_the_same_each_time(idle, escape, tmp_path):

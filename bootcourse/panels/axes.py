@@ -8,6 +8,7 @@ import numpy as np
 
 from bootcourse.colours import Style
 from bootcourse.panels.svg import INK, QUIET, line, path, text
+from bootcourse.study.statistics import rolling_means
 
 DASHES = {"-": "", "--": "7 4", ":": "2 3", "-.": "7 3 2 3"}
 
@@ -104,6 +105,4 @@ def rolling(values: np.ndarray, window: int, points: int = 80) -> tuple[np.ndarr
     episodes = int(np.isfinite(values).sum(axis=1).max(initial=0))
     if not episodes:
         return np.zeros(0, dtype=int), np.zeros((len(values), 0))
-    at = np.unique(np.linspace(min(window, episodes), episodes, points).astype(int))
-    sums = np.cumsum(np.pad(values[:, :episodes], ((0, 0), (1, 0))), axis=1)
-    return at, (sums[:, at] - sums[:, np.maximum(at - window, 0)]) / np.minimum(at, window)
+    return rolling_means(values[:, :episodes], window, points)

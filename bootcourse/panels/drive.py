@@ -19,7 +19,7 @@ from bootcourse.errors import BootcourseError
 from bootcourse.panels.cockpit import alt_text, cockpit
 from bootcourse.panels.number import Number
 from bootcourse.panels.pad import Pad
-from bootcourse.panels.panel import Panel
+from bootcourse.panels.panel import Panel, button
 from bootcourse.panels.svg import printed
 from bootcourse.panels.ticker import Ticker
 from bootcourse.record.by_hand import ByHand
@@ -31,6 +31,7 @@ FRAMES = 10.0  # Hz, in real time
 STEPS, REAL = "step by step", "real time"
 PACE = (0.1, 10.0)  # s that a decision may take
 ROADS = 2**32  # held-out roads lie below
+WIDE = "124px"  # a button
 
 
 def check_pace(value: float) -> None:
@@ -62,27 +63,26 @@ class DrivePanel(Panel):
             options=[STEPS, REAL], tooltips=["A decision for each press", "A decision for each tick of the clock"]
         )
         self.mode.style.button_width = "118px"
-        self.go = _button("Start", "play", "Start or pause the clock (real time)", "primary")
-        self.again = _button("Drive again", "refresh", "The same road, from its start")
+        self.go = button("Start", "play", "Start or pause the clock (real time)", "primary", WIDE)
+        self.again = button("Drive again", "refresh", "The same road, from its start", width=WIDE)
         self.pace = Number("pace", 1.0, 0.2, 3.0, 0.1, "How long a decision takes in real time.", "s", check_pace)
         self.road = Number("road", seed, 0, 99, 1, "The seed of the road. Another one begins a new drive.",
                            check=check_road)  # fmt: skip
         self.road.lock(fixed)
-        self.keep = _button(
-            "Keep as demonstration", "graduation-cap", "Save this drive as a demonstration for an agent"
+        self.keep = button(
+            "Keep as demonstration", "graduation-cap", "Save this drive as a demonstration for an agent", width="214px"
         )
-        self.keep.layout.width = "214px"
-        self.save = _button("Save", "save", "Write this drive to the file, to draw or to replay it")
+        self.save = button("Save", "save", "Write this drive to the file, to draw or to replay it", width=WIDE)
         self.path = widgets.Text(_path(seed), tooltip="Where Save writes", layout={"width": "230px"})
         mode = widgets.HBox([self.mode, self.go, self.again])
         store = widgets.HBox([self.keep, self.save, self.path])
         row = {"flex_flow": "row wrap", "grid_gap": "6px 28px"}
         controls = widgets.VBox([mode, self.pace, self.road, store], layout={"grid_gap": "4px"})
         super().__init__("Drive it yourself", self.view, widgets.HBox([self.pad, controls], layout=row))
-        for button, does in (
+        for pressed, does in (
             (self.go, self._go), (self.again, self._again), (self.keep, self._keep), (self.save, self._save),
         ):  # fmt: skip
-            button.on_click(lambda _, does=does: self._set_off(does))
+            pressed.on_click(lambda _, does=does: self._set_off(does))
         self.mode.observe(lambda change: self._set_off(self._new_mode), "value")
         self.road.observe(lambda change: self._set_off(self._again), "value")
         self._new_mode()
@@ -210,10 +210,6 @@ class DrivePanel(Panel):
     def _draw(self) -> None:
         coming = "" if self.coming is None else ACTION_NAMES[self.coming]
         self.view.value = cockpit(self.drive, self.ghost, self.shown, coming)
-
-
-def _button(label: str, icon: str, help: str, kind: str = "") -> widgets.Button:
-    return widgets.Button(description=label, icon=icon, tooltip=help, button_style=kind, layout={"width": "124px"})
 
 
 def _path(seed: int) -> str:

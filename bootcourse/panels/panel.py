@@ -83,6 +83,11 @@ class Panel(widgets.VBox):
         return super()._repr_mimebundle_(**kwargs) | {"text/html": img, "text/plain": alt}
 
 
+def button(label: str, icon: str, help: str, kind: str = "", width: str = "104px") -> widgets.Button:
+    """A button with its icon and a sentence of help; kind: "" or "primary"."""
+    return widgets.Button(description=label, icon=icon, tooltip=help, button_style=kind, layout={"width": width})
+
+
 def beside(*parts: widgets.Widget) -> widgets.Box:
     """Parts next to each other, in as many rows as the column's width asks for; room for a sentence in each."""
     for part in parts:

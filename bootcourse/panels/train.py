@@ -20,7 +20,7 @@ from bootcourse.learn.train import Result, Training
 from bootcourse.panels.background import Background
 from bootcourse.panels.growth import EARLIER, Drawn, alt_text, growth, label_of
 from bootcourse.panels.number import Number
-from bootcourse.panels.panel import Panel
+from bootcourse.panels.panel import Panel, button
 from bootcourse.panels.svg import printed
 from bootcourse.panels.train_controls import CONTROLLED, numbers_for, whole_number, without
 from bootcourse.record.demonstrations import bootstrap_with
@@ -62,20 +62,20 @@ class TrainPanel(Panel):
             [chooser, *self.numbers.values(), self.seeds, self.episodes],
             layout={"grid_template_columns": "repeat(auto-fit, minmax(420px, 1fr))", "grid_gap": "2px 24px"},
         )
-        self.train = _button("Train", "play", "Train for real, in the background", "primary")
-        self.stop = _button("Stop", "stop", "Stop, and keep what was learned")
-        self.watch = _button("Watch", "eye", "Replay in 3D how it drives a road that it has never seen")
-        self.save = _button("Save", "save", "Write a run's folder for each agent")
+        self.train = button("Train", "play", "Train for real, in the background", "primary")
+        self.stop = button("Stop", "stop", "Stop, and keep what was learned")
+        self.watch = button("Watch", "eye", "Replay in 3D how it drives a road that it has never seen")
+        self.save = button("Save", "save", "Write a run's folder for each agent")
         self.path = widgets.Text("", placeholder="folder", tooltip="Where Save writes", layout={"width": "320px"})
         buttons = widgets.HBox([self.train, self.stop, self.watch, self.save, self.path])
         self.progress, self.chart, self.stage = widgets.HTML(), widgets.HTML(), widgets.HTML()
         super().__init__("Train while you watch", grid, buttons, self.progress, self.chart, self.stage)
         self.says.layout.min_height = "22px"  # what is said stands above the curves, and moves nothing
         self.children = (*self.children[:4], self.says, *self.children[4:-1])
-        for button, press in (
+        for pressed, press in (
             (self.train, self._train), (self.stop, self._stop), (self.watch, self._watch), (self.save, self._save),
         ):  # fmt: skip
-            button.on_click(lambda _, press=press: self._press(press))
+            pressed.on_click(lambda _, press=press: self._press(press))
         self.method.observe(lambda change: self._choose(), "value")
         self._choose()
         self._show_progress("Ready.", 0.0)
@@ -248,10 +248,6 @@ def _last_return(result: Result, i: int) -> float:
 def _duration(seconds: float) -> str:
     minutes, seconds = divmod(round(seconds), 60)
     return f"{minutes} min {seconds:02} s" if minutes else f"{seconds} s"
-
-
-def _button(label: str, icon: str, help: str, kind: str = "") -> widgets.Button:
-    return widgets.Button(description=label, icon=icon, tooltip=help, button_style=kind, layout={"width": "104px"})
 
 
 def train_panel(

@@ -83,3 +83,14 @@ def band(curves: np.ndarray, seed: int = 0, resamples: int = 1000) -> tuple[np.n
     draws = np.random.default_rng(seed).integers(len(curves), size=(resamples, len(curves)))
     low, high = np.percentile(iqm(curves[draws], axis=1), [2.5, 97.5], axis=0)
     return middle, low, high
+
+
+def rolling_means(values: np.ndarray, window: int, points: int) -> tuple[np.ndarray, np.ndarray]:
+    """Means of the last `window` episodes: (agents, episodes) -> (episode numbers (points,), (agents, points)).
+
+    NaN from an agent's first missing episode on.
+    """
+    episodes = values.shape[1]
+    at = np.unique(np.linspace(min(window, episodes), episodes, points).astype(int))
+    sums = np.cumsum(np.pad(values, ((0, 0), (1, 0))), axis=1)
+    return at, (sums[:, at] - sums[:, np.maximum(at - window, 0)]) / np.minimum(at, window)

@@ -21,7 +21,7 @@ from bootcourse.study.drawing import (
     styles,
     wrapped,
 )
-from bootcourse.study.statistics import band
+from bootcourse.study.statistics import band, rolling_means
 
 WINDOW = 50  # episodes in a rolling mean
 POINTS = 200  # at most so many episodes are drawn
@@ -111,10 +111,7 @@ def _rolled(curves: Mapping, method: str, measure: str, window: int) -> tuple[np
     values = values[np.isfinite(values).any(1)]
     if not values.size:
         raise BootcourseError(f"'{method}' has not finished an episode: let it train longer before you draw it.")
-    episodes = values.shape[1]
-    at = np.unique(np.linspace(min(window, episodes), episodes, POINTS).astype(int))
-    sums = np.cumsum(np.pad(values, ((0, 0), (1, 0))), axis=1)  # NaN from an agent's first missing episode on
-    return at, (sums[:, at] - sums[:, np.maximum(at - window, 0)]) / np.minimum(at, window)
+    return rolling_means(values, window, POINTS)
 
 
 def _draw(ax, rolled: tuple[np.ndarray, np.ndarray], look: Style, order: float) -> float:
