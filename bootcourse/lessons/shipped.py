@@ -7,18 +7,15 @@ from bootcourse.errors import BootcourseError
 from bootcourse.learn.agent import Agent
 from bootcourse.record.rollout import OPTIONAL, Rollout
 from bootcourse.record.runs import Run, find_runs, load_run
-from bootcourse.study.found import in_assets
-from bootcourse.study.results import Results
+from bootcourse.study.results import Results, load_results
 
 
 def shipped_results(scenario: str = "default") -> Results:
     """Every method's agents on a scenario. Raises BootcourseError if that part does not ship."""
-    results = in_assets(FOLDER).results
-    if scenario not in results:
-        raise BootcourseError(
-            f"No results of the scenario '{scenario}' ship: there are {', '.join(results) or 'none'}."
-        )
-    return results[scenario]
+    files = {path.stem.removeprefix("study-"): path for path in sorted(FOLDER.glob("study-*.npz"))}
+    if scenario not in files:
+        raise BootcourseError(f"No results of the scenario '{scenario}' ship: there are {', '.join(files) or 'none'}.")
+    return load_results(files[scenario])
 
 
 def shipped_runs(method: str) -> list[Run]:
