@@ -100,10 +100,20 @@ def judge_answers(exercise: Exercise, answer: Callable, report: guard.Report, ca
     mine, right = pairs[case]
     if exercise.explain and all(like(a, right) and same_shape(a, right) for a in report.answers):
         return wrong(exercise, exercise.explain(cases, [a.data for a in report.answers]))
-    return wrong(exercise, *unknown_mistake(exercise, answer, cases[case], mine, right))
+    if like(mine, right) and same_shape(mine, right) and changes_its_mind(exercise, answer, report, cases):
+        sentence = "Your function answers the same question differently each time: it draws at random, or remembers."
+        return wrong(exercise, sentence, given(exercise, cases[case]))
+    return wrong(exercise, *unknown_mistake(exercise, cases[case], mine, right))
 
 
-def unknown_mistake(exercise: Exercise, answer: Callable, case: tuple, mine: Plain, right: Plain) -> tuple[str, tuple]:
+def changes_its_mind(exercise: Exercise, answer: Callable, report: guard.Report, cases: list[tuple]) -> bool:
+    """Asked everything once more, does it answer differently? (One case alone could agree by chance.)"""
+    again = guard.run(functools.partial(exercise.run, answer), cases, exercise.seconds)
+    pairs = zip(report.answers, again.answers, strict=False)
+    return not all(same(first, second, exercise.tolerance, nan_too=True) for first, second in pairs)
+
+
+def unknown_mistake(exercise: Exercise, case: tuple, mine: Plain, right: Plain) -> tuple[str, tuple]:
     """(sentence, details) about an answer that is wrong in no way that we know by name."""
     if not like(mine, right):
         return f"Your function returns {mine.words}: the exercise asks for {right.words}.", ()
@@ -112,10 +122,6 @@ def unknown_mistake(exercise: Exercise, answer: Callable, case: tuple, mine: Pla
         return shapes, given(exercise, case)
     if has_nan(mine) and not has_nan(right):
         return "Your answer is not a number (NaN) here: look for 0/0, ∞ - ∞ or log 0.", given(exercise, case)
-    again = guard.run(functools.partial(exercise.run, answer), [case], exercise.seconds)
-    if again.answers and not same(again.answers[0], mine, exercise.tolerance, nan_too=True):
-        sentence = "Your function answers the same question differently each time: it draws at random, or remembers."
-        return sentence, given(exercise, case)
     place = first_difference(mine, right, exercise.tolerance)
     at = f" at [{', '.join(map(str, place))}]" if place else ""
     small = max(mine.data.size, right.data.size) <= 36 if place else True
