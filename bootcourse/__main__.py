@@ -101,13 +101,14 @@ def replay(
     export: Path | None = typer.Option(None, help="Write one HTML file that plays anywhere, such as out.html."),
     gif: Path | None = typer.Option(None, help="Write an animation for slides, such as out.gif."),
     png: Path | None = typer.Option(None, help="Write a picture, such as out.png."),
+    text: bool = typer.Option(False, "--text", help="Print each drive in words."),
     port: int = typer.Option(0, min=0, max=65535, help="The server's port; 0: any free one."),
     browser: bool = typer.Option(True, help="Open the browser, or only print the address."),
 ) -> None:
-    """Show drives in 3D in the browser, or write them as a file."""
+    """Show drives in 3D in the browser, or write them as a file, or in words."""
     from bootcourse.replay3d.command import replay_command
 
-    replay_command(files, export, gif, png, port, browser)
+    replay_command(files, export, gif, png, text, port, browser)
 
 
 @app.command()

@@ -118,7 +118,7 @@ def test_the_file_plays_without_a_network_and_every_car_is_where_it_was(whole_ep
 def test_a_recording_plays_inside_a_saved_page_and_marks_the_accident(crash, tmp_path):
     shown = recording(crash)
     bundle = shown._repr_mimebundle_()["text/html"]
-    assert "data:image/png;base64," in bundle and "<iframe srcdoc=" in bundle
+    assert "data:image/png;base64," in bundle and "<iframe title=" in bundle and "<summary>In words</summary>" in bundle
     page_path = tmp_path / "notebook.html"
     page_path.write_text(f"<!doctype html><meta charset=utf-8><body>{bundle}</body>")
     with open_browser(width=900, offline=True) as new_page:

@@ -10,8 +10,7 @@ from gymnasium.vector import AutoresetMode
 from bootcourse.drivers import Choice
 from bootcourse.errors import BootcourseError
 from bootcourse.record.drive import Tape, driven
-from bootcourse.record.rollout import Rollout
-from bootcourse.road.state import HEADING
+from bootcourse.record.rollout import Rollout, between
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.rule import rule
 from bootcourse.scenario import ACTION_NAMES, DEFAULT, N_ACTIONS, Scenario
@@ -70,18 +69,3 @@ class ByHand:
         if not self.tape.actions:
             raise BootcourseError("Nothing was driven yet: make a decision first.")
         return self.tape.rollout(self.scenario, self.label, self.seed, self.accident)
-
-
-def between(states, step: float) -> np.ndarray:
-    """The state at a step that need not be whole, between its two neighbours; beyond the ends, the ends.
-
-    states: (S + 1, vehicles, 10), or a list of (vehicles, 10).
-    """
-    step = min(max(step, 0.0), len(states) - 1)
-    before = int(step)
-    after = min(before + 1, len(states) - 1)
-    here = np.asarray(states[before])
-    moved = here + (step - before) * (np.asarray(states[after]) - here)
-    turn = states[after][:, HEADING] - here[:, HEADING]
-    moved[:, HEADING] = here[:, HEADING] + (step - before) * ((turn + np.pi) % (2 * np.pi) - np.pi)
-    return moved

@@ -8,7 +8,7 @@ import numpy as np
 
 from bootcourse.errors import BootcourseError
 from bootcourse.record.files import read_arrays, write_arrays
-from bootcourse.road.state import COLUMNS, EGO, TRAP_1, Accident, X
+from bootcourse.road.state import COLUMNS, EGO, HEADING, TRAP_1, Accident, X
 from bootcourse.scenario import N_ACTIONS, Scenario
 
 FORMAT = "bootcourse rollout 1"
@@ -134,6 +134,21 @@ class Rollout:
             raise BootcourseError(f"{path} is incomplete ({error}): record it again.") from None
         except BootcourseError as error:
             raise BootcourseError(f"{path}: {error}") from None
+
+
+def between(states, step: float) -> np.ndarray:
+    """The state at a step that need not be whole, between its two neighbours; beyond the ends, the ends.
+
+    states: (S + 1, vehicles, 10), or a list of (vehicles, 10).
+    """
+    step = min(max(step, 0.0), len(states) - 1)
+    before = int(step)
+    after = min(before + 1, len(states) - 1)
+    here = np.asarray(states[before])
+    moved = here + (step - before) * (np.asarray(states[after]) - here)
+    turn = states[after][:, HEADING] - here[:, HEADING]
+    moved[:, HEADING] = here[:, HEADING] + (step - before) * ((turn + np.pi) % (2 * np.pi) - np.pi)
+    return moved
 
 
 def _check(holds: bool, sentence: str) -> None:

@@ -1,4 +1,4 @@
-"""`bootcourse replay FILE…`: open recorded drives in the browser, or write them as a file."""
+"""`bootcourse replay FILE…`: open recorded drives in the browser, write them as a file, or tell them in words."""
 
 import contextlib
 import threading
@@ -11,6 +11,7 @@ def replay_command(
     export: Path | None = None,
     gif: Path | None = None,
     png: Path | None = None,
+    text: bool = False,
     port: int = 0,
     browser: bool = True,
 ) -> None:
@@ -21,8 +22,12 @@ def replay_command(
     from bootcourse.record.rollout import Rollout
 
     rollouts = [Rollout.load(Path(file)) for file in files]
-    if export or gif or png:
+    if export or gif or png or text:
         _write(rollouts, export, gif, png)
+        if text:
+            from bootcourse.study.transcript import in_words
+
+            print(in_words(rollouts))
         return
     from bootcourse.replay3d.viewer import replay
 

@@ -21,6 +21,7 @@ from bootcourse.replay3d.stage import Options, Stage
 from bootcourse.replay3d.timeline import Timeline
 from bootcourse.study.drawing import name, sentence
 from bootcourse.study.top_view import outcome
+from bootcourse.study.transcript import in_words
 
 RATES = (30, 20, 15, 10)  # frames a second: the first that fits the budget is taken
 CAR_FRAMES = 90_000  # cars x frames: ten cars for 150 s at 30 Hz make half of it, and 1.4 MB
@@ -143,25 +144,31 @@ def export(rollouts, path: Path, options: Options | None = None) -> Path:
 class Recording:
     """A replay that lives in the notebook itself: it plays without a kernel, in a saved notebook and in a book.
 
-    Where a notebook is not trusted, its scripts are taken out and the picture stays.
+    Where a notebook is not trusted, its scripts are taken out and the picture stays. Below it, for those
+    who do not see it, the drives stand in words.
     """
 
-    def __init__(self, html: str, poster: bytes, height: int, alt: str):
-        self.html, self.poster, self.height, self.alt = html, poster, height, alt
+    def __init__(self, html: str, poster: bytes, height: int, alt: str, words: str = ""):
+        self.html, self.poster, self.height, self.alt, self.words = html, poster, height, alt, words
 
     def save(self, path: Path) -> Path:
         write_bytes(path, self.html.encode())
         return Path(path)
 
-    def _repr_mimebundle_(self, include=None, exclude=None) -> dict:
+    def html_with_poster(self) -> str:
+        """The recording over its own picture, as a piece of a page."""
         picture = f"data:image/png;base64,{base64.b64encode(self.poster).decode()}"
-        text = (
+        return (
             f'<div style="position:relative;height:{self.height}px;overflow:hidden">'
             f'<img src="{picture}" alt="{escape(self.alt)}" style="width:100%;height:100%;object-fit:cover">'
-            f'<iframe srcdoc="{escape(self.html)}" style="position:absolute;inset:0;width:100%;height:100%;border:0">'
-            "</iframe></div>"
+            f'<iframe title="Replay in 3D" srcdoc="{escape(self.html)}" '
+            'style="position:absolute;inset:0;width:100%;height:100%;border:0"></iframe></div>'
         )
-        return {"text/html": text, "text/plain": self.alt}
+
+    def _repr_mimebundle_(self, include=None, exclude=None) -> dict:
+        words = f'<pre style="white-space:pre-wrap">{escape(self.words)}</pre>'
+        told = f"<details><summary>In words</summary>{words}</details>" if self.words else ""
+        return {"text/html": self.html_with_poster() + told, "text/plain": self.alt}
 
 
 def recording(
@@ -170,7 +177,8 @@ def recording(
     """The same as `replay`, as a recording that stays in the saved notebook (about 1.5 MB per drive)."""
     options = Options(layout=layout, follow=follow, dark=dark, rule=rule)
     poster = png_bytes(rollouts, options=options, size=(960, 540))
-    return Recording(to_html(rollouts, options), poster, height, alt(rollouts))
+    drives = [timeline.rollout for timeline in scene.timelines_of(rollouts)]
+    return Recording(to_html(rollouts, options), poster, height, alt(rollouts), in_words(drives))
 
 
 def alt(rollouts) -> str:

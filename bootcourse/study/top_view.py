@@ -14,7 +14,7 @@ from matplotlib.transforms import Affine2D
 
 from bootcourse.colours import ALARM, TRAFFIC, TRAP, style
 from bootcourse.errors import BootcourseError
-from bootcourse.record.rollout import Rollout
+from bootcourse.record.rollout import Rollout, between
 from bootcourse.road.state import EGO, HEADING, LANE, SPEED, TRAP_1, TRAP_2, Accident, X, Y
 from bootcourse.scenario import Scenario
 from bootcourse.study.drawing import INK, QUIET, SMALL, TEXT, WIDTH, finish, name, new_figure, sentence
@@ -29,17 +29,14 @@ ACCIDENTS = {Accident.COLLISION: "collision", Accident.ROAD_DEPARTURE: "off the 
 
 
 def cars_at(rollout: Rollout, time: float) -> np.ndarray:
-    """Every car's state at a time (s), linear between two simulation steps: (vehicles, 10).
+    """Every car's state at a time (s), between two simulation steps if it is: (vehicles, 10).
 
     Raises BootcourseError for a time at which this drive was not on the road.
     """
     end = rollout.times[-1]
     if not 0 <= time <= end + 1e-9:
         raise BootcourseError(f"time = {time} s: this drive lasts {end:g} s, choose a time from 0 to {end:g}.")
-    step = min(time / rollout.scenario.clock.dt, len(rollout.states) - 1)
-    before = int(step)
-    after = min(before + 1, len(rollout.states) - 1)
-    return rollout.states[before] + (step - before) * (rollout.states[after] - rollout.states[before])
+    return between(rollout.states, time / rollout.scenario.clock.dt)
 
 
 def overtaken(rollout: Rollout) -> float | None:

@@ -1,0 +1,74 @@
+"""A drive in words says what the drive does."""
+
+import re
+from dataclasses import replace
+
+import pytest
+
+from bootcourse.assets import FOLDER
+from bootcourse.record.rollout import Rollout
+from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, X
+from bootcourse.study.top_view import overtaken
+from bootcourse.study.transcript import in_words, transcript
+
+SHIPPED = sorted((FOLDER / "rollouts").glob("*.npz"))
+
+
+def moments(told: list[str]) -> list[float]:
+    return [float(re.match(r"t = ([\d.]+) s:", line)[1]) for line in told[:-1]]
+
+
+def test_the_escape_is_told_in_its_order(escape):
+    told = transcript(escape)
+    assert moments(told) == sorted(set(moments(told)))
+    steps = ["falls back", "changes lane, left", "catches up", "ahead of trap 1", "the time is up"]
+    places = [next(i for i, line in enumerate(told) if step in line) for step in steps]
+    assert places == sorted(places)
+    assert told[-1].startswith(f"In the end: ahead of trap 1 after {overtaken(escape):g} s.")
+
+
+def test_every_number_is_the_drive_s_own(escape):
+    for line, time in zip(transcript(escape), moments(transcript(escape)), strict=False):
+        state = escape.states[round(time / escape.scenario.clock.dt)]
+        assert f" {state[EGO, SPEED]:.1f} m/s" in line
+        gap = state[TRAP_1, X] - state[EGO, X]
+        if abs(gap) > 6:
+            assert f"{abs(gap):.0f} m {'behind' if gap > 0 else 'ahead of'} trap 1" in line
+
+
+def test_every_lane_that_the_car_reaches_is_told(escape):
+    lanes = {0: "left lane", 1: "middle lane", 2: "right lane"}
+    reached = {lanes[int(lane)] for lane in escape.states[:, EGO, LANE]}
+    assert len(reached) > 1 and all(any(lane in line for line in transcript(escape)) for lane in reached)
+
+
+def test_a_collision_names_the_other_car(crash):
+    assert f"t = {crash.times[-1]:g} s: collision with trap 1, the drive is over." in transcript(crash)[-2]
+
+
+def test_doing_nothing_is_told_in_a_few_lines(idle):
+    told = transcript(idle)
+    assert len(told) < 12 and "still behind trap 1 after 150 s" in told[-1] and "Return 23.4 over 1500 m" in told[-1]
+
+
+def test_a_shorter_drive_is_told_as_far_as_it_goes(escape):
+    each = (
+        "actions",
+        "rewards",
+        "terms",
+        "rule_actions",
+        "rule_speeds",
+        "rule_lanes",
+        "rule_distances",
+        "rule_reasons",
+    )
+    cut = {name: getattr(escape, name)[:3] for name in each if getattr(escape, name) is not None}
+    short = replace(escape, states=escape.states[:7], observations=escape.observations[:4], **cut)
+    assert moments(transcript(short))[-1] == 3.0
+
+
+@pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
+def test_every_drive_that_ships_has_its_words(path):
+    drive = Rollout.load(path)
+    words = in_words([drive])
+    assert f"road {drive.seed}" in words and 5 < len(words.splitlines()) < 40
