@@ -44,7 +44,7 @@ SENTENCES = {
 
 @compiled
 def target_speed(v_current, v_target, v_min, v_max, n):
-    """v_target: the fastest of n grid speeds that is slower than both preceding cars (m/s).
+    """v_target (Equation 13): the fastest of n grid speeds that is slower than both preceding cars (m/s).
 
     Infinity stands for no car. Where even the slowest grid speed is too fast, v_min (erratum: the
     paper leaves this open).
@@ -59,7 +59,7 @@ def target_speed(v_current, v_target, v_min, v_max, n):
 
 @compiled
 def safety_distance(v_ego, v_current, v_target, t_safe, floor):
-    """The bumper-to-bumper gap (m) to the new preceding car that a lane change needs.
+    """d_s (Equation 14): the bumper-to-bumper gap (m) to the new preceding car that a lane change needs.
 
     (v_e - min(v_current, v_target)) t_safe, and never less than `floor`. (Erratum: the printed d_s
     adds Δx_current - Δx_target, and the printed test d_s - Δx_current > 0 then says "change when
@@ -109,7 +109,7 @@ def _track(cars, speed, lane, c):
 
     Accelerate or brake when that brings the speed closer. Steer by looking three decisions ahead:
     all 27 sequences of left, straight, right through the bicycle model, the cheapest one's first
-    step. (One decision of full steering at 15 m/s moves the car 1.4 m sideways: the nearest action
+    step. (One decision of full steering at 15 m/s moves the car 1.2 m sideways: the nearest action
     to a smooth controller's wish would leave the road.)
     """
     wish = speed - cars[EGO, SPEED]
@@ -188,7 +188,7 @@ def rule(cars: np.ndarray, scenario: Scenario) -> RuleDecisions:
 
 
 def stochastic_rule(rule_actions: np.ndarray, p: float) -> np.ndarray:
-    """π̃(a|s): p for the rule's own action, (1 - p) / 8 for each other. (…,) int -> (…, 9).
+    """π̃(a|s) (Equation 16): p for the rule's own action, (1 - p) / 8 for each other. (…,) int -> (…, 9).
 
     Raises BootcourseError if p is outside [1/9, 1).
     """

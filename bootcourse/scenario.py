@@ -11,7 +11,7 @@ from dataclasses import asdict, dataclass, field, fields, is_dataclass
 
 from bootcourse.errors import BootcourseError
 
-N_ACTIONS = 9  # 3 accelerations x 3 steering angles †
+N_ACTIONS = 9  # 3 accelerations x 3 steering angles † (Equation 8)
 ACTION_NAMES = tuple(f"{a} {s}" for a in ("brake", "keep", "accelerate") for s in ("left", "straight", "right"))
 IDLE = 4  # "0 m/s², 0 rad"
 
@@ -132,7 +132,7 @@ class Ego:
 
 @dataclass(frozen=True)
 class Traps:
-    """The two slow cars. Trap 1 drives in the ego's lane, trap 2 in the next lane to its left."""
+    """The two slow cars (Table 1). Trap 1 drives in the ego's lane, trap 2 in the next lane to its left."""
 
     speed: float = 10.0  # m/s § the ego's own, so that doing nothing is a fixed point
     d1: tuple = _range(14.80, 16.44)  # m † D1, ego to trap 1, centre to centre ‡
@@ -150,13 +150,13 @@ class Traps:
 
 @dataclass(frozen=True)
 class Traffic:
-    """The cars ahead of trap 1: IDM, MOBIL and a lane-keeping controller that is stable at 2 Hz."""
+    """The cars ahead of trap 1 (Table 2): IDM, MOBIL and a lane-keeping controller that is stable at 2 Hz."""
 
     cars: int = 6  # §
     lead: float = 40.0  # m § trap 1 to the first car; at 20 m the first jam backs up into the traps
-    headway: float = 40.0  # m § mean distance between one car and the next; at 20 m they brake to a stop
+    headway: float = 40.0  # m § mean distance between one car and the next; at 20 m the jam reaches the traps
     spacing: tuple = _range(0.5, 1.5)  # § each distance is headway x U[spacing]
-    speed: tuple = _range(11.0, 12.5)  # m/s † at the start
+    speed: tuple = _range(11.0, 12.5)  # m/s § at the start
     desired_speed: float = 12.5  # m/s † v_desired (the table prints "12.5m")
     a_max: float = 0.5  # m/s² † maximum acceleration
     b: float = 0.5  # m/s² † comfortable deceleration
@@ -181,7 +181,7 @@ class Traffic:
 
 @dataclass(frozen=True)
 class Reward:
-    """Weights of the three terms, and what an accident costs (Section III-C, "Reward")."""
+    """Weights of the three terms (Equation 9), and what an accident costs (Section III-C, "Reward")."""
 
     w_v: float = 1.5  # † speed
     w_y: float = 0.05  # † lane centring

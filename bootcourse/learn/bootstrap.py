@@ -12,14 +12,14 @@ from bootcourse.scenario import N_ACTIONS
 
 
 def log_stochastic_rule(rule_actions: Tensor, p: Tensor, actions: int = N_ACTIONS) -> Tensor:
-    """log π̃(a|s): log p for the rule's action, log((1-p)/8) for each other. p (...) -> (..., batch, 9)."""
+    """log π̃(a|s) (Equation 16): log p for the rule's own, log((1-p)/8) for each other. p (...) -> (..., batch, 9)."""
     others = ((1 - p) / (actions - 1)).log()
     is_rule = torch.arange(actions, device=rule_actions.device) == rule_actions.unsqueeze(-1)
     return torch.where(is_rule, p.log()[..., None, None], others[..., None, None])
 
 
 def kl_to_rule(log_pi: Tensor, rule_actions: Tensor, p: Tensor) -> Tensor:
-    """D_KL(π(·|s) ‖ π̃(·|s)) in nats: log_pi (..., batch, 9) -> (..., batch).
+    """D_KL(π(·|s) ‖ π̃(·|s)), the soft constraint of Equation 15, in nats: log_pi (..., batch, 9) -> (..., batch).
 
     It charges the policy for going where the rule would not; the other direction would charge it for
     not going where the rule would.
@@ -33,7 +33,7 @@ def regularised_policy(q: Tensor, log_rule: Tensor, alpha: float, xi: float) -> 
 
 
 def constraint_strength(alpha: Tensor, xi_multiplier: Tensor, xi_fixed: Tensor) -> Tensor:
-    """ξ = 200 α (Section IV-A), or the fixed ξ where that is 0 or more."""
+    """ξ = 200 α (Equation 15, Section IV-A), or the fixed ξ where that is 0 or more."""
     return torch.where(xi_fixed >= 0, xi_fixed, xi_multiplier * alpha)
 
 
@@ -43,19 +43,19 @@ def demonstration_share(episode, beta_start, beta_episodes):
 
 
 def augmented_reward(reward: Tensor, is_demonstration: Tensor, bonus: Tensor) -> Tensor:
-    """r'(s, a_E) = r(s, a_E) + c for a demonstration, r for everything else."""
+    """r'(s, a_E) = r(s, a_E) + c (Equation 20) for a demonstration, r for everything else."""
     return reward + bonus * is_demonstration
 
 
 def large_margin_loss(q: Tensor, expert_actions: Tensor, margin: float = 1.0) -> Tensor:
-    """J_E(Q) = max_a [Q(s,a) + l(a_E,a)] - Q(s,a_E), l = 0 for a_E, else `margin`: (..., batch)."""
+    """J_E(Q) = max_a [Q(s,a) + l(a_E,a)] - Q(s,a_E), l = 0 for a_E, else `margin` (Equations 17, 18): (..., batch)."""
     is_expert = torch.arange(q.shape[-1], device=q.device) == expert_actions.unsqueeze(-1)
     q_expert = q.gather(-1, expert_actions.unsqueeze(-1)).squeeze(-1)
     return (q + margin * (~is_expert)).amax(-1) - q_expert
 
 
 def paper_q_filter(q: Tensor, expert_actions: Tensor) -> Tensor:
-    """The printed Q-filter: on only where the demonstrator's action is greedy already. (..., batch), 0 or 1."""
+    """The printed Q-filter (Equation 19): 1 only where the demonstrator's action is greedy already. (..., batch)."""
     q_expert = q.gather(-1, expert_actions.unsqueeze(-1)).squeeze(-1)
     return (q_expert >= q.amax(-1)).to(q.dtype)
 

@@ -22,7 +22,7 @@ from bootcourse.scenario import N_ACTIONS
 def discriminator_loss(expert_logits: Tensor, own_logits: Tensor) -> Tensor:
     """-E_expert[log D] - E_own[log(1 - D)] with D = σ(logit): logits (..., batch) -> (...).
 
-    D(s,a) is the probability that the demonstrator did a in s; Equation 17 of the paper, whose D is our 1 - D.
+    D(s,a) is the probability that the demonstrator did a in s. Equation 17 of arXiv 1606.03476, whose D is our 1 - D.
     """
     return F.softplus(-expert_logits).mean(-1) + F.softplus(own_logits).mean(-1)
 

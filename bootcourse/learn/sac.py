@@ -19,12 +19,12 @@ def log_policy(logits: Tensor) -> Tensor:
 
 
 def entropy(log_pi: Tensor) -> Tensor:
-    """H(π(·|s)) = -Σ_a π log π, in nats: (..., batch, actions) -> (..., batch)."""
+    """H(π(·|s)) = -Σ_a π log π (in Equations 6 and 21), in nats: (..., batch, actions) -> (..., batch)."""
     return -(log_pi.exp() * log_pi).sum(-1)
 
 
 def soft_value(log_pi: Tensor, q: Tensor, alpha: Tensor, constraint: Tensor | float = 0.0) -> Tensor:
-    """V(s) = Σ_a π(a|s) Q(s,a) + α H(π(·|s)) - constraint(s): (..., batch)."""
+    """V(s) = Σ_a π(a|s) Q(s,a) + α H(π(·|s)) - constraint(s), of Equations 6 and 15: (..., batch)."""
     return (log_pi.exp() * (q - alpha.unsqueeze(-1) * log_pi)).sum(-1) - constraint
 
 

@@ -42,7 +42,7 @@ def power(base, exponent):
 
 @compiled
 def desired_gap(v, dv, s0, time_gap, a_max, b):
-    """s* of the IDM: the gap that a driver wants at speed v, closing in at dv (m/s).
+    """s* of the IDM (Equation 4): the gap that a driver wants at speed v, closing in at dv (m/s).
 
     s* = s0 + T v + v Δv / (2 √(a_max b))
     """
@@ -51,7 +51,7 @@ def desired_gap(v, dv, s0, time_gap, a_max, b):
 
 @compiled
 def idm_acceleration(v, v_desired, gap, s_star, a_max, delta):
-    """The Intelligent Driver Model: acceleration (m/s²) at speed v behind a car `gap` metres ahead.
+    """The Intelligent Driver Model (Equation 3): acceleration (m/s²) at speed v behind a car `gap` metres ahead.
 
     a = a_max [1 - (v / v_desired)^δ - (s* / s)²]. An infinite gap is a free road.
     """
@@ -63,7 +63,7 @@ def idm_acceleration(v, v_desired, gap, s_star, a_max, delta):
 
 @compiled
 def mobil_incentive(own_gain, new_follower_gain, old_follower_gain, politeness):
-    """MOBIL: what a lane change gains for its driver and, at the rate of politeness, for the others.
+    """MOBIL (Equation 5): what a lane change gains for its driver and, at the rate of politeness, for the others.
 
     Δa_ego + p (Δa_rear + Δa_front); the change is worth it from a_threshold on.
     """
@@ -149,7 +149,7 @@ def overlap(x_a, y_a, heading_a, x_b, y_b, heading_b, length, width):
 
 @compiled
 def speed_reward(v_lon):
-    """r_v of the paper: 0 up to 5 m/s, gently up to 12.5, steeply up to 1 at 15, gone above."""
+    """r_v (Equation 10): 0 up to 5 m/s, gently up to 12.5, steeply up to 1 at 15, gone above."""
     if v_lon > 15:
         return math.exp(-((v_lon - 15) ** 2))
     if v_lon > 12.5:
@@ -161,17 +161,17 @@ def speed_reward(v_lon):
 
 @compiled
 def centring_reward(offset):
-    """r_y = exp(-1.5 d_e²), d_e in metres from the lane's centre."""
+    """r_y (Equation 11) = exp(-1.5 d_e²), d_e in metres from the lane's centre."""
     return math.exp(-1.5 * offset**2)
 
 
 @compiled
 def steering_reward(theta):
-    """r_θ = -|sin θ|, θ in radians."""
+    """r_θ (Equation 12) = -|sin θ|, θ in radians."""
     return -abs(math.sin(theta))
 
 
 @compiled
 def weighted_reward(r_v, r_y, r_theta, w_v, w_y, w_theta):
-    """The paper's reward without an accident: the weighted mean of its three terms."""
+    """The paper's reward without an accident (Equation 9): the weighted mean of its three terms."""
     return (w_v * r_v + w_y * r_y + w_theta * r_theta) / (w_v + w_y + w_theta)

@@ -55,7 +55,7 @@ def bounds(scenario: Scenario) -> tuple[np.ndarray, np.ndarray]:
 
 @compiled
 def observe(cars, c, out):
-    """Write the observation of one road, cars (vehicles, 10), into out (observation_size,)."""
+    """Write the observation of one road (Equation 7), cars (vehicles, 10), into out (observation_size,)."""
     x, y = cars[EGO, X], cars[EGO, Y]
     v_lon, v_lat = cars[EGO, SPEED] * math.cos(cars[EGO, HEADING]), cars[EGO, SPEED] * math.sin(cars[EGO, HEADING])
     out[0] = 1.0

@@ -105,7 +105,7 @@ def following_acceleration(cars, directions, i, front, c):
 
 @compiled
 def worth_changing(cars, around, directions, i, lane, own_now, old_follower_gain, c):
-    """MOBIL: is the change of car i into `lane` safe for its new follower, and worth it?
+    """MOBIL (Equation 5): is the change of car i into `lane` safe for its new follower, and worth it?
 
     own_now: its present IDM acceleration; old_follower_gain: what the car behind it would gain (m/s²).
     """

@@ -88,7 +88,9 @@ class TrafficCar(_CollidesByOverlap, IDMVehicle):
 
 
 class TrapEnv(AbstractEnv):
-    """Observation (26,) float32, nine actions, 150 decisions; see `bootcourse.scenario` for every number.
+    """The decision process (Equation 1): observation (26,) float32, nine actions, 150 decisions.
+
+    See `bootcourse.scenario` for every number.
 
     info holds "rewards" (the terms r_v, r_y, r_theta), "accident" (an `Accident`), "is_success",
     "distance" (m) and "speed" (m/s). `cars()` returns the state in the compiled road's form.

@@ -130,7 +130,7 @@ def ego_accident(cars, c):
 
 @compiled
 def command(cars, action, c):
-    """Give the ego one of the nine actions: 3 x (brake, keep, accelerate) + (left, straight, right)."""
+    """Give the ego one of the nine actions (Equation 8): 3 x (brake, keep, accelerate) + (left, straight, right)."""
     cars[EGO, ACCELERATION] = (action // 3 - 1) * c.ego_acceleration
     cars[EGO, STEERING] = (action % 3 - 1) * c.ego_steering
 

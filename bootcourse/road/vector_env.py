@@ -15,7 +15,7 @@ from bootcourse.scenario import DEFAULT, N_ACTIONS, Scenario
 
 
 class TrapVectorEnv(VectorEnv):
-    """`num_envs` roads that decide together.
+    """`num_envs` roads (Equation 1) that decide together.
 
     observation (num_envs, 26) float32; action (num_envs,) in 0..8; reward (num_envs,) float64.
     Road i, reset with `seed`, drives exactly what `TrapEnv` reset with `seed + i` drives.

@@ -1,4 +1,4 @@
-"""The paper's two result tables (its Section V), and what its own numbers say about each other."""
+"""The paper's two result tables (Tables 4 and 5, Section V), and what its own numbers say about each other."""
 
 import math
 from typing import NamedTuple

@@ -211,7 +211,7 @@ def is_staying_optimal(
 
 
 def discounted_values(driver: Driver, seeds: Sequence[int], scenario: Scenario, gamma: float) -> np.ndarray:
-    """Σ γ^t r_t of a whole episode on the road of each seed, (roads,)."""
+    """Σ γ^t r_t (Equation 2) of a whole episode on the road of each seed, (roads,)."""
     env = TrapVectorEnv(len(seeds), scenario, AutoresetMode.DISABLED)
     observations, _ = env.reset(seed=list(seeds))
     values, t = np.zeros(len(seeds)), 0

@@ -132,7 +132,7 @@ def escaped(results: Results, method: str) -> str:
 
 
 def margin_against_bonus(results: Results, rule: Results | None = None) -> Figure:
-    """The paper's first training figure: demonstrations by a bonus, or by a large margin."""
+    """The paper's first training figure (Figure 4): demonstrations by a bonus, or by a large margin."""
     title = (
         f"Agents that escape: {escaped(results, 'demos')} with the bonus, {escaped(results, 'margin')} with the margin"
     )
@@ -140,7 +140,7 @@ def margin_against_bonus(results: Results, rule: Results | None = None) -> Figur
 
 
 def ablation(results: Results, rule: Results | None = None) -> Figure:
-    """The paper's second training figure: each ingredient alone, and both."""
+    """The paper's second training figure (Figure 5): each ingredient alone, and both."""
     methods = ("sac", "soft", "demos", "bootstrapped")
     short = {"sac": "plain", "soft": "soft constraint", "demos": "demonstrations", "bootstrapped": "both"}
     title = "Agents that escape: " + ", ".join(f"{escaped(results, method)} {short[method]}" for method in methods)
@@ -148,7 +148,7 @@ def ablation(results: Results, rule: Results | None = None) -> Figure:
 
 
 def baselines(results: Results, rule: Results | None = None) -> Figure:
-    """The paper's third training figure: the method against others."""
+    """The paper's third training figure (Figure 6): the method against others."""
     methods = ("bc", "cql", "gail", "sac", "bootstrapped")
     short = {"bc": "BC", "cql": "CQL", "gail": "GAIL", "sac": "SAC", "bootstrapped": "bootstrapped"}
     title = "Agents that escape: " + ", ".join(f"{escaped(results, method)} {short[method]}" for method in methods)
@@ -156,7 +156,7 @@ def baselines(results: Results, rule: Results | None = None) -> Figure:
 
 
 def exploration(results: Results, methods: Sequence[str] = ("sac", "soft", "demos", "bootstrapped")) -> Figure:
-    """The paper's entropy figure: policy entropy, and e to the power of it, the effective number of actions."""
+    """The paper's Figure 7: entropy (Equation 21), and e to the power of it, the effective number of actions (22)."""
     entropy = results.curves["entropy"].astype(np.float64)
     both = Results(results.agents, results.stopped, results.tested, {"entropy": entropy, "effective": np.exp(entropy)})
     panels = (Panel("entropy", "policy entropy, nats"), Panel("effective", "effective number of actions"))
