@@ -68,55 +68,60 @@ def reward_before_action(observations, actions, rewards, accident):
     return rows(observations, rewards, actions, [0] * (len(actions) - 1) + [accident > 0])
 
 
-@right("discounted_return")
+@right("return_to_go")
+def as_a_table(rewards, gamma):
+    t = np.arange(len(rewards))
+    later = t[None, :] - t[:, None]
+    return np.where(later >= 0, gamma ** np.maximum(later, 0), 0.0) @ rewards
+
+
+@right("return_to_go")
 def from_the_end(rewards, gamma):
-    total = 0.0
+    total, found = 0.0, []
     for reward in rewards[::-1]:
         total = reward + gamma * total
-    return total
+        found.append(total)
+    return np.array(found[::-1])
 
 
-@right("discounted_return")
-def with_enumerate(rewards, gamma):
-    return sum(gamma**t * reward for t, reward in enumerate(rewards))
+@wrong("return_to_go", "without a discount")
+def all_that_comes(rewards, gamma):
+    return np.array([rewards[t:].sum() for t in range(len(rewards))])
 
 
-@wrong("discounted_return", "discount the first reward")
-def from_one(rewards, gamma):
-    return sum(gamma ** (t + 1) * reward for t, reward in enumerate(rewards))
+@wrong("return_to_go", "clock of its own")
+def by_the_drive_s_clock(rewards, gamma):
+    return np.array([sum(gamma**k * rewards[k] for k in range(t, len(rewards))) for t in range(len(rewards))])
 
 
-@wrong("discounted_return", "without a discount")
-def a_sum(rewards, gamma):
-    return rewards.sum()
+@wrong("return_to_go", "so far")
+def up_to_now(rewards, gamma):
+    return np.array([sum(gamma**k * rewards[k] for k in range(t + 1)) for t in range(len(rewards))])
 
 
-@wrong("discounted_return", "*early*")
+@wrong("return_to_go", "forwards in time")
 def turned(rewards, gamma):
-    total = 0.0
+    total, found = 0.0, []
     for reward in rewards:
         total = reward + gamma * total
-    return total
+        found.append(total)
+    return np.array(found)
 
 
-@wrong("discounted_return", "once")
-def a_rebate(rewards, gamma):
-    return gamma * rewards.sum()
+@wrong("return_to_go", "next *value*")
+def the_next_second(rewards, gamma):
+    rest = np.append(rewards[1:], 0.0)
+    return rewards + gamma * rest
 
 
-@wrong("discounted_return", "mean")
-def a_mean(rewards, gamma):
-    return from_the_end(rewards, gamma) / len(rewards)
+@wrong("return_to_go", "shape")
+def of_the_first_second(rewards, gamma):
+    return from_the_end(rewards, gamma)[:1]
 
 
-@wrong("discounted_return", "returns a NumPy array")
-def not_summed(rewards, gamma):
-    return gamma ** np.arange(len(rewards)) * rewards
-
-
-@wrong("discounted_return")
-def linear(rewards, gamma):
-    return sum(reward * max(0.0, 1 - (1 - gamma) * t) for t, reward in enumerate(rewards))
+@wrong("return_to_go")
+def left_in_reverse(rewards, gamma):
+    return from_the_end(rewards, gamma)[::-1]
 
 
 @right("agreement")

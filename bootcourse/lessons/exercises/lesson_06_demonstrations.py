@@ -91,11 +91,38 @@ transitions = Exercise(
 # Returns ----------------------------------------------------------------------------------------------
 
 
-def discounted_solution(rewards, gamma):
-    return np.sum(gamma ** np.arange(len(rewards)) * rewards)
+def return_to_go_solution(rewards, gamma):
+    togo = np.array(rewards, dtype=float)
+    for t in range(len(togo) - 2, -1, -1):
+        togo[t] += gamma * togo[t + 1]
+    return togo
 
 
-def discounted_cases(rng):
+def so_far(rewards, gamma):
+    """What was earned up to each second, discounted from the start."""
+    return np.cumsum(gamma ** np.arange(len(rewards)) * rewards)
+
+
+def from_the_start(rewards, gamma):
+    """What is still to come, but discounted from the start of the drive."""
+    return np.cumsum((gamma ** np.arange(len(rewards)) * rewards)[::-1])[::-1]
+
+
+def forwards(rewards, gamma):
+    """The recursion in the wrong direction of time."""
+    togo = np.array(rewards, dtype=float)
+    for t in range(1, len(togo)):
+        togo[t] += gamma * togo[t - 1]
+    return togo
+
+
+def one_step(rewards, gamma):
+    """The next reward instead of the next value."""
+    rewards = np.array(rewards, dtype=float)
+    return rewards + gamma * np.append(rewards[1:], 0.0)
+
+
+def reward_cases(rng):
     """γ of 0 and of 1, one reward, a late reward; then 40 at random."""
     yield np.array([1.0, 2.0, 3.0]), 0.0
     yield np.array([1.0, 2.0, 3.0]), 1.0
@@ -105,49 +132,49 @@ def discounted_cases(rng):
         yield rng.normal(size=int(rng.integers(2, 20))), float(rng.uniform(0.3, 0.99))
 
 
-discounted_return = Exercise(
-    call="discounted_return(rewards, gamma)",
-    solution=discounted_solution,
+return_to_go = Exercise(
+    call="return_to_go(rewards, gamma)",
+    solution=return_to_go_solution,
     worked=(
-        ((np.array([1.0, 1.0, 1.0]), 0.5), 1.75),  # 1 + 0.5 + 0.25
-        ((np.array([0.0, 0.0, 10.0]), 0.8), 6.4),
+        ((np.array([1.0, 1.0, 1.0]), 0.5), np.array([1.75, 1.5, 1.0])),
+        ((np.array([0.0, 0.0, 10.0]), 0.8), np.array([6.4, 8.0, 10.0])),
     ),
-    cases=discounted_cases,
+    cases=reward_cases,
     mistakes=(
         Mistake(
-            answer=lambda rewards, gamma: np.sum(gamma ** np.arange(1, len(rewards) + 1) * rewards),
-            says="You discount the first reward, too. It comes now: its weight is γ to the power 0.",
-            belief="Counting begins at 1.",
-        ),
-        Mistake(
-            answer=lambda rewards, gamma: np.sum(rewards),
-            says="This is the return without a discount: a reward t seconds later counts γ^t.",
+            answer=lambda rewards, gamma: return_to_go_solution(rewards, 1.0),
+            says="This is what is still to come without a discount: γ times the next second's value, not the value.",
             belief="Return and discounted return are the same.",
         ),
         Mistake(
-            answer=lambda rewards, gamma: np.sum(gamma ** np.arange(len(rewards))[::-1] * rewards),
-            says="You discount the *early* rewards. What comes first counts most.",
-            belief="The loop ran backwards, and the powers with it.",
+            answer=from_the_start,
+            says="You discount from the start of the drive. Each second has a clock of its own: its reward is whole.",
+            belief="The discount belongs to the drive, not to the moment that asks.",
         ),
         Mistake(
-            answer=lambda rewards, gamma: gamma * np.sum(rewards),
-            says="You multiply everything by γ once: the power grows with every second of waiting.",
-            belief="A discount is a fixed rebate.",
+            answer=so_far,
+            says="This is what was earned *so far*. A value looks ahead: what comes from this second on.",
+            belief="A cumulative sum is a cumulative sum.",
         ),
         Mistake(
-            answer=lambda rewards, gamma: np.mean(gamma ** np.arange(len(rewards)) * rewards),
-            says="You took the mean: a return is a sum.",
-            belief="Averages are easier to compare.",
+            answer=forwards,
+            says="You go forwards in time, so that each second counts what lies behind it. Begin at the last second.",
+            belief="A loop over time begins at 0.",
+        ),
+        Mistake(
+            answer=one_step,
+            says="You add γ times the next *reward*. It is γ times the next *value*, which holds all that follows.",
+            belief="The future is the next second.",
         ),
     ),
     hints=(
-        "The reward after t seconds counts γ to the power t.",
-        "`gamma ** np.arange(len(rewards))` are the weights.",
-        "`np.sum(gamma ** np.arange(len(rewards)) * rewards)`",
+        "The last second's value is its reward. The one before it is its reward plus γ times that.",
+        "Copy the rewards into an array, and go from the last but one to the first: `range(len(togo) - 2, -1, -1)`.",
+        "`togo[t] += gamma * togo[t + 1]`",
     ),
-    minutes=4,
+    minutes=5,
     difficulty=1,
-    equation="Σ γ^t r_t, Section III",
+    equation="G_t = r_t + γ G_{t+1}: what Q(s, a) of Section III stands for",
 )
 
 # Imitation --------------------------------------------------------------------------------------------
