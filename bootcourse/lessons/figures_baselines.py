@@ -1,0 +1,84 @@
+"""The lesson on the baselines: what critics believe, when pupils first escape, who stays on the road."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from bootcourse.learn.agent import Agent
+from bootcourse.learn.learner import Learner
+from bootcourse.lessons.charts import lines
+from bootcourse.record.rollout import Rollout
+from bootcourse.study.results import Results
+
+WINDOW = 50  # training episodes that a success rate is taken over
+SHORT = {"bc": "BC", "cql": "CQL", "gail": "GAIL"}
+
+
+def agents_of(learner: Learner) -> list[Agent]:
+    """The agents of a learner as they are now; they do not change when it learns on."""
+    found, n = [], learner.agents
+    for i, settings in enumerate(learner.settings):
+        actor = [parameter.detach()[i : i + 1].clone() for parameter in learner.actor]
+        critics = [parameter.detach()[[i, n + i]].clone() for parameter in learner.critics]
+        found.append(Agent(settings, actor, critics, float(learner.log_alpha[i].detach().exp())))
+    return found
+
+
+def believed(agents: Sequence[Agent], observations: np.ndarray, actions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Mean Q of the given action, and of the best other one: (batch, 26) and (batch,) -> twice (agents,)."""
+    q = np.stack([agent.q_values(observations) for agent in agents])
+    places = np.broadcast_to(actions[:, None], (*q.shape[:2], 1))
+    given = np.take_along_axis(q, places, 2).mean((1, 2))
+    np.put_along_axis(q, places, -np.inf, 2)
+    return given, q.max(2).mean(1)
+
+
+def as_the_rule_would(drives: Sequence[Rollout]) -> tuple[float, float, float]:
+    """The share of the decisions in which these drives do what the rule would do there.
+
+    Overall; where the rule would brake, how often they brake, too; where it would accelerate, how often they do.
+    """
+    done = np.concatenate([drive.actions for drive in drives])
+    rule = np.concatenate([drive.rule_actions for drive in drives])
+    brakes, accelerates = (float(np.mean((done // 3 == kind)[rule // 3 == kind])) for kind in (0, 2))
+    return float(np.mean(done == rule)), brakes, accelerates
+
+
+def updates_made(results: Results) -> np.ndarray:
+    """Updates, to within a few, that each agent had made when each training episode ended: (agents, episodes)."""
+    seconds = results.curves["distance"].astype(np.float64) / np.maximum(results.curves["speed"], 0.1)
+    each = [agent["updates"] / agent["roads"] for agent in results.agents]  # for each decision, of 1 s
+    return np.cumsum(seconds, axis=1) * np.array(each)[:, None]
+
+
+def half_escape(success: np.ndarray) -> np.ndarray:
+    """The first episode, counted from 1, at which half of the last `WINDOW` succeeded; 0 if there is none.
+
+    success (agents, episodes) -> (agents,).
+    """
+    sums = np.cumsum(np.pad(success.astype(np.float64), ((0, 0), (1, 0))), axis=1)
+    reached = sums[:, WINDOW:] - sums[:, :-WINDOW] >= WINDOW / 2
+    return np.where(reached.any(axis=1), reached.argmax(axis=1) + WINDOW, 0)
+
+
+def success_around(success: np.ndarray, updates: np.ndarray, budget: float) -> np.ndarray:
+    """Share of successes among the `WINDOW` episodes around an update: (agents, episodes) twice -> (agents,)."""
+    places = [np.searchsorted(own, budget) for own in updates]
+    half = WINDOW // 2
+    return np.array([own[max(0, i - half) : i + half].mean() for own, i in zip(success, places, strict=True)])
+
+
+def still_going(results: Results, methods: Sequence[str] = ("bc", "cql", "gail"), single: str = "gail") -> Figure:
+    """The share of test drives that have not ended, over time: a mean for each method, every agent of one."""
+    longest = round(float((results.tested["distance"] / results.tested["speed"]).max()))
+    seconds, named, ended = np.arange(longest + 1), {}, []
+    for method in methods:
+        tested, label = results.of(method).tested, SHORT.get(method, method)
+        going = 100 * ((tested["distance"] / tested["speed"])[..., None] >= seconds - 0.25).mean(axis=1)
+        named[f"{label}: each agent" if method == single else f"{label}: all"] = (
+            going if method == single else going.mean(axis=0)
+        )
+        ended.append(f"{100 - going[:, -1].mean():.1f} % of {label}'s")
+    title = f"Drives that end before their time: {', '.join(ended)}"
+    return lines(seconds, named, title, "second of the drive", "test drives that still go on, %")
