@@ -126,6 +126,12 @@ def _finished(training: Drawn) -> int:
     return int(np.isfinite(np.atleast_2d(training.curves["return"])).sum(axis=1).max(initial=0))
 
 
+EMPTY = (
+    "Training curves, still empty: after Train, success, return, speed, distance and what steers the learner "
+    "grow here by episode."
+)
+
+
 def alt_text(trainings: Sequence[Drawn]) -> str:
     """What a reader who sees nothing should know."""
     told = []
@@ -137,4 +143,4 @@ def alt_text(trainings: Sequence[Drawn]) -> str:
                 f"{each.label}, after {count} episodes: success {100 * last['success']:.0f} %, "
                 f"return {last['return']:.1f}."
             )
-    return " ".join(["Training curves.", *told]) if told else "Training curves, still empty."
+    return " ".join(["Training curves.", *told]) if told else EMPTY

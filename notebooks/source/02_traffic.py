@@ -29,6 +29,7 @@ import numpy as np
 from bootcourse.drivers import idle_driver
 from bootcourse.lessons import check, source
 from bootcourse.lessons.figures_traffic import changing, following, space_time, swinging
+from bootcourse.panels import scenario_panel
 from bootcourse.record.drive import record
 from bootcourse.road import formulas
 from bootcourse.road.state import CRASHED, SPEED, TARGET_LANE, TRAFFIC, Y
@@ -76,9 +77,10 @@ show(space_time(rings, dt=0.5, title=title))
 # Keep your answer. Round 2 comes back to it.
 
 # %% [markdown] tags=["instructor"] minutes=6
-# Let them find the band's speed: it falls by about 600 m in 330 s. The band is a place where
-# cars stop, not a group of cars: cars leave it at its front and join it at its back. A ring of
-# real cars did the same: Sugiyama et al., *New Journal of Physics* 10 (2008) 033001.
+# Let them find the band's speed: in the 400 s of the picture it goes back by a little more than
+# one round of the ring, 600 m. The band is a place where cars stop, not a group of cars: cars
+# leave it at its front and join it at its back. A ring of real cars did the same: Sugiyama et al.,
+# *New Journal of Physics* 10 (2008) 033001.
 
 # %% [markdown]
 # ## Round 1: the gap that a driver wants
@@ -277,6 +279,15 @@ for p in (0.0, 0.5, 1.0):
 # **Explain.** More often, on this road. Two things are weighed by the same $p$: what the new
 # follower loses, and what the *old* follower gains. Behind the leaders there is nearly always
 # somebody who gains, and the other lanes are nearly empty. A polite driver gets out of the way.
+#
+# These numbers are all part of the scenario, and you may move them. What cannot be is refused, and
+# the panel says why.
+#
+# > **Predict.** Under *Road and clock* you can shorten the road. At about which length will it be
+# > refused, and why there?
+
+# %% tags=["nbval-ignore-output"]
+scenario_panel()
 
 # %% [markdown]
 # ## Round 4: two steps a second

@@ -30,6 +30,7 @@ from bootcourse.lessons import check, source
 from bootcourse.lessons.charts import action_bars
 from bootcourse.lessons.figures import fading
 from bootcourse.lessons.live import LiveCurves
+from bootcourse.panels import train_panel
 from bootcourse.record.drive import record
 from bootcourse.scenario import ACTION_NAMES, DEFAULT
 from bootcourse.study.drawing import show
@@ -342,6 +343,23 @@ show(top_view_over_time(drives[1], times=[t for t in (0, 4, 8, 12, 16, 24) if t 
 
 # %% tags=["nbval-ignore-output"]
 source("bootcourse.learn.bootstrap", "kl_to_rule", "constraint_strength", "augmented_reward")
+
+# %% [markdown]
+# ## Round 6: your turn
+#
+# Here is the whole method with its numbers. *Train* trains in the background, for real; *Stop*
+# keeps what was learned; a second training is drawn over the first; *Watch* replays in 3D what it
+# drives.
+#
+# > **Predict.** Set ξ's multiplier to 0, so that only the demonstrations help. Does it still get
+# > out? And with ξ, but without demonstrations (β = 0)?
+
+# %% tags=["nbval-ignore-output"]
+train_panel("bootstrapped", seeds=2, episodes=400)
+
+# %% [markdown]
+# **See.** Two agents and a few minutes make a guess, not a finding. Write yours down: lesson 9
+# trains ten of each for longer, and counts.
 
 # %% [markdown]
 # ## What you now know
