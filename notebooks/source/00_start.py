@@ -136,6 +136,7 @@ Markdown(markdown(headings, rows))
 # | 7 · [The soft constraint](07_soft_constraint.ipynb) | ● | ● | ● |
 # | 8 · [Learning from demonstrations](08_learning_from_demonstrations.ipynb) | | ● | ● |
 # | 9 · [The ablation](09_ablation.ipynb) | | ● | ● |
+# | 10 · [The baselines](10_baselines.ipynb) | | ● | ● |
 # | 11 · [Exploration](11_exploration.ipynb) | | ● | ● |
 # | 12 · [The bug hunt](12_bug_hunt.ipynb) | | ● | ● |
 # | 13 · [Your teacher](13_your_teacher.ipynb) | | ● | |

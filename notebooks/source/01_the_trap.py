@@ -201,8 +201,9 @@ print(f"trap 1 is {start[TRAP_1, X]:.2f} m ahead, trap 2 {start[TRAP_2, X]:.2f} 
 show(reward_curve())
 
 # %% [markdown]
-# **See.** Speed pays little up to 12.5 m/s, a lot up to 15, and nothing above. The road on which
-# you earn well is the free one: behind the traps you earn 0.13 of the speed term and never more.
+# **See.** Speed pays little up to 12.5 m/s, a lot up to 15, and next to nothing from 17 on. The
+# road on which you earn well is the free one: behind the traps you earn 0.13 of the speed term and
+# never more.
 #
 # $$ r_v = \begin{cases} \exp(-(v - 15)^2) & v > 15 \\ \frac{8}{25} v - \frac{19}{5} & 12.5 < v \le
 # 15 \\ \frac{2}{75} v - \frac{2}{15} & 5 < v \le 12.5 \\ 0 & v \le 5 \end{cases} $$
@@ -291,8 +292,8 @@ print(f"a free road at 15 m/s: {free:.5f} a second, {150 * free:.1f} in 150 s")
 # you for it.
 
 # %% [markdown] tags=["instructor"] minutes=6
-# Let two or three read their number for one second aloud before the cell is run. 0.16 or 0.155
-# means that the third weight was left out of the mean, 0.25 that nothing was divided.
+# Let two or three read their number for one second aloud before the cell is run. 0.161 means that
+# the third weight was left out of the mean, 0.25 that nothing was divided.
 
 # %% [markdown]
 # ## Round 4: why it is a trap

@@ -197,8 +197,9 @@ check.room_to_change(room_to_change)
 source("bootcourse.rule", "decide_rule")
 
 # %% [markdown] tags=["instructor"] minutes=8
-# Do the misprint on the board: write d_s - x_current > 0 with the printed d_s, and let them cancel
-# Δx_current. Then ask what a reviewer could have done to notice. (Work one example.)
+# Do the misprint on the board: write $d_s - \Delta x_\text{current} > 0$ with the printed $d_s$,
+# and let them cancel $\Delta x_\text{current}$. Then ask what a reviewer could have done to notice.
+# (Work one example.)
 
 # %% [markdown]
 # ## Round 3: how to get there with nine actions

@@ -84,8 +84,9 @@ for p in (0.5, 0.9, 0.99, 0.999):
     print(f"p = {p:5}: the rule's own action {own:.3f} nats, any other {other:.2f} nats")
 
 # %% [markdown]
-# **See.** The price grows by $\log 10$, about 2.3 nats, each time. The rule did not become better
-# from one line to the next. It became surer of itself, and whoever ignores it pays more.
+# **See.** From p = 0.9 on, the price grows by $\log 10$, about 2.3 nats, each time. The rule did
+# not become better from one line to the next. It became surer of itself, and whoever ignores it
+# pays more.
 #
 # **Exercise 7.1 (5 min, ●○○).** Write $\log\tilde\pi$ for a batch of states.
 
@@ -246,9 +247,9 @@ title = f"Where Q leads by 0.6, the rule takes over at ξ = {tie:.2f}"
 show(lines(strengths, probability, title, "ξ (α = 0.01)", "probability", logarithmic="x"))
 
 # %% [markdown]
-# **Explain.** At ξ = 2 no difference between two actions that this road could teach outweighs the
-# rule: the agent is the rule, and Q does not matter. At ξ = 0.002 the rule is a tie-breaker. In
-# between lies everything interesting, and the agent travels through all of it.
+# **Explain.** At ξ = 2 nothing that this road pays outweighs the rule. Only an accident would, and
+# the rule has none: the agent is the rule, and Q does not matter. At ξ = 0.002 the rule is a
+# tie-breaker. In between lies everything interesting, and the agent travels through all of it.
 
 # %% [markdown]
 # ## Round 4: where the pull enters
@@ -308,7 +309,7 @@ for xi in (0.0, 0.02, 0.2, 2.0):
 source("bootcourse.learn.sac", "soft_value", "actor_loss")
 
 # %% [markdown] tags=["instructor"] minutes=8
-# In the paper the KL stands inside the discounted sum (its Equation of the KL objective). Many
+# In the paper the KL stands inside the discounted sum (its Equation 15). Many
 # implementations subtract it in the actor's loss only: `settings_for("soft", kl_in_target=False)`
 # does that. A good project for two students: ten seeds each, success against episodes.
 
@@ -374,10 +375,10 @@ title = f"ξ is a tenth of its start after {tenth} updates"
 show(lines(updates, named, title, "update", "ξ = 200 α"))
 
 # %% [markdown]
-# **See.** Exponentially, and a little more slowly than it could. The slope of α's loss is
-# proportional to α itself, and Adam measures each step against the slopes of the last thousand
-# updates, which were larger. In episodes that is not long: the agents above have driven a few
-# hundred, while demonstrations (lesson 8) fade over 1,000.
+# **See.** Exponentially, and more slowly than it could. The slope of α's loss is proportional to α
+# itself, and Adam measures each step against the slopes of the last thousand updates, which were
+# larger. In episodes that is not long: the agents above have driven a few hundred, while
+# demonstrations (lesson 8) fade over 1,000.
 
 # %%
 alike = np.array(notes["alike"]).T
@@ -395,9 +396,9 @@ for words, driver in [*rows, ("the rule", rule_driver(DEFAULT))]:
     print(f"{words:17}{100 * r.success.value:11.1f}{r.returns.value:9.1f}{100 * accidents:14.1f}")
 
 # %% [markdown]
-# **See.** Nobody gave these agents a demonstration: whoever has a success above 0 was led out by
-# the pull alone. Compare the table with your prediction, seed by seed. Two seeds are an anecdote;
-# lesson 9 has ten.
+# **See.** Nobody gave these agents a demonstration: whoever has any success was led out by the pull
+# alone. Compare the table with your prediction, seed by seed. Two seeds are an anecdote; lesson 9
+# has ten.
 #
 # **Explain.** Copying a rule nearly right is not driving nearly well: an agent that does as the
 # rule in most seconds can still leave the road in one of the others. The fading agents use the

@@ -289,7 +289,8 @@ for seed in range(4):
 
 # %% [markdown] tags=["instructor"] minutes=8
 # `settings_for("margin")` and `settings_for("margin", paper_q_filter=False)` train the two. Let the
-# class guess the success of both after 1,000 episodes before lesson 9 shows it.
+# class guess the success of both, then let two groups find out. (In the study no agent with the
+# printed filter escapes; the usual one is not in it.)
 
 # %% [markdown]
 # ## Round 5: what c = 2 does to a critic

@@ -328,7 +328,7 @@ Markdown(markdown(["one drive", "ends", "tries at all", "tries expected"], rows)
 #
 # 1. e to the power of the entropy is a number of actions, from 1 to 9.
 # 2. Target entropy −1 cannot be reached with nine actions; the temperature falls until entropy has
-#    no price, in every method of the study.
+#    no price, in all four methods.
 # 3. Where an agent never is, its entropy says nothing; look at the places first.
 # 4. Noise on single decisions covers little of this road; plans cover more, and a rule has one.
 # 5. A policy that is certain makes data that keep it so.

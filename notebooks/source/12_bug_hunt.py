@@ -235,8 +235,9 @@ for name in hunt.names:
 
 # %% [markdown]
 # **See.** One agent knows the way and cannot walk it: its most probable action escapes, its drawn
-# ones do not. It learned the rule and the rule's noise, and from Q nothing. Which bug would make an
-# actor deaf to Q? (And read escapes beside accidents: a crash after overtaking counts as both.)
+# ones mostly do not. It learned the rule and the rule's noise, and from Q nothing. Which bug would
+# make an actor deaf to Q? (And read escapes beside accidents: a crash after overtaking counts as
+# both.)
 #
 # **Exercise 12.2 (15 min, ●●●).** The verdict. For each agent one of the six names. The check says
 # how many are right, and what speaks against one of the wrong ones; it does not say who it is

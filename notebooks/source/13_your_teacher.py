@@ -404,8 +404,8 @@ for teacher in (mine, timid, reckless, racer):
 # 2. A teacher enters in three places: demonstrations, μ(s) and μ(s'). Swap all three.
 # 3. What a teacher earns says little about what its student will learn.
 # 4. A teacher helps where it leads through states that the learner would not reach alone.
-# 5. With three seeds against three, only a complete separation says anything, and even that is luck
-#    one time in twenty.
+# 5. With three seeds against three, only a complete separation says anything, and even one in the
+#    direction that you hoped for is luck one time in twenty.
 #
 # **Three questions to think about**
 # - Could two bad teachers together be a good one? Which two of the four, and how mixed?

@@ -1,0 +1,108 @@
+"""What an expression in notebooks/claims may name: numpy, the library, and a few short cuts to what ships.
+
+What takes long to load or to drive is kept for the next claim.
+"""
+# ruff: noqa: F401 (what is imported here is for the claims)
+
+import math
+from functools import cache
+
+import gymnasium as gym
+import numpy as np
+import torch
+
+from bootcourse.assets import FOLDER
+from bootcourse.drivers import idle_driver, plan_driver, rule_driver
+from bootcourse.learn import bootstrap, sac
+from bootcourse.learn.bootstrap import demonstration_share
+from bootcourse.learn.settings import settings_for
+from bootcourse.lessons import bugs, shipped, teacher
+from bootcourse.lessons.exercises import registry
+from bootcourse.record.drive import record
+from bootcourse.record.files import read_arrays
+from bootcourse.road import formulas, observation
+from bootcourse.road.formulas import centring_reward, speed_reward
+from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, Accident, X, Y
+from bootcourse.rule import HEADING_COST, safety_distance, stochastic_rule, target_speed
+from bootcourse.scenario import ACTION_NAMES, DEFAULT, IDLE, N_ACTIONS
+from bootcourse.study import report, sweep
+from bootcourse.study.checks import CHECKS
+from bootcourse.study.evaluate import rate
+from bootcourse.study.paper import EPISODES, PRINTED, paper_interval
+from bootcourse.study.planner import Search, plan_episodes
+from bootcourse.study.results import KINDS, Results
+from bootcourse.study.statistics import ESCAPES, escapes, improvement, interval, iqm
+from tools.course.source import NOTEBOOKS
+
+shipped_results = cache(shipped.shipped_results)
+shipped_runs = cache(shipped.shipped_runs)
+shipped_drive = cache(shipped.shipped_drive)
+load_sweep = cache(sweep.load_sweep)
+bug_hunt = cache(bugs.Hunt)
+ROAD = 10  # the road that most lessons show
+
+
+@cache
+def rule_results() -> Results:
+    """The rule on the held-out roads of the study."""
+    return report.rule_results(DEFAULT, shipped_results().tested["returns"].shape[1])
+
+
+@cache
+def bound() -> np.ndarray:
+    """The best return that the planner found on each of those roads."""
+    return read_arrays(FOLDER / "bound-default.npz")["returns"]
+
+
+@cache
+def by_rule(road: int = ROAD):
+    """The rule's drive on one road."""
+    return record(rule_driver(DEFAULT), [road])[0]
+
+
+@cache
+def idle(road: int = ROAD):
+    """Nobody's drive on one road: 4, "keep straight", for ever."""
+    return record(idle_driver, [road])[0]
+
+
+def of(method: str) -> Results:
+    """The study's agents of a method; "rule" is a method, too."""
+    return rule_results() if method == "rule" else shipped_results().of(method)
+
+
+def escaped(method: str) -> int:
+    """How many agents of a method escape."""
+    return int((of(method).scores("success") >= ESCAPES).sum())
+
+
+def accidents(method: str) -> float:
+    """The share of a method's held-out episodes that end in an accident of any kind."""
+    return sum(float(of(method).episodes(kind).mean()) for kind in KINDS)
+
+
+def code_of(lesson: str) -> str:
+    """The source of another lesson."""
+    return (NOTEBOOKS / "source" / f"{lesson}.py").read_text(encoding="utf-8")
+
+
+def second_pays(speed: float, offset: float = 0.0) -> float:
+    """The reward of a second at a speed (m/s), offset metres off the lane's centre, without steering."""
+    w = DEFAULT.reward
+    return formulas.weighted_reward(speed_reward(speed), centring_reward(offset), 0.0, w.w_v, w.w_y, w.w_theta)
+
+
+def discounted(drive, gamma: float) -> float:
+    """What a drive is worth at its start."""
+    return float(gamma ** np.arange(len(drive.rewards)) @ drive.rewards)
+
+
+@cache
+def planned(beam: int, gamma: float, keep_lane: bool = False, road: int = ROAD) -> float:
+    """What the planner's best drive on a road is worth."""
+    return plan_episodes([road], search=Search(beam, gamma, keep_lane))[0].value
+
+
+def undecided(method: str, first: int, last: int | None) -> float:
+    """The mean effective number of actions of a method's agents in some of their training episodes."""
+    return float(np.exp(of(method).curves["entropy"][:, first:last].mean()))
