@@ -1,6 +1,7 @@
 # make lab    JupyterLab on the first lesson      (NO_BROWSER=1 make lab: only print its address)
 # make test   every test, the notebooks included
 # make bench  how fast the road and the learner are, as ratios
+# make book   the lessons as pages that need no server, in build/book/html
 # make notebooks  execute the lessons' sources again and write the notebooks, solved and not, and the instructor's pages
 # make doctor what is right and wrong with this machine
 # make lock   resolve environment.lock and bench.lock again
@@ -22,7 +23,7 @@ NBVAL := --nbval-lax --nbval-current-env --nbval-cell-timeout=300
 # So that a notebook finds this `bootcourse` and this `python`.
 WITH_PATH := PATH="$(CURDIR)/$(BIN):$$PATH"
 
-.PHONY: help lab test bench notebooks doctor lock clean
+.PHONY: help lab test bench book notebooks doctor lock clean
 
 help:
 	@sed -n '/^$$/q;s/^# \{0,1\}//p' Makefile
@@ -42,6 +43,10 @@ bench: .venv/bench
 
 notebooks: .venv/installed
 	@$(WITH_PATH) OMP_NUM_THREADS=1 $(BIN)/python tools/notebooks.py
+	@$(BIN)/python -m tools.course.paper_map
+
+book: .venv/installed
+	@$(BIN)/python tools/book.py
 
 doctor: .venv/installed
 	@$(BIN)/bootcourse doctor

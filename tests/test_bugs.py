@@ -16,7 +16,7 @@ from bootcourse.lessons import bugs
 from bootcourse.lessons.bugs import BUGS, COMMAND, FILE, LEARNERS, LETTERS, PROBES, Hunt
 from bootcourse.lessons.exercises import registry
 from bootcourse.record.files import sha256, write_arrays
-from bootcourse.study.ship import Shipment, add_hunt
+from bootcourse.study.ship import Shipment, add_kept
 
 AGENTS, SIZE = 2, 16
 
@@ -171,8 +171,8 @@ def test_it_is_kept_and_listed_when_the_assets_are_built(tmp_path):
     new = tmp_path / "new"
     new.mkdir()
     shipment = Shipment(tmp_path / "study", tmp_path / "nothing", new)
-    add_hunt(shipment, FOLDER)
+    add_kept(shipment, FOLDER)
     entry = shipment.entries["bug_hunt.npz"]
     assert entry["sha256"] == sha256(FILE) == sha256(new / "bug_hunt.npz") and entry["command"] == COMMAND
     assert changed_parts(entry["sources"]) == []
-    add_hunt(Shipment(tmp_path / "study", tmp_path / "nothing", tmp_path / "other"), tmp_path / "nothing")
+    add_kept(Shipment(tmp_path / "study", tmp_path / "nothing", tmp_path / "other"), tmp_path / "nothing")

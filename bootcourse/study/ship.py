@@ -71,7 +71,7 @@ def build(study: Path, folder: Path = FOLDER) -> None:
         for part in (add_results, add_sensitivity, add_runs, add_demonstrations, add_rollouts, add_report, add_card):
             part(shipment)
         add_readme(shipment, folder)
-        add_hunt(shipment, folder)
+        add_kept(shipment, folder)
         write_json(new / MANIFEST, {"files": [shipment.entries[name] for name in sorted(shipment.entries)]})
         size = sum(entry["bytes"] for entry in shipment.entries.values())
         if size >= LIMIT:
@@ -216,14 +216,20 @@ def add_readme(to: Shipment, now: Path) -> None:
             to.add(path, "python -m bootcourse.study.readme_picture", sources, provenance())
 
 
-def add_hunt(to: Shipment, now: Path) -> None:
-    """The agents of the bug hunt, which no study trains, stay as they are, and are listed."""
-    path = to.new / "bug_hunt.npz"
-    if (now / path.name).is_file():
-        shutil.copy2(now / path.name, path)
-    if path.is_file() and to.entries.get(path.name, {}).get("sha256") != sha256(path):
-        sources = sources_hash(("scenario", "rule", "drivers", "road", "learn", "lessons/bugs"))
-        to.add(path, "python -m bootcourse.lessons.bugs --out assets/bug_hunt.npz", sources, provenance())
+KEPT = {  # what no study makes: the command that does, and the code that it depends on
+    "bug_hunt.npz": ("bootcourse.lessons.bugs", ("scenario", "rule", "drivers", "road", "learn", "lessons/bugs")),
+    "checks.md": ("bootcourse.study.checks", ("learn", "study/checks")),
+}
+
+
+def add_kept(to: Shipment, now: Path) -> None:
+    """The agents of the bug hunt and the table of independent checks stay as they are, and are listed."""
+    for name, (module, sources) in KEPT.items():
+        path = to.new / name
+        if (now / name).is_file():
+            shutil.copy2(now / name, path)
+        if path.is_file() and to.entries.get(name, {}).get("sha256") != sha256(path):
+            to.add(path, f"python -m {module} --out assets/{name}", sources_hash(sources), provenance())
 
 
 def add_card(to: Shipment) -> None:

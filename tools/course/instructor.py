@@ -48,7 +48,7 @@ def sections(cells: list[Cell]) -> list[tuple[str, list[Cell]]]:
 def timings(cells: list[Cell]) -> str:
     """The lesson's own line about time, and a table: minutes of talk (metadata `minutes`) and of exercises."""
     own = [
-        m
+        one_folder_down(m)
         for cell in cells
         if not cell.is_code
         for m in re.findall(r"^\*\*Time\*\*.*?(?=\n\n|\n\*\*|\Z)", cell.student, re.M | re.S)

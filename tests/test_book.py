@@ -1,0 +1,110 @@
+"""The static book, as a reader without a server and without the network sees it."""
+
+import re
+
+import pytest
+
+from tests.browser import ARTEFACTS, is_blank, needs_browser, open_browser
+from tools import book
+from tools.course.source import NOTEBOOKS
+
+LESSONS = sorted(path.stem for path in NOTEBOOKS.glob("*.ipynb"))
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """The whole book, made once."""
+    folder = tmp_path_factory.mktemp("book")
+    book.gather(folder / "source")
+    assert book.build(folder / "source", folder / "html") == 0, "Sphinx has something to say: see above"
+    return folder / "html"
+
+
+@pytest.fixture(scope="module")
+def new_page(made):
+    with open_browser(width=1366, height=900, offline=True) as new_page:
+        yield new_page
+
+
+def test_every_lesson_and_every_page_to_look_things_up_is_in_it(made):
+    pages = {path.relative_to(made).with_suffix("").as_posix() for path in made.rglob("*.html")}
+    assert {f"lessons/{name}" for name in LESSONS} | {f"lessons/instructor/{name}" for name in LESSONS} <= pages
+    assert {
+        "glossary",
+        "paper_map",
+        "left_open",
+        "bibliography",
+        "claims",
+        "replays",
+        "checks",
+        "report/report",
+    } <= pages
+
+
+def test_no_page_asks_the_network_for_anything(made):
+    for path in made.rglob("*.html"):
+        text = re.sub(r"<iframe .*?</iframe>", "", path.read_text(encoding="utf-8"), flags=re.S)
+        loaded = re.findall(r"<(?:script|img|link|iframe|source)[^>]*?\b(?:src|href)=\"(https?:[^\"]*)", text)
+        assert loaded == [], path.name
+
+
+def test_solutions_stay_in_the_repository(made):
+    assert not list(made.rglob("*solved*"))
+    assert not any(
+        "solved/" in link for path in made.rglob("*.html") for link in links(path.read_text(encoding="utf-8"))
+    )
+
+
+def links(text: str) -> list[str]:
+    return re.findall(r"<a [^>]*href=\"([^\"]*)", text)
+
+
+@needs_browser
+@pytest.mark.parametrize(
+    "name", ["index", "report/report", "glossary", "paper_map", *(f"lessons/{n}" for n in LESSONS)]
+)
+def test_a_page_shows_its_pictures_its_equations_and_its_tables(made, new_page, name):
+    page = new_page()
+    page.page.goto((made / f"{name}.html").as_uri())
+    page.page.wait_for_load_state()
+    pictures = page.page.evaluate(
+        "() => [...document.querySelectorAll('article img')].map(i => [i.alt, i.complete && i.naturalWidth > 0])"
+    )
+    assert all(alt and shown for alt, shown in pictures), pictures
+    flat = page.page.evaluate(
+        "() => [...document.querySelectorAll('article math')].filter(m => m.getBoundingClientRect().height < 4).length"
+    )
+    assert flat == 0
+    text = page.page.inner_text("article")
+    assert "$$" not in text and "\\frac" not in text and "| --- |" not in text
+    assert page.errors == [] and all(url.startswith(("file:", "data:", "blob:", "about:")) for url in page.requests)
+    if name.startswith("lessons/"):
+        assert pictures, "a lesson without a picture"
+    page.page.close()
+
+
+@needs_browser
+def test_equations_are_drawn_as_mathematics(made, new_page):
+    page = new_page()
+    page.page.goto((made / "lessons/04_discrete_sac.html").as_uri())
+    tall = page.page.evaluate(
+        "() => [...document.querySelectorAll('div.math math')].map(m => m.getBoundingClientRect().height)"
+    )
+    assert len(tall) >= 4 and min(tall) > 12
+    page.page.locator("div.math").first.scroll_into_view_if_needed()
+    page.page.screenshot(path=ARTEFACTS / "book-equations.png")
+    page.page.close()
+
+
+@needs_browser
+def test_a_replay_plays_in_the_book(made, new_page):
+    page = new_page()
+    page.page.goto((made / "lessons/00_start.html").as_uri())
+    page.page.wait_for_function("() => frames[0].__viserMutable?.nodeRefFromName['/drive0/car0/paint']")
+    before = page.page.frames[1].inner_text("#bc-numbers .big b >> nth=0")
+    page.page.wait_for_function(
+        "before => frames[0].document.querySelector('#bc-numbers .big b').innerText !== before", arg=before
+    )
+    picture = page.page.locator("iframe").first.screenshot(path=ARTEFACTS / "book-replay.png")
+    assert not is_blank(picture) and page.errors == []
+    page.page.close()

@@ -1,0 +1,179 @@
+"""What the paper leaves open: each gap is whole, its code exists, and its arithmetic is right."""
+
+import math
+import re
+
+import numpy as np
+import pytest
+
+from bootcourse import rule
+from bootcourse.learn.settings import METHODS, Settings
+from bootcourse.road.formulas import bicycle_step, speed_reward, steering_reward, weighted_reward
+from bootcourse.scenario import CALIBRATED, DEFAULT
+from bootcourse.study.evaluate import rate
+from bootcourse.study.paper import EPISODES, PRINTED, earned_at
+from bootcourse.study.plan import variations
+from tools.course.left_open import KINDS, PAGE, PARTS, gaps
+from tools.course.paper_map import items
+from tools.course.problems import exists
+from tools.course.reference import page_problems, targets
+
+GAPS = {gap.target: gap for gap in gaps()}
+
+
+@pytest.mark.parametrize("gap", gaps(), ids=lambda gap: gap.title)
+def test_a_gap_says_what_is_printed_what_follows_what_the_kit_does_and_where(gap):
+    assert gap.target.startswith("open-") and gap.kind in KINDS
+    assert tuple(gap.parts) == PARTS and all(gap.parts.values())
+    assert gap.code and all(exists(name) for name in gap.code)
+    assert gap.lessons
+
+
+def test_no_link_of_the_page_is_dead_and_no_target_is_twice():
+    assert page_problems(PAGE) == []
+    assert len(targets()) == len(set(targets())) and len(GAPS) == len(gaps())
+
+
+def test_every_gap_that_belongs_to_something_numbered_is_on_the_paper_map():
+    alone = {"open-trap-speed", "open-gains", "open-tracker", "open-follower", "open-w-kl", "open-symbols", "open-text"}
+    assert {item.see for item in items() if item.see} == set(GAPS) - alone
+
+
+# The arithmetic -------------------------------------------------------------------------------------
+
+S, R, GAMMA = Settings(), DEFAULT.rule, Settings().gamma
+GRID = (R.v_min, R.v_max, R.n)
+CLOSING = (8.25 - 10.0) * R.t_safe  # m, at the rule's speed behind the traps
+ASTRAY = math.log(8 / (1 - S.p))  # nats: the price of an action that is not the rule's
+
+
+def after_full_steering(v: float = 15.0) -> tuple[float, float]:
+    """How far to the side (m), and how much turned (rad), after one decision."""
+    x = y = heading = 0.0
+    for _ in range(DEFAULT.clock.steps):
+        x, y, heading, v = bicycle_step(
+            x, y, heading, v, 0.0, DEFAULT.ego.steering, DEFAULT.car.length, DEFAULT.clock.dt
+        )
+    return y, heading
+
+
+def settled_gap(v: float) -> float:
+    """The gap (m) at which a traffic car follows one at its own speed."""
+    t = DEFAULT.traffic
+    return (t.s0 + t.time_gap * v) / math.sqrt(1 - (v / t.desired_speed) ** t.delta)
+
+
+def deviation(hits: int, episodes: int) -> float:
+    """Of a rate, in %."""
+    return 100 * float(np.std([1] * hits + [0] * (episodes - hits), ddof=1))
+
+
+WORKED = {
+    "open-clock": {
+        "0.15625": earned_at(10, 1),
+        "23.4375": earned_at(10),
+        "46.875": 2 * earned_at(10),
+        "23.06": PRINTED["cql"]["returns"].mean,
+        "150": DEFAULT.clock.decisions,
+        "0.5": DEFAULT.clock.dt,
+    },
+    "open-start": {"14.80": DEFAULT.traps.d1[0], "4.06": DEFAULT.traps.d2[0], "5": DEFAULT.car.length},
+    "open-trap-speed": {
+        "26.70": earned_at(10.87),
+        "26.77": PRINTED["soft"]["returns"].mean,
+        "10.9": CALIBRATED.traps.speed,
+        "10.5": rule.target_speed(10.9, 10.9, *GRID),
+        "8.25": rule.target_speed(10.0, 10.0, *GRID),
+    },
+    "open-traffic": {
+        "19.5": settled_gap(6),
+        "40": DEFAULT.traffic.lead,
+        "20": DEFAULT.traffic.headway * DEFAULT.traffic.spacing[0],
+        "60": DEFAULT.traffic.headway * DEFAULT.traffic.spacing[1],
+        "11": DEFAULT.traffic.speed[0],
+    },
+    "open-mobil": {"2": DEFAULT.traffic.safe_braking},
+    "open-gains": {"−1.5": 1 - 0.5 / 0.2, "0.17": 1 - DEFAULT.clock.dt / DEFAULT.traffic.tau_heading},
+    "open-observation": {"200": DEFAULT.sight.distance, "26": DEFAULT.observation_size},
+    "open-accident": {
+        "133.5": PRINTED["sac"]["distance"].mean / PRINTED["sac"]["speed"].mean,
+        "1": DEFAULT.ego.min_speed,
+    },
+    "open-lane-change": {"−2.625": CLOSING, "7": 12 - DEFAULT.car.length, "3": R.floor},
+    "open-loop": {"1.5": R.t_safe, "6": rule.target_speed(6.0, 6.0, *GRID), "15": rule.target_speed(99.0, 99.0, *GRID)},
+    "open-tracker": {
+        "1.18": after_full_steering()[0],
+        "10.8": math.degrees(after_full_steering()[1]),
+        "2.8": 15 * math.sin(after_full_steering()[1]),
+        "27": 3**3,
+    },
+    "open-target-entropy": {
+        "2.197": math.log(9),
+        "2,303": math.log(10) / S.alpha_lr,
+        "4,605": math.log(100) / S.alpha_lr,
+        "0.02": S.xi_multiplier * S.alpha_init / 100,
+        "37,500": S.beta_episodes * DEFAULT.clock.decisions / S.roads * S.updates,
+    },
+    "open-w-kl": {"2": S.xi_multiplier * S.alpha_init},
+    "open-kl-target": {
+        "8.76": 2 * ASTRAY,
+        "43.8": 2 * ASTRAY / (1 - GAMMA),
+        "0.78": earned_at(10, 1) / (1 - GAMMA),
+    },
+    "open-demonstrations": {"15": 150 * (1 - S.p), "7": 1e-6 / S.p**150, "200": S.demonstrations},
+    "open-margin": {
+        "0.97": earned_at(15, 1),
+        "4.84": earned_at(15, 1) / (1 - GAMMA),
+        "1": METHODS["margin"]["margin"],
+    },
+    "open-network": {"64": S.hidden[0], "0.005": S.tau, "256": S.warm_up},
+    "open-rates": {
+        "22.36": deviation(1, EPISODES),
+        "83": 100 * rate(np.ones(EPISODES, bool)).low,
+        "17": 100 * rate(np.zeros(EPISODES, bool)).high,
+    },
+    "open-rows": {
+        "29.10": earned_at(11.51),
+        "24.70": PRINTED["rule"]["returns"].mean,
+        "4.40": earned_at(11.51) - PRINTED["rule"]["returns"].mean,
+        "4.69": earned_at(11.51) - earned_at(11.51, centred=False),
+        "0.29": -150 * weighted_reward(0.0, 0.0, steering_reward(DEFAULT.ego.steering), 1.5, 0.05, 0.05),
+        "0.025": earned_at(8, 1) - earned_at(7, 1),
+        "0.09375": 7 * 0.025 - earned_at(7, 1),
+    },
+    "open-text": {
+        f"{PRINTED[method][column].mean:.2f}": PRINTED[method][column].mean
+        for method, column in (
+            ("soft", "returns"), ("soft", "distance"), ("sac", "returns"), ("sac", "distance"), ("cql", "returns"),
+            ("gail", "returns"),
+        )
+    },
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("target", WORKED)
+def test_the_arithmetic_of_a_gap_is_right(target):
+    text = " ".join(GAPS[target].parts.values())
+    for printed, computed in WORKED[target].items():
+        assert re.search(rf"(?<![\d.,]){re.escape(printed)}(?![\d]|[.,]\d)", text), f"{printed} is not printed"
+        number = printed.replace(",", "").replace("−", "-")
+        decimals = len(number.partition(".")[2])
+        assert round(computed, decimals) == float(number), f"{printed} is {computed}"
+
+
+def test_only_the_mean_speed_counts_between_5_and_12_5_metres_a_second():
+    slopes = [speed_reward(v + 1) - speed_reward(v) for v in (5.0, 7.0, 11.5)]
+    assert slopes == pytest.approx([slopes[0]] * 3) and slopes[0] != pytest.approx(
+        speed_reward(13.5) - speed_reward(12.5)
+    )
+
+
+def test_no_number_of_episodes_gives_a_rate_of_5_with_the_printed_deviation():
+    fives = [(hits, n) for n in range(2, 500) for hits in range(n + 1) if round(100 * hits / n) == 5]
+    assert fives and max(deviation(*each) for each in fives) < 25 < PRINTED["demos"]["collision"].sd
+
+
+def test_the_settings_that_the_page_calls_variations_are_run_by_the_study():
+    changed = [changes for _, changes in variations().values()]
+    assert {"target_entropy": 0.3} in changed and {"target_entropy": 1.0} in changed
+    assert {"updates": 4 * S.updates} in changed and any("hidden" in each for each in changed)

@@ -1,0 +1,74 @@
+"""`make book`: the lessons as pages in build/book/html that need neither a kernel nor a server nor the network.
+
+The pages of book/, the executed notebooks, what ships with the results and the instructor's pages are
+gathered in one folder, and Sphinx makes the rest (book/conf.py).
+"""
+
+import re
+import shutil
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT))  # so that `tools.course` is found
+
+BUILD = ROOT / "build/book"
+SOLVED = re.compile(r"\[([^]]*)\]\(\.\./solved/([^)]*)\)")
+
+
+def gather(to: Path, only: list[str] | None = None) -> None:
+    """Put all that the book is made of into the folder `to`; of the lessons only some, if named."""
+    shutil.rmtree(to, ignore_errors=True)
+    shutil.copytree(ROOT / "book", to)
+    shutil.copytree(ROOT / "assets/report", to / "report")
+    shutil.copytree(ROOT / "assets/readme", to / "pictures")
+    lessons = [path for path in sorted((ROOT / "notebooks").glob("*.ipynb")) if only is None or path.stem in only]
+    (to / "lessons/instructor").mkdir(parents=True)
+    for notebook in lessons:
+        shutil.copy(notebook, to / "lessons")
+        page = (ROOT / "notebooks/instructor" / notebook.name).with_suffix(".md")
+        # A student who leafs through the book should not stumble over solutions: those stay in the repository.
+        text = SOLVED.sub(r"\1 (`notebooks/solved/\2`)", page.read_text(encoding="utf-8"))
+        (to / "lessons/instructor" / page.name).write_text(text, encoding="utf-8")
+    from tools.course.claims import claims_page
+
+    shutil.copy(ROOT / "assets/checks.md", to)
+    (to / "replays.md").write_text(replays(), encoding="utf-8")
+    (to / "claims.md").write_text(claims_page(), encoding="utf-8")
+
+
+def replays() -> str:
+    """A page with every drive that ships: to play, and in words."""
+    from bootcourse.assets import FOLDER
+    from bootcourse.record.rollout import Rollout
+    from bootcourse.replay3d import recording
+    from bootcourse.study.drawing import name, sentence
+    from bootcourse.study.top_view import outcome
+    from bootcourse.study.transcript import transcript
+
+    parts = ["# Replays", "Every drive that ships with the course, to play and to turn with the mouse, and in words."]
+    for path in sorted((FOLDER / "rollouts").glob("*.npz")):
+        drive = Rollout.load(path)
+        shown = recording([drive], height=480).html_with_poster()
+        parts += [f"## {sentence(name(drive.label))}: {outcome(drive)}", f"```{{raw}} html\n{shown}\n```"]
+        parts.append("\n".join(f"- {line}" for line in transcript(drive)))
+    return "\n\n".join(parts) + "\n"
+
+
+def build(source: Path, html: Path) -> int:
+    """Sphinx's exit status; every warning is an error."""
+    from sphinx.cmd.build import main
+
+    return main(["-b", "html", "-q", "-W", "--keep-going", "-d", str(html.parent / "doctrees"), str(source), str(html)])
+
+
+def main() -> int:
+    gather(BUILD / "source")
+    status = build(BUILD / "source", BUILD / "html")
+    if status == 0:
+        print(f"The book: {(BUILD / 'html/index.html').as_uri()}")
+    return status
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,130 @@
+"""What stands in book/glossary.md, and what the lessons set in bold because it is new."""
+
+import re
+from dataclasses import dataclass
+
+from tools.course.reference import BOOK, lessons, prose, text_of
+
+PAGE = BOOK / "glossary.md"
+LESSON = re.compile(r" Lesson (\d+)\.$")
+
+# Bold that labels a paragraph in a lesson's form (notebooks/source/README.md), with no full stop of its own.
+LABELS = (
+    "Time",
+    "It builds on",
+    "You need",
+    "Read on",
+    "What you will be able to do",
+    "What you now know",
+    "Three questions to think about",
+)
+# Bold that stresses something, or names a button, and introduces no word.
+STRESSED = (
+    "drive",
+    "gain × dt above 2",
+    "keep as demonstration",
+    "lane",
+    "less",
+    "longer",
+    "never negative",
+    "speed",
+    "η = −1",
+)
+# A formula as the glossary writes it: the first match of each is replaced everywhere in $...$.
+LATEX = (
+    (r"\\tilde\{?\\pi\}?", "π̃"),
+    (r"\\(?:mathcal|mathbb|mathrm|text)\{(\w+)\}", r"\1"),
+    (r"\\mathcal (\w)", r"\1"),
+    *((rf"\\{name}(?![a-z])", letter) for name, letter in zip(
+        "alpha beta gamma delta epsilon eta theta mu xi pi tau".split(), "αβγδεηθμξπτ", strict=True)),
+    (r"\^\*", "*"),
+    (r"_\{?\\?(?:text|mathrm)?\{?(\w+)\}?\}?", r"_\1"),
+    (r"\\max", "max"),
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Entry:
+    """Some terms with one definition."""
+
+    terms: tuple[str, ...]
+    text: str  # without the lesson
+    lesson: int | None  # the one that introduces it
+
+
+def glossaries() -> list[list[Entry]]:
+    """The page's glossaries: the words, then the symbols."""
+    return [entries(block) for block in re.findall(r"^```\{glossary\}\n(.*?)^```$", text_of(PAGE), re.M | re.S)]
+
+
+def entries(block: str) -> list[Entry]:
+    """The entries of one {glossary} directive: lines of terms, and below them an indented definition."""
+    found = []
+    for part in re.split(r"\n\s*\n", block.strip("\n")):
+        lines = part.splitlines()
+        terms = tuple(line for line in lines if not line.startswith(" "))
+        text = " ".join(line.strip() for line in lines if line.startswith(" "))
+        named = LESSON.search(text)
+        found.append(Entry(terms, LESSON.sub("", text), int(named[1]) if named else None))
+    return found
+
+
+def normalised(term: str) -> str:
+    """A term without capitals and plurals: "Target networks" -> "target network"."""
+    return " ".join(singular(word) for word in term.lower().split())
+
+
+def singular(word: str) -> str:
+    if len(word) > 3 and word.endswith("s") and not word.endswith(("ss", "us", "is")):
+        return word[:-1]
+    return word
+
+
+def bold(text: str) -> list[str]:
+    """The terms that a lesson's text sets in bold inside a sentence, in their order.
+
+    Not those that label something: a bold that ends with a full stop or is followed by a colon, that begins a
+    point of a list, or that is in `LABELS`; and nothing in a heading.
+    """
+    found = []
+    for match in re.finditer(r"\*\*([^*]+?)\*\*(:?)", text):
+        before = text[: match.start()].rsplit("\n", 1)[-1]
+        words = " ".join(match[1].split())
+        heading, point = before.startswith("#"), re.fullmatch(r"\s*(?:[-*]|\d+\.)\s+", before)
+        label = words in LABELS or re.search(r"[.:?!]$|\)\.$", words) or words.startswith("Exercise ")
+        if not (heading or point or label or is_own_label(match, before)):
+            found.append(words)
+    return found
+
+
+def is_own_label(match: re.Match, before: str) -> bool:
+    """ "**The actor's**: minus ...": what begins a line and is followed by a colon names the line."""
+    return bool(match[2]) and not before.strip("> ")
+
+
+def introduced() -> dict[str, int]:
+    """Every term in bold, normalised, and the first lesson that has it so."""
+    first = {}
+    for number, path in sorted(lessons().items()):
+        for term in bold(prose(path)):
+            if normalised(term) not in STRESSED:
+                first.setdefault(normalised(term), number)
+    return first
+
+
+def formulas(text: str) -> str:
+    """Everything between dollars, with letters for LaTeX's names, as the glossary writes symbols."""
+    found = " ; ".join(a or b for a, b in re.findall(r"\$\$(.+?)\$\$|\$(.+?)\$", text, re.S))
+    for pattern, letter in LATEX:
+        found = re.sub(pattern, letter, found)
+    return found
+
+
+def uses(number: int, term: str, symbol: bool) -> bool:
+    """Does a lesson use a word in its text (in any number), or a symbol in a formula or, if Greek, anywhere?"""
+    text = prose(lessons()[number])
+    if not symbol:
+        plain = normalised(re.sub(r"[^\w\s'×=−-]", " ", text))
+        return re.search(rf"(?<![\w-]){re.escape(normalised(term))}(?![\w-])", plain) is not None
+    inside = formulas(text) if term.isascii() else formulas(text) + text
+    return re.search(rf"(?<![A-Za-z\\]){re.escape(term)}(?![A-Za-z])", inside) is not None
