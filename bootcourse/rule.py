@@ -44,7 +44,7 @@ SENTENCES = {
 
 @compiled
 def target_speed(v_current, v_target, v_min, v_max, n):
-    """v_target (Equation 13): the fastest of n grid speeds that is slower than both preceding cars (m/s).
+    """v_target (Equation 14): the fastest of n grid speeds that is slower than both preceding cars (m/s).
 
     Infinity stands for no car. Where even the slowest grid speed is too fast, v_min (erratum: the
     paper leaves this open).
@@ -59,7 +59,7 @@ def target_speed(v_current, v_target, v_min, v_max, n):
 
 @compiled
 def safety_distance(v_ego, v_current, v_target, t_safe, floor):
-    """d_s (Equation 14): the bumper-to-bumper gap (m) to the new preceding car that a lane change needs.
+    """d_s (Equation 13): the bumper-to-bumper gap (m) to the new preceding car that a lane change needs.
 
     (v_e - min(v_current, v_target)) t_safe, and never less than `floor`. (Erratum: the printed d_s
     adds Δx_current - Δx_target, and the printed test d_s - Δx_current > 0 then says "change when

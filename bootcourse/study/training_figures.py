@@ -156,7 +156,7 @@ def baselines(results: Results, rule: Results | None = None) -> Figure:
 
 
 def exploration(results: Results, methods: Sequence[str] = ("sac", "soft", "demos", "bootstrapped")) -> Figure:
-    """The paper's Figure 7: entropy (Equation 21), and e to the power of it, the effective number of actions (22)."""
+    """The paper's Figure 7: entropy, and e to the power of it, the effective actions (Equations 21 and 22)."""
     entropy = results.curves["entropy"].astype(np.float64)
     both = Results(results.agents, results.stopped, results.tested, {"entropy": entropy, "effective": np.exp(entropy)})
     panels = (Panel("entropy", "policy entropy, nats"), Panel("effective", "effective number of actions"))
