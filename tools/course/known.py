@@ -24,7 +24,7 @@ from bootcourse.road import formulas, observation
 from bootcourse.road.formulas import centring_reward, speed_reward
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, Accident, X, Y
 from bootcourse.rule import HEADING_COST, safety_distance, stochastic_rule, target_speed
-from bootcourse.scenario import ACTION_NAMES, DEFAULT, IDLE, N_ACTIONS
+from bootcourse.scenario import ACTION_NAMES, CALIBRATED, DEFAULT, IDLE, N_ACTIONS
 from bootcourse.study import report, sweep
 from bootcourse.study.checks import CHECKS
 from bootcourse.study.evaluate import rate
@@ -71,9 +71,10 @@ def of(method: str) -> Results:
     return rule_results() if method == "rule" else shipped_results().of(method)
 
 
-def escaped(method: str) -> int:
+def escaped(method: str, scenario: str = "default") -> int:
     """How many agents of a method escape."""
-    return int((of(method).scores("success") >= ESCAPES).sum())
+    results = of(method) if scenario == "default" else shipped_results(scenario).of(method)
+    return int((results.scores("success") >= ESCAPES).sum())
 
 
 def accidents(method: str) -> float:
