@@ -1,0 +1,92 @@
+"""Does a notebook clean up after itself? nbval's kernel is asked before its first cell and after its last."""
+
+import ast
+import os
+import time
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+# Runs in the notebook's kernel. Linux says which ports and children are a process's own, elsewhere only threads count.
+SURVEY = """
+def survey():
+    import os, threading
+    from pathlib import Path
+    threads = [(type(t).__name__, t.name) for t in threading.enumerate()]
+    own, ports, children = Path("/proc/self"), [], []
+    if own.exists():
+        sockets = set()
+        for place in (own / "fd").iterdir():
+            try:
+                sockets.add(os.readlink(place))
+            except OSError:  # the folder that is being listed
+                continue
+        for line in [line for kind in ("tcp", "tcp6") for line in (own / "net" / kind).read_text().splitlines()[1:]]:
+            part = line.split()
+            if part[3] == "0A" and f"socket:[{part[9]}]" in sockets:
+                ports.append(int(part[1].rpartition(":")[2], 16))
+        for task in (own / "task").iterdir():
+            children += (task / "children").read_text().split()
+    return {"threads": threads, "ports": sorted(set(ports)), "children": sorted(map(int, children))}
+"""
+ASK = f"(lambda names: (exec({SURVEY!r}, names), names['survey']())[1])({{}})"
+HARMLESS = {"TMonitor", "HistorySavingThread", "GarbageCollectorThread"}  # of tqdm, of IPython, of the kernel's sockets
+PATIENCE = 5.0  # s that what was closed has to end
+
+
+def survey(kernel) -> dict:
+    """What the kernel of nbval holds now: threads, ports that it listens on, child processes."""
+    sent = kernel.kc.execute("", silent=True, store_history=False, user_expressions={"found": ASK})
+    kernel.await_idle(sent, 30)
+    while True:
+        reply = kernel.get_message("shell", timeout=30)
+        if reply["parent_header"].get("msg_id") == sent:
+            found = reply["content"]["user_expressions"]["found"]
+            return ast.literal_eval(found["data"]["text/plain"])
+
+
+def files() -> set[str]:
+    """Every file where a notebook could leave one: beside it, in the assets, at the top."""
+    inside = [path for folder in ("notebooks", "assets") for path in (ROOT / folder).rglob("*")]
+    return {str(p.relative_to(ROOT)) for p in [*inside, *ROOT.iterdir()] if not hidden(p.relative_to(ROOT))}
+
+
+def hidden(path: Path) -> bool:
+    return any(part.startswith(".") or part in ("__pycache__", "build") for part in path.parts)
+
+
+def left_behind(before: dict, after: dict) -> list[str]:
+    """What is there that was not, as sentences."""
+    new = [f"the thread {name} ({kind})" for kind, name in after["threads"]
+           if (kind, name) not in before["threads"] and kind not in HARMLESS]  # fmt: skip
+    new += [f"a server on port {port}" for port in after["ports"] if port not in before["ports"]]
+    return new + [f"the process {child}" for child in after["children"] if child not in before["children"]]
+
+
+def alive(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
+class LeavesNothing(pytest.Item):
+    """The last test of a notebook."""
+
+    def runtest(self):
+        kernel, before = self.parent.kernel, self.parent.before
+        after = survey(kernel)
+        until = time.monotonic() + PATIENCE
+        while left_behind(before, after) and time.monotonic() < until:  # what was closed may take a moment
+            time.sleep(0.2)
+            after = survey(kernel)
+        found = left_behind(before, after)
+        kernel.stop()
+        found += [f"the process {child}, after its kernel's end" for child in after["children"] if alive(child)]
+        found += [f"the file {name}" for name in sorted(files() - self.parent.files)]
+        assert not found, f"the notebook leaves {', '.join(found)} behind"
+
+    def reportinfo(self):
+        return self.path, 0, "leaves nothing behind"
