@@ -2,6 +2,12 @@
 
 import importlib
 import inspect
+import sys
+
+if "IPython" in sys.modules and (_shell := sys.modules["IPython"].get_ipython()) is not None:
+    from bootcourse.lessons.order import install
+
+    install(_shell)
 
 
 def source(module: str, *names: str):

@@ -210,14 +210,14 @@ check.conservative_loss(conservative_loss)
 torch.set_num_threads(1)  # small matrices are faster on one thread
 SEEDS, UPDATES = 2, 4000
 without = with_seeds(settings_for("cql", conservative=0.0), SEEDS)
-learner = ConservativeLearner(with_seeds(settings_for("cql"), SEEDS) + without, 26)
-replay = Replay(2 * SEEDS, 64, 26, demonstrations)
-generators = [np.random.default_rng(s.seed) for s in learner.settings]
 by_rule = record(rule_driver(DEFAULT), range(20), label="rule")
 way = np.concatenate([drive.observations[:20] for drive in by_rule])
 did = np.concatenate([drive.actions[:20] for drive in by_rule])
 
 # %%
+learner = ConservativeLearner(with_seeds(settings_for("cql"), SEEDS) + without, 26)
+replay = Replay(2 * SEEDS, 64, 26, demonstrations)
+generators = [np.random.default_rng(s.seed) for s in learner.settings]
 asked, found = range(0, UPDATES + 1, 200), []
 for update in range(UPDATES + 1):
     if update:

@@ -10,6 +10,7 @@ from pathlib import Path
 import nbformat
 
 from bootcourse.lessons.exercises import registry
+from tools.course.order import of_order
 from tools.course.products import IMPORTS_CHECK, SOLVED_NOTE, STRICT, out_of_date, solved_file, student_file
 from tools.course.source import Cell, body, function_in, read
 
@@ -23,7 +24,13 @@ def problems(path: Path) -> list[str]:
         cells = read(path)
     except ValueError as error:
         return [f"{error}."]
-    found = [*of_length(cells), *of_exercises(cells, path.stem), *of_links(cells, path), *of_references(cells)]
+    found = [
+        *of_length(cells),
+        *of_exercises(cells, path.stem),
+        *of_links(cells, path),
+        *of_references(cells),
+        *of_order(cells),
+    ]
     if found:
         return found
     late = [f"{target.parent.name}/{target.name} is out of date: run make notebooks." for target in out_of_date(path)]

@@ -1,0 +1,80 @@
+"""Cells out of order: a name that a cell above would have made is answered with the cell to run first.
+
+`install` is called when a notebook imports `bootcourse.lessons`, as every lesson's first cell does.
+"""
+
+import ast
+import json
+import os
+from pathlib import Path
+
+RUN_ABOVE = "or all cells above this one (menu Run, Run All Above Selected Cell)"
+
+
+def install(shell) -> None:
+    """Let a notebook's shell (an IPython `InteractiveShell`) explain a NameError of its own cells."""
+    shell.set_custom_exc((NameError,), _explain)
+
+
+def _explain(shell, kind, error, trace, tb_offset=None) -> None:
+    """Show the sentence, or the usual traceback where no cell would help."""
+    sentence = first_run(error, _innermost(trace), code_cells(notebook_of(shell)))
+    if sentence:
+        shell._showtraceback(kind, error, [sentence])
+    else:
+        shell.showtraceback((kind, error, trace), running_compiled_code=True)
+
+
+def _innermost(trace) -> str:
+    """The name of the file or cell whose line raised."""
+    while trace.tb_next:
+        trace = trace.tb_next
+    return trace.tb_frame.f_code.co_filename
+
+
+def notebook_of(shell) -> Path | None:
+    """The notebook's file, as JupyterLab or VS Code tell it to the kernel; None if nobody does."""
+    told = shell.user_ns.get("__vsc_ipynb_file__") or os.environ.get("JPY_SESSION_NAME", "")
+    return Path(told) if told.endswith(".ipynb") and Path(told).is_file() else None
+
+
+def code_cells(notebook: Path | None) -> list[str]:
+    """The text of its code cells; none if it cannot be read."""
+    if notebook is None:
+        return []
+    try:
+        cells = json.loads(notebook.read_text(encoding="utf-8"))["cells"]
+        return ["".join(cell["source"]) for cell in cells if cell["cell_type"] == "code"]
+    except (OSError, ValueError, KeyError, TypeError):  # half-written, or of another format
+        return []
+
+
+def first_run(error: NameError, place: str, cells: list[str]) -> str | None:
+    """One sentence: which cell makes the name. None if the error is not a cell's own, or no cell makes it."""
+    if Path(place).suffix == ".py" and "ipykernel" not in place:
+        return None  # raised inside a library
+    for text in cells:
+        if error.name in names_made(text):
+            begins = next(line for line in text.splitlines() if line.strip() and not line.startswith("#"))
+            return f"`{error.name}` is not there yet: first run the cell that begins with `{begins}`, {RUN_ABOVE}."
+    return None
+
+
+def names_made(text: str) -> set[str]:
+    """What a cell binds outside of its functions: variables, functions, classes, imports. Empty if it is not Python."""
+    try:
+        todo, made = list(ast.parse(text).body), set()
+    except SyntaxError:
+        return set()
+    while todo:
+        node = todo.pop()
+        if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+            made.add(node.name)
+            continue
+        if isinstance(node, (ast.Import, ast.ImportFrom)):
+            made |= {(alias.asname or alias.name).partition(".")[0] for alias in node.names}
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            made.add(node.id)
+        if not isinstance(node, (ast.Lambda, ast.ListComp, ast.DictComp, ast.SetComp, ast.GeneratorExp)):
+            todo += ast.iter_child_nodes(node)
+    return made
