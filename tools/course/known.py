@@ -28,6 +28,7 @@ from bootcourse.scenario import ACTION_NAMES, CALIBRATED, DEFAULT, IDLE, N_ACTIO
 from bootcourse.study import report, sweep
 from bootcourse.study.checks import CHECKS
 from bootcourse.study.evaluate import rate
+from bootcourse.study.found import in_assets
 from bootcourse.study.paper import EPISODES, PRINTED, paper_interval
 from bootcourse.study.planner import Search, plan_episodes
 from bootcourse.study.results import KINDS, Results
@@ -75,6 +76,17 @@ def escaped(method: str, scenario: str = "default") -> int:
     """How many agents of a method escape."""
     results = of(method) if scenario == "default" else shipped_results(scenario).of(method)
     return int((results.scores("success") >= ESCAPES).sum())
+
+
+@cache
+def varied() -> dict[str, Results]:
+    """The study's agents with one number changed, by what was changed."""
+    return in_assets(FOLDER).sensitivity
+
+
+def escaped_with(change: str, method: str) -> int:
+    """How many of the few agents of a method escape with a number changed."""
+    return int((varied()[change].of(method).scores("success") >= ESCAPES).sum())
 
 
 def accidents(method: str) -> float:
