@@ -59,8 +59,10 @@ def test_on_linux_the_lock_takes_only_the_cpu_build_of_torch():
 def test_everything_that_pyproject_asks_for_is_in_the_lock():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     locked = {line.partition("==")[0] for line in requirements("environment.lock")}
-    asked = project["dependencies"] + project["optional-dependencies"]["test"]
-    assert {re.match(r"[\w-]+", requirement)[0] for requirement in asked} <= locked
+    extras = project["optional-dependencies"]
+    assert "bootcourse[book]" in extras["test"]
+    asked = project["dependencies"] + extras["test"] + extras["book"]
+    assert {re.match(r"[\w-]+", requirement)[0] for requirement in asked} - {"bootcourse"} <= locked
     assert "d3rlpy" in {line.partition("==")[0] for line in requirements("bench.lock")}
 
 
