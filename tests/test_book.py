@@ -48,7 +48,7 @@ def test_no_page_asks_the_network_for_anything(made):
         assert loaded == [], path.name
 
 
-def test_solutions_stay_in_the_repository(made):
+def test_the_solved_notebooks_stay_in_the_repository(made):
     assert not list(made.rglob("*solved*"))
     assert not any(
         "solved/" in link for path in made.rglob("*.html") for link in links(path.read_text(encoding="utf-8"))

@@ -16,23 +16,22 @@ BUILD = ROOT / "build/book"
 SOLVED = re.compile(r"\[([^]]*)\]\(\.\./solved/([^)]*)\)")
 
 
-def gather(to: Path, only: list[str] | None = None) -> None:
-    """Put all that the book is made of into the folder `to`; of the lessons only some, if named."""
+def gather(to: Path) -> None:
+    """Put all that the book is made of into the folder `to`."""
+    from tools.course.claims import claims_page
+
     shutil.rmtree(to, ignore_errors=True)
     shutil.copytree(ROOT / "book", to)
     shutil.copytree(ROOT / "assets/report", to / "report")
     shutil.copytree(ROOT / "assets/readme", to / "pictures")
-    lessons = [path for path in sorted((ROOT / "notebooks").glob("*.ipynb")) if only is None or path.stem in only]
+    shutil.copy(ROOT / "assets/checks.md", to)
     (to / "lessons/instructor").mkdir(parents=True)
-    for notebook in lessons:
+    for notebook in sorted((ROOT / "notebooks").glob("*.ipynb")):
         shutil.copy(notebook, to / "lessons")
         page = (ROOT / "notebooks/instructor" / notebook.name).with_suffix(".md")
-        # A student who leafs through the book should not stumble over solutions: those stay in the repository.
+        # The solved notebooks are not in the book: the page has the solutions itself, and says where they lie.
         text = SOLVED.sub(r"\1 (`notebooks/solved/\2`)", page.read_text(encoding="utf-8"))
         (to / "lessons/instructor" / page.name).write_text(text, encoding="utf-8")
-    from tools.course.claims import claims_page
-
-    shutil.copy(ROOT / "assets/checks.md", to)
     (to / "replays.md").write_text(replays(), encoding="utf-8")
     (to / "claims.md").write_text(claims_page(), encoding="utf-8")
 
