@@ -4,10 +4,16 @@ The same classes that learn the road - `Learner`, `ConservativeLearner`, `Imitat
 any gymnasium environment with a flat observation and discrete actions here, several seeds side by
 side. What belongs to the road is switched off: ξ = 0, so the rule's actions (all 0) play no part.
 So is the paper's target entropy of -1, a formula for continuous actions: the targets here are a
-share of log |A|. As on the road, observations are scaled to order one; with raw ones CartPole stays
-near 300. SAC's τ is 0.05, since what a state is worth travels one decision back in 1/τ updates, and
-γ = 0.99 looks a hundred decisions ahead. CQL's weight is 10, as in the check that it is compared
+share of log |A|. SAC's τ is 0.05, since what a state is worth travels one decision back in 1/τ updates,
+and γ = 0.99 looks a hundred decisions ahead. CQL's weight is 10, as in the check that it is compared
 with. The budget of environment steps never exceeds the published one.
+
+CartPole's observations are scaled to order one, as on the road; with raw ones it stays near 300.
+Acrobot's are raw, and it gets one update for each step of its four environments instead of one for all
+four. Whoever acts at random gets its reward in one episode of a hundred, so what matters is to find it
+before exploration fades. Speeds are the largest of its raw numbers, an untrained actor leans on them,
+and whoever pushes with the speed swings. On seeds that are not the table's 16 of 16 agents found it
+within 15,000 steps; scaled it was 5 of 8, with fewer updates 4 of 8 within 30,000.
 """
 
 import argparse
@@ -54,7 +60,6 @@ class FixedHorizon(gym.Wrapper):
 
 
 CARTPOLE_SCALES = (1.0, 1.0, 0.1, 1.0)  # m, m/s, rad, rad/s
-ACROBOT_SCALES = (1.0, 1.0, 1.0, 1.0, 4.0, 8.0)  # two cosines and sines, rad/s
 
 
 def scaled(env: gym.Env, scales: Sequence[float]) -> gym.Env:
@@ -73,7 +78,7 @@ def fixed_cartpole() -> gym.Env:
 
 
 def acrobot() -> gym.Env:
-    return scaled(gym.make("Acrobot-v1"), ACROBOT_SCALES)
+    return gym.make("Acrobot-v1")
 
 
 def balance(states: np.ndarray) -> np.ndarray:
@@ -180,11 +185,11 @@ def usual(method: str, n_actions: int, **changes) -> Settings:
     return settings_for(method, gamma=0.99, target_entropy=0.3 * math.log(n_actions), **changes)
 
 
-def sac_check(make_env: MakeEnv, decisions: int):
-    """Discrete SAC, for `decisions` decisions of each agent."""
+def sac_check(make_env: MakeEnv, decisions: int, updates: int = 1):
+    """Discrete SAC, for `decisions` decisions of each agent, with `updates` for every four of them."""
 
     def measure(seeds: int, progress: bool) -> Outcome:
-        settings = with_seeds(usual("sac", int(make_env().action_space.n), tau=0.05), seeds)
+        settings = with_seeds(usual("sac", int(make_env().action_space.n), tau=0.05, updates=updates), seeds)
         return Outcome(scores(train(settings, make_env, decisions, progress=progress), make_env))
 
     return measure
@@ -233,7 +238,7 @@ CHECKS = {
     ),
     "sac-acrobot": Check(
         "discrete SAC", "Acrobot-v1", -92.60, "300,000 frames, 4 seeds", "100,000 frames", SLM,
-        sac_check(acrobot, 100_000),
+        sac_check(acrobot, 100_000, updates=4),
     ),
     "cql-cartpole": Check(
         "CQL, offline", "CartPole-v1", 170.0, "20,000 transitions, 5,000 updates", "the same",
