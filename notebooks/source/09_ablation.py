@@ -155,7 +155,8 @@ escaped = {
     for change, results in in_assets(FOLDER).sensitivity.items()
 }
 rows = [counted(change, won) for change, won in escaped.items()]
-rows.append(counted("all rows", np.transpose(list(escaped.values()), (1, 0, 2))))
+columns = [np.concatenate(column) for column in zip(*escaped.values(), strict=True)]
+rows.append(counted("all rows", columns))
 Markdown(markdown(["agents that escape", *map(name, methods)], rows))
 
 # %% [markdown]
