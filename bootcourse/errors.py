@@ -9,7 +9,7 @@ class BootcourseError(ValueError):
     """
 
 
-def nearest(word: str, choices) -> str:
+def did_you_mean(word: str, choices) -> str:
     """`word` in a sentence that offers the choices, the most similar one first."""
     import difflib
 

@@ -208,28 +208,29 @@ class Sight:
 
 @dataclass(frozen=True)
 class Rule:
-    """The rule controller (Section III-D) and its stochastic form (Equation for π̃)."""
+    """The rule controller (Section III-D)."""
 
     v_min: float = 6.0  # m/s † slowest target speed
     v_max: float = 15.0  # m/s † fastest target speed
     n: int = 5  # † target speeds between the two, evenly spaced
     t_safe: float = 1.5  # s § the paper gives no value; this is the traffic's time gap
     floor: float = 3.0  # m § smallest bumper-to-bumper gap for a lane change
-    p: float = 0.9  # † probability that π̃ gives to the rule's own action
 
     def __post_init__(self):
         _check_numbers(self)
         _positive(self, "v_min", "t_safe", "floor")
         _check(self.v_min < self.v_max, f"Rule.v_max = {self.v_max} m/s must be above v_min ({self.v_min}).")
         _check(self.n >= 2, f"Rule.n = {self.n}: the grid of target speeds needs at least 2 values.")
-        check_p(self.p)
 
 
-def check_p(p: float) -> None:
+RULE_P = 0.9  # † p: the probability that the stochastic rule π̃ gives to the rule's own action (Equation 16)
+
+
+def check_p(p: float, name: str = "p") -> None:
     """Refuse a stochasticity that is not in [1/9, 1): at 1/9 the rule is uniform, at 1 the KL is infinite."""
     _check(
         isinstance(p, (int, float)) and 1 / N_ACTIONS <= p < 1,
-        f"p = {p!r} is outside [1/9, 1): at 1/9 the rule is uniform, at 1 the KL is infinite.",
+        f"{name} = {p!r} is outside [1/9, 1): at 1/9 the rule is uniform, at 1 the KL is infinite.",
     )
 
 
@@ -306,10 +307,14 @@ class Scenario:
             raise BootcourseError(f"This is not a scenario that bootcourse wrote ({error}).") from None
 
 
+FORMER_FIELDS = {"Rule": ("p",)}  # what files of earlier versions hold; p is a setting of the learner now
+
+
 def _build(cls, data: dict):
     if not isinstance(data, dict):
         raise TypeError(f"{cls.__name__} is {data!r}")
     known = {f.name: f for f in fields(cls)}
+    data = {name: value for name, value in data.items() if name not in FORMER_FIELDS.get(cls.__name__, ())}
     unknown, missing = sorted(set(data) - set(known)), sorted(set(known) - set(data))
     _check(not unknown, f"{cls.__name__} has no field {', '.join(unknown)}: it was written by another version.")
     _check(not missing, f"{cls.__name__} has no {', '.join(missing)}: it was written by another version.")
@@ -329,8 +334,8 @@ SCENARIOS = {scenario.name: scenario for scenario in (DEFAULT, CALIBRATED)}
 
 def named(name: str) -> Scenario:
     """The scenario of that name. Raises BootcourseError with the nearest name."""
-    from bootcourse.errors import nearest
+    from bootcourse.errors import did_you_mean
 
     if name not in SCENARIOS:
-        raise BootcourseError(f"Scenario {nearest(name, SCENARIOS)}.")
+        raise BootcourseError(f"Scenario {did_you_mean(name, SCENARIOS)}.")
     return SCENARIOS[name]

@@ -16,8 +16,8 @@ import torch
 import torch.nn.functional as F
 from torch import nn
 
-from bootcourse.learn.learner import Learner
-from bootcourse.learn.replay import Batch, Replay, pack
+from bootcourse.learn.learner import SACLearner
+from bootcourse.learn.replay_buffer import Batch, ReplayBuffer, encode_transitions
 from bootcourse.learn.settings import Settings, settings_for, with_seeds
 from bootcourse.scenario import DEFAULT, N_ACTIONS
 from tests.bench_road import Row
@@ -29,7 +29,7 @@ PLAIN_TARGET, D3RLPY_TARGET = 8.0, 12.0  # times faster
 class Textbook:
     """One agent as textbooks and CleanRL write it: `nn.Sequential`, an optimiser and a backward for each loss.
 
-    The same losses as `Learner`'s, written out a second time. It is spared what it can be: the actor
+    The same losses as `SACLearner`'s, written out a second time. It is spared what it can be: the actor
     reuses the critics' values, which CleanRL computes afresh.
     """
 
@@ -54,7 +54,7 @@ class Textbook:
         self.alpha_optimiser = torch.optim.Adam([self.log_alpha], lr=settings.alpha_lr)
 
     def kl(self, log_pi, rule_actions):
-        p = self.settings.p
+        p = self.settings.rule_p
         rule = torch.full_like(log_pi, (1 - p) / (self.n_actions - 1))
         rule.scatter_(1, rule_actions[:, None], p)
         return (log_pi.exp() * (log_pi - rule.log())).sum(1)
@@ -117,15 +117,15 @@ def random_rows(n: int, rng: np.random.Generator, inputs: int = DEFAULT.observat
     states, next_states = rng.normal(size=(2, n, inputs))
     actions, rule_actions, next_rule_actions = rng.integers(N_ACTIONS, size=(3, n))
     rewards, terminated = rng.normal(size=n), rng.random(n) < 0.1
-    return pack(states, next_states, actions, rewards, terminated, rule_actions, next_rule_actions)
+    return encode_transitions(states, next_states, actions, rewards, terminated, rule_actions, next_rule_actions)
 
 
 def ours(agents: int) -> Callable[[], None]:
-    """`Learner.update` on what `Replay.sample` draws, for `agents` agents of the paper's method."""
+    """`SACLearner.update` on what `ReplayBuffer.sample` draws, for `agents` agents of the paper's method."""
     settings = with_seeds(settings_for("bootstrapped"), agents)
     rng, inputs = np.random.default_rng(0), DEFAULT.observation_size
-    learner = Learner(settings, inputs)
-    replay = Replay(agents, 2_000, inputs, random_rows(2_000, rng))
+    learner = SACLearner(settings, inputs)
+    replay = ReplayBuffer(agents, 2_000, inputs, random_rows(2_000, rng))
     replay.add(random_rows(agents * 2_000, rng).view(agents, 2_000, -1))
     beta, generators = np.full(agents, 0.6), [np.random.default_rng(s.seed) for s in settings]
     return lambda: learner.update(replay.sample(settings[0].batch, beta, generators))
@@ -134,7 +134,7 @@ def ours(agents: int) -> Callable[[], None]:
 def plain() -> Callable[[], None]:
     """The textbook's update on the same kind of batch, drawn by the same replay."""
     settings, rng, inputs = settings_for("bootstrapped"), np.random.default_rng(0), DEFAULT.observation_size
-    replay = Replay(1, 2_000, inputs, random_rows(2_000, rng))
+    replay = ReplayBuffer(1, 2_000, inputs, random_rows(2_000, rng))
     replay.add(random_rows(2_000, rng)[None])
     agent, beta, generators = Textbook(settings, inputs), np.array([0.6]), [np.random.default_rng(0)]
 

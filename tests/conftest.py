@@ -9,7 +9,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))  # so that `test
 
 
 def drive_road_3(driver, label: str):
-    from bootcourse.record.drive import record
+    from bootcourse.episodes.record import record
     from bootcourse.scenario import DEFAULT
 
     return record(driver, [3], DEFAULT, label)[0]
@@ -18,23 +18,23 @@ def drive_road_3(driver, label: str):
 @pytest.fixture(scope="module")
 def escape():
     """The rule gets out."""
-    from bootcourse.drivers import rule_driver
+    from bootcourse.policies import rule_policy
     from bootcourse.scenario import DEFAULT
 
-    return drive_road_3(rule_driver(DEFAULT), "rule")
+    return drive_road_3(rule_policy(DEFAULT), "rule")
 
 
 @pytest.fixture(scope="module")
 def idle():
     """Nothing is done."""
-    from bootcourse.drivers import idle_driver
+    from bootcourse.policies import idle_policy
 
-    return drive_road_3(idle_driver, "idle")
+    return drive_road_3(idle_policy, "idle")
 
 
 @pytest.fixture(scope="module")
 def crash():
     """Into trap 1, by hand."""
-    from bootcourse.drivers import plan_driver
+    from bootcourse.policies import plan_policy
 
-    return drive_road_3(plan_driver([("accelerate straight", 30)]), "you")
+    return drive_road_3(plan_policy([("accelerate straight", 30)]), "you")

@@ -12,13 +12,13 @@ from pathlib import Path
 import torch
 from torch.profiler import ProfilerActivity, profile
 
-from bootcourse.learn.learner import Learner
-from bootcourse.learn.replay import Replay
+from bootcourse.files import write_bytes
+from bootcourse.learn.learner import SACLearner
+from bootcourse.learn.replay_buffer import ReplayBuffer
 from bootcourse.learn.settings import settings_for, with_seeds
-from bootcourse.learn.train import Training
-from bootcourse.record.files import write_bytes
+from bootcourse.learn.training import Training
+from bootcourse.plots.figure import INK, TEXT, finish, new_figure, plain_axes, save
 from bootcourse.scenario import DEFAULT, N_ACTIONS
-from bootcourse.study.drawing import INK, TEXT, finish, new_figure, plain_axes, save
 from bootcourse.study.tables import markdown
 from tests.bench_learn import AGENTS, growth, milliseconds, ours, table
 
@@ -97,10 +97,10 @@ def share_of_the_update(decisions: int = 300) -> float:
 def memory() -> tuple[float, float]:
     """(networks, their targets and Adam's two moments; what is remembered), MB for each agent."""
     settings = with_seeds(settings_for("bootstrapped"), AGENTS)
-    learner = Learner(settings, DEFAULT.observation_size)
+    learner = SACLearner(settings, DEFAULT.observation_size)
     weights = sum(parameter.nbytes for parameter in (*learner.actor, *learner.critics))
     targets = sum(parameter.nbytes for parameter in learner.target_critics)
-    replay = Replay(AGENTS, settings[0].capacity, DEFAULT.observation_size)
+    replay = ReplayBuffer(AGENTS, settings[0].buffer_size, DEFAULT.observation_size)
     return (3 * weights + targets) / AGENTS / 1e6, replay.table.nbytes / AGENTS / 1e6
 
 

@@ -5,14 +5,15 @@ import shutil
 
 import pytest
 
-from bootcourse import assets
+from bootcourse import cli
+from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import settings_for, with_seeds
-from bootcourse.record.rollout import Rollout
-from bootcourse.record.runs import find_runs, load_run
 from bootcourse.scenario import CALIBRATED, DEFAULT
+from bootcourse.storage import assets
+from bootcourse.storage.runs import find_runs, load_run
 from bootcourse.study import ship
-from bootcourse.study.cells import Cell, run_cell
+from bootcourse.study.jobs import Job, run_job
 from bootcourse.study.results import load_results
 
 
@@ -28,8 +29,8 @@ def study(tmp_path_factory):
         ("sweep/00", DEFAULT, "sac"),
         ("sensitivity/as-it-is", DEFAULT, "sac"),
     ):
-        agents = with_seeds(settings_for(method, warm_up=16, hidden=(8,), capacity=2000), 2)
-        assert run_cell(Cell(name, tuple(agents), scenario, 2, 3), root) == ""
+        agents = with_seeds(settings_for(method, learning_starts=16, hidden=(8,), buffer_size=2000), 2)
+        assert run_job(Job(name, tuple(agents), scenario, 2, 3), root) == ""
     return root
 
 
@@ -78,7 +79,7 @@ def test_a_damaged_missing_or_unlisted_file_is_named_with_the_command_that_makes
     assert len(problems) == 3 and older == []
     assert "sweep.npz is damaged" in text and "demonstrations.npz is missing" in text and "notes.txt is not in" in text
     assert "bootcourse sweep --out DIR" in text
-    assert assets.command("verify", None, shipped) == 1 and "3 wrong" in capsys.readouterr().out
+    assert assets.report(shipped) == 1 and "3 wrong" in capsys.readouterr().out
 
 
 def test_a_file_made_by_older_code_is_named_and_not_called_wrong(shipped, capsys):
@@ -89,7 +90,7 @@ def test_a_file_made_by_older_code_is_named_and_not_called_wrong(shipped, capsys
     (shipped / "manifest.json").write_text(json.dumps(manifest))
     problems, older = assets.verify(shipped)
     assert problems == [] and len(older) == 1 and "sweep.npz is older than the code in rule, moved_since" in older[0]
-    assert assets.command("verify", None, shipped) == 0 and "1 made by older code" in capsys.readouterr().out
+    assert assets.report(shipped) == 0 and "1 made by older code" in capsys.readouterr().out
 
 
 def test_assets_that_are_too_large_are_refused_and_the_old_ones_stay(study, shipped, monkeypatch):
@@ -101,13 +102,13 @@ def test_assets_that_are_too_large_are_refused_and_the_old_ones_stay(study, ship
 
 
 def test_a_study_that_is_not_complete_is_named(study, tmp_path):
-    shutil.copytree(study / "cells/calibrated", tmp_path / "cells/calibrated")
-    with pytest.raises(BootcourseError, match="no finished cells in cells/default"):
+    shutil.copytree(study / "jobs/calibrated", tmp_path / "jobs/calibrated")
+    with pytest.raises(BootcourseError, match="no finished jobs in jobs/default"):
         ship.build(tmp_path, tmp_path / "assets")
     with pytest.raises(BootcourseError, match="build needs --study"):
-        assets.command("build", None, tmp_path)
+        cli.assets("build", None)
     with pytest.raises(BootcourseError, match="did you mean 'verify'"):
-        assets.command("verfy", None, tmp_path)
+        cli.assets("verfy", None)
 
 
 def test_the_readme_s_pictures_stay_and_are_listed(study, shipped):
@@ -121,7 +122,7 @@ def test_the_readme_s_pictures_stay_and_are_listed(study, shipped):
 
 def test_what_a_study_has_not_computed_stays_as_it_ships(study, shipped, tmp_path):
     before = (shipped / "study-default.npz").read_bytes()
-    shutil.copytree(study / "cells/sweep", tmp_path / "later/cells/sweep")
+    shutil.copytree(study / "jobs/sweep", tmp_path / "later/jobs/sweep")
     (shipped / "sweep.npz").write_bytes(b"old")
     ship.build(tmp_path / "later", shipped)
     assert assets.verify(shipped) == ([], []) and load_results(shipped / "sweep.npz").methods == ["sac"]

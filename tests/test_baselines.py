@@ -8,13 +8,14 @@ import pytest
 import torch
 
 from bootcourse.errors import BootcourseError
-from bootcourse.learn import baselines, bc, cql, gail, sac
-from bootcourse.learn.learner import Learner
+from bootcourse.learn import bc, cql, gail, sac
+from bootcourse.learn import methods as baselines
+from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.networks import init_mlp, mlp
-from bootcourse.learn.replay import Batch
+from bootcourse.learn.replay_buffer import Batch
 from bootcourse.learn.settings import ALL, BASELINES, settings_for, with_seeds
-from bootcourse.learn.train import Training
-from bootcourse.record.runs import load_checkpoint, load_run, save_checkpoint, save_runs
+from bootcourse.learn.training import Training
+from bootcourse.storage.runs import load_checkpoint, load_run, save_checkpoint, save_runs
 
 
 def a_batch(agents: int = 2, batch: int = 6, demonstrations: int = 3, seed: int = 0) -> Batch:
@@ -28,7 +29,7 @@ def a_batch(agents: int = 2, batch: int = 6, demonstrations: int = 3, seed: int 
     return Batch(states, next_states, actions, rewards, terminated, rule_actions, next_rule_actions, is_demonstration)
 
 
-def learner(method: str, seeds: int = 2, **changes) -> Learner:
+def learner(method: str, seeds: int = 2, **changes) -> SACLearner:
     return baselines.learner_for(with_seeds(settings_for(method, **changes), seeds), 26)
 
 
@@ -127,7 +128,7 @@ def test_cloning_ignores_every_reward():
 
 @pytest.mark.parametrize("method", ["cql", "cql_sac"])
 def test_switching_off_the_conservative_term_changes_the_very_first_update(method):
-    with_it, without = learner(method), learner(method, conservative=0.0)
+    with_it, without = learner(method), learner(method, cql_weight=0.0)
     for one in (with_it, without):
         one.update(a_batch())
     assert not same(with_it.critics, without.critics)
@@ -203,7 +204,7 @@ def test_methods_whose_updates_differ_are_not_trained_side_by_side():
 
 @pytest.mark.parametrize(("method", "share"), [("bc", 1.0), ("cql", 1.0), ("cql_sac", 1.0), ("gail", 0.5)])
 def test_the_demonstrations_share_of_a_batch_stays_where_it_starts(method, share):
-    training = Training([settings_for(method, demonstrations=2, warm_up=16)], 10)
+    training = Training([settings_for(method, demonstration_episodes=2, learning_starts=16)], 10)
     for finished in (0, 5000):
         training.curves.finished[:] = finished
         batch = training.replay.sample(64, training.beta, training.sample_rngs) if training.replay.size else None
@@ -216,19 +217,21 @@ def test_the_demonstrations_share_of_a_batch_stays_where_it_starts(method, share
 
 @pytest.mark.parametrize("method", BASELINES)
 def test_a_baseline_trains_is_saved_and_drives_like_any_other_method(method, tmp_path):
-    result = Training(with_seeds(settings_for(method, demonstrations=3, warm_up=16), 2), 4).run(progress=False)
+    result = Training(with_seeds(settings_for(method, demonstration_episodes=3, learning_starts=16), 2), 4).run(
+        progress=False
+    )
     assert all(np.isfinite(values).all() for values in result.curves.values())
     back = load_run(save_runs(result, tmp_path)[1])
     observations = np.random.default_rng(0).normal(size=(5, 26))
     np.testing.assert_array_equal(back.agent.policy(observations), result.agents[1].policy(observations))
-    assert back.agent.settings.method == method and back.agent.driver(with_q=True)(
+    assert back.agent.settings.method == method and back.agent.as_policy(with_q=True)(
         observations, None
     ).q_values.shape == (5, 9)
 
 
 @pytest.mark.parametrize("method", BASELINES)
 def test_a_baseline_that_was_killed_goes_on_as_if_it_never_was(method, tmp_path):
-    training = Training(with_seeds(settings_for(method, demonstrations=3, warm_up=16), 2), 6)
+    training = Training(with_seeds(settings_for(method, demonstration_episodes=3, learning_starts=16), 2), 6)
     for _ in range(25):
         training.step()
     save_checkpoint(training, tmp_path / "checkpoint.npz")

@@ -6,16 +6,16 @@ import numpy as np
 import pytest
 import torch
 
-from bootcourse.assets import FOLDER, changed_parts
 from bootcourse.errors import BootcourseError
+from bootcourse.files import sha256, write_arrays
 from bootcourse.learn import bootstrap, sac
-from bootcourse.learn.learner import Learner
-from bootcourse.learn.replay import Batch
+from bootcourse.learn.learner import SACLearner
+from bootcourse.learn.replay_buffer import Batch
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.lessons import bugs
 from bootcourse.lessons.bugs import BUGS, COMMAND, FILE, LEARNERS, LETTERS, PROBES, Hunt
 from bootcourse.lessons.exercises import registry
-from bootcourse.record.files import sha256, write_arrays
+from bootcourse.storage.assets import FOLDER, changed_parts
 from bootcourse.study.ship import Shipment, add_kept
 
 AGENTS, SIZE = 2, 16
@@ -32,7 +32,7 @@ def batch(**changed) -> Batch:
     return made._replace(**changed)
 
 
-def after(kind: type[Learner], given: Batch, **settings) -> dict[str, torch.Tensor]:
+def after(kind: type[SACLearner], given: Batch, **settings) -> dict[str, torch.Tensor]:
     """Actor and critics after one update."""
     learner = kind(with_seeds(settings_for("bootstrapped", hidden=(8,), alpha_init=0.1, **settings), AGENTS), 26)
     learner.update(given)
@@ -41,7 +41,7 @@ def after(kind: type[Learner], given: Batch, **settings) -> dict[str, torch.Tens
 
 
 def differs(bug: str, given: Batch, **settings) -> dict[str, bool]:
-    right, wrong = after(Learner, given, **settings), after(BUGS[bug], given, **settings)
+    right, wrong = after(SACLearner, given, **settings), after(BUGS[bug], given, **settings)
     return {part: not torch.equal(right[part], wrong[part]) for part in right}
 
 
@@ -158,7 +158,7 @@ def test_a_file_that_is_missing_or_another_is_named_with_the_remedy(tmp_path):
 
 
 def test_the_command_makes_such_a_file(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(bugs, "LEARNERS", {"none": Learner, "no_end": LEARNERS["no_end"]})
+    monkeypatch.setattr(bugs, "LEARNERS", {"none": SACLearner, "no_end": LEARNERS["no_end"]})
     monkeypatch.setattr(bugs, "EVERY", 5)
     assert bugs.main(["--out", str(tmp_path / "hunt.npz"), "--updates", "10"]) == 0
     with np.load(tmp_path / "hunt.npz") as file:

@@ -4,18 +4,17 @@ import numpy as np
 import pytest
 import torch
 
-from bootcourse.drivers import plan_driver, rule_driver
+from bootcourse.episodes.interactive import InteractiveEpisode, interpolate_states
+from bootcourse.episodes.record import record
+from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError
-from bootcourse.learn.demonstrations import FIRST_SEED, collect
+from bootcourse.learn.demonstrations import FIRST_SEED, bootstrap_with, collect, demonstration_rows
 from bootcourse.learn.settings import settings_for, with_seeds
-from bootcourse.learn.train import Training
-from bootcourse.record.by_hand import ByHand, between
-from bootcourse.record.demonstrations import bootstrap_with, demonstration_rows
-from bootcourse.record.drive import record
-from bootcourse.record.rollout import Rollout
+from bootcourse.learn.training import Training
+from bootcourse.policies import plan_policy, rule_policy
 from bootcourse.scenario import ACTION_NAMES, CALIBRATED, DEFAULT, IDLE
 
-SMALL = {"hidden": (16, 16), "demonstrations": 2, "warm_up": 8}
+SMALL = {"hidden": (16, 16), "demonstration_episodes": 2, "learning_starts": 8}
 
 
 def same(a: Rollout, b: Rollout) -> bool:
@@ -24,8 +23,8 @@ def same(a: Rollout, b: Rollout) -> bool:
 
 
 def test_a_drive_by_hand_is_the_drive_that_is_recorded_of_the_same_actions():
-    recorded = record(rule_driver(DEFAULT), [3], label="you")[0]
-    drive = ByHand(3)
+    recorded = record(rule_policy(DEFAULT), [3], label="you")[0]
+    drive = InteractiveEpisode(3)
     for action in recorded.actions:
         drive.decide(int(action))
     assert drive.over and same(drive.rollout(), recorded) and drive.rollout().label == "you"
@@ -33,8 +32,8 @@ def test_a_drive_by_hand_is_the_drive_that_is_recorded_of_the_same_actions():
 
 
 def test_an_accident_ends_the_drive_where_it_happened():
-    recorded = record(plan_driver([("keep right", 30)]), [3])[0]
-    drive = ByHand(3)
+    recorded = record(plan_policy([("keep right", 30)]), [3])[0]
+    drive = InteractiveEpisode(3)
     while not drive.over:
         drive.decide(ACTION_NAMES.index("keep right"))
     assert recorded.accident and same(drive.rollout(), recorded)
@@ -43,7 +42,7 @@ def test_an_accident_ends_the_drive_where_it_happened():
 
 
 def test_a_drive_that_is_not_over_makes_a_rollout_too(tmp_path):
-    drive = ByHand(0)
+    drive = InteractiveEpisode(0)
     with pytest.raises(BootcourseError, match="Nothing was driven"):
         drive.rollout()
     drive.decide(IDLE)
@@ -53,7 +52,7 @@ def test_a_drive_that_is_not_over_makes_a_rollout_too(tmp_path):
 
 @pytest.mark.parametrize("nonsense", [-1, 9, 1.5, "left", True, None])
 def test_an_action_that_is_none_is_refused_and_changes_nothing(nonsense):
-    drive = ByHand(0)
+    drive = InteractiveEpisode(0)
     with pytest.raises(BootcourseError, match="give a whole number"):
         drive.decide(nonsense)
     assert drive.time == 0.0
@@ -62,33 +61,33 @@ def test_an_action_that_is_none_is_refused_and_changes_nothing(nonsense):
 @pytest.mark.parametrize("nonsense", [-1, 1.5, "one", True])
 def test_a_road_that_cannot_be_is_refused(nonsense):
     with pytest.raises(BootcourseError, match="seed"):
-        ByHand(nonsense)
+        InteractiveEpisode(nonsense)
 
 
 def test_between_two_steps_cars_are_between_and_headings_turn_the_short_way():
     states = np.zeros((2, 1, 10))
     states[:, 0, 0], states[:, 0, 2] = (0, 10), (3.1, -3.1)
-    middle = between(states, 0.5)
+    middle = interpolate_states(states, 0.5)
     assert middle[0, 0] == 5 and abs(abs(middle[0, 2]) - np.pi) < 1e-9
-    assert between(states, -1)[0, 0] == 0 and between(states, 7)[0, 0] == 10
+    assert interpolate_states(states, -1)[0, 0] == 0 and interpolate_states(states, 7)[0, 0] == 10
 
 
 def test_the_rule_s_recorded_drives_are_the_demonstrations_that_it_drives_itself():
-    mine = demonstration_rows(record(rule_driver(DEFAULT), [FIRST_SEED, FIRST_SEED + 1]))
+    mine = demonstration_rows(record(rule_policy(DEFAULT), [FIRST_SEED, FIRST_SEED + 1]))
     own = collect(2)
     assert mine.dtype == own.dtype and mine.shape == own.shape
     assert torch.equal(torch.unique(mine, dim=0), torch.unique(own, dim=0))
 
 
 def test_only_an_accident_is_an_end_without_a_future():
-    crash = record(plan_driver([("keep right", 30)]), [3])[0]
+    crash = record(plan_policy([("keep right", 30)]), [3])[0]
     n = 2 * DEFAULT.observation_size
     assert demonstration_rows([crash])[-1, n + 2] == 1 and demonstration_rows([crash])[:-1, n + 2].sum() == 0
-    assert demonstration_rows(record(rule_driver(DEFAULT), [3]))[:, n + 2].sum() == 0
+    assert demonstration_rows(record(rule_policy(DEFAULT), [3]))[:, n + 2].sum() == 0
 
 
 def test_an_agent_learns_from_the_drives_that_it_is_given():
-    drives = record(rule_driver(DEFAULT), [5])
+    drives = record(rule_policy(DEFAULT), [5])
     training = bootstrap_with(Training(with_seeds(settings_for("bootstrapped", **SMALL), 2), episodes=2), drives)
     rows = demonstration_rows(drives)
     assert training.replay.demonstrations == len(rows) and torch.equal(training.replay.table[: len(rows)], rows)
@@ -97,16 +96,16 @@ def test_an_agent_learns_from_the_drives_that_it_is_given():
 
 
 def test_what_cannot_be_bootstrapped_is_refused():
-    drives = record(rule_driver(DEFAULT), [5])
+    drives = record(rule_policy(DEFAULT), [5])
     with pytest.raises(BootcourseError, match="no demonstration"):
         demonstration_rows([])
     with pytest.raises(BootcourseError, match="different scenarios"):
-        demonstration_rows([*drives, *record(rule_driver(CALIBRATED), [5], CALIBRATED)])
+        demonstration_rows([*drives, *record(rule_policy(CALIBRATED), [5], CALIBRATED)])
     with pytest.raises(BootcourseError, match="'sac' uses no demonstrations"):
         bootstrap_with(Training([settings_for("sac", **SMALL)], 2), drives)
     training = Training([settings_for("demos", **SMALL)], 2)
     with pytest.raises(BootcourseError, match="another scenario"):
-        bootstrap_with(training, record(rule_driver(CALIBRATED), [5], CALIBRATED))
+        bootstrap_with(training, record(rule_policy(CALIBRATED), [5], CALIBRATED))
     training.step()
     with pytest.raises(BootcourseError, match="has begun"):
         bootstrap_with(training, drives)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 import torch
 
-from bootcourse.learn.baselines import learner_for
-from bootcourse.learn.replay import unpack
+from bootcourse.learn.methods import learner_for
+from bootcourse.learn.replay_buffer import decode_transitions
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.study import checks
 
@@ -19,7 +19,7 @@ def test_the_demonstrator_balances_every_pole_to_the_end():
 
 def test_collected_rows_are_whole_episodes_with_their_true_last_states():
     rows, returns = checks.collect(lambda states: np.ones(len(states), dtype=np.int64), checks.cartpole, 5)
-    batch = unpack(rows, 4, torch.zeros(len(rows)))
+    batch = decode_transitions(rows, 4, torch.zeros(len(rows)))
     assert len(rows) == returns.sum() and batch.terminated.sum() == 5
     fallen = batch.next_states[batch.terminated == 1]
     assert (
@@ -29,7 +29,7 @@ def test_collected_rows_are_whole_episodes_with_their_true_last_states():
 
 def test_running_out_of_time_is_not_a_termination():
     rows, _ = checks.collect(checks.balance, checks.cartpole, 2)
-    assert not unpack(rows, 4, torch.zeros(len(rows))).terminated.any()
+    assert not decode_transitions(rows, 4, torch.zeros(len(rows))).terminated.any()
 
 
 def test_the_cartpole_of_fixed_length_pays_only_while_the_pole_is_up_and_never_ends_early():
@@ -42,7 +42,7 @@ def test_the_cartpole_of_fixed_length_pays_only_while_the_pole_is_up_and_never_e
 def test_the_rule_s_part_is_inert_without_a_rule():
     """Whatever stands where the rule's actions would, sac learns the same."""
     rows, _ = checks.collect(checks.balance, checks.cartpole, 1)
-    batch = unpack(rows[None, :64], 4, torch.zeros(1, 64))
+    batch = decode_transitions(rows[None, :64], 4, torch.zeros(1, 64))
     first, second = (learner_for([settings_for("sac")], 4, 2) for _ in range(2))
     first.update(batch)
     second.update(batch._replace(rule_actions=1 - batch.rule_actions, next_rule_actions=1 - batch.next_rule_actions))
@@ -55,7 +55,7 @@ def test_training_is_the_same_each_time_and_for_each_seed_alone():
     def trained(settings):
         return checks.train(settings, checks.cartpole, 400)
 
-    settings = with_seeds(settings_for("sac", warm_up=64), 2)
+    settings = with_seeds(settings_for("sac", learning_starts=64), 2)
     together, again, alone = trained(settings), trained(settings), trained(settings[1:])
     assert all(torch.equal(a, b) for a, b in zip(together.actor, again.actor, strict=True))
     for both, one in zip(together.actor, alone.actor, strict=True):
@@ -65,7 +65,7 @@ def test_training_is_the_same_each_time_and_for_each_seed_alone():
 def test_cloning_the_demonstrator_balances_the_pole():
     """The whole harness in seconds: behaviour cloning from 5 demonstrations."""
     rows, _ = checks.collect(checks.balance, checks.cartpole, 5)
-    learner = checks.train([settings_for("bc", roads=1)], checks.cartpole, 1500, rows)
+    learner = checks.train([settings_for("bc", envs_per_agent=1)], checks.cartpole, 1500, rows)
     assert checks.scores(learner, checks.cartpole, 10).mean() > 450
 
 
@@ -76,7 +76,7 @@ def test_a_loss_with_the_wrong_sign_misses_the_figure(monkeypatch):
     loss = bc.cloning_loss
     monkeypatch.setattr(bc, "cloning_loss", lambda log_pi, actions: -loss(log_pi, actions))
     rows, _ = checks.collect(checks.balance, checks.cartpole, 5)
-    learner = checks.train([settings_for("bc", roads=1)], checks.cartpole, 300, rows)
+    learner = checks.train([settings_for("bc", envs_per_agent=1)], checks.cartpole, 300, rows)
     assert checks.scores(learner, checks.cartpole, 10).mean() < 50
 
 

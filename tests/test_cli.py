@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from bootcourse.record.rollout import Rollout
+from bootcourse.episodes.rollout import Rollout
 
 
 def bootcourse(*arguments, cwd=None) -> subprocess.CompletedProcess:

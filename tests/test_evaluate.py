@@ -3,26 +3,25 @@
 import numpy as np
 import pytest
 
-from bootcourse.drivers import idle_driver, in_words, plan_driver, random_driver, rule_driver
-from bootcourse.errors import BootcourseError
-from bootcourse.learn.demonstrations import FIRST_SEED as DEMONSTRATIONS
-from bootcourse.learn.train import FIRST_SEED as TRAINING
-from bootcourse.record.drive import record
-from bootcourse.scenario import DEFAULT
-from bootcourse.study.evaluate import (
+from bootcourse.episodes.evaluate import (
     BLOCK,
     MAX_SEED,
     drive_episodes,
     held_out_seeds,
-    mean,
     over_seeds,
-    rate,
-    report,
+    summarise,
 )
+from bootcourse.episodes.record import record
+from bootcourse.errors import BootcourseError
+from bootcourse.learn.demonstrations import FIRST_SEED as DEMONSTRATIONS
+from bootcourse.learn.training import FIRST_SEED as TRAINING
+from bootcourse.policies import idle_policy, in_words, plan_policy, random_policy, rule_policy
+from bootcourse.scenario import DEFAULT
+from bootcourse.statistics import mean, rate
 
 
 def test_the_ego_that_does_nothing_earns_23_4375_on_every_held_out_road():
-    episodes = drive_episodes(idle_driver, held_out_seeds(1, 200))
+    episodes = drive_episodes(idle_policy, held_out_seeds(1, 200))
     np.testing.assert_allclose(episodes.returns, 23.4375, atol=1e-9)
     np.testing.assert_allclose(episodes.distance, 1500, atol=1e-9)
     assert not episodes.success.any()
@@ -30,8 +29,8 @@ def test_the_ego_that_does_nothing_earns_23_4375_on_every_held_out_road():
 
 def test_an_evaluation_agrees_with_recorded_drives_of_the_same_roads():
     seeds = held_out_seeds(2, 6)
-    episodes = drive_episodes(rule_driver(DEFAULT), seeds)
-    for i, rollout in enumerate(record(rule_driver(DEFAULT), seeds)):
+    episodes = drive_episodes(rule_policy(DEFAULT), seeds)
+    for i, rollout in enumerate(record(rule_policy(DEFAULT), seeds)):
         assert episodes.returns[i] == pytest.approx(rollout.rewards.sum())
         assert episodes.distance[i] == pytest.approx(rollout.distance)
         assert episodes.success[i] == rollout.success
@@ -40,14 +39,14 @@ def test_an_evaluation_agrees_with_recorded_drives_of_the_same_roads():
 
 def test_episodes_driven_in_small_groups_are_the_same_episodes():
     seeds = held_out_seeds(3, 25)
-    together = drive_episodes(rule_driver(DEFAULT), seeds)
-    apart = drive_episodes(rule_driver(DEFAULT), seeds, together=7)
+    together = drive_episodes(rule_policy(DEFAULT), seeds)
+    apart = drive_episodes(rule_policy(DEFAULT), seeds, together=7)
     np.testing.assert_array_equal(together.returns, apart.returns)
 
 
 def test_the_kinds_of_accident_are_counted_apart():
-    episodes = drive_episodes(random_driver(np.random.default_rng(0)), held_out_seeds(1, 300))
-    result = report(episodes)
+    episodes = drive_episodes(random_policy(np.random.default_rng(0)), held_out_seeds(1, 300))
+    result = summarise(episodes)
     kinds = result.collision.value + result.road_departure.value + result.stoppage.value
     assert kinds == pytest.approx((episodes.accident > 0).mean()) and result.road_departure.value > 0
 
@@ -64,7 +63,9 @@ def test_the_interval_of_a_mean_is_student_s():
 
 
 def test_the_interval_over_seeds_spans_the_seeds_and_holds_their_mean():
-    reports = [report(drive_episodes(driver, held_out_seeds(1, 20))) for driver in (idle_driver, rule_driver(DEFAULT))]
+    reports = [
+        summarise(drive_episodes(driver, held_out_seeds(1, 20))) for driver in (idle_policy, rule_policy(DEFAULT))
+    ]
     success = over_seeds(reports)["success"]
     assert (success.value, success.low, success.high) == (0.5, 0.0, 1.0)
 
@@ -82,10 +83,10 @@ def test_a_seed_or_number_outside_its_block_is_refused(seed, episodes):
 
 def test_a_plan_in_words_drives_as_written_and_reads_back():
     plan = [("brake straight", 2), ("keep left", 1), ("keep straight", 1)]
-    rollout = record(plan_driver(plan), [0])[0]
+    rollout = record(plan_policy(plan), [0])[0]
     assert in_words(rollout.actions[:4]) == plan
 
 
 def test_a_mistyped_action_is_named_with_the_nearest():
     with pytest.raises(BootcourseError, match="did you mean 'brake left'"):
-        plan_driver(["brake lef"])
+        plan_policy(["brake lef"])

@@ -10,13 +10,13 @@ from PIL import Image
 
 from bootcourse.colours import ALARM, TRAP, style
 from bootcourse.errors import BootcourseError
+from bootcourse.plots import animation, save, show, top_view, top_view_over_time, traces, training_curves
+from bootcourse.plots.drive_figure import save_drive
+from bootcourse.plots.figure import Picture, finish, label_ends, new_figure, plain_axes, png, styles
+from bootcourse.plots.top_view import cars_at, doing, key_moments, overtaken, window
+from bootcourse.plots.traces import PANELS, series
 from bootcourse.road.state import EGO, HEADING, LANE, SPEED, TRAP_1, X, Y
 from bootcourse.scenario import DEFAULT
-from bootcourse.study import animation
-from bootcourse.study.drawing import Picture, finish, label_ends, new_figure, plain_axes, png, styles
-from bootcourse.study.figures import save, save_drive, show, top_view, top_view_over_time, traces, training_curves
-from bootcourse.study.top_view import cars_at, doing, key_moments, overtaken, window
-from bootcourse.study.traces import PANELS, series
 
 
 def curves(agents: int = 4, episodes: int = 120, missing: int = 0) -> dict[str, np.ndarray]:

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 import torch
 
-from bootcourse.learn.learner import Learner
+from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.networks import init_mlp, mlp
-from bootcourse.learn.replay import Batch, Replay
+from bootcourse.learn.replay_buffer import Batch, ReplayBuffer
 from bootcourse.learn.settings import METHODS, settings_for
 from bootcourse.scenario import DEFAULT
 from tests.bench_learn import Textbook, random_rows
@@ -19,14 +19,14 @@ EVERY_METHOD = [settings_for(method, seed=seed) for seed, method in enumerate(ME
 VARIANTS = [
     settings_for("bootstrapped", kl_in_target=False),
     settings_for("bootstrapped", xi_fixed=0.3),
-    settings_for("margin_soft", paper_q_filter=False, gamma=0.95, target_entropy=0.3, p=0.5),
+    settings_for("margin_soft", paper_q_filter=False, gamma=0.95, target_entropy=0.3, rule_p=0.5),
 ]
 
 
 def batches(settings, count=1, seed=0):
     """Batches as a training would draw them early on: 0.6 of each from the demonstrations, where there are any."""
     rng = np.random.default_rng(seed)
-    replay = Replay(len(settings), 500, INPUTS, random_rows(300, rng))
+    replay = ReplayBuffer(len(settings), 500, INPUTS, random_rows(300, rng))
     replay.add(random_rows(len(settings) * 500, rng).view(len(settings), 500, -1))
     beta, generators = np.array([s.beta_start for s in settings]), [np.random.default_rng(s.seed) for s in settings]
     return [replay.sample(settings[0].batch, beta, generators) for _ in range(count)]
@@ -36,7 +36,7 @@ def of_one(batch: Batch, i: int) -> Batch:
     return Batch(*(column[i : i + 1] for column in batch))
 
 
-def weights(learner: Learner, i: int = 0) -> torch.Tensor:
+def weights(learner: SACLearner, i: int = 0) -> torch.Tensor:
     """Everything that an update changes in agent i, as one vector."""
     n = learner.agents
     parts = [p[i] for p in learner.actor]
@@ -44,7 +44,7 @@ def weights(learner: Learner, i: int = 0) -> torch.Tensor:
     return torch.cat([part.detach().reshape(-1) for part in (*parts, learner.log_alpha[i])])
 
 
-def textbook_of(learner: Learner, i: int) -> Textbook:
+def textbook_of(learner: SACLearner, i: int) -> Textbook:
     """A textbook agent with the weights of agent i."""
     twin, n = Textbook(learner.settings[i], INPUTS), learner.agents
     pairs = [(twin.actor, learner.actor, i)]
@@ -60,7 +60,7 @@ def textbook_of(learner: Learner, i: int) -> Textbook:
     return twin
 
 
-def gradients_of(learner: Learner, i: int) -> list[torch.Tensor]:
+def gradients_of(learner: SACLearner, i: int) -> list[torch.Tensor]:
     n = learner.agents
     rows = [(learner.actor, i), (learner.critics, i), (learner.critics, n + i)]
     return [p.grad[row] for parameters, row in rows for p in parameters] + [learner.log_alpha.grad[i]]
@@ -76,7 +76,7 @@ def gradients_of_textbook(twin: Textbook) -> list[torch.Tensor]:
 
 @pytest.mark.parametrize("settings", [EVERY_METHOD, VARIANTS], ids=["methods", "variants"])
 def test_every_gradient_is_the_one_that_separate_losses_with_separate_backwards_give(settings):
-    learner, (batch,) = Learner(settings, INPUTS), batches(settings)
+    learner, (batch,) = SACLearner(settings, INPUTS), batches(settings)
     twins = [textbook_of(learner, i) for i in range(learner.agents)]
     learner.update(batch)
     for i, twin in enumerate(twins):
@@ -87,7 +87,7 @@ def test_every_gradient_is_the_one_that_separate_losses_with_separate_backwards_
 
 @pytest.mark.parametrize("settings", [EVERY_METHOD, VARIANTS], ids=["methods", "variants"])
 def test_ten_updates_lead_where_the_textbook_leads(settings):
-    learner = Learner(settings, INPUTS)
+    learner = SACLearner(settings, INPUTS)
     twins = [textbook_of(learner, i) for i in range(learner.agents)]
     for batch in batches(settings, 10):
         learner.update(batch)
@@ -104,8 +104,8 @@ def test_ten_updates_lead_where_the_textbook_leads(settings):
 
 
 def test_agents_that_learn_together_learn_what_each_learns_alone():
-    together = Learner(EVERY_METHOD, INPUTS)
-    alone = [Learner([s], INPUTS) for s in EVERY_METHOD]
+    together = SACLearner(EVERY_METHOD, INPUTS)
+    alone = [SACLearner([s], INPUTS) for s in EVERY_METHOD]
     for i, one in enumerate(alone):
         assert torch.equal(weights(together, i), weights(one)), "the first weights"
     for batch in batches(EVERY_METHOD, 5):
@@ -120,7 +120,7 @@ def test_agents_that_learn_together_learn_what_each_learns_alone():
 
 def test_what_one_agent_sees_is_nothing_to_another():
     settings = [settings_for("bootstrapped", seed=seed) for seed in range(3)]
-    first, second = Learner(settings, INPUTS), Learner(settings, INPUTS)
+    first, second = SACLearner(settings, INPUTS), SACLearner(settings, INPUTS)
     (batch,) = batches(settings)
     first.update(batch)
     other = Batch(*(column.clone() for column in batch))
@@ -132,9 +132,9 @@ def test_what_one_agent_sees_is_nothing_to_another():
 
 def test_the_two_critics_start_apart_and_learn_apart():
     settings = [settings_for("sac")]
-    learner, (batch,) = Learner(settings, INPUTS), batches(settings)
+    learner, (batch,) = SACLearner(settings, INPUTS), batches(settings)
     assert not torch.equal(learner.critics[0][0], learner.critics[0][1])
-    other = Learner(settings, INPUTS)
+    other = SACLearner(settings, INPUTS)
     with torch.no_grad():
         other.critics[0][1] += 0.1  # the second critic's first layer; targets stay
     learner.update(batch)
@@ -146,7 +146,7 @@ def test_the_two_critics_start_apart_and_learn_apart():
 
 def test_targets_follow_by_tau_and_have_no_gradient():
     settings = [settings_for("bootstrapped", tau=0.25)]
-    learner, (batch,) = Learner(settings, INPUTS), batches(settings)
+    learner, (batch,) = SACLearner(settings, INPUTS), batches(settings)
     before = [p.clone() for p in learner.target_critics]
     learner.update(batch)
     for old, target, critic in zip(before, learner.target_critics, learner.critics, strict=True):
@@ -156,7 +156,7 @@ def test_targets_follow_by_tau_and_have_no_gradient():
 
 def test_an_update_with_learning_rates_of_zero_changes_nothing():
     settings = [settings_for("bootstrapped", actor_lr=0.0, critic_lr=0.0, alpha_lr=0.0)]
-    learner, (batch,) = Learner(settings, INPUTS), batches(settings)
+    learner, (batch,) = SACLearner(settings, INPUTS), batches(settings)
     before = weights(learner)
     learner.update(batch)
     torch.testing.assert_close(weights(learner), before, atol=1e-7, rtol=0)
@@ -167,7 +167,7 @@ def test_an_update_with_learning_rates_of_zero_changes_nothing():
 )
 def test_each_learning_rate_moves_its_own_part_and_no_other(rate, moving):
     still = dict.fromkeys(("actor_lr", "critic_lr", "alpha_lr"), 0.0)
-    learner = Learner([settings_for("bootstrapped", **(still | {rate: 0.01}))], INPUTS)
+    learner = SACLearner([settings_for("bootstrapped", **(still | {rate: 0.01}))], INPUTS)
     before = copy.deepcopy([learner.actor, learner.critics, [learner.log_alpha]])
     learner.update(batches(learner.settings)[0])
     for name, old, new in zip(
@@ -183,7 +183,7 @@ INGREDIENTS = [
     ("soft", {"xi_multiplier": 0.0}, ("actor", "critics")),
     ("bootstrapped", {"xi_multiplier": 0.0}, ("actor", "critics")),
     ("bootstrapped", {"kl_in_target": False}, ("critics",)),
-    ("bootstrapped", {"p": 0.5}, ("actor", "critics")),
+    ("bootstrapped", {"rule_p": 0.5}, ("actor", "critics")),
     ("bootstrapped", {"bonus": 0.0}, ("critics",)),
     ("bootstrapped", {"beta_start": 0.0}, ("actor", "critics")),
     ("demos", {"bonus": 0.0}, ("critics",)),
@@ -200,7 +200,7 @@ INGREDIENTS = [
 @pytest.mark.parametrize(("method", "off", "differs"), INGREDIENTS)
 def test_every_ingredient_is_at_work_in_the_very_first_update(method, off, differs):
     with_it = settings_for(method)
-    learners = [Learner([settings], INPUTS) for settings in (with_it, replace(with_it, **off))]
+    learners = [SACLearner([settings], INPUTS) for settings in (with_it, replace(with_it, **off))]
     for learner in learners:
         learner.update(batches(learner.settings)[0])
     for part in ("actor", "critics"):
@@ -209,7 +209,7 @@ def test_every_ingredient_is_at_work_in_the_very_first_update(method, off, diffe
 
 
 def test_the_methods_first_updates_all_differ():
-    learner = Learner([replace(s, seed=0) for s in EVERY_METHOD], INPUTS)
+    learner = SACLearner([replace(s, seed=0) for s in EVERY_METHOD], INPUTS)
     learner.update(batches(learner.settings)[0])
     critics = torch.stack([torch.cat([p.grad[i].reshape(-1) for p in learner.critics]) for i in range(learner.agents)])
     for i in range(learner.agents):

@@ -109,7 +109,7 @@ def test_the_temperature_loss_gives_the_policy_no_gradient():
 
 
 def test_the_smaller_critic_is_taken_for_each_action():
-    close(sac.smaller(torch.tensor([[[1.0, 5.0]], [[2.0, 3.0]]])), [[1.0, 3.0]])
+    close(sac.min_q(torch.tensor([[[1.0, 5.0]], [[2.0, 3.0]]])), [[1.0, 3.0]])
 
 
 def test_the_stochastic_rule_gives_p_to_the_rules_action_and_shares_the_rest():

@@ -6,7 +6,7 @@ import torch
 
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.demonstrations import collect
-from bootcourse.learn.replay import Replay, pack
+from bootcourse.learn.replay_buffer import ReplayBuffer, encode_transitions
 from bootcourse.scenario import DEFAULT
 from tests.bench_learn import random_rows
 
@@ -17,7 +17,7 @@ def numbered(agents: int, roads: int, first: int) -> torch.Tensor:
     """Rows whose reward says which agent wrote them, and when: 1000 x agent + number."""
     numbers = np.arange(first, first + roads) + 1000.0 * np.arange(agents)[:, None]
     states, whole = np.zeros((agents, roads, INPUTS)), np.zeros((agents, roads))
-    return pack(states, states, whole, numbers, whole, whole, whole)
+    return encode_transitions(states, states, whole, numbers, whole, whole, whole)
 
 
 def generators(*seeds: int) -> list[np.random.Generator]:
@@ -29,8 +29,10 @@ def test_what_goes_in_comes_out():
     states, next_states = rng.normal(size=(2, 6, INPUTS)).astype(np.float32)
     actions, rule_actions, next_rule_actions = rng.integers(9, size=(3, 6))
     rewards, terminated = rng.normal(size=6).astype(np.float32), np.array([0, 1, 0, 0, 1, 0])
-    replay = Replay(1, 6, INPUTS)
-    replay.add(pack(states, next_states, actions, rewards, terminated, rule_actions, next_rule_actions)[None])
+    replay = ReplayBuffer(1, 6, INPUTS)
+    replay.add(
+        encode_transitions(states, next_states, actions, rewards, terminated, rule_actions, next_rule_actions)[None]
+    )
     batch = replay.sample(200, np.zeros(1), generators(0))
     which = [int(np.flatnonzero(rewards == reward.item())[0]) for reward in batch.rewards[0]]
     assert set(which) == set(range(6))
@@ -45,7 +47,7 @@ def test_what_goes_in_comes_out():
 
 
 def test_the_oldest_is_overwritten_and_nothing_else():
-    replay = Replay(2, 10, INPUTS)
+    replay = ReplayBuffer(2, 10, INPUTS)
     for k in range(7):  # 28 transitions of each agent, 10 of which fit, across the end of the table
         replay.add(numbered(2, 4, 4 * k))
     batch = replay.sample(500, np.zeros(2), generators(0, 1))
@@ -54,13 +56,13 @@ def test_the_oldest_is_overwritten_and_nothing_else():
 
 
 def test_only_what_has_been_written_is_drawn():
-    replay = Replay(1, 1000, INPUTS)
+    replay = ReplayBuffer(1, 1000, INPUTS)
     replay.add(numbered(1, 4, 1))
     assert set(replay.sample(200, np.zeros(1), generators(0)).rewards[0].tolist()) == {1.0, 2.0, 3.0, 4.0}
 
 
 def test_every_transition_is_drawn_equally_often():
-    replay = Replay(1, 10, INPUTS)
+    replay = ReplayBuffer(1, 10, INPUTS)
     replay.add(numbered(1, 10, 0))
     counts = torch.bincount(replay.sample(20_000, np.zeros(1), generators(0)).rewards[0].long(), minlength=10)
     assert (counts - 2000).abs().max() < 5 * (2000 * 0.9) ** 0.5
@@ -69,7 +71,7 @@ def test_every_transition_is_drawn_equally_often():
 @pytest.mark.parametrize(("beta", "demonstrations"), [(0.0, 0), (0.3, 19), (0.5, 32), (0.6, 38), (0.65, 42), (1.0, 64)])
 def test_the_share_of_demonstrations_is_beta_of_the_batch(beta, demonstrations):
     demonstrated = numbered(1, 20, 500)[0]
-    replay = Replay(1, 50, INPUTS, demonstrated)
+    replay = ReplayBuffer(1, 50, INPUTS, demonstrated)
     replay.add(numbered(1, 50, 0))
     batch = replay.sample(64, np.array([beta]), generators(0))
     assert batch.is_demonstration.sum() == demonstrations
@@ -78,14 +80,14 @@ def test_the_share_of_demonstrations_is_beta_of_the_batch(beta, demonstrations):
 
 
 def test_each_agent_has_its_own_share():
-    replay = Replay(3, 50, INPUTS, random_rows(20, np.random.default_rng(0)))
+    replay = ReplayBuffer(3, 50, INPUTS, random_rows(20, np.random.default_rng(0)))
     replay.add(numbered(3, 50, 0))
     batch = replay.sample(10, np.array([0.0, 0.5, 1.0]), generators(0, 1, 2))
     assert batch.is_demonstration.sum(1).tolist() == [0.0, 5.0, 10.0]
 
 
 def test_what_an_agent_draws_depends_on_its_own_generator_alone():
-    together, alone = Replay(3, 50, INPUTS), Replay(1, 50, INPUTS)
+    together, alone = ReplayBuffer(3, 50, INPUTS), ReplayBuffer(1, 50, INPUTS)
     rows = random_rows(150, np.random.default_rng(0)).view(3, 50, -1)
     together.add(rows)
     alone.add(rows[1:2])
@@ -98,7 +100,7 @@ def test_what_an_agent_draws_depends_on_its_own_generator_alone():
 
 
 def test_beta_without_demonstrations_is_refused():
-    replay = Replay(1, 10, INPUTS)
+    replay = ReplayBuffer(1, 10, INPUTS)
     replay.add(numbered(1, 10, 0))
     with pytest.raises(BootcourseError, match="no demonstrations"):
         replay.sample(64, np.array([0.6]), generators(0))

@@ -3,16 +3,16 @@
 import pytest
 
 from bootcourse.errors import BootcourseError
-from bootcourse.learn.learner import Learner
+from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.settings import METHODS, Settings, settings_for, with_seeds
-from bootcourse.learn.train import Training
+from bootcourse.learn.training import Training
 
 
 def test_the_defaults_are_the_papers_table():
     s = settings_for("bootstrapped")
     assert (s.gamma, s.actor_lr, s.critic_lr, s.alpha_lr) == (0.8, 5e-4, 1e-3, 1e-3)
-    assert (s.batch, s.capacity, s.alpha_init, s.target_entropy) == (64, 50_000, 0.01, -1.0)
-    assert (s.beta_start, s.beta_episodes, s.bonus, s.p, s.demonstrations) == (0.6, 1000, 2.0, 0.9, 200)
+    assert (s.batch, s.buffer_size, s.alpha_init, s.target_entropy) == (64, 50_000, 0.01, -1.0)
+    assert (s.beta_start, s.beta_episodes, s.bonus, s.rule_p, s.demonstration_episodes) == (0.6, 1000, 2.0, 0.9, 200)
     assert s.xi_multiplier * s.alpha_init == 2.0  # w_kl
 
 
@@ -34,14 +34,14 @@ def test_a_mistyped_setting_suggests_the_nearest():
         ({"gamma": "0.8"}, "gamma = '0.8'"),
         ({"alpha_init": 0.0}, "alpha_init = 0.0"),
         ({"bonus": float("inf")}, "bonus = inf: give a finite number."),
-        ({"p": 0.1}, "p = 0.1"),
-        ({"p": 1.0}, "p = 1.0"),
+        ({"rule_p": 0.1}, "rule_p = 0.1"),
+        ({"rule_p": 1.0}, "rule_p = 1.0"),
         ({"seed": -1}, "seed = -1: give a whole number of 0 or more."),
         ({"batch": 64.5}, "batch = 64.5: give a whole number of 1 or more."),
         ({"updates": True}, "updates = True"),
-        ({"roads": 0}, "roads = 0"),
-        ({"capacity": 63}, "capacity = 63: give a whole number of 64 or more."),
-        ({"capacity": 64, "roads": 65}, "capacity = 64: give a whole number of 65 or more."),
+        ({"envs_per_agent": 0}, "envs_per_agent = 0"),
+        ({"buffer_size": 63}, "buffer_size = 63: give a whole number of 64 or more."),
+        ({"buffer_size": 64, "envs_per_agent": 65}, "buffer_size = 64: give a whole number of 65 or more."),
         ({"kl_in_target": "no"}, "kl_in_target = 'no': give True or False."),
         ({"hidden": 64}, "hidden = 64: give the layers' sizes"),
         ({"hidden": ()}, "hidden = (): give the layers' sizes"),
@@ -92,7 +92,7 @@ def test_the_seeds_are_counted_from_the_first():
 
 def test_agents_that_cannot_share_a_batch_are_not_trained_side_by_side():
     with pytest.raises(BootcourseError, match="need the same batch: train these apart"):
-        Learner([settings_for("sac"), settings_for("sac", batch=32)], 26)
+        SACLearner([settings_for("sac"), settings_for("sac", batch=32)], 26)
 
 
 def test_a_training_needs_an_agent_and_an_episode():

@@ -12,13 +12,13 @@ from gymnasium.vector import AutoresetMode
 from bootcourse.learn.agent import sample_actions
 from bootcourse.learn.curves import NAMES
 from bootcourse.learn.settings import METHODS, settings_for, with_seeds
-from bootcourse.learn.train import FIRST_SEED, Training
+from bootcourse.learn.training import FIRST_SEED, Training
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.rule import rule
 from bootcourse.scenario import DEFAULT, IDLE
 
 INPUTS, DECISIONS = DEFAULT.observation_size, DEFAULT.clock.decisions
-QUICK = {"demonstrations": 3, "warm_up": 16}
+QUICK = {"demonstration_episodes": 3, "learning_starts": 16}
 
 
 def training_of(*methods: str, episodes: int = 12, **changes) -> Training:
@@ -47,7 +47,7 @@ def rows_of(training: Training, steps: int) -> torch.Tensor:
 
 @pytest.mark.parametrize("sure", [True, False], ids=["idle until time runs out", "random until an accident"])
 def test_the_replay_holds_what_happened_on_the_road_and_the_true_last_state_of_each_episode(sure):
-    training = training_of("sac", "soft", warm_up=10**6)
+    training = training_of("sac", "soft", learning_starts=10**6)
     rows = rows_of(always(training, IDLE) if sure else training, DECISIONS + 3)
     n, roads = INPUTS, 2 * training.roads
 
@@ -72,7 +72,7 @@ def test_the_replay_holds_what_happened_on_the_road_and_the_true_last_state_of_e
 
 
 def test_the_idle_policys_curves_are_those_worked_out_by_hand():
-    training = always(training_of("sac", "sac", episodes=6, warm_up=10**6), IDLE)
+    training = always(training_of("sac", "sac", episodes=6, learning_starts=10**6), IDLE)
     curves = training.run(progress=False).curves
     np.testing.assert_allclose(curves["return"], 23.4375)
     np.testing.assert_allclose(curves["distance"], 1500.0)
@@ -97,7 +97,7 @@ def test_every_method_trains_beside_every_other_and_notes_its_own_coefficients()
 
 
 def test_beta_falls_with_the_agents_own_finished_episodes():
-    training = training_of("bootstrapped", "sac", warm_up=10**6)
+    training = training_of("bootstrapped", "sac", learning_starts=10**6)
     training.curves.finished[:] = [500, 900]
     np.testing.assert_allclose(training.beta, [0.3, 0.0])
 
@@ -127,7 +127,7 @@ def count_updates(training: Training) -> list[int]:
 
 
 def test_updates_begin_after_the_warm_up_and_there_are_as_many_as_asked_for():
-    training = training_of("sac", "soft", warm_up=20, updates=3)
+    training = training_of("sac", "soft", learning_starts=20, updates=3)
     calls = count_updates(training)
     for _ in range(7):  # 4 roads each: 8 decisions a step, 40 to warm up both agents
         training.step()
@@ -267,10 +267,10 @@ def test_an_agent_drives_by_its_most_probable_action_or_draws_one():
     states = np.random.default_rng(0).normal(size=(500, INPUTS)).astype(np.float32)
     policy = agent.policy(states)
     np.testing.assert_allclose(policy.sum(1), 1, rtol=1e-5)
-    choice = agent.driver(with_q=True)(states, None)
+    choice = agent.as_policy(with_q=True)(states, None)
     np.testing.assert_array_equal(choice.actions, policy.argmax(1))
     assert choice.q_values.shape == (500, 9)
-    drawn = agent.driver(np.random.default_rng(0))(states, None).actions
+    drawn = agent.as_policy(np.random.default_rng(0))(states, None).actions
     assert 0 < (drawn == choice.actions).mean() < 1
 
 

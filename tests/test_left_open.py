@@ -10,7 +10,7 @@ from bootcourse import rule
 from bootcourse.learn.settings import METHODS, Settings
 from bootcourse.road.formulas import bicycle_step, speed_reward, steering_reward, weighted_reward
 from bootcourse.scenario import CALIBRATED, DEFAULT
-from bootcourse.study.evaluate import rate
+from bootcourse.statistics import rate
 from bootcourse.study.paper import EPISODES, PRINTED, earned_at
 from bootcourse.study.plan import variations
 from tools.course.left_open import KINDS, PAGE, PARTS, gaps
@@ -44,7 +44,7 @@ def test_every_gap_that_belongs_to_something_numbered_is_on_the_paper_map():
 S, R, GAMMA = Settings(), DEFAULT.rule, Settings().gamma
 GRID = (R.v_min, R.v_max, R.n)
 CLOSING = (8.25 - 10.0) * R.t_safe  # m, at the rule's speed behind the traps
-ASTRAY = math.log(8 / (1 - S.p))  # nats: the price of an action that is not the rule's
+ASTRAY = math.log(8 / (1 - S.rule_p))  # nats: the price of an action that is not the rule's
 
 
 def after_full_steering(v: float = 15.0) -> tuple[float, float]:
@@ -112,7 +112,7 @@ WORKED = {
         "2,303": math.log(10) / S.alpha_lr,
         "4,605": math.log(100) / S.alpha_lr,
         "0.02": S.xi_multiplier * S.alpha_init / 100,
-        "37,500": S.beta_episodes * DEFAULT.clock.decisions / S.roads * S.updates,
+        "37,500": S.beta_episodes * DEFAULT.clock.decisions / S.envs_per_agent * S.updates,
     },
     "open-w-kl": {"2": S.xi_multiplier * S.alpha_init},
     "open-kl-target": {
@@ -120,13 +120,13 @@ WORKED = {
         "43.8": 2 * ASTRAY / (1 - GAMMA),
         "0.78": earned_at(10, 1) / (1 - GAMMA),
     },
-    "open-demonstrations": {"15": 150 * (1 - S.p), "7": 1e-6 / S.p**150, "200": S.demonstrations},
+    "open-demonstrations": {"15": 150 * (1 - S.rule_p), "7": 1e-6 / S.rule_p**150, "200": S.demonstration_episodes},
     "open-margin": {
         "0.97": earned_at(15, 1),
         "4.84": earned_at(15, 1) / (1 - GAMMA),
         "1": METHODS["margin"]["margin"],
     },
-    "open-network": {"64": S.hidden[0], "0.005": S.tau, "256": S.warm_up},
+    "open-network": {"64": S.hidden[0], "0.005": S.tau, "256": S.learning_starts},
     "open-rates": {
         "22.36": deviation(1, EPISODES),
         "83": 100 * rate(np.ones(EPISODES, bool)).low,

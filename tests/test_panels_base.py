@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 
 from bootcourse import one_per_cell
-from bootcourse.drivers import idle_driver
+from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError
 from bootcourse.panels import svg
 from bootcourse.panels.arguments import a_number, an_instance, one_drive
 from bootcourse.panels.number import Number
 from bootcourse.panels.panel import Panel, beside
 from bootcourse.panels.road import road
-from bootcourse.record.drive import record
+from bootcourse.policies import idle_policy
 from bootcourse.scenario import DEFAULT, Scenario, check_p
 from tests.panels import from_page, inside, raise_in_callbacks, words  # noqa: F401
 
@@ -164,7 +164,7 @@ def test_a_reader_without_a_kernel_sees_a_picture_with_its_words():
 
 
 def test_the_road_shows_every_car_near_the_ego_to_scale():
-    drive = record(idle_driver, [0], DEFAULT, "idle")[0]
+    drive = record(idle_policy, [0], DEFAULT, "idle")[0]
     parts, height = road(drive.states[0], DEFAULT, "#123456", width=1000, scale=5.0)
     assert height == 3 * 4.0 * 5.0
     drawn = "".join(parts)
@@ -175,7 +175,7 @@ def test_the_road_shows_every_car_near_the_ego_to_scale():
 
 
 def test_traps_out_of_the_picture_are_named_with_their_distance():
-    cars = record(idle_driver, [0], DEFAULT, "idle")[0].states[0].copy()
+    cars = record(idle_policy, [0], DEFAULT, "idle")[0].states[0].copy()
     cars[1, 0], cars[2, 0] = cars[0, 0] + 500, cars[0, 0] - 400
     drawn = "".join(road(cars, DEFAULT, "#123456")[0])
     assert "trap 1, 500 m ▶" in drawn and "◀ trap 2, 400 m" in drawn

@@ -8,13 +8,13 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from bootcourse.drivers import idle_driver, plan_driver
+from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import Settings, settings_for
 from bootcourse.panels import bonus_panel
+from bootcourse.panels.bonus_numbers import bonus_numbers, targets
 from bootcourse.panels.number import Number
-from bootcourse.panels.valuing import compare, targets
-from bootcourse.record.drive import record
+from bootcourse.policies import idle_policy, plan_policy
 from bootcourse.scenario import CALIBRATED, DEFAULT
 from tests.panels import from_page, inside, raise_in_callbacks, words  # noqa: F401
 
@@ -52,7 +52,7 @@ def test_a_discount_or_bonus_that_makes_no_sense_is_refused(gamma, bonus):
 def test_at_the_crossing_both_are_worth_the_same(panel):
     for k in (0, 30, 149):
         settings = replace(Settings(), bonus=float(panel.seen.crossing[k]))
-        seen = compare(panel.demonstration, panel.trapped, settings)
+        seen = bonus_numbers(panel.demonstration, panel.trapped, settings)
         assert seen.augmented[k] == pytest.approx(seen.trapped[k], abs=1e-9)
 
 
@@ -71,7 +71,7 @@ def test_the_share_of_demonstrations_fades_the_bonus_in_a_straight_line(panel):
 
 
 def test_a_demonstration_that_ends_in_an_accident_is_worth_nothing_afterwards():
-    crash = record(plan_driver([("keep right", 20)]), [0], DEFAULT, "you")[0]
+    crash = record(plan_policy([("keep right", 20)]), [0], DEFAULT, "you")[0]
     assert crash.accident
     panel = bonus_panel(crash)
     seen = panel.seen
@@ -120,13 +120,13 @@ def test_a_method_without_a_bonus_keeps_it_at_0():
 
 
 def test_the_trapped_drive_given_alone_gets_the_rule_on_its_own_road():
-    idle = record(idle_driver, [7], CALIBRATED, "idle")[0]
+    idle = record(idle_policy, [7], CALIBRATED, "idle")[0]
     panel = bonus_panel(trapped=idle)
     assert (panel.demonstration.seed, panel.demonstration.scenario) == (7, CALIBRATED)
 
 
 def test_two_drives_of_one_driver_get_two_colours():
-    first, second = record(idle_driver, [0, 1], DEFAULT, "idle")
+    first, second = record(idle_policy, [0, 1], DEFAULT, "idle")
     bonus_panel(first, second)
 
 
@@ -140,7 +140,7 @@ def test_what_is_no_drive_is_refused_in_one_sentence(wrong):
 def test_settings_of_another_kind_and_drives_of_two_scenarios_are_refused(panel):
     with pytest.raises(BootcourseError, match="settings is a dict: give a Settings"):
         bonus_panel(settings={"bonus": 2})
-    other = record(idle_driver, [0], CALIBRATED, "idle")[0]
+    other = record(idle_policy, [0], CALIBRATED, "idle")[0]
     with pytest.raises(BootcourseError, match="different scenarios"):
         bonus_panel(panel.demonstration, other)
 

@@ -7,17 +7,17 @@ import numpy as np
 import pytest
 
 from bootcourse import one_per_cell
-from bootcourse.drivers import idle_driver, plan_driver, rule_driver
+from bootcourse.episodes.interactive import InteractiveEpisode
+from bootcourse.episodes.record import record
+from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError
+from bootcourse.learn.demonstrations import demonstration_rows
 from bootcourse.panels.cockpit import alt_text, cockpit, finished, ghost_at
 from bootcourse.panels.drive import REAL, STEPS, drive_panel
 from bootcourse.panels.pad import ROWS, SCRIPT, SIGNS, Pad
 from bootcourse.panels.ticker import Ticker
 from bootcourse.panels.train import train_panel
-from bootcourse.record.by_hand import ByHand
-from bootcourse.record.demonstrations import demonstration_rows
-from bootcourse.record.drive import record
-from bootcourse.record.rollout import Rollout
+from bootcourse.policies import idle_policy, plan_policy, rule_policy
 from bootcourse.road.state import EGO, X
 from bootcourse.scenario import ACTION_NAMES, CALIBRATED, DEFAULT, IDLE
 from tests.panels import from_page, inside, raise_in_callbacks, words  # noqa: F401
@@ -47,7 +47,7 @@ def real_time(panel, pace=0.1):
 
 
 def test_the_drawing_keeps_its_size_at_every_moment():
-    drive, ghost = ByHand(3), record(rule_driver(DEFAULT), [3], label="rule")[0]
+    drive, ghost = InteractiveEpisode(3), record(rule_policy(DEFAULT), [3], label="rule")[0]
     shown = [cockpit(drive, ghost, 0.0), cockpit(drive, None, 0.0)]
     while not drive.over:
         drive.decide(CRASH)
@@ -57,14 +57,14 @@ def test_the_drawing_keeps_its_size_at_every_moment():
 
 
 def test_a_decision_counts_when_its_second_is_over():
-    drive = ByHand(3)
+    drive = InteractiveEpisode(3)
     drive.decide(IDLE)
     drive.decide(IDLE)
     assert [finished(drive, time) for time in (0.0, 0.9, 1.0, 1.9, 2.0)] == [0, 0, 1, 1, 2]
 
 
 def test_the_ghost_moves_between_its_steps_and_stays_where_it_ended():
-    ghost = record(plan_driver([("keep right", 30)]), [3])[0]
+    ghost = record(plan_policy([("keep right", 30)]), [3])[0]
     cars, _ = ghost_at(ghost, 0.25)
     assert ghost.states[0, EGO, X] < cars[EGO, X] < ghost.states[1, EGO, X]
     cars, total = ghost_at(ghost, 1e6)
@@ -72,7 +72,7 @@ def test_the_ghost_moves_between_its_steps_and_stays_where_it_ended():
 
 
 def test_the_sentence_for_those_who_see_nothing_says_where_you_are():
-    told = alt_text(ByHand(3), record(idle_driver, [3], label="idle")[0], 0.0)
+    told = alt_text(InteractiveEpisode(3), record(idle_policy, [3], label="idle")[0], 0.0)
     assert told.startswith("Road 3 after 0 s: 10.0 m/s in lane 2, ") and "idle driver" in told
 
 
@@ -156,16 +156,16 @@ def test_a_control_that_has_no_use_is_off_and_says_why():
 
 def test_the_ghost_is_the_rule_a_driver_or_a_drive_of_this_road():
     assert drive_panel(seed=2).ghost.label == "rule"
-    panel = drive_panel(seed=2, ghost=idle_driver)
+    panel = drive_panel(seed=2, ghost=idle_policy)
     from_page(panel.road.slider, value=5)
     assert panel.ghost.seed == 5 and (panel.ghost.actions == IDLE).all()
-    given = record(idle_driver, [2], label="sac, seed 1")[0]
+    given = record(idle_policy, [2], label="sac, seed 1")[0]
     panel = drive_panel(seed=2, ghost=given)
     assert panel.ghost is given and panel.road.slider.disabled and "plain SAC, seed 1" in panel.view.value
 
 
 def test_a_ghost_of_another_road_is_refused():
-    given = record(idle_driver, [2])[0]
+    given = record(idle_policy, [2])[0]
     with pytest.raises(BootcourseError, match="drove road 2"):
         drive_panel(seed=3, ghost=given)
     with pytest.raises(BootcourseError, match="same road"):
@@ -196,7 +196,7 @@ def test_drives_that_are_kept_bootstrap_an_agent():
     panel = drive_panel(seed=3)
     panel.keep.click()
     assert "Nothing was driven yet" in words(panel) and not panel.demonstrations
-    trainer = train_panel("bootstrapped", 1, 2, drives=panel.demonstrations, hidden=(16, 16), warm_up=8)
+    trainer = train_panel("bootstrapped", 1, 2, drives=panel.demonstrations, hidden=(16, 16), learning_starts=8)
     for decisions in (2, 3):
         for _ in range(decisions):
             panel.press(IDLE)

@@ -20,11 +20,11 @@ CHANGED = """(number, act) => new Promise(done => {
 })"""
 
 THINKING = """from bootcourse.learn.settings import settings_for
-from bootcourse.learn.train import Training
+from bootcourse.learn.training import Training
 from bootcourse.panels import policy_panel
-from bootcourse.record.drive import record
+from bootcourse.episodes.record import record
 agent = Training([settings_for("bootstrapped", hidden=(16, 16))], 2).run(progress=False).agents[0]
-drive = record(agent.driver(with_q=True), [1], label="bootstrapped")[0]
+drive = record(agent.as_policy(with_q=True), [1], label="bootstrapped")[0]
 """
 
 

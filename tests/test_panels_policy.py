@@ -9,16 +9,16 @@ import numpy as np
 import pytest
 import torch
 
-from bootcourse.drivers import idle_driver, random_driver, rule_driver
+from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.bootstrap import kl_to_rule
-from bootcourse.learn.learner import Learner
+from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.settings import settings_for
 from bootcourse.panels import policy_panel
 from bootcourse.panels.number import Number
-from bootcourse.panels.weighing import weigh
-from bootcourse.record.drive import record
+from bootcourse.panels.policy_numbers import policy_numbers
+from bootcourse.policies import idle_policy, random_policy, rule_policy
 from bootcourse.rule import rule
 from bootcourse.scenario import DEFAULT, N_ACTIONS, Clock, Road
 from tests.panels import from_page, inside, raise_in_callbacks, words  # noqa: F401
@@ -30,21 +30,21 @@ pytestmark = pytest.mark.usefixtures("raise_in_callbacks")
 def agents_drive():
     """A drive of an agent that has learned nothing, with π and Q."""
     settings = settings_for("bootstrapped", seed=1)
-    learner = Learner([settings], DEFAULT.observation_size)
+    learner = SACLearner([settings], DEFAULT.observation_size)
     actor, critics = ([each.detach() for each in part] for part in (learner.actor, learner.critics))
     agent = Agent(settings, actor, critics, 0.01)
-    return record(agent.driver(with_q=True), [3], DEFAULT, "bootstrapped")[0]
+    return record(agent.as_policy(with_q=True), [3], DEFAULT, "bootstrapped")[0]
 
 
 @pytest.fixture(scope="module")
 def rules_drive():
-    return record(rule_driver(DEFAULT), [3], DEFAULT, "rule")[0]
+    return record(rule_policy(DEFAULT), [3], DEFAULT, "rule")[0]
 
 
 def test_who_is_sure_of_another_action_pays_the_price_of_it():
     policy = np.eye(N_ACTIONS)[7]
     for p, price in ((0.9, 4.382), (0.99, 6.685)):
-        seen = weigh(policy, None, 3, p, 2.0, 0.01)
+        seen = policy_numbers(policy, None, 3, p, 2.0, 0.01)
         assert seen.price[7] == pytest.approx(price, abs=1e-3)
         assert seen.kl == pytest.approx(price, abs=1e-3)
         assert seen.shares[7] == seen.kl and seen.shares.sum() == seen.kl
@@ -54,13 +54,13 @@ def test_who_is_sure_of_another_action_pays_the_price_of_it():
 def test_a_policy_that_is_the_stochastic_rule_pays_nothing():
     policy = np.full(N_ACTIONS, 0.1 / 8)
     policy[2] = 0.9
-    seen = weigh(policy, None, 2, 0.9, 2.0, 0.01)
+    seen = policy_numbers(policy, None, 2, 0.9, 2.0, 0.01)
     assert np.allclose(seen.shares, 0) and np.allclose(seen.rule, policy)
 
 
 def test_the_shares_add_up_to_the_kl_that_the_learner_uses():
     policy = np.random.default_rng(0).dirichlet(np.ones(N_ACTIONS))
-    seen = weigh(policy, None, 5, 0.7, 2.0, 0.01)
+    seen = policy_numbers(policy, None, 5, 0.7, 2.0, 0.01)
     by_learner = kl_to_rule(torch.tensor(policy).log()[None], torch.tensor([5]), torch.tensor(0.7))
     assert seen.kl == pytest.approx(float(by_learner[0]), abs=1e-6)
 
@@ -68,14 +68,16 @@ def test_the_shares_add_up_to_the_kl_that_the_learner_uses():
 def test_without_a_pull_the_optimum_is_the_softmax_of_q_over_alpha():
     q = np.zeros(N_ACTIONS)
     q[4] = 0.1
-    optimum = weigh(None, q, 0, 0.9, 0.0, 0.1).optimum
+    optimum = policy_numbers(None, q, 0, 0.9, 0.0, 0.1).optimum
     assert optimum[4] == pytest.approx(math.e / (math.e + 8))
 
 
 def test_where_all_actions_are_worth_the_same_the_optimum_lies_between_even_and_the_rule():
     q = np.full(N_ACTIONS, 1.5)
-    assert np.allclose(weigh(None, q, 6, 0.9, 1e6, 1.0).optimum, weigh(None, q, 6, 0.9, 0, 1).rule, atol=1e-4)
-    half = weigh(None, q, 6, 0.9, 1.0, 1.0)  # proportional to the root of π̃
+    assert np.allclose(
+        policy_numbers(None, q, 6, 0.9, 1e6, 1.0).optimum, policy_numbers(None, q, 6, 0.9, 0, 1).rule, atol=1e-4
+    )
+    half = policy_numbers(None, q, 6, 0.9, 1.0, 1.0)  # proportional to the root of π̃
     assert half.optimum[6] / half.optimum[0] == pytest.approx(math.sqrt(0.9 / 0.0125))
     assert half.worth[6] == pytest.approx(1.5 + math.log(0.9))
 
@@ -85,7 +87,7 @@ def test_where_all_actions_are_worth_the_same_the_optimum_lies_between_even_and_
 )
 def test_weights_that_make_no_sense_are_refused_in_one_sentence(p, xi, alpha):
     with pytest.raises(BootcourseError, match="give a finite number|is outside"):
-        weigh(None, None, 0, p, xi, alpha)
+        policy_numbers(None, None, 0, p, xi, alpha)
 
 
 def test_the_panel_shows_policy_rule_and_optimum_of_the_moment(agents_drive):
@@ -148,16 +150,16 @@ def test_a_drive_of_the_rule_shows_what_there_is_and_says_what_is_missing(rules_
 
 
 def test_a_drive_with_a_policy_but_without_q_says_so():
-    drive = record(random_driver(np.random.default_rng(0)), [0], DEFAULT, "random")[0]
+    drive = record(random_policy(np.random.default_rng(0)), [0], DEFAULT, "random")[0]
     panel = policy_panel(drive)
     assert "recorded no Q:" in words(panel) and panel.seen.kl == pytest.approx(1.71, abs=0.01)
 
 
 def test_a_drive_of_one_decision_and_one_of_another_clock_are_shown():
     short = replace(DEFAULT, clock=Clock(decisions=1))
-    policy_panel(record(idle_driver, [0], short, "idle")[0])
+    policy_panel(record(idle_policy, [0], short, "idle")[0])
     fast = replace(DEFAULT, clock=Clock(decisions=7, decision_rate=2, simulation_rate=4), road=Road(lanes=6))
-    panel = policy_panel(record(idle_driver, [0], fast, "idle")[0])
+    panel = policy_panel(record(idle_policy, [0], fast, "idle")[0])
     from_page(panel.moment.slider, value=3.0)
     assert "3 s into" in panel.alt
     ElementTree.fromstring(panel.svg)

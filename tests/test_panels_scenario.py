@@ -81,7 +81,7 @@ def test_a_count_that_is_not_whole_is_refused_in_the_librarys_words(panel):
 
 
 def test_start_again_puts_everything_back(panel):
-    for symbol, value in (("v trap", 12.0), ("lanes", 5.0), ("D1 to", 30.0), ("D1 from", 25.0), ("p", 2.0)):
+    for symbol, value in (("v trap", 12.0), ("lanes", 5.0), ("D1 to", 30.0), ("D1 from", 25.0), ("t safe", -1.0)):
         number_of(panel, symbol).field.value = value
     assert panel.scenario != DEFAULT and panel.says.value
     panel.back.click()

@@ -5,12 +5,12 @@ import pytest
 
 from bootcourse import one_per_cell
 from bootcourse.learn.settings import Settings
-from bootcourse.learn.train import Training
+from bootcourse.learn.training import Training
 from bootcourse.panels.sweep import sweep_panel
 from bootcourse.panels.sweep_view import choices, rerun, view
 from bootcourse.study.plan import sweep_settings
 from bootcourse.study.results import Results, load_results, save_results
-from bootcourse.study.sweep import nearest, settings_run
+from bootcourse.study.sweep import nearest_setting, settings_run
 from tests.panels import from_page, raise_in_callbacks, words  # noqa: F401
 
 pytestmark = pytest.mark.usefixtures("raise_in_callbacks")
@@ -20,11 +20,11 @@ def invented(which=lambda s: True) -> Results:
     """Two agents of each setting; their success names it: p / 2 + ξ / 10000 + c / 100."""
     settings = [s for s in sweep_settings() if which(s)]
     agents = [
-        {"method": "bootstrapped", "seed": seed, "p": s.p, "xi_multiplier": s.xi_multiplier, "bonus": s.bonus}
+        {"method": "bootstrapped", "seed": seed, "rule_p": s.rule_p, "xi_multiplier": s.xi_multiplier, "bonus": s.bonus}
         for s in settings
         for seed in range(2)
     ]
-    wanted = np.array([a["p"] / 2 + a["xi_multiplier"] / 1e4 + a["bonus"] / 100 for a in agents])
+    wanted = np.array([a["rule_p"] / 2 + a["xi_multiplier"] / 1e4 + a["bonus"] / 100 for a in agents])
     success = (np.arange(200) < (200 * wanted[:, None])).astype(np.int8)
     tested = {"success": success, "returns": 10.0 * success, "accident": (1 - success).astype(np.int8)}
     curves = {"success": np.tile(wanted[:, None], 60).astype(np.float16), "return": np.ones((len(agents), 60))}
@@ -58,7 +58,7 @@ def test_every_slider_at_both_its_ends_shows_what_happened_there(panel):
         for index in (0, len(control.slider.options) - 1):
             from_page(control.slider, index=index)
             asked = {each: other.value for each, other in sliders(panel).items()}
-            happened = nearest(panel.sweep, **asked)
+            happened = nearest_setting(panel.sweep, **asked)
             assert getattr(panel.happened, name) == control.slider.value == control.field.value
             assert str(happened) in words(panel) and rerun(happened).splitlines()[-1] in panel.code.value
 
@@ -91,18 +91,18 @@ def test_every_cell_of_the_heat_maps_has_its_value_and_the_chosen_one_a_frame(pa
     from_page(panel.c.slider, index=0)
     for p, xi, c in settings_run(panel.sweep):
         if c == 0:
-            value = 100 * nearest(panel.sweep, p, xi, c).mean("success").value
+            value = 100 * nearest_setting(panel.sweep, p, xi, c).mean("success").value
             assert f">{round(value, 1):.6g}</text>" in panel.chart.value
     assert panel.chart.value.count('stroke-width="3"') == 3 and "c = 0" in panel.chart.value
 
 
 def test_a_sweep_with_holes_names_them_and_shows_the_nearest():
-    some = invented(lambda s: (s.p, s.xi_multiplier) != (0.99, 200.0))
-    assert ">not run<" in view(some, nearest(some, 0.9, 200, 2))
+    some = invented(lambda s: (s.rule_p, s.xi_multiplier) != (0.99, 200.0))
+    assert ">not run<" in view(some, nearest_setting(some, 0.9, 200, 2))
 
 
 def test_a_sweep_with_holes_says_that_the_nearest_is_shown(tmp_path):
-    save_results(invented(lambda s: (s.p, s.xi_multiplier) != (0.99, 200.0)), tmp_path / "some.npz", {})
+    save_results(invented(lambda s: (s.rule_p, s.xi_multiplier) != (0.99, 200.0)), tmp_path / "some.npz", {})
     panel = sweep_panel(tmp_path / "some.npz")
     panel.p.slider.value, panel.xi.slider.value = 0.99, 200.0
     assert "This one was not run" in words(panel) and not panel.happened.exact
@@ -116,7 +116,7 @@ def test_the_python_that_it_offers_trains_the_very_settings(panel, monkeypatch):
     exec(rerun(panel.happened), {})
     settings, episodes = asked[0]
     happened = panel.happened
-    assert settings[0] == Settings(p=happened.p, xi_multiplier=happened.xi_multiplier, bonus=happened.c)
+    assert settings[0] == Settings(rule_p=happened.p, xi_multiplier=happened.xi_multiplier, bonus=happened.c)
     assert [each.seed for each in settings] == [0, 1] and episodes == 60
 
 

@@ -11,23 +11,23 @@ import numpy as np
 import pytest
 
 from bootcourse import one_per_cell
-from bootcourse.drivers import rule_driver
+from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import ALL, settings_for, with_seeds
-from bootcourse.learn.train import Training
+from bootcourse.learn.training import Training
 from bootcourse.panels import background as background_module
 from bootcourse.panels.axes import rolling, ticks
 from bootcourse.panels.background import Background
-from bootcourse.panels.growth import Drawn, growth, label_of
 from bootcourse.panels.train import train_panel
 from bootcourse.panels.train_controls import CONTROLLED, without
-from bootcourse.record.drive import record
-from bootcourse.record.runs import find_runs, load_run
+from bootcourse.panels.training_chart import Drawn, label_of, training_chart
+from bootcourse.policies import rule_policy
 from bootcourse.scenario import DEFAULT
+from bootcourse.storage.runs import find_runs, load_run
 from tests.panels import from_page, inside, raise_in_callbacks, words  # noqa: F401
 
 pytestmark = pytest.mark.usefixtures("raise_in_callbacks")
-SMALL = {"hidden": (16, 16), "demonstrations": 2, "warm_up": 8}
+SMALL = {"hidden": (16, 16), "demonstration_episodes": 2, "learning_starts": 8}
 
 
 def small(method="soft", seeds=2, episodes=3, **more):
@@ -68,20 +68,22 @@ def test_the_drawing_keeps_its_size_whatever_was_trained():
     halves = {name: np.where(np.arange(20) < 9, values, np.nan) for name, values in curves().items()}
     none = {name: np.full_like(values, np.nan) for name, values in curves().items()}
     sets = ([], [Drawn("1 a", "sac", none, 20)], [Drawn("1 a", "sac", curves(), 20), Drawn("2 b", "demos", halves, 20)])
-    drawings = [growth(drawn) for drawn in sets]
+    drawings = [training_chart(drawn) for drawn in sets]
     assert len({svg[: svg.index("role")] for svg in drawings}) == 1
     assert all("nan" not in svg for svg in drawings) and "press Train" in drawings[0]
 
 
 def test_every_training_that_was_drawn_is_named_and_the_last_stands_out():
-    svg = growth([Drawn("1 plain SAC", "sac", curves(), 20), Drawn("2 bootstrapped SAC", "bootstrapped", curves(), 20)])
+    svg = training_chart(
+        [Drawn("1 plain SAC", "sac", curves(), 20), Drawn("2 bootstrapped SAC", "bootstrapped", curves(), 20)]
+    )
     assert "1 plain SAC" in svg and "2 bootstrapped SAC" in svg
     assert svg.count("<circle") == 8 and svg.count('stroke="#D55E00"') > svg.count('stroke="#0072B2"')
 
 
 def test_a_label_says_what_differs_from_the_method_s_own_settings():
     assert label_of(settings_for("sac")) == "plain SAC"
-    assert label_of(settings_for("bootstrapped", p=0.5, bonus=0.0)) == "bootstrapped SAC, p = 0.5, c = 0"
+    assert label_of(settings_for("bootstrapped", rule_p=0.5, bonus=0.0)) == "bootstrapped SAC, p = 0.5, c = 0"
 
 
 def test_an_axis_has_a_few_round_numbers():
@@ -178,7 +180,7 @@ def test_stop_stops_within_a_second_and_keeps_what_was_learned():
 
 def test_a_second_training_is_drawn_over_the_first():
     panel = trained(small())
-    panel.numbers["p"].value = 0.5
+    panel.numbers["rule_p"].value = 0.5
     trained(panel)
     assert len(panel.drawn) == 2 and "1 soft constraint only" in panel.chart.value
     assert "2 soft constraint only, p = 0.5" in panel.chart.value
@@ -290,14 +292,14 @@ def test_what_breaks_in_the_thread_is_a_sentence_and_keeps_what_was_learned(monk
 
 
 def test_a_training_that_cannot_begin_is_a_sentence():
-    panel = train_panel("bootstrapped", 2, 2, drives=record(rule_driver(DEFAULT), [1]), **SMALL)
+    panel = train_panel("bootstrapped", 2, 2, drives=record(rule_policy(DEFAULT), [1]), **SMALL)
     panel.drives = [*panel.drives, "not a drive"]
     trained(panel)
     assert "broke off" in words(panel) and panel.result is None and not panel.train.disabled
 
 
 def test_own_drives_take_the_place_of_the_rule_s():
-    mine = record(rule_driver(DEFAULT), [1])
+    mine = record(rule_policy(DEFAULT), [1])
     panel = trained(train_panel("bootstrapped", 1, 2, drives=mine, **SMALL))
     assert panel.background.training.replay.demonstrations == len(mine[0].actions)
     assert "1 own drives" in panel.drawn[0].label
@@ -305,7 +307,13 @@ def test_own_drives_take_the_place_of_the_rule_s():
 
 def test_every_number_takes_both_ends_and_refuses_nonsense_in_a_sentence():
     panel = small()
-    ends = {"p": (0.12, 0.999), "xi_multiplier": (0, 2000), "bonus": (0, 10), "beta_start": (0, 1), "gamma": (0, 1)}
+    ends = {
+        "rule_p": (0.12, 0.999),
+        "xi_multiplier": (0, 2000),
+        "bonus": (0, 10),
+        "beta_start": (0, 1),
+        "gamma": (0, 1),
+    }
     from_page(panel.method, index=list(ALL).index("bootstrapped"))
     for setting, (low, high) in ends.items():
         control = panel.numbers[setting]
@@ -340,7 +348,9 @@ def test_every_button_and_field_says_what_it_does():
     assert all(button.tooltip for button in inside(panel, type(panel.train)))
 
 
-@pytest.mark.parametrize("wrong", [{"method": "magic"}, {"p": 1.0}, {"gama": 0.5}, {"seeds": 0}, {"episodes": 1.5}])
+@pytest.mark.parametrize(
+    "wrong", [{"method": "magic"}, {"rule_p": 1.0}, {"gama": 0.5}, {"seeds": 0}, {"episodes": 1.5}]
+)
 def test_a_panel_that_cannot_be_is_refused(wrong):
     with pytest.raises(BootcourseError):
         train_panel(**wrong)

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from bootcourse.drivers import idle_driver, rule_driver
+from bootcourse.episodes.evaluate import drive_episodes
+from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError
-from bootcourse.record.drive import record
+from bootcourse.policies import idle_policy, rule_policy
 from bootcourse.road.state import CRASHED, EGO, HEADING, LANE, SPEED, X, Y
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, IDLE, Clock, Scenario, Traffic
-from bootcourse.study.evaluate import drive_episodes
 from bootcourse.study.planner import (
     Search,
     discounted_values,
@@ -53,7 +53,7 @@ def test_an_evaluation_of_the_plans_gives_their_returns(plans):
 
 
 def test_the_planner_beats_the_rule_by_far_and_stays_under_the_empty_road(plans):
-    by_the_rule = drive_episodes(rule_driver(DEFAULT), SEEDS).returns
+    by_the_rule = drive_episodes(rule_policy(DEFAULT), SEEDS).returns
     for each, rule_return in zip(plans, by_the_rule, strict=True):
         assert 2 * rule_return < each.value <= empty_road_return()
 
@@ -139,7 +139,7 @@ def test_a_search_that_keeps_its_lane_never_leaves_it():
 
 
 def test_the_discounted_value_of_idling_is_the_geometric_series():
-    values = discounted_values(idle_driver, SEEDS, DEFAULT, 0.8)
+    values = discounted_values(idle_policy, SEEDS, DEFAULT, 0.8)
     np.testing.assert_allclose(values, 0.15625 * (1 - 0.8**150) / 0.2, atol=1e-9)
 
 

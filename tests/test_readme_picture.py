@@ -6,8 +6,8 @@ import pytest
 from PIL import Image
 
 from bootcourse.errors import BootcourseError
-from bootcourse.study import animation, readme_picture
-from bootcourse.study.top_view import overtaken
+from bootcourse.plots import animation, readme_picture
+from bootcourse.plots.top_view import overtaken
 
 
 def test_the_animation_is_small_has_every_frame_and_is_the_same_each_time(idle, escape, tmp_path):

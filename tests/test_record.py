@@ -10,20 +10,20 @@ import numpy as np
 import pytest
 
 import bootcourse  # noqa: F401  registers the road
-from bootcourse.drivers import Choice, idle_driver, rule_driver, stochastic_rule_driver
+from bootcourse import files
+from bootcourse.episodes.record import record, record_on_highway_env
+from bootcourse.episodes.rollout import FORMAT, Rollout
 from bootcourse.errors import BootcourseError
-from bootcourse.record import files
-from bootcourse.record.drive import record, record_on_highway_env
-from bootcourse.record.rollout import FORMAT, Rollout
+from bootcourse.policies import PolicyOutput, idle_policy, rule_policy, stochastic_rule_policy
 from bootcourse.road.state import EGO, Accident, X
 from bootcourse.scenario import CALIBRATED, DEFAULT, Clock
 
 SHORT = replace(DEFAULT, clock=Clock(decisions=12))
 
 
-def brake(observations, cars) -> Choice:
+def brake(observations, cars) -> PolicyOutput:
     n = len(observations)
-    return Choice(np.full(n, 1), np.full((n, 9), 1 / 9), np.tile(np.arange(9.0), (n, 1)))
+    return PolicyOutput(np.full(n, 1), np.full((n, 9), 1 / 9), np.tile(np.arange(9.0), (n, 1)))
 
 
 @pytest.fixture(scope="module")
@@ -49,14 +49,14 @@ def differing_fields(a: Rollout, b: Rollout, tolerance: float = 0.0) -> list[str
 @pytest.mark.parametrize("scenario", [DEFAULT, CALIBRATED], ids=lambda scenario: scenario.name)
 def test_both_roads_record_the_same_drive_of_the_rule(scenario):
     env = gym.make("bootcourse:Trap-v0", scenario=scenario)
-    compiled = record(rule_driver(scenario), [11], scenario, label="rule")[0]
-    reference = record_on_highway_env(rule_driver(scenario), 11, env, label="rule")
+    compiled = record(rule_policy(scenario), [11], scenario, label="rule")[0]
+    reference = record_on_highway_env(rule_policy(scenario), 11, env, label="rule")
     assert differing_fields(compiled, reference, tolerance=1e-9) == []
 
 
 def test_both_roads_record_the_same_crash_with_the_same_number_of_simulation_steps():
     def accelerate(observations, cars):
-        return Choice(np.full(len(observations), 7))
+        return PolicyOutput(np.full(len(observations), 7))
 
     env = gym.make("bootcourse:Trap-v0")
     for seed, compiled in zip(range(6), record(accelerate, range(6)), strict=True):
@@ -78,8 +78,8 @@ def test_a_rollout_tells_the_whole_drive(rollout):
 
 
 def test_many_roads_are_recorded_as_each_would_be_alone():
-    together = record(idle_driver, [1, 2], SHORT)
-    assert differing_fields(together[1], record(idle_driver, [2], SHORT)[0]) == []
+    together = record(idle_policy, [1, 2], SHORT)
+    assert differing_fields(together[1], record(idle_policy, [2], SHORT)[0]) == []
 
 
 # Saving and loading
@@ -90,7 +90,7 @@ def test_what_is_loaded_is_what_was_saved(rollout, tmp_path):
     assert differing_fields(Rollout.load(path), rollout) == []
     without = replace(rollout, policy=None, q_values=None)
     assert Rollout.load(without.save(tmp_path / "other.npz")).policy is None
-    stochastic = record(stochastic_rule_driver(SHORT, np.random.default_rng(0)), [0], SHORT)[0]
+    stochastic = record(stochastic_rule_policy(SHORT, np.random.default_rng(0)), [0], SHORT)[0]
     assert differing_fields(Rollout.load(stochastic.save(tmp_path / "drive.npz")), stochastic) == []
 
 

@@ -13,12 +13,11 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from bootcourse import colours
-from bootcourse.drivers import random_driver, rule_driver
+from bootcourse import cli, colours
+from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError
-from bootcourse.record.drive import record
+from bootcourse.policies import random_policy, rule_policy
 from bootcourse.replay3d import export, pictures, recording, scene
-from bootcourse.replay3d.command import replay_command
 from bootcourse.replay3d.recorder import to_html
 from bootcourse.replay3d.stage import Options
 from bootcourse.replay3d.timeline import Timeline
@@ -35,6 +34,11 @@ NODES = """names => Object.fromEntries(names.map(name => {
 }))"""
 
 
+def replay_command(files, export=None, gif=None, png=None, text=False, port=0):
+    """`bootcourse replay`, without a browser."""
+    cli.replay(files, export, gif, png, text, port, browser=False)
+
+
 def thinking(rollout, label="bootstrapped"):
     rng = np.random.default_rng(0)
     policy = rng.dirichlet(np.ones(9), size=len(rollout.actions))
@@ -43,19 +47,19 @@ def thinking(rollout, label="bootstrapped"):
 
 @pytest.fixture(scope="module")
 def rule_drive():
-    return record(rule_driver(SHORT), [1], SHORT, "rule")[0]
+    return record(rule_policy(SHORT), [1], SHORT, "rule")[0]
 
 
 @pytest.fixture(scope="module")
 def crash():
-    drives = record(random_driver(np.random.default_rng(0)), range(30), SHORT, "random")
+    drives = record(random_policy(np.random.default_rng(0)), range(30), SHORT, "random")
     return next(d for d in drives if d.accident == Accident.COLLISION and len(d.actions) > 3)
 
 
 @pytest.fixture(scope="module")
 def whole_episode(tmp_path_factory):
     """150 s of ten cars, exported."""
-    rollout = thinking(record(rule_driver(TEN_CARS), [1], TEN_CARS)[0])
+    rollout = thinking(record(rule_policy(TEN_CARS), [1], TEN_CARS)[0])
     return rollout, export(rollout, tmp_path_factory.mktemp("export") / "replay.html", Options(rule=True))
 
 
@@ -202,8 +206,8 @@ def broken_files(folder: Path, drive) -> dict:
     np.savez(folder / "old.npz", **{**arrays, "header": np.array(old)})
     np.savez(folder / "empty.npz", **{k: v[:0] if v.ndim else v for k, v in arrays.items()})
     np.savez(folder / "pickle.npz", **{**arrays, "states": np.array([{"a": 1}], dtype=object)})
-    other = record(rule_driver(CALIBRATED), [1], CALIBRATED, "rule")[0].save(folder / "other.npz")
-    seed = record(rule_driver(SHORT), [2], SHORT, "rule")[0].save(folder / "seed.npz")
+    other = record(rule_policy(CALIBRATED), [1], CALIBRATED, "rule")[0].save(folder / "other.npz")
+    seed = record(rule_policy(SHORT), [2], SHORT, "rule")[0].save(folder / "seed.npz")
     (folder / "file").write_text("a file where a folder is wanted")
     html = {"export": folder / "out.html"}
     return {
@@ -244,8 +248,8 @@ def test_bad_input_gets_one_sentence_and_nothing_half_written(case, rule_drive, 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGINT to send")
 def test_on_the_command_line_it_prints_its_address_and_ctrl_c_ends_it(rule_drive, tmp_path):
     file = rule_drive.save(tmp_path / "drive.npz")
-    script = f"from bootcourse.replay3d.command import replay_command; replay_command([{str(file)!r}], browser=False)"
-    process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True, cwd=ROOT)
+    command = [sys.executable, "-m", "bootcourse", "replay", str(file), "--no-browser"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=ROOT)
     line = process.stdout.readline()
     assert line.startswith("Replay at http://127.0.0.1:")
     process.send_signal(signal.SIGINT)
@@ -253,7 +257,5 @@ def test_on_the_command_line_it_prints_its_address_and_ctrl_c_ends_it(rule_drive
 
 
 def test_what_does_not_show_a_replay_does_not_import_viser():
-    code = (
-        "import bootcourse.drivers, bootcourse.record.drive, bootcourse.colours, sys; assert 'viser' not in sys.modules"
-    )
+    code = "import sys, bootcourse.policies, bootcourse.episodes.record, bootcourse.colours; assert 'viser' not in sys.modules"
     assert subprocess.run([sys.executable, "-c", code], cwd=ROOT).returncode == 0

@@ -7,11 +7,11 @@ import pytest
 from tests.browser import ARTEFACTS, close_notice, is_blank, needs_browser
 from tests.jupyterlab import open_notebook
 
-DRIVE = """from bootcourse.drivers import rule_driver
-from bootcourse.record.drive import record
+DRIVE = """from bootcourse.policies import rule_policy
+from bootcourse.episodes.record import record
 from bootcourse.scenario import DEFAULT
 from bootcourse.replay3d import recording, replay
-drive = record(rule_driver(DEFAULT), [1], DEFAULT, "rule")[0]"""
+drive = record(rule_policy(DEFAULT), [1], DEFAULT, "rule")[0]"""
 
 
 @pytest.fixture(scope="module")

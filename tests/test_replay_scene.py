@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from bootcourse import colours
-from bootcourse.drivers import idle_driver, random_driver, rule_driver
+from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError
-from bootcourse.record.drive import record
+from bootcourse.policies import idle_policy, random_policy, rule_policy
 from bootcourse.replay3d import hud, scene
 from bootcourse.replay3d.camera import CAMERAS, pose
 from bootcourse.replay3d.car import car_parts
@@ -32,18 +32,18 @@ def thinking(rollout, label="bootstrapped"):
 
 @pytest.fixture(scope="module")
 def rule_drive():
-    return record(rule_driver(SHORT), [1], SHORT, "rule")[0]
+    return record(rule_policy(SHORT), [1], SHORT, "rule")[0]
 
 
 @pytest.fixture(scope="module")
 def idle_drive():
-    return record(idle_driver, [1], SHORT, "sac")[0]
+    return record(idle_policy, [1], SHORT, "sac")[0]
 
 
 @pytest.fixture(scope="module")
 def accidents():
     """One drive of each kind that a random driver meets."""
-    drives = record(random_driver(np.random.default_rng(0)), range(30), SHORT, "random")
+    drives = record(random_policy(np.random.default_rng(0)), range(30), SHORT, "random")
     return {
         kind: next(d for d in drives if d.accident == kind) for kind in (Accident.COLLISION, Accident.ROAD_DEPARTURE)
     }
@@ -133,7 +133,7 @@ def test_ghosts_share_the_road_of_the_followed_car(rule_drive, idle_drive):
 
 def test_a_drive_that_ended_waits_for_the_others(accidents, idle_drive):
     crash = accidents[Accident.COLLISION]
-    other = record(idle_driver, [crash.seed], SHORT, "sac")[0]
+    other = record(idle_policy, [crash.seed], SHORT, "sac")[0]
     timelines = scene.timelines_of([crash, other])
     early, late = scene.view(timelines, timelines[0].duration), scene.view(timelines, 20.0)
     np.testing.assert_array_equal(early[0].x, late[0].x)
@@ -150,8 +150,8 @@ REFUSED = {
     "nothing": (lambda r: [], "There is no rollout"),
     "something else": (lambda r: ["drive.npz"], "Cannot replay str"),
     "too many": (lambda r: [r] * 9, "at most 8"),
-    "another scenario": (lambda r: [r, record(rule_driver(CALIBRATED), [1], CALIBRATED)[0]], "drives of one scenario"),
-    "another seed": (lambda r: [r, record(rule_driver(SHORT), [2], SHORT)[0]], "the same seed"),
+    "another scenario": (lambda r: [r, record(rule_policy(CALIBRATED), [1], CALIBRATED)[0]], "drives of one scenario"),
+    "another seed": (lambda r: [r, record(rule_policy(SHORT), [2], SHORT)[0]], "the same seed"),
     "NaN": (lambda r: with_nan(r), "record this drive again"),
 }
 
@@ -241,6 +241,6 @@ def test_the_plots_mark_an_accident(accidents, idle_drive):
 
 
 def test_success_and_being_trapped_are_said_at_the_end():
-    rule, idle = (record(d, [1], DEFAULT, "x")[0] for d in (rule_driver(DEFAULT), idle_driver))
+    rule, idle = (record(d, [1], DEFAULT, "x")[0] for d in (rule_policy(DEFAULT), idle_policy))
     assert hud.status(Timeline(rule), 150.0)[0] == "escaped" and hud.status(Timeline(idle), 150.0)[0] == "trapped"
     assert hud.status(Timeline(idle), 10.0)[0] == ""

@@ -17,9 +17,9 @@ import viser._viser
 from websockets.sync.client import connect
 
 from bootcourse import one_per_cell
-from bootcourse.drivers import idle_driver, rule_driver
+from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError
-from bootcourse.record.drive import record
+from bootcourse.policies import idle_policy, rule_policy
 from bootcourse.replay3d import replay, scene, server, viewer
 from bootcourse.replay3d.camera import BIRD, SIDE, point, pose
 from bootcourse.replay3d.player import SPEEDS
@@ -33,7 +33,7 @@ SHORT = replace(DEFAULT, clock=Clock(decisions=20))
 @pytest.fixture(scope="module")
 def drives():
     return [
-        record(driver, [1], SHORT, label)[0] for driver, label in ((idle_driver, "sac"), (rule_driver(SHORT), "rule"))
+        record(driver, [1], SHORT, label)[0] for driver, label in ((idle_policy, "sac"), (rule_policy(SHORT), "rule"))
     ]
 
 
@@ -177,8 +177,8 @@ def test_a_refused_replay_leaves_the_cell_s_old_one_alone(drives, monkeypatch):
 
 def test_it_ends_with_its_process():
     script = (
-        "from bootcourse.drivers import idle_driver; from bootcourse.record.drive import record; "
-        "from bootcourse.replay3d import replay; live = replay(record(idle_driver, [1])[0]); print(live.port)"
+        "from bootcourse.policies import idle_policy; from bootcourse.episodes.record import record; "
+        "from bootcourse.replay3d import replay; live = replay(record(idle_policy, [1])[0]); print(live.port)"
     )
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60, cwd=ROOT)
     assert done.returncode == 0 and done.stderr == "", done.stderr
@@ -297,7 +297,7 @@ def test_in_a_kernel_a_cell_shows_one_frame_replaces_it_when_run_again_and_ends_
 
     file = drives[1].save(tmp_path / "drive.npz")
     setup = f"""
-from bootcourse.record.rollout import Rollout
+from bootcourse.episodes.rollout import Rollout
 from bootcourse.replay3d import replay
 r = Rollout.load({str(file)!r})
 """

@@ -15,8 +15,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from bootcourse.drivers import rule_driver
-from bootcourse.record.drive import record
+from bootcourse.episodes.record import record
+from bootcourse.policies import rule_policy
 from bootcourse.replay3d import replay
 from bootcourse.scenario import DEFAULT
 from tests.browser import missing, open_browser
@@ -40,7 +40,7 @@ print(count, size)
 
 
 def drives(count: int):
-    drive = record(rule_driver(TEN_CARS), [1], TEN_CARS, "rule")[0]
+    drive = record(rule_policy(TEN_CARS), [1], TEN_CARS, "rule")[0]
     policy = np.full((len(drive.actions), 9), 1 / 9)
     labels = ("sac", "rule", "bootstrapped", "planner", "my own")[:count]
     return [replace(drive, label=label, policy=policy, q_values=policy) for label in labels]

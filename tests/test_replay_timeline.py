@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bootcourse.drivers import random_driver, rule_driver
-from bootcourse.record.drive import record
+from bootcourse.episodes.record import record
+from bootcourse.policies import random_policy, rule_policy
 from bootcourse.replay3d.player import Player
 from bootcourse.replay3d.timeline import Timeline, arc, between
 from bootcourse.road.formulas import bicycle_step
@@ -20,7 +20,7 @@ SHORT = replace(DEFAULT, clock=Clock(decisions=20))
 
 @pytest.fixture(scope="module")
 def drive():
-    return Timeline(record(rule_driver(SHORT), [1], SHORT, "rule")[0])
+    return Timeline(record(rule_policy(SHORT), [1], SHORT, "rule")[0])
 
 
 def row(x=0.0, y=0.0, heading=0.0, v=10.0, acceleration=0.0, steering=0.0):
@@ -97,7 +97,7 @@ def test_rewards_are_earned_when_a_decision_is_over(drive):
 
 
 def test_an_accident_in_the_middle_of_a_decision_ends_the_time_line_there():
-    drives = [Timeline(r) for r in record(random_driver(np.random.default_rng(0)), range(12), SHORT, "random")]
+    drives = [Timeline(r) for r in record(random_policy(np.random.default_rng(0)), range(12), SHORT, "random")]
     cut = next(d for d in drives if d.duration % 1.0 == 0.5)
     assert cut.duration == (len(cut.rollout.states) - 1) * 0.5 < cut.decisions
     assert cut.earned(cut.duration) == cut.decisions and cut.at(cut.duration).x[EGO] == cut.rollout.states[-1, EGO, X]

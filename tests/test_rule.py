@@ -6,8 +6,8 @@ import pytest
 from gymnasium.vector import AutoresetMode
 
 import bootcourse  # noqa: F401  registers the road
-from bootcourse.drivers import random_driver, rule_driver, stochastic_rule_driver
 from bootcourse.errors import BootcourseError
+from bootcourse.policies import random_policy, rule_policy, stochastic_rule_policy
 from bootcourse.road.state import EGO, HEADING, LANE, SPEED, TARGET_LANE, TRAP_1, TRAP_2, Accident, X, Y
 from bootcourse.rule import (
     SENTENCES,
@@ -204,7 +204,7 @@ def test_from_anywhere_in_a_lane_it_comes_to_its_middle_and_stays_there(speed, o
 
 
 def test_over_1000_held_out_episodes_the_rule_always_escapes_and_never_has_an_accident():
-    success, accident, distance = drive(rule_driver(DEFAULT), episodes=1000, seed=1_000_000)
+    success, accident, distance = drive(rule_policy(DEFAULT), episodes=1000, seed=1_000_000)
     assert success.all()
     assert (accident == Accident.NONE).all()
     assert 1600 <= distance.mean() <= 1850, "the paper: 1727 m"
@@ -212,7 +212,7 @@ def test_over_1000_held_out_episodes_the_rule_always_escapes_and_never_has_an_ac
 
 def test_it_has_no_accident_behind_the_calibrated_traps_or_on_four_lanes():
     for scenario in (CALIBRATED, Scenario(road=Road(lanes=4)), Scenario(road=Road(lanes=2))):
-        _, accident, _ = drive(rule_driver(scenario), episodes=200, seed=2_000_000, scenario=scenario)
+        _, accident, _ = drive(rule_policy(scenario), episodes=200, seed=2_000_000, scenario=scenario)
         assert (accident == Accident.NONE).all()
 
 
@@ -239,7 +239,7 @@ def test_it_drives_trap_env_through_the_same_code():
         _, _, terminated, truncated, info = env.step(action)
         over = terminated or truncated
     assert info["is_success"] and truncated
-    compiled = drive(rule_driver(DEFAULT), episodes=1, seed=1_000_001)
+    compiled = drive(rule_policy(DEFAULT), episodes=1, seed=1_000_001)
     assert info["distance"] == pytest.approx(compiled[2][0], abs=1e-9)
 
 
@@ -268,11 +268,11 @@ def test_its_samples_have_its_probabilities():
 def test_it_is_a_driver_whose_policy_is_its_own_probabilities():
     env = gym.make_vec("bootcourse:Trap-v0", num_envs=50).unwrapped
     observations, _ = env.reset(seed=0)
-    choice = stochastic_rule_driver(DEFAULT, np.random.default_rng(0))(observations, env.cars)
+    choice = stochastic_rule_policy(DEFAULT, np.random.default_rng(0))(observations, env.cars)
     assert (choice.policy == stochastic_rule(rule(env.cars, DEFAULT).actions, 0.9)).all()
-    choice = stochastic_rule_driver(DEFAULT, np.random.default_rng(0), p=0.5)(observations, env.cars)
+    choice = stochastic_rule_policy(DEFAULT, np.random.default_rng(0), p=0.5)(observations, env.cars)
     assert choice.policy.max() == 0.5 and choice.actions.shape == (50,)
-    assert (random_driver(np.random.default_rng(0))(observations, env.cars).policy == 1 / 9).all()
+    assert (random_policy(np.random.default_rng(0))(observations, env.cars).policy == 1 / 9).all()
 
 
 @pytest.mark.parametrize("p", [0.0, 1.0, 0.1, float("nan"), "0.9"])

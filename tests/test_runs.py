@@ -8,14 +8,14 @@ import pytest
 from safetensors.torch import load_file, save_file
 
 from bootcourse.errors import BootcourseError
+from bootcourse.files import sha256, write_bytes, write_json
 from bootcourse.learn.settings import settings_for, with_seeds
-from bootcourse.learn.train import Training
-from bootcourse.record.files import sha256, write_bytes, write_json
-from bootcourse.record.runs import find_runs, load_checkpoint, load_run, save_checkpoint, save_runs
+from bootcourse.learn.training import Training
+from bootcourse.storage.runs import find_runs, load_checkpoint, load_run, save_checkpoint, save_runs
 
 
 def small_training(method: str = "bootstrapped", episodes: int = 12) -> Training:
-    return Training(with_seeds(settings_for(method, demonstrations=3, warm_up=16), 2), episodes)
+    return Training(with_seeds(settings_for(method, demonstration_episodes=3, learning_starts=16), 2), episodes)
 
 
 @pytest.fixture(scope="module")

@@ -65,8 +65,8 @@ IMPOSSIBLE = [
     (lambda: Rule(v_max=6.0), "Rule.v_max = 6.0 m/s must be above v_min (6.0)"),
     (lambda: Rule(n=1), "Rule.n = 1"),
     (lambda: Rule(floor=0.0), "Rule.floor = 0.0"),
-    (lambda: Rule(p=1.0), "p = 1.0 is outside [1/9, 1)"),
-    (lambda: Rule(p=0.1), "p = 0.1 is outside [1/9, 1)"),
+    (lambda: check_p(1.0), "p = 1.0 is outside [1/9, 1)"),
+    (lambda: check_p(0.1), "p = 0.1 is outside [1/9, 1)"),
     (lambda: check_p(NAN), "p = nan is outside [1/9, 1)"),
     (lambda: check_p("0.9"), "p = '0.9' is outside [1/9, 1)"),
     (lambda: Scenario(road=3), "Scenario.road = 3: expected Road"),
@@ -108,7 +108,7 @@ def test_the_calibrated_scenario_differs_only_in_its_traps():
 @pytest.mark.parametrize("scenario", SCENARIOS.values(), ids=SCENARIOS)
 def test_a_scenario_survives_json(scenario):
     assert Scenario.from_json(scenario.to_json()) == scenario
-    other = dataclasses.replace(scenario, traffic=Traffic(cars=0, spacing=(0.7, 0.9)), rule=Rule(p=0.5))
+    other = dataclasses.replace(scenario, traffic=Traffic(cars=0, spacing=(0.7, 0.9)), rule=Rule(t_safe=0.5))
     assert Scenario.from_json(other.to_json()) == other
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from bootcourse import __main__ as command_line
+from bootcourse import cli as command_line
 from bootcourse import doctor
 from bootcourse.errors import BootcourseError
 

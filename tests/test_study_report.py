@@ -5,15 +5,15 @@ import re
 import numpy as np
 import pytest
 
-from bootcourse.record.files import write_json
+from bootcourse.files import write_json
+from bootcourse.plots.figure import png
 from bootcourse.scenario import SCENARIOS
-from bootcourse.study import tables, training_figures
-from bootcourse.study.drawing import png
+from bootcourse.study import figures as training_figures
+from bootcourse.study import tables
 from bootcourse.study.fidelity import VERDICTS, fidelity, judge
-from bootcourse.study.found import in_study
 from bootcourse.study.paper import COLUMNS, PRINTED, TABLES, arithmetic, earned_at, paper_interval, possible
 from bootcourse.study.report import rule_results, write_report
-from bootcourse.study.results import Results, save_results
+from bootcourse.study.results import Results, in_study, save_results
 from bootcourse.study.sources import code_only
 
 METHODS = ("bc", "cql", "gail", "sac", "soft", "demos", "bootstrapped", "margin", "margin_soft")
@@ -137,10 +137,10 @@ def test_an_agent_that_was_stopped_leaves_the_curve_but_not_the_report(tmp_path)
 
 
 def report_of(results: Results, root) -> None:
-    folder = root / "cells/default/all"
+    folder = root / "jobs/default/all"
     save_results(results, folder / "results.npz", {})
     versions = dict.fromkeys(("bootcourse", "python", "torch", "numpy", "numba"), "1") | {"seconds": 60}
-    write_json(folder / "cell.json", {"provenance": versions, "sources": {}})
+    write_json(folder / "job.json", {"provenance": versions, "sources": {}})
     write_report(in_study(root), root)
 
 

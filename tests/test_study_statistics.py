@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from bootcourse.study.statistics import band, escapes, improvement, interval, iqm
+from bootcourse.statistics import band, escapes, improvement, interval, iqm
 
 
 def test_the_interquartile_mean_of_ten_scores_is_the_mean_of_the_middle_six():

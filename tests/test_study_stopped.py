@@ -5,10 +5,10 @@ import pytest
 import torch
 
 from bootcourse.learn.settings import settings_for, with_seeds
-from bootcourse.learn.train import Training
-from bootcourse.record.runs import load_checkpoint, load_run, save_checkpoint, save_runs
+from bootcourse.learn.training import Training
+from bootcourse.storage.runs import load_checkpoint, load_run, save_checkpoint, save_runs
 
-TINY = {"warm_up": 16, "hidden": (8,), "capacity": 2000}
+TINY = {"learning_starts": 16, "hidden": (8,), "buffer_size": 2000}
 
 
 def training(seeds: int = 3) -> Training:
@@ -68,7 +68,7 @@ def test_a_checkpoint_remembers_who_was_stopped(tmp_path):
 
 
 def test_stochastic_demonstrations_are_other_demonstrations():
-    few = TINY | {"demonstrations": 3}
+    few = TINY | {"demonstration_episodes": 3}
     mu, pi = (
         Training(with_seeds(settings_for("demos", stochastic_demonstrations=drive, **few), 1), 1)
         for drive in (False, True)

@@ -9,24 +9,24 @@ import torch
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.demonstrations import collect
 from bootcourse.learn.settings import settings_for, with_seeds
-from bootcourse.learn.train import Training
-from bootcourse.lessons.teacher import examine
-from bootcourse.record.teacher import (
+from bootcourse.learn.teachers import (
     TaughtTraining,
     ahead,
     all_roads,
     course_rule,
     demonstrations_of,
-    teacher_driver,
     teacher_of,
+    teacher_policy,
     toward,
 )
+from bootcourse.learn.training import Training
+from bootcourse.lessons.example_teachers import examine
 from bootcourse.road.state import EGO, LANE, TRAP_1, X
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.rule import rule
 from bootcourse.scenario import DEFAULT
 
-TWO = with_seeds(settings_for("bootstrapped", hidden=(8,), capacity=2000), 2)
+TWO = with_seeds(settings_for("bootstrapped", hidden=(8,), buffer_size=2000), 2)
 
 
 def one_road(cars, scenario):
@@ -61,7 +61,7 @@ def test_every_label_is_the_teacher_s_in_the_memory_and_in_the_demonstrations():
 
 
 def test_a_method_without_demonstrations_is_only_labelled():
-    training = TaughtTraining([settings_for("soft", hidden=(8,), capacity=2000)], follows, 2)
+    training = TaughtTraining([settings_for("soft", hidden=(8,), buffer_size=2000)], follows, 2)
     training.run(progress=False)
     assert training.replay.demonstrations == 0 and (training.replay.table[: training.replay.size, -2:] == 4).all()
 
@@ -131,5 +131,5 @@ def test_all_roads_at_once_and_one_by_one_drive_alike():
     env.reset(seed=0)
     many = all_roads(lambda cars, scenario: np.where(cars[:, EGO, LANE] == 2, 1, 4))
     one = lambda cars, scenario: 1 if cars[EGO, LANE] == 2 else 4  # noqa: E731
-    actions = [teacher_driver(each)(None, env.cars).actions for each in (many, one)]
+    actions = [teacher_policy(each)(None, env.cars).actions for each in (many, one)]
     assert np.array_equal(*actions)

@@ -5,11 +5,11 @@ from dataclasses import replace
 
 import pytest
 
-from bootcourse.assets import FOLDER
-from bootcourse.record.rollout import Rollout
+from bootcourse.episodes.rollout import Rollout
+from bootcourse.episodes.transcript import in_words, transcript
+from bootcourse.plots.top_view import overtaken
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, X
-from bootcourse.study.top_view import overtaken
-from bootcourse.study.transcript import in_words, transcript
+from bootcourse.storage.assets import FOLDER
 
 SHIPPED = sorted((FOLDER / "rollouts").glob("*.npz"))
 

@@ -38,12 +38,12 @@ def gather(to: Path) -> None:
 
 def replays() -> str:
     """A page with every drive that ships: to play, and in words."""
-    from bootcourse.assets import FOLDER
-    from bootcourse.record.rollout import Rollout
+    from bootcourse.episodes.rollout import Rollout
+    from bootcourse.episodes.transcript import transcript
+    from bootcourse.plots.figure import name, sentence
+    from bootcourse.plots.top_view import outcome
     from bootcourse.replay3d import recording
-    from bootcourse.study.drawing import name, sentence
-    from bootcourse.study.top_view import outcome
-    from bootcourse.study.transcript import transcript
+    from bootcourse.storage.assets import FOLDER
 
     parts = ["# Replays", "Every drive that ships with the course, to play and to turn with the mouse, and in words."]
     for path in sorted((FOLDER / "rollouts").glob("*.npz")):

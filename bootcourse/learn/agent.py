@@ -6,10 +6,10 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from bootcourse.drivers import Choice, Driver
 from bootcourse.learn import sac
 from bootcourse.learn.networks import mlp
 from bootcourse.learn.settings import Settings
+from bootcourse.policies import Policy, PolicyOutput
 
 
 @dataclass(frozen=True)
@@ -30,15 +30,15 @@ class Agent:
     def q_values(self, observations: np.ndarray) -> np.ndarray:
         """The smaller of the two critics' Q(s,a): (batch, observation) -> (batch, 9)."""
         states = torch.as_tensor(observations, dtype=torch.float32)[None]
-        return sac.smaller(mlp(self.critics, states.repeat(2, 1, 1))).numpy()
+        return sac.min_q(mlp(self.critics, states.repeat(2, 1, 1))).numpy()
 
-    def driver(self, rng: np.random.Generator | None = None, with_q: bool = False) -> Driver:
+    def as_policy(self, rng: np.random.Generator | None = None, with_q: bool = False) -> Policy:
         """Drives by its most probable action; with an rng, by an action drawn from π."""
 
         def drive(observations, cars):
             policy = self.policy(observations)
             actions = policy.argmax(-1) if rng is None else sample_actions(policy, rng.random(len(policy)))
-            return Choice(actions, policy, self.q_values(observations) if with_q else None)
+            return PolicyOutput(actions, policy, self.q_values(observations) if with_q else None)
 
         return drive
 

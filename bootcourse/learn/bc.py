@@ -6,9 +6,9 @@ import torch
 from torch import Tensor
 
 from bootcourse.learn import sac
-from bootcourse.learn.learner import Learner
+from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.networks import mlp
-from bootcourse.learn.replay import Batch
+from bootcourse.learn.replay_buffer import Batch
 from bootcourse.learn.settings import Settings
 from bootcourse.scenario import N_ACTIONS
 
@@ -21,7 +21,7 @@ def cloning_loss(log_pi: Tensor, expert_actions: Tensor) -> Tensor:
     return -log_pi.gather(-1, expert_actions.unsqueeze(-1)).squeeze(-1).mean(-1)
 
 
-class Cloner(Learner):
+class BCLearner(SACLearner):
     """Actors that are trained to repeat the batch. Nothing is valued, so their critics are zero."""
 
     def __init__(self, settings: Sequence[Settings], observation_size: int, n_actions: int = N_ACTIONS):

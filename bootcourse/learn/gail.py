@@ -12,9 +12,9 @@ import torch.nn.functional as F
 from torch import Tensor
 
 from bootcourse.errors import BootcourseError
-from bootcourse.learn.learner import Learner
+from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.networks import init_mlp, mlp
-from bootcourse.learn.replay import Batch
+from bootcourse.learn.replay_buffer import Batch
 from bootcourse.learn.settings import Settings
 from bootcourse.scenario import N_ACTIONS
 
@@ -42,7 +42,7 @@ def gradient_penalty(network: Sequence[Tensor], expert: Tensor) -> Tensor:
     return slope.square().sum(-1).mean(-1) / 2
 
 
-class Imitator(Learner):
+class GAILLearner(SACLearner):
     """SAC that is rewarded by a discriminator of its own, for several agents.
 
     A batch must hold as many demonstrations as own transitions, the demonstrations first.

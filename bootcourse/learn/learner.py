@@ -8,12 +8,12 @@ from torch import Tensor
 from bootcourse.errors import BootcourseError
 from bootcourse.learn import bootstrap, sac
 from bootcourse.learn.networks import init_mlp, mlp
-from bootcourse.learn.replay import Batch
+from bootcourse.learn.replay_buffer import Batch
 from bootcourse.learn.settings import SHARED, Settings
 from bootcourse.scenario import N_ACTIONS
 
 
-class Learner:
+class SACLearner:
     """Actors, twin critics and temperatures of several agents, and their update.
 
     settings: one for each agent; the fields in `settings.SHARED` must be equal.
@@ -41,8 +41,8 @@ class Learner:
             for parameter in group["params"]:
                 parameter.requires_grad_()
         self.optimiser = torch.optim.Adam(groups, fused=True)
-        names = ("gamma", "target_entropy", "xi_multiplier", "xi_fixed", "kl_in_target", "p", "bonus", "margin")
-        self.of_agent = {name: self._per_agent(name) for name in (*names, "paper_q_filter", "conservative")}
+        names = ("gamma", "target_entropy", "xi_multiplier", "xi_fixed", "kl_in_target", "rule_p", "bonus", "margin")
+        self.of_agent = {name: self._per_agent(name) for name in (*names, "paper_q_filter", "cql_weight")}
 
     def _per_agent(self, name: str) -> Tensor:
         return torch.tensor([float(getattr(s, name)) for s in self.settings])
@@ -58,8 +58,8 @@ class Learner:
 
         with torch.no_grad():
             next_log_pi = sac.log_policy(mlp(self.actor, batch.next_states))
-            next_q = sac.smaller(self._both(self.target_critics, batch.next_states))
-            next_kl = bootstrap.kl_to_rule(next_log_pi, batch.next_rule_actions, self.of_agent["p"])
+            next_q = sac.min_q(self._both(self.target_critics, batch.next_states))
+            next_kl = bootstrap.kl_to_rule(next_log_pi, batch.next_rule_actions, self.of_agent["rule_p"])
             next_value = sac.soft_value(next_log_pi, next_q, alpha, its["kl_in_target"] * xi * next_kl)
             reward = bootstrap.augmented_reward(batch.rewards, batch.is_demonstration, its["bonus"])
             target = sac.critic_target(reward, batch.terminated, next_value, its["gamma"])
@@ -69,16 +69,16 @@ class Learner:
         critic_loss = sac.critic_loss(q_taken, target).sum(0)
 
         log_pi = sac.log_policy(mlp(self.actor, batch.states))
-        kl = bootstrap.kl_to_rule(log_pi, batch.rule_actions, self.of_agent["p"])
-        q = sac.smaller(q_pair)
+        kl = bootstrap.kl_to_rule(log_pi, batch.rule_actions, self.of_agent["rule_p"])
+        q = sac.min_q(q_pair)
         actor_loss = sac.actor_loss(log_pi, q, alpha, xi * kl)
         state_entropy = sac.entropy(log_pi)
         temperature_loss = sac.temperature_loss(self.log_alpha, state_entropy, self.of_agent["target_entropy"])
         if self.of_agent["margin"].any():
             critic_loss = critic_loss + self.of_agent["margin"] * self._margin_loss(q_pair, log_pi.detach(), batch)
-        if self.of_agent["conservative"].any():
+        if self.of_agent["cql_weight"].any():
             pessimism = sac.conservative_loss(q_pair, batch.actions.expand(2, -1, -1)).sum(0)
-            critic_loss = critic_loss + self.of_agent["conservative"] * pessimism
+            critic_loss = critic_loss + self.of_agent["cql_weight"] * pessimism
 
         self.optimiser.zero_grad()
         (critic_loss + actor_loss + temperature_loss).sum().backward()
@@ -118,4 +118,4 @@ class Learner:
     @torch.no_grad()
     def q_values(self, states: Tensor) -> Tensor:
         """The smaller of the two critics' Q(s,a): (agents, batch, observation) -> (agents, batch, actions)."""
-        return sac.smaller(self._both(self.critics, states))
+        return sac.min_q(self._both(self.critics, states))

@@ -60,6 +60,6 @@ def temperature_loss(log_alpha: Tensor, state_entropy: Tensor, target_entropy: T
     return log_alpha.exp() * (state_entropy.detach().mean(-1) - target_entropy)
 
 
-def smaller(q_pair: Tensor) -> Tensor:
+def min_q(q_pair: Tensor) -> Tensor:
     """The smaller of the two critics' values: (2, ..., batch, actions) -> (..., batch, actions)."""
     return torch.minimum(q_pair[0], q_pair[1])

@@ -6,7 +6,7 @@
 import math
 from dataclasses import dataclass, fields, replace
 
-from bootcourse.errors import BootcourseError, nearest
+from bootcourse.errors import BootcourseError, did_you_mean
 from bootcourse.scenario import check_p
 
 
@@ -22,41 +22,42 @@ class Settings:
     xi_multiplier: float = 200.0  # † ξ = 200 α; 0 switches the soft constraint off
     xi_fixed: float = -1.0  # a constant ξ instead, if 0 or more
     kl_in_target: bool = True  # ‡ the KL stands inside the return, so it is in the critic's target too
-    p: float = 0.9  # † stochasticity of π̃
+    rule_p: float = 0.9  # † stochasticity of π̃
     beta_start: float = 0.6  # † share of demonstrations in a batch, at first; 0: no demonstrations
     beta_episodes: int = 1000  # † episodes until that share is 0
     bonus: float = 2.0  # † c, added to a demonstration's reward
     margin: float = 0.0  # weight of the large-margin loss; 0 switches it off
     paper_q_filter: bool = True  # † the printed Q-filter; False: the usual one
-    conservative: float = 0.0  # § weight of CQL's conservative term; 0 switches it off
+    cql_weight: float = 0.0  # § weight of CQL's conservative term; 0 switches it off
     # ---- the same for all agents that train side by side ----
     hidden: tuple = (64, 64)  # § neurons in each hidden layer
     actor_lr: float = 5e-4  # † α_a
     critic_lr: float = 1e-3  # † α_c
     alpha_lr: float = 1e-3  # †
     batch: int = 64  # † N
-    capacity: int = 50_000  # † D, transitions
+    buffer_size: int = 50_000  # † D, transitions
     tau: float = 0.005  # § share of the critics that their targets take over at each update
-    roads: int = 4  # § roads that one agent drives at once
+    envs_per_agent: int = 4  # § roads that one agent drives at once
     updates: int = 1  # § updates for each decision of all its roads
-    warm_up: int = 256  # § decisions before the first update
-    demonstrations: int = 200  # † episodes
+    learning_starts: int = 256  # § decisions before the first update
+    demonstration_episodes: int = 200  # † episodes
     stochastic_demonstrations: bool = False  # ‡ driven by π̃ as the paper prints, or by μ: see demonstrations.py
     discriminator_lr: float = 3e-4  # § GAIL's discriminator
     gradient_penalty: float = 1.0  # § on that discriminator's slope at demonstrations
 
     def __post_init__(self):
         if self.method not in ALL:
-            raise BootcourseError(f"Method {nearest(self.method, ALL)}.")
-        check_p(self.p)
-        _between(self, 0.0, 1.0, "gamma", "beta_start", "tau")
-        _between(self, 0.0, math.inf, "xi_multiplier", "margin", "actor_lr", "critic_lr", "alpha_lr")
-        _between(self, 0.0, math.inf, "conservative", "discriminator_lr", "gradient_penalty")
-        _between(self, 1e-12, math.inf, "alpha_init")
-        _between(self, -math.inf, math.inf, "target_entropy", "bonus", "xi_fixed")
-        _between(self, 1, math.inf, "beta_episodes", "batch", "roads", "updates", "demonstrations", whole=True)
-        _between(self, 0, math.inf, "warm_up", "seed", whole=True)
-        _between(self, max(self.batch, self.roads), math.inf, "capacity", whole=True)
+            raise BootcourseError(f"Method {did_you_mean(self.method, ALL)}.")
+        check_p(self.rule_p, "rule_p")
+        _check_range(self, 0.0, 1.0, "gamma", "beta_start", "tau")
+        _check_range(self, 0.0, math.inf, "xi_multiplier", "margin", "actor_lr", "critic_lr", "alpha_lr")
+        _check_range(self, 0.0, math.inf, "cql_weight", "discriminator_lr", "gradient_penalty")
+        _check_range(self, 1e-12, math.inf, "alpha_init")
+        _check_range(self, -math.inf, math.inf, "target_entropy", "bonus", "xi_fixed")
+        _check_range(self, 1, math.inf, "beta_episodes", "batch", "envs_per_agent", "updates", whole=True)
+        _check_range(self, 1, math.inf, "demonstration_episodes", whole=True)
+        _check_range(self, 0, math.inf, "learning_starts", "seed", whole=True)
+        _check_range(self, max(self.batch, self.envs_per_agent), math.inf, "buffer_size", whole=True)
         for name in ("kl_in_target", "paper_q_filter", "stochastic_demonstrations"):
             if not isinstance(getattr(self, name), bool):
                 raise BootcourseError(f"{name} = {getattr(self, name)!r}: give True or False.")
@@ -82,7 +83,7 @@ class Settings:
         return self.beta_start > 0
 
 
-def _between(settings: Settings, low: float, high: float, *names: str, whole: bool = False) -> None:
+def _check_range(settings: Settings, low: float, high: float, *names: str, whole: bool = False) -> None:
     for name in names:
         value = getattr(settings, name)
         is_number = isinstance(value, int if whole else (int, float)) and not isinstance(value, bool)
@@ -107,8 +108,8 @@ METHODS = {
 _APART = {"xi_multiplier": 0.0, "bonus": 0.0, "beta_episodes": 10**9}
 BASELINES = {
     "bc": _APART | {"beta_start": 1.0},  # behaviour cloning (bc.py)
-    "cql": _APART | {"beta_start": 1.0, "conservative": 1.0},  # conservative Q-learning (cql.py)
-    "cql_sac": _APART | {"beta_start": 1.0, "conservative": 1.0},  # the same term on SAC, with its actor
+    "cql": _APART | {"beta_start": 1.0, "cql_weight": 1.0},  # conservative Q-learning (cql.py)
+    "cql_sac": _APART | {"beta_start": 1.0, "cql_weight": 1.0},  # the same term on SAC, with its actor
     "gail": _APART | {"beta_start": 0.5, "batch": 128},  # generative adversarial imitation (gail.py)
 }
 ALL = METHODS | BASELINES
@@ -118,12 +119,27 @@ SHARED = tuple(f.name for f in fields(Settings))[[f.name for f in fields(Setting
 def settings_for(method: str, **changes) -> Settings:
     """The settings of a method, with changes. Raises BootcourseError for an unknown name or value."""
     if method not in ALL:
-        raise BootcourseError(f"Method {nearest(method, ALL)}.")
+        raise BootcourseError(f"Method {did_you_mean(method, ALL)}.")
     known = [f.name for f in fields(Settings)]
     for name in changes:
         if name not in known:
-            raise BootcourseError(f"Setting {nearest(name, known)}.")
+            raise BootcourseError(f"Setting {did_you_mean(name, known)}.")
     return Settings(method=method, **(ALL[method] | changes))
+
+
+FORMER_NAMES = {  # of fields, in files that earlier versions wrote
+    "p": "rule_p",
+    "roads": "envs_per_agent",
+    "warm_up": "learning_starts",
+    "capacity": "buffer_size",
+    "conservative": "cql_weight",
+    "demonstrations": "demonstration_episodes",
+}
+
+
+def renamed(stored: dict) -> dict:
+    """Settings as a file holds them, {name: value}, under the names that they have now."""
+    return {FORMER_NAMES.get(name, name): value for name, value in stored.items()}
 
 
 def with_seeds(settings: Settings, seeds: int, first: int = 0) -> list[Settings]:

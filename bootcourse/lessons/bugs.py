@@ -1,6 +1,6 @@
 """Six silent bugs that people really make, and the agents that were trained with them for the bug hunt.
 
-Each bug is a `Learner` whose update is right but for one place. Nothing raises, nothing is NaN, the
+Each bug is a `SACLearner` whose update is right but for one place. Nothing raises, nothing is NaN, the
 curves look like curves.
 
     python -m bootcourse.lessons.bugs --out assets/bug_hunt.npz    # trains all seven, some minutes
@@ -19,18 +19,18 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from bootcourse.assets import FOLDER
-from bootcourse.drivers import rule_driver
-from bootcourse.errors import BootcourseError, nearest
+from bootcourse.episodes.record import record
+from bootcourse.errors import BootcourseError, did_you_mean
+from bootcourse.files import provenance, read_arrays, write_arrays
 from bootcourse.learn import bootstrap, sac
 from bootcourse.learn.agent import Agent
-from bootcourse.learn.learner import Learner
-from bootcourse.learn.replay import Batch, unpack
+from bootcourse.learn.learner import SACLearner
+from bootcourse.learn.replay_buffer import Batch, decode_transitions
 from bootcourse.learn.settings import settings_for, with_seeds
-from bootcourse.learn.train import Training
-from bootcourse.record.drive import provenance, record
-from bootcourse.record.files import read_arrays, write_arrays
-from bootcourse.scenario import DEFAULT
+from bootcourse.learn.training import Training
+from bootcourse.policies import rule_policy
+from bootcourse.scenario import DEFAULT, RULE_P
+from bootcourse.storage.assets import FOLDER
 
 # The six bugs ----------------------------------------------------------------------------------------
 
@@ -54,7 +54,7 @@ def flipped_kl(log_pi: Tensor, rule_actions: Tensor, p: Tensor) -> Tensor:
     return (log_rule.exp() * (log_rule - log_pi)).sum(-1)
 
 
-class FlippedKL(Learner):
+class FlippedKL(SACLearner):
     """The KL divergence is taken the other way round."""
 
     def update(self, batch: Batch) -> dict[str, Tensor]:
@@ -62,14 +62,14 @@ class FlippedKL(Learner):
             return super().update(batch)
 
 
-class NoEnd(Learner):
+class NoEnd(SACLearner):
     """(1 - terminated) is missing: the target believes in a life after the accident."""
 
     def update(self, batch: Batch) -> dict[str, Tensor]:
         return super().update(batch._replace(terminated=torch.zeros_like(batch.terminated)))
 
 
-class Sampled(Learner):
+class Sampled(SACLearner):
     """One sampled action stands for the expectation, as in SAC for continuous actions."""
 
     def update(self, batch: Batch) -> dict[str, Tensor]:
@@ -89,7 +89,7 @@ def undetached_loss(log_pi: Tensor, q: Tensor, alpha: Tensor, constraint=0.0) ->
     return -sac.soft_value(log_pi, q, alpha, constraint).mean(-1)
 
 
-class NoStop(Learner):
+class NoStop(SACLearner):
     """The stop-gradient on Q is missing in the actor's loss."""
 
     def update(self, batch: Batch) -> dict[str, Tensor]:
@@ -97,14 +97,14 @@ class NoStop(Learner):
             return super().update(batch)
 
 
-class BonusForAll(Learner):
+class BonusForAll(SACLearner):
     """The bonus c is paid for the agent's own driving as well."""
 
     def update(self, batch: Batch) -> dict[str, Tensor]:
         return super().update(batch._replace(is_demonstration=torch.ones_like(batch.is_demonstration)))
 
 
-class ShiftedLabels(Learner):
+class ShiftedLabels(SACLearner):
     """The rule was asked after the road had moved on: each label belongs to the state one second later."""
 
     def update(self, batch: Batch) -> dict[str, Tensor]:
@@ -119,7 +119,7 @@ BUGS = {
     "bonus_for_all": BonusForAll,
     "shifted_labels": ShiftedLabels,
 }
-LEARNERS = {"none": Learner, **BUGS}
+LEARNERS = {"none": SACLearner, **BUGS}
 LETTERS = "ABCDEF"
 SHUFFLE = 2025  # the seed that says who is who
 SEEDS, UPDATES, EVERY = 2, 10_000, 250  # agents with each bug; updates of each; updates between two looks
@@ -142,7 +142,7 @@ class Probe:
     """
 
     def __init__(self):
-        drives = record(rule_driver(DEFAULT), ROADS)
+        drives = record(rule_policy(DEFAULT), ROADS)
         self.states = np.concatenate([drive.observations[:-2] for drive in drives])
         self.now = torch.from_numpy(np.concatenate([drive.rule_actions[:-1] for drive in drives]))
         self.later = torch.from_numpy(np.concatenate([drive.rule_actions[1:] for drive in drives]))
@@ -160,7 +160,7 @@ class Probe:
         log_pi = torch.from_numpy(pi).clamp(min=1e-30).log()
         likeliest = log_pi.argmax(-1)
         found = (
-            bootstrap.kl_to_rule(log_pi, self.now, torch.tensor(DEFAULT.rule.p)),
+            bootstrap.kl_to_rule(log_pi, self.now, torch.tensor(RULE_P)),
             sac.entropy(log_pi),
             (likeliest == self.now).float(),
             (likeliest == self.later).float(),
@@ -173,7 +173,7 @@ class Probe:
     def at_the_end(training: Training, i: int, agent: Agent) -> float:
         first = training.replay.first[i]
         rows = training.replay.table[first : first + training.replay.size]
-        own = unpack(rows, training.scenario.observation_size, rows[:, 0])
+        own = decode_transitions(rows, training.scenario.observation_size, rows[:, 0])
         ended = own.terminated > 0
         if not ended.any():
             return math.nan
@@ -237,7 +237,7 @@ class Hunt:
 
     def _of(self, name: str, what: str) -> np.ndarray:
         if name not in self.names:
-            raise BootcourseError(f"The agent {nearest(name, self.names)}.")
+            raise BootcourseError(f"The agent {did_you_mean(name, self.names)}.")
         return self._arrays[f"{self._bug_of[name]}/{what}"]
 
     def curve(self, name: str, what: str) -> np.ndarray:

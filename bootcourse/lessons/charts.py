@@ -6,8 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from bootcourse.colours import style
-from bootcourse.scenario import ACTION_NAMES
-from bootcourse.study.drawing import (
+from bootcourse.plots.figure import (
     INK,
     QUIET,
     SMALL,
@@ -19,6 +18,7 @@ from bootcourse.study.drawing import (
     styles,
     wrapped,
 )
+from bootcourse.scenario import ACTION_NAMES
 
 
 def lines(

@@ -8,7 +8,7 @@ from then on an answer that does not pass raises `NotPassed`.
 import functools
 from collections.abc import Callable
 
-from bootcourse.errors import BootcourseError, nearest
+from bootcourse.errors import BootcourseError, did_you_mean
 from bootcourse.lessons.exercise import Exercise
 from bootcourse.lessons.exercises import registry
 from bootcourse.lessons.judge import judge
@@ -47,7 +47,7 @@ def solution(name: str):
 
 def _find(name: str) -> Exercise:
     if name not in registry():
-        raise BootcourseError(f"The exercise {nearest(name, registry())}.")
+        raise BootcourseError(f"The exercise {did_you_mean(name, registry())}.")
     return registry()[name]
 
 
@@ -61,7 +61,7 @@ def _check(exercise: Exercise, answer: Callable) -> Verdict:
 def __getattr__(name: str) -> Callable[[Callable], Verdict]:
     """check.NAME"""
     if name.startswith("_") or name not in registry():
-        raise AttributeError(f"The exercise {nearest(name, registry())}.")
+        raise AttributeError(f"The exercise {did_you_mean(name, registry())}.")
     return functools.partial(_check, registry()[name])
 
 

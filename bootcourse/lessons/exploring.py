@@ -7,10 +7,10 @@ import numpy as np
 import torch
 from matplotlib.figure import Figure
 
+from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.sac import entropy, log_policy
-from bootcourse.record.rollout import Rollout
+from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, finish, new_figure, wrapped
 from bootcourse.road.state import EGO, LANE, TRAP_1, X
-from bootcourse.study.drawing import INK, QUIET, SMALL, TEXT, finish, new_figure, wrapped
 
 
 @dataclass(frozen=True)

@@ -6,13 +6,13 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from bootcourse.colours import style
+from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.settings import Settings
-from bootcourse.record.rollout import Rollout
+from bootcourse.plots.figure import INK, QUIET, TEXT, finish, new_figure, plain_axes, sentence
 from bootcourse.road.formulas import speed_reward
 from bootcourse.rule import SENTENCES, Reason
 from bootcourse.scenario import ACTION_NAMES
-from bootcourse.study.drawing import INK, QUIET, TEXT, finish, new_figure, plain_axes, sentence
 
 
 def reward_curve(traps: float = 10.0, best: float = 15.0) -> Figure:

@@ -5,17 +5,17 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
+from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.agent import Agent
-from bootcourse.learn.learner import Learner
+from bootcourse.learn.learner import SACLearner
 from bootcourse.lessons.charts import lines
-from bootcourse.record.rollout import Rollout
 from bootcourse.study.results import Results
 
 WINDOW = 50  # training episodes that a success rate is taken over
 SHORT = {"bc": "BC", "cql": "CQL", "gail": "GAIL"}
 
 
-def agents_of(learner: Learner) -> list[Agent]:
+def agents_of(learner: SACLearner) -> list[Agent]:
     """The agents of a learner as they are now; they do not change when it learns on."""
     found, n = [], learner.agents
     for i, settings in enumerate(learner.settings):

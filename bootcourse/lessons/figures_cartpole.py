@@ -7,8 +7,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from bootcourse.colours import style
+from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, finish, new_figure, sentence
 from bootcourse.study.checks import CARTPOLE_SCALES
-from bootcourse.study.drawing import INK, QUIET, SMALL, TEXT, finish, new_figure, sentence
 
 TRACK, POLE = 2.4, 1.8  # m: half the track; the pole as it is drawn
 PICTURES, STEP, ROW = 8, 5.4, 0.85  # in a strip; from one to the next (m); a strip's height (inches)

@@ -6,9 +6,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from bootcourse.colours import style
-from bootcourse.record.rollout import Rollout
+from bootcourse.episodes.rollout import Rollout
+from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, finish, label_ends, new_figure, plain_axes
 from bootcourse.road.state import EGO, TRAP_1, X, Y
-from bootcourse.study.drawing import INK, QUIET, SMALL, TEXT, finish, label_ends, new_figure, plain_axes
 
 NOISY = "#D55E00"
 

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from bootcourse.colours import OTHER
-from bootcourse.study.drawing import INK, QUIET, SMALL, TEXT, WIDTH, finish, new_figure, plain_axes, wrapped
+from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, WIDTH, finish, new_figure, plain_axes, wrapped
 
 HEIGHT, GAP, LEFT, FOOT = 1.15, 0.42, 0.5, 0.5  # inches
 

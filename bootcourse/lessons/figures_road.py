@@ -4,13 +4,13 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from bootcourse.colours import ALARM, OTHER, style
-from bootcourse.record.rollout import Rollout
+from bootcourse.episodes.rollout import Rollout
+from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, WIDTH, finish, label_ends, new_figure, plain_axes
+from bootcourse.plots.top_view import draw_car, draw_road
 from bootcourse.road.formulas import bicycle_step
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, X
 from bootcourse.rule import safety_distance
 from bootcourse.scenario import ACTION_NAMES, DEFAULT, Scenario
-from bootcourse.study.drawing import INK, QUIET, SMALL, TEXT, WIDTH, finish, label_ends, new_figure, plain_axes
-from bootcourse.study.top_view import draw_car, draw_road
 
 SHADES = ("#0072B2", "#444444", "#D55E00")  # brake, keep, accelerate
 

@@ -9,9 +9,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from bootcourse.colours import ALARM
+from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, finish, label_ends, new_figure, plain_axes
 from bootcourse.road.formulas import desired_gap, idm_acceleration, mobil_incentive
 from bootcourse.scenario import DEFAULT, Traffic
-from bootcourse.study.drawing import INK, QUIET, SMALL, TEXT, finish, label_ends, new_figure, plain_axes
 
 LINES = (("#0072B2", "-"), ("#444444", "--"), ("#D55E00", "-."))  # colour and line, first to last
 FAST = 12.5  # m/s, the bright end of the colours

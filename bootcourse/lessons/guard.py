@@ -27,7 +27,7 @@ class TimeUp(SystemExit):
 
 
 @dataclass
-class Report:
+class GuardedRun:
     """What happened, case by case. The lists end with the first case that raised or took too long."""
 
     answers: list[Plain] = field(default_factory=list)
@@ -52,9 +52,9 @@ class _Printed(io.StringIO):
         return len(text)
 
 
-def run(function: Callable, cases: list[tuple], seconds: float) -> Report:
+def run(function: Callable, cases: list[tuple], seconds: float) -> GuardedRun:
     """Call function(*arguments) for each case, on copies, for at most `seconds` in all."""
-    report, printed = Report(), _Printed()
+    report, printed = GuardedRun(), _Printed()
     worker = threading.Thread(target=_work, args=(function, cases, report), daemon=True)
     with contextlib.redirect_stdout(printed):
         worker.start()
@@ -67,7 +67,7 @@ def run(function: Callable, cases: list[tuple], seconds: float) -> Report:
     return report
 
 
-def _work(function: Callable, cases: list[tuple], report: Report) -> None:
+def _work(function: Callable, cases: list[tuple], report: GuardedRun) -> None:
     try:
         for number, arguments in enumerate(cases):
             given = copy.deepcopy(arguments)

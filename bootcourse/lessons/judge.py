@@ -56,7 +56,7 @@ def takes(answer: Callable, how_many: int) -> bool:
     return True
 
 
-def ended_early(exercise: Exercise, answer: Callable, report: guard.Report, cases: list[tuple]) -> Verdict | None:
+def ended_early(exercise: Exercise, answer: Callable, report: guard.GuardedRun, cases: list[tuple]) -> Verdict | None:
     """What a function did instead of answering."""
     empty = [number for number, answer in enumerate(report.answers) if answer.kind == "NoneType"]
     if isinstance(report.error, NotImplementedError) or empty[:1] == [0]:
@@ -83,7 +83,7 @@ def ended_early(exercise: Exercise, answer: Callable, report: guard.Report, case
     return None
 
 
-def judge_answers(exercise: Exercise, answer: Callable, report: guard.Report, cases: list[tuple]) -> Verdict:
+def judge_answers(exercise: Exercise, answer: Callable, report: guard.GuardedRun, cases: list[tuple]) -> Verdict:
     """All cases were answered: are all of the answers right, and if not, what is wrong?"""
     rights = outcomes(exercise, exercise.solution, cases)
     pairs = list(zip(report.answers, rights, strict=True))
@@ -106,7 +106,7 @@ def judge_answers(exercise: Exercise, answer: Callable, report: guard.Report, ca
     return wrong(exercise, *unknown_mistake(exercise, cases[case], mine, right))
 
 
-def changes_its_mind(exercise: Exercise, answer: Callable, report: guard.Report, cases: list[tuple]) -> bool:
+def changes_its_mind(exercise: Exercise, answer: Callable, report: guard.GuardedRun, cases: list[tuple]) -> bool:
     """Asked everything once more, does it answer differently? (One case alone could agree by chance.)"""
     again = guard.run(functools.partial(exercise.run, answer), cases, exercise.seconds)
     pairs = zip(report.answers, again.answers, strict=False)

@@ -3,8 +3,8 @@
 import time
 
 from bootcourse.learn.curves import by_method
-from bootcourse.learn.train import Training
-from bootcourse.study.drawing import Picture
+from bootcourse.learn.training import Training
+from bootcourse.plots.figure import Picture
 
 
 class LiveCurves:
@@ -31,7 +31,7 @@ class LiveCurves:
 
     @staticmethod
     def draw(training: Training):
-        from bootcourse.study.figures import training_curves
+        from bootcourse.plots import training_curves
 
         curves = by_method(training.settings, training.curves.values)
         return training_curves(curves, title="Training, as it happens")

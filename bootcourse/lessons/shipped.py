@@ -2,11 +2,11 @@
 
 from dataclasses import replace
 
-from bootcourse.assets import FOLDER
+from bootcourse.episodes.rollout import OPTIONAL, Rollout
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.agent import Agent
-from bootcourse.record.rollout import OPTIONAL, Rollout
-from bootcourse.record.runs import Run, find_runs, load_run
+from bootcourse.storage.assets import FOLDER
+from bootcourse.storage.runs import Run, find_runs, load_run
 from bootcourse.study.results import Results, load_results
 
 

@@ -3,8 +3,8 @@
 import math
 from collections.abc import Sequence
 
+from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError
-from bootcourse.record.rollout import Rollout
 
 
 def one_drive(drive: Rollout, called: str) -> Rollout:

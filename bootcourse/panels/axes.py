@@ -8,7 +8,7 @@ import numpy as np
 
 from bootcourse.colours import Style
 from bootcourse.panels.svg import INK, QUIET, line, path, text
-from bootcourse.study.statistics import rolling_means
+from bootcourse.statistics import rolling_means
 
 DASHES = {"-": "", "--": "7 4", ":": "2 3", "-.": "7 3 2 3"}
 

@@ -9,7 +9,7 @@ import traceback
 from collections.abc import Callable
 
 from bootcourse.errors import BootcourseError
-from bootcourse.learn.train import Result, Training
+from bootcourse.learn.training import Result, Training
 
 LOOKS = 5.0  # Hz, at most
 SHARE = 0.15  # of the thread's time, at most, for looking

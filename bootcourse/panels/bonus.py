@@ -1,6 +1,6 @@
 """What the bonus c does: the critic's target along a demonstration, along a trapped drive, and where they cross.
 
-`valuing.py` computes what is seen, `bonus_view.py` draws it; here are the four numbers to move.
+`bonus_numbers.py` computes what is seen, `bonus_view.py` draws it; here are the four numbers to move.
 """
 
 from dataclasses import replace
@@ -8,22 +8,22 @@ from dataclasses import replace
 import ipywidgets as widgets
 
 from bootcourse.colours import Style, style
-from bootcourse.drivers import idle_driver, rule_driver
+from bootcourse.episodes.record import record
+from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import Settings
 from bootcourse.panels.arguments import an_instance, one_drive
+from bootcourse.panels.bonus_numbers import bonus_numbers
 from bootcourse.panels.bonus_view import alt_text, bonus
 from bootcourse.panels.number import Number
 from bootcourse.panels.panel import Panel, beside
 from bootcourse.panels.svg import QUIET, printed
-from bootcourse.panels.valuing import compare
-from bootcourse.record.drive import record
-from bootcourse.record.rollout import Rollout
+from bootcourse.policies import idle_policy, rule_policy
 from bootcourse.scenario import DEFAULT
 
 
 class BonusPanel(Panel):
-    """A view on `compare` of two drives; `svg` is what it shows, `seen` the numbers."""
+    """A view on `bonus_numbers` of two drives; `svg` is what it shows, `seen` the numbers."""
 
     def __init__(self, demonstration: Rollout, trapped: Rollout, settings: Settings):
         self.demonstration, self.trapped, self.settings = demonstration, trapped, settings
@@ -68,7 +68,7 @@ class BonusPanel(Panel):
     def update(self, change=None) -> None:
         """Compute and draw."""
         settings = replace(self.settings, bonus=self.c.value, gamma=self.gamma.value)
-        self.seen = compare(self.demonstration, self.trapped, settings, int(self.episode.value))
+        self.seen = bonus_numbers(self.demonstration, self.trapped, settings, int(self.episode.value))
         rate = self.demonstration.scenario.clock.decision_rate
         k = int(self.moment.value * rate + 1e-9)
         own, other = style(self.demonstration.label), style(self.trapped.label)
@@ -98,10 +98,10 @@ def bonus_panel(
     settings = Settings() if settings is None else an_instance(settings, Settings, "settings")
     if demonstration is None:
         scenario, seed = (DEFAULT, 0) if trapped is None else (one_drive(trapped, "trapped").scenario, trapped.seed)
-        demonstration = record(rule_driver(scenario), [seed], scenario, "rule")[0]
+        demonstration = record(rule_policy(scenario), [seed], scenario, "rule")[0]
     one_drive(demonstration, "demonstration")
     if trapped is None:
-        trapped = record(idle_driver, [demonstration.seed], demonstration.scenario, "idle")[0]
+        trapped = record(idle_policy, [demonstration.seed], demonstration.scenario, "idle")[0]
     one_drive(trapped, "trapped")
     if trapped.scenario != demonstration.scenario:
         raise BootcourseError("The two drives are of different scenarios: record both in one.")

@@ -1,4 +1,4 @@
-"""A `Comparison` as a drawing: the targets along both drives, the bonus that each moment needs, how β fades it."""
+"""A `BonusNumbers` as a drawing: the targets along both drives, the bonus that each moment needs, how β fades it."""
 
 import numpy as np
 
@@ -6,8 +6,8 @@ from bootcourse.colours import OTHER, Style
 from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.settings import Settings
 from bootcourse.panels.axes import Axes, span
+from bootcourse.panels.bonus_numbers import BonusNumbers
 from bootcourse.panels.svg import INK, QUIET, drawing, line, text
-from bootcourse.panels.valuing import Comparison
 
 WIDTH, HEIGHT = 1052, 416
 LEFT, RIGHT, TOP, BOTTOM = (44, 600), (720, 318), (92, 140), (290, 84)  # (first pixel, pixels) of the 2 x 2 charts
@@ -15,7 +15,7 @@ STEPS = (0.25, 0.5, 1.0, 2.5, 5.0)  # the axes have room for one of these bonuse
 
 
 def bonus(
-    seen: Comparison, k: int, rate: float, settings: Settings, episode: int, own: Style, other: Style = OTHER
+    seen: BonusNumbers, k: int, rate: float, settings: Settings, episode: int, own: Style, other: Style = OTHER
 ) -> str:
     """The drawing. k: the decision that is looked at, at `rate` a second; own, other: the two drives' looks."""
     c, room = settings.bonus, next((step for step in STEPS if step >= settings.bonus), settings.bonus)
@@ -51,7 +51,7 @@ def bonus(
     return drawing(WIDTH, HEIGHT, [*parts, *_fading(seen, settings, episode, own)], alt_text(seen, k, rate, c))
 
 
-def _against_c(seen: Comparison, k: int, rate: float, c: float, room: float, own: Style, other: Style) -> list[str]:
+def _against_c(seen: BonusNumbers, k: int, rate: float, c: float, room: float, own: Style, other: Style) -> list[str]:
     """Both targets at one moment against c: one rises, the other does not, and they cross once."""
     low, high = min(0.0, c), max(room, c)
     ends = np.array([low, high])
@@ -70,7 +70,7 @@ def _against_c(seen: Comparison, k: int, rate: float, c: float, room: float, own
     return [*parts, _dot(x, y, own.colour)]
 
 
-def _fading(seen: Comparison, settings: Settings, episode: int, own: Style) -> list[str]:
+def _fading(seen: BonusNumbers, settings: Settings, episode: int, own: Style) -> list[str]:
     """β c over the training."""
     c, most = settings.bonus, max(1.5 * settings.beta_episodes, episode)
     episodes = np.linspace(0, most, 151)
@@ -84,11 +84,11 @@ def _fading(seen: Comparison, settings: Settings, episode: int, own: Style) -> l
     return [*parts, _dot(x, y, own.colour), words]
 
 
-def _head(seen: Comparison, k: int, rate: float, c: float) -> list[str]:
+def _head(seen: BonusNumbers, k: int, rate: float, c: float) -> list[str]:
     return [text(4, 16, told(seen, k, rate, c), size=14, bold=True), text(4, 36, whole(seen, c), fill=QUIET)]
 
 
-def told(seen: Comparison, k: int, rate: float, c: float) -> str:
+def told(seen: BonusNumbers, k: int, rate: float, c: float) -> str:
     """What the numbers say at one moment."""
     values = f"{seen.augmented[k]:.2f} with c = {c:g}, {seen.plain[k]:.2f} without"
     crossing = seen.crossing[k]
@@ -97,7 +97,7 @@ def told(seen: Comparison, k: int, rate: float, c: float) -> str:
     return words.replace("-", "−")
 
 
-def whole(seen: Comparison, c: float) -> str:
+def whole(seen: BonusNumbers, c: float) -> str:
     """What they say about the whole drive."""
     most = float(seen.crossing.max())
     leads = f"From c = {most:.2g} on it leads" if most > 0 else "Even without a bonus it leads"
@@ -106,11 +106,11 @@ def whole(seen: Comparison, c: float) -> str:
     return f"{leads} at every moment. A bonus of {c:g} adds {added:.3g} to the target, {how}.".replace("-", "−")
 
 
-def alt_text(seen: Comparison, k: int, rate: float, c: float) -> str:
+def alt_text(seen: BonusNumbers, k: int, rate: float, c: float) -> str:
     return f"{told(seen, k, rate, c)} {whole(seen, c)} β is {seen.beta:.2g}."
 
 
-def _legend(seen: Comparison, c: float, own: Style, other: Style) -> list[str]:
+def _legend(seen: BonusNumbers, c: float, own: Style, other: Style) -> list[str]:
     entries = (
         (f"demonstration, r + c, c = {c:g}", own.colour, 3, ""),
         (f"r + β·c, β = {seen.beta:.2g}: once the agent drives alike", own.colour, 1.4, ""),

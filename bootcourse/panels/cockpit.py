@@ -6,13 +6,13 @@ A pure function of a drive, a rollout and a time.
 import numpy as np
 
 from bootcourse.colours import ALARM, OTHER, style
+from bootcourse.episodes.interactive import InteractiveEpisode, interpolate_states
+from bootcourse.episodes.rollout import Rollout
 from bootcourse.panels.axes import Axes, number, span
 from bootcourse.panels.road import BEHIND, road
 from bootcourse.panels.svg import GRID, INK, QUIET, drawing, line, rect, text
-from bootcourse.record.by_hand import ByHand, between
-from bootcourse.record.rollout import Rollout
+from bootcourse.plots.figure import name
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, Accident, X
-from bootcourse.study.drawing import name
 
 WIDTH, SCALE, HEAD = 1000, 8.0, 24  # pixels; pixels per metre; pixels
 BELOW = 150  # pixels for the score
@@ -26,7 +26,7 @@ ENDS = {
 TERMS = (("r_v, speed", "w_v"), ("r_y, lane centre", "w_y"), ("r_θ, steering", "w_theta"))
 
 
-def finished(drive: ByHand, time: float) -> int:
+def finished(drive: InteractiveEpisode, time: float) -> int:
     """Decisions that are over at a time of this drive."""
     if time >= drive.time:
         return len(drive.rewards)
@@ -36,10 +36,10 @@ def finished(drive: ByHand, time: float) -> int:
 def ghost_at(ghost: Rollout, time: float) -> tuple[np.ndarray, float]:
     """(every car's state in the ghost's drive, its return so far); after its end, as it ended."""
     decisions = int(time * ghost.scenario.clock.decision_rate + 1e-9)
-    return between(ghost.states, time / ghost.scenario.clock.dt), float(ghost.rewards[:decisions].sum())
+    return interpolate_states(ghost.states, time / ghost.scenario.clock.dt), float(ghost.rewards[:decisions].sum())
 
 
-def cockpit(drive: ByHand, ghost: Rollout | None, time: float, coming: str = "") -> str:
+def cockpit(drive: InteractiveEpisode, ghost: Rollout | None, time: float, coming: str = "") -> str:
     """The drawing at a time of the drive (s); coming: the action that was chosen for the next decision, in words."""
     cars, scenario = drive.cars_at(time), drive.scenario
     ghosts = [(ghost_at(ghost, time)[0][EGO], style(ghost.label).colour)] if ghost else []
@@ -52,7 +52,7 @@ def cockpit(drive: ByHand, ghost: Rollout | None, time: float, coming: str = "")
     return drawing(WIDTH, top + BELOW, parts, alt_text(drive, ghost, time))
 
 
-def _head(drive: ByHand, ghost: Rollout | None, time: float, coming: str) -> list[str]:
+def _head(drive: InteractiveEpisode, ghost: Rollout | None, time: float, coming: str) -> list[str]:
     middle = BEHIND * WIDTH
     parts = [rect(middle - 12, 8, 14, 7, OTHER.colour, 'rx="2"'), text(middle + 7, 16, drive.label, bold=True)]
     if ghost:
@@ -66,7 +66,7 @@ def _head(drive: ByHand, ghost: Rollout | None, time: float, coming: str) -> lis
     return parts
 
 
-def _score(drive: ByHand, ghost: Rollout | None, time: float, cars: np.ndarray, top: float) -> list[str]:
+def _score(drive: InteractiveEpisode, ghost: Rollout | None, time: float, cars: np.ndarray, top: float) -> list[str]:
     """Six numbers."""
     mine = sum(drive.rewards[: finished(drive, time)])
     ahead = float(cars[EGO, X] - cars[TRAP_1, X])
@@ -87,7 +87,7 @@ def _score(drive: ByHand, ghost: Rollout | None, time: float, cars: np.ndarray, 
     return parts
 
 
-def _terms(drive: ByHand, decisions: int, top: float) -> list[str]:
+def _terms(drive: InteractiveEpisode, decisions: int, top: float) -> list[str]:
     """What each term adds to the last reward, as bars from one line; the reward below them."""
     left, weights = 496, [getattr(drive.scenario.reward, weight) for _, weight in TERMS]
     terms = drive.tape.terms[decisions - 1] if decisions else (0.0, 0.0, 0.0)
@@ -108,7 +108,7 @@ def _terms(drive: ByHand, decisions: int, top: float) -> list[str]:
     return [*parts, line(left, top + 8, left, top + 101, GRID, 1.5)]
 
 
-def _returns(drive: ByHand, ghost: Rollout | None, time: float, top: float) -> list[str]:
+def _returns(drive: InteractiveEpisode, ghost: Rollout | None, time: float, top: float) -> list[str]:
     """Both returns over the time."""
     mine = np.concatenate([[0.0], np.cumsum(drive.rewards[: finished(drive, time)])])
     other = np.concatenate([[0.0], np.cumsum(ghost.rewards)]) if ghost else np.zeros(1)
@@ -124,7 +124,7 @@ def _returns(drive: ByHand, ghost: Rollout | None, time: float, top: float) -> l
     return [*parts, f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3.5" fill="{OTHER.colour}"/>']
 
 
-def alt_text(drive: ByHand, ghost: Rollout | None, time: float) -> str:
+def alt_text(drive: InteractiveEpisode, ghost: Rollout | None, time: float) -> str:
     cars, mine = drive.cars_at(time), sum(drive.rewards[: finished(drive, time)])
     ahead = float(cars[EGO, X] - cars[TRAP_1, X])
     told = f"Road {drive.seed} after {time:.0f} s: {cars[EGO, SPEED]:.1f} m/s in lane {int(cars[EGO, LANE])}, "

@@ -4,7 +4,7 @@
     mine.rollout          # what you drove, as `record` would have recorded it
     mine.demonstrations   # what you saved as demonstrations: train_panel(drives=mine.demonstrations)
 
-The drive is `record/by_hand.py`, the drawing `cockpit.py`, the keys `pad.py`.
+The drive is `episodes/interactive.py`, the drawing `cockpit.py`, the keys `pad.py`.
 """
 
 import threading
@@ -14,7 +14,9 @@ from pathlib import Path
 
 import ipywidgets as widgets
 
-from bootcourse.drivers import Driver, rule_driver
+from bootcourse.episodes.interactive import InteractiveEpisode
+from bootcourse.episodes.record import record
+from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError
 from bootcourse.panels.cockpit import alt_text, cockpit
 from bootcourse.panels.number import Number
@@ -22,9 +24,7 @@ from bootcourse.panels.pad import Pad
 from bootcourse.panels.panel import Panel, button
 from bootcourse.panels.svg import printed
 from bootcourse.panels.ticker import Ticker
-from bootcourse.record.by_hand import ByHand
-from bootcourse.record.drive import record
-from bootcourse.record.rollout import Rollout
+from bootcourse.policies import Policy, rule_policy
 from bootcourse.scenario import ACTION_NAMES, DEFAULT, IDLE, Scenario
 
 FRAMES = 10.0  # Hz, in real time
@@ -54,8 +54,8 @@ class DrivePanel(Panel):
         self.drives: list[Rollout] = []
         self.demonstrations: list[Rollout] = []
         self._lock = threading.RLock()  # the clock's thread drives too
-        self._saved: ByHand | None = None  # the drive that is a demonstration already, and its length then
-        self.drive, self.ghost = ByHand(seed, scenario), ghost_of(seed)
+        self._saved: InteractiveEpisode | None = None  # the drive that is a demonstration already, and its length then
+        self.drive, self.ghost = InteractiveEpisode(seed, scenario), ghost_of(seed)
         self.shown, self.coming = 0.0, None
         self.ticker = Ticker(self._tick, FRAMES)
         self.pad, self.view = Pad(self.press), widgets.HTML()
@@ -178,7 +178,7 @@ class DrivePanel(Panel):
             ghost = self.ghost if seed == self.drive.seed else self.ghost_of(seed)
             if self.drive.actions:
                 self.drives.append(self.drive.rollout())
-            self.drive, self.ghost = ByHand(seed, self.scenario), ghost
+            self.drive, self.ghost = InteractiveEpisode(seed, self.scenario), ghost
             self.shown, self.coming = 0.0, None
             self.pad.mark(None)
             self.path.value = _path(seed)
@@ -216,10 +216,10 @@ def _path(seed: int) -> str:
     return f"drives/road-{seed}-{time.strftime('%Y%m%d-%H%M%S')}.npz"
 
 
-def drive_panel(seed: int = 0, ghost: Rollout | Driver | None = None, scenario: Scenario = DEFAULT) -> DrivePanel:
+def drive_panel(seed: int = 0, ghost: Rollout | Policy | None = None, scenario: Scenario = DEFAULT) -> DrivePanel:
     """Drive the road of a seed yourself.
 
-    ghost: whom you drive against. None: the rule. A driver (such as `agent.driver()`) drives every road that you
+    ghost: whom you drive against. None: the rule. A driver (such as `agent.as_policy()`) drives every road that you
     choose; a rollout is one drive, of this seed and scenario. Raises BootcourseError if it is of another.
     """
     if isinstance(ghost, Rollout):
@@ -229,5 +229,5 @@ def drive_panel(seed: int = 0, ghost: Rollout | Driver | None = None, scenario: 
                 f"{seed} of '{scenario.name}': give a drive of the same road."
             )
         return DrivePanel(seed, scenario, lambda seed: ghost, fixed="The road of the ghost that you gave.")
-    driver, label = (rule_driver(scenario), "rule") if ghost is None else (ghost, "agent")
+    driver, label = (rule_policy(scenario), "rule") if ghost is None else (ghost, "agent")
     return DrivePanel(seed, scenario, lambda seed: record(driver, [seed], scenario, label)[0], fixed="")

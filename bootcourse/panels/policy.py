@@ -1,37 +1,37 @@
 """One moment of a drive, and what the rule's pull does to each action: bars that move with p, ξ and α.
 
-`weighing.py` computes what is seen, `policy_view.py` draws it; here are the four numbers to move.
+`policy_numbers.py` computes what is seen, `policy_view.py` draws it; here are the four numbers to move.
 """
 
 import ipywidgets as widgets
 import numpy as np
 
 from bootcourse.colours import style
+from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import Settings
 from bootcourse.panels.arguments import a_number, one_drive
 from bootcourse.panels.number import Number
 from bootcourse.panels.panel import Panel, beside
-from bootcourse.panels.policy_view import COLUMNS, GREEN, HEIGHT, ROAD, WIDTH, marks, weighing
+from bootcourse.panels.policy_numbers import check_weights, policy_numbers
+from bootcourse.panels.policy_view import COLUMNS, GREEN, HEIGHT, ROAD, WIDTH, marks, policy_chart
 from bootcourse.panels.road import road
 from bootcourse.panels.svg import QUIET, drawing, printed, text
-from bootcourse.panels.weighing import check_weights, weigh
-from bootcourse.record.rollout import Rollout
+from bootcourse.plots.figure import name
 from bootcourse.road.state import EGO, SPEED
 from bootcourse.rule import SENTENCES, Reason, rule
 from bootcourse.scenario import ACTION_NAMES, check_p
-from bootcourse.study.drawing import name
 
 
 def missing(rollout: Rollout) -> str:
     """The sentence that says what this drive did not record; empty where nothing is missing."""
-    who, remedy = name(rollout.label), "let an agent drive with `agent.driver(with_q=True)`"
+    who, remedy = name(rollout.label), "let an agent drive with `agent.as_policy(with_q=True)`"
     lacks = [what for what, array in (("policy π", rollout.policy), ("Q", rollout.q_values)) if array is None]
     return f"This drive ({who}) recorded no {' and no '.join(lacks)}: to see them, {remedy}." if lacks else ""
 
 
 class PolicyPanel(Panel):
-    """A view on `weigh` at one decision of a drive; `svg` is what it shows, `seen` the numbers."""
+    """A view on `policy_numbers` at one decision of a drive; `svg` is what it shows, `seen` the numbers."""
 
     def __init__(self, rollout: Rollout, p: float, xi: float, alpha: float):
         self.rollout, self.clock = rollout, rollout.scenario.clock
@@ -73,12 +73,14 @@ class PolicyPanel(Panel):
         """Compute and draw the present moment."""
         k = int(self.moment.value * self.clock.decision_rate + 1e-9)
         policy, q = (None if a is None else a[k] for a in (self.rollout.policy, self.rollout.q_values))
-        self.seen = weigh(policy, q, int(self.decisions.actions[k]), self.p.value, self.xi.value, self.alpha.value)
+        self.seen = policy_numbers(
+            policy, q, int(self.decisions.actions[k]), self.p.value, self.xi.value, self.alpha.value
+        )
         self.alt = self._alt(k)
         settings = (self.p.value, self.xi.value, self.alpha.value)
         own, head = style(self.rollout.label).colour, self._head(k)
         view, _ = road(self.starts[k], self.rollout.scenario, own, WIDTH, self._scale())
-        parts = [*view, *head, *weighing(self.seen, *settings, name(self.rollout.label), own)]
+        parts = [*view, *head, *policy_chart(self.seen, *settings, name(self.rollout.label), own)]
         parts += marks(int(self.rollout.actions[k]), int(self.decisions.actions[k]), own)
         inner = ['<g transform="translate(8 0)">', *parts, "</g>"]
         self.svg = drawing(WIDTH + 16, HEIGHT, inner, self.alt)
@@ -127,7 +129,7 @@ def policy_panel(rollout: Rollout, p: float | None = None, xi: float = 2.0, alph
     first, 0.01, if None; ξ: 200 of it. Raises BootcourseError for what is none of these.
     """
     one_drive(rollout, "rollout")
-    p = rollout.scenario.rule.p if p is None else p
+    p = rollout.rule_p if p is None else p
     alpha = Settings().alpha_init if alpha is None else alpha
     for called, value in (("p", p), ("xi", xi), ("alpha", alpha)):
         a_number(value, called)

@@ -1,8 +1,8 @@
-"""The nine actions of a `Weighing` as a drawing: bars of π, π̃ and the optimum, each action's share of the KL, Q."""
+"""The nine actions of `PolicyNumbers`, drawn: bars of π, π̃ and the optimum, each action's share of the KL, Q."""
 
 from bootcourse.colours import METHODS
+from bootcourse.panels.policy_numbers import PolicyNumbers
 from bootcourse.panels.svg import GRID, INK, QUIET, line, rect, text
-from bootcourse.panels.weighing import Weighing
 from bootcourse.scenario import ACTION_NAMES, N_ACTIONS
 
 GREEN, OPTIMUM = METHODS["rule"].colour, INK
@@ -13,7 +13,7 @@ MOST_NATS = 8  # a longer bar is cut
 HEIGHT = ROWS + N_ACTIONS * ROW + 50
 
 
-def weighing(seen: Weighing, p: float, xi: float, alpha: float, who: str, own: str) -> list[str]:
+def policy_chart(seen: PolicyNumbers, p: float, xi: float, alpha: float, who: str, own: str) -> list[str]:
     """The table of the nine actions, bars and numbers; who drove, in which colour."""
     parts, bottom = [], ROWS + N_ACTIONS * ROW
     for row in range(0, N_ACTIONS + 1, 3):

@@ -50,7 +50,6 @@ GROUPS = {
         Field("traffic", "politeness", "politeness", "", 0, 1, 0.05, "How much a lane change minds the others."),
     ),
     "Rule": (
-        Field("rule", "p", "p", "", 0.12, 0.99, 0.01, "Probability that π̃ gives to the rule's own action."),
         Field("rule", "t_safe", "t safe", "s", 0.1, 4, 0.1, "Safety time of a lane change."),
         Field("rule", "v_min", "v min", "m/s", 1, 20, 0.5, "Slowest target speed."),
         Field("rule", "v_max", "v max", "m/s", 1, 30, 0.5, "Fastest target speed."),

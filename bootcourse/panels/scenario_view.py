@@ -82,7 +82,7 @@ def consequences(scenario: Scenario) -> list[str]:
         f"{scenario.observation_size} numbers.",
         f"Centred behind the traps a decision earns {behind:.3f}, {behind * clock.decisions:.1f} in the episode; "
         f"at 15 m/s it would earn {best:.3f}.",
-        f"The rule's target speeds are {speeds} m/s; with p = {rule.p:g} each other action has {(1 - rule.p) / 8:.4f}.",
+        f"The rule's target speeds are {speeds} m/s.",
     ]
 
 

@@ -16,7 +16,7 @@ from bootcourse.panels.panel import Panel
 from bootcourse.panels.svg import printed
 from bootcourse.panels.sweep_view import choices, rerun, view
 from bootcourse.study.results import Results
-from bootcourse.study.sweep import SHIPPED, Happened, load_sweep, nearest
+from bootcourse.study.sweep import SHIPPED, SweepResult, load_sweep, nearest_setting
 
 
 class Snap(widgets.VBox):
@@ -75,7 +75,7 @@ class SweepPanel(Panel):
     """`.happened` is what the page shows, None if the sweep could not be read."""
 
     def __init__(self, path: Path):
-        self.happened: Happened | None = None
+        self.happened: SweepResult | None = None
         self._views: dict[tuple, str] = {}
         try:
             self.sweep: Results | None = load_sweep(path)
@@ -87,11 +87,11 @@ class SweepPanel(Panel):
             return
         sweep = self.sweep
         self.p = Snap("p", "", "How sure the stochastic rule is of itself.", ps,
-                      lambda p: nearest(sweep, p, xis[-1], cs[0]).p)  # fmt: skip
+                      lambda p: nearest_setting(sweep, p, xis[-1], cs[0]).p)  # fmt: skip
         self.xi = Snap("ξ", "× α", "Strength of the pull towards the rule.", xis,
-                       lambda xi: nearest(sweep, ps[0], xi, cs[0]).xi_multiplier)  # fmt: skip
+                       lambda xi: nearest_setting(sweep, ps[0], xi, cs[0]).xi_multiplier)  # fmt: skip
         self.c = Snap("c", "", "Bonus on a demonstration's reward.", cs,
-                      lambda c: nearest(sweep, ps[0], xis[-1], c).c)  # fmt: skip
+                      lambda c: nearest_setting(sweep, ps[0], xis[-1], c).c)  # fmt: skip
         self.sentence, self.chart, self.code = widgets.HTML(), widgets.HTML(), widgets.HTML()
         row = widgets.HBox([self.p, self.xi, self.c], layout={"flex_flow": "row wrap"})
         super().__init__("The sweep over p, ξ and c", row, self.sentence, self.chart, self.code)
@@ -109,7 +109,7 @@ class SweepPanel(Panel):
 
     def _draw(self) -> None:
         asked = (self.p.value, self.xi.value, self.c.value)
-        self.happened = nearest(self.sweep, *asked)
+        self.happened = nearest_setting(self.sweep, *asked)
         missing = "" if self.happened.exact else "This one was not run; the nearest that was: "
         self.sentence.value = f'<div class="bc-says" role="status">{escape(missing + str(self.happened))}</div>'
         self.chart.value = self._view()

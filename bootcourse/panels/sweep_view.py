@@ -10,21 +10,21 @@ import numpy as np
 from bootcourse.colours import ALARM, METHODS, rgb
 from bootcourse.panels.axes import Axes, number, rolling, span
 from bootcourse.panels.svg import INK, QUIET, drawing, rect, text
+from bootcourse.statistics import band
 from bootcourse.study.results import Results
-from bootcourse.study.statistics import band
-from bootcourse.study.sweep import Happened, nearest, settings_run
+from bootcourse.study.sweep import SweepResult, nearest_setting, settings_run
 
 WIDTH, HEIGHT = 1000, 428
 WINDOW = 50  # episodes in a rolling mean
 CURVES = {"success": ("success (% of episodes)", 100.0), "return": ("return of an episode", 1.0)}
-MAPS: dict[str, tuple[str, tuple[str, str], Callable[[Happened], float]]] = {
+MAPS: dict[str, tuple[str, tuple[str, str], Callable[[SweepResult], float]]] = {
     "success": ("success (%)", ("#EAF2F8", "#08447A"), lambda happened: 100 * _mean(happened, "success")),
     "returns": ("return", ("#EFF5EC", "#15532D"), lambda happened: _mean(happened, "returns")),
     "accident": ("accidents (% of episodes)", ("#FBF1EE", "#7A1F1F"), lambda happened: 100 * happened.accidents),
 }
 
 
-def _mean(happened: Happened, measure: str) -> float:
+def _mean(happened: SweepResult, measure: str) -> float:
     return float(happened.results.scores(measure).mean())
 
 
@@ -35,26 +35,26 @@ def choices(sweep: Results) -> tuple[list[float], list[float], list[float]]:
     return tuple(sorted(set(values)) for values in (with_constraint, [xi for _, xi, _ in run], [c for *_, c in run]))
 
 
-def rerun(happened: Happened) -> str:
+def rerun(happened: SweepResult) -> str:
     """The Python that trains these agents again."""
     seeds = sorted(agent["seed"] for agent in happened.results.agents)
     episodes = next(iter(happened.results.curves.values())).shape[1]
     first = f", first={seeds[0]}" if seeds[0] else ""
     return (
         "from bootcourse.learn.settings import settings_for, with_seeds\n"
-        "from bootcourse.learn.train import Training\n\n"
-        f'settings = settings_for("bootstrapped", p={happened.p:g}, xi_multiplier={happened.xi_multiplier:g}, '
+        "from bootcourse.learn.training import Training\n\n"
+        f'settings = settings_for("bootstrapped", rule_p={happened.p:g}, xi_multiplier={happened.xi_multiplier:g}, '
         f"bonus={happened.c:g})\n"
         f"result = Training(with_seeds(settings, {len(seeds)}{first}), episodes={episodes}).run()"
     )
 
 
-def view(sweep: Results, happened: Happened) -> str:
+def view(sweep: Results, happened: SweepResult) -> str:
     """Both drawings, one below the other."""
     return drawing(WIDTH, HEIGHT, curves(happened, 30) + heat_maps(sweep, happened, 238), str(happened))
 
 
-def curves(happened: Happened, top: float) -> list[str]:
+def curves(happened: SweepResult, top: float) -> list[str]:
     """Success and return over the episodes: thin lines are seeds, the thick one their interquartile mean, its band."""
     parts, look = [], METHODS["bootstrapped"]
     for i, (name, (title, factor)) in enumerate(CURVES.items()):
@@ -74,7 +74,7 @@ def curves(happened: Happened, top: float) -> list[str]:
     return parts
 
 
-def heat_maps(sweep: Results, happened: Happened, top: float) -> list[str]:
+def heat_maps(sweep: Results, happened: SweepResult, top: float) -> list[str]:
     """Three maps over p and ξ for the chosen c; the chosen setting is framed. Without ξ, p has one cell in common."""
     ps, xis, cs = choices(sweep)
     run = set(settings_run(sweep))
@@ -82,7 +82,7 @@ def heat_maps(sweep: Results, happened: Happened, top: float) -> list[str]:
     for _, xi, c in run:
         for p in ps:
             if c == happened.c and (xi == 0 or (p, xi, c) in run):
-                cells[p, xi] = nearest(sweep, p, xi, c)
+                cells[p, xi] = nearest_setting(sweep, p, xi, c)
     parts = []
     for i, (title, colours, value) in enumerate(MAPS.values()):
         values = {place: value(cell) for place, cell in cells.items()}

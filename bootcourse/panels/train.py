@@ -3,7 +3,7 @@
     train_panel()                                   # all that is learned is real
     train_panel(drives=mine.demonstrations)         # bootstrap from your own drives (see drive_panel)
 
-The training runs in `background.py`, the drawing is `growth.py`; this file only joins them.
+The training runs in `background.py`, the drawing is `training_chart.py`; this file only joins them.
 """
 
 import time
@@ -14,22 +14,22 @@ from pathlib import Path
 import ipywidgets as widgets
 import numpy as np
 
+from bootcourse.episodes.evaluate import held_out_seeds
+from bootcourse.episodes.record import record
+from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError
+from bootcourse.learn.demonstrations import bootstrap_with
 from bootcourse.learn.settings import ALL, Settings, settings_for, with_seeds
-from bootcourse.learn.train import Result, Training
+from bootcourse.learn.training import Result, Training
 from bootcourse.panels.background import Background
-from bootcourse.panels.growth import EARLIER, Drawn, alt_text, growth, label_of
 from bootcourse.panels.number import Number
 from bootcourse.panels.panel import Panel, button
 from bootcourse.panels.svg import printed
 from bootcourse.panels.train_controls import CONTROLLED, numbers_for, whole_number, without
-from bootcourse.record.demonstrations import bootstrap_with
-from bootcourse.record.drive import record
-from bootcourse.record.rollout import Rollout
-from bootcourse.record.runs import save_runs
+from bootcourse.panels.training_chart import EARLIER, Drawn, alt_text, label_of, training_chart
+from bootcourse.plots.figure import name
 from bootcourse.scenario import DEFAULT, Scenario
-from bootcourse.study.drawing import name
-from bootcourse.study.evaluate import held_out_seeds
+from bootcourse.storage.runs import save_runs
 
 SEEDS, EPISODES = 64, 20_000  # at most, of one training
 HELD_OUT = 1  # the block of roads that no agent has trained on
@@ -102,7 +102,7 @@ class TrainPanel(Panel):
 
     def picture(self) -> tuple[bytes, str, str]:
         drawn = self._all_drawn()
-        return printed(growth(drawn)), "image/svg+xml", alt_text(drawn)
+        return printed(training_chart(drawn)), "image/svg+xml", alt_text(drawn)
 
     def _press(self, press) -> None:
         self.say()
@@ -181,7 +181,7 @@ class TrainPanel(Panel):
         agent = result.agents[max(range(len(result.agents)), key=lambda i: _last_return(result, i))]
         road = held_out_seeds(HELD_OUT, 1)[0]
         label = f"{agent.settings.method}, seed {agent.settings.seed}"
-        rollout = record(agent.driver(with_q=True), [road], self.scenario, label)[0]
+        rollout = record(agent.as_policy(with_q=True), [road], self.scenario, label)[0]
         self._close_replay()
         self.replay = _replay(rollout)
         self.stage.value = self.replay._repr_mimebundle_()["text/html"]
@@ -218,7 +218,7 @@ class TrainPanel(Panel):
         return [*self.drawn[-EARLIER:], Drawn(self._label, method, curves, training.episodes)]
 
     def _draw(self, training: Training | None = None) -> None:
-        self.chart.value = growth(self._all_drawn(training))
+        self.chart.value = training_chart(self._all_drawn(training))
 
 
 def _replay(rollout: Rollout):

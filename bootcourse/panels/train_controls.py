@@ -5,9 +5,9 @@ from dataclasses import replace
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import ALL, Settings, settings_for
 from bootcourse.panels.number import Number
-from bootcourse.study.drawing import name
+from bootcourse.plots.figure import name
 
-CONTROLLED = ("p", "xi_multiplier", "bonus", "beta_start", "gamma")
+CONTROLLED = ("rule_p", "xi_multiplier", "bonus", "beta_start", "gamma")
 
 
 def whole_number(called: str, low: int, high: int):
@@ -26,7 +26,7 @@ def without(method: str) -> dict[str, str]:
     reasons = {}
     if own.get("xi_multiplier") == 0:
         reasons["xi_multiplier"] = f"Without use: {called} has no soft constraint."
-        reasons["p"] = f"Without use: {called} has no KL to the stochastic rule."
+        reasons["rule_p"] = f"Without use: {called} has no KL to the stochastic rule."
     if own.get("bonus") == 0:
         reasons["bonus"] = f"Without use: {called} adds no bonus to demonstrations."
     if own.get("beta_start") == 0:
@@ -47,8 +47,8 @@ def numbers_for(changes: dict) -> dict[str, Number]:
         return lambda value: settings_for("bootstrapped", **{setting: value})
 
     return {
-        "p": Number("p", start.p, 0.12, 0.999, 0.001, "How sure the stochastic rule π̃ is of its own action.",
-                    check=checked("p")),
+        "rule_p": Number("p", start.rule_p, 0.12, 0.999, 0.001, "How sure the stochastic rule π̃ is of its own action.",
+                    check=checked("rule_p")),
         "xi_multiplier": Number("ξ", start.xi_multiplier, 0, 2000, 10, "Strength of the pull towards the rule.",
                                 unit="× α", check=checked("xi_multiplier")),
         "bonus": Number("c", start.bonus, 0, 10, 0.1, "Bonus on a demonstrated action's reward.",

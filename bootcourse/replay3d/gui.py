@@ -10,7 +10,7 @@ PLAY, PAUSE = "Play", "Pause"
 STEPS = ("|◂", "◂", "▸", "▸|")  # to the start, one simulation step back, one forward, to the end
 
 
-class Panel:
+class ReplayControls:
     """Controls for `player` and `stage`. refresh(t) shows a time; restage(rebuild) is called when a switch changes."""
 
     def __init__(self, server, player, stage, restage):

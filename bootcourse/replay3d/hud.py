@@ -111,7 +111,7 @@ def _choice(timeline: Timeline, t: float) -> str:
     q_values = None if rollout.q_values is None else rollout.q_values[k]
     by_rule = None
     if rollout.rule_actions is not None:
-        by_rule = stochastic_rule(rollout.rule_actions[k], rollout.scenario.rule.p)
+        by_rule = stochastic_rule(rollout.rule_actions[k], rollout.rule_p)
     own = style(rollout.label).colour
     rows = []
     for action, name in enumerate(ACTION_NAMES):

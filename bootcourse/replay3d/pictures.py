@@ -13,7 +13,7 @@ from PIL import Image, ImageDraw, ImageFont
 
 from bootcourse.colours import ALARM, METHODS, TRAFFIC, TRAP, rgb, style
 from bootcourse.errors import BootcourseError
-from bootcourse.record.files import write_bytes
+from bootcourse.files import write_bytes
 from bootcourse.replay3d import hud, scene
 from bootcourse.replay3d.camera import CHASE, FIELD_OF_VIEW, Pose, pose
 from bootcourse.replay3d.car import DARK, LAMP_BRAKE, LAMP_OFF, LAMP_POWER, LIGHT, car_parts, quad, ring

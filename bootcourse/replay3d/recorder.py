@@ -12,16 +12,16 @@ from pathlib import Path
 
 from viser import _messages
 
+from bootcourse.episodes.transcript import in_words
 from bootcourse.errors import BootcourseError
-from bootcourse.record.files import write_bytes
+from bootcourse.files import write_bytes
+from bootcourse.plots.figure import name, sentence
+from bootcourse.plots.top_view import outcome
 from bootcourse.replay3d import hud, scene, server
 from bootcourse.replay3d.camera import BIRD, CHASE, SIDE, pose
 from bootcourse.replay3d.pictures import png_bytes
 from bootcourse.replay3d.stage import Options, Stage
 from bootcourse.replay3d.timeline import Timeline
-from bootcourse.study.drawing import name, sentence
-from bootcourse.study.top_view import outcome
-from bootcourse.study.transcript import in_words
 
 RATES = (30, 20, 15, 10)  # frames a second: the first that fits the budget is taken
 CAR_FRAMES = 90_000  # cars x frames: ten cars for 150 s at 30 Hz make half of it, and 1.4 MB

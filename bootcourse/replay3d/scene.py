@@ -14,8 +14,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError
-from bootcourse.record.rollout import Rollout
 from bootcourse.replay3d.timeline import Moment, Timeline
 from bootcourse.road.state import EGO, HEADING, TRAP_1, TRAP_2, Accident, X, Y
 from bootcourse.rule import Reason

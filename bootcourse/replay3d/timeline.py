@@ -11,7 +11,7 @@ from functools import cached_property
 
 import numpy as np
 
-from bootcourse.record.rollout import Rollout
+from bootcourse.episodes.rollout import Rollout
 from bootcourse.road.state import ACCELERATION, CRASHED, HEADING, LANE, SPEED, STEERING, X, Y
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from bootcourse import one_per_cell
 from bootcourse.replay3d import scene, server
-from bootcourse.replay3d.gui import Panel
+from bootcourse.replay3d.gui import ReplayControls
 from bootcourse.replay3d.player import Player
 from bootcourse.replay3d.stage import Options, Stage
 from bootcourse.replay3d.timeline import Timeline
@@ -28,7 +28,7 @@ class Replay:
             self.stage = Stage(self.server, self.timelines, options)
             duration = max(timeline.duration for timeline in self.timelines)
             self.player = Player(duration, self.timelines[0].dt, self._frame, watched=self._watched)
-            self.panel = Panel(self.server, self.player, self.stage, self._restage)
+            self.panel = ReplayControls(self.server, self.player, self.stage, self._restage)
             self._frame(0.0)
             self.server.on_client_connect(self._greet)
             self.player.start()

@@ -1,6 +1,6 @@
 """Are our learners right? `python -m bootcourse.study.checks` trains them where others published figures.
 
-The same classes that learn the road - `Learner`, `ConservativeLearner`, `Imitator`, `Replay` - drive
+The same classes that learn the road - `SACLearner`, `CQLLearner`, `GAILLearner`, `ReplayBuffer` - drive
 any gymnasium environment with a flat observation and discrete actions here, several seeds side by
 side. What belongs to the road is switched off: ξ = 0, so the rule's actions (all 0) play no part.
 So is the paper's target entropy of -1, a formula for continuous actions: the targets here are a
@@ -29,15 +29,15 @@ import numpy as np
 import torch
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
 
-from bootcourse.errors import BootcourseError, nearest
+from bootcourse.errors import BootcourseError, did_you_mean
 from bootcourse.learn.agent import sample_actions
-from bootcourse.learn.baselines import learner_for
-from bootcourse.learn.learner import Learner
-from bootcourse.learn.replay import Replay, pack
+from bootcourse.learn.learner import SACLearner
+from bootcourse.learn.methods import learner_for
+from bootcourse.learn.replay_buffer import ReplayBuffer, encode_transitions
 from bootcourse.learn.settings import Settings, settings_for, with_seeds
 
 MakeEnv = Callable[[], gym.Env]
-Policy = Callable[[np.ndarray], np.ndarray]  # observations (envs, size) -> actions (envs,)
+Actor = Callable[[np.ndarray], np.ndarray]  # observations (envs, size) -> actions (envs,)
 TEST_SEED, DATA_SEED, TRAINING_SEED = 10**6, 2 * 10**6, 3 * 10**6
 
 
@@ -91,18 +91,23 @@ def several(make_env: MakeEnv, count: int) -> SyncVectorEnv:
 
 
 def observe(env: SyncVectorEnv, actions: np.ndarray, states: np.ndarray):
-    """One decision: the rows for a `Replay`, the next states, the rewards, which episodes ended."""
+    """One decision: the rows for a `ReplayBuffer`, the next states, the rewards, which episodes ended."""
     next_states, rewards, terminated, truncated, infos = env.step(actions)
     done, reached = terminated | truncated, next_states
     if done.any():
         reached = next_states.copy()
         reached[done] = np.stack(infos["final_obs"][done])
     no_rule = np.zeros_like(actions)
-    return pack(states, reached, actions, rewards, terminated, no_rule, no_rule), next_states, rewards, done
+    return (
+        encode_transitions(states, reached, actions, rewards, terminated, no_rule, no_rule),
+        next_states,
+        rewards,
+        done,
+    )
 
 
-def collect(policy: Policy, make_env: MakeEnv, episodes: int, seed: int = DATA_SEED) -> tuple[torch.Tensor, np.ndarray]:
-    """Whole episodes of a policy as rows for a `Replay`, and their returns (episodes,)."""
+def collect(policy: Actor, make_env: MakeEnv, episodes: int, seed: int = DATA_SEED) -> tuple[torch.Tensor, np.ndarray]:
+    """Whole episodes of a policy as rows for a `ReplayBuffer`, and their returns (episodes,)."""
     env = several(make_env, episodes)
     states, _ = env.reset(seed=seed)
     awake, returns, kept = np.ones(episodes, dtype=bool), np.zeros(episodes), []
@@ -121,7 +126,7 @@ def train(
     demonstrations: torch.Tensor | None = None,
     progress: bool = False,
     callback: Callable[[dict[str, torch.Tensor]], None] | None = None,
-) -> Learner:
+) -> SACLearner:
     """Train agents for `decisions` decisions each, one update for every decision of their environments.
 
     Agents that learn offline (`beta_start` = 1) take their updates from the demonstrations alone and drive nothing.
@@ -130,11 +135,11 @@ def train(
     from tqdm.auto import tqdm
 
     shared, agents = settings[0], len(settings)
-    roads = shared.roads
+    roads = shared.envs_per_agent
     env = several(make_env, agents * roads)
     size, n_actions = env.single_observation_space.shape[0], int(env.single_action_space.n)
     learner = learner_for(settings, size, n_actions)
-    replay = Replay(agents, shared.capacity, size, demonstrations)
+    replay = ReplayBuffer(agents, shared.buffer_size, size, demonstrations)
     beta = np.array([s.beta_start for s in settings])
     streams = [np.random.SeedSequence([s.seed]).spawn(2) for s in settings]
     act_rngs, sample_rngs = ([np.random.default_rng(pair[i]) for pair in streams] for i in range(2))
@@ -146,7 +151,7 @@ def train(
             uniforms = np.stack([rng.random(roads) for rng in act_rngs])
             rows, states, _, _ = observe(env, sample_actions(policy, uniforms).ravel(), states)
             replay.add(rows.view(agents, roads, -1))
-        if offline or decision + roads >= shared.warm_up:
+        if offline or decision + roads >= shared.learning_starts:
             for _ in range(shared.updates):
                 seen = learner.update(replay.sample(shared.batch, beta, sample_rngs))
                 if callback is not None:
@@ -154,7 +159,7 @@ def train(
     return learner
 
 
-def policy_of(learner: Learner, agent: int, rng: np.random.Generator | None = None) -> Policy:
+def policy_of(learner: SACLearner, agent: int, rng: np.random.Generator | None = None) -> Actor:
     """Agent's most probable action; with an rng, an action drawn from its policy."""
 
     def act(states):
@@ -165,7 +170,7 @@ def policy_of(learner: Learner, agent: int, rng: np.random.Generator | None = No
     return act
 
 
-def scores(learner: Learner, make_env: MakeEnv, episodes: int = 100) -> np.ndarray:
+def scores(learner: SACLearner, make_env: MakeEnv, episodes: int = 100) -> np.ndarray:
     """Each agent's mean return over test episodes that are the same for all, by its most probable action: (agents,)."""
     return np.array(
         [collect(policy_of(learner, i), make_env, episodes, TEST_SEED)[1].mean() for i in range(learner.agents)]
@@ -204,7 +209,7 @@ def cql_check(seeds: int, progress: bool) -> Outcome:
         collect(lambda states: rng.integers(2, size=len(states)), cartpole, 1000),
     ]
     rows = torch.cat([rows[torch.from_numpy(rng.permutation(len(rows))[:10_000])] for rows, _ in parts])
-    settings = with_seeds(usual("cql", 2, roads=1, conservative=10.0), seeds)
+    settings = with_seeds(usual("cql", 2, envs_per_agent=1, cql_weight=10.0), seeds)
     learner = train(settings, cartpole, 5000, rows, progress)
     means = [returns.mean() for _, returns in parts]
     return Outcome(scores(learner, cartpole), f"the data's policies: {means[0]:.0f} and {means[1]:.0f}")
@@ -289,7 +294,7 @@ def run(names: Sequence[str], seeds: int, progress: bool) -> tuple[dict[str, Out
     outcomes, seconds = {}, {}
     for name in names:
         if name not in CHECKS:
-            raise BootcourseError(f"Check {nearest(name, CHECKS)}.")
+            raise BootcourseError(f"Check {did_you_mean(name, CHECKS)}.")
     for name in names:
         began = time.perf_counter()
         outcomes[name] = CHECKS[name].measure(seeds, progress)
@@ -312,7 +317,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     text = table(outcomes, seconds)
     print(text)
     if options.out:
-        from bootcourse.record.files import write_bytes
+        from bootcourse.files import write_bytes
 
         write_bytes(options.out, (PAGE + text).encode())
     return 0 if all(reached(outcome, CHECKS[name]) for name, outcome in outcomes.items()) else 1

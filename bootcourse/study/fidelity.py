@@ -15,16 +15,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bootcourse.study.evaluate import Estimate, mean, rate
+from bootcourse.statistics import Estimate, interval, mean, rate
 from bootcourse.study.paper import COLUMNS, PRINTED, RATES, paper_interval, possible
 from bootcourse.study.results import Results
-from bootcourse.study.statistics import interval
 
 VERDICTS = ("reproduced", "partly", "not reproduced", "cannot be compared")
 CLOSE = {"success": 5.0, "returns": 1.0, "speed": 0.1, "distance": 15.0, "collision": 5.0}  # units of the column
 
 
-class Finding(NamedTuple):
+class FidelityRow(NamedTuple):
     """One number of the paper, and what we found."""
 
     method: str
@@ -53,16 +52,16 @@ def estimate(results: Results, method: str, column: str) -> Estimate:
     return Estimate(*(scale * number for number in (rate(episodes > 0) if column in RATES else mean(episodes))))
 
 
-def judge(results: Results, method: str, column: str) -> Finding:
+def judge(results: Results, method: str, column: str) -> FidelityRow:
     """The verdict on one number. The mean over agents is compared, as the paper prints means."""
     paper = paper_interval(method, column)
     if method not in results.methods:
-        return Finding(method, column, paper, None, "cannot be compared", "This study has not run this method.")
+        return FidelityRow(method, column, paper, None, "cannot be compared", "This study has not run this method.")
     ours, scores = estimate(results, method, column), scores_of(results, method, column)
     if not possible(method, column):
         average, sd = PRINTED[method][column]
         reason = f"{average:g} ± {sd:g} % is impossible for a rate, so it is not known what was measured."
-        return Finding(method, column, paper, ours, "cannot be compared", reason)
+        return FidelityRow(method, column, paper, ours, "cannot be compared", reason)
     close = CLOSE[column]
     low, high = min(paper.low, paper.value - close), max(paper.high, paper.value + close)
     so, all_of_them = int(((scores >= low) & (scores <= high)).sum()), len(scores)
@@ -73,9 +72,9 @@ def judge(results: Results, method: str, column: str) -> Finding:
     difference = f"{gap:.4g}{unit} {'higher' if ours.value > paper.value else 'lower'}" if gap > 1e-9 else "the same"
     reason = f"{so} of our {all_of_them} agents" if all_of_them > 1 else "Ours does" if so else "Ours does not"
     reason += f" score so; our mean is {difference}."
-    return Finding(method, column, paper, ours, verdict, reason)
+    return FidelityRow(method, column, paper, ours, verdict, reason)
 
 
-def fidelity(results: Results) -> list[Finding]:
+def fidelity(results: Results) -> list[FidelityRow]:
     """A finding for every number of the two tables (a row that stands in both is judged once)."""
     return [judge(results, method, column) for method in PRINTED for column in COLUMNS]

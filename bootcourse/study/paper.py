@@ -7,7 +7,7 @@ from scipy import stats
 
 from bootcourse.road.formulas import centring_reward, speed_reward, weighted_reward
 from bootcourse.scenario import DEFAULT
-from bootcourse.study.evaluate import Estimate
+from bootcourse.statistics import Estimate
 
 EPISODES = 20  # ‡ tested by the paper: one collision in 20 episodes is its "5 ± 22.36 %"
 
@@ -50,7 +50,7 @@ PRINTED = {
     for method, row in _PRINTED.items()
 }
 TABLES = {
-    "Comparison results for different methods of integrating suboptimal demonstrations": (
+    "BonusNumbers results for different methods of integrating suboptimal demonstrations": (
         "sac",
         "soft",
         "demos",

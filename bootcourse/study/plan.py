@@ -1,16 +1,16 @@
-"""What a study is made of: its cells, as lists."""
+"""What a study is made of: its jobs, as lists."""
 
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import product
 
-from bootcourse.errors import BootcourseError, nearest
+from bootcourse.errors import BootcourseError, did_you_mean
 from bootcourse.learn.settings import BASELINES, METHODS, Settings, settings_for, with_seeds
 from bootcourse.scenario import DEFAULT, Scenario
-from bootcourse.study.cells import BoundCell, Cell, StayingCell
+from bootcourse.study.jobs import BoundJob, Job, StayingJob
 
 GROUP = 10  # seeds that train side by side: with 5, each costs a third more
-PLANNER, ROADS = "planner", 50  # held-out roads that one cell of the planner searches
+PLANNER, ROADS = "planner", 50  # held-out roads that one job of the planner searches
 VARIED = ("sac", "soft", "demos", "bootstrapped")  # the paper's ablation: what a variation is run for
 P, XI, C = (0.5, 0.9, 0.99), (0.0, 20.0, 200.0, 2000.0), (0.0, 2.0, 5.0)  # the sweep
 
@@ -21,23 +21,23 @@ def methods_named(only: str) -> list[str]:
     names = [name.strip() for name in only.split(",") if name.strip()] or everything
     for name in names:
         if name not in everything:
-            raise BootcourseError(f"Method {nearest(name, everything)}.")
+            raise BootcourseError(f"Method {did_you_mean(name, everything)}.")
     return [name for name in everything if name in names]
 
 
-def study_cells(methods: Sequence[str], seeds: int, episodes: int, scenario: Scenario, tests: int) -> list:
+def study_jobs(methods: Sequence[str], seeds: int, episodes: int, scenario: Scenario, tests: int) -> list:
     """Every method with its training seeds, GROUP at a time; "planner" is the bound, ROADS roads at a time."""
-    cells = []
+    jobs = []
     for method, first in product((m for m in methods if m != PLANNER), range(0, seeds, GROUP)):
         group = with_seeds(settings_for(method), min(GROUP, seeds - first), first)
         name = f"{scenario.name}/{method}-{first}-{first + len(group) - 1}"
-        cells.append(Cell(name, tuple(group), scenario, episodes, tests))
+        jobs.append(Job(name, tuple(group), scenario, episodes, tests))
     for first in range(0, tests, ROADS) if PLANNER in methods else ():
         name = f"bound-{scenario.name}/{first:04}"
-        cells.append(BoundCell(name, scenario, first, min(ROADS, tests - first)))
+        jobs.append(BoundJob(name, scenario, first, min(ROADS, tests - first)))
     if PLANNER in methods:
-        cells.append(StayingCell(f"staying-{scenario.name}/gamma-0.8", scenario, roads=min(ROADS, tests)))
-    return cells
+        jobs.append(StayingJob(f"staying-{scenario.name}/gamma-0.8", scenario, roads=min(ROADS, tests)))
+    return jobs
 
 
 def variations() -> dict[str, tuple[Scenario, dict]]:
@@ -71,13 +71,13 @@ def variations() -> dict[str, tuple[Scenario, dict]]:
     }
 
 
-def sensitivity_cells(seeds: int, episodes: int, tests: int) -> list[Cell]:
-    """One cell for each variation: the ablation's methods, side by side."""
-    cells = []
+def sensitivity_jobs(seeds: int, episodes: int, tests: int) -> list[Job]:
+    """One job for each variation: the ablation's methods, side by side."""
+    jobs = []
     for name, (scenario, changes) in variations().items():
         agents = [agent for method in VARIED for agent in with_seeds(settings_for(method, **changes), seeds)]
-        cells.append(Cell(f"sensitivity/{folder(name)}", tuple(agents), scenario, episodes, tests, runs=False))
-    return sorted(cells, key=lambda cell: -sum(cell.settings[0].hidden) * cell.settings[0].updates)  # the longest first
+        jobs.append(Job(f"sensitivity/{folder(name)}", tuple(agents), scenario, episodes, tests, runs=False))
+    return sorted(jobs, key=lambda job: -sum(job.settings[0].hidden) * job.settings[0].updates)  # the longest first
 
 
 def folder(name: str) -> str:
@@ -89,11 +89,11 @@ def folder(name: str) -> str:
 def sweep_settings(p: Sequence[float] = P, xi: Sequence[float] = XI, c: Sequence[float] = C) -> list[Settings]:
     """One for each combination that can differ. Without ξ nothing depends on p, so that is run once."""
     wanted = [(a if x else p[0], x, b) for a, x, b in product(p, xi, c)]
-    return [settings_for("bootstrapped", p=a, xi_multiplier=x, bonus=b) for a, x, b in dict.fromkeys(wanted)]
+    return [settings_for("bootstrapped", rule_p=a, xi_multiplier=x, bonus=b) for a, x, b in dict.fromkeys(wanted)]
 
 
-def sweep_cells(seeds: int, episodes: int, tests: int, scenario: Scenario = DEFAULT, together: int = 10) -> list[Cell]:
-    """The sweep in a few large cells: its agents differ in p, ξ and c, and train side by side all the same."""
+def sweep_jobs(seeds: int, episodes: int, tests: int, scenario: Scenario = DEFAULT, together: int = 10) -> list[Job]:
+    """The sweep in a few large jobs: its agents differ in p, ξ and c, and train side by side all the same."""
     agents = [agent for settings in sweep_settings() for agent in with_seeds(settings, seeds)]
     parts = [tuple(agents[i : i + together]) for i in range(0, len(agents), together)]
-    return [Cell(f"sweep/{i:02}", part, scenario, episodes, tests, runs=False) for i, part in enumerate(parts)]
+    return [Job(f"sweep/{i:02}", part, scenario, episodes, tests, runs=False) for i, part in enumerate(parts)]

@@ -15,15 +15,15 @@ from dataclasses import dataclass
 import numpy as np
 from gymnasium.vector import AutoresetMode
 
-from bootcourse.drivers import Choice, Driver, idle_driver, rule_driver
 from bootcourse.errors import BootcourseError
+from bootcourse.policies import Policy, PolicyOutput, idle_policy, rule_policy
 from bootcourse.road import twin
 from bootcourse.road.constants import constants
 from bootcourse.road.formulas import speed_reward
 from bootcourse.road.state import EGO, HEADING, LANE, SPEED, TRAP_1, X, Y
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, IDLE, N_ACTIONS, Scenario
-from bootcourse.study.evaluate import Estimate, mean, rate
+from bootcourse.statistics import Estimate, mean, rate
 
 # Two drives whose egos fall into the same cell are the same drive, as far as the search cares.
 CELL = {X: 0.25, Y: 0.2, HEADING: 0.02, SPEED: 0.5}  # m, m, rad, m/s
@@ -153,14 +153,14 @@ def _trace_back(history, kept: np.ndarray, values: np.ndarray, seed: int) -> Pla
     return Plan(seed, np.array(actions[::-1]), np.array(rewards[::-1]), value, success)
 
 
-def follow(plans: Sequence[Plan]) -> Driver:
+def follow(plans: Sequence[Plan]) -> Policy:
     """Drives each plan on its road, once: record(follow(plans), [p.seed for p in plans], scenario, "planner")."""
     longest = max(len(each.actions) for each in plans)
     table = np.full((longest, len(plans)), IDLE)
     for road, each in enumerate(plans):
         table[: len(each.actions), road] = each.actions
     coming = iter(table)
-    return lambda observations, cars: Choice(next(coming, np.full(len(plans), IDLE)))
+    return lambda observations, cars: PolicyOutput(next(coming, np.full(len(plans), IDLE)))
 
 
 def empty_road_return(scenario: Scenario = DEFAULT) -> float:
@@ -201,16 +201,16 @@ def is_staying_optimal(
     best_values, kept_values = (np.array([each.value for each in plans]) for plans in (best, kept))
     return Staying(
         gamma=gamma,
-        idle=mean(discounted_values(idle_driver, seeds, scenario, gamma)),
+        idle=mean(discounted_values(idle_policy, seeds, scenario, gamma)),
         keep_lane=mean(kept_values),
-        rule=mean(discounted_values(rule_driver(scenario), seeds, scenario, gamma)),
+        rule=mean(discounted_values(rule_policy(scenario), seeds, scenario, gamma)),
         best=mean(best_values),
         gain=mean(best_values - kept_values),
         leaves=rate(np.array([each.success for each in best])),
     )
 
 
-def discounted_values(driver: Driver, seeds: Sequence[int], scenario: Scenario, gamma: float) -> np.ndarray:
+def discounted_values(driver: Policy, seeds: Sequence[int], scenario: Scenario, gamma: float) -> np.ndarray:
     """Σ γ^t r_t (Equation 2) of a whole episode on the road of each seed, (roads,)."""
     env = TrapVectorEnv(len(seeds), scenario, AutoresetMode.DISABLED)
     observations, _ = env.reset(seed=list(seeds))

@@ -5,18 +5,19 @@ from pathlib import Path
 
 import numpy as np
 
-from bootcourse.drivers import rule_driver
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.errors import BootcourseError
-from bootcourse.record.files import write_bytes
+from bootcourse.files import write_bytes
+from bootcourse.plots.figure import save
+from bootcourse.policies import rule_policy
 from bootcourse.scenario import SCENARIOS, Scenario
-from bootcourse.study import tables, training_figures
-from bootcourse.study.cells import HELD_OUT
-from bootcourse.study.drawing import save
-from bootcourse.study.evaluate import Estimate, drive_episodes, held_out_seeds, mean
+from bootcourse.statistics import Estimate, mean
+from bootcourse.study import figures as training_figures
+from bootcourse.study import tables
 from bootcourse.study.fidelity import CLOSE, VERDICTS, fidelity
-from bootcourse.study.found import Found
+from bootcourse.study.jobs import HELD_OUT
 from bootcourse.study.paper import COLUMNS, PRINTED, ROWS, TABLES, arithmetic
-from bootcourse.study.results import Results, join
+from bootcourse.study.results import Results, StudyResults, join
 
 FIGURES = {  # name: (function, the methods that it cannot do without)
     "margin-against-bonus": (training_figures.margin_against_bonus, ("margin", "demos")),
@@ -27,15 +28,15 @@ FIGURES = {  # name: (function, the methods that it cannot do without)
 
 def rule_results(scenario: Scenario, tests: int) -> Results:
     """The rule controller on the held-out episodes, as one agent without a history."""
-    episodes = drive_episodes(rule_driver(scenario), held_out_seeds(HELD_OUT, tests), scenario)
+    episodes = drive_episodes(rule_policy(scenario), held_out_seeds(HELD_OUT, tests), scenario)
     tested = {name: values[None] for name, values in vars(episodes).items()}
     return Results([{"method": "rule", "seed": 0}], np.array([-1]), tested, {})
 
 
-def write_report(found: Found, folder: Path) -> Path:
+def write_report(found: StudyResults, folder: Path) -> Path:
     """Write folder/report.md and its pictures, folder/figures. Raises BootcourseError if nothing was found."""
     if not found.results:
-        raise BootcourseError("No cell of this study is finished: run `bootcourse study --out DIR` first.")
+        raise BootcourseError("No job of this study is finished: run `bootcourse study --out DIR` first.")
     text, findings = [HEAD], {}
     for name, results in found.results.items():
         rule = rule_results(SCENARIOS[name], results.tested["returns"].shape[1])
@@ -51,7 +52,7 @@ def write_report(found: Found, folder: Path) -> Path:
     return path
 
 
-def scenario_part(found: Found, name: str, rule: Results, everyone: Results, folder: Path) -> list[str]:
+def scenario_part(found: StudyResults, name: str, rule: Results, everyone: Results, folder: Path) -> list[str]:
     results, text, best = found.results[name], [], found.bound.get(name)
     for title, methods in TABLES.items():
         text += [f"### {title}\n", tables.result_table(everyone, methods)]
@@ -115,7 +116,7 @@ def stopped(results: Results) -> str:
     )
 
 
-def sensitivity_part(found: Found) -> list[str]:
+def sensitivity_part(found: StudyResults) -> list[str]:
     if not found.sensitivity:
         return []
     seeds = len(next(iter(found.sensitivity.values())).of("sac"))

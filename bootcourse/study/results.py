@@ -1,15 +1,21 @@
-"""What a study found: the scores and curves of every agent, read from its cells or from one shipped file."""
+"""What a study found: the scores and curves of every agent, the planner's bound, the sensitivity.
+
+Read from the jobs of a study's folder, or from what ships.
+"""
 
 import json
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
 from bootcourse.errors import BootcourseError
-from bootcourse.record.files import read_arrays, write_arrays
+from bootcourse.files import read_arrays, read_json, write_arrays
+from bootcourse.learn.settings import renamed
 from bootcourse.road.state import Accident
+from bootcourse.scenario import SCENARIOS
+from bootcourse.study.plan import folder, variations
 
 MEASURES = ("success", "returns", "speed", "distance", "collision", "road_departure", "stoppage")
 KINDS = {"collision": Accident.COLLISION, "road_departure": Accident.ROAD_DEPARTURE, "stoppage": Accident.STOPPAGE}
@@ -81,10 +87,10 @@ def save_results(results: Results, path: Path, provenance: dict) -> None:
 
 
 def load_results(path: Path) -> Results:
-    """Read a cell's `results.npz` or what `save_results` wrote. Raises BootcourseError naming the file."""
+    """Read a job's `results.npz` or what `save_results` wrote. Raises BootcourseError naming the file."""
     arrays = read_arrays(path)
     try:
-        agents, stopped = json.loads(str(arrays["agents"])), arrays["stopped"]
+        agents, stopped = [renamed(agent) for agent in json.loads(str(arrays["agents"]))], arrays["stopped"]
         parts = {kind: _of_kind(arrays, kind, len(agents)) for kind in ("tested", "curves")}
         return Results(agents, stopped, **parts)
     except (KeyError, ValueError):
@@ -98,11 +104,58 @@ def _of_kind(arrays: dict, kind: str, agents: int) -> dict[str, np.ndarray]:
     return {name: values.astype(np.float32) if values.dtype == np.float16 else values for name, values in found.items()}
 
 
-def load_cells(root: Path, part: str) -> Results:
-    """All agents of the finished cells in root/cells/part, such as "default" or "sweep".
+def load_jobs(root: Path, part: str) -> Results:
+    """All agents of the finished jobs in root/jobs/part, such as "default" or "sweep".
 
-    A study that was begun with fewer seeds leaves cells that the larger ones hold again: each agent counts once.
+    A study that was begun with fewer seeds leaves jobs that the larger ones hold again: each agent counts once.
     """
-    found = join([load_results(path) for path in sorted((Path(root) / "cells" / part).glob("*/results.npz"))])
+    found = join([load_results(path) for path in sorted((Path(root) / "jobs" / part).glob("*/results.npz"))])
     once = {json.dumps(agent, sort_keys=True): i for i, agent in enumerate(found.agents)}
     return found.pick(sorted(once.values()))
+
+
+@dataclass(frozen=True)
+class StudyResults:
+    """Everything is by the scenario's or the variation's name, and absent if it was not computed."""
+
+    results: dict[str, Results]  # every method's agents
+    bound: dict[str, np.ndarray] = field(default_factory=dict)  # best known return of each held-out episode (tests,)
+    staying: dict[str, dict] = field(default_factory=dict)  # the fields of planner.Staying
+    sensitivity: dict[str, Results] = field(default_factory=dict)
+
+
+def in_study(root: Path) -> StudyResults:
+    """What the finished jobs of a study's folder hold."""
+    root = Path(root)
+    results = {name: load_jobs(root, name) for name in SCENARIOS if list(root.glob(f"jobs/{name}/*/results.npz"))}
+    bounds = {name: _bound(root, name, found.tested["returns"].shape[1]) for name, found in results.items()}
+    staying = {name: root / f"jobs/staying-{name}/gamma-0.8/staying.json" for name in results}
+    varied = {name: root / "jobs" / "sensitivity" / folder(name) / "results.npz" for name in variations()}
+    return StudyResults(
+        results,
+        {name: bound for name, bound in bounds.items() if bound is not None},
+        {name: read_json(path) for name, path in staying.items() if path.exists()},
+        {name: load_results(path) for name, path in varied.items() if path.exists()},
+    )
+
+
+def in_assets(root: Path) -> StudyResults:
+    """What ships, or what is about to."""
+    files = {name: Path(root) / f"study-{name}.npz" for name in SCENARIOS}
+    results = {name: load_results(path) for name, path in files.items() if path.exists()}
+    bounds = {name: Path(root) / f"bound-{name}.npz" for name in results}
+    staying = {name: Path(root) / f"staying-{name}.json" for name in results}
+    varied = {name: Path(root) / "sensitivity" / f"{folder(name)}.npz" for name in variations()}
+    return StudyResults(
+        results,
+        {name: read_arrays(path)["returns"] for name, path in bounds.items() if path.exists()},
+        {name: read_json(path) for name, path in staying.items() if path.exists()},
+        {name: load_results(path) for name, path in varied.items() if path.exists()},
+    )
+
+
+def _bound(root: Path, name: str, tests: int) -> np.ndarray | None:
+    """None until the planner has looked at every episode."""
+    jobs = [read_arrays(path) for path in root.glob(f"jobs/bound-{name}/*/results.npz")]
+    found = {int(job["first"]) + i: value for job in jobs for i, value in enumerate(job["returns"])}
+    return np.array([found[i] for i in range(tests)]) if set(range(tests)) <= set(found) else None

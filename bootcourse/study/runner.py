@@ -1,4 +1,4 @@
-"""Compute cells: on this machine's cores, or on a cluster that you have already. joblib is the one interface.
+"""Compute jobs: on this machine's cores, or on a cluster that you have already. joblib is the one interface.
 
 A study's folder belongs to one study at a time: the system holds its lock as long as the process
 lives, and lets go of it when that process ends, however it ends. (On a network disk without locks,
@@ -17,33 +17,33 @@ from pathlib import Path
 import joblib
 from filelock import FileLock, Timeout
 
-from bootcourse.errors import BootcourseError, nearest
-from bootcourse.record.files import write_json
-from bootcourse.study.cells import OtherQuestion, finished, run_cell
+from bootcourse.errors import BootcourseError, did_you_mean
+from bootcourse.files import write_json
+from bootcourse.study.jobs import OtherQuestion, finished, run_job
 
 BACKENDS = ("loky", "dask", "ray")
 CONNECT = 10.0  # s until a scheduler must answer
 
 
-def run_cells(cells: Sequence, root: Path, backend="loky", scheduler=None, jobs=None, recompute=False) -> list[str]:
-    """Compute those cells that are not done yet. Returns what went wrong, a sentence each.
+def run_jobs(jobs: Sequence, root: Path, backend="loky", scheduler=None, workers=None, recompute=False) -> list[str]:
+    """Compute those jobs that are not done yet. Returns what went wrong, a sentence each.
 
     scheduler: the address of a dask scheduler or a ray cluster; without one, dask and ray start
-    their own on this machine. jobs: cells at once, by default one for each core. recompute: compute
-    damaged cells again; without it one damaged cell is refused. Raises BootcourseError before
+    their own on this machine. workers: processes, by default one for each core. recompute: compute
+    damaged jobs again; without it one damaged job is refused. Raises BootcourseError before
     anything is computed.
     """
     if backend not in BACKENDS:
-        raise BootcourseError(f"Backend {nearest(backend, BACKENDS)}.")
+        raise BootcourseError(f"Backend {did_you_mean(backend, BACKENDS)}.")
     if scheduler and backend == "loky":
         raise BootcourseError("--scheduler needs --backend dask or --backend ray: loky uses this machine's cores.")
     with locked(root):
-        waiting = to_do(cells, root, recompute)
-        print(f"{len(cells)} cells in {root}: {len(cells) - len(waiting)} done already, {len(waiting)} to compute.")
+        waiting = to_do(jobs, root, recompute)
+        print(f"{len(jobs)} jobs in {root}: {len(jobs) - len(waiting)} done already, {len(waiting)} to compute.")
         if not waiting:
             return []
-        write_json(root / "study.json", {"cells": [cell.name for cell in cells]})
-        with workers(backend, scheduler, jobs):
+        write_json(root / "study.json", {"jobs": [job.name for job in jobs]})
+        with connected(backend, scheduler, workers):
             return _compute(waiting, root.resolve(), backend)
 
 
@@ -51,28 +51,28 @@ def _compute(waiting: list, root: Path, backend: str) -> list[str]:
     from tqdm.auto import tqdm
 
     how = "list" if backend == "ray" else "generator_unordered"  # ray gives its answers all at once
-    jobs = (joblib.delayed(run_cell)(cell, root) for cell in waiting)
+    calls = (joblib.delayed(run_job)(job, root) for job in waiting)
     try:
-        answers = joblib.Parallel(batch_size=1, pre_dispatch="all", return_as=how)(jobs)
-        return [answer for answer in tqdm(answers, total=len(waiting), unit="cell", smoothing=0) if answer]
+        answers = joblib.Parallel(batch_size=1, pre_dispatch="all", return_as=how)(calls)
+        return [answer for answer in tqdm(answers, total=len(waiting), unit="job", smoothing=0) if answer]
     except joblib.externals.loky.process_executor.TerminatedWorkerError:
-        return ["A process was killed, perhaps for want of memory: start the same command again, with fewer --jobs."]
+        return ["A process was killed, perhaps for want of memory: start the same command again, with fewer --workers."]
 
 
-def to_do(cells: Sequence, root: Path, recompute: bool) -> list:
-    """The cells that are not done. Damaged ones are named and refused, or set aside if `recompute`."""
+def to_do(jobs: Sequence, root: Path, recompute: bool) -> list:
+    """The jobs that are not done. Damaged ones are named and refused, or set aside if `recompute`."""
     waiting, damaged = [], []
-    for cell in cells:
+    for job in jobs:
         try:
-            if not finished(cell, root):
-                waiting.append(cell)
+            if not finished(job, root):
+                waiting.append(job)
         except OtherQuestion:
             raise
         except BootcourseError as error:
             damaged.append(str(error))
-            waiting.append(cell)
+            waiting.append(job)
             if recompute:
-                os.rename(root / "cells" / cell.name, _aside(root, cell.name))
+                os.rename(root / "jobs" / job.name, _aside(root, job.name))
                 print(f"{error} It is computed again; the old one is in {root / 'damaged'}.")
     if damaged and not recompute:
         raise BootcourseError(" ".join(damaged) + " Add --recompute to compute it again.")
@@ -114,34 +114,34 @@ def _holder(root: Path) -> str:
 
 
 @contextmanager
-def workers(backend: str, scheduler: str | None, jobs: int | None) -> Iterator[None]:
+def connected(backend: str, scheduler: str | None, workers: int | None) -> Iterator[None]:
     """joblib's processes: loky's on this machine, or those of a dask or ray cluster."""
     if backend == "loky":
-        with joblib.parallel_config("loky", n_jobs=jobs or -1, inner_max_num_threads=1):
+        with joblib.parallel_config("loky", n_jobs=workers or -1, inner_max_num_threads=1):
             yield
     elif backend == "dask":
-        with _dask_client(scheduler, jobs), joblib.parallel_config("dask", n_jobs=jobs or -1):
+        with _dask_client(scheduler, workers), joblib.parallel_config("dask", n_jobs=workers or -1):
             yield
     else:
-        _connect_to_ray(scheduler, jobs)
-        with joblib.parallel_config("ray", n_jobs=jobs or -1):
+        _connect_to_ray(scheduler, workers)
+        with joblib.parallel_config("ray", n_jobs=workers or -1):
             yield
 
 
-def _dask_client(scheduler: str | None, jobs: int | None):
+def _dask_client(scheduler: str | None, workers: int | None):
     try:
         from distributed import Client
     except ModuleNotFoundError:
         raise BootcourseError("dask is not installed: pip install 'bootcourse[dask]'.") from None
     if not scheduler:
-        return Client(n_workers=jobs, threads_per_worker=1, dashboard_address=None)
+        return Client(n_workers=workers, threads_per_worker=1, dashboard_address=None)
     try:
         return Client(scheduler, timeout=CONNECT)
     except (OSError, ValueError):
         raise BootcourseError(f"No dask scheduler answers at {scheduler}: start one, or check the address.") from None
 
 
-def _connect_to_ray(scheduler: str | None, jobs: int | None) -> None:
+def _connect_to_ray(scheduler: str | None, workers: int | None) -> None:
     try:
         import ray
         from ray.util.joblib import register_ray
@@ -150,7 +150,7 @@ def _connect_to_ray(scheduler: str | None, jobs: int | None) -> None:
     if scheduler and not _answers(scheduler):  # ray itself would end the whole process after a minute
         raise BootcourseError(f"No ray cluster answers at {scheduler}: start one, or check the address.")
     if not ray.is_initialized():
-        ray.init(scheduler, num_cpus=None if scheduler else jobs, include_dashboard=False)
+        ray.init(scheduler, num_cpus=None if scheduler else workers, include_dashboard=False)
     register_ray()
 
 

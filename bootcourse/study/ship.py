@@ -1,7 +1,7 @@
 """Make what ships, `assets/`, from a study's folder: results, weights, demonstrations, rollouts, report and model card.
 
 Each file is listed in the manifest with the command that makes it and the code that it depends on;
-`bootcourse.assets` checks them.
+`bootcourse.storage.assets` checks them.
 """
 
 import shutil
@@ -11,18 +11,17 @@ from pathlib import Path
 
 import numpy as np
 
-from bootcourse.assets import FOLDER, LIMIT, MANIFEST
-from bootcourse.drivers import rule_driver
+from bootcourse.episodes.evaluate import held_out_seeds
+from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError
-from bootcourse.record.drive import provenance, record
-from bootcourse.record.files import read_json, sha256, write_arrays, write_bytes, write_json
-from bootcourse.record.runs import load_run
+from bootcourse.files import provenance, read_json, sha256, write_arrays, write_bytes, write_json
+from bootcourse.policies import rule_policy
 from bootcourse.scenario import DEFAULT
-from bootcourse.study.cells import HELD_OUT
-from bootcourse.study.evaluate import held_out_seeds
-from bootcourse.study.found import in_assets, in_study
+from bootcourse.storage.assets import FOLDER, LIMIT, MANIFEST
+from bootcourse.storage.runs import load_run
+from bootcourse.study.jobs import HELD_OUT
 from bootcourse.study.report import write_report
-from bootcourse.study.results import load_cells, load_results, save_results
+from bootcourse.study.results import in_assets, in_study, load_jobs, load_results, save_results
 from bootcourse.study.sources import sources_hash
 
 CURVES = ("success", "return", "speed", "distance", "accident", "entropy")  # the others are in runs/
@@ -42,8 +41,8 @@ class Shipment:
             self.entries = {entry["file"]: entry for entry in read_json(now / MANIFEST)["files"]}
 
     def has(self, part: str) -> bool:
-        """Has the study finished cells of this part?"""
-        return any((self.study / "cells" / part).rglob("cell.json"))
+        """Has the study finished jobs of this part?"""
+        return any((self.study / "jobs" / part).rglob("job.json"))
 
     def clear(self, pattern: str) -> None:
         """Take away what is to be made anew."""
@@ -85,16 +84,16 @@ def build(study: Path, folder: Path = FOLDER) -> None:
     new.rename(folder)
 
 
-def cells_made(study: Path, part: str) -> tuple[dict[str, str], dict]:
-    """(sources, versions) of the cells of a part; cells of different code are named as such."""
-    cells = [read_json(path) for path in sorted((study / "cells" / part).rglob("cell.json"))]
-    if not cells:
-        raise BootcourseError(f"{study} has no finished cells in cells/{part}: compute them first.")
+def jobs_made(study: Path, part: str) -> tuple[dict[str, str], dict]:
+    """(sources, versions) of the jobs of a part; jobs of different code are named as such."""
+    jobs = [read_json(path) for path in sorted((study / "jobs" / part).rglob("job.json"))]
+    if not jobs:
+        raise BootcourseError(f"{study} has no finished jobs in jobs/{part}: compute them first.")
     sources = {}
-    for name in cells[0]["sources"]:
-        hashes = {cell["sources"].get(name) for cell in cells}
+    for name in jobs[0]["sources"]:
+        hashes = {job["sources"].get(name) for job in jobs}
         sources[name] = hashes.pop() if len(hashes) == 1 else "of different versions"
-    versions = {name: value for name, value in cells[0]["provenance"].items() if name != "seconds"}
+    versions = {name: value for name, value in jobs[0]["provenance"].items() if name != "seconds"}
     return sources, versions
 
 
@@ -112,30 +111,30 @@ def add_results(to: Shipment) -> None:
         path, how = to.new / ("sweep.npz" if part == "sweep" else f"study-{part}.npz"), f"{how} && {BUILD}"
         if not to.has(part):
             if part == "default" and not path.exists():
-                raise BootcourseError(f"{to.study} has no finished cells in cells/default: compute them first.")
-            print(f"{path.name} {'stays as it is' if path.exists() else 'is left out'}: {to.study} has no such cells.")
+                raise BootcourseError(f"{to.study} has no finished jobs in jobs/default: compute them first.")
+            print(f"{path.name} {'stays as it is' if path.exists() else 'is left out'}: {to.study} has no such jobs.")
             continue
-        sources, versions = cells_made(to.study, part)
-        results = load_cells(to.study, part)
+        sources, versions = jobs_made(to.study, part)
+        results = load_jobs(to.study, part)
         save_results(lighter(results, CURVES[:2] if part == "sweep" else CURVES), path, versions)
         to.add(path, how, sources, versions)
         if part in found.bound:
             best = to.new / f"bound-{part}.npz"
             write_arrays(best, {"returns": found.bound[part].astype(np.float32)})
-            to.add(best, how, *cells_made(to.study, f"bound-{part}"))
+            to.add(best, how, *jobs_made(to.study, f"bound-{part}"))
         if part in found.staying:
             answer = to.new / f"staying-{part}.json"
             write_json(answer, found.staying[part])
-            to.add(answer, how, *cells_made(to.study, f"staying-{part}"))
+            to.add(answer, how, *jobs_made(to.study, f"staying-{part}"))
 
 
 def add_sensitivity(to: Shipment) -> None:
     """Scores and curves of every variation that was run, a file each."""
     how = f"bootcourse study --out DIR --sensitivity --episodes 1500 && {BUILD}"
-    for cell in sorted(to.study.glob("cells/sensitivity/*/results.npz")):
-        sources, versions = cells_made(to.study, f"sensitivity/{cell.parent.name}")
-        path = to.new / "sensitivity" / f"{cell.parent.name}.npz"
-        save_results(lighter(load_results(cell), CURVES[:2]), path, versions)
+    for job in sorted(to.study.glob("jobs/sensitivity/*/results.npz")):
+        sources, versions = jobs_made(to.study, f"sensitivity/{job.parent.name}")
+        path = to.new / "sensitivity" / f"{job.parent.name}.npz"
+        save_results(lighter(load_results(job), CURVES[:2]), path, versions)
         to.add(path, how, sources, versions)
 
 
@@ -158,8 +157,8 @@ def add_runs(to: Shipment) -> None:
     if not to.has("default"):
         return
     to.clear("runs/**/*")
-    sources, versions = cells_made(to.study, "default")
-    for run in sorted(to.study.glob("cells/default/*/runs/*")):
+    sources, versions = jobs_made(to.study, "default")
+    for run in sorted(to.study.glob("jobs/default/*/runs/*")):
         if int(run.name.rpartition("-")[2]) >= RUNS:
             continue
         shutil.copytree(run, to.new / "runs" / run.name, dirs_exist_ok=True)
@@ -168,12 +167,12 @@ def add_runs(to: Shipment) -> None:
 
 
 def add_demonstrations(to: Shipment) -> None:
-    """The 200 demonstrations, as rows for a `Replay`."""
+    """The 200 demonstrations, as rows for a `ReplayBuffer`."""
     from bootcourse.learn.demonstrations import collect
 
     path = to.new / "demonstrations.npz"
     write_arrays(path, {"rows": collect().numpy()})
-    to.add(path, BUILD, sources_hash(("scenario", "rule", "drivers", "road", "learn")), provenance())
+    to.add(path, BUILD, sources_hash(("scenario", "rule", "policies", "road", "learn")), provenance())
 
 
 def add_rollouts(to: Shipment) -> None:
@@ -181,7 +180,7 @@ def add_rollouts(to: Shipment) -> None:
     if not to.has("default"):
         return
     to.clear("rollouts/*")
-    results = load_cells(to.study, "default")
+    results = load_jobs(to.study, "default")
     success, accident = results.tested["success"] > 0, results.tested["accident"]
     wanted = {
         "trapped-sac": ("sac", ~success & (accident == 0)),
@@ -189,7 +188,7 @@ def add_rollouts(to: Shipment) -> None:
         "crash": ("bootstrapped", accident == 1),
     }
     roads = held_out_seeds(HELD_OUT, success.shape[1])
-    drives = {"rule": record(rule_driver(DEFAULT), [roads[0]], DEFAULT, "rule")[0]}
+    drives = {"rule": record(rule_policy(DEFAULT), [roads[0]], DEFAULT, "rule")[0]}
     for name, (method, fits) in wanted.items():
         mine = [i for i, agent in enumerate(results.agents) if agent["method"] == method]
         found = [(i, road) for i in mine for road in np.flatnonzero(fits[i])]
@@ -197,10 +196,10 @@ def add_rollouts(to: Shipment) -> None:
             print(f"No agent of '{method}' drove a rollout for {name}: left out.")
             continue
         agent, road = max(found, key=lambda place: results.tested["returns"][place])
-        run = next(to.study.glob(f"cells/default/*/runs/{method}-{results.agents[agent]['seed']}"))
-        driver = load_run(run).agent.driver(with_q=True)
+        run = next(to.study.glob(f"jobs/default/*/runs/{method}-{results.agents[agent]['seed']}"))
+        driver = load_run(run).agent.as_policy(with_q=True)
         drives[name] = record(driver, [roads[int(road)]], DEFAULT, method)[0]
-    sources = sources_hash(("scenario", "rule", "drivers", "road", "record/drive", "learn"))
+    sources = sources_hash(("scenario", "rule", "policies", "road", "episodes/record", "learn"))
     for name, rollout in drives.items():
         to.add(rollout.save(to.new / "rollouts" / f"{name}.npz"), STUDY, sources, provenance())
 
@@ -212,12 +211,12 @@ def add_readme(to: Shipment, now: Path) -> None:
     for path in sorted((to.new / "readme").glob("*")):
         listed = to.entries.get(path.relative_to(to.new).as_posix())
         if listed is None or listed["sha256"] != sha256(path):
-            sources = sources_hash(("scenario", "rule", "drivers", "road", "study/top_view", "study/readme_picture"))
-            to.add(path, "python -m bootcourse.study.readme_picture", sources, provenance())
+            sources = sources_hash(("scenario", "rule", "policies", "road", "plots/top_view", "plots/readme_picture"))
+            to.add(path, "python -m bootcourse.plots.readme_picture", sources, provenance())
 
 
 KEPT = {  # what no study makes: the command that does, and the code that it depends on
-    "bug_hunt.npz": ("bootcourse.lessons.bugs", ("scenario", "rule", "drivers", "road", "learn", "lessons/bugs")),
+    "bug_hunt.npz": ("bootcourse.lessons.bugs", ("scenario", "rule", "policies", "road", "learn", "lessons/bugs")),
     "checks.md": ("bootcourse.study.checks", ("learn", "study/checks")),
 }
 

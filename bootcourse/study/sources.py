@@ -18,7 +18,7 @@ ROOT = Path(bootcourse.__file__).parent
 
 
 def sources_hash(parts: Sequence[str]) -> dict[str, str]:
-    """{part: hash}; a part is a module or a package of bootcourse: "rule", "road", "study/evaluate"."""
+    """{part: hash}; a part is a module or a package of bootcourse: "rule", "road", "episodes/evaluate"."""
     return {part: _part_hash(part) for part in parts}
 
 

@@ -1,6 +1,6 @@
 """The sweep over p, ξ and c: its one file of results, and what happened at the nearest setting that was run.
 
-happened = nearest(load_sweep(), p=0.8, xi_multiplier=150, c=1)
+happened = nearest_setting(load_sweep(), p=0.8, xi_multiplier=150, c=1)
 print(happened)
 """
 
@@ -11,16 +11,15 @@ import numpy as np
 
 from bootcourse.errors import BootcourseError
 from bootcourse.scenario import check_p
-from bootcourse.study.evaluate import Estimate
+from bootcourse.statistics import Estimate, interval
 from bootcourse.study.fidelity import mean_over
 from bootcourse.study.results import Results, load_results
-from bootcourse.study.statistics import interval
 
 SHIPPED = Path(__file__).resolve().parents[2] / "assets" / "sweep.npz"
 
 
 @dataclass(frozen=True)
-class Happened:
+class SweepResult:
     """What the agents of one setting did on the held-out episodes; `curves` holds how they got there."""
 
     p: float
@@ -60,7 +59,7 @@ def settings_run(sweep: Results) -> list[tuple[float, float, float]]:
     return list(dict.fromkeys(_setting(agent) for agent in sweep.agents))
 
 
-def nearest(sweep: Results, p: float = 0.9, xi_multiplier: float = 200.0, c: float = 2.0) -> Happened:
+def nearest_setting(sweep: Results, p: float = 0.9, xi_multiplier: float = 200.0, c: float = 2.0) -> SweepResult:
     """What happened at the nearest setting that was run. Raises BootcourseError for a value out of its range.
 
     Near in what matters to the learner: the log-odds of p (the KL takes logarithms), the logarithm
@@ -80,11 +79,11 @@ def nearest(sweep: Results, p: float = 0.9, xi_multiplier: float = 200.0, c: flo
     best = run[int(np.square(gaps).sum(axis=1).argmin())]
     which = [i for i, agent in enumerate(sweep.agents) if _setting(agent) == best]
     exact = (best == (p, xi_multiplier, c)) or (xi_multiplier == 0 and best[1:] == (xi_multiplier, c))
-    return Happened(*best, exact, sweep.pick(which))
+    return SweepResult(*best, exact, sweep.pick(which))
 
 
 def _setting(agent: dict) -> tuple[float, float, float]:
-    return agent["p"], agent["xi_multiplier"], agent["bonus"]
+    return agent["rule_p"], agent["xi_multiplier"], agent["bonus"]
 
 
 def _place(p: float, xi_multiplier: float, c: float) -> tuple[float, float, float]:
@@ -97,7 +96,7 @@ def sweep_table(sweep: Results) -> str:
 
     rows = []
     for p, xi, c in sorted(settings_run(sweep), key=lambda setting: (setting[1], setting[0], setting[2])):
-        happened = nearest(sweep, p, xi, c)
+        happened = nearest_setting(sweep, p, xi, c)
         rates = [bracketed(happened.mean(measure), 100) for measure in ("success", "collision", "road_departure")]
         rows.append(
             ["any" if xi == 0 else f"{p:g}", f"{xi:g} α", f"{c:g}", bracketed(happened.mean("returns")), *rates]

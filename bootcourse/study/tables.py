@@ -4,12 +4,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from bootcourse.study.drawing import name
-from bootcourse.study.evaluate import Estimate, mean, rate
-from bootcourse.study.fidelity import Finding
+from bootcourse.plots.figure import name
+from bootcourse.statistics import Estimate, escapes, improvement, interval, mean, rate
+from bootcourse.study.fidelity import FidelityRow
 from bootcourse.study.paper import COLUMNS, PRINTED, RATES, ROWS
 from bootcourse.study.results import MEASURES, Results
-from bootcourse.study.statistics import escapes, improvement, interval
 
 HEADINGS = COLUMNS | {"road_departure": "road departures, %", "stoppage": "stops, %"}
 
@@ -47,8 +46,8 @@ def result_table(results: Results, methods: Sequence[str]) -> str:
     for method in methods:
         printed = PRINTED.get(method)
         if printed:
-            cells = [f"{printed[column].mean:g} ± {printed[column].sd:g}" for column in COLUMNS]
-            rows.append([f"**{ROWS[method]}**", "paper: mean ± SD", *cells, "", ""])
+            jobs = [f"{printed[column].mean:g} ± {printed[column].sd:g}" for column in COLUMNS]
+            rows.append([f"**{ROWS[method]}**", "paper: mean ± SD", *jobs, "", ""])
         if method not in results.methods:
             rows.append(["", "ours", *["not run"] * len(MEASURES)])
             continue
@@ -68,13 +67,13 @@ def escape_table(results: Results, bound: np.ndarray | None = None) -> str:
     for method in results.methods:
         mine = results.of(method)
         success = mine.scores("success")
-        cells = [name(method), f"{int((success >= 0.5).sum())} of {len(success)}"]
-        cells.append(bracketed(escapes(success), 100) if len(success) > 1 else "")
+        jobs = [name(method), f"{int((success >= 0.5).sum())} of {len(success)}"]
+        jobs.append(bracketed(escapes(success), 100) if len(success) > 1 else "")
         returns = mine.scores("returns")
-        cells.append(f"{number(returns.min())} to {number(returns.max())}")
+        jobs.append(f"{number(returns.min())} to {number(returns.max())}")
         if bound is not None:
-            cells.append(bracketed(interval(returns / bound.mean()), 100))
-        rows.append(cells)
+            jobs.append(bracketed(interval(returns / bound.mean()), 100))
+        rows.append(jobs)
     headings = ["method", "agents that escape", "share of agents, % [95 %, exact]", "returns of single agents"]
     return markdown([*headings, *(["share of the best known return, % (IQM)"] if bound is not None else [])], rows)
 
@@ -89,17 +88,17 @@ def improvement_table(results: Results, method: str = "bootstrapped", measure: s
     return markdown([f"P({name(method)} > ...) on {HEADINGS[measure]}", "% [95 %]"], rows)
 
 
-def fidelity_table(findings: dict[str, list[Finding]]) -> str:
+def fidelity_table(findings: dict[str, list[FidelityRow]]) -> str:
     """Every number of the paper's tables, beside each scenario's: {scenario: findings}."""
     rows = []
     scenarios = list(findings)
     for alike in zip(*findings.values(), strict=True):
         first = alike[0]
-        cells = [ROWS[first.method], COLUMNS[first.column], bracketed(first.paper)]
+        jobs = [ROWS[first.method], COLUMNS[first.column], bracketed(first.paper)]
         for finding in alike:
-            cells.append("not run" if finding.ours is None else bracketed(finding.ours))
-            cells.append(f"**{finding.verdict}** {finding.reason}")
-        rows.append(cells)
+            jobs.append("not run" if finding.ours is None else bracketed(finding.ours))
+            jobs.append(f"**{finding.verdict}** {finding.reason}")
+        rows.append(jobs)
     headings = ["row", "number", "paper [95 % of 20 episodes]"]
     for scenario in scenarios:
         headings += [f"ours, {scenario}", f"verdict, {scenario}"]
@@ -112,9 +111,9 @@ def sensitivity_table(results: dict[str, Results], measure: str) -> str:
     scale = 100 if measure in RATES else 1
     rows = []
     for variation, found in results.items():
-        cells = []
+        jobs = []
         for method in methods:
             scores = found.of(method).scores(measure) * scale
-            cells.append(f"{number(scores.mean())} ({number(scores.min())} to {number(scores.max())})")
-        rows.append([variation, *cells])
+            jobs.append(f"{number(scores.mean())} ({number(scores.min())} to {number(scores.max())})")
+        rows.append([variation, *jobs])
     return markdown([HEADINGS[measure], *(name(method) for method in methods)], rows)

@@ -21,17 +21,17 @@
 # **Time** five minutes, half of one the machine's. **It builds on** nothing.
 
 # %%
+from bootcourse.episodes.record import record
 from bootcourse.lessons.shipped import beginning, shipped_agents, shipped_drive, shipped_results
 from bootcourse.panels import drive_panel
-from bootcourse.record.drive import record
+from bootcourse.plots.figure import name
+from bootcourse.plots.top_view import doing, outcome
 from bootcourse.replay3d import recording
 from bootcourse.scenario import DEFAULT
-from bootcourse.study.drawing import name
+from bootcourse.statistics import escapes
 from bootcourse.study.report import rule_results
 from bootcourse.study.results import KINDS
-from bootcourse.study.statistics import escapes
 from bootcourse.study.tables import bracketed, markdown, score
-from bootcourse.study.top_view import doing, outcome
 from IPython.display import Markdown
 
 # %% [markdown]
@@ -45,7 +45,7 @@ from IPython.display import Markdown
 
 # %% tags=["nbval-ignore-output"]
 escape = shipped_drive("escape")  # by a bootstrapped agent
-plain = [agent.driver(with_q=True) for agent in shipped_agents("sac")]  # on the same road:
+plain = [agent.as_policy(with_q=True) for agent in shipped_agents("sac")]  # on the same road:
 alone = [record(driver, [escape.seed], label="sac")[0] for driver in plain]
 trapped = next((drive for drive in alone if not drive.success), alone[0])
 recording([beginning(trapped, 30), beginning(escape, 30)], height=480)

@@ -24,20 +24,20 @@
 # %%
 import gymnasium as gym
 import numpy as np
-from bootcourse.drivers import idle_driver, in_words, plan_driver, random_driver, rule_driver
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
+from bootcourse.episodes.record import record
 from bootcourse.lessons import check
 from bootcourse.lessons.figures import reward_curve
 from bootcourse.lessons.figures_road import nine_actions
 from bootcourse.panels import drive_panel
-from bootcourse.record.drive import record
+from bootcourse.plots.figure import show
+from bootcourse.plots.top_view import overtaken, top_view, top_view_over_time
+from bootcourse.plots.traces import traces
+from bootcourse.policies import idle_policy, in_words, plan_policy, random_policy, rule_policy
 from bootcourse.road import formulas
 from bootcourse.road.observation import names, scales
 from bootcourse.road.state import EGO, LANE, TRAP_1, TRAP_2, Accident, X
 from bootcourse.scenario import ACTION_NAMES, DEFAULT
-from bootcourse.study.drawing import show
-from bootcourse.study.evaluate import drive_episodes, held_out_seeds
-from bootcourse.study.top_view import overtaken, top_view, top_view_over_time
-from bootcourse.study.traces import traces
 
 # %% [markdown]
 # ## Look first
@@ -48,7 +48,7 @@ from bootcourse.study.traces import traces
 
 # %%
 ROAD = 10  # the seed: which road you get
-idle = record(idle_driver, [ROAD], label="idle")[0]
+idle = record(idle_policy, [ROAD], label="idle")[0]
 show(top_view(idle, time=0, distances=True))
 
 # %% [markdown]
@@ -107,7 +107,7 @@ check.decode(decode)
 # %%
 my_plan = [("keep left", 2), ("keep right", 2)]  # change it, and run the cell again
 
-mine = record(plan_driver(my_plan), [ROAD], label="you")[0]
+mine = record(plan_policy(my_plan), [ROAD], label="you")[0]
 ending = Accident(mine.accident).name.lower()
 print(f"accident: {ending}, after {len(mine.actions)} s, return {mine.rewards.sum():.2f}")
 near, far = DEFAULT.traps.d2
@@ -128,7 +128,7 @@ bad_plans = {
     "brake to a stop": [("brake straight", 12)],
 }
 for name, plan in bad_plans.items():
-    drive = record(plan_driver(plan), [ROAD])[0]
+    drive = record(plan_policy(plan), [ROAD])[0]
     print(f"{name:22} -> {Accident(drive.accident).name.lower():15} after {len(drive.actions):2} s")
 
 # %% [markdown]
@@ -141,7 +141,7 @@ for name, plan in bad_plans.items():
 # Is there a way out at all? Here is one, found by a controller that you will meet in lesson 3.
 
 # %%
-escape = record(rule_driver(DEFAULT), [ROAD], label="rule")[0]
+escape = record(rule_policy(DEFAULT), [ROAD], label="rule")[0]
 print("the first 15 s in words:", in_words(escape.actions[:15]))
 show(top_view_over_time(escape, times=[0, 3, 6, 9, 20, overtaken(escape)]))
 
@@ -319,7 +319,7 @@ print(f"deepest: {np.min(np.cumsum(escape.rewards) - np.cumsum(idle.rewards)):.2
 
 # %%
 # NBVAL_CHECK_OUTPUT
-episodes = drive_episodes(random_driver(np.random.default_rng(0)), held_out_seeds(1, 1000))
+episodes = drive_episodes(random_policy(np.random.default_rng(0)), held_out_seeds(1, 1000))
 print(f"ahead of trap 1 at the end: {100 * episodes.success.mean():.1f} %")
 print(f"no accident in 150 s:       {100 * np.mean(episodes.accident == 0):.1f} %")
 print(f"mean return:                {episodes.returns.mean():.2f}")
@@ -362,8 +362,8 @@ def outcome_rates(x_ego, x_trap_1, accident):
 check.outcome_rates(outcome_rates)
 
 # %%
-by_chance = random_driver(np.random.default_rng(0))
-drivers = {"idle": idle_driver, "rule": rule_driver(DEFAULT), "random": by_chance}
+by_chance = random_policy(np.random.default_rng(0))
+drivers = {"idle": idle_policy, "rule": rule_policy(DEFAULT), "random": by_chance}
 for name, driver in drivers.items():
     drives = record(driver, range(100))
     ahead = np.mean([drive.success for drive in drives])

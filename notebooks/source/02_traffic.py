@@ -26,15 +26,15 @@ import dataclasses
 import math
 
 import numpy as np
-from bootcourse.drivers import idle_driver
+from bootcourse.episodes.record import record
 from bootcourse.lessons import check, source
 from bootcourse.lessons.figures_traffic import changing, following, space_time, swinging
 from bootcourse.panels import scenario_panel
-from bootcourse.record.drive import record
+from bootcourse.plots.figure import show
+from bootcourse.policies import idle_policy
 from bootcourse.road import formulas
 from bootcourse.road.state import CRASHED, SPEED, TARGET_LANE, TRAFFIC, Y
 from bootcourse.scenario import DEFAULT
-from bootcourse.study.drawing import show
 
 # %% [markdown]
 # ## Look first
@@ -190,7 +190,7 @@ for v in (0.0, 6.0, 9.5, 12.0):
 # %%
 for headway in (20.0, 30.0, 40.0):
     denser = dataclasses.replace(DEFAULT.traffic, headway=headway, lead=headway)
-    drives = record(idle_driver, range(50), dataclasses.replace(DEFAULT, traffic=denser))
+    drives = record(idle_policy, range(50), dataclasses.replace(DEFAULT, traffic=denser))
     slowest = [drive.states[:, TRAFFIC:, SPEED].min() for drive in drives]
     print(f"{headway:g} m apart: slowest car {np.mean(slowest):.1f} m/s (mean of 50 roads)")
 
@@ -271,7 +271,7 @@ show(changing(own_gain, new_follower, politeness=(0, 0.5, 1)))
 # %%
 for p in (0.0, 0.5, 1.0):
     kind = dataclasses.replace(DEFAULT.traffic, politeness=p)
-    drives = record(idle_driver, range(100), dataclasses.replace(DEFAULT, traffic=kind))
+    drives = record(idle_policy, range(100), dataclasses.replace(DEFAULT, traffic=kind))
     changes = [(np.diff(d.states[:, TRAFFIC:, TARGET_LANE], axis=0) != 0).sum() for d in drives]
     print(f"politeness {p:g}: {np.mean(changes):.2f} lane changes a road (100 roads, 150 s)")
 
@@ -327,7 +327,7 @@ def broken(tau_heading, tau_lateral, rate=2, roads=100):
     traffic = dataclasses.replace(DEFAULT.traffic, tau_heading=tau_heading, tau_lateral=tau_lateral)
     clock = dataclasses.replace(DEFAULT.clock, simulation_rate=rate)
     drives = record(
-        idle_driver, range(roads), dataclasses.replace(DEFAULT, traffic=traffic, clock=clock)
+        idle_policy, range(roads), dataclasses.replace(DEFAULT, traffic=traffic, clock=clock)
     )
     middle = DEFAULT.road.lane_width * (DEFAULT.road.lanes - 1) / 2
     half = DEFAULT.road.lane_width * DEFAULT.road.lanes / 2

@@ -23,24 +23,23 @@
 # [lesson 1](01_the_trap.ipynb); [lesson 2](02_traffic.ipynb) helps.
 
 # %%
-import dataclasses
 import itertools
 
 import numpy as np
 from bootcourse import rule
-from bootcourse.drivers import Choice, in_words, rule_driver, stochastic_rule_driver
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds, summarise
+from bootcourse.episodes.record import record
 from bootcourse.lessons import check, source
 from bootcourse.lessons.figures import bars, histogram, reasons_over_time
 from bootcourse.lessons.figures_road import when_to_change
-from bootcourse.record.drive import record
+from bootcourse.plots.figure import show
+from bootcourse.plots.top_view import top_view_over_time
+from bootcourse.plots.traces import traces
+from bootcourse.policies import PolicyOutput, in_words, rule_policy, stochastic_rule_policy
 from bootcourse.road import formulas
 from bootcourse.road.state import EGO, HEADING, LANE, SPEED, Accident, Y
 from bootcourse.rule import SENTENCES, Reason
 from bootcourse.scenario import DEFAULT
-from bootcourse.study.drawing import show
-from bootcourse.study.evaluate import drive_episodes, held_out_seeds, report
-from bootcourse.study.top_view import top_view_over_time
-from bootcourse.study.traces import traces
 
 # %% [markdown]
 # ## Look first
@@ -50,7 +49,7 @@ from bootcourse.study.traces import traces
 
 # %%
 ROAD = 10
-drive = record(rule_driver(DEFAULT), [ROAD], label="rule")[0]
+drive = record(rule_policy(DEFAULT), [ROAD], label="rule")[0]
 show(top_view_over_time(drive, times=[0, 3, 5, 7, 9, 12]))
 
 # %% [markdown]
@@ -225,7 +224,7 @@ def nearest_action(tau):
                 offset, car[HEADING], car[SPEED], DEFAULT.car.length, 3 * tau, tau
             )
             actions[i] += 1 + int(np.clip(np.rint(smooth / DEFAULT.ego.steering), -1, 1))
-        return Choice(actions)
+        return PolicyOutput(actions)
 
     return drive
 
@@ -294,7 +293,7 @@ def looks_ahead(depth):
         goal = wanted.lanes * DEFAULT.road.lane_width
         costs = plan_costs(ego[:, Y], ego[:, HEADING], ego[:, SPEED], goal, depth)
         first = costs.reshape(len(costs), 3, -1).min(-1).argmin(-1)
-        return Choice(wanted.actions // 3 * 3 + first)
+        return PolicyOutput(wanted.actions // 3 * 3 + first)
 
     return drive
 
@@ -322,8 +321,8 @@ for depth in (1, 2, 3):
 # > covers 1500 m in 150 s. How far does the rule get?
 
 # %%
-episodes = drive_episodes(rule_driver(DEFAULT), held_out_seeds(1, 1000))
-result = report(episodes)
+episodes = drive_episodes(rule_policy(DEFAULT), held_out_seeds(1, 1000))
+result = summarise(episodes)
 for name, scale in (("success", 100), ("returns", 1), ("distance", 1)):
     value, low, high = (scale * number for number in getattr(result, name))
     print(f"{name:9} {value:7.1f}  [{low:.1f}, {high:.1f}]")
@@ -390,7 +389,7 @@ show(bars(probabilities, "The stochastic rule with p = 0.9: keep left, and a lit
 
 # %%
 rng = np.random.default_rng(0)
-unsure = drive_episodes(stochastic_rule_driver(DEFAULT, rng), held_out_seeds(2, 1000))
+unsure = drive_episodes(stochastic_rule_policy(DEFAULT, rng), held_out_seeds(2, 1000))
 for kind in Accident:
     print(f"{kind.name.lower():15} {100 * np.mean(unsure.accident == kind):5.1f} %")
 print(f"escapes {100 * unsure.success.mean():.0f} %")
@@ -406,9 +405,8 @@ print(f"escapes {100 * unsure.success.mean():.0f} %")
 
 # %%
 for p in (0.5, 0.9, 0.99, 0.999):
-    scenario = dataclasses.replace(DEFAULT, rule=dataclasses.replace(DEFAULT.rule, p=p))
-    driver = stochastic_rule_driver(scenario, np.random.default_rng(0))
-    driven = drive_episodes(driver, held_out_seeds(2, 500), scenario)
+    driver = stochastic_rule_policy(DEFAULT, np.random.default_rng(0), p)
+    driven = drive_episodes(driver, held_out_seeds(2, 500))
     print(f"p = {p:5}: {100 * np.mean(driven.accident == 0):5.1f} % without an accident")
 
 # %% [markdown]

@@ -32,8 +32,8 @@ from bootcourse.learn.settings import Settings, settings_for, with_seeds
 from bootcourse.lessons import check, source
 from bootcourse.lessons.charts import lines
 from bootcourse.lessons.figures_cartpole import cartpole_strip
+from bootcourse.plots.figure import show
 from bootcourse.study.checks import balance, cartpole, collect, policy_of, scores, train
-from bootcourse.study.drawing import show
 
 # %% [markdown]
 # ## Look first

@@ -23,22 +23,23 @@
 
 # %%
 import numpy as np
-from bootcourse.drivers import idle_driver, random_driver, rule_driver
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds, summarise
+from bootcourse.episodes.record import record
 from bootcourse.learn.settings import settings_for, with_seeds
-from bootcourse.learn.train import Training
+from bootcourse.learn.training import Training
 from bootcourse.lessons import check, source
 from bootcourse.lessons.charts import action_bars
 from bootcourse.lessons.figures import fading
 from bootcourse.lessons.live import LiveCurves
 from bootcourse.panels import train_panel
-from bootcourse.record.drive import record
+from bootcourse.plots.figure import show
+from bootcourse.plots.top_view import overtaken, top_view_over_time
+from bootcourse.plots.traces import traces
+from bootcourse.plots.training_curves import training_curves
+from bootcourse.policies import idle_policy, random_policy, rule_policy
 from bootcourse.scenario import ACTION_NAMES, DEFAULT
-from bootcourse.study.drawing import show
-from bootcourse.study.evaluate import drive_episodes, held_out_seeds, rate, report
+from bootcourse.statistics import rate
 from bootcourse.study.planner import Search, follow, is_staying_optimal, plan_episodes
-from bootcourse.study.top_view import overtaken, top_view_over_time
-from bootcourse.study.traces import traces
-from bootcourse.study.training_curves import training_curves
 
 # %% [markdown]
 # ## Look first
@@ -52,8 +53,8 @@ from bootcourse.study.training_curves import training_curves
 ROAD = 10
 plans = plan_episodes([ROAD], search=Search(beam=50))
 planned = record(follow(plans), [ROAD], label="planner")[0]
-idle = record(idle_driver, [ROAD], label="idle")[0]
-by_rule = record(rule_driver(DEFAULT), [ROAD], label="rule")[0]
+idle = record(idle_policy, [ROAD], label="idle")[0]
+by_rule = record(rule_policy(DEFAULT), [ROAD], label="rule")[0]
 show(traces([idle, by_rule, planned]))
 
 # %%
@@ -95,7 +96,7 @@ def table(agents):
     print("method            γ  seed  success %  return  accidents %")
     successes = []
     for agent in agents:
-        r, s = report(drive_episodes(agent.driver(), seeds)), agent.settings
+        r, s = summarise(drive_episodes(agent.as_policy(), seeds)), agent.settings
         accidents = r.collision.value + r.road_departure.value + r.stoppage.value
         row = f"{s.method:13}{s.gamma:6}{s.seed:6}{100 * r.success.value:11.1f}"
         print(f"{row}{r.returns.value:8.1f}{100 * accidents:13.1f}")
@@ -221,7 +222,7 @@ for good in (2, 3, 4):
     chances = [1 - (1 - (good / 9) ** 8) ** tries for tries in (100, 1000, 10_000)]
     told = ", ".join(f"{100 * chance:6.2f} %" for chance in chances)
     print(f"{good} of 9 right, 8 times in a row: {told} in 100, 1,000, 10,000 tries")
-tried = drive_episodes(random_driver(np.random.default_rng(0)), held_out_seeds(6, 5000))
+tried = drive_episodes(random_policy(np.random.default_rng(0)), held_out_seeds(6, 5000))
 print(f"5,000 random drives: {tried.success.sum()} end ahead of trap 1", end=", ")
 print(f"{100 * np.mean(tried.accident > 0):.1f} % in an accident")
 
@@ -276,7 +277,7 @@ print(f"{helped.seconds:.0f} s, {helped_training.decisions:,} decisions")
 
 # %%
 escaped_helped = table(helped.agents) >= 0.95
-rule_report = report(drive_episodes(rule_driver(DEFAULT), seeds))
+rule_report = summarise(drive_episodes(rule_policy(DEFAULT), seeds))
 success = 100 * rule_report.success.value
 print(f"the rule{success:28.1f}{rule_report.returns.value:8.1f}")
 
@@ -328,7 +329,7 @@ for words, escaped in (("alone", escaped_alone[:SEEDS]), ("with the rule", escap
 
 # %%
 pair = [("sac", alone.agents[0]), ("bootstrapped", helped.agents[0])]
-drives = [record(agent.driver(with_q=True), [ROAD], label=label)[0] for label, agent in pair]
+drives = [record(agent.as_policy(with_q=True), [ROAD], label=label)[0] for label, agent in pair]
 show(traces([*drives, by_rule]))
 
 # %%

@@ -24,28 +24,27 @@
 # %%
 import numpy as np
 import torch
-from bootcourse.drivers import (
-    idle_driver,
-    in_words,
-    plan_driver,
-    rule_driver,
-    stochastic_rule_driver,
-)
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
+from bootcourse.episodes.record import record
 from bootcourse.learn.agent import Agent
-from bootcourse.learn.bc import Cloner
-from bootcourse.learn.demonstrations import collect
-from bootcourse.learn.replay import Replay, unpack
+from bootcourse.learn.bc import BCLearner
+from bootcourse.learn.demonstrations import collect, demonstration_rows
+from bootcourse.learn.replay_buffer import ReplayBuffer, decode_transitions
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.lessons import check, source
 from bootcourse.lessons.figures import bars
 from bootcourse.lessons.figures_demonstrations import astray, clones, where_they_were
 from bootcourse.panels import drive_panel
-from bootcourse.record.demonstrations import demonstration_rows
-from bootcourse.record.drive import record
+from bootcourse.plots.figure import show
+from bootcourse.policies import (
+    idle_policy,
+    in_words,
+    plan_policy,
+    rule_policy,
+    stochastic_rule_policy,
+)
 from bootcourse.road.state import LANE
 from bootcourse.scenario import ACTION_NAMES, DEFAULT
-from bootcourse.study.drawing import show
-from bootcourse.study.evaluate import drive_episodes, held_out_seeds
 
 # %% [markdown]
 # ## Look first
@@ -54,8 +53,8 @@ from bootcourse.study.evaluate import drive_episodes, held_out_seeds
 # is the rule. The other is the stochastic rule with p = 0.9: one decision in ten is not its own.
 
 # %%
-unsure = stochastic_rule_driver(DEFAULT, np.random.default_rng(0))
-driven = {"the rule": record(rule_driver(DEFAULT), range(60), label="rule")}
+unsure = stochastic_rule_policy(DEFAULT, np.random.default_rng(0))
+driven = {"the rule": record(rule_policy(DEFAULT), range(60), label="rule")}
 driven["the stochastic rule"] = record(unsure, range(60), label="stochastic rule")
 title = "The rule drives along a narrow path, the unsure rule strays from it"
 show(where_they_were(driven, seconds=30, title=title))
@@ -105,9 +104,9 @@ check.transitions(transitions)
 # %%
 # NBVAL_CHECK_OUTPUT
 by_rule = collect(200)
-by_chance = collect(200, driver=stochastic_rule_driver(DEFAULT, np.random.default_rng(0)))
+by_chance = collect(200, driver=stochastic_rule_policy(DEFAULT, np.random.default_rng(0)))
 for name, rows in (("rule", by_rule), ("stochastic rule", by_chance)):
-    batch = unpack(rows, DEFAULT.observation_size, torch.zeros(len(rows)))
+    batch = decode_transitions(rows, DEFAULT.observation_size, torch.zeros(len(rows)))
     ended = int(batch.terminated.sum())
     print(f"{name:16} {len(rows):6,} transitions, {ended:3} of 200 episodes end in an accident")
 
@@ -120,7 +119,7 @@ ROAD = 10
 (panel := drive_panel(seed=ROAD))
 
 # %%
-stand_in = plan_driver(in_words(driven["the rule"][ROAD].actions))
+stand_in = plan_policy(in_words(driven["the rule"][ROAD].actions))
 mine = panel.demonstrations or record(stand_in, [ROAD], label="you")
 own_rows = demonstration_rows(mine)
 print(f"drives: {len(mine)}, transitions: {len(own_rows)}, of {own_rows.shape[1]} numbers each")
@@ -136,7 +135,7 @@ print(f"the last one: return {mine[-1].rewards.sum():.1f}, success {mine[-1].suc
 # > **Predict.** What share of the rule's decisions is "keep straight"?
 
 # %%
-batch = unpack(by_rule, DEFAULT.observation_size, torch.zeros(len(by_rule)))
+batch = decode_transitions(by_rule, DEFAULT.observation_size, torch.zeros(len(by_rule)))
 shares = np.bincount(batch.actions.numpy(), minlength=9) / len(by_rule)
 most = int(shares.argmax())
 title = f"{shares[most]:.0%} of the rule's decisions are '{ACTION_NAMES[most]}'"
@@ -177,7 +176,7 @@ check.return_to_go(return_to_go)
 
 # %%
 # NBVAL_CHECK_OUTPUT
-idle = record(idle_driver, [ROAD])[0]
+idle = record(idle_policy, [ROAD])[0]
 for gamma in (1.0, 0.99, 0.95, 0.9, 0.8):
     weights = gamma ** np.arange(150)
     nothing, escape = (weights @ d.rewards for d in (idle, driven["the rule"][ROAD]))
@@ -223,8 +222,8 @@ check.cloning_loss(cloning_loss)
 def clone(rows, updates=1500, seeds=4):
     """Clones of what is in the rows, one for each seed."""
     settings = with_seeds(settings_for("bc"), seeds)
-    cloner = Cloner(settings, DEFAULT.observation_size)
-    replay = Replay(seeds, 64, DEFAULT.observation_size, rows)
+    cloner = BCLearner(settings, DEFAULT.observation_size)
+    replay = ReplayBuffer(seeds, 64, DEFAULT.observation_size, rows)
     generators = [np.random.default_rng(each.seed) for each in settings]
     for _ in range(updates):
         cloner.update(replay.sample(64, np.ones(seeds), generators))  # 64 rows, all demonstrations
@@ -260,10 +259,10 @@ check.agreement(agreement)
 # %%
 def measure(agents, rows, roads=200):
     """Each clone's agreement with its data, successes, accidents on held-out roads: (clones, 3)."""
-    batch, found = unpack(rows, DEFAULT.observation_size, torch.zeros(len(rows))), []
+    batch, found = decode_transitions(rows, DEFAULT.observation_size, torch.zeros(len(rows))), []
     for agent in agents:
         agrees = agent.policy(batch.states.numpy()).argmax(1) == batch.actions.numpy()
-        e = drive_episodes(agent.driver(), held_out_seeds(6, roads))
+        e = drive_episodes(agent.as_policy(), held_out_seeds(6, roads))
         found.append((agrees.mean(), e.success.mean(), (e.accident > 0).mean()))
     return np.array(found)
 
@@ -327,9 +326,9 @@ def strangeness(driver, seconds, roads=40):
 
 
 seconds = range(31)
-curves = {"the rule itself": strangeness(rule_driver(DEFAULT), seconds)}
+curves = {"the rule itself": strangeness(rule_policy(DEFAULT), seconds)}
 for agent in rule_clones[:2]:
-    curves[f"clone, seed {agent.settings.seed}"] = strangeness(agent.driver(), seconds)
+    curves[f"clone, seed {agent.settings.seed}"] = strangeness(agent.as_policy(), seconds)
 title = "The clones get to where the demonstrator has never been"
 show(astray(seconds, curves, title))
 
@@ -341,7 +340,7 @@ show(astray(seconds, curves, title))
 times = [0, 1, 2, 3, 5, 10, 30]
 print("agreement with the rule at", times, "s")
 for agent in rule_clones:
-    own, quiz, exam = record(agent.driver(), range(40)), [], []
+    own, quiz, exam = record(agent.as_policy(), range(40)), [], []
     for t in times:
         seen = np.array([d.observations[t] for d in driven["the rule"]])
         right = np.array([d.actions[t] for d in driven["the rule"]])

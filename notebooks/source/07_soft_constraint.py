@@ -26,18 +26,18 @@ import math
 
 import numpy as np
 import torch
-from bootcourse.drivers import idle_driver, rule_driver
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds, summarise
+from bootcourse.episodes.record import record
 from bootcourse.learn import bootstrap
 from bootcourse.learn.settings import settings_for, with_seeds
-from bootcourse.learn.train import Training
+from bootcourse.learn.training import Training
 from bootcourse.lessons import check, source
 from bootcourse.lessons.charts import action_bars, lines
 from bootcourse.panels import policy_panel
-from bootcourse.record.drive import record
+from bootcourse.plots.figure import show
+from bootcourse.policies import idle_policy, rule_policy
 from bootcourse.road.formulas import centring_reward, speed_reward, weighted_reward
 from bootcourse.scenario import ACTION_NAMES, DEFAULT
-from bootcourse.study.drawing import show
-from bootcourse.study.evaluate import drive_episodes, held_out_seeds, report
 
 # %% [markdown]
 # ## Look first
@@ -50,7 +50,7 @@ from bootcourse.study.evaluate import drive_episodes, held_out_seeds, report
 # %%
 ROAD = 10
 newborn = Training([settings_for("soft")], episodes=1).agent(0)
-first_drive = record(newborn.driver(with_q=True), [ROAD], label="soft")[0]
+first_drive = record(newborn.as_policy(with_q=True), [ROAD], label="soft")[0]
 policy_panel(first_drive)
 
 # %% [markdown]
@@ -288,7 +288,7 @@ check.constrained_loss(constrained_loss)
 # > without the KL, and with it, at ξ = 2?
 
 # %%
-idle = record(idle_driver, [ROAD], label="idle")[0]
+idle = record(idle_policy, [ROAD], label="idle")[0]
 agrees = np.mean(idle.rule_actions == idle.actions)
 wants = ACTION_NAMES[np.bincount(idle.rule_actions).argmax()]
 print(f"the rule agrees with idling in {100 * agrees:.0f} % of the seconds; mostly: {wants}")
@@ -345,7 +345,7 @@ check.constraint_strength(constraint_strength)
 UPDATES, EVERY = 6000, 250
 fading = with_seeds(settings_for("soft"), 2)
 agents = fading + with_seeds(settings_for("soft", xi_fixed=2.0), 2)
-by_rule = record(rule_driver(DEFAULT), range(8), label="rule")
+by_rule = record(rule_policy(DEFAULT), range(8), label="rule")
 seen = np.concatenate([drive.observations[:-1] for drive in by_rule])
 answers = np.concatenate([drive.rule_actions for drive in by_rule])
 notes = {"updates": [], "xi": [], "alike": []}
@@ -388,10 +388,10 @@ show(lines(updates, named, title, "update", "likeliest action is the rule's (%)"
 
 # %%
 rows = [(f"ξ {'fades' if i < 2 else 'stays'}", agent) for i, agent in enumerate(result.agents)]
-rows = [(f"{words}, seed {agent.settings.seed}", agent.driver()) for words, agent in rows]
+rows = [(f"{words}, seed {agent.settings.seed}", agent.as_policy()) for words, agent in rows]
 print("                  success %   return   accidents %")
-for words, driver in [*rows, ("the rule", rule_driver(DEFAULT))]:
-    r = report(drive_episodes(driver, held_out_seeds(7, 200)))
+for words, driver in [*rows, ("the rule", rule_policy(DEFAULT))]:
+    r = summarise(drive_episodes(driver, held_out_seeds(7, 200)))
     accidents = r.collision.value + r.road_departure.value + r.stoppage.value
     print(f"{words:17}{100 * r.success.value:11.1f}{r.returns.value:9.1f}{100 * accidents:14.1f}")
 
@@ -409,7 +409,7 @@ for words, driver in [*rows, ("the rule", rule_driver(DEFAULT))]:
 # Now look into a decision of the trained agent.
 
 # %%
-drive = record(result.agents[0].driver(with_q=True), [ROAD], label="soft")[0]
+drive = record(result.agents[0].as_policy(with_q=True), [ROAD], label="soft")[0]
 policy_panel(drive, xi=round(float(xi[0, -1]), 3), alpha=round(result.agents[0].alpha, 6))
 
 # %% [markdown]

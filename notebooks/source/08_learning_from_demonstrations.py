@@ -25,20 +25,20 @@
 # %%
 import numpy as np
 import torch
-from bootcourse.drivers import idle_driver, rule_driver
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds, summarise
+from bootcourse.episodes.record import record
 from bootcourse.learn import bootstrap
 from bootcourse.learn.demonstrations import collect
 from bootcourse.learn.settings import settings_for, with_seeds
-from bootcourse.learn.train import Training
+from bootcourse.learn.training import Training
 from bootcourse.lessons import check, source
 from bootcourse.lessons.charts import action_bars, lines
 from bootcourse.lessons.figures import fading
 from bootcourse.panels import bonus_panel
-from bootcourse.panels.valuing import compare
-from bootcourse.record.drive import record
+from bootcourse.panels.bonus_numbers import bonus_numbers
+from bootcourse.plots.figure import show
+from bootcourse.policies import idle_policy, rule_policy
 from bootcourse.scenario import ACTION_NAMES, DEFAULT
-from bootcourse.study.drawing import show
-from bootcourse.study.evaluate import drive_episodes, held_out_seeds, report
 
 # %% [markdown]
 # ## Look first
@@ -124,11 +124,11 @@ check.augmented_reward(augmented_reward)
 
 # %%
 roads = range(20)
-by_rule = record(rule_driver(DEFAULT), roads, label="rule")
-stays = record(idle_driver, roads, label="idle")
+by_rule = record(rule_policy(DEFAULT), roads, label="rule")
+stays = record(idle_policy, roads, label="idle")
 for gamma in (0.8, 0.9, 0.95):
     settings = settings_for("bootstrapped", gamma=gamma)
-    seen = [compare(d, i, settings) for d, i in zip(by_rule, stays, strict=True)]
+    seen = [bonus_numbers(d, i, settings) for d, i in zip(by_rule, stays, strict=True)]
     better = sum(each.plain[0] > each.trapped[0] for each in seen)
     needed = max(each.crossing.max() for each in seen)
     words = f"γ = {gamma}: the rule's way is worth more on {better:2} of {len(seen)} roads"
@@ -145,12 +145,12 @@ for gamma in (0.8, 0.9, 0.95):
 # %%
 drive, idle = by_rule[10], stays[10]
 for c in (0.0, 0.05, 0.5, 2.0):
-    each = compare(drive, idle, settings_for("bootstrapped", bonus=c))
+    each = bonus_numbers(drive, idle, settings_for("bootstrapped", bonus=c))
     values = f"the rule's way {each.augmented[0]:5.2f}, staying {each.trapped[0]:.2f}"
     print(f"c = {c:4}: {values}; the bonus adds {c * each.weight[0]:5.2f} = c / (1 - γ)")
 
 # %%
-each = compare(drive, idle, settings_for("bootstrapped", bonus=0.05))
+each = bonus_numbers(drive, idle, settings_for("bootstrapped", bonus=0.05))
 named = {
     "rule, c = 0.05": each.augmented[:60],
     "rule, no bonus": each.plain[:60],
@@ -338,7 +338,7 @@ show(lines(noted["update"], named, title, "update", "mean Q(s,a) on the way out"
 # %%
 print("               Q demonstrated   Q best rival   success %   return   accidents %   β")
 for i, agent in enumerate(result.agents):
-    r = report(drive_episodes(agent.driver(), held_out_seeds(8, 200)))
+    r = summarise(drive_episodes(agent.as_policy(), held_out_seeds(8, 200)))
     accidents = r.collision.value + r.road_departure.value + r.stoppage.value
     words = f"c = {agent.settings.bonus:g}, seed {agent.settings.seed}"
     row = f"{words:13}{expert[i, -1]:16.2f}{rival[i, -1]:15.2f}{100 * r.success.value:12.1f}"

@@ -23,24 +23,22 @@
 
 # %%
 import numpy as np
-from bootcourse.assets import FOLDER
 from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.lessons import check
 from bootcourse.lessons.charts import lines
 from bootcourse.lessons.shipped import shipped_drive, shipped_results
 from bootcourse.panels import sweep_panel
+from bootcourse.plots.figure import name, show
+from bootcourse.plots.top_view import overtaken, top_view_over_time
 from bootcourse.scenario import DEFAULT
-from bootcourse.study.drawing import name, show
-from bootcourse.study.evaluate import rate
-from bootcourse.study.found import in_assets
+from bootcourse.statistics import escapes, improvement, interval, iqm, rate
+from bootcourse.storage.assets import FOLDER
+from bootcourse.study.figures import ablation, blocks, final_scores
 from bootcourse.study.paper import EPISODES, PRINTED
 from bootcourse.study.report import rule_results
-from bootcourse.study.results import KINDS
-from bootcourse.study.statistics import escapes, improvement, interval, iqm
-from bootcourse.study.sweep import load_sweep, nearest, settings_run
+from bootcourse.study.results import KINDS, in_assets
+from bootcourse.study.sweep import load_sweep, nearest_setting, settings_run
 from bootcourse.study.tables import bracketed, improvement_table, markdown
-from bootcourse.study.top_view import overtaken, top_view_over_time
-from bootcourse.study.training_figures import ablation, blocks, final_scores
 from IPython.display import Markdown
 from scipy import stats
 
@@ -375,10 +373,10 @@ sweep = load_sweep()
 won = sweep.scores("success") >= 0.5
 print(f"{len(sweep)} agents with {len(settings_run(sweep))} settings; {won.sum()} of them escape")
 rows = []
-for label, setting in (("p", "p"), ("ξ / α", "xi_multiplier"), ("c", "bonus")):
+for label, setting in (("p", "rule_p"), ("ξ / α", "xi_multiplier"), ("c", "bonus")):
     for value in sorted({agent[setting] for agent in sweep.agents}):
         mine = np.array([agent[setting] == value for agent in sweep.agents])
-        if setting == "p":  # without ξ, p does not matter
+        if setting == "rule_p":  # without ξ, p does not matter
             mine &= np.array([agent["xi_multiplier"] > 0 for agent in sweep.agents])
         if mine.any():
             share = bracketed(escapes(won[mine].astype(float)), 100)
@@ -386,11 +384,11 @@ for label, setting in (("p", "p"), ("ξ / α", "xi_multiplier"), ("c", "bonus"))
 Markdown(markdown(["all agents with", "escape", "% [95 %, exact]"], rows))
 
 # %%
-paper = nearest(sweep, p=0.9, xi_multiplier=200, c=2)
+paper = nearest_setting(sweep, p=0.9, xi_multiplier=200, c=2)
 print(
     "the paper's setting:" if paper.exact else "nearest to the paper's setting that was run:", paper
 )
-runs = [nearest(sweep, *setting) for setting in settings_run(sweep)]
+runs = [nearest_setting(sweep, *setting) for setting in settings_run(sweep)]
 best = max(runs, key=lambda run: (run.mean("success").value, run.mean("returns").value))
 print("most successful:", best)
 

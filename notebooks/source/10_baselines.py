@@ -24,12 +24,13 @@
 # %%
 import numpy as np
 import torch
-from bootcourse.assets import FOLDER
-from bootcourse.drivers import rule_driver
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds, summarise
+from bootcourse.episodes.record import record
+from bootcourse.files import read_arrays
 from bootcourse.learn import bc, sac
-from bootcourse.learn.cql import ConservativeLearner
+from bootcourse.learn.cql import CQLLearner
 from bootcourse.learn.demonstrations import collect
-from bootcourse.learn.replay import Replay
+from bootcourse.learn.replay_buffer import ReplayBuffer
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.lessons import check, source
 from bootcourse.lessons.charts import lines
@@ -43,23 +44,22 @@ from bootcourse.lessons.figures_baselines import (
     updates_made,
 )
 from bootcourse.lessons.shipped import beginning, shipped_agents, shipped_drive, shipped_results
-from bootcourse.record.drive import record
-from bootcourse.record.files import read_arrays
+from bootcourse.plots.figure import name, show
+from bootcourse.plots.top_view import doing, outcome
+from bootcourse.policies import rule_policy
 from bootcourse.replay3d import recording
 from bootcourse.scenario import DEFAULT
+from bootcourse.statistics import improvement, interval, rate
+from bootcourse.storage.assets import FOLDER
 
 # %%
 from bootcourse.study.checks import CHECKS
-from bootcourse.study.drawing import name, show
-from bootcourse.study.evaluate import drive_episodes, held_out_seeds, rate, report
+from bootcourse.study.figures import baselines, final_scores
 from bootcourse.study.paper import EPISODES, PRINTED, arithmetic, earned_at
 from bootcourse.study.planner import Search
 from bootcourse.study.report import rule_results
 from bootcourse.study.results import Results, join
-from bootcourse.study.statistics import improvement, interval
 from bootcourse.study.tables import bracketed, markdown, score
-from bootcourse.study.top_view import doing, outcome
-from bootcourse.study.training_figures import baselines, final_scores
 from IPython.display import Markdown
 from scipy import stats
 
@@ -74,7 +74,7 @@ from scipy import stats
 # %% tags=["nbval-ignore-output"]
 road, pupils = shipped_drive("escape").seed, {}
 for method in ("bc", "cql", "gail"):
-    drives = [record(a.driver(), [road], label=method)[0] for a in shipped_agents(method)]
+    drives = [record(a.as_policy(), [road], label=method)[0] for a in shipped_agents(method)]
     pupils[method] = min(drives, key=lambda drive: len(drive.actions))
 recording([beginning(drive, 30) for drive in pupils.values()], height=480)
 
@@ -209,14 +209,14 @@ check.conservative_loss(conservative_loss)
 # %%
 torch.set_num_threads(1)  # small matrices are faster on one thread
 SEEDS, UPDATES = 2, 4000
-without = with_seeds(settings_for("cql", conservative=0.0), SEEDS)
-by_rule = record(rule_driver(DEFAULT), range(20), label="rule")
+without = with_seeds(settings_for("cql", cql_weight=0.0), SEEDS)
+by_rule = record(rule_policy(DEFAULT), range(20), label="rule")
 way = np.concatenate([drive.observations[:20] for drive in by_rule])
 did = np.concatenate([drive.actions[:20] for drive in by_rule])
 
 # %%
-learner = ConservativeLearner(with_seeds(settings_for("cql"), SEEDS) + without, 26)
-replay = Replay(2 * SEEDS, 64, 26, demonstrations)
+learner = CQLLearner(with_seeds(settings_for("cql"), SEEDS) + without, 26)
+replay = ReplayBuffer(2 * SEEDS, 64, 26, demonstrations)
 generators = [np.random.default_rng(s.seed) for s in learner.settings]
 asked, found = range(0, UPDATES + 1, 200), []
 for update in range(UPDATES + 1):
@@ -236,8 +236,8 @@ show(lines(asked, named, title, "update", "mean Q(s,a) on the way out", marks=wo
 # %%
 rows = []
 for agent in agents_of(learner):
-    r = report(drive_episodes(agent.driver(), held_out_seeds(10, 200)))
-    words = "with the term" if agent.settings.conservative else "without"
+    r = summarise(drive_episodes(agent.as_policy(), held_out_seeds(10, 200)))
+    words = "with the term" if agent.settings.cql_weight else "without"
     kinds = [r.success, r.collision, r.road_departure, r.stoppage]
     cells = [f"{100 * kind.value:.0f}" for kind in kinds]
     rows.append([f"{words}, seed {agent.settings.seed}", *cells, f"{r.returns.value:.1f}"])
@@ -271,7 +271,9 @@ for action in (1, 7, 8):
 # %%
 rows = []
 for method in ("bc", "cql", "gail"):
-    drives = [d for a in shipped_agents(method) for d in record(a.driver(), held_out_seeds(11, 24))]
+    drives = [
+        d for a in shipped_agents(method) for d in record(a.as_policy(), held_out_seeds(11, 24))
+    ]
     shares = [f"{100 * share:.0f} %" for share in as_the_rule_would(drives)]
     rows.append([name(method), *shares, f"{np.mean([d.rewards.sum() for d in drives]):.1f}"])
 headings = [
@@ -316,7 +318,7 @@ source("bootcourse.learn.sac", "conservative_loss")
 # %% [markdown] tags=["instructor"] minutes=5
 # Ask who expected offline Q-learning to do *something* sensible with 200 good drives. A question
 # for the fast: what does the term's weight do at both ends? (0 is Q-learning, a very large one is a
-# clone. Let them try `settings_for("cql", conservative=5.0)`.)
+# clone. Let them try `settings_for("cql", cql_weight=5.0)`.)
 
 # %% [markdown]
 # ## Round 3: a judge instead of a reward

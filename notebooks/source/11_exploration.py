@@ -23,19 +23,19 @@
 
 # %%
 import numpy as np
-from bootcourse.drivers import random_driver, rule_driver
+from bootcourse.episodes.evaluate import held_out_seeds
+from bootcourse.episodes.record import record
 from bootcourse.lessons import check
 from bootcourse.lessons.charts import action_bars, lines
 from bootcourse.lessons.exploring import cells_seen, map_of_places, mean_in_bins, visits
 from bootcourse.lessons.shipped import shipped_agents, shipped_drive, shipped_results, shipped_runs
 from bootcourse.panels import policy_panel
-from bootcourse.record.drive import record
+from bootcourse.plots.figure import name, show
+from bootcourse.plots.top_view import top_view_over_time
+from bootcourse.policies import random_policy, rule_policy
 from bootcourse.scenario import DEFAULT
-from bootcourse.study.drawing import name, show
-from bootcourse.study.evaluate import held_out_seeds
+from bootcourse.study.figures import exploration
 from bootcourse.study.tables import markdown
-from bootcourse.study.top_view import top_view_over_time
-from bootcourse.study.training_figures import exploration
 from IPython.display import Markdown
 
 # %% [markdown]
@@ -48,7 +48,7 @@ from IPython.display import Markdown
 # %% tags=["nbval-ignore-output"]
 road = shipped_drive("escape").seed
 drives = [
-    record(agent.driver(with_q=True), [road], label="bootstrapped")[0]
+    record(agent.as_policy(with_q=True), [road], label="bootstrapped")[0]
     for agent in shipped_agents("bootstrapped")
 ]
 drive = max(drives, key=lambda drive: visits([drive]).entropy.max())
@@ -170,7 +170,7 @@ for method in methods:
 # %%
 roads = list(held_out_seeds(3, 24))
 agents = {f"{name(m)}, seed {a.settings.seed}": a for m in methods for a in shipped_agents(m)}
-driven = {label: visits(record(a.driver(), roads)) for label, a in agents.items()}
+driven = {label: visits(record(a.as_policy(), roads)) for label, a in agents.items()}
 print(f"{sum(len(v.place) for v in driven.values())} decisions of {len(agents)} agents")
 
 # %% [markdown]
@@ -257,8 +257,8 @@ check.coverage(coverage)
 # %%
 cells = np.arange(-60, 101, 10)
 others = {
-    "random driver": random_driver(np.random.default_rng(0)),
-    "rule controller": rule_driver(DEFAULT),
+    "random driver": random_policy(np.random.default_rng(0)),
+    "rule controller": rule_policy(DEFAULT),
 }
 rows = []
 for label, driver in others.items():
@@ -306,7 +306,7 @@ check.ever_tries(ever_tries)
 rows = []
 for method in methods:
     for agent in shipped_agents(method):
-        drive = record(agent.driver(), roads[:1])[0]
+        drive = record(agent.as_policy(), roads[:1])[0]
         sure = drive.policy.max(axis=-1)
         tries = f"{np.sum(1 - sure):.1f} of {len(sure)}"
         ending = "ahead" if drive.success else "behind"

@@ -24,13 +24,13 @@
 # %%
 import numpy as np
 import torch
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds, summarise
+from bootcourse.episodes.record import record
 from bootcourse.lessons import check, source
 from bootcourse.lessons.bugs import BUGS, Hunt
 from bootcourse.lessons.figures_many import many
-from bootcourse.record.drive import record
-from bootcourse.study.drawing import show
-from bootcourse.study.evaluate import drive_episodes, held_out_seeds, report
-from bootcourse.study.top_view import top_view_over_time
+from bootcourse.plots.figure import show
+from bootcourse.plots.top_view import top_view_over_time
 
 hunt = Hunt()
 print(f"{len(hunt.names)} agents, 2 seeds each, {hunt.provenance['updates']} updates of each")
@@ -45,7 +45,7 @@ print(f"{len(hunt.names)} agents, 2 seeds each, {hunt.provenance['updates']} upd
 
 # %%
 ROAD = 10
-healthy, agent_f = (record(hunt.agent(name).driver(), [ROAD])[0] for name in ("healthy", "F"))
+healthy, agent_f = (record(hunt.agent(name).as_policy(), [ROAD])[0] for name in ("healthy", "F"))
 show(top_view_over_time(healthy, title="The healthy agent on one road"))
 
 # %%
@@ -155,7 +155,7 @@ show(many(probes, title, "updates", "promise Σ π Q, cut off at 20", "healthy",
 
 # %%
 for name in hunt.names:
-    drive = record(hunt.agent(name).driver(with_q=True), [ROAD])[0]
+    drive = record(hunt.agent(name).as_policy(with_q=True), [ROAD])[0]
     paid = 0.0
     for reward in drive.rewards[::-1]:  # from the end to the start
         paid = reward + gamma * paid
@@ -227,8 +227,8 @@ show(many(probes, title, "updates", "log of the rarest action's probability", "h
 print("            escapes, most probable   escapes, drawn   return   accidents (%)")
 for name in hunt.names:
     agent, roads = hunt.agent(name), held_out_seeds(12, 200)
-    greedy = report(drive_episodes(agent.driver(), roads))
-    drawn = report(drive_episodes(agent.driver(np.random.default_rng(0)), roads))
+    greedy = summarise(drive_episodes(agent.as_policy(), roads))
+    drawn = summarise(drive_episodes(agent.as_policy(np.random.default_rng(0)), roads))
     accidents = greedy.collision.value + greedy.road_departure.value + greedy.stoppage.value
     shares = f"{100 * greedy.success.value:20.1f} {100 * drawn.success.value:18.1f}"
     print(f"{name:8} {shares} {greedy.returns.value:12.1f} {100 * accidents:12.1f}")

@@ -25,18 +25,18 @@
 from math import comb
 
 import numpy as np
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
+from bootcourse.episodes.record import record
 from bootcourse.learn.settings import settings_for, with_seeds
+from bootcourse.learn.teachers import TaughtTraining, ahead, course_rule, teacher_policy, toward
 from bootcourse.lessons import check, source
+from bootcourse.lessons.example_teachers import careful, examine, racer, reckless, timid
 from bootcourse.lessons.figures_many import many
-from bootcourse.lessons.teacher import careful, examine, racer, reckless, timid
-from bootcourse.record.drive import record
-from bootcourse.record.teacher import TaughtTraining, ahead, course_rule, teacher_driver, toward
+from bootcourse.plots.figure import show
+from bootcourse.plots.top_view import overtaken, top_view_over_time
 from bootcourse.road.state import EGO, LANE, SPEED, X, Y
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import ACTION_NAMES, DEFAULT
-from bootcourse.study.drawing import show
-from bootcourse.study.evaluate import drive_episodes, held_out_seeds
-from bootcourse.study.top_view import overtaken, top_view_over_time
 
 # %% [markdown]
 # ## Look first
@@ -47,7 +47,7 @@ from bootcourse.study.top_view import overtaken, top_view_over_time
 
 # %%
 ROAD = 10
-drives = {f.__name__: record(teacher_driver(f), [ROAD])[0] for f in (reckless, racer)}
+drives = {f.__name__: record(teacher_policy(f), [ROAD])[0] for f in (reckless, racer)}
 crash = drives["reckless"].times[-1]
 title = f"The reckless teacher hits trap 1 after {crash:g} s"
 show(top_view_over_time(drives["reckless"], times=[0, 2, crash], title=title))
@@ -117,7 +117,7 @@ for lane in (2, 1, 0):
     print(f"lane {lane}: free for {gap:5.1f} m, then a car at {speed:.1f} m/s")
 
 # %% [markdown]
-# The library's `bootcourse.record.teacher.ahead` gives the gap and that car's speed. Trap 2 is
+# The library's `bootcourse.learn.teachers.ahead` gives the gap and that car's speed. Trap 2 is
 # beside you: its tail is level with your nose, or nearly.
 
 # %% [markdown]
@@ -128,7 +128,7 @@ for lane in (2, 1, 0):
 # is the same tracker that the rule of lesson 3 uses. `timid` is a rule in one line:
 
 # %% tags=["nbval-ignore-output"]
-source("bootcourse.lessons.teacher", "timid", "racer")
+source("bootcourse.lessons.example_teachers", "timid", "racer")
 
 # %% [markdown]
 # > **Predict.** What is the smallest number of situations that a rule has to tell apart to get
@@ -167,8 +167,8 @@ mine = careful  # or: mine = my_rule
 print(examine(mine))
 
 # %%
-mine_drive = record(teacher_driver(mine), [ROAD])[0]
-rule_drive = record(teacher_driver(course_rule), [ROAD])[0]
+mine_drive = record(teacher_policy(mine), [ROAD])[0]
+rule_drive = record(teacher_policy(course_rule), [ROAD])[0]
 for name, drive in (("mine", mine_drive), ("the rule", rule_drive)):
     out = int(np.flatnonzero(drive.states[:: DEFAULT.clock.steps, EGO, LANE] == 0)[0])
     print(f"{name:9} free lane after {out:2} s, return {drive.rewards.sum():6.1f}")
@@ -198,7 +198,7 @@ show(top_view_over_time(mine_drive, times=[0, 3, 6, 9, 15], title=title))
 # > from its two teachers when they disagree?
 
 # %% tags=["nbval-ignore-output"]
-source("bootcourse.record.teacher", "demonstrations_of")
+source("bootcourse.learn.teachers", "demonstrations_of")
 
 # %% [markdown]
 # The third place has a trap of its own. Four roads run side by side. One that ends starts anew *in
@@ -290,8 +290,8 @@ print(
     + "".join(f"{head:>24}" for head in ("escapes (%)", "drawn (%)", "return", "accident (%)"))
 )
 for name in ("alone", *(t.__name__ for t in (mine, timid, reckless, racer))):
-    tests = [drive_episodes(a.driver(), held_out_seeds(13, 200)) for a in students[name]]
-    by_chance = [a.driver(np.random.default_rng(0)) for a in students[name]]
+    tests = [drive_episodes(a.as_policy(), held_out_seeds(13, 200)) for a in students[name]]
+    by_chance = [a.as_policy(np.random.default_rng(0)) for a in students[name]]
     drawn = [drive_episodes(d, held_out_seeds(13, 200)).success.mean() for d in by_chance]
     success[name] = np.array([100 * test.success.mean() for test in tests])
     returns[name] = np.array([test.returns.mean() for test in tests])
@@ -361,7 +361,7 @@ print("             as its teacher (%)  β now               ξ now")
 for teacher in (mine, timid, reckless, racer):
     alike = []
     for agent in students[teacher.__name__]:
-        drive = record(agent.driver(), [ROAD])[0]
+        drive = record(agent.as_policy(), [ROAD])[0]
         roads = drive.states[:: DEFAULT.clock.steps][: len(drive.actions)]
         same = [teacher(cars, DEFAULT) == a for cars, a in zip(roads, drive.actions, strict=True)]
         alike.append(100 * np.mean(same))

@@ -4,7 +4,7 @@ import itertools
 
 import numpy as np
 
-from bootcourse.record import teacher
+from bootcourse.learn import teachers as teacher
 from bootcourse.road.state import EGO, LANE, X, Y
 from tests.answers import right, wrong
 

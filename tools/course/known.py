@@ -11,28 +11,27 @@ import gymnasium as gym
 import numpy as np
 import torch
 
-from bootcourse.assets import FOLDER
-from bootcourse.drivers import idle_driver, plan_driver, rule_driver
+from bootcourse.episodes.record import record
+from bootcourse.files import read_arrays
 from bootcourse.learn import bootstrap, sac
 from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.settings import settings_for
-from bootcourse.lessons import bugs, shipped, teacher
+from bootcourse.lessons import bugs, shipped
+from bootcourse.lessons import example_teachers as teacher
 from bootcourse.lessons.exercises import registry
-from bootcourse.record.drive import record
-from bootcourse.record.files import read_arrays
+from bootcourse.policies import idle_policy, plan_policy, rule_policy
 from bootcourse.road import formulas, observation
 from bootcourse.road.formulas import centring_reward, speed_reward
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, Accident, X, Y
 from bootcourse.rule import HEADING_COST, safety_distance, stochastic_rule, target_speed
-from bootcourse.scenario import ACTION_NAMES, CALIBRATED, DEFAULT, IDLE, N_ACTIONS
+from bootcourse.scenario import ACTION_NAMES, CALIBRATED, DEFAULT, IDLE, N_ACTIONS, RULE_P
+from bootcourse.statistics import ESCAPES, escapes, improvement, interval, iqm, rate
+from bootcourse.storage.assets import FOLDER
 from bootcourse.study import report, sweep
 from bootcourse.study.checks import CHECKS
-from bootcourse.study.evaluate import rate
-from bootcourse.study.found import in_assets
 from bootcourse.study.paper import EPISODES, PRINTED, paper_interval
 from bootcourse.study.planner import Search, plan_episodes
-from bootcourse.study.results import KINDS, Results
-from bootcourse.study.statistics import ESCAPES, escapes, improvement, interval, iqm
+from bootcourse.study.results import KINDS, Results, in_assets
 from tools.course.source import NOTEBOOKS
 
 shipped_results = cache(shipped.shipped_results)
@@ -58,13 +57,13 @@ def bound() -> np.ndarray:
 @cache
 def by_rule(road: int = ROAD):
     """The rule's drive on one road."""
-    return record(rule_driver(DEFAULT), [road])[0]
+    return record(rule_policy(DEFAULT), [road])[0]
 
 
 @cache
 def idle(road: int = ROAD):
     """Nobody's drive on one road: 4, "keep straight", for ever."""
-    return record(idle_driver, [road])[0]
+    return record(idle_policy, [road])[0]
 
 
 def of(method: str) -> Results:

@@ -185,6 +185,6 @@ def of_pictures(path: Path) -> list[str]:
 
 def has_alt(data: dict) -> bool:
     if any(kind.startswith("image/") for kind in data):
-        return False  # JupyterLab drops the alt text of these: bootcourse.study.drawing.show keeps it
+        return False  # JupyterLab drops the alt text of these: bootcourse.plots.figure.show keeps it
     tags = re.findall(r"<img [^>]*>", data.get("text/html", ""))
     return all(re.search(rf'alt="[^"]{{{SHORTEST_ALT},}}"', tag) for tag in tags)

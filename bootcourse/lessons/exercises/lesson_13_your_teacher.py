@@ -4,10 +4,10 @@ import numpy as np
 from gymnasium.vector import AutoresetMode
 
 from bootcourse.errors import BootcourseError
+from bootcourse.learn import teachers as teacher
+from bootcourse.lessons.example_teachers import careful
 from bootcourse.lessons.exercise import Exercise, Mistake
-from bootcourse.lessons.teacher import careful
 from bootcourse.lessons.values import NUMERIC, plain
-from bootcourse.record import teacher
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, X, Y
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, N_ACTIONS

@@ -1,0 +1,366 @@
+"""The command line, `bootcourse` or `python -m bootcourse`: a command is a function with `@app.command()`.
+
+What a command needs is imported inside it, so that `bootcourse --help` answers at once. A training and
+a study can be stopped by Ctrl-C (exit status 130) and continued by the same command.
+"""
+
+import contextlib
+import json
+import sys
+import threading
+import time
+import webbrowser
+from pathlib import Path
+
+import typer
+
+from bootcourse.errors import BootcourseError, did_you_mean
+
+INTERRUPTED = 130  # exit status
+CHECKPOINT, SECONDS_BETWEEN = "checkpoint.npz", 20.0  # of a training, and how often it is written
+SENSITIVITY_SEEDS = 3
+BUILT_IN = ("rule", "idle", "random")  # drivers that need no training
+MEASURES = {
+    "success": "success %",
+    "returns": "return",
+    "speed": "speed m/s",
+    "distance": "distance m",
+    "collision": "collision %",
+    "road_departure": "road departure %",
+    "stoppage": "stoppage %",
+}
+ACROSS = 4  # columns of the table of `evaluate` that fit a terminal
+
+app = typer.Typer(
+    help="A trap on the highway, and how an imperfect driver pulls a learner out of it.",
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode=None,  # plain text, on every terminal
+    pretty_exceptions_enable=False,
+)
+
+
+def main() -> None:
+    """Run a command. A mistake of the user's is one sentence and exit status 2; Ctrl-C is 130."""
+    try:
+        app(prog_name="bootcourse")
+    except BootcourseError as error:
+        print(error, file=sys.stderr)
+        sys.exit(2)
+
+
+def show_version(wanted: bool) -> None:
+    if wanted:
+        from bootcourse import __version__
+
+        print(f"bootcourse {__version__}")
+        raise typer.Exit()
+
+
+@app.callback()
+def options(
+    version: bool = typer.Option(False, "--version", callback=show_version, is_eager=True, help="Print the version."),
+) -> None:
+    pass
+
+
+@app.command()
+def doctor() -> None:
+    """Say what is right and wrong with this machine, and how to mend it."""
+    from bootcourse import doctor
+
+    raise typer.Exit(doctor.main())
+
+
+# Training --------------------------------------------------------------------------------------------
+
+
+@app.command()
+def train(
+    method: str = typer.Option("bootstrapped", help="sac, soft, demos, bootstrapped, margin or margin_soft."),
+    seeds: int = typer.Option(4, min=1, max=64, help="How many agents, side by side, each with its own seed."),
+    first_seed: int = typer.Option(0, min=0, help="The first training seed."),
+    episodes: int = typer.Option(1000, min=1, help="Training episodes of each agent."),
+    out: Path = typer.Option(..., help="A new folder for the runs."),
+    scenario: str = typer.Option("default", help="default or calibrated."),
+    resume: bool = typer.Option(False, "--resume", help="Go on with a training that was interrupted or killed."),
+    quiet: bool = typer.Option(False, "--quiet", help="No progress bar."),
+) -> None:
+    """Train agents and write a run for each."""
+    from bootcourse.learn.settings import settings_for, with_seeds
+    from bootcourse.learn.training import Training
+    from bootcourse.scenario import named
+    from bootcourse.storage.runs import load_checkpoint, save_checkpoint
+
+    unfinished = out / CHECKPOINT
+    if resume:
+        if not unfinished.exists():
+            raise BootcourseError(f"{out} holds no unfinished training: leave --resume away to start one.")
+        training = load_checkpoint(unfinished)
+    else:
+        settings, road = with_seeds(settings_for(method), seeds, first_seed), named(scenario)
+        if unfinished.exists():
+            raise BootcourseError(
+                f"{out} holds an unfinished training: add --resume to go on with it, or choose another."
+            )
+        if out.exists() and (not out.is_dir() or any(out.iterdir())):
+            raise BootcourseError(f"{out} exists already and is not empty: choose another folder.")
+        training = Training(settings, episodes, road)
+        save_checkpoint(training, unfinished)  # before an hour is spent: can this folder be written?
+    raise typer.Exit(finish_training(training, out, progress=not quiet))
+
+
+def finish_training(training, out: Path, progress: bool) -> int:
+    """Train to the end and write the runs, with a checkpoint every 20 s. Returns the exit status."""
+    from bootcourse.storage.runs import save_checkpoint, save_runs
+
+    last = time.monotonic()
+
+    def checkpoint_now_and_then(training) -> None:
+        nonlocal last
+        if time.monotonic() - last > SECONDS_BETWEEN:
+            save_checkpoint(training, out / CHECKPOINT)
+            last = time.monotonic()
+
+    result = training.run(progress, checkpoint_now_and_then)
+    if result.interrupted:
+        save_checkpoint(training, out / CHECKPOINT)
+        print(f"Interrupted. Nothing is lost: go on with `bootcourse train --out {out} --resume`.", file=sys.stderr)
+        return INTERRUPTED
+    for path in save_runs(result, out):
+        print(path)
+    (out / CHECKPOINT).unlink()
+    return 0
+
+
+# Driving ---------------------------------------------------------------------------------------------
+
+
+@app.command()
+def evaluate(
+    who: str = typer.Argument(..., help="rule, idle, or a folder that `bootcourse train` wrote."),
+    episodes: int = typer.Option(1000, min=1, help="Held-out episodes."),
+    seed: int = typer.Option(1, min=0, help="Which block of held-out roads."),
+    scenario: str = typer.Option("", help="default or calibrated; a run is tested on its own unless you say."),
+    sample: bool = typer.Option(False, "--sample", help="Draw an agent's actions instead of taking the most probable."),
+    as_json: bool = typer.Option(False, "--json", help="Print JSON."),
+) -> None:
+    """Drive held-out episodes and print success, return, speed, distance and accidents with 95 % intervals."""
+    from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds, over_seeds, summarise
+
+    seeds = held_out_seeds(seed, episodes)
+    found = {
+        label: summarise(drive_episodes(policy, seeds, road))
+        for label, policy, road in policies_of(who, scenario, sample, seed)
+    }
+    if as_json:
+        everything = {label: each.to_dict() for label, each in found.items()}
+        if len(found) > 1:
+            everything["over seeds"] = {name: e._asdict() for name, e in over_seeds(list(found.values())).items()}
+        print(json.dumps(everything, indent=2))
+        return
+    print(f"{episodes} held-out episodes, block {seed}: value [95 % interval]")
+    columns = {label: {name: getattr(each, name) for name in MEASURES} for label, each in found.items()}
+    if len(found) > 1:
+        columns["mean over seeds"] = over_seeds(list(found.values()))
+    labels = list(columns)
+    for first in range(0, len(labels), ACROSS):
+        print_table({label: columns[label] for label in labels[first : first + ACROSS]})
+
+
+def policies_of(who: str, scenario: str, sample: bool, seed: int) -> list[tuple]:
+    """(label, policy, scenario) of everybody that `who` names: a built-in driver, or the runs of a folder."""
+    import numpy as np
+
+    from bootcourse.policies import idle_policy, random_policy, rule_policy
+    from bootcourse.scenario import DEFAULT, named
+
+    if who in BUILT_IN:
+        road = named(scenario) if scenario else DEFAULT
+        built_in = {
+            "rule": rule_policy(road),
+            "idle": idle_policy,
+            "random": random_policy(np.random.default_rng(seed)),
+        }
+        return [(who, built_in[who], road)]
+    if not Path(who).exists():
+        raise BootcourseError(f"Driver {did_you_mean(who, BUILT_IN)}, or name a folder that `bootcourse train` wrote.")
+    from bootcourse.storage.runs import find_runs, load_run
+
+    found = []
+    for path in find_runs(Path(who)):
+        run = load_run(path)
+        rng = np.random.default_rng(seed) if sample else None
+        road = named(scenario) if scenario else run.scenario
+        found.append((path.name, run.agent.as_policy(rng, with_q=True), road))
+    return found
+
+
+def print_table(columns: dict[str, dict]) -> None:
+    """One column for each driver, one row for each measure: value [low, high]."""
+    print("\n" + " " * 18 + "".join(f"{label:>26}" for label in columns))
+    for name, heading in MEASURES.items():
+        scale = 100 if "%" in heading else 1
+        each = [tuple(scale * number for number in column[name]) for column in columns.values()]
+        print(f"{heading:18}" + "".join(f"{f'{v:.1f} [{low:.1f}, {high:.1f}]':>26}" for v, low, high in each))
+
+
+@app.command()
+def drive(
+    who: str = typer.Argument(..., help="rule, idle, random, or a run's folder."),
+    out: Path = typer.Option(..., help="The rollout to write, such as drive.npz."),
+    seed: int = typer.Option(0, min=0, help="The road."),
+    scenario: str = typer.Option("", help="default or calibrated; a run drives its own unless you say."),
+    png: Path | None = typer.Option(None, help="Also draw the top view and the traces to this picture."),
+) -> None:
+    """Record one drive, to be drawn or replayed."""
+    from bootcourse.episodes.record import record
+
+    if out.exists():
+        raise BootcourseError(f"{out} exists already: choose another name.")
+    label, policy, road = policies_of(who, scenario, False, seed)[0]
+    label = label.rsplit("-", 1)[0] if label not in BUILT_IN else label
+    rollout = record(policy, [seed], road, label)[0]
+    print(rollout.save(out))
+    if png is not None:
+        from bootcourse.plots.drive_figure import save_drive
+
+        print(save_drive(rollout, png))
+
+
+@app.command()
+def replay(
+    files: list[Path] = typer.Argument(..., help="Rollouts of `bootcourse drive`; several of one road are compared."),
+    export: Path | None = typer.Option(None, help="Write one HTML file that plays anywhere, such as out.html."),
+    gif: Path | None = typer.Option(None, help="Write an animation for slides, such as out.gif."),
+    png: Path | None = typer.Option(None, help="Write a picture, such as out.png."),
+    text: bool = typer.Option(False, "--text", help="Print each drive in words."),
+    port: int = typer.Option(0, min=0, max=65535, help="The server's port; 0: any free one."),
+    browser: bool = typer.Option(True, help="Open the browser, or only print the address."),
+) -> None:
+    """Show drives in 3D in the browser, until Ctrl-C, or write them as a file, or in words."""
+    from bootcourse.episodes.rollout import Rollout
+
+    rollouts = [Rollout.load(file) for file in files]
+    if not (export or gif or png or text):
+        from bootcourse.replay3d import viewer
+
+        with viewer.replay(rollouts, port=port) as shown, contextlib.suppress(KeyboardInterrupt):
+            print(f"Replay at {shown.url} (Ctrl-C ends it)", flush=True)
+            if browser:
+                webbrowser.open(shown.url)
+            threading.Event().wait()
+        return
+    from bootcourse.episodes.transcript import in_words
+    from bootcourse.replay3d import pictures, recorder
+
+    for path, write in ((export, recorder.export), (gif, pictures.write_gif), (png, pictures.write_png)):
+        if path is not None:
+            print(f"{write(rollouts, path)} ({path.stat().st_size / 1e6:.1f} MB)")
+    if text:
+        print(in_words(rollouts))
+
+
+# Studies ---------------------------------------------------------------------------------------------
+
+
+@app.command()
+def study(
+    out: Path = typer.Option(..., help="The study's folder: new, or one to go on with."),
+    scenario: str = typer.Option("default", help="default or calibrated; both may share a folder."),
+    seeds: int = typer.Option(10, min=1, help="Training seeds of each method."),
+    episodes: int = typer.Option(2000, min=1, help="Training episodes of each agent."),
+    tests: int = typer.Option(1000, min=1, help="Held-out episodes that each agent is tested on."),
+    only: str = typer.Option("", help="Some methods, such as sac,bootstrapped; planner is the bound."),
+    sensitivity: bool = typer.Option(False, "--sensitivity", help="Vary what the paper leaves open, 3 seeds each."),
+    backend: str = typer.Option("loky", help="loky (this machine), dask or ray."),
+    scheduler: str = typer.Option("", help="The address of a dask or ray cluster that you have."),
+    workers: int = typer.Option(0, min=0, help="Jobs at once; 0: one for each core."),
+    recompute: bool = typer.Option(False, "--recompute", help="Compute damaged jobs again."),
+) -> None:
+    """Train and test every method with many seeds; write tables, figures and the fidelity report."""
+    from bootcourse.scenario import named
+    from bootcourse.study import plan
+    from bootcourse.study.report import write_report
+    from bootcourse.study.results import in_study
+
+    road, methods = named(scenario), plan.methods_named(only)
+    if sensitivity and (only or scenario != "default"):
+        raise BootcourseError("--sensitivity has its own methods and scenarios: leave --only and --scenario away.")
+    if sensitivity:
+        wanted = plan.sensitivity_jobs(min(seeds, SENSITIVITY_SEEDS), episodes, tests)
+    else:
+        wanted = plan.study_jobs(methods, seeds, episodes, road, tests)
+    status = compute(wanted, out, backend=backend, scheduler=scheduler, workers=workers, recompute=recompute)
+    found = in_study(out)
+    if found.results:
+        print(write_report(found, out))
+    raise typer.Exit(status)
+
+
+@app.command()
+def sweep(
+    out: Path = typer.Option(..., help="The folder: new, a study's, or one to go on with."),
+    seeds: int = typer.Option(4, min=1, help="Training seeds of each setting."),
+    episodes: int = typer.Option(1500, min=1, help="Training episodes of each agent."),
+    tests: int = typer.Option(1000, min=1, help="Held-out episodes that each agent is tested on."),
+    backend: str = typer.Option("loky", help="loky (this machine), dask or ray."),
+    scheduler: str = typer.Option("", help="The address of a dask or ray cluster that you have."),
+    workers: int = typer.Option(0, min=0, help="Jobs at once; 0: one for each core."),
+    recompute: bool = typer.Option(False, "--recompute", help="Compute damaged jobs again."),
+) -> None:
+    """Train the paper's method with many settings of p, ξ and c; write one file of results."""
+    from bootcourse.files import provenance
+    from bootcourse.study.plan import sweep_jobs
+    from bootcourse.study.results import load_jobs, save_results
+    from bootcourse.study.sweep import sweep_table
+
+    wanted = sweep_jobs(seeds, episodes, tests)
+    status = compute(wanted, out, backend=backend, scheduler=scheduler, workers=workers, recompute=recompute)
+    if status == 0:
+        found = load_jobs(out, "sweep")
+        made = provenance(command=f"bootcourse sweep --seeds {seeds} --episodes {episodes}")
+        save_results(found, out / "sweep.npz", made)
+        print(sweep_table(found))
+        print(out / "sweep.npz")
+    raise typer.Exit(status)
+
+
+def compute(wanted: list, out: Path, **how) -> int:
+    """Compute the jobs that are missing; says what went wrong and how to go on. Returns the exit status."""
+    from bootcourse.study.runner import run_jobs
+
+    started = time.monotonic()
+    try:
+        problems = run_jobs(wanted, out, **how)
+    except KeyboardInterrupt:
+        print("Interrupted: start the same command again to go on. What is done is kept.", file=sys.stderr)
+        return INTERRUPTED
+    minutes = (time.monotonic() - started) / 60
+    print(f"{len(wanted) - len(problems)} of {len(wanted)} jobs are done, after {minutes:.1f} minutes.")
+    for problem in problems:
+        print(problem)
+    if problems:
+        print("Start the same command again to go on: what is done is kept.")
+    return 1 if problems else 0
+
+
+@app.command()
+def assets(
+    what: str = typer.Argument(..., help="verify: check the shipped files. build: make them from a study's folder."),
+    study: Path | None = typer.Option(None, help="The study's folder, for build."),
+) -> None:
+    """Check what ships with the course, or make it again."""
+    from bootcourse.storage import assets
+
+    if what not in ("verify", "build"):
+        raise BootcourseError(f"Action {did_you_mean(what, ('verify', 'build'))}.")
+    if what == "build":
+        if study is None:
+            raise BootcourseError(
+                "build needs --study DIR, a folder that `bootcourse study` and `bootcourse sweep` wrote."
+            )
+        from bootcourse.study.ship import build
+
+        build(study)
+    raise typer.Exit(assets.report())

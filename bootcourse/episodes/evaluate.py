@@ -1,0 +1,101 @@
+"""Held-out episodes: how well a driver drives, with 95 % intervals."""
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+
+import numpy as np
+from gymnasium.vector import AutoresetMode
+from scipy import stats
+
+from bootcourse.errors import BootcourseError
+from bootcourse.policies import Policy
+from bootcourse.road.state import Accident
+from bootcourse.road.vector_env import TrapVectorEnv
+from bootcourse.scenario import DEFAULT, Scenario
+from bootcourse.statistics import Estimate, mean, rate
+
+BLOCK = 1_000_000  # held-out roads of evaluation seed s are s x BLOCK, s x BLOCK + 1, ...
+MAX_SEED = 2**32 // BLOCK - 1  # training roads lie above 2**32: nothing is ever tested where it was trained
+
+
+@dataclass(frozen=True)
+class Episodes:
+    """What happened in each episode; every array is (episodes,)."""
+
+    success: np.ndarray  # bool: ahead of trap 1 at the end
+    returns: np.ndarray  # sum of rewards
+    speed: np.ndarray  # m/s, distance over time
+    distance: np.ndarray  # m
+    accident: np.ndarray  # int, an Accident's number
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """The columns of the paper's tables, with its "collision rate" taken apart."""
+
+    episodes: int
+    success: Estimate
+    returns: Estimate
+    speed: Estimate  # m/s
+    distance: Estimate  # m
+    collision: Estimate
+    road_departure: Estimate
+    stoppage: Estimate
+
+    def to_dict(self) -> dict:
+        return {
+            name: value._asdict() if isinstance(value, Estimate) else value
+            for name, value in ((name, getattr(self, name)) for name in asdict(self))
+        }
+
+
+def held_out_seeds(seed: int, episodes: int) -> range:
+    """The roads of an evaluation. Raises BootcourseError for a seed or number that would leave its block."""
+    if not 0 <= seed <= MAX_SEED:
+        raise BootcourseError(f"seed = {seed}: give a whole number from 0 to {MAX_SEED}.")
+    if not 1 <= episodes <= BLOCK:
+        raise BootcourseError(f"episodes = {episodes}: give a whole number from 1 to {BLOCK}.")
+    return range(seed * BLOCK, seed * BLOCK + episodes)
+
+
+def drive_episodes(
+    driver: Policy, seeds: Sequence[int], scenario: Scenario = DEFAULT, together: int = 1000
+) -> Episodes:
+    """One episode on the road of each seed, on the compiled road, `together` at a time."""
+    parts = [_drive(driver, list(seeds[i : i + together]), scenario) for i in range(0, len(seeds), together)]
+    return Episodes(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))
+
+
+def _drive(driver: Policy, seeds: list[int], scenario: Scenario) -> tuple[np.ndarray, ...]:
+    env = TrapVectorEnv(len(seeds), scenario, AutoresetMode.DISABLED)
+    observations, infos = env.reset(seed=seeds)
+    returns, accident = np.zeros(len(seeds)), np.zeros(len(seeds), dtype=np.int64)
+    while not env.asleep.all():
+        observations, rewards, _, _, infos = env.step(driver(observations, env.cars).actions)
+        returns += rewards
+        accident = np.maximum(accident, infos["accident"])
+    seconds = env.decisions / scenario.clock.decision_rate
+    return infos["is_success"], returns, infos["distance"] / seconds, infos["distance"], accident
+
+
+def summarise(episodes: Episodes) -> Evaluation:
+    """The summary of some episodes."""
+    return Evaluation(
+        episodes=len(episodes.success),
+        success=rate(episodes.success),
+        returns=mean(episodes.returns),
+        speed=mean(episodes.speed),
+        distance=mean(episodes.distance),
+        collision=rate(episodes.accident == Accident.COLLISION),
+        road_departure=rate(episodes.accident == Accident.ROAD_DEPARTURE),
+        stoppage=rate(episodes.accident == Accident.STOPPAGE),
+    )
+
+
+def over_seeds(reports: Sequence[Evaluation]) -> dict[str, Estimate]:
+    """Mean over training seeds of each column, with the percentile bootstrap interval over the seeds' own values."""
+    names = [name for name in asdict(reports[0]) if name != "episodes"]
+    values = np.array([[getattr(report, name).value for name in names] for report in reports])
+    spread = stats.bootstrap((values,), np.mean, axis=0, method="percentile", rng=np.random.default_rng(0))
+    low, high = spread.confidence_interval
+    return {name: Estimate(*map(float, column)) for name, *column in zip(names, values.mean(0), low, high, strict=True)}

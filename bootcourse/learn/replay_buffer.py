@@ -1,0 +1,84 @@
+"""What agents remember: one table of transitions for the demonstrations and for every agent's driving.
+
+A row holds s, s', a, r, terminated, μ(s) and μ(s'): the rule's actions are what the KL needs, and
+cannot be found again from an observation.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from bootcourse.errors import BootcourseError
+
+
+class Batch(NamedTuple):
+    """One batch for every agent."""
+
+    states: Tensor  # (agents, batch, observation)
+    next_states: Tensor  # (agents, batch, observation)
+    actions: Tensor  # (agents, batch) int64
+    rewards: Tensor  # (agents, batch)
+    terminated: Tensor  # (agents, batch) 0 or 1; running out of time is 0
+    rule_actions: Tensor  # (agents, batch) int64, μ(s)
+    next_rule_actions: Tensor  # (agents, batch) int64, μ(s')
+    is_demonstration: Tensor  # (agents, batch) 0 or 1
+
+
+class ReplayBuffer:
+    """The last `buffer_size` transitions of each agent, and demonstrations that all agents share.
+
+    demonstrations: rows made by `encode_transitions`, (n, row), or None.
+    """
+
+    def __init__(self, agents: int, buffer_size: int, observation_size: int, demonstrations: Tensor | None = None):
+        self.agents, self.buffer_size, self.observation_size = agents, buffer_size, observation_size
+        self.demonstrations = 0 if demonstrations is None else len(demonstrations)
+        self.table = torch.zeros(self.demonstrations + agents * buffer_size, 2 * observation_size + 5)
+        if demonstrations is not None:
+            self.table[: self.demonstrations] = demonstrations
+        self.first = self.demonstrations + np.arange(agents) * buffer_size  # each agent's first row
+        self.size = 0  # rows filled; the same for every agent, since all decide together
+        self.next = 0
+
+    def add(self, rows: Tensor) -> None:
+        """Remember rows made by `encode_transitions`, (agents, roads, row)."""
+        roads = rows.shape[1]
+        where = self.first[:, None] + (self.next + np.arange(roads)) % self.buffer_size
+        self.table[torch.from_numpy(where.ravel())] = rows.reshape(self.agents * roads, -1)
+        self.next = (self.next + roads) % self.buffer_size
+        self.size = min(self.size + roads, self.buffer_size)
+
+    def sample(self, batch: int, beta: np.ndarray, generators: list[np.random.Generator]) -> Batch:
+        """Draw a batch for each agent: the share beta (agents,) from the demonstrations, the rest from its own."""
+        share = np.rint(beta * batch).astype(np.int64)
+        if share.any() and not self.demonstrations:
+            raise BootcourseError("beta is above 0 but there are no demonstrations: collect some, or set beta to 0.")
+        draws = np.stack([generator.random(batch) for generator in generators])
+        is_demonstration = np.arange(batch) < share[:, None]
+        own = self.first[:, None] + (draws * self.size).astype(np.int64)
+        rows = np.where(is_demonstration, (draws * self.demonstrations).astype(np.int64), own)
+        picked = self.table.index_select(0, torch.from_numpy(rows.ravel())).view(self.agents, batch, -1)
+        return decode_transitions(picked, self.observation_size, torch.from_numpy(is_demonstration).float())
+
+
+def encode_transitions(states, next_states, actions, rewards, terminated, rule_actions, next_rule_actions) -> Tensor:
+    """Rows for a `ReplayBuffer`: arrays (..., observation) and (...) -> (..., row) float32."""
+    numbers = np.stack([actions, rewards, terminated, rule_actions, next_rule_actions], axis=-1)
+    return torch.from_numpy(np.concatenate([states, next_states, numbers], axis=-1).astype(np.float32))
+
+
+def decode_transitions(rows: Tensor, observation_size: int, is_demonstration: Tensor) -> Batch:
+    n = observation_size
+    actions, rule_actions, next_rule_actions = rows[..., [2 * n, 2 * n + 3, 2 * n + 4]].long().unbind(-1)
+    return Batch(
+        rows[..., :n],
+        rows[..., n : 2 * n],
+        actions,
+        rows[..., 2 * n + 1],
+        rows[..., 2 * n + 2],
+        rule_actions,
+        next_rule_actions,
+        is_demonstration,
+    )

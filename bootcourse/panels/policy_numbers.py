@@ -1,0 +1,63 @@
+"""One state as the soft constraint sees it: π, π̃, the best compromise of the two, and the KL between them.
+
+Numbers only: `policy_view.py` draws them, `policy.py` lets you move them. π̃ is the paper's stochastic rule and
+ξ the weight of its KL (Section IV-A); the formulas stand in `bootcourse.learn.bootstrap`.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+
+from bootcourse.errors import BootcourseError
+from bootcourse.learn import bootstrap
+from bootcourse.rule import stochastic_rule
+from bootcourse.scenario import N_ACTIONS, check_p
+
+
+@dataclass(frozen=True)
+class PolicyNumbers:
+    """The nine actions in one state, each (9,); None where the drive did not record what it needs."""
+
+    rule: np.ndarray  # π̃(a|s)
+    price: np.ndarray  # -log π̃(a|s), nats: what going there costs
+    policy: np.ndarray | None  # π(a|s)
+    shares: np.ndarray | None  # π log(π/π̃), nats: they add up to
+    kl: float | None  # KL(π ‖ π̃), nats
+    q: np.ndarray | None  # Q(s,a)
+    worth: np.ndarray | None  # Q - ξ price, of which
+    optimum: np.ndarray | None  # is the softmax, at temperature α + ξ
+
+
+def check_weights(xi: float, alpha: float) -> None:
+    """Refuse a ξ below 0 and an α that is not above 0."""
+    for symbol, value, fine in (("ξ", xi, xi >= 0), ("α", alpha, alpha > 0)):
+        if not (fine and math.isfinite(value)):
+            raise BootcourseError(
+                f"{symbol} = {value!r}: give a finite number, {symbol} {'≥' * (symbol == 'ξ') or '>'} 0."
+            )
+
+
+def policy_numbers(
+    policy: np.ndarray | None, q: np.ndarray | None, rule_action: int, p: float, xi: float, alpha: float
+) -> PolicyNumbers:
+    """What the soft constraint makes of one state: policy and q (9,) or None, rule_action μ(s) in 0..8.
+
+    Raises BootcourseError for a p outside [1/9, 1), a ξ below 0, or an α that is not above 0.
+    """
+    check_p(p)
+    check_weights(xi, alpha)
+    log_rule = bootstrap.log_stochastic_rule(torch.tensor([rule_action]), torch.tensor(p, dtype=torch.float64))
+    price = -log_rule[0].numpy()
+    shares = worth = optimum = None
+    if policy is not None:
+        shares = np.zeros(N_ACTIONS)
+        likely = policy > 0
+        shares[likely] = policy[likely] * (np.log(policy[likely]) + price[likely])
+    if q is not None:
+        worth = q - xi * price
+        values = torch.from_numpy(np.asarray(q, dtype=np.float64))
+        optimum = bootstrap.regularised_policy(values[None], log_rule, alpha, xi)[0].numpy()
+    kl = None if shares is None else float(shares.sum())
+    return PolicyNumbers(stochastic_rule(rule_action, p), price, policy, shares, kl, q, worth, optimum)

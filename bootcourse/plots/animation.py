@@ -1,0 +1,126 @@
+"""A drive as a moving picture: a small GIF for a README or a slide.
+
+The camera keeps the ego and trap 1 in view, half-way between them, so that you see the one fall back
+and come again. Between two simulation steps every car moves in a straight line.
+"""
+
+import io
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from PIL import Image
+
+from bootcourse.colours import ALARM, style
+from bootcourse.episodes.rollout import Rollout
+from bootcourse.errors import BootcourseError
+from bootcourse.files import write_bytes
+from bootcourse.plots.figure import INK, QUIET, WIDTH, name, new_figure, sentence
+from bootcourse.plots.top_view import cars_at, doing, draw_moment, outcome, overtaken
+from bootcourse.road.state import EGO, SPEED, TRAP_1, X
+
+SPEED_UP = 3.0  # the clip is so many times faster than the road
+FRAME = 0.07  # s of clip that a frame is shown
+REST = 2.5  # s of clip that the last frame is shown
+VIEW = 86.0  # m of road in the picture
+AFTER = 6.0  # s that the clip goes on after the last overtaking
+COLOURS = 96  # in the palette that all frames share
+
+
+def frame(rollouts: Sequence[Rollout], time: float) -> Figure:
+    """The rollouts below each other at a time (s); one that is over stays as it ended."""
+    side = 0.12
+    width = WIDTH - 2 * side
+    road = rollouts[0].scenario.road
+    row, head, foot = (road.lanes * road.lane_width + 0.8) * width / VIEW, 0.33, 0.12
+    total = len(rollouts) * (row + head) + foot
+    figure = new_figure(total)
+    for i, rollout in enumerate(rollouts):
+        now = min(time, float(rollout.times[-1]))
+        cars = cars_at(rollout, now)
+        bottom = total - (i + 1) * (row + head)
+        ax = figure.add_axes((side / WIDTH, bottom / total, width / WIDTH, row / total))
+        ax.set_axis_off()
+        middle = (cars[EGO, X] + cars[TRAP_1, X]) / 2
+        draw_moment(ax, rollout, now, -VIEW / 2, VIEW / 2, origin=middle)
+        over = rollout.accident and now == rollout.times[-1]
+        write = {"y": (bottom + row + 0.1) / total, "va": "baseline"}
+        driver = sentence(name(rollout.label))
+        figure.text(
+            side / WIDTH, s=driver, fontsize=10.5, fontweight="bold", color=style(rollout.label).colour, **write
+        )
+        figure.text(0.37, s=doing(rollout, now), fontsize=9, color=ALARM if over else INK, **write)
+        figure.text(0.76, s=f"{cars[EGO, SPEED]:.1f} m/s", fontsize=9, color=QUIET, ha="right", **write)
+        figure.text(
+            1 - side / WIDTH, s=f"{now:.0f} s", fontsize=10.5, fontweight="bold", color=INK, ha="right", **write
+        )
+    figure.alt = alt(rollouts)
+    return figure
+
+
+def alt(rollouts: Sequence[Rollout]) -> str:
+    """What somebody who cannot see the clip should know."""
+    told = "; ".join(f"{name(rollout.label)}: {outcome(rollout)}" for rollout in rollouts)
+    return f"The road from above, the same start for every driver. {sentence(told)}."
+
+
+def frame_times(rollouts: Sequence[Rollout], until: float | None = None) -> list[float]:
+    """The moments (s) of the frames: to the end of the last overtaking, or of the drive."""
+    end = max(float(rollout.times[-1]) for rollout in rollouts)
+    if until is None:
+        passed = [overtaken(rollout) for rollout in rollouts if overtaken(rollout) is not None]
+        until = max(passed) + AFTER if passed else min(end, 20.0)
+    if not until > 0:
+        raise BootcourseError(f"until = {until}: give a number of seconds above 0.")
+    return list(np.arange(0.0, min(until, end) + 1e-9, SPEED_UP * FRAME))
+
+
+def _pictures(rollouts: Sequence[Rollout], times: Sequence[float]) -> Iterator[Image.Image]:
+    for time in times:
+        canvas = FigureCanvasAgg(frame(rollouts, time))
+        canvas.draw()
+        yield Image.fromarray(np.asarray(canvas.buffer_rgba())[..., :3])
+
+
+def _palette(pictures: list[Image.Image]) -> Image.Image:
+    """One palette for all frames, so that what stands still keeps its colour and is stored once."""
+    some = [pictures[i] for i in np.unique(np.linspace(0, len(pictures) - 1, 6).astype(int))]
+    sheet = Image.new("RGB", (some[0].width, some[0].height * len(some)))
+    for i, picture in enumerate(some):
+        sheet.paste(picture, (0, i * picture.height))
+    palette = sheet.quantize(COLOURS, Image.Quantize.MEDIANCUT)
+    colours = np.array(palette.getpalette()).reshape(-1, 3)
+    colours[colours.min(1) > 247] = 255  # the paper stays white
+    palette.putpalette(colours.ravel().tolist())
+    return palette
+
+
+def animate(rollouts: Rollout | Sequence[Rollout], path: Path, until: float | None = None) -> Path:
+    """Write a GIF of one drive, or of several below each other, up to `until` seconds. Returns the path.
+
+    until: None for some seconds after the last overtaking. The same drives give the same bytes.
+    Raises BootcourseError if there is no drive, or no second.
+    """
+    drives = [rollouts] if isinstance(rollouts, Rollout) else list(rollouts)
+    if not drives:
+        raise BootcourseError("There is no drive to animate: give a rollout, or a list of them.")
+    pictures = list(_pictures(drives, frame_times(drives, until)))
+    palette = _palette(pictures)
+    frames = [picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture in pictures]
+    durations = [round(1000 * FRAME)] * (len(frames) - 1) + [round(1000 * REST)]
+    buffer = io.BytesIO()
+    frames[0].save(
+        buffer,
+        "GIF",
+        save_all=True,
+        append_images=frames[1:],
+        duration=durations,
+        loop=0,
+        disposal=1,
+        optimize=False,
+        comment=alt(drives).encode(),
+    )
+    write_bytes(path, buffer.getvalue())
+    return Path(path)

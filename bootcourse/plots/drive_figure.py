@@ -1,0 +1,28 @@
+"""A drive on one page: the road at its key moments, and its traces below."""
+
+import io
+from pathlib import Path
+
+from PIL import Image, PngImagePlugin
+
+from bootcourse.episodes.rollout import Rollout
+from bootcourse.files import write_bytes
+from bootcourse.plots.figure import DPI, png
+from bootcourse.plots.top_view import top_view_over_time
+from bootcourse.plots.traces import traces
+
+
+def save_drive(rollout: Rollout, path: Path) -> Path:
+    """A drive on one page, as PNG: the road at its key moments, and its traces. Returns the path."""
+    figures = [top_view_over_time(rollout), traces(rollout, title="The same drive over time")]
+    pages = [Image.open(io.BytesIO(png(figure))).convert("RGB") for figure in figures]
+    whole = Image.new("RGB", (max(page.width for page in pages), sum(page.height for page in pages)), "white")
+    top = 0
+    for page in pages:
+        whole.paste(page, (0, top))
+        top += page.height
+    description, buffer = PngImagePlugin.PngInfo(), io.BytesIO()
+    description.add_text("Description", " ".join(figure.alt for figure in figures))
+    whole.save(buffer, "PNG", pnginfo=description, dpi=(DPI, DPI), optimize=True)
+    write_bytes(path, buffer.getvalue())
+    return Path(path)

@@ -1,0 +1,206 @@
+"""What every figure shares: its paper, ink and letters, its alt text, and how it is shown and saved.
+
+A figure is a `matplotlib.figure.Figure` made without pyplot, so nothing is shown twice and nothing
+stays in memory. `finish` gives it a title and `figure.alt`: the sentences for those who cannot see it.
+"""
+
+import base64
+import html
+import io
+import textwrap
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from bootcourse.colours import METHODS, Style, style
+from bootcourse.errors import BootcourseError
+from bootcourse.files import write_bytes
+
+DPI = 110
+WIDTH = 7.0  # inches
+INK, QUIET, GRID = "#1F2933", "#5F6B77", "#E3E7EB"  # words and axes; less important words; grid lines
+TITLE, TEXT, SMALL = 11.5, 8.5, 7.5  # points
+
+NAMES = {
+    "sac": "plain SAC",
+    "bootstrapped": "bootstrapped SAC",
+    "soft": "soft constraint only",
+    "demos": "demonstrations only",
+    "margin": "large margin",
+    "margin_soft": "large margin and KL",
+    "rule": "rule controller",
+    "bc": "behaviour cloning",
+    "cql": "CQL",
+    "cql_sac": "CQL with an actor",
+    "gail": "GAIL",
+    "planner": "planner",
+    "idle": "idle driver",
+    "random": "random driver",
+}
+
+
+def name(label: str) -> str:
+    """How a drive or a method is called in a figure: "sac, seed 3" -> "plain SAC, seed 3"."""
+    first, comma, rest = label.partition(",")
+    return NAMES.get(first.strip().lower(), first.strip()) + comma + rest
+
+
+def sentence(words: str) -> str:
+    """With a capital letter, and otherwise as it is (SAC stays SAC)."""
+    return words[:1].upper() + words[1:]
+
+
+def styles(labels: list[str]) -> list[Style]:
+    """The style of each label; two labels that would look the same get different lines."""
+    chosen, taken = [], {}
+    for label in labels:
+        own = style(label)
+        others = [line for line in ("-", "--", "-.", ":") if line != own.line]
+        lines = [own.line, *others]
+        used = taken.setdefault(own.colour, {})
+        if label not in used:
+            used[label] = lines[len(used) % len(lines)]
+        chosen.append(own._replace(line=used[label]))
+    return chosen
+
+
+def in_front(label: str) -> float:
+    """The drawing order of a method: the paper's own comes last."""
+    return 3.0 if style(label) == METHODS["bootstrapped"] else 2.5
+
+
+def new_figure(height: float = 4.0, width: float = WIDTH, **more) -> Figure:
+    """An empty figure; inches."""
+    return Figure(figsize=(width, height), dpi=DPI, facecolor="white", **more)
+
+
+def finish(figure: Figure, title: str, alt: str) -> Figure:
+    """Write the title at the top left and attach the alt text."""
+    title = wrapped(title)
+    top = 1 - 0.1 / figure.get_figheight()
+    figure.suptitle(title, x=0.012, y=top, ha="left", va="top", fontsize=TITLE, fontweight="bold", color=INK)
+    figure.alt = f"{title}{'' if title.endswith(('.', '!', '?')) else '.'} {alt}".replace("\n", " ")
+    return figure
+
+
+def wrapped(title: str, longest: int = 74) -> str:
+    """A title that is too long for one line gets two, of about the same length."""
+    if len(title) <= longest or "\n" in title:
+        return title
+    spaces = [i for i, letter in enumerate(title) if letter == " "]
+    middle = min(spaces, key=lambda i: abs(i - len(title) / 2), default=0)
+    return title[:middle] + "\n" + title[middle + 1 :] if middle else title
+
+
+def plain_axes(ax, label: str, grid: str = "y") -> None:
+    """Thin axes with their label written above, where it can be read without turning the head."""
+    for side in ("top", "right", "left"):
+        ax.spines[side].set_visible(False)
+    ax.spines["bottom"].set_color(GRID)
+    ax.tick_params(labelsize=SMALL, labelcolor=QUIET, color=GRID, length=3)
+    ax.tick_params(axis="y", length=0)
+    if grid:
+        ax.grid(axis=grid, color=GRID, linewidth=0.7)
+    ax.set_axisbelow(True)
+    ax.set_ylabel(label, rotation=0, ha="left", va="bottom", fontsize=TEXT, color=INK)
+    ax.yaxis.set_label_coords(0.0, 1.03)
+
+
+def label_ends(ax, ends: list[tuple[float, str, str]], size: float = TEXT, wrap: int = 20, gap: float = 0.015) -> None:
+    """Direct labels: write each (y, text, colour) to the right of the axes, moved apart where they meet.
+
+    The axes must have their final limits and position.
+    """
+    if not ends:
+        return
+    figure = ax.get_figure(root=True)
+    pixels = ax.get_window_extent().height
+    rows = [textwrap.fill(text, wrap) for _, text, _ in ends]
+    heights = np.array([(text.count("\n") + 1) * size * 1.25 * figure.dpi / 72 / pixels for text in rows])
+    low, high = ax.get_ylim()
+    wanted = np.clip([(y - low) / (high - low) for y, _, _ in ends], 0, 1)
+    places = _apart(wanted, heights)
+    for place, text, (_, _, colour) in zip(places, rows, ends, strict=True):
+        ax.text(
+            1 + gap,
+            place,
+            text,
+            transform=ax.transAxes,
+            color=colour,
+            fontsize=size,
+            va="center",
+            ha="left",
+            linespacing=1.1,
+        )
+
+
+def _apart(wanted: np.ndarray, heights: np.ndarray) -> np.ndarray:
+    """Places as near to the wanted ones as labels of these heights allow, all in the same order."""
+    order = np.argsort(wanted, kind="stable")
+    places = wanted.astype(float).copy()
+    for _ in range(200):
+        moved = False
+        for below, above in zip(order[:-1], order[1:], strict=True):
+            missing = (heights[below] + heights[above]) / 2 - (places[above] - places[below])
+            if missing > 1e-6:
+                places[below] -= missing / 2
+                places[above] += missing / 2
+                moved = True
+        if not moved:
+            break
+    return places
+
+
+def png(figure: Figure) -> bytes:
+    """The figure as a PNG whose description is its alt text."""
+    buffer = io.BytesIO()
+    figure.savefig(buffer, format="png", metadata={"Description": figure.alt, "Software": "bootcourse"})
+    return buffer.getvalue()
+
+
+def save(figure: Figure, path: Path) -> Path:
+    """Write the figure, all or nothing: .png, .pdf or .svg by its name. Returns the path.
+
+    Raises BootcourseError for another name, or if the disk refuses.
+    """
+    path = Path(path)
+    if path.suffix.lower() not in (".png", ".pdf", ".svg"):
+        raise BootcourseError(f"{path.name}: a figure is saved as a picture, name it .png, .pdf or .svg.")
+    if path.suffix.lower() == ".png":
+        data = png(figure)
+    else:
+        buffer = io.BytesIO()
+        figure.savefig(buffer, format=path.suffix.lstrip(".").lower())
+        data = buffer.getvalue()
+    write_bytes(path, data)
+    return path
+
+
+class Picture:
+    """A figure as a notebook displays it: an <img> with its alt text.
+
+    JupyterLab drops the alt text of a plain PNG output (nbconvert keeps it), and both leave an HTML
+    output's <img alt="..."> as it is. So the output is HTML, the PNG inside it; where there are no
+    pictures at all, in a terminal or a diff, the alt text stands alone.
+    """
+
+    def __init__(self, figure: Figure):
+        self.figure = figure
+
+    def _repr_mimebundle_(self, include=None, exclude=None) -> dict[str, str]:
+        data = base64.b64encode(png(self.figure)).decode()
+        width = round(self.figure.get_figwidth() * DPI)
+        alt = html.escape(self.figure.alt, quote=True)
+        img = f'<img src="data:image/png;base64,{data}" width="{width}" style="max-width: 100%" alt="{alt}">'
+        return {"text/html": img, "text/plain": self.figure.alt}
+
+    def __repr__(self) -> str:
+        return self.figure.alt
+
+
+def show(figure: Figure) -> None:
+    """Display a figure in a notebook, with its alt text (see `Picture`), anywhere in a cell."""
+    from IPython.display import display
+
+    display(Picture(figure))

@@ -1,0 +1,313 @@
+"""The road from above: at one moment, and at several moments below each other.
+
+Everything is drawn in metres and to scale. In `top_view` and `top_view_over_time` the ego stands at
+0 and the road moves past it; what is too far away to be drawn is named at the edge.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.collections import LineCollection
+from matplotlib.figure import Figure
+from matplotlib.patches import FancyBboxPatch, Polygon, Rectangle
+from matplotlib.transforms import Affine2D
+
+from bootcourse.colours import ALARM, TRAFFIC, TRAP, style
+from bootcourse.episodes.rollout import Rollout, interpolate_states
+from bootcourse.errors import BootcourseError
+from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, WIDTH, finish, name, new_figure, sentence
+from bootcourse.road.state import EGO, HEADING, LANE, SPEED, TRAP_1, TRAP_2, Accident, X, Y
+from bootcourse.scenario import Scenario
+
+ASPHALT, PAINT, EDGE = "#F1F3F5", "#B6BEC7", "#7C8792"
+DASH, PERIOD = 3.0, 9.0  # m; lane lines are dashes of 3 m, one every 9 m
+NEAR, FAR, SPAN = 16.0, 70.0, 84.0  # m; least behind the ego, most to either side, least in all
+NAME = 9.0  # m of road that the name of a trap takes
+CLEAR = 15.0  # m; so far ahead of trap 1 the escape is over
+TRAIL = 3.0  # s of the ego's own path behind it
+ACCIDENTS = {Accident.COLLISION: "collision", Accident.ROAD_DEPARTURE: "off the road", Accident.STOPPAGE: "stopped"}
+
+
+def cars_at(rollout: Rollout, time: float) -> np.ndarray:
+    """Every car's state at a time (s), between two simulation steps if it is: (vehicles, 10).
+
+    Raises BootcourseError for a time at which this drive was not on the road.
+    """
+    end = rollout.times[-1]
+    if not 0 <= time <= end + 1e-9:
+        raise BootcourseError(f"time = {time} s: this drive lasts {end:g} s, choose a time from 0 to {end:g}.")
+    return interpolate_states(rollout.states, time / rollout.scenario.clock.dt)
+
+
+def overtaken(rollout: Rollout) -> float | None:
+    """When the ego passes trap 1 for the last time (s); None if it never stays ahead."""
+    behind = np.flatnonzero(rollout.states[:, EGO, X] <= rollout.states[:, TRAP_1, X])
+    return float(rollout.times[behind[-1] + 1]) if behind[-1] + 1 < len(rollout.states) else None
+
+
+def doing(rollout: Rollout, time: float) -> str:
+    """What the ego is doing, in two or three words."""
+    if rollout.accident and time > rollout.times[-1] - 1e-9:
+        return ACCIDENTS[Accident(rollout.accident)]
+    now, later = (cars_at(rollout, min(t, rollout.times[-1])) for t in (time, time + 1.0))
+    before = cars_at(rollout, max(time - 0.5, 0.0))
+    sideways = later[EGO, Y] - before[EGO, Y]
+    faster = (now[EGO, SPEED] + later[EGO, SPEED]) / 2 - now[TRAP_1, SPEED]
+    side = "left" if sideways < 0 else "right"
+    if abs(sideways) > 1.0:
+        start, end = (cars_at(rollout, min(max(t, 0.0), rollout.times[-1])) for t in (time - 1.5, time + 1.5))
+        if start[EGO, LANE] != end[EGO, LANE]:
+            return f"changes lane, {side}"
+    if now[EGO, X] > now[TRAP_1, X]:
+        return "ahead of trap 1"
+    if abs(sideways) > 1.0:
+        return f"moves {side}"
+    return "follows" if abs(faster) < 0.3 else ("catches up" if faster > 0 else "falls back")
+
+
+def outcome(rollout: Rollout) -> str:
+    """How the drive ends, as the end of a sentence."""
+    passes, end = overtaken(rollout), rollout.times[-1]
+    crash = f"{ACCIDENTS[Accident(rollout.accident)]} after {end:g} s" if rollout.accident else ""
+    if passes is None:
+        return crash or f"still behind trap 1 after {end:g} s"
+    return f"ahead of trap 1 after {passes:g} s" + (f", {crash}" if crash else "")
+
+
+def draw_road(ax, scenario: Scenario, left: float, right: float, origin: float) -> None:
+    """The empty road from `left` to `right`, metres from `origin`, which is a place on the road (m)."""
+    width, lanes = scenario.road.lane_width, scenario.road.lanes
+    top, bottom = -width / 2, (lanes - 0.5) * width
+    ax.add_patch(Rectangle((left, top), right - left, bottom - top, facecolor=ASPHALT, edgecolor="none", zorder=0))
+    ax.hlines([top, bottom], left, right, color=EDGE, linewidth=1.3, zorder=1)
+    first = np.floor((origin + left) / PERIOD) * PERIOD - origin
+    starts = np.arange(first, right, PERIOD)
+    dashes = [
+        [(max(x, left), y), (min(x + DASH, right), y)]
+        for y in (np.arange(1, lanes) - 0.5) * width
+        for x in starts
+        if x + DASH > left
+    ]
+    ax.add_collection(LineCollection(dashes, colors=PAINT, linewidths=1.2, zorder=1))
+    ax.set(xlim=(left, right), ylim=(bottom + 0.4, top - 0.4), aspect="equal")
+
+
+def draw_car(
+    ax, x: float, y: float, heading: float, colour: str, gid: str, scenario: Scenario, zorder: float = 4
+) -> None:
+    """One car, to scale, its windscreen towards its nose; `gid` names the body in tests and SVG files."""
+    length, width = scenario.car.length, scenario.car.width
+    place = Affine2D().rotate(heading).translate(x, y) + ax.transData
+    body = FancyBboxPatch(
+        (-length / 2, -width / 2),
+        length,
+        width,
+        boxstyle=f"round,pad=0,rounding_size={0.22 * width}",
+        facecolor=colour,
+        edgecolor="white",
+        linewidth=0.7,
+        transform=place,
+        zorder=zorder,
+        gid=gid,
+    )
+    screen = np.array([[0.08, -0.36], [0.24, -0.30], [0.24, 0.30], [0.08, 0.36]]) * [length, width]
+    rear = np.array([[-0.34, -0.32], [-0.26, -0.36], [-0.26, 0.36], [-0.34, 0.32]]) * [length, width]
+    ax.add_patch(body)
+    for glass in (screen, rear):
+        ax.add_patch(
+            Polygon(glass, facecolor="white", alpha=0.6, edgecolor="none", transform=place, zorder=zorder + 0.1)
+        )
+    for part in ax.patches[-3:]:
+        part.set_clip_path(ax.patch)
+
+
+def draw_moment(ax, rollout: Rollout, time: float, left: float, right: float, origin: float | None = None) -> None:
+    """The road and its cars at a time; x is in metres from `origin`, a place on the road (None: the ego)."""
+    cars, scenario = cars_at(rollout, time), rollout.scenario
+    origin = cars[EGO, X] if origin is None else origin
+    draw_road(ax, scenario, left, right, origin)
+    half = scenario.car.length / 2
+    colour = style(rollout.label).colour
+    _draw_trail(ax, rollout, time, origin, colour)
+    for i, (x, y, heading) in enumerate(np.column_stack([cars[:, X] - origin, cars[:, Y], cars[:, HEADING]])):
+        if not left - half < x < right + half:
+            continue
+        kind = {EGO: "ego", TRAP_1: "trap 1", TRAP_2: "trap 2"}.get(i, f"traffic {i - TRAP_2}")
+        paint = {EGO: colour, TRAP_1: TRAP, TRAP_2: TRAP}.get(i, TRAFFIC)
+        draw_car(ax, x, y, heading, paint, kind, scenario, 6 if i == EGO else 4)
+    for i, text in ((TRAP_1, "trap 1"), (TRAP_2, "trap 2")):
+        _name_trap(ax, text, cars - [origin, *[0] * (cars.shape[1] - 1)], i, left, right, half)
+    if rollout.accident and time > rollout.times[-1] - 1e-9:
+        x, y = cars[EGO, X] - origin, cars[EGO, Y]
+        ax.plot(x, y, marker="X", markersize=12, color=ALARM, markeredgecolor="white", zorder=8, gid="accident")
+
+
+def _draw_trail(ax, rollout: Rollout, time: float, origin: float, colour: str) -> None:
+    moments = np.arange(max(0.0, time - TRAIL), time + 1e-9, 0.25)
+    if len(moments) > 1:
+        path = np.array([cars_at(rollout, t)[EGO, [X, Y]] for t in moments]) - [origin, 0]
+        ax.plot(*path.T, color=colour, linewidth=2, alpha=0.35, solid_capstyle="round", zorder=2)
+
+
+def _name_trap(ax, text: str, cars: np.ndarray, trap: int, left: float, right: float, half: float) -> None:
+    """The trap's name in front of it, or behind it where there is no room; at the edge, with its
+    distance, where it is out of the picture. cars: x from where the picture's 0 is."""
+    x, y, ahead = cars[trap, X], cars[trap, Y], cars[trap, X] - cars[EGO, X]
+    place = {"va": "center", "fontsize": SMALL, "color": TRAP, "zorder": 7, "clip_on": True}
+    gaps = cars[np.abs(cars[:, Y] - y) < 2.5, X] - x  # to the cars in and close to its lane
+    if x < left + half:
+        ax.text(left + 1, y, f"◂ {text}, {-ahead:.0f} m behind", ha="left", **place)
+    elif x > right - half:
+        ax.text(right - 1, y, f"{text}, {ahead:.0f} m ahead ▸", ha="right", **place)
+    elif x + half + NAME > right or np.any((gaps > 0) & (gaps < 2 * half + NAME)):
+        ax.text(x - half - 0.8, y, text, ha="right", **place)
+    else:
+        ax.text(x + half + 0.8, y, text, ha="left", **place)
+
+
+def window(rollout: Rollout, times: Sequence[float]) -> tuple[float, float]:
+    """The stretch of road (m from the ego) that shows both traps at all these times, or as far as FAR."""
+    ahead = [cars_at(rollout, t)[[TRAP_1, TRAP_2], X] - cars_at(rollout, t)[EGO, X] for t in times]
+    left, right = min(-NEAR, np.min(ahead) - 5), np.max(ahead) + 14
+    left, right = max(left, -FAR), min(right, FAR)
+    return left, max(right, left + SPAN)
+
+
+def top_view(rollout: Rollout, time: float = 0.0, distances: bool = False, title: str | None = None) -> Figure:
+    """The road at one moment (s). distances: measure D1 and D2, centre to centre, as the paper does.
+
+    Raises BootcourseError for a time outside the drive.
+    """
+    cars = cars_at(rollout, time)
+    left, right = window(rollout, [time])
+    width, scenario = WIDTH - 0.75, rollout.scenario
+    road = scenario.road.lanes * scenario.road.lane_width + 0.8
+    below = 6.2 if distances else 0.0  # m of room for the two arrows
+    height = (road + below) * width / (right - left)
+    figure = new_figure(height + 0.86)
+    ax = figure.add_axes((0.6 / WIDTH, 0.46 / (height + 0.86), width / WIDTH, height / (height + 0.86)))
+    draw_moment(ax, rollout, time, left, right)
+    ax.set_ylim(ax.get_ylim()[0] + below, ax.get_ylim()[1])
+    _metres(ax)
+    ax.set_ylabel("lane", fontsize=SMALL, color=QUIET)
+    ax.set_yticks(np.arange(scenario.road.lanes) * scenario.road.lane_width, range(scenario.road.lanes))
+    _name_ego(ax, rollout, cars, left)
+    if distances:
+        _measure(ax, cars, scenario)
+    words = sentence(f"{name(rollout.label)}, at {time:g} s: {doing(rollout, time)}")
+    if distances:
+        words = "The trap: one slow car ahead, another beside it"
+    traps = [
+        f"{text} is {_apart_in_words(cars[i, X] - cars[EGO, X])} in lane {cars[i, LANE]:.0f}"
+        for i, text in ((TRAP_1, "trap 1"), (TRAP_2, "trap 2"))
+    ]
+    ego = f"The ego is in lane {cars[EGO, LANE]:.0f} at {cars[EGO, SPEED]:.1f} m/s"
+    alt = f"The road from above at {time:g} s. {ego}; {', '.join(traps)}."
+    return finish(figure, title or words, alt)
+
+
+def top_view_over_time(rollout: Rollout, times: Sequence[float] | None = None, title: str | None = None) -> Figure:
+    """The road at several moments (s), one below the other, all following the ego.
+
+    times: None for the moments that matter in this drive (`key_moments`). A moment after the end of
+    the drive becomes its end. Raises BootcourseError if there is none, or a negative one.
+    """
+    times = key_moments(rollout) if times is None else _within(rollout, times)
+    left, right = window(rollout, times)
+    margin, scenario = 1.3, rollout.scenario
+    width = WIDTH - margin - 0.15
+    row = (scenario.road.lanes * scenario.road.lane_width + 0.8) * width / (right - left)
+    gap, head, foot = 0.09, 0.42, 0.46
+    total = head + len(times) * (row + gap) + foot
+    figure = new_figure(total)
+    for i, time in enumerate(times):
+        bottom = total - head - (i + 1) * (row + gap)
+        ax = figure.add_axes((margin / WIDTH, bottom / total, width / WIDTH, row / total))
+        draw_moment(ax, rollout, time, left, right)
+        ax.set_yticks([])
+        _metres(ax, last=i == len(times) - 1)
+        cars = cars_at(rollout, time)
+        if i == 0:
+            _name_ego(ax, rollout, cars, left)
+        over = rollout.accident and time > rollout.times[-1] - 1e-9
+        lines = (
+            (0.2, f"{time:.3g} s", {"fontsize": 10.5, "fontweight": "bold", "color": INK}),
+            (0.02, doing(rollout, time), {"fontsize": SMALL, "color": ALARM if over else INK}),
+            (-0.14, f"{cars[EGO, SPEED]:.1f} m/s", {"fontsize": SMALL, "color": QUIET}),
+        )
+        for higher, text, letters in lines:
+            figure.text(0.012, (bottom + row / 2 + higher) / total, text, va="center", **letters)
+    story = "; ".join(f"at {t:.3g} s: {doing(rollout, t)}, {_gap_in_words(rollout, t)}" for t in times)
+    words = sentence(f"{name(rollout.label)}: {outcome(rollout)}")
+    return finish(figure, title or words, f"The road from above at {len(times)} moments. {sentence(story)}.")
+
+
+def key_moments(rollout: Rollout, most: int = 6) -> list[float]:
+    """The moments that tell this drive: its start, each new lane, its farthest back, its passing, its accident.
+
+    Where nothing of the kind happens, moments at even distances. Never more than `most`, 1 s apart or more.
+    """
+    states, times, end = rollout.states, rollout.times, float(rollout.times[-1])
+    passes, ahead = overtaken(rollout), states[:, EGO, X] - states[:, TRAP_1, X]
+    clear = times[ahead > CLEAR]
+    until = float(min(clear[clear >= passes], default=end)) if passes else end
+    moments = [0.0]
+    if rollout.accident and not passes:
+        moments += [max(0.0, end - back) for back in (0, 1, 2, 4)]
+    elif passes:
+        lanes = np.flatnonzero(np.diff(states[:, EGO, LANE])) + 1
+        moments += [until, passes, *times[lanes[times[lanes] < passes]][:2], times[np.argmin(ahead)]]
+    moments += list(np.round(np.linspace(0, until, most if moments[1:] else 4)))
+    kept = []
+    for moment in moments:
+        if len(kept) < most and moment <= end and all(abs(moment - other) >= 1 for other in kept):
+            kept.append(float(moment))
+    return sorted(kept)
+
+
+def _within(rollout: Rollout, times: Sequence[float]) -> list[float]:
+    end = float(rollout.times[-1])
+    if len(times) == 0 or not all(np.isfinite(t) and t >= 0 for t in times):
+        raise BootcourseError(f"times = {list(times)}: give at least one moment, in seconds from 0 to {end:g}.")
+    return sorted({min(float(t), end) for t in times})
+
+
+def _metres(ax, last: bool = True) -> None:
+    for side in ("top", "right", "left", "bottom"):
+        ax.spines[side].set_visible(False)
+    low, high = ax.get_xlim()
+    ax.set_xticks(np.arange(np.ceil(low / 10), np.floor(high / 10) + 1) * 10)
+    ax.tick_params(labelsize=SMALL, labelcolor=QUIET, color=EDGE, length=3 if last else 0, labelbottom=last)
+    ax.tick_params(axis="y", length=0)
+    if last:
+        ax.set_xlabel("distance ahead of the ego (m)", fontsize=TEXT, color=INK)
+
+
+def _name_ego(ax, rollout: Rollout, cars: np.ndarray, left: float) -> None:
+    back = -rollout.scenario.car.length / 2 - 0.8
+    ax.text(
+        back, cars[EGO, Y], "ego", ha="right", va="center", fontsize=SMALL, color=style(rollout.label).colour, zorder=7
+    )
+
+
+def _measure(ax, cars: np.ndarray, scenario: Scenario) -> None:
+    """Two dimension lines below the road, as on a drawing."""
+    bottom = (scenario.road.lanes - 0.5) * scenario.road.lane_width
+    for i, (text, trap) in enumerate((("D1", TRAP_1), ("D2", TRAP_2))):
+        x, y = cars[trap, X] - cars[EGO, X], bottom + 1.9 + 2.6 * i
+        ax.vlines(
+            [0, x], [cars[EGO, Y], cars[trap, Y]], y + 0.7, color=INK, linewidth=0.6, linestyle=(0, (3, 2)), zorder=5
+        )
+        ax.annotate(
+            "", (x, y), (0, y), arrowprops={"arrowstyle": "<|-|>", "color": INK, "lw": 0.9, "shrinkA": 0, "shrinkB": 0}
+        )
+        ax.text(max(x, 0) + 0.9, y, f"{text} = {x:.2f} m", fontsize=TEXT, color=INK, va="center")
+
+
+def _apart_in_words(ahead: float) -> str:
+    return f"{abs(ahead):.1f} m {'ahead' if ahead >= 0 else 'behind'}"
+
+
+def _gap_in_words(rollout: Rollout, time: float) -> str:
+    cars = cars_at(rollout, time)
+    return f"trap 1 {_apart_in_words(cars[TRAP_1, X] - cars[EGO, X])}"

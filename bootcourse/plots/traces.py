@@ -1,0 +1,219 @@
+"""A drive over time: speed, place, reward and actions below each other, for one drive or several."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
+from matplotlib.ticker import FuncFormatter, MaxNLocator
+
+from bootcourse.colours import ALARM, TRAP
+from bootcourse.episodes.rollout import Rollout
+from bootcourse.errors import BootcourseError, did_you_mean
+from bootcourse.plots.figure import (
+    GRID,
+    INK,
+    QUIET,
+    SMALL,
+    TEXT,
+    WIDTH,
+    finish,
+    in_front,
+    label_ends,
+    name,
+    new_figure,
+    plain_axes,
+    sentence,
+    styles,
+    wrapped,
+)
+from bootcourse.plots.top_view import ACCIDENTS, outcome, overtaken
+from bootcourse.road.state import EGO, SPEED, TRAP_1, Accident, X, Y
+
+# What can be drawn: the label above the panel, and the panel's height in inches.
+PANELS = {
+    "speed": ("speed (m/s)", 1.15),
+    "distance": ("distance ahead of trap 1 (m)", 1.15),
+    "lane": ("lane (0 is the leftmost)", 0.75),
+    "reward": ("reward of each decision", 0.95),
+    "return": ("return so far (sum of the rewards)", 1.15),
+    "action": ("actions", 0.56),
+}
+LEFT, RIGHT, HEAD, LINE, FOOT, GAP = 0.75, 1.3, 0.36, 0.2, 0.5, 0.34  # inches; LINE for each line of the title
+FARTHEST = 100.0  # m; beyond it the overtaking would become a dot at the bottom
+
+
+def traces(
+    rollouts: Rollout | Sequence[Rollout],
+    title: str | None = None,
+    until: float | None = None,
+    what: Sequence[str] = tuple(PANELS),
+) -> Figure:
+    """Speed, distance ahead of trap 1, lane, reward, return and actions over time, in the drivers' colours.
+
+    until: draw only up to this second; what: the panels, from `PANELS`. An accident is a red cross.
+    Raises BootcourseError if there is no drive, no panel, or no second to draw.
+    """
+    drives = [rollouts] if isinstance(rollouts, Rollout) else list(rollouts)
+    if not drives:
+        raise BootcourseError("There is no drive to draw: give a rollout, or a list of them.")
+    for panel in what:
+        if panel not in PANELS:
+            raise BootcourseError(f"Panel {did_you_mean(panel, PANELS)}.")
+    end = max(drive.times[-1] for drive in drives)
+    if until is not None and not until > 0:
+        raise BootcourseError(f"until = {until}: give a number of seconds above 0.")
+    until = min(end, until or end)
+
+    panels = [(panel, None) for panel in PANELS if panel in what and panel != "action"]
+    panels += [("action", i) for i in range(len(drives)) if "action" in what]
+    if not panels:
+        raise BootcourseError(f"There is nothing to draw: name one or more of {', '.join(PANELS)}.")
+    names, looks = _names(drives), styles([drive.label for drive in drives])
+    title = wrapped(title or _title(drives, names))
+    heights = [PANELS[panel][1] for panel, _ in panels]
+    head = HEAD + LINE * len(title.splitlines())
+    total = head + sum(heights) + GAP * (len(heights) - 1) + FOOT
+    figure, top = new_figure(total), total - head
+    for k, ((panel, i), height) in enumerate(zip(panels, heights, strict=True)):
+        ax = figure.add_axes((LEFT / WIDTH, (top - height) / total, (WIDTH - LEFT - RIGHT) / WIDTH, height / total))
+        top -= height + GAP
+        label = PANELS[panel][0] if i is None else f"actions: {names[i]}"
+        plain_axes(ax, label)
+        ax.set_xlim(0, until)
+        if i is None:
+            _draw_panel(ax, panel, drives, looks, until)
+        else:
+            _draw_actions(ax, drives[i], looks[i].colour, until)
+            ax.yaxis.label.set_color(looks[i].colour)
+        if k == 0 and i is None:
+            _write_names(ax, panel, drives, names, looks, until)
+        last = k == len(panels) - 1
+        ax.tick_params(axis="x", labelbottom=last)
+        if last:
+            ax.set_xlabel("time (s)", fontsize=TEXT, color=INK)
+    told = []
+    for each, drive in zip(names, drives, strict=True):
+        ends = outcome(drive)
+        told.append(f"{each}: {_numbers(drive)}" if ends in title else f"{each}: {ends}, {_numbers(drive)}")
+    drawn = ", ".join(panel for panel in PANELS if panel in what)
+    alt = f"Over {until:g} s, below each other: {drawn}. Whole drives: {'; '.join(told)}."
+    return finish(figure, title, alt)
+
+
+def _names(drives: list[Rollout]) -> list[str]:
+    """What to call each drive; the same driver on two roads is told apart by the road."""
+    names = [name(drive.label) for drive in drives]
+    several = {each for each in names if names.count(each) > 1}
+    roads = [
+        f"{each}, road {drive.seed}" if each in several else each for each, drive in zip(names, drives, strict=True)
+    ]
+    return [f"{each} ({i + 1})" if roads.count(each) > 1 else each for i, each in enumerate(roads)]
+
+
+def _title(drives: list[Rollout], names: list[str]) -> str:
+    if len(drives) < 3:
+        return "\n".join(sentence(f"{each}: {outcome(drive)}") for each, drive in zip(names, drives, strict=True))
+    passed = sum(overtaken(drive) is not None for drive in drives)
+    return f"{passed} of {len(drives)} drives leave the trap"
+
+
+def _numbers(drive: Rollout) -> str:
+    speed = drive.distance / drive.times[-1]
+    return f"return {drive.rewards.sum():.1f}, {drive.distance:.0f} m at {speed:.1f} m/s"
+
+
+def series(drive: Rollout, panel: str) -> tuple[np.ndarray, np.ndarray]:
+    """What a panel draws of a drive: (seconds, values), both (n,)."""
+    ego, trap = drive.states[:, EGO], drive.states[:, TRAP_1]
+    decided = (np.arange(len(drive.actions)) + 1.0) / drive.scenario.clock.decision_rate
+    decided[-1] = drive.times[-1]
+    if panel == "reward":
+        return np.r_[0.0, decided], np.r_[drive.rewards[:1], drive.rewards]
+    if panel == "return":
+        return np.r_[0.0, decided], np.r_[0.0, np.cumsum(drive.rewards)]
+    values = {
+        "speed": ego[:, SPEED],
+        "distance": ego[:, X] - trap[:, X],
+        "lane": ego[:, Y] / drive.scenario.road.lane_width,
+    }
+    return drive.times, values[panel]
+
+
+def _draw_panel(ax, panel: str, drives: list[Rollout], looks: list, until: float) -> None:
+    for drive, look in zip(drives, looks, strict=True):
+        seconds, values = series(drive, panel)
+        seen = seconds <= until
+        width = 1.1 if panel == "reward" else 1.8
+        ax.plot(
+            seconds[seen],
+            values[seen],
+            color=look.colour,
+            linestyle=look.line,
+            linewidth=width,
+            drawstyle="steps-pre" if panel == "reward" else "default",
+            zorder=in_front(drive.label),
+            gid=f"{panel} of {drive.label}",
+        )
+        if drive.accident and seconds[-1] <= until:
+            _cross(ax, seconds[-1], values[-1], ACCIDENTS[Accident(drive.accident)] if panel == "speed" else "")
+    if panel == "speed":
+        longest = max(drives, key=lambda drive: drive.times[-1])
+        ax.plot(
+            longest.times, longest.states[:, TRAP_1, SPEED], color=TRAP, linewidth=1, linestyle=(0, (4, 3)), zorder=4
+        )
+        ax.margins(y=0.15)
+    elif panel == "distance":
+        low, high = ax.get_ylim()
+        if high > FARTHEST:
+            ax.yaxis.label.set_text(f"{PANELS[panel][0]}, drawn up to {FARTHEST:g} m")
+        ax.set_ylim(low, min(max(high, -low / 3), FARTHEST))
+        ax.axhline(0, color=QUIET, linewidth=1, zorder=2)
+        ax.text(until * 0.006, 0, "overtaken", fontsize=SMALL, color=QUIET, va="bottom", zorder=2.2)
+    elif panel == "lane":
+        lanes = drives[0].scenario.road.lanes
+        ax.set_ylim(lanes - 0.5, -0.5)
+        ax.set_yticks(range(lanes))
+    if panel != "lane":
+        ax.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
+    ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}".replace("-", "−")))
+
+
+def _cross(ax, x: float, y: float, words: str) -> None:
+    ax.plot(
+        x, y, marker="X", markersize=8, color=ALARM, markeredgecolor="white", zorder=5, clip_on=False, gid="accident"
+    )
+    if not words:
+        return
+    side, align = (-7, "right") if x > 0.75 * ax.get_xlim()[1] else (7, "left")
+    text = ax.annotate(
+        words, (x, y), (side, 5), textcoords="offset points", ha=align, fontsize=SMALL, color=ALARM, zorder=5
+    )
+    text.set_path_effects([withStroke(linewidth=2.5, foreground="white")])
+
+
+def _write_names(ax, panel: str, drives: list[Rollout], names: list[str], looks: list, until: float) -> None:
+    ends = [(float(drives[0].states[0, TRAP_1, SPEED]), "the traps", TRAP)] if panel == "speed" else []
+    for drive, each, look in zip(drives, names, looks, strict=True):
+        seconds, values = series(drive, panel)
+        ends.append((float(values[np.searchsorted(seconds, until, side="right") - 1]), each, look.colour))
+    label_ends(ax, ends)
+
+
+def _draw_actions(ax, drive: Rollout, colour: str, until: float) -> None:
+    """Bars from two base lines: accelerate up and brake down; left up and right down."""
+    edges = np.arange(len(drive.actions) + 1) / drive.scenario.clock.decision_rate
+    acceleration, steering = drive.actions // 3 - 1, 1 - drive.actions % 3
+    for base, bars in ((1.15, acceleration), (-1.15, steering)):
+        ax.axhline(base, color=GRID, linewidth=0.8, zorder=1)
+        ax.stairs(base + bars, edges, baseline=base, fill=True, color=colour, linewidth=0, zorder=2)
+    ax.grid(False)
+    ego = drive.scenario.ego
+    ax.set(ylim=(-2.3, 2.3))
+    ax.set_yticks([1.7, 0.6, -0.6, -1.7], ["accelerate", "brake", "left", "right"])
+    ax.tick_params(axis="y", labelsize=6.5)
+    for base, text in (
+        (1.15, f"±{ego.acceleration:g} m/s²"),
+        (-1.15, f"±{np.degrees(ego.steering):.1f}° of steering"),
+    ):
+        ax.text(1.015, base, text, transform=ax.get_yaxis_transform(), fontsize=SMALL, color=QUIET, va="center")

@@ -1,0 +1,119 @@
+"""Statistics: a number with its interval, for episodes and for scores of training seeds. Pure functions.
+
+A seed's score is the mean over its held-out episodes. Intervals come from resampling whole seeds,
+each with all its episodes: the seeds are what differs between two studies, and their scores carry
+the spread of their episodes already (Davison & Hinkley 1997, section 3.8: resampling both levels
+counts it twice). Interquartile mean and probability of improvement as in Agarwal et al. (arXiv
+2108.13264); scipy computes them, as its authors' own library, rliable, has had no release since 2024.
+"""
+
+import warnings
+from typing import NamedTuple
+
+import numpy as np
+from scipy import stats
+
+RESAMPLES = 9999
+ESCAPES = 0.5  # an agent escapes if it succeeds in at least this share of its episodes
+
+
+class Estimate(NamedTuple):
+    """A number with its 95 % interval."""
+
+    value: float
+    low: float
+    high: float
+
+
+def rate(hits: np.ndarray) -> Estimate:
+    """A rate with its exact (Clopper-Pearson) interval: hits (n,) bool."""
+    test = stats.binomtest(int(np.sum(hits)), len(hits))
+    low, high = test.proportion_ci(confidence_level=0.95, method="exact")
+    return Estimate(test.statistic, float(low), float(high))
+
+
+def mean(values: np.ndarray) -> Estimate:
+    """A mean with Student's t interval: values (n,). One value has no interval: NaN."""
+    value = float(np.mean(values))
+    if len(values) < 2:
+        return Estimate(value, float("nan"), float("nan"))
+    half = stats.t.ppf(0.975, len(values) - 1) * stats.sem(values)
+    return Estimate(value, value - float(half), value + float(half))
+
+
+def iqm(scores: np.ndarray, axis: int = -1) -> np.ndarray:
+    """Interquartile mean: the mean of what is left without the lowest and the highest quarter.
+
+    A quarter is rounded down: of 10 scores 6 are left, of 3 or fewer all.
+    """
+    return stats.trim_mean(scores, 0.25, axis=axis)
+
+
+def interval(scores: np.ndarray, statistic=iqm, seed: int = 0) -> Estimate:
+    """A statistic of scores (seeds,) with its 95 % percentile bootstrap interval over seeds.
+
+    One seed has no interval: NaN. Equal scores have an interval of length 0, which says only that
+    these seeds agree: see `escapes` for what ten equal seeds prove.
+    """
+    scores = np.asarray(scores, dtype=np.float64)
+    value = float(statistic(scores, axis=-1))
+    if len(scores) < 2:
+        return Estimate(value, float("nan"), float("nan"))
+    return Estimate(value, *_percentile((scores,), statistic, seed))
+
+
+def improvement(x: np.ndarray, y: np.ndarray, seed: int = 0) -> Estimate:
+    """P(X > Y): how often a random seed of x (m,) scores above a random seed of y (n,); a tie counts half.
+
+    It is the Mann-Whitney statistic U / (m n), with its bootstrap interval over the seeds of both.
+    """
+    x, y = np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
+    value = float(_wins(x, y))
+    if len(x) < 2 or len(y) < 2:
+        return Estimate(value, float("nan"), float("nan"))
+    return Estimate(value, *_percentile((x, y), _wins, seed))
+
+
+def _wins(x: np.ndarray, y: np.ndarray, axis: int = -1) -> np.ndarray:
+    """(..., m) and (..., n) -> (...)."""
+    x, y = x[..., :, None], y[..., None, :]
+    return ((x > y) + 0.5 * (x == y)).mean(axis=(-2, -1))
+
+
+def _percentile(samples: tuple, statistic, seed: int) -> tuple[float, float]:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", stats.DegenerateDataWarning)
+        found = stats.bootstrap(
+            samples, statistic, method="percentile", n_resamples=RESAMPLES, batch=1000, rng=np.random.default_rng(seed)
+        )
+    return float(found.confidence_interval.low), float(found.confidence_interval.high)
+
+
+def escapes(success: np.ndarray) -> Estimate:
+    """The share of agents that escape, with its exact (Clopper-Pearson) interval: success rates (seeds,)."""
+    return rate(np.asarray(success) >= ESCAPES)
+
+
+def band(curves: np.ndarray, seed: int = 0, resamples: int = 1000) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Interquartile mean and 95 % band over seeds at every point: (seeds, points) -> three times (points,).
+
+    The same seeds are drawn at every point, so the band is as smooth as the curves.
+    """
+    curves = np.asarray(curves, dtype=np.float64)
+    middle = iqm(curves, axis=0)
+    if len(curves) < 2:
+        return middle, np.full_like(middle, np.nan), np.full_like(middle, np.nan)
+    draws = np.random.default_rng(seed).integers(len(curves), size=(resamples, len(curves)))
+    low, high = np.percentile(iqm(curves[draws], axis=1), [2.5, 97.5], axis=0)
+    return middle, low, high
+
+
+def rolling_means(values: np.ndarray, window: int, points: int) -> tuple[np.ndarray, np.ndarray]:
+    """Means of the last `window` episodes: (agents, episodes) -> (episode numbers (points,), (agents, points)).
+
+    NaN from an agent's first missing episode on.
+    """
+    episodes = values.shape[1]
+    at = np.unique(np.linspace(min(window, episodes), episodes, points).astype(int))
+    sums = np.cumsum(np.pad(values, ((0, 0), (1, 0))), axis=1)
+    return at, (sums[:, at] - sums[:, np.maximum(at - window, 0)]) / np.minimum(at, window)

@@ -1,0 +1,173 @@
+"""A run: one trained agent in a folder, written whole or not at all, and checked when it is read back.
+
+config.json          settings, scenario, episodes
+weights.safetensors  actor, critics
+curves.npz           one number for each training episode and name (`bootcourse.learn.curves`)
+provenance.json      versions, git commit, seconds, and the hash of the three files above
+"""
+
+import json
+import os
+import shutil
+import subprocess
+import tempfile
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import numpy as np
+import torch
+from safetensors import SafetensorError
+from safetensors.torch import load, save
+
+from bootcourse.errors import BootcourseError
+from bootcourse.files import (
+    provenance,
+    read_arrays,
+    read_bytes,
+    read_json,
+    sha256,
+    write_arrays,
+    write_bytes,
+    write_json,
+)
+from bootcourse.learn.agent import Agent
+from bootcourse.learn.settings import Settings, renamed
+from bootcourse.learn.training import Result, Training
+from bootcourse.scenario import Scenario
+from bootcourse.storage.checkpoint import restore, state_of
+
+FORMAT = "bootcourse run 1"
+HASHED = ("config.json", "weights.safetensors", "curves.npz")
+
+
+@dataclass(frozen=True)
+class Run:
+    """A trained agent with its history."""
+
+    agent: Agent
+    curves: dict[str, np.ndarray]  # each (episodes,)
+    scenario: Scenario
+    provenance: dict
+
+
+def save_runs(result: Result, folder: Path) -> list[Path]:
+    """Write each agent of a training to folder/METHOD-SEED. Raises BootcourseError if one exists already."""
+    folders = [Path(folder) / f"{agent.settings.method}-{agent.settings.seed}" for agent in result.agents]
+    for path in folders:
+        if path.exists():
+            raise BootcourseError(f"{path} exists already: choose another folder, or move it away.")
+    for i, path in enumerate(folders):
+        curves = {name: values[i] for name, values in result.curves.items()}
+        _save_run(path, result.agents[i], curves, result, result.stopped.get(i))
+    return folders
+
+
+def _save_run(path: Path, agent: Agent, curves: dict[str, np.ndarray], result: Result, stopped: int | None) -> None:
+    episodes = len(curves["return"])
+    config = {
+        "format": FORMAT,
+        "settings": asdict(agent.settings),
+        "scenario": json.loads(result.scenario.to_json()),
+        "episodes": episodes,
+        "alpha": agent.alpha,
+    }
+    weights = {f"actor.{i}": tensor for i, tensor in enumerate(agent.actor)}
+    weights |= {f"critics.{i}": tensor for i, tensor in enumerate(agent.critics)}
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        temporary = Path(tempfile.mkdtemp(dir=path.parent, prefix=f".{path.name}."))
+    except OSError as error:
+        raise BootcourseError(f"Cannot write {path}: {error.strerror}. Choose another folder.") from None
+    try:
+        write_json(temporary / "config.json", config)
+        write_bytes(temporary / "weights.safetensors", save(weights))
+        write_arrays(temporary / "curves.npz", curves)
+        made = provenance(
+            seed=agent.settings.seed,
+            seconds=round(result.seconds, 1),
+            agents=len(result.agents),
+            commit=_commit(),
+            stopped_at_decision=stopped,  # where its loss was not a number; None: it drove all its episodes
+            sha256={name: sha256(temporary / name) for name in HASHED},
+        )
+        write_json(temporary / "provenance.json", made)
+        temporary.chmod(0o755)
+        os.rename(temporary, path)
+    except BaseException:
+        shutil.rmtree(temporary, ignore_errors=True)
+        raise
+
+
+def load_run(path: Path) -> Run:
+    """Read a run and check it. Raises BootcourseError naming the file and the remedy."""
+    path = Path(path)
+    if not (path / "provenance.json").is_file():
+        raise BootcourseError(f"{path} is not a run: train one with `bootcourse train --out {path}`.")
+    made = read_json(path / "provenance.json")
+    for name in HASHED:
+        if made.get("sha256", {}).get(name) != sha256(path / name):
+            raise BootcourseError(f"{path / name} is damaged: it differs from what was written. Train this run again.")
+    config = read_json(path / "config.json")
+    if config.get("format") != FORMAT:
+        raise BootcourseError(f"{path} has the format {config.get('format')!r}, this version reads {FORMAT!r}.")
+    settings = Settings(**renamed(config["settings"]))
+    try:
+        weights = load(read_bytes(path / "weights.safetensors"))
+    except SafetensorError:
+        raise BootcourseError(f"{path / 'weights.safetensors'} is damaged: train this run again.") from None
+    layers = 2 * (len(settings.hidden) + 1)
+    try:
+        actor, critics = ([weights[f"{name}.{i}"] for i in range(layers)] for name in ("actor", "critics"))
+    except KeyError as error:
+        raise BootcourseError(f"{path / 'weights.safetensors'} lacks {error}: train this run again.") from None
+    if not all(bool(torch.isfinite(tensor).all()) for tensor in (*actor, *critics)):
+        raise BootcourseError(f"{path / 'weights.safetensors'} holds NaN or infinity: train this run again.")
+    agent = Agent(settings, actor, critics, config["alpha"])
+    return Run(agent, read_arrays(path / "curves.npz"), Scenario.from_json(json.dumps(config["scenario"])), made)
+
+
+def find_runs(folder: Path) -> list[Path]:
+    """The run in a folder, or the runs in its sub-folders, by name. Raises BootcourseError if there is none."""
+    folder = Path(folder)
+    if not folder.is_dir():
+        raise BootcourseError(f"{folder} is not a folder: name one that `bootcourse train --out` wrote.")
+    if (folder / "provenance.json").exists() or (folder / "config.json").exists():
+        return [folder]
+    found = sorted(path.parent for path in folder.glob("[!.]*/config.json"))
+    if not found:
+        raise BootcourseError(f"{folder} holds no run: train one with `bootcourse train --out {folder}`.")
+    return found
+
+
+def save_checkpoint(training: Training, path: Path) -> None:
+    """Write a training in progress to one file, all or nothing."""
+    config = {
+        "format": FORMAT,
+        "settings": [asdict(settings) for settings in training.settings],
+        "episodes": training.episodes,
+        "scenario": json.loads(training.scenario.to_json()),
+    }
+    write_arrays(path, {**state_of(training), "config": np.array(json.dumps(config))}, compress=False)
+
+
+def load_checkpoint(path: Path) -> Training:
+    """Continue from `save_checkpoint`. Raises BootcourseError if the file is missing or damaged."""
+    arrays = read_arrays(path)
+    try:
+        config = json.loads(str(arrays.pop("config")))
+        settings = [Settings(**renamed(stored)) for stored in config["settings"]]
+        scenario = Scenario.from_json(json.dumps(config["scenario"]))
+    except (KeyError, TypeError, json.JSONDecodeError):
+        raise BootcourseError(f"{path} is not a checkpoint of this version: start again in a new folder.") from None
+    training = Training(settings, config["episodes"], scenario)
+    restore(training, arrays)
+    return training
+
+
+def _commit() -> str:
+    """The git commit of the code that runs, "unknown" outside a clone."""
+    command = ["git", "-C", str(Path(__file__).parent), "describe", "--always", "--dirty", "--abbrev=12"]
+    try:
+        return subprocess.run(command, capture_output=True, text=True, timeout=5, check=True).stdout.strip()
+    except (OSError, subprocess.SubprocessError):
+        return "unknown"

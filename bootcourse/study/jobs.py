@@ -1,0 +1,229 @@
+"""A job: the piece of a study that is computed in one go, and never twice.
+
+    DIR/unfinished/NAME   while it is computed: `checkpoint.npz`, from which a killed job goes on
+    DIR/jobs/NAME        when it is done: `results.npz`, `runs/`, and `job.json`, which says what was
+                          asked for, by which code, and the hash of every file
+
+A folder moves from the one place to the other in one step, so what stands in `jobs` is whole.
+"""
+
+import json
+import os
+import shutil
+import time
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import numpy as np
+
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
+from bootcourse.errors import BootcourseError
+from bootcourse.files import provenance, read_json, sha256, write_arrays, write_json
+from bootcourse.learn.settings import Settings
+from bootcourse.learn.training import Result, Training
+from bootcourse.scenario import Scenario
+from bootcourse.storage.runs import load_checkpoint, save_checkpoint, save_runs
+from bootcourse.study.planner import Search, is_staying_optimal, plan_episodes
+from bootcourse.study.sources import sources_hash
+
+FORMAT = "bootcourse job 1"
+HELD_OUT = 1  # the block of held-out roads that every method of every study is tested on
+SECONDS_BETWEEN = 60.0  # of checkpoints
+PARENT = os.getppid()  # noted at once: a worker may be busy compiling when the process that started it dies
+ROAD = ("scenario", "policies", "rule", "road", "episodes/evaluate")  # the code that decides any result,
+LEARN, PLAN = (*ROAD, "learn"), (*ROAD, "study/planner")  # an agent's, the planner's
+
+
+class Interrupted(Exception):
+    """Somebody stopped the study; the job left a checkpoint."""
+
+
+@dataclass(frozen=True)
+class Job:
+    """Some agents that are trained side by side and tested on the same held-out episodes."""
+
+    name: str  # where it lies, such as "default/bootstrapped-0-4"
+    settings: tuple[Settings, ...]
+    scenario: Scenario
+    episodes: int  # of training
+    tests: int = 1000  # held-out episodes
+    runs: bool = True  # keep each agent's weights too; needs agents that differ in method or seed
+    sources = LEARN
+
+    def asked(self) -> dict:
+        """All that decides its result, as JSON has it."""
+        settings = [asdict(s) for s in self.settings]
+        asked = {
+            "settings": settings,
+            "scenario": asdict(self.scenario),
+            "episodes": self.episodes,
+            "tests": self.tests,
+        }
+        return json.loads(json.dumps(asked))
+
+    def compute(self, folder: Path) -> float:
+        """Train, or go on training, and test; returns the seconds that it took. Raises Interrupted."""
+        training = self._training(folder)
+        result = training.run(progress=False, callback=_Checkpoints(folder), stop=_orphaned)
+        if result.interrupted:
+            save_checkpoint(training, folder / "checkpoint.npz")
+            raise Interrupted(self.name)
+        started = time.perf_counter()
+        write_arrays(folder / "results.npz", self._tested(result))
+        if self.runs:
+            shutil.rmtree(folder / "runs", ignore_errors=True)  # of an attempt that was killed while writing
+            save_runs(result, folder / "runs")
+        return result.seconds + time.perf_counter() - started
+
+    def _training(self, folder: Path) -> Training:
+        if not (folder / "checkpoint.npz").exists():
+            return Training(self.settings, self.episodes, self.scenario)
+        training = load_checkpoint(folder / "checkpoint.npz")
+        if (training.settings, training.episodes, training.scenario) != (
+            [*self.settings],
+            self.episodes,
+            self.scenario,
+        ):
+            raise BootcourseError(f"{folder} was begun with other settings: choose another folder, or delete this one.")
+        return training
+
+    def _tested(self, result: Result) -> dict[str, np.ndarray]:
+        seeds = held_out_seeds(HELD_OUT, self.tests)
+        episodes = [drive_episodes(agent.as_policy(), seeds, self.scenario) for agent in result.agents]
+        tested = {name: np.stack([getattr(each, name) for each in episodes]) for name in vars(episodes[0])}
+        return {
+            "agents": np.array(json.dumps([asdict(agent.settings) for agent in result.agents])),
+            "stopped": np.array([getattr(result, "stopped", {}).get(i, -1) for i in range(len(result.agents))]),
+            **{f"tested.{name}": _small(values) for name, values in tested.items()},
+            **{f"curves.{name}": values.astype(np.float32) for name, values in result.curves.items()},
+        }
+
+
+@dataclass(frozen=True)
+class BoundJob:
+    """The planner's best known return on some of the held-out roads."""
+
+    name: str
+    scenario: Scenario
+    first: int  # held-out episode
+    episodes: int
+    search: Search = Search()
+    sources = PLAN
+
+    def asked(self) -> dict:
+        """All that decides its result, as JSON has it."""
+        return json.loads(
+            json.dumps({name: asdict(self)[name] for name in ("scenario", "first", "episodes", "search")})
+        )
+
+    def compute(self, folder: Path) -> float:
+        """Search; returns the seconds that it took."""
+        started = time.perf_counter()
+        seeds = held_out_seeds(HELD_OUT, self.first + self.episodes)[self.first :]
+        plans = plan_episodes(seeds, self.scenario, self.search)
+        returns, success = np.array([plan.value for plan in plans]), np.array([plan.success for plan in plans])
+        write_arrays(folder / "results.npz", {"first": np.array(self.first), "returns": returns, "success": success})
+        return time.perf_counter() - started
+
+
+@dataclass(frozen=True)
+class StayingJob:
+    """The planner's answer to: at this γ, is staying behind the trap the best one can do?"""
+
+    name: str
+    scenario: Scenario
+    gamma: float = 0.8  # † the paper's
+    roads: int = 50  # of the held-out ones
+    beam: int = 200
+    sources = PLAN
+
+    def asked(self) -> dict:
+        """All that decides its result, as JSON has it."""
+        return json.loads(json.dumps({name: value for name, value in asdict(self).items() if name != "name"}))
+
+    def compute(self, folder: Path) -> float:
+        """Search; returns the seconds that it took."""
+        started = time.perf_counter()
+        staying = is_staying_optimal(held_out_seeds(HELD_OUT, self.roads), self.scenario, self.gamma, self.beam)
+        write_json(folder / "staying.json", vars(staying))
+        return time.perf_counter() - started
+
+
+def _small(values: np.ndarray) -> np.ndarray:
+    return values.astype(np.float32) if values.dtype == np.float64 else values.astype(np.int8)
+
+
+class _Checkpoints:
+    """A training's callback: writes a checkpoint now and then."""
+
+    def __init__(self, folder: Path):
+        self.path, self.last = folder / "checkpoint.npz", time.monotonic()
+
+    def __call__(self, training: Training) -> None:
+        if time.monotonic() - self.last > SECONDS_BETWEEN:
+            save_checkpoint(training, self.path)
+            self.last = time.monotonic()
+
+
+def _orphaned() -> bool:
+    """Is the process that started this one gone? Then nobody waits for the job."""
+    return os.getppid() != PARENT
+
+
+def finished(job, root: Path) -> bool:
+    """Is it done? Raises BootcourseError if what is there is damaged or was asked for differently."""
+    folder = root / "jobs" / job.name
+    if not folder.exists():
+        return False
+    made = read_json(folder / "job.json")
+    damaged = [name for name, digest in made.get("sha256", {}).items() if _hash(folder / name) != digest]
+    if damaged or made.get("format") != FORMAT:
+        raise BootcourseError(f"{folder} is damaged ({', '.join(damaged) or 'job.json'}).")
+    asked = job.asked()
+    different = [name for name in asked if made["asked"].get(name) != asked[name]]
+    if different:
+        raise OtherQuestion(
+            f"{folder} was computed with other {', '.join(different)}: choose another folder for this study."
+        )
+    return True
+
+
+class OtherQuestion(BootcourseError):
+    """The folder holds the answer to another question: not damaged, and not to be computed again."""
+
+
+def _hash(path: Path) -> str:
+    return sha256(path) if path.is_file() else ""
+
+
+def run_job(job, root: Path) -> str:
+    """Compute a job and put it in its place. Returns "" or what went wrong, in a sentence."""
+    try:
+        if not (root / "study.json").exists():  # on a machine of a cluster that has another disk
+            return f"{root} is not there for the process that should compute {job.name}: use a folder that all share."
+        _run(job, root)
+    except (BootcourseError, OSError) as error:
+        return f"{job.name}: {error}"
+    except (Interrupted, KeyboardInterrupt):
+        return f"{job.name}: interrupted"
+    return ""
+
+
+def _run(job, root: Path) -> None:
+    final, folder = root / "jobs" / job.name, root / "unfinished" / job.name
+    if final.exists():  # another process was faster: a cluster may start a job twice
+        return
+    folder.mkdir(parents=True, exist_ok=True)
+    seconds = job.compute(folder)
+    (folder / "checkpoint.npz").unlink(missing_ok=True)
+    files = [path for path in sorted(folder.rglob("*")) if path.is_file() and path.name != "job.json"]
+    made = {
+        "format": FORMAT,
+        "asked": job.asked(),
+        "sha256": {path.relative_to(folder).as_posix(): sha256(path) for path in files},
+        "sources": sources_hash(job.sources),
+        "provenance": provenance(seconds=round(seconds, 1)),
+    }
+    write_json(folder / "job.json", made)
+    final.parent.mkdir(parents=True, exist_ok=True)
+    os.rename(folder, final)
