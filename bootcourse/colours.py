@@ -16,31 +16,11 @@ class Style(NamedTuple):
     marker: str | None = None  # a matplotlib marker
 
 
-METHODS = {
-    "sac": Style("#0072B2"),
-    "bootstrapped": Style("#D55E00", width=2.5),  # the paper's method: drawn last and thickest
-    "soft": Style("#56B4E9", "--"),
-    "demos": Style("#E69F00", "--"),
-    "margin": Style("#CC79A7", ":"),
-    "margin_soft": Style("#CC79A7", "-."),
-    "rule": Style("#009E73", width=1.0),
-    "bc": Style("#444444", marker="o"),
-    "cql": Style("#777777", marker="s"),
-    "cql_sac": Style("#777777", "--", marker="s"),
-    "gail": Style("#AAAAAA", marker="^"),
-    "planner": Style("#000000", (0, (8, 4))),
-}
 OTHER = Style("#6F4FA0")  # any other driver: your own, idle, random
 
 TRAP = "#7A1F1F"  # the two slow cars
 TRAFFIC = "#B8BEC6"  # all other cars
 ALARM = "#E8112D"  # an accident
-
-
-def style(label: str) -> Style:
-    """The style of a method, or of a drive whose label begins with one ("sac, seed 3" is "sac")."""
-    words = label.lower().replace(",", " ").replace(":", " ").split()
-    return METHODS.get(words[0] if words else "", OTHER)
 
 
 def rgb(colour: str) -> tuple[int, int, int]:

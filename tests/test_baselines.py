@@ -9,12 +9,12 @@ import torch
 
 from bootcourse.errors import BootcourseError
 from bootcourse.learn import bc, cql, gail, sac
-from bootcourse.learn import methods as baselines
-from bootcourse.learn.learner import SACLearner
+from bootcourse.learn.learner import SACLearner, learner_for
 from bootcourse.learn.networks import init_mlp, mlp
 from bootcourse.learn.replay_buffer import Batch
-from bootcourse.learn.settings import ALL, BASELINES, settings_for, with_seeds
+from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
+from bootcourse.methods import BASELINES, METHODS
 from bootcourse.storage.runs import load_checkpoint, load_run, save_checkpoint, save_runs
 
 
@@ -30,7 +30,7 @@ def a_batch(agents: int = 2, batch: int = 6, demonstrations: int = 3, seed: int 
 
 
 def learner(method: str, seeds: int = 2, **changes) -> SACLearner:
-    return baselines.learner_for(with_seeds(settings_for(method, **changes), seeds), 26)
+    return learner_for(with_seeds(settings_for(method, **changes), seeds), 26)
 
 
 def copies(tensors) -> list[torch.Tensor]:
@@ -99,7 +99,7 @@ def test_the_gradient_penalty_can_itself_be_differentiated():
 
 @pytest.mark.parametrize("method", BASELINES)
 def test_an_agent_learns_the_same_alone_as_beside_others(method):
-    together, alone = learner(method, 2), baselines.learner_for([settings_for(method, seed=1)], 26)
+    together, alone = learner(method, 2), learner_for([settings_for(method, seed=1)], 26)
     for seed in range(3):
         batch = a_batch(seed=seed)
         if method in ("bc", "cql", "cql_sac"):
@@ -199,7 +199,7 @@ def test_a_batch_that_gail_cannot_halve_is_refused():
 
 def test_methods_whose_updates_differ_are_not_trained_side_by_side():
     with pytest.raises(BootcourseError, match="bc, sac cannot train side by side"):
-        baselines.learner_for([settings_for("sac"), settings_for("bc")], 26)
+        learner_for([settings_for("sac"), settings_for("bc")], 26)
 
 
 @pytest.mark.parametrize(("method", "share"), [("bc", 1.0), ("cql", 1.0), ("cql_sac", 1.0), ("gail", 0.5)])
@@ -248,6 +248,6 @@ def test_a_baseline_is_not_given_what_its_name_says_it_lacks():
 
 
 def test_every_name_is_one_method_and_knows_its_settings():
-    assert len(ALL) == 6 + len(BASELINES)
-    for method in ALL:
+    assert len(METHODS) == 6 + len(BASELINES)
+    for method in METHODS:
         assert replace(settings_for(method), seed=3).method == method

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import torch
 
-from bootcourse.learn.methods import learner_for
+from bootcourse.learn.learner import learner_for
 from bootcourse.learn.replay_buffer import decode_transitions
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.study import checks

@@ -8,8 +8,9 @@ from matplotlib.colors import to_hex
 from matplotlib.patches import FancyBboxPatch
 from PIL import Image
 
-from bootcourse.colours import ALARM, TRAP, style
+from bootcourse.colours import ALARM, TRAP
 from bootcourse.errors import BootcourseError
+from bootcourse.methods import style
 from bootcourse.plots import animation, save, show, top_view, top_view_over_time, traces, training_curves
 from bootcourse.plots.drive_figure import save_drive
 from bootcourse.plots.figure import Picture, finish, label_ends, new_figure, plain_axes, png, styles

@@ -10,12 +10,13 @@ import torch
 from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.networks import init_mlp, mlp
 from bootcourse.learn.replay_buffer import Batch, ReplayBuffer
-from bootcourse.learn.settings import METHODS, settings_for
+from bootcourse.learn.settings import settings_for
+from bootcourse.methods import ABLATION
 from bootcourse.scenario import DEFAULT
 from tests.bench_learn import Textbook, random_rows
 
 INPUTS = DEFAULT.observation_size
-EVERY_METHOD = [settings_for(method, seed=seed) for seed, method in enumerate(METHODS)]
+EVERY_METHOD = [settings_for(method, seed=seed) for seed, method in enumerate(ABLATION)]
 VARIANTS = [
     settings_for("bootstrapped", kl_in_target=False),
     settings_for("bootstrapped", xi_fixed=0.3),
@@ -220,7 +221,7 @@ def test_the_methods_first_updates_all_differ():
 def test_a_methods_settings_are_what_its_name_says():
     has = {
         method: (s.xi_multiplier > 0, s.beta_start > 0, s.bonus > 0, s.margin > 0)
-        for method in METHODS
+        for method in ABLATION
         for s in [settings_for(method)]
     }
     assert has["sac"][:2] + has["sac"][3:] == (False, False, False)

@@ -4,8 +4,9 @@ import pytest
 
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.learner import SACLearner
-from bootcourse.learn.settings import METHODS, Settings, settings_for, with_seeds
+from bootcourse.learn.settings import Settings, settings_for, with_seeds
 from bootcourse.learn.training import Training
+from bootcourse.methods import ABLATION
 
 
 def test_the_defaults_are_the_papers_table():
@@ -81,7 +82,7 @@ def test_an_ingredient_may_be_switched_off():
 
 
 def test_only_methods_with_demonstrations_ask_for_them():
-    asks = {method for method in METHODS if settings_for(method).needs_demonstrations}
+    asks = {method for method in ABLATION if settings_for(method).needs_demonstrations}
     assert asks == {"demos", "bootstrapped", "margin", "margin_soft"}
 
 

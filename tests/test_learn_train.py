@@ -11,8 +11,9 @@ from gymnasium.vector import AutoresetMode
 
 from bootcourse.learn.agent import sample_actions
 from bootcourse.learn.curves import NAMES
-from bootcourse.learn.settings import METHODS, settings_for, with_seeds
+from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import FIRST_SEED, Training
+from bootcourse.methods import ABLATION
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.rule import rule
 from bootcourse.scenario import DEFAULT, IDLE
@@ -83,7 +84,7 @@ def test_the_idle_policys_curves_are_those_worked_out_by_hand():
 
 
 def test_every_method_trains_beside_every_other_and_notes_its_own_coefficients():
-    training = training_of(*METHODS, beta_episodes=10, alpha_init=0.02)
+    training = training_of(*ABLATION, beta_episodes=10, alpha_init=0.02)
     result = training.run(progress=False)
     assert set(result.curves) == set(NAMES) and not result.interrupted
     for values in result.curves.values():

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from bootcourse import rule
-from bootcourse.learn.settings import METHODS, Settings
+from bootcourse.learn.settings import Settings
+from bootcourse.methods import METHODS
 from bootcourse.road.formulas import bicycle_step, speed_reward, steering_reward, weighted_reward
 from bootcourse.scenario import CALIBRATED, DEFAULT
 from bootcourse.statistics import rate
@@ -124,7 +125,7 @@ WORKED = {
     "open-margin": {
         "0.97": earned_at(15, 1),
         "4.84": earned_at(15, 1) / (1 - GAMMA),
-        "1": METHODS["margin"]["margin"],
+        "1": METHODS["margin"].settings["margin"],
     },
     "open-network": {"64": S.hidden[0], "0.005": S.tau, "256": S.learning_starts},
     "open-rates": {

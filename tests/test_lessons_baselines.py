@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bootcourse.learn.methods import learner_for
+from bootcourse.learn.learner import learner_for
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.lessons.figures_baselines import (
     WINDOW,

@@ -13,8 +13,9 @@ import pytest
 from bootcourse import one_per_cell
 from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError
-from bootcourse.learn.settings import ALL, settings_for, with_seeds
+from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
+from bootcourse.methods import METHODS
 from bootcourse.panels import background as background_module
 from bootcourse.panels.axes import rolling, ticks
 from bootcourse.panels.background import Background
@@ -150,10 +151,10 @@ def test_train_trains_and_leaves_its_result():
     assert "Done after 6 of 6 episodes" in words(panel) and panel.train.disabled is False and not threads()
 
 
-@pytest.mark.parametrize("method", ALL)
+@pytest.mark.parametrize("method", METHODS)
 def test_every_method_trains(method):
     panel = small(seeds=1, episodes=2, **({"batch": 8} if method == "gail" else {}))
-    from_page(panel.method, index=list(ALL).index(method))
+    from_page(panel.method, index=list(METHODS).index(method))
     assert trained(panel).result.agents[0].settings.method == method and not panel.background.error
 
 
@@ -273,7 +274,7 @@ def test_a_training_that_diverges_names_the_agent():
     with pytest.warns(UserWarning, match="not a number"):
         trained(panel)
     assert panel.result.stopped and "soft constraint only, seed 0, diverged" in words(panel)
-    assert "What it was before that is kept" in words(panel) and not panel.save.disabled
+    assert "Its last finite snapshot is kept" in words(panel) and not panel.save.disabled
 
 
 def test_what_breaks_in_the_thread_is_a_sentence_and_keeps_what_was_learned(monkeypatch):
@@ -314,7 +315,7 @@ def test_every_number_takes_both_ends_and_refuses_nonsense_in_a_sentence():
         "beta_start": (0, 1),
         "gamma": (0, 1),
     }
-    from_page(panel.method, index=list(ALL).index("bootstrapped"))
+    from_page(panel.method, index=list(METHODS).index("bootstrapped"))
     for setting, (low, high) in ends.items():
         control = panel.numbers[setting]
         for value in (low, high):
@@ -332,10 +333,10 @@ def test_every_number_takes_both_ends_and_refuses_nonsense_in_a_sentence():
             assert control.value == control.slider.max and "number" in words(control)
 
 
-@pytest.mark.parametrize("method", ALL)
+@pytest.mark.parametrize("method", METHODS)
 def test_what_a_method_lacks_cannot_be_set_and_says_why(method):
     panel = small(xi_multiplier=100.0)
-    from_page(panel.method, index=list(ALL).index(method))
+    from_page(panel.method, index=list(METHODS).index(method))
     assert set(without(method)) <= set(CONTROLLED)
     for setting, control in panel.numbers.items():
         assert control.slider.disabled == control.field.disabled == (setting in without(method))

@@ -257,5 +257,5 @@ def test_on_the_command_line_it_prints_its_address_and_ctrl_c_ends_it(rule_drive
 
 
 def test_what_does_not_show_a_replay_does_not_import_viser():
-    code = "import sys, bootcourse.policies, bootcourse.episodes.record, bootcourse.colours; assert 'viser' not in sys.modules"
+    code = "import sys, bootcourse.policies, bootcourse.episodes.record; assert 'viser' not in sys.modules"
     assert subprocess.run([sys.executable, "-c", code], cwd=ROOT).returncode == 0

@@ -40,7 +40,8 @@ def replays() -> str:
     """A page with every drive that ships: to play, and in words."""
     from bootcourse.episodes.rollout import Rollout
     from bootcourse.episodes.transcript import transcript
-    from bootcourse.plots.figure import name, sentence
+    from bootcourse.methods import display_name
+    from bootcourse.plots.figure import sentence
     from bootcourse.plots.top_view import outcome
     from bootcourse.replay3d import recording
     from bootcourse.storage.assets import FOLDER
@@ -49,7 +50,7 @@ def replays() -> str:
     for path in sorted((FOLDER / "rollouts").glob("*.npz")):
         drive = Rollout.load(path)
         shown = recording([drive], height=480).html_with_poster()
-        parts += [f"## {sentence(name(drive.label))}: {outcome(drive)}", f"```{{raw}} html\n{shown}\n```"]
+        parts += [f"## {sentence(display_name(drive.label))}: {outcome(drive)}", f"```{{raw}} html\n{shown}\n```"]
         parts.append("\n".join(f"- {line}" for line in transcript(drive)))
     return "\n\n".join(parts) + "\n"
 

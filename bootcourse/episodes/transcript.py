@@ -5,7 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from bootcourse.episodes.rollout import Rollout
-from bootcourse.plots.figure import name, sentence
+from bootcourse.methods import display_name
+from bootcourse.plots.figure import sentence
 from bootcourse.plots.top_view import ACCIDENTS, cars_at, doing, outcome
 from bootcourse.road.state import CRASHED, EGO, SPEED, TRAP_1, TRAP_2, Accident, X, Y
 
@@ -37,7 +38,9 @@ def transcript(rollout: Rollout) -> list[str]:
 
 def in_words(rollouts: Sequence[Rollout]) -> str:
     """The transcripts of some drives below each other, each under its driver's name."""
-    return "\n\n".join("\n".join([f"{sentence(name(r.label))}, road {r.seed}", *transcript(r)]) for r in rollouts)
+    return "\n\n".join(
+        "\n".join([f"{sentence(display_name(r.label))}, road {r.seed}", *transcript(r)]) for r in rollouts
+    )
 
 
 def _ending(rollout: Rollout) -> str:

@@ -10,6 +10,7 @@ from bootcourse.learn import bootstrap, sac
 from bootcourse.learn.networks import init_mlp, mlp
 from bootcourse.learn.replay_buffer import Batch
 from bootcourse.learn.settings import SHARED, Settings
+from bootcourse.methods import METHODS
 from bootcourse.scenario import N_ACTIONS
 
 
@@ -119,3 +120,12 @@ class SACLearner:
     def q_values(self, states: Tensor) -> Tensor:
         """The smaller of the two critics' Q(s,a): (agents, batch, observation) -> (agents, batch, actions)."""
         return sac.min_q(self._both(self.critics, states))
+
+
+def learner_for(settings: Sequence[Settings], observation_size: int, n_actions: int = N_ACTIONS) -> "SACLearner":
+    """The learner of these agents. Raises BootcourseError if their methods need different ones."""
+    kinds = {METHODS[s.method].learner_class() for s in settings}
+    if len(kinds) > 1:
+        methods = ", ".join(sorted({s.method for s in settings}))
+        raise BootcourseError(f"{methods} cannot train side by side: their updates differ. Train these apart.")
+    return kinds.pop()(settings, observation_size, n_actions)

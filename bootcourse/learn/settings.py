@@ -7,6 +7,7 @@ import math
 from dataclasses import dataclass, fields, replace
 
 from bootcourse.errors import BootcourseError, did_you_mean
+from bootcourse.methods import METHODS
 from bootcourse.scenario import check_p
 
 
@@ -46,8 +47,8 @@ class Settings:
     gradient_penalty: float = 1.0  # § on that discriminator's slope at demonstrations
 
     def __post_init__(self):
-        if self.method not in ALL:
-            raise BootcourseError(f"Method {did_you_mean(self.method, ALL)}.")
+        if self.method not in METHODS:
+            raise BootcourseError(f"Method {did_you_mean(self.method, METHODS)}.")
         check_p(self.rule_p, "rule_p")
         _check_range(self, 0.0, 1.0, "gamma", "beta_start", "tau")
         _check_range(self, 0.0, math.inf, "xi_multiplier", "margin", "actor_lr", "critic_lr", "alpha_lr")
@@ -69,7 +70,7 @@ class Settings:
 
     def _check_label(self) -> None:
         """A method may have its ingredients switched off, but none switched on that its name says it lacks."""
-        lacks = {name for name, value in ALL[self.method].items() if value == 0}
+        lacks = {name for name, value in METHODS[self.method].settings.items() if value == 0}
         lacks |= {"xi_fixed"} if "xi_multiplier" in lacks else set()
         for name in sorted(lacks):
             if getattr(self, name) > 0:
@@ -93,38 +94,18 @@ def _check_range(settings: Settings, low: float, high: float, *names: str, whole
             raise BootcourseError(f"{name} = {value!r}: give a {wanted}.")
 
 
-# What each method switches off or on, against `bootstrapped`, the paper's.
-METHODS = {
-    "sac": {"xi_multiplier": 0.0, "beta_start": 0.0},  # plain discrete SAC
-    "soft": {"beta_start": 0.0},  # the KL soft constraint alone
-    "demos": {"xi_multiplier": 0.0},  # demonstrations with the bonus c alone
-    "bootstrapped": {},  # both: the paper's method
-    "margin": {"xi_multiplier": 0.0, "bonus": 0.0, "margin": 1.0},  # large-margin loss instead of the bonus
-    "margin_soft": {"bonus": 0.0, "margin": 1.0},  # the same, with the KL
-}
-# What others do with the same demonstrations, with no word from the rule beyond them. Their share of each
-# batch stays where it starts: whole for those that learn offline, half for GAIL, whose discriminator
-# compares that half with the other, and whose generator learns from the other alone.
-_APART = {"xi_multiplier": 0.0, "bonus": 0.0, "beta_episodes": 10**9}
-BASELINES = {
-    "bc": _APART | {"beta_start": 1.0},  # behaviour cloning (bc.py)
-    "cql": _APART | {"beta_start": 1.0, "cql_weight": 1.0},  # conservative Q-learning (cql.py)
-    "cql_sac": _APART | {"beta_start": 1.0, "cql_weight": 1.0},  # the same term on SAC, with its actor
-    "gail": _APART | {"beta_start": 0.5, "batch": 128},  # generative adversarial imitation (gail.py)
-}
-ALL = METHODS | BASELINES
 SHARED = tuple(f.name for f in fields(Settings))[[f.name for f in fields(Settings)].index("hidden") :]
 
 
 def settings_for(method: str, **changes) -> Settings:
     """The settings of a method, with changes. Raises BootcourseError for an unknown name or value."""
-    if method not in ALL:
-        raise BootcourseError(f"Method {did_you_mean(method, ALL)}.")
+    if method not in METHODS:
+        raise BootcourseError(f"Method {did_you_mean(method, METHODS)}.")
     known = [f.name for f in fields(Settings)]
     for name in changes:
         if name not in known:
             raise BootcourseError(f"Setting {did_you_mean(name, known)}.")
-    return Settings(method=method, **(ALL[method] | changes))
+    return Settings(method=method, **(METHODS[method].settings | changes))
 
 
 FORMER_NAMES = {  # of fields, in files that earlier versions wrote

@@ -24,7 +24,7 @@ from bootcourse.learn.agent import Agent, sample_actions
 from bootcourse.learn.bootstrap import constraint_strength, demonstration_share
 from bootcourse.learn.curves import Curves
 from bootcourse.learn.demonstrations import collect
-from bootcourse.learn.methods import learner_for
+from bootcourse.learn.learner import learner_for
 from bootcourse.learn.replay_buffer import ReplayBuffer, encode_transitions
 from bootcourse.learn.settings import Settings
 from bootcourse.policies import stochastic_rule_policy

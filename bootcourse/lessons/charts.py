@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
-from bootcourse.colours import style
+from bootcourse.methods import style
 from bootcourse.plots.figure import (
     INK,
     QUIET,

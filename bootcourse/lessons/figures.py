@@ -5,10 +5,10 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
-from bootcourse.colours import style
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.settings import Settings
+from bootcourse.methods import style
 from bootcourse.plots.figure import INK, QUIET, TEXT, finish, new_figure, plain_axes, sentence
 from bootcourse.road.formulas import speed_reward
 from bootcourse.rule import SENTENCES, Reason

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from bootcourse.colours import style
+from bootcourse.methods import style
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, finish, new_figure, sentence
 from bootcourse.study.checks import CARTPOLE_SCALES
 

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
-from bootcourse.colours import style
 from bootcourse.episodes.rollout import Rollout
+from bootcourse.methods import style
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, finish, label_ends, new_figure, plain_axes
 from bootcourse.road.state import EGO, TRAP_1, X, Y
 

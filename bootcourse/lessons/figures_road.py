@@ -3,8 +3,9 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from bootcourse.colours import ALARM, OTHER, style
+from bootcourse.colours import ALARM, OTHER
 from bootcourse.episodes.rollout import Rollout
+from bootcourse.methods import style
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, WIDTH, finish, label_ends, new_figure, plain_axes
 from bootcourse.plots.top_view import draw_car, draw_road
 from bootcourse.road.formulas import bicycle_step

@@ -7,11 +7,12 @@ from dataclasses import replace
 
 import ipywidgets as widgets
 
-from bootcourse.colours import Style, style
+from bootcourse.colours import Style
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import Settings
+from bootcourse.methods import style
 from bootcourse.panels.arguments import an_instance, one_drive
 from bootcourse.panels.bonus_numbers import bonus_numbers
 from bootcourse.panels.bonus_view import alt_text, bonus

@@ -5,13 +5,13 @@ A pure function of a drive, a rollout and a time.
 
 import numpy as np
 
-from bootcourse.colours import ALARM, OTHER, style
+from bootcourse.colours import ALARM, OTHER
 from bootcourse.episodes.interactive import InteractiveEpisode, interpolate_states
 from bootcourse.episodes.rollout import Rollout
+from bootcourse.methods import display_name, style
 from bootcourse.panels.axes import Axes, number, span
 from bootcourse.panels.road import BEHIND, road
 from bootcourse.panels.svg import GRID, INK, QUIET, drawing, line, rect, text
-from bootcourse.plots.figure import name
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, Accident, X
 
 WIDTH, SCALE, HEAD = 1000, 8.0, 24  # pixels; pixels per metre; pixels
@@ -57,7 +57,7 @@ def _head(drive: InteractiveEpisode, ghost: Rollout | None, time: float, coming:
     parts = [rect(middle - 12, 8, 14, 7, OTHER.colour, 'rx="2"'), text(middle + 7, 16, drive.label, bold=True)]
     if ghost:
         parts.append(rect(middle + 50, 8, 14, 7, style(ghost.label).colour, 'rx="2" opacity="0.7"'))
-        parts.append(text(middle + 69, 16, f"the ghost: {name(ghost.label)}", fill=QUIET))
+        parts.append(text(middle + 69, 16, f"the ghost: {display_name(ghost.label)}", fill=QUIET))
     if drive.over and time >= drive.time:
         parts.append(text(WIDTH - 4, 16, f"Over: {ENDS[Accident(drive.accident)]}", "end", ALARM, 13, bold=True))
     elif coming:
@@ -130,7 +130,7 @@ def alt_text(drive: InteractiveEpisode, ghost: Rollout | None, time: float) -> s
     told = f"Road {drive.seed} after {time:.0f} s: {cars[EGO, SPEED]:.1f} m/s in lane {int(cars[EGO, LANE])}, "
     told += f"{abs(ahead):.0f} m {'ahead of' if ahead > 0 else 'behind'} trap 1, return {mine:.1f}."
     if ghost:
-        told += f" The ghost, {name(ghost.label)}, has {ghost_at(ghost, time)[1]:.1f}."
+        told += f" The ghost, {display_name(ghost.label)}, has {ghost_at(ghost, time)[1]:.1f}."
     if drive.over and time >= drive.time:
         told += f" It is over: {ENDS[Accident(drive.accident)]}."
     return told

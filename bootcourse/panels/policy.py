@@ -6,10 +6,10 @@
 import ipywidgets as widgets
 import numpy as np
 
-from bootcourse.colours import style
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import Settings
+from bootcourse.methods import display_name, style
 from bootcourse.panels.arguments import a_number, one_drive
 from bootcourse.panels.number import Number
 from bootcourse.panels.panel import Panel, beside
@@ -17,7 +17,6 @@ from bootcourse.panels.policy_numbers import check_weights, policy_numbers
 from bootcourse.panels.policy_view import COLUMNS, GREEN, HEIGHT, ROAD, WIDTH, marks, policy_chart
 from bootcourse.panels.road import road
 from bootcourse.panels.svg import QUIET, drawing, printed, text
-from bootcourse.plots.figure import name
 from bootcourse.road.state import EGO, SPEED
 from bootcourse.rule import SENTENCES, Reason, rule
 from bootcourse.scenario import ACTION_NAMES, check_p
@@ -25,7 +24,7 @@ from bootcourse.scenario import ACTION_NAMES, check_p
 
 def missing(rollout: Rollout) -> str:
     """The sentence that says what this drive did not record; empty where nothing is missing."""
-    who, remedy = name(rollout.label), "let an agent drive with `agent.as_policy(with_q=True)`"
+    who, remedy = display_name(rollout.label), "let an agent drive with `agent.as_policy(with_q=True)`"
     lacks = [what for what, array in (("policy π", rollout.policy), ("Q", rollout.q_values)) if array is None]
     return f"This drive ({who}) recorded no {' and no '.join(lacks)}: to see them, {remedy}." if lacks else ""
 
@@ -80,7 +79,7 @@ class PolicyPanel(Panel):
         settings = (self.p.value, self.xi.value, self.alpha.value)
         own, head = style(self.rollout.label).colour, self._head(k)
         view, _ = road(self.starts[k], self.rollout.scenario, own, WIDTH, self._scale())
-        parts = [*view, *head, *policy_chart(self.seen, *settings, name(self.rollout.label), own)]
+        parts = [*view, *head, *policy_chart(self.seen, *settings, display_name(self.rollout.label), own)]
         parts += marks(int(self.rollout.actions[k]), int(self.decisions.actions[k]), own)
         inner = ['<g transform="translate(8 0)">', *parts, "</g>"]
         self.svg = drawing(WIDTH + 16, HEIGHT, inner, self.alt)
@@ -104,7 +103,7 @@ class PolicyPanel(Panel):
 
     def _alt(self, k: int) -> str:
         seen, rollout = self.seen, self.rollout
-        told = [f"{k / self.clock.decision_rate:g} s into the drive of the {name(rollout.label)}."]
+        told = [f"{k / self.clock.decision_rate:g} s into the drive of the {display_name(rollout.label)}."]
         told.append(
             f"The rule says {ACTION_NAMES[self.decisions.actions[k]]}; {ACTION_NAMES[rollout.actions[k]]} is driven."
         )

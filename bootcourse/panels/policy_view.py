@@ -1,11 +1,11 @@
 """The nine actions of `PolicyNumbers`, drawn: bars of π, π̃ and the optimum, each action's share of the KL, Q."""
 
-from bootcourse.colours import METHODS
+from bootcourse.methods import style
 from bootcourse.panels.policy_numbers import PolicyNumbers
 from bootcourse.panels.svg import GRID, INK, QUIET, line, rect, text
 from bootcourse.scenario import ACTION_NAMES, N_ACTIONS
 
-GREEN, OPTIMUM = METHODS["rule"].colour, INK
+GREEN, OPTIMUM = style("rule").colour, INK
 WIDTH, ROAD, ROWS, ROW = 1036, 84, 176, 22  # pixels: the drawing, the road's height, where the rows begin, one row
 BAR, COLUMNS = 128, (148, 338, 528)  # a whole bar's length; where the bars of π, π̃ and the optimum begin
 SHARE, PER_NAT, Q, WORTH = 738, 17, 928, 1032  # the KL's bars from here, so long for a nat; right ends of two columns

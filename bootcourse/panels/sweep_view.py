@@ -7,7 +7,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from bootcourse.colours import ALARM, METHODS, rgb
+from bootcourse.colours import ALARM, rgb
+from bootcourse.methods import style
 from bootcourse.panels.axes import Axes, number, rolling, span
 from bootcourse.panels.svg import INK, QUIET, drawing, rect, text
 from bootcourse.statistics import band
@@ -56,7 +57,7 @@ def view(sweep: Results, happened: SweepResult) -> str:
 
 def curves(happened: SweepResult, top: float) -> list[str]:
     """Success and return over the episodes: thin lines are seeds, the thick one their interquartile mean, its band."""
-    parts, look = [], METHODS["bootstrapped"]
+    parts, look = [], style("bootstrapped")
     for i, (name, (title, factor)) in enumerate(CURVES.items()):
         at, means = rolling(np.asarray(happened.results.curves[name], dtype=np.float64) * factor, WINDOW)
         episodes = happened.results.curves[name].shape[1]

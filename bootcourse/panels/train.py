@@ -19,15 +19,15 @@ from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.demonstrations import bootstrap_with
-from bootcourse.learn.settings import ALL, Settings, settings_for, with_seeds
+from bootcourse.learn.settings import Settings, settings_for, with_seeds
 from bootcourse.learn.training import Result, Training
+from bootcourse.methods import METHODS, display_name
 from bootcourse.panels.background import Background
 from bootcourse.panels.number import Number
 from bootcourse.panels.panel import Panel, button
 from bootcourse.panels.svg import printed
 from bootcourse.panels.train_controls import CONTROLLED, numbers_for, whole_number, without
 from bootcourse.panels.training_chart import EARLIER, Drawn, alt_text, label_of, training_chart
-from bootcourse.plots.figure import name
 from bootcourse.scenario import DEFAULT, Scenario
 from bootcourse.storage.runs import save_runs
 
@@ -46,7 +46,7 @@ class TrainPanel(Panel):
         self.others = {name: value for name, value in changes.items() if name not in CONTROLLED}
         self.result: Result | None = None
         self.drawn: list[Drawn] = []  # trainings that are over
-        self.method = widgets.Dropdown(options=[(name(method), method) for method in ALL], value=method)
+        self.method = widgets.Dropdown(options=[(display_name(method), method) for method in METHODS], value=method)
         self.method.layout.width = "300px"
         label = widgets.HTML("<b>method</b>", layout={"width": "92px"})
         about = widgets.HTML('<div class="bc-quiet">Who learns, and from what.</div>')
@@ -167,8 +167,8 @@ class TrainPanel(Panel):
         for i, decision in sorted(stopped.items()):
             agent = self.result.agents[i].settings
             told.append(
-                f"{name(agent.method)}, seed {agent.seed}, diverged: its loss was not a number at decision {decision}. "
-                "What it was before that is kept."
+                f"{display_name(agent.method)}, seed {agent.seed}, diverged: its loss was not finite at decision "
+                f"{decision}. Its last finite snapshot is kept."
             )
         if told:
             self.say(" ".join(told), wrong=True)
@@ -185,7 +185,9 @@ class TrainPanel(Panel):
         self._close_replay()
         self.replay = _replay(rollout)
         self.stage.value = self.replay._repr_mimebundle_()["text/html"]
-        self.say(f"The best of {len(result.agents)} so far, {name(label)}, on road {road}, which no agent has seen.")
+        self.say(
+            f"The best of {len(result.agents)} so far, {display_name(label)}, on road {road}, which no agent has seen."
+        )
 
     def _save(self) -> None:
         if self.training or self.result is None:

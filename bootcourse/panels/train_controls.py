@@ -3,9 +3,9 @@
 from dataclasses import replace
 
 from bootcourse.errors import BootcourseError
-from bootcourse.learn.settings import ALL, Settings, settings_for
+from bootcourse.learn.settings import Settings, settings_for
+from bootcourse.methods import METHODS, display_name
 from bootcourse.panels.number import Number
-from bootcourse.plots.figure import name
 
 CONTROLLED = ("rule_p", "xi_multiplier", "bonus", "beta_start", "gamma")
 
@@ -22,7 +22,7 @@ def whole_number(called: str, low: int, high: int):
 
 def without(method: str) -> dict[str, str]:
     """Why a method has no use for a setting: {setting: sentence}. What is not in it can be chosen."""
-    own, called = ALL[method], name(method)
+    own, called = METHODS[method].settings, display_name(method)
     reasons = {}
     if own.get("xi_multiplier") == 0:
         reasons["xi_multiplier"] = f"Without use: {called} has no soft constraint."
@@ -34,9 +34,7 @@ def without(method: str) -> dict[str, str]:
         reasons["bonus"] = reasons["beta_start"]
     if "beta_episodes" in own:
         reasons["beta_start"] = f"Fixed: {called} learns from the same share to the end."
-    if method == "bc":
-        reasons["gamma"] = f"Without use: {called} values nothing, so it discounts nothing."
-    return reasons
+    return reasons | {name: f"Without use: {called} {why}." for name, why in METHODS[method].unused.items()}
 
 
 def numbers_for(changes: dict) -> dict[str, Number]:

@@ -8,11 +8,11 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from bootcourse.colours import Style, style
+from bootcourse.colours import Style
 from bootcourse.learn.settings import SHARED, Settings, settings_for
+from bootcourse.methods import display_name, style
 from bootcourse.panels.axes import Axes, number, rolling, span
 from bootcourse.panels.svg import INK, QUIET, drawing, line, text
-from bootcourse.plots.figure import name
 from bootcourse.statistics import iqm
 
 WINDOW = 50  # episodes in a rolling mean, fewer in a short training
@@ -48,7 +48,7 @@ def label_of(settings: Settings) -> str:
     own = [f.name for f in fields(Settings) if f.name not in ("method", "seed", *SHARED)]
     changed = [each for each in own if getattr(settings, each) != getattr(usual, each)]
     told = [f"{symbols.get(each, each)} = {getattr(settings, each):g}" for each in changed]
-    return ", ".join([name(settings.method), *told])
+    return ", ".join([display_name(settings.method), *told])
 
 
 def training_chart(trainings: Sequence[Drawn]) -> str:

@@ -13,11 +13,12 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
-from bootcourse.colours import ALARM, style
+from bootcourse.colours import ALARM
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError
 from bootcourse.files import write_bytes
-from bootcourse.plots.figure import INK, QUIET, WIDTH, name, new_figure, sentence
+from bootcourse.methods import display_name, style
+from bootcourse.plots.figure import INK, QUIET, WIDTH, new_figure, sentence
 from bootcourse.plots.top_view import cars_at, doing, draw_moment, outcome, overtaken
 from bootcourse.road.state import EGO, SPEED, TRAP_1, X
 
@@ -47,7 +48,7 @@ def frame(rollouts: Sequence[Rollout], time: float) -> Figure:
         draw_moment(ax, rollout, now, -VIEW / 2, VIEW / 2, origin=middle)
         over = rollout.accident and now == rollout.times[-1]
         write = {"y": (bottom + row + 0.1) / total, "va": "baseline"}
-        driver = sentence(name(rollout.label))
+        driver = sentence(display_name(rollout.label))
         figure.text(
             side / WIDTH, s=driver, fontsize=10.5, fontweight="bold", color=style(rollout.label).colour, **write
         )
@@ -62,7 +63,7 @@ def frame(rollouts: Sequence[Rollout], time: float) -> Figure:
 
 def alt(rollouts: Sequence[Rollout]) -> str:
     """What somebody who cannot see the clip should know."""
-    told = "; ".join(f"{name(rollout.label)}: {outcome(rollout)}" for rollout in rollouts)
+    told = "; ".join(f"{display_name(rollout.label)}: {outcome(rollout)}" for rollout in rollouts)
     return f"The road from above, the same start for every driver. {sentence(told)}."
 
 

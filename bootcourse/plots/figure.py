@@ -13,37 +13,15 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from bootcourse.colours import METHODS, Style, style
+from bootcourse.colours import Style
 from bootcourse.errors import BootcourseError
 from bootcourse.files import write_bytes
+from bootcourse.methods import style
 
 DPI = 110
 WIDTH = 7.0  # inches
 INK, QUIET, GRID = "#1F2933", "#5F6B77", "#E3E7EB"  # words and axes; less important words; grid lines
 TITLE, TEXT, SMALL = 11.5, 8.5, 7.5  # points
-
-NAMES = {
-    "sac": "plain SAC",
-    "bootstrapped": "bootstrapped SAC",
-    "soft": "soft constraint only",
-    "demos": "demonstrations only",
-    "margin": "large margin",
-    "margin_soft": "large margin and KL",
-    "rule": "rule controller",
-    "bc": "behaviour cloning",
-    "cql": "CQL",
-    "cql_sac": "CQL with an actor",
-    "gail": "GAIL",
-    "planner": "planner",
-    "idle": "idle driver",
-    "random": "random driver",
-}
-
-
-def name(label: str) -> str:
-    """How a drive or a method is called in a figure: "sac, seed 3" -> "plain SAC, seed 3"."""
-    first, comma, rest = label.partition(",")
-    return NAMES.get(first.strip().lower(), first.strip()) + comma + rest
 
 
 def sentence(words: str) -> str:
@@ -67,7 +45,7 @@ def styles(labels: list[str]) -> list[Style]:
 
 def in_front(label: str) -> float:
     """The drawing order of a method: the paper's own comes last."""
-    return 3.0 if style(label) == METHODS["bootstrapped"] else 2.5
+    return 3.0 if style(label) == style("bootstrapped") else 2.5
 
 
 def new_figure(height: float = 4.0, width: float = WIDTH, **more) -> Figure:

@@ -12,10 +12,11 @@ from matplotlib.figure import Figure
 from matplotlib.patches import FancyBboxPatch, Polygon, Rectangle
 from matplotlib.transforms import Affine2D
 
-from bootcourse.colours import ALARM, TRAFFIC, TRAP, style
+from bootcourse.colours import ALARM, TRAFFIC, TRAP
 from bootcourse.episodes.rollout import Rollout, interpolate_states
 from bootcourse.errors import BootcourseError
-from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, WIDTH, finish, name, new_figure, sentence
+from bootcourse.methods import display_name, style
+from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, WIDTH, finish, new_figure, sentence
 from bootcourse.road.state import EGO, HEADING, LANE, SPEED, TRAP_1, TRAP_2, Accident, X, Y
 from bootcourse.scenario import Scenario
 
@@ -194,7 +195,7 @@ def top_view(rollout: Rollout, time: float = 0.0, distances: bool = False, title
     _name_ego(ax, rollout, cars, left)
     if distances:
         _measure(ax, cars, scenario)
-    words = sentence(f"{name(rollout.label)}, at {time:g} s: {doing(rollout, time)}")
+    words = sentence(f"{display_name(rollout.label)}, at {time:g} s: {doing(rollout, time)}")
     if distances:
         words = "The trap: one slow car ahead, another beside it"
     traps = [
@@ -238,7 +239,7 @@ def top_view_over_time(rollout: Rollout, times: Sequence[float] | None = None, t
         for higher, text, letters in lines:
             figure.text(0.012, (bottom + row / 2 + higher) / total, text, va="center", **letters)
     story = "; ".join(f"at {t:.3g} s: {doing(rollout, t)}, {_gap_in_words(rollout, t)}" for t in times)
-    words = sentence(f"{name(rollout.label)}: {outcome(rollout)}")
+    words = sentence(f"{display_name(rollout.label)}: {outcome(rollout)}")
     return finish(figure, title or words, f"The road from above at {len(times)} moments. {sentence(story)}.")
 
 

@@ -10,6 +10,7 @@ from matplotlib.ticker import FuncFormatter, MaxNLocator
 from bootcourse.colours import ALARM, TRAP
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError, did_you_mean
+from bootcourse.methods import display_name
 from bootcourse.plots.figure import (
     GRID,
     INK,
@@ -20,7 +21,6 @@ from bootcourse.plots.figure import (
     finish,
     in_front,
     label_ends,
-    name,
     new_figure,
     plain_axes,
     sentence,
@@ -103,7 +103,7 @@ def traces(
 
 def _names(drives: list[Rollout]) -> list[str]:
     """What to call each drive; the same driver on two roads is told apart by the road."""
-    names = [name(drive.label) for drive in drives]
+    names = [display_name(drive.label) for drive in drives]
     several = {each for each in names if names.count(each) > 1}
     roads = [
         f"{each}, road {drive.seed}" if each in several else each for each, drive in zip(names, drives, strict=True)

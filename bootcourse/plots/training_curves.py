@@ -8,13 +8,13 @@ from matplotlib.ticker import FuncFormatter, MaxNLocator, PercentFormatter
 
 from bootcourse.colours import Style
 from bootcourse.errors import BootcourseError
+from bootcourse.methods import display_name
 from bootcourse.plots.figure import (
     INK,
     TEXT,
     finish,
     in_front,
     label_ends,
-    name,
     new_figure,
     plain_axes,
     sentence,
@@ -59,12 +59,12 @@ def training_curves(
         ax.xaxis.set_major_locator(MaxNLocator(5, integer=True))
         for method in sorted(curves, key=in_front):
             value = _draw(ax, rolled[method, measure], looks[method], in_front(method))
-            ends[measure].append((value, name(method), looks[method].colour))
+            ends[measure].append((value, display_name(method), looks[method].colour))
         for method, values in (constants or {}).items():
             if measure in values:
                 look = styles([method])[0]
                 ax.axhline(values[measure], color=look.colour, linestyle=look.line, linewidth=look.width, zorder=2)
-                ends[measure].append((values[measure], name(method), look.colour))
+                ends[measure].append((values[measure], display_name(method), look.colour))
         for method, values in (paper or {}).items():
             if measure in values:
                 colour = styles([method])[0].colour
@@ -138,7 +138,7 @@ def _alt(curves: Mapping, ends: dict[str, list]) -> str:
     told = []
     last = {(measure, called): value for measure in MEASURES for value, called, _ in ends[measure]}
     for method in curves:
-        agents, called = len(np.atleast_2d(curves[method]["return"])), name(method)
+        agents, called = len(np.atleast_2d(curves[method]["return"])), display_name(method)
         success, returns = 100 * last["success", called], last["return", called]
         told.append(f"{called} ({agents} agent{'s' * (agents > 1)}) ends at {success:.0f} % and {returns:.1f}")
     told = sentence("; ".join(told))

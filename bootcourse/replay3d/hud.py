@@ -8,14 +8,15 @@ from html import escape
 
 import numpy as np
 
-from bootcourse.colours import ALARM, METHODS, style
+from bootcourse.colours import ALARM
+from bootcourse.methods import style
 from bootcourse.replay3d.scene import ACCIDENTS
 from bootcourse.replay3d.timeline import Timeline
 from bootcourse.road.state import EGO, Accident
 from bootcourse.rule import SENTENCES, Reason, stochastic_rule
 from bootcourse.scenario import ACTION_NAMES
 
-GREEN = METHODS["rule"].colour
+GREEN = style("rule").colour
 STYLE = f"""<style>
 .bc {{font:12px/1.35 system-ui,sans-serif;font-variant-numeric:tabular-nums;padding:2px 10px 4px}}
 .bc h4 {{margin:2px 0;font-size:13px;font-weight:650;display:flex;gap:6px;align-items:center}}

@@ -11,9 +11,10 @@ from typing import NamedTuple
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from bootcourse.colours import ALARM, METHODS, TRAFFIC, TRAP, rgb, style
+from bootcourse.colours import ALARM, TRAFFIC, TRAP, rgb
 from bootcourse.errors import BootcourseError
 from bootcourse.files import write_bytes
+from bootcourse.methods import style
 from bootcourse.replay3d import hud, scene
 from bootcourse.replay3d.camera import CHASE, FIELD_OF_VIEW, Pose, pose
 from bootcourse.replay3d.car import DARK, LAMP_BRAKE, LAMP_OFF, LAMP_POWER, LIGHT, car_parts, quad, ring
@@ -190,7 +191,7 @@ def _paint_marks(painter: Painter, shot: Shot, k: int, view: scene.DriveView, ru
     if rule and view.rule is not None and not view.ended:
         marks, half = view.rule, 0.42 * shot.timelines[k].rollout.scenario.road.lane_width
         strip = quad(view.x[EGO] - 4, view.x[EGO] + 45, -half, half)
-        painter.polygon(strip.vertices + [0, view.offset + marks.lane_y, 0], rgb(METHODS["rule"].colour), 0.35)
+        painter.polygon(strip.vertices + [0, view.offset + marks.lane_y, 0], rgb(style("rule").colour), 0.35)
         gap = quad(marks.gap_x, marks.gap_x + marks.gap, -0.7 * half, 0.7 * half)
         painter.polygon(gap.vertices + [0, view.offset + marks.gap_y, 0], rgb("#F2A900"), 0.7)
     if shot.options.path:

@@ -15,7 +15,8 @@ from viser import _messages
 from bootcourse.episodes.transcript import in_words
 from bootcourse.errors import BootcourseError
 from bootcourse.files import write_bytes
-from bootcourse.plots.figure import name, sentence
+from bootcourse.methods import display_name
+from bootcourse.plots.figure import sentence
 from bootcourse.plots.top_view import outcome
 from bootcourse.replay3d import hud, scene, server
 from bootcourse.replay3d.camera import BIRD, CHASE, SIDE, pose
@@ -183,5 +184,8 @@ def recording(
 
 def alt(rollouts) -> str:
     """What somebody who cannot see the replay should know."""
-    told = (f"{name(timeline.rollout.label)}: {outcome(timeline.rollout)}" for timeline in scene.timelines_of(rollouts))
+    told = (
+        f"{display_name(timeline.rollout.label)}: {outcome(timeline.rollout)}"
+        for timeline in scene.timelines_of(rollouts)
+    )
     return f"One moment of a replay in 3D. {sentence('; '.join(told))}."

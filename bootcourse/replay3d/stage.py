@@ -9,8 +9,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from bootcourse.colours import ALARM, METHODS, TRAFFIC, TRAP, rgb, style
+from bootcourse.colours import ALARM, TRAFFIC, TRAP, rgb
 from bootcourse.errors import BootcourseError
+from bootcourse.methods import style
 from bootcourse.replay3d import scene
 from bootcourse.replay3d.camera import CHASE, FIELD_OF_VIEW, pose
 from bootcourse.replay3d.car import DARK, LAMP_BRAKE, LAMP_OFF, LAMP_POWER, LIGHT, car_parts, quad, ring
@@ -187,7 +188,7 @@ class Stage:
         drive.rings[car] = _mesh(api, f"{name}/ring", ring(3.1, 3.7, 40, 0.11), ALARM, visible=False)
 
     def _rule(self, drive: Drive, base: str, lane_width: float) -> None:
-        api, green = self.server.scene, METHODS["rule"].colour
+        api, green = self.server.scene, style("rule").colour
         strip = quad(-4.0, 45.0, -0.42 * lane_width, 0.42 * lane_width)
         drive.lane = _mesh(api, f"{base}/rule_lane", strip, green, opacity=0.3, visible=False)
         unit = quad(0.0, 1.0, -0.3 * lane_width, 0.3 * lane_width)

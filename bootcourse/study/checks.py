@@ -31,8 +31,7 @@ from gymnasium.vector import AutoresetMode, SyncVectorEnv
 
 from bootcourse.errors import BootcourseError, did_you_mean
 from bootcourse.learn.agent import sample_actions
-from bootcourse.learn.learner import SACLearner
-from bootcourse.learn.methods import learner_for
+from bootcourse.learn.learner import SACLearner, learner_for
 from bootcourse.learn.replay_buffer import ReplayBuffer, encode_transitions
 from bootcourse.learn.settings import Settings, settings_for, with_seeds
 

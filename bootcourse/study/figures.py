@@ -11,8 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from matplotlib.figure import Figure
 
-from bootcourse.colours import style
-from bootcourse.plots.figure import GRID, QUIET, SMALL, finish, in_front, label_ends, name, new_figure, plain_axes
+from bootcourse.methods import display_name, style
+from bootcourse.plots.figure import GRID, QUIET, SMALL, finish, in_front, label_ends, new_figure, plain_axes
 from bootcourse.statistics import ESCAPES, band, interval
 from bootcourse.study.paper import COLUMNS, PRINTED, RATES
 from bootcourse.study.results import Results
@@ -94,14 +94,14 @@ def training_panels(
             curves = results.of(method).curves[panel.curve] * panel.scale
             end = draw_curve(ax, method, curves)
             if np.isfinite(end):
-                ends.append((end, name(method), style(method).colour))
+                ends.append((end, display_name(method), style(method).colour))
             if panel.column and method in PRINTED:
                 ax.plot(1.0, PRINTED[method][panel.column].mean, "D", mfc="white", mec=style(method).colour, ms=5,
                         transform=ax.get_yaxis_transform(), clip_on=False, zorder=4)  # fmt: skip
         if rule is not None and panel.column:
             level = float(rule.scores(panel.column)[0]) * panel.scale
             ax.axhline(level, color=style("rule").colour, linewidth=style("rule").width)
-            ends.append((level, name("rule"), style("rule").colour))
+            ends.append((level, display_name("rule"), style("rule").colour))
         plain_axes(ax, panel.label)
         ax.set_xlim(0, results.curves[panel.curve].shape[1])
         ax.set_xlabel("training episode", fontsize=SMALL, color=QUIET)
@@ -120,7 +120,7 @@ def panels_in_words(results: Results, methods: Sequence[str], panels: Sequence[C
         for method in methods:
             curves = results.of(method).curves[panel.curve]
             last = np.nanmean(curves[:, -max(1, curves.shape[1] // 10) :]) * panel.scale
-            ends.append(f"{name(method)} {last:.3g}")
+            ends.append(f"{display_name(method)} {last:.3g}")
         parts.append(f"{panel.label}: {', '.join(ends)}")
     return "Means over the last tenth of training. " + "; ".join(parts) + "."
 
@@ -186,13 +186,13 @@ def final_scores(results: Results, methods: Sequence[str], column: str = "return
         ax.plot(middle.value, row, "|", color=its.colour, ms=14, mew=2.5)
         if method in PRINTED and column in COLUMNS:
             ax.plot(PRINTED[method][column].mean, row, "D", mfc="white", mec=its.colour, ms=5, zorder=4)
-        words.append(f"{name(method)} {middle.value:.3g} [{middle.low:.3g}, {middle.high:.3g}]")
+        words.append(f"{display_name(method)} {middle.value:.3g} [{middle.low:.3g}, {middle.high:.3g}]")
     plain_axes(ax, "", grid="x")
-    ax.set_yticks(range(len(methods)), [name(method) for method in methods])
+    ax.set_yticks(range(len(methods)), [display_name(method) for method in methods])
     ax.set_ylim(len(methods) - 0.5, -0.5)
     ax.set_xlabel(COLUMNS.get(column, column), fontsize=SMALL, color=QUIET)
     ax.spines["bottom"].set_color(GRID)
     middles = {method: interval(results.of(method).scores(column)).value for method in methods}
-    best = [name(method) for method in methods if middles[method] == max(middles.values())]
+    best = [display_name(method) for method in methods if middles[method] == max(middles.values())]
     title = f"Highest {COLUMNS.get(column, column).split(',')[0]}: {', '.join(best)}"
     return finish(figure, title, "Interquartile means over agents with 95 % intervals: " + "; ".join(words) + ".")

@@ -5,7 +5,8 @@ from dataclasses import replace
 from itertools import product
 
 from bootcourse.errors import BootcourseError, did_you_mean
-from bootcourse.learn.settings import BASELINES, METHODS, Settings, settings_for, with_seeds
+from bootcourse.learn.settings import Settings, settings_for, with_seeds
+from bootcourse.methods import ABLATION, BASELINES
 from bootcourse.scenario import DEFAULT, Scenario
 from bootcourse.study.jobs import BoundJob, Job, StayingJob
 
@@ -17,7 +18,7 @@ P, XI, C = (0.5, 0.9, 0.99), (0.0, 20.0, 200.0, 2000.0), (0.0, 2.0, 5.0)  # the 
 
 def methods_named(only: str) -> list[str]:
     """ "sac, soft" -> ["sac", "soft"]; "" -> all, the planner too. Raises BootcourseError for an unknown name."""
-    everything = (*BASELINES, *METHODS, PLANNER)  # the longest first
+    everything = (*BASELINES, *ABLATION, PLANNER)  # the longest first
     names = [name.strip() for name in only.split(",") if name.strip()] or everything
     for name in names:
         if name not in everything:

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from bootcourse.plots.figure import name
+from bootcourse.methods import display_name
 from bootcourse.statistics import Estimate, escapes, improvement, interval, mean, rate
 from bootcourse.study.fidelity import FidelityRow
 from bootcourse.study.paper import COLUMNS, PRINTED, RATES, ROWS
@@ -54,7 +54,7 @@ def result_table(results: Results, methods: Sequence[str]) -> str:
         mine, agents = results.of(method), len(results.of(method))
         scale = {measure: 100 if measure in RATES else 1 for measure in MEASURES}
         spread = [(mine.episodes(m).mean() * scale[m], mine.episodes(m).std(ddof=1) * scale[m]) for m in MEASURES]
-        label = "" if printed else f"**{name(method)}**"
+        label = "" if printed else f"**{display_name(method)}**"
         rows.append([label, "ours: mean ± SD", *(f"{number(a)} ± {number(b)}" for a, b in spread)])
         kind = f"ours: IQM over {agents} agents [95 %]" if agents > 1 else "ours: mean [95 %]"
         rows.append(["", kind, *(bracketed(score(results, method, measure)) for measure in MEASURES)])
@@ -67,7 +67,7 @@ def escape_table(results: Results, bound: np.ndarray | None = None) -> str:
     for method in results.methods:
         mine = results.of(method)
         success = mine.scores("success")
-        jobs = [name(method), f"{int((success >= 0.5).sum())} of {len(success)}"]
+        jobs = [display_name(method), f"{int((success >= 0.5).sum())} of {len(success)}"]
         jobs.append(bracketed(escapes(success), 100) if len(success) > 1 else "")
         returns = mine.scores("returns")
         jobs.append(f"{number(returns.min())} to {number(returns.max())}")
@@ -84,8 +84,8 @@ def improvement_table(results: Results, method: str = "bootstrapped", measure: s
     rows = []
     for other in results.methods:
         if other != method and len(results.of(other)) > 1:
-            rows.append([name(other), bracketed(improvement(mine, results.of(other).scores(measure)), 100)])
-    return markdown([f"P({name(method)} > ...) on {HEADINGS[measure]}", "% [95 %]"], rows)
+            rows.append([display_name(other), bracketed(improvement(mine, results.of(other).scores(measure)), 100)])
+    return markdown([f"P({display_name(method)} > ...) on {HEADINGS[measure]}", "% [95 %]"], rows)
 
 
 def fidelity_table(findings: dict[str, list[FidelityRow]]) -> str:
@@ -116,4 +116,4 @@ def sensitivity_table(results: dict[str, Results], measure: str) -> str:
             scores = found.of(method).scores(measure) * scale
             jobs.append(f"{number(scores.mean())} ({number(scores.min())} to {number(scores.max())})")
         rows.append([variation, *jobs])
-    return markdown([HEADINGS[measure], *(name(method) for method in methods)], rows)
+    return markdown([HEADINGS[measure], *(display_name(method) for method in methods)], rows)

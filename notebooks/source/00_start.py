@@ -23,8 +23,8 @@
 # %%
 from bootcourse.episodes.record import record
 from bootcourse.lessons.shipped import beginning, shipped_agents, shipped_drive, shipped_results
+from bootcourse.methods import display_name as name
 from bootcourse.panels import drive_panel
-from bootcourse.plots.figure import name
 from bootcourse.plots.top_view import doing, outcome
 from bootcourse.replay3d import recording
 from bootcourse.scenario import DEFAULT

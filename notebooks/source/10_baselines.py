@@ -44,7 +44,8 @@ from bootcourse.lessons.figures_baselines import (
     updates_made,
 )
 from bootcourse.lessons.shipped import beginning, shipped_agents, shipped_drive, shipped_results
-from bootcourse.plots.figure import name, show
+from bootcourse.methods import display_name as name
+from bootcourse.plots.figure import show
 from bootcourse.plots.top_view import doing, outcome
 from bootcourse.policies import rule_policy
 from bootcourse.replay3d import recording
@@ -121,7 +122,11 @@ for method in ("bc", "cql", "gail", "sac", "bootstrapped"):
     its = study.of(method).agents[0]
     updates = updates_made(study.of(method))[:, -1].mean()
     shown = f"{len(demonstrations):,}" if its["beta_start"] > 0 else "0"
-    own = "0" if its["beta_start"] == 1 else f"{updates * its['roads'] / its['updates']:,.0f}"
+    own = (
+        "0"
+        if its["beta_start"] == 1
+        else f"{updates * its['envs_per_agent'] / its['updates']:,.0f}"
+    )
     rows.append([name(method), shown, own, f"{updates:,.0f}"])
 rows.append([name("planner"), "0", f"up to {Search().beam * 9 * 150:,} for each road", "0"])
 Markdown(markdown(["decisions that it uses", "the rule's", "its own", "updates, about"], rows))

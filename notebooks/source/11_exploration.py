@@ -29,8 +29,9 @@ from bootcourse.lessons import check
 from bootcourse.lessons.charts import action_bars, lines
 from bootcourse.lessons.exploring import cells_seen, map_of_places, mean_in_bins, visits
 from bootcourse.lessons.shipped import shipped_agents, shipped_drive, shipped_results, shipped_runs
+from bootcourse.methods import display_name as name
 from bootcourse.panels import policy_panel
-from bootcourse.plots.figure import name, show
+from bootcourse.plots.figure import show
 from bootcourse.plots.top_view import top_view_over_time
 from bootcourse.policies import random_policy, rule_policy
 from bootcourse.scenario import DEFAULT

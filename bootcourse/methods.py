@@ -1,0 +1,93 @@
+"""Every method in one place: which settings define it, which learner it needs, how it is named and drawn.
+
+To add a method, write its learner (one file: see learn/learner.py for what may be overridden) and one entry:
+
+    METHODS["mine"] = Method("my method", Style("#117733"), {"xi_multiplier": 0.0}, "my_package.mine:MyLearner")
+
+It then trains, is saved, evaluated, drawn and offered by the training panel like the others.
+"""
+
+import importlib
+from dataclasses import dataclass, field
+
+from bootcourse.colours import OTHER, Style
+
+SAC = "bootcourse.learn.learner:SACLearner"
+
+
+@dataclass(frozen=True)
+class Method:
+    """What the course knows of a method."""
+
+    name: str  # how text and figures call it
+    style: Style  # how it is drawn
+    settings: dict = field(default_factory=dict)  # what differs from `bootstrapped`, whose values are the defaults
+    learner: str | type = SAC  # the class, or where it is ("module:class"): torch is imported when it trains
+    unused: dict[str, str] = field(default_factory=dict)  # settings without effect, and why: {"gamma": "... "}
+
+    def learner_class(self) -> type:
+        """The learner's class, imported."""
+        if isinstance(self.learner, type):
+            return self.learner
+        module, _, name = self.learner.partition(":")
+        return getattr(importlib.import_module(module), name)
+
+
+# What others do with the same demonstrations, with no word from the rule beyond them. The share of demonstrations in
+# a batch stays where it starts: all of it for those that learn offline, half for GAIL, whose discriminator compares
+# that half with the other, and whose generator learns from the other alone.
+_ALONE = {"xi_multiplier": 0.0, "bonus": 0.0, "beta_episodes": 10**9}
+
+METHODS = {
+    "sac": Method("plain SAC", Style("#0072B2"), {"xi_multiplier": 0.0, "beta_start": 0.0}),
+    "soft": Method("soft constraint only", Style("#56B4E9", "--"), {"beta_start": 0.0}),
+    "demos": Method("demonstrations only", Style("#E69F00", "--"), {"xi_multiplier": 0.0}),
+    "bootstrapped": Method("bootstrapped SAC", Style("#D55E00", width=2.5)),  # the paper's method, drawn last
+    "margin": Method("large margin", Style("#CC79A7", ":"), {"xi_multiplier": 0.0, "bonus": 0.0, "margin": 1.0}),
+    "margin_soft": Method("large margin and KL", Style("#CC79A7", "-."), {"bonus": 0.0, "margin": 1.0}),
+    "bc": Method(
+        "behaviour cloning",
+        Style("#444444", marker="o"),
+        _ALONE | {"beta_start": 1.0},
+        "bootcourse.learn.bc:BCLearner",
+        unused={"gamma": "values nothing, so it discounts nothing"},
+    ),
+    "cql": Method(
+        "CQL",
+        Style("#777777", marker="s"),
+        _ALONE | {"beta_start": 1.0, "cql_weight": 1.0},
+        "bootcourse.learn.cql:CQLLearner",
+    ),
+    "cql_sac": Method(  # the same term on SAC, with its actor
+        "CQL with an actor", Style("#777777", "--", marker="s"), _ALONE | {"beta_start": 1.0, "cql_weight": 1.0}
+    ),
+    "gail": Method(
+        "GAIL",
+        Style("#AAAAAA", marker="^"),
+        _ALONE | {"beta_start": 0.5, "batch": 128},
+        "bootcourse.learn.gail:GAILLearner",
+    ),
+}
+ABLATION = ("sac", "soft", "demos", "bootstrapped", "margin", "margin_soft")  # the paper's method and its parts
+BASELINES = ("bc", "cql", "cql_sac", "gail")
+DRIVERS = {  # who drives without having learned
+    "rule": ("rule controller", Style("#009E73", width=1.0)),
+    "planner": ("planner", Style("#000000", (0, (8, 4)))),
+    "idle": ("idle driver", OTHER),
+    "random": ("random driver", OTHER),
+}
+
+
+def display_name(label: str) -> str:
+    """How a drive or a method is called in text and figures: "sac, seed 3" -> "plain SAC, seed 3"."""
+    first, comma, rest = label.partition(",")
+    key = first.strip().lower()
+    name = METHODS[key].name if key in METHODS else DRIVERS.get(key, (first.strip(),))[0]
+    return name + comma + rest
+
+
+def style(label: str) -> Style:
+    """The style of a method, or of a drive whose label begins with one ("sac, seed 3" is "sac")."""
+    words = label.lower().replace(",", " ").replace(":", " ").split()
+    key = words[0] if words else ""
+    return METHODS[key].style if key in METHODS else DRIVERS.get(key, ("", OTHER))[1]
