@@ -1,12 +1,14 @@
 """The formulas of the road, against numbers worked out by hand."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 from highway_env.utils import are_polygons_intersecting
 from highway_env.vehicle.kinematics import Vehicle
 
+from bootcourse.road.compiled import PACKAGE, cache_folder, sources
 from bootcourse.road.formulas import (
     bicycle_step,
     centring_reward,
@@ -203,3 +205,26 @@ def test_the_overlap_is_highway_envs_own_polygon_test():
         assert overlap(0.0, 0.0, heading_a, dx, dy, heading_b, LENGTH, WIDTH) == expected
         touching += expected
     assert 300 < touching < 1200, "the comparison must see both answers often"
+
+
+def test_a_changed_formula_anywhere_in_the_package_is_compiled_again(tmp_path):
+    for folder in ("road", "plots"):
+        (tmp_path / folder).mkdir()
+    files = {
+        "road/state.py": "X = 0\n",
+        "own_rule.py": "\n@compiled\ndef f(x): return x\n",
+        "plots/ink.py": "INK = 0\n",
+    }
+    for name, text in files.items():
+        (tmp_path / name).write_text(text)
+    folders = [cache_folder(tmp_path)]
+    for name, text in files.items():
+        (tmp_path / name).write_text(text.replace("0", "1").replace("return x", "return -x"))
+        folders.append(cache_folder(tmp_path))
+    assert len(set(folders[:3])) == 3, "a change of the road, or of a compiled function elsewhere, was not noticed"
+    assert folders[3] == folders[2], "a drawing's colour had the road compiled again"
+
+
+def test_every_file_with_a_compiled_function_is_among_those_that_decide():
+    compiled = {path for path in Path(PACKAGE).rglob("*.py") if "import compiled" in path.read_text(encoding="utf-8")}
+    assert compiled and compiled <= set(sources(PACKAGE))

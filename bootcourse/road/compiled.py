@@ -2,7 +2,8 @@
 
 numba's own cache looks only at the file of the function that is called. A change in formulas.py
 would leave the old formula inside the cached loop of twin.py. Here the cache lives in a folder
-named after the text of every compiled file, so a changed formula is always compiled again.
+named after the text of the road and of every other file with a compiled function, so a changed
+formula is always compiled again.
 
 Two more settings make the road about three times as fast. A small function is put inside the one
 that calls it (forceinline). And only a function that makes arrays counts who holds them (_nrt): to
@@ -17,18 +18,24 @@ import numba
 from platformdirs import user_cache_dir
 
 PACKAGE = Path(__file__).resolve().parent.parent
-SOURCES = sorted((PACKAGE / "road").glob("*.py")) + [PACKAGE / "rule.py"]
 
 
-def _cache_folder() -> Path:
-    text = b"".join(source.read_bytes() for source in SOURCES if source.exists())
+def sources(package: Path) -> list[Path]:
+    """The files whose text decides what is compiled: the road's own, and each with a compiled function."""
+    files = sorted([*package.glob("*.py"), *package.glob("*/*.py")])
+    return [file for file in files if file.parent.name == "road" or b"\n@compiled" in file.read_bytes()]
+
+
+def cache_folder(package: Path) -> Path:
+    """Where the machine code of this version lies: beside the package, or where the user's caches are."""
+    text = b"".join(source.read_bytes() for source in sources(package))
     name = f"numba-{hashlib.sha256(text).hexdigest()[:12]}"
-    beside = PACKAGE / "__pycache__"
-    writable = os.access(beside if beside.exists() else PACKAGE, os.W_OK)
+    beside = package / "__pycache__"
+    writable = os.access(beside if beside.exists() else package, os.W_OK)
     return (beside if writable else Path(user_cache_dir("bootcourse"))) / name
 
 
-CACHE_FOLDER = _cache_folder()
+CACHE_FOLDER = cache_folder(PACKAGE)
 
 
 def compiled(function):
