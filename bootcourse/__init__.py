@@ -1,6 +1,82 @@
-"""bootcourse: a trap on the highway, and how an imperfect driver pulls a learner out of it."""
+"""bootcourse: a trap on the highway, and how an imperfect driver pulls a learner out of it.
+
+The front door: `import bootcourse as bc` gives every name in `NAMES` and every module in `MODULES`, each loaded when
+it is first used. What a line below uses stands above it, and tests/test_imports.py holds that:
+
+errors, files             what all the others need: the error for users, reading and writing
+scenario                  the numbers of the road, the cars, the reward and the rule
+colours, methods          every method: its settings, its name, its colour
+road                      the trap in simulation: formulas, the compiled road, highway-env, what the agent observes
+rule                      the rule controller and its stochastic form
+policies                  whoever can drive: the rule, chance, a plan, nothing
+statistics                means, rates, intervals
+episodes                  to drive: one recorded episode, many evaluated ones, a drive in words
+learn                     discrete SAC, the help of the rule, the baselines, the training loop
+storage                   runs, checkpoints and shipped results on disk
+plots                     figures: the road from above, a drive over time, training curves
+study                     the paper's experiments and ours: jobs, tables, figures, planner, checks against others
+replay3d                  drives in 3D, in a notebook, in a browser or as one file
+panels                    widgets for notebooks: drive, train, look into one decision
+lessons                   exercises, their checks, what only one lesson draws
+cli, doctor               the command line
+"""
+
+import importlib
+
+from bootcourse.errors import did_you_mean
 
 __version__ = "0.1.0"
+
+NAMES = {  # name -> where it is defined
+    # the road
+    "DEFAULT": "bootcourse.scenario",
+    "CALIBRATED": "bootcourse.scenario",
+    "Scenario": "bootcourse.scenario",
+    "ACTION_NAMES": "bootcourse.scenario",
+    "Accident": "bootcourse.road.state",
+    # who drives
+    "rule_policy": "bootcourse.policies",
+    "stochastic_rule_policy": "bootcourse.policies",
+    "idle_policy": "bootcourse.policies",
+    "random_policy": "bootcourse.policies",
+    "plan_policy": "bootcourse.policies",
+    # to drive
+    "record": "bootcourse.episodes.record",
+    "Rollout": "bootcourse.episodes.rollout",
+    "drive_episodes": "bootcourse.episodes.evaluate",
+    "held_out_seeds": "bootcourse.episodes.evaluate",
+    "summarise": "bootcourse.episodes.evaluate",
+    # to train
+    "Settings": "bootcourse.learn.settings",
+    "settings_for": "bootcourse.learn.settings",
+    "with_seeds": "bootcourse.learn.settings",
+    "Training": "bootcourse.learn.training",
+    "save_runs": "bootcourse.storage.runs",
+    "load_run": "bootcourse.storage.runs",
+    # what ships with the course
+    "shipped_results": "bootcourse.lessons.shipped",
+    "shipped_runs": "bootcourse.lessons.shipped",
+    "shipped_agents": "bootcourse.lessons.shipped",
+    "shipped_drive": "bootcourse.lessons.shipped",
+    # to look at it
+    "show": "bootcourse.plots.figure",
+    "save": "bootcourse.plots.figure",
+    "top_view": "bootcourse.plots.top_view",
+    "top_view_over_time": "bootcourse.plots.top_view",
+    "traces": "bootcourse.plots.traces",
+    "training_curves": "bootcourse.plots.training_curves",
+    "replay": "bootcourse.replay3d.viewer",
+    "recording": "bootcourse.replay3d.recorder",
+    "BootcourseError": "bootcourse.errors",
+}
+MODULES = {  # name -> module; `bc.panels.drive_panel()`
+    "rule": "bootcourse.rule",
+    "formulas": "bootcourse.road.formulas",
+    "sac": "bootcourse.learn.sac",
+    "bootstrap": "bootcourse.learn.bootstrap",
+    "panels": "bootcourse.panels",
+}
+__all__ = [*NAMES, *MODULES]
 
 try:
     import gymnasium as _gym
@@ -12,3 +88,19 @@ else:
         entry_point="bootcourse.road.trap_env:TrapEnv",
         vector_entry_point="bootcourse.road.vector_env:TrapVectorEnv",
     )
+
+
+def __getattr__(name: str):
+    """Load a public name when it is first used."""
+    if name in MODULES:
+        return importlib.import_module(MODULES[name])
+    if name in NAMES:
+        value = globals()[name] = getattr(importlib.import_module(NAMES[name]), name)
+        return value
+    if name.startswith("__"):
+        raise AttributeError(name)
+    raise AttributeError(f"bootcourse has no such name: {did_you_mean(name, __all__)}.")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -66,16 +66,6 @@ def test_everything_that_pyproject_asks_for_is_in_the_lock():
     assert "d3rlpy" in {line.partition("==")[0] for line in requirements("bench.lock")}
 
 
-# The import
-
-
-def test_importing_bootcourse_brings_no_heavy_package():
-    heavy = "{'torch', 'numba', 'viser', 'ipywidgets', 'highway_env', 'matplotlib', 'pandas'}"
-    code = f"import bootcourse, sys; print(sorted({heavy} & set(sys.modules)))"
-    found = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
-    assert found.stdout.strip() == "[]"
-
-
 # The doctor
 
 

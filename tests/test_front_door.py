@@ -1,0 +1,81 @@
+"""`import bootcourse as bc`: its names, what they say about themselves, and what the import costs."""
+
+import importlib
+import inspect
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import bootcourse as bc
+
+ROOT = Path(__file__).resolve().parent.parent
+LEAST = 0.3  # seconds that the import may cost
+
+
+def python(code: str) -> str:
+    """What a new interpreter prints."""
+    result = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
+    return result.stdout.strip()
+
+
+def test_the_import_takes_a_fraction_of_a_second():
+    code = "import time; before = time.process_time(); import bootcourse; print(time.process_time() - before)"
+    assert min(float(python(code)) for _ in range(3)) < LEAST
+
+
+def test_the_import_brings_no_heavy_package():
+    heavy = "{'torch', 'numba', 'viser', 'ipywidgets', 'highway_env', 'matplotlib', 'pandas', 'scipy'}"
+    assert python(f"import bootcourse, sys; print(sorted({heavy} & set(sys.modules)))") == "[]"
+
+
+def test_gymnasium_finds_the_road_by_the_modules_name():
+    code = "import gymnasium; print(gymnasium.make('bootcourse:Trap-v0').reset(seed=1)[0].shape)"
+    assert python(code) == "(26,)"
+
+
+@pytest.mark.parametrize("name", bc.__all__)
+def test_a_public_name_is_there_and_explains_itself(name):
+    value = getattr(bc, name)
+    assert name in dir(bc)
+    if inspect.ismodule(value) or inspect.isroutine(value) or inspect.isclass(value):
+        words = inspect.getdoc(value)
+        assert words and words[0].isupper() and "." in words
+
+
+@pytest.mark.parametrize("name", bc.NAMES)
+def test_a_function_says_what_it_raises(name):
+    value = getattr(bc, name)
+    if inspect.isfunction(value) and "raise BootcourseError" in inspect.getsource(value):
+        assert re.search(r"\bRaises\s+BootcourseError\b", inspect.getdoc(value))
+
+
+def test_a_name_is_looked_up_where_it_is_defined():
+    for name, module in bc.NAMES.items():
+        own = getattr(getattr(bc, name), "__module__", module)
+        assert own in (module, "builtins"), f"{name} is defined in {own}"
+
+
+def test_no_name_hides_a_module_of_the_package():
+    for path in (ROOT / "bootcourse").iterdir():
+        if path.stem in bc.NAMES:
+            pytest.fail(f"bc.{path.stem} is a name and a module")
+    for name, module in bc.MODULES.items():
+        assert getattr(bc, name) is importlib.import_module(module)
+
+
+def test_a_wrong_name_gets_the_nearest_one():
+    with pytest.raises(AttributeError, match="'setings_for' is unknown: did you mean 'settings_for'"):
+        bc.setings_for()
+
+
+def test_a_car_is_recorded_trained_evaluated_and_stored_through_the_front_door(tmp_path):
+    drive = bc.record(bc.rule_policy(bc.DEFAULT), [10], label="rule")[0]
+    assert drive.success
+    result = bc.Training(bc.with_seeds(bc.settings_for("bc"), 1), episodes=1).run(progress=False)
+    (folder,) = bc.save_runs(result, tmp_path)
+    agent = bc.load_run(folder).agent
+    episodes = bc.drive_episodes(agent.as_policy(), bc.held_out_seeds(1, 5))
+    assert bc.summarise(episodes).episodes == 5
