@@ -251,14 +251,14 @@ def replay(
                 webbrowser.open(shown.url)
             threading.Event().wait()
         return
-    from bootcourse.episodes.transcript import in_words
+    from bootcourse.episodes.words import transcripts
     from bootcourse.replay3d import pictures, recorder
 
     for path, write in ((export, recorder.export), (gif, pictures.write_gif), (png, pictures.write_png)):
         if path is not None:
             print(f"{write(rollouts, path)} ({path.stat().st_size / 1e6:.1f} MB)")
     if text:
-        print(in_words(rollouts))
+        print(transcripts(rollouts))
 
 
 # Studies ---------------------------------------------------------------------------------------------

@@ -9,12 +9,13 @@ from matplotlib.patches import FancyBboxPatch
 from PIL import Image
 
 from bootcourse.colours import ALARM, TRAP
+from bootcourse.episodes.words import cars_at, doing, overtaken
 from bootcourse.errors import BootcourseError
 from bootcourse.methods import style
 from bootcourse.plots import animation, save, show, top_view, top_view_over_time, traces, training_curves
 from bootcourse.plots.drive_figure import save_drive
 from bootcourse.plots.figure import Picture, finish, label_ends, new_figure, plain_axes, png, styles
-from bootcourse.plots.top_view import cars_at, doing, key_moments, overtaken, window
+from bootcourse.plots.top_view import key_moments, window
 from bootcourse.plots.traces import PANELS, series
 from bootcourse.road.state import EGO, HEADING, LANE, SPEED, TRAP_1, X, Y
 from bootcourse.scenario import DEFAULT

@@ -5,9 +5,9 @@ import io
 import pytest
 from PIL import Image
 
+from bootcourse.episodes.words import overtaken
 from bootcourse.errors import BootcourseError
 from bootcourse.plots import animation, readme_picture
-from bootcourse.plots.top_view import overtaken
 
 
 def test_the_animation_is_small_has_every_frame_and_is_the_same_each_time(idle, escape, tmp_path):

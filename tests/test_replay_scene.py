@@ -9,6 +9,7 @@ import pytest
 
 from bootcourse import colours
 from bootcourse.episodes.record import record
+from bootcourse.episodes.words import ACCIDENTS
 from bootcourse.errors import BootcourseError
 from bootcourse.policies import idle_policy, random_policy, rule_policy
 from bootcourse.replay3d import hud, scene
@@ -101,7 +102,7 @@ def test_an_accident_marks_its_cars_at_its_moment_and_says_its_kind(accidents, k
     [view] = scene.view(timelines, duration)
     crashed = set(np.flatnonzero(rollout.states[-1, :, CRASHED])) | {EGO}
     assert set(np.flatnonzero(view.marked)) == crashed and (len(crashed) > 1) == (kind == Accident.COLLISION)
-    assert view.labels[EGO] == scene.ACCIDENTS[kind] == hud.status(timelines[0], duration)[0]
+    assert view.labels[EGO] == ACCIDENTS[kind] == hud.status(timelines[0], duration)[0]
 
 
 def test_the_rule_s_lane_and_gap_lie_where_the_rule_wants_them(rule_drive):
@@ -238,6 +239,14 @@ def test_the_plots_mark_an_accident(accidents, idle_drive):
     assert hud.plots([Timeline(accidents[Accident.COLLISION])]).count(colours.ALARM) == 3
     assert colours.ALARM not in hud.plots([Timeline(idle_drive)])
     assert hud.cursor(0.25) == "<style>:root{--bc-t:0.2500}</style>"
+
+
+def test_the_return_s_plot_is_over_seconds_whatever_the_decision_rate():
+    scenario = replace(DEFAULT, clock=Clock(decisions=20, decision_rate=2))
+    [drive] = record(idle_policy, [1], scenario, "idle")
+    [returns] = re.findall(r'points="([^"]+)"', hud.plots([Timeline(drive)]))[2:]
+    across = [float(point.split(",")[0]) for point in returns.split()]
+    np.testing.assert_allclose(across, np.arange(21) / 2 / 10.0 * 1000, atol=0.1)  # 1000 wide, 10 s long
 
 
 def test_success_and_being_trapped_are_said_at_the_end():

@@ -39,10 +39,8 @@ def gather(to: Path) -> None:
 def replays() -> str:
     """A page with every drive that ships: to play, and in words."""
     from bootcourse.episodes.rollout import Rollout
-    from bootcourse.episodes.transcript import transcript
+    from bootcourse.episodes.words import outcome, sentence, transcript
     from bootcourse.methods import display_name
-    from bootcourse.plots.figure import sentence
-    from bootcourse.plots.top_view import outcome
     from bootcourse.replay3d import recording
     from bootcourse.storage.assets import FOLDER
 

@@ -6,10 +6,11 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from bootcourse.episodes.rollout import Rollout
+from bootcourse.episodes.words import sentence
 from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.settings import Settings
 from bootcourse.methods import style
-from bootcourse.plots.figure import INK, QUIET, TEXT, finish, new_figure, plain_axes, sentence
+from bootcourse.plots.figure import INK, QUIET, TEXT, finish, new_figure, plain_axes
 from bootcourse.road.formulas import speed_reward
 from bootcourse.rule import SENTENCES, Reason
 from bootcourse.scenario import ACTION_NAMES
@@ -74,20 +75,21 @@ def histogram(values: np.ndarray, label: str, title: str) -> Figure:
 
 
 def reasons_over_time(rollout: Rollout, title: str) -> Figure:
-    """What the rule gives as its reason at each second of a drive."""
+    """What the rule gives as its reason at each decision of a drive."""
     figure = new_figure(2.6)
     ax = figure.add_axes((0.34, 0.2, 0.63, 0.6))
+    rate = rollout.scenario.clock.decision_rate
     used = [reason for reason in Reason if (rollout.rule_reasons == reason).any()]
     for row, reason in enumerate(used):
-        seconds = np.flatnonzero(rollout.rule_reasons == reason)
-        ax.broken_barh([(second, 1) for second in seconds], (row - 0.35, 0.7), color=style("rule").colour)
+        decisions = np.flatnonzero(rollout.rule_reasons == reason)
+        ax.broken_barh([(k / rate, 1 / rate) for k in decisions], (row - 0.35, 0.7), color=style("rule").colour)
     ax.set_yticks(range(len(used)), [sentence(SENTENCES[reason]) for reason in used])
     ax.invert_yaxis()
     plain_axes(ax, "", grid="x")
     ax.tick_params(axis="y", labelcolor=INK)
     ax.set_xlabel("time (s)", fontsize=TEXT, color=INK)
     shares = ", ".join(f"{SENTENCES[r]} {np.mean(rollout.rule_reasons == r):.0%}" for r in used)
-    return finish(figure, title, f"Share of the seconds: {shares}.")
+    return finish(figure, title, f"Share of the decisions: {shares}.")
 
 
 def fading(settings: Settings, most: int = 1500) -> Figure:

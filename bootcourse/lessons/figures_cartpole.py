@@ -6,8 +6,9 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
+from bootcourse.episodes.words import sentence
 from bootcourse.methods import style
-from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, finish, new_figure, sentence
+from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, finish, new_figure
 from bootcourse.study.checks import CARTPOLE_SCALES
 
 TRACK, POLE = 2.4, 1.8  # m: half the track; the pole as it is drawn

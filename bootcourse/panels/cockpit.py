@@ -8,6 +8,7 @@ import numpy as np
 from bootcourse.colours import ALARM, OTHER
 from bootcourse.episodes.interactive import InteractiveEpisode, interpolate_states
 from bootcourse.episodes.rollout import Rollout
+from bootcourse.episodes.words import ACCIDENTS
 from bootcourse.methods import display_name, style
 from bootcourse.panels.axes import Axes, number, span
 from bootcourse.panels.road import BEHIND, road
@@ -17,12 +18,7 @@ from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, Accident, X
 WIDTH, SCALE, HEAD = 1000, 8.0, 24  # pixels; pixels per metre; pixels
 BELOW = 150  # pixels for the score
 BAR = 150  # pixels that a reward of 1 is long
-ENDS = {
-    Accident.NONE: "time is over",
-    Accident.COLLISION: "collision",
-    Accident.ROAD_DEPARTURE: "off the road",
-    Accident.STOPPAGE: "stopped on the road",
-}
+ENDS = ACCIDENTS | {Accident.NONE: "time is over"}
 TERMS = (("r_v, speed", "w_v"), ("r_y, lane centre", "w_y"), ("r_θ, steering", "w_theta"))
 
 

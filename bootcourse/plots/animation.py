@@ -15,11 +15,12 @@ from PIL import Image
 
 from bootcourse.colours import ALARM
 from bootcourse.episodes.rollout import Rollout
+from bootcourse.episodes.words import cars_at, doing, outcome, overtaken, sentence
 from bootcourse.errors import BootcourseError
 from bootcourse.files import write_bytes
 from bootcourse.methods import display_name, style
-from bootcourse.plots.figure import INK, QUIET, WIDTH, new_figure, sentence
-from bootcourse.plots.top_view import cars_at, doing, draw_moment, outcome, overtaken
+from bootcourse.plots.figure import INK, QUIET, WIDTH, new_figure
+from bootcourse.plots.top_view import draw_moment
 from bootcourse.road.state import EGO, SPEED, TRAP_1, X
 
 SPEED_UP = 3.0  # the clip is so many times faster than the road

@@ -24,11 +24,6 @@ INK, QUIET, GRID = "#1F2933", "#5F6B77", "#E3E7EB"  # words and axes; less impor
 TITLE, TEXT, SMALL = 11.5, 8.5, 7.5  # points
 
 
-def sentence(words: str) -> str:
-    """With a capital letter, and otherwise as it is (SAC stays SAC)."""
-    return words[:1].upper() + words[1:]
-
-
 def styles(labels: list[str]) -> list[Style]:
     """The style of each label; two labels that would look the same get different lines."""
     chosen, taken = [], {}

@@ -13,11 +13,12 @@ from matplotlib.patches import FancyBboxPatch, Polygon, Rectangle
 from matplotlib.transforms import Affine2D
 
 from bootcourse.colours import ALARM, TRAFFIC, TRAP
-from bootcourse.episodes.rollout import Rollout, interpolate_states
+from bootcourse.episodes.rollout import Rollout
+from bootcourse.episodes.words import cars_at, doing, outcome, overtaken, sentence
 from bootcourse.errors import BootcourseError
 from bootcourse.methods import display_name, style
-from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, WIDTH, finish, new_figure, sentence
-from bootcourse.road.state import EGO, HEADING, LANE, SPEED, TRAP_1, TRAP_2, Accident, X, Y
+from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, WIDTH, finish, new_figure
+from bootcourse.road.state import EGO, HEADING, LANE, SPEED, TRAP_1, TRAP_2, X, Y
 from bootcourse.scenario import Scenario
 
 ASPHALT, PAINT, EDGE = "#F1F3F5", "#B6BEC7", "#7C8792"
@@ -26,53 +27,6 @@ NEAR, FAR, SPAN = 16.0, 70.0, 84.0  # m; least behind the ego, most to either si
 NAME = 9.0  # m of road that the name of a trap takes
 CLEAR = 15.0  # m; so far ahead of trap 1 the escape is over
 TRAIL = 3.0  # s of the ego's own path behind it
-ACCIDENTS = {Accident.COLLISION: "collision", Accident.ROAD_DEPARTURE: "off the road", Accident.STOPPAGE: "stopped"}
-
-
-def cars_at(rollout: Rollout, time: float) -> np.ndarray:
-    """Every car's state at a time (s), between two simulation steps if it is: (vehicles, 10).
-
-    Raises BootcourseError for a time at which this drive was not on the road.
-    """
-    end = rollout.times[-1]
-    if not 0 <= time <= end + 1e-9:
-        raise BootcourseError(f"time = {time} s: this drive lasts {end:g} s, choose a time from 0 to {end:g}.")
-    return interpolate_states(rollout.states, time / rollout.scenario.clock.dt)
-
-
-def overtaken(rollout: Rollout) -> float | None:
-    """When the ego passes trap 1 for the last time (s); None if it never stays ahead."""
-    behind = np.flatnonzero(rollout.states[:, EGO, X] <= rollout.states[:, TRAP_1, X])
-    return float(rollout.times[behind[-1] + 1]) if behind[-1] + 1 < len(rollout.states) else None
-
-
-def doing(rollout: Rollout, time: float) -> str:
-    """What the ego is doing, in two or three words."""
-    if rollout.accident and time > rollout.times[-1] - 1e-9:
-        return ACCIDENTS[Accident(rollout.accident)]
-    now, later = (cars_at(rollout, min(t, rollout.times[-1])) for t in (time, time + 1.0))
-    before = cars_at(rollout, max(time - 0.5, 0.0))
-    sideways = later[EGO, Y] - before[EGO, Y]
-    faster = (now[EGO, SPEED] + later[EGO, SPEED]) / 2 - now[TRAP_1, SPEED]
-    side = "left" if sideways < 0 else "right"
-    if abs(sideways) > 1.0:
-        start, end = (cars_at(rollout, min(max(t, 0.0), rollout.times[-1])) for t in (time - 1.5, time + 1.5))
-        if start[EGO, LANE] != end[EGO, LANE]:
-            return f"changes lane, {side}"
-    if now[EGO, X] > now[TRAP_1, X]:
-        return "ahead of trap 1"
-    if abs(sideways) > 1.0:
-        return f"moves {side}"
-    return "follows" if abs(faster) < 0.3 else ("catches up" if faster > 0 else "falls back")
-
-
-def outcome(rollout: Rollout) -> str:
-    """How the drive ends, as the end of a sentence."""
-    passes, end = overtaken(rollout), rollout.times[-1]
-    crash = f"{ACCIDENTS[Accident(rollout.accident)]} after {end:g} s" if rollout.accident else ""
-    if passes is None:
-        return crash or f"still behind trap 1 after {end:g} s"
-    return f"ahead of trap 1 after {passes:g} s" + (f", {crash}" if crash else "")
 
 
 def draw_road(ax, scenario: Scenario, left: float, right: float, origin: float) -> None:

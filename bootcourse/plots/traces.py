@@ -9,6 +9,7 @@ from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from bootcourse.colours import ALARM, TRAP
 from bootcourse.episodes.rollout import Rollout
+from bootcourse.episodes.words import ACCIDENTS, outcome, overtaken, sentence
 from bootcourse.errors import BootcourseError, did_you_mean
 from bootcourse.methods import display_name
 from bootcourse.plots.figure import (
@@ -23,11 +24,9 @@ from bootcourse.plots.figure import (
     label_ends,
     new_figure,
     plain_axes,
-    sentence,
     styles,
     wrapped,
 )
-from bootcourse.plots.top_view import ACCIDENTS, outcome, overtaken
 from bootcourse.road.state import EGO, SPEED, TRAP_1, Accident, X, Y
 
 # What can be drawn: the label above the panel, and the panel's height in inches.

@@ -7,6 +7,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, MaxNLocator, PercentFormatter
 
 from bootcourse.colours import Style
+from bootcourse.episodes.words import sentence
 from bootcourse.errors import BootcourseError
 from bootcourse.methods import display_name
 from bootcourse.plots.figure import (
@@ -17,7 +18,6 @@ from bootcourse.plots.figure import (
     label_ends,
     new_figure,
     plain_axes,
-    sentence,
     styles,
     wrapped,
 )

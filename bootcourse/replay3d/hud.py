@@ -9,8 +9,8 @@ from html import escape
 import numpy as np
 
 from bootcourse.colours import ALARM
+from bootcourse.episodes.words import ACCIDENTS
 from bootcourse.methods import style
-from bootcourse.replay3d.scene import ACCIDENTS
 from bootcourse.replay3d.timeline import Timeline
 from bootcourse.road.state import EGO, Accident
 from bootcourse.rule import SENTENCES, Reason, stochastic_rule
@@ -170,10 +170,10 @@ def plots(timelines: list[Timeline]) -> str:
     for timeline in timelines:
         states, width = timeline.rollout.states[:, EGO], timeline.rollout.scenario.road.lane_width
         times = timeline.rollout.times
-        decided = np.minimum(np.arange(timeline.decisions + 1), timeline.duration)
+        seconds = np.arange(timeline.decisions + 1) / timeline.rollout.scenario.clock.decision_rate
         curves["speed, m/s"].append((times, states[:, 3]))
         curves["lane (0 is the leftmost)"].append((times, states[:, 1] / width))
-        curves["return"].append((decided, timeline.returns))
+        curves["return"].append((np.minimum(seconds, timeline.duration), timeline.returns))
     parts = []
     for name, lines in curves.items():
         low, high = min(y.min() for _, y in lines), max(y.max() for _, y in lines)

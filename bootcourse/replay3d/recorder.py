@@ -12,12 +12,10 @@ from pathlib import Path
 
 from viser import _messages
 
-from bootcourse.episodes.transcript import in_words
+from bootcourse.episodes.words import outcome, sentence, transcripts
 from bootcourse.errors import BootcourseError
 from bootcourse.files import write_bytes
 from bootcourse.methods import display_name
-from bootcourse.plots.figure import sentence
-from bootcourse.plots.top_view import outcome
 from bootcourse.replay3d import hud, scene, server
 from bootcourse.replay3d.camera import BIRD, CHASE, SIDE, pose
 from bootcourse.replay3d.pictures import png_bytes
@@ -179,7 +177,7 @@ def recording(
     options = Options(layout=layout, follow=follow, dark=dark, rule=rule)
     poster = png_bytes(rollouts, options=options, size=(960, 540))
     drives = [timeline.rollout for timeline in scene.timelines_of(rollouts)]
-    return Recording(to_html(rollouts, options), poster, height, alt(rollouts), in_words(drives))
+    return Recording(to_html(rollouts, options), poster, height, alt(rollouts), transcripts(drives))
 
 
 def alt(rollouts) -> str:

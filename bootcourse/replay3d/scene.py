@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bootcourse.episodes.rollout import Rollout
+from bootcourse.episodes.words import ACCIDENTS
 from bootcourse.errors import BootcourseError
 from bootcourse.replay3d.timeline import Moment, Timeline
 from bootcourse.road.state import EGO, HEADING, TRAP_1, TRAP_2, Accident, X, Y
@@ -28,12 +29,6 @@ CRUMB_Z, HIDDEN_Z = 0.07, -3.0  # m; a dot of the future waits below the ground
 BRAKES, PUSHES = -0.15, 0.15  # m/s²: from where on the lamps at the back show it
 TRAPS = {TRAP_1: "trap 1", TRAP_2: "trap 2"}
 NEAR = 80.0  # m: a trap further away than this has no distance label
-ACCIDENTS = {
-    Accident.NONE: "",
-    Accident.COLLISION: "collision",
-    Accident.ROAD_DEPARTURE: "left the road",
-    Accident.STOPPAGE: "stopped on the road",
-}
 
 
 def to_world(x, y):
@@ -190,6 +185,6 @@ def _labels(timeline: Timeline, moment: Moment, ended: bool) -> dict[int, str]:
             labels[trap] = f"{name}: beside you"
         elif abs(ahead) <= NEAR:
             labels[trap] = f"{name}: {gap:.1f} m {'ahead' if ahead > 0 else 'behind'}"
-    if ended:
+    if ended and timeline.rollout.accident:
         labels[EGO] = ACCIDENTS[Accident(timeline.rollout.accident)]
-    return {car: text for car, text in labels.items() if text}
+    return labels

@@ -22,10 +22,10 @@
 
 # %%
 from bootcourse.episodes.record import record
+from bootcourse.episodes.words import doing, outcome
 from bootcourse.lessons.shipped import beginning, shipped_agents, shipped_drive, shipped_results
 from bootcourse.methods import display_name as name
 from bootcourse.panels import drive_panel
-from bootcourse.plots.top_view import doing, outcome
 from bootcourse.replay3d import recording
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import escapes

@@ -26,12 +26,13 @@ import gymnasium as gym
 import numpy as np
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
+from bootcourse.episodes.words import overtaken
 from bootcourse.lessons import check
 from bootcourse.lessons.figures import reward_curve
 from bootcourse.lessons.figures_road import nine_actions
 from bootcourse.panels import drive_panel
 from bootcourse.plots.figure import show
-from bootcourse.plots.top_view import overtaken, top_view, top_view_over_time
+from bootcourse.plots.top_view import top_view, top_view_over_time
 from bootcourse.plots.traces import traces
 from bootcourse.policies import idle_policy, in_words, plan_policy, random_policy, rule_policy
 from bootcourse.road import formulas

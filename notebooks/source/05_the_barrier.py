@@ -25,6 +25,7 @@
 import numpy as np
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds, summarise
 from bootcourse.episodes.record import record
+from bootcourse.episodes.words import overtaken
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
 from bootcourse.lessons import check, source
@@ -33,7 +34,7 @@ from bootcourse.lessons.figures import fading
 from bootcourse.lessons.live import LiveCurves
 from bootcourse.panels import train_panel
 from bootcourse.plots.figure import show
-from bootcourse.plots.top_view import overtaken, top_view_over_time
+from bootcourse.plots.top_view import top_view_over_time
 from bootcourse.plots.traces import traces
 from bootcourse.plots.training_curves import training_curves
 from bootcourse.policies import idle_policy, random_policy, rule_policy

@@ -23,6 +23,7 @@
 
 # %%
 import numpy as np
+from bootcourse.episodes.words import overtaken
 from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.lessons import check
 from bootcourse.lessons.charts import lines
@@ -30,7 +31,7 @@ from bootcourse.lessons.shipped import shipped_drive, shipped_results
 from bootcourse.methods import display_name as name
 from bootcourse.panels import sweep_panel
 from bootcourse.plots.figure import show
-from bootcourse.plots.top_view import overtaken, top_view_over_time
+from bootcourse.plots.top_view import top_view_over_time
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import escapes, improvement, interval, iqm, rate
 from bootcourse.storage.assets import FOLDER

@@ -26,6 +26,7 @@ import numpy as np
 import torch
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds, summarise
 from bootcourse.episodes.record import record
+from bootcourse.episodes.words import doing, outcome
 from bootcourse.files import read_arrays
 from bootcourse.learn import bc, sac
 from bootcourse.learn.cql import CQLLearner
@@ -46,7 +47,6 @@ from bootcourse.lessons.figures_baselines import (
 from bootcourse.lessons.shipped import beginning, shipped_agents, shipped_drive, shipped_results
 from bootcourse.methods import display_name as name
 from bootcourse.plots.figure import show
-from bootcourse.plots.top_view import doing, outcome
 from bootcourse.policies import rule_policy
 from bootcourse.replay3d import recording
 from bootcourse.scenario import DEFAULT

@@ -27,13 +27,14 @@ from math import comb
 import numpy as np
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
+from bootcourse.episodes.words import overtaken
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.teachers import TaughtTraining, ahead, course_rule, teacher_policy, toward
 from bootcourse.lessons import check, source
 from bootcourse.lessons.example_teachers import careful, examine, racer, reckless, timid
 from bootcourse.lessons.figures_many import many
 from bootcourse.plots.figure import show
-from bootcourse.plots.top_view import overtaken, top_view_over_time
+from bootcourse.plots.top_view import top_view_over_time
 from bootcourse.road.state import EGO, LANE, SPEED, X, Y
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import ACTION_NAMES, DEFAULT

@@ -1,29 +1,89 @@
-"""A drive in words, for those who do not see the replay: "t = 4 s: changes lane, left. 8.0 m/s, middle lane, ..."."""
+"""A drive in words: what the ego is doing, how the drive ends, and the whole of it as a transcript.
+
+A transcript is for those who do not see the replay: "t = 4 s: changes lane, left. 8.0 m/s, middle lane, ...".
+"""
 
 from collections.abc import Sequence
 
 import numpy as np
 
-from bootcourse.episodes.rollout import Rollout
+from bootcourse.episodes.rollout import Rollout, interpolate_states
+from bootcourse.errors import BootcourseError
 from bootcourse.methods import display_name
-from bootcourse.plots.figure import sentence
-from bootcourse.plots.top_view import ACCIDENTS, cars_at, doing, outcome
-from bootcourse.road.state import CRASHED, EGO, SPEED, TRAP_1, TRAP_2, Accident, X, Y
+from bootcourse.road.state import CRASHED, EGO, LANE, SPEED, TRAP_1, TRAP_2, Accident, X, Y
 
+ACCIDENTS = {
+    Accident.COLLISION: "collision",
+    Accident.ROAD_DEPARTURE: "off the road",
+    Accident.STOPPAGE: "stopped on the road",
+}
 LANES = {1: ("only",), 2: ("left", "right"), 3: ("left", "middle", "right")}
 BESIDE = 5.0  # m between centres: closer than a car's length is neither ahead nor behind
 PATIENCE = 3.0  # s: what lasts for less is told only if it is a change of lane, an overtaking or the end
 PAUSE = 20.0  # s after which something is told even if the car does the same all the time
 
 
+def sentence(words: str) -> str:
+    """With a capital letter, and otherwise as it is (SAC stays SAC)."""
+    return words[:1].upper() + words[1:]
+
+
+def cars_at(rollout: Rollout, time: float) -> np.ndarray:
+    """Every car's state at a time (s), between two simulation steps if it is: (vehicles, 10).
+
+    Raises BootcourseError for a time at which this drive was not on the road.
+    """
+    end = rollout.times[-1]
+    if not 0 <= time <= end + 1e-9:
+        raise BootcourseError(f"time = {time} s: this drive lasts {end:g} s, choose a time from 0 to {end:g}.")
+    return interpolate_states(rollout.states, time / rollout.scenario.clock.dt)
+
+
+def overtaken(rollout: Rollout) -> float | None:
+    """When the ego passes trap 1 for the last time (s); None if it never stays ahead."""
+    behind = np.flatnonzero(rollout.states[:, EGO, X] <= rollout.states[:, TRAP_1, X])
+    return float(rollout.times[behind[-1] + 1]) if behind[-1] + 1 < len(rollout.states) else None
+
+
+def doing(rollout: Rollout, time: float) -> str:
+    """What the ego is doing, in two or three words."""
+    if rollout.accident and time > rollout.times[-1] - 1e-9:
+        return ACCIDENTS[Accident(rollout.accident)]
+    now, later = (cars_at(rollout, min(t, rollout.times[-1])) for t in (time, time + 1.0))
+    before = cars_at(rollout, max(time - 0.5, 0.0))
+    sideways = later[EGO, Y] - before[EGO, Y]
+    faster = (now[EGO, SPEED] + later[EGO, SPEED]) / 2 - now[TRAP_1, SPEED]
+    side = "left" if sideways < 0 else "right"
+    if abs(sideways) > 1.0:
+        start, end = (cars_at(rollout, min(max(t, 0.0), rollout.times[-1])) for t in (time - 1.5, time + 1.5))
+        if start[EGO, LANE] != end[EGO, LANE]:
+            return f"changes lane, {side}"
+    if now[EGO, X] > now[TRAP_1, X]:
+        return "ahead of trap 1"
+    if abs(sideways) > 1.0:
+        return f"moves {side}"
+    return "follows" if abs(faster) < 0.3 else ("catches up" if faster > 0 else "falls back")
+
+
+def outcome(rollout: Rollout) -> str:
+    """How the drive ends, as the end of a sentence."""
+    passes, end = overtaken(rollout), rollout.times[-1]
+    crash = f"{ACCIDENTS[Accident(rollout.accident)]} after {end:g} s" if rollout.accident else ""
+    if passes is None:
+        return crash or f"still behind trap 1 after {end:g} s"
+    return f"ahead of trap 1 after {passes:g} s" + (f", {crash}" if crash else "")
+
+
 def transcript(rollout: Rollout) -> list[str]:
     """A drive as sentences in the order of time, one for each thing that the car begins to do, and how it ends."""
-    moments = np.arange(0.0, rollout.times[-1], 1 / rollout.scenario.clock.decision_rate)
+    rate = rollout.scenario.clock.decision_rate  # decisions for each second
+    moments = np.arange(0.0, rollout.times[-1], 1 / rate)
+    long = max(1, round(PATIENCE * rate))  # decisions
     phases = [doing(rollout, float(time)) for time in moments]
     told, last, last_lane, when = [], "", _lane(rollout, 0.0), -np.inf
     for i, (time, phase) in enumerate(zip(moments, phases, strict=True)):
         changes, lane = phase.startswith("changes lane"), _lane(rollout, time)
-        lasting = i == 0 or changes or phases[i : i + int(PATIENCE)] == [phase] * int(PATIENCE)
+        lasting = i == 0 or changes or phases[i : i + long] == [phase] * long
         if (phase != last and lasting) or time - when >= PAUSE:
             told.append(f"t = {time:g} s: {phase}. {_state(rollout, time)}")
             last, when = phase, time
@@ -36,7 +96,7 @@ def transcript(rollout: Rollout) -> list[str]:
     return told
 
 
-def in_words(rollouts: Sequence[Rollout]) -> str:
+def transcripts(rollouts: Sequence[Rollout]) -> str:
     """The transcripts of some drives below each other, each under its driver's name."""
     return "\n\n".join(
         "\n".join([f"{sentence(display_name(r.label))}, road {r.seed}", *transcript(r)]) for r in rollouts

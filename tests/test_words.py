@@ -5,12 +5,15 @@ from dataclasses import replace
 
 import pytest
 
+from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
-from bootcourse.episodes.transcript import in_words, transcript
-from bootcourse.plots.top_view import overtaken
+from bootcourse.episodes.words import doing, overtaken, transcript, transcripts
+from bootcourse.policies import plan_policy
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, X
+from bootcourse.scenario import DEFAULT, Clock
 from bootcourse.storage.assets import FOLDER
 
+RULE = ("actions", "speeds", "lanes", "distances", "reasons")
 SHIPPED = sorted((FOLDER / "rollouts").glob("*.npz"))
 
 
@@ -51,17 +54,19 @@ def test_doing_nothing_is_told_in_a_few_lines(idle):
     assert len(told) < 12 and "still behind trap 1 after 150 s" in told[-1] and "Return 23.4 over 1500 m" in told[-1]
 
 
+def test_patience_is_in_seconds_whatever_the_decision_rate():
+    """Catching up for 1.5 s is three decisions at 2 Hz, and too short to be told."""
+    scenario = replace(DEFAULT, clock=Clock(decisions=30, decision_rate=2))
+    plan = [("brake straight", 2), ("accelerate straight", 4), ("brake straight", 2), ("keep straight", 22)]
+    [drive] = record(plan_policy(plan), [3], scenario, "you")
+    assert {doing(drive, time) for time in (2.0, 2.5, 3.0)} == {"catches up"}
+    told = transcript(drive)
+    assert not any("catches up" in line for line in told) and moments(told)[-1] == 15.0
+    assert "t = 3.5 s: follows" in "\n".join(told)
+
+
 def test_a_shorter_drive_is_told_as_far_as_it_goes(escape):
-    each = (
-        "actions",
-        "rewards",
-        "terms",
-        "rule_actions",
-        "rule_speeds",
-        "rule_lanes",
-        "rule_distances",
-        "rule_reasons",
-    )
+    each = ("actions", "rewards", "terms", *(f"rule_{what}" for what in RULE))
     cut = {name: getattr(escape, name)[:3] for name in each if getattr(escape, name) is not None}
     short = replace(escape, states=escape.states[:7], observations=escape.observations[:4], **cut)
     assert moments(transcript(short))[-1] == 3.0
@@ -70,5 +75,5 @@ def test_a_shorter_drive_is_told_as_far_as_it_goes(escape):
 @pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
 def test_every_drive_that_ships_has_its_words(path):
     drive = Rollout.load(path)
-    words = in_words([drive])
+    words = transcripts([drive])
     assert f"road {drive.seed}" in words and 5 < len(words.splitlines()) < 40
