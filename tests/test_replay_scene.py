@@ -11,6 +11,7 @@ from bootcourse import colours
 from bootcourse.episodes.record import record
 from bootcourse.episodes.words import ACCIDENTS
 from bootcourse.errors import BootcourseError
+from bootcourse.methods import style
 from bootcourse.policies import idle_policy, random_policy, rule_policy
 from bootcourse.replay3d import hud, scene
 from bootcourse.replay3d.camera import CAMERAS, pose
@@ -195,8 +196,8 @@ def test_a_camera_stands_apart_from_what_it_looks_at():
 
 
 def test_a_label_chooses_the_colour():
-    assert colours.style("bootstrapped").colour == "#D55E00" == colours.style("Bootstrapped, seed 3").colour
-    assert colours.style("my own") is colours.OTHER and colours.rgb("#0072B2") == (0, 114, 178)
+    assert style("bootstrapped").colour == "#D55E00" == style("Bootstrapped, seed 3").colour
+    assert style("my own") is colours.OTHER and colours.rgb("#0072B2") == (0, 114, 178)
 
 
 def test_kl_is_what_one_works_out_by_hand():
