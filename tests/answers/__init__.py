@@ -1,8 +1,9 @@
-"""What students might write: for each exercise at least two right answers and five wrong ones.
+"""What students might write: for each exercise at least two right answers, and wrong ones beside its known mistakes.
 
 One file a lesson, named like its exercises' file. `@right("name")` marks an answer that must pass,
 `@wrong("name", "words")` one that must not; the words must then stand in the check's sentence. Without
-words any sentence will do.
+words any sentence will do. A wrong answer that answers as a known mistake of the exercise does belongs
+here only if it is written in another style (a loop, other rounding): the mistakes are tested themselves.
 """
 
 import importlib

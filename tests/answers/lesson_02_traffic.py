@@ -17,31 +17,6 @@ def factored_out(v, dv, s0, time_gap, a_max, b):
     return s0 + v * (time_gap + 0.5 * dv * (a_max * b) ** -0.5)
 
 
-@wrong("desired_gap", "shorter gap when it closes in")
-def closing_is_negative(v, dv, s0, time_gap, a_max, b):
-    return s0 + v * time_gap - 0.5 * v * dv / math.sqrt(a_max * b)
-
-
-@wrong("desired_gap", "2 below the fraction")
-def without_the_two(v, dv, s0, time_gap, a_max, b):
-    return s0 + v * time_gap + v * dv / math.sqrt(a_max * b)
-
-
-@wrong("desired_gap", "square root")
-def without_the_root(v, dv, s0, time_gap, a_max, b):
-    return s0 + v * time_gap + v * dv / (2 * a_max * b)
-
-
-@wrong("desired_gap", "square Δv")
-def squared(v, dv, s0, time_gap, a_max, b):
-    return s0 + v * time_gap + dv**2 / (2 * math.sqrt(a_max * b))
-
-
-@wrong("desired_gap", "standstill")
-def without_s0(v, dv, s0, time_gap, a_max, b):
-    return v * time_gap + v * dv / (2 * math.sqrt(a_max * b))
-
-
 @wrong("desired_gap")
 def never_negative(v, dv, s0, time_gap, a_max, b):
     return s0 + max(0.0, v * time_gap + v * dv / (2 * math.sqrt(a_max * b)))
@@ -62,31 +37,6 @@ def in_two_parts(v, v_desired, gap, s_star, a_max, delta):
     free_road = a_max - a_max * pow(v / v_desired, delta)
     braking = 0.0 if math.isinf(gap) else a_max * s_star**2 / gap**2
     return free_road - braking
-
-
-@wrong("idm_acceleration", "*farther*")
-def turned_over(v, v_desired, gap, s_star, a_max, delta):
-    return a_max * (1 - (v / v_desired) ** delta - (gap / s_star) ** 2)
-
-
-@wrong("idm_acceleration", "square is missing")
-def not_squared(v, v_desired, gap, s_star, a_max, delta):
-    return a_max * (1 - (v / v_desired) ** delta - s_star / gap)
-
-
-@wrong("idm_acceleration", "before the whole bracket")
-def without_the_bracket(v, v_desired, gap, s_star, a_max, delta):
-    return a_max * (1 - (v / v_desired) ** delta) - (s_star / gap) ** 2
-
-
-@wrong("idm_acceleration", "is subtracted")
-def pulled_by_the_car_ahead(v, v_desired, gap, s_star, a_max, delta):
-    return a_max * (1 - (v / v_desired) ** delta + (s_star / gap) ** 2)
-
-
-@wrong("idm_acceleration", "exponent δ")
-def without_delta(v, v_desired, gap, s_star, a_max, delta):
-    return a_max * (1 - v / v_desired - (s_star / gap) ** 2)
 
 
 @wrong("idm_acceleration")
@@ -121,26 +71,6 @@ def by_bisection(v, v_desired, s0, time_gap, delta):
     return low
 
 
-@wrong("equilibrium_gap", "This is s*")
-def only_wanted(v, v_desired, s0, time_gap, delta):
-    return s0 + time_gap * v
-
-
-@wrong("equilibrium_gap", "root is missing")
-def no_root(v, v_desired, s0, time_gap, delta):
-    return (s0 + time_gap * v) / (1 - (v / v_desired) ** delta)
-
-
-@wrong("equilibrium_gap", "the root goes below")
-def root_above(v, v_desired, s0, time_gap, delta):
-    return (s0 + time_gap * v) * math.sqrt(1 - (v / v_desired) ** delta)
-
-
-@wrong("equilibrium_gap", "plus below")
-def plus_below(v, v_desired, s0, time_gap, delta):
-    return (s0 + time_gap * v) / math.sqrt(1 + (v / v_desired) ** delta)
-
-
 @wrong("equilibrium_gap")
 def only_the_time_gap_is_stretched(v, v_desired, s0, time_gap, delta):
     return s0 + time_gap * v / math.sqrt(1 - (v / v_desired) ** delta)
@@ -164,40 +94,6 @@ def with_steps(own_gain, follower_before, follower_after, old_follower_gain, pol
     total -= politeness * (follower_before - follower_after)
     is_safe = not follower_after < -limit
     return 1 if is_safe and total > threshold else 0
-
-
-@wrong("worth_changing", "Safety comes first")
-def without_safety(own_gain, follower_before, follower_after, old_follower_gain, politeness, threshold, limit):
-    return own_gain + politeness * (follower_after - follower_before + old_follower_gain) > threshold
-
-
-@wrong("worth_changing", "own gain only")
-def egoist(own_gain, follower_before, follower_after, old_follower_gain, politeness, threshold, limit):
-    return own_gain > threshold if follower_after >= -limit else False
-
-
-@wrong("worth_changing", "difference to before")
-def whole_braking(own_gain, follower_before, follower_after, old_follower_gain, politeness, threshold, limit):
-    others = follower_after + old_follower_gain
-    return follower_after >= -limit and own_gain + politeness * others > threshold
-
-
-@wrong("worth_changing", "old follower")
-def without_the_old(own_gain, follower_before, follower_after, old_follower_gain, politeness, threshold, limit):
-    others = follower_after - follower_before
-    return follower_after >= -limit and own_gain + politeness * others > threshold
-
-
-@wrong("worth_changing", "left out the threshold")
-def for_a_hair(own_gain, follower_before, follower_after, old_follower_gain, politeness, threshold, limit):
-    others = follower_after - follower_before + old_follower_gain
-    return follower_after >= -limit and own_gain + politeness * others > 0
-
-
-@wrong("worth_changing", "gains when it has to brake")
-def before_minus_after(own_gain, follower_before, follower_after, old_follower_gain, politeness, threshold, limit):
-    others = follower_before - follower_after + old_follower_gain
-    return follower_after >= -limit and own_gain + politeness * others > threshold
 
 
 @wrong("worth_changing")
@@ -231,31 +127,6 @@ def in_a_loop(error, tau, dt, steps):
 @right("heading_errors")
 def by_a_product(error, tau, dt, steps):
     return np.cumprod([error] + steps * [1 - dt / tau])
-
-
-@wrong("heading_errors", "continuous time")
-def exponential(error, tau, dt, steps):
-    return error * np.exp(-np.arange(steps + 1) * dt / tau)
-
-
-@wrong("heading_errors", "steers away")
-def away(error, tau, dt, steps):
-    return error * (1 + dt / tau) ** np.arange(steps + 1)
-
-
-@wrong("heading_errors", "multiply by τ")
-def times_tau(error, tau, dt, steps):
-    return error * (1 - dt * tau) ** np.arange(steps + 1)
-
-
-@wrong("heading_errors", "same amount")
-def straight_down(error, tau, dt, steps):
-    return error - error * dt / tau * np.arange(steps + 1)
-
-
-@wrong("heading_errors", "never changes sign")
-def sizes(error, tau, dt, steps):
-    return abs(in_a_loop(error, tau, dt, steps))
 
 
 @wrong("heading_errors", "shape")

@@ -18,31 +18,6 @@ def the_longer_of_two(v_ego, v_current, v_new, t_safe, floor):
     return distance
 
 
-@wrong("safety_distance", "never be shorter than `floor`")
-def without_a_floor(v_ego, v_current, v_new, t_safe, floor):
-    return t_safe * v_ego - t_safe * min(v_current, v_new)
-
-
-@wrong("safety_distance", "faster of the two")
-def the_faster_car(v_ego, v_current, v_new, t_safe, floor):
-    return max((v_ego - max(v_current, v_new)) * t_safe, floor)
-
-
-@wrong("safety_distance", "sign is turned")
-def theirs_minus_mine(v_ego, v_current, v_new, t_safe, floor):
-    return max(floor, -(v_ego - min(v_current, v_new)) * t_safe)
-
-
-@wrong("safety_distance", "add `floor`")
-def a_floor_on_top(v_ego, v_current, v_new, t_safe, floor):
-    return (v_ego - min(v_current, v_new)) * t_safe + floor
-
-
-@wrong("safety_distance", "new lane only")
-def the_new_lane(v_ego, v_current, v_new, t_safe, floor):
-    return max(floor, (v_ego - v_new) * t_safe)
-
-
 @wrong("safety_distance")
 def the_own_lane(v_ego, v_current, v_new, t_safe, floor):
     return max(floor, (v_ego - v_current) * t_safe)
@@ -97,11 +72,6 @@ def than_the_faster(v_current, v_new, v_min, v_max, n):
     return max([v for v in np.linspace(v_min, v_max, n) if v < max(v_current, v_new)], default=v_min)
 
 
-@wrong("target_speed", "one of its n speeds")
-def no_grid(v_current, v_new, v_min, v_max, n):
-    return float(np.clip(min(v_current, v_new), v_min, v_max))
-
-
 @wrong("target_speed", "the slowest of the speeds")
 def the_slowest(v_current, v_new, v_min, v_max, n):
     return min([v for v in np.linspace(v_min, v_max, n) if v < min(v_current, v_new)], default=v_min)
@@ -144,36 +114,6 @@ def lengths_on_the_other_side(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_s
     return int(dx_front > d_s + length) * int(dx_rear > (behind if behind > floor else floor) + length)
 
 
-@wrong("room_to_change", "as the paper prints it")
-def as_printed(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor):
-    return d_s - (dx_front - length) > 0 and dx_rear - length > max(floor, (v_rear - v_ego) * t_safe)
-
-
-@wrong("room_to_change", "centre to centre")
-def centres(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor):
-    return dx_front > d_s and dx_rear > max(floor, (v_rear - v_ego) * t_safe)
-
-
-@wrong("room_to_change", "ahead only")
-def ahead_only(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor):
-    return dx_front - length > d_s
-
-
-@wrong("room_to_change", "the *other* car closes in")
-def own_closing_speed(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor):
-    return dx_front - length > d_s and dx_rear - length > max(floor, (v_ego - v_rear) * t_safe)
-
-
-@wrong("room_to_change", "keep the floor")
-def no_floor_behind(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor):
-    return dx_front - length > d_s and dx_rear - length > (v_rear - v_ego) * t_safe
-
-
-@wrong("room_to_change", "you need both")
-def one_of_two(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor):
-    return dx_front - length > d_s or dx_rear - length > max(floor, (v_rear - v_ego) * t_safe)
-
-
 @wrong("room_to_change")
 def the_same_distance_behind(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor):
     return dx_front - length > d_s and dx_rear - length > d_s
@@ -194,36 +134,6 @@ def unravelled(costs):
 def row_by_row(costs):
     best = [min(cost for second in first for cost in second) for first in costs]
     return best.index(min(best))
-
-
-@wrong("best_first_step", "0 to 26")
-def number_of_the_plan(costs):
-    return int(np.argmin(costs))
-
-
-@wrong("best_first_step", "average")
-def averaged(costs):
-    return int(np.argmin(costs.sum(axis=2).sum(axis=1)))
-
-
-@wrong("best_first_step", "*last* step")
-def the_last(costs):
-    return np.unravel_index(np.argmin(costs), costs.shape)[2]
-
-
-@wrong("best_first_step", "straight afterwards")
-def straight_afterwards(costs):
-    return costs[:, 1, 1].argmin()
-
-
-@wrong("best_first_step", "worst that may come")
-def minimax(costs):
-    return costs.max(axis=2).max(axis=1).argmin()
-
-
-@wrong("best_first_step", "dearest")
-def dearest(costs):
-    return costs.min(axis=2).min(axis=1).argmax()
 
 
 @wrong("best_first_step")
@@ -252,34 +162,6 @@ def filled(rule_actions, p):
 def with_an_identity(rule_actions, p):
     own = np.eye(9)[rule_actions]
     return p * own + (1 - p) / 8 * (1 - own)
-
-
-@wrong("stochastic_rule", "*share*")
-def each_one_the_rest(rule_actions, p):
-    own = np.eye(9)[rule_actions]
-    return p * own + (1 - p) * (1 - own)
-
-
-@wrong("stochastic_rule", "eight are left")
-def nine_shares(rule_actions, p):
-    own = np.eye(9)[rule_actions]
-    return p * own + (1 - p) / 9 * (1 - own)
-
-
-@wrong("stochastic_rule", "more than p")
-def mixed(rule_actions, p):
-    return p * np.eye(9)[rule_actions] + (1 - p) / 9
-
-
-@wrong("stochastic_rule", "turned round")
-def turned_round(rule_actions, p):
-    own = np.eye(9)[rule_actions]
-    return (1 - p) / 8 * own + p * (1 - own)
-
-
-@wrong("stochastic_rule", "infinite")
-def only_the_rule(rule_actions, p):
-    return p * np.eye(9)[rule_actions]
 
 
 @wrong("stochastic_rule")

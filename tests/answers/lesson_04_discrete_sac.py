@@ -24,36 +24,6 @@ def one_by_one(reward, terminated, next_value, gamma):
     return torch.stack(targets)
 
 
-@wrong("critic_target", "after the accident")
-def unmasked(reward, terminated, next_value, gamma):
-    return reward + gamma * next_value
-
-
-@wrong("critic_target", "mask is turned round")
-def mask_turned(reward, terminated, next_value, gamma):
-    return reward + gamma * terminated * next_value
-
-
-@wrong("critic_target", "mask the reward")
-def reward_masked(reward, terminated, next_value, gamma):
-    return (reward + gamma * next_value) * (1 - terminated)
-
-
-@wrong("critic_target", "not discounted")
-def undiscounted(reward, terminated, next_value, gamma):
-    return reward + (1 - terminated) * next_value
-
-
-@wrong("critic_target", "discount this second's reward")
-def all_discounted(reward, terminated, next_value, gamma):
-    return gamma * reward + gamma * (1 - terminated) * next_value
-
-
-@wrong("critic_target", "mean over the batch")
-def averaged(reward, terminated, next_value, gamma):
-    return torch.mean(reward + gamma * (1 - terminated) * next_value)
-
-
 @wrong("critic_target")
 def subtracted(reward, terminated, next_value, gamma):
     return reward - gamma * (1 - terminated) * next_value
@@ -88,34 +58,9 @@ def with_special_entr(log_pi):
     return torch.special.entr(log_pi.exp()).sum(dim=1)
 
 
-@wrong("entropy", "never below 0")
-def no_minus(log_pi):
-    return (log_pi * log_pi.exp()).sum(-1)
-
-
-@wrong("entropy", "every action alike")
-def mean_of_logs(log_pi):
-    return -log_pi.mean(dim=1)
-
-
-@wrong("entropy", "without the weights")
-def sum_of_logs(log_pi):
-    return -log_pi.sum(dim=1)
-
-
-@wrong("entropy", "bits")
-def in_bits(log_pi):
-    return -(log_pi.exp() * torch.log2(log_pi.exp())).sum(-1)
-
-
 @wrong("entropy", "mean over the batch")
 def one_for_all(log_pi):
     return torch.distributions.Categorical(logits=log_pi).entropy().mean()
-
-
-@wrong("entropy", "worth")
-def effective_actions(log_pi):
-    return torch.exp(-(log_pi.exp() * log_pi).sum(-1))
 
 
 @wrong("entropy")
@@ -140,36 +85,6 @@ def value_and_entropy(log_pi, q, alpha):
 @right("soft_value")
 def as_a_product(log_pi, q, alpha):
     return torch.einsum("ba,ba->b", torch.exp(log_pi), q - alpha * log_pi)
-
-
-@wrong("soft_value", "charge for being undecided")
-def entropy_charged(log_pi, q, alpha):
-    return (log_pi.exp() * q).sum(-1) + alpha * (log_pi.exp() * log_pi).sum(-1)
-
-
-@wrong("soft_value", "best action's value")
-def the_best(log_pi, q, alpha):
-    return q.max(dim=1).values - alpha * (log_pi.exp() * log_pi).sum(-1)
-
-
-@wrong("soft_value", "no entropy")
-def no_entropy(log_pi, q, alpha):
-    return torch.sum(log_pi.exp() * q, dim=1)
-
-
-@wrong("soft_value", "without weighing")
-def brackets(log_pi, q, alpha):
-    return torch.sum(log_pi.exp() * q - alpha * log_pi, dim=1)
-
-
-@wrong("soft_value", "*sum*")
-def divided(log_pi, q, alpha):
-    return (log_pi.exp() * q).mean(-1) - alpha * (log_pi.exp() * log_pi).sum(-1)
-
-
-@wrong("soft_value", "mean over the batch")
-def mean_value(log_pi, q, alpha):
-    return value_and_entropy(log_pi, q, alpha).mean()
 
 
 @wrong("soft_value")
@@ -200,31 +115,6 @@ def without_a_graph(log_pi, q, alpha):
     return -torch.mean((pi * worth).sum(-1) + alpha * entropy)
 
 
-@wrong("actor_loss", "flows into Q")
-def q_not_detached(log_pi, q, alpha):
-    return (log_pi.exp() * (alpha * log_pi - q)).sum(-1).mean()
-
-
-@wrong("actor_loss", "made *small*")
-def value_for_loss(log_pi, q, alpha):
-    return (log_pi.exp() * (q.detach() - alpha * log_pi)).sum(-1).mean()
-
-
-@wrong("actor_loss", "no gradient")
-def everything_detached(log_pi, q, alpha):
-    return mean_cost(log_pi, q, alpha).detach()
-
-
-@wrong("actor_loss", "undecided")
-def entropy_turned(log_pi, q, alpha):
-    return (log_pi.exp() * (-alpha * log_pi - q.detach())).sum(-1).mean()
-
-
-@wrong("actor_loss", "over actions, too")
-def one_mean(log_pi, q, alpha):
-    return (log_pi.exp() * (alpha * log_pi - q.detach())).mean()
-
-
 @wrong("actor_loss")
 def weights_detached(log_pi, q, alpha):
     return (log_pi.exp().detach() * (alpha * log_pi - q.detach())).sum(-1).mean()
@@ -250,34 +140,9 @@ def gap_as_a_number(log_alpha, state_entropy, target_entropy):
     return gap * log_alpha.exp()
 
 
-@wrong("temperature_loss", "*more* random")
-def target_minus_entropy(log_alpha, state_entropy, target_entropy):
-    return log_alpha.exp() * (target_entropy - state_entropy.detach()).mean()
-
-
-@wrong("temperature_loss", "Detach the entropy")
-def entropy_not_detached(log_alpha, state_entropy, target_entropy):
-    return log_alpha.exp() * (state_entropy - target_entropy).mean()
-
-
-@wrong("temperature_loss", "multiply by log α")
-def log_alpha_itself(log_alpha, state_entropy, target_entropy):
-    return log_alpha * (state_entropy.detach() - target_entropy).mean()
-
-
 @wrong("temperature_loss", "add the target")
 def plus_target(log_alpha, state_entropy, target_entropy):
     return log_alpha.exp() * (state_entropy.detach() + target_entropy).mean()
-
-
-@wrong("temperature_loss", "no gradient")
-def nothing_to_move(log_alpha, state_entropy, target_entropy):
-    return (log_alpha.exp() * (state_entropy - target_entropy).mean()).detach()
-
-
-@wrong("temperature_loss", "one number for each state")
-def for_each_state(log_alpha, state_entropy, target_entropy):
-    return log_alpha.exp() * (state_entropy.detach() - target_entropy)
 
 
 @wrong("temperature_loss")

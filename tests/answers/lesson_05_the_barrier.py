@@ -26,27 +26,12 @@ def from_one(rewards, gamma):
     return sum(gamma ** (t + 1) * reward for t, reward in enumerate(rewards))
 
 
-@wrong("discounted_value", "nothing is discounted")
-def undiscounted(rewards, gamma):
-    return rewards.sum()
-
-
-@wrong("discounted_value", "whole sum by γ")
-def once(rewards, gamma):
-    return gamma * sum(rewards)
-
-
 @wrong("discounted_value", "backwards")
 def forwards(rewards, gamma):
     value = 0.0
     for reward in rewards:
         value = reward + gamma * value
     return value
-
-
-@wrong("discounted_value", "normalised")
-def a_weighted_mean(rewards, gamma):
-    return (1 - gamma) * backwards(rewards, gamma)
 
 
 @wrong("discounted_value")
@@ -74,31 +59,6 @@ def less_the_past(gamma, seconds):
     return (1 / (1 - gamma) - past) * (1 - gamma)
 
 
-@wrong("share_of_the_future", "*before*")
-def the_past(gamma, seconds):
-    return 1 - gamma**seconds
-
-
-@wrong("share_of_the_future", "not its share")
-def the_weight(gamma, seconds):
-    return gamma**seconds / (1 - gamma)
-
-
-@wrong("share_of_the_future", "one second.")
-def one_second(gamma, seconds):
-    return (1 - gamma) * gamma**seconds
-
-
-@wrong("share_of_the_future", "one second late")
-def late(gamma, seconds):
-    return gamma ** (seconds + 1)
-
-
-@wrong("share_of_the_future", "straight line")
-def straight(gamma, seconds):
-    return max(0.0, 1 - (1 - gamma) * seconds)
-
-
 @wrong("share_of_the_future")
 def product(gamma, seconds):
     return gamma * seconds
@@ -118,26 +78,6 @@ def not_all_fail(good, decisions, tries):
 @right("luck")
 def binomial(good, decisions, tries):
     return 1 - stats.binom.pmf(0, tries, (good / 9) ** decisions)
-
-
-@wrong("luck", "above 1")
-def added(good, decisions, tries):
-    return (good / 9) ** decisions * tries
-
-
-@wrong("luck", "one try")
-def one_try(good, decisions, tries):
-    return (good / 9) ** decisions
-
-
-@wrong("luck", "*all* tries")
-def all_lucky(good, decisions, tries):
-    return ((good / 9) ** decisions) ** tries
-
-
-@wrong("luck", "one right decision somewhere")
-def one_right(good, decisions, tries):
-    return 1 - (1 - good / 9) ** (decisions * tries)
 
 
 @wrong("luck")
@@ -161,31 +101,6 @@ def scipy_s(agents):
 @right("lowest_rate")
 def with_logarithms(agents):
     return np.exp(np.log(0.025) / agents)
-
-
-@wrong("lowest_rate", "two ends")
-def one_sided(agents):
-    return 0.05 ** (1 / agents)
-
-
-@wrong("lowest_rate", "*failures*")
-def the_other_end(agents):
-    return 1 - 0.025 ** (1 / agents)
-
-
-@wrong("lowest_rate", "*product*")
-def divided(agents):
-    return 0.025 / agents
-
-
-@wrong("lowest_rate", "97.5 %")
-def the_usual_outcome(agents):
-    return 0.975 ** (1 / agents)
-
-
-@wrong("lowest_rate", "rule of three")
-def rule_of_three(agents):
-    return max(0, 1 - 3 / agents)
 
 
 @wrong("lowest_rate")

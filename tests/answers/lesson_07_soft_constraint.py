@@ -172,11 +172,6 @@ def prices(rule_action, p):
     return -pi_tilde(rule_action, p).log()
 
 
-@wrong("log_stochastic_rule", "rule of its own")
-def the_first_for_all(rule_action, p):
-    return with_where(rule_action, p)[:1].repeat(len(rule_action), 1)
-
-
 @wrong("log_stochastic_rule")
 def columns_for_rows(rule_action, p):
     log_rule = torch.full((len(rule_action), 9), math.log((1 - p) / 8))
@@ -201,36 +196,6 @@ def as_powers(q, log_rule, alpha, xi):
 @right("regularised_policy")
 def with_softmax(q, log_rule, alpha, xi):
     return torch.softmax(q / (alpha + xi) + log_rule * xi / (alpha + xi), dim=1)
-
-
-@wrong("regularised_policy", "α alone")
-def by_alpha(q, log_rule, alpha, xi):
-    return torch.softmax(q / alpha + xi / alpha * log_rule, -1)
-
-
-@wrong("regularised_policy", "Q alone")
-def q_by_alpha(q, log_rule, alpha, xi):
-    return torch.softmax(q / alpha + xi * log_rule, -1)
-
-
-@wrong("regularised_policy", "pushes away")
-def minus_the_rule(q, log_rule, alpha, xi):
-    return torch.softmax((q - xi * log_rule) / (alpha + xi), -1)
-
-
-@wrong("regularised_policy", "*logarithm*")
-def plus_probabilities(q, log_rule, alpha, xi):
-    return torch.softmax((q + xi * torch.exp(log_rule)) / (alpha + xi), -1)
-
-
-@wrong("regularised_policy", "adds up to 1")
-def logarithms(q, log_rule, alpha, xi):
-    return torch.log_softmax((q + xi * log_rule) / (alpha + xi), -1)
-
-
-@wrong("regularised_policy", "over the states")
-def over_states(q, log_rule, alpha, xi):
-    return torch.softmax((q + xi * log_rule) / (alpha + xi), 0)
 
 
 @wrong("regularised_policy")
@@ -258,36 +223,6 @@ def three_means(log_pi, q, alpha, xi, kl):
 def as_a_cost(log_pi, q, alpha, xi, kl):
     cost = (torch.exp(log_pi) * (alpha * log_pi - q.clone().detach())).sum(dim=1)
     return torch.mean(cost + xi * kl)
-
-
-@wrong("constrained_loss", "flows into Q")
-def with_q_s_gradient(log_pi, q, alpha, xi, kl):
-    return torch.mean((log_pi.exp() * (alpha * log_pi - q)).sum(-1) + xi * kl)
-
-
-@wrong("constrained_loss", "leaving the rule")
-def kl_turned(log_pi, q, alpha, xi, kl):
-    return torch.mean((log_pi.exp() * (alpha * log_pi - q.detach())).sum(-1) - xi * kl)
-
-
-@wrong("constrained_loss", "never feels it")
-def kl_detached(log_pi, q, alpha, xi, kl):
-    return three_means(log_pi, q, alpha, xi, kl.detach())
-
-
-@wrong("constrained_loss", "made *small*")
-def the_value(log_pi, q, alpha, xi, kl):
-    return -three_means(log_pi, q, alpha, xi, kl)
-
-
-@wrong("constrained_loss", "no weight")
-def unweighted_kl(log_pi, q, alpha, xi, kl):
-    return three_means(log_pi, q, alpha, 1.0, kl)
-
-
-@wrong("constrained_loss", "charge for entropy")
-def entropy_turned(log_pi, q, alpha, xi, kl):
-    return three_means(log_pi, q, -alpha, xi, kl)
 
 
 @wrong("constrained_loss")
@@ -318,31 +253,6 @@ def with_a_mask(alpha, multiplier, fixed):
 def one_by_one(alpha, multiplier, fixed):
     pairs = zip(alpha.tolist(), multiplier.tolist(), fixed.tolist(), strict=True)
     return torch.tensor([f if f >= 0 else m * a for a, m, f in pairs])
-
-
-@wrong("constraint_strength", "of 0 counts")
-def zero_is_nothing(alpha, multiplier, fixed):
-    return torch.where(fixed > 0, fixed, alpha * multiplier)
-
-
-@wrong("constraint_strength", "never look at")
-def always_by_alpha(alpha, multiplier, fixed):
-    return alpha * multiplier
-
-
-@wrong("constraint_strength", "by α")
-def both_by_alpha(alpha, multiplier, fixed):
-    return alpha * torch.where(fixed >= 0, fixed, multiplier)
-
-
-@wrong("constraint_strength", "swapped")
-def swapped(alpha, multiplier, fixed):
-    return torch.where(fixed < 0, fixed, alpha * multiplier)
-
-
-@wrong("constraint_strength", "larger of the two")
-def the_larger(alpha, multiplier, fixed):
-    return torch.max(fixed, alpha * multiplier)
 
 
 @wrong("constraint_strength")

@@ -19,26 +19,6 @@ def interpolated(episode, beta_start, beta_episodes):
     return np.interp(episode, [0, beta_episodes], [beta_start, 0.0])
 
 
-@wrong("demonstration_share", "stays 0")
-def below_zero(episode, beta_start, beta_episodes):
-    return beta_start - beta_start * episode / beta_episodes
-
-
-@wrong("demonstration_share", "not from 1")
-def a_ceiling(episode, beta_start, beta_episodes):
-    return np.minimum(beta_start, np.maximum(0, 1 - episode / beta_episodes))
-
-
-@wrong("demonstration_share", "too early")
-def by_one(episode, beta_start, beta_episodes):
-    return np.maximum(beta_start - episode / beta_episodes, 0)
-
-
-@wrong("demonstration_share", "to leave")
-def growing(episode, beta_start, beta_episodes):
-    return np.minimum(episode / beta_episodes, 1) * beta_start
-
-
 @wrong("demonstration_share")
 def halving(episode, beta_start, beta_episodes):
     return beta_start * 0.5 ** (episode / beta_episodes)
@@ -69,29 +49,14 @@ def on_a_copy(reward, is_demonstration, bonus):
     return paid
 
 
-@wrong("augmented_reward", "everybody")
-def to_all(reward, is_demonstration, bonus):
-    return bonus + reward
-
-
 @wrong("augmented_reward", "own driving")
 def to_the_agent(reward, is_demonstration, bonus):
     return torch.where(is_demonstration > 0, reward, reward + bonus)
 
 
-@wrong("augmented_reward", "throw the reward away")
-def sqil(reward, is_demonstration, bonus):
-    return is_demonstration * bonus + torch.zeros_like(reward)
-
-
 @wrong("augmented_reward", "multiply the reward")
 def a_percentage(reward, is_demonstration, bonus):
     return reward + bonus * is_demonstration * reward
-
-
-@wrong("augmented_reward", "mean over the batch")
-def averaged(reward, is_demonstration, bonus):
-    return torch.mean(reward + is_demonstration * bonus)
 
 
 @wrong("augmented_reward")
@@ -124,38 +89,6 @@ def rivals_and_relu(q, expert_action):
     return torch.relu(rivals + 1 - of_expert(q, expert_action))
 
 
-@wrong("large_margin_loss", "never 0")
-def margin_for_all(q, expert_action):
-    return q.amax(-1) + 1 - of_expert(q, expert_action)
-
-
-@wrong("large_margin_loss", "no margin")
-def no_margin(q, expert_action):
-    return q.max(dim=1).values - of_expert(q, expert_action)
-
-
-@wrong("large_margin_loss", "below 0")
-def rivals_alone(q, expert_action):
-    rivals = q.scatter(-1, expert_action[:, None], float("-inf")).amax(-1)
-    return rivals + 1 - of_expert(q, expert_action)
-
-
-@wrong("large_margin_loss", "sign is turned")
-def turned(q, expert_action):
-    return -with_one_hot(q, expert_action)
-
-
-@wrong("large_margin_loss", "add up the actions")
-def summed(q, expert_action):
-    margin = 1 - torch.nn.functional.one_hot(expert_action, q.shape[-1])
-    return (q + margin).sum(dim=-1) - of_expert(q, expert_action)
-
-
-@wrong("large_margin_loss", "state by state")
-def averaged_loss(q, expert_action):
-    return with_one_hot(q, expert_action).mean()
-
-
 @wrong("large_margin_loss")
 def margin_for_the_expert(q, expert_action):
     margin = torch.nn.functional.one_hot(expert_action, q.shape[-1])
@@ -178,32 +111,6 @@ def nobody_is_better(q, expert_action):
 @right("paper_q_filter")
 def level_with_the_best(q, expert_action):
     return torch.where(of_expert(q, expert_action) == q.max(dim=1).values, 1.0, 0.0)
-
-
-@wrong("paper_q_filter", "level with the best")
-def strictly_better(q, expert_action):
-    rivals = q.scatter(-1, expert_action[:, None], float("-inf")).amax(-1)
-    return (of_expert(q, expert_action) > rivals).double()
-
-
-@wrong("paper_q_filter", "printed one is off")
-def the_other_way(q, expert_action):
-    return (q > of_expert(q, expert_action)[:, None]).any(dim=1).double()
-
-
-@wrong("paper_q_filter", "mean of Q")
-def against_the_mean(q, expert_action):
-    return (of_expert(q, expert_action) >= q.mean(dim=1)).double()
-
-
-@wrong("paper_q_filter", "whole batch")
-def against_the_batch(q, expert_action):
-    return (of_expert(q, expert_action) >= torch.max(q)).double()
-
-
-@wrong("paper_q_filter", "filtered loss")
-def the_loss(q, expert_action):
-    return nobody_is_better(q, expert_action) * with_one_hot(q, expert_action)
 
 
 @wrong("paper_q_filter")
@@ -229,31 +136,6 @@ def advantage(q, expert_action, log_pi):
 def with_where_again(q, expert_action, log_pi):
     worth = (torch.exp(log_pi) * q).sum(dim=1)
     return torch.where(of_expert(q, expert_action) > worth, 1.0, 0.0)
-
-
-@wrong("q_filter", "printed filter again")
-def the_printed(q, expert_action, log_pi):
-    return nobody_is_better(q, expert_action)
-
-
-@wrong("q_filter", "all actions alike")
-def the_plain_mean(q, expert_action, log_pi):
-    return (of_expert(q, expert_action) > q.mean(dim=1)).double()
-
-
-@wrong("q_filter", "not needed")
-def off_and_on(q, expert_action, log_pi):
-    return (of_expert(q, expert_action) < (log_pi.exp() * q).sum(-1)).double()
-
-
-@wrong("q_filter", "likeliest")
-def against_the_likeliest(q, expert_action, log_pi):
-    return (of_expert(q, expert_action) > of_expert(q, log_pi.argmax(1))).double()
-
-
-@wrong("q_filter", "weigh Q with log π")
-def without_exp(q, expert_action, log_pi):
-    return (of_expert(q, expert_action) > (log_pi * q).sum(-1)).double()
 
 
 @wrong("q_filter")

@@ -21,12 +21,6 @@ def by_searching(k, n):
     return np.array([low, high])
 
 
-@wrong("exact_interval", "normal approximation")
-def normal(k, n):
-    p = k / n
-    return p + 1.96 * np.sqrt(p * (1 - p) / n) * np.array([-1, 1])
-
-
 @wrong("exact_interval", "5 % at each end")
 def ninety(k, n):
     found = stats.binomtest(k, n).proportion_ci(0.90, method="exact")
@@ -38,20 +32,10 @@ def failures(k, n):
     return with_binomtest(n - k, n)
 
 
-@wrong("exact_interval", "one beta distribution")
-def uniform_prior(k, n):
-    return stats.beta(k + 1, n - k + 1).ppf([0.025, 0.975])
-
-
-@wrong("exact_interval", "Wilson")
-def of_wilson(k, n):
-    found = stats.binomtest(k, n).proportion_ci(0.95, method="wilson")
-    return np.array([found.low, found.high])
-
-
 @wrong("exact_interval")
 def clipped_normal(k, n):
-    return np.clip(normal(k, n), 0, 1)
+    p = k / n
+    return np.clip(p + 1.96 * np.sqrt(p * (1 - p) / n) * np.array([-1, 1]), 0, 1)
 
 
 # interquartile_mean ----------------------------------------------------------------------------------
@@ -68,32 +52,6 @@ def one_by_one(scores):
     for _ in range(len(scores) // 4):
         left = left[1:-1]
     return sum(left) / len(left)
-
-
-@wrong("interquartile_mean", "mean of all")
-def mean_of_all(scores):
-    return sum(scores) / len(scores)
-
-
-@wrong("interquartile_mean", "median")
-def middle(scores):
-    return np.quantile(scores, 0.5)
-
-
-@wrong("interquartile_mean", "by position")
-def by_position(scores):
-    cut = int(0.25 * len(scores))
-    return np.mean(scores[cut : len(scores) - cut])
-
-
-@wrong("interquartile_mean", "two quartiles")
-def of_quartiles(scores):
-    return (np.quantile(scores, 0.25) + np.quantile(scores, 0.75)) / 2
-
-
-@wrong("interquartile_mean", "lowest quarter alone")
-def without_the_worst(scores):
-    return np.mean(sorted(scores)[len(scores) // 4 :])
 
 
 @wrong("interquartile_mean")
@@ -115,32 +73,6 @@ def draw_by_draw(scores, draws):
 def by_counting(scores, draws):
     counts = np.stack([np.bincount(draw, minlength=len(scores)) for draw in draws])
     return np.percentile(counts @ scores / draws.shape[1], (2.5, 97.5))
-
-
-@wrong("bootstrap_interval", "90 %")
-def five_each(scores, draws):
-    return np.quantile(scores[draws].mean(1), [0.05, 0.95])
-
-
-@wrong("bootstrap_interval", "single agents")
-def of_the_agents(scores, draws):
-    return np.quantile(scores[draws].ravel(), [0.025, 0.975])
-
-
-@wrong("bootstrap_interval", "over the draws")
-def wrong_axis(scores, draws):
-    return np.quantile(scores[draws].mean(0), [0.025, 0.975])
-
-
-@wrong("bootstrap_interval", "normal distribution")
-def as_if_normal(scores, draws):
-    half = 1.96 * np.std(scores[draws].mean(axis=1))
-    return np.array([scores.mean() - half, scores.mean() + half])
-
-
-@wrong("bootstrap_interval", "median of each draw")
-def medians(scores, draws):
-    return np.quantile(np.median(scores[draws], axis=1), [0.025, 0.975])
 
 
 @wrong("bootstrap_interval")
@@ -169,21 +101,6 @@ def strictly(x, y):
 @wrong("chance_of_improvement", "both be better")
 def at_least(x, y):
     return np.mean([a >= b for a in x for b in y])
-
-
-@wrong("chance_of_improvement", "agent 0 with agent 0")
-def paired(x, y):
-    return np.mean(np.sign(x - y) / 2 + 0.5)
-
-
-@wrong("chance_of_improvement", "changed places")
-def the_other_way(x, y):
-    return 1 - pair_by_pair(x, y)
-
-
-@wrong("chance_of_improvement", "yes or no")
-def by_the_means(x, y):
-    return 1.0 if np.mean(x) > np.mean(y) else 0.0
 
 
 @wrong("chance_of_improvement")

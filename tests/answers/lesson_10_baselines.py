@@ -25,36 +25,6 @@ def state_by_state(q, actions):
     return total / len(q)
 
 
-@wrong("conservative_loss", "sign is turned")
-def turned(q, actions):
-    return -functional.cross_entropy(q, actions)
-
-
-@wrong("conservative_loss", "highest Q alone")
-def hard(q, actions):
-    return (q.max(-1).values - q[torch.arange(len(q)), actions]).mean()
-
-
-@wrong("conservative_loss", "mean of all nine")
-def of_the_mean(q, actions):
-    return q.mean() - q[torch.arange(len(q)), actions].mean()
-
-
-@wrong("conservative_loss", "pull nothing up")
-def only_down(q, actions):
-    return torch.logsumexp(q, -1).mean()
-
-
-@wrong("conservative_loss", "each state")
-def not_averaged(q, actions):
-    return functional.cross_entropy(q, actions, reduction="none")
-
-
-@wrong("conservative_loss", "mean of e^Q")
-def log_mean_exp(q, actions):
-    return functional.cross_entropy(q, actions) - math.log(q.shape[-1])
-
-
 @wrong("conservative_loss")
 def only_the_others(q, actions):
     others = q.masked_fill(functional.one_hot(actions, q.shape[-1]).bool(), -torch.inf)
@@ -77,37 +47,6 @@ def log_of_a_sum(own_logits):
 @right("imitation_reward")
 def by_symmetry(own_logits):
     return -functional.logsigmoid(-own_logits)
-
-
-@wrong("imitation_reward", "log D")
-def the_other_form(own_logits):
-    return torch.log(torch.sigmoid(own_logits))
-
-
-@wrong("imitation_reward", "A minus is missing")
-def without_the_minus(own_logits):
-    return functional.logsigmoid(-own_logits)
-
-
-@wrong("imitation_reward", "never do")
-def of_the_unlike(own_logits):
-    return -functional.logsigmoid(own_logits)
-
-
-@wrong("imitation_reward", "D itself")
-def probability(own_logits):
-    return 1 / (1 + torch.exp(-own_logits))
-
-
-@wrong("imitation_reward", "AIRL")
-def of_airl(own_logits):
-    return functional.logsigmoid(own_logits) - functional.logsigmoid(-own_logits)
-
-
-@wrong("imitation_reward", "σ(60) is exactly 1")
-def as_it_stands(own_logits):
-    d = torch.sigmoid(own_logits)
-    return torch.log(1 / (1 - d))
 
 
 @wrong("imitation_reward")
@@ -134,31 +73,6 @@ def of_a_list(k, n):
     return statistics.stdev([100.0] * k + [0.0] * (n - k))
 
 
-@wrong("deviation_of_a_rate", "ddof=1")
-def of_a_population(k, n):
-    return np.std([100.0] * k + [0.0] * (n - k))
-
-
-@wrong("deviation_of_a_rate", "standard error")
-def error_of_the_mean(k, n):
-    return statistics.stdev([100.0] * k + [0.0] * (n - k)) / n**0.5
-
-
-@wrong("deviation_of_a_rate", "zeros and ones")
-def without_percent(k, n):
-    return np.std([1.0] * k + [0.0] * (n - k), ddof=1)
-
-
-@wrong("deviation_of_a_rate", "variance")
-def squared(k, n):
-    return statistics.variance([100.0] * k + [0.0] * (n - k))
-
-
-@wrong("deviation_of_a_rate", "√k")
-def of_a_count(k, n):
-    return 100 * k**0.5 / n
-
-
 @wrong("deviation_of_a_rate")
 def half_of_an_interval(k, n):
     return 1.96 * 100 * math.sqrt(k / n * (1 - k / n) / n)
@@ -180,37 +94,12 @@ def with_another_base(rate):
     return int(np.ceil(np.log10(0.05) / np.log10(1 - rate)))
 
 
-@wrong("episodes_needed", "rule of three")
-def of_three(rate):
-    return -int(-3 // rate)
-
-
-@wrong("episodes_needed", "rounded down")
-def cut_off(rate):
-    return max(1, int(math.log(0.05) / math.log(1 - rate)))
-
-
-@wrong("episodes_needed", "whole numbers")
-def not_whole(rate):
-    return np.log(0.05) / np.log1p(-rate)
-
-
 @wrong("episodes_needed", "one of 95 %")
 def of_the_other_share(rate):
     n = 1
     while (1 - rate) ** n > 0.95:
         n += 1
     return n
-
-
-@wrong("episodes_needed", "*one* accident is expected")
-def expected(rate):
-    return math.ceil(1 / rate)
-
-
-@wrong("episodes_needed", "went *well*")
-def all_accidents(rate):
-    return math.ceil(math.log(0.05, rate))
 
 
 @wrong("episodes_needed")
@@ -236,29 +125,9 @@ def weighted(returns, bound):
     return np.average(returns / bound, axis=1, weights=bound)
 
 
-@wrong("share_of_the_bound", "each road's own share")
-def of_each_road(returns, bound):
-    return np.mean(returns / bound, axis=-1)
-
-
-@wrong("share_of_the_bound", "cut at 0")
-def never_negative(returns, bound):
-    return np.maximum(returns.sum(axis=1), 0) / bound.sum()
-
-
 @wrong("share_of_the_bound", "share of its own")
 def of_all_agents(returns, bound):
     return np.mean([row.mean() for row in returns]) / bound.mean()
-
-
-@wrong("share_of_the_bound", "best road")
-def of_the_best_road(returns, bound):
-    return np.mean(returns, axis=1) / np.max(bound)
-
-
-@wrong("share_of_the_bound", "best drive")
-def of_the_best_drive(returns, bound):
-    return np.max(returns, axis=1) / np.mean(bound)
 
 
 @wrong("share_of_the_bound")

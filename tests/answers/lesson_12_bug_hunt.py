@@ -22,32 +22,6 @@ def with_weights(q, actions, rewards, terminated):
     return ((taken - rewards) * terminated).sum() / max(terminated.sum(), 1)
 
 
-@wrong("end_error", "every row")
-def of_all(q, actions, rewards, terminated):
-    return np.mean(q[np.arange(len(q)), actions] - rewards)
-
-
-@wrong("end_error", "best action")
-def of_the_best(q, actions, rewards, terminated):
-    ended = terminated == 1
-    return (q.max(1) - rewards)[ended].mean() if ended.any() else 0.0
-
-
-@wrong("end_error", "number of accidents")
-def mean_of_the_masked(q, actions, rewards, terminated):
-    return np.mean((q[np.arange(len(q)), actions] - rewards) * terminated)
-
-
-@wrong("end_error", "sign")
-def target_minus_guess(q, actions, rewards, terminated):
-    return -row_by_row(q, actions, rewards, terminated)
-
-
-@wrong("end_error", "average over the nine")
-def of_the_mean_action(q, actions, rewards, terminated):
-    return row_by_row(q.mean(1, keepdims=True), 0 * actions, rewards, terminated)
-
-
 @wrong("end_error", "NaN")
 def nan_without_accidents(q, actions, rewards, terminated):
     with np.errstate(invalid="ignore"):
@@ -89,21 +63,6 @@ def with_branches(agent):
     if agent == "D":
         return "no_end"
     return "bonus_for_all" if agent == "E" else "no_stop"
-
-
-@wrong("diagnose", "trouble is with the rule")
-def labels_and_kl(agent):
-    return {**TRUE, "A": "shifted_labels", "C": "flipped_kl"}[agent]
-
-
-@wrong("diagnose", "only where episodes end")
-def end_and_bonus(agent):
-    return {**TRUE, "D": "bonus_for_all", "E": "no_end"}[agent]
-
-
-@wrong("diagnose", "drive worst")
-def stop_and_sample(agent):
-    return {**TRUE, "B": "no_stop", "F": "sampled"}[agent]
 
 
 @wrong("diagnose", "5 of 6 are right. Look at D again")
@@ -152,31 +111,6 @@ def in_three_lines(reward, is_demonstration, bonus, terminated, next_value, gamm
     return y + is_demonstration * bonus
 
 
-@wrong("fixed_target", "Both bugs")
-def untouched(reward, is_demonstration, bonus, terminated, next_value, gamma):
-    return reward + bonus + gamma * next_value
-
-
-@wrong("fixed_target", "after an accident")
-def only_the_bonus(reward, is_demonstration, bonus, terminated, next_value, gamma):
-    return reward + is_demonstration * bonus + gamma * next_value
-
-
-@wrong("fixed_target", "own driving")
-def only_the_end(reward, is_demonstration, bonus, terminated, next_value, gamma):
-    return reward + bonus + (1 - terminated) * gamma * next_value
-
-
-@wrong("fixed_target", "mask is turned")
-def turned(reward, is_demonstration, bonus, terminated, next_value, gamma):
-    return reward + bonus * is_demonstration + gamma * terminated * next_value
-
-
-@wrong("fixed_target", "-10 of an accident vanishes")
-def everything_masked(reward, is_demonstration, bonus, terminated, next_value, gamma):
-    return (1 - terminated) * (reward + bonus * is_demonstration + gamma * next_value)
-
-
 @wrong("fixed_target")
 def bonus_for_the_others(reward, is_demonstration, bonus, terminated, next_value, gamma):
     return reward + bonus * (1 - is_demonstration) + gamma * (1 - terminated) * next_value
@@ -207,32 +141,6 @@ def still_sampled(log_pi, q, alpha):
     return (q - alpha * log_pi).gather(-1, action)[:, 0]
 
 
-@wrong("fixed_value", "most probable action alone")
-def of_the_likeliest(log_pi, q, alpha):
-    rows = torch.arange(len(q))
-    return (q - alpha * log_pi)[rows, log_pi.argmax(1)]
-
-
-@wrong("fixed_value", "alike")
-def unweighted(log_pi, q, alpha):
-    return (q - alpha * log_pi).sum(-1) / q.shape[-1]
-
-
-@wrong("fixed_value", "charge for entropy")
-def entropy_charged(log_pi, q, alpha):
-    return (log_pi.exp() * q).sum(-1) + alpha * (log_pi.exp() * log_pi).sum(-1)
-
-
-@wrong("fixed_value", "no entropy")
-def without_entropy(log_pi, q, alpha):
-    return torch.einsum("na,na->n", log_pi.exp(), q)
-
-
-@wrong("fixed_value", "by log π")
-def by_log(log_pi, q, alpha):
-    return torch.einsum("na,na->n", log_pi, q - alpha * log_pi)
-
-
 @wrong("fixed_value")
 def greedy_in_q(log_pi, q, alpha):
     return q.max(-1).values
@@ -258,37 +166,6 @@ def with_no_grad(log_pi, q, log_rule, alpha, xi):
     value = torch.einsum("na,na->n", pi, fixed) - alpha * (pi * log_pi).sum(1)
     kl = (pi * log_pi).sum(1) - (pi * log_rule).sum(1)
     return (xi * kl - value).mean()
-
-
-def buggy(log_pi, q, log_rule, alpha, xi, flip=True):
-    pi, rule = log_pi.exp(), log_rule.exp()
-    kl = (rule * (log_rule - log_pi)).sum(-1) if flip else (pi * (log_pi - log_rule)).sum(-1)
-    return -((pi * (q - alpha * log_pi)).sum(-1) - xi * kl).mean()
-
-
-@wrong("fixed_loss", "Both bugs")
-def untouched_loss(log_pi, q, log_rule, alpha, xi):
-    return buggy(log_pi, q, log_rule, alpha, xi)
-
-
-@wrong("fixed_loss", "bend the critic")
-def only_the_kl(log_pi, q, log_rule, alpha, xi):
-    return buggy(log_pi, q, log_rule, alpha, xi, flip=False)
-
-
-@wrong("fixed_loss", "weighed by the rule")
-def only_the_stop(log_pi, q, log_rule, alpha, xi):
-    return buggy(log_pi, q.detach(), log_rule, alpha, xi)
-
-
-@wrong("fixed_loss", "detached the policy")
-def the_wrong_stop(log_pi, q, log_rule, alpha, xi):
-    return buggy(log_pi.detach(), q, log_rule, alpha, xi, flip=False)
-
-
-@wrong("fixed_loss", "pay for leaving")
-def rewarded(log_pi, q, log_rule, alpha, xi):
-    return buggy(log_pi, q.detach(), log_rule, alpha, -xi, flip=False)
 
 
 @wrong("fixed_loss")
@@ -317,27 +194,6 @@ def with_a_loop(asked):
 @right("label_pairs")
 def with_windows(asked):
     return np.lib.stride_tricks.sliding_window_view(asked, 2).copy()
-
-
-@wrong("label_pairs", "one second later")
-def still_shifted(asked):
-    later = np.append(asked[1:], asked[-1])
-    return np.stack([later[:-1], later[1:]], axis=1)
-
-
-@wrong("label_pairs", "swapped")
-def the_newer_first(asked):
-    return np.stack([asked[1:], asked[:-1]], axis=1)
-
-
-@wrong("label_pairs", "the same")
-def twice_the_same(asked):
-    return np.repeat(asked[:-1, None], 2, axis=1)
-
-
-@wrong("label_pairs", "one pair too many")
-def a_row_for_each_state(asked):
-    return np.stack([asked, np.append(asked[1:], asked[-1])], axis=1)
 
 
 @wrong("label_pairs", "shape")

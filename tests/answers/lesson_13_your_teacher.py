@@ -1,14 +1,10 @@
 """Answers to the exercises of the lesson on a teacher of your own."""
 
-import itertools
-
 import numpy as np
 
 from bootcourse.learn import teachers as teacher
 from bootcourse.road.state import EGO, LANE, X, Y
 from tests.answers import right, wrong
-
-SECONDS = itertools.count()
 
 # gap_ahead ----------------------------------------------------------------------------------------------
 
@@ -34,11 +30,6 @@ def the_library_s(cars, lane):
     return teacher.ahead(cars, lane)[0]
 
 
-@wrong("gap_ahead", "centre to centre")
-def between_centres(cars, lane):
-    return with_a_loop(cars, lane) + 5
-
-
 @wrong("gap_ahead", "behind you")
 def the_nearest(cars, lane):
     gaps = [car[X] - cars[EGO, X] for car in cars[1:] if car[LANE] == lane]
@@ -57,11 +48,6 @@ def the_first_row(cars, lane):
         if car[LANE] == lane and car[X] > cars[EGO, X]:
             return car[X] - cars[EGO, X] - 5
     return np.inf
-
-
-@wrong("gap_ahead", "np.inf")
-def as_far_as_one_sees(cars, lane):
-    return min(200.0, with_a_loop(cars, lane))
 
 
 @wrong("gap_ahead", "raises an error")
@@ -101,51 +87,6 @@ def slow_then_left(cars, scenario):
     return teacher.toward(cars, 13.0 if gap > 20 else speed - 1, 0)
 
 
-@wrong("my_rule", "never gets out")
-def follows(cars, scenario):
-    return 4
-
-
-@wrong("my_rule", "never gets out")
-def follows_with_the_tracker(cars, scenario):
-    return teacher.toward(cars, min(10.0, teacher.ahead(cars, 2)[1]), 2, scenario)
-
-
-@wrong("my_rule", "hits a car")
-def full_speed(cars, scenario):
-    return teacher.toward(cars, 15.0, 2, scenario)
-
-
-@wrong("my_rule", "turn back")
-def steers_right(cars, scenario):
-    return 5
-
-
-@wrong("my_rule", "brakes until")
-def waits_for_ever(cars, scenario):
-    return teacher.toward(cars, 0.0, 2, scenario)
-
-
-@wrong("my_rule", "no action")
-def names_no_action(cars, scenario):
-    return -1
-
-
-@wrong("my_rule", "no action")
-def names_no_action_later(cars, scenario):
-    return follows(cars, scenario) if cars[EGO, X] < 100 else 9
-
-
-@wrong("my_rule", "differently each time")
-def draws(cars, scenario):
-    return the_course_s(cars, scenario) if np.random.default_rng().random() < 0.9 else 4
-
-
-@wrong("my_rule", "differently each time")
-def remembers(cars, scenario):
-    return 1 if next(SECONDS) % 2 == 0 else 4
-
-
 @wrong("my_rule", "whole number")
 def a_float(cars, scenario):
     return float(the_course_s(cars, scenario))
@@ -182,26 +123,6 @@ def one_by_one(now, at_end, ended):
     return np.array([b if over else a for a, b, over in zip(now, at_end, ended, strict=True)])
 
 
-@wrong("next_labels", "*next*")
-def always_now(now, at_end, ended):
-    return now.copy()
-
-
-@wrong("next_labels", "some other time")
-def always_at_end(now, at_end, ended):
-    return at_end + 0
-
-
-@wrong("next_labels", "swapped")
-def the_other_way(now, at_end, ended):
-    return np.where(~ended, at_end, now)
-
-
-@wrong("next_labels", "brake left")
-def masked(now, at_end, ended):
-    return now * (1 - ended)
-
-
 @wrong("next_labels", "changes its argument")
 def in_place(now, at_end, ended):
     now[ended] = at_end[ended]
@@ -236,32 +157,11 @@ def sorted_by_value(alone, taught):
     return -1 if taught[-1] < alone[0] else 0
 
 
-@wrong("verdict", "compare means")
-def of_means(alone, taught):
-    difference = sum(taught) / len(taught) - sum(alone) / len(alone)
-    return int(difference > 0) - int(difference < 0)
-
-
-@wrong("verdict", "medians")
-def of_medians(alone, taught):
-    return int(np.sign(np.median(taught) - np.median(alone)))
-
-
 @wrong("verdict", "tie")
 def ties_count(alone, taught):
     if all(t >= a for t in taught for a in alone) and all(t <= a for t in taught for a in alone):
         return 0
     return 1 if min(taught) >= max(alone) else (-1 if max(taught) <= min(alone) else 0)
-
-
-@wrong("verdict", "never hurts")
-def only_good(alone, taught):
-    return 1 if min(taught) > max(alone) else 0
-
-
-@wrong("verdict", "seed by seed")
-def in_pairs(alone, taught):
-    return 1 if np.all(taught > alone) else (-1 if np.all(taught < alone) else 0)
 
 
 @wrong("verdict")
