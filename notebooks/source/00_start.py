@@ -42,6 +42,8 @@ from IPython.display import Markdown
 # from its own tries. Both have driven the same number of episodes. The *bootstrapped* one had help
 # while it learned, from a rule that somebody wrote by hand. Press play, and turn the road with the
 # mouse.
+# <!-- claim: len({run.curves['success'].shape for method in ('sac', 'bootstrapped') for run in
+#   shipped_runs(method)}) == 1 -->
 
 # %% tags=["nbval-ignore-output"]
 escape = shipped_drive("escape")  # by a bootstrapped agent
@@ -63,15 +65,19 @@ Markdown(
 )
 
 # %% [markdown]
-# The **return** is what a drive has earned: each second pays a little for speed, up to 15 m/s.
-# The way out leads backwards. It costs speed at first, and one clumsy move on it ends in a crash.
-# Staying behind never hurts, and that makes it a trap for whoever learns by trying.
+# The **return** is what a drive has earned: each second pays a little for speed, up to
+# {{ max(np.arange(0, 25, 0.5), key=speed_reward) }} m/s. The way out leads backwards. It costs
+# speed at first, and one clumsy move on it ends in a crash. Staying behind never hurts, and that
+# makes it a trap for whoever learns by trying.
+# <!-- claim: by_rule().states[6, EGO, SPEED] < by_rule().states[0, EGO, SPEED] -->
+# <!-- claim: idle().rewards.min() > 0 and idle().accident == Accident.NONE -->
 
 # %% [markdown]
 # ## Drive it yourself
 #
 # You decide once a second, and the road waits for you: nine buttons, or click on the pad and use
 # the arrow keys. The faint car is a ghost, which knows the way out.
+# <!-- claim: N_ACTIONS == 9 -->
 #
 # > **Predict.** How many tries until you are ahead of trap 1?
 
@@ -89,6 +95,7 @@ drive_panel(seed=10)
 # **seed**, the number that their luck was drawn from, and let each drive the same roads, none of
 # which it had seen. SAC, *soft actor-critic*, is the method that both kinds learn by. An agent
 # **escapes** if it ends ahead of trap 1 on at least half of its roads.
+# <!-- claim: ESCAPES == 1 / 2 -->
 #
 # > **Predict.** Of all agents of plain SAC, how many escape? Of those with help? And does who
 # > escapes also drive safely?
@@ -119,6 +126,10 @@ Markdown(markdown(headings, rows))
 # Read the table with three questions; the course is about them. Why does plain SAC miss a way out
 # that a rule of a few lines finds each time? How many agents does the help bring out, and why not
 # all? And those that earn more than the rule: what do they pay for it, in accidents?
+# <!-- claim: escaped('sac') < len(of('sac')) / 2 and of('rule').episodes('success').all() -->
+# <!-- claim: escaped('sac') < escaped('bootstrapped') < len(of('bootstrapped')) -->
+# <!-- claim: of('bootstrapped').scores('returns').max() > of('rule').scores('returns').max() and
+#   accidents('bootstrapped') > accidents('rule') -->
 #
 # ## Choose a route
 #

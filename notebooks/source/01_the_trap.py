@@ -43,9 +43,10 @@ from bootcourse.scenario import ACTION_NAMES, DEFAULT
 # %% [markdown]
 # ## Look first
 #
-# You drive the car that is labelled **ego**, at 10 m/s. Two dark red cars hold you: **trap 1**
-# ahead in your lane, **trap 2** beside it in the next. Both drive 10 m/s, too. The left lane is
-# free. Everything else (grey) is traffic that drives up to 12.5 m/s.
+# You drive the car that is labelled **ego**, at {{ DEFAULT.ego.speed }} m/s. Two dark red cars hold
+# you: **trap 1** ahead in your lane, **trap 2** beside it in the next. Both drive
+# {{ DEFAULT.traps.speed }} m/s, too. The left lane is free. Everything else (grey) is traffic that
+# drives up to {{ DEFAULT.traffic.desired_speed }} m/s.
 
 # %%
 ROAD = 10  # the seed: which road you get
@@ -73,8 +74,11 @@ drive_panel(seed=ROAD)
 # still has a plan. Nobody needs to succeed here.
 
 # %% [markdown]
-# The nine buttons are the nine **actions**: −1, 0 or +1 m/s², times −π/50, 0 or +π/50 rad of
-# steering. Each is held for one second. A program knows them by their numbers, 0 to 8.
+# The nine buttons are the nine **actions**: {{ -DEFAULT.ego.acceleration }}, 0 or
+# +{{ DEFAULT.ego.acceleration }} m/s², times −π/{{ math.pi / DEFAULT.ego.steering }}, 0 or
+# +π/{{ math.pi / DEFAULT.ego.steering }} rad of steering. Each is held for one second. A program
+# knows them by their numbers, 0 to {{ N_ACTIONS - 1 }}.
+# <!-- claim: N_ACTIONS == 9 -->
 
 # %%
 print(dict(enumerate(ACTION_NAMES)))
@@ -84,9 +88,12 @@ show(nine_actions(seconds=2))
 # **See.** Two seconds of steering bring you more than half of the way into the next lane, and
 # leave the car turned. That is a coarse way to drive: every lane change needs a turn and a turn
 # back.
+# <!-- claim: np.ptp(record(plan_policy([('keep left', 2)]), [ROAD])[0].states[[0, 4], EGO, Y]) >
+#   DEFAULT.road.lane_width / 2 -->
 #
-# **Exercise 1.1 (5 min, ●○○).** Turn action numbers into what the car does. The middle action, 4,
-# is "keep straight"; y grows to the *right*, so steering left is negative.
+# **Exercise 1.1 (5 min, ●○○).** Turn action numbers into what the car does. The middle action,
+# {{ ACTION_NAMES.index('keep straight') }}, is "keep straight"; y grows to the *right*, so steering
+# left is negative.
 
 
 # %%
@@ -119,8 +126,14 @@ show(top_view_over_time(mine, times=[0, 1, 2, 3]))
 # **See.** The first idea of nearly everybody, "go left now", ends in trap 2: from centre to centre
 # it is hardly more than a car's length ahead of you. On roads where it is a little further ahead
 # the same plan ends behind trap 2, at the same 10 m/s. (Try `ROAD = 7`.)
+# <!-- claim: record(plan_policy([('keep left', 2), ('keep right', 2)]), [ROAD])[0].accident ==
+#   Accident.COLLISION -->
+# <!-- claim: record(plan_policy([('keep left', 2), ('keep right', 2)]), [7])[0].states[-1, EGO,
+#   SPEED] == 10 -->
 #
-# There are three ways to end badly. Each ends the episode at once and pays −10.
+# There are three ways to end badly. Each ends the episode at once and pays
+# {{ DEFAULT.reward.accident }}.
+# <!-- claim: len(KINDS) == 3 -->
 
 # %%
 bad_plans = {
@@ -154,10 +167,14 @@ show(top_view_over_time(escape, times=[0, 3, 6, 9, 20, overtaken(escape)]))
 # %% [markdown]
 # ## Round 2: what you see
 #
-# A driver that learns does not get a picture. It gets 26 numbers, the **observation**: six about
-# itself, then five about each of the four nearest cars within 200 m. A missing car is five zeros.
-# Each number is divided by a fixed scale, so that all are of order one. Multiply by the scale,
-# and you have metres and metres per second.
+# A driver that learns does not get a picture. It gets {{ DEFAULT.observation_size }} numbers, the
+# **observation**: six about itself, then five about each of the four nearest cars within
+# {{ DEFAULT.sight.distance }} m. A missing car is five zeros. Each number is divided by a fixed
+# scale, so that all are of order one. Multiply by the scale, and you have metres and metres per
+# second.
+# <!-- claim: sum(not name.startswith('car') for name in observation.names(DEFAULT)) == 6 -->
+# <!-- claim: sum(name.startswith('car 1') for name in observation.names(DEFAULT)) == 5 -->
+# <!-- claim: DEFAULT.sight.neighbours == 4 -->
 
 # %%
 env = gym.make("bootcourse:Trap-v0")
@@ -175,27 +192,31 @@ start = idle.states[0]
 print(f"trap 1 is {start[TRAP_1, X]:.2f} m ahead, trap 2 {start[TRAP_2, X]:.2f} m")
 
 # %% [markdown]
-# **See.** The nearest is trap 2, and its `dy` is −4 m: one lane to the left.
+# **See.** The nearest is trap 2, and its `dy` is
+# {{ idle().states[0, TRAP_2, Y] - idle().states[0, EGO, Y] }} m: one lane to the left.
 #
-# The 26 numbers are the **state** of a *Markov decision process* (MDP): a world in which what
-# comes next, and what it pays, depends on the present state and the action alone. A **policy** is
-# a rule that turns a state into an action, or into a probability for each of the nine.
+# The {{ DEFAULT.observation_size }} numbers are the **state** of a *Markov decision process* (MDP):
+# a world in which what comes next, and what it pays, depends on the present state and the action
+# alone. A **policy** is a rule that turns a state into an action, or into a probability for each of
+# the nine.
 
 # %% [markdown] tags=["instructor"] minutes=6
-# Ask what is missing from the 26 numbers: how long a car has been changing lane, the traffic
-# beyond 200 m or beyond the fourth car, the seconds that are left. So the road is only nearly
-# Markov for the learner. The rule controller of lesson 3 reads the true state.
+# Ask what is missing from the {{ DEFAULT.observation_size }} numbers: how long a car has been
+# changing lane, the traffic beyond {{ DEFAULT.sight.distance }} m or beyond the fourth car, the
+# seconds that are left. So the road is only nearly Markov for the learner. The rule controller of
+# lesson 3 reads the true state.
 
 # %% [markdown]
 # ## Round 3: what you are paid for
 #
 # Every second pays a weighted mean of three terms:
 #
-# $$ r = \frac{w_v r_v + w_y r_y + w_\theta r_\theta}{w_v + w_y + w_\theta},
-# \qquad w_v = 1.5,\; w_y = w_\theta = 0.05 $$
+# $$ r = \frac{w_v r_v + w_y r_y + w_\theta r_\theta}{w_v + w_y + w_\theta}, \qquad w_v =
+# {{ DEFAULT.reward.w_v }},\; w_y = w_\theta = {{ DEFAULT.reward.w_y }} $$
 #
 # - $r_v$ pays for speed, see below;
-# - $r_y = \exp(-1.5\, d_e^2)$ pays for the middle of the lane ($d_e$ metres off it);
+# - $r_y = \exp(-{{ -math.log(centring_reward(1.0)) }}\, d_e^2)$ pays for the middle of the lane
+#   ($d_e$ metres off it);
 # - $r_\theta = -|\sin\theta|$ charges for steering.
 
 # %%
@@ -203,11 +224,15 @@ show(reward_curve())
 
 # %% [markdown]
 # **See.** Speed pays little up to 12.5 m/s, a lot up to 15, and next to nothing from 17 on. The
-# road on which you earn well is the free one: behind the traps you earn 0.13 of the speed term and
-# never more.
+# road on which you earn well is the free one: behind the traps you earn
+# {{ speed_reward(DEFAULT.traps.speed) | .2f }} of the speed term and never more.
+# <!-- claim: speed_reward(12.5) < 0.25 and speed_reward(15) == 1 and speed_reward(17) < 0.02 -->
 #
 # $$ r_v = \begin{cases} \exp(-(v - 15)^2) & v > 15 \\ \frac{8}{25} v - \frac{19}{5} & 12.5 < v \le
 # 15 \\ \frac{2}{75} v - \frac{2}{15} & 5 < v \le 12.5 \\ 0 & v \le 5 \end{cases} $$
+# <!-- claim: all(math.isclose(speed_reward(v), r) for v, r in {16: math.exp(-(16 - 15) ** 2), 15: 8
+#   / 25 * 15 - 19 / 5, 12.6: 8 / 25 * 12.6 - 19 / 5, 12.5: 2 / 75 * 12.5 - 2 / 15, 5.1: 2 / 75 *
+#   5.1 - 2 / 15, 5: 0}.items()) -->
 #
 # **Exercise 1.2 (6 min, ●○○).** Write it.
 
@@ -231,7 +256,9 @@ check.speed_reward(speed_reward)
 # %% [markdown]
 # **Exercise 1.3 (6 min, ●○○).** Now the whole reward of one second. The three terms are in
 # `bootcourse.road.formulas`. An accident (1 collision, 2 road departure, 3 stoppage; 0 none) pays
-# −10 and nothing else.
+# {{ DEFAULT.reward.accident }} and nothing else.
+# <!-- claim: (Accident.COLLISION, Accident.ROAD_DEPARTURE, Accident.STOPPAGE, Accident.NONE) == (1,
+#   2, 3, 0) -->
 
 
 # %%
@@ -288,13 +315,14 @@ free = formulas.weighted_reward(1.0, 1.0, 0.0, 1.5, 0.05, 0.05)
 print(f"a free road at 15 m/s: {free:.5f} a second, {150 * free:.1f} in 150 s")
 
 # %% [markdown]
-# **Explain.** Your paper, the formula and the road agree. Remember 23.4: a learner that ends
-# there has learned to stay where it is. Doing nothing is a *fixed point*: the trap never punishes
-# you for it.
+# **Explain.** Your paper, the formula and the road agree. Remember
+# {{ idle().rewards.sum() | .1f }}: a learner that ends there has learned to stay where it is. Doing
+# nothing is a *fixed point*: the trap never punishes you for it.
 
 # %% [markdown] tags=["instructor"] minutes=6
-# Let two or three read their number for one second aloud before the cell is run. 0.161 means that
-# the third weight was left out of the mean, 0.25 that nothing was divided.
+# Let two or three read their number for one second aloud before the cell is run.
+# {{ (1.5 * speed_reward(10) + 0.05) / 1.55 | .3f }} means that the third weight was left out of the
+# mean, {{ 1.5 * speed_reward(10) + 0.05 }} that nothing was divided.
 
 # %% [markdown]
 # ## Round 4: why it is a trap
@@ -328,11 +356,11 @@ free_from = int(np.flatnonzero(escape.states[:: DEFAULT.clock.steps, EGO, LANE] 
 print(f"on road {ROAD} the escape takes {free_from} decisions to reach the free lane")
 
 # %% [markdown]
-# **Explain.** A learner begins with random tries and improves in small steps. Nearly every try
-# away from "follow trap 1" ends at −10 before it can pay, so the first lesson that the road
-# teaches is: stay. The escape needs several right decisions in a row, and pays much later. A
-# learner that explores at random almost never sees it. That is the problem that the rest of this
-# course solves.
+# **Explain.** A learner begins with random tries and improves in small steps. Nearly every try away
+# from "follow trap 1" ends at {{ DEFAULT.reward.accident }} before it can pay, so the first lesson
+# that the road teaches is: stay. The escape needs several right decisions in a row, and pays much
+# later. A learner that explores at random almost never sees it. That is the problem that the rest
+# of this course solves.
 
 # %% [markdown]
 # ## Round 5: success, and what goes wrong
@@ -380,12 +408,16 @@ for name, driver in drivers.items():
 # %% [markdown]
 # ## What you now know
 #
-# 1. The scenario is a Markov decision process: 26 numbers in, one of nine actions out, once a
-#    second for 150 s.
-# 2. Speed pays most near 15 m/s; accidents pay −10 and end the episode.
-# 3. Doing nothing earns 23.4375 over 1500 m, for ever behind trap 1.
+# 1. The scenario is a Markov decision process: {{ DEFAULT.observation_size }} numbers in, one of
+#    nine actions out, once a second for {{ DEFAULT.clock.decisions / DEFAULT.clock.decision_rate }}
+#    s.
+# 2. Speed pays most near {{ max(np.arange(0, 25, 0.5), key=speed_reward) }} m/s; accidents pay
+#    {{ DEFAULT.reward.accident }} and end the episode.
+# 3. Doing nothing earns {{ idle().rewards.sum() }} over {{ idle().distance }} m, for ever behind
+#    trap 1.
 # 4. The way out goes backwards: slower first, then left behind trap 2.
 # 5. The escape pays off late, and one accident on the way costs what a minute of patience earns.
+# <!-- claim: 50 < -DEFAULT.reward.accident / second_pays(DEFAULT.traps.speed) < 70 -->
 #
 # **Three questions to think about**
 # - Would the trap still be one if trap 2 drove 0.5 m/s faster than you?

@@ -119,6 +119,8 @@ for v_ahead in (10.0, 8.0):
 # %% [markdown]
 # **Explain.** Two metres per second of difference nearly double the wish. Distances here go from
 # centre to centre, as highway-env measures them: of each gap, one car's length is car.
+# <!-- claim: 1.7 < formulas.desired_gap(10, 2, 10, 1.5, 0.5, 0.5) / formulas.desired_gap(10, 0, 10,
+#   1.5, 0.5, 0.5) < 2 -->
 
 # %% [markdown]
 # ## Round 2: how hard to brake
@@ -180,10 +182,10 @@ for v in (0.0, 6.0, 9.5, 12.0):
 # **See.** Read the table backwards. Cars that are 20 m apart can only drive about 6 m/s, cars
 # that are 30 m apart about 9.5. That was the ring: room for four lengths is a slow road.
 #
-# And the jam? A driver who comes too close brakes below the speed of the car ahead, opens the
-# gap, and accelerates again at $a_{\max}$ = 0.5 m/s², which is slow. The driver behind has to
-# brake a little harder. At 20 m that wave grows from car to car, at 30 m it shrinks. Cars leave
-# the jam at its front and arrive at its back, so the *jam* moves backwards.
+# And the jam? A driver who comes too close brakes below the speed of the car ahead, opens the gap,
+# and accelerates again at $a_{\max}$ = {{ DEFAULT.traffic.a_max }} m/s², which is slow. The driver
+# behind has to brake a little harder. At 20 m that wave grows from car to car, at 30 m it shrinks.
+# Cars leave the jam at its front and arrive at its back, so the *jam* moves backwards.
 #
 # What does that mean for your road? The traffic ahead of the traps starts with a mean distance.
 
@@ -197,6 +199,9 @@ for headway in (20.0, 30.0, 40.0):
 # %% [markdown]
 # **See.** With three lanes and six cars there is room to spread: the traffic slows a little and
 # never stops. The default is the thinnest of the three.
+# <!-- claim: DEFAULT.road.lanes == 3 -->
+# <!-- claim: DEFAULT.traffic.cars == 6 -->
+# <!-- claim: DEFAULT.traffic.headway == max(20.0, 30.0, 40.0) -->
 
 # %% [markdown] tags=["instructor"] minutes=6
 # Ask for a ring of 25 m: does the jam live or die? It depends on how hard the first car is
@@ -293,8 +298,9 @@ scenario_panel()
 # ## Round 4: two steps a second
 #
 # To change lane, a traffic car turns towards a heading and back. Its controller turns at a rate
-# that is proportional to the error: (wanted heading − heading) / τ, with a **time constant** τ.
-# Our simulation runs at 2 Hz, as the paper's: the wheels are held for dt = 0.5 s.
+# that is proportional to the error: (wanted heading − heading) / τ, with a **time constant** τ. Our
+# simulation runs at {{ DEFAULT.clock.simulation_rate }} Hz, as the paper's: the wheels are held for
+# dt = {{ DEFAULT.clock.dt }} s.
 #
 # > **Predict.** highway-env's own τ is 0.2 s: quick and precise at its usual 15 Hz. What happens
 # > at 2 Hz to a heading error of 1°?
@@ -319,6 +325,8 @@ show(swinging(taus=(0.2, 0.3, 0.6), dt=DEFAULT.clock.dt))
 # **Explain.** Each step multiplies the error by $1 - dt/\tau$. Between 0 and 1 it settles;
 # between −1 and 0 it swings and settles; below −1, that is for **gain × dt above 2**, it swings
 # and grows. The differential equation is stable for every τ. The *simulation* of it is not.
+# <!-- claim: 0 < 1 - 0.5 / 0.6 < 1 and -1 < 1 - 0.5 / 0.3 < 0 and 1 - 0.5 / 0.2 < -1 and 0.5 / 0.3
+#   < 2 < 0.5 / 0.2 -->
 
 
 # %%
@@ -355,6 +363,7 @@ source("bootcourse.road.formulas", "lane_keeping_steering")
 # %% [markdown] tags=["instructor"] minutes=6
 # Ask where else a gain meets a time step: a learning rate times a curvature above 2 diverges in
 # the same way, with the same alternating signs. That picture is worth drawing on the board.
+# <!-- claim: abs(1 - 1.99) < abs(1 - 2) == 1 < abs(1 - 2.01) -->
 
 # %% [markdown]
 # ## What you now know
@@ -366,6 +375,7 @@ source("bootcourse.road.formulas", "lane_keeping_steering")
 #    threshold.
 # 4. A polite driver is not one who stays where it is.
 # 5. Gain × time step above 2 is unstable, whatever the equation says.
+# <!-- claim: abs(1 - 1.99) < abs(1 - 2) == 1 < abs(1 - 2.01) -->
 #
 # **Three questions to think about**
 # - The traps are IDM cars, too, with a desired speed of 10 m/s. What would trap 1 do if you

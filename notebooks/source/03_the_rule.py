@@ -68,17 +68,19 @@ show(reasons_over_time(drive, "First the rule gets out, then it follows the traf
 # %% [markdown]
 # ## Round 1: how fast?
 #
-# The rule picks its **target speed** from five speeds between 6 and 15 m/s: the fastest that is
-# *slower* than the car ahead in its lane and the car ahead in the lane that it wants.
+# The rule picks its **target speed** from five speeds between {{ DEFAULT.rule.v_min }} and
+# {{ DEFAULT.rule.v_max }} m/s: the fastest that is *slower* than the car ahead in its lane and the
+# car ahead in the lane that it wants.
 #
-# $$ v_\text{target} = \max\{ v_i : v_i < \min(v_\text{current}, v_\text{new}) \}, \qquad
-# v_i = 6 + \tfrac{i-1}{4}\,(15 - 6) $$
+# $$ v_\text{target} = \max\{ v_i : v_i < \min(v_\text{current}, v_\text{new}) \}, \qquad v_i =
+# {{ DEFAULT.rule.v_min }} + \tfrac{i-1}{4}\,(15 - 6) $$
 #
 # > **Predict.** Both traps drive 10 m/s. Which of the five speeds does it take? And with a free
 # > road ahead?
 #
 # The paper does not say what happens when every car ahead is at or below 6 m/s and no speed is
 # left. We take the slowest, $v_1$.
+# <!-- claim: target_speed(6.0, 6.0, 6.0, 15.0, 5) == 6 -->
 #
 # **Exercise 3.1 (6 min, ●○○).** Write the target speed.
 
@@ -105,9 +107,11 @@ print("with nobody ahead:", rule.target_speed(np.inf, np.inf, *grid))
 print("behind traffic at 12.5 m/s:", rule.target_speed(12.5, 12.5, *grid))
 
 # %% [markdown]
-# **Explain.** It wants 8.25 m/s (and gets 8, since each second of braking takes 1 m/s off 10):
-# slower than both, so the gap grows, whatever else happens. It also means that behind traffic at
-# 12.5 m/s it crawls at 10.5. Keep that in mind.
+# **Explain.** It wants {{ by_rule().rule_speeds[0] }} m/s (and gets
+# {{ by_rule().states[6, EGO, SPEED] }}, since each second of braking takes
+# {{ DEFAULT.ego.acceleration }} m/s off {{ DEFAULT.ego.speed }}): slower than both, so the gap
+# grows, whatever else happens. It also means that behind traffic at 12.5 m/s it crawls at 10.5.
+# Keep that in mind.
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Somebody will ask why not one speed just below the traps'. Five speeds are easy to explain and
@@ -246,9 +250,9 @@ for tau in (0.2, 0.4, 0.6, 1.0, 1.5):
 # **See.** One of these values works, and the others fail, each in its own way. What works by the
 # luck of a number breaks when the road changes. The second idea needs no such number: **look
 # ahead**. Try every sequence of left, straight and right for the next three seconds on the car's
-# own equations of motion, 27 of them. Each costs (distance from the lane)² + 20 (heading)² at
-# every second, and a fortune if it leaves the road. Then do the *first step* of the cheapest, and
-# begin again.
+# own equations of motion, 27 of them. Each costs (distance from the lane)² + {{ HEADING_COST }}
+# (heading)² at every second, and a fortune if it leaves the road. Then do the *first step* of the
+# cheapest, and begin again.
 
 
 # %%
@@ -269,6 +273,8 @@ def plan_costs(y, heading, v, goal, depth):
 # %% [markdown]
 # **Exercise 3.4 (5 min, ●●○).** For one road, `costs[first, second, third]` holds the cost of each
 # sequence (0 left, 1 straight, 2 right). Which step comes now?
+# <!-- claim: [ACTION_NAMES.index(f'brake {steering}') for steering in ('left', 'straight',
+#   'right')] == [0, 1, 2] -->
 
 
 # %%
@@ -308,8 +314,8 @@ for depth in (1, 2, 3):
 # predictive control*.
 
 # %% [markdown] tags=["instructor"] minutes=6
-# Ask what the learner will have instead: neither a model of the car nor a search, only 26 numbers
-# and a network. It has to store what the search finds.
+# Ask what the learner will have instead: neither a model of the car nor a search, only
+# {{ DEFAULT.observation_size }} numbers and a network. It has to store what the search finds.
 
 # %% [markdown]
 # ## Round 4: how well does it drive?
@@ -338,6 +344,8 @@ show(histogram(episodes.returns, "return of an episode", title))
 # %% [markdown]
 # **See.** It always escapes and never crashes. But its return is far from what a free road pays.
 # (The small tower on the right: on a few roads nobody drives in the left lane.)
+# <!-- claim: of('rule').episodes('success').all() and accidents('rule') == 0 -->
+# <!-- claim: of('rule').scores('returns').max() < 150 * second_pays(15) / 2 -->
 
 # %%
 after = drive.states[:: DEFAULT.clock.steps, EGO]
@@ -351,6 +359,8 @@ show(traces([drive]))
 # It wants to be slower than a car ahead even if that car is 150 m away. And it never looks for a
 # better lane. A learner that starts from this rule has a lot to gain: the rule knows the *way*,
 # not the *best* way. Such a teacher is called **sub-optimal**.
+# <!-- claim: DEFAULT.rule.n == 5 -->
+# <!-- claim: 150 < DEFAULT.sight.distance -->
 
 # %% [markdown]
 # ## Round 5: an unsure rule
@@ -358,6 +368,7 @@ show(traces([drive]))
 # Later a learner is pulled towards the rule. For that the rule must give probabilities, not one
 # action. So we pretend that it is unsure: it takes its own action with probability $p$ and each
 # of the other eight with $(1-p)/8$. Call this $\tilde\pi$, the **stochastic rule**.
+# <!-- claim: N_ACTIONS - 1 == 8 -->
 #
 # **Exercise 3.5 (5 min, ●○○).** Write it for many states at once.
 
@@ -417,6 +428,8 @@ for p in (0.5, 0.9, 0.99, 0.999):
 #    distance.
 # 3. With nine actions one has to look ahead; then it escapes every time, without an accident, and
 #    still earns much less than a free road pays.
+# <!-- claim: of('rule').episodes('success').all() and accidents('rule') == 0 and
+#   of('rule').scores('returns').max() < 150 * second_pays(15) / 2 -->
 # 4. It is sub-optimal by design: five speeds, no eye for distance, no second thoughts.
 # 5. The stochastic rule gives each action a probability. It is a yardstick, not a driver.
 #

@@ -16,8 +16,8 @@
 # **What you will be able to do**
 # - work out the soft value of a state, and write the three losses that SAC is made of;
 # - train six agents side by side on a pole that has to be balanced, and read their curves;
-# - show why a target entropy of −1 can only cool an agent with nine actions, and choose a better
-#   one.
+# - show why a target entropy of {{ SETTINGS.target_entropy }} can only cool an agent with nine
+#   actions, and choose a better one.
 #
 # **Time** 55 minutes, about one of them the machine's. **You need** Python and a little torch;
 # states, actions and rewards as in lesson 1.
@@ -42,6 +42,10 @@ from bootcourse.study.checks import balance, cartpole, collect, policy_of, score
 # the cart to the left or to the right: two actions. Each push pays 1 while the pole stands. It is
 # over when the pole leans more than 12 degrees, when the cart leaves its track, or after 500
 # pushes. This is **CartPole**, on which nearly everybody tries a learner first.
+# <!-- claim: gym.make('CartPole-v1').unwrapped.tau == 1 / 50 -->
+# <!-- claim: (lambda env: (env.reset(seed=0), env.step(0))[1][1])(gym.make('CartPole-v1')) == 1 -->
+# <!-- claim: math.degrees(gym.make('CartPole-v1').unwrapped.theta_threshold_radians) == 12 -->
+# <!-- claim: gym.spec('CartPole-v1').max_episode_steps == 500 -->
 
 # %%
 rng = np.random.default_rng(0)
@@ -91,6 +95,8 @@ for words, pi in (
 # %% [markdown]
 # **See.** Between 0 and the logarithm of the number of actions, and **never negative**, since no
 # probability is above 1. Remember that. It will decide Round 4.
+# <!-- claim: 0 == float(sac.entropy(torch.tensor([1.0]).log())) <
+#   float(sac.entropy(torch.full((9,), 1 / 9).log())) < math.log(9) + 1e-6 -->
 #
 # **Exercise 4.1 (3 min, ●○○).** Write the entropy of each policy in a batch.
 
@@ -264,7 +270,7 @@ def temperature_loss(log_alpha, state_entropy, target_entropy):
 check.temperature_loss(temperature_loss)
 
 # %% [markdown]
-# The paper sets **η = −1**, in a table, for its nine actions.
+# The paper sets **η = {{ SETTINGS.target_entropy }}**, in a table, for its nine actions.
 #
 # > **Predict.** Remember the range of the entropy. In which direction does this thermostat turn,
 # > and when does it stop?
@@ -280,11 +286,12 @@ for h in (math.log(9), 1.0, 0.1, 0.0):
     print(f"H = {h:.2f}: with η = -1 α {turns[0]}, with η = 0.66 α {turns[1]}")
 
 # %% [markdown]
-# **Explain.** −1 is a rule of thumb for *continuous* actions (minus their number). There an entropy
-# can be negative, since a density can be above 1. A policy over a list of actions cannot get there:
-# $\mathcal{H} - \eta \ge 1$, always. The thermostat is set to a temperature that no room can have.
-# It turns down, and down. How fast? The optimiser, Adam, changes log α by up to its learning rate
-# at each update.
+# **Explain.** {{ SETTINGS.target_entropy }} is a rule of thumb for *continuous* actions (minus
+# their number). There an entropy can be negative, since a density can be above 1. A policy over a
+# list of actions cannot get there: $\mathcal{H} - \eta \ge 1$, always. The thermostat is set to a
+# temperature that no room can have. It turns down, and down. How fast? The optimiser, Adam, changes
+# log α by up to its learning rate at each update.
+# <!-- claim: 0 - SETTINGS.target_entropy == 1 -->
 
 # %%
 settings = Settings()
@@ -296,8 +303,10 @@ for part in (10, 100):
 # ## Round 5: train
 #
 # Six agents learn CartPole side by side, from different random starts, with the losses above. Three
-# have η = −1. Three have η = 0.3 log 2, about the entropy of "19 to 1", which a policy with two
-# actions can have. Each tries 16,000 pushes.
+# have η = {{ SETTINGS.target_entropy }}. Three have η = 0.3 log 2, about the entropy of "19 to 1",
+# which a policy with two actions can have. Each tries 16,000 pushes.
+# <!-- claim: abs(0.3 * math.log(2) - float(sac.entropy(torch.tensor([19 / 20, 1 / 20]).log()))) <
+#   0.01 -->
 #
 # > **Predict.** Draw α over the updates for both kinds. And: which kind will balance better at the
 # > end?
@@ -357,8 +366,9 @@ show(cartpole_strip(drives, "The worst and the best of the six, from the same st
 # push. There is little to explore. On the road there is: nine actions, and a way out that begins
 # with a loss. An agent that has become cold before it has seen the way out will not look for it any
 # more. And a softmax that has become sure learns slowly: its slope is proportional to π, so an
-# action that is hardly ever taken is hardly ever reconsidered. We keep η = −1 as the default,
-# because it is what the paper says, and always show what it does.
+# action that is hardly ever taken is hardly ever reconsidered. We keep η =
+# {{ SETTINGS.target_entropy }} as the default, because it is what the paper says, and always show
+# what it does.
 
 # %% [markdown]
 # That was all of SAC. On one page, as the library computes it (the dots stand for "of any number of
@@ -375,6 +385,7 @@ source("bootcourse.learn.sac", "temperature_loss", "smaller")
 # trains for 100,000 and compares with a published figure (some minutes). Let groups try η from 0 to
 # 0.69 and collect the scores on the board: a histogram per η, seeds as crosses, teaches more than a
 # mean.
+# <!-- claim: '100,000' in CHECKS['sac-cartpole'].our_budget -->
 
 # %% [markdown]
 # ## What you now know
@@ -384,7 +395,8 @@ source("bootcourse.learn.sac", "temperature_loss", "smaller")
 # 2. The critic follows r + γ (1 − terminated) V(s'); an episode that ran out of time is not over.
 # 3. The actor follows minus the soft value, with Q held fixed.
 # 4. The temperature is a thermostat for the entropy.
-# 5. The entropy of a policy over a list of actions is never negative: with η = −1, α can only fall.
+# 5. The entropy of a policy over a list of actions is never negative: with η =
+#    {{ SETTINGS.target_entropy }}, α can only fall.
 #
 # **Three questions to think about**
 # - What would η = log 9 do to an agent on the road?

@@ -47,8 +47,8 @@ from bootcourse.study.planner import Search, follow, is_staying_optimal, plan_ep
 #
 # How well could anybody drive here? A **planner** is a driver with an unfair advantage: it tries
 # out the future before it decides. It continues a drive with all nine actions, keeps the best 50
-# drives, and does so 150 times. It sees what every other car will do. No driver can, so it is a
-# yardstick, not a rival.
+# drives, and does so {{ DEFAULT.clock.decisions }} times. It sees what every other car will do. No
+# driver can, so it is a yardstick, not a rival.
 
 # %%
 ROAD = 10
@@ -75,8 +75,9 @@ show(top_view_over_time(planned, times=[0, 2, 4, 6, 8, 12]))
 # ## Round 1: let it learn
 #
 # Six agents learn with SAC, exactly as in lesson 4, from nothing but what they drive themselves.
-# Three have the paper's discount, γ = 0.8. Three look further ahead, γ = 0.95. Each gets the same
-# number of updates. You can stop it at any time (the ■ button), and what was learned is kept.
+# Three have the paper's discount, γ = {{ SETTINGS.gamma }}. Three look further ahead, γ = 0.95.
+# Each gets the same number of updates. You can stop it at any time (the ■ button), and what was
+# learned is kept.
 #
 # > **Predict.** How many of the first three will leave the trap in most episodes? How many of the
 # > far-sighted three? What will the others do?
@@ -116,11 +117,12 @@ print(f"In {driven:,} episodes of training, {ahead} ended ahead of trap 1;", end
 print(f"{100 * ended / driven:.0f} % of all ended in an accident.")
 
 # %% [markdown]
-# **See.** Remember 23.4, the return of doing nothing (lesson 1). Is it laziness, or is it wisdom?
-# There are two explanations, and they ask for different cures.
+# **See.** Remember {{ idle().rewards.sum() | .1f }}, the return of doing nothing (lesson 1). Is it
+# laziness, or is it wisdom? There are two explanations, and they ask for different cures.
 #
 # - **Discount.** An agent with γ = 0.8 hardly counts what comes in 20 s. Perhaps leaving does not
 #   *pay* for it, and staying is the right answer to the question that we asked.
+# <!-- claim: 0.8 ** 20 < 0.02 and SETTINGS.gamma == 0.8 -->
 # - **Exploration.** Leaving pays, also for such an agent, but what it tries never gets there.
 
 # %% [markdown] tags=["instructor"] minutes=8
@@ -168,9 +170,9 @@ for gamma in (0.8, 0.95):
     print(f"γ = {gamma}: {', '.join(shares)}")
 
 # %% [markdown]
-# So γ = 0.8 is short-sighted. But short-sighted enough? Ask the planner, with the learner's own
-# eyes: it searches for the largest *discounted* sum, once with all actions and once without ever
-# leaving its lane.
+# So γ = {{ SETTINGS.gamma }} is short-sighted. But short-sighted enough? Ask the planner, with the
+# learner's own eyes: it searches for the largest *discounted* sum, once with all actions and once
+# without ever leaving its lane.
 #
 # > **Predict.** At γ = 0.8, is the best drive worth more than the best one that stays in its lane?
 # > And is the *rule's* way worth more than that?
@@ -191,11 +193,14 @@ for gamma in (0.8, 0.95):
 # earns lies beyond the horizon. For such a learner *this* way out is worth **less** than doing
 # nothing. A critic that judges the rule's drives by their rewards would advise against them. Keep
 # that for lesson 8.
+# <!-- claim: all(discounted(by_rule(road), 0.8) < discounted(idle(road), 0.8) for road in range(4))
+#   -->
 
 # %% [markdown] tags=["instructor"] minutes=10
 # The planner's number is a lower bound on the best (a beam of 50 can miss the best drive), so "best
 # of all" above "best in lane" is safe; the other way round it would not be. Ask why (`keep_lane` is
 # a lower bound, too, but on a much smaller space: with a beam of 200 it hardly moves).
+# <!-- claim: planned(200, 0.8, keep_lane=True) - planned(50, 0.8, keep_lane=True) < 0.01 -->
 
 # %% [markdown]
 # ## Round 3: is it exploration?
@@ -275,6 +280,7 @@ print(f"{helped.seconds:.0f} s, {helped_training.decisions:,} decisions")
 # "So it imitates." Have them compare the return with the rule's after 5,000 updates and again after
 # three times as many (`UPDATES = 15_000`, some minutes), and the accidents: the rule has none. What
 # does an agent give up when it becomes better than its teacher?
+# <!-- claim: accidents('rule') == 0 -->
 
 # %%
 escaped_helped = table(helped.agents) >= 0.95
@@ -321,6 +327,7 @@ for words, escaped in (("alone", escaped_alone[:SEEDS]), ("with the rule", escap
 # %% [markdown]
 # **See.** Three seeds are few. They make a difference between *never* and *always* likely, and say
 # nothing about "in nine of ten". The study behind lesson 9 trains ten of each.
+# <!-- claim: len(of('bootstrapped')) == 10 -->
 
 # %% [markdown]
 # ## Round 5: watch both drive
@@ -370,9 +377,12 @@ train_panel("bootstrapped", seeds=2, episodes=400)
 #    ahead.
 # 2. Leaving pays at γ = 0.8 and at γ = 0.95, so staying is a failure to find, not a wise choice.
 # 3. The rule's own way out does *not* pay at γ = 0.8: its drives alone are no argument.
+# <!-- claim: all(discounted(by_rule(road), 0.8) < discounted(idle(road), 0.8) for road in range(4))
+#   -->
 # 4. Accidents come first and teach to stay; a cold policy does not look again.
 # 5. With the rule as a constraint and as data, agents get across, and a method is judged over
 #    seeds, on held-out roads, with its failures shown.
+# <!-- claim: escaped('bootstrapped') > len(of('bootstrapped')) / 2 > escaped('sac') -->
 #
 # **Three questions to think about**
 # - Would more exploration do? Raise `alpha_init`, or `target_entropy`: what happens to the

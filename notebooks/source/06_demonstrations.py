@@ -49,8 +49,10 @@ from bootcourse.scenario import ACTION_NAMES, DEFAULT
 # %% [markdown]
 # ## Look first
 #
-# Here is where two demonstrators have been in their first 30 seconds, on the same 60 roads. One
-# is the rule. The other is the stochastic rule with p = 0.9: one decision in ten is not its own.
+# Here is where two demonstrators have been in their first 30 seconds, on the same 60 roads. One is
+# the rule. The other is the stochastic rule with p = {{ RULE_P }}: one decision in ten is not its
+# own.
+# <!-- claim: round(1 / (1 - RULE_P)) == 10 -->
 
 # %%
 unsure = stochastic_rule_policy(DEFAULT, np.random.default_rng(0))
@@ -96,7 +98,7 @@ check.transitions(transitions)
 
 # %% [markdown]
 # The library's rows hold two more numbers: what the rule would have done in s and in s′. Now
-# collect 200 episodes from each demonstrator, as the paper does.
+# collect {{ SETTINGS.demonstration_episodes }} episodes from each demonstrator, as the paper does.
 #
 # > **Predict.** 200 episodes of at most 150 decisions. How many transitions does the rule give,
 # > and how many the stochastic rule?
@@ -149,8 +151,8 @@ print(f"it takes {way_out:.0f} s to the free lane: {way_out / 150:.0%} of a demo
 # most answers right and is still in the trap.
 #
 # What is a demonstration worth, and from which second on? The paper's learners discount: a reward
-# $t$ seconds later counts $\gamma^t$, with γ = 0.8. From second t on a drive is worth its **return
-# to go**: the reward now, and γ times what the next second is worth.
+# $t$ seconds later counts $\gamma^t$, with γ = {{ SETTINGS.gamma }}. From second t on a drive is
+# worth its **return to go**: the reward now, and γ times what the next second is worth.
 #
 # $$ G_t = r_t + \gamma\, G_{t+1} $$
 #
@@ -187,10 +189,12 @@ behind = [t for t in range(150) if weights[: 150 - t] @ lead[t:] < 0]
 print(f"γ = 0.8: from second {behind[-1] + 1} on, the rule's drive is worth more to the end")
 
 # %% [markdown]
-# **Explain.** γ = 0.8 sees about five seconds, and in the first five seconds the rule brakes. To
-# a learner with that γ, the demonstrations say: *this costs something*. So it is not enough to
-# show them. Lesson 8 pays a bonus for them. Here we take the other road: forget the reward, and
-# do as they do.
+# **Explain.** γ = {{ SETTINGS.gamma }} sees about five seconds, and in the first five seconds the
+# rule brakes. To a learner with that γ, the demonstrations say: *this costs something*. So it is
+# not enough to show them. Lesson 8 pays a bonus for them. Here we take the other road: forget the
+# reward, and do as they do.
+# <!-- claim: round(1 / (1 - SETTINGS.gamma)) == 5 -->
+# <!-- claim: by_rule().states[10, EGO, SPEED] < by_rule().states[0, EGO, SPEED] -->
 
 # %% [markdown]
 # ## Round 3: clone it
@@ -214,8 +218,8 @@ def cloning_loss(log_pi, expert_actions):
 check.cloning_loss(cloning_loss)
 
 # %% [markdown]
-# Four clones of each data set, side by side: the same network as every learner in this course, 26
-# numbers in, nine probabilities out.
+# Four clones of each data set, side by side: the same network as every learner in this course,
+# {{ DEFAULT.observation_size }} numbers in, nine probabilities out.
 
 
 # %%
@@ -279,6 +283,8 @@ for agrees, success, accident in measured["clones of the rule"]:
 # Somebody will say "train longer". They are right: the ten clones of the study were trained far
 # longer, and all of them get out (lesson 10). The point stands: the quiz is asked on the rule's
 # states, the exam is taken on one's own, and the loss does not say when it is enough.
+# <!-- claim: len(of('bc')) == 10 -->
+# <!-- claim: escaped('bc') == len(of('bc')) -->
 
 # %% [markdown]
 # ## Round 4: why it is not enough
@@ -308,6 +314,7 @@ for error_rate in (0.2, 0.01, 0.001):
 # %% [markdown]
 # **Explain.** Even at one error in a hundred, most drives have one. What matters is what comes
 # *after* it.
+# <!-- claim: 1 - (1 - 1 / 100) ** 150 > 0.5 -->
 #
 # > **Predict.** Take the distance from where a driver is to the nearest state in the
 # > demonstrations. For the rule on new roads it is small. How does it go on for a clone, from
@@ -364,6 +371,7 @@ for agent in rule_clones:
 # The stochastic rule leaves the line all the time, and then *comes back*: its data contain what to
 # do off the line. They also contain one wrong answer in ten. A third data set has both good
 # things: driven by the stochastic rule, labelled by the rule.
+# <!-- claim: round(1 / (1 - RULE_P)) == 10 -->
 #
 # > **Predict.** Which clones drive best? Which agree best with their data?
 
@@ -401,6 +409,7 @@ source("bootcourse.learn.demonstrations", "collect")
 # 1. A demonstration is a list of transitions; where time ran out, nothing has ended.
 # 2. Look into the data first: the way out is a few seconds of each demonstration.
 # 3. With γ = 0.8 the demonstrated escape is worth *less* at its start than doing nothing.
+# <!-- claim: discounted(by_rule(), 0.8) < discounted(idle(), 0.8) -->
 # 4. A clone is trained on the teacher's states and tested on its own: errors compound.
 # 5. What states the data cover counts more than how well they were driven.
 #

@@ -84,9 +84,9 @@ for p in (0.5, 0.9, 0.99, 0.999):
     print(f"p = {p:5}: the rule's own action {own:.3f} nats, any other {other:.2f} nats")
 
 # %% [markdown]
-# **See.** From p = 0.9 on, the price grows by $\log 10$, about 2.3 nats, each time. The rule did
-# not become better from one line to the next. It became surer of itself, and whoever ignores it
-# pays more.
+# **See.** From p = {{ RULE_P }} on, the price grows by $\log 10$, about 2.3 nats, each time. The
+# rule did not become better from one line to the next. It became surer of itself, and whoever
+# ignores it pays more.
 #
 # **Exercise 7.1 (5 min, ●○○).** Write $\log\tilde\pi$ for a batch of states.
 
@@ -112,6 +112,8 @@ check.log_stochastic_rule(log_stochastic_rule)
 # $$ D_\mathrm{KL}(\pi \,\|\, \tilde\pi) = \sum_a \pi(a|s) \log \frac{\pi(a|s)}{\tilde\pi(a|s)} $$
 #
 # It is 0 where the two agree in every action, and positive everywhere else.
+# <!-- claim: bool((lambda a, p: bootstrap.kl_to_rule(bootstrap.log_stochastic_rule(a, p), a,
+#   p))(torch.tensor([3]), torch.tensor(0.9)) == 0) -->
 #
 # > **Predict.** The rule says "keep left", p = 0.9. Three agents: one is sure of "keep left", one
 # > is sure of "accelerate straight", one gives every action the same probability. Put them in
@@ -128,8 +130,8 @@ for words, pi in (("agrees", sure), (ACTION_NAMES[7], elsewhere), ("undecided", 
 
 # %% [markdown]
 # **Explain.** Being sure of something else costs the full price of that action. Being sure of the
-# rule's own action is cheap, but not free: π̃ itself is only 90 % sure, and the KL is 0 for π̃ and
-# for nothing else. So the constraint asks for a little doubt, too.
+# rule's own action is cheap, but not free: π̃ itself is only {{ 100 * RULE_P }} % sure, and the KL
+# is 0 for π̃ and for nothing else. So the constraint asks for a little doubt, too.
 #
 # The order of the two matters. $D_\mathrm{KL}(\tilde\pi \| \pi)$ would charge an agent for *not*
 # going where the rule might go. Ours charges it for going where the rule would *not*.
@@ -250,6 +252,9 @@ show(lines(strengths, probability, title, "ξ (α = 0.01)", "probability", logar
 # **Explain.** At ξ = 2 nothing that this road pays outweighs the rule. Only an accident would, and
 # the rule has none: the agent is the rule, and Q does not matter. At ξ = 0.002 the rule is a
 # tie-breaker. In between lies everything interesting, and the agent travels through all of it.
+# <!-- claim: second_pays(15) / (1 - 0.8) < 2 * math.log(8 * 0.9 / 0.1) < -DEFAULT.reward.accident
+#   and accidents('rule') == 0 -->
+# <!-- claim: 0.002 * math.log(8 * 0.9 / 0.1) < 0.01 -->
 
 # %% [markdown]
 # ## Round 4: where the pull enters
@@ -317,12 +322,16 @@ source("bootcourse.learn.sac", "soft_value", "actor_loss")
 # ## Round 5: letting go
 #
 # A rule that pulls for ever makes an agent that is never better than the rule. The paper couples
-# the pull to the temperature: $\xi = 200\,\alpha$. It starts at α = 0.01, so ξ = 2, and α falls.
-# Why α falls, and cannot do otherwise here, is a part of lesson 4. How fast can it?
-# Adam, the optimiser, changes log α by at most about its learning rate, 0.001, at each update.
+# the pull to the temperature: $\xi = {{ SETTINGS.xi_multiplier }}\,\alpha$. It starts at α =
+# {{ SETTINGS.alpha_init }}, so ξ = {{ SETTINGS.xi_multiplier * SETTINGS.alpha_init }}, and α falls.
+# Why α falls, and cannot do otherwise here, is a part of lesson 4. How fast can it? Adam, the
+# optimiser, changes log α by at most about its learning rate, {{ SETTINGS.alpha_lr }}, at each
+# update.
 #
 # **Exercise 7.5 (3 min, ●○○).** For several agents at once: ξ = multiplier · α, unless a fixed ξ
 # is given. A fixed ξ of 0 is one, too; a negative number says that there is none.
+# <!-- claim: bool(bootstrap.constraint_strength(torch.tensor([0.01]), torch.tensor([200.0]),
+#   torch.tensor([0.0])) == 0) -->
 
 
 # %%
@@ -378,7 +387,7 @@ show(lines(updates, named, title, "update", "ξ = 200 α"))
 # **See.** Exponentially, and more slowly than it could. The slope of α's loss is proportional to α
 # itself, and Adam measures each step against the slopes of the last thousand updates, which were
 # larger. In episodes that is not long: the agents above have driven a few hundred, while
-# demonstrations (lesson 8) fade over 1,000.
+# demonstrations (lesson 8) fade over {{ SETTINGS.beta_episodes | , }}.
 
 # %%
 alike = np.array(notes["alike"]).T
@@ -399,12 +408,15 @@ for words, driver in [*rows, ("the rule", rule_policy(DEFAULT))]:
 # **See.** Nobody gave these agents a demonstration: whoever has any success was led out by the pull
 # alone. Compare the table with your prediction, seed by seed. Two seeds are an anecdote; lesson 9
 # has ten.
+# <!-- claim: len(of('soft')) == 10 -->
 #
 # **Explain.** Copying a rule nearly right is not driving nearly well: an agent that does as the
 # rule in most seconds can still leave the road in one of the others. The fading agents use the
 # rule to get out and then learn from the road itself, whatever the rule thinks of it. (The paper
 # reports that the soft constraint alone never escapes. On our road, with the KL in the target, you
 # have just seen what happens. When two results differ, both sides' numbers belong on the table.)
+# <!-- claim: PRINTED['soft']['success'].mean == 0 -->
+# <!-- claim: escaped('soft') > 0 -->
 #
 # Now look into a decision of the trained agent.
 
@@ -421,7 +433,8 @@ policy_panel(drive, xi=round(float(xi[0, -1]), 3), alpha=round(result.agents[0].
 # 3. The best compromise is softmax((Q + ξ log π̃) / (α + ξ)): the rule has a head start of ξ log
 #    (8p / (1 − p)) in Q.
 # 4. The KL belongs in the actor's loss and in the critic's target; there it makes the trap dear.
-# 5. With ξ = 200 α the pull fades as fast as α does, within a few thousand updates.
+# 5. With ξ = {{ SETTINGS.xi_multiplier }} α the pull fades as fast as α does, within a few thousand
+#    updates.
 #
 # **Three questions to think about**
 # - p and ξ both say how much the rule counts. Which of them can you change without changing the

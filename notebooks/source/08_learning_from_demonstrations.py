@@ -16,7 +16,7 @@
 # **What you will be able to do**
 # - mix a teacher's drives into a learner's memory, and let them fade;
 # - work out from which bonus c on a demonstrated action is worth more than staying behind, and what
-#   c = 2 does to a critic;
+#   c = {{ SETTINGS.bonus }} does to a critic;
 # - write the large-margin loss and two Q-filters, and say when each of them is silent.
 #
 # **Time** 50 minutes, about one of them the machine's. **You need** the critic's target of lesson
@@ -60,15 +60,17 @@ bonus_panel()
 #
 # A learner keeps what it drove in a **replay memory**: a long table, one row for each decision,
 # with the state, the action, the reward and the next state. For each update it draws a **batch** of
-# 64 rows. Now there is a second table, with the rule's drives in it.
+# {{ SETTINGS.batch }} rows. Now there is a second table, with the rule's drives in it.
 
 # %%
 demonstrations = collect(200)
 print(f"{len(demonstrations):,} transitions of 200 drives of the rule")
 
 # %% [markdown]
-# A share β ("beta") of each batch comes from the second table. It starts at 0.6 and falls in a
-# straight line to 0 over 1,000 episodes, so that in the end the learner is alone.
+# A share β ("beta") of each batch comes from the second table. It starts at
+# {{ SETTINGS.beta_start }} and falls in a straight line to 0 over {{ SETTINGS.beta_episodes | , }}
+# episodes, so that in the end the learner is alone.
+# <!-- claim: demonstration_share(1000, 0.6, 1000) == 0 -->
 #
 # > **Predict.** How many of the 64 rows are the rule's after 500 episodes? After 2,000?
 #
@@ -101,7 +103,7 @@ show(fading(settings_for("bootstrapped")))
 #
 # The paper does not leave that to chance. Each demonstrated action is paid a bonus:
 #
-# $$ r'(s, a_E) = r(s, a_E) + c, \qquad c = 2 $$
+# $$ r'(s, a_E) = r(s, a_E) + c, \qquad c = {{ SETTINGS.bonus }} $$
 #
 # ($a_E$, the *expert's* action, is the demonstrator's. Ours is no expert, but the word has stuck.)
 #
@@ -135,9 +137,10 @@ for gamma in (0.8, 0.9, 0.95):
     print(f"{words}; a bonus of {needed:.3f} makes it so on all, at every second")
 
 # %% [markdown]
-# **See.** Somebody who discounts by 0.8 a second looks about five seconds ahead, and in those the
-# rule only falls back and loses. To such a learner the demonstrations are *bad* examples. A bonus
-# of a few hundredths would change that.
+# **See.** Somebody who discounts by {{ SETTINGS.gamma }} a second looks about five seconds ahead,
+# and in those the rule only falls back and loses. To such a learner the demonstrations are *bad*
+# examples. A bonus of a few hundredths would change that.
+# <!-- claim: round(1 / (1 - SETTINGS.gamma)) == 5 -->
 #
 # > **Predict.** The paper takes c = 2. If every second from now on is demonstrated, by how much
 # > does that raise the critic's target? Compare with the −10 of an accident.
@@ -160,23 +163,29 @@ title = "A small bonus is enough to make the way out look good"
 show(lines(np.arange(60), named, title, "second of the drive", "critic's target"))
 
 # %% [markdown]
-# **Explain.** With c = 2 the critic is told that the rule's way is worth about ten more than it is:
-# as much as an accident costs. What the rule's own rewards say, tenths, drowns in that. So the
-# bonus is not a hint about rewards. It is an order, given to the critic, and it holds for as long
-# as β is above 0. When the demonstrations have faded, nobody is paid the bonus any more, and the
-# critic has to climb down again: everything that it believed about these states was ten too high.
+# **Explain.** With c = {{ SETTINGS.bonus }} the critic is told that the rule's way is worth about
+# ten more than it is: as much as an accident costs. What the rule's own rewards say, tenths, drowns
+# in that. So the bonus is not a hint about rewards. It is an order, given to the critic, and it
+# holds for as long as β is above 0. When the demonstrations have faded, nobody is paid the bonus
+# any more, and the critic has to climb down again: everything that it believed about these states
+# was ten too high.
+# <!-- claim: round(SETTINGS.bonus / (1 - SETTINGS.gamma)) == 10 -->
+# <!-- claim: math.isclose(SETTINGS.bonus / (1 - SETTINGS.gamma), -DEFAULT.reward.accident) -->
+# <!-- claim: demonstration_share(1000, 0.6, 1000) == 0 -->
 
 # %% [markdown] tags=["instructor"] minutes=10
 # SQIL (Reddy et al.) pays 1 for demonstrations and 0 for everything else, and no reward at all.
 # Ask what survives here of its argument: with c = 2 and rewards below 1, nearly all of it. A good
 # question is what a bonus for *everybody* would do: it pays for staying alive, since only
 # accidents end an episode.
+# <!-- claim: SETTINGS.bonus == 2 and max(map(second_pays, np.arange(0, 25, 0.1))) < 1 -->
 
 # %% [markdown]
 # ## Round 3: a margin instead of a bonus
 #
 # There is another way to make a critic prefer the expert's action: demand it. In each demonstrated
-# state the expert's Q shall lead every other by a **margin** of 1.
+# state the expert's Q shall lead every other by a **margin** of
+# {{ settings_for('margin').margin }}.
 #
 # $$ J_E(Q) = \max_a \big[ Q(s,a) + l(a_E, a) \big] - Q(s,a_E), \qquad
 # l = 0 \text{ for } a_E, \text{ else } 1 $$
@@ -195,6 +204,8 @@ for expert in (0, 2):
 # **Explain.** The loss is 0 once the expert leads by the whole margin. Until then it pushes the
 # expert's Q up and the *best rival's* down, and leaves the others alone. It says nothing about how
 # much a state is worth, only which action leads.
+# <!-- claim: bool(bootstrap.large_margin_loss(torch.tensor([[3.0, 2.0, 0.0]]), torch.tensor([0]))
+#   == 0) -->
 #
 # **Exercise 8.3 (8 min, ●●○).** Write the loss of each state.
 
@@ -291,13 +302,15 @@ for seed in range(4):
 # `settings_for("margin")` and `settings_for("margin", paper_q_filter=False)` train the two. Let the
 # class guess the success of both, then let two groups find out. (In the study no agent with the
 # printed filter escapes; the usual one is not in it.)
+# <!-- claim: escaped('margin') == 0 and settings_for('margin').paper_q_filter -->
 
 # %% [markdown]
 # ## Round 5: what c = 2 does to a critic
 #
-# Four learners with demonstrations, side by side: two with c = 2, two with c = 0. No soft
-# constraint. After every 200 updates we ask their critics about the first 20 seconds of the rule's
-# drives: what is the demonstrated action worth to you, and what the best of the other eight?
+# Four learners with demonstrations, side by side: two with c = {{ SETTINGS.bonus }}, two with c =
+# 0. No soft constraint. After every 200 updates we ask their critics about the first 20 seconds of
+# the rule's drives: what is the demonstrated action worth to you, and what the best of the other
+# eight?
 #
 # > **Predict.** With c = 2, how far will the demonstrated action lead its best rival: by about 10,
 # > by about 2, or not at all? Who finds the way out?
@@ -348,12 +361,12 @@ for i, agent in enumerate(result.agents):
 # **Explain.** The memory of demonstrations says what the rule's action is worth and is silent about
 # the other eight. A network has to guess those, and it guesses that they are worth about as much:
 # the state is good, so everything in it is. An actor that follows the best *guess* then does
-# something that nobody has tried, finds out at −10, and with every crash learns a little more about
-# one of the eight. A seed gets through this, or drowns in it. Look at the last column, too: β
-# counts episodes, and an agent that crashes after a few seconds is through with them, and with its
-# teacher, in no time. That is why the paper's method has a second ingredient: the pull of lesson 7
-# keeps the actor where the critic knows something. (And why offline learners are built to be
-# pessimistic: lesson 10.)
+# something that nobody has tried, finds out at {{ DEFAULT.reward.accident }}, and with every crash
+# learns a little more about one of the eight. A seed gets through this, or drowns in it. Look at
+# the last column, too: β counts episodes, and an agent that crashes after a few seconds is through
+# with them, and with its teacher, in no time. That is why the paper's method has a second
+# ingredient: the pull of lesson 7 keeps the actor where the critic knows something. (And why
+# offline learners are built to be pessimistic: lesson 10.)
 
 # %% tags=["nbval-ignore-output"]
 source("bootcourse.learn.bootstrap", "augmented_reward", "large_margin_loss", "q_filter")
@@ -363,8 +376,10 @@ source("bootcourse.learn.bootstrap", "augmented_reward", "large_margin_loss", "q
 #
 # 1. β mixes the teacher's rows into every batch and fades in a straight line.
 # 2. At γ = 0.8 the rule's way out is worth less than staying, until a small bonus turns it round.
-# 3. c = 2 raises the targets of demonstrated drives by c / (1 − γ) = 10, and everything near them.
-# 4. The large margin moves the expert's action and its best rival, and stops at a lead of 1.
+# 3. c = {{ SETTINGS.bonus }} raises the targets of demonstrated drives by c / (1 − γ) =
+#    {{ SETTINGS.bonus / (1 - SETTINGS.gamma) }}, and everything near them.
+# 4. The large margin moves the expert's action and its best rival, and stops at a lead of
+#    {{ settings_for('margin').margin }}.
 # 5. The printed Q-filter is on only where the expert's action is greedy already.
 #
 # **Three questions to think about**

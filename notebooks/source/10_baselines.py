@@ -16,7 +16,8 @@
 # **What you will be able to do**
 # - say what each of seven drivers learns from, and what that costs;
 # - write the term that keeps CQL near its data, and the reward that GAIL makes for itself;
-# - read a table of 20 test drives: what it shows, what it cannot show, what ten seeds add.
+# - read a table of {{ EPISODES }} test drives: what it shows, what it cannot show, what ten seeds
+#   add.
 #
 # **Time** 60 minutes, under one of them the machine's. **It builds on** demonstrations (lesson 6)
 # and the ablation (9).
@@ -67,10 +68,11 @@ from scipy import stats
 # %% [markdown]
 # ## Look first
 #
-# Three pupils of one teacher, on the same road. They learned from the same 200 drives of the rule,
-# by three methods: behaviour cloning (BC), CQL and GAIL. Five agents of each ship with the course.
-# You see the one whose drive here ends first, if any ends early. Press play, and turn the road with
-# the mouse.
+# Three pupils of one teacher, on the same road. They learned from the same
+# {{ SETTINGS.demonstration_episodes }} drives of the rule, by three methods: behaviour cloning
+# (BC), CQL and GAIL. Five agents of each ship with the course. You see the one whose drive here
+# ends first, if any ends early. Press play, and turn the road with the mouse.
+# <!-- claim: len(shipped_runs('bc')) == 5 -->
 
 # %% tags=["nbval-ignore-output"]
 road, pupils = shipped_drive("escape").seed, {}
@@ -94,6 +96,7 @@ Markdown(markdown(["", *map(name, pupils)], rows))
 # A **baseline** is what a new method is compared with. The paper has four: CQL, GAIL, plain SAC and
 # the rule itself. We add behaviour cloning, the plainest way to learn from a teacher, and a bound,
 # which nobody can beat.
+# <!-- claim: sum(method in PRINTED for method in ('cql', 'gail', 'sac', 'rule', 'bc')) == 4 -->
 #
 # > **Predict.** Every drive that BC, CQL and GAIL learn from ends ahead of trap 1. How many of ten
 # > agents of each will escape? Will any of them earn more than the rule? (In the paper's table, CQL
@@ -105,11 +108,16 @@ Markdown(markdown(["", *map(name, pupils)], rows))
 # | | learns from | drives while it learns | hears of rewards | asks the rule |
 # |---|---|:---:|:---:|---|
 # | rule controller | nothing: it was written by hand, and reads the true state of all cars | | | |
-# | behaviour cloning | what was seen and done in 200 drives | no | no | for 200 drives |
-# | CQL | the same, with what it paid and led to | no | yes | for 200 drives |
-# | GAIL | the same as BC, and its own driving beside it | yes | no | for 200 drives |
+# | behaviour cloning | what was seen and done in {{
+# SETTINGS.demonstration_episodes }} drives | no | no | for {{
+# SETTINGS.demonstration_episodes }} drives |
+# | CQL | the same, with what it paid and led to | no | yes | for {{
+# SETTINGS.demonstration_episodes }} drives |
+# | GAIL | the same as BC, and its own driving beside it | yes | no | for {{
+# SETTINGS.demonstration_episodes }} drives |
 # | plain SAC | its own driving | yes | yes | never |
-# | bootstrapped SAC | both kinds of driving | yes | yes | for 200 drives and at each second |
+# | bootstrapped SAC | both kinds of driving | yes | yes | for {{
+# SETTINGS.demonstration_episodes }} drives and at each second |
 # | planner | nothing: it tries all actions in a copy of the road | | yes | never |
 #
 # BC and CQL are **offline**: they need no road while they learn. GAIL does, although the paper
@@ -132,9 +140,10 @@ rows.append([name("planner"), "0", f"up to {Search().beam * 9 * 150:,} for each 
 Markdown(markdown(["decisions that it uses", "the rule's", "its own", "updates, about"], rows))
 
 # %% [markdown]
-# Now the paper's table, beside ours: ten agents of each method, 1,000 roads that none of them has
-# seen. The paper prints mean ± standard deviation. Ours are interquartile means over agents with
-# their 95 % interval (the rule's: its mean). Speeds and distances are in `assets/report`.
+# Now the paper's table, beside ours: ten agents of each method, {{ roads() | , }} roads that none
+# of them has seen. The paper prints mean ± standard deviation. Ours are interquartile means over
+# agents with their 95 % interval (the rule's: its mean). Speeds and distances are in
+# `assets/report`.
 
 # %%
 rule = rule_results(DEFAULT, study.tested["returns"].shape[1])
@@ -157,6 +166,13 @@ show(baselines(study, rule))
 # than their teacher. All ten clones escape, too, and end a little under the rule's return. Of GAIL
 # nine escape, and then they often leave the road. In the paper's table CQL and GAIL stand at 0 %.
 # Its row of CQL says even more, if one multiplies:
+# <!-- claim: escaped('cql') == len(of('cql')) and of('cql').scores('returns').min() >
+#   of('rule').scores('returns').max() -->
+# <!-- claim: escaped('bc') == len(of('bc')) and 0.8 < of('bc').scores('returns').max() /
+#   of('rule').scores('returns').max() < 1 -->
+# <!-- claim: escaped('gail') == 9 -->
+# <!-- claim: of('gail').episodes('road_departure').mean() > 0.2 -->
+# <!-- claim: PRINTED['cql']['success'].mean == PRINTED['gail']['success'].mean == 0 -->
 
 # %%
 # NBVAL_CHECK_OUTPUT
@@ -167,7 +183,8 @@ print(arithmetic("cql"))
 # in too little exploration. But an offline learner never explores, and need not: the way out is in
 # each of its demonstrations. So why? Much is left open in the paper, and we cannot know. But there
 # are four suspects that you can question: *which* CQL it was (round 2), how *long* the baselines
-# were trained (round 3), the *luck* of 20 test drives (round 4), and the *road* (round 5).
+# were trained (round 3), the *luck* of {{ EPISODES }} test drives (round 4), and the *road* (round
+# 5).
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Collect the votes for each method before the table. The class will be tempted to conclude that the
@@ -269,6 +286,8 @@ for action in (1, 7, 8):
 # They are the same number. CQL is Q-learning and a clone in one: the clone decides where the data
 # are clear, the rewards decide between actions that the data hold side by side. (That is why it
 # takes the way out, although γ = 0.8 finds the rule's way worth less than staying: lesson 6.)
+# <!-- claim: discounted(by_rule(), 0.8) < discounted(idle(), 0.8) and settings_for('cql').gamma ==
+#   0.8 -->
 #
 # > **Predict.** The clone has the rule's actions only, CQL has their rewards, too. Where the rule
 # > brakes, which of the two brakes more often?
@@ -312,6 +331,8 @@ Markdown(markdown(["", "agents that escape", "mean speed", "returns of the agent
 # %% [markdown]
 # **See.** The second kind never escapes, and its better half stays behind trap 1 at the traps'
 # speed, as the paper's CQL does.
+# <!-- claim: escaped('cql_sac') == 0 and np.allclose(np.sort(of('cql_sac').scores('returns'))[5:],
+#   idle().rewards.sum(), atol=1) -->
 #
 # **Explain.** A likely reading: with α falling as in the paper, the actor settles on one action
 # before the critic has learned which, and then the critic's targets follow the actor. It says that
@@ -321,9 +342,10 @@ Markdown(markdown(["", "agents that escape", "mean speed", "returns of the agent
 source("bootcourse.learn.sac", "conservative_loss")
 
 # %% [markdown] tags=["instructor"] minutes=5
-# Ask who expected offline Q-learning to do *something* sensible with 200 good drives. A question
-# for the fast: what does the term's weight do at both ends? (0 is Q-learning, a very large one is a
-# clone. Let them try `settings_for("cql", cql_weight=5.0)`.)
+# Ask who expected offline Q-learning to do *something* sensible with
+# {{ SETTINGS.demonstration_episodes }} good drives. A question for the fast: what does the term's
+# weight do at both ends? (0 is Q-learning, a very large one is a clone. Let them try
+# `settings_for("cql", cql_weight=5.0)`.)
 
 # %% [markdown]
 # ## Round 3: a judge instead of a reward
@@ -342,6 +364,9 @@ source("bootcourse.learn.sac", "conservative_loss")
 #
 # **Exercise 10.2 (6 min, ●●○).** Write the reward. The judge's network gives a **logit** x, with
 # D = σ(x) = 1 / (1 + e⁻ˣ). Mind that to a computer σ(60) is exactly 1.
+# <!-- claim: math.isclose(torch.tensor(0.7).double().sigmoid(), 1 / (1 + math.exp(-0.7)),
+#   rel_tol=1e-6) -->
+# <!-- claim: float(torch.tensor(60.0).sigmoid()) == 1 -->
 
 
 # %%
@@ -392,8 +417,9 @@ show(still_going(study))
 # is asked whether a second looks like one of the rule's, and many do. Look back at the last row of
 # the table in round 2: GAIL passes for the rule without doing what the rule does. It drifts, and
 # nothing in its data says what an accident is. To GAIL it costs the seconds that it misses
-# afterwards, of which γ = 0.8 counts about five. And the measure of the paper hides it: who leaves
-# the road *after* overtaking has succeeded.
+# afterwards, of which γ = {{ settings_for('gail').gamma }} counts about five. And the measure of
+# the paper hides it: who leaves the road *after* overtaking has succeeded.
+# <!-- claim: round(1 / (1 - settings_for('gail').gamma)) == 5 -->
 #
 # ### How long is long enough?
 #
@@ -421,6 +447,7 @@ Markdown(markdown(headings, rows))
 # that crashes after a few seconds gets through hundreds of episodes with hardly an update. What the
 # axis counts decides who looks slow. And each of the first three would stand in a table as a
 # failure, if somebody had stopped it early enough. (The clones of lesson 6 had 1,500 updates.)
+# <!-- claim: 'updates=1500' in code_of('06_demonstrations') -->
 #
 # **Explain.** How would a reader notice? Not from the row itself. So learners are tested where
 # others have published what can be reached: `python -m bootcourse.study.checks` trains the very
@@ -443,8 +470,8 @@ Markdown(markdown(["learner", "task", "published", "with", "by"], rows))
 # %% [markdown]
 # ## Round 4: twenty test drives
 #
-# The paper does not say how many drives it tests. Its numbers give away that it is 20: you will see
-# how.
+# The paper does not say how many drives it tests. Its numbers give away that it is {{ EPISODES }}:
+# you will see how.
 #
 # > **Predict.** In 20 drives, no accident. Which true rates of accidents are compatible with that:
 # > up to 1 %, up to 5 %, up to 15 %? And if there was one?
@@ -458,9 +485,13 @@ for k in (0, 1, 20):
 # %% [markdown]
 # **See.** 0 of 20 and 20 of 20 are far apart: an agent that always escapes is not found at 0 % by
 # the luck of 20 drives. The third suspect can go. But 0 of 20 and 1 of 20 are nearly the same.
+# <!-- claim: rate(np.arange(20) < 0).high < rate(np.arange(20) < 20).low -->
+# <!-- claim: rate(np.arange(20) < 0).high > rate(np.arange(20) < 1).value -->
 #
 # The paper prints "5 ± 22.36 %" as GAIL's collision rate and "5 ± 29.69 %" for SAC with
 # demonstrations. What stands behind ± there?
+# <!-- claim: PRINTED['gail']['collision'] == (5, 22.36) and PRINTED['demos']['collision'] == (5,
+#   29.69) -->
 #
 # **Exercise 10.3 (5 min, ●○○).** Each drive counts 100 % or 0 %. Write the standard deviation of n
 # drives of which k count 100 %, as for a sample: with n − 1.
@@ -488,8 +519,11 @@ for k in range(4):
 
 # %% [markdown]
 # **Explain.** A rate has no deviation of its own choice: k and n decide it. "5 ± 22.36" is one
-# drive of 20, and of no other number. That is how we know the 20. "5 ± 29.69" is nothing at all:
-# no number of drives gives 5 % that much. A misprint, probably; but which of the two numbers?
+# drive of {{ EPISODES }}, and of no other number. That is how we know the {{ EPISODES }}. "5 ±
+# 29.69" is nothing at all: no number of drives gives 5 % that much. A misprint, probably; but which
+# of the two numbers?
+# <!-- claim: PRINTED['demos']['collision'] == (5, 29.69) and max(np.repeat([100, 0], [n, 19 *
+#   n]).std(ddof=1) for n in range(1, 99)) < 29.69 -->
 
 # %%
 source("bootcourse.study.paper", "possible")
@@ -520,8 +554,10 @@ for r in (0.5, 0.05, 0.01, 0.001):
     print(f"20 drives show none with a chance of {100 * (1 - r) ** 20:.0f} %")
 
 # %% [markdown]
-# Now to the row of the paper's method, "0 ± 0 %" collisions in 20 drives. Our ten bootstrapped
-# agents have driven 1,000 roads each. How likely would 20 drives of each show no collision?
+# Now to the row of the paper's method, "0 ± 0 %" collisions in {{ EPISODES }} drives. Our ten
+# bootstrapped agents have driven {{ roads() | , }} roads each. How likely would 20 drives of each
+# show no collision?
+# <!-- claim: PRINTED['bootstrapped']['collision'] == (0, 0) -->
 
 # %%
 collisions = np.sort(study.of("bootstrapped").scores("collision"))
@@ -532,6 +568,8 @@ Markdown(markdown(["bootstrapped agents", *map(str, range(1, len(collisions) + 1
 
 # %% [markdown]
 # Returns are no different. CQL's first agent earns more than the rule, over 1,000 roads.
+# <!-- claim: of('cql').scores('returns')[0] > of('rule').scores('returns')[0] and roads() == 1000
+#   -->
 #
 # > **Predict.** You let both drive 20 roads and compare the means, with a test at 95 %. How often
 # > will you find that CQL is better? Does it help if both drive the *same* 20 roads?
@@ -562,11 +600,11 @@ Markdown(markdown(headings, rows))
 # **Explain.** Twenty drives are enough where both drivers earn about the same on every road, as in
 # the last row. Where roads differ more than drivers, they are not. The same roads for all is then
 # the cheapest help: what a road gives or takes, it gives or takes from both. The study tests every
-# agent on the same 1,000. And yet, all of this speaks of *one agent* of each method.
+# agent on the same {{ roads() | , }}. And yet, all of this speaks of *one agent* of each method.
 
 # %% [markdown] tags=["instructor"] minutes=5
-# "Then 1,000 drives settle it." Hold that thought until round 5: they settle which *agent* is
-# better. Ask what 1,000 drives of a second agent would show.
+# "Then {{ roads() | , }} drives settle it." Hold that thought until round 5: they settle which
+# *agent* is better. Ask what {{ roads() | , }} drives of a second agent would show.
 
 # %% [markdown]
 # ## Round 5: ten agents and a bound
@@ -574,8 +612,8 @@ Markdown(markdown(headings, rows))
 # > **Predict.** One agent and 10,000 drives, or ten agents and 1,000 drives each: the same work.
 # > Which says more about a *method*? For which of the methods does it hardly matter?
 #
-# As a yardstick take the planner, which knows what every other car will do. On each of the 1,000
-# roads we know the best return that it found.
+# As a yardstick take the planner, which knows what every other car will do. On each of the
+# {{ roads() | , }} roads we know the best return that it found.
 #
 # **Exercise 10.5 (4 min, ●○○).** Write the share of the bound: of all that could be earned on these
 # roads, which share did each agent earn?
@@ -620,23 +658,38 @@ print(f"ten seeds: P(bootstrapped > CQL) = {bracketed(both, 100)} %")
 # nearly the same agent: one would have done. GAIL's and the bootstrapped agents are not. Who had
 # trained seed 0 alone would have published that CQL beats the paper's method. With ten seeds most
 # bootstrapped agents earn far more, some crash, and the interval of "better" still holds one half.
+# <!-- claim: max(np.ptp(of(m).scores('returns')) for m in ('bc', 'cql')) < 6 -->
+# <!-- claim: min(np.ptp(of(m).scores('returns')) for m in ('gail', 'bootstrapped')) > 30 -->
+# <!-- claim: of('cql').scores('returns')[0] > of('bootstrapped').scores('returns')[0] -->
+# <!-- claim: (of('bootstrapped').scores('returns') > 1.5 *
+#   of('cql').scores('returns').max()).mean() > 0.5 and of('bootstrapped').scores('collision').max()
+#   > 0.9 -->
+# <!-- claim: (lambda p: p.low <= 1 / 2 <= p.high)(improvement(of('bootstrapped').scores('returns'),
+#   of('cql').scores('returns'))) -->
 #
 # **Explain.** A clone cannot beat its teacher: the rule's actions are all that it knows, and no
 # agent of ten does. CQL can, a little, and all ten do: rewards tell it which of the rule's actions
 # to leave out. But what nobody demonstrated, it is trained to distrust, so it stays near its
 # teacher, at less than half of the bound. To come nearer, one has to try things out: that is what
 # the bootstrapped agents do, and what some of them pay for.
+# <!-- claim: of('bc').scores('returns').max() < of('rule').scores('returns')[0] -->
+# <!-- claim: of('cql').scores('returns').min() > of('rule').scores('returns')[0] -->
+# <!-- claim: of('cql').scores('returns').max() < bound().mean() / 2 -->
 #
 # Mind the zero of the scale. A share of 0 is a return of 0, less than doing nothing earns; who
 # crashes at once has a negative share. And "the bound" is what a planner found that sees the
 # future, so nobody reaches 100 %. (Sum over sum, or the mean of each road's share? Here it hardly
 # matters, since all roads have nearly the same bound.)
+# <!-- claim: 0 / bound().mean() == 0 < idle().rewards.sum() -->
+# <!-- claim: 100 * max(shipped_results().scores('returns')) / bound().mean() < 100 -->
 #
 # What about the suspects? *Which* CQL: it makes the difference between all agents and none. How
-# *long*: each of the three fails if it is stopped early enough. *Luck*: not that of 20 drives; that
-# of one seed perhaps, for GAIL. The *road* is left. The paper's traps were probably a little faster
-# than ours, and a method that gets out of one trap need not get out of another. So the whole study
-# was run a second time, behind traps at 10.9 m/s (lesson 9).
+# *long*: each of the three fails if it is stopped early enough. *Luck*: not that of {{ EPISODES }}
+# drives; that of one seed perhaps, for GAIL. The *road* is left. The paper's traps were probably a
+# little faster than ours, and a method that gets out of one trap need not get out of another. So
+# the whole study was run a second time, behind traps at {{ CALIBRATED.traps.speed }} m/s (lesson
+# 9).
+# <!-- claim: escaped('cql') == len(of('cql')) and escaped('cql_sac') == 0 -->
 #
 # > **Predict.** Behind faster traps there is less to gain. For which methods do fewer of ten agents
 # > escape, and for which more?
@@ -657,8 +710,16 @@ Markdown(markdown(headings, rows))
 # %% [markdown]
 # **See.** The clones and CQL escape here, too, so the road does not acquit the first suspect. Look
 # at the third row: behind these traps CQL *with an actor* is the driver of the paper's row of CQL,
-# to the metre. It keeps its lane at 10 m/s, falls back from the traps by 0.9 m each second, and
-# never tries anything else. GAIL loses agents; plain SAC, which nobody holds back, gains some.
+# to the metre. It keeps its lane at
+# {{ shipped_results('calibrated').of('cql_sac').episodes('speed').mean() }} m/s, falls back from
+# the traps by {{ CALIBRATED.traps.speed -
+# shipped_results('calibrated').of('cql_sac').episodes('speed').mean() }} m each second, and never
+# tries anything else. GAIL loses agents; plain SAC, which nobody holds back, gains some.
+# <!-- claim: all(escaped(m, 'calibrated') == len(of(m)) for m in ('bc', 'cql')) -->
+# <!-- claim: abs(shipped_results('calibrated').of('cql_sac').episodes('distance') -
+#   PRINTED['cql']['distance'].mean).max() < 1 -->
+# <!-- claim: escaped('gail', 'calibrated') < escaped('gail') and escaped('sac', 'calibrated') >
+#   escaped('sac') -->
 #
 # One agreement is not a proof: what does nothing, does the same thing everywhere. But it is where
 # you would look first, if you could ask.
@@ -674,6 +735,7 @@ Markdown(markdown(headings, rows))
 # 2. CQL's term is the cloning loss of softmax(Q): it takes the way out, and may beat its teacher.
 # 3. GAIL earns a reward of its own making; its sign decides whether going on pays.
 # 4. Twenty drives tell 0 % from 100 %, and hardly 0 % from 5 %; k and n fix the ± of a rate.
+# <!-- claim: 5 < 100 * rate(np.arange(20) < 0).high < 100 * rate(np.arange(20) < 20).low -->
 # 5. A baseline counts only if it is trained well, and a method only if its seeds agree.
 #
 # **Three questions to think about**

@@ -42,6 +42,7 @@ print(f"{len(hunt.names)} agents, 2 seeds each, {hunt.provenance['updates']} upd
 # has one **silent bug**: a line that is wrong, raises nothing and prints nothing. The training
 # took some minutes, so it was done before and lies in a file (the line above says how much of
 # it). What you see is real behaviour, whatever it turned out to be.
+# <!-- claim: len(bugs.LEARNERS) == 7 -->
 
 # %%
 ROAD = 10
@@ -99,7 +100,8 @@ show(many(curves, title, "% of training", "return, last 30 episodes", reference=
 # ## Round 2: ask the critic what you know
 #
 # A **probe** asks a network something whose answer is known. Nearly nothing is known about Q, with
-# one exception: where an accident ends the episode, $y = r = -10$ and nothing is guessed.
+# one exception: where an accident ends the episode, $y = r = -{{ -DEFAULT.reward.accident }}$ and
+# nothing is guessed.
 #
 # > **Predict.** Which of the six bugs makes Q wrong exactly there, and in which direction?
 #
@@ -122,8 +124,8 @@ def end_error(q, actions, rewards, terminated):
 check.end_error(end_error)
 
 # %% [markdown]
-# During training each agent was asked this about its own accidents, every 250 updates. The picture
-# shows Q itself; right is −10.
+# During training each agent was asked this about its own accidents, every {{ bugs.EVERY }} updates.
+# The picture shows Q itself; right is {{ DEFAULT.reward.accident }}.
 
 # %%
 probes = hunt.probes("end")
@@ -132,9 +134,9 @@ title = f"Agent {lowest} thinks that accidents cost far more than the 10 they co
 show(many(probes, title, "updates", "Q where an accident followed (right: −10)", "healthy"))
 
 # %% [markdown]
-# **See.** Even the healthy agents are not at −10: a network that is shown far more other seconds
-# than accidents smooths. So a probe needs a healthy agent beside it. What counts is who leaves
-# the grey lines, and how.
+# **See.** Even the healthy agents are not at {{ DEFAULT.reward.accident }}: a network that is shown
+# far more other seconds than accidents smooths. So a probe needs a healthy agent beside it. What
+# counts is who leaves the grey lines, and how.
 #
 # > **Predict.** The road pays at most about 1 a second, and γ = 0.8 sees about 5 seconds ahead.
 # > What is the most that an honest critic may promise? And one that gets c = 2 on top in *every*
@@ -172,7 +174,8 @@ for name in hunt.names:
 #
 # The other probes look at the policy, on seconds that the *rule* drove, the same ones for all.
 #
-# - **entropy** of π, in nats: 0 is sure, log 9 ≈ 2.2 is no opinion;
+# - **entropy** of π, in nats: 0 is sure, log {{ N_ACTIONS }} ≈ {{ math.log(N_ACTIONS) | .1f }} is
+#   no opinion;
 # - **alike**: the share of seconds in which the likeliest action is the rule's;
 # - **late**: the same with what the rule does *one second later*;
 # - **rarest**: the logarithm of the smallest of the nine probabilities.
@@ -216,6 +219,7 @@ show(many(probes, title, "updates", "log of the rarest action's probability", "h
 # gives one in eighty, and Q nothing, may be dropped under the right KL: dropping it costs little.
 # The flipped KL grows without bound when any of the nine goes to zero. So both have nearly the same
 # favourite, and quite different tails.
+# <!-- claim: math.isclose((1 - RULE_P) / (N_ACTIONS - 1), 1 / 80) -->
 
 # %% [markdown]
 # ## Round 4: watch them drive
@@ -294,7 +298,7 @@ check.fixed_target(fixed_target)
 # %% [markdown]
 # Without an end, the target of an accident contains what the critic believes of a car that has just
 # crashed. That state looks like the seconds before an accident, so it is believed to be bad, and
-# the −10 is counted again and again.
+# the {{ DEFAULT.reward.accident }} is counted again and again.
 
 # %%
 print(f"an accident: {-10:.0f}; an accident for ever, γ = 0.8: {-10 / (1 - gamma):.0f}")
@@ -310,8 +314,9 @@ print(f"an accident: {-10:.0f}; an accident for ever, γ = 0.8: {-10 / (1 - gamm
 # value = (q - alpha * log_pi).gather(-1, action).squeeze(-1)
 # ```
 #
-# For a critic's target that is only noisy. For the actor it is fatal: a drawn number from 0 to 8
-# has no gradient, and Q is held fixed, so nothing of Q is left in the actor's slope.
+# For a critic's target that is only noisy. For the actor it is fatal: a drawn number from 0 to
+# {{ N_ACTIONS - 1 }} has no gradient, and Q is held fixed, so nothing of Q is left in the actor's
+# slope.
 
 # %%
 torch.manual_seed(0)
@@ -417,7 +422,8 @@ print(f"the healthy agent's: {last['healthy']:.0f}")
 #
 # 1. A curve of escapes or returns can look right with a broken part behind it.
 # 2. A probe asks one part something whose answer is known, with a healthy agent beside it.
-# 3. At an accident, Q is −10; on this road, a promise far above 5 is wrong.
+# 3. At an accident, Q is {{ DEFAULT.reward.accident }}; on this road, a promise far above
+#    {{ 1 / (1 - SETTINGS.gamma) }} is wrong.
 # 4. A drawn action has no gradient, and an actor that may bend its critic will.
 # 5. Small functions with hand-worked cases find in milliseconds what training hides for hours.
 #

@@ -64,6 +64,7 @@ for teacher in (course_rule, careful, timid, reckless, racer):
 # %% [markdown]
 # **See.** Two of them get out, two never do. The racer gets out on every road and earns *less*
 # than the timid one, who does nothing: speed pays next to nothing above 17 m/s.
+# <!-- claim: speed_reward(17) < 0.02 -->
 #
 # > **Predict.** Four groups of agents learn for the same time, one group from each teacher:
 # > careful, timid, reckless, racer. A fifth learns alone. Which groups will get out? Which will
@@ -77,9 +78,10 @@ for teacher in (course_rule, careful, timid, reckless, racer):
 # %% [markdown]
 # ## Round 1: what a rule reads
 #
-# A rule does not read the agent's 26 numbers. It reads the true state: a table with a row for each
-# car, row 0 the ego. We use four of its columns: `X` and `Y` in metres, `SPEED` in m/s, `LANE`,
-# where 0 is the leftmost.
+# A rule does not read the agent's {{ DEFAULT.observation_size }} numbers. It reads the true state:
+# a table with a row for each car, row 0 the ego. We use four of its columns: `X` and `Y` in metres,
+# `SPEED` in m/s, `LANE`, where 0 is the leftmost.
+# <!-- claim: range(DEFAULT.road.lanes)[0] == 0 -->
 
 # %%
 # NBVAL_CHECK_OUTPUT
@@ -139,6 +141,8 @@ source("bootcourse.lessons.example_teachers", "timid", "racer")
 # has to be ahead of trap 1 at the end of every one, without an accident. It may be as fast or slow,
 # as bold or careful as you like. It must answer the same road the same way each time, and leave
 # `cars` as it is. How would you use `ahead`, `toward`, `cars[EGO, LANE]` and `cars[EGO, Y]`?
+# <!-- claim: len(registry()['my_rule'].worked) +
+#   len(registry()['my_rule'].cases(np.random.default_rng(0))) == 24 -->
 
 
 # %%
@@ -384,10 +388,10 @@ for teacher in (mine, timid, reckless, racer):
 # - **A safe one that stays** agrees with what the road itself teaches at first. Its students are as
 #   trapped as those alone, and get there faster. (If your judge says that it helps by return: it
 #   helped to stay.)
-# - **A reckless one** is contradicted by the road within seconds, −10 each time. Its demonstrations
-#   are short, and so are its students' episodes; β counts episodes, so it fades after few updates.
-#   What is left is the KL, and the reward argues against it. Such a teacher costs time more than
-#   direction.
+# - **A reckless one** is contradicted by the road within seconds, {{ DEFAULT.reward.accident }}
+#   each time. Its demonstrations are short, and so are its students' episodes; β counts episodes,
+#   so it fades after few updates. What is left is the KL, and the reward argues against it. Such a
+#   teacher costs time more than direction.
 #
 # So the return of a teacher is a poor measure of its use. Ask instead: does it lead to a place that
 # the learner would not find, and does the learner stop listening afterwards?

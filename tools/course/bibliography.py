@@ -95,7 +95,7 @@ def citing() -> dict[str, str]:
 
 def lesson_text(path: Path) -> str:
     """All text of a lesson, the notes for its instructor included."""
-    return "\n\n".join(cell.student for cell in read(path) if not cell.is_code)
+    return "\n\n".join(cell.words for cell in read(path) if not cell.is_code)
 
 
 def strings(path: Path) -> list[str]:

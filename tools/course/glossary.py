@@ -28,7 +28,7 @@ STRESSED = (
     "longer",
     "never negative",
     "speed",
-    "η = −1",
+    "η = …",
 )
 # A formula as the glossary writes it: the first match of each is replaced everywhere in $...$.
 LATEX = (

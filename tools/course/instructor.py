@@ -9,12 +9,13 @@ from pathlib import Path
 
 from bootcourse.lessons.exercise import Exercise
 from bootcourse.lessons.exercises import registry
-from tools.course.source import Cell, one_folder_down, read
+from tools.course.claims import filled
+from tools.course.source import Cell, one_folder_down, title
 
 
 def page(path: Path) -> str:
     """The whole page, as markdown."""
-    cells = read(path)
+    cells = filled(path)
     solved = f" · [solved](../solved/{path.stem}.ipynb)" if any(cell.is_exercise for cell in cells) else ""
     parts = [
         f"# For the instructor: {title(cells)}",
@@ -28,17 +29,11 @@ def page(path: Path) -> str:
     return "\n\n".join(part for part in parts if part) + "\n"
 
 
-def title(cells: list[Cell]) -> str:
-    return next(
-        re.findall(r"^# (.+)", cell.student, re.M)[0] for cell in cells if re.search(r"^# ", cell.student, re.M)
-    )
-
-
 def sections(cells: list[Cell]) -> list[tuple[str, list[Cell]]]:
     """The cells under each `##` heading; what comes before the first is called the beginning."""
     found = [("The beginning", [])]
     for cell in cells:
-        heading = re.search(r"^## (.+)", cell.student, re.M) if not cell.is_code else None
+        heading = re.search(r"^## (.+)", cell.text, re.M)
         if heading:
             found.append((heading[1], []))
         found[-1][1].append(cell)
@@ -50,8 +45,7 @@ def timings(cells: list[Cell]) -> str:
     own = [
         one_folder_down(m)
         for cell in cells
-        if not cell.is_code
-        for m in re.findall(r"^\*\*Time\*\*.*?(?=\n\n|\n\*\*|\Z)", cell.student, re.M | re.S)
+        for m in re.findall(r"^\*\*Time\*\*.*?(?=\n\n|\n\*\*|\Z)", cell.text, re.M | re.S)
     ]
     rows, total = [], [0, 0]
     for heading, inside in sections(cells):

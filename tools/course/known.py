@@ -1,8 +1,8 @@
-"""What an expression in notebooks/claims may name: numpy, the library, and a few short cuts to what ships.
+"""What an expression in a lesson's text may name: numpy, the library, and a few short cuts to what ships.
 
-What takes long to load or to drive is kept for the next claim.
+What takes long to load or to drive is kept for the next expression.
 """
-# ruff: noqa: F401 (what is imported here is for the claims)
+# ruff: noqa: F401 (what is imported here is for the expressions)
 
 import math
 from functools import cache
@@ -40,12 +40,18 @@ shipped_drive = cache(shipped.shipped_drive)
 load_sweep = cache(sweep.load_sweep)
 bug_hunt = cache(bugs.Hunt)
 ROAD = 10  # the road that most lessons show
+SETTINGS = settings_for("bootstrapped")  # the paper's
+
+
+def roads() -> int:
+    """How many held-out roads each agent of the study has driven."""
+    return shipped_results().tested["returns"].shape[1]
 
 
 @cache
 def rule_results() -> Results:
-    """The rule on the held-out roads of the study."""
-    return report.rule_results(DEFAULT, shipped_results().tested["returns"].shape[1])
+    """The rule on those roads."""
+    return report.rule_results(DEFAULT, roads())
 
 
 @cache

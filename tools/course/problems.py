@@ -10,9 +10,10 @@ from pathlib import Path
 import nbformat
 
 from bootcourse.lessons.exercises import registry
+from tools.course.claims import filled
 from tools.course.order import of_order
 from tools.course.products import IMPORTS_CHECK, SOLVED_NOTE, STRICT, out_of_date, solved_file, student_file
-from tools.course.source import Cell, body, function_in, read
+from tools.course.source import Cell, body, function_in
 
 LONGEST_CELL = 25  # lines
 SHORTEST_ALT = 40  # letters: what a reader should see does not fit into fewer
@@ -21,7 +22,7 @@ SHORTEST_ALT = 40  # letters: what a reader should see does not fit into fewer
 def problems(path: Path) -> list[str]:
     """Everything that is wrong with a source and what was made from it; an empty list if nothing is."""
     try:
-        cells = read(path)
+        cells = filled(path)
     except ValueError as error:
         return [f"{error}."]
     found = [

@@ -11,6 +11,7 @@ from pathlib import Path
 import nbformat
 from nbclient import NotebookClient
 
+from tools.course.claims import filled
 from tools.course.instructor import page
 from tools.course.source import Cell, one_folder_down, read
 
@@ -36,7 +37,7 @@ def instructor_file(path: Path) -> Path:
 
 def documents(path: Path) -> dict[Path, nbformat.NotebookNode]:
     """The notebooks that a source describes, without outputs; a source without solutions has no solved one."""
-    cells = [cell for cell in read(path) if not cell.for_instructor]
+    cells = [cell for cell in filled(path) if not cell.for_instructor]
     made = {student_file(path): notebook([node(cell, cell.student) for cell in cells])}
     if any(cell.is_exercise for cell in cells):
         made[solved_file(path)] = notebook(solved_nodes(path, cells))

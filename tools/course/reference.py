@@ -24,13 +24,13 @@ def lessons() -> dict[int, Path]:
 @cache
 def prose(path: Path) -> str:
     """All text of a lesson that a student reads, its cells apart by empty lines."""
-    return "\n\n".join(cell.student for cell in read(path) if not cell.is_code and not cell.for_instructor)
+    return "\n\n".join(cell.words for cell in read(path) if not cell.is_code and not cell.for_instructor)
 
 
 @cache
 def everything(path: Path) -> str:
     """The text and the code of a lesson, solved."""
-    return "\n\n".join(cell.solved for cell in read(path) if not cell.for_instructor)
+    return "\n\n".join(cell.solved if cell.is_code else cell.words for cell in read(path) if not cell.for_instructor)
 
 
 def mentions(text: str, name: str) -> bool:

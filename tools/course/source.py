@@ -13,6 +13,8 @@ import jupytext
 
 NOTEBOOKS = Path(__file__).resolve().parent.parent.parent / "notebooks"
 BEGIN, END = "# solution", "# end solution"
+NUMBER = re.compile(r"\{\{\s+(.+?)(?:\s+\|\s+([\w.,+%]+))?\s+\}\}", re.S)
+CLAIM = re.compile(r"\s*<!-- claim:\s+(.+?)\s+-->", re.S)
 
 
 @dataclass(frozen=True)
@@ -41,6 +43,16 @@ class Cell:
     def is_code(self) -> bool:
         return self.kind == "code"
 
+    @property
+    def text(self) -> str:
+        """The text of a markdown cell; of code, none."""
+        return "" if self.is_code else self.student
+
+    @property
+    def words(self) -> str:
+        """The text without claims, and with dots in place of the numbers that are computed."""
+        return NUMBER.sub("…", CLAIM.sub("", self.text))
+
 
 def sources(names: list[str] = (), notebooks: Path = NOTEBOOKS) -> list[Path]:
     """The sources of these names, or all, in the order of the lessons."""
@@ -52,11 +64,14 @@ def read(path: Path) -> list[Cell]:
     """All cells of a source. Raises ValueError where the marks of a solution do not come in pairs."""
     cells = []
     for cell in jupytext.read(path).cells:
-        student, solved = without_solution(cell.source), without_marks(cell.source)
-        if cell.cell_type != "code":
-            student = solved = cell.source
-        cells.append(Cell(cell.cell_type, student, solved, dict(cell.metadata)))
+        both = (without_solution(cell.source), without_marks(cell.source))
+        both = both if cell.cell_type == "code" else (cell.source, cell.source)
+        cells.append(Cell(cell.cell_type, *both, dict(cell.metadata)))
     return cells
+
+
+def title(cells: list[Cell]) -> str:
+    return next(found[1] for cell in cells if (found := re.search(r"^# (.+)", cell.text, re.M)))
 
 
 def without_solution(text: str) -> str:
