@@ -1,5 +1,6 @@
 """The training panel: train, look, stop, compare, watch, save, and what goes wrong on the way."""
 
+import contextlib
 import os
 import signal
 import socket
@@ -9,6 +10,7 @@ from html import unescape
 
 import numpy as np
 import pytest
+import torch
 
 from bootcourse import one_per_cell
 from bootcourse.episodes.record import record
@@ -17,6 +19,7 @@ from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
 from bootcourse.methods import METHODS
 from bootcourse.panels import background as background_module
+from bootcourse.panels import train as train_module
 from bootcourse.panels.axes import rolling, ticks
 from bootcourse.panels.background import Background
 from bootcourse.panels.train import train_panel
@@ -140,6 +143,71 @@ def test_looking_takes_a_small_share_of_the_time():
     wait_for(lambda: len(looked) > 3)
     background.stop()
     assert background.wait(10) and np.diff(looked).min() > 0.06 / background_module.SHARE * 0.9
+
+
+@contextlib.contextmanager
+def torch_threads(count):
+    """So many torch threads in the main thread, and in the threads that it starts."""
+    before = torch.get_num_threads()
+    torch.set_num_threads(count)
+    try:
+        yield
+    finally:
+        torch.set_num_threads(before)
+
+
+@contextlib.contextmanager
+def in_the_background(look=lambda training: None):
+    """A background training without an end of its own, which is stopped at the end of the block."""
+    background = Background(lambda: Training([settings_for("sac", **SMALL)], 20_000), look)
+    background.start()
+    try:
+        yield background
+    finally:
+        background.stop()
+        assert background.wait(60)
+
+
+def test_a_background_training_has_one_torch_thread_and_the_main_thread_keeps_its_own():
+    looked = []
+    with torch_threads(2):
+        with in_the_background(lambda training: looked.append(torch.get_num_threads())):
+            assert torch.get_num_threads() == 2
+            wait_for(lambda: looked, 60)
+        assert looked[0] == 1 and torch.get_num_threads() == 2
+
+
+def breaks(*arguments):
+    raise RuntimeError("the road is closed")
+
+
+def test_an_error_in_a_look_is_a_sentence_and_the_training_goes_on():
+    said = []
+    background = Background(lambda: Training([settings_for("sac", **SMALL)], 3), breaks, say=said.append)
+    background.start()
+    assert background.wait(60) and not background.result.interrupted
+    assert len(said) == 1 and said[0].endswith("RuntimeError: the road is closed") and "goes on" in said[0]
+    assert background.error == said[0] and "in breaks" in background.traceback
+
+
+def test_an_error_in_the_ending_is_a_sentence_after_what_went_wrong_before():
+    said = []
+    background = Background(breaks, ended=breaks, say=said.append)
+    background.start()
+    assert background.wait(10) and not background.running and background.result is None
+    assert "The training broke off: RuntimeError" in said[0] and said[1].startswith(said[0])
+    assert "could not be shown: RuntimeError" in said[1] and background.traceback.count("in breaks") == 2
+
+
+def test_no_training_begins_before_the_last_one_has_reported_its_end():
+    reporting, report = threading.Event(), threading.Event()
+    first = Background(breaks, ended=lambda background: reporting.set() or report.wait(10))
+    first.start()
+    assert reporting.wait(10) and first.running
+    with pytest.raises(BootcourseError, match="running already"):
+        Background(breaks).start()
+    report.set()
+    assert first.wait(10)
 
 
 # ---- the panel
@@ -290,6 +358,50 @@ def test_what_breaks_in_the_thread_is_a_sentence_and_keeps_what_was_learned(monk
     trained(panel)
     assert "The training broke off: RuntimeError: the road is closed" in words(panel)
     assert "breaks" in panel.background.traceback and panel.result.interrupted and not panel.train.disabled
+
+
+def test_a_curve_that_cannot_be_drawn_is_a_sentence_and_keeps_what_was_learned(monkeypatch):
+    panel = small()
+    monkeypatch.setattr(train_module, "training_chart", breaks)
+    trained(panel)
+    assert "RuntimeError: the road is closed" in words(panel) and "in breaks" in panel.background.traceback
+    assert not panel.result.interrupted and not panel.train.disabled and not panel.save.disabled
+
+
+def test_a_training_that_ends_while_train_is_pressed_again_reports_its_own_end():
+    panel = small()
+    ended, reporting, report = panel._ended, threading.Event(), threading.Event()
+
+    def late(*arguments):
+        reporting.set()
+        assert report.wait(10)
+        ended(*arguments)
+
+    panel._ended = late
+    panel.train.click()
+    assert reporting.wait(60)
+    panel.numbers["rule_p"].value = 0.5
+    panel.train.click()
+    assert "running already" in words(panel)
+    report.set()
+    assert panel.background.wait(10)
+    assert "Done after 6 of 6 episodes" in words(panel) and [drawn.label for drawn in panel.drawn] == [
+        "1 soft constraint only"
+    ]
+
+
+def test_the_training_s_thread_writes_nothing_while_a_button_is_handled():
+    panel = endless()
+    panel.train.click()
+    wait_for(lambda: "decisions/s" in words(panel))
+    with panel._lock:
+        before = words(panel), panel.chart.value
+        decisions = panel.background.training.decisions
+        wait_for(lambda: panel.background.training.decisions > decisions + 500)
+        assert (words(panel), panel.chart.value) == before
+    wait_for(lambda: panel.chart.value != before[1])
+    panel.stop.click()
+    assert panel.background.wait(10)
 
 
 def test_a_training_that_cannot_begin_is_a_sentence():

@@ -1,11 +1,12 @@
 """Train while you watch: choose a method and its settings, start, stop, compare, watch in 3D, save.
 
-    train_panel()                                   # all that is learned is real
+    train_panel()                                   # trains for real, in the background
     train_panel(drives=mine.demonstrations)         # bootstrap from your own drives (see drive_panel)
 
-The training runs in `background.py`, the drawing is `training_chart.py`; this file only joins them.
+The training runs in `background.py`, the drawing is `training_chart.py`; this file joins them.
 """
 
+import threading
 import time
 from collections.abc import Sequence
 from html import escape
@@ -36,7 +37,11 @@ HELD_OUT = 1  # the block of roads that no agent has trained on
 
 
 class TrainPanel(Panel):
-    """`.result` is the last training's `Result`, `.close()` ends everything."""
+    """`.result` is the last training's `Result`, `.close()` ends everything.
+
+    Two threads write here: the main thread when a button is pressed, and the training's thread when it looks and
+    when it has ended. Each holds `_lock` while it writes.
+    """
 
     background: Background | None = None
     replay = None
@@ -46,6 +51,7 @@ class TrainPanel(Panel):
         self.others = {name: value for name, value in changes.items() if name not in CONTROLLED}
         self.result: Result | None = None
         self.drawn: list[Drawn] = []  # trainings that are over
+        self._lock = threading.RLock()
         self.method = widgets.Dropdown(options=[(display_name(method), method) for method in METHODS], value=method)
         self.method.layout.width = "300px"
         label = widgets.HTML("<b>method</b>", layout={"width": "92px"})
@@ -79,7 +85,7 @@ class TrainPanel(Panel):
         self.method.observe(lambda change: self._choose(), "value")
         self._choose()
         self._show_progress("Ready.", 0.0)
-        self._buttons()
+        self._buttons(running=False)
         self._draw()
 
     @property
@@ -105,8 +111,8 @@ class TrainPanel(Panel):
         return printed(training_chart(drawn)), "image/svg+xml", alt_text(drawn)
 
     def _press(self, press) -> None:
-        self.say()
-        with self.saying_what_is_wrong():
+        with self._lock, self.saying_what_is_wrong():
+            self.say()
             press()
 
     def _choose(self) -> None:
@@ -124,13 +130,17 @@ class TrainPanel(Panel):
             training = Training(agents, episodes, self.scenario)
             return bootstrap_with(training, mine) if mine else training
 
-        count = 1 + sum(1 for _ in self.drawn)
-        self._label = f"{count} {label_of(settings)}" + (f", {len(mine)} own drives" if mine else "")
-        background = Background(make, self._look, self._ended)
+        label = f"{len(self.drawn) + 1} {label_of(settings)}" + (f", {len(mine)} own drives" if mine else "")
+        background = Background(
+            make,
+            look=lambda training: self._look(training, label),
+            ended=lambda background: self._ended(background, label),
+            say=self._say_from_thread,
+        )
         background.start()
         self.background = background
         self._show_progress("Preparing: roads, networks, demonstrations …", 0.0)
-        self._buttons()
+        self._buttons(running=True)
 
     def _stop(self) -> None:
         if not self.training:
@@ -138,41 +148,56 @@ class TrainPanel(Panel):
         self.background.stop()
         self._show_progress("Stopping …", 0.0)
 
-    def _look(self, training: Training) -> None:
-        """In the training's thread, a few times a second."""
-        driven, total = _driven(training)
-        left = training.seconds * (total - driven) / driven if driven else 0.0
-        speed = training.decisions / max(training.seconds, 1e-9)
-        words = f"{driven:,} of {total:,} episodes · {speed:,.0f} decisions/s"
-        self._show_progress(words + (f" · about {_duration(left)} left" if driven else ""), driven / total)
-        self._draw(training)
+    def _look(self, training: Training, label: str) -> None:
+        """In the training's thread, a few times a second; left out while a button is handled."""
+        if not self._lock.acquire(blocking=False):
+            return
+        try:
+            if self.background.stopping:
+                return
+            driven, total = _driven(training)
+            left = training.seconds * (total - driven) / driven if driven else 0.0
+            speed = training.decisions / max(training.seconds, 1e-9)
+            words = f"{driven:,} of {total:,} episodes · {speed:,.0f} decisions/s"
+            self._show_progress(words + (f" · about {_duration(left)} left" if driven else ""), driven / total)
+            curves = {curve: values.copy() for curve, values in training.curves.values.items()}
+            self._draw(Drawn(label, training.settings[0].method, curves, training.episodes))
+        finally:
+            self._lock.release()
 
-    def _ended(self, background: Background) -> None:
+    def _ended(self, background: Background, label: str) -> None:
         """In the training's thread, when it is over."""
-        if background.result is not None:
-            self.result, settings = background.result, background.result.agents[0].settings
-            drawn = Drawn(self._label, settings.method, self.result.curves, background.training.episodes)
-            self.drawn = [*self.drawn, drawn]
-            self.path.value = f"runs/{settings.method}-{time.strftime('%Y%m%d-%H%M%S')}"
-            driven, total = _driven(background.training)
-            how = "Stopped" if self.result.interrupted else "Done"
-            self._show_progress(
-                f"{how} after {driven:,} of {total:,} episodes, {_duration(self.result.seconds)}.", driven / total
-            )
-        else:
+        with self._lock:
+            try:
+                self._show_end(background, label)
+            finally:
+                self._buttons(running=False)
+
+    def _show_end(self, background: Background, label: str) -> None:
+        result, told = background.result, [background.error]
+        if result is None:
             self._show_progress("Nothing was trained.", 0.0)
-        self._buttons()
-        told = [background.error] if background.error else []
-        stopped = self.result.stopped if background.result is not None else {}
-        for i, decision in sorted(stopped.items()):
-            agent = self.result.agents[i].settings
-            told.append(
-                f"{display_name(agent.method)}, seed {agent.seed}, diverged: its loss was not finite at decision "
-                f"{decision}. Its last finite snapshot is kept."
-            )
-        if told:
-            self.say(" ".join(told), wrong=True)
+        else:
+            self.result, method = result, result.agents[0].settings.method
+            self.path.value = f"runs/{method}-{time.strftime('%Y%m%d-%H%M%S')}"
+            driven, total = _driven(background.training)
+            how = "Stopped" if result.interrupted else "Done"
+            words = f"{how} after {driven:,} of {total:,} episodes, {_duration(result.seconds)}."
+            self._show_progress(words, driven / total)
+            for i, decision in sorted(result.stopped.items()):
+                agent = result.agents[i].settings
+                told.append(
+                    f"{display_name(agent.method)}, seed {agent.seed}, diverged: its loss was not finite at decision "
+                    f"{decision}. Its last finite snapshot is kept."
+                )
+            self.drawn = [*self.drawn, Drawn(label, method, result.curves, background.training.episodes)]
+        if any(told):
+            self.say(" ".join(filter(None, told)), wrong=True)
         self._draw()
+
+    def _say_from_thread(self, sentence: str) -> None:
+        with self._lock:
+            self.say(sentence, wrong=True)
 
     def _watch(self) -> None:
         if self.background is None:
@@ -202,25 +227,21 @@ class TrainPanel(Panel):
             self.replay.close()
             self.replay, self.stage.value = None, ""
 
-    def _buttons(self) -> None:
-        runs = self.training
-        self.train.disabled, self.stop.disabled = runs, not runs
+    def _buttons(self, running: bool) -> None:
+        self.train.disabled, self.stop.disabled = running, not running
         self.watch.disabled = self.background is None
-        self.save.disabled = self.path.disabled = runs or self.result is None
+        self.save.disabled = self.path.disabled = running or self.result is None
 
     def _show_progress(self, words: str, share: float) -> None:
         bar = f'<progress max="1" value="{share:.4f}" style="width:300px;vertical-align:middle"></progress>'
         self.progress.value = f'<div class="bc-quiet" role="status">{bar}&ensp;{escape(words)}</div>'
 
-    def _all_drawn(self, training: Training | None = None) -> list[Drawn]:
-        if training is None:
-            return self.drawn[-EARLIER - 1 :]
-        method = training.settings[0].method
-        curves = {curve: values.copy() for curve, values in training.curves.values.items()}
-        return [*self.drawn[-EARLIER:], Drawn(self._label, method, curves, training.episodes)]
+    def _all_drawn(self, now: Drawn | None = None) -> list[Drawn]:
+        """The present training's curves over those of the last EARLIER that are over."""
+        return self.drawn[-EARLIER - 1 :] if now is None else [*self.drawn[-EARLIER:], now]
 
-    def _draw(self, training: Training | None = None) -> None:
-        self.chart.value = training_chart(self._all_drawn(training))
+    def _draw(self, now: Drawn | None = None) -> None:
+        self.chart.value = training_chart(self._all_drawn(now))
 
 
 def _replay(rollout: Rollout):
