@@ -3,11 +3,21 @@
 import importlib
 import inspect
 import sys
+from collections.abc import Sequence
 
 if "IPython" in sys.modules and (_shell := sys.modules["IPython"].get_ipython()) is not None:
     from bootcourse.lessons.order import install
 
     install(_shell)
+
+
+def table(headings: Sequence[str], rows: Sequence[Sequence[str]], below: str = ""):
+    """A table as a notebook output. Its cells may be Markdown, and so may the sentence below it."""
+    from IPython.display import Markdown
+
+    from bootcourse.study.tables import markdown
+
+    return Markdown(f"{markdown(headings, rows)}\n{below}" if below else markdown(headings, rows))
 
 
 def source(module: str, *names: str):

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
+from scipy import stats
 
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.agent import Agent
@@ -67,6 +68,16 @@ def success_around(success: np.ndarray, updates: np.ndarray, budget: float) -> n
     places = [np.searchsorted(own, budget) for own in updates]
     half = WINDOW // 2
     return np.array([own[max(0, i - half) : i + half].mean() for own, i in zip(success, places, strict=True)])
+
+
+def finds(x: np.ndarray, y: np.ndarray, n: int, same_roads: bool) -> float:
+    """How often n drives of each show that x and y differ: 2,000 repetitions, t-tests at 95 %. x, y: (episodes,)."""
+    rng = np.random.default_rng(0)
+    a = rng.integers(len(x), size=(2000, n))
+    if same_roads:
+        return np.mean(stats.ttest_rel(x[a], y[a], axis=1).pvalue < 0.05)
+    b = rng.integers(len(y), size=(2000, n))
+    return np.mean(stats.ttest_ind(x[a], y[b], axis=1, equal_var=False).pvalue < 0.05)
 
 
 def still_going(results: Results, methods: Sequence[str] = ("bc", "cql", "gail"), single: str = "gail") -> Figure:

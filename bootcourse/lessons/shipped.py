@@ -2,12 +2,14 @@
 
 from dataclasses import replace
 
+import numpy as np
+
 from bootcourse.episodes.rollout import OPTIONAL, Rollout
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.agent import Agent
 from bootcourse.storage.assets import FOLDER
 from bootcourse.storage.runs import Run, find_runs, load_run
-from bootcourse.study.results import Results, load_results
+from bootcourse.study.results import Results, in_assets, load_results
 
 
 def shipped_results(scenario: str = "default") -> Results:
@@ -29,6 +31,16 @@ def shipped_runs(method: str) -> list[Run]:
 def shipped_agents(method: str) -> list[Agent]:
     """Only the agents."""
     return [run.agent for run in shipped_runs(method)]
+
+
+def shipped_sensitivity() -> dict[str, Results]:
+    """The study's agents with one number changed: {what was changed: results}."""
+    return in_assets(FOLDER).sensitivity
+
+
+def shipped_bound(scenario: str = "default") -> np.ndarray:
+    """The best return that the planner found on each held-out road of the study, (episodes,)."""
+    return in_assets(FOLDER).bounds[scenario]
 
 
 def shipped_drive(name: str) -> Rollout:

@@ -64,7 +64,7 @@ def scenario_part(found: StudyResults, name: str, rule: Results, everyone: Resul
         text += [f"Best known return of the planner: {tables.bracketed(mean(best))}, {len(best)} episodes.\n"]
     text += staying(found.staying.get(name))
     if "bootstrapped" in results.methods and len(results.methods) > 1:
-        text += ["### Probability of improvement\n", tables.improvement_table(everyone)]
+        text += ["### Probability of improvement\n", tables.markdown(*tables.improvement_rows(everyone))]
     text += ["### Training\n", *pictures(folder, name, results, rule)]
     return text + [stopped(results)]
 

@@ -78,14 +78,14 @@ def escape_table(results: Results, bound: np.ndarray | None = None) -> str:
     return markdown([*headings, *(["share of the best known return, % (IQM)"] if bound is not None else [])], rows)
 
 
-def improvement_table(results: Results, method: str = "bootstrapped", measure: str = "returns") -> str:
-    """How often a random agent of a method scores above a random agent of each other."""
+def improvement_rows(results: Results, method: str = "bootstrapped", measure: str = "returns") -> tuple[list, list]:
+    """How often a random agent of a method scores above a random agent of each other: (headings, rows)."""
     mine = results.of(method).scores(measure)
     rows = []
     for other in results.methods:
         if other != method and len(results.of(other)) > 1:
             rows.append([display_name(other), bracketed(improvement(mine, results.of(other).scores(measure)), 100)])
-    return markdown([f"P({display_name(method)} > ...) on {HEADINGS[measure]}", "% [95 %]"], rows)
+    return [f"P({display_name(method)} > ...) on {HEADINGS[measure]}", "% [95 %]"], rows
 
 
 def fidelity_table(findings: dict[str, list[FidelityRow]]) -> str:

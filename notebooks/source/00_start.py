@@ -21,18 +21,9 @@
 # **Time** five minutes, half of one the machine's. **It builds on** nothing.
 
 # %%
-from bootcourse.episodes.record import record
-from bootcourse.episodes.words import doing, outcome
-from bootcourse.lessons.shipped import beginning, shipped_agents, shipped_drive, shipped_results
-from bootcourse.methods import display_name as name
-from bootcourse.panels import drive_panel
-from bootcourse.replay3d import recording
-from bootcourse.scenario import DEFAULT
-from bootcourse.statistics import escapes
-from bootcourse.study.report import rule_results
-from bootcourse.study.results import KINDS
-from bootcourse.study.tables import bracketed, markdown, score
-from IPython.display import Markdown
+import bootcourse as bc
+from bootcourse.lessons import shipped, table
+from bootcourse.study import report, results, tables
 
 # %% [markdown]
 # ## Look first
@@ -46,23 +37,26 @@ from IPython.display import Markdown
 #   shipped_runs(method)}) == 1 -->
 
 # %% tags=["nbval-ignore-output"]
-escape = shipped_drive("escape")  # by a bootstrapped agent
-plain = [agent.as_policy(with_q=True) for agent in shipped_agents("sac")]  # on the same road:
-alone = [record(driver, [escape.seed], label="sac")[0] for driver in plain]
+escape = bc.shipped_drive("escape")  # by a bootstrapped agent
+plain = [agent.as_policy(with_q=True) for agent in bc.shipped_agents("sac")]  # on the same road:
+alone = [bc.record(driver, [escape.seed], label="sac")[0] for driver in plain]
 trapped = next((drive for drive in alone if not drive.success), alone[0])
-recording([beginning(trapped, 30), beginning(escape, 30)], height=480)
+bc.recording([shipped.beginning(trapped, 30), shipped.beginning(escape, 30)], height=480)
 
 # %% [markdown]
 # The same in words:
 
 # %%
-rows = [[f"{t} s", doing(trapped, t), doing(escape, t)] for t in (0, 2, 4, 6, 8, 11, 14, 20)]
-names = [name(trapped.label), name(escape.label)]
-Markdown(
-    markdown(["", *names], rows) + f"\nIn the end: {names[0]} is {outcome(trapped)}, "
-    f"return {trapped.rewards.sum():.0f}; {names[1]} is {outcome(escape)}, "
-    f"return {escape.rewards.sum():.0f}."
-)
+rows = [
+    [f"{t} s", bc.words.doing(trapped, t), bc.words.doing(escape, t)]
+    for t in (0, 2, 4, 6, 8, 11, 14, 20)
+]
+names = [bc.display_name(drive.label) for drive in (trapped, escape)]
+ends = [
+    f"{name} is {bc.words.outcome(drive)}, return {drive.rewards.sum():.0f}"
+    for name, drive in zip(names, (trapped, escape), strict=True)
+]
+table(["", *names], rows, below=f"In the end: {'; '.join(ends)}.")
 
 # %% [markdown]
 # The **return** is what a drive has earned: each second pays a little for speed, up to
@@ -82,7 +76,7 @@ Markdown(
 # > **Predict.** How many tries until you are ahead of trap 1?
 
 # %% tags=["nbval-ignore-output"]
-drive_panel(seed=10)
+bc.panels.drive_panel(seed=10)
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Open with this page on the wall and let two people drive before anybody explains anything. Most of
@@ -101,24 +95,23 @@ drive_panel(seed=10)
 # > escapes also drive safely?
 
 # %%
-study = shipped_results()
+study = bc.shipped_results()
 rows = []
 for method in ("sac", "bootstrapped"):
     mine = study.of(method)
     success = mine.scores("success")
-    accidents = 100 * sum(mine.episodes(kind).mean() for kind in KINDS)
-    count = f"{(success >= 0.5).sum()} of {len(mine)}: {bracketed(escapes(success), 100)} %"
-    rows.append(
-        [name(method), count, bracketed(score(study, method, "returns")), f"{accidents:.0f} %"]
-    )
-rule = rule_results(DEFAULT, 200)
-accidents = 100 * sum(rule.episodes(kind).mean() for kind in KINDS)
-rows.append(
-    [name("rule"), "it always drives the same way", bracketed(score(rule, "rule", "returns"))]
-)
-rows[-1].append(f"{accidents:.0f} %")
+    accidents = 100 * sum(mine.episodes(kind).mean() for kind in results.KINDS)
+    share = tables.bracketed(bc.statistics.escapes(success), 100)
+    returns = tables.bracketed(tables.score(study, method, "returns"))
+    count = f"{(success >= 0.5).sum()} of {len(mine)}: {share} %"
+    rows.append([bc.display_name(method), count, returns, f"{accidents:.0f} %"])
+rule = report.rule_results(bc.DEFAULT, 200)
+accidents = 100 * sum(rule.episodes(kind).mean() for kind in results.KINDS)
+returns = tables.bracketed(tables.score(rule, "rule", "returns"))
+same = "it always drives the same way"
+rows.append([bc.display_name("rule"), same, returns, f"{accidents:.0f} %"])
 headings = ["", "agents that escape", "return", "drives that end in an accident"]
-Markdown(markdown(headings, rows))
+table(headings, rows)
 
 # %% [markdown]
 # **See.** In brackets stands the 95 % *interval*: where the truth may well lie, given how few

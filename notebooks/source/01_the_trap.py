@@ -22,23 +22,11 @@
 # reinforcement learning yet.
 
 # %%
+import bootcourse as bc
 import gymnasium as gym
 import numpy as np
-from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
-from bootcourse.episodes.record import record
-from bootcourse.episodes.words import overtaken
-from bootcourse.lessons import check
-from bootcourse.lessons.figures import reward_curve
-from bootcourse.lessons.figures_road import nine_actions
-from bootcourse.panels import drive_panel
-from bootcourse.plots.figure import show
-from bootcourse.plots.top_view import top_view, top_view_over_time
-from bootcourse.plots.traces import traces
-from bootcourse.policies import idle_policy, in_words, plan_policy, random_policy, rule_policy
-from bootcourse.road import formulas
-from bootcourse.road.observation import names, scales
-from bootcourse.road.state import EGO, LANE, TRAP_1, TRAP_2, Accident, X
-from bootcourse.scenario import ACTION_NAMES, DEFAULT
+from bootcourse.lessons import check, figures, figures_road
+from bootcourse.road import formulas, observation
 
 # %% [markdown]
 # ## Look first
@@ -50,8 +38,8 @@ from bootcourse.scenario import ACTION_NAMES, DEFAULT
 
 # %%
 ROAD = 10  # the seed: which road you get
-idle = record(idle_policy, [ROAD], label="idle")[0]
-show(top_view(idle, time=0, distances=True))
+idle = bc.record(bc.idle_policy, [ROAD], label="idle")[0]
+bc.show(bc.top_view(idle, time=0, distances=True))
 
 # %% [markdown]
 # > **Predict.** You may brake, keep your speed or accelerate, and steer left, straight or right.
@@ -66,7 +54,7 @@ show(top_view(idle, time=0, distances=True))
 # faint car is a **ghost**: it drives the same road, and knows the way out.
 
 # %% tags=["nbval-ignore-output"]
-drive_panel(seed=ROAD)
+bc.panels.drive_panel(seed=ROAD)
 
 # %% [markdown] tags=["instructor"] minutes=8
 # Let them crash. Nearly all steer left at once and hit trap 2; the second attempt is to
@@ -81,8 +69,8 @@ drive_panel(seed=ROAD)
 # <!-- claim: N_ACTIONS == 9 -->
 
 # %%
-print(dict(enumerate(ACTION_NAMES)))
-show(nine_actions(seconds=2))
+print(dict(enumerate(bc.ACTION_NAMES)))
+bc.show(figures_road.nine_actions(seconds=2))
 
 # %% [markdown]
 # **See.** Two seconds of steering bring you more than half of the way into the next lane, and
@@ -115,12 +103,12 @@ check.decode(decode)
 # %%
 my_plan = [("keep left", 2), ("keep right", 2)]  # change it, and run the cell again
 
-mine = record(plan_policy(my_plan), [ROAD], label="you")[0]
-ending = Accident(mine.accident).name.lower()
+mine = bc.record(bc.plan_policy(my_plan), [ROAD], label="you")[0]
+ending = bc.Accident(mine.accident).name.lower()
 print(f"accident: {ending}, after {len(mine.actions)} s, return {mine.rewards.sum():.2f}")
-near, far = DEFAULT.traps.d2
-print(f"trap 2 starts {near} to {far} m ahead; a car is {DEFAULT.car.length:g} m long")
-show(top_view_over_time(mine, times=[0, 1, 2, 3]))
+near, far = bc.DEFAULT.traps.d2
+print(f"trap 2 starts {near} to {far} m ahead; a car is {bc.DEFAULT.car.length:g} m long")
+bc.show(bc.top_view_over_time(mine, times=[0, 1, 2, 3]))
 
 # %% [markdown]
 # **See.** The first idea of nearly everybody, "go left now", ends in trap 2: from centre to centre
@@ -142,8 +130,9 @@ bad_plans = {
     "brake to a stop": [("brake straight", 12)],
 }
 for name, plan in bad_plans.items():
-    drive = record(plan_policy(plan), [ROAD])[0]
-    print(f"{name:22} -> {Accident(drive.accident).name.lower():15} after {len(drive.actions):2} s")
+    drive = bc.record(bc.plan_policy(plan), [ROAD])[0]
+    ending = bc.Accident(drive.accident).name.lower()
+    print(f"{name:22} -> {ending:15} after {len(drive.actions):2} s")
 
 # %% [markdown]
 # The paper adds all three up and calls them "collision rate". We keep them apart: a policy that
@@ -155,9 +144,9 @@ for name, plan in bad_plans.items():
 # Is there a way out at all? Here is one, found by a controller that you will meet in lesson 3.
 
 # %%
-escape = record(rule_policy(DEFAULT), [ROAD], label="rule")[0]
-print("the first 15 s in words:", in_words(escape.actions[:15]))
-show(top_view_over_time(escape, times=[0, 3, 6, 9, 20, overtaken(escape)]))
+escape = bc.record(bc.rule_policy(bc.DEFAULT), [ROAD], label="rule")[0]
+print("the first 15 s in words:", bc.policies.in_words(escape.actions[:15]))
+bc.show(bc.top_view_over_time(escape, times=[0, 3, 6, 9, 20, bc.overtaken(escape)]))
 
 # %% [markdown]
 # **Explain.** The way out leads *backwards*. You fall behind both cars, change left behind trap
@@ -178,8 +167,9 @@ show(top_view_over_time(escape, times=[0, 3, 6, 9, 20, overtaken(escape)]))
 
 # %%
 env = gym.make("bootcourse:Trap-v0")
-observation, info = env.reset(seed=ROAD)
-rows = zip(names(DEFAULT), observation, scales(DEFAULT), strict=True)
+seen, info = env.reset(seed=ROAD)
+names, scales = observation.names(bc.DEFAULT), observation.scales(bc.DEFAULT)
+rows = zip(names, seen, scales, strict=True)
 for name, number, scale in list(rows)[:16]:
     print(f"{name:15} {number:7.3f}  x {scale:6.0f}  = {number * scale:7.2f}")
 
@@ -189,7 +179,8 @@ for name, number, scale in list(rows)[:16]:
 
 # %%
 start = idle.states[0]
-print(f"trap 1 is {start[TRAP_1, X]:.2f} m ahead, trap 2 {start[TRAP_2, X]:.2f} m")
+trap_1, trap_2 = start[[bc.state.TRAP_1, bc.state.TRAP_2], bc.state.X]
+print(f"trap 1 is {trap_1:.2f} m ahead, trap 2 {trap_2:.2f} m")
 
 # %% [markdown]
 # **See.** The nearest is trap 2, and its `dy` is
@@ -220,7 +211,7 @@ print(f"trap 1 is {start[TRAP_1, X]:.2f} m ahead, trap 2 {start[TRAP_2, X]:.2f} 
 # - $r_\theta = -|\sin\theta|$ charges for steering.
 
 # %%
-show(reward_curve())
+bc.show(figures.reward_curve())
 
 # %% [markdown]
 # **See.** Speed pays little up to 12.5 m/s, a lot up to 15, and next to nothing from 17 on. The
@@ -331,7 +322,7 @@ print(f"a free road at 15 m/s: {free:.5f} a second, {150 * free:.1f} in 150 s")
 # > escape earn *less* in total: 10 s, 30 s or 60 s?
 
 # %%
-show(traces([idle, escape]))
+bc.show(bc.traces([idle, escape]))
 
 # %%
 behind = np.cumsum(escape.rewards) < np.cumsum(idle.rewards)
@@ -348,11 +339,12 @@ print(f"deepest: {np.min(np.cumsum(escape.rewards) - np.cumsum(idle.rewards)):.2
 
 # %%
 # NBVAL_CHECK_OUTPUT
-episodes = drive_episodes(random_policy(np.random.default_rng(0)), held_out_seeds(1, 1000))
+episodes = bc.drive_episodes(bc.random_policy(np.random.default_rng(0)), bc.held_out_seeds(1, 1000))
 print(f"ahead of trap 1 at the end: {100 * episodes.success.mean():.1f} %")
 print(f"no accident in 150 s:       {100 * np.mean(episodes.accident == 0):.1f} %")
 print(f"mean return:                {episodes.returns.mean():.2f}")
-free_from = int(np.flatnonzero(escape.states[:: DEFAULT.clock.steps, EGO, LANE] == 0)[0])
+lanes = escape.states[:: bc.DEFAULT.clock.steps, bc.state.EGO, bc.state.LANE]  # each second
+free_from = int(np.flatnonzero(lanes == 0)[0])
 print(f"on road {ROAD} the escape takes {free_from} decisions to reach the free lane")
 
 # %% [markdown]
@@ -391,13 +383,13 @@ def outcome_rates(x_ego, x_trap_1, accident):
 check.outcome_rates(outcome_rates)
 
 # %%
-by_chance = random_policy(np.random.default_rng(0))
-drivers = {"idle": idle_policy, "rule": rule_policy(DEFAULT), "random": by_chance}
+by_chance = bc.random_policy(np.random.default_rng(0))
+drivers = {"idle": bc.idle_policy, "rule": bc.rule_policy(bc.DEFAULT), "random": by_chance}
 for name, driver in drivers.items():
-    drives = record(driver, range(100))
+    drives = bc.record(driver, range(100))
     ahead = np.mean([drive.success for drive in drives])
-    kinds = [sum(drive.accident == kind for drive in drives) for kind in Accident]
-    counted = ", ".join(f"{n} {k.name.lower()}" for n, k in zip(kinds, Accident, strict=True))
+    kinds = [sum(drive.accident == kind for drive in drives) for kind in bc.Accident]
+    counted = ", ".join(f"{n} {k.name.lower()}" for n, k in zip(kinds, bc.Accident, strict=True))
     print(f"{name:7} success {100 * ahead:5.1f} %   of 100 episodes: {counted}")
 
 # %% [markdown]

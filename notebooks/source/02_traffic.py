@@ -25,16 +25,9 @@
 import dataclasses
 import math
 
+import bootcourse as bc
 import numpy as np
-from bootcourse.episodes.record import record
-from bootcourse.lessons import check, source
-from bootcourse.lessons.figures_traffic import changing, following, space_time, swinging
-from bootcourse.panels import scenario_panel
-from bootcourse.plots.figure import show
-from bootcourse.policies import idle_policy
-from bootcourse.road import formulas
-from bootcourse.road.state import CRASHED, SPEED, TARGET_LANE, TRAFFIC, Y
-from bootcourse.scenario import DEFAULT
+from bootcourse.lessons import check, figures_traffic, source
 
 # %% [markdown]
 # ## Look first
@@ -44,10 +37,10 @@ from bootcourse.scenario import DEFAULT
 
 
 # %%
-def follow(v, dv, gap, t=DEFAULT.traffic):
+def follow(v, dv, gap, t=bc.DEFAULT.traffic):
     """Acceleration (m/s²) of a driver at v (m/s), closing in at dv on a car `gap` metres ahead."""
-    s_star = formulas.desired_gap(v, dv, t.s0, t.time_gap, t.a_max, t.b)
-    a = formulas.idm_acceleration(v, t.desired_speed, gap, s_star, t.a_max, t.delta)
+    s_star = bc.formulas.desired_gap(v, dv, t.s0, t.time_gap, t.a_max, t.b)
+    a = bc.formulas.idm_acceleration(v, t.desired_speed, gap, s_star, t.a_max, t.delta)
     return max(a, -t.braking_limit)
 
 
@@ -68,7 +61,7 @@ def ring(spacing, cars=30, seconds=400, dt=0.5):
 # %%
 rings = {f"{spacing} m apart": ring(spacing) for spacing in (20, 30)}
 title = "One slow driver: at 20 m a jam is born and travels backwards, at 30 m it dies"
-show(space_time(rings, dt=0.5, title=title))
+bc.show(figures_traffic.space_time(rings, dt=0.5, title=title))
 
 # %% [markdown]
 # > **Predict.** At 20 m the cars have room for four car lengths each. Why do they stop at all?
@@ -111,9 +104,9 @@ check.desired_gap(desired_gap)
 
 # %%
 # NBVAL_CHECK_OUTPUT
-t = DEFAULT.traffic
+t = bc.DEFAULT.traffic
 for v_ahead in (10.0, 8.0):
-    wanted = formulas.desired_gap(10.0, 10.0 - v_ahead, t.s0, t.time_gap, t.a_max, t.b)
+    wanted = bc.formulas.desired_gap(10.0, 10.0 - v_ahead, t.s0, t.time_gap, t.a_max, t.b)
     print(f"10 m/s behind a car at {v_ahead:g} m/s: {wanted:.0f} m")
 
 # %% [markdown]
@@ -147,10 +140,10 @@ def idm_acceleration(v, v_desired, gap, s_star, a_max, delta):
 check.idm_acceleration(idm_acceleration)
 
 # %%
-at_both = formulas.idm_acceleration(12.5, 12.5, 25.0, 25.0, t.a_max, t.delta)
+at_both = bc.formulas.idm_acceleration(12.5, 12.5, 25.0, 25.0, t.a_max, t.delta)
 print(f"at the desired speed and the desired gap: {at_both:.2f} m/s²")
 title = "A driver at 10 m/s brakes much earlier when it closes in"
-show(following(10.0, closing=(-2, 0, 2), title=title))
+bc.show(figures_traffic.following(10.0, closing=(-2, 0, 2), title=title))
 
 # %% [markdown]
 # **Explain.** It brakes, with all of $a_{\max}$: the bracket is 1 − 1 − 1. So the gap at which a
@@ -174,7 +167,7 @@ check.equilibrium_gap(equilibrium_gap)
 # %%
 # NBVAL_CHECK_OUTPUT
 for v in (0.0, 6.0, 9.5, 12.0):
-    s_star = formulas.desired_gap(v, 0.0, t.s0, t.time_gap, t.a_max, t.b)
+    s_star = bc.formulas.desired_gap(v, 0.0, t.s0, t.time_gap, t.a_max, t.b)
     settled = s_star / math.sqrt(1 - (v / t.desired_speed) ** t.delta)
     print(f"{v:4} m/s: wants {s_star:4.1f} m, settles at {settled:5.1f} m")
 
@@ -191,9 +184,9 @@ for v in (0.0, 6.0, 9.5, 12.0):
 
 # %%
 for headway in (20.0, 30.0, 40.0):
-    denser = dataclasses.replace(DEFAULT.traffic, headway=headway, lead=headway)
-    drives = record(idle_policy, range(50), dataclasses.replace(DEFAULT, traffic=denser))
-    slowest = [drive.states[:, TRAFFIC:, SPEED].min() for drive in drives]
+    denser = dataclasses.replace(bc.DEFAULT.traffic, headway=headway, lead=headway)
+    drives = bc.record(bc.idle_policy, range(50), dataclasses.replace(bc.DEFAULT, traffic=denser))
+    slowest = [drive.states[:, bc.state.TRAFFIC :, bc.state.SPEED].min() for drive in drives]
     print(f"{headway:g} m apart: slowest car {np.mean(slowest):.1f} m/s (mean of 50 roads)")
 
 # %% [markdown]
@@ -265,7 +258,7 @@ def new_follower(gap):
 
 
 print(f"your own gain: {own_gain:.2f} m/s²")
-show(changing(own_gain, new_follower, politeness=(0, 0.5, 1)))
+bc.show(figures_traffic.changing(own_gain, new_follower, politeness=(0, 0.5, 1)))
 
 # %% [markdown]
 # **See.** The egoist goes as soon as it is safe. Politeness turns another driver's braking into a
@@ -275,9 +268,10 @@ show(changing(own_gain, new_follower, politeness=(0, 0.5, 1)))
 
 # %%
 for p in (0.0, 0.5, 1.0):
-    kind = dataclasses.replace(DEFAULT.traffic, politeness=p)
-    drives = record(idle_policy, range(100), dataclasses.replace(DEFAULT, traffic=kind))
-    changes = [(np.diff(d.states[:, TRAFFIC:, TARGET_LANE], axis=0) != 0).sum() for d in drives]
+    kind = dataclasses.replace(bc.DEFAULT.traffic, politeness=p)
+    drives = bc.record(bc.idle_policy, range(100), dataclasses.replace(bc.DEFAULT, traffic=kind))
+    lanes = [drive.states[:, bc.state.TRAFFIC :, bc.state.TARGET_LANE] for drive in drives]
+    changes = [(np.diff(lane, axis=0) != 0).sum() for lane in lanes]
     print(f"politeness {p:g}: {np.mean(changes):.2f} lane changes a road (100 roads, 150 s)")
 
 # %% [markdown]
@@ -292,7 +286,7 @@ for p in (0.0, 0.5, 1.0):
 # > refused, and why there?
 
 # %% tags=["nbval-ignore-output"]
-scenario_panel()
+bc.panels.scenario_panel()
 
 # %% [markdown]
 # ## Round 4: two steps a second
@@ -319,7 +313,7 @@ def heading_errors(error, tau, dt, steps):
 check.heading_errors(heading_errors)
 
 # %%
-show(swinging(taus=(0.2, 0.3, 0.6), dt=DEFAULT.clock.dt))
+bc.show(figures_traffic.swinging(taus=(0.2, 0.3, 0.6), dt=bc.DEFAULT.clock.dt))
 
 # %% [markdown]
 # **Explain.** Each step multiplies the error by $1 - dt/\tau$. Between 0 and 1 it settles;
@@ -332,15 +326,16 @@ show(swinging(taus=(0.2, 0.3, 0.6), dt=DEFAULT.clock.dt))
 # %%
 def broken(tau_heading, tau_lateral, rate=2, roads=100):
     """Shares of roads on which a traffic car leaves the road, and on which traffic collides."""
-    traffic = dataclasses.replace(DEFAULT.traffic, tau_heading=tau_heading, tau_lateral=tau_lateral)
-    clock = dataclasses.replace(DEFAULT.clock, simulation_rate=rate)
-    drives = record(
-        idle_policy, range(roads), dataclasses.replace(DEFAULT, traffic=traffic, clock=clock)
+    traffic = dataclasses.replace(
+        bc.DEFAULT.traffic, tau_heading=tau_heading, tau_lateral=tau_lateral
     )
-    middle = DEFAULT.road.lane_width * (DEFAULT.road.lanes - 1) / 2
-    half = DEFAULT.road.lane_width * DEFAULT.road.lanes / 2
-    off = [np.any(abs(d.states[:, TRAFFIC:, Y] - middle) > half) for d in drives]
-    return np.mean(off), np.mean([d.states[:, TRAFFIC:, CRASHED].any() for d in drives])
+    clock = dataclasses.replace(bc.DEFAULT.clock, simulation_rate=rate)
+    scenario, road = dataclasses.replace(bc.DEFAULT, traffic=traffic, clock=clock), bc.DEFAULT.road
+    drives = [drive.states for drive in bc.record(bc.idle_policy, range(roads), scenario)]
+    middle, half = road.lane_width * (road.lanes - 1) / 2, road.lane_width * road.lanes / 2
+    off = [np.any(abs(s[:, bc.state.TRAFFIC :, bc.state.Y] - middle) > half) for s in drives]
+    hit = [s[:, bc.state.TRAFFIC :, bc.state.CRASHED].any() for s in drives]
+    return np.mean(off), np.mean(hit)
 
 
 # %%

@@ -25,21 +25,10 @@
 # %%
 import itertools
 
+import bootcourse as bc
 import numpy as np
-from bootcourse import rule
-from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds, summarise
-from bootcourse.episodes.record import record
-from bootcourse.lessons import check, source
-from bootcourse.lessons.figures import bars, histogram, reasons_over_time
-from bootcourse.lessons.figures_road import when_to_change
-from bootcourse.plots.figure import show
-from bootcourse.plots.top_view import top_view_over_time
-from bootcourse.plots.traces import traces
-from bootcourse.policies import PolicyOutput, in_words, rule_policy, stochastic_rule_policy
-from bootcourse.road import formulas
-from bootcourse.road.state import EGO, HEADING, LANE, SPEED, Accident, Y
-from bootcourse.rule import SENTENCES, Reason
-from bootcourse.scenario import DEFAULT
+from bootcourse.lessons import check, figures, figures_road, source
+from bootcourse.road.state import EGO, HEADING, LANE, SPEED, Y
 
 # %% [markdown]
 # ## Look first
@@ -49,21 +38,21 @@ from bootcourse.scenario import DEFAULT
 
 # %%
 ROAD = 10
-drive = record(rule_policy(DEFAULT), [ROAD], label="rule")[0]
-show(top_view_over_time(drive, times=[0, 3, 5, 7, 9, 12]))
+drive = bc.record(bc.rule_policy(bc.DEFAULT), [ROAD], label="rule")[0]
+bc.show(bc.top_view_over_time(drive, times=[0, 3, 5, 7, 9, 12]))
 
 # %% [markdown]
 # At every second it can say *why* it does what it does.
 
 # %%
 for second in range(16):
-    reason = SENTENCES[Reason(drive.rule_reasons[second])]
+    reason = bc.rule.SENTENCES[bc.rule.Reason(drive.rule_reasons[second])]
     speed, lane = drive.rule_speeds[second], drive.rule_lanes[second]
-    doing = in_words(drive.actions[second : second + 1])[0][0]
+    doing = bc.policies.in_words(drive.actions[second : second + 1])[0][0]
     print(f"{second:2} s  {reason:40} wants {speed:5.2f} m/s in lane {lane}: {doing}")
 
 # %%
-show(reasons_over_time(drive, "First the rule gets out, then it follows the traffic"))
+bc.show(figures.reasons_over_time(drive, "First the rule gets out, then it follows the traffic"))
 
 # %% [markdown]
 # ## Round 1: how fast?
@@ -99,12 +88,12 @@ check.target_speed(target_speed)
 
 # %%
 # NBVAL_CHECK_OUTPUT
-numbers = DEFAULT.rule
+numbers = bc.DEFAULT.rule
 grid = numbers.v_min, numbers.v_max, numbers.n
 print("the five:", [float(v) for v in np.linspace(*grid)])
-print("behind the traps:", rule.target_speed(10.0, 10.0, *grid))
-print("with nobody ahead:", rule.target_speed(np.inf, np.inf, *grid))
-print("behind traffic at 12.5 m/s:", rule.target_speed(12.5, 12.5, *grid))
+print("behind the traps:", bc.rule.target_speed(10.0, 10.0, *grid))
+print("with nobody ahead:", bc.rule.target_speed(np.inf, np.inf, *grid))
+print("behind traffic at 12.5 m/s:", bc.rule.target_speed(12.5, 12.5, *grid))
 
 # %% [markdown]
 # **Explain.** It wants {{ by_rule().rule_speeds[0] }} m/s (and gets
@@ -158,10 +147,10 @@ d_s_printed = (v_ego - v_traps) * numbers.t_safe + dx_current - dx_new
 printed = d_s_printed - dx_current
 print(f"printed: d_s - x_current = {printed:.2f} m, so change lane: {printed > 0}")
 
-d_s = rule.safety_distance(v_ego, v_traps, v_traps, numbers.t_safe, numbers.floor)
-gap = dx_new - DEFAULT.car.length  # from bumper to bumper
+d_s = bc.rule.safety_distance(v_ego, v_traps, v_traps, numbers.t_safe, numbers.floor)
+gap = dx_new - bc.DEFAULT.car.length  # from bumper to bumper
 print(f"corrected: gap {gap:.2f} m, safety distance {d_s:.2f} m, so change lane: {gap > d_s}")
-show(when_to_change(drive))
+bc.show(figures_road.when_to_change(drive))
 
 # %% [markdown]
 # **Explain.** The sign is the wrong way round. As printed, the left side is negative as soon as
@@ -220,24 +209,24 @@ def nearest_action(tau):
     """The rule's wishes, and of the three steering angles the one nearest to the smooth one."""
 
     def drive(observations, cars):
-        wanted = rule.rule(cars, DEFAULT)
+        wanted = bc.rule.rule(cars, bc.DEFAULT)
         actions = wanted.actions // 3 * 3  # the rule's brake, keep or accelerate
         for i, car in enumerate(cars[:, EGO]):
-            offset = car[Y] - wanted.lanes[i] * DEFAULT.road.lane_width
-            smooth = formulas.lane_keeping_steering(
-                offset, car[HEADING], car[SPEED], DEFAULT.car.length, 3 * tau, tau
+            offset = car[Y] - wanted.lanes[i] * bc.DEFAULT.road.lane_width
+            smooth = bc.formulas.lane_keeping_steering(
+                offset, car[HEADING], car[SPEED], bc.DEFAULT.car.length, 3 * tau, tau
             )
-            actions[i] += 1 + int(np.clip(np.rint(smooth / DEFAULT.ego.steering), -1, 1))
-        return PolicyOutput(actions)
+            actions[i] += 1 + int(np.clip(np.rint(smooth / bc.DEFAULT.ego.steering), -1, 1))
+        return bc.PolicyOutput(actions)
 
     return drive
 
 
 def in_short(driver, roads=200):
-    e = drive_episodes(driver, held_out_seeds(1, roads))
+    e = bc.drive_episodes(driver, bc.held_out_seeds(1, roads))
     off, hit = (
-        np.mean(e.accident == Accident.ROAD_DEPARTURE),
-        np.mean(e.accident == Accident.COLLISION),
+        np.mean(e.accident == bc.Accident.ROAD_DEPARTURE),
+        np.mean(e.accident == bc.Accident.COLLISION),
     )
     return f"escapes {e.success.mean():5.1%}   off the road {off:5.1%}   collides {hit:5.1%}"
 
@@ -260,12 +249,12 @@ def plan_costs(y, heading, v, goal, depth):
     """The cost of every steering sequence on each road: arrays (roads,) -> (roads, 3, ..., 3)."""
     plans = np.array(list(itertools.product((-1, 0, 1), repeat=depth)))
     y, heading, v, goal = (part[:, None] + np.zeros(len(plans)) for part in (y, heading, v, goal))
-    cost, dt = np.zeros_like(y), DEFAULT.clock.dt
+    cost, dt = np.zeros_like(y), bc.DEFAULT.clock.dt
     for steer in plans.T:
-        slip = np.arctan(0.5 * np.tan(steer * DEFAULT.ego.steering))
-        for _ in range(DEFAULT.clock.steps):
+        slip = np.arctan(0.5 * np.tan(steer * bc.DEFAULT.ego.steering))
+        for _ in range(bc.DEFAULT.clock.steps):
             y = y + v * np.sin(heading + slip) * dt
-            heading = heading + v * np.sin(slip) / (DEFAULT.car.length / 2) * dt
+            heading = heading + v * np.sin(slip) / (bc.DEFAULT.car.length / 2) * dt
         cost += (y - goal) ** 2 + 20 * heading**2 + 1e6 * ((y < -2) | (y > 10))
     return cost.reshape(-1, *[3] * depth)
 
@@ -295,11 +284,11 @@ check.best_first_step(best_first_step)
 # %%
 def looks_ahead(depth):
     def drive(observations, cars):
-        wanted, ego = rule.rule(cars, DEFAULT), cars[:, EGO]
-        goal = wanted.lanes * DEFAULT.road.lane_width
+        wanted, ego = bc.rule.rule(cars, bc.DEFAULT), cars[:, EGO]
+        goal = wanted.lanes * bc.DEFAULT.road.lane_width
         costs = plan_costs(ego[:, Y], ego[:, HEADING], ego[:, SPEED], goal, depth)
         first = costs.reshape(len(costs), 3, -1).min(-1).argmin(-1)
-        return PolicyOutput(wanted.actions // 3 * 3 + first)
+        return bc.PolicyOutput(wanted.actions // 3 * 3 + first)
 
     return drive
 
@@ -327,19 +316,19 @@ for depth in (1, 2, 3):
 # > covers 1500 m in 150 s. How far does the rule get?
 
 # %%
-episodes = drive_episodes(rule_policy(DEFAULT), held_out_seeds(1, 1000))
-result = summarise(episodes)
+episodes = bc.drive_episodes(bc.rule_policy(bc.DEFAULT), bc.held_out_seeds(1, 1000))
+result = bc.summarise(episodes)
 for name, scale in (("success", 100), ("returns", 1), ("distance", 1)):
     value, low, high = (scale * number for number in getattr(result, name))
     print(f"{name:9} {value:7.1f}  [{low:.1f}, {high:.1f}]")
 print(f"accidents of any kind: {int((episodes.accident > 0).sum())}")
-free = 150 * formulas.weighted_reward(1.0, 1.0, 0.0, 1.5, 0.05, 0.05)
+free = 150 * bc.formulas.weighted_reward(1.0, 1.0, 0.0, 1.5, 0.05, 0.05)
 share = result.returns.value / free
 print(f"150 s at 15 m/s on a free road pay {free:.0f}: the rule earns {share:.0%} of that")
 
 # %%
 title = "The rule always escapes, and is paid very differently for it"
-show(histogram(episodes.returns, "return of an episode", title))
+bc.show(figures.histogram(episodes.returns, "return of an episode", title))
 
 # %% [markdown]
 # **See.** It always escapes and never crashes. But its return is far from what a free road pays.
@@ -348,11 +337,11 @@ show(histogram(episodes.returns, "return of an episode", title))
 # <!-- claim: of('rule').scores('returns').max() < 150 * second_pays(15) / 2 -->
 
 # %%
-after = drive.states[:: DEFAULT.clock.steps, EGO]
+after = drive.states[:: bc.DEFAULT.clock.steps, EGO]
 free = after[:-1, LANE] == 0
 speed = after[:-1, SPEED][free].mean()
 print(f"in the left lane for {free.sum()} s, at {speed:.1f} m/s on average")
-show(traces([drive]))
+bc.show(bc.traces([drive]))
 
 # %% [markdown]
 # **Explain.** Three wastes. It takes only five speeds, so behind traffic at 12.5 it drives 10.5.
@@ -387,11 +376,12 @@ check.stochastic_rule(stochastic_rule)
 
 # %%
 # NBVAL_CHECK_OUTPUT
-probabilities = rule.stochastic_rule(np.array(3), p=0.9)
+probabilities = bc.rule.stochastic_rule(np.array(3), p=0.9)
 print(probabilities.round(4), "sum", probabilities.sum().round(6))
 
 # %%
-show(bars(probabilities, "The stochastic rule with p = 0.9: keep left, and a little of everything"))
+title = "The stochastic rule with p = 0.9: keep left, and a little of everything"
+bc.show(figures.bars(probabilities, title))
 
 # %% [markdown]
 # > **Predict.** Let the stochastic rule drive: each second, one chance in ten to do something
@@ -400,8 +390,8 @@ show(bars(probabilities, "The stochastic rule with p = 0.9: keep left, and a lit
 
 # %%
 rng = np.random.default_rng(0)
-unsure = drive_episodes(stochastic_rule_policy(DEFAULT, rng), held_out_seeds(2, 1000))
-for kind in Accident:
+unsure = bc.drive_episodes(bc.stochastic_rule_policy(bc.DEFAULT, rng), bc.held_out_seeds(2, 1000))
+for kind in bc.Accident:
     print(f"{kind.name.lower():15} {100 * np.mean(unsure.accident == kind):5.1f} %")
 print(f"escapes {100 * unsure.success.mean():.0f} %")
 
@@ -416,8 +406,8 @@ print(f"escapes {100 * unsure.success.mean():.0f} %")
 
 # %%
 for p in (0.5, 0.9, 0.99, 0.999):
-    driver = stochastic_rule_policy(DEFAULT, np.random.default_rng(0), p)
-    driven = drive_episodes(driver, held_out_seeds(2, 500))
+    driver = bc.stochastic_rule_policy(bc.DEFAULT, np.random.default_rng(0), p)
+    driven = bc.drive_episodes(driver, bc.held_out_seeds(2, 500))
     print(f"p = {p:5}: {100 * np.mean(driven.accident == 0):5.1f} % without an accident")
 
 # %% [markdown]

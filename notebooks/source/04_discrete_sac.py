@@ -23,17 +23,11 @@
 # states, actions and rewards as in lesson 1.
 
 # %%
-import math
-
+import bootcourse as bc
 import numpy as np
 import torch
-from bootcourse.learn import sac
-from bootcourse.learn.settings import Settings, settings_for, with_seeds
-from bootcourse.lessons import check, source
-from bootcourse.lessons.charts import lines
-from bootcourse.lessons.figures_cartpole import cartpole_strip
-from bootcourse.plots.figure import show
-from bootcourse.study.checks import balance, cartpole, collect, policy_of, scores, train
+from bootcourse.lessons import charts, check, figures_cartpole, source
+from bootcourse.study import checks
 
 # %% [markdown]
 # ## Look first
@@ -56,10 +50,11 @@ def at_random(observations):
 
 
 drives = {}
-for label, driver in (("at random", at_random), ("rule: push where it falls", balance)):
-    rows, returns = collect(driver, cartpole, 1, seed=0)
+for label, driver in (("at random", at_random), ("rule: push where it falls", checks.balance)):
+    rows, returns = checks.collect(driver, checks.cartpole, 1, seed=0)
     drives[f"{label}: {returns[0]:.0f} pushes"] = rows[:, :4].numpy()
-show(cartpole_strip(drives, "One line of code balances the pole; chance does not"))
+title = "One line of code balances the pole; chance does not"
+bc.show(figures_cartpole.cartpole_strip(drives, title))
 
 # %% [markdown]
 # > **Predict.** The second driver is one line that somebody wrote. A learner knows nothing of
@@ -89,8 +84,8 @@ for words, pi in (
     ("two, even", [0.5, 0.5]),
     ("nine, even", [1 / 9] * 9),
 ):
-    h = sac.entropy(torch.tensor([pi]).double().log()).item()
-    print(f"{words:20} {h:.3f} nats, as many as {math.exp(h):.2f} equally likely actions")
+    h = bc.sac.entropy(torch.tensor([pi]).double().log()).item()
+    print(f"{words:20} {h:.3f} nats, as many as {np.exp(h):.2f} equally likely actions")
 
 # %% [markdown]
 # **See.** Between 0 and the logarithm of the number of actions, and **never negative**, since no
@@ -124,7 +119,7 @@ check.entropy(entropy)
 q = torch.tensor([[1.0, 3.0]])
 for alpha in (0.1, 1.0, 1.4427, 2.0):
     values = [
-        sac.soft_value(torch.tensor([pi]).log(), q, torch.tensor(alpha)).item()
+        bc.sac.soft_value(torch.tensor([pi]).log(), q, torch.tensor(alpha)).item()
         for pi in ([1e-12, 1.0], [0.5, 0.5])
     ]
     print(f"α = {alpha:6}: sure {values[0]:.2f}, even {values[1]:.2f}")
@@ -139,7 +134,11 @@ temperatures = np.geomspace(0.1, 30, 60)
 best = [torch.softmax(q[0] / alpha, 0)[1].item() for alpha in temperatures]
 title = "The colder, the surer: the best policy for Q = 1 and Q = 3"
 label = "probability of the better action"
-show(lines(temperatures, {"softmax(Q / α)": best}, title, "temperature α", label, logarithmic="x"))
+bc.show(
+    charts.lines(
+        temperatures, {"softmax(Q / α)": best}, title, "temperature α", label, logarithmic="x"
+    )
+)
 
 # %% [markdown]
 # **Exercise 4.2 (5 min, ●○○).** Write the soft value.
@@ -174,7 +173,7 @@ check.soft_value(soft_value)
 
 # %%
 terminated = torch.tensor([1.0, 0.0])  # it fell; the time was up
-print(sac.critic_target(torch.ones(2), terminated, torch.tensor([50.0, 50.0]), 0.99).tolist())
+print(bc.sac.critic_target(torch.ones(2), terminated, torch.tensor([50.0, 50.0]), 0.99).tolist())
 
 # %% [markdown]
 # **Explain.** A pole that fell has no future. A pole that still stands when we stop watching has
@@ -219,7 +218,7 @@ for words, keeps_q in (("Q held fixed", True), ("Q may move, too", False)):
     optimiser = torch.optim.Adam([logits, q], lr=0.05)
     for _ in range(200):
         held = q.detach() if keeps_q else q
-        loss = -sac.soft_value(sac.log_policy(logits), held, torch.tensor(1.0)).mean()
+        loss = -bc.sac.soft_value(bc.sac.log_policy(logits), held, torch.tensor(1.0)).mean()
         optimiser.zero_grad()
         loss.backward()
         optimiser.step()
@@ -276,11 +275,12 @@ check.temperature_loss(temperature_loss)
 # > and when does it stop?
 
 # %%
-for h in (math.log(9), 1.0, 0.1, 0.0):
-    log_alpha = torch.tensor(math.log(0.01), requires_grad=True)
+most = np.log(9).item()  # nats: nine actions, all as likely
+for h in (most, 1.0, 0.1, 0.0):
+    log_alpha = torch.tensor(0.01).log().requires_grad_()
     slopes = []
-    for eta in (-1.0, 0.3 * math.log(9)):
-        loss = sac.temperature_loss(log_alpha, torch.tensor([h]), torch.tensor(eta))
+    for eta in (-1.0, 0.3 * most):
+        loss = bc.sac.temperature_loss(log_alpha, torch.tensor([h]), torch.tensor(eta))
         slopes.append(torch.autograd.grad(loss, log_alpha)[0].item())
     turns = ["falls" if slope > 0 else "rises" for slope in slopes]
     print(f"H = {h:.2f}: with η = -1 α {turns[0]}, with η = 0.66 α {turns[1]}")
@@ -294,9 +294,9 @@ for h in (math.log(9), 1.0, 0.1, 0.0):
 # <!-- claim: 0 - SETTINGS.target_entropy == 1 -->
 
 # %%
-settings = Settings()
+settings = bc.Settings()
 for part in (10, 100):
-    updates = math.log(part) / settings.alpha_lr
+    updates = np.log(part) / settings.alpha_lr
     print(f"α can be a {'tenth' if part == 10 else 'hundredth'} after {updates:,.0f} updates")
 
 # %% [markdown]
@@ -314,11 +314,11 @@ for part in (10, 100):
 # %%
 SEEDS, PUSHES = 3, 16_000
 changes = {"gamma": 0.99, "tau": 0.05}  # looks 100 pushes ahead; targets that follow faster
-target = 0.3 * math.log(2)
-agents = with_seeds(settings_for("sac", target_entropy=target, **changes), SEEDS)
-agents += with_seeds(settings_for("sac", **changes), SEEDS)  # η = -1, the paper's
+target = 0.3 * np.log(2).item()
+agents = bc.with_seeds(bc.settings_for("sac", target_entropy=target, **changes), SEEDS)
+agents += bc.with_seeds(bc.settings_for("sac", **changes), SEEDS)  # η = -1, the paper's
 noted = []
-learner = train(agents, cartpole, PUSHES, progress=True, callback=noted.append)
+learner = checks.train(agents, checks.cartpole, PUSHES, progress=True, callback=noted.append)
 print(f"{len(noted):,} updates of {len(agents)} agents")
 
 # %%
@@ -326,7 +326,7 @@ alpha = torch.stack([each["alpha"] for each in noted[::50]]).T.numpy()
 updates = np.arange(len(noted))[::50]
 named = {"sac: η = 0.21": alpha[:SEEDS], "η = −1": alpha[SEEDS:]}
 title = "With η = −1 the temperature knows one direction"
-show(lines(updates, named, title, "update", "temperature α", logarithmic="y"))
+bc.show(charts.lines(updates, named, title, "update", "temperature α", logarithmic="y"))
 
 # %%
 state_entropy = torch.stack([each["entropy"] for each in noted]).T.numpy()
@@ -334,14 +334,14 @@ smooth = state_entropy[:, : len(noted) // 50 * 50].reshape(len(agents), -1, 50).
 named = {"sac: η = 0.21": smooth[:SEEDS], "η = −1": smooth[SEEDS:]}
 title = "The entropy of a policy never reaches −1"
 updates = np.arange(smooth.shape[1]) * 50
-show(
-    lines(
+bc.show(
+    charts.lines(
         updates, named, title, "update", "entropy (nats)", marks={"target 0.21": target, "0": 0.0}
     )
 )
 
 # %%
-results = scores(learner, cartpole, 20)
+results = checks.scores(learner, checks.cartpole, 20)
 for i, (agent, score) in enumerate(zip(agents, results, strict=True)):
     eta = f"{agent.target_entropy:5.2f}"
     print(f"η = {eta}, seed {agent.seed}: balances for {score:5.1f} of 500 pushes", end="")
@@ -351,11 +351,12 @@ for i, (agent, score) in enumerate(zip(agents, results, strict=True)):
 best, worst = int(results.argmax()), int(results.argmin())
 drives = {}
 for i in (worst, best):
-    rows, returns = collect(policy_of(learner, i), cartpole, 1, seed=0)
+    rows, returns = checks.collect(checks.policy_of(learner, i), checks.cartpole, 1, seed=0)
     drives[f"agent {i} (η = {agents[i].target_entropy:.2f}): {returns[0]:.0f} pushes"] = rows[
         :, :4
     ].numpy()
-show(cartpole_strip(drives, "The worst and the best of the six, from the same start", every=20))
+title = "The worst and the best of the six, from the same start"
+bc.show(figures_cartpole.cartpole_strip(drives, title, every=20))
 
 # %% [markdown]
 # **See.** Compare with your predictions. The temperature does what the algebra says, in every seed.
@@ -378,7 +379,7 @@ show(cartpole_strip(drives, "The worst and the best of the six, from the same st
 source("bootcourse.learn.sac", "soft_value", "critic_target", "critic_loss", "actor_loss")
 
 # %% tags=["nbval-ignore-output"]
-source("bootcourse.learn.sac", "temperature_loss", "smaller")
+source("bootcourse.learn.sac", "temperature_loss", "min_q")
 
 # %% [markdown] tags=["instructor"] minutes=10
 # How far does it get with more pushes? `python -m bootcourse.study.checks --only sac-cartpole`

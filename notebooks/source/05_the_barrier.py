@@ -22,25 +22,10 @@
 # of lesson 3, SAC of lesson 4.
 
 # %%
+import bootcourse as bc
 import numpy as np
-from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds, summarise
-from bootcourse.episodes.record import record
-from bootcourse.episodes.words import overtaken
-from bootcourse.learn.settings import settings_for, with_seeds
-from bootcourse.learn.training import Training
-from bootcourse.lessons import check, source
-from bootcourse.lessons.charts import action_bars
-from bootcourse.lessons.figures import fading
-from bootcourse.lessons.live import LiveCurves
-from bootcourse.panels import train_panel
-from bootcourse.plots.figure import show
-from bootcourse.plots.top_view import top_view_over_time
-from bootcourse.plots.traces import traces
-from bootcourse.plots.training_curves import training_curves
-from bootcourse.policies import idle_policy, random_policy, rule_policy
-from bootcourse.scenario import ACTION_NAMES, DEFAULT
-from bootcourse.statistics import rate
-from bootcourse.study.planner import Search, follow, is_staying_optimal, plan_episodes
+from bootcourse.lessons import charts, check, figures, live, source
+from bootcourse.study import planner
 
 # %% [markdown]
 # ## Look first
@@ -52,18 +37,18 @@ from bootcourse.study.planner import Search, follow, is_staying_optimal, plan_ep
 
 # %%
 ROAD = 10
-plans = plan_episodes([ROAD], search=Search(beam=50))
-planned = record(follow(plans), [ROAD], label="planner")[0]
-idle = record(idle_policy, [ROAD], label="idle")[0]
-by_rule = record(rule_policy(DEFAULT), [ROAD], label="rule")[0]
-show(traces([idle, by_rule, planned]))
+plans = planner.plan_episodes([ROAD], search=planner.Search(beam=50))
+planned = bc.record(planner.follow(plans), [ROAD], label="planner")[0]
+idle = bc.record(bc.idle_policy, [ROAD], label="idle")[0]
+by_rule = bc.record(bc.rule_policy(bc.DEFAULT), [ROAD], label="rule")[0]
+bc.show(bc.traces([idle, by_rule, planned]))
 
 # %%
 for drive in (idle, by_rule, planned):
-    passed = overtaken(drive)
+    passed = bc.overtaken(drive)
     when = "never" if passed is None else f"after {passed:.0f} s"
     print(f"{drive.label:8} return {drive.rewards.sum():6.1f}, ahead of trap 1 {when}")
-show(top_view_over_time(planned, times=[0, 2, 4, 6, 8, 12]))
+bc.show(bc.top_view_over_time(planned, times=[0, 2, 4, 6, 8, 12]))
 
 # %% [markdown]
 # **See.** The planner does not fall back at all. It accelerates and slips between the two traps,
@@ -84,13 +69,14 @@ show(top_view_over_time(planned, times=[0, 2, 4, 6, 8, 12]))
 
 # %%
 SEEDS, UPDATES = 3, 5000
-agents = with_seeds(settings_for("sac"), SEEDS) + with_seeds(settings_for("sac", gamma=0.95), SEEDS)
-training = Training(agents, episodes=20_000)
-alone = training.run(callback=LiveCurves(), stop=lambda: training.updates > UPDATES)
+agents = bc.with_seeds(bc.settings_for("sac"), SEEDS)
+agents += bc.with_seeds(bc.settings_for("sac", gamma=0.95), SEEDS)
+training = bc.Training(agents, episodes=20_000)
+alone = training.run(callback=live.LiveCurves(), stop=lambda: training.updates > UPDATES)
 print(f"{alone.seconds:.0f} s, {training.decisions:,} decisions")
 
 # %%
-seeds = held_out_seeds(5, 200)
+seeds = bc.held_out_seeds(5, 200)
 
 
 def table(agents):
@@ -98,7 +84,7 @@ def table(agents):
     print("method            γ  seed  success %  return  accidents %")
     successes = []
     for agent in agents:
-        r, s = summarise(drive_episodes(agent.as_policy(), seeds)), agent.settings
+        r, s = bc.summarise(bc.drive_episodes(agent.as_policy(), seeds)), agent.settings
         accidents = r.collision.value + r.road_departure.value + r.stoppage.value
         row = f"{s.method:13}{s.gamma:6}{s.seed:6}{100 * r.success.value:11.1f}"
         print(f"{row}{r.returns.value:8.1f}{100 * accidents:13.1f}")
@@ -180,7 +166,7 @@ for gamma in (0.8, 0.95):
 # %%
 print("   γ   idle  best in lane  rule's way  best of all  of which leave")
 for gamma in (0.8, 0.95):
-    s = is_staying_optimal(range(4), gamma=gamma, beam=50)
+    s = planner.is_staying_optimal(range(4), gamma=gamma, beam=50)
     row = f"{gamma:4} {s.idle.value:6.2f} {s.keep_lane.value:13.2f} {s.rule.value:11.2f}"
     print(f"{row} {s.best.value:12.2f} {100 * s.leaves.value:13.0f} %")
 
@@ -228,7 +214,7 @@ for good in (2, 3, 4):
     chances = [1 - (1 - (good / 9) ** 8) ** tries for tries in (100, 1000, 10_000)]
     told = ", ".join(f"{100 * chance:6.2f} %" for chance in chances)
     print(f"{good} of 9 right, 8 times in a row: {told} in 100, 1,000, 10,000 tries")
-tried = drive_episodes(random_policy(np.random.default_rng(0)), held_out_seeds(6, 5000))
+tried = bc.drive_episodes(bc.random_policy(np.random.default_rng(0)), bc.held_out_seeds(6, 5000))
 print(f"5,000 random drives: {tried.success.sum()} end ahead of trap 1", end=", ")
 print(f"{100 * np.mean(tried.accident > 0):.1f} % in an accident")
 
@@ -241,14 +227,15 @@ print(f"{100 * np.mean(tried.accident > 0):.1f} % in an accident")
 start = by_rule.observations[:1]
 q = alone.agents[0].q_values(start)[0]
 title = "What the critic of plain SAC, seed 0, expects of each action"
-show(action_bars({"sac: Q(s, a)": q.tolist()}, title, "value"))
+bc.show(charts.action_bars({"sac: Q(s, a)": q.tolist()}, title, "value"))
 
 # %%
 temperature, policy = alone.agents[0].alpha, alone.agents[0].policy(start)[0]
 likes, does = int(q.argmax()), int(policy.argmax())
 print(f"α has fallen to {temperature:.5f}")
-print(f"the critic likes best: {ACTION_NAMES[likes]}, to which the actor gives {policy[likes]:.4f}")
-print(f"the actor's likeliest: {ACTION_NAMES[does]}, with a probability of {policy[does]:.4f}")
+best, likeliest = bc.ACTION_NAMES[likes], bc.ACTION_NAMES[does]
+print(f"the critic likes best: {best}, to which the actor gives {policy[likes]:.4f}")
+print(f"the actor's likeliest: {likeliest}, with a probability of {policy[does]:.4f}")
 
 # %% [markdown]
 # **Explain.** By now the agent is cold (lesson 4). Its policy has made up its mind, and the slope
@@ -265,16 +252,16 @@ print(f"the actor's likeliest: {ACTION_NAMES[does]}, with a probability of {poli
 # rule with a bonus on them, are mixed into what the agent learns from (lesson 8). Both fade.
 
 # %%
-show(fading(settings_for("bootstrapped")))
+bc.show(figures.fading(bc.settings_for("bootstrapped")))
 
 # %% [markdown]
 # > **Predict.** Three agents, the same networks, γ = 0.8, the same number of updates, with the
 # > rule's help. How many escape? Will they be worse than the rule, as good, or better?
 
 # %%
-helped_training = Training(with_seeds(settings_for("bootstrapped"), SEEDS), episodes=20_000)
-helped = helped_training.run(callback=LiveCurves(), stop=lambda: helped_training.updates > UPDATES)
-print(f"{helped.seconds:.0f} s, {helped_training.decisions:,} decisions")
+with_rule = bc.Training(bc.with_seeds(bc.settings_for("bootstrapped"), SEEDS), episodes=20_000)
+helped = with_rule.run(callback=live.LiveCurves(), stop=lambda: with_rule.updates > UPDATES)
+print(f"{helped.seconds:.0f} s, {with_rule.decisions:,} decisions")
 
 # %% [markdown] tags=["instructor"] minutes=6
 # "So it imitates." Have them compare the return with the rule's after 5,000 updates and again after
@@ -284,7 +271,7 @@ print(f"{helped.seconds:.0f} s, {helped_training.decisions:,} decisions")
 
 # %%
 escaped_helped = table(helped.agents) >= 0.95
-rule_report = summarise(drive_episodes(rule_policy(DEFAULT), seeds))
+rule_report = bc.summarise(bc.drive_episodes(bc.rule_policy(bc.DEFAULT), seeds))
 success = 100 * rule_report.success.value
 print(f"the rule{success:28.1f}{rule_report.returns.value:8.1f}")
 
@@ -293,7 +280,7 @@ first = {name: values[:SEEDS, :500] for name, values in alone.curves.items()}
 both = {"sac": first, "bootstrapped": {n: v[:, :500] for n, v in helped.curves.items()}}
 title = f"With the rule's help {escaped_helped.sum()} of {SEEDS} agents escape, "
 title += f"alone {escaped_alone[:SEEDS].sum()} of {SEEDS}"
-show(training_curves(both, title, constants={"rule": {"return": rule_report.returns.value}}))
+bc.show(bc.training_curves(both, title, constants={"rule": {"return": rule_report.returns.value}}))
 
 # %% [markdown]
 # **Explain.** With the rule, the way out is in the data from the first update on, and the pull
@@ -319,9 +306,10 @@ check.lowest_rate(lowest_rate)
 
 # %%
 for n in (3, 5, 10, 20):
-    print(f"{n:2} of {n:2} agents: a true rate of {100 * rate(np.ones(n, bool)).low:.0f} % or more")
+    lowest = 100 * bc.statistics.rate(np.ones(n, bool)).low
+    print(f"{n:2} of {n:2} agents: a true rate of {lowest:.0f} % or more")
 for words, escaped in (("alone", escaped_alone[:SEEDS]), ("with the rule", escaped_helped)):
-    value, low, high = (100 * number for number in rate(escaped))
+    value, low, high = (100 * number for number in bc.statistics.rate(escaped))
     print(f"{words}: {value:.0f} % of our agents escape, true rate in [{low:.0f}, {high:.0f}] %")
 
 # %% [markdown]
@@ -337,12 +325,12 @@ for words, escaped in (("alone", escaped_alone[:SEEDS]), ("with the rule", escap
 
 # %%
 pair = [("sac", alone.agents[0]), ("bootstrapped", helped.agents[0])]
-drives = [record(agent.as_policy(with_q=True), [ROAD], label=label)[0] for label, agent in pair]
-show(traces([*drives, by_rule]))
+drives = [bc.record(agent.as_policy(with_q=True), [ROAD], label=label)[0] for label, agent in pair]
+bc.show(bc.traces([*drives, by_rule]))
 
 # %%
 last = drives[1].times[-1]
-show(top_view_over_time(drives[1], times=[t for t in (0, 4, 8, 12, 16, 24) if t <= last]))
+bc.show(bc.top_view_over_time(drives[1], times=[t for t in (0, 4, 8, 12, 16, 24) if t <= last]))
 
 # %% [markdown]
 # **See.** Look at the lanes, too. To be in the left lane is not to be free: one has to know that
@@ -364,7 +352,7 @@ source("bootcourse.learn.bootstrap", "kl_to_rule", "constraint_strength", "augme
 # > out? And with ξ, but without demonstrations (β = 0)?
 
 # %% tags=["nbval-ignore-output"]
-train_panel("bootstrapped", seeds=2, episodes=400)
+bc.panels.train_panel("bootstrapped", seeds=2, episodes=400)
 
 # %% [markdown]
 # **See.** Two agents and a few minutes make a guess, not a finding. Write yours down: lesson 9

@@ -22,29 +22,11 @@
 # [lesson 1](01_the_trap.ipynb) and [lesson 3](03_the_rule.ipynb).
 
 # %%
+import bootcourse as bc
 import numpy as np
 import torch
-from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
-from bootcourse.episodes.record import record
-from bootcourse.learn.agent import Agent
-from bootcourse.learn.bc import BCLearner
-from bootcourse.learn.demonstrations import collect, demonstration_rows
-from bootcourse.learn.replay_buffer import ReplayBuffer, decode_transitions
-from bootcourse.learn.settings import settings_for, with_seeds
-from bootcourse.lessons import check, source
-from bootcourse.lessons.figures import bars
-from bootcourse.lessons.figures_demonstrations import astray, clones, where_they_were
-from bootcourse.panels import drive_panel
-from bootcourse.plots.figure import show
-from bootcourse.policies import (
-    idle_policy,
-    in_words,
-    plan_policy,
-    rule_policy,
-    stochastic_rule_policy,
-)
-from bootcourse.road.state import LANE
-from bootcourse.scenario import ACTION_NAMES, DEFAULT
+from bootcourse.learn import demonstrations, replay_buffer
+from bootcourse.lessons import check, figures, figures_demonstrations, source
 
 # %% [markdown]
 # ## Look first
@@ -55,11 +37,11 @@ from bootcourse.scenario import ACTION_NAMES, DEFAULT
 # <!-- claim: round(1 / (1 - RULE_P)) == 10 -->
 
 # %%
-unsure = stochastic_rule_policy(DEFAULT, np.random.default_rng(0))
-driven = {"the rule": record(rule_policy(DEFAULT), range(60), label="rule")}
-driven["the stochastic rule"] = record(unsure, range(60), label="stochastic rule")
+unsure = bc.stochastic_rule_policy(bc.DEFAULT, np.random.default_rng(0))
+driven = {"the rule": bc.record(bc.rule_policy(bc.DEFAULT), range(60), label="rule")}
+driven["the stochastic rule"] = bc.record(unsure, range(60), label="stochastic rule")
 title = "The rule drives along a narrow path, the unsure rule strays from it"
-show(where_they_were(driven, seconds=30, title=title))
+bc.show(figures_demonstrations.where_they_were(driven, seconds=30, title=title))
 
 # %% [markdown]
 # > **Predict.** You are to learn to drive from one of these two, by watching and nothing else.
@@ -105,10 +87,12 @@ check.transitions(transitions)
 
 # %%
 # NBVAL_CHECK_OUTPUT
-by_rule = collect(200)
-by_chance = collect(200, driver=stochastic_rule_policy(DEFAULT, np.random.default_rng(0)))
+by_rule = bc.collect(200)
+by_chance = bc.collect(200, driver=bc.stochastic_rule_policy(bc.DEFAULT, np.random.default_rng(0)))
 for name, rows in (("rule", by_rule), ("stochastic rule", by_chance)):
-    batch = decode_transitions(rows, DEFAULT.observation_size, torch.zeros(len(rows)))
+    batch = replay_buffer.decode_transitions(
+        rows, bc.DEFAULT.observation_size, torch.zeros(len(rows))
+    )
     ended = int(batch.terminated.sum())
     print(f"{name:16} {len(rows):6,} transitions, {ended:3} of 200 episodes end in an accident")
 
@@ -118,12 +102,12 @@ for name, rows in (("rule", by_rule), ("stochastic rule", by_chance)):
 
 # %% tags=["nbval-ignore-output"]
 ROAD = 10
-(panel := drive_panel(seed=ROAD))
+(panel := bc.panels.drive_panel(seed=ROAD))
 
 # %%
-stand_in = plan_policy(in_words(driven["the rule"][ROAD].actions))
-mine = panel.demonstrations or record(stand_in, [ROAD], label="you")
-own_rows = demonstration_rows(mine)
+stand_in = bc.plan_policy(bc.policies.in_words(driven["the rule"][ROAD].actions))
+mine = panel.demonstrations or bc.record(stand_in, [ROAD], label="you")
+own_rows = demonstrations.demonstration_rows(mine)
 print(f"drives: {len(mine)}, transitions: {len(own_rows)}, of {own_rows.shape[1]} numbers each")
 print(f"the last one: return {mine[-1].rewards.sum():.1f}, success {mine[-1].success}")
 
@@ -137,12 +121,14 @@ print(f"the last one: return {mine[-1].rewards.sum():.1f}, success {mine[-1].suc
 # > **Predict.** What share of the rule's decisions is "keep straight"?
 
 # %%
-batch = decode_transitions(by_rule, DEFAULT.observation_size, torch.zeros(len(by_rule)))
+batch = replay_buffer.decode_transitions(
+    by_rule, bc.DEFAULT.observation_size, torch.zeros(len(by_rule))
+)
 shares = np.bincount(batch.actions.numpy(), minlength=9) / len(by_rule)
 most = int(shares.argmax())
-title = f"{shares[most]:.0%} of the rule's decisions are '{ACTION_NAMES[most]}'"
-show(bars(shares, title, label="share of the decisions"))
-way_out = np.mean([np.argmax(d.states[::2, 0, LANE] == 0) for d in driven["the rule"]])
+title = f"{shares[most]:.0%} of the rule's decisions are '{bc.ACTION_NAMES[most]}'"
+bc.show(figures.bars(shares, title, label="share of the decisions"))
+way_out = np.mean([np.argmax(d.states[::2, 0, bc.state.LANE] == 0) for d in driven["the rule"]])
 print(f"it takes {way_out:.0f} s to the free lane: {way_out / 150:.0%} of a demonstration")
 
 # %% [markdown]
@@ -178,7 +164,7 @@ check.return_to_go(return_to_go)
 
 # %%
 # NBVAL_CHECK_OUTPUT
-idle = record(idle_policy, [ROAD])[0]
+idle = bc.record(bc.idle_policy, [ROAD])[0]
 for gamma in (1.0, 0.99, 0.95, 0.9, 0.8):
     weights = gamma ** np.arange(150)
     nothing, escape = (weights @ d.rewards for d in (idle, driven["the rule"][ROAD]))
@@ -225,14 +211,14 @@ check.cloning_loss(cloning_loss)
 # %%
 def clone(rows, updates=1500, seeds=4):
     """Clones of what is in the rows, one for each seed."""
-    settings = with_seeds(settings_for("bc"), seeds)
-    cloner = BCLearner(settings, DEFAULT.observation_size)
-    replay = ReplayBuffer(seeds, 64, DEFAULT.observation_size, rows)
+    settings = bc.with_seeds(bc.settings_for("bc"), seeds)
+    cloner = bc.learner_for(settings, bc.DEFAULT.observation_size)
+    replay = bc.ReplayBuffer(seeds, 64, bc.DEFAULT.observation_size, rows)
     generators = [np.random.default_rng(each.seed) for each in settings]
     for _ in range(updates):
         cloner.update(replay.sample(64, np.ones(seeds), generators))  # 64 rows, all demonstrations
     weights = [[layer.detach()[i : i + 1] for layer in cloner.actor] for i in range(seeds)]
-    return [Agent(s, actor, [], alpha=0.0) for s, actor in zip(settings, weights, strict=True)]
+    return [bc.Agent(s, actor, [], alpha=0.0) for s, actor in zip(settings, weights, strict=True)]
 
 
 torch.set_num_threads(1)  # small matrices are faster on one thread
@@ -263,10 +249,11 @@ check.agreement(agreement)
 # %%
 def measure(agents, rows, roads=200):
     """Each clone's agreement with its data, successes, accidents on held-out roads: (clones, 3)."""
-    batch, found = decode_transitions(rows, DEFAULT.observation_size, torch.zeros(len(rows))), []
+    size, found = bc.DEFAULT.observation_size, []
+    batch = replay_buffer.decode_transitions(rows, size, torch.zeros(len(rows)))
     for agent in agents:
         agrees = agent.policy(batch.states.numpy()).argmax(1) == batch.actions.numpy()
-        e = drive_episodes(agent.as_policy(), held_out_seeds(6, roads))
+        e = bc.drive_episodes(agent.as_policy(), bc.held_out_seeds(6, roads))
         found.append((agrees.mean(), e.success.mean(), (e.accident > 0).mean()))
     return np.array(found)
 
@@ -324,7 +311,7 @@ for error_rate in (0.2, 0.01, 0.001):
 # %%
 def strangeness(driver, seconds, roads=40):
     """Median distance from what a driver sees (at last) to the nearest demonstrated state."""
-    drives, known = record(driver, range(roads)), by_rule[:, : DEFAULT.observation_size]
+    drives, known = bc.record(driver, range(roads)), by_rule[:, : bc.DEFAULT.observation_size]
     found = []
     for t in seconds:
         seen = np.array([d.observations[min(t, len(d.actions))] for d in drives])
@@ -333,11 +320,11 @@ def strangeness(driver, seconds, roads=40):
 
 
 seconds = range(31)
-curves = {"the rule itself": strangeness(rule_policy(DEFAULT), seconds)}
+curves = {"the rule itself": strangeness(bc.rule_policy(bc.DEFAULT), seconds)}
 for agent in rule_clones[:2]:
     curves[f"clone, seed {agent.settings.seed}"] = strangeness(agent.as_policy(), seconds)
 title = "The clones get to where the demonstrator has never been"
-show(astray(seconds, curves, title))
+bc.show(figures_demonstrations.astray(seconds, curves, title))
 
 # %% [markdown]
 # Is that because the clone errs on the rule's own states, or because it meets others? Ask it both:
@@ -347,7 +334,7 @@ show(astray(seconds, curves, title))
 times = [0, 1, 2, 3, 5, 10, 30]
 print("agreement with the rule at", times, "s")
 for agent in rule_clones:
-    own, quiz, exam = record(agent.as_policy(), range(40)), [], []
+    own, quiz, exam = bc.record(agent.as_policy(), range(40)), [], []
     for t in times:
         seen = np.array([d.observations[t] for d in driven["the rule"]])
         right = np.array([d.actions[t] for d in driven["the rule"]])
@@ -376,13 +363,14 @@ for agent in rule_clones:
 # > **Predict.** Which clones drive best? Which agree best with their data?
 
 # %%
-ACTION, RULE_ACTION = 2 * DEFAULT.observation_size, 2 * DEFAULT.observation_size + 3  # columns
+ACTION = 2 * bc.DEFAULT.observation_size  # columns
+RULE_ACTION = ACTION + 3
 labelled = by_chance.clone()
 labelled[:, ACTION] = labelled[:, RULE_ACTION]
 measured["of the stochastic rule"] = measure(clone(by_chance), by_chance)
 measured["its drives, rule's labels"] = measure(clone(labelled), labelled)
 title = "Agreement with the data says little about how a clone drives"
-show(clones(measured, title))
+bc.show(figures_demonstrations.clones(measured, title))
 
 # %%
 for name, values in measured.items():

@@ -24,20 +24,10 @@
 # %%
 import math
 
+import bootcourse as bc
 import numpy as np
 import torch
-from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds, summarise
-from bootcourse.episodes.record import record
-from bootcourse.learn import bootstrap
-from bootcourse.learn.settings import settings_for, with_seeds
-from bootcourse.learn.training import Training
-from bootcourse.lessons import check, source
-from bootcourse.lessons.charts import action_bars, lines
-from bootcourse.panels import policy_panel
-from bootcourse.plots.figure import show
-from bootcourse.policies import idle_policy, rule_policy
-from bootcourse.road.formulas import centring_reward, speed_reward, weighted_reward
-from bootcourse.scenario import ACTION_NAMES, DEFAULT
+from bootcourse.lessons import charts, check, source
 
 # %% [markdown]
 # ## Look first
@@ -49,9 +39,9 @@ from bootcourse.scenario import ACTION_NAMES, DEFAULT
 
 # %%
 ROAD = 10
-newborn = Training([settings_for("soft")], episodes=1).agent(0)
-first_drive = record(newborn.as_policy(with_q=True), [ROAD], label="soft")[0]
-policy_panel(first_drive)
+newborn = bc.Training([bc.settings_for("soft")], episodes=1).agent(0)
+first_drive = bc.record(newborn.as_policy(with_q=True), [ROAD], label="soft")[0]
+bc.panels.policy_panel(first_drive)
 
 # %% [markdown]
 # > **Predict.** Set ξ ("xi") to 0. Which of the three columns of bars changes, and what does it
@@ -120,12 +110,12 @@ check.log_stochastic_rule(log_stochastic_rule)
 # > order of their KL. Is any of them 0?
 
 # %%
-rule_says = torch.tensor([ACTION_NAMES.index("keep left")])
+rule_says = torch.tensor([bc.ACTION_NAMES.index("keep left")])
 sure = torch.full((1, 9), 1e-12).scatter(1, rule_says[:, None], 1.0)
 elsewhere = torch.full((1, 9), 1e-12).scatter(1, torch.tensor([[7]]), 1.0)
 even = torch.full((1, 9), 1 / 9)
-for words, pi in (("agrees", sure), (ACTION_NAMES[7], elsewhere), ("undecided", even)):
-    kl = bootstrap.kl_to_rule(pi.log(), rule_says, torch.tensor(0.9)).item()
+for words, pi in (("agrees", sure), (bc.ACTION_NAMES[7], elsewhere), ("undecided", even)):
+    kl = bc.bootstrap.kl_to_rule(pi.log(), rule_says, torch.tensor(0.9)).item()
     print(f"{words:20} KL = {kl:.3f} nats")
 
 # %% [markdown]
@@ -200,7 +190,7 @@ check.regularised_policy(regularised_policy)
 # %%
 q = torch.tensor([[0.2, 0.1, 0.0, 0.6, 0.4, 0.1, 0.3, 1.2, 0.2]])
 alpha, xi = 0.1, 0.2
-log_rule = bootstrap.log_stochastic_rule(rule_says, torch.tensor(0.9))
+log_rule = bc.bootstrap.log_stochastic_rule(rule_says, torch.tensor(0.9))
 logits = torch.zeros(1, 9, requires_grad=True)
 optimiser = torch.optim.Adam([logits], lr=0.05)
 for _ in range(2000):
@@ -209,14 +199,14 @@ for _ in range(2000):
     optimiser.zero_grad()
     (-objective).backward()
     optimiser.step()
-best = bootstrap.regularised_policy(q, log_rule, alpha, xi)
+best = bc.bootstrap.regularised_policy(q, log_rule, alpha, xi)
 print(f"largest difference of a probability: {(logits.softmax(-1) - best).abs().max():.1e}")
 
 # %%
 alone = (q / alpha).softmax(-1)[0].tolist()
 title = "Q would accelerate, the rule keeps left: the compromise doubts"
-show(
-    action_bars(
+bc.show(
+    charts.action_bars(
         {"Q alone": alone, "rule": log_rule.exp()[0].tolist(), "both": best[0].tolist()}, title
     )
 )
@@ -232,21 +222,23 @@ show(
 step = math.log(8 * 0.9 / 0.1)
 for xi in (2.0, 0.2, 0.02, 0.002):
     print(f"ξ = {xi:5}: a head start of {xi * step:.3f}")
-best_second = weighted_reward(speed_reward(15.0), centring_reward(0.0), 0.0, 1.5, 0.05, 0.05)
+best_second = bc.formulas.weighted_reward(
+    bc.formulas.speed_reward(15.0), bc.formulas.centring_reward(0.0), 0.0, 1.5, 0.05, 0.05
+)
 print(
     f"the best second pays {best_second:.2f}; γ = 0.8 sees about {1 / (1 - 0.8):.0f} of them ahead"
 )
 
 # %%
 strengths = np.geomspace(0.002, 5, 100)
-policies = [bootstrap.regularised_policy(q, log_rule, 0.01, float(xi))[0] for xi in strengths]
+policies = [bc.bootstrap.regularised_policy(q, log_rule, 0.01, float(xi))[0] for xi in strengths]
 probability = {
     "rule: keep left": np.array([pi[rule_says.item()] for pi in policies]),
     "accelerate straight": np.array([pi[7] for pi in policies]),
 }
 tie = float((q[0, 7] - q[0, rule_says.item()]) / step)
 title = f"Where Q leads by 0.6, the rule takes over at ξ = {tie:.2f}"
-show(lines(strengths, probability, title, "ξ (α = 0.01)", "probability", logarithmic="x"))
+bc.show(charts.lines(strengths, probability, title, "ξ (α = 0.01)", "probability", logarithmic="x"))
 
 # %% [markdown]
 # **Explain.** At ξ = 2 nothing that this road pays outweighs the rule. Only an accident would, and
@@ -293,9 +285,9 @@ check.constrained_loss(constrained_loss)
 # > without the KL, and with it, at ξ = 2?
 
 # %%
-idle = record(idle_policy, [ROAD], label="idle")[0]
+idle = bc.record(bc.idle_policy, [ROAD], label="idle")[0]
 agrees = np.mean(idle.rule_actions == idle.actions)
-wants = ACTION_NAMES[np.bincount(idle.rule_actions).argmax()]
+wants = bc.ACTION_NAMES[np.bincount(idle.rule_actions).argmax()]
 print(f"the rule agrees with idling in {100 * agrees:.0f} % of the seconds; mostly: {wants}")
 price, pay, gamma = math.log(8 / 0.1), idle.rewards.mean(), 0.8
 for xi in (0.0, 0.02, 0.2, 2.0):
@@ -352,9 +344,9 @@ check.constraint_strength(constraint_strength)
 
 # %%
 UPDATES, EVERY = 6000, 250
-fading = with_seeds(settings_for("soft"), 2)
-agents = fading + with_seeds(settings_for("soft", xi_fixed=2.0), 2)
-by_rule = record(rule_policy(DEFAULT), range(8), label="rule")
+fading = bc.with_seeds(bc.settings_for("soft"), 2)
+agents = fading + bc.with_seeds(bc.settings_for("soft", xi_fixed=2.0), 2)
+by_rule = bc.record(bc.rule_policy(bc.DEFAULT), range(8), label="rule")
 seen = np.concatenate([drive.observations[:-1] for drive in by_rule])
 answers = np.concatenate([drive.rule_actions for drive in by_rule])
 notes = {"updates": [], "xi": [], "alike": []}
@@ -371,17 +363,18 @@ def note(training):
 
 
 # %%
-training = Training(agents, episodes=5000)
+training = bc.Training(agents, episodes=5000)
 result = training.run(callback=note, stop=lambda: training.updates > UPDATES)
 print(f"{result.seconds:.0f} s; episodes of each agent: {training.curves.finished.tolist()}")
 
 # %%
 updates, xi = np.array(notes["updates"]), np.array(notes["xi"]).T
-fastest = settings_for("soft").alpha_init * 200 * np.exp(-settings_for("soft").alpha_lr * updates)
+its = bc.settings_for("soft")
+fastest = its.alpha_init * 200 * np.exp(-its.alpha_lr * updates)
 tenth = updates[np.argmax(xi[0] <= xi[0, 0] / 10)]
 named = {"soft: measured": xi[:2], "as fast as Adam can": fastest}
 title = f"ξ is a tenth of its start after {tenth} updates"
-show(lines(updates, named, title, "update", "ξ = 200 α"))
+bc.show(charts.lines(updates, named, title, "update", "ξ = 200 α"))
 
 # %% [markdown]
 # **See.** Exponentially, and more slowly than it could. The slope of α's loss is proportional to α
@@ -393,14 +386,14 @@ show(lines(updates, named, title, "update", "ξ = 200 α"))
 alike = np.array(notes["alike"]).T
 title = "A ξ that stays brings the agent closer and closer to the rule"
 named = {"soft: ξ fades": alike[:2], "ξ stays at 2": alike[2:]}
-show(lines(updates, named, title, "update", "likeliest action is the rule's (%)"))
+bc.show(charts.lines(updates, named, title, "update", "likeliest action is the rule's (%)"))
 
 # %%
 rows = [(f"ξ {'fades' if i < 2 else 'stays'}", agent) for i, agent in enumerate(result.agents)]
 rows = [(f"{words}, seed {agent.settings.seed}", agent.as_policy()) for words, agent in rows]
 print("                  success %   return   accidents %")
-for words, driver in [*rows, ("the rule", rule_policy(DEFAULT))]:
-    r = summarise(drive_episodes(driver, held_out_seeds(7, 200)))
+for words, driver in [*rows, ("the rule", bc.rule_policy(bc.DEFAULT))]:
+    r = bc.summarise(bc.drive_episodes(driver, bc.held_out_seeds(7, 200)))
     accidents = r.collision.value + r.road_departure.value + r.stoppage.value
     print(f"{words:17}{100 * r.success.value:11.1f}{r.returns.value:9.1f}{100 * accidents:14.1f}")
 
@@ -421,8 +414,8 @@ for words, driver in [*rows, ("the rule", rule_policy(DEFAULT))]:
 # Now look into a decision of the trained agent.
 
 # %%
-drive = record(result.agents[0].as_policy(with_q=True), [ROAD], label="soft")[0]
-policy_panel(drive, xi=round(float(xi[0, -1]), 3), alpha=round(result.agents[0].alpha, 6))
+drive = bc.record(result.agents[0].as_policy(with_q=True), [ROAD], label="soft")[0]
+bc.panels.policy_panel(drive, xi=round(float(xi[0, -1]), 3), alpha=round(result.agents[0].alpha, 6))
 
 # %% [markdown]
 # ## What you now know

@@ -23,22 +23,11 @@
 # 4, and the demonstrations of lesson 6.
 
 # %%
+import bootcourse as bc
 import numpy as np
 import torch
-from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds, summarise
-from bootcourse.episodes.record import record
-from bootcourse.learn import bootstrap
-from bootcourse.learn.demonstrations import collect
-from bootcourse.learn.settings import settings_for, with_seeds
-from bootcourse.learn.training import Training
-from bootcourse.lessons import check, source
-from bootcourse.lessons.charts import action_bars, lines
-from bootcourse.lessons.figures import fading
-from bootcourse.panels import bonus_panel
+from bootcourse.lessons import charts, check, figures, source
 from bootcourse.panels.bonus_numbers import bonus_numbers
-from bootcourse.plots.figure import show
-from bootcourse.policies import idle_policy, rule_policy
-from bootcourse.scenario import ACTION_NAMES, DEFAULT
 
 # %% [markdown]
 # ## Look first
@@ -49,7 +38,7 @@ from bootcourse.scenario import ACTION_NAMES, DEFAULT
 # bonus. The line in another colour is a drive that stays behind trap 1 for ever. Move c.
 
 # %%
-bonus_panel()
+bc.panels.bonus_panel()
 
 # %% [markdown]
 # > **Predict.** Set c to 0. At the start of the drive, does the critic prefer the rule's way out,
@@ -63,7 +52,7 @@ bonus_panel()
 # {{ SETTINGS.batch }} rows. Now there is a second table, with the rule's drives in it.
 
 # %%
-demonstrations = collect(200)
+demonstrations = bc.collect(200)
 print(f"{len(demonstrations):,} transitions of 200 drives of the rule")
 
 # %% [markdown]
@@ -89,9 +78,9 @@ check.demonstration_share(demonstration_share)
 
 # %%
 for episode in (0, 250, 500, 999, 2000):
-    beta = bootstrap.demonstration_share(episode, 0.6, 1000)
+    beta = bc.bootstrap.demonstration_share(episode, 0.6, 1000)
     print(f"episode {episode:4}: β = {beta:.3f}, {round(64 * beta):2} of 64 rows are the rule's")
-show(fading(settings_for("bootstrapped")))
+bc.show(figures.fading(bc.settings_for("bootstrapped")))
 
 # %% [markdown]
 # **Explain.** Nobody tells the learner to *do* what the rule did. The rows only teach the critic
@@ -126,10 +115,10 @@ check.augmented_reward(augmented_reward)
 
 # %%
 roads = range(20)
-by_rule = record(rule_policy(DEFAULT), roads, label="rule")
-stays = record(idle_policy, roads, label="idle")
+by_rule = bc.record(bc.rule_policy(bc.DEFAULT), roads, label="rule")
+stays = bc.record(bc.idle_policy, roads, label="idle")
 for gamma in (0.8, 0.9, 0.95):
-    settings = settings_for("bootstrapped", gamma=gamma)
+    settings = bc.settings_for("bootstrapped", gamma=gamma)
     seen = [bonus_numbers(d, i, settings) for d, i in zip(by_rule, stays, strict=True)]
     better = sum(each.plain[0] > each.trapped[0] for each in seen)
     needed = max(each.crossing.max() for each in seen)
@@ -148,19 +137,19 @@ for gamma in (0.8, 0.9, 0.95):
 # %%
 drive, idle = by_rule[10], stays[10]
 for c in (0.0, 0.05, 0.5, 2.0):
-    each = bonus_numbers(drive, idle, settings_for("bootstrapped", bonus=c))
+    each = bonus_numbers(drive, idle, bc.settings_for("bootstrapped", bonus=c))
     values = f"the rule's way {each.augmented[0]:5.2f}, staying {each.trapped[0]:.2f}"
     print(f"c = {c:4}: {values}; the bonus adds {c * each.weight[0]:5.2f} = c / (1 - γ)")
 
 # %%
-each = bonus_numbers(drive, idle, settings_for("bootstrapped", bonus=0.05))
+each = bonus_numbers(drive, idle, bc.settings_for("bootstrapped", bonus=0.05))
 named = {
     "rule, c = 0.05": each.augmented[:60],
     "rule, no bonus": each.plain[:60],
     "idle: stays behind": each.trapped[:60],
 }
 title = "A small bonus is enough to make the way out look good"
-show(lines(np.arange(60), named, title, "second of the drive", "critic's target"))
+bc.show(charts.lines(np.arange(60), named, title, "second of the drive", "critic's target"))
 
 # %% [markdown]
 # **Explain.** With c = {{ SETTINGS.bonus }} the critic is told that the rule's way is worth about
@@ -196,7 +185,7 @@ show(lines(np.arange(60), named, title, "second of the drive", "critic's target"
 # %%
 for expert in (0, 2):
     q = torch.tensor([[3.0, 2.4, 0.0]], requires_grad=True)
-    loss = bootstrap.large_margin_loss(q, torch.tensor([expert]))
+    loss = bc.bootstrap.large_margin_loss(q, torch.tensor([expert]))
     slope = torch.autograd.grad(loss.sum(), q)[0][0].tolist()
     print(f"expert took {expert}: loss {loss.item():.1f}, slope in Q {slope}")
 
@@ -269,14 +258,14 @@ check.q_filter(q_filter)
 
 # %%
 q = [0.2, 1.1, 0.3, 0.6, 0.9, 0.4, 0.5, 1.4, 0.1]
-expert = ACTION_NAMES.index("brake straight")
+expert = bc.ACTION_NAMES.index("brake straight")
 margin = [value + (action != expert) for action, value in enumerate(q)]
 qs, who, even = torch.tensor([q]), torch.tensor([expert]), torch.full((1, 9), 1 / 9).log()
-print(f"J_E = {bootstrap.large_margin_loss(qs, who).item():.2f}", end="; ")
-print(f"printed filter {bootstrap.paper_q_filter(qs, who).item():.0f}", end=", ")
-print(f"usual filter for an even policy {bootstrap.q_filter(qs, who, even).item():.0f}")
+print(f"J_E = {bc.bootstrap.large_margin_loss(qs, who).item():.2f}", end="; ")
+print(f"printed filter {bc.bootstrap.paper_q_filter(qs, who).item():.0f}", end=", ")
+print(f"usual filter for an even policy {bc.bootstrap.q_filter(qs, who, even).item():.0f}")
 title = "The expert brakes, with the second largest Q of nine"
-show(action_bars({"Q": q, "rule: Q + l": margin}, title, "value"))
+bc.show(charts.action_bars({"Q": q, "rule: Q + l": margin}, title, "value"))
 
 # %% [markdown]
 # How often are they on at the beginning, when help is needed most? Ask four learners that have
@@ -285,12 +274,12 @@ show(action_bars({"Q": q, "rule: Q + l": margin}, title, "value"))
 # %%
 way = np.concatenate([drive.observations[:20] for drive in by_rule])
 rule_did = torch.from_numpy(np.concatenate([drive.rule_actions[:20] for drive in by_rule]))
-newborns = Training(with_seeds(settings_for("demos"), 4), episodes=1)
+newborns = bc.Training(bc.with_seeds(bc.settings_for("demos"), 4), episodes=1)
 for seed in range(4):
     agent = newborns.agent(seed)
     q, log_pi = torch.from_numpy(agent.q_values(way)), torch.from_numpy(agent.policy(way)).log()
-    printed = bootstrap.paper_q_filter(q, rule_did).mean()
-    usual = bootstrap.q_filter(q, rule_did, log_pi).mean()
+    printed = bc.bootstrap.paper_q_filter(q, rule_did).mean()
+    usual = bc.bootstrap.q_filter(q, rule_did, log_pi).mean()
     print(f"seed {seed}: printed on in {100 * printed:2.0f} %, usual in {100 * usual:2.0f} %")
 
 # %% [markdown]
@@ -317,7 +306,8 @@ for seed in range(4):
 
 # %%
 UPDATES, EVERY = 5000, 200
-agents = with_seeds(settings_for("demos"), 2) + with_seeds(settings_for("demos", bonus=0.0), 2)
+agents = bc.with_seeds(bc.settings_for("demos"), 2)
+agents += bc.with_seeds(bc.settings_for("demos", bonus=0.0), 2)
 places = rule_did.numpy()[:, None]
 noted = {"update": [], "expert": [], "rival": []}
 
@@ -337,7 +327,7 @@ def note(training):
 
 
 # %%
-training = Training(agents, episodes=20_000)
+training = bc.Training(agents, episodes=20_000)
 result = training.run(callback=note, stop=lambda: training.updates > UPDATES)
 print(f"{result.seconds:.0f} s; episodes of each: {training.curves.finished.tolist()}")
 
@@ -346,12 +336,12 @@ expert, rival = np.array(noted["expert"]).T, np.array(noted["rival"]).T
 named = {"demos, c = 2: demonstrated": expert[:2], "best rival, c = 2": rival[:2]}
 named |= {"demonstrated, c = 0": expert[2:]}
 title = "The bonus lifts the demonstrated action, and rivals that nobody demonstrated"
-show(lines(noted["update"], named, title, "update", "mean Q(s,a) on the way out"))
+bc.show(charts.lines(noted["update"], named, title, "update", "mean Q(s,a) on the way out"))
 
 # %%
 print("               Q demonstrated   Q best rival   success %   return   accidents %   β")
 for i, agent in enumerate(result.agents):
-    r = summarise(drive_episodes(agent.as_policy(), held_out_seeds(8, 200)))
+    r = bc.summarise(bc.drive_episodes(agent.as_policy(), bc.held_out_seeds(8, 200)))
     accidents = r.collision.value + r.road_departure.value + r.stoppage.value
     words = f"c = {agent.settings.bonus:g}, seed {agent.settings.seed}"
     row = f"{words:13}{expert[i, -1]:16.2f}{rival[i, -1]:15.2f}{100 * r.success.value:12.1f}"

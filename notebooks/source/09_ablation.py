@@ -23,26 +23,10 @@
 # 7) and learning from demonstrations (8).
 
 # %%
+import bootcourse as bc
 import numpy as np
-from bootcourse.episodes.words import overtaken
-from bootcourse.learn.bootstrap import demonstration_share
-from bootcourse.lessons import check
-from bootcourse.lessons.charts import lines
-from bootcourse.lessons.shipped import shipped_drive, shipped_results
-from bootcourse.methods import display_name as name
-from bootcourse.panels import sweep_panel
-from bootcourse.plots.figure import show
-from bootcourse.plots.top_view import top_view_over_time
-from bootcourse.scenario import DEFAULT
-from bootcourse.statistics import escapes, improvement, interval, iqm, rate
-from bootcourse.storage.assets import FOLDER
-from bootcourse.study.figures import ablation, blocks, final_scores
-from bootcourse.study.paper import EPISODES, PRINTED
-from bootcourse.study.report import rule_results
-from bootcourse.study.results import KINDS, in_assets
-from bootcourse.study.sweep import load_sweep, nearest_setting, settings_run
-from bootcourse.study.tables import bracketed, improvement_table, markdown
-from IPython.display import Markdown
+from bootcourse.lessons import charts, check, shipped, table
+from bootcourse.study import figures, paper, report, results, sweep, tables
 from scipy import stats
 
 # %% [markdown]
@@ -54,9 +38,9 @@ from scipy import stats
 #   -->
 
 # %%
-crash = shipped_drive("crash")
+crash = bc.shipped_drive("crash")
 end = crash.times[-1]
-show(top_view_over_time(crash, times=[0, overtaken(crash) or 0, end - 4, end - 2, end]))
+bc.show(bc.top_view_over_time(crash, times=[0, bc.overtaken(crash) or 0, end - 4, end - 2, end]))
 print(f"return {crash.rewards.sum():.0f} after {end:.0f} s")
 
 # %% [markdown]
@@ -78,11 +62,11 @@ print(f"return {crash.rewards.sum():.0f} after {end:.0f} s")
 
 # %%
 methods = ("sac", "soft", "demos", "bootstrapped")
-study, rule = shipped_results(), rule_results(DEFAULT, 200)
+study, rule = bc.shipped_results(), report.rule_results(bc.DEFAULT, 200)
 agents, episodes = len(study.of("sac")), study.curves["success"].shape[1]
 roads = study.tested["success"].shape[1]
 print(f"{agents} agents of each method, {episodes} training episodes, {roads} held-out roads")
-show(ablation(study, rule))
+bc.show(figures.ablation(study, rule))
 
 # %% [markdown]
 # Some out of ten: what does that say about the next ten? The **exact interval** of k successes out
@@ -111,14 +95,15 @@ check.exact_interval(exact_interval)
 rows = []
 for method in methods:
     success = study.of(method).scores("success")
-    ours, printed = escapes(success), PRINTED[method]["success"].mean / 100
-    theirs = rate(np.arange(EPISODES) < round(printed * EPISODES))
+    ours, printed = bc.statistics.escapes(success), paper.PRINTED[method]["success"].mean / 100
+    theirs = bc.statistics.rate(np.arange(paper.EPISODES) < round(printed * paper.EPISODES))
     verdict = "overlap" if ours.low <= theirs.high and theirs.low <= ours.high else "**apart**"
     count = f"{(success >= 0.5).sum()} of {len(success)}"
-    rows.append([name(method), count, bracketed(ours, 100), bracketed(theirs, 100), verdict])
-paper = f"the paper's success, % of {EPISODES} episodes"
-headings = ["", "agents that escape", "share of agents, % [95 %, exact]", paper, "intervals"]
-Markdown(markdown(headings, rows))
+    both = [tables.bracketed(estimate, 100) for estimate in (ours, theirs)]
+    rows.append([bc.display_name(method), count, *both, verdict])
+theirs = f"the paper's success, % of {paper.EPISODES} episodes"
+headings = ["", "agents that escape", "share of agents, % [95 %, exact]", theirs, "intervals"]
+table(headings, rows)
 
 # %% [markdown]
 # **See.** Where the last column says *apart*, our study and the paper disagree by more than luck.
@@ -138,10 +123,11 @@ Markdown(markdown(headings, rows))
 # numbers fit best.
 
 # %%
-faster = shipped_results("calibrated")
+faster = bc.shipped_results("calibrated")
 for method in methods:
     won = [(each.of(method).scores("success") >= 0.5).sum() for each in (study, faster)]
-    print(f"{name(method):24}{won[0]:3} of {agents} escape at 10 m/s,{won[1]:3} at 10.9 m/s")
+    name = bc.display_name(method)
+    print(f"{name:24}{won[0]:3} of {agents} escape at 10 m/s,{won[1]:3} at 10.9 m/s")
 
 # %% [markdown]
 # **See.** The order of the four stays the same. More agents of plain SAC find the way out by
@@ -167,13 +153,13 @@ def counted(label, escaped):
 
 
 escaped = {
-    change: [results.of(method).scores("success") >= 0.5 for method in methods]
-    for change, results in in_assets(FOLDER).sensitivity.items()
+    change: [agents_of.of(method).scores("success") >= 0.5 for method in methods]
+    for change, agents_of in shipped.shipped_sensitivity().items()
 }
 rows = [counted(change, won) for change, won in escaped.items()]
 columns = [np.concatenate(column) for column in zip(*escaped.values(), strict=True)]
 rows.append(counted("all rows", columns))
-Markdown(markdown(["agents that escape", *map(name, methods)], rows))
+table(["agents that escape", *map(bc.display_name, methods)], rows)
 
 # %% [markdown]
 # **See.** Read it column by column. *Plain SAC* stays where it is, in every row. With *both*, two
@@ -246,9 +232,9 @@ check.interquartile_mean(interquartile_mean)
 rows = []
 for method in methods:
     returns = np.sort(study.of(method).scores("returns"))
-    three = [f"{f(returns):.1f}" for f in (np.mean, np.median, iqm)]
-    rows.append([name(method), *three, ", ".join(f"{r:.0f}" for r in returns)])
-Markdown(markdown(["return", "mean", "median", "IQM", "the agents, sorted"], rows))
+    three = [f"{f(returns):.1f}" for f in (np.mean, np.median, bc.statistics.iqm)]
+    rows.append([bc.display_name(method), *three, ", ".join(f"{r:.0f}" for r in returns)])
+table(["return", "mean", "median", "IQM", "the agents, sorted"], rows)
 
 # %% [markdown]
 # **See.** Read the last column before the others. Where it has two groups, no single number is
@@ -285,12 +271,12 @@ check.bootstrap_interval(bootstrap_interval)
 rows = []
 for method in methods:
     returns = study.of(method).scores("returns")
-    some = [interval(returns[:n]) for n in (3, 5, len(returns))]
-    rows.append([name(method), *(bracketed(part) for part in some)])
-Markdown(markdown(["IQM of the return", "3 seeds", "5 seeds", f"{agents} seeds"], rows))
+    some = [bc.statistics.interval(returns[:n]) for n in (3, 5, len(returns))]
+    rows.append([bc.display_name(method), *(tables.bracketed(part) for part in some)])
+table(["IQM of the return", "3 seeds", "5 seeds", f"{agents} seeds"], rows)
 
 # %%
-show(final_scores(study, methods))
+bc.show(figures.final_scores(study, methods))
 
 # %% [markdown]
 # **Explain.** Look at three seeds: an interval from three agents that happen to agree is short, and
@@ -308,10 +294,10 @@ show(final_scores(study, methods))
 rows = []
 for method in (*methods, "rule"):
     mine = (rule if method == "rule" else study).of(method)
-    kinds = [f"{100 * mine.episodes(kind).mean():.1f}" for kind in KINDS]
-    rows.append([name(method), f"{mine.episodes('speed').mean():.1f}", *kinds])
+    kinds = [f"{100 * mine.episodes(kind).mean():.1f}" for kind in results.KINDS]
+    rows.append([bc.display_name(method), f"{mine.episodes('speed').mean():.1f}", *kinds])
 headings = ["mean of all drives", "m/s", "collisions, %", "road departures, %", "stops, %"]
-Markdown(markdown(headings, rows))
+table(headings, rows)
 
 # %% [markdown]
 # ## Round 4: better, or different?
@@ -336,13 +322,11 @@ check.chance_of_improvement(chance_of_improvement)
 
 # %%
 scores = {method: study.of(method).scores("returns") for method in methods}
-table = improvement_table(
-    study.pick(i for i, a in enumerate(study.agents) if a["method"] in methods)
-)
-against = improvement(scores["bootstrapped"], scores["soft"])
+four = study.pick(i for i, a in enumerate(study.agents) if a["method"] in methods)
+against = bc.statistics.improvement(scores["bootstrapped"], scores["soft"])
 told = "cannot tell them apart" if against.low <= 0.5 <= against.high else "can tell them apart"
 words = f"Both helps against the soft constraint alone: on the return, {agents} seeds {told}."
-Markdown(f"{table}\n{words}")
+table(*tables.improvement_rows(four), below=words)
 
 # %% [markdown]
 # **Explain.** One half is a coin. An interval that holds 50 % does not say that two methods are
@@ -366,20 +350,21 @@ Markdown(f"{table}\n{words}")
 
 # %%
 gone = study.of("bootstrapped").agents[0]["beta_episodes"]
-x, _ = blocks(study.curves["success"])
+x, _ = figures.blocks(study.curves["success"])
 success = {method: 100 * study.of(method).curves["success"] for method in ("soft", "bootstrapped")}
 before = success["bootstrapped"][:, gone - 400 : gone - 200].mean(axis=1)
 after = success["bootstrapped"][:, gone - 100 : gone + 100].mean(axis=1)
 its = study.of("bootstrapped").agents[0]
-share = demonstration_share(gone - 100, its["beta_start"], gone)
+share = bc.bootstrap.demonstration_share(gone - 100, its["beta_start"], gone)
 print(f"100 episodes before its end, β is {share:.2f}:", end=" ")
 print(f"{its['batch'] * share:.0f} of {its['batch']} in a batch")
 fell = int(np.sum(after < before - 20))
 title = (
     f"As β reaches 0, {fell} of {len(before)} bootstrapped agents lose 20 points of success or more"
 )
-named = {method: blocks(values)[1].mean(axis=0) for method, values in success.items()}
-show(lines(x, named, title, f"training episode (β is 0 from {gone} on)", "success, %, mean"))
+named = {method: figures.blocks(values)[1].mean(axis=0) for method, values in success.items()}
+label = f"training episode (β is 0 from {gone} on)"
+bc.show(charts.lines(x, named, title, label, "success, %, mean"))
 
 # %%
 last = success["bootstrapped"][:, -200:].mean(axis=1)
@@ -393,7 +378,7 @@ headings = [
     f"{gone - 100} to {gone + 100}",
     "last 200",
 ]
-Markdown(markdown(headings, rows))
+table(headings, rows)
 
 # %% [markdown]
 # **See.** Compare the first two columns, seed by seed, then look for those who come back and those
@@ -417,29 +402,31 @@ Markdown(markdown(headings, rows))
 # > set to 0 or far off, costs the most agents?
 
 # %% tags=["nbval-ignore-output"]
-sweep_panel()
+bc.panels.sweep_panel()
 
 # %%
-sweep = load_sweep()
-won = sweep.scores("success") >= 0.5
-print(f"{len(sweep)} agents with {len(settings_run(sweep))} settings; {won.sum()} of them escape")
+swept = sweep.load_sweep()
+won = swept.scores("success") >= 0.5
+settings = sweep.settings_run(swept)
+print(f"{len(swept)} agents with {len(settings)} settings; {won.sum()} of them escape")
 rows = []
 for label, setting in (("p", "rule_p"), ("ξ / α", "xi_multiplier"), ("c", "bonus")):
-    for value in sorted({agent[setting] for agent in sweep.agents}):
-        mine = np.array([agent[setting] == value for agent in sweep.agents])
+    for value in sorted({agent[setting] for agent in swept.agents}):
+        mine = np.array([agent[setting] == value for agent in swept.agents])
         if setting == "rule_p":  # without ξ, p does not matter
-            mine &= np.array([agent["xi_multiplier"] > 0 for agent in sweep.agents])
+            mine &= np.array([agent["xi_multiplier"] > 0 for agent in swept.agents])
         if mine.any():
-            share = bracketed(escapes(won[mine].astype(float)), 100)
+            share = tables.bracketed(bc.statistics.escapes(won[mine].astype(float)), 100)
             rows.append([f"{label} = {value:g}", f"{won[mine].sum()} of {mine.sum()}", share])
-Markdown(markdown(["all agents with", "escape", "% [95 %, exact]"], rows))
+table(["all agents with", "escape", "% [95 %, exact]"], rows)
 
 # %%
-paper = nearest_setting(sweep, p=0.9, xi_multiplier=200, c=2)
+nearest = sweep.nearest_setting(swept, p=0.9, xi_multiplier=200, c=2)
 print(
-    "the paper's setting:" if paper.exact else "nearest to the paper's setting that was run:", paper
+    "the paper's setting:" if nearest.exact else "nearest to the paper's setting that was run:",
+    nearest,
 )
-runs = [nearest_setting(sweep, *setting) for setting in settings_run(sweep)]
+runs = [sweep.nearest_setting(swept, *setting) for setting in settings]
 best = max(runs, key=lambda run: (run.mean("success").value, run.mean("returns").value))
 print("most successful:", best)
 

@@ -23,47 +23,11 @@
 # and the ablation (9).
 
 # %%
+import bootcourse as bc
 import numpy as np
 import torch
-from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds, summarise
-from bootcourse.episodes.record import record
-from bootcourse.episodes.words import doing, outcome
-from bootcourse.files import read_arrays
-from bootcourse.learn import bc, sac
-from bootcourse.learn.cql import CQLLearner
-from bootcourse.learn.demonstrations import collect
-from bootcourse.learn.replay_buffer import ReplayBuffer
-from bootcourse.learn.settings import settings_for, with_seeds
-from bootcourse.lessons import check, source
-from bootcourse.lessons.charts import lines
-from bootcourse.lessons.figures_baselines import (
-    agents_of,
-    as_the_rule_would,
-    believed,
-    half_escape,
-    still_going,
-    success_around,
-    updates_made,
-)
-from bootcourse.lessons.shipped import beginning, shipped_agents, shipped_drive, shipped_results
-from bootcourse.methods import display_name as name
-from bootcourse.plots.figure import show
-from bootcourse.policies import rule_policy
-from bootcourse.replay3d import recording
-from bootcourse.scenario import DEFAULT
-from bootcourse.statistics import improvement, interval, rate
-from bootcourse.storage.assets import FOLDER
-
-# %%
-from bootcourse.study.checks import CHECKS
-from bootcourse.study.figures import baselines, final_scores
-from bootcourse.study.paper import EPISODES, PRINTED, arithmetic, earned_at
-from bootcourse.study.planner import Search
-from bootcourse.study.report import rule_results
-from bootcourse.study.results import Results, join
-from bootcourse.study.tables import bracketed, markdown, score
-from IPython.display import Markdown
-from scipy import stats
+from bootcourse.lessons import charts, check, figures_baselines, shipped, source, table
+from bootcourse.study import checks, figures, paper, planner, report, results, tables
 
 # %% [markdown]
 # ## Look first
@@ -75,11 +39,11 @@ from scipy import stats
 # <!-- claim: len(shipped_runs('bc')) == 5 -->
 
 # %% tags=["nbval-ignore-output"]
-road, pupils = shipped_drive("escape").seed, {}
+road, pupils = bc.shipped_drive("escape").seed, {}
 for method in ("bc", "cql", "gail"):
-    drives = [record(a.as_policy(), [road], label=method)[0] for a in shipped_agents(method)]
+    drives = [bc.record(a.as_policy(), [road], label=method)[0] for a in bc.shipped_agents(method)]
     pupils[method] = min(drives, key=lambda drive: len(drive.actions))
-recording([beginning(drive, 30) for drive in pupils.values()], height=480)
+bc.recording([shipped.beginning(drive, 30) for drive in pupils.values()], height=480)
 
 # %% [markdown]
 # The same in words:
@@ -87,10 +51,11 @@ recording([beginning(drive, 30) for drive in pupils.values()], height=480)
 # %%
 rows = []
 for t in range(0, 31, 5):
-    rows.append([f"{t} s", *(doing(d, t) if t <= d.times[-1] else "" for d in pupils.values())])
-rows.append(["in the end", *map(outcome, pupils.values())])
+    doing = [bc.words.doing(d, t) if t <= d.times[-1] else "" for d in pupils.values()]
+    rows.append([f"{t} s", *doing])
+rows.append(["in the end", *map(bc.words.outcome, pupils.values())])
 rows.append(["return", *(f"{drive.rewards.sum():.1f}" for drive in pupils.values())])
-Markdown(markdown(["", *map(name, pupils)], rows))
+table(["", *map(bc.display_name, pupils)], rows)
 
 # %% [markdown]
 # A **baseline** is what a new method is compared with. The paper has four: CQL, GAIL, plain SAC and
@@ -124,20 +89,21 @@ Markdown(markdown(["", *map(name, pupils)], rows))
 # counts it as behaviour cloning. So the paper's table has no clone; ours has one. The price:
 
 # %%
-study, demonstrations = shipped_results(), collect(200)
+study, demonstrations = bc.shipped_results(), bc.collect(200)
 rows = []
 for method in ("bc", "cql", "gail", "sac", "bootstrapped"):
     its = study.of(method).agents[0]
-    updates = updates_made(study.of(method))[:, -1].mean()
+    updates = figures_baselines.updates_made(study.of(method))[:, -1].mean()
     shown = f"{len(demonstrations):,}" if its["beta_start"] > 0 else "0"
     own = (
         "0"
         if its["beta_start"] == 1
         else f"{updates * its['envs_per_agent'] / its['updates']:,.0f}"
     )
-    rows.append([name(method), shown, own, f"{updates:,.0f}"])
-rows.append([name("planner"), "0", f"up to {Search().beam * 9 * 150:,} for each road", "0"])
-Markdown(markdown(["decisions that it uses", "the rule's", "its own", "updates, about"], rows))
+    rows.append([bc.display_name(method), shown, own, f"{updates:,.0f}"])
+own = f"up to {planner.Search().beam * 9 * 150:,} for each road"
+rows.append([bc.display_name("planner"), "0", own, "0"])
+table(["decisions that it uses", "the rule's", "its own", "updates, about"], rows)
 
 # %% [markdown]
 # Now the paper's table, beside ours: ten agents of each method, {{ roads() | , }} roads that none
@@ -146,20 +112,21 @@ Markdown(markdown(["decisions that it uses", "the rule's", "its own", "updates, 
 # `assets/report`.
 
 # %%
-rule = rule_results(DEFAULT, study.tested["returns"].shape[1])
-everyone = join([Results(study.agents, study.stopped, study.tested, {}), rule])
+rule = report.rule_results(bc.DEFAULT, study.tested["returns"].shape[1])
+everyone = results.join([results.Results(study.agents, study.stopped, study.tested, {}), rule])
 rows = []
 for method in ("bc", "cql", "gail", "sac", "rule", "bootstrapped"):
-    cells, printed = [], PRINTED.get(method)
+    cells, printed = [], paper.PRINTED.get(method)
     for column in ("success", "returns", "collision"):
         cells.append(f"{printed[column].mean:g} ± {printed[column].sd:g}" if printed else "")
-        cells.append(bracketed(score(everyone, method, column)))
-    rows.append([name(method), *cells, bracketed(score(everyone, method, "road_departure"))])
+        cells.append(tables.bracketed(tables.score(everyone, method, column)))
+    cells.append(tables.bracketed(tables.score(everyone, method, "road_departure")))
+    rows.append([bc.display_name(method), *cells])
 pairs = [[f"{words}: paper", "ours"] for words in ("success, %", "return", "collisions, %")]
-Markdown(markdown(["", *sum(pairs, []), "road departures, %: ours"], rows))
+table(["", *sum(pairs, []), "road departures, %: ours"], rows)
 
 # %%
-show(baselines(study, rule))
+bc.show(figures.baselines(study, rule))
 
 # %% [markdown]
 # **See.** Compare with what you wrote down. All ten of our CQL agents escape, and they earn more
@@ -176,7 +143,7 @@ show(baselines(study, rule))
 
 # %%
 # NBVAL_CHECK_OUTPUT
-print(arithmetic("cql"))
+print(paper.arithmetic("cql"))
 
 # %% [markdown]
 # **Explain.** The paper's CQL drives like somebody who does nothing, and the paper finds the cause
@@ -231,40 +198,40 @@ check.conservative_loss(conservative_loss)
 # %%
 torch.set_num_threads(1)  # small matrices are faster on one thread
 SEEDS, UPDATES = 2, 4000
-without = with_seeds(settings_for("cql", cql_weight=0.0), SEEDS)
-by_rule = record(rule_policy(DEFAULT), range(20), label="rule")
+without = bc.with_seeds(bc.settings_for("cql", cql_weight=0.0), SEEDS)
+by_rule = bc.record(bc.rule_policy(bc.DEFAULT), range(20), label="rule")
 way = np.concatenate([drive.observations[:20] for drive in by_rule])
 did = np.concatenate([drive.actions[:20] for drive in by_rule])
 
 # %%
-learner = CQLLearner(with_seeds(settings_for("cql"), SEEDS) + without, 26)
-replay = ReplayBuffer(2 * SEEDS, 64, 26, demonstrations)
+learner = bc.learner_for(bc.with_seeds(bc.settings_for("cql"), SEEDS) + without, 26)
+replay = bc.ReplayBuffer(2 * SEEDS, 64, 26, demonstrations)
 generators = [np.random.default_rng(s.seed) for s in learner.settings]
 asked, found = range(0, UPDATES + 1, 200), []
 for update in range(UPDATES + 1):
     if update:
         learner.update(replay.sample(64, np.ones(2 * SEEDS), generators))  # only demonstrations
     if update in asked:
-        found.append(believed(agents_of(learner), way, did))
+        found.append(figures_baselines.believed(figures_baselines.agents_of(learner), way, did))
 mine, rival = np.array(found).transpose(1, 2, 0)
 named = {"CQL: the rule's action": mine[:SEEDS], "CQL: the best other": rival[:SEEDS]}
 named |= {"without: the rule's action": mine[SEEDS:], "without: the best other": rival[SEEDS:]}
 ends = [f"{part[:, -1].mean():.1f}" for part in (rival[SEEDS:], rival[:SEEDS])]
 title = f"The best action that nobody tried: {ends[0]} without CQL's term, {ends[1]} with it"
-most = earned_at(15, 1) / (1 - learner.settings[0].gamma)
+most = paper.earned_at(15, 1) / (1 - learner.settings[0].gamma)
 words = {f"no drive is worth more than {most:.1f}": most}
-show(lines(asked, named, title, "update", "mean Q(s,a) on the way out", marks=words))
+bc.show(charts.lines(asked, named, title, "update", "mean Q(s,a) on the way out", marks=words))
 
 # %%
 rows = []
-for agent in agents_of(learner):
-    r = summarise(drive_episodes(agent.as_policy(), held_out_seeds(10, 200)))
+for agent in figures_baselines.agents_of(learner):
+    r = bc.summarise(bc.drive_episodes(agent.as_policy(), bc.held_out_seeds(10, 200)))
     words = "with the term" if agent.settings.cql_weight else "without"
     kinds = [r.success, r.collision, r.road_departure, r.stoppage]
     cells = [f"{100 * kind.value:.0f}" for kind in kinds]
     rows.append([f"{words}, seed {agent.settings.seed}", *cells, f"{r.returns.value:.1f}"])
 headings = ["200 roads", "success, %", "collisions, %", "road departures, %", "stops, %", "return"]
-Markdown(markdown(headings, rows))
+table(headings, rows)
 
 # %% [markdown]
 # **See.** Same data, same network, same updates, and one term makes the difference between an agent
@@ -278,8 +245,8 @@ Markdown(markdown(headings, rows))
 q = torch.tensor([[0.2, 1.1, 0.3, 0.6, 0.9, 0.4, 0.5, 1.4, 0.1]])
 for action in (1, 7, 8):
     taken = torch.tensor([action])
-    cloning = bc.cloning_loss(sac.log_policy(q), taken)
-    print(f"action {action}: CQL's term {sac.conservative_loss(q, taken):.4f}", end=", ")
+    cloning = torch.nn.functional.cross_entropy(q, taken)
+    print(f"action {action}: CQL's term {bc.sac.conservative_loss(q, taken):.4f}", end=", ")
     print(f"the cloning loss of softmax(Q) {cloning:.4f}")
 
 # %% [markdown]
@@ -296,10 +263,13 @@ for action in (1, 7, 8):
 rows = []
 for method in ("bc", "cql", "gail"):
     drives = [
-        d for a in shipped_agents(method) for d in record(a.as_policy(), held_out_seeds(11, 24))
+        d
+        for a in bc.shipped_agents(method)
+        for d in bc.record(a.as_policy(), bc.held_out_seeds(11, 24))
     ]
-    shares = [f"{100 * share:.0f} %" for share in as_the_rule_would(drives)]
-    rows.append([name(method), *shares, f"{np.mean([d.rewards.sum() for d in drives]):.1f}"])
+    shares = [f"{100 * share:.0f} %" for share in figures_baselines.as_the_rule_would(drives)]
+    earned = np.mean([drive.rewards.sum() for drive in drives])
+    rows.append([bc.display_name(method), *shares, f"{earned:.1f}"])
 headings = [
     "does what the rule would",
     "overall",
@@ -307,7 +277,7 @@ headings = [
     "where it speeds up",
     "return",
 ]
-Markdown(markdown(headings, rows))
+table(headings, rows)
 
 # %% [markdown]
 # **See.** The two do not leave out the same things. The clone brakes with the rule nearly always,
@@ -325,8 +295,8 @@ for method in ("cql", "cql_sac"):
     its, success = study.of(method), study.of(method).scores("success")
     count = f"{(success >= 0.5).sum()} of {len(success)}"
     each = ", ".join(f"{r:.0f}" for r in np.sort(its.scores("returns")))
-    rows.append([name(method), count, f"{its.episodes('speed').mean():.1f} m/s", each])
-Markdown(markdown(["", "agents that escape", "mean speed", "returns of the agents, sorted"], rows))
+    rows.append([bc.display_name(method), count, f"{its.episodes('speed').mean():.1f} m/s", each])
+table(["", "agents that escape", "mean speed", "returns of the agents, sorted"], rows)
 
 # %% [markdown]
 # **See.** The second kind never escapes, and its better half stays behind trap 1 at the traps'
@@ -407,10 +377,10 @@ for label, its in (("BC", study.of("bc")), ("CQL", study.of("cql")), ("GAIL", st
     cells = [f"{100 * left.mean():.1f} %", f"{each[0]:.1f} to {each[-1]:.1f} %"]
     rows.append([label, *cells, f"{np.median(seconds):.0f} s", f"{100 * ahead[left].mean():.0f} %"])
 headings = ["ten agents", "leave the road in", "single agents", "after, median", "still a success"]
-Markdown(markdown(headings, rows))
+table(headings, rows)
 
 # %%
-show(still_going(study))
+bc.show(figures_baselines.still_going(study))
 
 # %% [markdown]
 # **Explain.** A likely reading: a clone is asked in each state for the rule's own action. The judge
@@ -431,16 +401,18 @@ show(still_going(study))
 # %%
 rows, budgets = [], (250, 500, 1000, 2500, 10_000)
 for method in ("bc", "cql", "gail", "cql_sac", "sac"):
-    success, updates = study.of(method).curves["success"], updates_made(study.of(method))
-    episode = half_escape(success)
+    success = study.of(method).curves["success"]
+    updates = figures_baselines.updates_made(study.of(method))
+    episode = figures_baselines.half_escape(success)
     some = episode > 0
     update = np.take_along_axis(updates, episode[:, None] - 1, 1)[some]
     half = [f"{np.median(v):,.0f}" if some.any() else "never" for v in (episode[some], update)]
-    later = [f"{100 * success_around(success, updates, b).mean():.0f}" for b in budgets]
-    rows.append([name(method), f"{some.sum()} of {len(some)}", *half, *later])
+    later = [figures_baselines.success_around(success, updates, b).mean() for b in budgets]
+    rows.append([bc.display_name(method), f"{some.sum()} of {len(some)}", *half])
+    rows[-1] += [f"{100 * share:.0f}" for share in later]
 headings = ["half of the drives escape", "of agents", "from episode", "from update"]
 headings += [f"success, %, at update {budgets[0]}", *(f"{b:,}" for b in budgets[1:])]
-Markdown(markdown(headings, rows))
+table(headings, rows)
 
 # %% [markdown]
 # **See.** GAIL needs several times the episodes of CQL, and less than twice its updates: an agent
@@ -459,8 +431,11 @@ Markdown(markdown(headings, rows))
 # reason to complain.
 
 # %%
-rows = [[c.learner, c.task, f"{c.published:g}", c.their_budget, c.source] for c in CHECKS.values()]
-Markdown(markdown(["learner", "task", "published", "with", "by"], rows))
+rows = [
+    [c.learner, c.task, f"{c.published:g}", c.their_budget, c.source]
+    for c in checks.CHECKS.values()
+]
+table(["learner", "task", "published", "with", "by"], rows)
 
 # %% [markdown] tags=["instructor"] minutes=6
 # A good quarrel: is it fair to train all methods for the same number of episodes, of updates, of
@@ -479,8 +454,8 @@ Markdown(markdown(["learner", "task", "published", "with", "by"], rows))
 # %%
 # NBVAL_CHECK_OUTPUT
 for k in (0, 1, 20):
-    value, low, high = (100 * part for part in rate(np.arange(EPISODES) < k))
-    print(f"{k:2} of {EPISODES}: {value:3.0f} %, true rate in [{low:.1f}, {high:.1f}] %")
+    value, low, high = (100 * part for part in bc.statistics.rate(np.arange(paper.EPISODES) < k))
+    print(f"{k:2} of {paper.EPISODES}: {value:3.0f} %, true rate in [{low:.1f}, {high:.1f}] %")
 
 # %% [markdown]
 # **See.** 0 of 20 and 20 of 20 are far apart: an agent that always escapes is not found at 0 % by
@@ -561,10 +536,10 @@ for r in (0.5, 0.05, 0.01, 0.001):
 
 # %%
 collisions = np.sort(study.of("bootstrapped").scores("collision"))
-lucky = (1 - collisions) ** EPISODES
+lucky = (1 - collisions) ** paper.EPISODES
 rows = [["collisions in 1,000 drives", *(f"{100 * r:.1f} %" for r in collisions)]]
 rows.append(["20 drives show none", *(f"{100 * p:.0f} %" for p in lucky)])
-Markdown(markdown(["bootstrapped agents", *map(str, range(1, len(collisions) + 1))], rows))
+table(["bootstrapped agents", *map(str, range(1, len(collisions) + 1))], rows)
 
 # %% [markdown]
 # Returns are no different. CQL's first agent earns more than the rule, over 1,000 roads.
@@ -576,25 +551,16 @@ Markdown(markdown(["bootstrapped agents", *map(str, range(1, len(collisions) + 1
 
 
 # %%
-def finds(x, y, n, same_roads):
-    """How often n drives of each show that x and y differ: 2,000 repetitions, t-tests at 95 %."""
-    rng = np.random.default_rng(0)
-    a = rng.integers(len(x), size=(2000, n))
-    if same_roads:
-        return np.mean(stats.ttest_rel(x[a], y[a], axis=1).pvalue < 0.05)
-    b = rng.integers(len(y), size=(2000, n))
-    return np.mean(stats.ttest_ind(x[a], y[b], axis=1, equal_var=False).pvalue < 0.05)
-
-
 firsts = {m: everyone.of(m).episodes("returns")[0] for m in ("bc", "cql", "gail", "rule")}
 rows = []
 for better, worse in (("cql", "bc"), ("cql", "rule"), ("rule", "bc"), ("bc", "gail")):
     x, y = firsts[better], firsts[worse]
-    shares = [finds(x, y, *how) for how in ((20, False), (20, True), (100, True))]
+    shares = [figures_baselines.finds(x, y, *how) for how in ((20, False), (20, True), (100, True))]
     cells = [f"{100 * share:.0f} %" for share in shares]
-    rows.append([f"{name(better)} and {name(worse)}", f"{x.mean() - y.mean():.1f}", *cells])
+    pair = f"{bc.display_name(better)} and {bc.display_name(worse)}"
+    rows.append([pair, f"{x.mean() - y.mean():.1f}", *cells])
 headings = ["first agents of", "true difference", "20 roads each", "the same 20", "the same 100"]
-Markdown(markdown(headings, rows))
+table(headings, rows)
 
 # %% [markdown]
 # **Explain.** Twenty drives are enough where both drivers earn about the same on every road, as in
@@ -630,28 +596,31 @@ def share_of_the_bound(returns, bound):
 check.share_of_the_bound(share_of_the_bound)
 
 # %%
-bound = read_arrays(FOLDER / "bound-default.npz")["returns"]
+bound = shipped.shipped_bound()
 print(f"the planner's return: {bound.mean():.1f}, from {bound.min():.1f} to {bound.max():.1f}")
-print(f"doing nothing: {earned_at(10) / bound.mean():.0%} of it;", end=" ")
+print(f"doing nothing: {paper.earned_at(10) / bound.mean():.0%} of it;", end=" ")
 print(f"the rule: {rule.scores('returns')[0] / bound.mean():.0%}")
 rows, compared = [], ("bc", "cql", "gail", "sac", "bootstrapped")
 for method in compared:
     returns = study.of(method).scores("returns")
     shares, above = returns / bound.mean(), returns > rule.scores("returns")[0]
-    cells = [bracketed(interval(shares), 100), ", ".join(f"{100 * s:.0f}" for s in np.sort(shares))]
-    cells.append(f"{above.sum()} of {len(above)}: {bracketed(rate(above), 100)} %")
-    rows.append([name(method), *cells])
+    each = ", ".join(f"{100 * share:.0f}" for share in np.sort(shares))
+    rate = tables.bracketed(bc.statistics.rate(above), 100)
+    count = f"{above.sum()} of {len(above)}: {rate} %"
+    typical = tables.bracketed(bc.statistics.interval(shares), 100)
+    rows.append([bc.display_name(method), typical, each, count])
 headings = ["share of the bound, %", "IQM [95 %]", "the agents", "above the rule [95 %, exact]"]
-Markdown(markdown(headings, rows))
+table(headings, rows)
 
 # %%
-show(final_scores(study, compared))
+bc.show(figures.final_scores(study, compared))
 
 # %%
 first = {m: study.of(m).scores("returns")[0] for m in ("cql", "bootstrapped")}
 print(f"seed 0 alone: CQL {first['cql']:.1f}, bootstrapped SAC {first['bootstrapped']:.1f}")
-both = improvement(study.of("bootstrapped").scores("returns"), study.of("cql").scores("returns"))
-print(f"ten seeds: P(bootstrapped > CQL) = {bracketed(both, 100)} %")
+every = [study.of(method).scores("returns") for method in ("bootstrapped", "cql")]
+both = bc.statistics.improvement(*every)
+print(f"ten seeds: P(bootstrapped > CQL) = {tables.bracketed(both, 100)} %")
 
 # %% [markdown]
 # **See.** (The diamonds in the figure are the paper's.) The clones and the CQL agents are ten times
@@ -695,17 +664,18 @@ print(f"ten seeds: P(bootstrapped > CQL) = {bracketed(both, 100)} %")
 # > escape, and for which more?
 
 # %%
-faster, rows = shipped_results("calibrated"), []
+faster, rows = bc.shipped_results("calibrated"), []
 for method in ("bc", "cql", "cql_sac", "gail", "sac", "bootstrapped"):
     both = [each.of(method).scores("success") for each in (study, faster)]
     counts = [f"{(success >= 0.5).sum()} of {len(success)}" for success in both]
     speed = faster.of(method).episodes("speed")
-    drives = f"{bracketed(score(faster, method, 'returns'))} at {speed.mean():.2f} m/s"
-    printed = PRINTED.get("cql" if method == "cql_sac" else method)
+    returns = tables.bracketed(tables.score(faster, method, "returns"))
+    drives = f"{returns} at {speed.mean():.2f} m/s"
+    printed = paper.PRINTED.get("cql" if method == "cql_sac" else method)
     theirs = f"{printed['returns'].mean:g} at {printed['speed'].mean:g} m/s" if printed else ""
-    rows.append([name(method), *counts, drives, theirs])
+    rows.append([bc.display_name(method), *counts, drives, theirs])
 headings = ["escape", "traps at 10 m/s", "at 10.9 m/s", "return at 10.9 m/s", "the paper's"]
-Markdown(markdown(headings, rows))
+table(headings, rows)
 
 # %% [markdown]
 # **See.** The clones and CQL escape here, too, so the road does not acquit the first suspect. Look

@@ -22,22 +22,10 @@
 # the barrier (5).
 
 # %%
+import bootcourse as bc
 import numpy as np
-from bootcourse.episodes.evaluate import held_out_seeds
-from bootcourse.episodes.record import record
-from bootcourse.lessons import check
-from bootcourse.lessons.charts import action_bars, lines
-from bootcourse.lessons.exploring import cells_seen, map_of_places, mean_in_bins, visits
-from bootcourse.lessons.shipped import shipped_agents, shipped_drive, shipped_results, shipped_runs
-from bootcourse.methods import display_name as name
-from bootcourse.panels import policy_panel
-from bootcourse.plots.figure import show
-from bootcourse.plots.top_view import top_view_over_time
-from bootcourse.policies import random_policy, rule_policy
-from bootcourse.scenario import DEFAULT
+from bootcourse.lessons import charts, check, exploring, shipped, table
 from bootcourse.study.figures import exploration
-from bootcourse.study.tables import markdown
-from IPython.display import Markdown
 
 # %% [markdown]
 # ## Look first
@@ -47,20 +35,21 @@ from IPython.display import Markdown
 # gives to the nine actions at that second. How often do you find more than one?
 
 # %% tags=["nbval-ignore-output"]
-road = shipped_drive("escape").seed
+road = bc.shipped_drive("escape").seed
 drives = [
-    record(agent.as_policy(with_q=True), [road], label="bootstrapped")[0]
-    for agent in shipped_agents("bootstrapped")
+    bc.record(agent.as_policy(with_q=True), [road], label="bootstrapped")[0]
+    for agent in bc.shipped_agents("bootstrapped")
 ]
-drive = max(drives, key=lambda drive: visits([drive]).entropy.max())
-policy_panel(drive)
+drive = max(drives, key=lambda drive: exploring.visits([drive]).entropy.max())
+bc.panels.policy_panel(drive)
 
 # %%
-seen = visits([drive])
+seen = exploring.visits([drive])
 least = int(seen.entropy.argmax())
-show(top_view_over_time(drive, times=[max(0, least - 1), least, min(least + 1, drive.times[-1])]))
+times = [max(0, least - 1), least, min(least + 1, drive.times[-1])]
+bc.show(bc.top_view_over_time(drive, times))
 title = f"Least decided {least} s after the start"
-show(action_bars({f"at {least} s": seen.policy[least]}, title))
+bc.show(charts.action_bars({f"at {least} s": seen.policy[least]}, title))
 print(f"seconds with two actions above 10 %: {np.sum(np.sort(seen.policy)[:, -2] > 0.1)}", end=" ")
 print(f"of {len(seen.policy)}")
 
@@ -116,8 +105,8 @@ for p in (1 / 9, 0.5, 0.9, 0.99):
 # > undecided at the end of its training? Among how many actions does each still choose?
 
 # %%
-study = shipped_results()
-show(exploration(study))
+study = bc.shipped_results()
+bc.show(exploration(study))
 
 # %%
 methods = ("sac", "soft", "demos", "bootstrapped")
@@ -125,11 +114,10 @@ spans = ((0, 100), (200, 300), (900, 1000), (-100, None))
 rows = []
 for method in methods:
     nats = study.of(method).curves["entropy"]
-    rows.append([name(method), *(f"{np.exp(nats[:, a:b].mean()):.2f}" for a, b in spans)])
+    effective = [f"{np.exp(nats[:, a:b].mean()):.2f}" for a, b in spans]
+    rows.append([bc.display_name(method), *effective])
 episodes = study.curves["entropy"].shape[1]
-Markdown(
-    markdown(["effective actions", "first 100", "200-300", "900-1000", f"last of {episodes}"], rows)
-)
+table(["effective actions", "first 100", "200-300", "900-1000", f"last of {episodes}"], rows)
 
 # %% [markdown]
 # **See.** Read the first two columns. Plain SAC has made up its mind early; whoever has the soft
@@ -148,7 +136,8 @@ Markdown(
 
 # %%
 curves = {
-    method: np.array([run.curves["alpha"] for run in shipped_runs(method)]) for method in methods
+    method: np.array([run.curves["alpha"] for run in shipped.shipped_runs(method)])
+    for method in methods
 }
 fall = {method: alphas[:, 999] / alphas[:, 0] for method, alphas in curves.items()}
 every = slice(0, None, 20)
@@ -156,10 +145,11 @@ named = {method: np.median(alphas, axis=0)[every] for method, alphas in curves.i
 last = max(values[-1] for values in named.values())
 title = f"Whatever the method, the median agent's price of entropy ends under {10 * last:.0e}"
 x = np.arange(curves["sac"].shape[1])[every]
-show(lines(x, named, title, "training episode", "α, median agent", logarithmic="y"))
+bc.show(charts.lines(x, named, title, "training episode", "α, median agent", logarithmic="y"))
 for method in methods:
     least, most = fall[method].min(), fall[method].max()
-    print(f"{name(method):22} α after 1000 episodes: {least:.0e} to {most:.0e} of its start")
+    name = bc.display_name(method)
+    print(f"{name:22} α after 1000 episodes: {least:.0e} to {most:.0e} of its start")
 
 # %% [markdown]
 # (α falls with every *update*. An agent whose episodes end at once makes few of them, and its α
@@ -176,9 +166,13 @@ for method in methods:
 # <!-- claim: len(shipped_runs('sac')) == 5 -->
 
 # %%
-roads = list(held_out_seeds(3, 24))
-agents = {f"{name(m)}, seed {a.settings.seed}": a for m in methods for a in shipped_agents(m)}
-driven = {label: visits(record(a.as_policy(), roads)) for label, a in agents.items()}
+roads = list(bc.held_out_seeds(3, 24))
+agents = {
+    f"{bc.display_name(m)}, seed {a.settings.seed}": a
+    for m in methods
+    for a in bc.shipped_agents(m)
+}
+driven = {label: exploring.visits(bc.record(a.as_policy(), roads)) for label, a in agents.items()}
 print(f"{sum(len(v.place) for v in driven.values())} decisions of {len(agents)} agents")
 
 # %% [markdown]
@@ -208,25 +202,25 @@ check.where_explored(where_explored)
 
 # %%
 edges = np.array([-80, -40, -25, -15, -5, 5, 20, 60, 200, 1000])
-actions = {k: mean_in_bins(v, np.exp(v.entropy), edges) for k, v in driven.items()}
+actions = {k: exploring.mean_in_bins(v, np.exp(v.entropy), edges) for k, v in driven.items()}
 furthest = {k: v.place.max() for k, v in driven.items()}
 passed = sum(far > 0 for far in furthest.values())
 title = f"Of {len(agents)} agents, {passed} have ever been ahead of trap 1"
-show(map_of_places(actions, edges, title, "effective actions"))
+bc.show(exploring.map_of_places(actions, edges, title, "effective actions"))
 
 # %%
 rows = []
 for method in methods:
-    mine = [v for label, v in driven.items() if label.startswith(name(method) + ",")]
+    mine = [v for label, v in driven.items() if label.startswith(bc.display_name(method) + ",")]
     spent, total = np.zeros(3), 0.0
     for v in mine:
         bins = [-np.inf, -5, 5, np.inf]
         spent += np.histogram(v.place, bins=bins, weights=v.entropy)[0]
         total += len(v.place)
     shares = [f"{100 * s:.0f} %" for s in spent / spent.sum()]
-    rows.append([name(method), f"{np.exp(spent.sum() / total):.2f}", *shares])
+    rows.append([bc.display_name(method), f"{np.exp(spent.sum() / total):.2f}", *shares])
 headings = ["", "effective actions, overall", "entropy spent behind", "beside trap 1", "ahead"]
-Markdown(markdown(headings, rows))
+table(headings, rows)
 
 # %% [markdown]
 # **See.** Two things at once. The fields are nearly all close to 1: a trained agent hardly tries
@@ -265,23 +259,23 @@ check.coverage(coverage)
 # %%
 cells = np.arange(-60, 101, 10)
 others = {
-    "random driver": random_policy(np.random.default_rng(0)),
-    "rule controller": rule_policy(DEFAULT),
+    "random driver": bc.random_policy(np.random.default_rng(0)),
+    "rule controller": bc.rule_policy(bc.DEFAULT),
 }
 rows = []
 for label, driver in others.items():
-    drives = record(driver, roads)
-    v, seconds = visits(drives), np.mean([len(drive.actions) for drive in drives])
+    drives = bc.record(driver, roads)
+    v, seconds = exploring.visits(drives), np.mean([len(drive.actions) for drive in drives])
     entropy = np.log(9) if label == "random driver" else 0.0
-    rows.append(
-        [label, f"{entropy:.2f}", f"{seconds:.0f} s", f"{100 * cells_seen(v, cells):.0f} %"]
-    )
+    share = 100 * exploring.cells_seen(v, cells)
+    rows.append([label, f"{entropy:.2f}", f"{seconds:.0f} s", f"{share:.0f} %"])
 for method in methods:
-    mine = [v for label, v in driven.items() if label.startswith(name(method) + ",")]
+    mine = [v for label, v in driven.items() if label.startswith(bc.display_name(method) + ",")]
     nats, seconds = np.mean([v.entropy.mean() for v in mine]), np.mean([len(v.place) for v in mine])
-    share = 100 * np.mean([cells_seen(v, cells) for v in mine])
-    rows.append([name(method), f"{nats:.2f}", f"{seconds / len(roads):.0f} s", f"{share:.0f} %"])
-Markdown(markdown(["", "entropy, nats", "a drive lasts", "cells seen, of one driver"], rows))
+    share = 100 * np.mean([exploring.cells_seen(v, cells) for v in mine])
+    lasts = f"{seconds / len(roads):.0f} s"
+    rows.append([bc.display_name(method), f"{nats:.2f}", lasts, f"{share:.0f} %"])
+table(["", "entropy, nats", "a drive lasts", "cells seen, of one driver"], rows)
 
 # %% [markdown]
 # **Explain.** Entropy is noise on single decisions. On this road noise ends in a crash within
@@ -313,14 +307,14 @@ check.ever_tries(ever_tries)
 # %%
 rows = []
 for method in methods:
-    for agent in shipped_agents(method):
-        drive = record(agent.as_policy(), roads[:1])[0]
+    for agent in bc.shipped_agents(method):
+        drive = bc.record(agent.as_policy(), roads[:1])[0]
         sure = drive.policy.max(axis=-1)
         tries = f"{np.sum(1 - sure):.1f} of {len(sure)}"
         ending = "ahead" if drive.success else "behind"
-        label = f"{name(method)}, seed {agent.settings.seed}"
+        label = f"{bc.display_name(method)}, seed {agent.settings.seed}"
         rows.append([label, ending, f"{100 * (1 - np.prod(sure)):.0f} %", tries])
-Markdown(markdown(["one drive", "ends", "tries at all", "tries expected"], rows))
+table(["one drive", "ends", "tries at all", "tries expected"], rows)
 
 # %% [markdown]
 # **See.** The agents differ widely, and the last two columns have little to do with who is ahead.

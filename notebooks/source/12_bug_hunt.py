@@ -22,17 +22,13 @@
 # the soft constraint (7) and learning from demonstrations (8).
 
 # %%
+import bootcourse as bc
 import numpy as np
 import torch
-from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds, summarise
-from bootcourse.episodes.record import record
-from bootcourse.lessons import check, source
-from bootcourse.lessons.bugs import BUGS, Hunt
+from bootcourse.lessons import bugs, check, source
 from bootcourse.lessons.figures_many import many
-from bootcourse.plots.figure import show
-from bootcourse.plots.top_view import top_view_over_time
 
-hunt = Hunt()
+hunt = bugs.Hunt()
 print(f"{len(hunt.names)} agents, 2 seeds each, {hunt.provenance['updates']} updates of each")
 
 # %% [markdown]
@@ -46,11 +42,11 @@ print(f"{len(hunt.names)} agents, 2 seeds each, {hunt.provenance['updates']} upd
 
 # %%
 ROAD = 10
-healthy, agent_f = (record(hunt.agent(name).as_policy(), [ROAD])[0] for name in ("healthy", "F"))
-show(top_view_over_time(healthy, title="The healthy agent on one road"))
+healthy, agent_f = (bc.record(hunt.agent(name).as_policy(), [ROAD])[0] for name in ("healthy", "F"))
+bc.show(bc.top_view_over_time(healthy, title="The healthy agent on one road"))
 
 # %%
-show(top_view_over_time(agent_f, title="Agent F on the same road"))
+bc.show(bc.top_view_over_time(agent_f, title="Agent F on the same road"))
 
 # %% [markdown]
 # > **Predict.** Six bugs: here are their names. Write down for each what it will do to the *share
@@ -77,7 +73,7 @@ late = {n: np.nanmean(values[:, -10:]) for n, (_, values) in hunt.curves("succes
 fine = [name for name in "ABCDEF" if late[name] > 0.85]
 title = f"Judged by escapes, {len(fine)} of 6 broken agents are fine: {', '.join(fine)}"
 curves = hunt.curves("success")
-show(
+bc.show(
     many(curves, title, "% of training", "share of escapes, last 30 episodes", reference="healthy")
 )
 
@@ -86,7 +82,7 @@ curves = hunt.curves("return")
 last = {name: values[:, -10:].mean() for name, (_, values) in curves.items()}
 best = max(last, key=last.get)
 title = f"At the end of training, agent {best} has the highest return of all seven"
-show(many(curves, title, "% of training", "return, last 30 episodes", reference="healthy"))
+bc.show(many(curves, title, "% of training", "return, last 30 episodes", reference="healthy"))
 
 # %% [markdown]
 # **See.** Compare with your predictions. Most of these bugs do not show in the one curve that
@@ -131,7 +127,7 @@ check.end_error(end_error)
 probes = hunt.probes("end")
 lowest = min(probes, key=lambda name: np.nanmean(probes[name][1][:, -10:]))
 title = f"Agent {lowest} thinks that accidents cost far more than the 10 they cost"
-show(many(probes, title, "updates", "Q where an accident followed (right: −10)", "healthy"))
+bc.show(many(probes, title, "updates", "Q where an accident followed (right: −10)", "healthy"))
 
 # %% [markdown]
 # **See.** Even the healthy agents are not at {{ DEFAULT.reward.accident }}: a network that is shown
@@ -148,7 +144,7 @@ print(f"honest: {1 / (1 - gamma):.0f}; with the bonus in every second: {(1 + c) 
 probes = hunt.probes("promise")
 highest = {name: np.nanmax(np.abs(values)) for name, (_, values) in probes.items()}
 title = f"One agent promised {max(highest.values()):.0f} in between, on a road that pays 5"
-show(many(probes, title, "updates", "promise Σ π Q, cut off at 20", "healthy", limits=(-2, 20)))
+bc.show(many(probes, title, "updates", "promise Σ π Q, cut off at 20", "healthy", limits=(-2, 20)))
 
 # %% [markdown]
 # **Explain.** The healthy promise may lie a little over 5: a part of each batch are demonstrations,
@@ -157,7 +153,7 @@ show(many(probes, title, "updates", "promise Σ π Q, cut off at 20", "healthy",
 
 # %%
 for name in hunt.names:
-    drive = record(hunt.agent(name).as_policy(with_q=True), [ROAD])[0]
+    drive = bc.record(hunt.agent(name).as_policy(with_q=True), [ROAD])[0]
     paid = 0.0
     for reward in drive.rewards[::-1]:  # from the end to the start
         paid = reward + gamma * paid
@@ -187,7 +183,7 @@ for name in hunt.names:
 probes = hunt.probes("entropy")
 end = {name: values[:, -1].mean() for name, (_, values) in probes.items()}
 title = f"Agent {max(end, key=end.get)} never makes up its mind"
-show(many(probes, title, "updates", "entropy of π (nats)", reference="healthy"))
+bc.show(many(probes, title, "updates", "entropy of π (nats)", reference="healthy"))
 
 # %%
 early = slice(2, 6)  # after 500 to 1,250 updates
@@ -202,12 +198,12 @@ probes = hunt.probes("alike")
 first = {name: values[:, early].mean() for name, (_, values) in probes.items()}
 two = sorted("ABCDEF", key=first.get)[:2]
 title = f"Early on, {two[0]} and {two[1]} do least of all what the rule does"
-show(many(probes, title, "updates", "likeliest action is the rule's (share)", "healthy"))
+bc.show(many(probes, title, "updates", "likeliest action is the rule's (share)", "healthy"))
 
 # %%
 probes = hunt.probes("rarest")
 title = "How unlikely is the least likely action?"
-show(many(probes, title, "updates", "log of the rarest action's probability", "healthy"))
+bc.show(many(probes, title, "updates", "log of the rarest action's probability", "healthy"))
 
 # %% [markdown]
 # > **Predict.** KL(π‖π̃) charges the policy for going where the rule would not. The flipped one
@@ -230,9 +226,9 @@ show(many(probes, title, "updates", "log of the rarest action's probability", "h
 # %%
 print("            escapes, most probable   escapes, drawn   return   accidents (%)")
 for name in hunt.names:
-    agent, roads = hunt.agent(name), held_out_seeds(12, 200)
-    greedy = summarise(drive_episodes(agent.as_policy(), roads))
-    drawn = summarise(drive_episodes(agent.as_policy(np.random.default_rng(0)), roads))
+    agent, roads = hunt.agent(name), bc.held_out_seeds(12, 200)
+    greedy = bc.summarise(bc.drive_episodes(agent.as_policy(), roads))
+    drawn = bc.summarise(bc.drive_episodes(agent.as_policy(np.random.default_rng(0)), roads))
     accidents = greedy.collision.value + greedy.road_departure.value + greedy.stoppage.value
     shares = f"{100 * greedy.success.value:20.1f} {100 * drawn.success.value:18.1f}"
     print(f"{name:8} {shares} {greedy.returns.value:12.1f} {100 * accidents:12.1f}")
@@ -405,7 +401,9 @@ source("bootcourse.lessons.bugs", "NoEnd", "BonusForAll", "ShiftedLabels", "flip
 # > **Predict.** Which of the six would you have found by testing your code, and not by training?
 
 # %%
-print(f"bugs: {len(BUGS)}; broken agents that escape as if nothing were wrong: {', '.join(fine)}")
+print(
+    f"bugs: {len(bugs.BUGS)}; broken agents that escape as if nothing were wrong: {', '.join(fine)}"
+)
 print(f"highest return at the end of training: {best}, {last[best]:.0f}")
 print(f"the healthy agent's: {last['healthy']:.0f}")
 

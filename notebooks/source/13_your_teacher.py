@@ -22,22 +22,11 @@
 # soft constraint (7) and learning from demonstrations (8).
 
 # %%
-from math import comb
-
+import bootcourse as bc
 import numpy as np
-from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
-from bootcourse.episodes.record import record
-from bootcourse.episodes.words import overtaken
-from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.teachers import TaughtTraining, ahead, course_rule, teacher_policy, toward
-from bootcourse.lessons import check, source
-from bootcourse.lessons.example_teachers import careful, examine, racer, reckless, timid
-from bootcourse.lessons.figures_many import many
-from bootcourse.plots.figure import show
-from bootcourse.plots.top_view import top_view_over_time
+from bootcourse.lessons import check, example_teachers, figures_many, source
 from bootcourse.road.state import EGO, LANE, SPEED, X, Y
-from bootcourse.road.vector_env import TrapVectorEnv
-from bootcourse.scenario import ACTION_NAMES, DEFAULT
 
 # %% [markdown]
 # ## Look first
@@ -48,18 +37,20 @@ from bootcourse.scenario import ACTION_NAMES, DEFAULT
 
 # %%
 ROAD = 10
-drives = {f.__name__: record(teacher_policy(f), [ROAD])[0] for f in (reckless, racer)}
+pair = (example_teachers.reckless, example_teachers.racer)
+drives = {teacher.__name__: bc.record(teacher_policy(teacher), [ROAD])[0] for teacher in pair}
 crash = drives["reckless"].times[-1]
 title = f"The reckless teacher hits trap 1 after {crash:g} s"
-show(top_view_over_time(drives["reckless"], times=[0, 2, crash], title=title))
+bc.show(bc.top_view_over_time(drives["reckless"], times=[0, 2, crash], title=title))
 
 # %%
-title = f"The racer is ahead of trap 1 after {overtaken(drives['racer']):g} s"
-show(top_view_over_time(drives["racer"], times=[0, 5, 10, 20], title=title))
+title = f"The racer is ahead of trap 1 after {bc.overtaken(drives['racer']):g} s"
+bc.show(bc.top_view_over_time(drives["racer"], times=[0, 5, 10, 20], title=title))
 
 # %%
-for teacher in (course_rule, careful, timid, reckless, racer):
-    print(f"{teacher.__name__:12} {examine(teacher)}")
+three = (example_teachers.timid, example_teachers.reckless, example_teachers.racer)
+for teacher in (course_rule, example_teachers.careful, *three):
+    print(f"{teacher.__name__:12} {example_teachers.examine(teacher)}")
 
 # %% [markdown]
 # **See.** Two of them get out, two never do. The racer gets out on every road and earns *less*
@@ -85,9 +76,7 @@ for teacher in (course_rule, careful, timid, reckless, racer):
 
 # %%
 # NBVAL_CHECK_OUTPUT
-env = TrapVectorEnv(1)
-env.reset(seed=ROAD)
-cars = env.cars[0]
+cars = drives["racer"].states[0]  # as the road begins
 print("car     x (m)   y (m)   speed (m/s)   lane")
 for name, car in zip(["ego", "trap 1", "trap 2", "traffic", "traffic"], cars, strict=False):
     print(f"{name:8}{car[X]:6.1f}{car[Y]:8.1f}{car[SPEED]:14.1f}{car[LANE]:7.0f}")
@@ -167,18 +156,18 @@ check.my_rule(my_rule)
 # uses `careful`; once your own rule has passed, put it there instead.
 
 # %%
-mine = careful  # or: mine = my_rule
+mine = example_teachers.careful  # or: mine = my_rule
 
-print(examine(mine))
+print(example_teachers.examine(mine))
 
 # %%
-mine_drive = record(teacher_policy(mine), [ROAD])[0]
-rule_drive = record(teacher_policy(course_rule), [ROAD])[0]
+mine_drive = bc.record(teacher_policy(mine), [ROAD])[0]
+rule_drive = bc.record(teacher_policy(course_rule), [ROAD])[0]
 for name, drive in (("mine", mine_drive), ("the rule", rule_drive)):
-    out = int(np.flatnonzero(drive.states[:: DEFAULT.clock.steps, EGO, LANE] == 0)[0])
+    out = int(np.flatnonzero(drive.states[:: bc.DEFAULT.clock.steps, EGO, LANE] == 0)[0])
     print(f"{name:9} free lane after {out:2} s, return {drive.rewards.sum():6.1f}")
-title = f"My rule is ahead of trap 1 after {overtaken(mine_drive):g} s"
-show(top_view_over_time(mine_drive, times=[0, 3, 6, 9, 15], title=title))
+title = f"My rule is ahead of trap 1 after {bc.overtaken(mine_drive):g} s"
+bc.show(bc.top_view_over_time(mine_drive, times=[0, 3, 6, 9, 15], title=title))
 
 # %% [markdown]
 # **Explain.** Three situations are enough: no room on the left (be slower than both traps), room
@@ -227,13 +216,13 @@ check.next_labels(next_labels)
 # %%
 heard = {}
 for teacher in (course_rule, mine):
-    training = TaughtTraining([settings_for("bootstrapped")], teacher, episodes=10)
+    training = TaughtTraining([bc.settings_for("bootstrapped")], teacher, episodes=10)
     training.run(progress=False)
     labels = training.replay.table[training.replay.first[0] :][: training.replay.size, -2].numpy()
     heard[teacher.__name__] = np.bincount(labels.astype(int), minlength=9) / len(labels)
 print("what the labels of an untrained agent's drives say, in %:")
 for name, shares in heard.items():
-    told = ", ".join(f"{ACTION_NAMES[a]} {100 * shares[a]:.0f}" for a in np.argsort(-shares)[:4])
+    told = ", ".join(f"{bc.ACTION_NAMES[a]} {100 * shares[a]:.0f}" for a in np.argsort(-shares)[:4])
     print(f"{name:12} {told}")
 
 # %% [markdown]
@@ -249,7 +238,8 @@ for name, shares in heard.items():
 
 # %%
 UPDATES, SEEDS = 3500, 3
-taught, alone = (with_seeds(settings_for(method), SEEDS) for method in ("bootstrapped", "sac"))
+taught = bc.with_seeds(bc.settings_for("bootstrapped"), SEEDS)
+alone = bc.with_seeds(bc.settings_for("sac"), SEEDS)
 progress, students = {}, {}
 
 
@@ -275,14 +265,16 @@ students |= {mine.__name__: agents[:SEEDS], "alone": agents[SEEDS:]}
 fading = {mine.__name__: faded}
 
 # %% tags=["nbval-ignore-output"]
-for teacher in (timid, reckless, racer):
+for teacher in three:
     notes, students[teacher.__name__], fading[teacher.__name__] = teach(teacher, taught)
     progress[teacher.__name__] = (notes[:, 0], notes[:, 1:].T)
 
 # %%
 out = [name for name, (_, values) in progress.items() if values[:, -1].min() > 50]
 title = f"Every student escapes more often than not with: {', '.join(out) or 'none of them'}"
-show(many(progress, title, "updates", "escapes (% of the last 30 episodes)", columns=5))
+bc.show(
+    figures_many.many(progress, title, "updates", "escapes (% of the last 30 episodes)", columns=5)
+)
 
 # %% [markdown]
 # Training episodes are driven with actions **drawn** from π. Now the test: 200 roads that nobody
@@ -294,10 +286,10 @@ print(
     " " * 11
     + "".join(f"{head:>24}" for head in ("escapes (%)", "drawn (%)", "return", "accident (%)"))
 )
-for name in ("alone", *(t.__name__ for t in (mine, timid, reckless, racer))):
-    tests = [drive_episodes(a.as_policy(), held_out_seeds(13, 200)) for a in students[name]]
+for name in ("alone", *(teacher.__name__ for teacher in (mine, *three))):
+    tests = [bc.drive_episodes(a.as_policy(), bc.held_out_seeds(13, 200)) for a in students[name]]
     by_chance = [a.as_policy(np.random.default_rng(0)) for a in students[name]]
-    drawn = [drive_episodes(d, held_out_seeds(13, 200)).success.mean() for d in by_chance]
+    drawn = [bc.drive_episodes(d, bc.held_out_seeds(13, 200)).success.mean() for d in by_chance]
     success[name] = np.array([100 * test.success.mean() for test in tests])
     returns[name] = np.array([test.returns.mean() for test in tests])
     accidents = [100 * np.mean(test.accident > 0) for test in tests]
@@ -322,7 +314,8 @@ for name in ("alone", *(t.__name__ for t in (mine, timid, reckless, racer))):
 
 # %%
 # NBVAL_CHECK_OUTPUT
-print(f"one order in {comb(2 * 3, 3)} with 3 seeds each, one in {comb(2 * 5, 5)} with 5")
+orders = {n: np.prod([(n + k) / k for k in range(1, n + 1)]) for n in (3, 5)}  # (2n)! / (n!)²
+print(f"one order in {orders[3]:.0f} with 3 seeds each, one in {orders[5]:.0f} with 5")
 
 # %% [markdown]
 # **Exercise 13.4 (5 min, ●●○).** Write the judge: 1 for "helps", −1 for "hurts", 0 for "cannot be
@@ -363,12 +356,14 @@ for name in students:
 
 # %%
 print("             as its teacher (%)  β now               ξ now")
-for teacher in (mine, timid, reckless, racer):
+for teacher in (mine, *three):
     alike = []
     for agent in students[teacher.__name__]:
-        drive = record(agent.as_policy(), [ROAD])[0]
-        roads = drive.states[:: DEFAULT.clock.steps][: len(drive.actions)]
-        same = [teacher(cars, DEFAULT) == a for cars, a in zip(roads, drive.actions, strict=True)]
+        drive = bc.record(agent.as_policy(), [ROAD])[0]
+        roads = drive.states[:: bc.DEFAULT.clock.steps][: len(drive.actions)]
+        same = [
+            teacher(cars, bc.DEFAULT) == a for cars, a in zip(roads, drive.actions, strict=True)
+        ]
         alike.append(100 * np.mean(same))
     beta, xi = fading[teacher.__name__]
     lists = (
