@@ -16,6 +16,7 @@ from tools.course.products import IMPORTS_CHECK, SOLVED_NOTE, STRICT, out_of_dat
 from tools.course.source import Cell, body, function_in
 
 LONGEST_CELL = 25  # lines
+MOST_IMPORTS = 5  # lines, at the top
 SHORTEST_ALT = 40  # letters: what a reader should see does not fit into fewer
 
 
@@ -27,6 +28,7 @@ def problems(path: Path) -> list[str]:
         return [f"{error}."]
     found = [
         *of_length(cells),
+        *of_imports(cells),
         *of_exercises(cells, path.stem),
         *of_links(cells, path),
         *of_references(cells),
@@ -45,6 +47,13 @@ def begins(text: str) -> str:
 def of_length(cells: list[Cell]) -> list[str]:
     long = [cell for cell in cells if cell.is_code and len(cell.solved.splitlines()) > LONGEST_CELL]
     return [f"{begins(cell.solved)} is longer than {LONGEST_CELL} lines." for cell in long]
+
+
+def of_imports(cells: list[Cell]) -> list[str]:
+    """All imports stand in the first code cell, and they are few: most names come through the front door."""
+    each = [len(re.findall(r"^(?:from|import) ", cell.solved, re.M)) for cell in cells if cell.is_code]
+    found = [f"The lesson begins with more than {MOST_IMPORTS} imports."] * (each[:1] > [MOST_IMPORTS])
+    return found + ["A later cell imports something: do it in the first."] * any(each[1:])
 
 
 # Exercises ------------------------------------------------------------------------------------------
@@ -134,11 +143,13 @@ def of_links(cells: list[Cell], path: Path) -> list[str]:
 
 
 def of_references(cells: list[Cell]) -> list[str]:
-    """Every `bootcourse.x.y` in the text, and every source("bootcourse.x", "y"), exists."""
+    """Every `bootcourse.x.y` in the text, every source("bootcourse.x", "y") and every bc.x in a cell exists."""
     text = "\n".join(cell.student for cell in cells if not cell.is_code)
     names = re.findall(r"`(bootcourse(?:\.\w+)+)", text)
     for cell in cells:
-        names += shown_sources(cell.solved) if cell.is_code else []
+        if cell.is_code:
+            names += shown_sources(cell.solved)
+            names += [f"bootcourse.{name}" for name in sorted(set(re.findall(r"\bbc\.(\w+)", cell.solved)))]
     return [f"The code that `{name}` names does not exist." for name in names if not exists(name)]
 
 
