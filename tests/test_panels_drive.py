@@ -301,6 +301,32 @@ def test_what_breaks_in_the_clock_s_thread_is_a_sentence(monkeypatch):
     assert "The drive broke off: RuntimeError: the road is closed" in words(panel)
 
 
+def test_a_clock_that_breaks_at_once_does_not_leave_a_button_that_says_pause(monkeypatch):
+    panel = real_time(drive_panel())
+    start = panel.ticker.start
+
+    def breaks(action):
+        raise RuntimeError("the road is closed")
+
+    monkeypatch.setattr(panel.drive, "decide", breaks)
+    monkeypatch.setattr(panel.ticker, "start", lambda: start() or time.sleep(0.4))
+    panel.go.click()
+    wait_for(lambda: not panel.ticker.running)
+    assert panel.go.description == "Start" and "broke off" in words(panel)
+
+
+def test_the_clock_s_thread_writes_nothing_while_a_press_is_handled():
+    panel = real_time(drive_panel())
+    panel.go.click()
+    wait_for(lambda: panel.drive.actions)
+    with panel._lock:
+        before = panel.shown, panel.view.value
+        time.sleep(0.4)
+        assert (panel.shown, panel.view.value) == before
+    wait_for(lambda: panel.shown > before[0])
+    panel.close()
+
+
 def test_a_clock_starts_and_stops_as_often_as_asked():
     ticks = []
     ticker = Ticker(lambda passed: ticks.append(passed) or True, 50.0)

@@ -1,6 +1,7 @@
 """The replay's clock and the places between two recorded states, against arcs worked out by hand."""
 
 import math
+import threading
 import time
 from dataclasses import replace
 
@@ -123,6 +124,29 @@ def test_a_loop_begins_again():
     clock = player(loop=True, playing=True, t=9.5)
     clock.advance(1.0)
     assert clock.t == pytest.approx(0.5) and clock.playing
+
+
+def test_a_pause_from_another_thread_is_not_lost_while_the_time_goes_on():
+    class Paused(Player):
+        """Another thread presses Pause just when the end of a loop is reached."""
+
+        @property
+        def loop(self):
+            if self.playing and presser.ident is None:
+                presser.start()
+                presser.join(0.2)
+            return True
+
+        @loop.setter
+        def loop(self, value):
+            pass
+
+    clock = Paused(10.0, 0.5, lambda t: None)
+    presser = threading.Thread(target=clock.pause)
+    clock.t, clock.playing = 9.5, True
+    clock.advance(1.0)
+    presser.join(5.0)
+    assert not clock.playing
 
 
 def test_a_hand_on_the_slider_holds_the_clock():

@@ -4,7 +4,7 @@
     mine.rollout          # what you drove, as `record` would have recorded it
     mine.demonstrations   # what you saved as demonstrations: train_panel(drives=mine.demonstrations)
 
-The drive is `episodes/interactive.py`, the drawing `cockpit.py`, the keys `pad.py`.
+`episodes/interactive.py` drives, `cockpit.py` draws, `pad.py` reads the keys.
 """
 
 import threading
@@ -45,7 +45,11 @@ def check_road(value: float) -> None:
 
 
 class DrivePanel(Panel):
-    """`.rollout` is the present drive (None before its first decision), `.drives` those before it."""
+    """`.rollout` is the present drive (None before its first decision), `.drives` those before it.
+
+    Two threads write here: the main thread when something is pressed, and the clock's thread at each tick. Each
+    holds `_lock` while it writes. The main thread stops the clock without it, since that waits for the last tick.
+    """
 
     ticker: Ticker | None = None
 
@@ -53,8 +57,8 @@ class DrivePanel(Panel):
         self.scenario, self.ghost_of = scenario, ghost_of
         self.drives: list[Rollout] = []
         self.demonstrations: list[Rollout] = []
-        self._lock = threading.RLock()  # the clock's thread drives too
-        self._saved: InteractiveEpisode | None = None  # the drive that is a demonstration already, and its length then
+        self._lock = threading.RLock()
+        self._kept: InteractiveEpisode | None = None  # the drive whose rollout is the last demonstration
         self.drive, self.ghost = InteractiveEpisode(seed, scenario), ghost_of(seed)
         self.shown, self.coming = 0.0, None
         self.ticker = Ticker(self._tick, FRAMES)
@@ -94,21 +98,19 @@ class DrivePanel(Panel):
             return self.drive.rollout() if self.drive.actions else None
 
     def press(self, action: int) -> None:
-        """A button or a key: decide now, or choose what the next tick of the clock decides."""
+        """A button or a key: decide now, or choose what the clock's next decision is."""
         with self._lock:
             self.say()
             if self.drive.over:
                 self.say("This drive is over: press Drive again, or choose another road.")
-            elif self.mode.value == STEPS:
+                return
+            if self.mode.value == STEPS:
                 self.drive.decide(action)
                 self.shown = self.drive.time
-                self._draw()
             else:
-                self.coming = action
-                self.pad.mark(action)
-                self._draw()
-        if self.mode.value == REAL and not self.drive.over and not self.ticker.running:
-            self._go()
+                self._choose(action)
+                self._start_clock()
+            self._draw()
 
     def close(self) -> None:
         if not self.closed and self.ticker is not None:
@@ -121,77 +123,84 @@ class DrivePanel(Panel):
             return printed(svg), "image/svg+xml", alt_text(self.drive, self.ghost, self.shown)
 
     def _set_off(self, does: Callable[[], None]) -> None:
-        self.say()
         with self.saying_what_is_wrong():
+            self.say()
             does()
+
+    def _choose(self, action: int | None) -> None:
+        """What the clock's next decision is; None: keep straight, and mark no button."""
+        self.coming = action
+        self.pad.mark(action)
 
     def _tick(self, passed: float) -> bool:
         """In the clock's thread, FRAMES times a second: drive on, and draw. Returns whether to go on."""
-        try:
-            with self._lock:
-                decision = 1 / self.scenario.clock.decision_rate
+        with self._lock:
+            try:
                 if self.shown >= self.drive.time and not self.drive.over:
                     self.drive.decide(IDLE if self.coming is None else self.coming)
-                    self.coming = None
-                    self.pad.mark(None)
+                    self._choose(None)
+                decision = 1 / self.scenario.clock.decision_rate
                 self.shown = min(self.shown + passed * decision / self.pace.value, self.drive.time)
                 self._draw()
-                ended = self.drive.over and self.shown >= self.drive.time
-                if ended:
-                    self._clock_stands()
-                return not ended
-        except Exception as error:  # nobody would see what a thread raises
-            self.say(f"The drive broke off: {type(error).__name__}: {error}", wrong=True)
-            self._clock_stands()
-            return False
+                going = not self.drive.over or self.shown < self.drive.time
+            except Exception as error:  # an error in a thread is shown nowhere else
+                self.say(f"The drive broke off: {type(error).__name__}: {error}", wrong=True)
+                going = False
+            if not going:
+                self._show_clock(running=False)
+            return going
 
     def _go(self) -> None:
         if self.mode.value != REAL:
-            raise BootcourseError("Step by step the clock stands: choose real time.")
+            raise BootcourseError("Step by step there is no clock to start: choose real time.")
         if self.ticker.running:
-            self.ticker.stop()
-            self._clock_stands()
+            self._stop_clock()
         elif self.drive.over:
             raise BootcourseError("This drive is over: press Drive again, or choose another road.")
         else:
-            self.ticker.start()
-            self.go.description, self.go.icon = "Pause", "pause"
+            self._start_clock()
 
-    def _clock_stands(self) -> None:
-        self.go.description, self.go.icon = "Start", "play"
+    def _start_clock(self) -> None:
+        with self._lock:
+            self._show_clock(running=True)
+            self.ticker.start()
+
+    def _stop_clock(self) -> None:
+        self.ticker.stop()
+        self._show_clock(running=False)
+
+    def _show_clock(self, running: bool) -> None:
+        self.go.description, self.go.icon = ("Pause", "pause") if running else ("Start", "play")
 
     def _new_mode(self) -> None:
-        self.ticker.stop()
-        self._clock_stands()
+        self._stop_clock()
         with self._lock:
-            self.shown, self.coming = self.drive.time, None
-            self.pad.mark(None)
+            self.shown = self.drive.time
+            self._choose(None)
             self.go.disabled = self.mode.value == STEPS
             self.pace.lock("Step by step, a decision waits for you." if self.mode.value == STEPS else "")
             self._draw()
 
     def _again(self) -> None:
-        self.ticker.stop()
-        self._clock_stands()
+        self._stop_clock()
         seed = int(self.road.value)
         with self._lock:
             ghost = self.ghost if seed == self.drive.seed else self.ghost_of(seed)
             if self.drive.actions:
                 self.drives.append(self.drive.rollout())
-            self.drive, self.ghost = InteractiveEpisode(seed, self.scenario), ghost
-            self.shown, self.coming = 0.0, None
-            self.pad.mark(None)
+            self.drive, self.ghost, self.shown = InteractiveEpisode(seed, self.scenario), ghost, 0.0
+            self._choose(None)
             self.path.value = _path(seed)
             self._draw()
 
     def _keep(self) -> None:
         with self._lock:
             rollout = self.drive.rollout()
-            if self._saved is self.drive:
+            if self._kept is self.drive:
                 self.demonstrations[-1] = rollout
             else:
                 self.demonstrations.append(rollout)
-            self._saved = self.drive
+            self._kept = self.drive
         count = sum(len(each.actions) for each in self.demonstrations)
         drives = f"{len(self.demonstrations)} demonstration{'s' * (len(self.demonstrations) > 1)}"
         self.say(f"{drives}, {count} decisions: train_panel(drives=PANEL.demonstrations) learns from them.")
@@ -219,7 +228,7 @@ def _path(seed: int) -> str:
 def drive_panel(seed: int = 0, ghost: Rollout | Policy | None = None, scenario: Scenario = DEFAULT) -> DrivePanel:
     """Drive the road of a seed yourself.
 
-    ghost: whom you drive against. None: the rule. A driver (such as `agent.as_policy()`) drives every road that you
+    ghost: whom you drive against. None: the rule. A policy (such as `agent.as_policy()`) drives each road that you
     choose; a rollout is one drive, of this seed and scenario. Raises BootcourseError if it is of another.
     """
     if isinstance(ghost, Rollout):
@@ -229,5 +238,5 @@ def drive_panel(seed: int = 0, ghost: Rollout | Policy | None = None, scenario: 
                 f"{seed} of '{scenario.name}': give a drive of the same road."
             )
         return DrivePanel(seed, scenario, lambda seed: ghost, fixed="The road of the ghost that you gave.")
-    driver, label = (rule_policy(scenario), "rule") if ghost is None else (ghost, "agent")
-    return DrivePanel(seed, scenario, lambda seed: record(driver, [seed], scenario, label)[0], fixed="")
+    policy, label = (rule_policy(scenario), "rule") if ghost is None else (ghost, "agent")
+    return DrivePanel(seed, scenario, lambda seed: record(policy, [seed], scenario, label)[0], fixed="")

@@ -1,4 +1,4 @@
-"""A clock for a panel: calls a function several times a second in a daemon thread, until it is stopped."""
+"""A clock for a panel: it calls a function several times a second in a daemon thread, until it is stopped."""
 
 import threading
 import time
@@ -6,7 +6,10 @@ from collections.abc import Callable
 
 
 class Ticker:
-    """`start` and `stop` as often as you like. tick(seconds since the last tick) -> go on?"""
+    """A clock that can be started and stopped any number of times, by one thread.
+
+    tick: given the seconds since the last tick, returns whether to go on. rate: ticks a second.
+    """
 
     def __init__(self, tick: Callable[[float], bool], rate: float):
         self.tick, self.rate = tick, rate
@@ -25,7 +28,7 @@ class Ticker:
         self._thread.start()
 
     def stop(self) -> None:
-        """End it, and wait until it has ended (not from within a tick)."""
+        """Stop, and wait for a tick that is being done (2 s at most; a tick that stops its own clock does not wait)."""
         self._stop.set()
         thread = self._thread
         if thread is not None and thread is not threading.current_thread():

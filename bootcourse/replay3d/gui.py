@@ -1,4 +1,6 @@
-"""The panel beside the scene: the time line, the buttons, the switches, and the head-up display."""
+"""The panel beside the scene: the time slider, the buttons, the switches, and the head-up display."""
+
+from collections.abc import Callable
 
 from bootcourse.replay3d import hud, scene
 from bootcourse.replay3d.camera import CAMERAS, point
@@ -11,9 +13,13 @@ STEPS = ("|◂", "◂", "▸", "▸|")  # to the start, one simulation step back
 
 
 class ReplayControls:
-    """Controls for `player` and `stage`. refresh(t) shows a time; restage(rebuild) is called when a switch changes."""
+    """Controls for `player` and `stage`; `refresh(t)` shows a time.
 
-    def __init__(self, server, player, stage, restage):
+    restage(change, rebuild): called when a switch is set. It calls change() between two frames, makes the scene anew
+    if `rebuild` is true, and shows it. viser calls the controls in threads of its own.
+    """
+
+    def __init__(self, server, player, stage, restage: Callable[[Callable[[], None], bool], None]):
         self.server, self.player, self.stage, self.restage = server, player, stage, restage
         self.timelines = stage.timelines
         self._shown = None
@@ -95,16 +101,18 @@ class ReplayControls:
         dark.on_update(lambda event: self._set("dark", bool(event.target.value), rebuild=True))
 
     def _set(self, name: str, value, rebuild: bool = False) -> None:
+        def change() -> None:
+            setattr(self.stage.options, name, value)
+            self._shown = None
+
         if getattr(self.stage.options, name) == value:
             return
-        setattr(self.stage.options, name, value)
         if name == "dark":
             self.server.gui.configure_theme(dark_mode=value, show_logo=False, show_share_button=False)
-        self._shown = None
-        self.restage(rebuild)
+        self.restage(change, rebuild)
 
     def refresh(self, t: float) -> None:
-        """Show time t. The cursor follows every frame, the numbers ten times a second of the replay's time."""
+        """Show time t: the cursor in every frame, the numbers when a tenth of a second of the replay has passed."""
         with self.server.atomic():
             self.cursor.content = hud.cursor(t / self.player.duration)
             self.play.label = PAUSE if self.player.playing else PLAY

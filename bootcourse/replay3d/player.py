@@ -1,4 +1,4 @@
-"""Play, pause, seek, step, speed, loop: the clock of a replay. `advance` is the clock, the thread only winds it."""
+"""The clock of a replay: play, pause, seek, step, speed, loop. A thread calls `advance` for every frame."""
 
 import threading
 import time
@@ -6,14 +6,14 @@ from collections.abc import Callable
 
 SPEEDS = {"¼×": 0.25, "½×": 0.5, "1×": 1.0, "2×": 2.0, "4×": 4.0, "8×": 8.0}
 FRAME_RATE = 30.0  # Hz
-HOLD = 0.35  # s for which a hand on the time slider stops the clock
+HOLD = 0.35  # s for which a drag of the time slider stops the clock
 
 
 class Player:
-    """A time in [0, duration] that runs while `playing`.
+    """A time t in [0, duration], in seconds, that runs while `playing`. Any thread may call any method.
 
-    on_frame(t) is called from one thread for every frame and after every change; it may be slow,
-    then frames are left out and the time stays true.
+    on_frame(t) is called in the player's own thread for every frame and after every change; while it is slow,
+    frames are left out and the time stays right. watched: is anybody looking? If not, the time stands still.
     """
 
     def __init__(self, duration: float, step: float, on_frame: Callable[[float], None], watched=lambda: True):
@@ -33,11 +33,12 @@ class Player:
         self._wake.set()
 
     def pause(self) -> None:
-        self.playing = False
+        with self._lock:
+            self.playing = False
         self._wake.set()
 
     def seek(self, t: float, hold: bool = False) -> None:
-        """Go to a time; `hold` keeps the clock there for a moment, while a hand still drags."""
+        """Go to a time; `hold` keeps the clock there for a moment, since a drag sends many times in a row."""
         with self._lock:
             self.t = min(max(float(t), 0.0), self.duration)
             if hold:
@@ -46,7 +47,7 @@ class Player:
 
     @property
     def held(self) -> bool:
-        """Does a hand drag the time slider right now?"""
+        """Is the time slider being dragged?"""
         return time.monotonic() < self._held_until
 
     def step(self, count: int) -> None:
@@ -60,7 +61,7 @@ class Player:
         self._wake.set()
 
     def advance(self, seconds: float) -> bool:
-        """Let `seconds` of real time pass. Returns whether the time of the replay has moved."""
+        """Let `seconds` of real time pass. Returns whether the replay's time has moved."""
         with self._lock:
             if not self.playing or self.held:
                 return False
@@ -94,6 +95,6 @@ class Player:
             if self.playing and self._watched():
                 due = max(due + 1 / FRAME_RATE, time.perf_counter())
                 self._stop.wait(due - time.perf_counter())
-            else:  # nothing to do: wait for a button, or for somebody to look
+            else:  # paused, or nobody looks: wait until something wakes the player, 0.2 s at most
                 self._wake.wait(0.2)
                 before = due = time.perf_counter()

@@ -1,8 +1,9 @@
-"""A live replay: rollouts on a server of this machine, in a notebook's cell or in a browser."""
+"""A live replay: rollouts on a server on this machine, shown in a notebook's cell or in a browser."""
 
 import os
 import threading
 import time
+from collections.abc import Callable
 from html import escape
 from pathlib import Path
 
@@ -13,16 +14,17 @@ from bootcourse.replay3d.player import Player
 from bootcourse.replay3d.stage import Options, Stage
 from bootcourse.replay3d.timeline import Timeline
 
-HUD_RATE = 10.0  # Hz, of real time: how often the numbers in the panel change
+HUD_RATE = 10.0  # Hz, of real time, at most: how often the numbers in the panel change
 
 
 class Replay:
-    """What `replay` returns. A notebook shows it as the cell's output; `close()` ends it."""
+    """A replay on a server. A notebook shows it as the cell's output; `close()` ends it."""
 
     def __init__(self, timelines: list[Timeline], options: Options, port: int = 0, height: int = 640):
         self.timelines = timelines
         self.height, self.closed = height, False
-        self._lock, self._hud_due, self._greeted = threading.Lock(), 0.0, False
+        self._lock = threading.RLock()  # held while a frame is shown or the scene changes, in whichever thread
+        self._hud_due, self._greeted = 0.0, False
         self.server = server.start(port)
         try:
             self.stage = Stage(self.server, self.timelines, options)
@@ -60,7 +62,7 @@ class Replay:
         self.close()
 
     def export(self, path: Path) -> Path:
-        """Write the same drives as one HTML file that needs nothing but a browser. Returns the path."""
+        """Write the same drives as one HTML file that a browser opens without a server. Returns the path."""
         from bootcourse.replay3d.recorder import export
 
         return export([timeline.rollout for timeline in self.timelines], path, self.stage.options)
@@ -69,7 +71,7 @@ class Replay:
         return bool(self.server.get_clients())
 
     def _greet(self, client) -> None:
-        if not self._greeted:  # the first viewer sees it start
+        if not self._greeted:  # it starts when the first browser connects
             self._greeted = True
             self.player.play()
 
@@ -81,11 +83,12 @@ class Replay:
                 self._hud_due = now + 1 / HUD_RATE
                 self.panel.refresh(t)
 
-    def _restage(self, rebuild: bool) -> None:
+    def _restage(self, change: Callable[[], None], rebuild: bool) -> None:
         with self._lock:
+            change()
             if rebuild:
                 self.stage.build()
-        self._frame(self.player.t)
+            self._frame(self.player.t)
 
     def _repr_mimebundle_(self, include=None, exclude=None) -> dict:
         return {"text/html": self._html(), "text/plain": f"<replay at {self.url}>"}
@@ -99,7 +102,7 @@ class Replay:
 
 
 def address_for_browser(port: int) -> tuple[str | None, str]:
-    """(the address under which the reader's browser finds the server, or None; a sentence to go with it)."""
+    """(the address at which the reader's browser finds the server, or None; a sentence to show with it)."""
     prefix = os.environ.get("JUPYTERHUB_SERVICE_PREFIX")
     if prefix is None:
         url = f"http://{server.HOST}:{port}"
@@ -121,9 +124,9 @@ def replay(
     """Show a rollout, or several of the same seed side by side, in 3D.
 
     port: 0 takes a free one. height: of the cell's output, pixels. layout: "side by side" or "ghosts on
-    one road". follow: which drive the numbers are of, and in whose company ghosts are seen. rule: draw
-    what the rule wants on the road. Running the same notebook cell again replaces its replay.
-    Raises BootcourseError if the drives cannot be shown together, or the port is taken.
+    one road". follow: index of the drive whose numbers are shown and whose car the ghosts drive around.
+    rule: draw what the rule wants on the road. Running the same notebook cell again replaces its replay.
+    Raises BootcourseError if the drives cannot be shown together, or if the port is taken.
     """
     timelines, options = scene.timelines_of(rollouts), Options(layout=layout, follow=follow, dark=dark, rule=rule)
     options.check(len(timelines))
