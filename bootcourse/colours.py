@@ -22,6 +22,9 @@ TRAP = "#7A1F1F"  # the two slow cars
 TRAFFIC = "#B8BEC6"  # all other cars
 ALARM = "#E8112D"  # an accident
 
+INK, QUIET, GRID = "#1F2933", "#5F6B77", "#E3E7EB"  # words and axes; less important words; grid lines
+ASPHALT, PAINT, EDGE = "#F1F3F5", "#B6BEC7", "#7C8792"  # the road from above: its face, lane lines, edges
+
 
 def rgb(colour: str) -> tuple[int, int, int]:
     """Red, green and blue, 0..255 each, of "#rrggbb"."""

@@ -108,12 +108,16 @@ def band(curves: np.ndarray, seed: int = 0, resamples: int = 1000) -> tuple[np.n
     return middle, low, high
 
 
-def rolling_means(values: np.ndarray, window: int, points: int) -> tuple[np.ndarray, np.ndarray]:
+def rolling_means(values: np.ndarray, window: int, points: int = 80) -> tuple[np.ndarray, np.ndarray]:
     """Means of the last `window` episodes: (agents, episodes) -> (episode numbers (points,), (agents, points)).
 
-    NaN from an agent's first missing episode on.
+    Points at even distances, up to where the last agent got; NaN from an agent's first missing episode on.
+    Both are empty where nobody finished one.
     """
-    episodes = values.shape[1]
+    values = np.atleast_2d(np.asarray(values, dtype=np.float64))
+    episodes = int(np.isfinite(values).sum(axis=1).max(initial=0))
+    if not episodes:
+        return np.zeros(0, dtype=int), np.zeros((len(values), 0))
     at = np.unique(np.linspace(min(window, episodes), episodes, points).astype(int))
     sums = np.cumsum(np.pad(values, ((0, 0), (1, 0))), axis=1)
     return at, (sums[:, at] - sums[:, np.maximum(at - window, 0)]) / np.minimum(at, window)

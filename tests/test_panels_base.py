@@ -11,11 +11,11 @@ import pytest
 from bootcourse import one_per_cell
 from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError
-from bootcourse.panels import svg
 from bootcourse.panels.arguments import a_number, an_instance, one_drive
 from bootcourse.panels.number import Number
 from bootcourse.panels.panel import Panel, beside
-from bootcourse.panels.road import road
+from bootcourse.plots import svg
+from bootcourse.plots.road import road_svg
 from bootcourse.policies import idle_policy
 from bootcourse.scenario import DEFAULT, Scenario, check_p
 from tests.panels import from_page, inside, raise_in_callbacks, words  # noqa: F401
@@ -160,25 +160,27 @@ def test_a_reader_without_a_kernel_sees_a_picture_with_its_words():
     data = re.search(r'src="data:image/svg\+xml;base64,([^"]+)" alt="a &lt; b"', bundle["text/html"]).group(1)
     picture = base64.b64decode(data).decode()
     ElementTree.fromstring(picture)
-    assert "var(" not in picture and svg.INK.split("#")[1].rstrip(")") in picture
+    assert "var(" not in picture and svg.INK in picture
 
 
 def test_the_road_shows_every_car_near_the_ego_to_scale():
     drive = record(idle_policy, [0], DEFAULT, "idle")[0]
-    parts, height = road(drive.states[0], DEFAULT, "#123456", width=1000, scale=5.0)
+    parts, height = road_svg(drive.states[0], DEFAULT, "#123456", width=1000, scale=5.0)
     assert height == 3 * 4.0 * 5.0
     drawn = "".join(parts)
     assert drawn.count("#123456") == 1
-    assert drawn.count('fill="#7A1F1F"') == 2
-    assert 'width="25.00" height="10.00"' in drawn
+    assert drawn.count('fill="#7A1F1F" stroke="white"') == 2
+    [outline] = re.findall(r'd="M([^"]+)Z" fill="#123456"', drawn)
+    places = np.array([point.split() for point in outline.split("L")], dtype=float)
+    assert np.ptp(places, axis=0) == pytest.approx([25, 10], abs=0.2)
     ElementTree.fromstring(svg.drawing(1000, height, parts, "a road"))
 
 
 def test_traps_out_of_the_picture_are_named_with_their_distance():
     cars = record(idle_policy, [0], DEFAULT, "idle")[0].states[0].copy()
     cars[1, 0], cars[2, 0] = cars[0, 0] + 500, cars[0, 0] - 400
-    drawn = "".join(road(cars, DEFAULT, "#123456")[0])
-    assert "trap 1, 500 m ▶" in drawn and "◀ trap 2, 400 m" in drawn
+    drawn = "".join(road_svg(cars, DEFAULT, "#123456", 1000, 7.0)[0])
+    assert "trap 1, 500 m ahead ▸" in drawn and "◂ trap 2, 400 m behind" in drawn
 
 
 @pytest.mark.parametrize("wrong", [None, 3, "rule", [], [1], np.zeros(3), DEFAULT])

@@ -20,11 +20,11 @@ from bootcourse.learn.training import Training
 from bootcourse.methods import METHODS
 from bootcourse.panels import background as background_module
 from bootcourse.panels import train as train_module
-from bootcourse.panels.axes import rolling, ticks
 from bootcourse.panels.background import Background
 from bootcourse.panels.train import train_panel
 from bootcourse.panels.train_controls import CONTROLLED, without
 from bootcourse.panels.training_chart import Drawn, label_of, training_chart
+from bootcourse.plots.svg import ticks
 from bootcourse.policies import rule_policy
 from bootcourse.scenario import DEFAULT
 from bootcourse.storage.runs import find_runs, load_run
@@ -94,14 +94,6 @@ def test_an_axis_has_a_few_round_numbers():
     assert ticks(0, 100) == [0, 50, 100] and ticks(-10.4, 1.2) == [-10, -5, 0] and ticks(0, 150, 4) == [0, 50, 100, 150]
     for low, high in ((0, 1e-6), (-3, 1e7), (9.1, 9.3)):
         assert 2 <= len(ticks(low, high)) <= 5
-
-
-def test_a_rolling_mean_ends_where_its_agent_ends():
-    values = np.array([[1.0, 2, 3, 4], [5, 7, np.nan, np.nan]])
-    at, means = rolling(values, 2)
-    assert at.tolist() == [2, 3, 4] and means[0].tolist() == [1.5, 2.5, 3.5]
-    assert means[1][0] == 6 and np.isnan(means[1][1:]).all()
-    assert rolling(np.full((2, 3), np.nan), 2)[1].shape == (2, 0)
 
 
 # ---- the background

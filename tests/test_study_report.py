@@ -121,12 +121,6 @@ def test_every_figure_is_drawn_and_says_in_words_what_it_shows(draw):
     assert all(labels)
 
 
-def test_a_curve_s_blocks_are_means_of_all_its_episodes():
-    x, y = training_figures.blocks(np.arange(10.0)[None], points=4)
-    np.testing.assert_allclose(y, [[1, 4, 7, 9]])
-    np.testing.assert_allclose(x, [1.5, 4.5, 7.5, 9.5])
-
-
 def test_an_agent_that_was_stopped_leaves_the_curve_but_not_the_report(tmp_path):
     results = invented(("sac",), 3)
     results.curves["return"][1, 50:] = np.nan

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from bootcourse.statistics import band, escapes, improvement, interval, iqm
+from bootcourse.statistics import band, escapes, improvement, interval, iqm, rolling_means
 
 
 def test_the_interquartile_mean_of_ten_scores_is_the_mean_of_the_middle_six():
@@ -59,3 +59,11 @@ def test_a_band_lies_around_its_curve_and_within_the_seeds():
     assert middle.shape == (30,) and (low <= middle).all() and (middle <= high).all()
     assert (low >= curves.min(axis=0)).all() and (high <= curves.max(axis=0)).all()
     assert np.isnan(band(curves[:1])[1]).all()
+
+
+def test_a_rolling_mean_ends_where_its_agent_ends():
+    values = np.array([[1.0, 2, 3, 4], [5, 7, np.nan, np.nan]])
+    at, means = rolling_means(values, 2)
+    assert at.tolist() == [2, 3, 4] and means[0].tolist() == [1.5, 2.5, 3.5]
+    assert means[1][0] == 6 and np.isnan(means[1][1:]).all()
+    assert rolling_means(np.full((2, 3), np.nan), 2)[1].shape == (2, 0)

@@ -30,6 +30,7 @@ from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
 from bootcourse.policies import rule_policy
 from bootcourse.scenario import DEFAULT, RULE_P
+from bootcourse.statistics import rolling_means
 from bootcourse.storage.assets import FOLDER
 
 # The six bugs ----------------------------------------------------------------------------------------
@@ -253,7 +254,7 @@ class Hunt:
         found, shares = {}, np.linspace(0, 100, points)
         for name in self.names:
             rows = [row[np.isfinite(row)] for row in self.curve(name, what)]
-            rows = [np.convolve(row, np.ones(window) / window, mode="valid") for row in rows]
+            rows = [rolling_means(row, window, len(row))[1][0] for row in rows]
             found[name] = shares, np.array([np.interp(shares, np.linspace(0, 100, len(row)), row) for row in rows])
         return found
 

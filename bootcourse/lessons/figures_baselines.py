@@ -10,6 +10,7 @@ from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.learner import SACLearner
 from bootcourse.lessons.charts import lines
+from bootcourse.statistics import rolling_means
 from bootcourse.study.results import Results
 
 WINDOW = 50  # training episodes that a success rate is taken over
@@ -58,9 +59,9 @@ def half_escape(success: np.ndarray) -> np.ndarray:
 
     success (agents, episodes) -> (agents,).
     """
-    sums = np.cumsum(np.pad(success.astype(np.float64), ((0, 0), (1, 0))), axis=1)
-    reached = sums[:, WINDOW:] - sums[:, :-WINDOW] >= WINDOW / 2
-    return np.where(reached.any(axis=1), reached.argmax(axis=1) + WINDOW, 0)
+    at, means = rolling_means(success, WINDOW, success.shape[1])
+    reached = means >= 0.5
+    return np.where(reached.any(axis=1), at[reached.argmax(axis=1)], 0)
 
 
 def success_around(success: np.ndarray, updates: np.ndarray, budget: float) -> np.ndarray:

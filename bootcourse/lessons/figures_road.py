@@ -6,8 +6,9 @@ from matplotlib.figure import Figure
 from bootcourse.colours import ALARM, OTHER
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.methods import style
+from bootcourse.plots.canvas import MplAxes
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, WIDTH, finish, label_ends, new_figure, plain_axes
-from bootcourse.plots.top_view import draw_car, draw_road
+from bootcourse.plots.road import draw_car, draw_road, edges_of
 from bootcourse.road.formulas import bicycle_step
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, X
 from bootcourse.rule import safety_distance
@@ -23,9 +24,9 @@ def nine_actions(seconds: int = 2, scenario: Scenario = DEFAULT) -> Figure:
     road = (lanes * width + 4.4) * (WIDTH - 0.3) / (right - left)
     figure = new_figure(road + 0.95)
     ax = figure.add_axes((0.15 / WIDTH, 0.45 / (road + 0.95), (WIDTH - 0.3) / WIDTH, road / (road + 0.95)))
-    draw_road(ax, scenario, left, right, 0.0)
+    draw_road(MplAxes(ax), scenario, left, right)
     start = (lanes - 1) * width
-    draw_car(ax, 0.0, start, 0.0, OTHER.colour, "ego", scenario)
+    draw_car(MplAxes(ax), 0.0, start, 0.0, OTHER.colour, scenario.car)
     ends = []
     for action, words in enumerate(ACTION_NAMES):
         path = path_of(action, seconds, scenario)
@@ -39,7 +40,8 @@ def nine_actions(seconds: int = 2, scenario: Scenario = DEFAULT) -> Figure:
         x, y = path_of(3 * i, seconds, scenario)[-1] + [0, start]
         ax.annotate(words, (x, y), xytext=offset, textcoords="offset points", ha=align,
                     fontsize=TEXT, color=SHADES[i], zorder=7)  # fmt: skip
-    ax.set_ylim((lanes - 0.5) * width + 4.0, -width / 2 - 0.4)
+    top, bottom = edges_of(scenario.road)
+    ax.set(xlim=(left, right), ylim=(bottom + 4.0, top - 0.4), aspect="equal")
     for side in ("top", "right", "left", "bottom"):
         ax.spines[side].set_visible(False)
     ax.set_yticks([])

@@ -18,7 +18,7 @@ from bootcourse.panels.bonus_numbers import bonus_numbers
 from bootcourse.panels.bonus_view import alt_text, bonus
 from bootcourse.panels.number import Number
 from bootcourse.panels.panel import Panel, beside
-from bootcourse.panels.svg import QUIET, printed
+from bootcourse.plots.svg import QUIET, printed
 from bootcourse.policies import idle_policy, rule_policy
 from bootcourse.scenario import DEFAULT
 

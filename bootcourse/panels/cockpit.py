@@ -10,9 +10,8 @@ from bootcourse.episodes.interactive import InteractiveEpisode, interpolate_stat
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.episodes.words import ACCIDENTS
 from bootcourse.methods import display_name, style
-from bootcourse.panels.axes import Axes, number, span
-from bootcourse.panels.road import BEHIND, road
-from bootcourse.panels.svg import GRID, INK, QUIET, drawing, line, rect, text
+from bootcourse.plots.road import BEHIND, road_svg
+from bootcourse.plots.svg import GRID, INK, QUIET, SvgAxes, drawing, line, number, rect, span, text
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, Accident, X
 
 WIDTH, SCALE, HEAD = 1000, 8.0, 24  # pixels; pixels per metre; pixels
@@ -39,7 +38,7 @@ def cockpit(drive: InteractiveEpisode, ghost: Rollout | None, time: float, comin
     """The drawing at a time of the drive (s); coming: the action that was chosen for the next decision, in words."""
     cars, scenario = drive.cars_at(time), drive.scenario
     ghosts = [(ghost_at(ghost, time)[0][EGO], style(ghost.label).colour)] if ghost else []
-    parts, height = road(cars, scenario, OTHER.colour, WIDTH, SCALE, ghosts)
+    parts, height = road_svg(cars, scenario, OTHER.colour, WIDTH, SCALE, ghosts)
     parts = [*_head(drive, ghost, time, coming), f'<g transform="translate(0 {HEAD})">', *parts, "</g>"]
     top = HEAD + height
     parts += _score(drive, ghost, time, cars, top + 30)
@@ -110,14 +109,14 @@ def _returns(drive: InteractiveEpisode, ghost: Rollout | None, time: float, top:
     other = np.concatenate([[0.0], np.cumsum(ghost.rewards)]) if ghost else np.zeros(1)
     rate = drive.scenario.clock.decision_rate
     end = drive.scenario.clock.decisions / rate
-    axes = Axes(716, top, 270, 66, (0, end), span(np.concatenate([mine, other, [-1, 5]]), 6))
-    parts = axes.frame("return, and the ghost's", "time (s)", rows=2)
+    axes = SvgAxes(716, top, 270, 66, (0, end), span(np.concatenate([mine, other, [-1, 5]]), 6))
+    axes.frame("return, and the ghost's", "time (s)", rows=2)
     if ghost:
         look = style(ghost.label)
-        parts += axes.curve(np.arange(len(other)) / rate, other, look, 1.6, 0.75)
-    parts += axes.curve(np.arange(len(mine)) / rate, mine, OTHER, 2.4)
-    x, y = axes.at(min(time, end), mine[-1])
-    return [*parts, f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3.5" fill="{OTHER.colour}"/>']
+        axes.line(np.arange(len(other)) / rate, other, look.colour, 1.1, look.line, 0.75)
+    axes.line(np.arange(len(mine)) / rate, mine, OTHER.colour, 1.6)
+    axes.dot(min(time, end), mine[-1], OTHER.colour)
+    return axes.parts
 
 
 def alt_text(drive: InteractiveEpisode, ghost: Rollout | None, time: float) -> str:

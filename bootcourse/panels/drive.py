@@ -22,8 +22,8 @@ from bootcourse.panels.cockpit import alt_text, cockpit
 from bootcourse.panels.number import Number
 from bootcourse.panels.pad import Pad
 from bootcourse.panels.panel import Panel, button
-from bootcourse.panels.svg import printed
 from bootcourse.panels.ticker import Ticker
+from bootcourse.plots.svg import printed
 from bootcourse.policies import Policy, rule_policy
 from bootcourse.scenario import ACTION_NAMES, DEFAULT, IDLE, Scenario
 

@@ -15,8 +15,8 @@ from bootcourse.panels.number import Number
 from bootcourse.panels.panel import Panel, beside
 from bootcourse.panels.policy_numbers import check_weights, policy_numbers
 from bootcourse.panels.policy_view import COLUMNS, GREEN, HEIGHT, ROAD, WIDTH, marks, policy_chart
-from bootcourse.panels.road import road
-from bootcourse.panels.svg import QUIET, drawing, printed, text
+from bootcourse.plots.road import road_svg
+from bootcourse.plots.svg import QUIET, drawing, printed, text
 from bootcourse.road.state import EGO, SPEED
 from bootcourse.rule import SENTENCES, Reason, rule
 from bootcourse.scenario import ACTION_NAMES, check_p
@@ -78,7 +78,7 @@ class PolicyPanel(Panel):
         self.alt = self._alt(k)
         settings = (self.p.value, self.xi.value, self.alpha.value)
         own, head = style(self.rollout.label).colour, self._head(k)
-        view, _ = road(self.starts[k], self.rollout.scenario, own, WIDTH, self._scale())
+        view, _ = road_svg(self.starts[k], self.rollout.scenario, own, WIDTH, self._scale())
         parts = [*view, *head, *policy_chart(self.seen, *settings, display_name(self.rollout.label), own)]
         parts += marks(int(self.rollout.actions[k]), int(self.decisions.actions[k]), own)
         inner = ['<g transform="translate(8 0)">', *parts, "</g>"]

@@ -2,7 +2,7 @@
 
 from bootcourse.methods import style
 from bootcourse.panels.policy_numbers import PolicyNumbers
-from bootcourse.panels.svg import GRID, INK, QUIET, line, rect, text
+from bootcourse.plots.svg import GRID, INK, QUIET, line, rect, text
 from bootcourse.scenario import ACTION_NAMES, N_ACTIONS
 
 GREEN, OPTIMUM = style("rule").colour, INK

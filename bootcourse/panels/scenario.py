@@ -12,7 +12,7 @@ from bootcourse.panels.number import Number
 from bootcourse.panels.panel import Panel, beside
 from bootcourse.panels.scenario_fields import FIELDS, GROUPS, Field, as_code, built, check_seed
 from bootcourse.panels.scenario_view import alt_text, start_of, top_view
-from bootcourse.panels.svg import printed
+from bootcourse.plots.svg import printed
 from bootcourse.scenario import DEFAULT, Scenario
 
 

@@ -3,9 +3,8 @@
 import numpy as np
 
 from bootcourse.colours import OTHER, TRAP
-from bootcourse.panels.axes import ticks
-from bootcourse.panels.road import road
-from bootcourse.panels.svg import INK, QUIET, drawing, line, rect, text
+from bootcourse.plots.road import road_svg
+from bootcourse.plots.svg import INK, QUIET, drawing, line, rect, text, ticks
 from bootcourse.road.formulas import speed_reward, weighted_reward
 from bootcourse.road.state import EGO, TRAP_1, TRAP_2, X
 from bootcourse.road.vector_env import TrapVectorEnv
@@ -26,13 +25,13 @@ def top_view(scenario: Scenario, cars: np.ndarray) -> str:
     """The drawing."""
     road_width, bottom = scenario.road.lanes * scenario.road.lane_width, 20 + NEAR
     scale = min(NEAR / road_width, 9.0)
-    near, height = road(cars, scenario, OTHER.colour, WIDTH, scale, behind=BEHIND)
+    near, height = road_svg(cars, scenario, OTHER.colour, WIDTH, scale, behind=BEHIND)
     parts = [text(0, 12, "the start, close up", bold=True), f'<g transform="translate(0 20)">{"".join(near)}</g>']
     parts += _distances(scenario, cars, scale, 20 + height)
 
     reach = max(float(cars[:, X].max() - cars[EGO, X]) + 15, 60.0)
     small = min(FAR / road_width, (1 - BEHIND) * WIDTH / reach)
-    whole, height = road(cars, scenario, OTHER.colour, WIDTH, small, behind=BEHIND)
+    whole, height = road_svg(cars, scenario, OTHER.colour, WIDTH, small, behind=BEHIND, names=False)
     top = bottom + 66
     parts += [
         text(0, top - 8, f"all {scenario.vehicles} cars", bold=True),

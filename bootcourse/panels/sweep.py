@@ -13,8 +13,8 @@ import ipywidgets as widgets
 
 from bootcourse.errors import BootcourseError
 from bootcourse.panels.panel import Panel
-from bootcourse.panels.svg import printed
 from bootcourse.panels.sweep_view import choices, rerun, view
+from bootcourse.plots.svg import printed
 from bootcourse.study.results import Results
 from bootcourse.study.sweep import SHIPPED, SweepResult, load_sweep, nearest_setting
 
@@ -101,7 +101,7 @@ class SweepPanel(Panel):
 
     def picture(self) -> tuple[bytes, str, str]:
         if self.happened is None:
-            from bootcourse.panels.svg import drawing, text
+            from bootcourse.plots.svg import drawing, text
 
             words = "The sweep could not be read."
             return printed(drawing(600, 40, [text(10, 25, words)], words)), "image/svg+xml", words

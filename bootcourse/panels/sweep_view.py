@@ -9,15 +9,13 @@ import numpy as np
 
 from bootcourse.colours import ALARM, rgb
 from bootcourse.methods import style
-from bootcourse.panels.axes import Axes, number, rolling, span
-from bootcourse.panels.svg import INK, QUIET, drawing, rect, text
-from bootcourse.statistics import band
+from bootcourse.plots.svg import INK, QUIET, SvgAxes, drawing, number, rect, span, text
+from bootcourse.plots.training_curves import MEASURES, WINDOW, draw_band, draw_training
+from bootcourse.statistics import rolling_means
 from bootcourse.study.results import Results
 from bootcourse.study.sweep import SweepResult, nearest_setting, settings_run
 
 WIDTH, HEIGHT = 1000, 428
-WINDOW = 50  # episodes in a rolling mean
-CURVES = {"success": ("success (% of episodes)", 100.0), "return": ("return of an episode", 1.0)}
 MAPS: dict[str, tuple[str, tuple[str, str], Callable[[SweepResult], float]]] = {
     "success": ("success (%)", ("#EAF2F8", "#08447A"), lambda happened: 100 * _mean(happened, "success")),
     "returns": ("return", ("#EFF5EC", "#15532D"), lambda happened: _mean(happened, "returns")),
@@ -58,20 +56,15 @@ def view(sweep: Results, happened: SweepResult) -> str:
 def curves(happened: SweepResult, top: float) -> list[str]:
     """Success and return over the episodes: thin lines are seeds, the thick one their interquartile mean, its band."""
     parts, look = [], style("bootstrapped")
-    for i, (name, (title, factor)) in enumerate(CURVES.items()):
-        at, means = rolling(np.asarray(happened.results.curves[name], dtype=np.float64) * factor, WINDOW)
-        episodes = happened.results.curves[name].shape[1]
-        y = (0.0, 100.0) if name == "success" else span(means.ravel(), 4.0)
-        axes = Axes(48 + i * 500, top, 430, 130, (0, max(episodes, 1)), y)
-        parts += axes.frame(title, f"episode (means of the last {WINDOW})")
-        whole = np.isfinite(means).all(axis=0)
-        if whole.any():
-            middle, low, high = band(means[:, whole])
-            parts += axes.band(at[whole], low, high, look)
-        for seed in means:
-            parts += axes.curve(at, seed, look, 0.9, 0.6)
-        if whole.any():
-            parts += axes.curve(at[whole], middle, look, 2.6)
+    for i, name in enumerate(("success", "return")):
+        its, values = MEASURES[name], happened.results.curves[name]
+        at, means = rolling_means(values.astype(np.float64) * its.factor, WINDOW)
+        episodes = (0, max(values.shape[1], 1))
+        axes = SvgAxes(48 + i * 500, top, 430, 130, episodes, its.limits or span(means.ravel(), its.least))
+        axes.frame(its.label, f"episode (means of the last {WINDOW})")
+        draw_band(axes, at, means, look.colour)
+        draw_training(axes, at, means, look)
+        parts += axes.parts
     return parts
 
 
@@ -111,7 +104,7 @@ def _map(ps, xis, values, colours, chosen, left: float, top: float) -> list[str]
                 continue
             share = (values[p, xi] - low) / (high - low) if high > low else 0.0
             parts.append(rect(*here, _between(*colours, share), 'rx="2"'))
-            ink = "white" if share > 0.45 else "#1F2933"
+            ink = "white" if share > 0.45 else "black"
             parts.append(text(x + across / 2, y + tall / 2 + 4, _short(values[p, xi]), "middle", ink, 12, bold=True))
             if xi == 0:
                 parts.append(text(x + across / 2, y + tall / 2 + 19, "any p", "middle", ink, 10))

@@ -26,9 +26,9 @@ from bootcourse.methods import METHODS, display_name
 from bootcourse.panels.background import Background
 from bootcourse.panels.number import Number
 from bootcourse.panels.panel import Panel, button
-from bootcourse.panels.svg import printed
 from bootcourse.panels.train_controls import CONTROLLED, numbers_for, whole_number, without
 from bootcourse.panels.training_chart import EARLIER, Drawn, alt_text, label_of, training_chart
+from bootcourse.plots.svg import printed
 from bootcourse.scenario import DEFAULT, Scenario
 from bootcourse.storage.runs import save_runs
 

@@ -8,24 +8,13 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from bootcourse.colours import Style
 from bootcourse.learn.settings import SHARED, Settings, settings_for
 from bootcourse.methods import display_name, style
-from bootcourse.panels.axes import Axes, number, rolling, span
-from bootcourse.panels.svg import INK, QUIET, drawing, line, text
-from bootcourse.statistics import iqm
+from bootcourse.plots.svg import INK, QUIET, SvgAxes, drawing, line, number, span, text
+from bootcourse.plots.training_curves import MEASURES, WINDOW, draw_training, finished, window_of
+from bootcourse.statistics import rolling_means
 
-WINDOW = 50  # episodes in a rolling mean, fewer in a short training
-CHARTS = {  # curve: (title, factor, least width of its axis)
-    "success": ("success (% of episodes)", 100.0, 100.0),
-    "return": ("return of an episode", 1.0, 4.0),
-    "speed": ("speed (m/s)", 1.0, 1.0),
-    "distance": ("distance (m)", 1.0, 200.0),
-    "alpha": ("α, weight of the entropy", 1.0, 0.002),
-    "xi": ("ξ, weight of the soft constraint", 1.0, 0.2),
-    "beta": ("β, share of demonstrations", 1.0, 0.1),
-    "entropy": ("entropy of π (nats)", 1.0, 0.5),
-}
+SHOWN = ("success", "return", "speed", "distance", "alpha", "xi", "beta", "entropy")  # of the measures
 WIDTH, HEIGHT, HEAD = 1040, 400, 42
 COLUMNS, CHART, GAP = 4, (196, 108), (60, 66)  # charts in a row; a chart's size; between two charts
 EARLIER = 7  # trainings that stay behind the last
@@ -54,42 +43,34 @@ def label_of(settings: Settings) -> str:
 def training_chart(trainings: Sequence[Drawn]) -> str:
     """The drawing, always of the same size: the last training in full, those before it faint."""
     trainings = list(trainings)[-EARLIER - 1 :]
-    episodes = max((each.episodes for each in trainings), default=1000)
-    finished = max((_finished(each) for each in trainings), default=0)
-    window = max(1, min(WINDOW, finished // 4))
-    parts = _head(trainings, window if finished else 0)
-    for i, (curve, (title, factor, least)) in enumerate(CHARTS.items()):
-        rolled = [rolling(each.curves[curve] * factor, window) for each in trainings]
-        seen = np.concatenate([means.ravel() for _, means in rolled]) if rolled else np.zeros(0)
+    curves = [each.curves for each in trainings]
+    episodes, window = max((each.episodes for each in trainings), default=1000), window_of(curves)
+    parts = _head(trainings, window if any(map(finished, curves)) else 0)
+    for i, name in enumerate(SHOWN):
+        its = MEASURES[name]
+        rolled = [rolling_means(each[name] * its.factor, window) for each in curves]
         left = 50 + (i % COLUMNS) * (CHART[0] + GAP[0])
         top = HEAD + 26 + (i // COLUMNS) * (CHART[1] + GAP[1])
-        y = (0.0, 100.0) if curve == "success" else span(seen, least)
-        axes = Axes(left, top, *CHART, (0, max(episodes, 1)), y)
-        parts += axes.frame(title, "episode" if i >= COLUMNS else "")
+        seen = [mean for _, means in rolled for mean in means.ravel()]
+        axes = SvgAxes(left, top, *CHART, (0, max(episodes, 1)), its.limits or span(seen, its.least))
+        axes.frame(its.label, "episode" if i >= COLUMNS else "")
         for each, (at, means) in zip(trainings, rolled, strict=True):
-            parts += _training(axes, at, means, style(each.method), each is trainings[-1])
+            last = each is trainings[-1]
+            end = draw_training(axes, at, means, style(each.method), seeds=last)
+            if last and np.isfinite(end):
+                _end(axes, at[np.isfinite(means).all(axis=0)][-1], end, style(each.method).colour)
+        parts += axes.parts
     return drawing(WIDTH, HEIGHT, parts, alt_text(trainings))
 
 
-def _training(axes: Axes, at: np.ndarray, means: np.ndarray, look: Style, last: bool) -> list[str]:
-    """Thin lines for the seeds, their interquartile mean as far as all of them got; faint if it is not the last."""
-    whole = np.isfinite(means).all(axis=0)
-    parts = []
-    if last:
-        for seed in means:
-            parts += axes.curve(at, seed, look._replace(line="-"), 0.9, 0.6)
-    if whole.any():
-        middle = iqm(means[:, whole], axis=0)
-        parts += axes.curve(at[whole], middle, look, 2.4 if last else 1.6, 1.0 if last else 0.5)
-        if last:
-            x, y = axes.at(at[whole][-1], middle[-1])
-            parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3" fill="{look.colour}"/>')
-            anchor, aside = ("end", -5) if x > axes.left + 0.75 * axes.width else ("start", 6)
-            above = y - 6 if y > axes.top + 14 else y + 15
-            halo = 'paint-order="stroke" stroke="var(--jp-layout-color0, #FFFFFF)" stroke-width="3"'
-            words = text(x + aside, above, _rounded(middle[-1]), anchor, INK, 11, bold=True)
-            parts.append(words.replace("<text ", f"<text {halo} ", 1))
-    return parts
+def _end(axes: SvgAxes, episode: int, value: float, colour: str) -> None:
+    """A dot where the last training is now, and its value."""
+    x, y = axes.dot(episode, value, colour)
+    anchor, aside = ("end", -5) if x > axes.left + 0.75 * axes.width else ("start", 6)
+    above = y - 6 if y > axes.top + 14 else y + 15
+    words = text(x + aside, above, _rounded(value), anchor, INK, 11, bold=True)
+    halo = 'paint-order="stroke" stroke="#FFFFFF" stroke-width="3"'
+    axes.parts.append(words.replace("<text ", f"<text {halo} ", 1))
 
 
 def _rounded(value: float) -> str:
@@ -122,10 +103,6 @@ def _short(label: str, longest: int = 36) -> str:
     return label if len(label) <= longest else label[: longest - 1] + "…"
 
 
-def _finished(training: Drawn) -> int:
-    return int(np.isfinite(np.atleast_2d(training.curves["return"])).sum(axis=1).max(initial=0))
-
-
 EMPTY = (
     "Training curves, still empty: after Train, success, return, speed, distance and what steers the learner "
     "grow here by episode."
@@ -136,11 +113,8 @@ def alt_text(trainings: Sequence[Drawn]) -> str:
     """What a reader who sees nothing should know."""
     told = []
     for each in trainings:
-        count = _finished(each)
+        count = finished(each.curves)
         if count:
-            last = {curve: np.nanmean(rolling(each.curves[curve], WINDOW)[1][:, -1]) for curve in ("success", "return")}
-            told.append(
-                f"{each.label}, after {count} episodes: success {100 * last['success']:.0f} %, "
-                f"return {last['return']:.1f}."
-            )
+            success, returns = (np.nanmean(rolling_means(each.curves[name], WINDOW)[1][:, -1]) for name in SHOWN[:2])
+            told.append(f"{each.label}, after {count} episodes: success {100 * success:.0f} %, return {returns:.1f}.")
     return " ".join(["Training curves.", *told]) if told else EMPTY

@@ -13,14 +13,13 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from bootcourse.colours import Style
+from bootcourse.colours import GRID, INK, QUIET, Style
 from bootcourse.errors import BootcourseError
 from bootcourse.files import write_bytes
 from bootcourse.methods import style
 
 DPI = 110
 WIDTH = 7.0  # inches
-INK, QUIET, GRID = "#1F2933", "#5F6B77", "#E3E7EB"  # words and axes; less important words; grid lines
 TITLE, TEXT, SMALL = 11.5, 8.5, 7.5  # points
 
 

@@ -7,117 +7,37 @@ Everything is drawn in metres and to scale. In `top_view` and `top_view_over_tim
 from collections.abc import Sequence
 
 import numpy as np
-from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
-from matplotlib.patches import FancyBboxPatch, Polygon, Rectangle
-from matplotlib.transforms import Affine2D
 
-from bootcourse.colours import ALARM, TRAFFIC, TRAP
+from bootcourse.colours import ALARM, EDGE
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.episodes.words import cars_at, doing, outcome, overtaken, sentence
 from bootcourse.errors import BootcourseError
 from bootcourse.methods import display_name, style
+from bootcourse.plots.canvas import MplAxes
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, WIDTH, finish, new_figure
-from bootcourse.road.state import EGO, HEADING, LANE, SPEED, TRAP_1, TRAP_2, X, Y
+from bootcourse.plots.road import draw_cars, draw_road, edges_of
+from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, X, Y
 from bootcourse.scenario import Scenario
 
-ASPHALT, PAINT, EDGE = "#F1F3F5", "#B6BEC7", "#7C8792"
-DASH, PERIOD = 3.0, 9.0  # m; lane lines are dashes of 3 m, one every 9 m
 NEAR, FAR, SPAN = 16.0, 70.0, 84.0  # m; least behind the ego, most to either side, least in all
-NAME = 9.0  # m of road that the name of a trap takes
 CLEAR = 15.0  # m; so far ahead of trap 1 the escape is over
 TRAIL = 3.0  # s of the ego's own path behind it
 
 
-def draw_road(ax, scenario: Scenario, left: float, right: float, origin: float) -> None:
-    """The empty road from `left` to `right`, metres from `origin`, which is a place on the road (m)."""
-    width, lanes = scenario.road.lane_width, scenario.road.lanes
-    top, bottom = -width / 2, (lanes - 0.5) * width
-    ax.add_patch(Rectangle((left, top), right - left, bottom - top, facecolor=ASPHALT, edgecolor="none", zorder=0))
-    ax.hlines([top, bottom], left, right, color=EDGE, linewidth=1.3, zorder=1)
-    first = np.floor((origin + left) / PERIOD) * PERIOD - origin
-    starts = np.arange(first, right, PERIOD)
-    dashes = [
-        [(max(x, left), y), (min(x + DASH, right), y)]
-        for y in (np.arange(1, lanes) - 0.5) * width
-        for x in starts
-        if x + DASH > left
-    ]
-    ax.add_collection(LineCollection(dashes, colors=PAINT, linewidths=1.2, zorder=1))
-    ax.set(xlim=(left, right), ylim=(bottom + 0.4, top - 0.4), aspect="equal")
-
-
-def draw_car(
-    ax, x: float, y: float, heading: float, colour: str, gid: str, scenario: Scenario, zorder: float = 4
-) -> None:
-    """One car, to scale, its windscreen towards its nose; `gid` names the body in tests and SVG files."""
-    length, width = scenario.car.length, scenario.car.width
-    place = Affine2D().rotate(heading).translate(x, y) + ax.transData
-    body = FancyBboxPatch(
-        (-length / 2, -width / 2),
-        length,
-        width,
-        boxstyle=f"round,pad=0,rounding_size={0.22 * width}",
-        facecolor=colour,
-        edgecolor="white",
-        linewidth=0.7,
-        transform=place,
-        zorder=zorder,
-        gid=gid,
-    )
-    screen = np.array([[0.08, -0.36], [0.24, -0.30], [0.24, 0.30], [0.08, 0.36]]) * [length, width]
-    rear = np.array([[-0.34, -0.32], [-0.26, -0.36], [-0.26, 0.36], [-0.34, 0.32]]) * [length, width]
-    ax.add_patch(body)
-    for glass in (screen, rear):
-        ax.add_patch(
-            Polygon(glass, facecolor="white", alpha=0.6, edgecolor="none", transform=place, zorder=zorder + 0.1)
-        )
-    for part in ax.patches[-3:]:
-        part.set_clip_path(ax.patch)
-
-
 def draw_moment(ax, rollout: Rollout, time: float, left: float, right: float, origin: float | None = None) -> None:
     """The road and its cars at a time; x is in metres from `origin`, a place on the road (None: the ego)."""
-    cars, scenario = cars_at(rollout, time), rollout.scenario
-    origin = cars[EGO, X] if origin is None else origin
-    draw_road(ax, scenario, left, right, origin)
-    half = scenario.car.length / 2
-    colour = style(rollout.label).colour
-    _draw_trail(ax, rollout, time, origin, colour)
-    for i, (x, y, heading) in enumerate(np.column_stack([cars[:, X] - origin, cars[:, Y], cars[:, HEADING]])):
-        if not left - half < x < right + half:
-            continue
-        kind = {EGO: "ego", TRAP_1: "trap 1", TRAP_2: "trap 2"}.get(i, f"traffic {i - TRAP_2}")
-        paint = {EGO: colour, TRAP_1: TRAP, TRAP_2: TRAP}.get(i, TRAFFIC)
-        draw_car(ax, x, y, heading, paint, kind, scenario, 6 if i == EGO else 4)
-    for i, text in ((TRAP_1, "trap 1"), (TRAP_2, "trap 2")):
-        _name_trap(ax, text, cars - [origin, *[0] * (cars.shape[1] - 1)], i, left, right, half)
+    canvas, cars, scenario = MplAxes(ax), cars_at(rollout, time), rollout.scenario
+    origin, colour = cars[EGO, X] if origin is None else origin, style(rollout.label).colour
+    draw_road(canvas, scenario, left, right, origin)
+    top, bottom = edges_of(scenario.road)
+    ax.set(xlim=(left, right), ylim=(bottom + 0.4, top - 0.4), aspect="equal")
+    trail = np.array([cars_at(rollout, t)[EGO, [X, Y]] for t in np.arange(max(0.0, time - TRAIL), time + 1e-9, 0.25)])
+    canvas.line(trail[:, 0] - origin, trail[:, 1], colour, 2, opacity=0.35)
+    draw_cars(canvas, cars, scenario, colour, left, right, origin)
     if rollout.accident and time > rollout.times[-1] - 1e-9:
         x, y = cars[EGO, X] - origin, cars[EGO, Y]
         ax.plot(x, y, marker="X", markersize=12, color=ALARM, markeredgecolor="white", zorder=8, gid="accident")
-
-
-def _draw_trail(ax, rollout: Rollout, time: float, origin: float, colour: str) -> None:
-    moments = np.arange(max(0.0, time - TRAIL), time + 1e-9, 0.25)
-    if len(moments) > 1:
-        path = np.array([cars_at(rollout, t)[EGO, [X, Y]] for t in moments]) - [origin, 0]
-        ax.plot(*path.T, color=colour, linewidth=2, alpha=0.35, solid_capstyle="round", zorder=2)
-
-
-def _name_trap(ax, text: str, cars: np.ndarray, trap: int, left: float, right: float, half: float) -> None:
-    """The trap's name in front of it, or behind it where there is no room; at the edge, with its
-    distance, where it is out of the picture. cars: x from where the picture's 0 is."""
-    x, y, ahead = cars[trap, X], cars[trap, Y], cars[trap, X] - cars[EGO, X]
-    place = {"va": "center", "fontsize": SMALL, "color": TRAP, "zorder": 7, "clip_on": True}
-    gaps = cars[np.abs(cars[:, Y] - y) < 2.5, X] - x  # to the cars in and close to its lane
-    if x < left + half:
-        ax.text(left + 1, y, f"◂ {text}, {-ahead:.0f} m behind", ha="left", **place)
-    elif x > right - half:
-        ax.text(right - 1, y, f"{text}, {ahead:.0f} m ahead ▸", ha="right", **place)
-    elif x + half + NAME > right or np.any((gaps > 0) & (gaps < 2 * half + NAME)):
-        ax.text(x - half - 0.8, y, text, ha="right", **place)
-    else:
-        ax.text(x + half + 0.8, y, text, ha="left", **place)
 
 
 def window(rollout: Rollout, times: Sequence[float]) -> tuple[float, float]:

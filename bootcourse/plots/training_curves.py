@@ -1,31 +1,79 @@
-"""Training curves: the share of escapes and the return, episode by episode, of one method or several."""
+"""Training curves, episode by episode: how figures and panels draw them, and the figure of one or several methods."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, MaxNLocator, PercentFormatter
+from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from bootcourse.colours import Style
 from bootcourse.episodes.words import sentence
 from bootcourse.errors import BootcourseError
-from bootcourse.methods import display_name
-from bootcourse.plots.figure import (
-    INK,
-    TEXT,
-    finish,
-    in_front,
-    label_ends,
-    new_figure,
-    plain_axes,
-    styles,
-    wrapped,
-)
-from bootcourse.statistics import band, rolling_means
+from bootcourse.methods import display_name, style
+from bootcourse.plots.canvas import Canvas, MplAxes
+from bootcourse.plots.figure import QUIET, SMALL, finish, in_front, label_ends, new_figure, plain_axes, styles, wrapped
+from bootcourse.statistics import band, iqm, rolling_means
 
 WINDOW = 50  # episodes in a rolling mean
-POINTS = 200  # at most so many episodes are drawn
-MEASURES = {"success": "escapes (% of the last {} episodes)", "return": "return of an episode (mean of the last {})"}
+POINTS = 100  # at most so many episodes are drawn
+
+
+class Measure(NamedTuple):
+    """What can be drawn of each episode."""
+
+    label: str  # with its unit
+    factor: float = 1.0  # from what `Result.curves` holds to this unit
+    least: float = 0.0  # the axis is at least so wide
+    limits: tuple[float, float] | None = None  # of the axis, if they are fixed
+
+
+MEASURES = {
+    "success": Measure("success (% of episodes)", 100.0, limits=(0.0, 100.0)),
+    "return": Measure("return of an episode", least=4.0),
+    "speed": Measure("speed (m/s)", least=1.0),
+    "distance": Measure("distance (m)", least=200.0),
+    "alpha": Measure("α, weight of the entropy", least=0.002),
+    "xi": Measure("ξ, weight of the soft constraint", least=0.2),
+    "beta": Measure("β, share of demonstrations", least=0.1),
+    "entropy": Measure("entropy of π (nats)", least=0.5),
+    "effective": Measure("effective number of actions", least=1.0),
+}
+
+
+def finished(curves: Mapping[str, np.ndarray]) -> int:
+    """Episodes of the agent that got farthest."""
+    return int(np.isfinite(np.atleast_2d(curves.get("return", np.nan))).sum(1).max(initial=0))
+
+
+def window_of(curves: Sequence[Mapping[str, np.ndarray]]) -> int:
+    """Episodes in the rolling mean: fewer where the trainings were short."""
+    return max(1, min(WINDOW, max(map(finished, curves), default=0) // 4))
+
+
+def draw_training(canvas: Canvas, at: np.ndarray, means: np.ndarray, look: Style, seeds: bool = True) -> float:
+    """Thin lines for the seeds, a thick one for their interquartile mean as far as all of them got.
+
+    at (points,), means (seeds, points): what `rolling_means` returns; without `seeds` it is faint, an earlier
+    training behind the last. Returns where the thick line ends, NaN where there is none.
+    """
+    for seed in means if seeds else ():
+        canvas.line(at, seed, look.colour, 0.6, opacity=0.5)
+    whole = np.isfinite(means).all(axis=0)
+    if not whole.any():
+        return float("nan")
+    middle = iqm(means[:, whole], axis=0)
+    width, opacity = (max(1.8, look.width), 1.0) if seeds else (1.1, 0.5)
+    canvas.line(at[whole], middle, look.colour, width, look.line, opacity)
+    return float(middle[-1])
+
+
+def draw_band(canvas: Canvas, at: np.ndarray, means: np.ndarray, colour: str) -> None:
+    """The 95 % bootstrap interval over seeds of that interquartile mean, where there are two seeds or more."""
+    whole = np.isfinite(means).all(axis=0)
+    if len(means) > 1 and whole.any():
+        _, low, high = band(means[:, whole])
+        canvas.fill([*at[whole], *at[whole][::-1]], [*high, *low[::-1]], colour, 0.15)
 
 
 def training_curves(
@@ -33,75 +81,68 @@ def training_curves(
     title: str,
     constants: Mapping[str, Mapping[str, float]] | None = None,
     paper: Mapping[str, Mapping[str, float]] | None = None,
+    measures: Sequence[str] = ("success", "return"),
 ) -> Figure:
-    """Success and return over the episodes of training.
+    """Some measures over the episodes of training, two in a row, each method in its own look.
 
-    curves: {method: `Result.curves`}, whose "success" and "return" are (agents, episodes), NaN where
-    an interrupt came first. Thin lines are agents, the thick one their interquartile mean (up to
-    where every agent got), the band its 95 % bootstrap interval over agents, where there are two or more.
+    curves: {method: `Result.curves`}, whose measures are (agents, episodes), NaN where an interrupt came
+    first. Thin lines are agents, the thick one their interquartile mean (up to where every agent got), the
+    band its 95 % bootstrap interval over agents, where there are two or more.
     constants: {"rule": {"return": 49.0}}: horizontal lines. paper: {method: {"success": 0.95}}: the
     paper's numbers, as open diamonds at the right. Raises BootcourseError if no episode was finished.
     """
     if not curves:
         raise BootcourseError("There are no curves to draw: give {method: result.curves}.")
-    window = _window(curves)
-    rolled = {(method, measure): _rolled(curves, method, measure, window) for method in curves for measure in MEASURES}
-    episodes = max(_finished(each) for each in curves.values())
+    window, episodes = window_of(list(curves.values())), max(map(finished, curves.values()))
     looks = dict(zip(curves, styles(list(curves)), strict=True))
-    title = wrapped(title)
-    figure, height = new_figure(4.0), 0.72 - 0.05 * len(title.splitlines())
-    ends: dict[str, list] = {measure: [] for measure in MEASURES}
-    for i, (measure, label) in enumerate(MEASURES.items()):
-        ax = figure.add_axes((0.07 + 0.41 * i, 0.13, 0.34, height))
-        plain_axes(ax, label.format(window))
-        ax.set_xlim(0, episodes)
-        ax.set_xlabel("episode", fontsize=TEXT, color=INK)
+    constants, paper, title, rows = constants or {}, paper or {}, wrapped(title), -(-len(measures) // 2)
+    head, row = 0.5 + 0.2 * len(title.splitlines()), 2.7  # inches
+    total = head + rows * row
+    figure = new_figure(total, 9.0)
+    ends: dict[str, dict[str, float]] = {}
+    for i, measure in enumerate(measures):
+        bottom = total - head - (i // 2 + 1) * row + 0.85
+        ax = figure.add_axes((0.05 + 0.49 * (i % 2), bottom / total, 0.32, (row - 0.85) / total))
+        plain_axes(ax, MEASURES[measure].label)
+        ax.set_xlim(0, max(episodes, 1))
+        ax.set_xlabel("training episode", fontsize=SMALL, color=QUIET)
         ax.xaxis.set_major_locator(MaxNLocator(5, integer=True))
-        for method in sorted(curves, key=in_front):
-            value = _draw(ax, rolled[method, measure], looks[method], in_front(method))
-            ends[measure].append((value, display_name(method), looks[method].colour))
-        for method, values in (constants or {}).items():
-            if measure in values:
-                look = styles([method])[0]
-                ax.axhline(values[measure], color=look.colour, linestyle=look.line, linewidth=look.width, zorder=2)
-                ends[measure].append((values[measure], display_name(method), look.colour))
-        for method, values in (paper or {}).items():
-            if measure in values:
-                colour = styles([method])[0].colour
-                ax.plot(
-                    episodes,
-                    values[measure],
-                    marker="D",
-                    markersize=5,
-                    markerfacecolor="white",
-                    markeredgecolor=colour,
-                    linestyle="none",
-                    clip_on=False,
-                    zorder=6,
-                )
-        if measure == "success":
-            ax.set_ylim(-0.03, 1.03)
-            ax.yaxis.set_major_formatter(PercentFormatter(1, symbol=""))
-        else:
-            low, high = ax.get_ylim()
-            ax.set_ylim(low - max(0, 2 - (high - low)), high + max(0, 2 - (high - low)))
-            ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}".replace("-", "−")))
-    label_ends(figure.axes[1], ends["return"], wrap=14)
+        ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}".replace("-", "−")))
+        ends[measure] = _draw(ax, measure, curves, looks, window, constants, paper)
+    each = "each episode" if window == 1 else f"over the last {window} episodes"
+    words = f"Thin: agents. Thick: their interquartile mean with its 95 % interval. All {each}."
+    words += " Diamonds: the paper's test results." * bool(paper)
+    figure.text(0.012, 0.1 / total, words, fontsize=SMALL, color=QUIET)
     return finish(figure, title, _alt(curves, ends))
 
 
-def _window(curves: Mapping) -> int:
-    """Episodes in the rolling mean: fewer where the training was short."""
-    return max(1, min(WINDOW, max(_finished(each) for each in curves.values()) // 4))
+def _draw(ax, measure: str, curves, looks, window: int, constants, paper) -> dict[str, float]:
+    """One measure of all methods; returns where each method's line ends."""
+    its, canvas, ends, labels = MEASURES[measure], MplAxes(ax), {}, []
+    for method in sorted(curves, key=in_front):
+        at, means = rolling_means(_values(curves, method, measure) * its.factor, window, POINTS)
+        draw_band(canvas, at, means, looks[method].colour)
+        end = draw_training(canvas, at, means, looks[method])
+        ends[method] = end if np.isfinite(end) else float(np.nanmean(means))
+        labels.append((ends[method], display_name(method), looks[method].colour))
+    for method, values in constants.items():
+        if measure in values:
+            look, level = style(method), values[measure] * its.factor
+            ax.axhline(level, color=look.colour, linestyle=look.line, linewidth=look.width, zorder=1.5)
+            labels.append((level, display_name(method), look.colour))
+    for method, values in paper.items():
+        if measure in values:
+            place, look = values[measure] * its.factor, {"mfc": "white", "mec": style(method).colour, "ms": 5}
+            ax.plot(1.0, place, "D", **look, transform=ax.get_yaxis_transform(), clip_on=False, zorder=6)
+    low, high = its.limits or ax.get_ylim()
+    air = 0.03 * (high - low) if its.limits else max(0.0, its.least - (high - low)) / 2
+    ax.set_ylim(low - air, high + air)
+    label_ends(ax, labels, size=SMALL, wrap=22, gap=0.035)
+    return ends
 
 
-def _finished(curves: Mapping) -> int:
-    """Episodes of the agent that got farthest."""
-    return int(np.isfinite(np.atleast_2d(curves.get("return", np.nan))).sum(1).max(initial=0))
-
-
-def _rolled(curves: Mapping, method: str, measure: str, window: int) -> tuple[np.ndarray, np.ndarray]:
-    """(episode numbers (points,), rolling means (agents, points)), NaN after an agent's last episode."""
+def _values(curves: Mapping, method: str, measure: str) -> np.ndarray:
+    """A method's curves (agents, episodes), without agents that did not finish an episode."""
     try:
         values = np.atleast_2d(np.asarray(curves[method][measure], dtype=float))
     except KeyError:
@@ -111,35 +152,13 @@ def _rolled(curves: Mapping, method: str, measure: str, window: int) -> tuple[np
     values = values[np.isfinite(values).any(1)]
     if not values.size:
         raise BootcourseError(f"'{method}' has not finished an episode: let it train longer before you draw it.")
-    return rolling_means(values, window, POINTS)
+    return values
 
 
-def _draw(ax, rolled: tuple[np.ndarray, np.ndarray], look: Style, order: float) -> float:
-    """One method's lines and band; returns where its line ends."""
-    at, means = rolled
-    ax.plot(at, means.T, color=look.colour, linewidth=0.7, alpha=0.45, zorder=order)
-    whole = np.isfinite(means).all(0)  # the points that every agent got to
-    if not whole.any():
-        return _end(means)
-    middle, low, high = band(means[:, whole])
-    width = max(2.2, look.width)
-    ax.plot(at[whole], middle, color=look.colour, linestyle=look.line, linewidth=width, zorder=order + 0.2)
-    if len(means) > 1:
-        ax.fill_between(at[whole], low, high, color=look.colour, alpha=0.13, linewidth=0, zorder=order - 0.4)
-    return float(middle[-1])
-
-
-def _end(means: np.ndarray) -> float:
-    """Where the curves of agents that did not all get anywhere end: the mean over those that did."""
-    return float(np.nanmean(means)) if np.isfinite(means).any() else 0.0
-
-
-def _alt(curves: Mapping, ends: dict[str, list]) -> str:
+def _alt(curves: Mapping, ends: Mapping[str, Mapping[str, float]]) -> str:
     told = []
-    last = {(measure, called): value for measure in MEASURES for value, called, _ in ends[measure]}
     for method in curves:
-        agents, called = len(np.atleast_2d(curves[method]["return"])), display_name(method)
-        success, returns = 100 * last["success", called], last["return", called]
-        told.append(f"{called} ({agents} agent{'s' * (agents > 1)}) ends at {success:.0f} % and {returns:.1f}")
-    told = sentence("; ".join(told))
-    return f"Two curves over the episodes of training, the share of escapes and the return. {told}."
+        agents = len(next(iter(curves[method].values())))
+        values = ", ".join(f"{MEASURES[measure].label} {ends[measure][method]:.3g}" for measure in ends)
+        told.append(f"{display_name(method)} ({agents} agent{'s' * (agents > 1)}) ends at {values}")
+    return f"Curves over the episodes of training. {sentence('; '.join(told))}."

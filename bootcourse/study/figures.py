@@ -1,128 +1,46 @@
 """The study's figures: the paper's training panels, exploration, and final scores. One function each.
 
-Every one takes `Results` and returns a matplotlib figure with `figure.alt`. Thin lines are seeds, the
-thick one is their interquartile mean, the band its 95 % interval; open diamonds are the paper's
-test results. Titles are made from the numbers, so they cannot say what the numbers do not.
+Every one takes `Results` and returns a matplotlib figure with `figure.alt`. Titles are made from the
+numbers, so they cannot say what the numbers do not.
 """
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from bootcourse.methods import display_name, style
-from bootcourse.plots.figure import GRID, QUIET, SMALL, finish, in_front, label_ends, new_figure, plain_axes
-from bootcourse.statistics import ESCAPES, band, interval
+from bootcourse.plots.figure import GRID, QUIET, SMALL, finish, new_figure, plain_axes
+from bootcourse.plots.training_curves import MEASURES, training_curves
+from bootcourse.statistics import ESCAPES, interval
 from bootcourse.study.paper import COLUMNS, PRINTED, RATES
 from bootcourse.study.results import Results
 
-POINTS = 60  # at most this many points on a curve, each the mean of a block of episodes
+TRAINING = {"success": "success", "return": "returns", "speed": "speed", "distance": "distance"}  # curve: column
 
 
-LEGEND = (
-    "Thin lines: agents. Thick: their interquartile mean, with its 95 % interval. Diamonds: the paper's test results."
-)
+def of_methods(results: Results, methods: Sequence[str]) -> dict[str, dict[str, np.ndarray]]:
+    """{method: {curve: (agents, episodes)}}, without agents that were stopped: they have no curve to their end."""
+    found = {}
+    for method in methods:
+        if method in results.methods:
+            curves = results.of(method).curves
+            whole = np.isfinite(next(iter(curves.values()))).all(axis=1)
+            for values in curves.values():
+                whole &= np.isfinite(values).all(axis=1)
+            found[method] = {name: values[whole] for name, values in curves.items()}
+    return {method: curves for method, curves in found.items() if len(next(iter(curves.values())))}
 
 
-class CurveAxes(NamedTuple):
-    """One measure of a training figure."""
-
-    curve: str  # its name in `Results.curves`
-    label: str
-    column: str | None = None  # the paper's column of the same measure
-    scale: float = 1.0
-
-
-PANELS = (
-    CurveAxes("success", "success rate, %", "success", 100.0),
-    CurveAxes("return", "return", "returns"),
-    CurveAxes("speed", "mean speed, m/s", "speed"),
-    CurveAxes("distance", "distance, m", "distance"),
-)
-
-
-def blocks(curves: np.ndarray, points: int = POINTS) -> tuple[np.ndarray, np.ndarray]:
-    """Means of consecutive blocks of episodes: (seeds, episodes) -> middles (points,), (seeds, points)."""
-    episodes = curves.shape[1]
-    size = max(1, -(-episodes // points))
-    edges = np.arange(0, episodes, size)
-    counts = np.diff([*edges, episodes])
-    return edges + counts / 2, np.add.reduceat(curves.astype(np.float64), edges, axis=1) / counts
-
-
-def draw_curve(ax, label: str, curves: np.ndarray) -> float:
-    """Seeds, interquartile mean and band of one method: (seeds, episodes). Returns where the curve ends."""
-    curves = curves[np.isfinite(curves).all(axis=1)]  # an agent that was stopped has no curve to its end
-    if not len(curves):
-        return np.nan
-    its, front = style(label), in_front(label)
-    x, y = blocks(curves)
-    middle, low, high = band(y)
-    ax.plot(x, y.T, color=its.colour, linewidth=0.4, alpha=0.35, zorder=front - 1)
-    ax.fill_between(x, low, high, color=its.colour, alpha=0.18, linewidth=0, zorder=front - 0.5)
-    every = max(1, len(x) // 8)
-    ax.plot(
-        x,
-        middle,
-        its.line,
-        color=its.colour,
-        linewidth=its.width,
-        marker=its.marker,
-        ms=4,
-        markevery=every,
-        zorder=front,
-    )
-    return float(middle[-1])
-
-
-def training_panels(
-    results: Results, methods: Sequence[str], title: str, panels=PANELS, rule: Results | None = None
-) -> Figure:
-    """Panels of training curves, two in a row, with each method's name at its end."""
-    methods = [method for method in methods if method in results.methods]
-    rows = -(-len(panels) // 2)
-    figure = new_figure(0.7 + 2.6 * rows, 9.0)
-    axes = figure.subplots(rows, 2, squeeze=False)
-    figure.subplots_adjust(
-        left=0.045, right=0.865, top=1 - 0.9 / (0.7 + 2.6 * rows), bottom=0.22 / rows, hspace=0.42, wspace=0.56
-    )
-    figure.canvas.draw()
-    for i, panel in enumerate(panels):
-        ax, ends = axes.flat[i], []
-        for method in methods:
-            curves = results.of(method).curves[panel.curve] * panel.scale
-            end = draw_curve(ax, method, curves)
-            if np.isfinite(end):
-                ends.append((end, display_name(method), style(method).colour))
-            if panel.column and method in PRINTED:
-                ax.plot(1.0, PRINTED[method][panel.column].mean, "D", mfc="white", mec=style(method).colour, ms=5,
-                        transform=ax.get_yaxis_transform(), clip_on=False, zorder=4)  # fmt: skip
-        if rule is not None and panel.column:
-            level = float(rule.scores(panel.column)[0]) * panel.scale
-            ax.axhline(level, color=style("rule").colour, linewidth=style("rule").width)
-            ends.append((level, display_name("rule"), style("rule").colour))
-        plain_axes(ax, panel.label)
-        ax.set_xlim(0, results.curves[panel.curve].shape[1])
-        ax.set_xlabel("training episode", fontsize=SMALL, color=QUIET)
-        label_ends(ax, ends, size=SMALL, wrap=22, gap=0.035)
-    for ax in list(axes.flat)[len(panels) :]:
-        ax.set_visible(False)
-    figure.text(0.012, 0.01, LEGEND, fontsize=SMALL, color=QUIET)
-    return finish(figure, title, panels_in_words(results, methods, panels))
-
-
-def panels_in_words(results: Results, methods: Sequence[str], panels: Sequence[CurveAxes]) -> str:
-    """The last tenth of every curve, for those who cannot see it."""
-    parts = []
-    for panel in panels:
-        ends = []
-        for method in methods:
-            curves = results.of(method).curves[panel.curve]
-            last = np.nanmean(curves[:, -max(1, curves.shape[1] // 10) :]) * panel.scale
-            ends.append(f"{display_name(method)} {last:.3g}")
-        parts.append(f"{panel.label}: {', '.join(ends)}")
-    return "Means over the last tenth of training. " + "; ".join(parts) + "."
+def training_panels(results: Results, methods: Sequence[str], title: str, rule: Results | None = None) -> Figure:
+    """Success, return, speed and distance in training, the rule's level and the paper's test results."""
+    printed = {
+        method: {curve: PRINTED[method][column].mean / MEASURES[curve].factor for curve, column in TRAINING.items()}
+        for method in methods
+        if method in PRINTED and method in results.methods
+    }
+    levels = {curve: float(rule.scores(column)[0]) for curve, column in TRAINING.items()} if rule is not None else {}
+    return training_curves(of_methods(results, methods), title, {"rule": levels}, printed, tuple(TRAINING))
 
 
 def escaped(results: Results, method: str) -> str:
@@ -157,15 +75,15 @@ def baselines(results: Results, rule: Results | None = None) -> Figure:
 
 def exploration(results: Results, methods: Sequence[str] = ("sac", "soft", "demos", "bootstrapped")) -> Figure:
     """The paper's Figure 7: entropy, and e to the power of it, the effective actions (Equations 21 and 22)."""
-    entropy = results.curves["entropy"].astype(np.float64)
-    both = Results(results.agents, results.stopped, results.tested, {"entropy": entropy, "effective": np.exp(entropy)})
-    panels = (CurveAxes("entropy", "policy entropy, nats"), CurveAxes("effective", "effective number of actions"))
-    ends = [
-        float(both.of(method).curves["effective"][:, -max(1, entropy.shape[1] // 10) :].mean())
-        for method in ("sac", "bootstrapped")
-    ]
-    title = f"At the end SAC chooses among {ends[0]:.1f} actions, bootstrapped SAC among {ends[1]:.1f}"
-    return training_panels(both, methods, title, panels)
+    curves = of_methods(results, methods)
+    for its in curves.values():
+        its["effective"] = np.exp(its["entropy"].astype(np.float64))
+    last = {method: its["effective"][:, -max(1, its["effective"].shape[1] // 10) :] for method, its in curves.items()}
+    title = (
+        f"At the end SAC chooses among {last['sac'].mean():.1f} actions, "
+        f"bootstrapped SAC among {last['bootstrapped'].mean():.1f}"
+    )
+    return training_curves(curves, title, measures=("entropy", "effective"))
 
 
 def final_scores(results: Results, methods: Sequence[str], column: str = "returns") -> Figure:

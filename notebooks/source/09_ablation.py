@@ -350,7 +350,6 @@ table(*tables.improvement_rows(four), below=words)
 
 # %%
 gone = study.of("bootstrapped").agents[0]["beta_episodes"]
-x, _ = figures.blocks(study.curves["success"])
 success = {method: 100 * study.of(method).curves["success"] for method in ("soft", "bootstrapped")}
 before = success["bootstrapped"][:, gone - 400 : gone - 200].mean(axis=1)
 after = success["bootstrapped"][:, gone - 100 : gone + 100].mean(axis=1)
@@ -362,9 +361,10 @@ fell = int(np.sum(after < before - 20))
 title = (
     f"As β reaches 0, {fell} of {len(before)} bootstrapped agents lose 20 points of success or more"
 )
-named = {method: figures.blocks(values)[1].mean(axis=0) for method, values in success.items()}
+means = {method: bc.statistics.rolling_means(values, 50) for method, values in success.items()}
+x, named = means["soft"][0], {method: values.mean(axis=0) for method, (_, values) in means.items()}
 label = f"training episode (β is 0 from {gone} on)"
-bc.show(charts.lines(x, named, title, label, "success, %, mean"))
+bc.show(charts.lines(x, named, title, label, "success in the last 50 episodes, %, mean"))
 
 # %%
 last = success["bootstrapped"][:, -200:].mean(axis=1)

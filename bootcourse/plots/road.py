@@ -1,0 +1,99 @@
+"""The road from above, in metres and to scale, for any canvas: a figure's axes or a panel's SVG.
+
+x is metres from `origin`, a place on the road; y is the road's own, to the right of the leftmost lane's centre.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from bootcourse.colours import ASPHALT, EDGE, INK, PAINT, TRAFFIC, TRAP
+from bootcourse.plots.canvas import Canvas
+from bootcourse.plots.svg import SvgAxes
+from bootcourse.road.state import EGO, HEADING, TRAP_1, TRAP_2, X, Y
+from bootcourse.scenario import Car, Road, Scenario
+
+DASH, PERIOD = 3.0, 9.0  # m; lane lines are dashes of 3 m, one every 9 m
+NAME = 9.0  # m of road that the name of a trap takes
+BEHIND = 0.36  # share of a panel's road that lies behind the ego
+
+
+def edges_of(road: Road) -> tuple[float, float]:
+    """y of the road's left and right edge, m."""
+    return -road.lane_width / 2, (road.lanes - 0.5) * road.lane_width
+
+
+def draw_road(canvas: Canvas, scenario: Scenario, left: float, right: float, origin: float = 0.0) -> None:
+    """The empty road from `left` to `right`, m from `origin`."""
+    top, bottom = edges_of(scenario.road)
+    canvas.fill([left, right, right, left], [top, top, bottom, bottom], ASPHALT)
+    for y in (top, bottom):
+        canvas.line([left, right], [y, y], EDGE, 1.3)
+    starts = np.arange(np.floor((origin + left) / PERIOD) * PERIOD - origin, right, PERIOD)
+    dashes = np.column_stack([starts, starts + DASH, np.full(len(starts), np.nan)]).clip(left, right).ravel()
+    for lane in range(1, scenario.road.lanes):
+        canvas.line(dashes, np.full(len(dashes), top + lane * scenario.road.lane_width), PAINT, 1.2)
+
+
+def draw_car(canvas: Canvas, x: float, y: float, heading: float, colour: str, car: Car, name: str = "car", opacity=1.0):
+    """One car, to scale, its windscreen towards its nose; `name` marks the body in tests and SVG files."""
+    size, radius = np.array([car.length, car.width]), 0.22 * car.width
+    turns = np.linspace(0, 2 * np.pi, 16, endpoint=False) + np.pi / 16
+    round_ = np.column_stack([np.cos(turns), np.sin(turns)])
+    body = np.sign(round_) * (size / 2 - radius) + radius * round_
+    windscreen = np.array([[0.08, -0.36], [0.24, -0.30], [0.24, 0.30], [0.08, 0.36]]) * size
+    rear = np.array([[-0.34, -0.32], [-0.26, -0.36], [-0.26, 0.36], [-0.34, 0.32]]) * size
+    cos, sin = np.cos(heading), np.sin(heading)
+    for outline, paint, clear in ((body, colour, 1.0), (windscreen, "white", 0.6), (rear, "white", 0.6)):
+        xs, ys = (outline @ [[cos, sin], [-sin, cos]] + [x, y]).T
+        canvas.fill(xs, ys, paint, clear * opacity, *(("white", name) if outline is body else ()))
+
+
+def draw_cars(
+    canvas: Canvas, cars: np.ndarray, scenario: Scenario, colour: str, left: float, right: float, origin: float,
+    ghosts: Sequence[tuple[np.ndarray, str]] = (), names: bool = True,
+) -> None:  # fmt: skip
+    """All cars between `left` and `right`, the ego last; the traps' names, or how far away they are.
+
+    cars: (vehicles, 10), columns of bootcourse.road.state; colour: of the ego; ghosts: (state (10,), colour)
+    of egos of other drives, drawn translucent.
+    """
+    half = scenario.car.length / 2
+    for state, look in ghosts:
+        draw_car(canvas, state[X] - origin, state[Y], state[HEADING], look, scenario.car, "ghost", 0.45)
+    for i in reversed(range(len(cars))):
+        x, kind = cars[i, X] - origin, {EGO: "ego", TRAP_1: "trap 1", TRAP_2: "trap 2"}.get(i, f"traffic {i - TRAP_2}")
+        if left - half < x < right + half:
+            paint = {EGO: colour, TRAP_1: TRAP, TRAP_2: TRAP}.get(i, TRAFFIC)
+            draw_car(canvas, x, cars[i, Y], cars[i, HEADING], paint, scenario.car, kind)
+    for trap in (TRAP_1, TRAP_2) if names else ():
+        _name_trap(canvas, cars, trap, left, right, origin, half)
+
+
+def _name_trap(canvas: Canvas, cars, trap: int, left: float, right: float, origin: float, half: float) -> None:
+    """The trap's name in front of it, or behind it where there is no room; its distance where it is out of sight."""
+    x, y, ahead, name = cars[trap, X] - origin, cars[trap, Y], cars[trap, X] - cars[EGO, X], f"trap {trap}"
+    gaps = cars[np.abs(cars[:, Y] - y) < 2.5, X] - cars[trap, X]  # to the cars in and close to its lane
+    if x < left + half:
+        canvas.words(left + 1, y, f"◂ {name}, {-ahead:.0f} m behind", INK)
+    elif x > right - half:
+        canvas.words(right - 1, y, f"{name}, {ahead:.0f} m ahead ▸", INK, "end")
+    elif x + half + NAME > right or np.any((gaps > 0) & (gaps < 2 * half + NAME)):
+        canvas.words(x - half - 0.8, y, name, INK, "end")
+    else:
+        canvas.words(x + half + 0.8, y, name, INK)
+
+
+def road_svg(
+    cars: np.ndarray, scenario: Scenario, colour: str, width: float, scale: float,
+    ghosts: Sequence[tuple[np.ndarray, str]] = (), behind: float = BEHIND, names: bool = True,
+) -> tuple[list[str], float]:  # fmt: skip
+    """The SVG parts of one moment around the ego, and their height in pixels.
+
+    width: pixels; scale: pixels per metre; behind: share of the width that lies behind the ego.
+    """
+    left, right, (top, bottom) = -behind * width / scale, (1 - behind) * width / scale, edges_of(scenario.road)
+    canvas = SvgAxes(0, 0, width, (bottom - top) * scale, (left, right), (bottom, top))
+    draw_road(canvas, scenario, left, right, cars[EGO, X])
+    draw_cars(canvas, cars, scenario, colour, left, right, cars[EGO, X], ghosts, names)
+    return canvas.parts, canvas.height
