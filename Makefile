@@ -17,7 +17,7 @@ BIN := .venv/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check
 # The lock is complete, so pip has nothing to resolve (--no-deps) and takes only what the hashes allow.
 INSTALL := $(PIP) install --no-deps --require-hashes
-NOTEBOOKS := $(sort $(wildcard notebooks/*.ipynb)) $(sort $(wildcard notebooks/solved/*.ipynb))
+NOTEBOOKS := $(sort $(wildcard notebooks/*.ipynb))
 NBVAL := --nbval-lax --nbval-current-env --nbval-cell-timeout=300
 
 # So that a notebook finds this `bootcourse` and this `python`.

@@ -1,13 +1,19 @@
-"""The notebooks as files, student's and solved. (nbval executes them; test_course.py holds them to their sources.)"""
+"""The notebooks as files, student's and solved, and the solutions at work.
+
+nbval executes the student's notebooks; test_course.py holds both to their sources.
+"""
 
 from pathlib import Path
 
 import nbformat
 import pytest
 
+from bootcourse.lessons import check
+from tests.solved import cells_to_run, code_of
 from tools.course.source import NOTEBOOKS
 
-NOTEBOOK_FILES = sorted(NOTEBOOKS.glob("*.ipynb")) + sorted(NOTEBOOKS.glob("solved/*.ipynb"))
+SOLVED = sorted(NOTEBOOKS.glob("solved/*.ipynb"))
+NOTEBOOK_FILES = sorted(NOTEBOOKS.glob("*.ipynb")) + SOLVED
 
 
 @pytest.fixture(params=NOTEBOOK_FILES, ids=lambda path: str(path.relative_to(NOTEBOOKS).with_suffix("")))
@@ -40,3 +46,61 @@ def test_a_notebook_names_no_place_on_the_machine_that_made_it(notebook):
     text = nbformat.writes(notebook)
     for place in (str(Path.home()), str(NOTEBOOKS.parent)):
         assert place == "/" or place not in text
+
+
+# Solved ---------------------------------------------------------------------------------------------
+
+
+def execute(cells: list[str]) -> None:
+    """Run cells one after the other, as a kernel would. Raises what a cell raises, and where a check fails."""
+    space = {"__name__": "__main__"}
+    try:
+        for cell in cells:
+            exec(compile(cell, "a cell", "exec"), space)
+    finally:
+        check.strict(False)
+
+
+@pytest.mark.parametrize("path", SOLVED, ids=lambda path: path.stem)
+def test_in_a_solved_notebook_every_check_passes_and_what_uses_a_solution_runs(path, monkeypatch):
+    monkeypatch.chdir(path.parent)
+    cells = cells_to_run(code_of(path), code_of(path.parent.parent / path.name))
+    assert any(cell.startswith("check.strict()") for cell in cells) and sum("\ncheck." in cell for cell in cells) > 1
+    execute(cells)
+
+
+IMPORTS, STRICT = "from bootcourse.lessons import check", "check.strict()"
+STUB = "def critic_target(reward, terminated, next_value, gamma):\n    ...\ncheck.critic_target(critic_target)"
+RIGHT = STUB.replace("...", "return reward + gamma * (1 - terminated) * next_value")
+
+
+def test_of_a_solved_notebook_the_exercises_run_and_no_cell_that_has_nothing_to_do_with_them():
+    around = [IMPORTS, "seeds = 2", "agents = train(seeds)", "show(agents)"]
+    student, solved = [*around, STUB, "show(seeds)"], [IMPORTS, STRICT, *around[1:], RIGHT, "show(seeds)"]
+    assert cells_to_run(solved, student) == [IMPORTS, STRICT, RIGHT]
+    assert cells_to_run(student, student) == []
+
+
+@pytest.mark.parametrize(
+    "later, runs",
+    [
+        (["show(critic_target(scale, 1, 1, 1))"], ["scale = 1", "scale += 1"]),
+        (["def mine(q):\n    return critic_target(q, 0, 0, 0)", "other = 3", "values = mine(3)", "show(values)"], []),
+        (["agents[0].target = critic_target", "agents.train()", "show(agents)"], ["agents = make()", "agents.reset()"]),
+    ],
+)
+def test_cells_that_use_a_solution_run_with_all_that_they_need(later, runs):
+    before = ["scale = 1", "scale += 1", "critic_targets = scale", "agents = make()", "agents.reset()"]
+    solved = cells_to_run([IMPORTS, *before, RIGHT, *later], [IMPORTS, *before, STUB, *later])
+    assert solved == [IMPORTS, *runs, RIGHT, *(cell for cell in later if cell != "other = 3")]
+
+
+def test_a_name_that_is_made_anew_is_no_solution_s():
+    later = ["from bootcourse.learn.losses import critic_target", "show(critic_target(1, 0, 0, 0))"]
+    assert cells_to_run([IMPORTS, RIGHT, *later], [IMPORTS, STUB, *later]) == [IMPORTS, RIGHT]
+
+
+def test_a_wrong_solution_is_found():
+    execute([IMPORTS, STRICT, RIGHT])
+    with pytest.raises(check.NotPassed, match="critic_target"):
+        execute([IMPORTS, STRICT, RIGHT.replace("return", "return 1 +")])

@@ -1,0 +1,63 @@
+"""What of a solved notebook is executed: the student's notebook, which nbval executes whole, has most of its cells.
+
+Executed are the cells that only the solved notebook has (the solutions with their checks, and the cell that makes
+checks strict), every later cell that uses what a solution made, and of the cells above all that these need.
+"""
+
+import ast
+import symtable
+from collections.abc import Iterator
+from pathlib import Path
+
+import nbformat
+
+from bootcourse.lessons.order import names_made
+
+
+def code_of(notebook: Path) -> list[str]:
+    return [cell.source for cell in nbformat.read(notebook, as_version=4).cells if cell.cell_type == "code"]
+
+
+def cells_to_run(solved: list[str], student: list[str]) -> list[str]:
+    """Those of the solved notebook's code cells, in their order. Both as `code_of` gives them."""
+    made, changed, used = ([names(text) for text in solved] for names in (names_made, names_changed, names_used))
+    run, of_solutions = set(), set()
+    for place, text in enumerate(solved):
+        if text not in student or used[place] & of_solutions:
+            run.add(place)
+            of_solutions |= made[place] | changed[place]
+        else:
+            of_solutions -= made[place]
+    needed = set()
+    for place in reversed(range(len(solved))):
+        if place in run or (made[place] | changed[place]) & needed:
+            run.add(place)
+            needed |= used[place]
+    return [solved[place] for place in sorted(run)]
+
+
+def names_used(text: str) -> set[str]:
+    """Every variable of the notebook that a cell reads, inside its functions, too."""
+    return set(read_in(symtable.symtable(text, "a cell", "exec")))
+
+
+def read_in(scope: symtable.SymbolTable) -> Iterator[str]:
+    inside = scope.get_type() != "module"
+    yield from (each.get_name() for each in scope.get_symbols() if each.is_referenced() and each.is_global() >= inside)
+    for child in scope.get_children():
+        yield from read_in(child)
+
+
+def names_changed(text: str) -> set[str]:
+    """The variables whose object a cell changes: `x.a = 1`, `x[0] = 1`, or a statement `x.do()`."""
+    tree = ast.parse(text)
+    calls = [node.value.func for node in tree.body if isinstance(node, ast.Expr) and isinstance(node.value, ast.Call)]
+    places = [node for node in ast.walk(tree) if isinstance(getattr(node, "ctx", None), ast.Store)]
+    return {root_of(node) for node in calls + places if isinstance(node, (ast.Attribute, ast.Subscript))}
+
+
+def root_of(node: ast.AST) -> str:
+    """x of `x.a[0].b`; "" where it is no variable."""
+    while isinstance(node, (ast.Attribute, ast.Subscript)):
+        node = node.value
+    return node.id if isinstance(node, ast.Name) else ""
