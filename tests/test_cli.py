@@ -6,43 +6,60 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 
+from bootcourse.cli import main
 from bootcourse.episodes.rollout import Rollout
 
-
-def bootcourse(*arguments, cwd=None) -> subprocess.CompletedProcess:
-    command = [sys.executable, "-m", "bootcourse", *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, cwd=cwd, timeout=120)
+COMMAND = [sys.executable, "-m", "bootcourse"]
 
 
-def test_the_rule_s_table_shows_the_accidents_apart_with_intervals():
+@dataclass(frozen=True)
+class Answer:
+    status: int
+    out: str
+    err: str
+
+
+@pytest.fixture
+def bootcourse(monkeypatch, capsys):
+    """`bootcourse ARGUMENTS...`, run in this process."""
+
+    def run(*arguments) -> Answer:
+        monkeypatch.setattr(sys, "argv", ["bootcourse", *map(str, arguments)])
+        with pytest.raises(SystemExit) as ended:
+            main()
+        return Answer(ended.value.code or 0, *capsys.readouterr())
+
+    return run
+
+
+def test_the_rule_s_table_shows_the_accidents_apart_with_intervals(bootcourse):
     answer = bootcourse("evaluate", "rule", "--episodes", 40)
-    assert answer.returncode == 0, answer.stderr
-    assert "success %                100.0 [91.2, 100.0]" in answer.stdout
+    assert answer.status == 0, answer.err
+    assert "success %                100.0 [91.2, 100.0]" in answer.out
     for row in ("return", "speed m/s", "distance m", "collision %", "road departure %", "stoppage %"):
-        assert f"\n{row} " in answer.stdout
+        assert f"\n{row} " in answer.out
 
 
-def test_json_holds_every_number_with_its_interval():
-    answer = bootcourse("evaluate", "idle", "--episodes", 20, "--json")
-    table = json.loads(answer.stdout)["idle"]
-    assert table["returns"]["value"] == pytest.approx(23.4375) and table["success"]["high"] == pytest.approx(
-        0.168, abs=1e-3
-    )
+def test_json_holds_every_number_with_its_interval(bootcourse):
+    table = json.loads(bootcourse("evaluate", "idle", "--episodes", 20, "--json").out)["idle"]
+    assert table["returns"]["value"] == pytest.approx(23.4375)
+    assert table["success"]["high"] == pytest.approx(0.168, abs=1e-3)
 
 
-def test_train_then_evaluate_then_drive(tmp_path):
+def test_train_then_evaluate_then_drive(bootcourse, tmp_path):
     out = tmp_path / "runs"
     trained = bootcourse("train", "--method", "sac", "--seeds", 2, "--episodes", 3, "--out", out, "--quiet")
-    assert trained.returncode == 0, trained.stderr
+    assert trained.status == 0, trained.err
     assert sorted(path.name for path in out.iterdir()) == ["sac-0", "sac-1"]
     evaluated = bootcourse("evaluate", out, "--episodes", 5)
-    assert "sac-0" in evaluated.stdout and "mean over seeds" in evaluated.stdout
+    assert "sac-0" in evaluated.out and "mean over seeds" in evaluated.out
     driven = bootcourse("drive", out / "sac-1", "--out", tmp_path / "drive.npz", "--seed", 4)
-    assert driven.returncode == 0, driven.stderr
+    assert driven.status == 0, driven.err
     rollout = Rollout.load(tmp_path / "drive.npz")
     assert (rollout.label, rollout.seed) == ("sac", 4) and rollout.q_values is not None
 
@@ -60,32 +77,37 @@ REFUSED = {
 
 
 @pytest.mark.parametrize("case", REFUSED)
-def test_bad_input_gets_one_sentence_and_status_2(case, tmp_path):
+def test_bad_input_gets_one_sentence_and_status_2(case, bootcourse, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
     (tmp_path / "full").mkdir()
     (tmp_path / "full" / "file.txt").write_text("mine")
     arguments, sentence = REFUSED[case]
-    answer = bootcourse(*arguments, cwd=tmp_path)
-    assert answer.returncode == 2 and sentence in answer.stderr, answer.stderr
-    assert len(answer.stderr.strip().splitlines()) == 1 and "Traceback" not in answer.stderr
+    answer = bootcourse(*arguments)
+    assert answer.status == 2 and sentence in answer.err and len(answer.err.splitlines()) == 1, answer.err
     assert (tmp_path / "full" / "file.txt").read_text() == "mine" and not (tmp_path / "new").exists()
+
+
+def test_a_process_ends_with_the_one_sentence_and_the_status():
+    answer = subprocess.run([*COMMAND, "evaluate", "rul"], capture_output=True, text=True, timeout=60)
+    assert answer.returncode == 2 and "did you mean 'rule'" in answer.stderr and answer.stderr.count("\n") == 1
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGINT and SIGKILL to send")
 @pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGKILL])
-def test_a_training_that_is_stopped_loses_nothing_and_resumes(how, tmp_path):
+def test_a_training_that_is_stopped_loses_nothing_and_resumes(how, bootcourse, tmp_path):
     out = tmp_path / "runs"
-    command = [sys.executable, "-m", "bootcourse", "train", "--method", "sac", "--seeds", "1", "--episodes", "400"]
-    process = subprocess.Popen([*command, "--out", str(out), "--quiet"], stderr=subprocess.PIPE, text=True)
+    command = [*COMMAND, "train", "--method", "sac", "--seeds", "1", "--episodes", "200", "--out", str(out), "--quiet"]
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
     wait_for(out / "checkpoint.npz")
-    time.sleep(0.5)
+    time.sleep(0.3)
     process.send_signal(how)
     _, said = process.communicate(timeout=60)
     if how is signal.SIGINT:
         assert process.returncode == 130 and "Nothing is lost" in said
     again = bootcourse("train", "--out", out)
-    assert again.returncode == 2 and "add --resume" in again.stderr
+    assert again.status == 2 and "add --resume" in again.err
     resumed = bootcourse("train", "--out", out, "--resume", "--quiet")
-    assert resumed.returncode == 0, resumed.stderr
+    assert resumed.status == 0, resumed.err
     assert [path.name for path in out.iterdir()] == ["sac-0"]
 
 
