@@ -1,5 +1,6 @@
 # make lab    JupyterLab on the first lesson      (NO_BROWSER=1 make lab: only print its address)
-# make test   every test, the notebooks included
+# make check  in less than a minute: the road, the learner, the rule, what is recorded, and one lesson
+# make test   every test, the notebooks included: about six minutes on two cores
 # make bench  how fast the road and the learner are, as ratios
 # make book   the lessons as pages that need no server, in build/book/html
 # make notebooks  execute the lessons' sources again and write the notebooks, solved and not, and the instructor's pages
@@ -18,12 +19,11 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check
 # The lock is complete, so pip has nothing to resolve (--no-deps) and takes only what the hashes allow.
 INSTALL := $(PIP) install --no-deps --require-hashes
 NOTEBOOKS := $(sort $(wildcard notebooks/*.ipynb))
-NBVAL := --nbval-lax --nbval-current-env --nbval-cell-timeout=300
 
 # So that a notebook finds this `bootcourse` and this `python`.
 WITH_PATH := PATH="$(CURDIR)/$(BIN):$$PATH"
 
-.PHONY: help lab test bench book notebooks doctor lock clean
+.PHONY: help lab check test bench book notebooks doctor lock clean
 
 help:
 	@sed -n '/^$$/q;s/^# \{0,1\}//p' Makefile
@@ -33,10 +33,13 @@ lab: .venv/installed
 		--LabApp.default_url=/lab/tree/$(notdir $(firstword $(NOTEBOOKS))) --log-level=WARN \
 		$(if $(NO_BROWSER),--no-browser) $(if $(filter 0,$(shell id -u)),--allow-root)
 
-# One file or notebook stays in one process (loadfile): a notebook's cells belong to one kernel.
+# tests/check.txt and tests/all.txt hold what pytest is given.
 # One thread each, or two workers with two torches fight over the cores.
+check: .venv/installed
+	@$(WITH_PATH) OMP_NUM_THREADS=1 $(BIN)/python -m pytest @tests/check.txt $(PYTEST)
+
 test: .venv/installed
-	@$(WITH_PATH) OMP_NUM_THREADS=1 $(BIN)/python -m pytest tests $(NOTEBOOKS) $(NBVAL) -n 2 --dist loadfile $(PYTEST)
+	@$(WITH_PATH) OMP_NUM_THREADS=1 $(BIN)/python -m pytest @tests/all.txt $(PYTEST)
 
 bench: .venv/bench
 	@OMP_NUM_THREADS=1 $(BIN)/python -m tests.bench
