@@ -351,8 +351,6 @@ def assets(
     study: Path | None = typer.Option(None, help="The study's folder, for build."),
 ) -> None:
     """Check what ships with the course, or make it again."""
-    from bootcourse.storage import assets
-
     if what not in ("verify", "build"):
         raise BootcourseError(f"Action {did_you_mean(what, ('verify', 'build'))}.")
     if what == "build":
@@ -363,4 +361,21 @@ def assets(
         from bootcourse.study.ship import build
 
         build(study)
-    raise typer.Exit(assets.report())
+    from bootcourse.storage.assets import FOLDER
+
+    raise typer.Exit(report_assets(FOLDER))
+
+
+def report_assets(folder: Path) -> int:
+    """Print which shipped files are wrong, and which are older than the code. Returns the exit status."""
+    from bootcourse.files import read_json
+    from bootcourse.storage.assets import MANIFEST, verify
+    from bootcourse.study.fingerprint import older
+
+    problems, old = verify(folder), older(folder)
+    for sentence in (*problems, *old):
+        print(sentence)
+    entries = read_json(folder / MANIFEST)["files"]
+    size = sum(entry["bytes"] for entry in entries) / 1e6
+    print(f"{len(entries)} files, {size:.1f} MB: {len(problems)} wrong, {len(old)} made by older code.")
+    return 1 if problems else 0

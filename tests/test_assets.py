@@ -13,6 +13,7 @@ from bootcourse.scenario import CALIBRATED, DEFAULT
 from bootcourse.storage import assets
 from bootcourse.storage.runs import find_runs, load_run
 from bootcourse.study import ship
+from bootcourse.study.fingerprint import older
 from bootcourse.study.jobs import Job, run_job
 from bootcourse.study.results import load_results
 
@@ -47,14 +48,15 @@ def shipped(built, tmp_path):
 
 
 def test_everything_that_ships_is_listed_and_right(built):
-    assert assets.verify(built) == ([], [])
-    names = {entry["file"] for entry in json.loads((built / "manifest.json").read_text())["files"]}
+    assert assets.verify(built) == []
+    manifest = json.loads((built / "manifest.json").read_text())
+    names = {entry["file"] for entry in manifest["files"]}
     assert {"study-default.npz", "study-calibrated.npz", "sweep.npz", "demonstrations.npz", "MODEL_CARD.md"} <= names
     assert {"sensitivity/as-it-is.npz", "report/report.md", "report/figures/default-returns.png"} <= names
-    assert all(
-        entry["command"].startswith("bootcourse")
-        for entry in json.loads((built / "manifest.json").read_text())["files"]
-    )
+    assert all(entry["command"].startswith("bootcourse") for entry in manifest["files"])
+    behaviour = {entry["file"]: set(entry["behaviour"]) for entry in manifest["files"]}
+    assert behaviour["study-default.npz"] == {"road", "rule", "sac", "soft"}
+    assert behaviour["runs/sac-1/curves.npz"] == {"road", "sac"} and set(manifest["behaviours"]["sac"]) != set()
 
 
 def test_what_ships_reads_back(built):
@@ -74,23 +76,42 @@ def test_a_damaged_missing_or_unlisted_file_is_named_with_the_command_that_makes
     (shipped / "sweep.npz").write_bytes(b"half")
     (shipped / "demonstrations.npz").unlink()
     (shipped / "notes.txt").write_text("mine")
-    problems, older = assets.verify(shipped)
+    problems = assets.verify(shipped)
     text = "\n".join(problems)
-    assert len(problems) == 3 and older == []
+    assert len(problems) == 3
     assert "sweep.npz is damaged" in text and "demonstrations.npz is missing" in text and "notes.txt is not in" in text
     assert "bootcourse sweep --out DIR" in text
-    assert assets.report(shipped) == 1 and "3 wrong" in capsys.readouterr().out
+    assert cli.report_assets(shipped) == 1 and "3 wrong" in capsys.readouterr().out
 
 
 def test_a_file_made_by_older_code_is_named_and_not_called_wrong(shipped, capsys):
     manifest = json.loads((shipped / "manifest.json").read_text())
+    manifest["behaviours"]["sac"]["0000"] = [0.0]
     for entry in manifest["files"]:
         if entry["file"] == "sweep.npz":
-            entry["sources"] |= {"rule": "0000", "moved_since": "1111"}
+            entry["behaviour"] |= {"sac": "0000", "removed since": "1111"}
     (shipped / "manifest.json").write_text(json.dumps(manifest))
-    problems, older = assets.verify(shipped)
-    assert problems == [] and len(older) == 1 and "sweep.npz is older than the code in rule, moved_since" in older[0]
-    assert assets.report(shipped) == 0 and "1 made by older code" in capsys.readouterr().out
+    assert cli.report_assets(shipped) == 0
+    printed = capsys.readouterr().out
+    assert "sweep.npz is older than the code's sac, removed since: bootcourse sweep --out DIR" in printed
+    assert "0 wrong, 1 made by older code" in printed and printed.count("is older than") == 1
+
+
+def test_what_older_code_computed_stays_older_when_it_is_shipped_by_newer_code(study, tmp_path):
+    later = shutil.copytree(study, tmp_path / "later")
+    for name in ("sac", "soft"):
+        path = later / "jobs/default" / name / "job.json"
+        made = json.loads(path.read_text())
+        if name == "sac":
+            made["behaviour"]["sac"] = [0.0]
+        else:  # earlier versions recorded no behaviour
+            del made["behaviour"]
+        path.write_text(json.dumps(made))
+    ship.build(later, tmp_path / "assets")
+    old = {sentence.split()[0]: sentence for sentence in older(tmp_path / "assets")}
+    assert "study-default.npz" in old and "study-calibrated.npz" not in old and "sweep.npz" not in old
+    assert "the code's sac:" in old["runs/sac-0/config.json"]
+    assert "unrecorded behaviour" in old["runs/soft-0/config.json"]
 
 
 def test_assets_that_are_too_large_are_refused_and_the_old_ones_stay(study, shipped, monkeypatch):
@@ -98,7 +119,7 @@ def test_assets_that_are_too_large_are_refused_and_the_old_ones_stay(study, ship
     with pytest.raises(BootcourseError, match="must stay under"):
         ship.build(study, shipped)
     monkeypatch.undo()
-    assert assets.verify(shipped) == ([], []) and [path.name for path in shipped.parent.iterdir()] == ["assets"]
+    assert assets.verify(shipped) == [] and [path.name for path in shipped.parent.iterdir()] == ["assets"]
 
 
 def test_a_study_that_is_not_complete_is_named(study, tmp_path):
@@ -114,10 +135,10 @@ def test_a_study_that_is_not_complete_is_named(study, tmp_path):
 def test_the_readme_s_pictures_stay_and_are_listed(study, shipped):
     (shipped / "readme").mkdir()
     (shipped / "readme" / "trap.png").write_bytes(b"picture")
-    assert len(assets.verify(shipped)[0]) == 1
+    assert len(assets.verify(shipped)) == 1
     for _ in range(2):
         ship.build(study, shipped)
-        assert assets.verify(shipped) == ([], []) and (shipped / "readme" / "trap.png").read_bytes() == b"picture"
+        assert assets.verify(shipped) == [] and (shipped / "readme" / "trap.png").read_bytes() == b"picture"
 
 
 def test_what_a_study_has_not_computed_stays_as_it_ships(study, shipped, tmp_path):
@@ -125,5 +146,5 @@ def test_what_a_study_has_not_computed_stays_as_it_ships(study, shipped, tmp_pat
     shutil.copytree(study / "jobs/sweep", tmp_path / "later/jobs/sweep")
     (shipped / "sweep.npz").write_bytes(b"old")
     ship.build(tmp_path / "later", shipped)
-    assert assets.verify(shipped) == ([], []) and load_results(shipped / "sweep.npz").methods == ["sac"]
+    assert assets.verify(shipped) == [] and load_results(shipped / "sweep.npz").methods == ["sac"]
     assert (shipped / "study-default.npz").read_bytes() == before

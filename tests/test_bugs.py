@@ -15,7 +15,7 @@ from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.lessons import bugs
 from bootcourse.lessons.bugs import BUGS, COMMAND, FILE, LEARNERS, LETTERS, PROBES, Hunt
 from bootcourse.lessons.exercises import registry
-from bootcourse.storage.assets import FOLDER, changed_parts
+from bootcourse.storage.assets import FOLDER
 from bootcourse.study.ship import Shipment, add_kept
 
 AGENTS, SIZE = 2, 16
@@ -174,5 +174,5 @@ def test_it_is_kept_and_listed_when_the_assets_are_built(tmp_path):
     add_kept(shipment, FOLDER)
     entry = shipment.entries["bug_hunt.npz"]
     assert entry["sha256"] == sha256(FILE) == sha256(new / "bug_hunt.npz") and entry["command"] == COMMAND
-    assert changed_parts(entry["sources"]) == []
+    assert list(entry["behaviour"]) == ["road", "rule", "bootstrapped"]
     add_kept(Shipment(tmp_path / "study", tmp_path / "nothing", tmp_path / "other"), tmp_path / "nothing")

@@ -21,7 +21,7 @@ from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.scenario import DEFAULT
 from bootcourse.storage.runs import load_run
 from bootcourse.study import jobs as jobs_module
-from bootcourse.study.jobs import BoundJob, Job, finished, run_job
+from bootcourse.study.jobs import BoundJob, Job, asked, finished, run_job
 from bootcourse.study.plan import methods_named, sensitivity_jobs, study_jobs, sweep_jobs, variations
 from bootcourse.study.planner import Search
 from bootcourse.study.results import join, load_jobs, load_results, save_results
@@ -225,7 +225,7 @@ def test_a_study_s_plan_has_every_method_with_every_seed_once():
 
 def test_every_variation_of_the_sensitivity_differs_from_the_others_in_its_question():
     jobs = sensitivity_jobs(2, 10, 5)
-    questions = {json.dumps(each.asked(), sort_keys=True) for each in jobs}
+    questions = {json.dumps(asked(each), sort_keys=True) for each in jobs}
     assert len(questions) == len(variations()) == len({each.name for each in jobs})
 
 

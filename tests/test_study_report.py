@@ -14,7 +14,6 @@ from bootcourse.study.fidelity import VERDICTS, fidelity, judge
 from bootcourse.study.paper import COLUMNS, PRINTED, TABLES, arithmetic, earned_at, paper_interval, possible
 from bootcourse.study.report import rule_results, write_report
 from bootcourse.study.results import Results, in_study, save_results
-from bootcourse.study.sources import code_only
 
 METHODS = ("bc", "cql", "gail", "sac", "soft", "demos", "bootstrapped", "margin", "margin_soft")
 
@@ -134,7 +133,7 @@ def report_of(results: Results, root) -> None:
     folder = root / "jobs/default/all"
     save_results(results, folder / "results.npz", {})
     versions = dict.fromkeys(("bootcourse", "python", "torch", "numpy", "numba"), "1") | {"seconds": 60}
-    write_json(folder / "job.json", {"provenance": versions, "sources": {}})
+    write_json(folder / "job.json", {"provenance": versions, "behaviour": {}})
     write_report(in_study(root), root)
 
 
@@ -148,9 +147,3 @@ def test_the_report_holds_every_table_and_figure(tmp_path):
     assert text.count("**reproduced**") + text.count("**partly**") + text.count("**not reproduced**") == 34
     for column in COLUMNS.values():
         assert f"| {column} |" in text
-
-
-def test_better_words_make_no_result_older_and_other_code_does():
-    before = '"""Doc."""\n\ndef f(x):\n    """Says."""\n    return "# no comment" + x  # yes\n'
-    after = '"""Other words."""\ndef f(x):\n    # more\n    return "# no comment" + x\n'
-    assert code_only(before) == code_only(after) != code_only(after.replace("+ x", "+ x + x"))

@@ -1,10 +1,10 @@
-"""A job: the piece of a study that is computed in one go, and never twice.
+"""A job is a piece of a study that is computed in one go. A finished job is not computed again.
 
-    DIR/unfinished/NAME   while it is computed: `checkpoint.npz`, from which a killed job goes on
-    DIR/jobs/NAME        when it is done: `results.npz`, `runs/`, and `job.json`, which says what was
-                          asked for, by which code, and the hash of every file
+    DIR/unfinished/NAME   while it is computed: `checkpoint.npz`, from which a killed job continues
+    DIR/jobs/NAME         when it is done: `results.npz`, `runs/`, and `job.json` with what was asked for, the
+                          fingerprints of the code that computed it, and the hash of every file
 
-A folder moves from the one place to the other in one step, so what stands in `jobs` is whole.
+The folder is moved in one step, so every folder in `jobs` is complete.
 """
 
 import json
@@ -23,57 +23,47 @@ from bootcourse.learn.settings import Settings
 from bootcourse.learn.training import Result, Training
 from bootcourse.scenario import Scenario
 from bootcourse.storage.runs import load_checkpoint, save_checkpoint, save_runs
+from bootcourse.study.fingerprint import behind, fingerprints
 from bootcourse.study.planner import Search, is_staying_optimal, plan_episodes
-from bootcourse.study.sources import sources_hash
 
 FORMAT = "bootcourse job 1"
 HELD_OUT = 1  # the block of held-out roads that every method of every study is tested on
 SECONDS_BETWEEN = 60.0  # of checkpoints
-PARENT = os.getppid()  # noted at once: a worker may be busy compiling when the process that started it dies
-ROAD = ("scenario", "policies", "rule", "road", "episodes/evaluate")  # the code that decides any result,
-LEARN, PLAN = (*ROAD, "learn"), (*ROAD, "study/planner")  # an agent's, the planner's
+PARENT = os.getppid()  # read at import: a worker may be busy compiling when the process that started it dies
 
 
 class Interrupted(Exception):
-    """Somebody stopped the study; the job left a checkpoint."""
+    """The study was stopped; the job has written a checkpoint."""
 
 
 @dataclass(frozen=True)
 class Job:
-    """Some agents that are trained side by side and tested on the same held-out episodes."""
+    """Train some agents side by side and test them on the same held-out episodes."""
 
-    name: str  # where it lies, such as "default/bootstrapped-0-4"
+    name: str  # its folder, such as "default/bootstrapped-0-4"
     settings: tuple[Settings, ...]
     scenario: Scenario
     episodes: int  # of training
     tests: int = 1000  # held-out episodes
     runs: bool = True  # keep each agent's weights too; needs agents that differ in method or seed
-    sources = LEARN
 
-    def asked(self) -> dict:
-        """All that decides its result, as JSON has it."""
-        settings = [asdict(s) for s in self.settings]
-        asked = {
-            "settings": settings,
-            "scenario": asdict(self.scenario),
-            "episodes": self.episodes,
-            "tests": self.tests,
-        }
-        return json.loads(json.dumps(asked))
+    @property
+    def behaviours(self) -> tuple[str, ...]:
+        return behind(self.settings, self.scenario)
 
     def compute(self, folder: Path) -> float:
-        """Train, or go on training, and test; returns the seconds that it took. Raises Interrupted."""
+        """Train, or continue a training, and test. Returns the seconds of earlier attempts. Raises Interrupted."""
         training = self._training(folder)
+        earlier = training.seconds
         result = training.run(progress=False, callback=_Checkpoints(folder), stop=_orphaned)
         if result.interrupted:
             save_checkpoint(training, folder / "checkpoint.npz")
             raise Interrupted(self.name)
-        started = time.perf_counter()
         write_arrays(folder / "results.npz", self._tested(result))
         if self.runs:
             shutil.rmtree(folder / "runs", ignore_errors=True)  # of an attempt that was killed while writing
             save_runs(result, folder / "runs")
-        return result.seconds + time.perf_counter() - started
+        return earlier
 
     def _training(self, folder: Path) -> Training:
         if not (folder / "checkpoint.npz").exists():
@@ -101,52 +91,50 @@ class Job:
 
 @dataclass(frozen=True)
 class BoundJob:
-    """The planner's best known return on some of the held-out roads."""
+    """Search for the best return on some of the held-out roads."""
 
     name: str
     scenario: Scenario
     first: int  # held-out episode
     episodes: int
     search: Search = Search()
-    sources = PLAN
 
-    def asked(self) -> dict:
-        """All that decides its result, as JSON has it."""
-        return json.loads(
-            json.dumps({name: asdict(self)[name] for name in ("scenario", "first", "episodes", "search")})
-        )
+    @property
+    def behaviours(self) -> tuple[str, ...]:
+        return (*behind((), self.scenario), "planner")
 
-    def compute(self, folder: Path) -> float:
-        """Search; returns the seconds that it took."""
-        started = time.perf_counter()
+    def compute(self, folder: Path) -> None:
         seeds = held_out_seeds(HELD_OUT, self.first + self.episodes)[self.first :]
         plans = plan_episodes(seeds, self.scenario, self.search)
         returns, success = np.array([plan.value for plan in plans]), np.array([plan.success for plan in plans])
         write_arrays(folder / "results.npz", {"first": np.array(self.first), "returns": returns, "success": success})
-        return time.perf_counter() - started
 
 
 @dataclass(frozen=True)
 class StayingJob:
-    """The planner's answer to: at this γ, is staying behind the trap the best one can do?"""
+    """Ask the planner: at this γ, is staying behind the trap the best that a driver can do?"""
 
     name: str
     scenario: Scenario
     gamma: float = 0.8  # † the paper's
     roads: int = 50  # of the held-out ones
     beam: int = 200
-    sources = PLAN
 
-    def asked(self) -> dict:
-        """All that decides its result, as JSON has it."""
-        return json.loads(json.dumps({name: value for name, value in asdict(self).items() if name != "name"}))
+    @property
+    def behaviours(self) -> tuple[str, ...]:
+        return (*behind((), self.scenario), "rule", "planner")
 
-    def compute(self, folder: Path) -> float:
-        """Search; returns the seconds that it took."""
-        started = time.perf_counter()
+    def compute(self, folder: Path) -> None:
         staying = is_staying_optimal(held_out_seeds(HELD_OUT, self.roads), self.scenario, self.gamma, self.beam)
         write_json(folder / "staying.json", vars(staying))
-        return time.perf_counter() - started
+
+
+AnyJob = Job | BoundJob | StayingJob
+
+
+def asked(job: AnyJob) -> dict:
+    """Everything that decides the job's result, as JSON reads it back."""
+    return json.loads(json.dumps({name: value for name, value in asdict(job).items() if name not in ("name", "runs")}))
 
 
 def _small(values: np.ndarray) -> np.ndarray:
@@ -154,7 +142,7 @@ def _small(values: np.ndarray) -> np.ndarray:
 
 
 class _Checkpoints:
-    """A training's callback: writes a checkpoint now and then."""
+    """A training's callback: writes a checkpoint every `SECONDS_BETWEEN` seconds."""
 
     def __init__(self, folder: Path):
         self.path, self.last = folder / "checkpoint.npz", time.monotonic()
@@ -166,12 +154,12 @@ class _Checkpoints:
 
 
 def _orphaned() -> bool:
-    """Is the process that started this one gone? Then nobody waits for the job."""
+    """Has the process that started this one ended?"""
     return os.getppid() != PARENT
 
 
-def finished(job, root: Path) -> bool:
-    """Is it done? Raises BootcourseError if what is there is damaged or was asked for differently."""
+def finished(job: AnyJob, root: Path) -> bool:
+    """Is it done? Raises BootcourseError if its folder is damaged, OtherQuestion if that holds another job."""
     folder = root / "jobs" / job.name
     if not folder.exists():
         return False
@@ -179,8 +167,7 @@ def finished(job, root: Path) -> bool:
     damaged = [name for name, digest in made.get("sha256", {}).items() if _hash(folder / name) != digest]
     if damaged or made.get("format") != FORMAT:
         raise BootcourseError(f"{folder} is damaged ({', '.join(damaged) or 'job.json'}).")
-    asked = job.asked()
-    different = [name for name in asked if made["asked"].get(name) != asked[name]]
+    different = [name for name, value in asked(job).items() if made["asked"].get(name) != value]
     if different:
         raise OtherQuestion(
             f"{folder} was computed with other {', '.join(different)}: choose another folder for this study."
@@ -189,15 +176,15 @@ def finished(job, root: Path) -> bool:
 
 
 class OtherQuestion(BootcourseError):
-    """The folder holds the answer to another question: not damaged, and not to be computed again."""
+    """The folder holds a job of the same name with other settings: it is not damaged and must not be replaced."""
 
 
 def _hash(path: Path) -> str:
     return sha256(path) if path.is_file() else ""
 
 
-def run_job(job, root: Path) -> str:
-    """Compute a job and put it in its place. Returns "" or what went wrong, in a sentence."""
+def run_job(job: AnyJob, root: Path) -> str:
+    """Compute a job and move it to `jobs`. Returns "", or a sentence that says what went wrong."""
     try:
         if not (root / "study.json").exists():  # on a machine of a cluster that has another disk
             return f"{root} is not there for the process that should compute {job.name}: use a folder that all share."
@@ -209,19 +196,20 @@ def run_job(job, root: Path) -> str:
     return ""
 
 
-def _run(job, root: Path) -> None:
+def _run(job: AnyJob, root: Path) -> None:
     final, folder = root / "jobs" / job.name, root / "unfinished" / job.name
     if final.exists():  # another process was faster: a cluster may start a job twice
         return
     folder.mkdir(parents=True, exist_ok=True)
-    seconds = job.compute(folder)
+    started = time.perf_counter()
+    seconds = (job.compute(folder) or 0.0) + time.perf_counter() - started
     (folder / "checkpoint.npz").unlink(missing_ok=True)
     files = [path for path in sorted(folder.rglob("*")) if path.is_file() and path.name != "job.json"]
     made = {
         "format": FORMAT,
-        "asked": job.asked(),
+        "asked": asked(job),
         "sha256": {path.relative_to(folder).as_posix(): sha256(path) for path in files},
-        "sources": sources_hash(job.sources),
+        "behaviour": fingerprints(*job.behaviours),
         "provenance": provenance(seconds=round(seconds, 1)),
     }
     write_json(folder / "job.json", made)

@@ -1,7 +1,7 @@
 """Make what ships, `assets/`, from a study's folder: results, weights, demonstrations, rollouts, report and model card.
 
-Each file is listed in the manifest with the command that makes it and the code that it depends on;
-`bootcourse.storage.assets` checks them.
+Each file is listed in the manifest with the command that makes it and the fingerprints of the behaviours that it
+depends on. `bootcourse.storage.assets` checks the files, `bootcourse.study.fingerprint` the behaviours.
 """
 
 import shutil
@@ -15,14 +15,15 @@ from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError
 from bootcourse.files import provenance, read_json, sha256, write_arrays, write_bytes, write_json
+from bootcourse.methods import METHODS
 from bootcourse.policies import rule_policy
 from bootcourse.scenario import DEFAULT
 from bootcourse.storage.assets import FOLDER, LIMIT, MANIFEST
 from bootcourse.storage.runs import load_run
+from bootcourse.study.fingerprint import alike, fingerprints, key
 from bootcourse.study.jobs import HELD_OUT
 from bootcourse.study.report import write_report
 from bootcourse.study.results import in_assets, in_study, load_jobs, load_results, save_results
-from bootcourse.study.sources import sources_hash
 
 CURVES = ("success", "return", "speed", "distance", "accident", "entropy")  # the others are in runs/
 RUNS = 5  # training seeds whose weights ship; curves and scores ship of all
@@ -36,9 +37,12 @@ class Shipment:
     def __init__(self, study: Path, now: Path, new: Path):
         self.study, self.new = study, new
         self.entries: dict[str, dict] = {}
+        self.behaviours: dict[str, dict[str, list[float]]] = {}  # {name: {key: fingerprint}}
         if (now / MANIFEST).exists():
             shutil.copytree(now, new)
-            self.entries = {entry["file"]: entry for entry in read_json(now / MANIFEST)["files"]}
+            manifest = read_json(now / MANIFEST)
+            self.entries = {entry["file"]: entry for entry in manifest["files"]}
+            self.behaviours = manifest["behaviours"]
 
     def has(self, part: str) -> bool:
         """Has the study finished jobs of this part?"""
@@ -50,11 +54,28 @@ class Shipment:
             path.unlink()
             self.entries.pop(path.relative_to(self.new).as_posix(), None)
 
-    def add(self, path: Path, how: str, sources: dict[str, str], versions: dict) -> None:
-        """List a file that was just made."""
+    def add(self, path: Path, how: str, behaviour: dict[str, list[float]], versions: dict) -> None:
+        """List a file that was just made. behaviour: the fingerprints of the code that made it, by name."""
         name = path.relative_to(self.new).as_posix()
         entry = {"file": name, "sha256": sha256(path), "bytes": path.stat().st_size}
-        self.entries[name] = entry | {"command": how, "sources": sources, "versions": versions}
+        made = {each: self.known(each, values) for each, values in behaviour.items()}
+        self.entries[name] = entry | {"command": how, "behaviour": made, "versions": versions}
+
+    def known(self, name: str, values: list[float]) -> str:
+        """The key of a fingerprint in the manifest. One that is there already stands for all that are alike."""
+        listed = self.behaviours.setdefault(name, {})
+        alike_ones = [made for made, its in listed.items() if alike(name, values, its)]
+        made = alike_ones[0] if alike_ones else key(values)
+        listed.setdefault(made, values)
+        return made
+
+    def write_manifest(self) -> None:
+        """List every file, and the fingerprints that they name."""
+        files = [self.entries[name] for name in sorted(self.entries)]
+        used = {name: {entry["behaviour"].get(name) for entry in files} for name in self.behaviours}
+        for name, known in self.behaviours.items():
+            self.behaviours[name] = {made: values for made, values in known.items() if made in used[name]}
+        write_json(self.new / MANIFEST, {"behaviours": self.behaviours, "files": files})
 
 
 def build(study: Path, folder: Path = FOLDER) -> None:
@@ -71,7 +92,7 @@ def build(study: Path, folder: Path = FOLDER) -> None:
             part(shipment)
         add_readme(shipment, folder)
         add_kept(shipment, folder)
-        write_json(new / MANIFEST, {"files": [shipment.entries[name] for name in sorted(shipment.entries)]})
+        shipment.write_manifest()
         size = sum(entry["bytes"] for entry in shipment.entries.values())
         if size >= LIMIT:
             raise BootcourseError(
@@ -84,17 +105,18 @@ def build(study: Path, folder: Path = FOLDER) -> None:
     new.rename(folder)
 
 
-def jobs_made(study: Path, part: str) -> tuple[dict[str, str], dict]:
-    """(sources, versions) of the jobs of a part; jobs of different code are named as such."""
+def jobs_made(study: Path, part: str) -> tuple[dict[str, list[float]], dict]:
+    """(behaviour, versions) of the jobs of a part. A fingerprint on which they differ is [], never current."""
     jobs = [read_json(path) for path in sorted((study / "jobs" / part).rglob("job.json"))]
     if not jobs:
         raise BootcourseError(f"{study} has no finished jobs in jobs/{part}: compute them first.")
-    sources = {}
-    for name in jobs[0]["sources"]:
-        hashes = {job["sources"].get(name) for job in jobs}
-        sources[name] = hashes.pop() if len(hashes) == 1 else "of different versions"
+    behaviour = {}
+    for job in jobs:
+        for name, values in job.get("behaviour", {"unrecorded behaviour": []}).items():
+            if not alike(name, behaviour.setdefault(name, values), values):
+                behaviour[name] = []
     versions = {name: value for name, value in jobs[0]["provenance"].items() if name != "seconds"}
-    return sources, versions
+    return behaviour, versions
 
 
 COMMANDS = {
@@ -114,10 +136,10 @@ def add_results(to: Shipment) -> None:
                 raise BootcourseError(f"{to.study} has no finished jobs in jobs/default: compute them first.")
             print(f"{path.name} {'stays as it is' if path.exists() else 'is left out'}: {to.study} has no such jobs.")
             continue
-        sources, versions = jobs_made(to.study, part)
+        behaviour, versions = jobs_made(to.study, part)
         results = load_jobs(to.study, part)
         save_results(lighter(results, CURVES[:2] if part == "sweep" else CURVES), path, versions)
-        to.add(path, how, sources, versions)
+        to.add(path, how, behaviour, versions)
         if part in found.bound:
             best = to.new / f"bound-{part}.npz"
             write_arrays(best, {"returns": found.bound[part].astype(np.float32)})
@@ -132,10 +154,10 @@ def add_sensitivity(to: Shipment) -> None:
     """Scores and curves of every variation that was run, a file each."""
     how = f"bootcourse study --out DIR --sensitivity --episodes 1500 && {BUILD}"
     for job in sorted(to.study.glob("jobs/sensitivity/*/results.npz")):
-        sources, versions = jobs_made(to.study, f"sensitivity/{job.parent.name}")
+        behaviour, versions = jobs_made(to.study, f"sensitivity/{job.parent.name}")
         path = to.new / "sensitivity" / f"{job.parent.name}.npz"
         save_results(lighter(load_results(job), CURVES[:2]), path, versions)
-        to.add(path, how, sources, versions)
+        to.add(path, how, behaviour, versions)
 
 
 def add_report(to: Shipment) -> None:
@@ -144,7 +166,7 @@ def add_report(to: Shipment) -> None:
     write_report(in_assets(to.new), to.new / "report")
     for path in sorted((to.new / "report").rglob("*")):
         if path.is_file():
-            to.add(path, STUDY, sources_hash(("study/report", "study/tables", "study/fidelity")), provenance())
+            to.add(path, STUDY, fingerprints("road", "rule", "statistics"), provenance())
 
 
 def lighter(results, curves: Sequence[str]):
@@ -157,13 +179,19 @@ def add_runs(to: Shipment) -> None:
     if not to.has("default"):
         return
     to.clear("runs/**/*")
-    sources, versions = jobs_made(to.study, "default")
     for run in sorted(to.study.glob("jobs/default/*/runs/*")):
-        if int(run.name.rpartition("-")[2]) >= RUNS:
+        method, _, seed = run.name.rpartition("-")
+        if int(seed) >= RUNS:
             continue
         shutil.copytree(run, to.new / "runs" / run.name, dirs_exist_ok=True)
+        behaviour, versions = jobs_made(to.study, f"default/{run.parent.parent.name}")
         for path in sorted((to.new / "runs" / run.name).iterdir()):
-            to.add(path, STUDY, sources, versions)
+            to.add(path, STUDY, only(behaviour, method), versions)
+
+
+def only(behaviour: dict[str, list[float]], method: str) -> dict[str, list[float]]:
+    """The behaviours that one method's agents depend on, of those that several methods do."""
+    return {name: values for name, values in behaviour.items() if name == method or name not in METHODS}
 
 
 def add_demonstrations(to: Shipment) -> None:
@@ -172,7 +200,7 @@ def add_demonstrations(to: Shipment) -> None:
 
     path = to.new / "demonstrations.npz"
     write_arrays(path, {"rows": collect().numpy()})
-    to.add(path, BUILD, sources_hash(("scenario", "rule", "policies", "road", "learn")), provenance())
+    to.add(path, BUILD, fingerprints("road", "rule", "demonstrations"), provenance())
 
 
 def add_rollouts(to: Shipment) -> None:
@@ -199,9 +227,10 @@ def add_rollouts(to: Shipment) -> None:
         run = next(to.study.glob(f"jobs/default/*/runs/{method}-{results.agents[agent]['seed']}"))
         driver = load_run(run).agent.as_policy(with_q=True)
         drives[name] = record(driver, [roads[int(road)]], DEFAULT, method)[0]
-    sources = sources_hash(("scenario", "rule", "policies", "road", "episodes/record", "learn"))
+    behaviour, _ = jobs_made(to.study, "default")
     for name, rollout in drives.items():
-        to.add(rollout.save(to.new / "rollouts" / f"{name}.npz"), STUDY, sources, provenance())
+        path = rollout.save(to.new / "rollouts" / f"{name}.npz")
+        to.add(path, STUDY, fingerprints("road", "rule") | only(behaviour, rollout.label), provenance())
 
 
 def add_readme(to: Shipment, now: Path) -> None:
@@ -211,24 +240,23 @@ def add_readme(to: Shipment, now: Path) -> None:
     for path in sorted((to.new / "readme").glob("*")):
         listed = to.entries.get(path.relative_to(to.new).as_posix())
         if listed is None or listed["sha256"] != sha256(path):
-            sources = sources_hash(("scenario", "rule", "policies", "road", "plots/top_view", "plots/readme_picture"))
-            to.add(path, "python -m bootcourse.plots.readme_picture", sources, provenance())
+            to.add(path, "python -m bootcourse.plots.readme_picture", fingerprints("road", "rule"), provenance())
 
 
-KEPT = {  # what no study makes: the command that does, and the code that it depends on
-    "bug_hunt.npz": ("bootcourse.lessons.bugs", ("scenario", "rule", "policies", "road", "learn", "lessons/bugs")),
-    "checks.md": ("bootcourse.study.checks", ("learn", "study/checks")),
+KEPT = {  # what no study makes: the command that does, and the behaviours that it depends on
+    "bug_hunt.npz": ("bootcourse.lessons.bugs", ("road", "rule", "bootstrapped")),
+    "checks.md": ("bootcourse.study.checks", ("sac", "cql", "gail")),
 }
 
 
 def add_kept(to: Shipment, now: Path) -> None:
     """The agents of the bug hunt and the table of independent checks stay as they are, and are listed."""
-    for name, (module, sources) in KEPT.items():
+    for name, (module, behaviours) in KEPT.items():
         path = to.new / name
         if (now / name).is_file():
             shutil.copy2(now / name, path)
         if path.is_file() and to.entries.get(name, {}).get("sha256") != sha256(path):
-            to.add(path, f"python -m {module} --out assets/{name}", sources_hash(sources), provenance())
+            to.add(path, f"python -m {module} --out assets/{name}", fingerprints(*behaviours), provenance())
 
 
 def add_card(to: Shipment) -> None:
@@ -251,7 +279,8 @@ def add_card(to: Shipment) -> None:
     )
     write_bytes(to.new / "MODEL_CARD.md", text.encode())
     entry = to.entries["study-default.npz"]
-    to.add(to.new / "MODEL_CARD.md", STUDY, entry["sources"], entry["versions"])
+    behaviour = {name: to.behaviours[name][made] for name, made in entry["behaviour"].items()}
+    to.add(to.new / "MODEL_CARD.md", STUDY, behaviour | fingerprints("statistics"), entry["versions"])
 
 
 CARD = """# Model card
