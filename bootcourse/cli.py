@@ -5,6 +5,7 @@ a study can be stopped by Ctrl-C (exit status 130) and continued by the same com
 """
 
 import contextlib
+import importlib.util
 import json
 import sys
 import threading
@@ -77,12 +78,15 @@ def doctor() -> None:
 
 @app.command()
 def train(
-    method: str = typer.Option("bootstrapped", help="sac, soft, demos, bootstrapped, margin or margin_soft."),
+    method: str = typer.Option(
+        "bootstrapped", help="sac, soft, demos, bootstrapped, margin, margin_soft, bc, cql, cql_sac or gail."
+    ),
     seeds: int = typer.Option(4, min=1, max=64, help="How many agents, side by side, each with its own seed."),
     first_seed: int = typer.Option(0, min=0, help="The first training seed."),
     episodes: int = typer.Option(1000, min=1, help="Training episodes of each agent."),
     out: Path = typer.Option(..., help="A new folder for the runs."),
     scenario: str = typer.Option("default", help="default or calibrated."),
+    teacher: str = typer.Option("", help="A rule of your own as the teacher: FILE.py:FUNCTION."),
     resume: bool = typer.Option(False, "--resume", help="Go on with a training that was interrupted or killed."),
     quiet: bool = typer.Option(False, "--quiet", help="No progress bar."),
 ) -> None:
@@ -92,11 +96,11 @@ def train(
     from bootcourse.scenario import named
     from bootcourse.storage.runs import load_checkpoint, save_checkpoint
 
-    unfinished = out / CHECKPOINT
+    unfinished, taught_by = out / CHECKPOINT, teacher_from(teacher)
     if resume:
         if not unfinished.exists():
             raise BootcourseError(f"{out} holds no unfinished training: leave --resume away to start one.")
-        training = load_checkpoint(unfinished)
+        training = load_checkpoint(unfinished, taught_by)
     else:
         settings, road = with_seeds(settings_for(method), seeds, first_seed), named(scenario)
         if unfinished.exists():
@@ -105,9 +109,26 @@ def train(
             )
         if out.exists() and (not out.is_dir() or any(out.iterdir())):
             raise BootcourseError(f"{out} exists already and is not empty: choose another folder.")
-        training = Training(settings, episodes, road)
+        training = Training(settings, episodes, road, taught_by)
         save_checkpoint(training, unfinished)  # before an hour is spent: can this folder be written?
     raise typer.Exit(finish_training(training, out, progress=not quiet))
+
+
+def teacher_from(place: str):
+    """The rule that "FILE.py:FUNCTION" names; the course's for "". Raises BootcourseError if it is not there."""
+    from bootcourse.learn.teachers import course_rule
+
+    if not place:
+        return course_rule
+    file, _, function = place.rpartition(":")
+    if not Path(file).is_file():
+        raise BootcourseError(f"--teacher {place}: name a file and a function in it, such as my_rule.py:my_rule.")
+    spec = importlib.util.spec_from_file_location(Path(file).stem, file)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    if not callable(getattr(module, function, None)):
+        raise BootcourseError(f"{file} has no function '{function}': write it there, or name another.")
+    return getattr(module, function)
 
 
 def finish_training(training, out: Path, progress: bool) -> int:

@@ -104,7 +104,7 @@ EDGE_COST = 1e6  # a plan that leaves the road
 
 
 @compiled
-def _track(cars, speed, lane, c):
+def track(cars, speed, lane, c):
     """Our tracker: the action (0..8) that brings the ego nearest to a speed and a lane.
 
     Accelerate or brake when that brings the speed closer. Steer by looking three decisions ahead:
@@ -149,7 +149,7 @@ def drive_rule(cars, c, actions, speeds, lanes, distances, reasons):
         sort_by_x(cars[road], order)
         look_around(cars[road], order, around, c)
         speeds[road], lanes[road], distances[road], reasons[road] = decide_rule(cars[road], around, c)
-        actions[road] = _track(cars[road], speeds[road], lanes[road], c)
+        actions[road] = track(cars[road], speeds[road], lanes[road], c)
 
 
 @dataclass(frozen=True)

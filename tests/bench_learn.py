@@ -6,110 +6,22 @@ turns in one run and each counts its best turn, so that the ratios hold on a bus
 """
 
 import contextlib
-import copy
 import io
 import time
 from collections.abc import Callable
 
 import numpy as np
 import torch
-import torch.nn.functional as F
-from torch import nn
 
 from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.replay_buffer import Batch, ReplayBuffer, encode_transitions
-from bootcourse.learn.settings import Settings, settings_for, with_seeds
+from bootcourse.learn.settings import settings_for, with_seeds
+from bootcourse.learn.textbook import TextbookSAC
 from bootcourse.scenario import DEFAULT, N_ACTIONS
 from tests.bench_road import Row
 
 AGENTS = 16
 PLAIN_TARGET, D3RLPY_TARGET = 8.0, 12.0  # times faster
-
-
-class Textbook:
-    """One agent as textbooks and CleanRL write it: `nn.Sequential`, an optimiser and a backward for each loss.
-
-    The same losses as `SACLearner`'s, written out a second time. It is spared what it can be: the actor
-    reuses the critics' values, which CleanRL computes afresh.
-    """
-
-    def __init__(self, settings: Settings, inputs: int, actions: int = N_ACTIONS):
-        def net():
-            first, second = settings.hidden
-            layers = (
-                nn.Linear(inputs, first),
-                nn.ReLU(),
-                nn.Linear(first, second),
-                nn.ReLU(),
-                nn.Linear(second, actions),
-            )
-            return nn.Sequential(*layers)
-
-        self.settings, self.n_actions = settings, actions
-        self.actor, self.critics = net(), [net(), net()]
-        self.targets = [copy.deepcopy(critic) for critic in self.critics]
-        self.log_alpha = nn.Parameter(torch.tensor(settings.alpha_init).log())
-        self.actor_optimiser = torch.optim.Adam(self.actor.parameters(), lr=settings.actor_lr)
-        self.critic_optimisers = [torch.optim.Adam(c.parameters(), lr=settings.critic_lr) for c in self.critics]
-        self.alpha_optimiser = torch.optim.Adam([self.log_alpha], lr=settings.alpha_lr)
-
-    def kl(self, log_pi, rule_actions):
-        p = self.settings.rule_p
-        rule = torch.full_like(log_pi, (1 - p) / (self.n_actions - 1))
-        rule.scatter_(1, rule_actions[:, None], p)
-        return (log_pi.exp() * (log_pi - rule.log())).sum(1)
-
-    def margin_loss(self, q, log_pi, batch):
-        q_expert = q.gather(1, batch.actions[:, None]).squeeze(1)
-        margins = torch.ones_like(q).scatter_(1, batch.actions[:, None], 0.0)
-        loss = (q + margins).max(1).values - q_expert
-        if self.settings.paper_q_filter:
-            keep = q_expert >= q.max(1).values
-        else:
-            keep = q_expert > (log_pi.exp() * q).sum(1)
-        return (loss * keep.detach() * batch.is_demonstration).mean()
-
-    def update(self, batch: Batch) -> None:
-        """One step on a batch without an agents axis."""
-        s = self.settings
-        alpha = self.log_alpha.exp().item()
-        xi = s.xi_fixed if s.xi_fixed >= 0 else s.xi_multiplier * alpha
-        with torch.no_grad():
-            next_log_pi = F.log_softmax(self.actor(batch.next_states), dim=1)
-            next_q = torch.min(*(target(batch.next_states) for target in self.targets))
-            next_value = (next_log_pi.exp() * (next_q - alpha * next_log_pi)).sum(1)
-            if s.kl_in_target:
-                next_value = next_value - xi * self.kl(next_log_pi, batch.next_rule_actions)
-            reward = batch.rewards + s.bonus * batch.is_demonstration
-            target = reward + s.gamma * (1 - batch.terminated) * next_value
-
-        log_pi = F.log_softmax(self.actor(batch.states), dim=1)
-        values = [critic(batch.states) for critic in self.critics]
-        for q, optimiser in zip(values, self.critic_optimisers, strict=True):
-            loss = F.mse_loss(q.gather(1, batch.actions[:, None]).squeeze(1), target)
-            if s.margin > 0:
-                loss = loss + s.margin * self.margin_loss(q, log_pi.detach(), batch)
-            optimiser.zero_grad()
-            loss.backward()
-            optimiser.step()
-
-        q = torch.min(*values).detach()
-        kl = self.kl(log_pi, batch.rule_actions)
-        actor_loss = ((log_pi.exp() * (alpha * log_pi - q)).sum(1) + xi * kl).mean()
-        self.actor_optimiser.zero_grad()
-        actor_loss.backward()
-        self.actor_optimiser.step()
-
-        entropy = -(log_pi.exp() * log_pi).sum(1).detach()
-        alpha_loss = (self.log_alpha.exp() * (entropy - s.target_entropy)).mean()
-        self.alpha_optimiser.zero_grad()
-        alpha_loss.backward()
-        self.alpha_optimiser.step()
-
-        with torch.no_grad():
-            for critic, delayed in zip(self.critics, self.targets, strict=True):
-                for parameter, average in zip(critic.parameters(), delayed.parameters(), strict=True):
-                    average.lerp_(parameter, s.tau)
 
 
 def random_rows(n: int, rng: np.random.Generator, inputs: int = DEFAULT.observation_size) -> torch.Tensor:
@@ -136,7 +48,7 @@ def plain() -> Callable[[], None]:
     settings, rng, inputs = settings_for("bootstrapped"), np.random.default_rng(0), DEFAULT.observation_size
     replay = ReplayBuffer(1, 2_000, inputs, random_rows(2_000, rng))
     replay.add(random_rows(2_000, rng)[None])
-    agent, beta, generators = Textbook(settings, inputs), np.array([0.6]), [np.random.default_rng(0)]
+    agent, beta, generators = TextbookSAC(settings, inputs), np.array([0.6]), [np.random.default_rng(0)]
 
     def update():
         batch = replay.sample(settings.batch, beta, generators)

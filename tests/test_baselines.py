@@ -112,10 +112,10 @@ def test_an_agent_learns_the_same_alone_as_beside_others(method):
 
 def test_cloning_makes_the_demonstrator_s_actions_more_probable_and_leaves_the_critics_at_zero():
     cloner, batch = learner("bc"), a_batch(demonstrations=6)
-    before = cloner.policy(batch.states).gather(-1, batch.actions.unsqueeze(-1)).mean()
+    before = cloner.probabilities(batch.states).gather(-1, batch.actions.unsqueeze(-1)).mean()
     for _ in range(20):
         cloner.update(batch)
-    assert cloner.policy(batch.states).gather(-1, batch.actions.unsqueeze(-1)).mean() > before
+    assert cloner.probabilities(batch.states).gather(-1, batch.actions.unsqueeze(-1)).mean() > before
     assert not cloner.q_values(batch.states).any()
 
 
@@ -137,8 +137,8 @@ def test_switching_off_the_conservative_term_changes_the_very_first_update(metho
 def test_cql_drives_by_the_softmax_of_its_first_critic_over_alpha():
     one, batch = learner("cql", alpha_init=0.5), a_batch()
     one.update(batch)
-    q = one._both(one.critics, batch.states)[0]
-    torch.testing.assert_close(one.policy(batch.states), (q / 0.5).softmax(-1))
+    q = one.q_pair(one.critics, batch.states)[0]
+    torch.testing.assert_close(one.probabilities(batch.states), (q / 0.5).softmax(-1))
 
 
 def test_cql_lowers_what_the_data_did_not_do_against_what_it_did():
@@ -223,7 +223,7 @@ def test_a_baseline_trains_is_saved_and_drives_like_any_other_method(method, tmp
     assert all(np.isfinite(values).all() for values in result.curves.values())
     back = load_run(save_runs(result, tmp_path)[1])
     observations = np.random.default_rng(0).normal(size=(5, 26))
-    np.testing.assert_array_equal(back.agent.policy(observations), result.agents[1].policy(observations))
+    np.testing.assert_array_equal(back.agent.probabilities(observations), result.agents[1].probabilities(observations))
     assert back.agent.settings.method == method and back.agent.as_policy(with_q=True)(
         observations, None
     ).q_values.shape == (5, 9)

@@ -8,7 +8,7 @@ from bootcourse.episodes.interactive import InteractiveEpisode, interpolate_stat
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError
-from bootcourse.learn.demonstrations import FIRST_SEED, bootstrap_with, collect, demonstration_rows
+from bootcourse.learn.demonstrations import FIRST_SEED, collect, demonstration_rows
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
 from bootcourse.policies import plan_policy, rule_policy
@@ -88,7 +88,7 @@ def test_only_an_accident_is_an_end_without_a_future():
 
 def test_an_agent_learns_from_the_drives_that_it_is_given():
     drives = record(rule_policy(DEFAULT), [5])
-    training = bootstrap_with(Training(with_seeds(settings_for("bootstrapped", **SMALL), 2), episodes=2), drives)
+    training = Training(with_seeds(settings_for("bootstrapped", **SMALL), 2), episodes=2, demonstrations=drives)
     rows = demonstration_rows(drives)
     assert training.replay.demonstrations == len(rows) and torch.equal(training.replay.table[: len(rows)], rows)
     result = training.run(progress=False)
@@ -102,10 +102,7 @@ def test_what_cannot_be_bootstrapped_is_refused():
     with pytest.raises(BootcourseError, match="different scenarios"):
         demonstration_rows([*drives, *record(rule_policy(CALIBRATED), [5], CALIBRATED)])
     with pytest.raises(BootcourseError, match="'sac' uses no demonstrations"):
-        bootstrap_with(Training([settings_for("sac", **SMALL)], 2), drives)
-    training = Training([settings_for("demos", **SMALL)], 2)
+        Training([settings_for("sac", **SMALL)], 2, demonstrations=drives)
     with pytest.raises(BootcourseError, match="another scenario"):
-        bootstrap_with(training, record(rule_policy(CALIBRATED), [5], CALIBRATED))
-    training.step()
-    with pytest.raises(BootcourseError, match="has begun"):
-        bootstrap_with(training, drives)
+        others = record(rule_policy(CALIBRATED), [5], CALIBRATED)
+        Training([settings_for("demos", **SMALL)], 2, demonstrations=others)

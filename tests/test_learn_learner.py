@@ -7,13 +7,15 @@ import numpy as np
 import pytest
 import torch
 
+from bootcourse.learn import textbook
 from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.networks import init_mlp, mlp
 from bootcourse.learn.replay_buffer import Batch, ReplayBuffer
 from bootcourse.learn.settings import settings_for
+from bootcourse.learn.textbook import TextbookSAC
 from bootcourse.methods import ABLATION
 from bootcourse.scenario import DEFAULT
-from tests.bench_learn import Textbook, random_rows
+from tests.bench_learn import random_rows
 
 INPUTS = DEFAULT.observation_size
 EVERY_METHOD = [settings_for(method, seed=seed) for seed, method in enumerate(ABLATION)]
@@ -45,9 +47,9 @@ def weights(learner: SACLearner, i: int = 0) -> torch.Tensor:
     return torch.cat([part.detach().reshape(-1) for part in (*parts, learner.log_alpha[i])])
 
 
-def textbook_of(learner: SACLearner, i: int) -> Textbook:
+def textbook_of(learner: SACLearner, i: int) -> TextbookSAC:
     """A textbook agent with the weights of agent i."""
-    twin, n = Textbook(learner.settings[i], INPUTS), learner.agents
+    twin, n = TextbookSAC(learner.settings[i], INPUTS), learner.agents
     pairs = [(twin.actor, learner.actor, i)]
     for k in range(2):
         pairs += [(twin.critics[k], learner.critics, k * n + i), (twin.targets[k], learner.target_critics, k * n + i)]
@@ -67,7 +69,7 @@ def gradients_of(learner: SACLearner, i: int) -> list[torch.Tensor]:
     return [p.grad[row] for parameters, row in rows for p in parameters] + [learner.log_alpha.grad[i]]
 
 
-def gradients_of_textbook(twin: Textbook) -> list[torch.Tensor]:
+def gradients_of_textbook(twin: TextbookSAC) -> list[torch.Tensor]:
     found = []
     for net in (twin.actor, *twin.critics):
         for layer in net[::2]:
@@ -95,7 +97,7 @@ def test_ten_updates_lead_where_the_textbook_leads(settings):
         for i, twin in enumerate(twins):
             twin.update(Batch(*(column[i] for column in batch)))
     states = torch.randn(50, INPUTS, generator=torch.Generator().manual_seed(0))
-    policy = learner.policy(states.expand(learner.agents, -1, -1))
+    policy = learner.probabilities(states.expand(learner.agents, -1, -1))
     values = learner.q_values(states.expand(learner.agents, -1, -1))
     for i, twin in enumerate(twins):
         with torch.no_grad():
@@ -248,3 +250,11 @@ def test_first_weights_fill_what_torch_fills_by_default():
     (weight, bias, *_) = init_mlp((100, 400, 9), [torch.Generator().manual_seed(0)])
     for drawn in (weight, bias):
         assert drawn.abs().max() <= 0.1 and drawn.abs().max() > 0.098 and drawn.mean().abs() < 0.005
+
+
+def test_the_textbook_trains_and_drives_episodes_to_their_end():
+    settings = settings_for("bootstrapped", hidden=(8, 8), learning_starts=16, demonstration_episodes=3)
+    agent, escaped = textbook.train(settings, episodes=6)
+    assert len(escaped) >= 6 and set(escaped) <= {True, False}
+    first = textbook.TextbookSAC(settings)
+    assert float(agent.log_alpha.detach()) != float(first.log_alpha.detach())  # it was updated

@@ -50,11 +50,11 @@ def rows_of(training: Training, steps: int) -> torch.Tensor:
 def test_the_replay_holds_what_happened_on_the_road_and_the_true_last_state_of_each_episode(sure):
     training = training_of("sac", "soft", learning_starts=10**6)
     rows = rows_of(always(training, IDLE) if sure else training, DECISIONS + 3)
-    n, roads = INPUTS, 2 * training.roads
+    n, roads = INPUTS, 2 * training.envs_per_agent
 
     road = TrapVectorEnv(roads, DEFAULT, AutoresetMode.DISABLED)  # the same roads, that rest when they end
     states, _ = road.reset(
-        seed=[FIRST_SEED + 1000 * s.seed + i for s in training.settings for i in range(training.roads)]
+        seed=[FIRST_SEED + 1000 * s.seed + i for s in training.settings for i in range(training.envs_per_agent)]
     )
     awake = np.ones(roads, dtype=bool)
     for step in range(DECISIONS):
@@ -177,7 +177,7 @@ def test_an_interrupt_returns_what_was_learned_so_far(interrupt):
     for values in result.curves.values():
         assert values.shape == (2, 500)
         np.testing.assert_array_equal(np.isnan(values).sum(1), 500 - finished)
-    assert result.agents[0].policy(np.zeros((3, INPUTS))).shape == (3, 9)
+    assert result.agents[0].probabilities(np.zeros((3, INPUTS))).shape == (3, 9)
 
 
 @pytest.mark.skipif(os.name == "nt", reason="a process cannot press Ctrl-C for itself on Windows")
@@ -255,10 +255,10 @@ def test_an_agent_thinks_what_its_learner_thought():
     for _ in range(20):
         training.step()
     states = torch.randn(3, 50, INPUTS)
-    policy, values = training.learner.policy(states), training.learner.q_values(states)
+    policy, values = training.learner.probabilities(states), training.learner.q_values(states)
     for i in range(3):
         agent = training.agent(i)
-        np.testing.assert_allclose(agent.policy(states[i].numpy()), policy[i], atol=1e-6)
+        np.testing.assert_allclose(agent.probabilities(states[i].numpy()), policy[i], atol=1e-6)
         np.testing.assert_allclose(agent.q_values(states[i].numpy()), values[i], atol=1e-5)
 
 
@@ -266,7 +266,7 @@ def test_an_agent_drives_by_its_most_probable_action_or_draws_one():
     training = training_of("sac", "soft")
     agent = training.run(progress=False).agents[1]
     states = np.random.default_rng(0).normal(size=(500, INPUTS)).astype(np.float32)
-    policy = agent.policy(states)
+    policy = agent.probabilities(states)
     np.testing.assert_allclose(policy.sum(1), 1, rtol=1e-5)
     choice = agent.as_policy(with_q=True)(states, None)
     np.testing.assert_array_equal(choice.actions, policy.argmax(1))

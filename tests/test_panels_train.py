@@ -331,7 +331,7 @@ def test_what_has_no_sense_yet_is_said_in_a_sentence():
 
 def test_a_training_that_diverges_names_the_agent():
     panel = small(seeds=1, episodes=20, actor_lr=1e30, critic_lr=1e30)
-    with pytest.warns(UserWarning, match="not a number"):
+    with pytest.warns(UserWarning, match="not finite"):
         trained(panel)
     assert panel.result.stopped and "soft constraint only, seed 0, diverged" in words(panel)
     assert "Its last finite snapshot is kept" in words(panel) and not panel.save.disabled

@@ -31,7 +31,7 @@ def run(result, tmp_path):
 def test_a_run_reads_back_as_it_was_written(result, run):
     back = load_run(run)
     observations = np.random.default_rng(0).normal(size=(5, 26))
-    np.testing.assert_array_equal(back.agent.policy(observations), result.agents[0].policy(observations))
+    np.testing.assert_array_equal(back.agent.probabilities(observations), result.agents[0].probabilities(observations))
     np.testing.assert_array_equal(back.curves["return"], result.curves["return"][0])
     assert back.agent.settings == result.agents[0].settings and back.scenario == result.scenario
     assert back.provenance["seed"] == 0 and "torch" in back.provenance

@@ -32,7 +32,7 @@ def stepped(seeds: int = 3, steps: int = 12) -> Training:
 def outcome():
     made = stepped()
     poison(made, 1)
-    with pytest.warns(UserWarning, match="sac, seed 1: its loss was not a number at decision 52; it stops there"):
+    with pytest.warns(UserWarning, match="sac, seed 1: its loss was not finite at decision 52; it stops there"):
         return made.run(progress=False)
 
 

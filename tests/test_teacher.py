@@ -1,6 +1,7 @@
 """A teacher of your own: it drives, demonstrates and labels in place of the course's rule."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,11 +11,10 @@ from bootcourse.errors import BootcourseError
 from bootcourse.learn.demonstrations import collect
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.teachers import (
-    TaughtTraining,
     ahead,
     all_roads,
     course_rule,
-    demonstrations_of,
+    teacher_name,
     teacher_of,
     teacher_policy,
     toward,
@@ -25,6 +25,7 @@ from bootcourse.road.state import EGO, LANE, TRAP_1, X
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.rule import rule
 from bootcourse.scenario import DEFAULT
+from bootcourse.storage.runs import load_checkpoint, load_run, save_checkpoint, save_runs
 
 TWO = with_seeds(settings_for("bootstrapped", hidden=(8,), buffer_size=2000), 2)
 
@@ -41,18 +42,18 @@ def follows(cars, scenario):
 def test_taught_by_the_course_s_rule_every_number_is_that_of_a_plain_training():
     plain = Training(TWO, 12).run(progress=False)
     for teacher in (course_rule, one_road):
-        taught = TaughtTraining(TWO, teacher, 12).run(progress=False)
+        taught = Training(TWO, 12, teacher=teacher).run(progress=False)
         for name, values in plain.curves.items():
             assert np.array_equal(values, taught.curves[name], equal_nan=True), name
         assert all(torch.equal(a, b) for a, b in zip(plain.agents[1].actor, taught.agents[1].actor, strict=True))
 
 
 def test_the_demonstrations_of_the_course_s_rule_are_those_that_are_collected():
-    assert torch.equal(demonstrations_of(course_rule, 6), collect(6))
+    assert torch.equal(collect(6, teacher=one_road), collect(6))
 
 
 def test_every_label_is_the_teacher_s_in_the_memory_and_in_the_demonstrations():
-    training = TaughtTraining(TWO, follows, 5)
+    training = Training(TWO, 5, teacher=follows)
     training.run(progress=False)
     used = [slice(first, first + training.replay.size) for first in training.replay.first]
     labels = [training.replay.table[: training.replay.demonstrations, -2:]]
@@ -61,7 +62,7 @@ def test_every_label_is_the_teacher_s_in_the_memory_and_in_the_demonstrations():
 
 
 def test_a_method_without_demonstrations_is_only_labelled():
-    training = TaughtTraining([settings_for("soft", hidden=(8,), buffer_size=2000)], follows, 2)
+    training = Training([settings_for("soft", hidden=(8,), buffer_size=2000)], 2, teacher=follows)
     training.run(progress=False)
     assert training.replay.demonstrations == 0 and (training.replay.table[: training.replay.size, -2:] == 4).all()
 
@@ -111,9 +112,41 @@ def test_a_rule_that_writes_into_its_cars_changes_no_road():
     assert "writes into `cars`" in repr(examine(spoils, 5))
 
 
-def test_stochastic_demonstrations_are_refused():
-    with pytest.raises(BootcourseError, match="its own actions"):
-        TaughtTraining(with_seeds(settings_for("bootstrapped", stochastic_demonstrations=True), 1), follows)
+def test_a_teacher_of_one_s_own_demonstrates_by_chance_too_where_that_is_asked_for():
+    settings = [settings_for("demos", hidden=(8,), buffer_size=2000, demonstration_episodes=20, rule_p=0.5)]
+    training = Training([replace(settings[0], stochastic_demonstrations=True)], 2, teacher=follows)
+    actions = training.replay.table[: training.replay.demonstrations, 2 * 26]
+    assert 0.4 < float((actions == 4).float().mean()) < 0.6
+
+
+def test_agents_that_share_demonstrations_by_chance_need_the_same_p():
+    pair = [settings_for("demos", stochastic_demonstrations=True, rule_p=p) for p in (0.5, 0.9)]
+    with pytest.raises(BootcourseError, match="need the same rule_p"):
+        Training(pair, 2)
+
+
+def test_a_training_is_resumed_by_its_own_teacher_alone(tmp_path):
+    training = Training(TWO, 12, teacher=follows)
+    training.step()
+    save_checkpoint(training, tmp_path / "checkpoint.npz")
+    with pytest.raises(BootcourseError, match="was taught by 'follows"):
+        load_checkpoint(tmp_path / "checkpoint.npz")
+    again = load_checkpoint(tmp_path / "checkpoint.npz", teacher=follows)
+    for each in (training, again):
+        each.run(progress=False)
+    assert torch.equal(training.replay.table, again.replay.table) and (again.rule_actions == 4).all()
+    (run, _) = save_runs(again.result(), tmp_path / "runs")
+    assert load_run(run).provenance["teacher"] == teacher_name(follows)
+
+
+def test_two_rules_of_the_same_name_are_two_teachers():
+    def other():
+        def follows(cars, scenario):
+            return 3
+
+        return follows
+
+    assert teacher_name(follows) != teacher_name(other()) and teacher_name(course_rule) == "rule"
 
 
 def test_an_exam_counts_and_never_raises():

@@ -1,7 +1,6 @@
-"""A drive that goes on one decision at a time, by whoever says what comes next: a hand on a key, a program, a test.
+"""An episode that is driven one decision at a time, from outside: by a key press, a program, a test.
 
-`record` lets a driver drive to the end; here the end of each decision is waited for. Both make the
-same `Rollout` of the same actions.
+`record` lets a policy drive to the end. Both make the same `Rollout` of the same actions.
 """
 
 import numpy as np
@@ -17,7 +16,7 @@ from bootcourse.scenario import ACTION_NAMES, DEFAULT, N_ACTIONS, Scenario
 
 
 class InteractiveEpisode:
-    """One drive, from its start to wherever it has come. `decide(action)` drives on by one decision."""
+    """One episode; `decide(action)` drives the next decision. Raises BootcourseError for a seed that is none."""
 
     def __init__(self, seed: int, scenario: Scenario = DEFAULT, label: str = "you"):
         if not isinstance(seed, (int, np.integer)) or isinstance(seed, bool) or seed < 0:
@@ -25,7 +24,7 @@ class InteractiveEpisode:
         self.seed, self.scenario, self.label = int(seed), scenario, label
         self.env = TrapVectorEnv(1, scenario, AutoresetMode.DISABLED, record=True)
         observations, _ = self.env.reset(seed=[self.seed])
-        self.tape = EpisodeRecorder([self.env.cars[0].copy()], [observations[0]])
+        self.recorder = EpisodeRecorder(self.env.cars[0], observations[0])
         self.accident, self.over = 0, False
 
     def decide(self, action: int) -> None:
@@ -34,38 +33,41 @@ class InteractiveEpisode:
             raise BootcourseError("This drive is over: start another.")
         if isinstance(action, bool) or not isinstance(action, (int, np.integer)) or not 0 <= action < N_ACTIONS:
             raise BootcourseError(f"Action {action!r}: give a whole number, 0 ({ACTION_NAMES[0]}) to {N_ACTIONS - 1}.")
-        choice = PolicyOutput(np.array([action]))
-        self.tape.note_choice(choice, rule(self.env.cars, self.scenario), 0)
-        observations, rewards, terminated, truncated, infos = self.env.step(choice.actions)
+        output = PolicyOutput(np.array([action]))
+        self.recorder.add_decision(output, rule(self.env.cars, self.scenario))
+        observations, rewards, terminated, truncated, infos = self.env.step(output.actions)
         self.accident = int(infos["accident"][0])
-        terms = [float(infos[name][0]) for name in ("r_v", "r_y", "r_theta")]
-        self.tape.note_outcome(driven(self.env.trace[0], self.accident), observations[0], rewards[0], np.array(terms))
+        terms, states = (
+            [float(infos[name][0]) for name in ("r_v", "r_y", "r_theta")],
+            driven(self.env.trace[0], self.accident),
+        )
+        self.recorder.add_outcome(states, observations[0], rewards[0], terms)
         self.over = bool(terminated[0] or truncated[0])
 
     @property
     def time(self) -> float:
         """Seconds driven."""
-        return (len(self.tape.states) - 1) * self.scenario.clock.dt
+        return (len(self.recorder.states) - 1) * self.scenario.clock.dt
 
     @property
     def actions(self) -> list[int]:
-        return [int(action) for action in self.tape.actions]
+        return [int(action) for action in self.recorder.actions]
 
     @property
     def rewards(self) -> list[float]:
-        return [float(reward) for reward in self.tape.rewards]
+        return [float(reward) for reward in self.recorder.rewards]
 
     @property
     def terms(self) -> tuple[float, float, float]:
         """r_v, r_y, r_θ of the last decision, unweighted; zeros before the first."""
-        return tuple(map(float, self.tape.terms[-1])) if self.tape.terms else (0.0, 0.0, 0.0)
+        return tuple(map(float, self.recorder.terms[-1])) if self.recorder.terms else (0.0, 0.0, 0.0)
 
     def cars_at(self, time: float) -> np.ndarray:
         """Every car's state at a time of this drive (s): (vehicles, 10)."""
-        return interpolate_states(self.tape.states, time / self.scenario.clock.dt)
+        return interpolate_states(self.recorder.states, time / self.scenario.clock.dt)
 
     def rollout(self) -> Rollout:
         """What was driven so far. Raises BootcourseError before the first decision."""
-        if not self.tape.actions:
+        if not self.recorder.actions:
             raise BootcourseError("Nothing was driven yet: make a decision first.")
-        return self.tape.rollout(self.scenario, self.label, self.seed, self.accident)
+        return self.recorder.rollout(self.scenario, self.label, self.seed, self.accident)

@@ -1,47 +1,49 @@
-"""Recording: let a driver drive, on either road, and keep everything as a `Rollout`."""
+"""Recording: let a policy drive, on either road, and keep every number of the episode as a `Rollout`."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 
 import numpy as np
 from gymnasium.vector import AutoresetMode
 
+from bootcourse.episodes.driving import steps
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.files import provenance
 from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.rule import RuleDecisions, rule
-from bootcourse.scenario import DEFAULT, Scenario
+from bootcourse.scenario import DEFAULT, RULE_P, Scenario
 
 
-@dataclass
 class EpisodeRecorder:
-    """What is noted of one road while it is driven."""
+    """What is noted of one road while it is driven, decision by decision.
 
-    states: list = field(default_factory=list)
-    observations: list = field(default_factory=list)
-    actions: list = field(default_factory=list)
-    rewards: list = field(default_factory=list)
-    terms: list = field(default_factory=list)
-    policy: list = field(default_factory=list)
-    q_values: list = field(default_factory=list)
-    rule: list = field(default_factory=list)
+    cars (vehicles, 10) and observation (observation_size,) are those at the start.
+    """
 
-    def note_choice(self, choice: PolicyOutput, why: RuleDecisions, road: int) -> None:
-        self.actions.append(choice.actions[road])
-        if choice.policy is not None:
-            self.policy.append(choice.policy[road])
-        if choice.q_values is not None:
-            self.q_values.append(choice.q_values[road])
-        self.rule.append((why.actions[road], why.speeds[road], why.lanes[road], why.distances[road], why.reasons[road]))
+    def __init__(self, cars: np.ndarray, observation: np.ndarray):
+        self.states, self.observations = [cars.copy()], [observation.copy()]
+        self.actions, self.rewards, self.terms = [], [], []
+        self.policy, self.q_values = [], []  # stay empty where the policy has no such thing
+        self.rule = []  # what the rule would have done: a value of each field of `RuleDecisions`
 
-    def note_outcome(self, states, observation, reward, terms) -> None:
+    def add_decision(self, output: PolicyOutput, by_rule: RuleDecisions, road: int = 0) -> None:
+        """What was decided on a road, and what the rule would have decided."""
+        self.actions.append(output.actions[road])
+        if output.policy is not None:
+            self.policy.append(output.policy[road])
+        if output.q_values is not None:
+            self.q_values.append(output.q_values[road])
+        self.rule.append([values[road] for values in vars(by_rule).values()])
+
+    def add_outcome(self, states: Sequence, observation: np.ndarray, reward: float, terms: Sequence[float]) -> None:
+        """What came of it: the state after each simulation step, the next observation, r, and (r_v, r_y, r_θ)."""
         self.states.extend(np.array(state) for state in states)
         self.observations.append(np.array(observation, dtype=np.float32))
         self.rewards.append(reward)
         self.terms.append(terms)
 
-    def rollout(self, scenario: Scenario, label: str, seed: int, accident: int) -> Rollout:
+    def rollout(self, scenario: Scenario, label: str, seed: int, accident: int, rule_p: float = RULE_P) -> Rollout:
+        """The episode so far."""
         actions, speeds, lanes, distances, reasons = (np.array(column) for column in zip(*self.rule, strict=True))
         return Rollout(
             scenario=scenario,
@@ -55,40 +57,42 @@ class EpisodeRecorder:
             accident=int(accident),
             policy=np.array(self.policy) if self.policy else None,
             q_values=np.array(self.q_values) if self.q_values else None,
-            rule_actions=actions.astype(np.int64),
+            rule_actions=actions,
             rule_speeds=speeds,
-            rule_lanes=lanes.astype(np.int64),
+            rule_lanes=lanes,
             rule_distances=distances,
-            rule_reasons=reasons.astype(np.int64),
+            rule_reasons=reasons,
+            rule_p=rule_p,
             provenance=provenance(),
         )
 
 
-def record(driver: Policy, seeds: Sequence[int], scenario: Scenario = DEFAULT, label: str = "driver") -> list[Rollout]:
-    """Drive one episode for each seed on the compiled road; one `Rollout` each."""
+def record(
+    policy: Policy,
+    seeds: Sequence[int],
+    scenario: Scenario = DEFAULT,
+    label: str = "driver",
+    rule_p: float = RULE_P,
+) -> list[Rollout]:
+    """Drive one episode on the compiled road of each seed; one `Rollout` each.
+
+    label: who drives, such as "sac, seed 3"; rule_p: p of the stochastic rule that the drive's KL is measured against.
+    """
     seeds = list(seeds)
     env = TrapVectorEnv(len(seeds), scenario, AutoresetMode.DISABLED, record=True)
-    observations, _ = env.reset(seed=seeds)
-    tapes = [
-        EpisodeRecorder([cars.copy()], [observation.copy()])
-        for cars, observation in zip(env.cars, observations, strict=True)
-    ]
-    accidents = np.zeros(len(seeds), dtype=np.int64)
-    awake = np.ones(len(seeds), dtype=bool)
-    while awake.any():
-        choice, why = driver(observations, env.cars), rule(env.cars, scenario)
-        observations, rewards, terminated, truncated, infos = env.step(choice.actions)
-        terms = np.stack([infos["r_v"], infos["r_y"], infos["r_theta"]], axis=1)
-        for road in np.flatnonzero(awake):
-            tapes[road].note_choice(choice, why, road)
-            accidents[road] = infos["accident"][road]
-            trace = driven(env.trace[road], accidents[road])
-            tapes[road].note_outcome(trace, observations[road], rewards[road], terms[road])
-        awake &= ~(terminated | truncated)
-    return [
-        tape.rollout(scenario, label, seed, accident)
-        for tape, seed, accident in zip(tapes, seeds, accidents, strict=True)
-    ]
+    recorders, accidents = [], np.zeros(len(seeds), dtype=np.int64)
+    for step in steps(policy, env, seeds):
+        if not recorders:
+            recorders = [EpisodeRecorder(*start) for start in zip(step.cars, step.observations, strict=True)]
+        by_rule = rule(step.cars, scenario)
+        terms = np.stack([step.infos[name] for name in ("r_v", "r_y", "r_theta")], axis=1)
+        for road in np.flatnonzero(step.running):
+            recorders[road].add_decision(step.output, by_rule, road)
+            accidents[road] = step.infos["accident"][road]
+            states = driven(env.trace[road], accidents[road])
+            recorders[road].add_outcome(states, step.next_observations[road], step.rewards[road], terms[road])
+    each = zip(recorders, seeds, accidents, strict=True)
+    return [recorder.rollout(scenario, label, seed, accident, rule_p) for recorder, seed, accident in each]
 
 
 def driven(trace: np.ndarray, accident: int) -> np.ndarray:
@@ -99,17 +103,18 @@ def driven(trace: np.ndarray, accident: int) -> np.ndarray:
     return trace[: len(trace) - sum(repeats)]
 
 
-def record_on_highway_env(driver: Policy, seed: int, env, label: str = "driver") -> Rollout:
+def record_on_highway_env(policy: Policy, seed: int, env, label: str = "driver") -> Rollout:
     """Drive one episode on `TrapEnv` (as made by gym.make); the same `Rollout` as on the compiled road."""
     road, scenario = env.unwrapped, env.unwrapped.scenario
+    if hasattr(policy, "reset"):
+        policy.reset(1)
     observation, info = env.reset(seed=seed)
-    tape = EpisodeRecorder([road.cars()], [observation.copy()])
-    over = False
+    recorder, over = EpisodeRecorder(road.cars(), observation), False
     while not over:
         cars = road.cars()[None]
-        choice = driver(observation[None], cars)
-        tape.note_choice(choice, rule(cars, scenario), 0)
-        observation, reward, terminated, truncated, info = env.step(int(choice.actions[0]))
-        tape.note_outcome(road.trace, observation, reward, list(info["rewards"].values()))
+        output = policy(observation[None], cars)
+        recorder.add_decision(output, rule(cars, scenario))
+        observation, reward, terminated, truncated, info = env.step(int(output.actions[0]))
+        recorder.add_outcome(road.trace, observation, reward, list(info["rewards"].values()))
         over = terminated or truncated
-    return tape.rollout(scenario, label, seed, info["accident"])
+    return recorder.rollout(scenario, label, seed, info["accident"])

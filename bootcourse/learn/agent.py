@@ -22,7 +22,7 @@ class Agent:
     alpha: float  # the entropy coefficient at the end
 
     @torch.no_grad()
-    def policy(self, observations: np.ndarray) -> np.ndarray:
+    def probabilities(self, observations: np.ndarray) -> np.ndarray:
         """π(a|s): (batch, observation) -> (batch, 9)."""
         return mlp(self.actor, torch.as_tensor(observations, dtype=torch.float32)[None])[0].softmax(-1).numpy()
 
@@ -36,14 +36,14 @@ class Agent:
         """Drives by its most probable action; with an rng, by an action drawn from π."""
 
         def drive(observations, cars):
-            policy = self.policy(observations)
-            actions = policy.argmax(-1) if rng is None else sample_actions(policy, rng.random(len(policy)))
-            return PolicyOutput(actions, policy, self.q_values(observations) if with_q else None)
+            pi = self.probabilities(observations)
+            actions = pi.argmax(-1) if rng is None else sample_actions(pi, rng.random(len(pi)))
+            return PolicyOutput(actions, pi, self.q_values(observations) if with_q else None)
 
         return drive
 
 
-def sample_actions(policy: np.ndarray, uniforms: np.ndarray) -> np.ndarray:
+def sample_actions(pi: np.ndarray, uniforms: np.ndarray) -> np.ndarray:
     """One action for each distribution, (..., 9) and (...) in [0, 1) -> (...), by the inverse of its sum."""
-    cumulative = policy.cumsum(-1)
+    cumulative = pi.cumsum(-1)
     return (cumulative[..., :-1] <= (uniforms * cumulative[..., -1])[..., None]).sum(-1)

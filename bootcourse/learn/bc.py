@@ -1,4 +1,4 @@
-"""Behaviour cloning: do what the demonstrator did. The simplest of imitators; nothing is rewarded."""
+"""Behaviour cloning: an actor learns to repeat the demonstrator's actions. No reward is used."""
 
 from collections.abc import Sequence
 
@@ -22,18 +22,14 @@ def cloning_loss(log_pi: Tensor, expert_actions: Tensor) -> Tensor:
 
 
 class BCLearner(SACLearner):
-    """Actors that are trained to repeat the batch. Nothing is valued, so their critics are zero."""
+    """Only the actors learn. Nothing is valued: the critics are zero."""
 
     def __init__(self, settings: Sequence[Settings], observation_size: int, n_actions: int = N_ACTIONS):
         super().__init__(settings, observation_size, n_actions)
         with torch.no_grad():
             torch._foreach_zero_([*self.critics, *self.target_critics])
 
-    def update(self, batch: Batch) -> dict[str, Tensor]:
-        """One step on every agent's own batch. Returns what a curve shows, each (agents,)."""
-        log_pi = sac.log_policy(mlp(self.actor, batch.states))
-        loss = cloning_loss(log_pi, batch.actions)
-        self.optimiser.zero_grad()
-        loss.sum().backward()
-        self.optimiser.step()
-        return {"actor_loss": loss.detach(), "entropy": sac.entropy(log_pi).detach().mean(-1)}
+    def losses(self, batch: Batch) -> dict[str, Tensor]:
+        """The cross-entropy, and the entropy for a curve: each (agents,)."""
+        log_pi = sac.log_policy(mlp(self.actor, batch.states))  # (agents, batch, 9)
+        return {"actor_loss": cloning_loss(log_pi, batch.actions), "entropy": sac.entropy(log_pi).mean(-1)}

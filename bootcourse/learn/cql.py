@@ -1,4 +1,4 @@
-"""Conservative Q-learning (Kumar et al., arXiv 2006.04779): distrust every action that the data does not hold.
+"""Conservative Q-learning (Kumar et al., arXiv 2006.04779): lower the value of actions that the data does not hold.
 
 `cql` is the usual form for discrete actions (their Section 3.4, and d3rlpy's and Tianshou's): the
 conservative term CQL(H) on top of double Q-learning. It has no actor; its policy is softmax(Q/α)
@@ -33,23 +33,27 @@ class CQLLearner(SACLearner):
         super().__init__(settings, observation_size, n_actions)
         self._act_greedily()
 
-    def update(self, batch: Batch) -> dict[str, Tensor]:
-        """One step on every agent's own batch. Returns what a curve shows, each (agents,)."""
+    def critic_target(self, batch: Batch) -> Tensor:
+        """Double Q-learning's target, without entropy or KL: (agents, batch)."""
+        next_q = sac.min_q(self.q_pair(self.target_critics, batch.next_states))  # (agents, batch, 9)
+        next_value = greedy_value(self.q_pair(self.critics, batch.next_states)[0], next_q)
+        return sac.critic_target(batch.rewards, batch.terminated, next_value, self.gamma)
+
+    def losses(self, batch: Batch) -> dict[str, Tensor]:
+        """The critics' squared errors and the weighted conservative term: each (agents,)."""
         with torch.no_grad():
-            next_q = sac.min_q(self._both(self.target_critics, batch.next_states))
-            next_value = greedy_value(self._both(self.critics, batch.next_states)[0], next_q)
-            target = sac.critic_target(batch.rewards, batch.terminated, next_value, self.of_agent["gamma"][:, None])
-        q_pair = self._both(self.critics, batch.states)
+            target = self.critic_target(batch)  # (agents, batch)
+        q_pair = self.q_pair(self.critics, batch.states)  # (2, agents, batch, 9)
         actions = batch.actions.expand(2, -1, -1)
         error = sac.critic_loss(q_pair.gather(-1, actions.unsqueeze(-1)).squeeze(-1), target).sum(0)
-        pessimism = sac.conservative_loss(q_pair, actions).sum(0)
-        self.optimiser.zero_grad()
-        (error + self.of_agent["cql_weight"] * pessimism).sum().backward()
-        self.optimiser.step()
-        with torch.no_grad():
-            torch._foreach_lerp_(self.target_critics, self.critics, self.settings[0].tau)
+        conservative = self.cql_weight[:, 0] * sac.conservative_loss(q_pair, actions).sum(0)
+        return {"critic_loss": error, "conservative_loss": conservative}
+
+    def update(self, batch: Batch) -> dict[str, Tensor]:
+        """One step of the critics; the actor follows the first of them."""
+        terms = super().update(batch)
         self._act_greedily()
-        return {"critic_loss": error.detach(), "conservative_loss": pessimism.detach()}
+        return terms
 
     @torch.no_grad()
     def _act_greedily(self) -> None:

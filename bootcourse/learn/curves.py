@@ -4,8 +4,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from bootcourse.road.vector_env import TrapVectorEnv
-
 NAMES = (
     "success",  # 1 if the ego ended ahead of trap 1
     "return",  # sum of rewards
@@ -27,11 +25,16 @@ class Curves:
         self.agents, self.roads, self.episodes = agents, roads, episodes
         self.values = {name: np.full((agents, episodes), np.nan) for name in NAMES}
         self.finished = np.zeros(agents, dtype=np.int64)  # episodes, also those beyond the last that is noted
+        self.unknown = np.full(agents * roads, np.nan)
         self.running = np.zeros((4, agents * roads))  # return, decisions, speed, entropy of the running episodes
 
-    def note(self, env: TrapVectorEnv, rewards, entropies, done, infos, now: dict[str, np.ndarray]) -> None:
-        """One decision: rewards, entropies, done (agents x roads,), infos of env.step, now: each (agents,)."""
+    def note(self, rewards, entropies, done, infos, now: dict[str, np.ndarray]) -> None:
+        """One decision: rewards, entropies, done (agents x envs,), infos of env.step, now: each (agents,).
+
+        What an environment other than the trap does not report stays NaN.
+        """
         ended = infos.get("final_info", infos)
+        ended = {name: ended.get(name, self.unknown) for name in ("speed", "is_success", "distance", "accident")}
         self.running += np.stack([rewards, np.ones_like(rewards), ended["speed"], entropies])
         for road in np.flatnonzero(done):
             agent, episode = road // self.roads, self.finished[road // self.roads]

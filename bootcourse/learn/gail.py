@@ -1,8 +1,9 @@
-"""Generative adversarial imitation learning: drive so that a judge takes you for the demonstrator.
+"""Generative adversarial imitation learning: a discriminator's verdict replaces the reward.
 
 Ho & Ermon (arXiv 1606.03476) with an off-policy generator, as in DAC (Kostrikov et al., arXiv
 1809.02925): a discriminator learns to tell demonstrations from the agent's own driving, discrete
-SAC learns to deserve its verdict. The road's reward is never used. Not here: DAC's absorbing states.
+SAC maximises the probability to be taken for a demonstration. The road's reward is not used. DAC's
+absorbing states are left out.
 """
 
 from collections.abc import Sequence
@@ -33,7 +34,7 @@ def imitation_reward(own_logits: Tensor) -> Tensor:
 
 
 def gradient_penalty(network: Sequence[Tensor], expert: Tensor) -> Tensor:
-    """E_expert[‖∇ logit‖²] / 2, "R1" (Mescheder et al., arXiv 1801.04406): keeps the judge smooth.
+    """E_expert[‖∇ logit‖²] / 2, "R1" (Mescheder et al., arXiv 1801.04406): keeps the discriminator smooth.
 
     expert (agents, batch, inputs) -> (agents,).
     """
@@ -51,7 +52,7 @@ class GAILLearner(SACLearner):
     def __init__(self, settings: Sequence[Settings], observation_size: int, n_actions: int = N_ACTIONS):
         super().__init__(settings, observation_size, n_actions)
         self.n_actions, shared = n_actions, self.settings[0]
-        generators = [torch.Generator().manual_seed(s.seed + 2**32) for s in settings]  # not the actors' draws again
+        generators = [torch.Generator().manual_seed(s.seed + 2**32) for s in settings]  # other draws than the actors'
         self.discriminator = init_mlp((observation_size + n_actions, *shared.hidden, 1), generators)
         for parameter in self.discriminator:
             parameter.requires_grad_()
@@ -73,3 +74,7 @@ class GAILLearner(SACLearner):
             rewards = imitation_reward(mlp(self.discriminator, pairs[:, half:]).squeeze(-1))
         mine = Batch(*(column[:, half:] for column in batch))._replace(rewards=rewards)
         return super().update(mine) | {"discriminator_loss": loss.detach(), "imitation_reward": rewards.mean(-1)}
+
+    def tensors(self) -> dict[str, list[Tensor]]:
+        """SAC's tensors and the discriminator's."""
+        return super().tensors() | {"discriminator": self.discriminator}

@@ -1,4 +1,12 @@
-"""One gradient step for every agent: where SAC's losses and the paper's additions meet."""
+"""One gradient step for many agents: where SAC's losses and the paper's additions meet.
+
+`textbook.py` is the same for one agent, in plain torch: read that first. Here every parameter has a
+leading agents axis, so that one batched matrix product serves all agents. Shapes stand beside the
+lines; `batch` is a `Batch`, whose fields are (agents, batch, ...).
+
+A method of your own overrides what differs: `losses` as a whole, or one of `critic_target`,
+`critic_loss`, `actor_loss`, `temperature_loss`, `kl`, `soft_value`. See bc.py, cql.py, gail.py.
+"""
 
 from collections.abc import Sequence
 
@@ -13,11 +21,16 @@ from bootcourse.learn.settings import SHARED, Settings
 from bootcourse.methods import METHODS
 from bootcourse.scenario import N_ACTIONS
 
+PER_AGENT = ("gamma", "target_entropy", "xi_multiplier", "xi_fixed", "kl_in_target", "rule_p", "bonus", "margin")
+PER_AGENT += ("paper_q_filter", "cql_weight")  # settings that the losses need, each of shape (agents, 1)
+
 
 class SACLearner:
     """Actors, twin critics and temperatures of several agents, and their update.
 
-    settings: one for each agent; the fields in `settings.SHARED` must be equal.
+    settings: one for each agent; the fields in `settings.SHARED` must be equal. Each name in
+    `PER_AGENT` is an attribute of shape (agents, 1). `alpha` and `xi`, (agents, 1), are those of the
+    present update. Raises BootcourseError for agents whose shared settings differ.
     """
 
     def __init__(self, settings: Sequence[Settings], observation_size: int, n_actions: int = N_ACTIONS):
@@ -32,7 +45,7 @@ class SACLearner:
         pair = [init_mlp(sizes, generators) for _ in range(2)]
         self.critics = [torch.cat(two) for two in zip(*pair, strict=True)]  # (2 x agents, ...), first critics first
         self.target_critics = [parameter.clone() for parameter in self.critics]
-        self.log_alpha = self._per_agent("alpha_init").log()
+        self.log_alpha = torch.tensor([s.alpha_init for s in settings]).log()  # (agents,)
         groups = [
             {"params": self.actor, "lr": shared.actor_lr},
             {"params": self.critics, "lr": shared.critic_lr},
@@ -42,90 +55,124 @@ class SACLearner:
             for parameter in group["params"]:
                 parameter.requires_grad_()
         self.optimiser = torch.optim.Adam(groups, fused=True)
-        names = ("gamma", "target_entropy", "xi_multiplier", "xi_fixed", "kl_in_target", "rule_p", "bonus", "margin")
-        self.of_agent = {name: self._per_agent(name) for name in (*names, "paper_q_filter", "cql_weight")}
+        for name in PER_AGENT:
+            setattr(self, name, torch.tensor([[float(getattr(s, name))] for s in settings]))
+        self.note_temperature()
 
-    def _per_agent(self, name: str) -> Tensor:
-        return torch.tensor([float(getattr(s, name)) for s in self.settings])
+    def note_temperature(self) -> None:
+        """Set `alpha` and `xi` (Equation 15) to the present temperature, (agents, 1)."""
+        self.alpha = self.log_alpha.detach().exp()[:, None]
+        self.xi = bootstrap.constraint_strength(self.alpha, self.xi_multiplier, self.xi_fixed)
+
+    # One update ----------------------------------------------------------------------------------------
 
     def update(self, batch: Batch) -> dict[str, Tensor]:
-        """One step on every agent's own batch. Returns what a curve shows, each (agents,).
+        """One step on every agent's own batch. Returns `losses` as they were before it, each (agents,).
 
         Critics, actor and temperature step together, each from where the others stood before.
         """
-        its = {name: value[:, None] for name, value in self.of_agent.items()}  # (agents, 1), against (agents, batch)
-        alpha = self.log_alpha.detach().exp()[:, None]
-        xi = bootstrap.constraint_strength(alpha, its["xi_multiplier"], its["xi_fixed"])
-
-        with torch.no_grad():
-            next_log_pi = sac.log_policy(mlp(self.actor, batch.next_states))
-            next_q = sac.min_q(self._both(self.target_critics, batch.next_states))
-            next_kl = bootstrap.kl_to_rule(next_log_pi, batch.next_rule_actions, self.of_agent["rule_p"])
-            next_value = sac.soft_value(next_log_pi, next_q, alpha, its["kl_in_target"] * xi * next_kl)
-            reward = bootstrap.augmented_reward(batch.rewards, batch.is_demonstration, its["bonus"])
-            target = sac.critic_target(reward, batch.terminated, next_value, its["gamma"])
-
-        q_pair = self._both(self.critics, batch.states)
-        q_taken = q_pair.gather(-1, batch.actions.expand(2, -1, -1).unsqueeze(-1)).squeeze(-1)
-        critic_loss = sac.critic_loss(q_taken, target).sum(0)
-
-        log_pi = sac.log_policy(mlp(self.actor, batch.states))
-        kl = bootstrap.kl_to_rule(log_pi, batch.rule_actions, self.of_agent["rule_p"])
-        q = sac.min_q(q_pair)
-        actor_loss = sac.actor_loss(log_pi, q, alpha, xi * kl)
-        state_entropy = sac.entropy(log_pi)
-        temperature_loss = sac.temperature_loss(self.log_alpha, state_entropy, self.of_agent["target_entropy"])
-        if self.of_agent["margin"].any():
-            critic_loss = critic_loss + self.of_agent["margin"] * self._margin_loss(q_pair, log_pi.detach(), batch)
-        if self.of_agent["cql_weight"].any():
-            pessimism = sac.conservative_loss(q_pair, batch.actions.expand(2, -1, -1)).sum(0)
-            critic_loss = critic_loss + self.of_agent["cql_weight"] * pessimism
-
+        self.note_temperature()
+        terms = self.losses(batch)
         self.optimiser.zero_grad()
-        (critic_loss + actor_loss + temperature_loss).sum().backward()
+        torch.stack([loss for name, loss in terms.items() if name.endswith("loss")]).sum().backward()
         self.optimiser.step()
-        with torch.no_grad():
+        with torch.no_grad():  # polyak averaging
             torch._foreach_lerp_(self.target_critics, self.critics, self.settings[0].tau)
+        return {name: values.detach() for name, values in terms.items()}
+
+    def losses(self, batch: Batch) -> dict[str, Tensor]:
+        """What to minimise, under names that end in "loss", and what a curve may show besides: each (agents,)."""
+        with torch.no_grad():
+            target = self.critic_target(batch)  # (agents, batch)
+        q_pair = self.q_pair(self.critics, batch.states)  # (2, agents, batch, 9)
+        log_pi = sac.log_policy(mlp(self.actor, batch.states))  # (agents, batch, 9)
+        kl = self.kl(log_pi, batch.rule_actions)  # (agents, batch)
+        entropy = sac.entropy(log_pi)  # (agents, batch)
         return {
-            "critic_loss": critic_loss.detach(),
-            "actor_loss": actor_loss.detach(),
-            "entropy": state_entropy.detach().mean(-1),
-            "kl": kl.detach().mean(-1),
-            "alpha": alpha[:, 0],
-            "xi": xi[:, 0],
+            "critic_loss": self.critic_loss(q_pair, target, log_pi.detach(), batch),
+            "actor_loss": self.actor_loss(log_pi, sac.min_q(q_pair), self.xi * kl),
+            "temperature_loss": self.temperature_loss(entropy),
+            "entropy": entropy.mean(-1),
+            "kl": kl.mean(-1),
+            "alpha": self.alpha[:, 0],
+            "xi": self.xi[:, 0],
         }
 
-    def _both(self, critics: list[Tensor], states: Tensor) -> Tensor:
+    def critic_target(self, batch: Batch) -> Tensor:
+        """y = r + c + γ (V(s') - ξ KL(s')), Equations 6, 15 and 20: (agents, batch). Called without gradients."""
+        next_log_pi = sac.log_policy(mlp(self.actor, batch.next_states))  # (agents, batch, 9)
+        next_q = sac.min_q(self.q_pair(self.target_critics, batch.next_states))  # (agents, batch, 9)
+        next_kl = self.kl(next_log_pi, batch.next_rule_actions)  # (agents, batch)
+        next_value = self.soft_value(next_log_pi, next_q, self.alpha, self.kl_in_target * self.xi * next_kl)
+        reward = bootstrap.augmented_reward(batch.rewards, batch.is_demonstration, self.bonus)
+        return sac.critic_target(reward, batch.terminated, next_value, self.gamma)
+
+    def critic_loss(self, q_pair: Tensor, target: Tensor, log_pi: Tensor, batch: Batch) -> Tensor:
+        """Both critics' squared errors, and their margin and conservative terms where those have a weight: (agents,).
+
+        q_pair (2, agents, batch, 9), target (agents, batch), log_pi (agents, batch, 9) without gradient.
+        """
+        actions = batch.actions.expand(2, -1, -1)  # (2, agents, batch)
+        q_taken = q_pair.gather(-1, actions.unsqueeze(-1)).squeeze(-1)  # (2, agents, batch)
+        loss = sac.critic_loss(q_taken, target).sum(0)
+        if self.margin.any():
+            loss = loss + self.margin[:, 0] * self.margin_loss(q_pair, log_pi, batch)
+        if self.cql_weight.any():
+            loss = loss + self.cql_weight[:, 0] * sac.conservative_loss(q_pair, actions).sum(0)
+        return loss
+
+    def margin_loss(self, q_pair: Tensor, log_pi: Tensor, batch: Batch) -> Tensor:
+        """The filtered large-margin loss of the demonstrations (Equations 17 to 19), both critics: (agents,)."""
+        total = 0.0
+        for q in q_pair:  # (agents, batch, 9)
+            loss = bootstrap.large_margin_loss(q, batch.actions)
+            printed = bootstrap.paper_q_filter(q.detach(), batch.actions)
+            usual = bootstrap.q_filter(q.detach(), batch.actions, log_pi)
+            keep = torch.where(self.paper_q_filter > 0, printed, usual)
+            total = total + (loss * keep * batch.is_demonstration).mean(-1)
+        return total
+
+    def actor_loss(self, log_pi: Tensor, q: Tensor, constraint: Tensor) -> Tensor:
+        """Minus the soft value with the constraint ξ KL: log_pi, q (agents, batch, 9), constraint (agents, batch)."""
+        return sac.actor_loss(log_pi, q, self.alpha, constraint)
+
+    def temperature_loss(self, entropy: Tensor) -> Tensor:
+        """α (H - η) of the policies' entropies (agents, batch): (agents,)."""
+        return sac.temperature_loss(self.log_alpha, entropy, self.target_entropy[:, 0])
+
+    def kl(self, log_pi: Tensor, rule_actions: Tensor) -> Tensor:
+        """D_KL(π ‖ π̃) in each state: (agents, batch, 9), (agents, batch) -> (agents, batch)."""
+        return bootstrap.kl_to_rule(log_pi, rule_actions, self.rule_p[:, 0])
+
+    soft_value = staticmethod(sac.soft_value)  # of the next state, in the critic's target
+
+    # What the networks say -----------------------------------------------------------------------------
+
+    def q_pair(self, critics: list[Tensor], states: Tensor) -> Tensor:
         """Both critics' values: (agents, batch, observation) -> (2, agents, batch, actions)."""
         q = mlp(critics, states.repeat(2, 1, 1))
         return q.view(2, self.agents, *q.shape[1:])
 
-    def _margin_loss(self, q_pair: Tensor, log_pi: Tensor, batch: Batch) -> Tensor:
-        """The filtered large-margin loss of the demonstrations in the batch, for both critics: (agents,)."""
-        total = 0.0
-        for q in q_pair:
-            loss = bootstrap.large_margin_loss(q, batch.actions)
-            paper = bootstrap.paper_q_filter(q.detach(), batch.actions)
-            usual = bootstrap.q_filter(q.detach(), batch.actions, log_pi)
-            keep = torch.where(self.of_agent["paper_q_filter"][:, None] > 0, paper, usual)
-            total = total + (loss * keep * batch.is_demonstration).mean(-1)
-        return total
-
     @torch.no_grad()
-    def policy(self, states: Tensor) -> Tensor:
+    def probabilities(self, states: Tensor) -> Tensor:
         """π(a|s): (agents, batch, observation) -> (agents, batch, actions)."""
         return mlp(self.actor, states).softmax(-1)
 
     @torch.no_grad()
     def q_values(self, states: Tensor) -> Tensor:
         """The smaller of the two critics' Q(s,a): (agents, batch, observation) -> (agents, batch, actions)."""
-        return sac.min_q(self._both(self.critics, states))
+        return sac.min_q(self.q_pair(self.critics, states))
+
+    def tensors(self) -> dict[str, list[Tensor]]:
+        """Every tensor that a training's future depends on, apart from the optimiser's: for a checkpoint."""
+        networks = {"actor": self.actor, "critics": self.critics, "targets": self.target_critics}
+        return networks | {"log_alpha": [self.log_alpha]}
 
 
-def learner_for(settings: Sequence[Settings], observation_size: int, n_actions: int = N_ACTIONS) -> "SACLearner":
-    """The learner of these agents. Raises BootcourseError if their methods need different ones."""
-    kinds = {METHODS[s.method].learner_class() for s in settings}
-    if len(kinds) > 1:
+def learner_for(settings: Sequence[Settings], observation_size: int, n_actions: int = N_ACTIONS) -> SACLearner:
+    """The learner that the agents' methods need. Raises BootcourseError if they need different ones."""
+    classes = {METHODS[s.method].learner_class() for s in settings}
+    if len(classes) > 1:
         methods = ", ".join(sorted({s.method for s in settings}))
         raise BootcourseError(f"{methods} cannot train side by side: their updates differ. Train these apart.")
-    return kinds.pop()(settings, observation_size, n_actions)
+    return classes.pop()(settings, observation_size, n_actions)

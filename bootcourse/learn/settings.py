@@ -1,19 +1,28 @@
 """Every setting of a learner, with its source, and the methods: each is a few settings.
 
-† Table "RL hyper-parameters" and Section IV of the paper; § our choice, measured by the study.
+† Table "RL hyper-parameters" and Section IV of the paper; ‡ inferred from the paper, the reason stands beside it;
+§ our choice, measured by the study.
 """
 
 import math
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 
 from bootcourse.errors import BootcourseError, did_you_mean
 from bootcourse.methods import METHODS
 from bootcourse.scenario import check_p
 
 
+def shared(default):
+    """A field in which all agents that train side by side agree."""
+    return field(default=default, metadata={"shared": True})
+
+
 @dataclass(frozen=True)
 class Settings:
-    """One agent's settings. Agents that train side by side may differ in everything above the line."""
+    """One agent's settings. The defaults are the paper's method; `settings_for` gives any other method's.
+
+    Raises BootcourseError for a value that cannot be.
+    """
 
     method: str = "bootstrapped"
     seed: int = 0
@@ -30,21 +39,21 @@ class Settings:
     margin: float = 0.0  # weight of the large-margin loss; 0 switches it off
     paper_q_filter: bool = True  # † the printed Q-filter; False: the usual one
     cql_weight: float = 0.0  # § weight of CQL's conservative term; 0 switches it off
-    # ---- the same for all agents that train side by side ----
-    hidden: tuple = (64, 64)  # § neurons in each hidden layer
-    actor_lr: float = 5e-4  # † α_a
-    critic_lr: float = 1e-3  # † α_c
-    alpha_lr: float = 1e-3  # †
-    batch: int = 64  # † N
-    buffer_size: int = 50_000  # † D, transitions
-    tau: float = 0.005  # § share of the critics that their targets take over at each update
-    envs_per_agent: int = 4  # § roads that one agent drives at once
-    updates: int = 1  # § updates for each decision of all its roads
-    learning_starts: int = 256  # § decisions before the first update
-    demonstration_episodes: int = 200  # † episodes
-    stochastic_demonstrations: bool = False  # ‡ driven by π̃ as the paper prints, or by μ: see demonstrations.py
-    discriminator_lr: float = 3e-4  # § GAIL's discriminator
-    gradient_penalty: float = 1.0  # § on that discriminator's slope at demonstrations
+    # The same for all agents that train side by side:
+    hidden: tuple = shared((64, 64))  # § neurons in each hidden layer
+    actor_lr: float = shared(5e-4)  # † α_a
+    critic_lr: float = shared(1e-3)  # † α_c
+    alpha_lr: float = shared(1e-3)  # †
+    batch: int = shared(64)  # † N
+    buffer_size: int = shared(50_000)  # † D, transitions
+    tau: float = shared(0.005)  # § share of the critics that their targets take over at each update
+    envs_per_agent: int = shared(4)  # § roads that one agent drives at once
+    updates: int = shared(1)  # § updates for each decision of all its roads
+    learning_starts: int = shared(256)  # § decisions before the first update
+    demonstration_episodes: int = shared(200)  # † episodes
+    stochastic_demonstrations: bool = shared(False)  # ‡ driven by π̃ as the paper prints, or by μ: see demonstrations.py
+    discriminator_lr: float = shared(3e-4)  # § GAIL's discriminator
+    gradient_penalty: float = shared(1.0)  # § on that discriminator's slope at demonstrations
 
     def __post_init__(self):
         if self.method not in METHODS:
@@ -76,7 +85,7 @@ class Settings:
             if getattr(self, name) > 0:
                 raise BootcourseError(
                     f"{name} = {getattr(self, name)!r}, but method '{self.method}' is defined by doing without: "
-                    "choose a method that has it."
+                    f"write settings_for('{self.method}'), or choose a method that has it."
                 )
 
     @property
@@ -94,7 +103,7 @@ def _check_range(settings: Settings, low: float, high: float, *names: str, whole
             raise BootcourseError(f"{name} = {value!r}: give a {wanted}.")
 
 
-SHARED = tuple(f.name for f in fields(Settings))[[f.name for f in fields(Settings)].index("hidden") :]
+SHARED = tuple(f.name for f in fields(Settings) if f.metadata.get("shared"))
 
 
 def settings_for(method: str, **changes) -> Settings:

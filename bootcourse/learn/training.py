@@ -1,11 +1,11 @@
-"""The training loop: many agents, each on its own roads, decide and learn together.
+"""The training loop: many agents, each on roads of its own, decide and learn together.
 
     training = Training(with_seeds(settings_for("bootstrapped"), 4), episodes=1000)
     result = training.run()
     result.agents[0].as_policy()
 
-Agents differ in seed and settings and never share anything but the demonstrations. An interrupt
-(Ctrl-C, the notebook's stop button) ends `run` early with what was learned so far.
+Agents differ in seed and settings; they share the teacher and the demonstrations, and nothing else. An
+interrupt (Ctrl-C, the notebook's stop button) ends `run` early with what was learned so far.
 """
 
 import signal
@@ -18,21 +18,24 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import torch
+from gymnasium.vector import VectorEnv
+from torch import Tensor
 
+from bootcourse.episodes.driving import reached_observations
+from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.agent import Agent, sample_actions
-from bootcourse.learn.bootstrap import constraint_strength, demonstration_share
+from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.curves import Curves
-from bootcourse.learn.demonstrations import collect
+from bootcourse.learn.demonstrations import collect, demonstration_rows
 from bootcourse.learn.learner import learner_for
 from bootcourse.learn.replay_buffer import ReplayBuffer, encode_transitions
 from bootcourse.learn.settings import Settings
-from bootcourse.policies import stochastic_rule_policy
+from bootcourse.learn.teachers import Rule, course_rule, stochastic_teacher_policy, teacher_name, teacher_of
 from bootcourse.road.vector_env import TrapVectorEnv
-from bootcourse.rule import rule
 from bootcourse.scenario import DEFAULT, Scenario
 
-LOOK_BACK = 200  # updates; an agent whose loss is not a number falls back to weights at most this old
+SNAPSHOT_EVERY = 200  # updates; an agent with a non-finite loss falls back to weights at most this old
 FIRST_SEED = 2**33  # of the training roads; demonstrations start at 2**34, held-out roads lie below 2**32
 
 
@@ -45,77 +48,116 @@ class Result:
     scenario: Scenario
     seconds: float
     interrupted: bool
-    stopped: dict[int, int] = field(default_factory=dict)  # {agent: the decision at which its loss was not a number}
+    stopped: dict[int, int] = field(default_factory=dict)  # {agent: the decision at which its loss was not finite}
+    teacher: str = "rule"  # who taught: see `teachers.teacher_name`
 
 
 class Training:
-    """A training in progress. `step()` is one decision on every road and the update after it.
+    """A training in progress. `step()` is one decision on every road and the updates after it.
 
-    settings: one for each agent (see `with_seeds`); episodes: how many each agent drives.
-    Raises BootcourseError for settings that cannot train side by side.
+    settings: one for each agent (see `with_seeds`). episodes: how many each agent drives.
+    teacher: the rule that demonstrates and that the KL compares with, the course's or your own (teachers.py).
+    demonstrations: recorded drives, or rows (transitions, row), to learn from instead of the teacher's.
+    make_env: makes a vector environment with same-step autoreset of that many copies, by default the trap;
+    off the trap there is no teacher, and its actions stand in the buffer as 0. first_seed: of its copies.
+    Raises BootcourseError for settings that cannot train side by side, and for demonstrations that do not fit.
     """
 
-    def __init__(self, settings: Sequence[Settings], episodes: int = 1000, scenario: Scenario = DEFAULT):
+    def __init__(
+        self,
+        settings: Sequence[Settings],
+        episodes: int = 1000,
+        scenario: Scenario = DEFAULT,
+        teacher: Rule = course_rule,
+        demonstrations: Sequence[Rollout] | Tensor | None = None,
+        make_env: Callable[[int], VectorEnv] | None = None,
+        first_seed: int = FIRST_SEED,
+    ):
         if not settings or episodes < 1:
             raise BootcourseError(f"{len(settings)} agents and {episodes} episodes: give at least 1 of each.")
-        self.settings, self.episodes, self.scenario = list(settings), int(episodes), scenario
-        shared, self.n_agents = self.settings[0], len(self.settings)
-        self.roads = shared.envs_per_agent
-        self.learner = learner_for(self.settings, scenario.observation_size)
-        pi = stochastic_rule_policy(scenario, np.random.default_rng(0)) if shared.stochastic_demonstrations else None
-        rows = (
-            collect(shared.demonstration_episodes, scenario, pi)
-            if any(s.needs_demonstrations for s in settings)
-            else None
-        )
-        self.replay = ReplayBuffer(self.n_agents, shared.buffer_size, scenario.observation_size, rows)
-        self.curves = Curves(self.n_agents, self.roads, self.episodes)
+        self.settings, self.episodes, self.scenario, self.teacher = list(settings), int(episodes), scenario, teacher
+        shared, self.n_agents, self.envs_per_agent = self.settings[0], len(settings), settings[0].envs_per_agent
+        n_envs = self.n_agents * self.envs_per_agent
+        self.env = TrapVectorEnv(n_envs, scenario) if make_env is None else make_env(n_envs)
+        self.on_the_trap = hasattr(self.env, "cars")
+        size, n_actions = self.env.single_observation_space.shape[0], int(self.env.single_action_space.n)
+        self.learner = learner_for(self.settings, size, n_actions)
+        self._teach = teacher_of(teacher, scenario)
+        rows = self._demonstration_rows(demonstrations)
+        self.replay = ReplayBuffer(self.n_agents, shared.buffer_size, size, rows)
+        self.curves = Curves(self.n_agents, self.envs_per_agent, self.episodes)
         streams = [np.random.SeedSequence([s.seed]).spawn(2) for s in settings]
         self.act_rngs = [np.random.default_rng(act) for act, _ in streams]
         self.sample_rngs = [np.random.default_rng(sample) for _, sample in streams]
-        self.env = TrapVectorEnv(self.n_agents * self.roads, scenario)
-        self.env.reset(seed=[FIRST_SEED + s.seed * 1000 + road for s in settings for road in range(self.roads)])
-        self.look()
-        self.decisions, self.seconds = 0, 0.0
+        seeds = [first_seed + s.seed * 1000 + env for s in settings for env in range(self.envs_per_agent)]
+        self.states, _ = self.env.reset(seed=seeds)
+        self.rule_actions = self.taught()  # what the teacher would do in these states
+        self.decisions, self.updates, self.seconds = 0, 0, 0.0
+        self.losses: dict[str, Tensor] = {}  # what the last update returned, each (agents,)
         self.finished_agents: dict[int, Agent] = {}  # as they were after their last episode
-        self.stopped: dict[int, int] = {}  # {agent: the decision at which its loss was not a number}
-        self.updates, self.last_finite = 0, {}  # {agent: as it was at an update at which its loss was a number}
+        self.stopped: dict[int, int] = {}  # {agent: the decision at which its loss was not finite}
+        self.last_finite: dict[int, Agent] = {}  # {agent: a snapshot from an update with a finite loss}
         self.beta_start = np.array([s.beta_start for s in settings])
         self.beta_episodes = np.array([s.beta_episodes for s in settings])
 
+    def _demonstration_rows(self, given: Sequence[Rollout] | Tensor | None) -> Tensor | None:
+        """What the replay buffer is given to share among the agents, (transitions, row); None if nobody needs it."""
+        shared = self.settings[0]
+        if not any(s.needs_demonstrations for s in self.settings):
+            if given is not None:
+                raise BootcourseError(f"Method '{shared.method}' uses no demonstrations: choose one that does.")
+            return None
+        if isinstance(given, Tensor):
+            return given
+        if given is not None:
+            rows = demonstration_rows(given, self.teacher)
+            if given[0].scenario != self.scenario:
+                raise BootcourseError("These demonstrations are of another scenario than this training: use theirs.")
+            return rows
+        if not self.on_the_trap:
+            raise BootcourseError(f"Method '{shared.method}' needs demonstrations of this environment: give them.")
+        policy = None
+        if shared.stochastic_demonstrations:
+            if len({s.rule_p for s in self.settings}) > 1:
+                raise BootcourseError(
+                    "Agents that train side by side share their demonstrations, so with stochastic_demonstrations "
+                    "they need the same rule_p: train these apart."
+                )
+            policy = stochastic_teacher_policy(self.teacher, np.random.default_rng(0), self.scenario, shared.rule_p)
+        return collect(shared.demonstration_episodes, self.scenario, policy, self.teacher)
+
     @property
     def beta(self) -> np.ndarray:
-        """Each agent's present share of demonstrations, (agents,)."""
+        """Each agent's present share of demonstrations in a batch, (agents,)."""
         return demonstration_share(self.curves.finished, self.beta_start, self.beta_episodes)
 
     @property
     def done(self) -> bool:
         return len(self.finished_agents) == self.n_agents
 
-    def look(self) -> None:
-        """Note what the agents see now, and what the rule would do."""
-        self.states = self.env.observe()
-        self.rule_actions = rule(self.env.cars, self.scenario).actions
+    def taught(self) -> np.ndarray:
+        """What the teacher would do now, (envs,); zeros off the trap."""
+        return self._teach(self.env.cars) if self.on_the_trap else np.zeros(self.env.num_envs, dtype=np.int64)
 
     def step(self) -> None:
-        """One decision on every road, and the updates that follow it."""
-        shape = (self.n_agents, self.roads)
-        policy = self.learner.policy(torch.from_numpy(self.states).view(*shape, -1)).double().numpy()
-        uniforms = np.stack([rng.random(self.roads) for rng in self.act_rngs])
+        """One decision in every environment, and the updates that follow it."""
+        shape = (self.n_agents, self.envs_per_agent)
+        states = torch.from_numpy(self.states).float().view(*shape, -1)
+        policy = self.learner.probabilities(states).double().numpy()  # (agents, envs_per_agent, 9)
+        uniforms = np.stack([rng.random(self.envs_per_agent) for rng in self.act_rngs])
         actions = sample_actions(policy, uniforms).ravel()
         entropies = -(policy * np.log(np.maximum(policy, 1e-30))).sum(-1).ravel()
         next_states, rewards, terminated, truncated, infos = self.env.step(actions)
-        done = terminated | truncated
-        next_rule_actions = rule(self.env.cars, self.scenario).actions
-        reached, reached_rule_actions = next_states.copy(), next_rule_actions.copy()
-        if done.any():  # a road that ended has started anew already: s' is the last state of the old episode
-            reached[done] = np.stack(infos["final_obs"][done])
-            reached_rule_actions[done] = rule(self.env.final_cars[done], self.scenario).actions
+        done, next_rule_actions = terminated | truncated, self.taught()
+        reached_rule_actions = next_rule_actions.copy()
+        if done.any() and self.on_the_trap:  # these began anew already: μ(s') is of the old episode's last state
+            reached_rule_actions[done] = self._teach(self.env.final_cars[done])
+        reached = reached_observations(next_states, infos)
         rows = encode_transitions(
             self.states, reached, actions, rewards, terminated, self.rule_actions, reached_rule_actions
         )
         self.replay.add(rows.view(*shape, -1))
-        self.curves.note(self.env, rewards, entropies, done, infos, self._now())
+        self.curves.note(rewards, entropies, done, infos, self._now())
         self.states, self.rule_actions = next_states, next_rule_actions
         self.decisions += len(actions)
         if self.decisions >= self.n_agents * self.settings[0].learning_starts:
@@ -126,10 +168,11 @@ class Training:
                 self.finished_agents[int(agent)] = self.agent(agent)
 
     def update(self) -> None:
-        """One update of every agent. One whose loss is not a number stops alone, as it was when it last was one."""
-        now = {} if self.updates % LOOK_BACK else {i: self.agent(i) for i in range(self.n_agents)}
-        losses = self.learner.update(self.replay.sample(self.settings[0].batch, self.beta, self.sample_rngs))
-        finite = torch.stack([loss for name, loss in losses.items() if name.endswith("loss")]).isfinite().all(0)
+        """One update of every agent. Agents with a non-finite loss are frozen at their last finite snapshot."""
+        now = {} if self.updates % SNAPSHOT_EVERY else {i: self.agent(i) for i in range(self.n_agents)}
+        self.losses = self.learner.update(self.replay.sample(self.settings[0].batch, self.beta, self.sample_rngs))
+        losses = [loss for name, loss in self.losses.items() if name.endswith("loss")]
+        finite = torch.stack(losses).isfinite().all(0)
         self.updates += 1
         self.last_finite |= {i: agent for i, agent in now.items() if finite[i] or i not in self.last_finite}
         if finite.all():
@@ -140,7 +183,7 @@ class Training:
                 self.finished_agents[int(i)] = self.last_finite[i]
                 self.curves.finished[i] = self.episodes  # nothing more is noted of it
                 who = f"{self.settings[i].method}, seed {self.settings[i].seed}"
-                warnings.warn(f"{who}: its loss was not a number at decision {decision}; it stops there.", stacklevel=2)
+                warnings.warn(f"{who}: its loss was not finite at decision {decision}; it stops there.", stacklevel=2)
 
     def run(
         self,
@@ -178,8 +221,11 @@ class Training:
     def result(self, interrupted: bool = False) -> Result:
         """What was learned so far."""
         agents = [self.finished_agents.get(i) or self.agent(i) for i in range(self.n_agents)]
-        curves = {name: values.copy() for name, values in self.curves.values.items()}
-        return Result(agents, curves, self.scenario, self.seconds, interrupted, dict(self.stopped))
+        curves, taught = (
+            {name: values.copy() for name, values in self.curves.values.items()},
+            teacher_name(self.teacher),
+        )
+        return Result(agents, curves, self.scenario, self.seconds, interrupted, dict(self.stopped), taught)
 
     def agent(self, i: int) -> Agent:
         """Agent i as it is now."""
@@ -188,10 +234,8 @@ class Training:
         return Agent(self.settings[i], actor, critics, float(self.learner.log_alpha[i].detach().exp()))
 
     def _now(self) -> dict[str, np.ndarray]:
-        alpha = self.learner.log_alpha.detach().exp()
-        of_agent = self.learner.of_agent
-        xi = constraint_strength(alpha, of_agent["xi_multiplier"], of_agent["xi_fixed"])
-        return {"alpha": alpha.numpy(), "xi": xi.numpy(), "beta": self.beta}
+        self.learner.note_temperature()
+        return {"alpha": self.learner.alpha[:, 0].numpy(), "xi": self.learner.xi[:, 0].numpy(), "beta": self.beta}
 
 
 def _success(curves: Curves) -> str:
@@ -201,13 +245,19 @@ def _success(curves: Curves) -> str:
 
 @contextmanager
 def _one_thread():
-    """Small matrices are slower on several threads; what the user had set comes back afterwards."""
+    """On the main thread, torch computes on one core: small matrices are slower on several. Restored afterwards.
+
+    torch's count belongs to the process, so a background thread leaves it alone.
+    """
     before = torch.get_num_threads()
-    torch.set_num_threads(1)
+    on_main_thread = threading.current_thread() is threading.main_thread()
+    if on_main_thread:
+        torch.set_num_threads(1)
     try:
         yield
     finally:
-        torch.set_num_threads(before)
+        if on_main_thread:
+            torch.set_num_threads(before)
 
 
 @contextmanager

@@ -12,7 +12,6 @@ import argparse
 import json
 import math
 import sys
-from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -36,80 +35,56 @@ from bootcourse.storage.assets import FOLDER
 # The six bugs ----------------------------------------------------------------------------------------
 
 
-@contextmanager
-def swapped(module, **functions):
-    """For the length of one update, a formula of the library is another one. Not for several threads."""
-    before = {name: getattr(module, name) for name in functions}
-    try:
-        for name, function in functions.items():
-            setattr(module, name, function)
-        yield
-    finally:
-        for name, function in before.items():
-            setattr(module, name, function)
-
-
-def flipped_kl(log_pi: Tensor, rule_actions: Tensor, p: Tensor) -> Tensor:
-    """D_KL(π̃ ‖ π): it charges the policy for not going where the rule would."""
-    log_rule = bootstrap.log_stochastic_rule(rule_actions, p, log_pi.shape[-1])
-    return (log_rule.exp() * (log_rule - log_pi)).sum(-1)
-
-
 class FlippedKL(SACLearner):
-    """The KL divergence is taken the other way round."""
+    """The KL divergence is taken the other way round: D_KL(π̃ ‖ π)."""
 
-    def update(self, batch: Batch) -> dict[str, Tensor]:
-        with swapped(bootstrap, kl_to_rule=flipped_kl):
-            return super().update(batch)
+    def kl(self, log_pi: Tensor, rule_actions: Tensor) -> Tensor:
+        log_rule = bootstrap.log_stochastic_rule(rule_actions, self.rule_p[:, 0], log_pi.shape[-1])
+        return (log_rule.exp() * (log_rule - log_pi)).sum(-1)
 
 
 class NoEnd(SACLearner):
-    """(1 - terminated) is missing: the target believes in a life after the accident."""
+    """(1 - terminated) is missing: the target counts what would follow an accident."""
 
-    def update(self, batch: Batch) -> dict[str, Tensor]:
-        return super().update(batch._replace(terminated=torch.zeros_like(batch.terminated)))
+    def critic_target(self, batch: Batch) -> Tensor:
+        return super().critic_target(batch._replace(terminated=torch.zeros_like(batch.terminated)))
 
 
 class Sampled(SACLearner):
     """One sampled action stands for the expectation, as in SAC for continuous actions."""
 
-    def update(self, batch: Batch) -> dict[str, Tensor]:
-        with swapped(sac, soft_value=self.sampled_value):
-            return super().update(batch)
+    draws = None
 
-    def sampled_value(self, log_pi: Tensor, q: Tensor, alpha: Tensor, constraint=0.0) -> Tensor:
+    def soft_value(self, log_pi: Tensor, q: Tensor, alpha: Tensor, constraint: Tensor) -> Tensor:
         """Q(s, a) - α log π(a|s) of one action a ~ π; a choice among nine has no gradient."""
-        self.draws = getattr(self, "draws", None) or torch.Generator().manual_seed(0)
+        self.draws = self.draws or torch.Generator().manual_seed(0)
         action = torch.multinomial(log_pi.detach().exp().flatten(0, -2), 1, generator=self.draws)
         action = action.view(*log_pi.shape[:-1], 1)
         return q.gather(-1, action)[..., 0] - alpha * log_pi.gather(-1, action)[..., 0] - constraint
 
-
-def undetached_loss(log_pi: Tensor, q: Tensor, alpha: Tensor, constraint=0.0) -> Tensor:
-    """-V(s), its gradient flowing into Q as well."""
-    return -sac.soft_value(log_pi, q, alpha, constraint).mean(-1)
+    def actor_loss(self, log_pi: Tensor, q: Tensor, constraint: Tensor) -> Tensor:
+        return -self.soft_value(log_pi, q.detach(), self.alpha, constraint).mean(-1)
 
 
 class NoStop(SACLearner):
     """The stop-gradient on Q is missing in the actor's loss."""
 
-    def update(self, batch: Batch) -> dict[str, Tensor]:
-        with swapped(sac, actor_loss=undetached_loss):
-            return super().update(batch)
+    def actor_loss(self, log_pi: Tensor, q: Tensor, constraint: Tensor) -> Tensor:
+        return -sac.soft_value(log_pi, q, self.alpha, constraint).mean(-1)
 
 
 class BonusForAll(SACLearner):
     """The bonus c is paid for the agent's own driving as well."""
 
-    def update(self, batch: Batch) -> dict[str, Tensor]:
-        return super().update(batch._replace(is_demonstration=torch.ones_like(batch.is_demonstration)))
+    def critic_target(self, batch: Batch) -> Tensor:
+        return super().critic_target(batch._replace(is_demonstration=torch.ones_like(batch.is_demonstration)))
 
 
 class ShiftedLabels(SACLearner):
     """The rule was asked after the road had moved on: each label belongs to the state one second later."""
 
-    def update(self, batch: Batch) -> dict[str, Tensor]:
-        return super().update(batch._replace(rule_actions=batch.next_rule_actions))
+    def losses(self, batch: Batch) -> dict[str, Tensor]:
+        return super().losses(batch._replace(rule_actions=batch.next_rule_actions))
 
 
 BUGS = {
@@ -157,7 +132,7 @@ class Probe:
 
     def look(self, training: Training, i: int) -> list[float]:
         agent = training.agent(i)
-        pi, q = agent.policy(self.states), agent.q_values(self.states)
+        pi, q = agent.probabilities(self.states), agent.q_values(self.states)
         log_pi = torch.from_numpy(pi).clamp(min=1e-30).log()
         likeliest = log_pi.argmax(-1)
         found = (

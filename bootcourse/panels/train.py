@@ -19,7 +19,6 @@ from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError
-from bootcourse.learn.demonstrations import bootstrap_with
 from bootcourse.learn.settings import Settings, settings_for, with_seeds
 from bootcourse.learn.training import Result, Training
 from bootcourse.methods import METHODS, display_name
@@ -127,8 +126,7 @@ class TrainPanel(Panel):
         mine = list(self.drives or ()) if settings.needs_demonstrations else []
 
         def make() -> Training:
-            training = Training(agents, episodes, self.scenario)
-            return bootstrap_with(training, mine) if mine else training
+            return Training(agents, episodes, self.scenario, demonstrations=mine or None)
 
         label = f"{len(self.drawn) + 1} {label_of(settings)}" + (f", {len(mine)} own drives" if mine else "")
         background = Background(

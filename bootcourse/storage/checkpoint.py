@@ -1,7 +1,6 @@
-"""The whole state of a training as named arrays, so that one that was killed goes on as if it never was.
+"""The whole state of a training as named arrays: one that was killed goes on as if it had not been.
 
-Networks, optimiser, replay, roads, every random generator, curves: nothing is left to chance. Files
-are `bootcourse.storage.runs`' concern.
+Networks, optimiser, replay buffer, roads, every random generator, curves. `runs.py` writes the files.
 """
 
 import json
@@ -16,6 +15,8 @@ from bootcourse.learn.training import Training
 
 def state_of(training: Training) -> dict[str, np.ndarray]:
     """Everything that a training's future depends on."""
+    if not training.on_the_trap:
+        raise BootcourseError("Only a training on the trap can be saved and resumed: let this one run to its end.")
     learner, replay, env, curves = training.learner, training.replay, training.env, training.curves
     arrays = {f"learner.{name}": tensor.detach().numpy() for name, tensor in _tensors(learner).items()}
     for i, parameter in enumerate(_parameters(learner)):
@@ -82,7 +83,7 @@ def _restore(training: Training, arrays: dict[str, np.ndarray]) -> None:
         training.finished_agents[i] = Agent(
             training.settings[i], parts[:layers], parts[layers : 2 * layers], float(parts[-1])
         )
-    training.look()
+    training.states, training.rule_actions = env.observe(), training.taught()
 
 
 def _parameters(learner) -> list[torch.Tensor]:
@@ -90,7 +91,4 @@ def _parameters(learner) -> list[torch.Tensor]:
 
 
 def _tensors(learner) -> dict[str, torch.Tensor]:
-    groups = {"actor": learner.actor, "critics": learner.critics, "targets": learner.target_critics}
-    groups["discriminator"] = getattr(learner, "discriminator", [])  # GAIL's
-    named = {f"{name}.{i}": tensor for name, tensors in groups.items() for i, tensor in enumerate(tensors)}
-    return named | {"log_alpha": learner.log_alpha}
+    return {f"{name}.{i}": tensor for name, tensors in learner.tensors().items() for i, tensor in enumerate(tensors)}

@@ -32,6 +32,7 @@ from bootcourse.files import (
 )
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.settings import Settings, renamed
+from bootcourse.learn.teachers import Rule, course_rule, teacher_name
 from bootcourse.learn.training import Result, Training
 from bootcourse.scenario import Scenario
 from bootcourse.storage.checkpoint import restore, state_of
@@ -87,7 +88,8 @@ def _save_run(path: Path, agent: Agent, curves: dict[str, np.ndarray], result: R
             seconds=round(result.seconds, 1),
             agents=len(result.agents),
             commit=_commit(),
-            stopped_at_decision=stopped,  # where its loss was not a number; None: it drove all its episodes
+            stopped_at_decision=stopped,  # where its loss was not finite; None: it drove all its episodes
+            teacher=result.teacher,
             sha256={name: sha256(temporary / name) for name in HASHED},
         )
         write_json(temporary / "provenance.json", made)
@@ -146,20 +148,31 @@ def save_checkpoint(training: Training, path: Path) -> None:
         "settings": [asdict(settings) for settings in training.settings],
         "episodes": training.episodes,
         "scenario": json.loads(training.scenario.to_json()),
+        "teacher": teacher_name(training.teacher),
     }
     write_arrays(path, {**state_of(training), "config": np.array(json.dumps(config))}, compress=False)
 
 
-def load_checkpoint(path: Path) -> Training:
-    """Continue from `save_checkpoint`. Raises BootcourseError if the file is missing or damaged."""
+def load_checkpoint(path: Path, teacher: Rule = course_rule) -> Training:
+    """Continue from `save_checkpoint`, with the teacher that the training began with.
+
+    Raises BootcourseError if the file is missing or damaged, or if somebody else taught.
+    """
     arrays = read_arrays(path)
     try:
         config = json.loads(str(arrays.pop("config")))
         settings = [Settings(**renamed(stored)) for stored in config["settings"]]
         scenario = Scenario.from_json(json.dumps(config["scenario"]))
+        began_with, rows = config.get("teacher", "rule"), arrays["replay.demonstrations"]
     except (KeyError, TypeError, json.JSONDecodeError):
         raise BootcourseError(f"{path} is not a checkpoint of this version: start again in a new folder.") from None
-    training = Training(settings, config["episodes"], scenario)
+    if teacher_name(teacher) != began_with:
+        raise BootcourseError(
+            f"{path} was taught by '{began_with}', not by '{teacher_name(teacher)}': "
+            "give the teacher that it began with."
+        )
+    demonstrations = torch.from_numpy(rows) if len(rows) else None
+    training = Training(settings, config["episodes"], scenario, teacher, demonstrations)
     restore(training, arrays)
     return training
 

@@ -1,19 +1,17 @@
 """Are our learners right? `python -m bootcourse.study.checks` trains them where others published figures.
 
-The same classes that learn the road - `SACLearner`, `CQLLearner`, `GAILLearner`, `ReplayBuffer` - drive
-any gymnasium environment with a flat observation and discrete actions here, several seeds side by
-side. What belongs to the road is switched off: ξ = 0, so the rule's actions (all 0) play no part.
-So is the paper's target entropy of -1, a formula for continuous actions: the targets here are a
-share of log |A|. SAC's τ is 0.05, since what a state is worth travels one decision back in 1/τ updates,
-and γ = 0.99 looks a hundred decisions ahead. CQL's weight is 10, as in the check that it is compared
-with. The budget of environment steps never exceeds the published one.
+The training loop and the learners of the road (`Training`, `SACLearner`, `CQLLearner`, `GAILLearner`)
+train here on other gymnasium environments, several seeds side by side. There is no teacher: ξ = 0, and
+the rule's actions in the buffer are 0. The target entropy is a share of log |A|, not the paper's -1, a
+formula for continuous actions. SAC's τ is 0.05 and γ = 0.99. CQL's weight is 10, as in the check that it
+is compared with. The budget of environment steps is at most the published one.
 
 CartPole's observations are scaled to order one, as on the road; with raw ones it stays near 300.
 Acrobot's are raw, and it gets one update for each step of its four environments instead of one for all
-four. Whoever acts at random gets its reward in one episode of a hundred, so what matters is to find it
-before exploration fades. Speeds are the largest of its raw numbers, an untrained actor leans on them,
-and whoever pushes with the speed swings. On seeds that are not the table's 16 of 16 agents found it
-within 15,000 steps; scaled it was 5 of 8, with fewer updates 4 of 8 within 30,000.
+four. A random policy is rewarded in one of a hundred episodes, so the agent must find the reward before
+exploration fades. The raw speeds are Acrobot's largest numbers: an untrained actor depends on them most,
+and so it pushes in the direction of the swing. On 16 seeds that are not the table's all agents found it
+within 15,000 steps; with scaled observations 5 of 8 did, with fewer updates 4 of 8 within 30,000.
 """
 
 import argparse
@@ -29,15 +27,18 @@ import numpy as np
 import torch
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
 
+from bootcourse.episodes.driving import steps
 from bootcourse.errors import BootcourseError, did_you_mean
 from bootcourse.learn.agent import sample_actions
-from bootcourse.learn.learner import SACLearner, learner_for
-from bootcourse.learn.replay_buffer import ReplayBuffer, encode_transitions
+from bootcourse.learn.learner import SACLearner
+from bootcourse.learn.replay_buffer import encode_transitions
 from bootcourse.learn.settings import Settings, settings_for, with_seeds
+from bootcourse.learn.training import Training
+from bootcourse.policies import PolicyOutput
 
 MakeEnv = Callable[[], gym.Env]
 Actor = Callable[[np.ndarray], np.ndarray]  # observations (envs, size) -> actions (envs,)
-TEST_SEED, DATA_SEED, TRAINING_SEED = 10**6, 2 * 10**6, 3 * 10**6
+TEST_SEED, DATA_SEED, SEED = 10**6, 2 * 10**6, 3 * 10**6  # of the first test, data and training environment
 
 
 class FixedHorizon(gym.Wrapper):
@@ -85,37 +86,20 @@ def balance(states: np.ndarray) -> np.ndarray:
     return (states @ np.array([0.1, 0.3, 0.1, 0.3]) > 0).astype(np.int64)
 
 
-def several(make_env: MakeEnv, count: int) -> SyncVectorEnv:
-    return SyncVectorEnv([make_env] * count, autoreset_mode=AutoresetMode.SAME_STEP)
+def several(make_env: MakeEnv) -> Callable[[int], SyncVectorEnv]:
+    """What `Training` asks for: a vector environment of that many copies."""
+    return lambda count: SyncVectorEnv([make_env] * count, autoreset_mode=AutoresetMode.SAME_STEP)
 
 
-def observe(env: SyncVectorEnv, actions: np.ndarray, states: np.ndarray):
-    """One decision: the rows for a `ReplayBuffer`, the next states, the rewards, which episodes ended."""
-    next_states, rewards, terminated, truncated, infos = env.step(actions)
-    done, reached = terminated | truncated, next_states
-    if done.any():
-        reached = next_states.copy()
-        reached[done] = np.stack(infos["final_obs"][done])
-    no_rule = np.zeros_like(actions)
-    return (
-        encode_transitions(states, reached, actions, rewards, terminated, no_rule, no_rule),
-        next_states,
-        rewards,
-        done,
-    )
-
-
-def collect(policy: Actor, make_env: MakeEnv, episodes: int, seed: int = DATA_SEED) -> tuple[torch.Tensor, np.ndarray]:
-    """Whole episodes of a policy as rows for a `ReplayBuffer`, and their returns (episodes,)."""
-    env = several(make_env, episodes)
-    states, _ = env.reset(seed=seed)
-    awake, returns, kept = np.ones(episodes, dtype=bool), np.zeros(episodes), []
-    while awake.any():
-        rows, states, rewards, done = observe(env, policy(states), states)
-        kept.append(rows[torch.from_numpy(awake)])
-        returns += rewards * awake
-        awake &= ~done
-    return torch.cat(kept), returns
+def collect(actor: Actor, make_env: MakeEnv, episodes: int, seed: int = DATA_SEED) -> tuple[torch.Tensor, np.ndarray]:
+    """Whole episodes of an actor as rows for a `ReplayBuffer`, and their returns (episodes,)."""
+    returns, rows, nobody = np.zeros(episodes), [], np.zeros(episodes, dtype=np.int64)
+    for step in steps(lambda states, cars: PolicyOutput(actor(states)), several(make_env)(episodes), seed):
+        seen = step.observations, step.next_observations
+        each = encode_transitions(*seen, step.output.actions, step.rewards, step.terminated, nobody, nobody)
+        rows.append(each[step.running])
+        returns += step.rewards * step.running
+    return torch.cat(rows), returns
 
 
 def train(
@@ -124,47 +108,21 @@ def train(
     decisions: int,
     demonstrations: torch.Tensor | None = None,
     progress: bool = False,
-    callback: Callable[[dict[str, torch.Tensor]], None] | None = None,
+    callback: Callable[[Training], None] | None = None,
 ) -> SACLearner:
-    """Train agents for `decisions` decisions each, one update for every decision of their environments.
-
-    Agents that learn offline (`beta_start` = 1) take their updates from the demonstrations alone and drive nothing.
-    callback: called after every update with what it returned, {name: (agents,)}.
-    """
-    from tqdm.auto import tqdm
-
-    shared, agents = settings[0], len(settings)
-    roads = shared.envs_per_agent
-    env = several(make_env, agents * roads)
-    size, n_actions = env.single_observation_space.shape[0], int(env.single_action_space.n)
-    learner = learner_for(settings, size, n_actions)
-    replay = ReplayBuffer(agents, shared.buffer_size, size, demonstrations)
-    beta = np.array([s.beta_start for s in settings])
-    streams = [np.random.SeedSequence([s.seed]).spawn(2) for s in settings]
-    act_rngs, sample_rngs = ([np.random.default_rng(pair[i]) for pair in streams] for i in range(2))
-    states, _ = env.reset(seed=[TRAINING_SEED + s.seed * 1000 + road for s in settings for road in range(roads)])
-    offline = bool((beta == 1).all())
-    for decision in tqdm(range(0, decisions, roads), disable=not progress, mininterval=1, unit="update"):
-        if not offline:
-            policy = learner.policy(torch.from_numpy(states).float().view(agents, roads, -1)).double().numpy()
-            uniforms = np.stack([rng.random(roads) for rng in act_rngs])
-            rows, states, _, _ = observe(env, sample_actions(policy, uniforms).ravel(), states)
-            replay.add(rows.view(agents, roads, -1))
-        if offline or decision + roads >= shared.learning_starts:
-            for _ in range(shared.updates):
-                seen = learner.update(replay.sample(shared.batch, beta, sample_rngs))
-                if callback is not None:
-                    callback(seen)
-    return learner
+    """Train agents for `decisions` decisions each. callback: see `Training.run`."""
+    training = Training(settings, decisions, demonstrations=demonstrations, make_env=several(make_env), first_seed=SEED)
+    training.run(progress, callback, stop=lambda: training.decisions >= decisions * len(settings))
+    return training.learner
 
 
-def policy_of(learner: SACLearner, agent: int, rng: np.random.Generator | None = None) -> Actor:
+def actor_of(learner: SACLearner, agent: int, rng: np.random.Generator | None = None) -> Actor:
     """Agent's most probable action; with an rng, an action drawn from its policy."""
 
     def act(states):
         everyone = torch.from_numpy(states).float().expand(learner.agents, *states.shape)
-        probabilities = learner.policy(everyone)[agent].double().numpy()
-        return probabilities.argmax(-1) if rng is None else sample_actions(probabilities, rng.random(len(states)))
+        pi = learner.probabilities(everyone)[agent].double().numpy()
+        return pi.argmax(-1) if rng is None else sample_actions(pi, rng.random(len(states)))
 
     return act
 
@@ -172,7 +130,7 @@ def policy_of(learner: SACLearner, agent: int, rng: np.random.Generator | None =
 def scores(learner: SACLearner, make_env: MakeEnv, episodes: int = 100) -> np.ndarray:
     """Each agent's mean return over test episodes that are the same for all, by its most probable action: (agents,)."""
     return np.array(
-        [collect(policy_of(learner, i), make_env, episodes, TEST_SEED)[1].mean() for i in range(learner.agents)]
+        [collect(actor_of(learner, i), make_env, episodes, TEST_SEED)[1].mean() for i in range(learner.agents)]
     )
 
 
@@ -204,11 +162,11 @@ def cql_check(seeds: int, progress: bool) -> Outcome:
     half_trained = train([usual("sac", 2, seed=10**6, tau=0.05)], cartpole, 10_000)
     rng = np.random.default_rng(0)
     parts = [
-        collect(policy_of(half_trained, 0, rng), cartpole, 300),
+        collect(actor_of(half_trained, 0, rng), cartpole, 300),
         collect(lambda states: rng.integers(2, size=len(states)), cartpole, 1000),
     ]
     rows = torch.cat([rows[torch.from_numpy(rng.permutation(len(rows))[:10_000])] for rows, _ in parts])
-    settings = with_seeds(usual("cql", 2, envs_per_agent=1, cql_weight=10.0), seeds)
+    settings = with_seeds(usual("cql", 2, envs_per_agent=1, cql_weight=10.0, learning_starts=0), seeds)
     learner = train(settings, cartpole, 5000, rows, progress)
     means = [returns.mean() for _, returns in parts]
     return Outcome(scores(learner, cartpole), f"the data's policies: {means[0]:.0f} and {means[1]:.0f}")

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from gymnasium.vector import AutoresetMode
 
+from bootcourse.episodes.driving import steps
 from bootcourse.errors import BootcourseError
 from bootcourse.policies import Policy, PolicyOutput, idle_policy, rule_policy
 from bootcourse.road import twin
@@ -210,13 +211,9 @@ def is_staying_optimal(
     )
 
 
-def discounted_values(driver: Policy, seeds: Sequence[int], scenario: Scenario, gamma: float) -> np.ndarray:
+def discounted_values(policy: Policy, seeds: Sequence[int], scenario: Scenario, gamma: float) -> np.ndarray:
     """Σ γ^t r_t (Equation 2) of a whole episode on the road of each seed, (roads,)."""
-    env = TrapVectorEnv(len(seeds), scenario, AutoresetMode.DISABLED)
-    observations, _ = env.reset(seed=list(seeds))
-    values, t = np.zeros(len(seeds)), 0
-    while not env.asleep.all():
-        observations, rewards, *_ = env.step(driver(observations, env.cars).actions)
-        values += gamma**t * rewards
-        t += 1
+    env, values = TrapVectorEnv(len(seeds), scenario, AutoresetMode.DISABLED), np.zeros(len(seeds))
+    for t, step in enumerate(steps(policy, env, list(seeds))):
+        values += gamma**t * step.rewards
     return values

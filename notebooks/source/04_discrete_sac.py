@@ -318,7 +318,14 @@ target = 0.3 * np.log(2).item()
 agents = bc.with_seeds(bc.settings_for("sac", target_entropy=target, **changes), SEEDS)
 agents += bc.with_seeds(bc.settings_for("sac", **changes), SEEDS)  # η = -1, the paper's
 noted = []
-learner = checks.train(agents, checks.cartpole, PUSHES, progress=True, callback=noted.append)
+
+
+def note(training):
+    if training.losses:  # what the last update returned
+        noted.append(training.losses)
+
+
+learner = checks.train(agents, checks.cartpole, PUSHES, progress=True, callback=note)
 print(f"{len(noted):,} updates of {len(agents)} agents")
 
 # %%
@@ -351,7 +358,7 @@ for i, (agent, score) in enumerate(zip(agents, results, strict=True)):
 best, worst = int(results.argmax()), int(results.argmin())
 drives = {}
 for i in (worst, best):
-    rows, returns = checks.collect(checks.policy_of(learner, i), checks.cartpole, 1, seed=0)
+    rows, returns = checks.collect(checks.actor_of(learner, i), checks.cartpole, 1, seed=0)
     drives[f"agent {i} (η = {agents[i].target_entropy:.2f}): {returns[0]:.0f} pushes"] = rows[
         :, :4
     ].numpy()

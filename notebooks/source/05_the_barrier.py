@@ -230,7 +230,7 @@ title = "What the critic of plain SAC, seed 0, expects of each action"
 bc.show(charts.action_bars({"sac: Q(s, a)": q.tolist()}, title, "value"))
 
 # %%
-temperature, policy = alone.agents[0].alpha, alone.agents[0].policy(start)[0]
+temperature, policy = alone.agents[0].alpha, alone.agents[0].probabilities(start)[0]
 likes, does = int(q.argmax()), int(policy.argmax())
 print(f"α has fallen to {temperature:.5f}")
 best, likeliest = bc.ACTION_NAMES[likes], bc.ACTION_NAMES[does]

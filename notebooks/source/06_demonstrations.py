@@ -252,7 +252,7 @@ def measure(agents, rows, roads=200):
     size, found = bc.DEFAULT.observation_size, []
     batch = replay_buffer.decode_transitions(rows, size, torch.zeros(len(rows)))
     for agent in agents:
-        agrees = agent.policy(batch.states.numpy()).argmax(1) == batch.actions.numpy()
+        agrees = agent.probabilities(batch.states.numpy()).argmax(1) == batch.actions.numpy()
         e = bc.drive_episodes(agent.as_policy(), bc.held_out_seeds(6, roads))
         found.append((agrees.mean(), e.success.mean(), (e.accident > 0).mean()))
     return np.array(found)
@@ -338,7 +338,7 @@ for agent in rule_clones:
     for t in times:
         seen = np.array([d.observations[t] for d in driven["the rule"]])
         right = np.array([d.actions[t] for d in driven["the rule"]])
-        quiz.append(np.mean(agent.policy(seen).argmax(1) == right))
+        quiz.append(np.mean(agent.probabilities(seen).argmax(1) == right))
         exam.append(np.mean([d.actions[t] == d.rule_actions[t] for d in own if len(d.actions) > t]))
     print(f"seed {agent.settings.seed}: on the rule's states {np.round(quiz, 2)}")
     print(f"        on its own states    {np.round(exam, 2)}")

@@ -356,7 +356,7 @@ def note(training):
     """Every 250 updates: each agent's ξ, and how often its likeliest action is the rule's."""
     if training.updates % EVERY or training.updates in notes["updates"]:
         return
-    likeliest = [training.agent(i).policy(seen).argmax(-1) for i in range(len(agents))]
+    likeliest = [training.agent(i).probabilities(seen).argmax(-1) for i in range(len(agents))]
     notes["updates"].append(training.updates)
     notes["alike"].append([100 * np.mean(actions == answers) for actions in likeliest])
     notes["xi"].append(200 * training.learner.log_alpha.detach().exp().numpy())

@@ -277,7 +277,8 @@ rule_did = torch.from_numpy(np.concatenate([drive.rule_actions[:20] for drive in
 newborns = bc.Training(bc.with_seeds(bc.settings_for("demos"), 4), episodes=1)
 for seed in range(4):
     agent = newborns.agent(seed)
-    q, log_pi = torch.from_numpy(agent.q_values(way)), torch.from_numpy(agent.policy(way)).log()
+    q = torch.from_numpy(agent.q_values(way))
+    log_pi = torch.from_numpy(agent.probabilities(way)).log()
     printed = bc.bootstrap.paper_q_filter(q, rule_did).mean()
     usual = bc.bootstrap.q_filter(q, rule_did, log_pi).mean()
     print(f"seed {seed}: printed on in {100 * printed:2.0f} %, usual in {100 * usual:2.0f} %")

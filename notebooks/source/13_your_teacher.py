@@ -24,7 +24,7 @@
 # %%
 import bootcourse as bc
 import numpy as np
-from bootcourse.learn.teachers import TaughtTraining, ahead, course_rule, teacher_policy, toward
+from bootcourse.learn.teachers import ahead, course_rule, teacher_policy, toward
 from bootcourse.lessons import check, example_teachers, figures_many, source
 from bootcourse.road.state import EGO, LANE, SPEED, X, Y
 
@@ -192,7 +192,7 @@ bc.show(bc.top_view_over_time(mine_drive, times=[0, 3, 6, 9, 15], title=title))
 # > from its two teachers when they disagree?
 
 # %% tags=["nbval-ignore-output"]
-source("bootcourse.learn.teachers", "demonstrations_of")
+source("bootcourse.learn.demonstrations", "collect")
 
 # %% [markdown]
 # The third place has a trap of its own. Four roads run side by side. One that ends starts anew *in
@@ -216,7 +216,7 @@ check.next_labels(next_labels)
 # %%
 heard = {}
 for teacher in (course_rule, mine):
-    training = TaughtTraining([bc.settings_for("bootstrapped")], teacher, episodes=10)
+    training = bc.Training([bc.settings_for("bootstrapped")], episodes=10, teacher=teacher)
     training.run(progress=False)
     labels = training.replay.table[training.replay.first[0] :][: training.replay.size, -2].numpy()
     heard[teacher.__name__] = np.bincount(labels.astype(int), minlength=9) / len(labels)
@@ -245,7 +245,7 @@ progress, students = {}, {}
 
 def teach(teacher, settings):
     """Train from a teacher; every 250 updates note the share of escapes in the last 30 episodes."""
-    training, notes = TaughtTraining(settings, teacher, episodes=5000), []
+    training, notes = bc.Training(settings, episodes=5000, teacher=teacher), []
 
     def note(training):
         if training.updates and training.updates % 250 == 0:
