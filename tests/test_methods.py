@@ -39,7 +39,9 @@ def test_a_method_of_one_s_own_trains_is_saved_evaluated_drawn_and_offered(toy, 
     result = load_checkpoint(tmp_path / "checkpoint.npz").run(progress=False)
     run = load_run(save_runs(result, tmp_path / "runs")[0])
     assert run.agent.settings.method == toy and evaluate(run.agent.as_policy(), 5).episodes == 5
-    assert "toy method" in training_curves({toy: result.curves}, "A toy").alt and style("toy, seed 1").colour == "#117733"
+    assert (
+        "toy method" in training_curves({toy: result.curves}, "A toy").alt and style("toy, seed 1").colour == "#117733"
+    )
     panel = train_panel(toy, 1, 5)
     assert panel.method.label == display_name(toy) == "toy method"
     assert panel.numbers["gamma"].slider.disabled and panel.numbers["xi_multiplier"].slider.disabled
@@ -47,7 +49,7 @@ def test_a_method_of_one_s_own_trains_is_saved_evaluated_drawn_and_offered(toy, 
 
 
 def test_its_learner_is_the_one_that_trains(toy):
-    mine, usual = (Training([settings_for(m, seed=0, xi_multiplier=0.0, **SMALL)], 30) for m in (toy, "demos"))
+    mine, usual = (Training([settings_for(method, xi_multiplier=0.0, **SMALL)], 30) for method in (toy, "demos"))
     assert type(mine.learner) is WithoutEntropy and type(usual.learner) is SACLearner
     for training in (mine, usual):
         while training.updates < 20:
