@@ -40,7 +40,7 @@ def test_a_method_of_one_s_own_trains_is_saved_evaluated_drawn_and_offered(toy, 
     run = load_run(save_runs(result, tmp_path / "runs")[0])
     assert run.agent.settings.method == toy and evaluate(run.agent.as_policy(), 5).episodes == 5
     assert (
-        "toy method" in training_curves({toy: result.curves}, "A toy").alt and style("toy, seed 1").colour == "#117733"
+        "Toy method (2 agents)" in training_curves({toy: result.curves}, "A toy").alt and style("toy, seed 1").colour == "#117733"
     )
     panel = train_panel(toy, 1, 5)
     assert panel.method.label == display_name(toy) == "toy method"
