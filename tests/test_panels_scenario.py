@@ -11,7 +11,7 @@ import pytest
 from bootcourse import scenario as library
 from bootcourse.errors import BootcourseError
 from bootcourse.panels import scenario_panel
-from bootcourse.panels.scenario_fields import FIELDS, as_code, built
+from bootcourse.panels.scenario_fields import FIELDS, as_code, changed
 from bootcourse.panels.scenario_view import consequences, start_of
 from bootcourse.road.state import EGO, TRAP_1, TRAP_2, X
 from bootcourse.scenario import CALIBRATED, DEFAULT, Scenario, Traps
@@ -32,7 +32,7 @@ def number_of(panel, symbol):
 def test_a_panel_that_nobody_touched_holds_the_scenario_it_was_given():
     for scenario in (DEFAULT, CALIBRATED):
         assert scenario_panel(scenario).scenario is scenario
-    assert built(DEFAULT, {field: field.of(DEFAULT) for field in FIELDS}) is DEFAULT
+    assert changed(DEFAULT, {field: field.of(DEFAULT) for field in FIELDS}) is DEFAULT
 
 
 def test_the_calibrated_traps_are_one_drag_away_from_the_default(panel):

@@ -1,4 +1,4 @@
-"""Panels for the notebooks: one call each, which returns a widget. Everything that they show is computed elsewhere."""
+"""Panels for notebooks: each function returns a widget. What a panel shows is computed in the rest of the library."""
 
 from bootcourse.panels.bonus import bonus_panel as bonus_panel
 from bootcourse.panels.drive import drive_panel as drive_panel

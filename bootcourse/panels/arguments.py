@@ -1,7 +1,7 @@
-"""What a panel's call may be given: each function returns it, or says in a sentence what to give instead."""
+"""Checks of what a panel is given. Each raises BootcourseError with a sentence that says what to give instead."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError
@@ -24,8 +24,21 @@ def a_number(value: float, called: str) -> float:
     return value
 
 
+def whole_number(called: str, low: int, high: int) -> Callable[[float], None]:
+    """A check of a number: is it a whole number from low to high?"""
+
+    def check(value: float) -> None:
+        if not low <= value <= high or value != int(value):
+            raise BootcourseError(f"{called} = {value:g}: give a whole number from {low} to {high}.")
+
+    return check
+
+
+check_road = whole_number("road", 0, 2**32 - 1)  # the seeds of roads on which nobody trains
+
+
 def an_instance(value: object, kind: type, called: str) -> object:
-    """An object of a class of the library."""
+    """An object of the class `kind`."""
     if not isinstance(value, kind):
         raise BootcourseError(f"{called} is {_article(value)}: give a {kind.__name__}.")
     return value

@@ -1,6 +1,6 @@
-"""What the bonus c does: the critic's target along a demonstration, along a trapped drive, and where they cross.
+"""What the bonus c does: the critic's target along a demonstration and along a trapped drive, while you move c.
 
-`bonus_numbers.py` computes what is seen, `bonus_view.py` draws it; here are the four numbers to move.
+`bonus_numbers.py` computes the targets, `bonus_view.py` draws them.
 """
 
 from dataclasses import replace
@@ -13,7 +13,7 @@ from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import Settings
 from bootcourse.methods import style
-from bootcourse.panels.arguments import an_instance, one_drive
+from bootcourse.panels.arguments import an_instance, one_drive, whole_number
 from bootcourse.panels.bonus_numbers import bonus_numbers
 from bootcourse.panels.bonus_view import alt_text, bonus
 from bootcourse.panels.number import Number
@@ -39,12 +39,12 @@ class BonusPanel(Panel):
             check=self._check_gamma,
         )  # fmt: skip
         self.moment = Number(
-            "t", 0, 0, max(self.last, 1 / rate), 1 / rate, "The moment at which the two are compared.", "s",
+            "t", 0, 0, max(self.last, 1 / rate), 1 / rate, "The time at which the two drives are compared.", "s",
             self._check_moment,
         )  # fmt: skip
         self.episode = Number(
             "episode", 0, 0, 1.5 * settings.beta_episodes, max(1, settings.beta_episodes // 100),
-            "Episodes trained: β, the demonstrations' share, fades.", check=self._check_episode,
+            "Episodes trained: β, the demonstrations' share, fades.", check=whole_number("episode", 0, 10**9),
         )  # fmt: skip
         self.view = widgets.HTML()
         numbers = (self.c, self.gamma, self.moment, self.episode)
@@ -54,17 +54,11 @@ class BonusPanel(Panel):
         self.update()
 
     def _check_gamma(self, gamma: float) -> None:
-        replace(self.settings, gamma=gamma)
-        if gamma == 1:
-            raise BootcourseError("γ = 1: a drive that goes on forever would be worth infinity, stay below 1.")
+        check_finite_worth(replace(self.settings, gamma=gamma))
 
     def _check_moment(self, t: float) -> None:
         if not 0 <= t <= self.last:
             raise BootcourseError(f"t = {t:g} s: both drives have their decisions from 0 to {self.last:g} s.")
-
-    def _check_episode(self, episode: float) -> None:
-        if episode < 0 or episode != int(episode):
-            raise BootcourseError(f"episode = {episode:g}: give a whole number, 0 or more.")
 
     def update(self, change=None) -> None:
         """Compute and draw."""
@@ -82,19 +76,25 @@ class BonusPanel(Panel):
         return printed(self.svg), "image/svg+xml", self.alt
 
 
+def check_finite_worth(settings: Settings) -> None:
+    """Raise BootcourseError for a discount of 1."""
+    if settings.gamma == 1:
+        raise BootcourseError("γ = 1: the return of a drive that never ends would be infinite, give less than 1.")
+
+
 def bonus_panel(
     demonstration: Rollout | None = None, trapped: Rollout | None = None, settings: Settings | None = None
 ) -> BonusPanel:
-    """See what the bonus c makes of a demonstration while you move c, γ and the training's episode.
+    """See what the bonus c adds to the targets of a demonstration while you move c, γ and the episode of training.
 
-    demonstration: a recorded drive, the rule's if None. trapped: the drive that stays behind, on the same
-    road without doing anything if None. settings: an agent's c, γ and β (the paper's if None).
+    demonstration: a recorded drive, the rule's if None. trapped: a drive that stays behind the trap; if None, the
+    idle policy's on the same road. settings: an agent's c, γ and β (the paper's if None).
 
-    What is drawn, at each decision t of the two drives: the critic's target y = r' + γ (1 - terminated) y_next,
-    that is Σ_k γ^k r'_{t+k}, of their rewards alone (without the entropy and the KL). r' = r + c on the
-    demonstration (Section IV-B, "Demonstration-Guided Reward Augmentation"), r on the trapped drive. A drive
-    that ran out of time goes on for ever as in its last ten decisions; one that ended in an accident is over.
-    Raises BootcourseError for what is not a drive, or two drives of different scenarios.
+    The panel draws, at each decision t of both drives, the critic's target y = r' + γ (1 - terminated) y_next,
+    that is Σ_k γ^k r'_{t+k}, without the entropy and the KL. r' = r + c on the demonstration (Section IV-B,
+    "Demonstration-Guided Reward Augmentation"), r on the trapped drive. After a drive that ran out of time, the
+    mean reward of its last ten decisions goes on for ever; after an accident nothing follows.
+    Raises BootcourseError for anything but recorded drives, and for two drives of different scenarios.
     """
     settings = Settings() if settings is None else an_instance(settings, Settings, "settings")
     if demonstration is None:
@@ -106,6 +106,5 @@ def bonus_panel(
     one_drive(trapped, "trapped")
     if trapped.scenario != demonstration.scenario:
         raise BootcourseError("The two drives are of different scenarios: record both in one.")
-    if settings.gamma == 1:
-        raise BootcourseError("gamma = 1: a drive that goes on forever would be worth infinity, stay below 1.")
+    check_finite_worth(settings)
     return BonusPanel(demonstration, trapped, settings)

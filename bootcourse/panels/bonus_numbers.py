@@ -1,7 +1,7 @@
-"""What the critic is told that a drive is worth, with and without the bonus c on its rewards.
+"""The critic's target along a drive, with and without the bonus c on its rewards.
 
-Numbers only: `bonus_view.py` draws them, `bonus.py` lets you move c. The bonus is r'(s, a_E) = r(s, a_E) + c
-(Section IV-B, "Demonstration-Guided Reward Augmentation"); it and the target stand in `bootcourse.learn`.
+`bonus_view.py` draws these numbers, `bonus.py` lets you move c. The bonus is r'(s, a_E) = r(s, a_E) + c
+(Section IV-B, "Demonstration-Guided Reward Augmentation"); it and the target are computed in `bootcourse.learn`.
 """
 
 from dataclasses import dataclass
@@ -14,26 +14,26 @@ from bootcourse.learn import sac
 from bootcourse.learn.bootstrap import augmented_reward, demonstration_share
 from bootcourse.learn.settings import Settings
 
-LAST = 10  # decisions whose mean reward stands for what comes after a drive that ran out of time
+LAST = 10  # decisions whose mean reward goes on for ever after a drive that ran out of time
 
 
 @dataclass(frozen=True)
 class BonusNumbers:
-    """Two drives' targets at each decision, each (T,), as long as both drive; the bonus at which they meet."""
+    """The targets of two drives at each decision, each array (T,), up to the end of the shorter drive."""
 
     plain: np.ndarray  # of the demonstration without a bonus
     augmented: np.ndarray  # with c on every reward
     shared: np.ndarray  # with β c: the mean over a batch in which the share β are demonstrations
     trapped: np.ndarray  # of the drive that stays behind
-    crossing: np.ndarray  # the c from which the demonstration is worth more; below 0 it is so without one
+    crossing: np.ndarray  # the c above which the demonstration's target is higher; below 0: higher without a bonus
     weight: np.ndarray  # what a bonus of 1 adds to the demonstration's target
     beta: float
 
 
 def targets(rewards: np.ndarray, gamma: float, bonus: float = 0.0, terminated: bool = False) -> np.ndarray:
-    """y_t = Σ_k γ^k (r_{t+k} + c), backwards from the end of a drive: (T,) -> (T,).
+    """y_t = Σ_k γ^k (r_{t+k} + c), computed backwards from the end of a drive: (T,) -> (T,).
 
-    terminated: nothing follows (an accident); else the drive goes on as in its last ten decisions.
+    terminated: nothing follows (an accident); otherwise the mean of the last ten rewards goes on for ever.
     gamma in [0, 1). Raises BootcourseError for a gamma outside, or a bonus that is not finite.
     """
     if not 0 <= gamma < 1:
@@ -49,9 +49,9 @@ def targets(rewards: np.ndarray, gamma: float, bonus: float = 0.0, terminated: b
 
 
 def bonus_numbers(demonstration: Rollout, trapped: Rollout, settings: Settings, episode: int = 0) -> BonusNumbers:
-    """Both drives with the settings' γ and c, after so many episodes of training.
+    """The targets of both drives with the settings' γ and c, after that many episodes of training.
 
-    y is linear in c: what a bonus of 1 adds is the target of a drive that earns 1 at each decision.
+    y is linear in c: a bonus of 1 adds the target of a drive that earns 1 at each decision.
     """
     gamma, c = settings.gamma, settings.bonus
     beta = float(demonstration_share(episode, settings.beta_start, settings.beta_episodes))

@@ -18,6 +18,7 @@ from bootcourse.episodes.interactive import InteractiveEpisode
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError
+from bootcourse.panels.arguments import check_road
 from bootcourse.panels.cockpit import alt_text, cockpit
 from bootcourse.panels.number import Number
 from bootcourse.panels.pad import Pad
@@ -30,18 +31,12 @@ from bootcourse.scenario import ACTION_NAMES, DEFAULT, IDLE, Scenario
 FRAMES = 10.0  # Hz, in real time
 STEPS, REAL = "step by step", "real time"
 PACE = (0.1, 10.0)  # s that a decision may take
-ROADS = 2**32  # held-out roads lie below
 WIDE = "124px"  # a button
 
 
 def check_pace(value: float) -> None:
     if not PACE[0] <= value <= PACE[1]:
         raise BootcourseError(f"pace = {value:g} s: give {PACE[0]:g} to {PACE[1]:g} seconds for a decision.")
-
-
-def check_road(value: float) -> None:
-    if not 0 <= value < ROADS or value != int(value):
-        raise BootcourseError(f"road = {value:g}: give a whole number from 0 to {ROADS - 1}.")
 
 
 class DrivePanel(Panel):

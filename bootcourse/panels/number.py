@@ -1,4 +1,4 @@
-"""A number that can be dragged and typed: a symbol, a unit and a sentence of help; refuses what the library refuses."""
+"""A number to drag or to type, with a symbol, a unit and a sentence of help. It refuses what the library refuses."""
 
 import math
 from collections.abc import Callable
@@ -11,10 +11,10 @@ from bootcourse.errors import BootcourseError
 
 
 class Number(widgets.VBox):
-    """Its `value` is always one that `check` accepts; what is refused is said below it and changes nothing.
+    """A slider and a field. `value` is always accepted by `check`; a refused number changes nothing but the sentence.
 
     check: the library's validation, raises BootcourseError. low, high, step: of the slider; a typed
-    number may lie beyond them if `check` accepts it. logarithmic: the slider moves in powers of ten.
+    number may lie beyond them if `check` accepts it. logarithmic: low and high are powers of ten.
     """
 
     value = traitlets.Float()
@@ -33,8 +33,8 @@ class Number(widgets.VBox):
     ):
         self.check, self.symbol, self.sentence, self._busy = check, symbol, help, False
         self._why_locked = ""
-        self.refused: float | None = None  # what was entered last, if it was refused,
-        self.wrong = ""  # and why
+        self.refused: float | None = None  # the number entered last, if it was refused,
+        self.wrong = ""  # and why it was
         label = widgets.HTML(f"<b>{escape(symbol)}</b>{f' ({escape(unit)})' if unit else ''}")
         label.layout.width = "92px"
         make = widgets.FloatLogSlider if logarithmic else widgets.FloatSlider
@@ -67,12 +67,12 @@ class Number(widgets.VBox):
             self._show()
 
     def retry(self) -> None:
-        """Enter once more what was refused: another number may have made room for it."""
+        """Enter a refused number again, after another number has changed."""
         if self.refused is not None:
             self._enter(self.refused)
 
     def clear(self) -> None:
-        """Show the value again in place of what was refused."""
+        """Show the value again in place of a refused number."""
         self._show()
 
     def _refuse(self, value: float) -> None:
@@ -87,7 +87,7 @@ class Number(widgets.VBox):
         return proposal["value"]
 
     def _show(self) -> None:
-        """Both controls say what the value is; the slider stops at its ends."""
+        """Show the value in both controls; a value beyond the slider's range puts it at its end."""
         self.refused, self.wrong = None, ""
         self._tell()
         self._busy = True

@@ -1,10 +1,9 @@
-"""Nine buttons and the arrow keys: one press, one action.
+"""Nine buttons and the arrow keys; one press is one action.
 
-ipywidgets knows no key events. A script beside the buttons listens for the arrow keys and clicks the button that
-they mean, so keys and clicks take the same way. It hangs in the `onerror` of an empty image: the page runs that
-wherever the panel is shown, again in every new view of it, while a `<script>` in a widget never runs, and an
-output with JavaScript would stay in the saved notebook apart from its panel. Where a page forbids it, the buttons
-still work with Tab and Enter.
+ipywidgets has no key events. A script beside the buttons listens for the arrow keys and clicks the button that
+they stand for. It is the `onerror` handler of an empty image, which the page runs in every view of the panel. A
+`<script>` in a widget would not run, and a JavaScript output would stay in the saved notebook without its panel.
+Where a page forbids the handler, the buttons still work with Tab and Enter.
 """
 
 from collections.abc import Callable
@@ -17,9 +16,9 @@ from bootcourse.scenario import ACTION_NAMES
 
 SIGNS = ("↙", "↓", "↘", "←", "•", "→", "↖", "↑", "↗")  # in the order of ACTION_NAMES
 ROWS = ((6, 7, 8), (3, 4, 5), (0, 1, 2))  # on the page: accelerate on top, as the arrow up
-TOGETHER, REPEAT = 60, 400  # ms: two keys this close are one action; a key that is held acts again
+TOGETHER, REPEAT = 60, 400  # ms: keys pressed this close together are one action; a held key acts again after that
 
-# `data-lm-suppress-shortcuts` keeps JupyterLab from taking the arrows to walk from cell to cell.
+# `data-lm-suppress-shortcuts` keeps JupyterLab from using the arrow keys to go from cell to cell.
 SCRIPT = """
 const image = this; let tries = 0;
 const waiting = setInterval(() => {
@@ -61,7 +60,7 @@ STYLE = f"""<style>
 
 
 class Pad(widgets.VBox):
-    """Calls `press(action)` for each of the nine buttons and for the arrow keys that mean it."""
+    """Nine buttons; `press(action)` is called for a click and for the arrow keys that stand for the button."""
 
     def __init__(self, press: Callable[[int], None]):
         self.buttons = []
@@ -72,7 +71,7 @@ class Pad(widgets.VBox):
             button.on_click(lambda _, action=action: press(action))
             self.buttons.append(button)
         rows = [widgets.HBox([self.buttons[action] for action in row]) for row in ROWS]
-        told = "Click here, then drive with the arrow keys. ↑ accelerates, ↓ brakes, two at once work, Space keeps."
+        told = "Click here, then drive with the arrow keys: ↑ accelerates, ↓ brakes, ← → steer, Space keeps straight."
         keys = (
             f'{STYLE}<div class="bc-keys" tabindex="0" role="application" aria-label="{escape(told)}">{escape(told)}'
             f'</div><img src="data:," alt="" style="display:none" onerror="{escape(SCRIPT)}">'

@@ -1,7 +1,7 @@
-"""What every panel is: a titled column of widgets, one for each notebook cell, that leaves a picture behind.
+"""The base class of panels: a column of widgets under a title, with a picture for readers without a kernel.
 
-A panel is a view. What it shows comes from pure functions of the library, and what a user may enter is
-decided by the library's own validation: its sentence appears in the panel.
+What a panel shows is computed by functions of the library, and what a user enters is validated by the library; its
+sentence appears in the panel.
 """
 
 import base64
@@ -28,12 +28,12 @@ STYLE = """<style>
 
 
 class Panel(widgets.VBox):
-    """The column. A notebook cell that runs again closes what it showed before.
+    """A titled column. When its notebook cell runs again, the panel is closed.
 
-    title: a sentence; parts: widgets from top to bottom. Subclasses say what `picture` shows.
+    title: a sentence; parts: widgets from top to bottom. Subclasses define `picture`.
     """
 
-    closed = False  # of the class, since a panel that was refused half-way is closed too
+    closed = False  # of the class: `close` may be called on a panel whose __init__ raised an error
 
     def __init__(self, title: str, *parts: widgets.Widget):
         self.says = widgets.HTML()
@@ -46,25 +46,25 @@ class Panel(widgets.VBox):
         one_per_cell.note(key, self)
 
     def say(self, sentence: str = "", wrong: bool = False) -> None:
-        """Write one sentence at the foot of the panel; an empty one takes it away."""
+        """Show a message in the panel; an empty one removes it."""
         kind = "bc-says bc-wrong" if wrong else "bc-says"
         role = "alert" if wrong else "status"
         self.says.value = f'<div class="{kind}" role="{role}">{escape(sentence)}</div>' if sentence else ""
 
     @contextlib.contextmanager
     def saying_what_is_wrong(self):
-        """Around what a user set off: a BootcourseError becomes its sentence in the panel; anything else is a bug."""
+        """Show a BootcourseError of the block as a message. Any other exception is a bug and passes."""
         try:
             yield
         except BootcourseError as error:
             self.say(str(error), wrong=True)
 
     def picture(self) -> tuple[bytes, str, str]:
-        """(image, its type such as "image/svg+xml", alt text): what a reader sees where no kernel runs."""
+        """(image, its type such as "image/svg+xml", alt text), for readers without a kernel."""
         raise NotImplementedError
 
     def close(self) -> None:
-        """End everything that runs, and take the panel and its parts away. Closing twice does nothing."""
+        """Stop whatever runs, and remove the panel and its parts. Closing twice does nothing."""
         if self.closed:
             return
         self.closed = True
@@ -89,7 +89,7 @@ def button(label: str, icon: str, help: str, kind: str = "", width: str = "104px
 
 
 def beside(*parts: widgets.Widget) -> widgets.Box:
-    """Parts next to each other, in as many rows as the column's width asks for; room for a sentence in each."""
+    """Parts next to each other, in as many rows as the width needs, each wide enough for its sentence of help."""
     for part in parts:
         part.layout.width, part.layout.flex, part.layout.max_width = "auto", "1 1 420px", "512px"
     return widgets.Box(parts, layout=widgets.Layout(flex_flow="row wrap", grid_gap="6px 32px", margin="6px 0 4px"))

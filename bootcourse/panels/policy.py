@@ -1,6 +1,6 @@
-"""One moment of a drive, and what the rule's pull does to each action: bars that move with p, ξ and α.
+"""One decision of a drive, and what the soft constraint does to each action while you move p, ξ and α.
 
-`policy_numbers.py` computes what is seen, `policy_view.py` draws it; here are the four numbers to move.
+`policy_numbers.py` computes the numbers, `policy_view.py` draws them.
 """
 
 import ipywidgets as widgets
@@ -23,7 +23,7 @@ from bootcourse.scenario import ACTION_NAMES, check_p
 
 
 def missing(rollout: Rollout) -> str:
-    """The sentence that says what this drive did not record; empty where nothing is missing."""
+    """A sentence that names what this drive did not record; empty if it recorded everything."""
     who, remedy = display_name(rollout.label), "let an agent drive with `agent.as_policy(with_q=True)`"
     lacks = [what for what, array in (("policy π", rollout.policy), ("Q", rollout.q_values)) if array is None]
     return f"This drive ({who}) recorded no {' and no '.join(lacks)}: to see them, {remedy}." if lacks else ""
@@ -39,21 +39,14 @@ class PolicyPanel(Panel):
         rate = self.clock.decision_rate
         self.last = (len(rollout.actions) - 1) / rate
         self.moment = Number(
-            "t",
-            0,
-            0,
-            max(self.last, 1 / rate),
-            1 / rate,
-            "The moment of the drive: a decision.",
-            "s",
-            self._check_moment,
+            "t", 0, 0, max(self.last, 1 / rate), 1 / rate, "The time of the decision.", "s", self._check_moment
         )
         self.p = Number("p", p, 0.12, 0.99, 0.01, "Probability that π̃ gives to the rule's own action.", check=check_p)
         self.xi = Number(
-            "ξ", xi, 0, 5, 0.05, "Weight of the KL: how hard the rule pulls.", check=lambda v: check_weights(v, 1)
+            "ξ", xi, 0, 5, 0.05, "Weight of the KL, which pulls π to the rule.", check=lambda v: check_weights(v, 1)
         )
         self.alpha = Number(
-            "α", alpha, -4, 0, 0.05, "Weight of the entropy: how much chance is left.",
+            "α", alpha, -4, 0, 0.05, "Weight of the entropy: how random π may stay.",
             check=lambda v: check_weights(0, v), logarithmic=True,
         )  # fmt: skip
         self.view = widgets.HTML()
@@ -122,10 +115,11 @@ class PolicyPanel(Panel):
 
 
 def policy_panel(rollout: Rollout, p: float | None = None, xi: float = 2.0, alpha: float | None = None) -> PolicyPanel:
-    """Look into one drive's decisions: π, π̃ and their best compromise while you move p, ξ and α.
+    """See π, π̃ and their best compromise at each decision of a drive, while you move p, ξ and α.
 
-    rollout: a recorded drive, best of an agent with `with_q=True`. p: the scenario's if None; α: the paper's
-    first, 0.01, if None; ξ: 200 of it. Raises BootcourseError for what is none of these.
+    rollout: a recorded drive; only an agent with `with_q=True` records all that is shown. p: the drive's own
+    `rule_p` if None. alpha: the paper's start value, 0.01, if None. xi: the paper's 200 α, 2.
+    Raises BootcourseError for anything but a recorded drive, and for values out of range.
     """
     one_drive(rollout, "rollout")
     p = rollout.rule_p if p is None else p

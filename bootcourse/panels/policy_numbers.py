@@ -1,7 +1,7 @@
-"""One state as the soft constraint sees it: π, π̃, the best compromise of the two, and the KL between them.
+"""The soft constraint in one state: π, π̃, the KL between them, and the policy that is best under it.
 
-Numbers only: `policy_view.py` draws them, `policy.py` lets you move them. π̃ is the paper's stochastic rule and
-ξ the weight of its KL (Section IV-A); the formulas stand in `bootcourse.learn.bootstrap`.
+`policy_view.py` draws these numbers, `policy.py` lets you move them. π̃ is the paper's stochastic rule and ξ the
+weight of its KL (Section IV-A); the formulas stand in `bootcourse.learn.bootstrap`.
 """
 
 import math
@@ -18,10 +18,10 @@ from bootcourse.scenario import N_ACTIONS, check_p
 
 @dataclass(frozen=True)
 class PolicyNumbers:
-    """The nine actions in one state, each (9,); None where the drive did not record what it needs."""
+    """The nine actions in one state, each (9,); None where the drive did not record π or Q."""
 
     rule: np.ndarray  # π̃(a|s)
-    price: np.ndarray  # -log π̃(a|s), nats: what going there costs
+    price: np.ndarray  # -log π̃(a|s), nats: what the KL charges for the action
     policy: np.ndarray | None  # π(a|s)
     shares: np.ndarray | None  # π log(π/π̃), nats: they add up to
     kl: float | None  # KL(π ‖ π̃), nats
@@ -42,7 +42,7 @@ def check_weights(xi: float, alpha: float) -> None:
 def policy_numbers(
     policy: np.ndarray | None, q: np.ndarray | None, rule_action: int, p: float, xi: float, alpha: float
 ) -> PolicyNumbers:
-    """What the soft constraint makes of one state: policy and q (9,) or None, rule_action μ(s) in 0..8.
+    """The soft constraint's numbers in one state. policy and q: (9,) or None; rule_action: μ(s), 0..8.
 
     Raises BootcourseError for a p outside [1/9, 1), a ξ below 0, or an α that is not above 0.
     """

@@ -1,32 +1,32 @@
-"""The scenario's numbers to move, with the road that they make; what does not fit is refused in the library's words.
+"""Move the numbers of the scenario and see the road change. A number that does not fit is refused with a sentence.
 
-`scenario_fields.py` lists the numbers and builds the scenario, `scenario_view.py` draws it.
+`scenario_fields.py` lists the numbers and makes the scenario, `scenario_view.py` draws it.
 """
 
 from html import escape
 
 import ipywidgets as widgets
 
-from bootcourse.panels.arguments import a_number, an_instance
+from bootcourse.panels.arguments import a_number, an_instance, check_road
 from bootcourse.panels.number import Number
 from bootcourse.panels.panel import Panel, beside
-from bootcourse.panels.scenario_fields import FIELDS, GROUPS, Field, as_code, built, check_seed
+from bootcourse.panels.scenario_fields import FIELDS, GROUPS, Field, as_code, changed
 from bootcourse.panels.scenario_view import alt_text, start_of, top_view
 from bootcourse.plots.svg import printed
 from bootcourse.scenario import DEFAULT, Scenario
 
 
 class ScenarioPanel(Panel):
-    """`scenario` is always valid: a number that would not fit the others is refused, and tried again when they move."""
+    """`.scenario` is always valid: a number that does not fit the others is refused, and tried again when they move."""
 
     def __init__(self, start: Scenario, seed: int):
         self.start, self.scenario, self._retrying = start, start, False
         self.numbers = {field: self._number(field) for field in FIELDS}
-        self.road = Number("road", seed, 0, 99, 1, "Which road is drawn: its seed.", check=check_seed)
+        self.road = Number("road", seed, 0, 99, 1, "Which road is drawn: its seed.", check=check_road)
         self.groups = widgets.ToggleButtons(options=list(GROUPS), tooltips=[f"Numbers of: {name}" for name in GROUPS])
         self.groups.style.button_width = "132px"
         self.back = widgets.Button(
-            description="Start again", icon="undo", tooltip="Put every number back to where it was."
+            description="Start again", icon="undo", tooltip="Set every number back to its first value."
         )
         self.back.layout.margin = "0 0 0 24px"
         self.shown = beside(*self.numbers.values())
@@ -50,11 +50,11 @@ class ScenarioPanel(Panel):
         )  # fmt: skip
 
     def _with(self, field: Field, value: float) -> Scenario:
-        """The present scenario with one number changed. Raises BootcourseError if they do not fit."""
-        return built(self.start, {each: each.of(self.scenario) for each in FIELDS} | {field: value})
+        """The present scenario with one number changed. Raises BootcourseError if the numbers do not fit together."""
+        return changed(self.start, {each: each.of(self.scenario) for each in FIELDS} | {field: value})
 
     def _moved(self, change) -> None:
-        """A number was accepted: it is in the scenario, and what was refused may fit now."""
+        """A number was accepted: put it into the scenario, and try again the numbers that were refused."""
         field = next(field for field, number in self.numbers.items() if number is change["owner"])
         self.scenario = self._with(field, change["new"])
         if not self._retrying:
@@ -70,7 +70,7 @@ class ScenarioPanel(Panel):
         self.shown.children = [self.numbers[field] for field in GROUPS[self.groups.value]]
 
     def _reset(self, button) -> None:
-        """Every number as it was: the scenario first, so that each number meets the others that belong to it."""
+        """Set back the scenario first, then each number, so that each is checked against the first values."""
         self.scenario, self._retrying = self.start, True
         try:
             for field, number in self.numbers.items():
@@ -90,7 +90,7 @@ class ScenarioPanel(Panel):
         self._tell()
 
     def _tell(self, change=None) -> None:
-        """Below the road: which numbers were refused, wherever they stand."""
+        """Name below the road the numbers that were refused, also those of the groups that are not shown."""
         refused = [number for number in self.numbers.values() if number.refused is not None]
         names = ", ".join(f"{number.symbol} = {number.refused:g}" for number in refused)
         words = (
@@ -103,10 +103,11 @@ class ScenarioPanel(Panel):
 
 
 def scenario_panel(scenario: Scenario = DEFAULT, seed: int = 0) -> ScenarioPanel:
-    """Move the scenario's numbers and see the road that they make; `.scenario` is the present one.
+    """Move the numbers of a scenario and see the road change; `.scenario` is the present scenario.
 
-    scenario: where to start. seed: of the road that is drawn. Raises BootcourseError for what is neither.
+    scenario: where to start. seed: of the road that is drawn. Raises BootcourseError if either is of another type,
+    or the seed is out of range.
     """
     an_instance(scenario, Scenario, "scenario")
-    check_seed(a_number(seed, "seed"))
+    check_road(a_number(seed, "seed"))
     return ScenarioPanel(scenario, int(seed))

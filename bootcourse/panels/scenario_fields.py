@@ -1,6 +1,6 @@
-"""Which numbers of a scenario can be moved, and how a scenario is put together from them.
+"""The numbers of a scenario that the panel can move, and how to make a scenario from them.
 
-The ranges are those in which a slider teaches something; what is allowed is decided by `Scenario` alone.
+A slider covers the values that are interesting; `Scenario` itself decides which values are allowed.
 """
 
 import math
@@ -13,7 +13,7 @@ from bootcourse.scenario import SCENARIOS, Scenario
 
 @dataclass(frozen=True)
 class Field:
-    """One number: scenario.<part>.<name>, or one end of such a range; its slider and what it means."""
+    """One number: scenario.<part>.<name>, or one end of it where it is a range; its slider and its meaning."""
 
     part: str
     name: str
@@ -24,7 +24,7 @@ class Field:
     step: float
     help: str
     end: int | None = None  # 0 or 1: the low or the high end of a range
-    most: float = math.inf  # what the panel tries at most, where a count costs memory
+    most: float = math.inf  # the largest value that the panel tries, for counts that cost memory
 
     def of(self, scenario: Scenario) -> float:
         """The number's value in a scenario."""
@@ -47,7 +47,16 @@ GROUPS = {
         Field("traffic", "lead", "lead", "m", 6, 120, 1, "From trap 1 to the first car."),
         Field("traffic", "headway", "headway", "m", 12, 120, 1, "Mean distance between one car and the next."),
         Field("traffic", "time_gap", "T", "s", 0, 4, 0.1, "Time gap that a car keeps to the one ahead."),
-        Field("traffic", "politeness", "politeness", "", 0, 1, 0.05, "How much a lane change minds the others."),
+        Field(
+            "traffic",
+            "politeness",
+            "politeness",
+            "",
+            0,
+            1,
+            0.05,
+            "Weight of the other cars' gain in a lane change.",
+        ),
     ),
     "Rule": (
         Field("rule", "t_safe", "t safe", "s", 0.1, 4, 0.1, "Safety time of a lane change."),
@@ -66,7 +75,7 @@ GROUPS = {
         Field("clock", "decisions", "decisions", "", 10, 300, 10, "Decisions of an episode."),
         Field("clock", "simulation_rate", "physics", "Hz", 1, 20, 1, "Simulation steps a second."),
         Field("clock", "decision_rate", "decide", "Hz", 1, 5, 1, "Decisions a second."),
-        Field("sight", "neighbours", "sees", "cars", 1, 10, 1, "Nearest cars in what the ego observes.", most=100),
+        Field("sight", "neighbours", "sees", "cars", 1, 10, 1, "Nearest cars in the ego's observation.", most=100),
         Field("road", "lanes", "lanes", "", 2, 8, 1, "Lanes; the traps take the two on the right."),
         Field("road", "length", "length", "m", 1000, 10000, 100, "Length of the road: no car may reach its end."),
     ),
@@ -74,8 +83,8 @@ GROUPS = {
 FIELDS = tuple(field for group in GROUPS.values() for field in group)
 
 
-def built(start: Scenario, values: Mapping[Field, float]) -> Scenario:
-    """`start` with other numbers. Raises BootcourseError with the library's sentence if they do not fit."""
+def changed(start: Scenario, values: Mapping[Field, float]) -> Scenario:
+    """`start` with other numbers. Raises BootcourseError (by `Scenario`) if they do not fit together."""
     changes: dict[str, dict] = {}
     for field, value in values.items():
         part = getattr(start, field.part)
@@ -99,7 +108,7 @@ def built(start: Scenario, values: Mapping[Field, float]) -> Scenario:
 
 
 def as_code(scenario: Scenario, start: Scenario) -> str:
-    """The Python that makes a scenario out of `start`."""
+    """Python code that makes the scenario from `start`."""
     base = start.name.upper() if SCENARIOS.get(start.name) == start else "scenario"
     told = []
     for part in fields(Scenario):
@@ -110,9 +119,3 @@ def as_code(scenario: Scenario, start: Scenario) -> str:
         numbers = ", ".join(f"{name}={getattr(after, name)!r}" for name in own)
         told.append(f"{part.name}=replace({base}.{part.name}, {numbers})")
     return f"replace({base}, {', '.join(told)})" if told else base
-
-
-def check_seed(seed: float) -> None:
-    """Refuse what cannot be a road's seed."""
-    if seed != int(seed) or not 0 <= seed < 2**32:
-        raise BootcourseError(f"road = {seed:g}: give a whole number, 0 or more, below 2³².")

@@ -1,6 +1,6 @@
-"""Explore the sweep over p, ξ and c: what happened at each setting that was run, and how to run it again.
+"""Explore the sweep over p, ξ and c: the result at each setting that was run, and the command to run it again.
 
-sweep_panel()
+    sweep_panel()
 
 Nothing is trained here: `study/sweep.py` finds the agents of a setting, `sweep_view.py` draws them.
 """
@@ -20,9 +20,9 @@ from bootcourse.study.sweep import SHIPPED, SweepResult, load_sweep, nearest_set
 
 
 class Snap(widgets.VBox):
-    """A slider over the values that were run, and a field for any other: it snaps to the nearest.
+    """A slider over the values that were run, and a field that snaps to the nearest of them.
 
-    snap: a typed value -> the nearest that was run; raises BootcourseError for what cannot be.
+    snap: gives the nearest value that was run; raises BootcourseError for a value that no training can have.
     """
 
     def __init__(self, symbol: str, unit: str, help: str, values: Sequence[float], snap: Callable[[float], float]):
@@ -72,7 +72,7 @@ class Snap(widgets.VBox):
 
 
 class SweepPanel(Panel):
-    """`.happened` is what the page shows, None if the sweep could not be read."""
+    """`.happened` is the result that is shown, None if the sweep could not be read."""
 
     def __init__(self, path: Path):
         self.happened: SweepResult | None = None
@@ -86,7 +86,7 @@ class SweepPanel(Panel):
             self.say(str(error), wrong=True)
             return
         sweep = self.sweep
-        self.p = Snap("p", "", "How sure the stochastic rule is of itself.", ps,
+        self.p = Snap("p", "", "Probability that the stochastic rule gives to the rule's action.", ps,
                       lambda p: nearest_setting(sweep, p, xis[-1], cs[0]).p)  # fmt: skip
         self.xi = Snap("ξ", "× α", "Strength of the pull towards the rule.", xis,
                        lambda xi: nearest_setting(sweep, ps[0], xi, cs[0]).xi_multiplier)  # fmt: skip
@@ -110,7 +110,7 @@ class SweepPanel(Panel):
     def _draw(self) -> None:
         asked = (self.p.value, self.xi.value, self.c.value)
         self.happened = nearest_setting(self.sweep, *asked)
-        missing = "" if self.happened.exact else "This one was not run; the nearest that was: "
+        missing = "" if self.happened.exact else "This setting was not run. The nearest that was: "
         self.sentence.value = f'<div class="bc-says" role="status">{escape(missing + str(self.happened))}</div>'
         self.chart.value = self._view()
         self.code.value = (
@@ -128,8 +128,8 @@ class SweepPanel(Panel):
 
 
 def sweep_panel(path: Path = SHIPPED) -> SweepPanel:
-    """What happened at every setting of p, ξ and c that was run; by default those that ship with the course.
+    """The results at every setting of p, ξ and c that was run; by default those that ship with the course.
 
-    path: what `bootcourse sweep` wrote. A file that is missing or damaged is said so in the panel.
+    path: a file that `bootcourse sweep` wrote. If it is missing or damaged, the panel says so.
     """
     return SweepPanel(Path(path))

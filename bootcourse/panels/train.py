@@ -22,10 +22,11 @@ from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import Settings, settings_for, with_seeds
 from bootcourse.learn.training import Result, Training
 from bootcourse.methods import METHODS, display_name
+from bootcourse.panels.arguments import whole_number
 from bootcourse.panels.background import Background
 from bootcourse.panels.number import Number
 from bootcourse.panels.panel import Panel, button
-from bootcourse.panels.train_controls import CONTROLLED, numbers_for, whole_number, without
+from bootcourse.panels.train_controls import CONTROLLED, numbers_for, without
 from bootcourse.panels.training_chart import EARLIER, Drawn, alt_text, label_of, training_chart
 from bootcourse.plots.svg import printed
 from bootcourse.scenario import DEFAULT, Scenario
@@ -59,7 +60,7 @@ class TrainPanel(Panel):
             [widgets.HBox([label, self.method], layout={"align_items": "center"}), about], layout={"width": "420px"}
         )
         self.numbers = numbers_for(changes)
-        self.seeds = Number("seeds", seeds, 1, 10, 1, "Agents that learn side by side, each with its own luck.",
+        self.seeds = Number("seeds", seeds, 1, 10, 1, "Agents that learn side by side, each with its own seed.",
                             check=whole_number("seeds", 1, SEEDS))  # fmt: skip
         self.episodes = Number("episodes", episodes, 50, 3000, 50, "Drives of each agent: 150 s, or until an accident.",
                                check=whole_number("episodes", 1, EPISODES))  # fmt: skip
@@ -69,13 +70,13 @@ class TrainPanel(Panel):
         )
         self.train = button("Train", "play", "Train for real, in the background", "primary")
         self.stop = button("Stop", "stop", "Stop, and keep what was learned")
-        self.watch = button("Watch", "eye", "Replay in 3D how it drives a road that it has never seen")
+        self.watch = button("Watch", "eye", "Replay in 3D how the best agent drives a road that it was not trained on")
         self.save = button("Save", "save", "Write a run's folder for each agent")
         self.path = widgets.Text("", placeholder="folder", tooltip="Where Save writes", layout={"width": "320px"})
         buttons = widgets.HBox([self.train, self.stop, self.watch, self.save, self.path])
         self.progress, self.chart, self.stage = widgets.HTML(), widgets.HTML(), widgets.HTML()
         super().__init__("Train while you watch", grid, buttons, self.progress, self.chart, self.stage)
-        self.says.layout.min_height = "22px"  # what is said stands above the curves, and moves nothing
+        self.says.layout.min_height = "22px"  # messages stand above the curves, and the curves stay where they are
         self.children = (*self.children[:4], self.says, *self.children[4:-1])
         for pressed, press in (
             (self.train, self._train), (self.stop, self._stop), (self.watch, self._watch), (self.save, self._save),
@@ -92,7 +93,7 @@ class TrainPanel(Panel):
         return self.background is not None and self.background.running
 
     def settings(self) -> Settings:
-        """What the controls say. Raises BootcourseError."""
+        """The settings that the controls show. Raises BootcourseError if they do not fit together."""
         method = self.method.value
         chosen = {each: number.value for each, number in self.numbers.items() if each not in without(method)}
         return settings_for(method, **(self.others | chosen))
@@ -243,7 +244,7 @@ class TrainPanel(Panel):
 
 
 def _replay(rollout: Rollout):
-    """A replay that belongs to this panel and not to its cell, so that the panel closes it."""
+    """A replay that the panel closes, not the notebook cell."""
     from bootcourse.replay3d import scene
     from bootcourse.replay3d.stage import Options
     from bootcourse.replay3d.viewer import Replay
@@ -254,7 +255,7 @@ def _replay(rollout: Rollout):
 
 
 def _driven(training: Training) -> tuple[int, int]:
-    """Episodes that were driven, and that are to be driven, all agents together."""
+    """Episodes driven so far, and episodes in all, of all agents together."""
     driven = int(training.curves.finished.clip(max=training.episodes).sum())
     return driven, training.n_agents * training.episodes
 
@@ -281,9 +282,9 @@ def train_panel(
 ) -> TrainPanel:
     """Choose, train for real, watch the curves grow, stop, compare, save.
 
-    drives: demonstrations to learn from instead of the rule's own, if there is at least one when Train is
-    pressed. changes: of any setting (see `bootcourse.learn.settings.Settings`); those that have a control
-    are its first value. Raises BootcourseError for a setting that cannot be.
+    drives: demonstrations to learn from instead of the rule's, if there is at least one when Train is pressed.
+    changes: values of any settings (see `bootcourse.learn.settings.Settings`); a setting that has a control starts
+    there. Raises BootcourseError for a method or a setting that does not exist, and for a value out of range.
     """
     settings_for(method, **changes)
     return TrainPanel(method, seeds, episodes, scenario, drives, changes)

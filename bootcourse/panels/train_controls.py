@@ -1,23 +1,12 @@
-"""What the training panel lets you choose: a number for each setting, and why a method has no use for some of them."""
+"""The numbers of the training panel, one for each setting, and why a setting has no effect in some methods."""
 
 from dataclasses import replace
 
-from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import Settings, settings_for
 from bootcourse.methods import METHODS, display_name
 from bootcourse.panels.number import Number
 
 CONTROLLED = ("rule_p", "xi_multiplier", "bonus", "beta_start", "gamma")
-
-
-def whole_number(called: str, low: int, high: int):
-    """A check: is it a whole number from low to high?"""
-
-    def check(value: float) -> None:
-        if not low <= value <= high or value != int(value):
-            raise BootcourseError(f"{called} = {value:g}: give a whole number from {low} to {high}.")
-
-    return check
 
 
 def without(method: str) -> dict[str, str]:
