@@ -1,7 +1,8 @@
-"""Who can drive: anything that turns what is seen into a `PolicyOutput` for each road.
+"""Policies: functions that decide on an action for each road.
 
-A driver is a callable: driver(observations (roads, 26), cars (roads, vehicles, 10)) -> PolicyOutput. A
-learned agent uses the observations, the rule uses the cars. `bootcourse.learn` adds agents.
+policy(observations (roads, 26), cars (roads, vehicles, 10)) -> PolicyOutput. A learned agent uses the observations,
+the rule uses the cars, that is the true state. A policy that remembers something has a method `reset(roads)` too,
+which the loop in `episodes/driving.py` calls before each episode. `bootcourse.learn` adds agents.
 """
 
 import itertools
@@ -16,7 +17,7 @@ from bootcourse.scenario import ACTION_NAMES, IDLE, N_ACTIONS, RULE_P, Scenario
 
 
 class PolicyOutput(NamedTuple):
-    """What a driver does on each road, and what it thought, where it thinks in such terms."""
+    """The action on each road; π and Q where the policy has them."""
 
     actions: np.ndarray  # (roads,) int, 0..8
     policy: np.ndarray | None = None  # (roads, 9) probabilities π(a|s)
@@ -27,17 +28,17 @@ Policy = Callable[[np.ndarray, np.ndarray], PolicyOutput]
 
 
 def idle_policy(observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
-    """Neither accelerates nor steers."""
+    """Keeps its speed and its steering straight."""
     return PolicyOutput(np.full(len(observations), IDLE))
 
 
 def rule_policy(scenario: Scenario) -> Policy:
-    """The rule controller μ."""
+    """The rule controller μ (Algorithm 1)."""
     return lambda observations, cars: PolicyOutput(rule(cars, scenario).actions)
 
 
 def stochastic_rule_policy(scenario: Scenario, rng: np.random.Generator, p: float = RULE_P) -> Policy:
-    """The stochastic rule π̃: draws its action."""
+    """The stochastic rule π̃: the rule's action with probability p, and each of the others with the same."""
 
     def drive(observations, cars):
         rule_actions = rule(cars, scenario).actions
@@ -53,10 +54,35 @@ def random_policy(rng: np.random.Generator) -> Policy:
     )
 
 
-def plan_policy(plan: Sequence[str | tuple[str, int]]) -> Policy:
+class PlanPolicy:
+    """A policy that takes given actions, one decision after the other, and idles after the last.
+
+    actions: int, 0..8, (decisions,) for every road alike, or (decisions, roads). In a loop of your own, call
+    `reset(roads)` before each episode: it begins the plan anew, and raises BootcourseError if `actions` are for
+    another number of roads.
+    """
+
+    def __init__(self, actions: Sequence[int] | np.ndarray):
+        self.actions, self.decision = np.asarray(actions, dtype=np.int64), 0
+
+    def reset(self, roads: int) -> None:
+        if self.actions.ndim == 2 and self.actions.shape[1] != roads:
+            raise BootcourseError(
+                f"There are plans for {self.actions.shape[1]} roads, and {roads} to drive: give a plan for each road, "
+                "in the same order."
+            )
+        self.decision = 0
+
+    def __call__(self, observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
+        now = self.actions[self.decision] if self.decision < len(self.actions) else IDLE
+        self.decision += 1
+        return PolicyOutput(np.full(len(observations), now))
+
+
+def plan_policy(plan: Sequence[str | tuple[str, int]]) -> PlanPolicy:
     """Drives a plan written in words, then idles: ["keep straight", ("accelerate left", 2)].
 
-    Each entry is one of `ACTION_NAMES`, for one decision or as many as you say. A plan drives once.
+    Each entry is one of `ACTION_NAMES`, for one decision or as many as you say.
     Raises BootcourseError for an unknown action.
     """
     actions = []
@@ -65,10 +91,9 @@ def plan_policy(plan: Sequence[str | tuple[str, int]]) -> Policy:
         if name not in ACTION_NAMES:
             raise BootcourseError(f"Action {did_you_mean(name, ACTION_NAMES)}.")
         actions += [ACTION_NAMES.index(name)] * times
-    coming = iter(actions)
-    return lambda observations, cars: PolicyOutput(np.full(len(observations), next(coming, IDLE)))
+    return PlanPolicy(actions)
 
 
 def in_words(actions: Sequence[int]) -> list[tuple[str, int]]:
-    """The plan that a sequence of actions is: (name, times), the opposite of `plan_policy`."""
+    """Actions as a plan in words, (name, times): the opposite of `plan_policy`."""
     return [(ACTION_NAMES[action], len(list(run))) for action, run in itertools.groupby(actions)]

@@ -87,6 +87,15 @@ def test_a_plan_in_words_drives_as_written_and_reads_back():
     assert in_words(rollout.actions[:4]) == plan
 
 
+def test_a_plan_drives_every_episode_from_its_start():
+    policy = plan_policy([("keep left", 2), "keep right", ("brake straight", 3)])
+    first, second = (record(policy, [0, 3])[1] for _ in range(2))
+    assert in_words(second.actions[:6]) == [("keep left", 2), ("keep right", 1), ("brake straight", 3)]
+    np.testing.assert_array_equal(first.states, second.states)
+    one_by_one, together = (drive_episodes(policy, range(4), together=size).returns for size in (1, 4))
+    np.testing.assert_array_equal(one_by_one, together)
+
+
 def test_a_mistyped_action_is_named_with_the_nearest():
     with pytest.raises(BootcourseError, match="did you mean 'brake left'"):
         plan_policy(["brake lef"])

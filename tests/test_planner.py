@@ -150,6 +150,16 @@ def test_leaving_the_trap_is_worth_more_than_staying_even_at_the_paper_s_discoun
     assert answer.rule.value < answer.idle.value  # the rule's own detour does not pay at this discount
 
 
+def test_a_follower_drives_each_time_from_the_start_and_wants_a_road_for_each_plan(plans):
+    drive = follow(plans)
+    first, second = record(drive, SEEDS), record(drive, SEEDS)
+    assert all(
+        (a.actions == b.actions).all() and (a.states == b.states).all() for a, b in zip(first, second, strict=True)
+    )
+    with pytest.raises(BootcourseError, match=f"plans for {len(plans)} roads, and 1 to drive"):
+        record(drive, SEEDS[:1])
+
+
 def test_a_follower_idles_after_its_plan_ends():
     drive = follow(plan_episodes(SEEDS[:1], Scenario("short", clock=Clock(decisions=2)), Search(beam=3)))
     taken = [int(drive(np.zeros((1, 26)), None).actions[0]) for _ in range(4)]

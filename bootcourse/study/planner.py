@@ -17,7 +17,7 @@ from gymnasium.vector import AutoresetMode
 
 from bootcourse.episodes.driving import steps
 from bootcourse.errors import BootcourseError
-from bootcourse.policies import Policy, PolicyOutput, idle_policy, rule_policy
+from bootcourse.policies import PlanPolicy, Policy, idle_policy, rule_policy
 from bootcourse.road import twin
 from bootcourse.road.constants import constants
 from bootcourse.road.formulas import speed_reward
@@ -154,14 +154,16 @@ def _trace_back(history, kept: np.ndarray, values: np.ndarray, seed: int) -> Pla
     return Plan(seed, np.array(actions[::-1]), np.array(rewards[::-1]), value, success)
 
 
-def follow(plans: Sequence[Plan]) -> Policy:
-    """Drives each plan on its road, once: record(follow(plans), [p.seed for p in plans], scenario, "planner")."""
+def follow(plans: Sequence[Plan]) -> PlanPolicy:
+    """Drives each plan on its own road: record(follow(plans), [p.seed for p in plans], scenario, "planner").
+
+    It raises BootcourseError where there are more or fewer roads than plans.
+    """
     longest = max(len(each.actions) for each in plans)
     table = np.full((longest, len(plans)), IDLE)
     for road, each in enumerate(plans):
         table[: len(each.actions), road] = each.actions
-    coming = iter(table)
-    return lambda observations, cars: PolicyOutput(next(coming, np.full(len(plans), IDLE)))
+    return PlanPolicy(table)
 
 
 def empty_road_return(scenario: Scenario = DEFAULT) -> float:
