@@ -34,6 +34,12 @@ pytestmark = pytest.mark.usefixtures("raise_in_callbacks")
 SMALL = {"hidden": (16, 16), "demonstration_episodes": 2, "learning_starts": 8}
 
 
+@pytest.fixture(scope="module", autouse=True)
+def compiled():
+    """The road is compiled once before the tests, which wait for a few seconds each."""
+    Training(with_seeds(settings_for("bootstrapped", **SMALL), 1), 1).step()
+
+
 def small(method="soft", seeds=2, episodes=3, **more):
     return train_panel(method, seeds, episodes, **(SMALL | more))
 
@@ -167,6 +173,28 @@ def test_a_background_training_has_one_torch_thread_and_the_main_thread_keeps_it
             assert torch.get_num_threads() == 2
             wait_for(lambda: looked, 60)
         assert looked[0] == 1 and torch.get_num_threads() == 2
+
+
+def torch_threads_of_a_new_thread():
+    seen = []
+    thread = threading.Thread(target=lambda: seen.append(torch.get_num_threads()))
+    thread.start()
+    thread.join()
+    return seen[0]
+
+
+def test_trainings_that_overlap_leave_the_number_of_torch_threads_as_it_was():
+    training = Training([settings_for("sac", **SMALL)], 20_000)
+    with torch_threads(2):
+        background = Background(lambda: Training([settings_for("sac", **SMALL)], 20_000))
+        training.run(
+            progress=False,
+            callback=lambda _: background.running or background.start(),
+            stop=lambda: background.training is not None,
+        )
+        assert background.running and torch_threads_of_a_new_thread() == 2
+        background.stop()
+        assert background.wait(60) and torch.get_num_threads() == torch_threads_of_a_new_thread() == 2
 
 
 def breaks(*arguments):

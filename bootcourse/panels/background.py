@@ -13,7 +13,7 @@ from collections.abc import Callable
 import torch
 
 from bootcourse.errors import BootcourseError
-from bootcourse.learn.training import Result, Training
+from bootcourse.learn.training import Result, Training, _one_thread
 
 LOOKS = 5.0  # Hz, at most
 SHARE = 0.15  # of the thread's time, at most, for looking
@@ -68,7 +68,9 @@ class Background:
                     "A training is running already: stop it, or wait for its end, then start another."
                 )
             _running = self
-            with _one_torch_thread():  # a new thread takes over this number when it first asks for it
+            # torch keeps its number of threads for each thread apart, and a new one takes over the number that was set
+            # last. On 2 cores that others use as well, an update takes ten times as long with 2 threads as with 1.
+            with _one_thread():
                 self.thread.start()
                 self._begun.wait()
 
@@ -98,7 +100,7 @@ class Background:
         return result
 
     def _run(self) -> None:
-        torch.get_num_threads()
+        torch.get_num_threads()  # takes it over
         self._begun.set()
         with self._telling("The training broke off"):
             self.training = self.make()
@@ -135,21 +137,3 @@ class Background:
                 self.traceback += traceback.format_exc()
             self.error = f"{self.error} {sentence}".strip()
             self.say(self.error)
-
-
-@contextlib.contextmanager
-def _one_torch_thread():
-    """torch computes on one core in the main thread for a moment. Nothing changes if another thread asks.
-
-    torch keeps the number of cores for each thread apart, and a new thread begins with the number that was set
-    last. Small matrices are slower on several cores (ten times on 2 cores that others use as well).
-    """
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    before = torch.get_num_threads()
-    torch.set_num_threads(1)
-    try:
-        yield
-    finally:
-        torch.set_num_threads(before)
