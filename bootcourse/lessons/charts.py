@@ -1,24 +1,31 @@
-"""Two plain charts for lessons: lines over a number, and bars over the nine actions, both labelled directly."""
+"""Plain charts for lessons: lines over a number, bars over the nine actions, a histogram, many small panels."""
 
+import math
 from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
+from bootcourse.colours import OTHER, Style
 from bootcourse.methods import style
 from bootcourse.plots.figure import (
     INK,
     QUIET,
     SMALL,
     TEXT,
+    WIDTH,
     finish,
     label_ends,
     new_figure,
+    one_axes,
     plain_axes,
     styles,
     wrapped,
 )
 from bootcourse.scenario import ACTION_NAMES
+
+HEIGHT, GAP, LEFT, FOOT = 1.15, 0.42, 0.5, 0.5  # inches, of the panels of `many`
 
 
 def lines(
@@ -29,33 +36,37 @@ def lines(
     y_label: str,
     logarithmic: str = "",
     marks: Mapping[str, float] | None = None,
+    limits: tuple[float, float] | None = None,
+    looks: Sequence[Style] | None = None,
+    alt: str = "",
 ) -> Figure:
     """Lines over x (points,), each with its name at its end; a value (lines, points) is drawn as thin lines.
 
-    logarithmic: "x", "y" or "xy". marks: {words: y}, thin horizontal lines. A name that begins with a
-    method's ("sac", "rule") gets its colour. The alt text gives every line's first and last value.
+    logarithmic: "x", "y" or "xy". marks: {words: y}, thin horizontal lines. limits: of the values' axis. looks: of
+    the lines, one by one; without them a name that begins with a method's ("sac", "rule") gets its colour. alt: what
+    the alt text says of the lines; without it, every line's first and last value.
     """
-    figure = new_figure(3.6)
-    ax = figure.add_axes((0.09, 0.16, 0.66, 0.66 - 0.05 * wrapped(title).count("\n")))
+    figure, ax = one_axes(3.6, title, x_label, y_label, width=0.66)
     ends = []
-    for label, look in zip(named, styles(list(named)), strict=True):
+    for label, look in zip(named, looks or styles(list(named)), strict=False):
         values = np.atleast_2d(np.asarray(named[label], dtype=float))
-        ax.plot(x, values.T, color=look.colour, linestyle=look.line, linewidth=2 if len(values) == 1 else 1.1)
-        ends.append((float(values[:, -1].max()), label, look.colour))
+        look_of = {"color": look.colour, "linestyle": look.line, "marker": look.marker if len(x) <= 30 else None}
+        ax.plot(x, values.T, **look_of, ms=4, linewidth=2 if len(values) == 1 else 1.1)
+        last = values[:, np.isfinite(values).any(axis=0)][:, -1].max()
+        ends.append((float(last if limits is None else np.clip(last, *limits)), label, look.colour))
     for words, y in (marks or {}).items():
         ax.axhline(y, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
         ends.append((y, words, QUIET))
     for axis in logarithmic:
         getattr(ax, f"set_{axis}scale")("log")
-    plain_axes(ax, y_label)
-    ax.set_xlabel(x_label, fontsize=TEXT, color=INK)
     ax.set_xlim(min(x), max(x))
+    ax.set_ylim(limits)
     if "y" in logarithmic:  # labels are placed in a linear height
         (low, high), places = ax.get_ylim(), np.log([y for y, *_ in ends])
         heights = low + (high - low) * (places - np.log(low)) / np.log(high / low)
         ends = [(height, *rest) for height, (_, *rest) in zip(heights, ends, strict=True)]
-    label_ends(ax, ends)
-    return finish(figure, title, f"{y_label} against {x_label}. {_told(x, named)}")
+    label_ends(ax, [end for end in ends if end[1]])
+    return finish(figure, title, f"{y_label} against {x_label}. {alt or _told(x, named)}")
 
 
 def _told(x: Sequence[float], named: Mapping[str, np.ndarray]) -> str:
@@ -99,3 +110,78 @@ def _shades(labels: list[str]) -> list[str]:
         own = style(label).colour
         found.append(next(c for c in (own, INK, QUIET, "#B8BEC6") if c not in found))
     return found
+
+
+def histogram(values: np.ndarray, label: str, title: str) -> Figure:
+    """How often each value occurs among the episodes, (n,)."""
+    figure, ax = one_axes(3.0, title, label, "episodes")
+    counts, _, _ = ax.hist(values, bins=40, color=style("rule").colour)
+    ax.set_ylim(0, 1.2 * counts.max())
+    ax.axvline(np.mean(values), color=INK, linestyle="--", linewidth=1)
+    ax.annotate(f"mean {np.mean(values):.1f}", (np.mean(values), 0.91), xycoords=("data", "axes fraction"),
+                xytext=(6, 0), textcoords="offset points", fontsize=TEXT, color=INK)  # fmt: skip
+    low, middle, high = np.percentile(values, [5, 50, 95])
+    alt = f"A histogram of {len(values)} episodes: median {middle:.1f}, nine in ten between {low:.1f} and {high:.1f}."
+    return finish(figure, title, alt)
+
+
+def many(
+    named: Mapping[str, tuple[Sequence[float], np.ndarray]],
+    title: str,
+    x_label: str,
+    y_label: str,
+    reference: str | None = None,
+    columns: int = 3,
+    limits: tuple[float, float] | None = None,
+) -> Figure:
+    """A panel for each name, {name: (x (points,), values (seeds, points))}: a line for each seed.
+
+    reference: the name of one that has no panel of its own and is drawn in grey in every other panel. All
+    panels share their axes; limits cuts the values' axis. The alt text gives where every line ends.
+    """
+    own = [name for name in named if name != reference]
+    rows, title = math.ceil(len(own) / columns), wrapped(title)
+    head = 0.82 + 0.2 * title.count("\n")
+    total = head + rows * HEIGHT + (rows - 1) * GAP + FOOT
+    width = (WIDTH - LEFT - 0.15 - 0.25 * (columns - 1)) / columns
+    figure = new_figure(total)
+    low, high = limits or _limits(named)
+    last_x = max(x[-1] for x, _ in named.values())
+    for k, label in enumerate(own):
+        row, column = divmod(k, columns)
+        left, bottom = LEFT + column * (width + 0.25), total - head - (row + 1) * HEIGHT - row * GAP
+        ax = figure.add_axes((left / WIDTH, bottom / total, width / WIDTH, HEIGHT / total))
+        if reference is not None:
+            x, values = named[reference]
+            ax.plot(x, values.T, color="#9AA5B1", linewidth=1.0, zorder=2)
+        x, values = named[label]
+        ax.plot(x, values.T, color=OTHER.colour, linewidth=1.3, zorder=3)
+        plain_axes(ax, "")
+        ax.text(0, 1.05, label, transform=ax.transAxes, fontsize=TEXT, color=INK, fontweight="bold", va="bottom")
+        ax.set(xlim=(0, last_x), ylim=(low, high))
+        ax.xaxis.set_major_locator(MaxNLocator(3 if columns < 5 else 2))
+        if column:
+            ax.tick_params(labelleft=False)
+        if k + columns < len(own):
+            ax.tick_params(labelbottom=False)
+        else:
+            ax.set_xlabel(x_label, fontsize=SMALL, color=QUIET)
+    grey = f"; grey: {reference}" if reference is not None else ""
+    words = f"{y_label}, a line for each seed{grey}"
+    figure.text(0.012, 1 - (0.36 + 0.2 * title.count("\n")) / total, words, fontsize=TEXT, color=QUIET, va="top")
+    return finish(figure, title, f"Small panels of {y_label} against {x_label}. {_ends(named)}")
+
+
+def _limits(named: Mapping) -> tuple[float, float]:
+    everything = np.concatenate([np.ravel(values) for _, values in named.values()])
+    low, high = np.nanmin(everything), np.nanmax(everything)
+    room = 0.06 * (high - low) or 1.0
+    return float(low - room), float(high + room)
+
+
+def _ends(named: Mapping) -> str:
+    def last(row: np.ndarray) -> str:
+        known = row[np.isfinite(row)]
+        return f"{known[-1]:.3g}" if known.size else "unknown"
+
+    return " ".join(f"{name} ends at {', '.join(map(last, values))}." for name, (_, values) in named.items())

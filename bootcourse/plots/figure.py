@@ -11,6 +11,7 @@ import textwrap
 from pathlib import Path
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from bootcourse.colours import GRID, INK, QUIET, Style
@@ -77,6 +78,15 @@ def plain_axes(ax, label: str, grid: str = "y") -> None:
     ax.set_axisbelow(True)
     ax.set_ylabel(label, rotation=0, ha="left", va="bottom", fontsize=TEXT, color=INK)
     ax.yaxis.set_label_coords(0.0, 1.03)
+
+
+def one_axes(height: float, title: str, x_label: str, y_label: str, width: float = 0.89) -> tuple[Figure, Axes]:
+    """A figure of one axes with its labels, below the room that the title takes; `width`: its share of the figure."""
+    figure, top = new_figure(height), 0.46 + 0.2 * len(wrapped(title).splitlines())
+    ax = figure.add_axes((0.085, 0.56 / height, width, 1 - (0.56 + top) / height))
+    plain_axes(ax, y_label)
+    ax.set_xlabel(x_label, fontsize=TEXT, color=INK)
+    return figure, ax
 
 
 def label_ends(ax, ends: list[tuple[float, str, str]], size: float = TEXT, wrap: int = 20, gap: float = 0.015) -> None:

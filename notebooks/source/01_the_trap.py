@@ -25,7 +25,7 @@
 import bootcourse as bc
 import gymnasium as gym
 import numpy as np
-from bootcourse.lessons import check, figures, figures_road
+from bootcourse.lessons import check, figures
 from bootcourse.road import formulas, observation
 
 # %% [markdown]
@@ -70,7 +70,7 @@ bc.panels.drive_panel(seed=ROAD)
 
 # %%
 print(dict(enumerate(bc.ACTION_NAMES)))
-bc.show(figures_road.nine_actions(seconds=2))
+bc.show(figures.nine_actions(seconds=2))
 
 # %% [markdown]
 # **See.** Two seconds of steering bring you more than half of the way into the next lane, and

@@ -27,7 +27,7 @@ import itertools
 
 import bootcourse as bc
 import numpy as np
-from bootcourse.lessons import check, figures, figures_road, source
+from bootcourse.lessons import charts, check, figures, source
 from bootcourse.road.state import EGO, HEADING, LANE, SPEED, Y
 
 # %% [markdown]
@@ -150,7 +150,7 @@ print(f"printed: d_s - x_current = {printed:.2f} m, so change lane: {printed > 0
 d_s = bc.rule.safety_distance(v_ego, v_traps, v_traps, numbers.t_safe, numbers.floor)
 gap = dx_new - bc.DEFAULT.car.length  # from bumper to bumper
 print(f"corrected: gap {gap:.2f} m, safety distance {d_s:.2f} m, so change lane: {gap > d_s}")
-bc.show(figures_road.when_to_change(drive))
+bc.show(figures.when_to_change(drive))
 
 # %% [markdown]
 # **Explain.** The sign is the wrong way round. As printed, the left side is negative as soon as
@@ -328,7 +328,7 @@ print(f"150 s at 15 m/s on a free road pay {free:.0f}: the rule earns {share:.0%
 
 # %%
 title = "The rule always escapes, and is paid very differently for it"
-bc.show(figures.histogram(episodes.returns, "return of an episode", title))
+bc.show(charts.histogram(episodes.returns, "return of an episode", title))
 
 # %% [markdown]
 # **See.** It always escapes and never crashes. But its return is far from what a free road pays.
@@ -381,7 +381,7 @@ print(probabilities.round(4), "sum", probabilities.sum().round(6))
 
 # %%
 title = "The stochastic rule with p = 0.9: keep left, and a little of everything"
-bc.show(figures.bars(probabilities, title))
+bc.show(charts.action_bars({"rule: π̃": probabilities}, title))
 
 # %% [markdown]
 # > **Predict.** Let the stochastic rule drive: each second, one chance in ten to do something

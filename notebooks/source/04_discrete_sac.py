@@ -26,7 +26,7 @@
 import bootcourse as bc
 import numpy as np
 import torch
-from bootcourse.lessons import charts, check, figures_cartpole, source
+from bootcourse.lessons import charts, check, figures, source
 from bootcourse.study import checks
 
 # %% [markdown]
@@ -54,7 +54,7 @@ for label, driver in (("at random", at_random), ("rule: push where it falls", ch
     rows, returns = checks.collect(driver, checks.cartpole, 1, seed=0)
     drives[f"{label}: {returns[0]:.0f} pushes"] = rows[:, :4].numpy()
 title = "One line of code balances the pole; chance does not"
-bc.show(figures_cartpole.cartpole_strip(drives, title))
+bc.show(figures.cartpole_strip(drives, title))
 
 # %% [markdown]
 # > **Predict.** The second driver is one line that somebody wrote. A learner knows nothing of
@@ -363,7 +363,7 @@ for i in (worst, best):
         :, :4
     ].numpy()
 title = "The worst and the best of the six, from the same start"
-bc.show(figures_cartpole.cartpole_strip(drives, title, every=20))
+bc.show(figures.cartpole_strip(drives, title, every=20))
 
 # %% [markdown]
 # **See.** Compare with your predictions. The temperature does what the algebra says, in every seed.

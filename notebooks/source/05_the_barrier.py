@@ -24,7 +24,7 @@
 # %%
 import bootcourse as bc
 import numpy as np
-from bootcourse.lessons import charts, check, figures, live, source
+from bootcourse.lessons import charts, check, figures, source
 from bootcourse.study import planner
 
 # %% [markdown]
@@ -72,7 +72,7 @@ SEEDS, UPDATES = 3, 5000
 agents = bc.with_seeds(bc.settings_for("sac"), SEEDS)
 agents += bc.with_seeds(bc.settings_for("sac", gamma=0.95), SEEDS)
 training = bc.Training(agents, episodes=20_000)
-alone = training.run(callback=live.LiveCurves(), stop=lambda: training.updates > UPDATES)
+alone = training.run(callback=figures.LiveCurves(), stop=lambda: training.updates > UPDATES)
 print(f"{alone.seconds:.0f} s, {training.decisions:,} decisions")
 
 # %%
@@ -260,7 +260,7 @@ bc.show(figures.fading(bc.settings_for("bootstrapped")))
 
 # %%
 with_rule = bc.Training(bc.with_seeds(bc.settings_for("bootstrapped"), SEEDS), episodes=20_000)
-helped = with_rule.run(callback=live.LiveCurves(), stop=lambda: with_rule.updates > UPDATES)
+helped = with_rule.run(callback=figures.LiveCurves(), stop=lambda: with_rule.updates > UPDATES)
 print(f"{helped.seconds:.0f} s, {with_rule.decisions:,} decisions")
 
 # %% [markdown] tags=["instructor"] minutes=6

@@ -26,7 +26,7 @@ import bootcourse as bc
 import numpy as np
 import torch
 from bootcourse.learn import demonstrations, replay_buffer
-from bootcourse.lessons import check, figures, figures_demonstrations, source
+from bootcourse.lessons import charts, check, figures, source
 
 # %% [markdown]
 # ## Look first
@@ -41,7 +41,7 @@ unsure = bc.stochastic_rule_policy(bc.DEFAULT, np.random.default_rng(0))
 driven = {"the rule": bc.record(bc.rule_policy(bc.DEFAULT), range(60), label="rule")}
 driven["the stochastic rule"] = bc.record(unsure, range(60), label="stochastic rule")
 title = "The rule drives along a narrow path, the unsure rule strays from it"
-bc.show(figures_demonstrations.where_they_were(driven, seconds=30, title=title))
+bc.show(figures.where_they_were(driven, seconds=30, title=title))
 
 # %% [markdown]
 # > **Predict.** You are to learn to drive from one of these two, by watching and nothing else.
@@ -127,7 +127,7 @@ batch = replay_buffer.decode_transitions(
 shares = np.bincount(batch.actions.numpy(), minlength=9) / len(by_rule)
 most = int(shares.argmax())
 title = f"{shares[most]:.0%} of the rule's decisions are '{bc.ACTION_NAMES[most]}'"
-bc.show(figures.bars(shares, title, label="share of the decisions"))
+bc.show(charts.action_bars({"rule": shares}, title, "share of the decisions"))
 way_out = np.mean([np.argmax(d.states[::2, 0, bc.state.LANE] == 0) for d in driven["the rule"]])
 print(f"it takes {way_out:.0f} s to the free lane: {way_out / 150:.0%} of a demonstration")
 
@@ -320,11 +320,12 @@ def strangeness(driver, seconds, roads=40):
 
 
 seconds = range(31)
-curves = {"the rule itself": strangeness(bc.rule_policy(bc.DEFAULT), seconds)}
+curves = {"rule itself": strangeness(bc.rule_policy(bc.DEFAULT), seconds)}
 for agent in rule_clones[:2]:
-    curves[f"clone, seed {agent.settings.seed}"] = strangeness(agent.as_policy(), seconds)
+    curves[f"BC clone, seed {agent.settings.seed}"] = strangeness(agent.as_policy(), seconds)
 title = "The clones get to where the demonstrator has never been"
-bc.show(figures_demonstrations.astray(seconds, curves, title))
+away = "distance to the nearest demonstrated state (scaled numbers of the observation)"
+bc.show(charts.lines(seconds, curves, title, "time (s)", away))
 
 # %% [markdown]
 # Is that because the clone errs on the rule's own states, or because it meets others? Ask it both:
@@ -370,7 +371,7 @@ labelled[:, ACTION] = labelled[:, RULE_ACTION]
 measured["of the stochastic rule"] = measure(clone(by_chance), by_chance)
 measured["its drives, rule's labels"] = measure(clone(labelled), labelled)
 title = "Agreement with the data says little about how a clone drives"
-bc.show(figures_demonstrations.clones(measured, title))
+bc.show(figures.clones(measured, title))
 
 # %%
 for name, values in measured.items():

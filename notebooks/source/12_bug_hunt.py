@@ -25,8 +25,7 @@
 import bootcourse as bc
 import numpy as np
 import torch
-from bootcourse.lessons import bugs, check, source
-from bootcourse.lessons.figures_many import many
+from bootcourse.lessons import bugs, charts, check, source
 
 hunt = bugs.Hunt()
 print(f"{len(hunt.names)} agents, 2 seeds each, {hunt.provenance['updates']} updates of each")
@@ -74,7 +73,9 @@ fine = [name for name in "ABCDEF" if late[name] > 0.85]
 title = f"Judged by escapes, {len(fine)} of 6 broken agents are fine: {', '.join(fine)}"
 curves = hunt.curves("success")
 bc.show(
-    many(curves, title, "% of training", "share of escapes, last 30 episodes", reference="healthy")
+    charts.many(
+        curves, title, "% of training", "share of escapes, last 30 episodes", reference="healthy"
+    )
 )
 
 # %%
@@ -82,7 +83,9 @@ curves = hunt.curves("return")
 last = {name: values[:, -10:].mean() for name, (_, values) in curves.items()}
 best = max(last, key=last.get)
 title = f"At the end of training, agent {best} has the highest return of all seven"
-bc.show(many(curves, title, "% of training", "return, last 30 episodes", reference="healthy"))
+bc.show(
+    charts.many(curves, title, "% of training", "return, last 30 episodes", reference="healthy")
+)
 
 # %% [markdown]
 # **See.** Compare with your predictions. Most of these bugs do not show in the one curve that
@@ -127,7 +130,9 @@ check.end_error(end_error)
 probes = hunt.probes("end")
 lowest = min(probes, key=lambda name: np.nanmean(probes[name][1][:, -10:]))
 title = f"Agent {lowest} thinks that accidents cost far more than the 10 they cost"
-bc.show(many(probes, title, "updates", "Q where an accident followed (right: −10)", "healthy"))
+bc.show(
+    charts.many(probes, title, "updates", "Q where an accident followed (right: −10)", "healthy")
+)
 
 # %% [markdown]
 # **See.** Even the healthy agents are not at {{ DEFAULT.reward.accident }}: a network that is shown
@@ -144,7 +149,11 @@ print(f"honest: {1 / (1 - gamma):.0f}; with the bonus in every second: {(1 + c) 
 probes = hunt.probes("promise")
 highest = {name: np.nanmax(np.abs(values)) for name, (_, values) in probes.items()}
 title = f"One agent promised {max(highest.values()):.0f} in between, on a road that pays 5"
-bc.show(many(probes, title, "updates", "promise Σ π Q, cut off at 20", "healthy", limits=(-2, 20)))
+bc.show(
+    charts.many(
+        probes, title, "updates", "promise Σ π Q, cut off at 20", "healthy", limits=(-2, 20)
+    )
+)
 
 # %% [markdown]
 # **Explain.** The healthy promise may lie a little over 5: a part of each batch are demonstrations,
@@ -183,7 +192,7 @@ for name in hunt.names:
 probes = hunt.probes("entropy")
 end = {name: values[:, -1].mean() for name, (_, values) in probes.items()}
 title = f"Agent {max(end, key=end.get)} never makes up its mind"
-bc.show(many(probes, title, "updates", "entropy of π (nats)", reference="healthy"))
+bc.show(charts.many(probes, title, "updates", "entropy of π (nats)", reference="healthy"))
 
 # %%
 early = slice(2, 6)  # after 500 to 1,250 updates
@@ -198,12 +207,12 @@ probes = hunt.probes("alike")
 first = {name: values[:, early].mean() for name, (_, values) in probes.items()}
 two = sorted("ABCDEF", key=first.get)[:2]
 title = f"Early on, {two[0]} and {two[1]} do least of all what the rule does"
-bc.show(many(probes, title, "updates", "likeliest action is the rule's (share)", "healthy"))
+bc.show(charts.many(probes, title, "updates", "likeliest action is the rule's (share)", "healthy"))
 
 # %%
 probes = hunt.probes("rarest")
 title = "How unlikely is the least likely action?"
-bc.show(many(probes, title, "updates", "log of the rarest action's probability", "healthy"))
+bc.show(charts.many(probes, title, "updates", "log of the rarest action's probability", "healthy"))
 
 # %% [markdown]
 # > **Predict.** KL(π‖π̃) charges the policy for going where the rule would not. The flipped one

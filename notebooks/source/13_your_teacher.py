@@ -25,7 +25,7 @@
 import bootcourse as bc
 import numpy as np
 from bootcourse.learn.teachers import ahead, course_rule, teacher_policy, toward
-from bootcourse.lessons import check, example_teachers, figures_many, source
+from bootcourse.lessons import charts, check, example_teachers, source
 from bootcourse.road.state import EGO, LANE, SPEED, X, Y
 
 # %% [markdown]
@@ -272,9 +272,7 @@ for teacher in three:
 # %%
 out = [name for name, (_, values) in progress.items() if values[:, -1].min() > 50]
 title = f"Every student escapes more often than not with: {', '.join(out) or 'none of them'}"
-bc.show(
-    figures_many.many(progress, title, "updates", "escapes (% of the last 30 episodes)", columns=5)
-)
+bc.show(charts.many(progress, title, "updates", "escapes (% of the last 30 episodes)", columns=5))
 
 # %% [markdown]
 # Training episodes are driven with actions **drawn** from π. Now the test: 200 roads that nobody
