@@ -7,7 +7,6 @@ import pytest
 from tools.course.bibliography import (
     ARXIV,
     CITED_YEAR,
-    PAGE,
     cited_numbers,
     cited_years,
     citing,
@@ -16,7 +15,7 @@ from tools.course.bibliography import (
     valid_isbn,
 )
 from tools.course.problems import exists
-from tools.course.reference import lessons, page_problems
+from tools.course.reference import lessons
 
 ENTRIES = entries()
 
@@ -65,10 +64,6 @@ def test_the_entries_of_a_group_are_sorted_and_none_is_twice():
         isbn for entry in ENTRIES for isbn in entry.isbn
     ]
     assert len(numbers) == len(set(numbers))
-
-
-def test_no_link_of_the_page_is_dead():
-    assert page_problems(PAGE) == []
 
 
 # Pieces ---------------------------------------------------------------------------------------------

@@ -1,6 +1,7 @@
 """The static book, as a reader without a server and without the network sees it."""
 
 import re
+import shutil
 
 import pytest
 
@@ -39,6 +40,15 @@ def test_every_lesson_and_every_page_to_look_things_up_is_in_it(made):
         "checks",
         "report/report",
     } <= pages
+
+
+def test_a_dead_link_stops_the_book(tmp_path, capfd):
+    shutil.copy(book.ROOT / "book/conf.py", tmp_path)
+    shutil.copy(book.ROOT / "book/style.css", tmp_path)
+    (tmp_path / "index.md").write_text("# A\n\n[see](lessons/99_nothing.ipynb) and [see](#nothing)\n", encoding="utf-8")
+    assert book.build(tmp_path, tmp_path / "html") != 0
+    said = capfd.readouterr().err
+    assert "not found: 'lessons/99_nothing.ipynb'" in said and "not found: 'nothing'" in said
 
 
 def test_no_page_asks_the_network_for_anything(made):

@@ -21,7 +21,7 @@ TEXT = """\
 # <!-- claim: len(range(9)) ==
 #   9 -->
 #
-# - Nobody overtakes it. No? It is a [rule](#3-·-A-lesson).
+# - Nobody overtakes it. No? It is a [rule](03_the_rule.ipynb).
 
 # %% [markdown] tags=["instructor"]
 # > **Predict.** Are all of {{ 3 * 4 }} enough?
@@ -48,7 +48,7 @@ def test_numbers_are_filled_in_and_claims_taken_out(lesson):
     assert first.student == first.solved
     assert first.student == (
         "# 3 · A lesson\n\nThe rule falls back at 8.25 m/s, and pays 1,000 times,\n−10 each. It has nine actions. "
-        "It never stops.\n\n- Nobody overtakes it. No? It is a [rule](#3-·-A-lesson)."
+        "It never stops.\n\n- Nobody overtakes it. No? It is a [rule](03_the_rule.ipynb)."
     )
     assert "all of 12 enough" in second.student
 
@@ -111,7 +111,7 @@ def test_the_page_has_every_paragraph_with_a_number_or_a_claim_and_what_it_comes
     page = claims_page(lesson().parent.parent)
     assert "## 3 · A lesson" in page and "> −10 each. It has nine actions. It never stops.\n" in page
     assert "- `SPEED` = 8.25\n" in page and "- `len(range(9)) == 9` is true\n" in page
-    assert "Nobody" not in page and "](#3" not in page
+    assert "Nobody" not in page and "](03" not in page
 
 
 def test_numbers_and_claims_are_not_searched_for_words(lesson):

@@ -10,8 +10,9 @@ from nbclient.exceptions import CellExecutionError
 
 from bootcourse.lessons.exercises import registry
 from tools.course import problems as problems_module
-from tools.course.problems import has_alt, of_pictures, of_stubs, problems
+from tools.course.problems import dead_names, has_alt, of_pictures, problems
 from tools.course.products import WIDGET, instructor_file, make, refresh_prose, solved_file, student_file, tidy
+from tools.course.reference import BOOK
 from tools.course.source import NOTEBOOKS, one_folder_down, read, sources, without_solution
 
 SOURCES = sources()
@@ -36,6 +37,11 @@ def test_the_lesson_of_a_registered_exercise_uses_it(exercise):
     lessons = {path.stem: path for path in SOURCES}
     assert exercise.lesson in lessons
     assert exercise.name in [name for cell in read(lessons[exercise.lesson]) for name in cell.checks]
+
+
+@pytest.mark.parametrize("page", sorted(BOOK.glob("*.md")), ids=lambda page: page.stem)
+def test_the_code_that_a_page_of_the_book_names_exists(page):
+    assert dead_names(page.read_text(encoding="utf-8")) == []
 
 
 # The example of the writers' README -----------------------------------------------------------------
@@ -143,8 +149,6 @@ SPOILT = {
     "the announcement has other minutes": ("(5 min, ●○○)", "(9 min, ●○○)", "Exercise N.N (5 min, ●○○)"),
     "the stub has other arguments": ("v_new, t_safe, floor):", "v_new, floor, t_safe):", "other arguments than"),
     "the stub has no docstring": ('    """The gap', '    _ = """The gap', "no docstring"),
-    "a link is dead": ("**Time**", "[see](99_nothing.ipynb) **Time**", "99_nothing.ipynb leads nowhere"),
-    "a link to a heading is dead": ("**Time**", "[see](#Round-7) **Time**", "leads to no heading"),
     "a name of code is dead": ("`bootcourse.rule.safety", "`bootcourse.rule.unsafety", "unsafety_distance` names"),
     "a shown source is dead": ('", "safety', '", "unsafety', "`bootcourse.rule.unsafety_distance`"),
     "text has changed": ("how far is safe", "what is safe", "03_the_rule.ipynb is out of date"),
@@ -197,12 +201,6 @@ def spoil(file: Path, old: str, new: str) -> None:
 def test_a_file_that_was_made_and_then_edited_is_found(copy):
     spoil(student_file(copy), '    ...\\n"', '    return 3\\n"')
     assert problems(copy) == ["notebooks/03_the_rule.ipynb is out of date: run make notebooks."]
-
-
-def test_a_stub_s_line_that_is_missing_from_the_solution_is_found(copy):
-    assert of_stubs(copy) == []
-    spoil(solved_file(copy), "The gap (m) that", "The gap that")
-    assert 'Solved, the line `"""The gap (m) that' in of_stubs(copy)[0]
 
 
 def test_a_picture_without_alt_text_is_found(copy):

@@ -2,8 +2,8 @@
 
 import pytest
 
-from tools.course.glossary import PAGE, bold, entries, formulas, glossaries, introduced, normalised, uses
-from tools.course.reference import lessons, page_problems
+from tools.course.glossary import bold, entries, formulas, glossaries, introduced, normalised, uses
+from tools.course.reference import lessons
 
 WORDS, SYMBOLS = glossaries()
 EVERY = [(entry, entry in SYMBOLS) for entry in WORDS + SYMBOLS]
@@ -43,10 +43,6 @@ def test_an_entry_explains_and_names_a_lesson_that_uses_it(entry, symbol):
 def test_an_entry_names_the_first_lesson_that_has_it_in_bold(entry):
     in_bold = [introduced()[normalised(term)] for term in entry.terms if normalised(term) in introduced()]
     assert not in_bold or entry.lesson == min(in_bold)
-
-
-def test_no_link_of_the_page_is_dead():
-    assert page_problems(PAGE) == []
 
 
 # Pieces ---------------------------------------------------------------------------------------------

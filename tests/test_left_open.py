@@ -14,10 +14,9 @@ from bootcourse.scenario import CALIBRATED, DEFAULT
 from bootcourse.statistics import rate
 from bootcourse.study.paper import EPISODES, PRINTED, earned_at
 from bootcourse.study.plan import variations
-from tools.course.left_open import KINDS, PAGE, PARTS, gaps
+from tools.course.left_open import KINDS, PARTS, gaps
 from tools.course.paper_map import items
 from tools.course.problems import exists
-from tools.course.reference import page_problems, targets
 
 GAPS = {gap.target: gap for gap in gaps()}
 
@@ -30,9 +29,8 @@ def test_a_gap_says_what_is_printed_what_follows_what_the_kit_does_and_where(gap
     assert gap.lessons
 
 
-def test_no_link_of_the_page_is_dead_and_no_target_is_twice():
-    assert page_problems(PAGE) == []
-    assert len(targets()) == len(set(targets())) and len(GAPS) == len(gaps())
+def test_no_gap_is_twice():
+    assert len(GAPS) == len(gaps())
 
 
 def test_every_gap_that_belongs_to_something_numbered_is_on_the_paper_map():

@@ -17,17 +17,16 @@ from bootcourse.learn import bootstrap, sac
 from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.settings import settings_for
 from bootcourse.lessons import bugs, shipped
-from bootcourse.lessons import example_teachers as teacher
 from bootcourse.lessons.exercises import registry
 from bootcourse.policies import idle_policy, plan_policy, rule_policy
 from bootcourse.road import formulas, observation
 from bootcourse.road.formulas import centring_reward, speed_reward
-from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, Accident, X, Y
-from bootcourse.rule import HEADING_COST, safety_distance, stochastic_rule, target_speed
-from bootcourse.scenario import ACTION_NAMES, CALIBRATED, DEFAULT, IDLE, N_ACTIONS, RULE_P
+from bootcourse.road.state import EGO, SPEED, TRAP_2, Accident, Y
+from bootcourse.rule import HEADING_COST, stochastic_rule, target_speed
+from bootcourse.scenario import ACTION_NAMES, CALIBRATED, DEFAULT, N_ACTIONS, RULE_P
 from bootcourse.statistics import ESCAPES, escapes, improvement, interval, iqm, rate
 from bootcourse.storage.assets import FOLDER
-from bootcourse.study import report, sweep
+from bootcourse.study import report
 from bootcourse.study.checks import CHECKS
 from bootcourse.study.paper import EPISODES, PRINTED, paper_interval
 from bootcourse.study.planner import Search, plan_episodes
@@ -37,8 +36,6 @@ from tools.course.source import NOTEBOOKS
 shipped_results = cache(shipped.shipped_results)
 shipped_runs = cache(shipped.shipped_runs)
 shipped_drive = cache(shipped.shipped_drive)
-load_sweep = cache(sweep.load_sweep)
-bug_hunt = cache(bugs.Hunt)
 ROAD = 10  # the road that most lessons show
 SETTINGS = settings_for("bootstrapped")  # the paper's
 

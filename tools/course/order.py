@@ -5,21 +5,20 @@ from collections.abc import Iterator
 
 from tools.course.source import Cell
 
-CHANGES = {"append", "extend", "insert", "pop", "remove"}
-GROWS = (ast.Add, ast.Sub, ast.Mult, ast.Div, ast.Pow)
+CHANGES = {"append", "extend", "insert", "pop", "remove", "update"}
 
 
 def of_order(cells: list[Cell]) -> list[str]:
     """The cells that do not do the same when they run again, as sentences."""
     found = []
-    for cell in [cell for cell in cells if cell.is_code]:
-        outside = list(outside_functions(ast.parse(cell.solved)))
-        growing = [node.target for node in outside if grows(node)]
-        names = [node for node in outside if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)]
-        own = {node.id for node in names if node not in growing}
+    for cell in (cell for cell in cells if cell.is_code):
+        nodes = list(outside_functions(ast.parse(cell.solved)))
+        grown = [node.target for node in nodes if isinstance(node, ast.AugAssign)]
+        grown += [node.func.value for node in nodes if isinstance(node, ast.Call) and changes(node)]
+        own = {node.id for node in nodes if isinstance(node, ast.Name) and node not in grown and stores(node)}
         found += [
             f"A cell changes `{name}`, which another cell made: run twice, it does so twice. Make it in the same cell."
-            for name in sorted({changed(node) for node in outside} - own - {""})
+            for name in sorted({node.id for node in grown if isinstance(node, ast.Name)} - own)
         ]
     return found
 
@@ -27,22 +26,15 @@ def of_order(cells: list[Cell]) -> list[str]:
 def outside_functions(tree: ast.AST) -> Iterator[ast.AST]:
     """Every node that runs when the cell does: what is inside a function waits for its call."""
     for node in ast.iter_child_nodes(tree):
-        if not isinstance(node, (ast.FunctionDef, ast.Lambda)):
+        if not isinstance(node, ast.FunctionDef | ast.Lambda):
             yield node
             yield from outside_functions(node)
 
 
-def grows(node: ast.AST) -> bool:
-    """`x += 1` and the like, for a variable."""
-    return isinstance(node, ast.AugAssign) and isinstance(node.target, ast.Name) and isinstance(node.op, GROWS)
+def changes(call: ast.Call) -> bool:
+    """`rows.append(1)` or `learner.update(batch)`; `settings.update(a=1)` does the same each time."""
+    return isinstance(call.func, ast.Attribute) and call.func.attr in CHANGES and not call.keywords
 
 
-def changed(node: ast.AST) -> str:
-    """The variable that this node changes; "" if it changes none."""
-    if grows(node):
-        return node.target.id
-    method = node.func if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) else None
-    if method is None or not isinstance(method.value, ast.Name):
-        return ""
-    learns = method.attr == "update" and not any(keyword.arg for keyword in node.keywords)
-    return method.value.id if method.attr in CHANGES or learns else ""
+def stores(node: ast.Name) -> bool:
+    return isinstance(node.ctx, ast.Store)

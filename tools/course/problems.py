@@ -1,8 +1,11 @@
-"""What is wrong with a lesson, as sentences: its cells, exercises, links, references to code, pictures, freshness."""
+"""What is wrong with a lesson, as sentences: its numbers, exercises, references to code, pictures, freshness.
+
+That no link is dead is for the book's build to find.
+"""
 
 import ast
-import importlib
 import inspect
+import pkgutil
 import re
 import textwrap
 from pathlib import Path
@@ -12,7 +15,7 @@ import nbformat
 from bootcourse.lessons.exercises import registry
 from tools.course.claims import filled
 from tools.course.order import of_order
-from tools.course.products import IMPORTS_CHECK, SOLVED_NOTE, STRICT, out_of_date, solved_file, student_file
+from tools.course.products import IMPORTS_CHECK, out_of_date, solved_file, student_file
 from tools.course.source import Cell, body, function_in
 
 LONGEST_CELL = 25  # lines
@@ -30,14 +33,13 @@ def problems(path: Path) -> list[str]:
         *of_length(cells),
         *of_imports(cells),
         *of_exercises(cells, path.stem),
-        *of_links(cells, path),
         *of_references(cells),
         *of_order(cells),
     ]
     if found:
         return found
     late = [f"{target.parent.name}/{target.name} is out of date: run make notebooks." for target in out_of_date(path)]
-    return late or [*of_stubs(path), *of_pictures(path)]
+    return late or of_pictures(path)
 
 
 def begins(text: str) -> str:
@@ -108,49 +110,21 @@ def of_solution(exercise, solved: ast.FunctionDef) -> list[str]:
     return []
 
 
-def of_stubs(path: Path) -> list[str]:
-    """Every line that the student is given stands in the solved notebook, too, in the same order."""
-    if not solved_file(path).exists():
-        return []
-    note, found = SOLVED_NOTE.format(path.stem), []
-    student, solved = (nbformat.read(file, as_version=4).cells for file in (student_file(path), solved_file(path)))
-    solved = [cell for cell in solved if cell.source not in (note, STRICT)]
-    for stub, full in zip(student, solved, strict=True):
-        rest = iter(full.source.splitlines())
-        given = [line for line in stub.source.splitlines() if line.strip() != "..."]
-        if stub.cell_type == "code":
-            found += [f"Solved, the line `{line.strip()}` is missing." for line in given if line not in rest]
-    return found
-
-
-# Links and references -------------------------------------------------------------------------------
-
-
-def of_links(cells: list[Cell], path: Path) -> list[str]:
-    """Relative links lead to a file, links inside the page to a heading. (Others are not followed.)"""
-    text = "\n".join(cell.student for cell in cells if not cell.is_code)
-    anchors = {heading.strip().replace(" ", "-") for heading in re.findall(r"^#+ (.+)", text, re.M)}
-    found = []
-    for link in re.findall(r"\]\(([^)\s]+)\)", text):
-        file, _, anchor = link.partition("#")
-        if re.match(r"[a-z]+:", link):
-            continue
-        if file and not (path.parent.parent / file).exists():
-            found.append(f"The link {link} leads nowhere.")
-        elif not file and anchor not in anchors:
-            found.append(f"The link {link} leads to no heading.")
-    return found
+# References -----------------------------------------------------------------------------------------
 
 
 def of_references(cells: list[Cell]) -> list[str]:
     """Every `bootcourse.x.y` in the text, every source("bootcourse.x", "y") and every bc.x in a cell exists."""
-    text = "\n".join(cell.student for cell in cells if not cell.is_code)
-    names = re.findall(r"`(bootcourse(?:\.\w+)+)", text)
-    for cell in cells:
-        if cell.is_code:
-            names += shown_sources(cell.solved)
-            names += [f"bootcourse.{name}" for name in sorted(set(re.findall(r"\bbc\.(\w+)", cell.solved)))]
-    return [f"The code that `{name}` names does not exist." for name in names if not exists(name)]
+    dead = [name for cell in cells for name in dead_names(cell.text)]
+    for cell in (cell for cell in cells if cell.is_code):
+        names = shown_sources(cell.solved) + [f"bootcourse.{name}" for name in re.findall(r"\bbc\.(\w+)", cell.solved)]
+        dead += [name for name in dict.fromkeys(names) if not exists(name)]
+    return [f"The code that `{name}` names does not exist." for name in dead]
+
+
+def dead_names(text: str) -> list[str]:
+    """The names of code in a text, `bootcourse.x.y`, that do not exist."""
+    return [name for name in re.findall(r"`(bootcourse(?:\.\w+)+)", text) if not exists(name)]
 
 
 def shown_sources(code: str) -> list[str]:
@@ -164,18 +138,11 @@ def shown_sources(code: str) -> list[str]:
 
 def exists(name: str) -> bool:
     """Can it be imported: a module, or something inside one?"""
-    parts = name.split(".")
-    for length in range(len(parts), 0, -1):
-        try:
-            value = importlib.import_module(".".join(parts[:length]))
-        except ModuleNotFoundError:
-            continue
-        for part in parts[length:]:
-            if not hasattr(value, part):
-                return False
-            value = getattr(value, part)
-        return True
-    return False
+    try:
+        pkgutil.resolve_name(name)
+    except (ImportError, AttributeError):
+        return False
+    return True
 
 
 # Pictures -------------------------------------------------------------------------------------------
