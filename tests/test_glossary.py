@@ -2,7 +2,7 @@
 
 import pytest
 
-from tools.course.glossary import bold, entries, formulas, glossaries, introduced, normalised, uses
+from tools.course.glossary import bold, entries, glossaries, introduced, letters, normalised, uses
 from tools.course.reference import lessons
 
 WORDS, SYMBOLS = glossaries()
@@ -81,7 +81,9 @@ def test_an_entry_has_terms_a_text_and_a_lesson():
 
 
 def test_symbols_of_latex_are_read_as_letters():
-    text = r"so $\tilde\pi(a|s)$ and $$ v_\text{target} + \xi D_\mathrm{KL} + \mathcal{H} + s^*$$ but not $$"
-    assert formulas(text) == "π̃(a|s) ;  v_target + ξ D_KL + H + s*"
+    assert (
+        letters(r"\tilde\pi(a|s) + v_\text{target} + \xi D_\mathrm{KL} + w_\theta")
+        == "π̃(a|s) + v_target + ξ D_KL + w_θ"
+    )
     assert uses(7, "ξ", True) and not uses(1, "J_E", True)
     assert uses(4, "target network", False) and not uses(4, "barrier", False)

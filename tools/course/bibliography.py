@@ -5,15 +5,15 @@ import re
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from urllib.parse import unquote
 
 from tools.course.reference import BOOK, text_of
 from tools.course.source import read, sources
 
 PAGE = BOOK / "bibliography.md"
 LIBRARY = BOOK.parent / "bootcourse"
-NUMBER = r"\d{4}\.\d{4,5}"
-ARXIV = re.compile(rf"\barXiv[\s:]+({NUMBER})")
-PROCEEDINGS = ("https://proceedings.mlr.press/", "https://proceedings.neurips.cc/")  # for what has no DOI
+ARXIV = re.compile(r"\barXiv[\s:]+(\d{4}\.\d{4,5})")
+ADDRESSES = ("https://proceedings.mlr.press/", "https://proceedings.neurips.cc/", "https://github.com/")
 CITED_YEAR = re.compile(r"\(((?:19|20)\d\d)\)|(?<=[a-z] )((?:19|20)\d\d)(?=[,;:)])")
 NEARBY = 250  # letters before a year in which its author's name must stand
 
@@ -26,46 +26,29 @@ class Entry:
     text: str
 
     @property
-    def authors(self) -> str:
-        return re.match(r"\*\*(.+?) \(\d{4}\)\.\*\*", self.text)[1]
-
-    @property
     def first_author(self) -> str:
         """The surname of the first author."""
-        return self.authors.split(",")[0]
+        return re.match(r"\*\*(.+?),", self.text)[1]
 
     @property
     def year(self) -> str:
         return re.match(r"\*\*.+? \((\d{4})\)\.\*\*", self.text)[1]
 
     @property
-    def arxiv(self) -> list[str]:
-        """Its arXiv number, as printed and as linked to."""
-        return re.findall(rf"\[arXiv ({NUMBER})\]\(https://arxiv\.org/abs/({NUMBER})\)", self.text)
+    def numbers(self) -> list[tuple[str, str]]:
+        """Its arXiv number and its DOI, as printed and as linked to."""
+        found = re.findall(r"\[(?:arXiv|DOI) (\S+)\]\(https://(?:arxiv\.org/abs|doi\.org)/([^)\s]+)\)", self.text)
+        return [(printed, unquote(linked)) for printed, linked in found]
 
     @property
-    def doi(self) -> list[str]:
-        """Its DOI, as printed and as linked to."""
-        found = re.findall(r"\[DOI (\S+?)\]\(https://doi\.org/([^)\s]+)\)", self.text)
-        return [(printed, linked.replace("%28", "(").replace("%29", ")")) for printed, linked in found]
-
-    @property
-    def isbn(self) -> list[str]:
-        return [number.replace("-", "") for number in re.findall(r"\bISBN ([\dX-]+)", self.text)]
-
-    @property
-    def proceedings(self) -> list[str]:
-        return [link for link in re.findall(r"\]\((https:[^)\s]+)\)", self.text) if link.startswith(PROCEEDINGS)]
+    def can_be_found(self) -> bool:
+        """Has it a number, or the address of its proceedings or its code?"""
+        return bool(self.numbers or re.search(rf"\bISBN [\dX-]{{10}}|{'|'.join(ADDRESSES)}", self.text))
 
     @property
     def lessons(self) -> list[str]:
         """The lessons that it is for: "07_soft_constraint"."""
         return re.findall(r"\]\(lessons/(\w+)\.ipynb\)", self.text)
-
-    @property
-    def code(self) -> list[str]:
-        """The code that it is for, as dotted names."""
-        return re.findall(r"`(bootcourse[\w.]+)`", self.text)
 
 
 def entries() -> list[Entry]:
@@ -74,14 +57,6 @@ def entries() -> list[Entry]:
     for group, body in re.findall(r"^## (.+)\n((?:(?!## ).*\n?)*)", text_of(PAGE), re.M):
         found += [Entry(group, " ".join(each.split())) for each in re.split(r"^- ", body, flags=re.M)[1:]]
     return found
-
-
-def valid_isbn(number: str) -> bool:
-    """Does the last figure of an ISBN check the others?"""
-    if len(number) == 13:
-        return sum(int(figure) * (3 if i % 2 else 1) for i, figure in enumerate(number)) % 10 == 0
-    figures = [10 if figure == "X" else int(figure) for figure in number]
-    return len(figures) == 10 and sum((10 - i) * figure for i, figure in enumerate(figures)) % 11 == 0
 
 
 @cache
@@ -105,13 +80,9 @@ def strings(path: Path) -> list[str]:
     return [" ".join(text.split()) for text in texts]
 
 
-def cited_numbers() -> dict[str, list[str]]:
+def cited_numbers() -> list[tuple[str, str]]:
     """Every arXiv number that is cited, and where."""
-    found: dict[str, list[str]] = {}
-    for where, text in citing().items():
-        for number in ARXIV.findall(text):
-            found.setdefault(number, []).append(where)
-    return found
+    return [(number, where) for where, text in citing().items() for number in ARXIV.findall(text)]
 
 
 def cited_years() -> list[tuple[str, str, str]]:

@@ -1,11 +1,13 @@
 """What stands in book/glossary.md, and what the lessons set in bold because it is new."""
 
 import re
+import unicodedata
 from dataclasses import dataclass
 
 from tools.course.reference import BOOK, lessons, prose, text_of
 
 PAGE = BOOK / "glossary.md"
+GREEK = {name.split()[-1].lower(): chr(code) for code in range(0x3B1, 0x3CA) if (name := unicodedata.name(chr(code)))}
 LESSON = re.compile(r" Lesson (\d+)\.$")
 
 # Bold that labels a paragraph in a lesson's form (notebooks/source/README.md), with no full stop of its own.
@@ -30,17 +32,6 @@ STRESSED = (
     "speed",
     "η = …",
 )
-# A formula as the glossary writes it: the first match of each is replaced everywhere in $...$.
-LATEX = (
-    (r"\\tilde\{?\\pi\}?", "π̃"),
-    (r"\\(?:mathcal|mathbb|mathrm|text)\{(\w+)\}", r"\1"),
-    (r"\\mathcal (\w)", r"\1"),
-    *((rf"\\{name}(?![a-z])", letter) for name, letter in zip(
-        "alpha beta gamma delta epsilon eta theta mu xi pi tau".split(), "αβγδεηθμξπτ", strict=True)),
-    (r"\^\*", "*"),
-    (r"_\{?\\?(?:text|mathrm)?\{?(\w+)\}?\}?", r"_\1"),
-    (r"\\max", "max"),
-)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -112,19 +103,20 @@ def introduced() -> dict[str, int]:
     return first
 
 
-def formulas(text: str) -> str:
-    """Everything between dollars, with letters for LaTeX's names, as the glossary writes symbols."""
-    found = " ; ".join(a or b for a, b in re.findall(r"\$\$(.+?)\$\$|\$(.+?)\$", text, re.S))
-    for pattern, letter in LATEX:
-        found = re.sub(pattern, letter, found)
-    return found
+def letters(text: str) -> str:
+    r"""LaTeX's names as the letters that the glossary has: \xi D_\mathrm{KL} becomes ξ D_KL."""
+    text = re.sub(r"\\tilde\{?\\pi\}?", "π̃", text)
+    text = re.sub(r"\\(?:text|mathrm|mathcal|mathbb) ?|[{}^]", "", text)
+    return re.sub(r"\\([a-z]+)", lambda name: GREEK.get(name[1], name[1]), text)
 
 
 def uses(number: int, term: str, symbol: bool) -> bool:
     """Does a lesson use a word in its text (in any number), or a symbol in a formula or, if Greek, anywhere?"""
     text = prose(lessons()[number])
-    if not symbol:
-        plain = normalised(re.sub(r"[^\w\s'×=−-]", " ", text))
-        return re.search(rf"(?<![\w-]){re.escape(normalised(term))}(?![\w-])", plain) is not None
-    inside = formulas(text) if term.isascii() else formulas(text) + text
-    return re.search(rf"(?<![A-Za-z\\]){re.escape(term)}(?![A-Za-z])", inside) is not None
+    if symbol:
+        text = (
+            " ; ".join(formula for _, formula in re.findall(r"(\$\$?)(.+?)\1", text, re.S)) if term.isascii() else text
+        )
+        return re.search(rf"(?<![A-Za-z]){re.escape(term)}(?![A-Za-z])", letters(text)) is not None
+    plain = normalised(re.sub(r"[^\w\s'×=−-]", " ", text))
+    return re.search(rf"(?<![\w-]){re.escape(normalised(term))}(?![\w-])", plain) is not None
