@@ -170,7 +170,7 @@ def test_it_is_found_when_an_exercise_has_no_solution(copy):
 
 
 def test_a_solution_shown_on_request_must_be_the_source_s(few_exercises, tmp_path):
-    text = """
+    text = """\
 # %%
 from bootcourse.lessons import check
 
