@@ -74,7 +74,7 @@ class SACLearner:
         self.note_temperature()
         terms = self.losses(batch)
         self.optimiser.zero_grad()
-        torch.stack([loss for name, loss in terms.items() if name.endswith("loss")]).sum().backward()
+        sum(loss for name, loss in terms.items() if name.endswith("loss")).sum().backward()
         self.optimiser.step()
         with torch.no_grad():  # polyak averaging
             torch._foreach_lerp_(self.target_critics, self.critics, self.settings[0].tau)
@@ -92,8 +92,8 @@ class SACLearner:
             "critic_loss": self.critic_loss(q_pair, target, log_pi.detach(), batch),
             "actor_loss": self.actor_loss(log_pi, sac.min_q(q_pair), self.xi * kl),
             "temperature_loss": self.temperature_loss(entropy),
-            "entropy": entropy.mean(-1),
-            "kl": kl.mean(-1),
+            "entropy": entropy.detach().mean(-1),
+            "kl": kl.detach().mean(-1),
             "alpha": self.alpha[:, 0],
             "xi": self.xi[:, 0],
         }
