@@ -1,7 +1,10 @@
 """What ships: made from a study, checked against its manifest, never silently wrong."""
 
+import importlib.util
 import json
 import shutil
+import subprocess
+import sys
 
 import pytest
 
@@ -148,3 +151,14 @@ def test_what_a_study_has_not_computed_stays_as_it_ships(study, shipped, tmp_pat
     ship.build(tmp_path / "later", shipped)
     assert assets.verify(shipped) == [] and load_results(shipped / "sweep.npz").methods == ["sac"]
     assert (shipped / "study-default.npz").read_bytes() == before
+
+
+def test_every_module_that_a_shipped_file_s_command_names_exists():
+    commands = {entry["command"] for entry in json.loads((assets.FOLDER / "manifest.json").read_text())["files"]}
+    modules = {command.split()[2] for command in commands if command.startswith("python -m")}
+    assert len(modules) == 3 and all(importlib.util.find_spec(module) for module in modules)
+
+
+def test_the_files_are_checked_without_the_study_s_code():
+    program = "import sys, bootcourse.storage.assets; print([name for name in sys.modules if 'study' in name])"
+    assert subprocess.run([sys.executable, "-c", program], capture_output=True, text=True).stdout == "[]\n"

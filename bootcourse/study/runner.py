@@ -1,8 +1,7 @@
-"""Compute jobs: on this machine's cores, or on a cluster that you have already. joblib is the one interface.
+"""Compute jobs on this machine's cores, or on a dask or ray cluster, through joblib.
 
-A study's folder belongs to one study at a time: the system holds its lock as long as the process
-lives, and lets go of it when that process ends, however it ends. (On a network disk without locks,
-start only one yourself.)
+Only one study at a time may use a folder. The operating system holds its lock until the process ends, also when
+that is killed. (On a network disk without locks, take care yourself to start only one.)
 """
 
 import json
@@ -26,12 +25,12 @@ CONNECT = 10.0  # s until a scheduler must answer
 
 
 def run_jobs(jobs: Sequence, root: Path, backend="loky", scheduler=None, workers=None, recompute=False) -> list[str]:
-    """Compute those jobs that are not done yet. Returns what went wrong, a sentence each.
+    """Compute the jobs that are not done yet. Returns what went wrong, a sentence each.
 
-    scheduler: the address of a dask scheduler or a ray cluster; without one, dask and ray start
-    their own on this machine. workers: processes, by default one for each core. recompute: compute
-    damaged jobs again; without it one damaged job is refused. Raises BootcourseError before
-    anything is computed.
+    backend: one of `BACKENDS`; loky uses this machine's cores. scheduler: the address of a dask scheduler or a ray
+    cluster; without one, dask and ray start their own on this machine. workers: processes, by default one for each
+    core. recompute: compute damaged jobs again. Raises BootcourseError, before anything is computed, for a mistyped
+    argument, a folder in use, and a damaged job without `recompute`.
     """
     if backend not in BACKENDS:
         raise BootcourseError(f"Backend {did_you_mean(backend, BACKENDS)}.")
@@ -50,17 +49,17 @@ def run_jobs(jobs: Sequence, root: Path, backend="loky", scheduler=None, workers
 def _compute(waiting: list, root: Path, backend: str) -> list[str]:
     from tqdm.auto import tqdm
 
-    how = "list" if backend == "ray" else "generator_unordered"  # ray gives its answers all at once
+    how = "list" if backend == "ray" else "generator_unordered"  # ray returns its answers all at once
     calls = (joblib.delayed(run_job)(job, root) for job in waiting)
     try:
         answers = joblib.Parallel(batch_size=1, pre_dispatch="all", return_as=how)(calls)
         return [answer for answer in tqdm(answers, total=len(waiting), unit="job", smoothing=0) if answer]
     except joblib.externals.loky.process_executor.TerminatedWorkerError:
-        return ["A process was killed, perhaps for want of memory: start the same command again, with fewer --workers."]
+        return ["A process was killed, perhaps for lack of memory: start the same command again, with fewer --workers."]
 
 
 def to_do(jobs: Sequence, root: Path, recompute: bool) -> list:
-    """The jobs that are not done. Damaged ones are named and refused, or set aside if `recompute`."""
+    """The jobs that are not done. Damaged ones are moved to `damaged` if `recompute`, otherwise an error names them."""
     waiting, damaged = [], []
     for job in jobs:
         try:
@@ -87,7 +86,7 @@ def _aside(root: Path, name: str) -> Path:
 
 @contextmanager
 def locked(root: Path) -> Iterator[None]:
-    """Keep every other study out of the folder. Raises BootcourseError if one is at work there."""
+    """Lock the folder against other studies. Raises BootcourseError if one is using it."""
     try:
         root.mkdir(parents=True, exist_ok=True)
         lock = FileLock(root / ".lock")
@@ -155,7 +154,7 @@ def _connect_to_ray(scheduler: str | None, workers: int | None) -> None:
 
 
 def _answers(address: str) -> bool:
-    """Does anything listen at HOST:PORT? ("auto" is ray's own business.)"""
+    """Does anything listen at HOST:PORT? ("auto" is left to ray.)"""
     host, _, port = address.rpartition("://")[2].partition(":")
     try:
         if port:

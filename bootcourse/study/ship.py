@@ -32,7 +32,7 @@ STUDY = f"bootcourse study --out DIR && {BUILD}"
 
 
 class Shipment:
-    """The new folder while it is filled. What the study has not computed stays as it ships today."""
+    """The new folder while it is filled. Files that the study has not computed are taken from today's folder."""
 
     def __init__(self, study: Path, now: Path, new: Path):
         self.study, self.new = study, new
@@ -45,11 +45,11 @@ class Shipment:
             self.behaviours = manifest["behaviours"]
 
     def has(self, part: str) -> bool:
-        """Has the study finished jobs of this part?"""
+        """Has the study finished any job of this part?"""
         return any((self.study / "jobs" / part).rglob("job.json"))
 
     def clear(self, pattern: str) -> None:
-        """Take away what is to be made anew."""
+        """Remove the files that are made again."""
         for path in [path for path in self.new.glob(pattern) if path.is_file()]:
             path.unlink()
             self.entries.pop(path.relative_to(self.new).as_posix(), None)
@@ -81,8 +81,8 @@ class Shipment:
 def build(study: Path, folder: Path = FOLDER) -> None:
     """Make the shipped files from a study's folder; parts that it has not computed stay as they are.
 
-    `folder` is replaced when everything is made, and not before. Raises BootcourseError without a study
-    of the default scenario, here or there.
+    `folder` is replaced only after everything is made. Raises BootcourseError if neither the study nor
+    `folder` has results of the default scenario, or if the files are too large to ship.
     """
     new = folder.parent / f".{folder.name}.new"
     shutil.rmtree(new, ignore_errors=True)
@@ -90,7 +90,6 @@ def build(study: Path, folder: Path = FOLDER) -> None:
         shipment = Shipment(study, folder, new)
         for part in (add_results, add_sensitivity, add_runs, add_demonstrations, add_rollouts, add_report, add_card):
             part(shipment)
-        add_readme(shipment, folder)
         add_kept(shipment, folder)
         shipment.write_manifest()
         size = sum(entry["bytes"] for entry in shipment.entries.values())
@@ -161,7 +160,7 @@ def add_sensitivity(to: Shipment) -> None:
 
 
 def add_report(to: Shipment) -> None:
-    """The report with its figures, from the very files that ship."""
+    """The report with its figures, made from the files that ship."""
     to.clear("report/**/*")
     write_report(in_assets(to.new), to.new / "report")
     for path in sorted((to.new / "report").rglob("*")):
@@ -170,7 +169,7 @@ def add_report(to: Shipment) -> None:
 
 
 def lighter(results, curves: Sequence[str]):
-    """The same results with some of their curves only, in half precision: 3 digits are more than a figure shows."""
+    """The same results with these curves only, in half precision: a figure shows fewer than its 3 digits."""
     return replace(results, curves={name: results.curves[name].astype(np.float16) for name in curves})
 
 
@@ -204,7 +203,7 @@ def add_demonstrations(to: Shipment) -> None:
 
 
 def add_rollouts(to: Shipment) -> None:
-    """A handful of drives worth watching; one that no agent drives is left out, and said so."""
+    """Four drives for the replay: the rule, SAC in the trap, an escape and a crash, where an agent drove such a one."""
     if not to.has("default"):
         return
     to.clear("rollouts/*")
@@ -233,30 +232,22 @@ def add_rollouts(to: Shipment) -> None:
         to.add(path, STUDY, fingerprints("road", "rule") | only(behaviour, rollout.label), provenance())
 
 
-def add_readme(to: Shipment, now: Path) -> None:
-    """The pictures of the README, which no study makes, stay as they are; new ones are listed."""
-    if (now / "readme").is_dir():
-        shutil.copytree(now / "readme", to.new / "readme", dirs_exist_ok=True)
-    for path in sorted((to.new / "readme").glob("*")):
-        listed = to.entries.get(path.relative_to(to.new).as_posix())
-        if listed is None or listed["sha256"] != sha256(path):
-            to.add(path, "python -m bootcourse.plots.readme_picture", fingerprints("road", "rule"), provenance())
-
-
 KEPT = {  # what no study makes: the command that does, and the behaviours that it depends on
-    "bug_hunt.npz": ("bootcourse.lessons.bugs", ("road", "rule", "bootstrapped")),
-    "checks.md": ("bootcourse.study.checks", ("sac", "cql", "gail")),
+    "bug_hunt.npz": ("python -m bootcourse.lessons.bugs --out assets/bug_hunt.npz", ("road", "rule", "bootstrapped")),
+    "checks.md": ("python -m bootcourse.study.checks --out assets/checks.md", ("sac", "cql", "gail")),
+    "readme/*": ("python -m bootcourse.plots.readme_picture", ("road", "rule")),
 }
 
 
 def add_kept(to: Shipment, now: Path) -> None:
-    """The agents of the bug hunt and the table of independent checks stay as they are, and are listed."""
-    for name, (module, behaviours) in KEPT.items():
-        path = to.new / name
-        if (now / name).is_file():
-            shutil.copy2(now / name, path)
-        if path.is_file() and to.entries.get(name, {}).get("sha256") != sha256(path):
-            to.add(path, f"python -m {module} --out assets/{name}", fingerprints(*behaviours), provenance())
+    """The bug hunt's agents, the independent checks and the README's pictures stay as they are; new ones are listed."""
+    for pattern, (command, behaviours) in KEPT.items():
+        for path in sorted(now.glob(pattern)):
+            name = path.relative_to(now).as_posix()
+            if to.entries.get(name, {}).get("sha256") != sha256(path):
+                (to.new / name).parent.mkdir(parents=True, exist_ok=True)
+                shutil.copy2(path, to.new / name)
+                to.add(to.new / name, command, fingerprints(*behaviours), provenance())
 
 
 def add_card(to: Shipment) -> None:
