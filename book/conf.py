@@ -1,11 +1,13 @@
 """Sphinx's settings for the static book. `make book` gathers the pages and calls Sphinx (tools/book.py)."""
 
+import dataclasses
+import inspect
 import re
 
 from latex2mathml.converter import convert
 
 project = html_title = "bootcourse"
-extensions = ["myst_nb", "sphinx_design"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx_design"]
 html_theme = "furo"
 html_static_path = ["style.css"]
 html_css_files = ["style.css"]
@@ -15,6 +17,12 @@ nb_execution_mode = "off"  # the notebooks are shown as they were executed
 nb_render_markdown_format = "gfm"  # their outputs have tables
 myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
+add_module_names = False
+autodoc_preserve_defaults = True  # DEFAULT, not all of its numbers
+autodoc_typehints_format = "short"
+default_role = "literal"  # `a name` in a docstring
+python_use_unqualified_type_names = True
+python_maximum_signature_line_length = 88  # a longer one gets a line for each argument
 suppress_warnings = ["myst.header"]  # a printed table may begin with a heading of its own
 pygments_style, pygments_dark_style = "friendly", "monokai"
 
@@ -45,5 +53,22 @@ def skip_children(visit):
     return visited
 
 
+def fields_of(kind, indent=""):
+    """A dataclass's fields, a point each: the comment that says its unit and its source, or what its parts are."""
+    for field in dataclasses.fields(kind):
+        said = re.search(rf"^    {field.name}: .*?  # (.*)", inspect.getsource(kind), re.M)
+        inner = dataclasses.is_dataclass(field.type)
+        words = said[1] if said else inspect.getdoc(field.type).splitlines()[0] if inner else ""
+        yield f"{indent}- ``{field.name}``{words and ': '}{words}"
+        if inner:
+            yield from ("", *fields_of(field.type, indent + "  "), "")
+
+
+def list_fields(app, what, name, value, options, lines):
+    if dataclasses.is_dataclass(value):
+        lines += fields_of(value)
+
+
 def setup(app):
+    app.connect("autodoc-process-docstring", list_fields)
     app.add_html_math_renderer("mathml", (skip_children(inline_math), None), (skip_children(display_math), None))

@@ -1,24 +1,28 @@
 """bootcourse: a trap on the highway, and how an imperfect driver pulls a learner out of it.
 
 The front door: `import bootcourse as bc` gives every name in `NAMES` and every module in `MODULES`, each loaded when
-it is first used. What a line below uses stands above it, and tests/test_imports.py holds that:
+it is first used. The parts, each of which uses only those above it:
 
-errors, files             what all the others need: the error for users, reading and writing
-scenario                  the numbers of the road, the cars, the reward and the rule
-colours, methods          every method: its settings, its name, its colour
-road                      the trap in simulation: formulas, the compiled road, highway-env, what the agent observes
-rule                      the rule controller and its stochastic form
-policies                  whoever can drive: the rule, chance, a plan, nothing
-statistics                means, rates, intervals
-episodes                  to drive: one recorded episode, many evaluated ones, a drive in words
-learn                     discrete SAC, the help of the rule, the baselines, the training loop
-storage                   runs, checkpoints and shipped results on disk
-plots                     figures: the road from above, a drive over time, training curves
-study                     the paper's experiments and ours: jobs, tables, figures, planner, checks against others
-replay3d                  drives in 3D, in a notebook, in a browser or as one file
-panels                    widgets for notebooks: drive, train, look into one decision
-lessons                   exercises, their checks, what only one lesson draws
-cli, doctor               the command line
+errors             the one exception for mistakes that a user can mend
+files              to read and write files whole or not at all
+scenario           the numbers of the road, the cars, the reward and the rule
+colours            one place for every colour
+methods            every method: its settings, its learner, its name, its style
+road               the trap in simulation: formulas, the compiled road, highway-env, what the agent observes
+rule               the rule controller and its stochastic form
+policies           whoever can drive: the rule, chance, a plan, nobody
+statistics         means, rates, intervals
+episodes           to drive: one recorded drive, many evaluated episodes, a drive in words
+learn              discrete SAC, the rule's help, the baselines, the training loop
+storage            runs, checkpoints and shipped results on disk
+plots              figures: the road from above, a drive over time, training curves
+study              the paper's experiments and ours: jobs, tables, planner, checks against published figures
+one_per_cell       a notebook cell that runs again replaces what it showed
+replay3d           drives in 3D: in a notebook, in a browser, as one file
+panels             widgets for notebooks: drive, train, look into one decision
+lessons            exercises, their checks, and what only lessons need
+doctor             what is wrong with an installation, and what to do about it
+cli                the command line
 """
 
 import importlib
@@ -44,6 +48,7 @@ NAMES = {  # name -> where it is defined
     # to drive
     "record": "bootcourse.episodes.record",
     "Rollout": "bootcourse.episodes.rollout",
+    "evaluate": "bootcourse.episodes.evaluate",
     "drive_episodes": "bootcourse.episodes.evaluate",
     "held_out_seeds": "bootcourse.episodes.evaluate",
     "summarise": "bootcourse.episodes.evaluate",
@@ -53,6 +58,7 @@ NAMES = {  # name -> where it is defined
     "settings_for": "bootcourse.learn.settings",
     "with_seeds": "bootcourse.learn.settings",
     "Training": "bootcourse.learn.training",
+    "teacher_policy": "bootcourse.learn.teachers",
     "collect": "bootcourse.learn.demonstrations",
     "ReplayBuffer": "bootcourse.learn.replay_buffer",
     "learner_for": "bootcourse.learn.learner",

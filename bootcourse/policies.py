@@ -28,17 +28,21 @@ Policy = Callable[[np.ndarray, np.ndarray], PolicyOutput]
 
 
 def idle_policy(observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
-    """Keeps its speed and its steering straight."""
+    """Keeps its speed and its steering straight, whatever it sees: action 4 on each road."""
     return PolicyOutput(np.full(len(observations), IDLE))
 
 
 def rule_policy(scenario: Scenario) -> Policy:
-    """The rule controller μ (Algorithm 1)."""
+    """The rule controller μ (Section III-D, Algorithm 1) as a policy on roads of a scenario."""
     return lambda observations, cars: PolicyOutput(rule(cars, scenario).actions)
 
 
 def stochastic_rule_policy(scenario: Scenario, rng: np.random.Generator, p: float = RULE_P) -> Policy:
-    """The stochastic rule π̃: the rule's action with probability p, and each of the others with the same."""
+    """The stochastic rule π̃ (Equation 16) as a policy: it draws each action anew.
+
+    rng: what it draws from. p: the probability of the rule's own action; each other has (1 - p) / 8.
+    Raises BootcourseError, when it drives, if p is outside [1/9, 1).
+    """
 
     def drive(observations, cars):
         rule_actions = rule(cars, scenario).actions
@@ -48,7 +52,7 @@ def stochastic_rule_policy(scenario: Scenario, rng: np.random.Generator, p: floa
 
 
 def random_policy(rng: np.random.Generator) -> Policy:
-    """Every action with the same probability."""
+    """The driver that draws each action, all nine with the same probability, from `rng`."""
     return lambda observations, cars: PolicyOutput(
         rng.integers(N_ACTIONS, size=len(observations)), np.full((len(observations), N_ACTIONS), 1 / N_ACTIONS)
     )

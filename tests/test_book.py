@@ -5,6 +5,7 @@ import shutil
 
 import pytest
 
+import bootcourse as bc
 from tests.browser import ARTEFACTS, is_blank, needs_browser, open_browser
 from tools import book
 from tools.course.source import NOTEBOOKS
@@ -32,6 +33,7 @@ def test_every_lesson_and_every_page_to_look_things_up_is_in_it(made):
     assert {f"lessons/{name}" for name in LESSONS} | {f"lessons/instructor/{name}" for name in LESSONS} <= pages
     assert {
         "glossary",
+        "api",
         "paper_map",
         "left_open",
         "bibliography",
@@ -63,6 +65,14 @@ def test_the_solved_notebooks_stay_in_the_repository(made):
     assert not any(
         "solved/" in link for path in made.rglob("*.html") for link in links(path.read_text(encoding="utf-8"))
     )
+
+
+def test_the_api_page_has_every_public_name_with_its_signature_and_what_it_does(made):
+    text = " ".join(re.sub(r"<[^>]*>", " ", (made / "api.html").read_text(encoding="utf-8")).split())
+    assert [name for name in bc.__all__ if not re.search(rf"\b{name}\b", text)] == []
+    assert re.search(r"evaluate \( policy : .{,80} episodes : int = 1000 , scenario : Scenario = DEFAULT", text)
+    assert "How well a policy drives the held-out roads" in text
+    assert "lane_width : m" in text, "a field without its unit"
 
 
 def links(text: str) -> list[str]:

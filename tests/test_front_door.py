@@ -77,5 +77,4 @@ def test_a_car_is_recorded_trained_evaluated_and_stored_through_the_front_door(t
     result = bc.Training(bc.with_seeds(bc.settings_for("bc"), 1), episodes=1).run(progress=False)
     (folder,) = bc.save_runs(result, tmp_path)
     agent = bc.load_run(folder).agent
-    episodes = bc.drive_episodes(agent.as_policy(), bc.held_out_seeds(1, 5))
-    assert bc.summarise(episodes).episodes == 5
+    assert bc.evaluate(agent.as_policy(), episodes=5).episodes == 5

@@ -24,7 +24,7 @@ from bootcourse.study.results import Results
 def results(seconds: np.ndarray) -> Results:
     """GAIL agents whose test drives and training episodes last so long, (agents, episodes), at 10 m/s."""
     seconds = np.asarray(seconds, dtype=np.float32)
-    agents = [{"method": "gail", "seed": i, "updates": 2, "roads": 4} for i in range(len(seconds))]
+    agents = [{"method": "gail", "seed": i, "updates": 2, "envs_per_agent": 4} for i in range(len(seconds))]
     drives = {"speed": np.full_like(seconds, 10), "distance": 10 * seconds}
     return Results(agents, np.full(len(seconds), -1), drives, drives)
 

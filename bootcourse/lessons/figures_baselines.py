@@ -50,7 +50,7 @@ def as_the_rule_would(drives: Sequence[Rollout]) -> tuple[float, float, float]:
 def updates_made(results: Results) -> np.ndarray:
     """Updates, to within a few, that each agent had made when each training episode ended: (agents, episodes)."""
     seconds = results.curves["distance"].astype(np.float64) / np.maximum(results.curves["speed"], 0.1)
-    each = [agent["updates"] / agent["roads"] for agent in results.agents]  # for each decision, of 1 s
+    each = [agent["updates"] / agent["envs_per_agent"] for agent in results.agents]  # for each decision, of 1 s
     return np.cumsum(seconds, axis=1) * np.array(each)[:, None]
 
 

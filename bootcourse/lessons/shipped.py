@@ -13,7 +13,11 @@ from bootcourse.study.results import Results, in_assets, load_results
 
 
 def shipped_results(scenario: str = "default") -> Results:
-    """Every method's agents on a scenario. Raises BootcourseError if that part does not ship."""
+    """The study's results: every method's agents on a scenario, "default" or "calibrated".
+
+    `.of(method).scores("success")` is (agents,), their share of held-out roads with success.
+    Raises BootcourseError if that part does not ship.
+    """
     files = {path.stem.removeprefix("study-"): path for path in sorted(FOLDER.glob("study-*.npz"))}
     if scenario not in files:
         raise BootcourseError(f"No results of the scenario '{scenario}' ship: there are {', '.join(files) or 'none'}.")
@@ -29,7 +33,7 @@ def shipped_runs(method: str) -> list[Run]:
 
 
 def shipped_agents(method: str) -> list[Agent]:
-    """Only the agents."""
+    """The trained agents of a method, by seed. Raises BootcourseError if there are none."""
     return [run.agent for run in shipped_runs(method)]
 
 
@@ -44,7 +48,10 @@ def shipped_bound(scenario: str = "default") -> np.ndarray:
 
 
 def shipped_drive(name: str) -> Rollout:
-    """One of the recorded drives: "escape", "crash", "rule" or "trapped-sac"."""
+    """One of the recorded drives: "escape", "crash", "rule" or "trapped-sac".
+
+    Raises BootcourseError for any other name.
+    """
     return Rollout.load(FOLDER / "rollouts" / f"{name}.npz")
 
 

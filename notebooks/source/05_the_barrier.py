@@ -75,16 +75,14 @@ training = bc.Training(agents, episodes=20_000)
 alone = training.run(callback=figures.LiveCurves(), stop=lambda: training.updates > UPDATES)
 print(f"{alone.seconds:.0f} s, {training.decisions:,} decisions")
 
+
 # %%
-seeds = bc.held_out_seeds(5, 200)
-
-
 def table(agents):
     """One row for each agent, on 200 roads that nobody has trained on. Returns their success."""
     print("method            γ  seed  success %  return  accidents %")
     successes = []
     for agent in agents:
-        r, s = bc.summarise(bc.drive_episodes(agent.as_policy(), seeds)), agent.settings
+        r, s = bc.evaluate(agent.as_policy(), 200, seed=5), agent.settings
         accidents = r.collision.value + r.road_departure.value + r.stoppage.value
         row = f"{s.method:13}{s.gamma:6}{s.seed:6}{100 * r.success.value:11.1f}"
         print(f"{row}{r.returns.value:8.1f}{100 * accidents:13.1f}")
@@ -271,7 +269,7 @@ print(f"{helped.seconds:.0f} s, {with_rule.decisions:,} decisions")
 
 # %%
 escaped_helped = table(helped.agents) >= 0.95
-rule_report = bc.summarise(bc.drive_episodes(bc.rule_policy(bc.DEFAULT), seeds))
+rule_report = bc.evaluate(bc.rule_policy(bc.DEFAULT), 200, seed=5)
 success = 100 * rule_report.success.value
 print(f"the rule{success:28.1f}{rule_report.returns.value:8.1f}")
 

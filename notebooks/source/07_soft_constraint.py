@@ -393,7 +393,7 @@ rows = [(f"ξ {'fades' if i < 2 else 'stays'}", agent) for i, agent in enumerate
 rows = [(f"{words}, seed {agent.settings.seed}", agent.as_policy()) for words, agent in rows]
 print("                  success %   return   accidents %")
 for words, driver in [*rows, ("the rule", bc.rule_policy(bc.DEFAULT))]:
-    r = bc.summarise(bc.drive_episodes(driver, bc.held_out_seeds(7, 200)))
+    r = bc.evaluate(driver, 200, seed=7)
     accidents = r.collision.value + r.road_departure.value + r.stoppage.value
     print(f"{words:17}{100 * r.success.value:11.1f}{r.returns.value:9.1f}{100 * accidents:14.1f}")
 

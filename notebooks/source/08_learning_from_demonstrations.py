@@ -342,7 +342,7 @@ bc.show(charts.lines(noted["update"], named, title, "update", "mean Q(s,a) on th
 # %%
 print("               Q demonstrated   Q best rival   success %   return   accidents %   β")
 for i, agent in enumerate(result.agents):
-    r = bc.summarise(bc.drive_episodes(agent.as_policy(), bc.held_out_seeds(8, 200)))
+    r = bc.evaluate(agent.as_policy(), 200, seed=8)
     accidents = r.collision.value + r.road_departure.value + r.stoppage.value
     words = f"c = {agent.settings.bonus:g}, seed {agent.settings.seed}"
     row = f"{words:13}{expert[i, -1]:16.2f}{rival[i, -1]:15.2f}{100 * r.success.value:12.1f}"

@@ -95,11 +95,8 @@ for method in ("bc", "cql", "gail", "sac", "bootstrapped"):
     its = study.of(method).agents[0]
     updates = figures_baselines.updates_made(study.of(method))[:, -1].mean()
     shown = f"{len(demonstrations):,}" if its["beta_start"] > 0 else "0"
-    own = (
-        "0"
-        if its["beta_start"] == 1
-        else f"{updates * its['envs_per_agent'] / its['updates']:,.0f}"
-    )
+    decisions = updates * its["envs_per_agent"] / its["updates"]
+    own = "0" if its["beta_start"] == 1 else f"{decisions:,.0f}"
     rows.append([bc.display_name(method), shown, own, f"{updates:,.0f}"])
 own = f"up to {planner.Search().beam * 9 * 150:,} for each road"
 rows.append([bc.display_name("planner"), "0", own, "0"])
@@ -225,7 +222,7 @@ bc.show(charts.lines(asked, named, title, "update", "mean Q(s,a) on the way out"
 # %%
 rows = []
 for agent in figures_baselines.agents_of(learner):
-    r = bc.summarise(bc.drive_episodes(agent.as_policy(), bc.held_out_seeds(10, 200)))
+    r = bc.evaluate(agent.as_policy(), 200, seed=10)
     words = "with the term" if agent.settings.cql_weight else "without"
     kinds = [r.success, r.collision, r.road_departure, r.stoppage]
     cells = [f"{100 * kind.value:.0f}" for kind in kinds]

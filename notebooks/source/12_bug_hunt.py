@@ -235,9 +235,9 @@ bc.show(charts.many(probes, title, "updates", "log of the rarest action's probab
 # %%
 print("            escapes, most probable   escapes, drawn   return   accidents (%)")
 for name in hunt.names:
-    agent, roads = hunt.agent(name), bc.held_out_seeds(12, 200)
-    greedy = bc.summarise(bc.drive_episodes(agent.as_policy(), roads))
-    drawn = bc.summarise(bc.drive_episodes(agent.as_policy(np.random.default_rng(0)), roads))
+    agent = hunt.agent(name)
+    greedy = bc.evaluate(agent.as_policy(), 200, seed=12)
+    drawn = bc.evaluate(agent.as_policy(np.random.default_rng(0)), 200, seed=12)
     accidents = greedy.collision.value + greedy.road_departure.value + greedy.stoppage.value
     shares = f"{100 * greedy.success.value:20.1f} {100 * drawn.success.value:18.1f}"
     print(f"{name:8} {shares} {greedy.returns.value:12.1f} {100 * accidents:12.1f}")
@@ -404,7 +404,7 @@ check.label_pairs(label_pairs)
 # How the bugs were made: each is the right learner with one piece exchanged. Four of the six:
 
 # %% tags=["nbval-ignore-output"]
-source("bootcourse.lessons.bugs", "NoEnd", "BonusForAll", "ShiftedLabels", "flipped_kl")
+source("bootcourse.lessons.bugs", "NoEnd", "BonusForAll", "ShiftedLabels", "FlippedKL")
 
 # %% [markdown]
 # > **Predict.** Which of the six would you have found by testing your code, and not by training?
