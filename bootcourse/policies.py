@@ -52,7 +52,7 @@ def stochastic_rule_policy(scenario: Scenario, rng: np.random.Generator, p: floa
 
 
 def random_policy(rng: np.random.Generator) -> Policy:
-    """The driver that draws each action, all nine with the same probability, from `rng`."""
+    """The policy that draws each action, all nine with the same probability, from `rng`."""
     return lambda observations, cars: PolicyOutput(
         rng.integers(N_ACTIONS, size=len(observations)), np.full((len(observations), N_ACTIONS), 1 / N_ACTIONS)
     )
