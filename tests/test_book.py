@@ -15,9 +15,11 @@ LESSONS = sorted(path.stem for path in NOTEBOOKS.glob("*.ipynb"))
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
-    """The whole book, made once."""
+    """The whole book, made once, its replays with a third of their frames."""
     folder = tmp_path_factory.mktemp("book")
-    book.gather(folder / "source")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("bootcourse.replay3d.recorder.RATES", (10,))
+        book.gather(folder / "source")
     assert book.build(folder / "source", folder / "html") == 0, "Sphinx has something to say: see above"
     return folder / "html"
 

@@ -23,24 +23,22 @@ subprocess.run(["true"], check=True)
 NOTHING = {"threads": [("Thread", "MainThread")], "ports": [5000], "children": []}
 
 
-def run(folder, code: str) -> str:
-    """What nbval says about a notebook with this cell, with the course's own hooks."""
+def cell(folder, name: str, code: str) -> str:
+    """A notebook with this cell; its path."""
     cells = [nbformat.v4.new_code_cell("1 + 1"), nbformat.v4.new_code_cell(code)]
-    nbformat.write(nbformat.v4.new_notebook(cells=cells), folder / "one.ipynb")
-    options = ["--nbval-lax", "--nbval-current-env", "-q", "-n", "0", "-p", "conftest", "-p", "no:cacheprovider"]
-    command = [sys.executable, "-m", "pytest", str(folder / "one.ipynb"), *options]
-    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=120).stdout
+    nbformat.write(nbformat.v4.new_notebook(cells=cells), folder / f"{name}.ipynb")
+    return str(folder / f"{name}.ipynb")
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux says which ports and children are a process's own")
-def test_a_thread_a_server_and_a_process_are_found(tmp_path):
-    said = run(tmp_path, LEAVES)
-    assert "1 failed, 2 passed" in said
+def test_a_thread_a_server_and_a_process_are_found_and_a_notebook_that_closes_what_it_opens_passes(tmp_path):
+    """What nbval says, with the course's own hooks."""
+    notebooks = [cell(tmp_path, "leaves", LEAVES), cell(tmp_path, "tidy", TIDY)]
+    options = ["--nbval-lax", "--nbval-current-env", "-q", "-n", "0", "-p", "conftest", "-p", "no:cacheprovider"]
+    command = [sys.executable, "-m", "pytest", *notebooks, *options]
+    said = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=120).stdout
+    assert "1 failed, 5 passed" in said and "leaves.ipynb::it leaves nothing behind" in said
     assert all(part in said for part in ("the thread a sleeper", "a server on port", "the process"))
-
-
-def test_a_notebook_that_closes_what_it_opens_passes(tmp_path):
-    assert "3 passed" in run(tmp_path, TIDY)
 
 
 def test_what_was_there_before_is_nobody_s_fault():

@@ -163,8 +163,9 @@ def test_a_mistyped_parameter_is_refused_before_anything_runs(case, tmp_path):
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGKILL to send")
 def test_a_killed_study_goes_on_where_it_was(tmp_path):
-    command = [sys.executable, "-m", "bootcourse", "study", "--out", str(tmp_path / "study"), "--only", "sac,soft"]
-    command += ["--seeds", "1", "--episodes", "4", "--tests", "5", "--workers", "1"]
+    arguments = ["study", "--out", str(tmp_path / "study"), "--only", "sac,soft"]
+    arguments += ["--seeds", "1", "--episodes", "4", "--tests", "5", "--workers", "1"]
+    command = [sys.executable, "-m", "bootcourse", *arguments]
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
     end = time.monotonic() + 100
     while not (done := list(tmp_path.glob("study/jobs/default/*/job.json"))):
@@ -173,8 +174,8 @@ def test_a_killed_study_goes_on_where_it_was(tmp_path):
     os.killpg(process.pid, signal.SIGKILL)
     process.wait()
     before = done[0].stat().st_mtime_ns
-    again = subprocess.run(command, capture_output=True, text=True, timeout=100)
-    assert again.returncode == 0, again.stderr
+    again = typer.testing.CliRunner().invoke(app, arguments)
+    assert again.exit_code == 0, again.output
     assert "2 of 2 jobs are done" in again.stdout and done[0].stat().st_mtime_ns == before
     assert (tmp_path / "study/report.md").exists()
 
