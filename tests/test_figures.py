@@ -8,14 +8,16 @@ from matplotlib.colors import to_hex
 from PIL import Image
 
 from bootcourse.colours import ALARM, TRAP
+from bootcourse.episodes.rollout import series
 from bootcourse.episodes.words import cars_at, doing, overtaken
 from bootcourse.errors import BootcourseError
 from bootcourse.methods import style
-from bootcourse.plots import animation, save, show, top_view, top_view_over_time, traces, training_curves
+from bootcourse.plots import animation
 from bootcourse.plots.drive_figure import save_drive
-from bootcourse.plots.figure import Picture, finish, label_ends, new_figure, plain_axes, png, styles
-from bootcourse.plots.top_view import key_moments, window
-from bootcourse.plots.traces import PANELS, series
+from bootcourse.plots.figure import Picture, finish, label_ends, new_figure, plain_axes, png, save, show, styles
+from bootcourse.plots.top_view import key_moments, top_view, top_view_over_time, window
+from bootcourse.plots.traces import PANELS, traces
+from bootcourse.plots.training_curves import training_curves
 from bootcourse.road.state import EGO, HEADING, LANE, SPEED, TRAP_1, X, Y
 from bootcourse.scenario import DEFAULT
 

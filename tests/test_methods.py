@@ -12,7 +12,7 @@ from bootcourse.learn.settings import Settings, settings_for, with_seeds
 from bootcourse.learn.training import Training
 from bootcourse.methods import METHODS, Method, display_name, style
 from bootcourse.panels import train_panel
-from bootcourse.plots import training_curves
+from bootcourse.plots.training_curves import training_curves
 from bootcourse.storage.runs import load_checkpoint, load_run, save_checkpoint, save_runs
 
 SMALL = {"hidden": (8,), "demonstration_episodes": 2, "learning_starts": 16}
@@ -40,7 +40,8 @@ def test_a_method_of_one_s_own_trains_is_saved_evaluated_drawn_and_offered(toy, 
     run = load_run(save_runs(result, tmp_path / "runs")[0])
     assert run.agent.settings.method == toy and evaluate(run.agent.as_policy(), 5).episodes == 5
     assert (
-        "Toy method (2 agents)" in training_curves({toy: result.curves}, "A toy").alt and style("toy, seed 1").colour == "#117733"
+        "Toy method (2 agents)" in training_curves({toy: result.curves}, "A toy").alt
+        and style("toy, seed 1").colour == "#117733"
     )
     panel = train_panel(toy, 1, 5)
     assert panel.method.label == display_name(toy) == "toy method"

@@ -245,8 +245,8 @@ def test_the_plots_mark_an_accident(accidents, idle_drive):
 def test_the_return_s_plot_is_over_seconds_whatever_the_decision_rate():
     scenario = replace(DEFAULT, clock=Clock(decisions=20, decision_rate=2))
     [drive] = record(idle_policy, [1], scenario, "idle")
-    [returns] = re.findall(r'points="([^"]+)"', hud.plots([Timeline(drive)]))[2:]
-    across = [float(point.split(",")[0]) for point in returns.split()]
+    [returns] = re.findall(r'd="M([^"]+)"', hud.plots([Timeline(drive)]))[2:]
+    across = [float(point.split()[0]) for point in returns.split("L")]
     np.testing.assert_allclose(across, np.arange(21) / 2 / 10.0 * 1000, atol=0.1)  # 1000 wide, 10 s long
 
 

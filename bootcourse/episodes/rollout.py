@@ -8,7 +8,7 @@ import numpy as np
 
 from bootcourse.errors import BootcourseError
 from bootcourse.files import read_arrays, write_arrays
-from bootcourse.road.state import COLUMNS, EGO, HEADING, TRAP_1, Accident, X
+from bootcourse.road.state import COLUMNS, EGO, HEADING, SPEED, TRAP_1, Accident, X, Y
 from bootcourse.scenario import N_ACTIONS, RULE_P, Scenario, check_p
 
 FORMAT = "bootcourse rollout 1"
@@ -138,6 +138,26 @@ class Rollout:
             raise BootcourseError(f"{path} is incomplete ({error}): record it again.") from None
         except BootcourseError as error:
             raise BootcourseError(f"{path}: {error}") from None
+
+
+def series(rollout: Rollout, what: str) -> tuple[np.ndarray, np.ndarray]:
+    """A drive over time: (seconds, values), both (n,).
+
+    what: "speed" (m/s), "distance" (m ahead of trap 1), "lane" (a real number), "reward" or "return" (so far).
+    """
+    ego, trap = rollout.states[:, EGO], rollout.states[:, TRAP_1]
+    decided = (np.arange(len(rollout.actions)) + 1.0) / rollout.scenario.clock.decision_rate
+    decided[-1] = rollout.times[-1]
+    if what == "reward":
+        return np.r_[0.0, decided], np.r_[rollout.rewards[:1], rollout.rewards]
+    if what == "return":
+        return np.r_[0.0, decided], np.r_[0.0, np.cumsum(rollout.rewards)]
+    values = {
+        "speed": ego[:, SPEED],
+        "distance": ego[:, X] - trap[:, X],
+        "lane": ego[:, Y] / rollout.scenario.road.lane_width,
+    }
+    return rollout.times, values[what]
 
 
 def interpolate_states(states, step: float) -> np.ndarray:

@@ -8,7 +8,7 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from bootcourse.colours import ALARM, TRAP
-from bootcourse.episodes.rollout import Rollout
+from bootcourse.episodes.rollout import Rollout, series
 from bootcourse.episodes.words import ACCIDENTS, outcome, overtaken, sentence
 from bootcourse.errors import BootcourseError, did_you_mean
 from bootcourse.methods import display_name
@@ -27,7 +27,7 @@ from bootcourse.plots.figure import (
     styles,
     wrapped,
 )
-from bootcourse.road.state import EGO, SPEED, TRAP_1, Accident, X, Y
+from bootcourse.road.state import SPEED, TRAP_1, Accident
 
 # What can be drawn: the label above the panel, and the panel's height in inches.
 PANELS = {
@@ -120,23 +120,6 @@ def _title(drives: list[Rollout], names: list[str]) -> str:
 def _numbers(drive: Rollout) -> str:
     speed = drive.distance / drive.times[-1]
     return f"return {drive.rewards.sum():.1f}, {drive.distance:.0f} m at {speed:.1f} m/s"
-
-
-def series(drive: Rollout, panel: str) -> tuple[np.ndarray, np.ndarray]:
-    """What a panel draws of a drive: (seconds, values), both (n,)."""
-    ego, trap = drive.states[:, EGO], drive.states[:, TRAP_1]
-    decided = (np.arange(len(drive.actions)) + 1.0) / drive.scenario.clock.decision_rate
-    decided[-1] = drive.times[-1]
-    if panel == "reward":
-        return np.r_[0.0, decided], np.r_[drive.rewards[:1], drive.rewards]
-    if panel == "return":
-        return np.r_[0.0, decided], np.r_[0.0, np.cumsum(drive.rewards)]
-    values = {
-        "speed": ego[:, SPEED],
-        "distance": ego[:, X] - trap[:, X],
-        "lane": ego[:, Y] / drive.scenario.road.lane_width,
-    }
-    return drive.times, values[panel]
 
 
 def _draw_panel(ax, panel: str, drives: list[Rollout], looks: list, until: float) -> None:

@@ -9,8 +9,10 @@ from html import escape
 import numpy as np
 
 from bootcourse.colours import ALARM
+from bootcourse.episodes.rollout import series
 from bootcourse.episodes.words import ACCIDENTS
 from bootcourse.methods import style
+from bootcourse.plots.svg import SvgAxes
 from bootcourse.replay3d.timeline import Timeline
 from bootcourse.road.state import EGO, Accident
 from bootcourse.rule import SENTENCES, Reason, stochastic_rule
@@ -166,43 +168,19 @@ def table(timelines: list[Timeline], t: float) -> str:
 def plots(timelines: list[Timeline]) -> str:
     """Small plots over the whole time, with a cursor that `cursor` moves and a mark at every accident."""
     duration = max(timeline.duration for timeline in timelines)
-    curves = {"speed, m/s": [], "lane (0 is the leftmost)": [], "return": []}
-    for timeline in timelines:
-        states, width = timeline.rollout.states[:, EGO], timeline.rollout.scenario.road.lane_width
-        times = timeline.rollout.times
-        seconds = np.arange(timeline.decisions + 1) / timeline.rollout.scenario.clock.decision_rate
-        curves["speed, m/s"].append((times, states[:, 3]))
-        curves["lane (0 is the leftmost)"].append((times, states[:, 1] / width))
-        curves["return"].append((np.minimum(seconds, timeline.duration), timeline.returns))
     parts = []
-    for name, lines in curves.items():
-        low, high = min(y.min() for _, y in lines), max(y.max() for _, y in lines)
-        if name.startswith("lane"):
-            low, high, lines = -high, -low, [(x, -y) for x, y in lines]  # the leftmost lane on top, as one sees it
-            span = f"{-high:.1f} … {-low:.1f}"
-        else:
-            span = f"{low:.1f} … {high:.1f}"
-        parts.append(_plot(name, span, lines, timelines, duration, low, max(high - low, 1e-6)))
+    for what, name in (("speed", "speed, m/s"), ("lane", "lane (0 is the leftmost)"), ("return", "return")):
+        curves = [series(timeline.rollout, what) for timeline in timelines]
+        low, high = min(y.min() for _, y in curves), max(y.max() for _, y in curves)
+        top, bottom = (low, max(high, low + 1e-6)) if what == "lane" else (max(high, low + 1e-6), low)
+        axes = SvgAxes(0, 2, 1000, 40, (0, duration), (bottom, top))
+        for (seconds, values), timeline in zip(curves, timelines, strict=True):
+            axes.line(seconds, values, style(timeline.rollout.label).colour, 1.1)
+            if timeline.rollout.accident != Accident.NONE:
+                axes.line([timeline.duration] * 2, axes.y, ALARM, 1.3, ":")
+        lines = "".join(axes.parts).replace("<path ", '<path vector-effect="non-scaling-stroke" ')
+        parts.append(
+            f'<div class="plot"><div class="name"><span>{name}</span><span>{low:.1f} … {high:.1f}</span></div>'
+            f'<svg viewBox="0 0 1000 44" preserveAspectRatio="none">{lines}</svg><div class="cursor"></div></div>'
+        )
     return f'<div class="bc">{"".join(parts)}</div>'
-
-
-def _plot(name, span, lines, timelines, duration, low, extent) -> str:
-    paths = []
-    for (x, y), timeline in zip(lines, timelines, strict=True):
-        points = " ".join(
-            f"{a:.1f},{b:.1f}" for a, b in zip(x / duration * 1000, 42 - (y - low) / extent * 40, strict=True)
-        )
-        colour = style(timeline.rollout.label).colour
-        paths.append(
-            f'<polyline points="{points}" fill="none" stroke="{colour}" stroke-width="1.6" '
-            'vector-effect="non-scaling-stroke"/>'
-        )
-        if timeline.rollout.accident != Accident.NONE:
-            at = timeline.duration / duration * 1000
-            paths.append(
-                f'<line x1="{at:.1f}" x2="{at:.1f}" y1="0" y2="44" stroke="{ALARM}" stroke-width="2" '
-                'stroke-dasharray="3 2" vector-effect="non-scaling-stroke"/>'
-            )
-    svg = f'<svg viewBox="0 0 1000 44" preserveAspectRatio="none">{"".join(paths)}</svg>'
-    label = f'<div class="name"><span>{name}</span><span>{span}</span></div>'
-    return f'<div class="plot">{label}{svg}<div class="cursor"></div></div>'

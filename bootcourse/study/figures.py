@@ -25,11 +25,9 @@ def of_methods(results: Results, methods: Sequence[str]) -> dict[str, dict[str, 
     for method in methods:
         if method in results.methods:
             curves = results.of(method).curves
-            whole = np.isfinite(next(iter(curves.values()))).all(axis=1)
-            for values in curves.values():
-                whole &= np.isfinite(values).all(axis=1)
-            found[method] = {name: values[whole] for name, values in curves.items()}
-    return {method: curves for method, curves in found.items() if len(next(iter(curves.values())))}
+            whole = np.logical_and.reduce([np.isfinite(values).all(axis=1) for values in curves.values()])
+            found |= {method: {name: values[whole] for name, values in curves.items()}} if whole.any() else {}
+    return found
 
 
 def training_panels(results: Results, methods: Sequence[str], title: str, rule: Results | None = None) -> Figure:
@@ -49,28 +47,31 @@ def escaped(results: Results, method: str) -> str:
     return f"{int((success >= ESCAPES).sum())} of {len(success)}"
 
 
+def _escapes(results: Results, short: dict[str, str], rule: Results | None) -> Figure:
+    """Training panels of these methods, whose title counts the agents that escape: {method: its name in the title}."""
+    counts = ", ".join(f"{escaped(results, method)} {name}" for method, name in short.items())
+    return training_panels(results, tuple(short), f"Agents that escape: {counts}", rule)
+
+
 def margin_against_bonus(results: Results, rule: Results | None = None) -> Figure:
     """The paper's first training figure (Figure 4): demonstrations by a bonus, or by a large margin."""
-    title = (
-        f"Agents that escape: {escaped(results, 'demos')} with the bonus, {escaped(results, 'margin')} with the margin"
+    methods = ("margin", "margin_soft", "demos", "bootstrapped")
+    bonus, margin = (escaped(results, method) for method in ("demos", "margin"))
+    return training_panels(
+        results, methods, f"Agents that escape: {bonus} with the bonus, {margin} with the margin", rule
     )
-    return training_panels(results, ("margin", "margin_soft", "demos", "bootstrapped"), title, rule=rule)
 
 
 def ablation(results: Results, rule: Results | None = None) -> Figure:
     """The paper's second training figure (Figure 5): each ingredient alone, and both."""
-    methods = ("sac", "soft", "demos", "bootstrapped")
     short = {"sac": "plain", "soft": "soft constraint", "demos": "demonstrations", "bootstrapped": "both"}
-    title = "Agents that escape: " + ", ".join(f"{escaped(results, method)} {short[method]}" for method in methods)
-    return training_panels(results, methods, title, rule=rule)
+    return _escapes(results, short, rule)
 
 
 def baselines(results: Results, rule: Results | None = None) -> Figure:
     """The paper's third training figure (Figure 6): the method against others."""
-    methods = ("bc", "cql", "gail", "sac", "bootstrapped")
     short = {"bc": "BC", "cql": "CQL", "gail": "GAIL", "sac": "SAC", "bootstrapped": "bootstrapped"}
-    title = "Agents that escape: " + ", ".join(f"{escaped(results, method)} {short[method]}" for method in methods)
-    return training_panels(results, methods, title, rule=rule)
+    return _escapes(results, short, rule)
 
 
 def exploration(results: Results, methods: Sequence[str] = ("sac", "soft", "demos", "bootstrapped")) -> Figure:
@@ -89,10 +90,9 @@ def exploration(results: Results, methods: Sequence[str] = ("sac", "soft", "demo
 def final_scores(results: Results, methods: Sequence[str], column: str = "returns") -> Figure:
     """Each agent's score on the held-out episodes, and their interquartile mean with its interval."""
     methods = [method for method in methods if method in results.methods]
-    figure = new_figure(0.9 + 0.36 * len(methods))
-    ax = figure.add_axes(
-        (0.27, 0.55 / (0.9 + 0.36 * len(methods)), 0.68, 0.36 * len(methods) / (0.9 + 0.36 * len(methods)) * 0.9)
-    )
+    height = 0.9 + 0.36 * len(methods)
+    figure = new_figure(height)
+    ax = figure.add_axes((0.27, 0.55 / height, 0.68, 0.9 * 0.36 * len(methods) / height))
     scale, words = 100 if column in RATES else 1, []
     for row, method in enumerate(methods):
         scores, its = results.of(method).scores(column) * scale, style(method)
