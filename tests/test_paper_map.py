@@ -79,7 +79,6 @@ SPOILT = {
         "02_traffic mentions none of safety_distance",
     ),
     "a note has no heading": ({"see": ""}, "a note goes with a heading"),
-    "the kind is unknown": ({"kind": "lemma"}, "a kind is one of equation"),
 }
 
 

@@ -78,7 +78,7 @@ def unclaimed(path: Path) -> list[str]:
     """The sentences about all cases without a claim in their paragraph; those that ask need none."""
     found = []
     for block in (block for cell in read(path) for block in blocks(cell.text) if not CLAIM.search(block)):
-        sentences = re.split(r"(?<=[.!?:])[\"”')*]*\s", " ".join(block.split()))
+        sentences = re.split(r"(?<=[.!?])[\"”')*]*\s", " ".join(block.split()))
         found += [each for each in sentences if STRONG.search(each) and not each.endswith("?")]
     return found
 

@@ -10,7 +10,6 @@ import re
 import tomllib
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
 
 from bootcourse.lessons.exercises import registry
 from tools.course.problems import exists
@@ -18,7 +17,6 @@ from tools.course.reference import BOOK, everything, link, mentions
 from tools.course.source import read, sources
 
 DATA, PAGE = BOOK / "paper_map.toml", BOOK / "paper_map.md"
-KINDS = ("equation", "table", "figure", "algorithm")
 HEADINGS = ("in the paper", "what it is, and where it is in the kit", "taught in", "note")
 SPACE = "&nbsp;"  # so that a narrow column keeps "Equation 7" in one line
 
@@ -40,8 +38,8 @@ class Item:
     kind: str
     number: int
     what: str
-    code: tuple[str, ...]
-    taught: tuple[Taught, ...]
+    code: list[str]
+    taught: list[Taught]
     note: str = ""  # how the kit deviates
     see: str = ""  # where left_open.md says more
 
@@ -59,28 +57,26 @@ class Value:
     what: str
     printed: float | list  # a list is a range
     unit: str
-    code: tuple[str, ...]
+    code: list[str]
 
 
 @cache
-def data(path: Path = DATA) -> dict:
-    return tomllib.loads(path.read_text(encoding="utf-8"))
+def data() -> dict:
+    return tomllib.loads(DATA.read_text(encoding="utf-8"))
 
 
 def items() -> list[Item]:
     """All items, in the order of the paper."""
-    found = []
-    for section in data()["section"]:
-        for entry in section["item"]:
-            taught = tuple(Taught(**each) for each in entry["taught"])
-            rest = {"code": tuple(entry["code"]), "taught": taught, "section": section["title"]}
-            found.append(Item(**(entry | rest)))
-    return found
+    return [
+        Item(**entry | {"section": section["title"], "taught": [Taught(**each) for each in entry["taught"]]})
+        for section in data()["section"]
+        for entry in section["item"]
+    ]
 
 
 def values() -> list[Value]:
     """The printed numbers, in the order of the paper."""
-    return [Value(**(entry | {"code": tuple(entry["code"])})) for entry in data()["value"]]
+    return [Value(**entry) for entry in data()["value"]]
 
 
 def in_code(value: Value):
@@ -96,8 +92,6 @@ def problems() -> list[str]:
     """What the data says and the kit does not hold, as sentences; an empty list if all is well."""
     found = []
     for item in items():
-        if item.kind not in KINDS:
-            found.append(f"{item.label}: a kind is one of {', '.join(KINDS)}.")
         found += [f"{item.label}: `{name}` does not exist." for name in item.code if not exists(name)]
         found += [f"{item.label}: {problem}" for taught in item.taught for problem in of_taught(item, taught)]
         if not item.code or not item.taught:
