@@ -11,26 +11,14 @@ GREEK = {name.split()[-1].lower(): chr(code) for code in range(0x3B1, 0x3CA) if 
 LESSON = re.compile(r" Lesson (\d+)\.$")
 
 # Bold that labels a paragraph in a lesson's form (notebooks/source/README.md), with no full stop of its own.
-LABELS = (
-    "Time",
-    "It builds on",
-    "You need",
-    "Read on",
-    "What you will be able to do",
-    "What you now know",
-    "Three questions to think about",
+LABELS = re.split(
+    r",\s",
+    """Time, It builds on, You need, Read on, What you will be able to do, What you now know, Three questions to
+think about""",
 )
 # Bold that stresses something, or names a button, and introduces no word.
-STRESSED = (
-    "drive",
-    "gain × dt above 2",
-    "keep as demonstration",
-    "lane",
-    "less",
-    "longer",
-    "never negative",
-    "speed",
-    "η = …",
+STRESSED = "drive, gain × dt above 2, keep as demonstration, lane, less, longer, never negative, speed, η = …".split(
+    ", "
 )
 
 
@@ -83,14 +71,10 @@ def bold(text: str) -> list[str]:
         words = " ".join(match[1].split())
         heading, point = before.startswith("#"), re.fullmatch(r"\s*(?:[-*]|\d+\.)\s+", before)
         label = words in LABELS or re.search(r"[.:?!]$|\)\.$", words) or words.startswith("Exercise ")
-        if not (heading or point or label or is_own_label(match, before)):
+        names_line = match[2] and not before.strip("> ")  # "**The actor's**: minus ..."
+        if not (heading or point or label or names_line):
             found.append(words)
     return found
-
-
-def is_own_label(match: re.Match, before: str) -> bool:
-    """ "**The actor's**: minus ...": what begins a line and is followed by a colon names the line."""
-    return bool(match[2]) and not before.strip("> ")
 
 
 def introduced() -> dict[str, int]:

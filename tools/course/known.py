@@ -46,12 +46,6 @@ def roads() -> int:
 
 
 @cache
-def rule_results() -> Results:
-    """The rule on those roads."""
-    return report.rule_results(DEFAULT, roads())
-
-
-@cache
 def bound() -> np.ndarray:
     """The best return that the planner found on each of those roads."""
     return read_arrays(FOLDER / "bound-default.npz")["returns"]
@@ -69,9 +63,10 @@ def idle(road: int = ROAD):
     return record(idle_policy, [road])[0]
 
 
+@cache
 def of(method: str) -> Results:
     """The study's agents of a method; "rule" is a method, too."""
-    return rule_results() if method == "rule" else shipped_results().of(method)
+    return report.rule_results(DEFAULT, roads()) if method == "rule" else shipped_results().of(method)
 
 
 def escaped(method: str, scenario: str = "default") -> int:
