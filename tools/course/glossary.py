@@ -11,11 +11,7 @@ GREEK = {name.split()[-1].lower(): chr(code) for code in range(0x3B1, 0x3CA) if 
 LESSON = re.compile(r" Lesson (\d+)\.$")
 
 # Bold that labels a paragraph in a lesson's form (notebooks/source/README.md), with no full stop of its own.
-LABELS = re.split(
-    r",\s",
-    """Time, It builds on, You need, Read on, What you will be able to do, What you now know, Three questions to
-think about""",
-)
+LABELS = "Time, It builds on, You need, Read on, What you will be able to do, What you now know".split(", ")
 # Bold that stresses something, or names a button, and introduces no word.
 STRESSED = "drive, gain × dt above 2, keep as demonstration, lane, less, longer, never negative, speed, η = …".split(
     ", "
@@ -70,7 +66,9 @@ def bold(text: str) -> list[str]:
         before = text[: match.start()].rsplit("\n", 1)[-1]
         words = " ".join(match[1].split())
         heading, point = before.startswith("#"), re.fullmatch(r"\s*(?:[-*]|\d+\.)\s+", before)
-        label = words in LABELS or re.search(r"[.:?!]$|\)\.$", words) or words.startswith("Exercise ")
+        label = (
+            words in LABELS or re.search(r"[.:?!]$|\)\.$", words) or words.startswith(("Exercise ", "Three questions"))
+        )
         names_line = match[2] and not before.strip("> ")  # "**The actor's**: minus ..."
         if not (heading or point or label or names_line):
             found.append(words)
