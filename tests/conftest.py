@@ -1,6 +1,7 @@
 """What every test shares."""
 
 import sys
+from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
@@ -38,3 +39,25 @@ def crash():
     from bootcourse.policies import plan_policy
 
     return drive_road_3(plan_policy([("accelerate straight", 30)]), "you")
+
+
+@dataclass(frozen=True)
+class Answer:
+    status: int
+    out: str
+    err: str
+
+
+@pytest.fixture
+def bootcourse(monkeypatch, capsys):
+    """`bootcourse ARGUMENTS...`, run in this process."""
+
+    from bootcourse.cli import main
+
+    def run(*arguments) -> Answer:
+        monkeypatch.setattr(sys, "argv", ["bootcourse", *map(str, arguments)])
+        with pytest.raises(SystemExit) as ended:
+            main()
+        return Answer(ended.value.code or 0, *capsys.readouterr())
+
+    return run

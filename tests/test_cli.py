@@ -6,35 +6,13 @@ import signal
 import subprocess
 import sys
 import time
-from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 
-from bootcourse.cli import main
 from bootcourse.episodes.rollout import Rollout
 
 COMMAND = [sys.executable, "-m", "bootcourse"]
-
-
-@dataclass(frozen=True)
-class Answer:
-    status: int
-    out: str
-    err: str
-
-
-@pytest.fixture
-def bootcourse(monkeypatch, capsys):
-    """`bootcourse ARGUMENTS...`, run in this process."""
-
-    def run(*arguments) -> Answer:
-        monkeypatch.setattr(sys, "argv", ["bootcourse", *map(str, arguments)])
-        with pytest.raises(SystemExit) as ended:
-            main()
-        return Answer(ended.value.code or 0, *capsys.readouterr())
-
-    return run
 
 
 def test_the_rule_s_table_shows_the_accidents_apart_with_intervals(bootcourse):

@@ -10,8 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from bootcourse import cli as command_line
-from bootcourse import doctor
+from bootcourse import __version__, doctor
 from bootcourse.errors import BootcourseError
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -22,11 +21,6 @@ def requirements(lock: str) -> list[str]:
     """The lock's requirements, each with its hashes on one line."""
     text = (ROOT / lock).read_text().replace("\\\n", " ")
     return [line for line in text.splitlines() if not line.startswith("#")]
-
-
-def bootcourse(*arguments: str) -> subprocess.CompletedProcess:
-    command = [sys.executable, "-m", "bootcourse", *arguments]
-    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=120)
 
 
 # The lock
@@ -76,12 +70,11 @@ def healthy(monkeypatch):
     return monkeypatch
 
 
-def test_the_doctor_finds_nothing_that_stops_the_lessons_here():
-    result = bootcourse("doctor")
-    assert "STOP" not in result.stdout
-    assert result.returncode == 0
-    assert "\033[" not in result.stdout, "colours are for terminals only"
-    assert len(result.stdout.splitlines()) < 40, "it fits on one screen"
+def test_the_doctor_finds_nothing_that_stops_the_lessons_here(bootcourse):
+    answer = bootcourse("doctor")
+    assert answer.status == 0 and "STOP" not in answer.out, answer.out
+    assert "\033[" not in answer.out, "colours are for terminals only"
+    assert len(answer.out.splitlines()) < 40, "it fits on one screen"
 
 
 def test_the_doctor_names_a_package_whose_version_differs_but_the_lessons_go_on(healthy, capsys):
@@ -151,47 +144,36 @@ def test_the_doctor_speaks_when_nothing_is_installed():
 # The command line
 
 
-def test_help_lists_the_commands():
-    result = bootcourse("--help")
-    assert result.returncode == 0
-    assert "doctor" in result.stdout
+def test_help_lists_the_commands(bootcourse):
+    answer = bootcourse("--help")
+    assert answer.status == 0 and "doctor" in answer.out
 
 
-def test_a_mistyped_command_is_told_the_nearest_one():
-    result = bootcourse("docter")
-    assert result.returncode == 2
-    assert "Did you mean 'doctor'?" in result.stderr
+def test_a_mistyped_command_is_told_the_nearest_one(bootcourse):
+    answer = bootcourse("docter")
+    assert answer.status == 2 and "Did you mean 'doctor'?" in answer.err
 
 
-def test_the_version_is_the_packages_own():
-    import bootcourse as package
-
-    assert bootcourse("--version").stdout == f"bootcourse {package.__version__}\n"
-    assert f"\nversion: {package.__version__}\n" in (ROOT / "CITATION.cff").read_text()
+def test_the_version_is_the_packages_own(bootcourse):
+    assert bootcourse("--version").out == f"bootcourse {__version__}\n"
+    assert f"\nversion: {__version__}\n" in (ROOT / "CITATION.cff").read_text()
 
 
-def test_a_mistake_of_the_users_is_one_sentence_and_status_2(monkeypatch, capsys):
-    def mistaken():
-        raise BootcourseError("xi = -1 is negative: give 0 or more.")
+@pytest.mark.parametrize(
+    "error, status, said",
+    [
+        (BootcourseError("xi = -1 is negative: give 0 or more."), 2, "xi = -1 is negative: give 0 or more.\n"),
+        (KeyboardInterrupt(), 130, ""),
+    ],
+    ids=["a mistake of the user's is one sentence", "Ctrl-C is quiet"],
+)
+def test_how_a_command_that_is_cut_short_ends(error, status, said, bootcourse, monkeypatch):
+    def cut_short():
+        raise error
 
-    monkeypatch.setattr(doctor, "main", mistaken)
-    monkeypatch.setattr(sys, "argv", ["bootcourse", "doctor"])
-    with pytest.raises(SystemExit) as end:
-        command_line.main()
-    assert end.value.code == 2
-    assert capsys.readouterr().err == "xi = -1 is negative: give 0 or more.\n"
-
-
-def test_ctrl_c_ends_quietly_with_status_130(monkeypatch, capsys):
-    def interrupted():
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(doctor, "main", interrupted)
-    monkeypatch.setattr(sys, "argv", ["bootcourse", "doctor"])
-    with pytest.raises(SystemExit) as end:
-        command_line.main()
-    assert end.value.code == 130
-    assert capsys.readouterr().err == ""
+    monkeypatch.setattr(doctor, "main", cut_short)
+    answer = bootcourse("doctor")
+    assert (answer.status, answer.err) == (status, said)
 
 
 @pytest.mark.skipif(not Path("/bin/sh").exists(), reason="make is for Linux and macOS")
