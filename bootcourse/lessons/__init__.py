@@ -2,7 +2,9 @@
 
 import importlib
 import inspect
+import operator
 import sys
+import textwrap
 from collections.abc import Sequence
 
 if "IPython" in sys.modules and (_shell := sys.modules["IPython"].get_ipython()) is not None:
@@ -21,8 +23,8 @@ def table(headings: Sequence[str], rows: Sequence[Sequence[str]], below: str = "
 
 
 def source(module: str, *names: str):
-    """The library's own code of some functions, as a notebook output: what you read is what runs."""
-    return code_of(*(getattr(importlib.import_module(module), name) for name in names))
+    """The library's own code of some functions, or of a "Class.method", as a notebook output: it is what runs."""
+    return code_of(*(operator.attrgetter(name)(importlib.import_module(module)) for name in names))
 
 
 def code_of(*functions):
@@ -34,4 +36,4 @@ def code_of(*functions):
 
 def text_of(function) -> str:
     """A function's code; a compiled function holds its Python."""
-    return inspect.getsource(getattr(function, "py_func", function)).rstrip()
+    return textwrap.dedent(inspect.getsource(getattr(function, "py_func", function))).rstrip()

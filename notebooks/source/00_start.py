@@ -14,7 +14,7 @@
 # # 0 · Start
 #
 # **What you will be able to do**
-# - say what the trap is, and that the way out of it leads backwards;
+# - say what the trap is, and how a car can get out of it;
 # - drive it yourself, and compare yourself with two programs that learned to drive;
 # - choose your route through the course.
 #
@@ -60,9 +60,9 @@ table(["", *names], rows, below=f"In the end: {'; '.join(ends)}.")
 
 # %% [markdown]
 # The **return** is what a drive has earned: each second pays a little for speed, up to
-# {{ max(np.arange(0, 25, 0.5), key=speed_reward) }} m/s. The way out leads backwards. It costs
-# speed at first, and one clumsy move on it ends in a crash. Staying behind never hurts, and that
-# makes it a trap for whoever learns by trying.
+# {{ max(np.arange(0, 25, 0.5), key=speed_reward) }} m/s. The car above falls back first, which
+# costs speed, and one clumsy move on the way ends in a crash. A second behind the slow cars pays
+# something every time. That makes it a trap for an agent that learns by trying.
 # <!-- claim: by_rule().states[6, EGO, SPEED] < by_rule().states[0, EGO, SPEED] -->
 # <!-- claim: idle().rewards.min() > 0 and idle().accident == Accident.NONE -->
 

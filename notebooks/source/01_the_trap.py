@@ -149,9 +149,31 @@ print("the first 15 s in words:", bc.policies.in_words(escape.actions[:15]))
 bc.show(bc.top_view_over_time(escape, times=[0, 3, 6, 9, 20, bc.overtaken(escape)]))
 
 # %% [markdown]
-# **Explain.** The way out leads *backwards*. You fall behind both cars, change left behind trap
-# 2, change left again, and then you are free. Nobody is in your way behind you. It costs speed
-# now for speed later, and that is what makes this road a trap for a learner.
+# **Explain.** This way out leads *backwards*. The car falls behind both traps, changes left behind
+# trap 2, changes left again, and is free. That costs speed now for speed later.
+#
+# > **Predict.** Trap 2 starts {{ DEFAULT.traps.d2[0] }} to {{ DEFAULT.traps.d2[1] }} m ahead, one
+# > lane to your left. Could you also change lane behind it *without* braking? On every road?
+
+# %%
+NO_BRAKING = [("keep left", 2), "keep right", "keep left", ("keep right", 3), "keep left"]
+NO_BRAKING += [("accelerate straight", 5)]
+direct = bc.record(bc.plan_policy(NO_BRAKING), [7], label="plan")[0]
+bc.show(bc.top_view_over_time(direct, times=[0, 2, 4, 6, 9, bc.overtaken(direct)]))
+
+# %% [markdown]
+# **See.** These {{ len(NO_BRAKING) }} decisions take the car behind trap 2 and on to the left lane,
+# and none of them brakes. The same list gets out on
+# {{ 100 * without_braking()[1].mean() | .0f }} % of {{ roads() }} other roads: on all of those
+# where trap 2 starts 4.85 m ahead or more, and on few of the others. On road {{ ROAD }} it starts
+# {{ idle().states[0, TRAP_2, X] | .2f }} m ahead, so there the car has to fall back first.
+# <!-- claim: not any(ACTION_NAMES[action].startswith('brake') for action in NO_BRAKING) -->
+# <!-- claim: without_braking()[1][without_braking()[0] >= 4.85].all() -->
+# <!-- claim: without_braking()[1][without_braking()[0] < 4.85].mean() < 0.1 -->
+#
+# **Explain.** Falling back takes patience, the direct way takes precision: an agent that tries
+# actions at random would have to draw these eight turns of the wheel in this order, or others as
+# exact. Both ways are hard to find by chance. That makes this road a trap for a learner.
 
 # %% [markdown]
 # ## Round 2: what you see
@@ -407,7 +429,8 @@ for name, driver in drivers.items():
 #    {{ DEFAULT.reward.accident }} and end the episode.
 # 3. Doing nothing earns {{ idle().rewards.sum() }} over {{ idle().distance }} m, for ever behind
 #    trap 1.
-# 4. The way out goes backwards: slower first, then left behind trap 2.
+# 4. The way out leads left behind trap 2. Where trap 2 starts far enough ahead, exact steering is
+#    enough; elsewhere the car has to fall back first.
 # 5. The escape pays off late, and one accident on the way costs what a minute of patience earns.
 # <!-- claim: 50 < -DEFAULT.reward.accident / second_pays(DEFAULT.traps.speed) < 70 -->
 #

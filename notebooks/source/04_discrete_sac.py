@@ -388,6 +388,12 @@ source("bootcourse.learn.sac", "soft_value", "critic_target", "critic_loss", "ac
 # %% tags=["nbval-ignore-output"]
 source("bootcourse.learn.sac", "temperature_loss", "min_q")
 
+# %% [markdown]
+# These lines, and a loop from reset to update around them, are one short program for one agent:
+# `bootcourse/learn/textbook.py`. Open it beside this lesson. Two things in it are still to come:
+# the KL (lesson 7) and the demonstrations (lesson 8). `python -m bootcourse.learn.textbook` trains
+# it.
+
 # %% [markdown] tags=["instructor"] minutes=10
 # How far does it get with more pushes? `python -m bootcourse.study.checks --only sac-cartpole`
 # trains for 100,000 and compares with a published figure (some minutes). Let groups try η from 0 to

@@ -305,6 +305,13 @@ for xi in (0.0, 0.02, 0.2, 2.0):
 # %% tags=["nbval-ignore-output"]
 source("bootcourse.learn.sac", "soft_value", "actor_loss")
 
+# %% [markdown]
+# In the program of lesson 4, `bootcourse/learn/textbook.py`, the KL stands in two places: in the
+# critic's target and in the actor's loss.
+
+# %% tags=["nbval-ignore-output"]
+source("bootcourse.learn.textbook", "TextbookSAC.critic_target", "TextbookSAC.actor_loss")
+
 # %% [markdown] tags=["instructor"] minutes=8
 # In the paper the KL stands inside the discounted sum (its Equation 15). Many
 # implementations subtract it in the actor's loss only: `settings_for("soft", kl_in_target=False)`

@@ -363,6 +363,13 @@ for i, agent in enumerate(result.agents):
 source("bootcourse.learn.bootstrap", "augmented_reward", "large_margin_loss", "q_filter")
 
 # %% [markdown]
+# With that you have seen all of `bootcourse/learn/textbook.py`. Here is its loop, from reset to
+# update: β and the demonstrations are in its last five lines.
+
+# %% tags=["nbval-ignore-output"]
+source("bootcourse.learn.textbook", "train")
+
+# %% [markdown]
 # ## What you now know
 #
 # 1. β mixes the teacher's rows into every batch and fades in a straight line.

@@ -11,6 +11,7 @@ import gymnasium as gym
 import numpy as np
 import torch
 
+from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.files import read_arrays
 from bootcourse.learn import bootstrap, sac
@@ -21,7 +22,7 @@ from bootcourse.lessons.exercises import registry
 from bootcourse.policies import idle_policy, plan_policy, rule_policy
 from bootcourse.road import formulas, observation
 from bootcourse.road.formulas import centring_reward, speed_reward
-from bootcourse.road.state import EGO, SPEED, TRAP_2, Accident, Y
+from bootcourse.road.state import EGO, SPEED, TRAP_2, Accident, X, Y
 from bootcourse.rule import HEADING_COST, stochastic_rule, target_speed
 from bootcourse.scenario import ACTION_NAMES, CALIBRATED, DEFAULT, N_ACTIONS, RULE_P
 from bootcourse.statistics import ESCAPES, escapes, improvement, interval, iqm, rate
@@ -55,6 +56,18 @@ def bound() -> np.ndarray:
 def by_rule(road: int = ROAD):
     """The rule's drive on one road."""
     return record(rule_policy(DEFAULT), [road])[0]
+
+
+NO_BRAKING = [3, 3, 5, 3, 5, 5, 5, 3, 7, 7, 7, 7, 7]  # lesson 1: a plan that changes lanes behind trap 2 at once
+
+
+@cache
+def without_braking() -> tuple[np.ndarray, np.ndarray]:
+    """That plan on the held-out roads: D2 (m), and whether it gets out, each (roads,)."""
+    plan = plan_policy([ACTION_NAMES[action] for action in NO_BRAKING])
+    drives = record(plan, held_out_seeds(1, roads()))
+    starts = np.array([drive.states[0, TRAP_2, X] - drive.states[0, EGO, X] for drive in drives])
+    return starts, np.array([drive.success for drive in drives])
 
 
 @cache
