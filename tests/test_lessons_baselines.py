@@ -17,7 +17,13 @@ from bootcourse.lessons.figures_baselines import (
     success_around,
     updates_made,
 )
-from bootcourse.lessons.shipped import shipped_agents, shipped_drive
+from bootcourse.lessons.shipped import (
+    shipped_agents,
+    shipped_bound,
+    shipped_drive,
+    shipped_results,
+    shipped_sensitivity,
+)
 from bootcourse.study.results import Results
 
 
@@ -75,3 +81,14 @@ def test_the_success_around_an_update_is_that_of_the_episodes_next_to_it():
 def test_the_figure_says_which_share_of_the_drives_ended_early():
     figure = still_going(results([[150, 150.0001, 20, 149.5], [150, 150, 150, 150]]), methods=("gail",))
     assert "25.0 % of GAIL's" in figure.alt and "50, 100 at 150" in figure.alt
+
+
+def test_the_bound_that_ships_is_of_the_roads_that_the_agents_were_tested_on():
+    bound, returns = shipped_bound(), shipped_results().tested["returns"]
+    assert bound.shape == returns.shape[1:]
+    assert bound.mean() > returns.mean(axis=1).max()
+
+
+def test_what_was_changed_one_number_at_a_time_ships_with_the_agents_of_the_ablation():
+    varied = shipped_sensitivity()
+    assert varied and all("bootstrapped" in results.methods for results in varied.values())

@@ -44,7 +44,7 @@ def shipped_sensitivity() -> dict[str, Results]:
 
 def shipped_bound(scenario: str = "default") -> np.ndarray:
     """The best return that the planner found on each held-out road of the study, (episodes,)."""
-    return in_assets(FOLDER).bounds[scenario]
+    return in_assets(FOLDER).bound[scenario]
 
 
 def shipped_drive(name: str) -> Rollout:

@@ -261,7 +261,7 @@ def teach(teacher, settings):
 notes, agents, faded = teach(mine, taught + alone)  # who learn alone train beside the first group
 progress[mine.__name__] = (notes[:, 0], notes[:, 1 : 1 + SEEDS].T)
 progress["alone"] = (notes[:, 0], notes[:, 1 + SEEDS :].T)
-students |= {mine.__name__: agents[:SEEDS], "alone": agents[SEEDS:]}
+students[mine.__name__], students["alone"] = agents[:SEEDS], agents[SEEDS:]
 fading = {mine.__name__: faded}
 
 # %% tags=["nbval-ignore-output"]
