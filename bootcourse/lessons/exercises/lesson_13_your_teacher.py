@@ -140,7 +140,7 @@ def no_action(action, again):
     if plain(action).kind not in NUMERIC or plain(action).shape != ():
         return "as it is"
     try:
-        if teacher.whole(action) != again:
+        if teacher.checked_action(action) != again:
             return NOT_SAME
     except BootcourseError:
         return OUTSIDE if isinstance(action, (int, np.integer)) and not isinstance(action, bool) else NOT_WHOLE
