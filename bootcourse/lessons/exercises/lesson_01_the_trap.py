@@ -5,8 +5,6 @@ import numpy as np
 from bootcourse.lessons.exercise import Exercise, Mistake
 from bootcourse.road import formulas
 
-# The nine actions -------------------------------------------------------------------------------------
-
 
 def decode_solution(actions):
     acceleration = actions // 3 - 1
@@ -28,52 +26,37 @@ def decode_cases(rng):
 
 
 decode = Exercise(
-    call="decode(actions)",
-    solution=decode_solution,
+    "decode(actions)",
+    solution=decode_solution, cases=decode_cases,
     worked=(
         # "brake left" is the first, "keep straight" the middle one, "accelerate right" the last
         ((np.array([0, 4, 8]),), np.array([[-1, -np.pi / 50], [0, 0], [1, np.pi / 50]])),
     ),
-    cases=decode_cases,
     mistakes=(
-        Mistake(
-            answer=lambda actions: columns(actions % 3 - 1, (actions // 3 - 1) * np.pi / 50),
-            says="You read the number the other way round: `//` finds the acceleration, `%` the steering, "
-            "because three steering angles follow each other before the acceleration changes.",
-            belief="The order of a two-digit number is a matter of taste.",
-        ),
-        Mistake(
-            answer=lambda actions: columns(actions // 3, (actions % 3) * np.pi / 50),
-            says="Your actions never brake and never steer left: 0, 1, 2 have to become -1, 0, 1.",
-            belief="The quotient is the acceleration itself.",
-        ),
-        Mistake(
-            answer=lambda actions: columns(actions // 3 - 1, (1 - actions % 3) * np.pi / 50),
-            says="Your left and right are swapped: y grows to the right, so steering left is negative.",
-            belief="Positive angles turn left, as in mathematics. On this road y points to the right.",
-        ),
-        Mistake(
-            answer=lambda actions: columns(actions // 3 - 1, actions % 3 - 1),
-            says="Your steering is -1, 0 or 1 rad, which would turn the wheels by 57°. It is that times π/50.",
-            belief="The action is the number that the network gives; its unit comes later.",
-        ),
-        Mistake(
-            answer=lambda actions: columns(actions // 3 - 1, (actions % 3 - 1) * 3.6),
-            says="Your steering is in degrees: π/50 rad are 3.6°, and the column is in rad.",
-            belief="An angle is a number of degrees.",
-        ),
+        Mistake(lambda actions: columns(actions % 3 - 1, (actions // 3 - 1) * np.pi / 50),
+            "You read the number the other way round: `//` finds the acceleration, `%` the steering, because three "
+            "steering angles follow each other before the acceleration changes.",
+            "The order of a two-digit number is a matter of taste."),
+        Mistake(lambda actions: columns(actions // 3, (actions % 3) * np.pi / 50),
+            "Your actions never brake and never steer left: 0, 1, 2 have to become -1, 0, 1.",
+            "The quotient is the acceleration itself."),
+        Mistake(lambda actions: columns(actions // 3 - 1, (1 - actions % 3) * np.pi / 50),
+            "Your left and right are swapped: y grows to the right, so steering left is negative.",
+            "Positive angles turn left, as in mathematics. On this road y points to the right."),
+        Mistake(lambda actions: columns(actions // 3 - 1, actions % 3 - 1),
+            "Your steering is -1, 0 or 1 rad, which would turn the wheels by 57°. It is that times π/50.",
+            "The action is the number that the network gives; its unit comes later."),
+        Mistake(lambda actions: columns(actions // 3 - 1, (actions % 3 - 1) * 3.6),
+            "Your steering is in degrees: π/50 rad are 3.6°, and the column is in rad.",
+            "An angle is a number of degrees."),
     ),
     hints=(
         "Write 0 to 8 as three rows of three: which row is the acceleration, which column the steering?",
         "`actions // 3` is the row and `actions % 3` the column, each 0, 1 or 2.",
         "`np.stack([actions // 3 - 1, (actions % 3 - 1) * np.pi / 50], axis=-1)`",
     ),
-    minutes=5,
-    difficulty=1,
-    equation="A = {-1, 0, 1} m/s² x {-π/50, 0, π/50} rad, Section III-C",
-)
-
-# The reward -------------------------------------------------------------------------------------------
+    minutes=5, difficulty=1, equation="A = {-1, 0, 1} m/s² x {-π/50, 0, π/50} rad, Section III-C",
+)  # fmt: skip
 
 
 def speed_cases(rng):
@@ -85,46 +68,33 @@ def speed_cases(rng):
 
 
 speed_reward = Exercise(
-    call="speed_reward(v_lon)",
-    solution=formulas.speed_reward,
+    "speed_reward(v_lon)",
+    solution=formulas.speed_reward, cases=speed_cases,
     worked=(((10.0,), 2 / 15), ((15.0,), 1.0), ((13.75,), 0.6), ((3.0,), 0.0)),
-    cases=speed_cases,
     mistakes=(
-        Mistake(
-            answer=lambda v: 0.0 if v <= 5 else (2 * v / 75 - 2 / 15 if v <= 12.5 else 8 * v / 25 - 19 / 5),
-            says="Your reward goes on rising above 15 m/s. Beyond 15 it falls as exp(-(v - 15)²).",
-            belief="Faster is better; the last line is read as 'above 12.5'.",
-        ),
-        Mistake(
-            answer=lambda v: 1.0 if v > 15 else formulas.speed_reward(v),
-            says="Your reward stays at 1 above 15 m/s. Too fast is not paid: it falls as exp(-(v - 15)²).",
-            belief="15 m/s is a minimum that has been reached, not a target.",
-        ),
-        Mistake(
-            answer=lambda v: 2 / 75 * v - 2 / 15 if v <= 12.5 else formulas.speed_reward(v),
-            says="Your reward is negative below 5 m/s: a slow car is paid nothing there, it is not fined.",
-            belief="The line goes on below 5 m/s.",
-        ),
-        Mistake(
-            answer=lambda v: 2 / 75 * v - 2 / 15 if 12.5 < v <= 15 else formulas.speed_reward(v),
-            says="You use the flat line up to 15 m/s. Between 12.5 and 15 it is the steep one, 8/25 v - 19/5.",
-            belief="One line leads from 5 to 15 m/s.",
-        ),
-        Mistake(
-            answer=lambda v: np.exp(15 - v) if v > 15 else formulas.speed_reward(v),
-            says="Above 15 m/s the difference is squared: exp(-(v - 15)²).",
-            belief="Exponential decay has no square in it.",
-        ),
+        Mistake(lambda v: 0.0 if v <= 5 else (2 * v / 75 - 2 / 15 if v <= 12.5 else 8 * v / 25 - 19 / 5),
+            "Your reward goes on rising above 15 m/s. Beyond 15 it falls as exp(-(v - 15)²).",
+            "Faster is better; the last line is read as 'above 12.5'."),
+        Mistake(lambda v: 1.0 if v > 15 else formulas.speed_reward(v),
+            "Your reward stays at 1 above 15 m/s. Too fast is not paid: it falls as exp(-(v - 15)²).",
+            "15 m/s is a minimum that has been reached, not a target."),
+        Mistake(lambda v: 2 / 75 * v - 2 / 15 if v <= 12.5 else formulas.speed_reward(v),
+            "Your reward is negative below 5 m/s: a slow car is paid nothing there, it is not fined.",
+            "The line goes on below 5 m/s."),
+        Mistake(lambda v: 2 / 75 * v - 2 / 15 if 12.5 < v <= 15 else formulas.speed_reward(v),
+            "You use the flat line up to 15 m/s. Between 12.5 and 15 it is the steep one, 8/25 v - 19/5.",
+            "One line leads from 5 to 15 m/s."),
+        Mistake(lambda v: np.exp(15 - v) if v > 15 else formulas.speed_reward(v),
+            "Above 15 m/s the difference is squared: exp(-(v - 15)²).",
+            "Exponential decay has no square in it."),
     ),
     hints=(
         "Four stretches of speed, four formulas. Begin with the fastest, and each `if` has one border to check.",
         "`if v_lon > 15:` return the exponential; `if v_lon > 12.5:` the steep line; `if v_lon > 5:` the flat one.",
         "The last line is `return 0.0`.",
     ),
-    minutes=6,
-    difficulty=1,
-    equation="r_v, Section III-C, Reward",
-)
+    minutes=6, difficulty=1, equation="r_v, Section III-C, Reward",
+)  # fmt: skip
 
 
 def reward_solution(v_lon, offset, theta, accident):
@@ -152,57 +122,43 @@ def reward_cases(rng):
 
 
 reward = Exercise(
-    call="reward(v_lon, offset, theta, accident)",
-    solution=reward_solution,
+    "reward(v_lon, offset, theta, accident)",
+    solution=reward_solution, cases=reward_cases,
     worked=(
         ((10.0, 0.0, 0.0, 0), 0.15625),  # (1.5 · 2/15 + 0.05) / 1.6
         ((15.0, 0.0, 0.0, 0), 1.55 / 1.6),
         ((15.0, 0.0, 0.0, 3), -10.0),
     ),
-    cases=reward_cases,
     mistakes=(
-        Mistake(
-            answer=lambda v, d, theta, accident: -10.0 if accident == 1 else weighted_sum(v, d, theta) / 1.6,
-            says="You fine collisions only. Leaving the road (2) and stopping (3) end the episode at -10, too.",
-            belief="An accident is a collision.",
-        ),
-        Mistake(
-            answer=lambda v, d, theta, accident: weighted_sum(v, d, theta) / 1.6 - 10.0 * (accident > 0),
-            says="You add the -10 to the other terms. In a second with an accident it replaces them.",
-            belief="A penalty is one more term of the sum.",
-        ),
-        Mistake(
-            answer=lambda v, d, theta, accident: -10.0 if accident else weighted_sum(v, d, theta),
-            says="Your reward is a weighted sum. Divide by the sum of the weights, 1.6: it is a weighted mean.",
-            belief="The weights add up to one.",
-        ),
-        Mistake(
-            answer=lambda v, d, theta, accident: (
-                -10.0 if accident else (weighted_sum(v, d, theta) + 0.1 * abs(np.sin(theta))) / 1.6
-            ),
-            says="You pay for steering. r_θ is negative: -|sin θ|.",
-            belief="Every term of a reward is something good.",
-        ),
-        Mistake(
-            answer=lambda v, d, theta, accident: (
+        Mistake(lambda v, d, theta, accident: -10.0 if accident == 1 else weighted_sum(v, d, theta) / 1.6,
+            "You fine collisions only. Leaving the road (2) and stopping (3) end the episode at -10, too.",
+            "An accident is a collision."),
+        Mistake(lambda v, d, theta, accident: weighted_sum(v, d, theta) / 1.6 - 10.0 * (accident > 0),
+            "You add the -10 to the other terms. In a second with an accident it replaces them.",
+            "A penalty is one more term of the sum."),
+        Mistake(lambda v, d, theta, accident: -10.0 if accident else weighted_sum(v, d, theta),
+            "Your reward is a weighted sum. Divide by the sum of the weights, 1.6: it is a weighted mean.",
+            "The weights add up to one."),
+        Mistake(lambda v, d, theta, accident:
+            (-10.0 if accident else (weighted_sum(v, d, theta) + 0.1 * abs(np.sin(theta))) / 1.6),
+            "You pay for steering. r_θ is negative: -|sin θ|.",
+            "Every term of a reward is something good."),
+        Mistake(lambda v, d, theta, accident: (
                 -10.0
                 if accident
                 else (1.5 * formulas.speed_reward(v) + 0.05 * np.exp(-1.5 * d**2) - 0.05 * np.sin(theta)) / 1.6
             ),
-            says="Steering to the left is rewarded: sin θ is negative there. The cost takes its size, |sin θ|.",
-            belief="The sign of the steering angle does not matter, so the bars can be left out.",
-        ),
+            "Steering to the left is rewarded: sin θ is negative there. The cost takes its size, |sin θ|.",
+            "The sign of the steering angle does not matter, so the bars can be left out."),
     ),
     hints=(
         "Ask for the accident first: in that second nothing else is paid.",
-        "`formulas.speed_reward(v_lon)`, `formulas.centring_reward(offset)` and `formulas.steering_reward(theta)` "
-        "are the three terms.",
+        "`formulas.speed_reward(v_lon)`, `formulas.centring_reward(offset)` and `formulas.steering_reward(theta)` are "
+        "the three terms.",
         "`(1.5 * r_v + 0.05 * r_y + 0.05 * r_theta) / 1.6`",
     ),
-    minutes=6,
-    difficulty=1,
-    equation="r(s, a), Section III-C, Reward; weights of Table III",
-)
+    minutes=6, difficulty=1, equation="r(s, a), Section III-C, Reward; weights of Table III",
+)  # fmt: skip
 
 
 def idle_solution(speed, seconds):
@@ -219,53 +175,36 @@ def idle_cases(rng):
 
 
 idle_return = Exercise(
-    call="idle_return(speed, seconds)",
-    solution=idle_solution,
+    "idle_return(speed, seconds)",
+    solution=idle_solution, cases=idle_cases,
     worked=(((10.0, 1), 0.15625), ((10.0, 150), 23.4375), ((12.5, 1), 0.21875)),
-    cases=idle_cases,
     mistakes=(
-        Mistake(
-            answer=lambda speed, seconds: seconds * 1.5 * (2 / 75 * speed - 2 / 15) / 1.6,
-            says="You left the middle of the lane unpaid: a centred car has r_y = exp(0) = 1, not 0.",
-            belief="Nothing off the centre, so nothing to add.",
-        ),
-        Mistake(
-            answer=lambda speed, seconds: seconds * (1.5 * (2 / 75 * speed - 2 / 15) + 0.05) / 1.55,
-            says="You divide by 1.55. The third weight counts although its term is zero: 1.5 + 0.05 + 0.05.",
-            belief="A term that is zero has left the mean.",
-        ),
-        Mistake(
-            answer=lambda speed, seconds: seconds * (1.5 * (2 / 75 * speed - 2 / 15) + 0.05),
-            says="You did not divide by the sum of the weights, 1.6.",
-            belief="The weights add up to one.",
-        ),
-        Mistake(
-            answer=lambda speed, seconds: (1.5 * (2 / 75 * speed - 2 / 15) + 0.05) / 1.6,
-            says="This is what one second pays. The return is the sum over all the seconds.",
-            belief="Return is another word for reward.",
-        ),
-        Mistake(
-            answer=lambda speed, seconds: seconds * (2 / 75 * speed - 2 / 15 + 1) / 3,
-            says="You gave the three terms the same weight. Speed weighs 1.5, the other two 0.05 each.",
-            belief="A mean of three terms divides by three.",
-        ),
-        Mistake(
-            answer=lambda speed, seconds: seconds * (1.5 * (2 / 75 * speed - 2 / 15) + 0.1) / 1.6,
-            says="You pay for driving straight. r_θ = -|sin 0| is 0: not steering costs nothing and earns nothing.",
-            belief="Good behaviour is worth 1 in each term.",
-        ),
+        Mistake(lambda speed, seconds: seconds * 1.5 * (2 / 75 * speed - 2 / 15) / 1.6,
+            "You left the middle of the lane unpaid: a centred car has r_y = exp(0) = 1, not 0.",
+            "Nothing off the centre, so nothing to add."),
+        Mistake(lambda speed, seconds: seconds * (1.5 * (2 / 75 * speed - 2 / 15) + 0.05) / 1.55,
+            "You divide by 1.55. The third weight counts although its term is zero: 1.5 + 0.05 + 0.05.",
+            "A term that is zero has left the mean."),
+        Mistake(lambda speed, seconds: seconds * (1.5 * (2 / 75 * speed - 2 / 15) + 0.05),
+            "You did not divide by the sum of the weights, 1.6.",
+            "The weights add up to one."),
+        Mistake(lambda speed, seconds: (1.5 * (2 / 75 * speed - 2 / 15) + 0.05) / 1.6,
+            "This is what one second pays. The return is the sum over all the seconds.",
+            "Return is another word for reward."),
+        Mistake(lambda speed, seconds: seconds * (2 / 75 * speed - 2 / 15 + 1) / 3,
+            "You gave the three terms the same weight. Speed weighs 1.5, the other two 0.05 each.",
+            "A mean of three terms divides by three."),
+        Mistake(lambda speed, seconds: seconds * (1.5 * (2 / 75 * speed - 2 / 15) + 0.1) / 1.6,
+            "You pay for driving straight. r_θ = -|sin 0| is 0: not steering costs nothing and earns nothing.",
+            "Good behaviour is worth 1 in each term."),
     ),
     hints=(
         "What are r_v, r_y and r_θ at this speed, in the middle of the lane, with straight wheels?",
         "r_v = 2/75 v - 2/15, r_y = 1, r_θ = 0.",
         "`seconds * (1.5 * r_v + 0.05 * r_y) / 1.6`",
     ),
-    minutes=6,
-    difficulty=1,
-    equation="Σ r over an episode of doing nothing, Section III-C",
-)
-
-# How episodes end ---------------------------------------------------------------------------------------
+    minutes=6, difficulty=1, equation="Σ r over an episode of doing nothing, Section III-C",
+)  # fmt: skip
 
 
 def outcomes_solution(x_ego, x_trap_1, accident):
@@ -288,59 +227,38 @@ def outcomes_cases(rng):
 
 
 outcome_rates = Exercise(
-    call="outcome_rates(x_ego, x_trap_1, accident)",
-    solution=outcomes_solution,
+    "outcome_rates(x_ego, x_trap_1, accident)",
+    solution=outcomes_solution, cases=outcomes_cases,
     worked=(
         # behind, ahead, ahead and crashed, off the road at once
-        (
-            (
-                np.array([1500.0, 1700.0, 900.0, 20.0]),
-                np.array([1515.0, 1515.0, 800.0, 35.0]),
-                np.array([0, 0, 1, 2]),
-            ),
-            np.array([0.5, 0.25, 0.25, 0.0]),
-        ),
+        ((np.array([1500.0, 1700.0, 900.0, 20.0]), np.array([1515.0, 1515.0, 800.0, 35.0]), np.array([0, 0, 1, 2])),
+         np.array([0.5, 0.25, 0.25, 0.0])),
     ),
-    cases=outcomes_cases,
     mistakes=(
-        Mistake(
-            answer=lambda x, x1, accident: rates((x > x1) & (accident == 0), accident),
-            says="You count a crash after overtaking as a failure. It is a success, and an accident as well: "
-            "the two are counted apart.",
-            belief="Who crashes cannot have succeeded.",
-        ),
-        Mistake(
-            answer=lambda x, x1, accident: rates(accident == 0, accident),
-            says="Your success is 'no accident'. A driver that never leaves the trap has none either.",
-            belief="Driving safely to the end is the goal.",
-        ),
-        Mistake(
-            answer=lambda x, x1, accident: rates(x > x1, accident) * len(x),
-            says="You return how many episodes, not which share of them.",
-            belief="A rate is a count.",
-        ),
-        Mistake(
-            answer=lambda x, x1, accident: rates(x > x1, accident) * 100,
-            says="You return percentages: shares between 0 and 1 are asked for.",
-            belief="Rates are written in per cent, as in the paper's tables.",
-        ),
-        Mistake(
-            answer=lambda x, x1, accident: rates(x > x1, accident, (0, 1, 2)),
-            says="Your kinds are shifted by one: 0 means no accident, 1 collision, 2 road departure, 3 stoppage.",
-            belief="Counting begins at 0.",
-        ),
-        Mistake(
-            answer=lambda x, x1, accident: rates(x < x1, accident),
-            says="You count the egos that are *behind* trap 1 at the end.",
-            belief="The larger x is the one that is further back.",
-        ),
+        Mistake(lambda x, x1, accident: rates((x > x1) & (accident == 0), accident),
+            "You count a crash after overtaking as a failure. It is a success, and an accident as well: the two are "
+            "counted apart.",
+            "Who crashes cannot have succeeded."),
+        Mistake(lambda x, x1, accident: rates(accident == 0, accident),
+            "Your success is 'no accident'. A driver that never leaves the trap has none either.",
+            "Driving safely to the end is the goal."),
+        Mistake(lambda x, x1, accident: rates(x > x1, accident) * len(x),
+            "You return how many episodes, not which share of them.",
+            "A rate is a count."),
+        Mistake(lambda x, x1, accident: rates(x > x1, accident) * 100,
+            "You return percentages: shares between 0 and 1 are asked for.",
+            "Rates are written in per cent, as in the paper's tables."),
+        Mistake(lambda x, x1, accident: rates(x > x1, accident, (0, 1, 2)),
+            "Your kinds are shifted by one: 0 means no accident, 1 collision, 2 road departure, 3 stoppage.",
+            "Counting begins at 0."),
+        Mistake(lambda x, x1, accident: rates(x < x1, accident),
+            "You count the egos that are *behind* trap 1 at the end.",
+            "The larger x is the one that is further back."),
     ),
     hints=(
         "Compare the two places at the end: that is success, whatever else happened.",
         "The mean of an array of True and False is the share of True: `np.mean(accident == 1)`.",
         "`np.array([np.mean(x_ego > x_trap_1), np.mean(accident == 1), ...])`",
     ),
-    minutes=5,
-    difficulty=1,
-    equation="Successful completion, Section III-C",
-)
+    minutes=5, difficulty=1, equation="Successful completion, Section III-C",
+)  # fmt: skip

@@ -7,8 +7,6 @@ import numpy as np
 from bootcourse.lessons.exercise import Exercise, Mistake
 from bootcourse.road import formulas
 
-# IDM --------------------------------------------------------------------------------------------------
-
 
 def gap_cases(rng):
     """Same speed, falling back, standing still; a_max and b apart; then 40 at random."""
@@ -24,51 +22,38 @@ def gap_cases(rng):
 
 
 desired_gap = Exercise(
-    call="desired_gap(v, dv, s0, time_gap, a_max, b)",
-    solution=formulas.desired_gap,
+    "desired_gap(v, dv, s0, time_gap, a_max, b)",
+    solution=formulas.desired_gap, cases=gap_cases,
     worked=(
         ((10.0, 0.0, 10.0, 1.5, 0.5, 0.5), 25.0),  # 10 + 1.5 · 10
         ((10.0, 2.0, 10.0, 1.5, 0.5, 0.5), 45.0),  # and 10 · 2 / (2 · 0.5)
         ((10.0, 2.0, 10.0, 1.5, 2.0, 0.5), 35.0),  # 20 / (2 · 1)
     ),
-    cases=gap_cases,
     mistakes=(
-        Mistake(
-            answer=lambda v, dv, s0, T, a, b: s0 + T * v - v * dv / (2 * math.sqrt(a * b)),
-            says="Your driver keeps a shorter gap when it closes in. Δv is its own speed minus that of the car ahead, "
-            "so a positive Δv asks for more room.",
-            belief="Δv is theirs minus mine.",
-        ),
-        Mistake(
-            answer=lambda v, dv, s0, T, a, b: s0 + T * v + v * dv / math.sqrt(a * b),
-            says="The 2 below the fraction is missing: closing in is divided by 2 √(a_max b).",
-            belief="Constants in front of a root do not matter.",
-        ),
-        Mistake(
-            answer=lambda v, dv, s0, T, a, b: s0 + T * v + v * dv / (2 * a * b),
-            says="You divide by a_max b itself: it is the square root, and only then are the units metres.",
-            belief="With a_max = b = 0.5 the root looks like a decoration.",
-        ),
-        Mistake(
-            answer=lambda v, dv, s0, T, a, b: s0 + T * v + dv * dv / (2 * math.sqrt(a * b)),
-            says="You square Δv: the last term is v Δv, the speed times the closing speed.",
-            belief="A braking distance goes with the square of the speed difference.",
-        ),
-        Mistake(
-            answer=lambda v, dv, s0, T, a, b: T * v + v * dv / (2 * math.sqrt(a * b)),
-            says="You left out s0, the gap that is kept at a standstill.",
-            belief="At v = 0 there is nothing to keep.",
-        ),
+        Mistake(lambda v, dv, s0, T, a, b: s0 + T * v - v * dv / (2 * math.sqrt(a * b)),
+            "Your driver keeps a shorter gap when it closes in. Δv is its own speed minus that of the car ahead, so a "
+            "positive Δv asks for more room.",
+            "Δv is theirs minus mine."),
+        Mistake(lambda v, dv, s0, T, a, b: s0 + T * v + v * dv / math.sqrt(a * b),
+            "The 2 below the fraction is missing: closing in is divided by 2 √(a_max b).",
+            "Constants in front of a root do not matter."),
+        Mistake(lambda v, dv, s0, T, a, b: s0 + T * v + v * dv / (2 * a * b),
+            "You divide by a_max b itself: it is the square root, and only then are the units metres.",
+            "With a_max = b = 0.5 the root looks like a decoration."),
+        Mistake(lambda v, dv, s0, T, a, b: s0 + T * v + dv * dv / (2 * math.sqrt(a * b)),
+            "You square Δv: the last term is v Δv, the speed times the closing speed.",
+            "A braking distance goes with the square of the speed difference."),
+        Mistake(lambda v, dv, s0, T, a, b: T * v + v * dv / (2 * math.sqrt(a * b)),
+            "You left out s0, the gap that is kept at a standstill.",
+            "At v = 0 there is nothing to keep."),
     ),
     hints=(
         "Three terms: a gap at standstill, a gap that grows with speed, and one that grows when you close in.",
         "`s0 + time_gap * v` is the gap behind a car at your own speed.",
         "`s0 + time_gap * v + v * dv / (2 * math.sqrt(a_max * b))`",
     ),
-    minutes=4,
-    difficulty=1,
-    equation="s* = s0 + T v + v Δv / (2 √(a_max b)), Section III-B",
-)
+    minutes=4, difficulty=1, equation="s* = s0 + T v + v Δv / (2 √(a_max b)), Section III-B",
+)  # fmt: skip
 
 
 def idm_cases(rng):
@@ -83,50 +68,37 @@ def idm_cases(rng):
 
 
 idm_acceleration = Exercise(
-    call="idm_acceleration(v, v_desired, gap, s_star, a_max, delta)",
-    solution=formulas.idm_acceleration,
+    "idm_acceleration(v, v_desired, gap, s_star, a_max, delta)",
+    solution=formulas.idm_acceleration, cases=idm_cases,
     worked=(
         ((12.5, 12.5, 25.0, 25.0, 0.5, 4.0), -0.5),  # 0.5 (1 - 1 - 1)
         ((12.5, 12.5, math.inf, 25.0, 0.5, 4.0), 0.0),
         ((5.0, 10.0, 50.0, 25.0, 1.0, 2.0), 0.5),  # 1 - 1/4 - 1/4
     ),
-    cases=idm_cases,
     mistakes=(
-        Mistake(
-            answer=lambda v, w, gap, s, a, d: a * (1 - (v / w) ** d - (gap / s) ** 2),
-            says="Your driver brakes harder the *farther* the car ahead is: the fraction is s* over the gap.",
-            belief="Have over want, or want over have: either will do.",
-        ),
-        Mistake(
-            answer=lambda v, w, gap, s, a, d: a * (1 - (v / w) ** d - s / gap),
-            says="The square is missing at the gap: at twice the desired gap a quarter is left, not a half.",
-            belief="The exponent belongs to the speed only.",
-        ),
-        Mistake(
-            answer=lambda v, w, gap, s, a, d: a * (1 - (v / w) ** d) - (s / gap) ** 2,
-            says="a_max stands before the whole bracket: it scales the braking, too.",
-            belief="Maximum acceleration has nothing to do with braking.",
-        ),
-        Mistake(
-            answer=lambda v, w, gap, s, a, d: a * (1 - (v / w) ** d + (s / gap) ** 2),
-            says="Your driver accelerates because of the car ahead. Its term is subtracted.",
-            belief="Every term of a model is a contribution.",
-        ),
-        Mistake(
-            answer=lambda v, w, gap, s, a, d: a * (1 - v / w - (s / gap) ** 2),
-            says="You left out the exponent δ: with it a driver holds back only when close to the speed it wants.",
-            belief="δ = 4 is a detail for specialists.",
-        ),
+        Mistake(lambda v, w, gap, s, a, d: a * (1 - (v / w) ** d - (gap / s) ** 2),
+            "Your driver brakes harder the *farther* the car ahead is: the fraction is s* over the gap.",
+            "Have over want, or want over have: either will do."),
+        Mistake(lambda v, w, gap, s, a, d: a * (1 - (v / w) ** d - s / gap),
+            "The square is missing at the gap: at twice the desired gap a quarter is left, not a half.",
+            "The exponent belongs to the speed only."),
+        Mistake(lambda v, w, gap, s, a, d: a * (1 - (v / w) ** d) - (s / gap) ** 2,
+            "a_max stands before the whole bracket: it scales the braking, too.",
+            "Maximum acceleration has nothing to do with braking."),
+        Mistake(lambda v, w, gap, s, a, d: a * (1 - (v / w) ** d + (s / gap) ** 2),
+            "Your driver accelerates because of the car ahead. Its term is subtracted.",
+            "Every term of a model is a contribution."),
+        Mistake(lambda v, w, gap, s, a, d: a * (1 - v / w - (s / gap) ** 2),
+            "You left out the exponent δ: with it a driver holds back only when close to the speed it wants.",
+            "δ = 4 is a detail for specialists."),
     ),
     hints=(
         "a_max times a bracket: 1, minus something about speed, minus something about the gap.",
         "`v / v_desired` to the power delta; `s_star / gap` squared. An infinite gap needs no case of its own.",
         "`a_max * (1 - (v / v_desired) ** delta - (s_star / gap) ** 2)`",
     ),
-    minutes=5,
-    difficulty=1,
-    equation="a = a_max [1 - (v / v_desired)^δ - (s* / s)²], Section III-B",
-)
+    minutes=5, difficulty=1, equation="a = a_max [1 - (v / v_desired)^δ - (s* / s)²], Section III-B",
+)  # fmt: skip
 
 
 def equilibrium_solution(v, v_desired, s0, time_gap, delta):
@@ -143,47 +115,31 @@ def equilibrium_cases(rng):
 
 
 equilibrium_gap = Exercise(
-    call="equilibrium_gap(v, v_desired, s0, time_gap, delta)",
-    solution=equilibrium_solution,
-    worked=(
-        ((0.0, 12.5, 10.0, 1.5, 4.0), 10.0),
-        ((5.0, 10.0, 10.0, 1.5, 2.0), 17.5 / math.sqrt(0.75)),
-    ),
-    cases=equilibrium_cases,
+    "equilibrium_gap(v, v_desired, s0, time_gap, delta)",
+    solution=equilibrium_solution, cases=equilibrium_cases,
+    worked=(((0.0, 12.5, 10.0, 1.5, 4.0), 10.0), ((5.0, 10.0, 10.0, 1.5, 2.0), 17.5 / math.sqrt(0.75))),
     mistakes=(
-        Mistake(
-            answer=lambda v, w, s0, T, d: s0 + T * v,
-            says="This is s*. At a gap of s* the driver still brakes: 1 - (v/v_desired)^δ - 1 is below zero.",
-            belief="A driver who has its desired gap is content.",
-        ),
-        Mistake(
-            answer=lambda v, w, s0, T, d: (s0 + T * v) / (1 - (v / w) ** d),
-            says="The root is missing: s*/s is squared, so s is s* over a square root.",
-            belief="The square was lost while solving for s.",
-        ),
-        Mistake(
-            answer=lambda v, w, s0, T, d: (s0 + T * v) * math.sqrt(1 - (v / w) ** d),
-            says="Your gap gets shorter the nearer the driver is to its wanted speed. "
-            "Solve (s*/s)² = 1 - (v/v_desired)^δ for s: the root goes below.",
-            belief="Solving for s, the fraction was not turned over.",
-        ),
-        Mistake(
-            answer=lambda v, w, s0, T, d: (s0 + T * v) / math.sqrt(1 + (v / w) ** d),
-            says="You have a plus below the root: 0 = 1 - (v/v_desired)^δ - (s*/s)² keeps its minus.",
-            belief="Bringing a term to the other side turns every sign.",
-        ),
+        Mistake(lambda v, w, s0, T, d: s0 + T * v,
+            "This is s*. At a gap of s* the driver still brakes: 1 - (v/v_desired)^δ - 1 is below zero.",
+            "A driver who has its desired gap is content."),
+        Mistake(lambda v, w, s0, T, d: (s0 + T * v) / (1 - (v / w) ** d),
+            "The root is missing: s*/s is squared, so s is s* over a square root.",
+            "The square was lost while solving for s."),
+        Mistake(lambda v, w, s0, T, d: (s0 + T * v) * math.sqrt(1 - (v / w) ** d),
+            "Your gap gets shorter the nearer the driver is to its wanted speed. Solve (s*/s)² = 1 - (v/v_desired)^δ "
+            "for s: the root goes below.",
+            "Solving for s, the fraction was not turned over."),
+        Mistake(lambda v, w, s0, T, d: (s0 + T * v) / math.sqrt(1 + (v / w) ** d),
+            "You have a plus below the root: 0 = 1 - (v/v_desired)^δ - (s*/s)² keeps its minus.",
+            "Bringing a term to the other side turns every sign."),
     ),
     hints=(
         "Equilibrium means: same speed as the car ahead (Δv = 0), and no acceleration.",
         "0 = 1 - (v/v_desired)^δ - (s*/s)², with s* = s0 + T v. Solve for s.",
         "`(s0 + time_gap * v) / math.sqrt(1 - (v / v_desired) ** delta)`",
     ),
-    minutes=6,
-    difficulty=2,
-    equation="the gap s at which the IDM's a is 0 and Δv is 0, Section III-B",
-)
-
-# MOBIL ------------------------------------------------------------------------------------------------
+    minutes=6, difficulty=2, equation="the gap s at which the IDM's a is 0 and Δv is 0, Section III-B",
+)  # fmt: skip
 
 
 def changing_solution(own_gain, follower_before, follower_after, old_follower_gain, politeness, threshold, limit):
@@ -212,66 +168,45 @@ def changing_cases(rng):
 
 
 worth_changing = Exercise(
-    call="worth_changing(own_gain, follower_before, follower_after, old_follower_gain, politeness, threshold, limit)",
-    solution=changing_solution,
+    "worth_changing(own_gain, follower_before, follower_after, old_follower_gain, politeness, threshold, limit)",
+    solution=changing_solution, cases=changing_cases,
     worked=(
         ((0.5, 0.1, -1.5, 0.0, 0.5, 0.2, 2.0), False),  # 0.5 + 0.5 · (-1.6) = -0.3
         ((0.5, 0.1, -1.5, 0.0, 0.0, 0.2, 2.0), True),  # an egoist
         ((5.0, 0.1, -2.5, 0.0, 0.0, 0.2, 2.0), False),  # not safe
     ),
-    cases=changing_cases,
     mistakes=(
-        Mistake(
-            answer=lambda own, before, after, old, p, th, limit: incentive(own, before, after, old, p) > th,
-            says="You change lane although the new follower has to brake harder than the limit. Safety comes first, "
+        Mistake(lambda own, before, after, old, p, th, limit: incentive(own, before, after, old, p) > th,
+            "You change lane although the new follower has to brake harder than the limit. Safety comes first, "
             "whatever the gain.",
-            belief="A large gain makes up for a risk; politeness is safety enough.",
-        ),
-        Mistake(
-            answer=lambda own, before, after, old, p, th, limit: after >= -limit and own > th,
-            says="Your driver counts its own gain only. What the others gain or lose comes in, times the politeness.",
-            belief="If it is safe for the others, they do not matter.",
-        ),
-        Mistake(
-            answer=lambda own, before, after, old, p, th, limit: (
-                after >= -limit and incentive(own, 0, after, old, p) > th
-            ),
-            says="You charge the new follower's whole braking to the change. What counts is the difference to before.",
-            belief="Its acceleration afterwards is its loss.",
-        ),
-        Mistake(
-            answer=lambda own, before, after, old, p, th, limit: (
-                after >= -limit and incentive(own, before, after, 0, p) > th
-            ),
-            says="You forgot the old follower: the car behind gains when you leave its lane.",
-            belief="Who stays behind is no longer concerned.",
-        ),
-        Mistake(
-            answer=lambda own, before, after, old, p, th, limit: (
-                after >= -limit and incentive(own, before, after, old, p) > 0
-            ),
-            says="You left out the threshold: without it drivers change to and fro for a hair's breadth.",
-            belief="Any gain is a gain.",
-        ),
-        Mistake(
-            answer=lambda own, before, after, old, p, th, limit: (
-                after >= -limit and incentive(own, after, before, old, p) > th
-            ),
-            says="Your new follower gains when it has to brake: its gain is `follower_after - follower_before`.",
-            belief="A loss is before minus after, and the sign was lost on the way.",
-        ),
+            "A large gain makes up for a risk; politeness is safety enough."),
+        Mistake(lambda own, before, after, old, p, th, limit: after >= -limit and own > th,
+            "Your driver counts its own gain only. What the others gain or lose comes in, times the politeness.",
+            "If it is safe for the others, they do not matter."),
+        Mistake(lambda own, before, after, old, p, th, limit: after >= -limit and incentive(own, 0, after, old, p) > th,
+            "You charge the new follower's whole braking to the change. What counts is the difference to before.",
+            "Its acceleration afterwards is its loss."),
+        Mistake(lambda own, before, after, old, p, th, limit:
+            (after >= -limit and incentive(own, before, after, 0, p) > th),
+            "You forgot the old follower: the car behind gains when you leave its lane.",
+            "Who stays behind is no longer concerned."),
+        Mistake(lambda own, before, after, old, p, th, limit:
+            (after >= -limit and incentive(own, before, after, old, p) > 0),
+            "You left out the threshold: without it drivers change to and fro for a hair's breadth.",
+            "Any gain is a gain."),
+        Mistake(lambda own, before, after, old, p, th, limit:
+            (after >= -limit and incentive(own, after, before, old, p) > th),
+            "Your new follower gains when it has to brake: its gain is `follower_after - follower_before`.",
+            "A loss is before minus after, and the sign was lost on the way."),
     ),
     hints=(
         "Two questions: is it safe, and is it worth it? The first one can end the matter.",
         "Safe means `follower_after >= -limit`. The new follower's gain is what it has after, minus before.",
         "`own_gain + politeness * (new_follower_gain + old_follower_gain) > threshold`",
     ),
-    minutes=7,
-    difficulty=2,
+    minutes=7, difficulty=2,
     equation="Δa_ego + p (Δa_rear + Δa_front) > a_threshold, Section III-B, with its safety criterion",
-)
-
-# Steering ---------------------------------------------------------------------------------------------
+)  # fmt: skip
 
 
 def heading_solution(error, tau, dt, steps):
@@ -292,50 +227,36 @@ def step_by_step(error, factor, steps):
 
 
 heading_errors = Exercise(
-    call="heading_errors(error, tau, dt, steps)",
-    solution=heading_solution,
+    "heading_errors(error, tau, dt, steps)",
+    solution=heading_solution, cases=heading_cases,
     worked=(
         ((1.0, 0.5, 0.5, 2), np.array([1.0, 0.0, 0.0])),
         ((1.0, 0.2, 0.5, 2), np.array([1.0, -1.5, 2.25])),
         ((0.4, 1.0, 0.5, 2), np.array([0.4, 0.2, 0.1])),
     ),
-    cases=heading_cases,
     mistakes=(
-        Mistake(
-            answer=lambda e, tau, dt, n: e * np.exp(-dt / tau * np.arange(n + 1)),
-            says="This is what happens in continuous time, where it always settles. Here the wheels are held for a "
-            "whole step, so each step subtracts dt/τ of the error.",
-            belief="A simulation computes what the differential equation says.",
-        ),
-        Mistake(
-            answer=lambda e, tau, dt, n: step_by_step(e, 1 + dt / tau, n),
-            says="Your controller steers away from the goal: the error has to be subtracted.",
-            belief="The rate is proportional to the error, with the sign left open.",
-        ),
-        Mistake(
-            answer=lambda e, tau, dt, n: step_by_step(e, 1 - dt * tau, n),
-            says="You multiply by τ. A *small* time constant is a quick controller: the rate is error / τ.",
-            belief="τ is the gain.",
-        ),
-        Mistake(
-            answer=lambda e, tau, dt, n: e * (1 - np.arange(n + 1) * dt / tau),
-            says="You subtract the same amount at each step. Each step subtracts a part of what is left, so the "
-            "errors are multiplied.",
-            belief="A constant rate.",
-        ),
-        Mistake(
-            answer=lambda e, tau, dt, n: np.abs(step_by_step(e, 1 - dt / tau, n)),
-            says="Your error never changes sign. Once dt/τ is above 1, each step goes beyond the goal, to its other "
-            "side.",
-            belief="An error is a size.",
-        ),
+        Mistake(lambda e, tau, dt, n: e * np.exp(-dt / tau * np.arange(n + 1)),
+            "This is what happens in continuous time, where it always settles. Here the wheels are held for a whole "
+            "step, so each step subtracts dt/τ of the error.",
+            "A simulation computes what the differential equation says."),
+        Mistake(lambda e, tau, dt, n: step_by_step(e, 1 + dt / tau, n),
+            "Your controller steers away from the goal: the error has to be subtracted.",
+            "The rate is proportional to the error, with the sign left open."),
+        Mistake(lambda e, tau, dt, n: step_by_step(e, 1 - dt * tau, n),
+            "You multiply by τ. A *small* time constant is a quick controller: the rate is error / τ.",
+            "τ is the gain."),
+        Mistake(lambda e, tau, dt, n: e * (1 - np.arange(n + 1) * dt / tau),
+            "You subtract the same amount at each step. Each step subtracts a part of what is left, so the errors are "
+            "multiplied.",
+            "A constant rate."),
+        Mistake(lambda e, tau, dt, n: np.abs(step_by_step(e, 1 - dt / tau, n)),
+            "Your error never changes sign. Once dt/τ is above 1, each step goes beyond the goal, to its other side.",
+            "An error is a size."),
     ),
     hints=(
         "In one step the heading turns at the rate error / τ for dt seconds. What is left of the error?",
         "One step: `error - dt / tau * error`, which is `error * (1 - dt / tau)`.",
         "`error * (1 - dt / tau) ** np.arange(steps + 1)`",
     ),
-    minutes=6,
-    difficulty=2,
-    equation="ψ̇ = (ψ_wanted - ψ) / τ_heading, in Euler steps of dt",
-)
+    minutes=6, difficulty=2, equation="ψ̇ = (ψ_wanted - ψ) / τ_heading, in Euler steps of dt",
+)  # fmt: skip

@@ -5,8 +5,6 @@ import numpy as np
 from bootcourse import rule
 from bootcourse.lessons.exercise import Exercise, Mistake
 
-# The target speed -------------------------------------------------------------------------------------
-
 
 def slower(v_current, v_new, v_min, v_max, n, count=lambda grid, limit: grid[grid < limit], other=min):
     """The fastest grid speed below a limit, with one thing changed."""
@@ -31,57 +29,40 @@ def speed_cases(rng):
 
 
 target_speed = Exercise(
-    call="target_speed(v_current, v_new, v_min, v_max, n)",
-    solution=rule.target_speed,
+    "target_speed(v_current, v_new, v_min, v_max, n)",
+    solution=rule.target_speed, cases=speed_cases,
     worked=(
         ((10.0, 10.0, 6.0, 15.0, 5), 8.25),  # of 6, 8.25, 10.5, 12.75, 15
         ((8.25, 12.0, 6.0, 15.0, 5), 6.0),  # *slower* than 8.25
         ((float("inf"), float("inf"), 6.0, 15.0, 5), 15.0),
     ),
-    cases=speed_cases,
     mistakes=(
-        Mistake(
-            answer=lambda a, b, low, high, n: slower(a, b, low, high, n, lambda grid, limit: grid[grid <= limit]),
-            says="You allow the speed of the car ahead itself. It has to be *slower*, or the gap never grows.",
-            belief="Equal speeds are safe, so equal is allowed.",
-        ),
-        Mistake(
-            answer=lambda a, b, low, high, n: slower(a, a, low, high, n),
-            says="You look at the car in your own lane only. While you change, the new car ahead limits you, too.",
-            belief="The new lane matters once one is in it.",
-        ),
-        Mistake(
-            answer=lambda a, b, low, high, n: slower(a, b, low, high, n, other=max),
-            says="You compare with the faster of the two cars: slower than *both* means slower than the minimum.",
-            belief="One goes to the other lane because it is faster.",
-        ),
-        Mistake(
-            answer=lambda a, b, low, high, n: min(max(min(a, b), low), high),
-            says="You drive as fast as the slower car. The rule takes one of its n speeds, the fastest that is below.",
-            belief="The grid is only there to describe a range.",
-        ),
-        Mistake(
-            answer=lambda a, b, low, high, n: slower(a, b, low, high, n, lambda grid, limit: grid[grid < limit][:1]),
-            says="You take the slowest of the speeds that qualify: the rule takes the fastest.",
-            belief="Slower is safer.",
-        ),
-        Mistake(
-            answer=lambda a, b, low, high, n: slower(a, b, low, low + (high - low) * (n - 1) / n, n),
-            says="Your grid does not reach v_max: n speeds have n - 1 steps between them.",
-            belief="n speeds, n steps.",
-        ),
+        Mistake(lambda a, b, low, high, n: slower(a, b, low, high, n, lambda grid, limit: grid[grid <= limit]),
+            "You allow the speed of the car ahead itself. It has to be *slower*, or the gap never grows.",
+            "Equal speeds are safe, so equal is allowed."),
+        Mistake(lambda a, b, low, high, n: slower(a, a, low, high, n),
+            "You look at the car in your own lane only. While you change, the new car ahead limits you, too.",
+            "The new lane matters once one is in it."),
+        Mistake(lambda a, b, low, high, n: slower(a, b, low, high, n, other=max),
+            "You compare with the faster of the two cars: slower than *both* means slower than the minimum.",
+            "One goes to the other lane because it is faster."),
+        Mistake(lambda a, b, low, high, n: min(max(min(a, b), low), high),
+            "You drive as fast as the slower car. The rule takes one of its n speeds, the fastest that is below.",
+            "The grid is only there to describe a range."),
+        Mistake(lambda a, b, low, high, n: slower(a, b, low, high, n, lambda grid, limit: grid[grid < limit][:1]),
+            "You take the slowest of the speeds that qualify: the rule takes the fastest.",
+            "Slower is safer."),
+        Mistake(lambda a, b, low, high, n: slower(a, b, low, low + (high - low) * (n - 1) / n, n),
+            "Your grid does not reach v_max: n speeds have n - 1 steps between them.",
+            "n speeds, n steps."),
     ),
     hints=(
         "Make the n speeds, keep those below the slower car, take the largest. What if none is left?",
         "`np.linspace(v_min, v_max, n)` are the speeds; `min(v_current, v_new)` is the limit.",
         "`max([v for v in np.linspace(v_min, v_max, n) if v < min(v_current, v_new)], default=v_min)`",
     ),
-    minutes=6,
-    difficulty=1,
-    equation="v_target = max {v_i : v_i < min(v_current, v_new)}, Section III-D",
-)
-
-# The safety distance ----------------------------------------------------------------------------------
+    minutes=6, difficulty=1, equation="v_target = max {v_i : v_i < min(v_current, v_new)}, Section III-D",
+)  # fmt: skip
 
 
 def cases(rng):
@@ -98,51 +79,37 @@ def cases(rng):
 
 
 safety_distance = Exercise(
-    call="safety_distance(v_ego, v_current, v_new, t_safe, floor)",
-    solution=rule.safety_distance,
+    "safety_distance(v_ego, v_current, v_new, t_safe, floor)",
+    solution=rule.safety_distance, cases=cases,
     worked=(
         ((12.0, 10.0, 11.0, 2.0, 3.0), 4.0),  # (12 - 10) · 2
         ((8.25, 10.0, 10.0, 2.0, 3.0), 3.0),  # slower than both: -3.5 m, so the floor
     ),
-    cases=cases,
     mistakes=(
-        Mistake(
-            answer=lambda v_ego, v_current, v_new, t_safe, floor: (v_ego - min(v_current, v_new)) * t_safe,
-            says="Your distance is negative when you are slower than both cars. It may never be shorter than `floor`.",
-            belief="A formula holds everywhere; that it gives -3.5 m behind faster cars goes unnoticed.",
-        ),
-        Mistake(
-            answer=lambda v_ego, v_current, v_new, t_safe, floor: max(floor, (v_ego - max(v_current, v_new)) * t_safe),
-            says="You measure against the faster of the two cars. The slower one is the one that you reach first.",
-            belief="The lane that one changes to is the faster one, so its car must be what counts.",
-        ),
-        Mistake(
-            answer=lambda v_ego, v_current, v_new, t_safe, floor: max(floor, (min(v_current, v_new) - v_ego) * t_safe),
-            says="Your sign is turned: the distance has to grow when you are *faster* than the car ahead, not slower.",
-            belief="The speed difference is read as 'theirs minus mine', as the gap is.",
-        ),
-        Mistake(
-            answer=lambda v_ego, v_current, v_new, t_safe, floor: floor + (v_ego - min(v_current, v_new)) * t_safe,
-            says="You add `floor` to the distance. It is a lower bound: the larger of the two counts.",
-            belief="A floor is taken for a margin that comes on top.",
-        ),
-        Mistake(
-            answer=lambda v_ego, v_current, v_new, t_safe, floor: max(floor, (v_ego - v_new) * t_safe),
-            says="You look at the new lane only. Until you are across, you can still reach the car in your own lane.",
-            belief="The change of lane is instant.",
-        ),
+        Mistake(lambda v_ego, v_current, v_new, t_safe, floor: (v_ego - min(v_current, v_new)) * t_safe,
+            "Your distance is negative when you are slower than both cars. It may never be shorter than `floor`.",
+            "A formula holds everywhere; that it gives -3.5 m behind faster cars goes unnoticed."),
+        Mistake(lambda v_ego, v_current, v_new, t_safe, floor: max(floor, (v_ego - max(v_current, v_new)) * t_safe),
+            "You measure against the faster of the two cars. The slower one is the one that you reach first.",
+            "The lane that one changes to is the faster one, so its car must be what counts."),
+        Mistake(lambda v_ego, v_current, v_new, t_safe, floor: max(floor, (min(v_current, v_new) - v_ego) * t_safe),
+            "Your sign is turned: the distance has to grow when you are *faster* than the car ahead, not slower.",
+            "The speed difference is read as 'theirs minus mine', as the gap is."),
+        Mistake(lambda v_ego, v_current, v_new, t_safe, floor: floor + (v_ego - min(v_current, v_new)) * t_safe,
+            "You add `floor` to the distance. It is a lower bound: the larger of the two counts.",
+            "A floor is taken for a margin that comes on top."),
+        Mistake(lambda v_ego, v_current, v_new, t_safe, floor: max(floor, (v_ego - v_new) * t_safe),
+            "You look at the new lane only. Until you are across, you can still reach the car in your own lane.",
+            "The change of lane is instant."),
     ),
     hints=(
         "How far do you close in on the slower of the two cars in `t_safe` seconds?",
         "Closing speed: `v_ego - min(v_current, v_new)`. It may be negative. What does the rule demand then?",
         "`max(floor, ...)` around closing speed times time.",
     ),
-    minutes=5,
-    difficulty=1,
+    minutes=5, difficulty=1,
     equation="d_s = max(floor, (v_e - min(v_current, v_new)) t_safe), Section III-D, its sign corrected",
-)
-
-# The decision -----------------------------------------------------------------------------------------
+)  # fmt: skip
 
 
 def change_solution(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor):
@@ -166,69 +133,47 @@ def change_cases(rng):
 
 
 room_to_change = Exercise(
-    call="room_to_change(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor)",
-    solution=change_solution,
+    "room_to_change(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor)",
+    solution=change_solution, cases=change_cases,
     worked=(
         ((12.0, float("inf"), 5.0, 3.0, 8.25, 0.0, 1.5, 3.0), True),  # 7 m of gap, 3 m needed
         ((7.0, float("inf"), 5.0, 3.0, 8.25, 0.0, 1.5, 3.0), False),  # 2 m
         ((30.0, 9.0, 5.0, 3.0, 8.0, 12.0, 1.5, 3.0), False),  # 4 m behind, closing in 6 m in 1.5 s
     ),
-    cases=change_cases,
     mistakes=(
-        Mistake(
-            answer=lambda front, rear, length, d_s, v, v_rear, t, floor: (
-                front - length < d_s and rear - length > max(floor, (v_rear - v) * t)
-            ),
-            says="You change lane when the gap ahead is *shorter* than the safety distance, as the paper prints it. "
-            "It has to be longer.",
-            belief="What is printed is right.",
-        ),
-        Mistake(
-            answer=lambda front, rear, length, d_s, v, v_rear, t, floor: (
-                front > d_s and rear > max(floor, (v_rear - v) * t)
-            ),
-            says="You measure from centre to centre. Bumpers are what meets: a car's length comes off each distance.",
-            belief="The distance between two cars is the distance between their positions.",
-        ),
-        Mistake(
-            answer=lambda front, rear, length, d_s, v, v_rear, t, floor: front - length > d_s,
-            says="You look ahead only. The car behind in the new lane must not be cut off.",
-            belief="Who drives behind has to look out.",
-        ),
-        Mistake(
-            answer=lambda front, rear, length, d_s, v, v_rear, t, floor: (
-                front - length > d_s and rear - length > max(floor, (v - v_rear) * t)
-            ),
-            says="Behind you, the *other* car closes in: the distance that you need there grows with v_rear - v_ego.",
-            belief="The same formula serves ahead and behind.",
-        ),
-        Mistake(
-            answer=lambda front, rear, length, d_s, v, v_rear, t, floor: (
-                front - length > d_s and rear - length > (v_rear - v) * t
-            ),
-            says="Behind a slow car your need is negative, and you cut in a hand's breadth ahead of it: keep the floor "
+        Mistake(lambda front, rear, length, d_s, v, v_rear, t, floor:
+            (front - length < d_s and rear - length > max(floor, (v_rear - v) * t)),
+            "You change lane when the gap ahead is *shorter* than the safety distance, as the paper prints it. It has "
+            "to be longer.",
+            "What is printed is right."),
+        Mistake(lambda front, rear, length, d_s, v, v_rear, t, floor:
+            (front > d_s and rear > max(floor, (v_rear - v) * t)),
+            "You measure from centre to centre. Bumpers are what meets: a car's length comes off each distance.",
+            "The distance between two cars is the distance between their positions."),
+        Mistake(lambda front, rear, length, d_s, v, v_rear, t, floor: front - length > d_s,
+            "You look ahead only. The car behind in the new lane must not be cut off.",
+            "Who drives behind has to look out."),
+        Mistake(lambda front, rear, length, d_s, v, v_rear, t, floor:
+            (front - length > d_s and rear - length > max(floor, (v - v_rear) * t)),
+            "Behind you, the *other* car closes in: the distance that you need there grows with v_rear - v_ego.",
+            "The same formula serves ahead and behind."),
+        Mistake(lambda front, rear, length, d_s, v, v_rear, t, floor:
+            (front - length > d_s and rear - length > (v_rear - v) * t),
+            "Behind a slow car your need is negative, and you cut in a hand's breadth ahead of it: keep the floor "
             "there, too.",
-            belief="The floor belongs to the formula for the car ahead.",
-        ),
-        Mistake(
-            answer=lambda front, rear, length, d_s, v, v_rear, t, floor: (
-                front - length > d_s or rear - length > max(floor, (v_rear - v) * t)
-            ),
-            says="Room ahead *or* behind is not enough: you need both.",
-            belief="One good reason is a reason.",
-        ),
+            "The floor belongs to the formula for the car ahead."),
+        Mistake(lambda front, rear, length, d_s, v, v_rear, t, floor:
+            (front - length > d_s or rear - length > max(floor, (v_rear - v) * t)),
+            "Room ahead *or* behind is not enough: you need both.",
+            "One good reason is a reason."),
     ),
     hints=(
         "Two gaps, from bumper to bumper, and a needed distance for each. `d_s` is the one ahead.",
         "Behind: `max(floor, (v_rear - v_ego) * t_safe)`, because there the other car closes in on you.",
         "`dx_front - length > d_s and dx_rear - length > max(floor, (v_rear - v_ego) * t_safe)`",
     ),
-    minutes=6,
-    difficulty=2,
-    equation="Algorithm 1, line 2, its sign corrected, and O_dec, Section III-D",
-)
-
-# Tracking ---------------------------------------------------------------------------------------------
+    minutes=6, difficulty=2, equation="Algorithm 1, line 2, its sign corrected, and O_dec, Section III-D",
+)  # fmt: skip
 
 
 def first_solution(costs):
@@ -253,57 +198,40 @@ def one_good_plan(first, second, third):
 
 
 best_first_step = Exercise(
-    call="best_first_step(costs)",
-    solution=first_solution,
+    "best_first_step(costs)",
+    solution=first_solution, cases=first_cases,
     worked=(
         ((one_good_plan(2, 0, 1),), 2),  # right, left, straight
         ((one_good_plan(0, 2, 1),), 0),
     ),
-    cases=first_cases,
     mistakes=(
-        Mistake(
-            answer=lambda costs: costs.argmin(),
-            says="This is the number of the best plan, 0 to 26. What you do now is its first step only, 0, 1 or 2.",
-            belief="argmin gives the index along the first axis.",
-        ),
-        Mistake(
-            answer=lambda costs: costs.mean(axis=(1, 2)).argmin(),
-            says="You average over what may come later. You will choose those steps, too: take the best of them.",
-            belief="The future is uncertain, so it is averaged.",
-        ),
-        Mistake(
-            answer=lambda costs: costs.min(axis=(0, 1)).argmin(),
-            says="This is the *last* step of the best plan. The first axis is the step that comes now.",
-            belief="The axes are counted from the end of the plan.",
-        ),
-        Mistake(
-            answer=lambda costs: costs[:, 1, 1].argmin(),
-            says="You suppose that you will steer straight afterwards: then a lane change, which turns and turns back, "
+        Mistake(lambda costs: costs.argmin(),
+            "This is the number of the best plan, 0 to 26. What you do now is its first step only, 0, 1 or 2.",
+            "argmin gives the index along the first axis."),
+        Mistake(lambda costs: costs.mean(axis=(1, 2)).argmin(),
+            "You average over what may come later. You will choose those steps, too: take the best of them.",
+            "The future is uncertain, so it is averaged."),
+        Mistake(lambda costs: costs.min(axis=(0, 1)).argmin(),
+            "This is the *last* step of the best plan. The first axis is the step that comes now.",
+            "The axes are counted from the end of the plan."),
+        Mistake(lambda costs: costs[:, 1, 1].argmin(),
+            "You suppose that you will steer straight afterwards: then a lane change, which turns and turns back, "
             "never looks good.",
-            belief="Looking ahead means holding the wheel and seeing where one arrives.",
-        ),
-        Mistake(
-            answer=lambda costs: costs.max(axis=(1, 2)).argmin(),
-            says="You compare the worst that may come after each first step. Nobody plays against you: take the best.",
-            belief="Careful means minimax.",
-        ),
-        Mistake(
-            answer=lambda costs: costs.min(axis=(1, 2)).argmax(),
-            says="You take the dearest first step: a cost is to be small.",
-            belief="argmax is what one does with a table of actions.",
-        ),
+            "Looking ahead means holding the wheel and seeing where one arrives."),
+        Mistake(lambda costs: costs.max(axis=(1, 2)).argmin(),
+            "You compare the worst that may come after each first step. Nobody plays against you: take the best.",
+            "Careful means minimax."),
+        Mistake(lambda costs: costs.min(axis=(1, 2)).argmax(),
+            "You take the dearest first step: a cost is to be small.",
+            "argmax is what one does with a table of actions."),
     ),
     hints=(
         "27 plans, and each first step is shared by nine of them. What is a first step worth?",
         "`costs.min(axis=(1, 2))` is the cheapest plan for each first step: three numbers.",
         "`costs.min(axis=(1, 2)).argmin()`",
     ),
-    minutes=5,
-    difficulty=2,
-    equation="the tracker's choice among 27 sequences of steering, bootcourse.rule",
-)
-
-# The stochastic rule ----------------------------------------------------------------------------------
+    minutes=5, difficulty=2, equation="the tracker's choice among 27 sequences of steering, bootcourse.rule",
+)  # fmt: skip
 
 
 def table(actions, own, other):
@@ -320,46 +248,33 @@ def stochastic_cases(rng):
 
 
 stochastic_rule = Exercise(
-    call="stochastic_rule(rule_actions, p)",
-    solution=rule.stochastic_rule,
+    "stochastic_rule(rule_actions, p)",
+    solution=rule.stochastic_rule, cases=stochastic_cases,
     worked=(
         ((np.array([3]), 0.9), np.array([[0.0125] * 3 + [0.9] + [0.0125] * 5])),
         ((np.array([0, 8]), 1 / 9), np.full((2, 9), 1 / 9)),
     ),
-    cases=stochastic_cases,
     mistakes=(
-        Mistake(
-            answer=lambda actions, p: table(actions, p, 1 - p),
-            says="Your probabilities add up to more than 1: the eight other actions *share* 1 - p.",
-            belief="1 - p is the probability of each other action.",
-        ),
-        Mistake(
-            answer=lambda actions, p: table(actions, p, (1 - p) / 9),
-            says="You share 1 - p among nine actions. The rule's own has its p already: eight are left.",
-            belief="There are nine actions, so nine shares.",
-        ),
-        Mistake(
-            answer=lambda actions, p: table(actions, p + (1 - p) / 9, (1 - p) / 9),
-            says="You mix the rule with a uniform policy. It adds up to 1, but the rule's own action gets more than p.",
-            belief="'With probability 1 - p, anything' and 'with probability 1 - p, something else' are the same.",
-        ),
-        Mistake(
-            answer=lambda actions, p: table(actions, (1 - p) / 8, p),
-            says="Your p is turned round: the rule's own action has the small share, and the others the large one.",
-            belief="np.where takes what is false first.",
-        ),
-        Mistake(
-            answer=lambda actions, p: table(actions, p, 0.0),
-            says="The other eight actions have probability 0. Then the KL of lesson 7 is infinite: they share 1 - p.",
-            belief="The rule would never do them.",
-        ),
+        Mistake(lambda actions, p: table(actions, p, 1 - p),
+            "Your probabilities add up to more than 1: the eight other actions *share* 1 - p.",
+            "1 - p is the probability of each other action."),
+        Mistake(lambda actions, p: table(actions, p, (1 - p) / 9),
+            "You share 1 - p among nine actions. The rule's own has its p already: eight are left.",
+            "There are nine actions, so nine shares."),
+        Mistake(lambda actions, p: table(actions, p + (1 - p) / 9, (1 - p) / 9),
+            "You mix the rule with a uniform policy. It adds up to 1, but the rule's own action gets more than p.",
+            "'With probability 1 - p, anything' and 'with probability 1 - p, something else' are the same."),
+        Mistake(lambda actions, p: table(actions, (1 - p) / 8, p),
+            "Your p is turned round: the rule's own action has the small share, and the others the large one.",
+            "np.where takes what is false first."),
+        Mistake(lambda actions, p: table(actions, p, 0.0),
+            "The other eight actions have probability 0. Then the KL of lesson 7 is infinite: they share 1 - p.",
+            "The rule would never do them."),
     ),
     hints=(
         "Begin with a table (n, 9) that holds what each *other* action has.",
         "`np.full((len(rule_actions), 9), (1 - p) / 8)`. Which one entry of each row has to become p?",
         "`table[np.arange(len(rule_actions)), rule_actions] = p`",
     ),
-    minutes=5,
-    difficulty=1,
-    equation="π̃(a|s), Section IV-A",
-)
+    minutes=5, difficulty=1, equation="π̃(a|s), Section IV-A",
+)  # fmt: skip

@@ -20,59 +20,40 @@ def policies(rng, actions=9):
         yield torch.tensor(rng.normal(0, rng.uniform(0.3, 3), (int(size), actions))).log_softmax(-1)
 
 
-# Entropy --------------------------------------------------------------------------------------------
-
 entropy = Exercise(
-    call="entropy(log_pi)",
-    solution=sac.entropy,
+    "entropy(log_pi)",
+    solution=sac.entropy, cases=lambda rng: ((log_pi,) for log_pi in policies(rng)),
     worked=(
         ((torch.tensor([[0.5, 0.5], [0.75, 0.25]]).log(),), torch.tensor([LOG_2, 2 * LOG_2 - 0.75 * math.log(3)])),
     ),
-    cases=lambda rng: ((log_pi,) for log_pi in policies(rng)),
     mistakes=(
-        Mistake(
-            answer=lambda log_pi: (log_pi.exp() * log_pi).sum(-1),
-            says="Your sign is turned: log π is never above 0, so the entropy is *minus* the sum, and never below 0.",
-            belief="Entropy is the sum of p log p; the minus is a convention.",
-        ),
-        Mistake(
-            answer=lambda log_pi: -log_pi.mean(-1),
-            says="You count every action alike. The mean of -log π is taken under π: weigh each action with its "
+        Mistake(lambda log_pi: (log_pi.exp() * log_pi).sum(-1),
+            "Your sign is turned: log π is never above 0, so the entropy is *minus* the sum, and never below 0.",
+            "Entropy is the sum of p log p; the minus is a convention."),
+        Mistake(lambda log_pi: -log_pi.mean(-1),
+            "You count every action alike. The mean of -log π is taken under π: weigh each action with its "
             "probability.",
-            belief="The expectation over actions is the mean over actions.",
-        ),
-        Mistake(
-            answer=lambda log_pi: -log_pi.sum(-1),
-            says="You add up -log π without the weights: an action that is never taken would count most.",
-            belief="The sum over actions is the expectation.",
-        ),
-        Mistake(
-            answer=lambda log_pi: -(log_pi.exp() * log_pi).sum(-1) / LOG_2,
-            says="You measure in bits. Everything here is in nats: the logarithm is given, and it is the natural one.",
-            belief="Entropy is measured with log 2.",
-        ),
-        Mistake(
-            answer=lambda log_pi: -(log_pi.exp() * log_pi).sum(-1).mean(),
-            says="You took the mean over the batch. Each state has an entropy of its own; the mean comes in the loss.",
-            belief="A number about the policy is one number.",
-        ),
-        Mistake(
-            answer=lambda log_pi: (-(log_pi.exp() * log_pi).sum(-1)).exp(),
-            says="This is e to the entropy, the number of actions that it is worth. Return the entropy itself.",
-            belief="The effective number of actions is the entropy.",
-        ),
+            "The expectation over actions is the mean over actions."),
+        Mistake(lambda log_pi: -log_pi.sum(-1),
+            "You add up -log π without the weights: an action that is never taken would count most.",
+            "The sum over actions is the expectation."),
+        Mistake(lambda log_pi: -(log_pi.exp() * log_pi).sum(-1) / LOG_2,
+            "You measure in bits. Everything here is in nats: the logarithm is given, and it is the natural one.",
+            "Entropy is measured with log 2."),
+        Mistake(lambda log_pi: -(log_pi.exp() * log_pi).sum(-1).mean(),
+            "You took the mean over the batch. Each state has an entropy of its own; the mean comes in the loss.",
+            "A number about the policy is one number."),
+        Mistake(lambda log_pi: (-(log_pi.exp() * log_pi).sum(-1)).exp(),
+            "This is e to the entropy, the number of actions that it is worth. Return the entropy itself.",
+            "The effective number of actions is the entropy."),
     ),
     hints=(
         "Entropy is the mean of -log π(a), when a is drawn from π itself.",
         "A mean under π: weigh each action's -log π with π. The probabilities are `log_pi.exp()`.",
         "`-(log_pi.exp() * log_pi).sum(-1)`",
     ),
-    minutes=3,
-    difficulty=1,
-    equation="H(π(·|s)) = -Σ_a π(a|s) log π(a|s), Section III-C",
-)
-
-# Soft value -----------------------------------------------------------------------------------------
+    minutes=3, difficulty=1, equation="H(π(·|s)) = -Σ_a π(a|s) log π(a|s), Section III-C",
+)  # fmt: skip
 
 
 def value_cases(rng):
@@ -84,57 +65,40 @@ def value_cases(rng):
 
 HALF = torch.full((1, 2), -LOG_2)
 soft_value = Exercise(
-    call="soft_value(log_pi, q, alpha)",
-    solution=sac.soft_value,
+    "soft_value(log_pi, q, alpha)",
+    solution=sac.soft_value, cases=value_cases,
     worked=(
         ((HALF, torch.tensor([[1.0, 3.0]]), torch.tensor(0.5)), torch.tensor([2 + 0.5 * LOG_2])),
         # sure of the second action: its Q and nothing else
         ((torch.tensor([[-40.0, 0.0]]), torch.tensor([[1.0, 3.0]]), torch.tensor(0.5)), torch.tensor([3.0])),
     ),
-    cases=value_cases,
     mistakes=(
-        Mistake(
-            answer=lambda log_pi, q, alpha: (log_pi.exp() * (q + alpha * log_pi)).sum(-1),
-            says="You charge for being undecided: log π is negative, so α log π is *subtracted* from Q.",
-            belief="The entropy is added, so α log π is added.",
-        ),
-        Mistake(
-            answer=lambda log_pi, q, alpha: q.amax(-1) + alpha * sac.entropy(log_pi),
-            says="You take the best action's value. The actor draws its action, so it gets the mean of Q under π.",
-            belief="V is the maximum of Q, as in Q-learning.",
-        ),
-        Mistake(
-            answer=lambda log_pi, q, alpha: (log_pi.exp() * q).sum(-1),
-            says="Your value has no entropy in it: this is the value of ordinary actor-critic, α = 0.",
-            belief="The entropy belongs in the actor's loss only.",
-        ),
-        Mistake(
-            answer=lambda log_pi, q, alpha: (log_pi.exp() * q - alpha * log_pi).sum(-1),
-            says="You add up log π without weighing it: both terms are expectations under π.",
-            belief="The brackets do not matter.",
-        ),
-        Mistake(
-            answer=lambda log_pi, q, alpha: (log_pi.exp() * q).mean(-1) + alpha * sac.entropy(log_pi),
-            says="You divide by the number of actions: π adds up to 1 already, so the expectation is a *sum* of π Q.",
-            belief="An expectation is a mean.",
-        ),
-        Mistake(
-            answer=lambda log_pi, q, alpha: sac.soft_value(log_pi, q, alpha).mean(),
-            says="You took the mean over the batch. Each state has its own value; the mean comes in the loss.",
-            belief="Losses end in a mean, so values do.",
-        ),
+        Mistake(lambda log_pi, q, alpha: (log_pi.exp() * (q + alpha * log_pi)).sum(-1),
+            "You charge for being undecided: log π is negative, so α log π is *subtracted* from Q.",
+            "The entropy is added, so α log π is added."),
+        Mistake(lambda log_pi, q, alpha: q.amax(-1) + alpha * sac.entropy(log_pi),
+            "You take the best action's value. The actor draws its action, so it gets the mean of Q under π.",
+            "V is the maximum of Q, as in Q-learning."),
+        Mistake(lambda log_pi, q, alpha: (log_pi.exp() * q).sum(-1),
+            "Your value has no entropy in it: this is the value of ordinary actor-critic, α = 0.",
+            "The entropy belongs in the actor's loss only."),
+        Mistake(lambda log_pi, q, alpha: (log_pi.exp() * q - alpha * log_pi).sum(-1),
+            "You add up log π without weighing it: both terms are expectations under π.",
+            "The brackets do not matter."),
+        Mistake(lambda log_pi, q, alpha: (log_pi.exp() * q).mean(-1) + alpha * sac.entropy(log_pi),
+            "You divide by the number of actions: π adds up to 1 already, so the expectation is a *sum* of π Q.",
+            "An expectation is a mean."),
+        Mistake(lambda log_pi, q, alpha: sac.soft_value(log_pi, q, alpha).mean(),
+            "You took the mean over the batch. Each state has its own value; the mean comes in the loss.",
+            "Losses end in a mean, so values do."),
     ),
     hints=(
         "What does the actor get on average, if it draws its action from π? And what is being undecided worth?",
         "Both are expectations under π: of Q, and of -α log π.",
         "`(log_pi.exp() * (q - alpha * log_pi)).sum(-1)`",
     ),
-    minutes=5,
-    difficulty=1,
-    equation="V(s) = Σ_a π(a|s) (Q(s,a) - α log π(a|s)), Section III-C",
-)
-
-# The critic's target --------------------------------------------------------------------------------
+    minutes=5, difficulty=1, equation="V(s) = Σ_a π(a|s) (Q(s,a) - α log π(a|s)), Section III-C",
+)  # fmt: skip
 
 
 def cases(rng):
@@ -151,61 +115,40 @@ def cases(rng):
 
 
 critic_target = Exercise(
-    call="critic_target(reward, terminated, next_value, gamma)",
-    solution=sac.critic_target,
+    "critic_target(reward, terminated, next_value, gamma)",
+    solution=sac.critic_target, cases=cases,
     worked=(
         # it goes on: 1 + 0.8 · 10; it ended: -10 and nothing after it
-        (
-            (torch.tensor([1.0, -10.0]), torch.tensor([0.0, 1.0]), torch.tensor([10.0, 10.0]), 0.8),
-            torch.tensor([9.0, -10.0]),
-        ),
+        ((torch.tensor([1.0, -10.0]), torch.tensor([0.0, 1.0]), torch.tensor([10.0, 10.0]), 0.8),
+         torch.tensor([9.0, -10.0])),
     ),
-    cases=cases,
     mistakes=(
-        Mistake(
-            answer=lambda reward, terminated, next_value, gamma: reward + gamma * next_value,
-            says="Your target counts on a future after the accident. Where an episode ended, only its reward is left.",
-            belief="The mask is bookkeeping that the average evens out. It does not: -10 plus a rosy V' is no warning.",
-        ),
-        Mistake(
-            answer=lambda reward, terminated, next_value, gamma: reward + gamma * terminated * next_value,
-            says="Your mask is turned round: `terminated` is 1 where the episode ended, and there nothing may follow.",
-            belief="`terminated` is taken for 'still alive'.",
-        ),
-        Mistake(
-            answer=lambda reward, terminated, next_value, gamma: (1 - terminated) * (reward + gamma * next_value),
-            says="You also mask the reward. The last reward, here the accident's -10, is the one that must be heard.",
-            belief="A terminated row is one to ignore.",
-        ),
-        Mistake(
-            answer=lambda reward, terminated, next_value, gamma: reward + (1 - terminated) * next_value,
-            says="Your future is not discounted: a reward one second later counts γ times as much.",
-            belief="γ is already inside the value. It is, from the second step on.",
-        ),
-        Mistake(
-            answer=lambda reward, terminated, next_value, gamma: gamma * (reward + (1 - terminated) * next_value),
-            says="You discount this second's reward, too. γ belongs to what comes later.",
-            belief="γ multiplies everything on the right-hand side.",
-        ),
-        Mistake(
-            answer=lambda reward, terminated, next_value, gamma: (
-                reward + gamma * (1 - terminated) * next_value
-            ).mean(),
-            says="You took the mean over the batch. Each transition has its own target; the mean comes in the loss.",
-            belief="Losses end in a mean, so targets do.",
-        ),
+        Mistake(lambda reward, terminated, next_value, gamma: reward + gamma * next_value,
+            "Your target counts on a future after the accident. Where an episode ended, only its reward is left.",
+            "The mask is bookkeeping that the average evens out. It does not: -10 plus a rosy V' is no warning."),
+        Mistake(lambda reward, terminated, next_value, gamma: reward + gamma * terminated * next_value,
+            "Your mask is turned round: `terminated` is 1 where the episode ended, and there nothing may follow.",
+            "`terminated` is taken for 'still alive'."),
+        Mistake(lambda reward, terminated, next_value, gamma: (1 - terminated) * (reward + gamma * next_value),
+            "You also mask the reward. The last reward, here the accident's -10, is the one that must be heard.",
+            "A terminated row is one to ignore."),
+        Mistake(lambda reward, terminated, next_value, gamma: reward + (1 - terminated) * next_value,
+            "Your future is not discounted: a reward one second later counts γ times as much.",
+            "γ is already inside the value. It is, from the second step on."),
+        Mistake(lambda reward, terminated, next_value, gamma: gamma * (reward + (1 - terminated) * next_value),
+            "You discount this second's reward, too. γ belongs to what comes later.",
+            "γ multiplies everything on the right-hand side."),
+        Mistake(lambda reward, terminated, next_value, gamma: (reward + gamma * (1 - terminated) * next_value).mean(),
+            "You took the mean over the batch. Each transition has its own target; the mean comes in the loss.",
+            "Losses end in a mean, so targets do."),
     ),
     hints=(
         "What is a transition worth if it ended the episode? And what if it did not?",
         "`1 - terminated` is 1 where the road goes on, and 0 where it ended.",
         "`reward + gamma * (1 - terminated) * ...`",
     ),
-    minutes=5,
-    difficulty=1,
-    equation="y = r + γ (1 - terminated) V(s'), Section III-C",
-)
-
-# The actor's loss -----------------------------------------------------------------------------------
+    minutes=5, difficulty=1, equation="y = r + γ (1 - terminated) V(s'), Section III-C",
+)  # fmt: skip
 
 
 def actor_loss_solution(log_pi, q, alpha):
@@ -219,60 +162,39 @@ def run_actor(answer, log_pi, q, alpha):
 
 
 actor_loss = Exercise(
-    call="actor_loss(log_pi, q, alpha)",
-    solution=actor_loss_solution,
+    "actor_loss(log_pi, q, alpha)",
+    solution=actor_loss_solution, cases=value_cases, run=run_actor,
     worked=(
         # -V, and its slopes -π (Q - α log π - α) = -(1 + log 2 / 2 - 1/2) / 2, -(3 + log 2 / 2 - 1/2) / 2
-        (
-            (HALF, torch.tensor([[1.0, 3.0]]), torch.tensor(0.5)),
-            (
-                torch.tensor(-(2 + 0.5 * LOG_2)),
-                torch.tensor([[-0.25 - 0.25 * LOG_2, -1.25 - 0.25 * LOG_2]]),
-                torch.zeros(1, 2),
-            ),
-        ),
+        ((HALF, torch.tensor([[1.0, 3.0]]), torch.tensor(0.5)),
+         (torch.tensor(-(2 + 0.5 * LOG_2)), torch.tensor([[-0.25 - 0.25 * LOG_2, -1.25 - 0.25 * LOG_2]]),
+          torch.zeros(1, 2))),
     ),
-    cases=value_cases,
-    run=run_actor,
     mistakes=(
-        Mistake(
-            answer=lambda log_pi, q, alpha: -sac.soft_value(log_pi, q, alpha).mean(),
-            says="Your value is right, but the gradient flows into Q, too: the actor would talk the critic into liking "
-            "what it does. Use `q.detach()`.",
-            belief="Whatever is not in the optimiser does not matter. Here one optimiser holds both networks.",
-        ),
-        Mistake(
-            answer=lambda log_pi, q, alpha: sac.soft_value(log_pi, q.detach(), alpha).mean(),
-            says="This is the value, and it would be made *small*. A loss is what one wants less of: -V.",
-            belief="The objective is maximised, and a loss is the objective.",
-        ),
-        Mistake(
-            answer=lambda log_pi, q, alpha: -sac.soft_value(log_pi.detach(), q.detach(), alpha).mean(),
-            says="Your loss has the right value and no gradient: π is what it should change. Detach Q alone.",
-            belief="Detaching is a safety measure, the more the better.",
-        ),
-        Mistake(
-            answer=lambda log_pi, q, alpha: -((log_pi.exp() * (q.detach() + alpha * log_pi)).sum(-1)).mean(),
-            says="You charge for being undecided: log π is negative, so α log π is *subtracted* from Q.",
-            belief="The entropy is added, so α log π is added.",
-        ),
-        Mistake(
-            answer=lambda log_pi, q, alpha: -(log_pi.exp() * (q.detach() - alpha * log_pi)).mean(),
-            says="You took the mean over actions, too: sum over the actions, then the mean over the batch.",
-            belief="`.mean()` does all at once. The step is then a ninth of what it should be.",
-        ),
+        Mistake(lambda log_pi, q, alpha: -sac.soft_value(log_pi, q, alpha).mean(),
+            "Your value is right, but the gradient flows into Q, too: the actor would talk the critic into liking what "
+            "it does. Use `q.detach()`.",
+            "Whatever is not in the optimiser does not matter. Here one optimiser holds both networks."),
+        Mistake(lambda log_pi, q, alpha: sac.soft_value(log_pi, q.detach(), alpha).mean(),
+            "This is the value, and it would be made *small*. A loss is what one wants less of: -V.",
+            "The objective is maximised, and a loss is the objective."),
+        Mistake(lambda log_pi, q, alpha: -sac.soft_value(log_pi.detach(), q.detach(), alpha).mean(),
+            "Your loss has the right value and no gradient: π is what it should change. Detach Q alone.",
+            "Detaching is a safety measure, the more the better."),
+        Mistake(lambda log_pi, q, alpha: -((log_pi.exp() * (q.detach() + alpha * log_pi)).sum(-1)).mean(),
+            "You charge for being undecided: log π is negative, so α log π is *subtracted* from Q.",
+            "The entropy is added, so α log π is added."),
+        Mistake(lambda log_pi, q, alpha: -(log_pi.exp() * (q.detach() - alpha * log_pi)).mean(),
+            "You took the mean over actions, too: sum over the actions, then the mean over the batch.",
+            "`.mean()` does all at once. The step is then a ninth of what it should be."),
     ),
     hints=(
         "The actor wants a large soft value, and a loss is made small.",
         "Minus the mean over the batch of V. Through which of `log_pi` and `q` may the gradient flow?",
         "`-(log_pi.exp() * (q.detach() - alpha * log_pi)).sum(-1).mean()`",
     ),
-    minutes=8,
-    difficulty=2,
-    equation="-E_s[Σ_a π (Q - α log π)], Section III-C",
-)
-
-# The temperature ------------------------------------------------------------------------------------
+    minutes=8, difficulty=2, equation="-E_s[Σ_a π (Q - α log π)], Section III-C",
+)  # fmt: skip
 
 
 def run_temperature(answer, log_alpha, state_entropy, target_entropy):
@@ -290,55 +212,37 @@ def temperature_cases(rng):
 
 
 temperature_loss = Exercise(
-    call="temperature_loss(log_alpha, state_entropy, target_entropy)",
-    solution=sac.temperature_loss,
+    "temperature_loss(log_alpha, state_entropy, target_entropy)",
+    solution=sac.temperature_loss, cases=temperature_cases, run=run_temperature,
     worked=(
         # α = 1/2, mean entropy 1, target 0.6: 0.5 · 0.4, and its slope in log α is the same
-        (
-            (torch.tensor(-LOG_2), torch.tensor([0.5, 1.5]), torch.tensor(0.6)),
-            (torch.tensor(0.2), torch.tensor(0.2), torch.zeros(2)),
-        ),
+        ((torch.tensor(-LOG_2), torch.tensor([0.5, 1.5]), torch.tensor(0.6)),
+         (torch.tensor(0.2), torch.tensor(0.2), torch.zeros(2))),
     ),
-    cases=temperature_cases,
-    run=run_temperature,
     mistakes=(
-        Mistake(
-            answer=lambda log_alpha, h, target: log_alpha.exp() * (target - h.detach().mean()),
-            says="Your sign is turned: this α grows while the policy is *more* random than it should be.",
-            belief="The error of a controller is target minus measured.",
-        ),
-        Mistake(
-            answer=lambda log_alpha, h, target: log_alpha.exp() * (h.mean() - target),
-            says="Your loss also pushes the entropy: the temperature is what it should move. Detach the entropy.",
-            belief="It does no harm that the policy gets a gradient here, too.",
-        ),
-        Mistake(
-            answer=lambda log_alpha, h, target: log_alpha * (h.detach().mean() - target),
-            says="You multiply by log α: here it is α itself. Some libraries do so, and take other steps.",
-            belief="log α is the parameter, so it is what stands in the loss.",
-        ),
-        Mistake(
-            answer=lambda log_alpha, h, target: log_alpha.exp() * (h.detach().mean() + target),
-            says="You add the target. With a continuous SAC's habit, target = -1, this looks right; it is H - target.",
-            belief="The continuous formula has + target, because there log π stands for -H.",
-        ),
-        Mistake(
-            answer=lambda log_alpha, h, target: log_alpha.exp().detach() * (h.detach().mean() - target),
-            says="Your loss has the right value and no gradient: log α is the one thing that it should change.",
-            belief="Detaching is a safety measure, the more the better.",
-        ),
-        Mistake(
-            answer=lambda log_alpha, h, target: log_alpha.exp() * (h.detach() - target),
-            says="You return one number for each state. The temperature is one for all: take the mean over the batch.",
-            belief="The mean over the batch is taken somewhere else.",
-        ),
+        Mistake(lambda log_alpha, h, target: log_alpha.exp() * (target - h.detach().mean()),
+            "Your sign is turned: this α grows while the policy is *more* random than it should be.",
+            "The error of a controller is target minus measured."),
+        Mistake(lambda log_alpha, h, target: log_alpha.exp() * (h.mean() - target),
+            "Your loss also pushes the entropy: the temperature is what it should move. Detach the entropy.",
+            "It does no harm that the policy gets a gradient here, too."),
+        Mistake(lambda log_alpha, h, target: log_alpha * (h.detach().mean() - target),
+            "You multiply by log α: here it is α itself. Some libraries do so, and take other steps.",
+            "log α is the parameter, so it is what stands in the loss."),
+        Mistake(lambda log_alpha, h, target: log_alpha.exp() * (h.detach().mean() + target),
+            "You add the target. With a continuous SAC's habit, target = -1, this looks right; it is H - target.",
+            "The continuous formula has + target, because there log π stands for -H."),
+        Mistake(lambda log_alpha, h, target: log_alpha.exp().detach() * (h.detach().mean() - target),
+            "Your loss has the right value and no gradient: log α is the one thing that it should change.",
+            "Detaching is a safety measure, the more the better."),
+        Mistake(lambda log_alpha, h, target: log_alpha.exp() * (h.detach() - target),
+            "You return one number for each state. The temperature is one for all: take the mean over the batch.",
+            "The mean over the batch is taken somewhere else."),
     ),
     hints=(
         "If the entropy is above its target, α has to fall: which sign does the slope of the loss need?",
         "α times (mean entropy - target). Only log α may receive a gradient.",
         "`log_alpha.exp() * (state_entropy.detach().mean() - target_entropy)`",
     ),
-    minutes=5,
-    difficulty=2,
-    equation="α (H(π) - η), η the target entropy, Table of RL hyper-parameters",
-)
+    minutes=5, difficulty=2, equation="α (H(π) - η), η the target entropy, Table of RL hyper-parameters",
+)  # fmt: skip

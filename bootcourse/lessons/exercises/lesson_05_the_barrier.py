@@ -4,8 +4,6 @@ import numpy as np
 
 from bootcourse.lessons.exercise import Exercise, Mistake
 
-# The discount ---------------------------------------------------------------------------------------
-
 
 def discounted_value_solution(rewards, gamma):
     return float(np.sum(gamma ** np.arange(len(rewards)) * rewards))
@@ -22,46 +20,33 @@ def value_cases(rng):
 
 
 discounted_value = Exercise(
-    call="discounted_value(rewards, gamma)",
-    solution=discounted_value_solution,
+    "discounted_value(rewards, gamma)",
+    solution=discounted_value_solution, cases=value_cases,
     worked=(((np.array([1.0, 1.0, 1.0]), 0.5), 1.75), ((np.array([0.0, 0.0, 8.0]), 0.5), 2.0)),
-    cases=value_cases,
     mistakes=(
-        Mistake(
-            answer=lambda rewards, gamma: gamma * discounted_value_solution(rewards, gamma),
-            says="You discount the first reward, too. It comes now: its weight is γ to the 0, which is 1.",
-            belief="Counting begins at 1.",
-        ),
-        Mistake(
-            answer=lambda rewards, gamma: float(np.sum(rewards)),
-            says="This is the return: nothing is discounted. The reward after t seconds counts γ to the t.",
-            belief="γ is in the reward already.",
-        ),
-        Mistake(
-            answer=lambda rewards, gamma: float(gamma * np.sum(rewards)),
-            says="You multiply the whole sum by γ. Each second further away costs another factor.",
-            belief="The discount is a factor, so it is multiplied once.",
-        ),
-        Mistake(
-            answer=lambda rewards, gamma: discounted_value_solution(rewards[::-1], gamma),
-            says="Your weights run backwards: what comes last counts in full, and what comes now hardly at all.",
-            belief="The recursion y = r + γ y is started at the wrong end.",
-        ),
-        Mistake(
-            answer=lambda rewards, gamma: discounted_value_solution(rewards, gamma) * (1 - gamma),
-            says="You normalised: this is a mean reward, weighted by the discount. Leave the factor 1 - γ away.",
-            belief="Weights have to add up to 1.",
-        ),
+        Mistake(lambda rewards, gamma: gamma * discounted_value_solution(rewards, gamma),
+            "You discount the first reward, too. It comes now: its weight is γ to the 0, which is 1.",
+            "Counting begins at 1."),
+        Mistake(lambda rewards, gamma: float(np.sum(rewards)),
+            "This is the return: nothing is discounted. The reward after t seconds counts γ to the t.",
+            "γ is in the reward already."),
+        Mistake(lambda rewards, gamma: float(gamma * np.sum(rewards)),
+            "You multiply the whole sum by γ. Each second further away costs another factor.",
+            "The discount is a factor, so it is multiplied once."),
+        Mistake(lambda rewards, gamma: discounted_value_solution(rewards[::-1], gamma),
+            "Your weights run backwards: what comes last counts in full, and what comes now hardly at all.",
+            "The recursion y = r + γ y is started at the wrong end."),
+        Mistake(lambda rewards, gamma: discounted_value_solution(rewards, gamma) * (1 - gamma),
+            "You normalised: this is a mean reward, weighted by the discount. Leave the factor 1 - γ away.",
+            "Weights have to add up to 1."),
     ),
     hints=(
         "The first reward counts 1, the next γ, the next γ²: write these weights as an array.",
         "`gamma ** np.arange(len(rewards))` are the weights.",
         "`np.sum(gamma ** np.arange(len(rewards)) * rewards)`",
     ),
-    minutes=3,
-    difficulty=1,
-    equation="Σ_t γ^t r_t, Section III, Equation of the objective",
-)
+    minutes=3, difficulty=1, equation="Σ_t γ^t r_t, Section III, Equation of the objective",
+)  # fmt: skip
 
 
 def share_of_the_future_solution(gamma, seconds):
@@ -76,48 +61,33 @@ def share_cases(rng):
 
 
 share_of_the_future = Exercise(
-    call="share_of_the_future(gamma, seconds)",
-    solution=share_of_the_future_solution,
+    "share_of_the_future(gamma, seconds)",
+    solution=share_of_the_future_solution, cases=share_cases,
     worked=(((0.5, 2), 0.25), ((0.8, 0), 1.0)),  # of 1 + 1/2 + 1/4 + ... = 2, 1/4 + 1/8 + ... = 1/2 is left
-    cases=share_cases,
     mistakes=(
-        Mistake(
-            answer=lambda gamma, seconds: 1 - gamma**seconds,
-            says="This is the share that lies *before* that moment. The question is what comes after.",
-            belief="The geometric sum to n is the one that one knows by heart.",
-        ),
-        Mistake(
-            answer=lambda gamma, seconds: gamma**seconds / (1 - gamma),
-            says="This is the weight that is left, not its share: divide by the weight of all seconds, 1 / (1 - γ).",
-            belief="The weights add up to 1.",
-        ),
-        Mistake(
-            answer=lambda gamma, seconds: gamma**seconds * (1 - gamma),
-            says="This is the share of that one second. Add up all seconds from there on.",
-            belief="The future is the moment that is asked about.",
-        ),
-        Mistake(
-            answer=lambda gamma, seconds: gamma ** (seconds + 1),
-            says="You are one second late: the second that begins at that moment belongs to the future, too.",
-            belief="After n seconds means from n + 1 on.",
-        ),
-        Mistake(
-            answer=lambda gamma, seconds: max(0.0, 1 - seconds * (1 - gamma)),
-            says="Your share falls in a straight line and ends. It falls by the same *factor* each second.",
-            belief="With an horizon of 1 / (1 - γ), each second takes its part of it away.",
-        ),
+        Mistake(lambda gamma, seconds: 1 - gamma**seconds,
+            "This is the share that lies *before* that moment. The question is what comes after.",
+            "The geometric sum to n is the one that one knows by heart."),
+        Mistake(lambda gamma, seconds: gamma**seconds / (1 - gamma),
+            "This is the weight that is left, not its share: divide by the weight of all seconds, 1 / (1 - γ).",
+            "The weights add up to 1."),
+        Mistake(lambda gamma, seconds: gamma**seconds * (1 - gamma),
+            "This is the share of that one second. Add up all seconds from there on.",
+            "The future is the moment that is asked about."),
+        Mistake(lambda gamma, seconds: gamma ** (seconds + 1),
+            "You are one second late: the second that begins at that moment belongs to the future, too.",
+            "After n seconds means from n + 1 on."),
+        Mistake(lambda gamma, seconds: max(0.0, 1 - seconds * (1 - gamma)),
+            "Your share falls in a straight line and ends. It falls by the same *factor* each second.",
+            "With an horizon of 1 / (1 - γ), each second takes its part of it away."),
     ),
     hints=(
         "All seconds together weigh 1 + γ + γ² + ... = 1 / (1 - γ). What do those from `seconds` on weigh?",
         "Take out the first factor: γ^n + γ^(n+1) + ... = γ^n (1 + γ + ...).",
         "`gamma**seconds`",
     ),
-    minutes=3,
-    difficulty=1,
-    equation="Σ_{t ≥ n} γ^t / Σ_t γ^t = γ^n",
-)
-
-# Luck -----------------------------------------------------------------------------------------------
+    minutes=3, difficulty=1, equation="Σ_{t ≥ n} γ^t / Σ_t γ^t = γ^n",
+)  # fmt: skip
 
 
 def luck_solution(good, decisions, tries):
@@ -133,48 +103,33 @@ def luck_cases(rng):
 
 
 luck = Exercise(
-    call="luck(good, decisions, tries)",
-    solution=luck_solution,
+    "luck(good, decisions, tries)",
+    solution=luck_solution, cases=luck_cases,
     worked=(((3, 2, 1), 1 / 9), ((3, 1, 2), 5 / 9)),  # (1/3)²; 1 - (2/3)²
-    cases=luck_cases,
     mistakes=(
-        Mistake(
-            answer=lambda good, decisions, tries: tries * (good / 9) ** decisions,
-            says="Your chance can be above 1: two lucky tries count twice. Ask for the chance that *every* try fails.",
-            belief="Chances of several tries add up.",
-        ),
-        Mistake(
-            answer=lambda good, decisions, tries: (good / 9) ** decisions,
-            says="This is the chance of one try. There are `tries` of them, and one lucky one is enough.",
-            belief="Each try has the same chance, so the chance stays the same.",
-        ),
-        Mistake(
-            answer=lambda good, decisions, tries: (good / 9) ** (decisions * tries),
-            says="This is the chance that *all* tries are lucky. One is enough.",
-            belief="Independent events are multiplied.",
-        ),
-        Mistake(
-            answer=lambda good, decisions, tries: 1 - (1 - good / 9) ** (decisions * tries),
-            says="This is the chance of one right decision somewhere. All decisions of one try have to be right.",
-            belief="At least one: 1 - (1 - p) to the number of all decisions.",
-        ),
-        Mistake(
-            answer=lambda good, decisions, tries: 1 - (1 - min(1.0, decisions * good / 9)) ** tries,
-            says="Within a try you add the chances. That all decisions are right is a product of them.",
-            belief="More decisions are more chances.",
-        ),
+        Mistake(lambda good, decisions, tries: tries * (good / 9) ** decisions,
+            "Your chance can be above 1: two lucky tries count twice. Ask for the chance that *every* try fails.",
+            "Chances of several tries add up."),
+        Mistake(lambda good, decisions, tries: (good / 9) ** decisions,
+            "This is the chance of one try. There are `tries` of them, and one lucky one is enough.",
+            "Each try has the same chance, so the chance stays the same."),
+        Mistake(lambda good, decisions, tries: (good / 9) ** (decisions * tries),
+            "This is the chance that *all* tries are lucky. One is enough.",
+            "Independent events are multiplied."),
+        Mistake(lambda good, decisions, tries: 1 - (1 - good / 9) ** (decisions * tries),
+            "This is the chance of one right decision somewhere. All decisions of one try have to be right.",
+            "At least one: 1 - (1 - p) to the number of all decisions."),
+        Mistake(lambda good, decisions, tries: 1 - (1 - min(1.0, decisions * good / 9)) ** tries,
+            "Within a try you add the chances. That all decisions are right is a product of them.",
+            "More decisions are more chances."),
     ),
     hints=(
         "First one try: `good` of nine actions are right, `decisions` times in a row.",
         "Then the tries: the chance that all of them fail is (1 - once) to the power of `tries`.",
         "`1 - (1 - (good / 9) ** decisions) ** tries`",
     ),
-    minutes=5,
-    difficulty=2,
-    equation="1 - (1 - (g/9)^n)^tries: the chance of a way out by chance",
-)
-
-# How sure? ------------------------------------------------------------------------------------------
+    minutes=5, difficulty=2, equation="1 - (1 - (g/9)^n)^tries: the chance of a way out by chance",
+)  # fmt: skip
 
 
 def lowest_rate_solution(agents):
@@ -182,43 +137,30 @@ def lowest_rate_solution(agents):
 
 
 lowest_rate = Exercise(
-    call="lowest_rate(agents)",
-    solution=lowest_rate_solution,
+    "lowest_rate(agents)",
+    solution=lowest_rate_solution, cases=lambda rng: ((int(n),) for n in range(1, 41)),
     worked=(((1,), 0.025), ((2,), 0.158114)),
-    cases=lambda rng: ((int(n),) for n in range(1, 41)),
     mistakes=(
-        Mistake(
-            answer=lambda agents: 0.05 ** (1 / agents),
-            says="You spend all of the 5 % on this end. An interval has two ends: each gets 2.5 %.",
-            belief="95 % leaves 5 %.",
-        ),
-        Mistake(
-            answer=lambda agents: 1 - 0.025 ** (1 / agents),
-            says="Yours falls as more agents succeed. This is the highest rate of *failures*: the other end.",
-            belief="One minus the chance is the rate.",
-        ),
-        Mistake(
-            answer=lambda agents: 0.025 / agents,
-            says="You divide by the number of agents. That all succeed is a *product* of their chances: take a root.",
-            belief="The risk is shared among the agents.",
-        ),
-        Mistake(
-            answer=lambda agents: 0.975 ** (1 / agents),
-            says="You ask for a rate at which this happens in 97.5 % of the cases. It has to be as rare as 2.5 %.",
-            belief="95 % sure means that it happens 95 % of the time.",
-        ),
-        Mistake(
-            answer=lambda agents: max(0.0, 1 - 3 / agents),
-            says="This is the rule of three, one-sided and for many agents. For a few, solve rate^agents = 0.025.",
-            belief="A rule of thumb holds for small numbers as well.",
-        ),
+        Mistake(lambda agents: 0.05 ** (1 / agents),
+            "You spend all of the 5 % on this end. An interval has two ends: each gets 2.5 %.",
+            "95 % leaves 5 %."),
+        Mistake(lambda agents: 1 - 0.025 ** (1 / agents),
+            "Yours falls as more agents succeed. This is the highest rate of *failures*: the other end.",
+            "One minus the chance is the rate."),
+        Mistake(lambda agents: 0.025 / agents,
+            "You divide by the number of agents. That all succeed is a *product* of their chances: take a root.",
+            "The risk is shared among the agents."),
+        Mistake(lambda agents: 0.975 ** (1 / agents),
+            "You ask for a rate at which this happens in 97.5 % of the cases. It has to be as rare as 2.5 %.",
+            "95 % sure means that it happens 95 % of the time."),
+        Mistake(lambda agents: max(0.0, 1 - 3 / agents),
+            "This is the rule of three, one-sided and for many agents. For a few, solve rate^agents = 0.025.",
+            "A rule of thumb holds for small numbers as well."),
     ),
     hints=(
         "If each agent escapes with probability `rate`, how likely is it that all of them do?",
         "Find the rate at which that is as unlikely as 2.5 %: rate ** agents = 0.025.",
         "`0.025 ** (1 / agents)`",
     ),
-    minutes=5,
-    difficulty=2,
-    equation="the lower end of the exact (Clopper-Pearson) 95 % interval of n out of n",
-)
+    minutes=5, difficulty=2, equation="the lower end of the exact (Clopper-Pearson) 95 % interval of n out of n",
+)  # fmt: skip

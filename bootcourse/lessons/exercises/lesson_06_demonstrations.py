@@ -6,8 +6,6 @@ import torch
 from bootcourse.learn import bc
 from bootcourse.lessons.exercise import Exercise, Mistake
 
-# Transitions ------------------------------------------------------------------------------------------
-
 
 def transitions_solution(observations, actions, rewards, accident):
     terminated = np.zeros(len(actions))
@@ -36,59 +34,40 @@ def transitions_cases(rng):
 
 
 transitions = Exercise(
-    call="transitions(observations, actions, rewards, accident)",
-    solution=transitions_solution,
+    "transitions(observations, actions, rewards, accident)",
+    solution=transitions_solution, cases=transitions_cases,
     worked=(
-        (
-            (np.array([[1.0], [2.0], [3.0]]), np.array([4, 7]), np.array([0.5, -10.0]), 2),
-            np.array([[1, 2, 4, 0.5, 0], [2, 3, 7, -10.0, 1]]),
-        ),
+        ((np.array([[1.0], [2.0], [3.0]]), np.array([4, 7]), np.array([0.5, -10.0]), 2),
+         np.array([[1, 2, 4, 0.5, 0], [2, 3, 7, -10.0, 1]])),
         ((np.array([[1.0], [2.0]]), np.array([4]), np.array([0.5]), 0), np.array([[1, 2, 4, 0.5, 0]])),
     ),
-    cases=transitions_cases,
     mistakes=(
-        Mistake(
-            answer=lambda o, a, r, accident: rows(o[:-1], o[1:], a, r, last(a, 1.0)),
-            says="You end every drive. A drive whose time ran out was not terminated: its last state has a future.",
-            belief="The last row of a drive is its end.",
-        ),
-        Mistake(
-            answer=lambda o, a, r, accident: rows(o[:-1], o[1:], a, r, np.full(len(a), float(accident > 0))),
-            says="You mark the whole drive. Only the transition of the accident itself leads nowhere.",
-            belief="The accident is a property of the drive.",
-        ),
-        Mistake(
-            answer=lambda o, a, r, accident: rows(o[:-1], o[1:], a, r, np.zeros(len(a))),
-            says="You mark no end at all: after an accident nothing follows, so the last row must say 1.",
-            belief="The reward of -10 says it already.",
-        ),
-        Mistake(
-            answer=lambda o, a, r, accident: rows(o[:-1], o[1:], a, r, last(a, accident)),
-            says="Your mark is the accident's number, 0 to 3. It is 0 or 1, because the critic multiplies by it.",
-            belief="A flag may be any number.",
-        ),
-        Mistake(
-            answer=lambda o, a, r, accident: rows(o[1:], o[:-1], a, r, last(a, accident > 0)),
-            says="Your s and s' are swapped: the action leads from the earlier observation to the later one.",
-            belief="`[1:]` is where one begins.",
-        ),
-        Mistake(
-            answer=lambda o, a, r, accident: rows(o[:-1], o[:-1], a, r, last(a, accident > 0)),
-            says="Your s' is s again: the next observation stands one row further down.",
-            belief="Each decision has one observation.",
-        ),
+        Mistake(lambda o, a, r, accident: rows(o[:-1], o[1:], a, r, last(a, 1.0)),
+            "You end every drive. A drive whose time ran out was not terminated: its last state has a future.",
+            "The last row of a drive is its end."),
+        Mistake(lambda o, a, r, accident: rows(o[:-1], o[1:], a, r, np.full(len(a), float(accident > 0))),
+            "You mark the whole drive. Only the transition of the accident itself leads nowhere.",
+            "The accident is a property of the drive."),
+        Mistake(lambda o, a, r, accident: rows(o[:-1], o[1:], a, r, np.zeros(len(a))),
+            "You mark no end at all: after an accident nothing follows, so the last row must say 1.",
+            "The reward of -10 says it already."),
+        Mistake(lambda o, a, r, accident: rows(o[:-1], o[1:], a, r, last(a, accident)),
+            "Your mark is the accident's number, 0 to 3. It is 0 or 1, because the critic multiplies by it.",
+            "A flag may be any number."),
+        Mistake(lambda o, a, r, accident: rows(o[1:], o[:-1], a, r, last(a, accident > 0)),
+            "Your s and s' are swapped: the action leads from the earlier observation to the later one.",
+            "`[1:]` is where one begins."),
+        Mistake(lambda o, a, r, accident: rows(o[:-1], o[:-1], a, r, last(a, accident > 0)),
+            "Your s' is s again: the next observation stands one row further down.",
+            "Each decision has one observation."),
     ),
     hints=(
         "There is one observation more than there are actions. Which ones are s, and which are s'?",
         "`observations[:-1]` and `observations[1:]`; the last column is zero but for an accident in the last row.",
         "`np.column_stack([observations[:-1], observations[1:], actions, rewards, terminated])`",
     ),
-    minutes=6,
-    difficulty=2,
-    equation="(s, a, r, s'), Section IV-B, and whether the episode ended there",
-)
-
-# Returns ----------------------------------------------------------------------------------------------
+    minutes=6, difficulty=2, equation="(s, a, r, s'), Section IV-B, and whether the episode ended there",
+)  # fmt: skip
 
 
 def return_to_go_solution(rewards, gamma):
@@ -133,51 +112,36 @@ def reward_cases(rng):
 
 
 return_to_go = Exercise(
-    call="return_to_go(rewards, gamma)",
-    solution=return_to_go_solution,
+    "return_to_go(rewards, gamma)",
+    solution=return_to_go_solution, cases=reward_cases,
     worked=(
         ((np.array([1.0, 1.0, 1.0]), 0.5), np.array([1.75, 1.5, 1.0])),
         ((np.array([0.0, 0.0, 10.0]), 0.8), np.array([6.4, 8.0, 10.0])),
     ),
-    cases=reward_cases,
     mistakes=(
-        Mistake(
-            answer=lambda rewards, gamma: return_to_go_solution(rewards, 1.0),
-            says="This is what is still to come without a discount: γ times the next second's value, not the value.",
-            belief="Return and discounted return are the same.",
-        ),
-        Mistake(
-            answer=from_the_start,
-            says="You discount from the start of the drive. Each second has a clock of its own: its reward is whole.",
-            belief="The discount belongs to the drive, not to the moment that asks.",
-        ),
-        Mistake(
-            answer=so_far,
-            says="This is what was earned *so far*. A value looks ahead: what comes from this second on.",
-            belief="A cumulative sum is a cumulative sum.",
-        ),
-        Mistake(
-            answer=forwards,
-            says="You go forwards in time, so that each second counts what lies behind it. Begin at the last second.",
-            belief="A loop over time begins at 0.",
-        ),
-        Mistake(
-            answer=one_step,
-            says="You add γ times the next *reward*. It is γ times the next *value*, which holds all that follows.",
-            belief="The future is the next second.",
-        ),
+        Mistake(lambda rewards, gamma: return_to_go_solution(rewards, 1.0),
+            "This is what is still to come without a discount: γ times the next second's value, not the value.",
+            "Return and discounted return are the same."),
+        Mistake(from_the_start,
+            "You discount from the start of the drive. Each second has a clock of its own: its reward is whole.",
+            "The discount belongs to the drive, not to the moment that asks."),
+        Mistake(so_far,
+            "This is what was earned *so far*. A value looks ahead: what comes from this second on.",
+            "A cumulative sum is a cumulative sum."),
+        Mistake(forwards,
+            "You go forwards in time, so that each second counts what lies behind it. Begin at the last second.",
+            "A loop over time begins at 0."),
+        Mistake(one_step,
+            "You add γ times the next *reward*. It is γ times the next *value*, which holds all that follows.",
+            "The future is the next second."),
     ),
     hints=(
         "The last second's value is its reward. The one before it is its reward plus γ times that.",
         "Copy the rewards into an array, and go from the last but one to the first: `range(len(togo) - 2, -1, -1)`.",
         "`togo[t] += gamma * togo[t + 1]`",
     ),
-    minutes=5,
-    difficulty=1,
-    equation="G_t = r_t + γ G_{t+1}: what Q(s, a) of Section III stands for",
-)
-
-# Imitation --------------------------------------------------------------------------------------------
+    minutes=5, difficulty=1, equation="G_t = r_t + γ G_{t+1}: what Q(s, a) of Section III stands for",
+)  # fmt: skip
 
 
 def agreement_solution(pi, actions):
@@ -196,45 +160,34 @@ def agreement_cases(rng):
 
 
 agreement = Exercise(
-    call="agreement(pi, actions)",
-    solution=agreement_solution,
+    "agreement(pi, actions)",
+    solution=agreement_solution, cases=agreement_cases,
     worked=(
         ((np.array([[0.5, 0.3, 0.2], [0.1, 0.2, 0.7]]), np.array([0, 1])), 0.5),
         ((np.array([[0.4, 0.3, 0.3]]), np.array([0])), 1.0),
     ),
-    cases=agreement_cases,
     mistakes=(
-        Mistake(
-            answer=lambda pi, actions: np.mean(pi[np.arange(len(pi)), actions]),
-            says="This is the mean probability of the demonstrated action. A greedy driver takes the most probable "
-            "one, be it at 0.4 or at 0.9.",
-            belief="A policy acts as often as it is sure.",
-        ),
-        Mistake(
-            answer=lambda pi, actions: np.sum(pi.argmax(axis=1) == actions),
-            says="You count the states. The share of them is asked for.",
-            belief="The number of hits is the agreement.",
-        ),
-        Mistake(
-            answer=lambda pi, actions: np.mean(pi.argmax(axis=1) != actions),
-            says="This is the share of *disagreement*.",
-            belief="Error rate and accuracy were mixed up.",
-        ),
-        Mistake(
-            answer=lambda pi, actions: np.mean(pi[np.arange(len(pi)), actions] > 0.5),
-            says="You ask for more than one half. With nine actions the most probable one may have less.",
-            belief="Most probable means more probable than all others together.",
-        ),
+        Mistake(lambda pi, actions: np.mean(pi[np.arange(len(pi)), actions]),
+            "This is the mean probability of the demonstrated action. A greedy driver takes the most probable one, be "
+            "it at 0.4 or at 0.9.",
+            "A policy acts as often as it is sure."),
+        Mistake(lambda pi, actions: np.sum(pi.argmax(axis=1) == actions),
+            "You count the states. The share of them is asked for.",
+            "The number of hits is the agreement."),
+        Mistake(lambda pi, actions: np.mean(pi.argmax(axis=1) != actions),
+            "This is the share of *disagreement*.",
+            "Error rate and accuracy were mixed up."),
+        Mistake(lambda pi, actions: np.mean(pi[np.arange(len(pi)), actions] > 0.5),
+            "You ask for more than one half. With nine actions the most probable one may have less.",
+            "Most probable means more probable than all others together."),
     ),
     hints=(
         "Which action would the policy take in each state?",
         "`pi.argmax(axis=1)` is the most probable action of each row.",
         "`np.mean(pi.argmax(axis=1) == actions)`",
     ),
-    minutes=3,
-    difficulty=1,
-    equation="the share of states in which argmax π(·|s) = a_E",
-)
+    minutes=3, difficulty=1, equation="the share of states in which argmax π(·|s) = a_E",
+)  # fmt: skip
 
 
 def cloning_cases(rng):
@@ -251,56 +204,39 @@ def chosen(log_pi, actions):
 
 
 cloning_loss = Exercise(
-    call="cloning_loss(log_pi, expert_actions)",
-    solution=bc.cloning_loss,
+    "cloning_loss(log_pi, expert_actions)",
+    solution=bc.cloning_loss, cases=cloning_cases,
     worked=(
-        (
-            (torch.tensor([[0.5, 0.25, 0.25], [0.1, 0.1, 0.8]]).log(), torch.tensor([0, 1])),
-            torch.tensor((np.log(2) + np.log(10)) / 2),
-        ),
+        ((torch.tensor([[0.5, 0.25, 0.25], [0.1, 0.1, 0.8]]).log(), torch.tensor([0, 1])),
+         torch.tensor((np.log(2) + np.log(10)) / 2)),
     ),
-    cases=cloning_cases,
     mistakes=(
-        Mistake(
-            answer=lambda log_pi, actions: chosen(log_pi, actions).mean(),
-            says="Your sign is turned: gradient *descent* on this makes the demonstrated actions less probable.",
-            belief="One maximises the log-likelihood, and so does the optimiser.",
-        ),
-        Mistake(
-            answer=lambda log_pi, actions: -chosen(log_pi, actions).sum(),
-            says="You add up over the batch: take the mean, or the step grows with the batch.",
-            belief="A sum and a mean differ by a constant only.",
-        ),
-        Mistake(
-            answer=lambda log_pi, actions: -chosen(log_pi, actions).exp().mean(),
-            says="You use the probability, not its logarithm: an action of probability 0.01 hardly pulls then.",
-            belief="More probability is what is wanted, so that is the loss.",
-        ),
-        Mistake(
-            answer=lambda log_pi, actions: -log_pi.mean(),
-            says="You average over all nine actions. Only the demonstrated one of each state counts.",
-            belief="The loss is a function of log π.",
-        ),
-        Mistake(
-            answer=lambda log_pi, actions: -log_pi.amax(-1).mean(),
-            says="You make the policy surer of what it prefers already. The demonstrator's action is to become likely.",
-            belief="The best action is the demonstrated one.",
-        ),
-        Mistake(
-            answer=lambda log_pi, actions: -chosen(log_pi, actions),
-            says="This is the loss of each state: take the mean over the batch.",
-            belief="The optimiser averages.",
-        ),
+        Mistake(lambda log_pi, actions: chosen(log_pi, actions).mean(),
+            "Your sign is turned: gradient *descent* on this makes the demonstrated actions less probable.",
+            "One maximises the log-likelihood, and so does the optimiser."),
+        Mistake(lambda log_pi, actions: -chosen(log_pi, actions).sum(),
+            "You add up over the batch: take the mean, or the step grows with the batch.",
+            "A sum and a mean differ by a constant only."),
+        Mistake(lambda log_pi, actions: -chosen(log_pi, actions).exp().mean(),
+            "You use the probability, not its logarithm: an action of probability 0.01 hardly pulls then.",
+            "More probability is what is wanted, so that is the loss."),
+        Mistake(lambda log_pi, actions: -log_pi.mean(),
+            "You average over all nine actions. Only the demonstrated one of each state counts.",
+            "The loss is a function of log π."),
+        Mistake(lambda log_pi, actions: -log_pi.amax(-1).mean(),
+            "You make the policy surer of what it prefers already. The demonstrator's action is to become likely.",
+            "The best action is the demonstrated one."),
+        Mistake(lambda log_pi, actions: -chosen(log_pi, actions),
+            "This is the loss of each state: take the mean over the batch.",
+            "The optimiser averages."),
     ),
     hints=(
         "For each state: the logarithm of the probability that the policy gives to the demonstrated action.",
         "`log_pi.gather(-1, expert_actions.unsqueeze(-1))` picks it out.",
         "`-log_pi.gather(-1, expert_actions.unsqueeze(-1)).mean()`",
     ),
-    minutes=5,
-    difficulty=1,
-    equation="-E log π(a_E|s), bootcourse.learn.bc (Pomerleau 1991)",
-)
+    minutes=5, difficulty=1, equation="-E log π(a_E|s), bootcourse.learn.bc (Pomerleau 1991)",
+)  # fmt: skip
 
 
 def any_error_solution(error_rate, decisions):
@@ -315,48 +251,30 @@ def any_error_cases(rng):
 
 
 any_error = Exercise(
-    call="any_error(error_rate, decisions)",
-    solution=any_error_solution,
-    worked=(
-        ((0.5, 2), 0.75),
-        ((0.1, 1), 0.1),
-        ((0.0, 150), 0.0),
-    ),
-    cases=any_error_cases,
+    "any_error(error_rate, decisions)",
+    solution=any_error_solution, cases=any_error_cases,
+    worked=(((0.5, 2), 0.75), ((0.1, 1), 0.1), ((0.0, 150), 0.0)),
     mistakes=(
-        Mistake(
-            answer=lambda rate, decisions: (1 - rate) ** decisions,
-            says="This is the probability that *nothing* goes wrong. At least one error is what is left of 1.",
-            belief="The complement was forgotten at the end.",
-        ),
-        Mistake(
-            answer=lambda rate, decisions: rate * decisions,
-            says="This is the expected *number* of errors, which may exceed 1.",
-            belief="Probabilities of several chances are added.",
-        ),
-        Mistake(
-            answer=lambda rate, decisions: min(1.0, rate * decisions),
-            says="A sum that is cut off at 1 counts drives with two errors twice. Multiply the chances that all goes "
-            "well.",
-            belief="Probabilities are added until they are certain.",
-        ),
-        Mistake(
-            answer=lambda rate, decisions: rate**decisions,
-            says="This is the probability that *every* decision is wrong.",
-            belief="Independent chances are multiplied, whatever the question.",
-        ),
-        Mistake(
-            answer=lambda rate, decisions: 1 - rate**decisions,
-            says="This is the probability that not *everything* is wrong: multiply the chances of being right.",
-            belief="The opposite of 'all wrong' is 'all right'.",
-        ),
+        Mistake(lambda rate, decisions: (1 - rate) ** decisions,
+            "This is the probability that *nothing* goes wrong. At least one error is what is left of 1.",
+            "The complement was forgotten at the end."),
+        Mistake(lambda rate, decisions: rate * decisions,
+            "This is the expected *number* of errors, which may exceed 1.",
+            "Probabilities of several chances are added."),
+        Mistake(lambda rate, decisions: min(1.0, rate * decisions),
+            "A sum that is cut off at 1 counts drives with two errors twice. Multiply the chances that all goes well.",
+            "Probabilities are added until they are certain."),
+        Mistake(lambda rate, decisions: rate**decisions,
+            "This is the probability that *every* decision is wrong.",
+            "Independent chances are multiplied, whatever the question."),
+        Mistake(lambda rate, decisions: 1 - rate**decisions,
+            "This is the probability that not *everything* is wrong: multiply the chances of being right.",
+            "The opposite of 'all wrong' is 'all right'."),
     ),
     hints=(
         "What is the probability that one decision is right? That all of them are?",
         "`(1 - error_rate) ** decisions` is the probability of no error.",
         "`1 - (1 - error_rate) ** decisions`",
     ),
-    minutes=3,
-    difficulty=1,
-    equation="1 - (1 - ε)^T",
-)
+    minutes=3, difficulty=1, equation="1 - (1 - ε)^T",
+)  # fmt: skip

@@ -9,8 +9,6 @@ from bootcourse.learn import bootstrap
 from bootcourse.lessons.exercise import Exercise, Mistake
 from bootcourse.lessons.exercises.slopes import loss_and_slopes
 
-# The stochastic rule --------------------------------------------------------------------------------
-
 
 def log_stochastic_rule_solution(rule_action, p):
     log_rule = torch.full((len(rule_action), 9), math.log((1 - p) / 8))
@@ -27,58 +25,38 @@ def rule_cases(rng):
 
 
 log_stochastic_rule = Exercise(
-    call="log_stochastic_rule(rule_action, p)",
-    solution=log_stochastic_rule_solution,
+    "log_stochastic_rule(rule_action, p)",
+    solution=log_stochastic_rule_solution, cases=rule_cases,
     worked=(
-        (
-            (torch.tensor([3]), 0.9),
-            torch.tensor([[math.log(0.0125)] * 3 + [math.log(0.9)] + [math.log(0.0125)] * 5]),
-        ),
+        ((torch.tensor([3]), 0.9), torch.tensor([[math.log(0.0125)] * 3 + [math.log(0.9)] + [math.log(0.0125)] * 5])),
     ),
-    cases=rule_cases,
     mistakes=(
-        Mistake(
-            answer=lambda rule_action, p: log_rule(rule_action, p, (1 - p) / 8).exp(),
-            says="These are the probabilities themselves. Return their natural logarithms.",
-            belief="The name is a habit; the logarithm is taken later.",
-        ),
-        Mistake(
-            answer=lambda rule_action, p: log_rule(rule_action, p, 1 - p),
-            says="Your nine probabilities add up to more than 1: the other eight actions *share* 1 - p.",
-            belief="1 - p is the probability of each other action.",
-        ),
-        Mistake(
-            answer=lambda rule_action, p: log_rule(rule_action, p, (1 - p) / 9),
-            says="Your nine probabilities add up to less than 1: the rule's own action has its p, so eight are left.",
-            belief="There are nine actions, so the rest is shared by nine.",
-        ),
-        Mistake(
-            answer=lambda rule_action, p: log_rule(rule_action, p, (1 - p) / 8) / math.log(10),
-            says="You took the logarithm to base 10. A price in nats needs the natural one, `math.log` or `torch.log`.",
-            belief="log means log10, as on a calculator.",
-        ),
-        Mistake(
-            answer=lambda rule_action, p: -log_rule(rule_action, p, (1 - p) / 8),
-            says="Your sign is turned: these are the prices. The logarithm of a probability is never above 0.",
-            belief="The text speaks of prices, so prices are returned.",
-        ),
-        Mistake(
-            answer=lambda rule_action, p: log_rule(rule_action[:1].expand(len(rule_action)), p, (1 - p) / 8),
-            says="Every row of yours says the same: each state has an action of the rule of its own.",
-            belief="Indexing with the first action is enough, since a batch is alike.",
-        ),
+        Mistake(lambda rule_action, p: log_rule(rule_action, p, (1 - p) / 8).exp(),
+            "These are the probabilities themselves. Return their natural logarithms.",
+            "The name is a habit; the logarithm is taken later."),
+        Mistake(lambda rule_action, p: log_rule(rule_action, p, 1 - p),
+            "Your nine probabilities add up to more than 1: the other eight actions *share* 1 - p.",
+            "1 - p is the probability of each other action."),
+        Mistake(lambda rule_action, p: log_rule(rule_action, p, (1 - p) / 9),
+            "Your nine probabilities add up to less than 1: the rule's own action has its p, so eight are left.",
+            "There are nine actions, so the rest is shared by nine."),
+        Mistake(lambda rule_action, p: log_rule(rule_action, p, (1 - p) / 8) / math.log(10),
+            "You took the logarithm to base 10. A price in nats needs the natural one, `math.log` or `torch.log`.",
+            "log means log10, as on a calculator."),
+        Mistake(lambda rule_action, p: -log_rule(rule_action, p, (1 - p) / 8),
+            "Your sign is turned: these are the prices. The logarithm of a probability is never above 0.",
+            "The text speaks of prices, so prices are returned."),
+        Mistake(lambda rule_action, p: log_rule(rule_action[:1].expand(len(rule_action)), p, (1 - p) / 8),
+            "Every row of yours says the same: each state has an action of the rule of its own.",
+            "Indexing with the first action is enough, since a batch is alike."),
     ),
     hints=(
         "Begin with a tensor of shape (batch, 9) that holds log((1 - p) / 8) everywhere.",
         "Then write log(p) into one column of each row: the one whose number stands in `rule_action`.",
         "`log_rule.scatter(-1, rule_action.unsqueeze(-1), math.log(p))`",
     ),
-    minutes=5,
-    difficulty=1,
-    equation="log π̃(a|s), Section IV-A, Equation of the stochastic rule",
-)
-
-# The Kullback-Leibler divergence --------------------------------------------------------------------
+    minutes=5, difficulty=1, equation="log π̃(a|s), Section IV-A, Equation of the stochastic rule",
+)  # fmt: skip
 
 
 def log_rule(rule_action, p, others):
@@ -131,67 +109,46 @@ def cases(rng):
 
 
 soft_constraint = Exercise(
-    call="soft_constraint(log_pi, rule_action, p)",
-    solution=solution,
+    "soft_constraint(log_pi, rule_action, p)",
+    solution=solution, cases=cases,
     worked=(
         ((sure(5), torch.tensor([3]), 0.9), torch.tensor([math.log(80)])),  # log 1 / (0.1 / 8): 4.4 nats
         ((sure(3), torch.tensor([3]), 0.9), torch.tensor([-math.log(0.9)])),  # in agreement: log 1 / 0.9
     ),
-    cases=cases,
     mistakes=(
-        Mistake(
-            answer=reverse,
-            says="Your KL is the other way round: it is large where the *rule* puts mass and the policy does not. "
-            "The paper charges the policy for going where the rule would not.",
-            belief="A divergence is a distance, so its order does not matter.",
-        ),
-        Mistake(
-            answer=cross_entropy,
-            says="This is the cross-entropy: without the policy's own entropy it is not zero where both agree.",
-            belief="The log π part does not depend on the rule, so it can be dropped. Its gradient cannot.",
-        ),
-        Mistake(
-            answer=unweighted,
-            says="You add up the log-ratios without weighing them: each counts as often as the policy acts so.",
-            belief="The sum over actions is the expectation.",
-        ),
-        Mistake(
-            answer=not_shared,
-            says="Your rule's probabilities add up to more than 1: the other eight actions *share* 1 - p.",
-            belief="1 - p is the probability of each other action.",
-        ),
-        Mistake(
-            answer=shared_by_nine,
-            says="You shared 1 - p among nine actions, but the rule's own has its p already: eight are left.",
-            belief="The noise is uniform over all nine. (Then the rule's own action would have p + (1 - p) / 9.)",
-        ),
-        Mistake(
-            answer=lambda log_pi, rule_action, p: -solution(log_pi, rule_action, p),
-            says="Your sign is turned: a KL divergence is never negative.",
-            belief="The constraint is subtracted in the objective, so the minus is put into the KL as well.",
-        ),
-        Mistake(
-            answer=lambda log_pi, rule_action, p: solution(log_pi, rule_action, p) / math.log(2),
-            says="You measure in bits. The paper's ξ, like every loss here, expects nats: the natural logarithm.",
-            belief="Information is measured with log 2.",
-        ),
-        Mistake(
-            answer=lambda log_pi, rule_action, p: solution(log_pi, rule_action, p).mean(),
-            says="You took the mean over the batch: return one number for each state, the loss averages later.",
-            belief="A loss term is a scalar.",
-        ),
+        Mistake(reverse,
+            "Your KL is the other way round: it is large where the *rule* puts mass and the policy does not. The paper "
+            "charges the policy for going where the rule would not.",
+            "A divergence is a distance, so its order does not matter."),
+        Mistake(cross_entropy,
+            "This is the cross-entropy: without the policy's own entropy it is not zero where both agree.",
+            "The log π part does not depend on the rule, so it can be dropped. Its gradient cannot."),
+        Mistake(unweighted,
+            "You add up the log-ratios without weighing them: each counts as often as the policy acts so.",
+            "The sum over actions is the expectation."),
+        Mistake(not_shared,
+            "Your rule's probabilities add up to more than 1: the other eight actions *share* 1 - p.",
+            "1 - p is the probability of each other action."),
+        Mistake(shared_by_nine,
+            "You shared 1 - p among nine actions, but the rule's own has its p already: eight are left.",
+            "The noise is uniform over all nine. (Then the rule's own action would have p + (1 - p) / 9.)"),
+        Mistake(lambda log_pi, rule_action, p: -solution(log_pi, rule_action, p),
+            "Your sign is turned: a KL divergence is never negative.",
+            "The constraint is subtracted in the objective, so the minus is put into the KL as well."),
+        Mistake(lambda log_pi, rule_action, p: solution(log_pi, rule_action, p) / math.log(2),
+            "You measure in bits. The paper's ξ, like every loss here, expects nats: the natural logarithm.",
+            "Information is measured with log 2."),
+        Mistake(lambda log_pi, rule_action, p: solution(log_pi, rule_action, p).mean(),
+            "You took the mean over the batch: return one number for each state, the loss averages later.",
+            "A loss term is a scalar."),
     ),
     hints=(
         "Write log π̃ first: an array of the shape of `log_pi` that holds log((1 - p) / 8), and log p in one column.",
         "The KL is an expectation under the *policy*: π times the difference of the logarithms, summed over actions.",
         "`(log_pi.exp() * (log_pi - log_rule)).sum(-1)`",
     ),
-    minutes=5,
-    difficulty=2,
-    equation="D_KL(π(·|s) ‖ π̃(·|s)), Section IV-A",
-)
-
-# The best compromise --------------------------------------------------------------------------------
+    minutes=5, difficulty=2, equation="D_KL(π(·|s) ‖ π̃(·|s)), Section IV-A",
+)  # fmt: skip
 
 
 def policy_cases(rng):
@@ -210,61 +167,42 @@ def policy_cases(rng):
 
 
 regularised_policy = Exercise(
-    call="regularised_policy(q, log_rule, alpha, xi)",
-    solution=bootstrap.regularised_policy,
+    "regularised_policy(q, log_rule, alpha, xi)",
+    solution=bootstrap.regularised_policy, cases=policy_cases,
     worked=(
         # two actions, Q equal: π̃ counts with ξ / (α + ξ) = 1/2, so with the roots of 0.8 and 0.2
         ((torch.zeros(1, 2), torch.tensor([[0.8, 0.2]]).log(), 1.0, 1.0), torch.tensor([[2 / 3, 1 / 3]])),
         # no rule: softmax(Q / α), with e² to 1
-        (
-            (torch.tensor([[1.0, 0.0]]), torch.tensor([[0.5, 0.5]]).log(), 0.5, 0.0),
-            torch.tensor([[0.880797, 0.119203]]),
-        ),
+        ((torch.tensor([[1.0, 0.0]]), torch.tensor([[0.5, 0.5]]).log(), 0.5, 0.0),
+         torch.tensor([[0.880797, 0.119203]])),
     ),
-    cases=policy_cases,
     mistakes=(
-        Mistake(
-            answer=lambda q, log_rule, alpha, xi: ((q + xi * log_rule) / alpha).softmax(-1),
-            says="You divide by α alone. The KL brings an entropy of its own, with weight ξ: divide by α + ξ.",
-            belief="The temperature of a softmax is α, as in SAC.",
-        ),
-        Mistake(
-            answer=lambda q, log_rule, alpha, xi: (q / alpha + xi * log_rule).softmax(-1),
-            says="You divide Q alone. Both, the values and the rule's pull, are divided by α + ξ.",
-            belief="The rule's pull is added to SAC's own softmax at the end.",
-        ),
-        Mistake(
-            answer=lambda q, log_rule, alpha, xi: ((q - xi * log_rule) / (alpha + xi)).softmax(-1),
-            says="Your rule pushes away: log π̃ is negative, and it is *added*, so that unlikely actions lose.",
-            belief="The KL is subtracted in the objective, so log π̃ is subtracted, too.",
-        ),
-        Mistake(
-            answer=lambda q, log_rule, alpha, xi: ((q + xi * log_rule.exp()) / (alpha + xi)).softmax(-1),
-            says="You add ξ π̃. It is the *logarithm* of the rule's probability that stands beside Q.",
-            belief="The rule's probabilities are a bonus on Q.",
-        ),
-        Mistake(
-            answer=lambda q, log_rule, alpha, xi: ((q + xi * log_rule) / (alpha + xi)).log_softmax(-1),
-            says="You return logarithms. Return the probabilities: each row adds up to 1.",
-            belief="log_softmax is the stable softmax, so it is always the right one.",
-        ),
-        Mistake(
-            answer=lambda q, log_rule, alpha, xi: ((q + xi * log_rule) / (alpha + xi)).softmax(0),
-            says="You normalise over the states. Each *row* is one policy: the softmax runs over the last axis.",
-            belief="softmax(0) takes the first axis that matters.",
-        ),
+        Mistake(lambda q, log_rule, alpha, xi: ((q + xi * log_rule) / alpha).softmax(-1),
+            "You divide by α alone. The KL brings an entropy of its own, with weight ξ: divide by α + ξ.",
+            "The temperature of a softmax is α, as in SAC."),
+        Mistake(lambda q, log_rule, alpha, xi: (q / alpha + xi * log_rule).softmax(-1),
+            "You divide Q alone. Both, the values and the rule's pull, are divided by α + ξ.",
+            "The rule's pull is added to SAC's own softmax at the end."),
+        Mistake(lambda q, log_rule, alpha, xi: ((q - xi * log_rule) / (alpha + xi)).softmax(-1),
+            "Your rule pushes away: log π̃ is negative, and it is *added*, so that unlikely actions lose.",
+            "The KL is subtracted in the objective, so log π̃ is subtracted, too."),
+        Mistake(lambda q, log_rule, alpha, xi: ((q + xi * log_rule.exp()) / (alpha + xi)).softmax(-1),
+            "You add ξ π̃. It is the *logarithm* of the rule's probability that stands beside Q.",
+            "The rule's probabilities are a bonus on Q."),
+        Mistake(lambda q, log_rule, alpha, xi: ((q + xi * log_rule) / (alpha + xi)).log_softmax(-1),
+            "You return logarithms. Return the probabilities: each row adds up to 1.",
+            "log_softmax is the stable softmax, so it is always the right one."),
+        Mistake(lambda q, log_rule, alpha, xi: ((q + xi * log_rule) / (alpha + xi)).softmax(0),
+            "You normalise over the states. Each *row* is one policy: the softmax runs over the last axis.",
+            "softmax(0) takes the first axis that matters."),
     ),
     hints=(
         "What multiplies π(a) in the objective, and what multiplies π(a) log π(a)?",
         "π(a) is multiplied by Q + ξ log π̃, and π log π by -(α + ξ): a softmax of the first, divided by the second.",
         "`((q + xi * log_rule) / (alpha + xi)).softmax(-1)`",
     ),
-    minutes=8,
-    difficulty=2,
-    equation="π* = softmax((Q + ξ log π̃) / (α + ξ)), from the objective of Section IV-A",
-)
-
-# Where the KL enters --------------------------------------------------------------------------------
+    minutes=8, difficulty=2, equation="π* = softmax((Q + ξ log π̃) / (α + ξ)), from the objective of Section IV-A",
+)  # fmt: skip
 
 
 def constrained_loss_solution(log_pi, q, alpha, xi, kl):
@@ -298,68 +236,44 @@ def loss_cases(rng):
 
 
 constrained_loss = Exercise(
-    call="constrained_loss(log_pi, q, alpha, xi, kl)",
-    solution=constrained_loss_solution,
+    "constrained_loss(log_pi, q, alpha, xi, kl)",
+    solution=constrained_loss_solution, cases=loss_cases, run=run_loss,
     worked=(
         # two actions, half and half: V = (1 + 3)/2 + 0.5 log 2 - 2 · 0.25, its slope -π (Q - α log π - α)
-        (
-            (torch.full((1, 2), -math.log(2)), torch.tensor([[1.0, 3.0]]), 0.5, 2.0, torch.tensor([0.25])),
-            (
-                torch.tensor(-(2 + 0.5 * math.log(2) - 0.5)),
-                torch.tensor([[-0.25 - 0.25 * math.log(2), -1.25 - 0.25 * math.log(2)]]),
-                torch.zeros(1, 2),
-                torch.tensor([2.0]),
-            ),
-        ),
+        ((torch.full((1, 2), -math.log(2)), torch.tensor([[1.0, 3.0]]), 0.5, 2.0, torch.tensor([0.25])),
+         (torch.tensor(-(2 + 0.5 * math.log(2) - 0.5)),
+          torch.tensor([[-0.25 - 0.25 * math.log(2), -1.25 - 0.25 * math.log(2)]]), torch.zeros(1, 2),
+          torch.tensor([2.0]))),
     ),
-    cases=loss_cases,
-    run=run_loss,
     mistakes=(
-        Mistake(
-            answer=undetached,
-            says="Your value is right, but the gradient flows into Q, too: the actor would bend the critic's opinion "
-            "to please itself. Use `q.detach()`.",
-            belief="Whatever is not in the optimiser does not matter. Here one optimiser holds both networks.",
-        ),
-        Mistake(
-            answer=rewarded,
-            says="You pay the actor for leaving the rule: your loss falls where the KL grows. It is subtracted from V.",
-            belief="A penalty is added; that the sign turns with the minus of the loss is forgotten.",
-        ),
-        Mistake(
-            answer=frozen_kl,
-            says="Your KL has no gradient: the loss shows it, but the actor never feels it. Detach Q, not the KL.",
-            belief="Everything that is not π is detached in the actor's loss.",
-        ),
-        Mistake(
-            answer=lambda log_pi, q, alpha, xi, kl: -constrained_loss_solution(log_pi, q, alpha, xi, kl),
-            says="This is the value, and it would be made *small*. A loss is what one wants less of: -V.",
-            belief="The objective is maximised, and a loss is the objective.",
-        ),
-        Mistake(
-            answer=lambda log_pi, q, alpha, xi, kl: constrained_loss_solution(log_pi, q, alpha, 1.0, kl),
-            says="Your KL has no weight: multiply it by ξ.",
-            belief="A KL in nats is already on the reward's scale.",
-        ),
-        Mistake(
-            answer=lambda log_pi, q, alpha, xi, kl: (
-                -((log_pi.exp() * (q.detach() + alpha * log_pi)).sum(-1) - xi * kl).mean()
-            ),
-            says="You charge for entropy: H is *minus* the sum of π log π, so α log π is subtracted from Q.",
-            belief="Entropy is the sum of π log π.",
-        ),
+        Mistake(undetached,
+            "Your value is right, but the gradient flows into Q, too: the actor would bend the critic's opinion to "
+            "please itself. Use `q.detach()`.",
+            "Whatever is not in the optimiser does not matter. Here one optimiser holds both networks."),
+        Mistake(rewarded,
+            "You pay the actor for leaving the rule: your loss falls where the KL grows. It is subtracted from V.",
+            "A penalty is added; that the sign turns with the minus of the loss is forgotten."),
+        Mistake(frozen_kl,
+            "Your KL has no gradient: the loss shows it, but the actor never feels it. Detach Q, not the KL.",
+            "Everything that is not π is detached in the actor's loss."),
+        Mistake(lambda log_pi, q, alpha, xi, kl: -constrained_loss_solution(log_pi, q, alpha, xi, kl),
+            "This is the value, and it would be made *small*. A loss is what one wants less of: -V.",
+            "The objective is maximised, and a loss is the objective."),
+        Mistake(lambda log_pi, q, alpha, xi, kl: constrained_loss_solution(log_pi, q, alpha, 1.0, kl),
+            "Your KL has no weight: multiply it by ξ.",
+            "A KL in nats is already on the reward's scale."),
+        Mistake(lambda log_pi, q, alpha, xi, kl:
+            (-((log_pi.exp() * (q.detach() + alpha * log_pi)).sum(-1) - xi * kl).mean()),
+            "You charge for entropy: H is *minus* the sum of π log π, so α log π is subtracted from Q.",
+            "Entropy is the sum of π log π."),
     ),
     hints=(
         "Write V of each state first: the expectation of Q - α log π under π, less ξ times its KL.",
         "The loss is minus the mean of V. Which of `q` and `kl` may not receive a gradient?",
         "`-((log_pi.exp() * (q.detach() - alpha * log_pi)).sum(-1) - xi * kl).mean()`",
     ),
-    minutes=8,
-    difficulty=2,
-    equation="-E_s[Σ_a π (Q - α log π) - ξ D_KL], Section IV-A",
-)
-
-# In time --------------------------------------------------------------------------------------------
+    minutes=8, difficulty=2, equation="-E_s[Σ_a π (Q - α log π) - ξ D_KL], Section IV-A",
+)  # fmt: skip
 
 
 def strength_cases(rng):
@@ -374,49 +288,34 @@ def strength_cases(rng):
 
 
 constraint_strength = Exercise(
-    call="constraint_strength(alpha, multiplier, fixed)",
-    solution=bootstrap.constraint_strength,
+    "constraint_strength(alpha, multiplier, fixed)",
+    solution=bootstrap.constraint_strength, cases=strength_cases,
     worked=(
         # three agents: ξ = 200 · 0.01; the same α, but ξ fixed at 0.5; ξ fixed at 0
-        (
-            (torch.tensor([0.01, 0.01, 0.01]), torch.tensor([200.0, 200.0, 200.0]), torch.tensor([-1.0, 0.5, 0.0])),
-            torch.tensor([2.0, 0.5, 0.0]),
-        ),
+        ((torch.tensor([0.01, 0.01, 0.01]), torch.tensor([200.0, 200.0, 200.0]), torch.tensor([-1.0, 0.5, 0.0])),
+         torch.tensor([2.0, 0.5, 0.0])),
     ),
-    cases=strength_cases,
     mistakes=(
-        Mistake(
-            answer=lambda alpha, multiplier, fixed: torch.where(fixed > 0, fixed, multiplier * alpha),
-            says="A fixed ξ of 0 counts, too: it means 'no rule at all'. Only a negative one means 'use 200 α'.",
-            belief="0 is 'not given', as `if fixed:` would have it.",
-        ),
-        Mistake(
-            answer=lambda alpha, multiplier, fixed: multiplier * alpha,
-            says="You never look at `fixed`: where it is 0 or more, it is the ξ.",
-            belief="The paper's ξ = 200 α is the only one there is.",
-        ),
-        Mistake(
-            answer=lambda alpha, multiplier, fixed: torch.where(fixed >= 0, fixed * alpha, multiplier * alpha),
-            says="You multiply the fixed ξ by α. It stands for itself, whatever α does.",
-            belief="`fixed` is another multiplier.",
-        ),
-        Mistake(
-            answer=lambda alpha, multiplier, fixed: torch.where(fixed >= 0, multiplier * alpha, fixed),
-            says="Your two cases are swapped: negative numbers come out, and a negative ξ pushes away from the rule.",
-            belief="torch.where(condition, no, yes).",
-        ),
-        Mistake(
-            answer=lambda alpha, multiplier, fixed: torch.maximum(fixed, multiplier * alpha),
-            says="You take the larger of the two. A fixed ξ counts also where 200 α is larger.",
-            belief="The negative number is there so that max picks the other.",
-        ),
+        Mistake(lambda alpha, multiplier, fixed: torch.where(fixed > 0, fixed, multiplier * alpha),
+            "A fixed ξ of 0 counts, too: it means 'no rule at all'. Only a negative one means 'use 200 α'.",
+            "0 is 'not given', as `if fixed:` would have it."),
+        Mistake(lambda alpha, multiplier, fixed: multiplier * alpha,
+            "You never look at `fixed`: where it is 0 or more, it is the ξ.",
+            "The paper's ξ = 200 α is the only one there is."),
+        Mistake(lambda alpha, multiplier, fixed: torch.where(fixed >= 0, fixed * alpha, multiplier * alpha),
+            "You multiply the fixed ξ by α. It stands for itself, whatever α does.",
+            "`fixed` is another multiplier."),
+        Mistake(lambda alpha, multiplier, fixed: torch.where(fixed >= 0, multiplier * alpha, fixed),
+            "Your two cases are swapped: negative numbers come out, and a negative ξ pushes away from the rule.",
+            "torch.where(condition, no, yes)."),
+        Mistake(lambda alpha, multiplier, fixed: torch.maximum(fixed, multiplier * alpha),
+            "You take the larger of the two. A fixed ξ counts also where 200 α is larger.",
+            "The negative number is there so that max picks the other."),
     ),
     hints=(
         "Each agent has its own α, its own multiplier and its own `fixed`: work on whole tensors, without `if`.",
         "`torch.where(condition, a, b)` takes a where the condition holds, and b elsewhere.",
         "`torch.where(fixed >= 0, fixed, ...)`",
     ),
-    minutes=3,
-    difficulty=1,
-    equation="ξ = 200 α, Section IV-A; or a fixed ξ",
-)
+    minutes=3, difficulty=1, equation="ξ = 200 α, Section IV-A; or a fixed ξ",
+)  # fmt: skip

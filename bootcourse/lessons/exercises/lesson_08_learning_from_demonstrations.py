@@ -6,8 +6,6 @@ import torch
 from bootcourse.learn import bootstrap
 from bootcourse.lessons.exercise import Exercise, Mistake
 
-# β --------------------------------------------------------------------------------------------------
-
 
 def share_cases(rng):
     """The first episode, the last, long after, all at once, a start of 1; then 40 at random."""
@@ -21,48 +19,33 @@ def share_cases(rng):
 
 
 demonstration_share = Exercise(
-    call="demonstration_share(episode, beta_start, beta_episodes)",
-    solution=bootstrap.demonstration_share,
+    "demonstration_share(episode, beta_start, beta_episodes)",
+    solution=bootstrap.demonstration_share, cases=share_cases,
     worked=(((500, 0.6, 1000), 0.3), ((2000, 0.6, 1000), 0.0)),
-    cases=share_cases,
     mistakes=(
-        Mistake(
-            answer=lambda episode, start, episodes: start * (1 - np.asarray(episode) / episodes),
-            says="After the last of the `beta_episodes` your share is negative. From there on it stays 0.",
-            belief="A straight line is a straight line; that training goes on behind its end is not thought of.",
-        ),
-        Mistake(
-            answer=lambda episode, start, episodes: np.clip(1 - np.asarray(episode) / episodes, 0, start),
-            says="Your share starts to fall late: the line has to go from `beta_start` at episode 0, not from 1.",
-            belief="The line runs from 1 to 0, and beta_start is a ceiling on it.",
-        ),
-        Mistake(
-            answer=lambda episode, start, episodes: np.clip(start - np.asarray(episode) / episodes, 0, 1),
-            says="Your share reaches 0 too early: it falls by `beta_start` in `beta_episodes`, not by 1.",
-            belief="Each episode takes away 1 / beta_episodes.",
-        ),
-        Mistake(
-            answer=lambda episode, start, episodes: start * np.clip(np.asarray(episode) / episodes, 0, 1),
-            says="Your share grows with the episodes: the teacher has to leave, not to arrive.",
-            belief="episode / beta_episodes is the progress, so it is multiplied in.",
-        ),
-        Mistake(
-            answer=lambda episode, start, episodes: start * 0.001 ** (np.asarray(episode) / episodes),
-            says="Your share falls exponentially. The text asks for a straight line that ends at 0.",
-            belief="Everything that decays in machine learning decays exponentially.",
-        ),
+        Mistake(lambda episode, start, episodes: start * (1 - np.asarray(episode) / episodes),
+            "After the last of the `beta_episodes` your share is negative. From there on it stays 0.",
+            "A straight line is a straight line; that training goes on behind its end is not thought of."),
+        Mistake(lambda episode, start, episodes: np.clip(1 - np.asarray(episode) / episodes, 0, start),
+            "Your share starts to fall late: the line has to go from `beta_start` at episode 0, not from 1.",
+            "The line runs from 1 to 0, and beta_start is a ceiling on it."),
+        Mistake(lambda episode, start, episodes: np.clip(start - np.asarray(episode) / episodes, 0, 1),
+            "Your share reaches 0 too early: it falls by `beta_start` in `beta_episodes`, not by 1.",
+            "Each episode takes away 1 / beta_episodes."),
+        Mistake(lambda episode, start, episodes: start * np.clip(np.asarray(episode) / episodes, 0, 1),
+            "Your share grows with the episodes: the teacher has to leave, not to arrive.",
+            "episode / beta_episodes is the progress, so it is multiplied in."),
+        Mistake(lambda episode, start, episodes: start * 0.001 ** (np.asarray(episode) / episodes),
+            "Your share falls exponentially. The text asks for a straight line that ends at 0.",
+            "Everything that decays in machine learning decays exponentially."),
     ),
     hints=(
         "Which share of the way to `beta_episodes` has been driven, and which is left?",
         "What is left is 1 - episode / beta_episodes, but never below 0. `np.clip` works for numbers and arrays.",
         "`beta_start * np.clip(1 - episode / beta_episodes, 0, 1)`",
     ),
-    minutes=3,
-    difficulty=1,
-    equation="β, from 0.6 to 0 over 1000 episodes, Section IV-B",
-)
-
-# The bonus ------------------------------------------------------------------------------------------
+    minutes=3, difficulty=1, equation="β, from 0.6 to 0 over 1000 episodes, Section IV-B",
+)  # fmt: skip
 
 
 def reward_cases(rng):
@@ -76,54 +59,36 @@ def reward_cases(rng):
 
 
 augmented_reward = Exercise(
-    call="augmented_reward(reward, is_demonstration, bonus)",
-    solution=bootstrap.augmented_reward,
+    "augmented_reward(reward, is_demonstration, bonus)",
+    solution=bootstrap.augmented_reward, cases=reward_cases,
     worked=(
-        (
-            (torch.tensor([0.15, 0.15, -10.0]), torch.tensor([1.0, 0.0, 0.0]), 2.0),
-            torch.tensor([2.15, 0.15, -10.0]),
-        ),
+        ((torch.tensor([0.15, 0.15, -10.0]), torch.tensor([1.0, 0.0, 0.0]), 2.0), torch.tensor([2.15, 0.15, -10.0])),
     ),
-    cases=reward_cases,
     mistakes=(
-        Mistake(
-            answer=lambda reward, is_demonstration, bonus: reward + bonus,
-            says="You pay the bonus to everybody, to the agent that stays behind the trap as well: only demonstrations "
-            "get it.",
-            belief="The bonus is a new reward function.",
-        ),
-        Mistake(
-            answer=lambda reward, is_demonstration, bonus: reward + bonus * (1 - is_demonstration),
-            says="Your bonus goes to the agent's own driving: `is_demonstration` is 1 where the *rule* drove.",
-            belief="The agent is to be encouraged, so it gets the bonus.",
-        ),
-        Mistake(
-            answer=lambda reward, is_demonstration, bonus: bonus * is_demonstration,
-            says="You throw the reward away. (SQIL does that, and pays 1 or 0.) Here the bonus comes on top of it.",
-            belief="Demonstrations are paid instead of rewarded.",
-        ),
-        Mistake(
-            answer=lambda reward, is_demonstration, bonus: reward * (1 + bonus * is_demonstration),
-            says="You multiply the reward. A demonstrated second that earns nothing has to get the bonus, too: add it.",
-            belief="A bonus is a percentage.",
-        ),
-        Mistake(
-            answer=lambda reward, is_demonstration, bonus: (reward + bonus * is_demonstration).mean(),
-            says="You took the mean over the batch: each transition keeps its own reward.",
-            belief="Everything in a loss ends in a mean.",
-        ),
+        Mistake(lambda reward, is_demonstration, bonus: reward + bonus,
+            "You pay the bonus to everybody, to the agent that stays behind the trap as well: only demonstrations get "
+            "it.",
+            "The bonus is a new reward function."),
+        Mistake(lambda reward, is_demonstration, bonus: reward + bonus * (1 - is_demonstration),
+            "Your bonus goes to the agent's own driving: `is_demonstration` is 1 where the *rule* drove.",
+            "The agent is to be encouraged, so it gets the bonus."),
+        Mistake(lambda reward, is_demonstration, bonus: bonus * is_demonstration,
+            "You throw the reward away. (SQIL does that, and pays 1 or 0.) Here the bonus comes on top of it.",
+            "Demonstrations are paid instead of rewarded."),
+        Mistake(lambda reward, is_demonstration, bonus: reward * (1 + bonus * is_demonstration),
+            "You multiply the reward. A demonstrated second that earns nothing has to get the bonus, too: add it.",
+            "A bonus is a percentage."),
+        Mistake(lambda reward, is_demonstration, bonus: (reward + bonus * is_demonstration).mean(),
+            "You took the mean over the batch: each transition keeps its own reward.",
+            "Everything in a loss ends in a mean."),
     ),
     hints=(
         "What is added where `is_demonstration` is 1, and what where it is 0?",
         "A product of two of the three arguments is the right amount in both cases.",
         "`reward + bonus * is_demonstration`",
     ),
-    minutes=3,
-    difficulty=1,
-    equation="r'(s, a_E) = r(s, a_E) + c, Section IV-B",
-)
-
-# The large margin -----------------------------------------------------------------------------------
+    minutes=3, difficulty=1, equation="r'(s, a_E) = r(s, a_E) + c, Section IV-B",
+)  # fmt: skip
 
 
 def q_cases(rng):
@@ -148,113 +113,74 @@ def others(q, expert_action):
 
 
 large_margin_loss = Exercise(
-    call="large_margin_loss(q, expert_action)",
-    solution=bootstrap.large_margin_loss,
+    "large_margin_loss(q, expert_action)",
+    solution=bootstrap.large_margin_loss, cases=q_cases,
     worked=(
         # the expert leads by 0.5: half a margin is missing. It is behind by 2: three are. It leads by 2: nothing is.
-        (
-            (torch.tensor([[1.5, 1.0], [1.0, 3.0], [3.0, 1.0]]), torch.tensor([0, 0, 0])),
-            torch.tensor([0.5, 3.0, 0.0]),
-        ),
+        ((torch.tensor([[1.5, 1.0], [1.0, 3.0], [3.0, 1.0]]), torch.tensor([0, 0, 0])), torch.tensor([0.5, 3.0, 0.0])),
     ),
-    cases=q_cases,
     mistakes=(
-        Mistake(
-            answer=lambda q, expert: (q + 1).amax(-1) - taken(q, expert),
-            says="Your loss is never 0: the expert's own action gets no margin, l(a_E, a_E) = 0.",
-            belief="The margin is a constant in the formula.",
-        ),
-        Mistake(
-            answer=lambda q, expert: q.amax(-1) - taken(q, expert),
-            says="You have no margin: your loss is content as soon as the expert's action is level with the best.",
-            belief="To be greedy is enough. Then a little noise undoes it.",
-        ),
-        Mistake(
-            answer=lambda q, expert: others(q, expert).amax(-1) + 1 - taken(q, expert),
-            says="Your loss goes below 0 where the expert leads by more than the margin: the maximum runs over *all* "
+        Mistake(lambda q, expert: (q + 1).amax(-1) - taken(q, expert),
+            "Your loss is never 0: the expert's own action gets no margin, l(a_E, a_E) = 0.",
+            "The margin is a constant in the formula."),
+        Mistake(lambda q, expert: q.amax(-1) - taken(q, expert),
+            "You have no margin: your loss is content as soon as the expert's action is level with the best.",
+            "To be greedy is enough. Then a little noise undoes it."),
+        Mistake(lambda q, expert: others(q, expert).amax(-1) + 1 - taken(q, expert),
+            "Your loss goes below 0 where the expert leads by more than the margin: the maximum runs over *all* "
             "actions, its own included.",
-            belief="The maximum is over the rivals.",
-        ),
-        Mistake(
-            answer=lambda q, expert: (
-                taken(q, expert) - (q + 1 - torch.nn.functional.one_hot(expert, q.shape[-1])).amax(-1)
-            ),
-            says="Your sign is turned: the loss grows with the expert's lead, so training would undo it.",
-            belief="The expert's value comes first, since it is the one that should be large.",
-        ),
-        Mistake(
-            answer=lambda q, expert: (
-                (q + 1 - torch.nn.functional.one_hot(expert, q.shape[-1])).sum(-1) - taken(q, expert)
-            ),
-            says="You add up the actions: what counts is the best rival alone, so take the maximum.",
-            belief="All wrong actions should be punished.",
-        ),
-        Mistake(
-            answer=lambda q, expert: bootstrap.large_margin_loss(q, expert).mean(),
-            says="You took the mean over the batch: the Q-filter still has to decide state by state.",
-            belief="A loss is a scalar.",
-        ),
+            "The maximum is over the rivals."),
+        Mistake(lambda q, expert:
+            (taken(q, expert) - (q + 1 - torch.nn.functional.one_hot(expert, q.shape[-1])).amax(-1)),
+            "Your sign is turned: the loss grows with the expert's lead, so training would undo it.",
+            "The expert's value comes first, since it is the one that should be large."),
+        Mistake(lambda q, expert: (q + 1 - torch.nn.functional.one_hot(expert, q.shape[-1])).sum(-1) - taken(q, expert),
+            "You add up the actions: what counts is the best rival alone, so take the maximum.",
+            "All wrong actions should be punished."),
+        Mistake(lambda q, expert: bootstrap.large_margin_loss(q, expert).mean(),
+            "You took the mean over the batch: the Q-filter still has to decide state by state.",
+            "A loss is a scalar."),
     ),
     hints=(
         "Add 1 to every action's Q but the expert's. By how much does the best of these exceed the expert's own Q?",
         "`torch.arange(q.shape[-1]) == expert_action.unsqueeze(-1)` is True in the expert's column.",
         "`(q + (~is_expert)).amax(-1) - q.gather(-1, expert_action.unsqueeze(-1)).squeeze(-1)`",
     ),
-    minutes=8,
-    difficulty=2,
-    equation="J_E(Q) = max_a [Q(s,a) + l(a_E,a)] - Q(s,a_E), Section IV-B",
-)
-
-# The Q-filter ---------------------------------------------------------------------------------------
+    minutes=8, difficulty=2, equation="J_E(Q) = max_a [Q(s,a) + l(a_E,a)] - Q(s,a_E), Section IV-B",
+)  # fmt: skip
 
 paper_q_filter = Exercise(
-    call="paper_q_filter(q, expert_action)",
-    solution=bootstrap.paper_q_filter,
+    "paper_q_filter(q, expert_action)",
+    solution=bootstrap.paper_q_filter, cases=q_cases,
     worked=(
         # ahead, behind, and level with the best
-        (
-            (torch.tensor([[1.5, 1.0], [1.0, 3.0], [2.0, 2.0]]), torch.tensor([0, 0, 0])),
-            torch.tensor([1.0, 0.0, 1.0]),
-        ),
+        ((torch.tensor([[1.5, 1.0], [1.0, 3.0], [2.0, 2.0]]), torch.tensor([0, 0, 0])), torch.tensor([1.0, 0.0, 1.0])),
     ),
-    cases=q_cases,
     mistakes=(
-        Mistake(
-            answer=lambda q, expert: (taken(q, expert) > others(q, expert).amax(-1)).double(),
-            says="Your filter is off where the expert is level with the best. The text says ≥.",
-            belief="At least as good means better.",
-        ),
-        Mistake(
-            answer=lambda q, expert: (taken(q, expert) < q.amax(-1)).double(),
-            says="Yours is on where the printed one is off. It would even make more sense, but this exercise asks for "
-            "what is printed.",
-            belief="A loss is needed where the expert is *not* greedy yet.",
-        ),
-        Mistake(
-            answer=lambda q, expert: (taken(q, expert) >= q.mean(-1)).double(),
-            says="You compare with the mean of Q. The printed filter compares with the *largest* Q.",
-            belief="At least as good as the estimate of the state, which is an average.",
-        ),
-        Mistake(
-            answer=lambda q, expert: (taken(q, expert) >= q.max()).double(),
-            says="You compare with the largest Q of the whole batch: each state has its own.",
-            belief="`q.max()` works along the rows.",
-        ),
-        Mistake(
-            answer=lambda q, expert: (taken(q, expert) >= q.amax(-1)).double() * bootstrap.large_margin_loss(q, expert),
-            says="You return the filtered loss. The filter itself is 1 where it lets the loss through, else 0.",
-            belief="The equation is about the filtered loss.",
-        ),
+        Mistake(lambda q, expert: (taken(q, expert) > others(q, expert).amax(-1)).double(),
+            "Your filter is off where the expert is level with the best. The text says ≥.",
+            "At least as good means better."),
+        Mistake(lambda q, expert: (taken(q, expert) < q.amax(-1)).double(),
+            "Yours is on where the printed one is off. It would even make more sense, but this exercise asks for what "
+            "is printed.",
+            "A loss is needed where the expert is *not* greedy yet."),
+        Mistake(lambda q, expert: (taken(q, expert) >= q.mean(-1)).double(),
+            "You compare with the mean of Q. The printed filter compares with the *largest* Q.",
+            "At least as good as the estimate of the state, which is an average."),
+        Mistake(lambda q, expert: (taken(q, expert) >= q.max()).double(),
+            "You compare with the largest Q of the whole batch: each state has its own.",
+            "`q.max()` works along the rows."),
+        Mistake(lambda q, expert: (taken(q, expert) >= q.amax(-1)).double() * bootstrap.large_margin_loss(q, expert),
+            "You return the filtered loss. The filter itself is 1 where it lets the loss through, else 0.",
+            "The equation is about the filtered loss."),
     ),
     hints=(
         "Compare two numbers of each state: the expert's Q and the largest one.",
         "`q.gather(-1, expert_action.unsqueeze(-1)).squeeze(-1)` is the first, `q.amax(-1)` the second.",
         "`(q_expert >= q.amax(-1)).to(q.dtype)`",
     ),
-    minutes=3,
-    difficulty=1,
-    equation="J_E^Q: on where Q(s,a_E) ≥ max_a Q(s,a), as printed in Section IV-B",
-)
+    minutes=3, difficulty=1, equation="J_E^Q: on where Q(s,a_E) ≥ max_a Q(s,a), as printed in Section IV-B",
+)  # fmt: skip
 
 
 def filter_cases(rng):
@@ -271,53 +197,35 @@ def filter_cases(rng):
 
 
 q_filter = Exercise(
-    call="q_filter(q, expert_action, log_pi)",
-    solution=bootstrap.q_filter,
+    "q_filter(q, expert_action, log_pi)",
+    solution=bootstrap.q_filter, cases=filter_cases,
     worked=(
         # π is worth 0.25 · 1 + 0.75 · 3 = 2.5, the expert's action 1; π is worth 1.5, the expert's action 3
-        (
-            (
-                torch.tensor([[1.0, 3.0], [1.0, 3.0]]),
-                torch.tensor([0, 1]),
-                torch.tensor([[0.25, 0.75], [0.75, 0.25]]).log(),
-            ),
-            torch.tensor([0.0, 1.0]),
-        ),
+        ((torch.tensor([[1.0, 3.0], [1.0, 3.0]]), torch.tensor([0, 1]),
+          torch.tensor([[0.25, 0.75], [0.75, 0.25]]).log()),
+         torch.tensor([0.0, 1.0])),
     ),
-    cases=filter_cases,
     mistakes=(
-        Mistake(
-            answer=lambda q, expert, log_pi: bootstrap.paper_q_filter(q, expert),
-            says="This is the printed filter again: it compares with the best action, not with what π would do.",
-            belief="Both filters ask whether the expert is at least as good.",
-        ),
-        Mistake(
-            answer=lambda q, expert, log_pi: (taken(q, expert) > q.mean(-1)).double(),
-            says="You weigh all actions alike. What the policy is worth is the mean of Q under *its* probabilities.",
-            belief="The value of a state is the mean of its Q.",
-        ),
-        Mistake(
-            answer=lambda q, expert, log_pi: (taken(q, expert) < (log_pi.exp() * q).sum(-1)).double(),
-            says="Yours is on where the policy already does better than the expert: there its advice is not needed.",
-            belief="The filter removes the demonstrations that are good.",
-        ),
-        Mistake(
-            answer=lambda q, expert, log_pi: (taken(q, expert) > taken(q, log_pi.argmax(-1))).double(),
-            says="You compare with the likeliest action's Q. The policy draws its action: take the mean under π.",
-            belief="The policy does its most probable action.",
-        ),
-        Mistake(
-            answer=lambda q, expert, log_pi: (taken(q, expert) > (log_pi * q).sum(-1)).double(),
-            says="You weigh Q with log π. The probabilities are `log_pi.exp()`.",
-            belief="log_pi is a kind of pi.",
-        ),
+        Mistake(lambda q, expert, log_pi: bootstrap.paper_q_filter(q, expert),
+            "This is the printed filter again: it compares with the best action, not with what π would do.",
+            "Both filters ask whether the expert is at least as good."),
+        Mistake(lambda q, expert, log_pi: (taken(q, expert) > q.mean(-1)).double(),
+            "You weigh all actions alike. What the policy is worth is the mean of Q under *its* probabilities.",
+            "The value of a state is the mean of its Q."),
+        Mistake(lambda q, expert, log_pi: (taken(q, expert) < (log_pi.exp() * q).sum(-1)).double(),
+            "Yours is on where the policy already does better than the expert: there its advice is not needed.",
+            "The filter removes the demonstrations that are good."),
+        Mistake(lambda q, expert, log_pi: (taken(q, expert) > taken(q, log_pi.argmax(-1))).double(),
+            "You compare with the likeliest action's Q. The policy draws its action: take the mean under π.",
+            "The policy does its most probable action."),
+        Mistake(lambda q, expert, log_pi: (taken(q, expert) > (log_pi * q).sum(-1)).double(),
+            "You weigh Q with log π. The probabilities are `log_pi.exp()`.",
+            "log_pi is a kind of pi."),
     ),
     hints=(
         "What would the policy itself get in this state, on average?",
         "The sum over actions of π Q. The filter is on where the expert's Q is above it.",
         "`(q_expert > (log_pi.exp() * q).sum(-1)).to(q.dtype)`",
     ),
-    minutes=5,
-    difficulty=2,
-    equation="on where Q(s,a_E) > Σ_a π(a|s) Q(s,a); Nair et al., arXiv 1709.10089",
-)
+    minutes=5, difficulty=2, equation="on where Q(s,a_E) > Σ_a π(a|s) Q(s,a); Nair et al., arXiv 1709.10089",
+)  # fmt: skip

@@ -5,8 +5,6 @@ from scipy import stats
 
 from bootcourse.lessons.exercise import Exercise, Mistake
 
-# A rate --------------------------------------------------------------------------------------------
-
 
 def exact_interval_solution(k, n):
     low = stats.beta.ppf(0.025, k, n - k + 1) if k > 0 else 0.0
@@ -46,48 +44,33 @@ def count_cases(rng):
 
 
 exact_interval = Exercise(
-    call="exact_interval(k, n)",
-    solution=exact_interval_solution,
+    "exact_interval(k, n)",
+    solution=exact_interval_solution, cases=count_cases,
     worked=(((1, 1), np.array([0.025, 1.0])), ((0, 1), np.array([0.0, 0.975]))),  # rate ** 1 = 0.025
-    cases=count_cases,
     mistakes=(
-        Mistake(
-            answer=wald,
-            says="This is the normal approximation. At 0 of 10 its interval has no length, as if ten were all.",
-            belief="1.96 standard errors are always 95 %.",
-        ),
-        Mistake(
-            answer=of_one_end,
-            says="You leave 5 % at each end. Both ends together may miss in 5 % of the cases: 2.5 % each.",
-            belief="95 % means that 0.05 goes into the formula.",
-        ),
-        Mistake(
-            answer=of_failures,
-            says="This is the interval of the failures: k and n - k have changed places.",
-            belief="A beta distribution's two numbers may stand in any order.",
-        ),
-        Mistake(
-            answer=one_beta,
-            says="You take both ends from one beta distribution, a Bayesian's. The exact ends come from two of them.",
-            belief="An interval is two quantiles of one distribution.",
-        ),
-        Mistake(
-            answer=wilson,
-            says="This is Wilson's interval: shorter, and right on average. The exact one is never too short.",
-            belief="All good intervals of a rate agree.",
-        ),
+        Mistake(wald,
+            "This is the normal approximation. At 0 of 10 its interval has no length, as if ten were all.",
+            "1.96 standard errors are always 95 %."),
+        Mistake(of_one_end,
+            "You leave 5 % at each end. Both ends together may miss in 5 % of the cases: 2.5 % each.",
+            "95 % means that 0.05 goes into the formula."),
+        Mistake(of_failures,
+            "This is the interval of the failures: k and n - k have changed places.",
+            "A beta distribution's two numbers may stand in any order."),
+        Mistake(one_beta,
+            "You take both ends from one beta distribution, a Bayesian's. The exact ends come from two of them.",
+            "An interval is two quantiles of one distribution."),
+        Mistake(wilson,
+            "This is Wilson's interval: shorter, and right on average. The exact one is never too short.",
+            "All good intervals of a rate agree."),
     ),
     hints=(
         "The low end is the rate at which k or more of n has a chance of just 2.5 %; the high end, k or fewer.",
         "`stats.beta.ppf(0.025, k, n - k + 1)` solves the first. For the second, 0.975 with k + 1 and n - k.",
         "Where k = 0 the low end is 0, where k = n the high end is 1. Return `np.array([low, high])`.",
     ),
-    minutes=8,
-    difficulty=2,
-    equation="the exact (Clopper-Pearson) 95 % interval of k out of n",
-)
-
-# One number of many ----------------------------------------------------------------------------------
+    minutes=8, difficulty=2, equation="the exact (Clopper-Pearson) 95 % interval of k out of n",
+)  # fmt: skip
 
 
 def interquartile_mean_solution(scores):
@@ -118,48 +101,33 @@ def score_cases(rng):
 
 
 interquartile_mean = Exercise(
-    call="interquartile_mean(scores)",
-    solution=interquartile_mean_solution,
+    "interquartile_mean(scores)",
+    solution=interquartile_mean_solution, cases=score_cases,
     worked=(((np.array([9.0, 1.0, 2.0, 100.0]),), 5.5), ((np.array([4.0, 0.0, 2.0]),), 2.0)),
-    cases=score_cases,
     mistakes=(
-        Mistake(
-            answer=np.mean,
-            says="This is the mean of all. One agent that crashes at once moves it; leave out the outer quarters.",
-            belief="IQM is another word for mean.",
-        ),
-        Mistake(
-            answer=np.median,
-            says="This is the median: one or two agents speak for all. The middle *half* is to be averaged.",
-            belief="What is robust is a median.",
-        ),
-        Mistake(
-            answer=unsorted,
-            says="You cut by position, not by size: sort the scores first.",
-            belief="Seeds are in order of their scores.",
-        ),
-        Mistake(
-            answer=between_quartiles,
-            says="This is the mean of the two quartiles. Average all scores that lie between them.",
-            belief="Interquartile means: of the quartiles.",
-        ),
-        Mistake(
-            answer=one_side,
-            says="You leave out the lowest quarter alone. Bad luck and good luck both go.",
-            belief="Failures are the outliers.",
-        ),
+        Mistake(np.mean,
+            "This is the mean of all. One agent that crashes at once moves it; leave out the outer quarters.",
+            "IQM is another word for mean."),
+        Mistake(np.median,
+            "This is the median: one or two agents speak for all. The middle *half* is to be averaged.",
+            "What is robust is a median."),
+        Mistake(unsorted,
+            "You cut by position, not by size: sort the scores first.",
+            "Seeds are in order of their scores."),
+        Mistake(between_quartiles,
+            "This is the mean of the two quartiles. Average all scores that lie between them.",
+            "Interquartile means: of the quartiles."),
+        Mistake(one_side,
+            "You leave out the lowest quarter alone. Bad luck and good luck both go.",
+            "Failures are the outliers."),
     ),
     hints=(
         "Sort. Then leave out a quarter of the scores at each end; `len(scores) // 4` rounds down.",
         "`np.sort(scores)[cut : len(scores) - cut]` is what is left (with cut = 0, `[:-cut]` would be empty).",
         "`np.sort(scores)[cut : len(scores) - cut].mean()`",
     ),
-    minutes=5,
-    difficulty=1,
-    equation="the interquartile mean, Agarwal et al. (arXiv 2108.13264)",
-)
-
-# How sure? -------------------------------------------------------------------------------------------
+    minutes=5, difficulty=1, equation="the interquartile mean, Agarwal et al. (arXiv 2108.13264)",
+)  # fmt: skip
 
 
 def bootstrap_interval_solution(scores, draws):
@@ -177,51 +145,36 @@ def draw_cases(rng):
 
 
 bootstrap_interval = Exercise(
-    call="bootstrap_interval(scores, draws)",
-    solution=bootstrap_interval_solution,
+    "bootstrap_interval(scores, draws)",
+    solution=bootstrap_interval_solution, cases=draw_cases,
     worked=(
         ((np.array([0.0, 8.0]), np.array([[0, 0], [0, 1], [1, 1]])), np.array([0.2, 7.8])),  # of the means 0, 4, 8
         ((np.array([2.0, 2.0]), np.array([[0, 1], [1, 1]])), np.array([2.0, 2.0])),
     ),
-    cases=draw_cases,
     mistakes=(
-        Mistake(
-            answer=lambda scores, draws: np.percentile(scores[draws].mean(axis=1), [5, 95]),
-            says="You leave 5 % on each side: that is a 90 % interval. 95 % leaves 2.5 on each.",
-            belief="95 % means the 95th percentile.",
-        ),
-        Mistake(
-            answer=lambda scores, draws: np.percentile(scores[draws], [2.5, 97.5]),
-            says="This is how far single agents spread. Average within each draw first: the *mean* is in question.",
-            belief="An interval holds 95 % of the agents.",
-        ),
-        Mistake(
-            answer=lambda scores, draws: np.percentile(scores[draws].mean(axis=0), [2.5, 97.5]),
-            says="You average over the draws. Each draw is a study of its own: average along its agents, axis 1.",
-            belief="The first axis is the one to average.",
-        ),
-        Mistake(
-            answer=lambda scores, draws: scores.mean() + 1.96 * np.array([-1, 1]) * scores[draws].mean(axis=1).std(),
-            says="You replace the draws by a normal distribution. Take the percentiles of the means themselves.",
-            belief="The means of ten numbers are normally distributed.",
-        ),
-        Mistake(
-            answer=lambda scores, draws: np.percentile(np.median(scores[draws], axis=1), [2.5, 97.5]),
-            says="You took the median of each draw. The question here is the interval of the mean.",
-            belief="The statistic does not matter to the bootstrap.",
-        ),
+        Mistake(lambda scores, draws: np.percentile(scores[draws].mean(axis=1), [5, 95]),
+            "You leave 5 % on each side: that is a 90 % interval. 95 % leaves 2.5 on each.",
+            "95 % means the 95th percentile."),
+        Mistake(lambda scores, draws: np.percentile(scores[draws], [2.5, 97.5]),
+            "This is how far single agents spread. Average within each draw first: the *mean* is in question.",
+            "An interval holds 95 % of the agents."),
+        Mistake(lambda scores, draws: np.percentile(scores[draws].mean(axis=0), [2.5, 97.5]),
+            "You average over the draws. Each draw is a study of its own: average along its agents, axis 1.",
+            "The first axis is the one to average."),
+        Mistake(lambda scores, draws: scores.mean() + 1.96 * np.array([-1, 1]) * scores[draws].mean(axis=1).std(),
+            "You replace the draws by a normal distribution. Take the percentiles of the means themselves.",
+            "The means of ten numbers are normally distributed."),
+        Mistake(lambda scores, draws: np.percentile(np.median(scores[draws], axis=1), [2.5, 97.5]),
+            "You took the median of each draw. The question here is the interval of the mean.",
+            "The statistic does not matter to the bootstrap."),
     ),
     hints=(
         "`scores[draws]` has a row for each draw: the scores of the agents that it drew.",
         "One mean for each row; then the 2.5th and the 97.5th percentile of all the means.",
         "`np.percentile(scores[draws].mean(axis=1), [2.5, 97.5])`",
     ),
-    minutes=7,
-    difficulty=2,
-    equation="the percentile bootstrap: Efron (1979); over whole seeds",
-)
-
-# Better? ---------------------------------------------------------------------------------------------
+    minutes=7, difficulty=2, equation="the percentile bootstrap: Efron (1979); over whole seeds",
+)  # fmt: skip
 
 
 def chance_of_improvement_solution(x, y):
@@ -240,43 +193,30 @@ def rival_cases(rng):
 
 
 chance_of_improvement = Exercise(
-    call="chance_of_improvement(x, y)",
-    solution=chance_of_improvement_solution,
+    "chance_of_improvement(x, y)",
+    solution=chance_of_improvement_solution, cases=rival_cases,
     worked=(((np.array([1.0, 3.0]), np.array([2.0, 2.0])), 0.5), ((np.array([2.0, 3.0]), np.array([2.0, 0.0])), 0.875)),
-    cases=rival_cases,
     mistakes=(
-        Mistake(
-            answer=lambda x, y: np.mean(x[:, None] > y),
-            says="A tie counts half. As it is, two equal methods would both be worse than each other.",
-            belief="Not above is below.",
-        ),
-        Mistake(
-            answer=lambda x, y: np.mean(x[:, None] >= y),
-            says="A tie counts half. As it is, two equal methods would both be better than each other.",
-            belief="At least as good is better.",
-        ),
-        Mistake(
-            answer=lambda x, y: np.mean((x > y) + 0.5 * (x == y)),
-            says="You pair agent 0 with agent 0. The seeds of two methods have nothing in common: compare every pair.",
-            belief="Seed 3 is the same luck for both methods.",
-        ),
-        Mistake(
-            answer=lambda x, y: chance_of_improvement_solution(y, x),
-            says="This is how often the *other* one is better: x and y have changed places.",
-            belief="P(X > Y) compares y with x.",
-        ),
-        Mistake(
-            answer=lambda x, y: float(x.mean() > y.mean()),
-            says="You compare two means and answer with yes or no. Count in how many pairs of agents x is ahead.",
-            belief="The method with the higher mean is better.",
-        ),
+        Mistake(lambda x, y: np.mean(x[:, None] > y),
+            "A tie counts half. As it is, two equal methods would both be worse than each other.",
+            "Not above is below."),
+        Mistake(lambda x, y: np.mean(x[:, None] >= y),
+            "A tie counts half. As it is, two equal methods would both be better than each other.",
+            "At least as good is better."),
+        Mistake(lambda x, y: np.mean((x > y) + 0.5 * (x == y)),
+            "You pair agent 0 with agent 0. The seeds of two methods have nothing in common: compare every pair.",
+            "Seed 3 is the same luck for both methods."),
+        Mistake(lambda x, y: chance_of_improvement_solution(y, x),
+            "This is how often the *other* one is better: x and y have changed places.",
+            "P(X > Y) compares y with x."),
+        Mistake(lambda x, y: float(x.mean() > y.mean()),
+            "You compare two means and answer with yes or no. Count in how many pairs of agents x is ahead.",
+            "The method with the higher mean is better."),
     ),
     hints=(
         "Every agent of x against every agent of y: `x[:, None]` and `y[None, :]` make a table of all pairs.",
         "1 where x is above, 0.5 where they are equal, 0 elsewhere; then the mean of the table.",
         "`np.mean((x[:, None] > y) + 0.5 * (x[:, None] == y))`",
     ),
-    minutes=6,
-    difficulty=2,
-    equation="P(X > Y) + P(X = Y) / 2, the Mann-Whitney statistic U / (m n)",
-)
+    minutes=6, difficulty=2, equation="P(X > Y) + P(X = Y) / 2, the Mann-Whitney statistic U / (m n)",
+)  # fmt: skip

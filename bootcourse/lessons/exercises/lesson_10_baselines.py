@@ -9,8 +9,6 @@ from torch.nn import functional
 from bootcourse.learn import gail, sac
 from bootcourse.lessons.exercise import Exercise, Mistake
 
-# CQL --------------------------------------------------------------------------------------------------
-
 
 def of_the_data(q, actions):
     return q.gather(-1, actions.unsqueeze(-1)).squeeze(-1)
@@ -28,63 +26,45 @@ def offline_cases(rng):
 
 
 conservative_loss = Exercise(
-    call="conservative_loss(q, actions)",
-    solution=sac.conservative_loss,
+    "conservative_loss(q, actions)",
+    solution=sac.conservative_loss, cases=offline_cases,
     worked=(
         # e^Q is 1, 2, 1, so log Σ is log 4; the data's Q is log 2
         ((torch.tensor([[0.0, math.log(2), 0.0]]).double(), torch.tensor([1])), torch.tensor(math.log(2))),
         # log 3 - 0, and log (1 + 1 + 2) - 0
-        (
-            (torch.tensor([[0.0, 0.0, 0.0], [0.0, 0.0, math.log(2)]]).double(), torch.tensor([0, 1])),
-            torch.tensor((math.log(3) + math.log(4)) / 2),
-        ),
+        ((torch.tensor([[0.0, 0.0, 0.0], [0.0, 0.0, math.log(2)]]).double(), torch.tensor([0, 1])),
+         torch.tensor((math.log(3) + math.log(4)) / 2)),
     ),
-    cases=offline_cases,
     mistakes=(
-        Mistake(
-            answer=lambda q, actions: (of_the_data(q, actions) - q.logsumexp(-1)).mean(),
-            says="Your sign is turned: descent on this lifts what nobody tried and lowers what the data did.",
-            belief="The data's action comes first, so it stands first.",
-        ),
-        Mistake(
-            answer=lambda q, actions: (q.amax(-1) - of_the_data(q, actions)).mean(),
-            says="You push down the highest Q alone. log Σ exp is softer: whatever comes near the top is pushed, too, "
-            "and the data's action is still lifted when it leads.",
-            belief="log Σ exp is a way to write max.",
-        ),
-        Mistake(
-            answer=lambda q, actions: (q.mean(-1) - of_the_data(q, actions)).mean(),
-            says="You push down the mean of all nine. That can fall for ever: log Σ exp looks at what is *highest*.",
-            belief="Pessimism is to lower every value by the same.",
-        ),
-        Mistake(
-            answer=lambda q, actions: q.logsumexp(-1).mean(),
-            says="You push everything down and pull nothing up: take off the Q of the action that the data holds.",
-            belief="Conservative means low.",
-        ),
-        Mistake(
-            answer=lambda q, actions: q.logsumexp(-1) - of_the_data(q, actions),
-            says="This is the term of each state: take the mean over the batch.",
-            belief="The optimiser averages.",
-        ),
-        Mistake(
-            answer=lambda q, actions: (q.exp().mean(-1).log() - of_the_data(q, actions)).mean(),
-            says="You took the mean of e^Q over the actions. A *sum* makes the term 0 only where the data's action "
-            "leads by far; yours can fall below 0.",
-            belief="A mean and a sum over nine actions are the same but for a factor.",
-        ),
+        Mistake(lambda q, actions: (of_the_data(q, actions) - q.logsumexp(-1)).mean(),
+            "Your sign is turned: descent on this lifts what nobody tried and lowers what the data did.",
+            "The data's action comes first, so it stands first."),
+        Mistake(lambda q, actions: (q.amax(-1) - of_the_data(q, actions)).mean(),
+            "You push down the highest Q alone. log Σ exp is softer: whatever comes near the top is pushed, too, and "
+            "the data's action is still lifted when it leads.",
+            "log Σ exp is a way to write max."),
+        Mistake(lambda q, actions: (q.mean(-1) - of_the_data(q, actions)).mean(),
+            "You push down the mean of all nine. That can fall for ever: log Σ exp looks at what is *highest*.",
+            "Pessimism is to lower every value by the same."),
+        Mistake(lambda q, actions: q.logsumexp(-1).mean(),
+            "You push everything down and pull nothing up: take off the Q of the action that the data holds.",
+            "Conservative means low."),
+        Mistake(lambda q, actions: q.logsumexp(-1) - of_the_data(q, actions),
+            "This is the term of each state: take the mean over the batch.",
+            "The optimiser averages."),
+        Mistake(lambda q, actions: (q.exp().mean(-1).log() - of_the_data(q, actions)).mean(),
+            "You took the mean of e^Q over the actions. A *sum* makes the term 0 only where the data's action leads by "
+            "far; yours can fall below 0.",
+            "A mean and a sum over nine actions are the same but for a factor."),
     ),
     hints=(
         "In each state two numbers: log Σ_a exp Q(s,a), and the Q of the action that the data holds.",
         "`q.logsumexp(-1)`, and `q.gather(-1, actions.unsqueeze(-1)).squeeze(-1)`; their difference, then the mean.",
         "`(q.logsumexp(-1) - q.gather(-1, actions.unsqueeze(-1)).squeeze(-1)).mean()`",
     ),
-    minutes=6,
-    difficulty=2,
+    minutes=6, difficulty=2,
     equation="E_s[log Σ_a exp Q(s,a) - Q(s,a_data)], Kumar et al., arXiv 2006.04779, Equation 4",
-)
-
-# GAIL -------------------------------------------------------------------------------------------------
+)  # fmt: skip
 
 
 def logit_cases(rng):
@@ -97,63 +77,44 @@ def logit_cases(rng):
 
 
 imitation_reward = Exercise(
-    call="imitation_reward(own_logits)",
-    solution=gail.imitation_reward,
+    "imitation_reward(own_logits)",
+    solution=gail.imitation_reward, cases=logit_cases,
     worked=(
         ((torch.tensor([0.0]).double(),), torch.tensor([math.log(2)])),  # D = 1/2
         # D = 3/4 and 1/4
-        (
-            (torch.tensor([math.log(3), -math.log(3)]).double(),),
-            torch.tensor([math.log(4), math.log(4 / 3)]),
-        ),
+        ((torch.tensor([math.log(3), -math.log(3)]).double(),), torch.tensor([math.log(4), math.log(4 / 3)])),
     ),
-    cases=logit_cases,
     mistakes=(
-        Mistake(
-            answer=lambda own_logits: functional.logsigmoid(own_logits),
-            says="This is log D. It grows with D as it should, but is never above 0: each second on the road costs, "
-            "and the best way to be paid is to crash early.",
-            belief="The reward is how likely the judge finds it.",
-        ),
-        Mistake(
-            answer=lambda own_logits: -functional.softplus(own_logits),
-            says="This is log (1 - D): it pays for being found out. A minus is missing.",
-            belief="The reward is the agent's term of the judge's loss.",
-        ),
-        Mistake(
-            answer=lambda own_logits: functional.softplus(-own_logits),
-            says="This is -log D: it pays most for what the demonstrator would never do.",
-            belief="D is the probability that it is the agent's own driving (in some papers it is).",
-        ),
-        Mistake(
-            answer=lambda own_logits: torch.sigmoid(own_logits),
-            says="This is D itself. Take minus the logarithm of 1 - D.",
-            belief="The judge's probability is the reward.",
-        ),
-        Mistake(
-            answer=lambda own_logits: own_logits,
-            says="This is the logit, log D - log (1 - D), which another method (AIRL) pays. It is below 0 for all "
-            "that the judge finds out.",
-            belief="The network's output is the reward.",
-        ),
-        Mistake(
-            answer=lambda own_logits: -torch.log(1 - torch.sigmoid(own_logits)),
-            says="Right on paper, but infinite where the judge is very sure: to a computer σ(60) is exactly 1. "
-            "-log (1 - σ(x)) is log (1 + e^x), which is called softplus.",
-            belief="A formula that is right can be typed as it stands.",
-        ),
+        Mistake(lambda own_logits: functional.logsigmoid(own_logits),
+            "This is log D. It grows with D as it should, but is never above 0: each second on the road costs, and the "
+            "best way to be paid is to crash early.",
+            "The reward is how likely the judge finds it."),
+        Mistake(lambda own_logits: -functional.softplus(own_logits),
+            "This is log (1 - D): it pays for being found out. A minus is missing.",
+            "The reward is the agent's term of the judge's loss."),
+        Mistake(lambda own_logits: functional.softplus(-own_logits),
+            "This is -log D: it pays most for what the demonstrator would never do.",
+            "D is the probability that it is the agent's own driving (in some papers it is)."),
+        Mistake(lambda own_logits: torch.sigmoid(own_logits),
+            "This is D itself. Take minus the logarithm of 1 - D.",
+            "The judge's probability is the reward."),
+        Mistake(lambda own_logits: own_logits,
+            "This is the logit, log D - log (1 - D), which another method (AIRL) pays. It is below 0 for all that the "
+            "judge finds out.",
+            "The network's output is the reward."),
+        Mistake(lambda own_logits: -torch.log(1 - torch.sigmoid(own_logits)),
+            "Right on paper, but infinite where the judge is very sure: to a computer σ(60) is exactly 1. -log (1 - "
+            "σ(x)) is log (1 + e^x), which is called softplus.",
+            "A formula that is right can be typed as it stands."),
     ),
     hints=(
         "With D = σ(x): 1 - D = 1 / (1 + e^x). What is minus the logarithm of that?",
         "log (1 + e^x) has a name and a function that is safe for a large x: `torch.nn.functional.softplus`.",
         "`torch.nn.functional.softplus(own_logits)`",
     ),
-    minutes=6,
-    difficulty=2,
+    minutes=6, difficulty=2,
     equation="r(s,a) = -log (1 - D(s,a)), Ho & Ermon, arXiv 1606.03476; D as in bootcourse.learn.gail",
-)
-
-# Twenty episodes --------------------------------------------------------------------------------------
+)  # fmt: skip
 
 
 def deviation_of_a_rate_solution(k, n):
@@ -170,48 +131,36 @@ def rate_cases(rng):
 
 
 deviation_of_a_rate = Exercise(
-    call="deviation_of_a_rate(k, n)",
-    solution=deviation_of_a_rate_solution,
+    "deviation_of_a_rate(k, n)",
+    solution=deviation_of_a_rate_solution, cases=rate_cases,
     worked=(((1, 2), 100 / math.sqrt(2)), ((2, 2), 0.0), ((1, 4), 50.0)),  # √((75² + 3 · 25²) / 3) = 50
-    cases=rate_cases,
     mistakes=(
-        Mistake(
-            answer=lambda k, n: 100 * math.sqrt(k / n * (1 - k / n)),
-            says="You divide by n. The deviation of a *sample* divides by n - 1, which NumPy calls `ddof=1`; "
-            "with n, one of 20 would give 21.79.",
-            belief="A standard deviation is what `np.std` returns.",
-        ),
-        Mistake(
-            answer=lambda k, n: deviation_of_a_rate_solution(k, n) / math.sqrt(n),
-            says="This is the standard error: how far the *rate* may be off. A table's ± SD says how far single "
-            "episodes lie apart.",
-            belief="± always stands for the error of the mean.",
-        ),
-        Mistake(
-            answer=lambda k, n: deviation_of_a_rate_solution(k, n) / 100,
-            says="This is the deviation of zeros and ones. In percent it is a hundred times as large.",
-            belief="A deviation has no unit.",
-        ),
-        Mistake(
-            answer=lambda k, n: deviation_of_a_rate_solution(k, n) ** 2,
-            says="This is the variance: take its root, so that it has the unit of the rate.",
-            belief="Variance and deviation are two words for one thing.",
-        ),
-        Mistake(
-            answer=lambda k, n: 100 * math.sqrt(k) / n,
-            says="This is the error of a count, √k. It says how often k would vary, not how far episodes lie apart.",
-            belief="Rare events have a deviation of √k.",
-        ),
+        Mistake(lambda k, n: 100 * math.sqrt(k / n * (1 - k / n)),
+            "You divide by n. The deviation of a *sample* divides by n - 1, which NumPy calls `ddof=1`; with n, one of "
+            "20 would give 21.79.",
+            "A standard deviation is what `np.std` returns."),
+        Mistake(lambda k, n: deviation_of_a_rate_solution(k, n) / math.sqrt(n),
+            "This is the standard error: how far the *rate* may be off. A table's ± SD says how far single episodes "
+            "lie apart.",
+            "± always stands for the error of the mean."),
+        Mistake(lambda k, n: deviation_of_a_rate_solution(k, n) / 100,
+            "This is the deviation of zeros and ones. In percent it is a hundred times as large.",
+            "A deviation has no unit."),
+        Mistake(lambda k, n: deviation_of_a_rate_solution(k, n) ** 2,
+            "This is the variance: take its root, so that it has the unit of the rate.",
+            "Variance and deviation are two words for one thing."),
+        Mistake(lambda k, n: 100 * math.sqrt(k) / n,
+            "This is the error of a count, √k. It says how often k would vary, not how far episodes lie apart.",
+            "Rare events have a deviation of √k."),
     ),
     hints=(
         "Write down what is averaged: n numbers, k of them 100 and the others 0.",
         "`np.repeat([100.0, 0.0], [k, n - k])` are these numbers. A sample's deviation has n - 1 below the line.",
         "`np.repeat([100.0, 0.0], [k, n - k]).std(ddof=1)`",
     ),
-    minutes=5,
-    difficulty=1,
+    minutes=5, difficulty=1,
     equation="100 √(p (1 - p) n / (n - 1)) with p = k / n: what a table of rates prints behind its ±",
-)
+)  # fmt: skip
 
 
 def episodes_needed_solution(rate):
@@ -226,54 +175,38 @@ def accident_rates(rng):
 
 
 episodes_needed = Exercise(
-    call="episodes_needed(rate)",
-    solution=episodes_needed_solution,
+    "episodes_needed(rate)",
+    solution=episodes_needed_solution, cases=accident_rates,
     worked=(((0.5,), 5), ((0.9,), 2)),  # 1/2^5 = 1/32 is under 1/20, 1/2^4 is not; 1/10^2 is, 1/10 is not
-    cases=accident_rates,
     mistakes=(
-        Mistake(
-            answer=lambda rate: math.ceil(3 / rate),
-            says="This is the rule of three, a good estimate for small rates. The exact number is a little smaller.",
-            belief="The rule of three is the definition.",
-        ),
-        Mistake(
-            answer=lambda rate: max(1, math.floor(math.log(0.05) / math.log(1 - rate))),
-            says="You rounded down: after that many episodes the chance is still above 5 %.",
-            belief="int() rounds the right way.",
-        ),
-        Mistake(
-            answer=lambda rate: math.log(0.05) / math.log(1 - rate),
-            says="Episodes are whole numbers: round up to the first one that is enough.",
-            belief="The solution of the equation is the answer.",
-        ),
-        Mistake(
-            answer=lambda rate: math.ceil(math.log(0.95) / math.log(1 - rate)),
-            says="After that many episodes an accident has had a chance of 5 %. It must have had one of 95 %.",
-            belief="95 % means that 0.95 goes into the formula.",
-        ),
-        Mistake(
-            answer=lambda rate: math.ceil(1 / rate),
-            says="After that many episodes *one* accident is expected. About one driver in three has been lucky by "
-            "then and had none.",
-            belief="A rate of one in twenty shows in twenty episodes.",
-        ),
-        Mistake(
-            answer=lambda rate: math.ceil(math.log(0.05) / math.log(rate)),
-            says="You multiply the chances of accidents. What has happened is that each episode went *well*.",
-            belief="The rate is what is multiplied.",
-        ),
+        Mistake(lambda rate: math.ceil(3 / rate),
+            "This is the rule of three, a good estimate for small rates. The exact number is a little smaller.",
+            "The rule of three is the definition."),
+        Mistake(lambda rate: max(1, math.floor(math.log(0.05) / math.log(1 - rate))),
+            "You rounded down: after that many episodes the chance is still above 5 %.",
+            "int() rounds the right way."),
+        Mistake(lambda rate: math.log(0.05) / math.log(1 - rate),
+            "Episodes are whole numbers: round up to the first one that is enough.",
+            "The solution of the equation is the answer."),
+        Mistake(lambda rate: math.ceil(math.log(0.95) / math.log(1 - rate)),
+            "After that many episodes an accident has had a chance of 5 %. It must have had one of 95 %.",
+            "95 % means that 0.95 goes into the formula."),
+        Mistake(lambda rate: math.ceil(1 / rate),
+            "After that many episodes *one* accident is expected. About one driver in three has been lucky by then and "
+            "had none.",
+            "A rate of one in twenty shows in twenty episodes."),
+        Mistake(lambda rate: math.ceil(math.log(0.05) / math.log(rate)),
+            "You multiply the chances of accidents. What has happened is that each episode went *well*.",
+            "The rate is what is multiplied."),
     ),
     hints=(
         "The chance that n episodes all go well is (1 - rate)^n. It must be 5 % or less.",
         "n · log (1 - rate) ≤ log 0.05, and log (1 - rate) is negative. Round up.",
         "`int(np.ceil(np.log(0.05) / np.log(1 - rate)))`",
     ),
-    minutes=5,
-    difficulty=2,
+    minutes=5, difficulty=2,
     equation="the smallest n with (1 - rate)^n ≤ 0.05; for small rates 3 / rate, the rule of three",
-)
-
-# The bound --------------------------------------------------------------------------------------------
+)  # fmt: skip
 
 
 def share_of_the_bound_solution(returns, bound):
@@ -292,47 +225,34 @@ def bound_cases(rng):
 
 
 share_of_the_bound = Exercise(
-    call="share_of_the_bound(returns, bound)",
-    solution=share_of_the_bound_solution,
+    "share_of_the_bound(returns, bound)",
+    solution=share_of_the_bound_solution, cases=bound_cases,
     worked=(
         ((np.array([[10.0, 30.0], [-5.0, -5.0]]), np.array([20.0, 100.0])), np.array([1 / 3, -1 / 12])),
         ((np.array([[70.0, 70.0, 70.0]]), np.array([140.0, 140.0, 140.0])), np.array([0.5])),
     ),
-    cases=bound_cases,
     mistakes=(
-        Mistake(
-            answer=lambda returns, bound: (returns / bound).mean(axis=1),
-            says="This is the mean of each road's own share: a road where little can be earned counts as much as a "
-            "rich one. Asked for is the share of *all* that could be earned.",
-            belief="The mean of ratios is the ratio of means.",
-        ),
-        Mistake(
-            answer=lambda returns, bound: np.clip(returns.mean(axis=1) / bound.mean(), 0, 1),
-            says="You cut at 0. Who crashes at once earns less than nothing, and the share has to say so.",
-            belief="A share lies between 0 and 1.",
-        ),
-        Mistake(
-            answer=lambda returns, bound: returns.mean() / bound.mean(),
-            says="You average over the agents, too. Each has a share of its own: how they differ is the question.",
-            belief="A method has one score.",
-        ),
-        Mistake(
-            answer=lambda returns, bound: returns.mean(axis=1) / bound.max(),
-            says="You divide by what the best road yields. Each road has its own bound: take their mean.",
-            belief="A bound is a maximum.",
-        ),
-        Mistake(
-            answer=lambda returns, bound: returns.max(axis=1) / bound.mean(),
-            says="You take each agent's best drive. A score is the mean over all of its roads.",
-            belief="A bound is to be compared with a record.",
-        ),
+        Mistake(lambda returns, bound: (returns / bound).mean(axis=1),
+            "This is the mean of each road's own share: a road where little can be earned counts as much as a rich "
+            "one. Asked for is the share of *all* that could be earned.",
+            "The mean of ratios is the ratio of means."),
+        Mistake(lambda returns, bound: np.clip(returns.mean(axis=1) / bound.mean(), 0, 1),
+            "You cut at 0. Who crashes at once earns less than nothing, and the share has to say so.",
+            "A share lies between 0 and 1."),
+        Mistake(lambda returns, bound: returns.mean() / bound.mean(),
+            "You average over the agents, too. Each has a share of its own: how they differ is the question.",
+            "A method has one score."),
+        Mistake(lambda returns, bound: returns.mean(axis=1) / bound.max(),
+            "You divide by what the best road yields. Each road has its own bound: take their mean.",
+            "A bound is a maximum."),
+        Mistake(lambda returns, bound: returns.max(axis=1) / bound.mean(),
+            "You take each agent's best drive. A score is the mean over all of its roads.",
+            "A bound is to be compared with a record."),
     ),
     hints=(
         "Earned on all roads together, divided by what could be earned on all roads together.",
         "Agents stand in rows: `returns.mean(axis=1)` has one number for each.",
         "`returns.mean(axis=1) / bound.mean()`",
     ),
-    minutes=4,
-    difficulty=1,
-    equation="Σ R / Σ R*, over the same episodes, R* the planner's return",
-)
+    minutes=4, difficulty=1, equation="Σ R / Σ R*, over the same episodes, R* the planner's return",
+)  # fmt: skip

@@ -16,8 +16,6 @@ SURE = np.eye(9)[[4, 0]]  # two states, one action each
 EVEN = np.full((3, 9), 1 / 9)
 HALVES = np.array([[0.5, 0.5, 0, 0, 0, 0, 0, 0, 0], [0.25, 0.25, 0.25, 0.25, 0, 0, 0, 0, 0]])
 
-# How many actions? ----------------------------------------------------------------------------------
-
 
 def effective_actions_solution(policy):
     safe = np.where(policy > 0, policy, 1.0)
@@ -36,53 +34,36 @@ def policy_cases(rng):
 
 
 effective_actions = Exercise(
-    call="effective_actions(policy)",
-    solution=effective_actions_solution,
+    "effective_actions(policy)",
+    solution=effective_actions_solution, cases=policy_cases,
     worked=(((EVEN[:1],), np.array([9.0])), ((HALVES,), np.array([2.0, 4.0]))),
-    cases=policy_cases,
     mistakes=(
-        Mistake(
-            answer=lambda policy: np.log(effective_actions_solution(policy)),
-            says="This is the entropy, in nats. The effective number of actions is e to the power of it.",
-            belief="Entropy counts actions.",
-        ),
-        Mistake(
-            answer=in_bits,
-            says="You mix two units: an entropy in bits (log2) belongs to 2 to the power of it, one in nats to e.",
-            belief="The base of the logarithm does not matter.",
-        ),
-        Mistake(
-            answer=lambda policy: 1 / effective_actions_solution(policy),
-            says="Your number is below 1: the sign is wrong. Entropy is *minus* the sum of π log π.",
-            belief="log π is positive.",
-        ),
-        Mistake(
-            answer=lambda policy: np.sum(policy > 0, axis=-1).astype(float),
-            says="You count the actions that are possible at all. One of probability 0.001 hardly counts.",
-            belief="An action either counts or it does not.",
-        ),
-        Mistake(
-            answer=lambda policy: 1 / np.sum(policy**2, axis=-1),
-            says="This is another effective number, 1 / Σ π². Ours comes from the entropy: e to the power of H.",
-            belief="There is one way to count unequal things.",
-        ),
-        Mistake(
-            answer=lambda policy: np.exp(np.log(effective_actions_solution(policy)) / 9),
-            says="You took the mean over the nine actions. Entropy is a sum: π is the weight already.",
-            belief="An average over actions needs a division by nine.",
-        ),
+        Mistake(lambda policy: np.log(effective_actions_solution(policy)),
+            "This is the entropy, in nats. The effective number of actions is e to the power of it.",
+            "Entropy counts actions."),
+        Mistake(in_bits,
+            "You mix two units: an entropy in bits (log2) belongs to 2 to the power of it, one in nats to e.",
+            "The base of the logarithm does not matter."),
+        Mistake(lambda policy: 1 / effective_actions_solution(policy),
+            "Your number is below 1: the sign is wrong. Entropy is *minus* the sum of π log π.",
+            "log π is positive."),
+        Mistake(lambda policy: np.sum(policy > 0, axis=-1).astype(float),
+            "You count the actions that are possible at all. One of probability 0.001 hardly counts.",
+            "An action either counts or it does not."),
+        Mistake(lambda policy: 1 / np.sum(policy**2, axis=-1),
+            "This is another effective number, 1 / Σ π². Ours comes from the entropy: e to the power of H.",
+            "There is one way to count unequal things."),
+        Mistake(lambda policy: np.exp(np.log(effective_actions_solution(policy)) / 9),
+            "You took the mean over the nine actions. Entropy is a sum: π is the weight already.",
+            "An average over actions needs a division by nine."),
     ),
     hints=(
         "Entropy first: minus the sum over the actions of π log π. Then e to the power of it.",
         "0 · log 0 is to count as 0: take the logarithm of something harmless where π is 0.",
         "`np.exp(-np.sum(policy * np.log(np.where(policy > 0, policy, 1.0)), axis=-1))`",
     ),
-    minutes=6,
-    difficulty=1,
-    equation="exp(H(π(·|s))), the entropy figure of Section V",
-)
-
-# Where? ---------------------------------------------------------------------------------------------
+    minutes=6, difficulty=1, equation="exp(H(π(·|s))), the entropy figure of Section V",
+)  # fmt: skip
 
 
 def where_explored_solution(place, entropy, edges):
@@ -118,52 +99,37 @@ def place_cases(rng):
 
 
 where_explored = Exercise(
-    call="where_explored(place, entropy, edges)",
-    solution=where_explored_solution,
+    "where_explored(place, entropy, edges)",
+    solution=where_explored_solution, cases=place_cases,
     worked=(
         ((np.array([1.0, 2.0, 12.0]), np.array([1.0, 1.0, 2.0]), np.array([0.0, 10.0, 20.0])), np.array([0.5, 0.5])),
         ((np.array([5.0, 99.0]), np.array([1.0, 3.0]), np.array([0.0, 10.0, 20.0])), np.array([0.25, 0.0])),
     ),
-    cases=place_cases,
     mistakes=(
-        Mistake(
-            answer=counted,
-            says="This is where the agent *was*: every decision counts the same. Weigh each with its entropy.",
-            belief="To be somewhere is to explore there.",
-        ),
-        Mistake(
-            answer=of_the_inside,
-            says="You divide by the entropy inside the edges. What was spent elsewhere was spent, too: take all of it.",
-            belief="Shares have to add up to 1.",
-        ),
-        Mistake(
-            answer=mean_of_each,
-            says="This is the mean entropy in each bin. The share also depends on how long the agent was there.",
-            belief="A bin's value is the mean of what is in it.",
-        ),
-        Mistake(
-            answer=lambda place, entropy, edges: where_explored_solution(place, entropy, edges) * entropy.sum(),
-            says="These are sums of entropy, in nats. Divide by the entropy of all decisions together.",
-            belief="A weighted count is a share already.",
-        ),
-        Mistake(
-            answer=lambda place, entropy, edges: where_explored_solution(np.clip(place, edges[0], edges[-1] - 1e-9),
-                                                                         entropy, edges),
-            says="What lies outside the edges ended up in the first or last bin. Leave it out of every bin.",
-            belief="The outermost bins are open.",
-        ),
+        Mistake(counted,
+            "This is where the agent *was*: every decision counts the same. Weigh each with its entropy.",
+            "To be somewhere is to explore there."),
+        Mistake(of_the_inside,
+            "You divide by the entropy inside the edges. What was spent elsewhere was spent, too: take all of it.",
+            "Shares have to add up to 1."),
+        Mistake(mean_of_each,
+            "This is the mean entropy in each bin. The share also depends on how long the agent was there.",
+            "A bin's value is the mean of what is in it."),
+        Mistake(lambda place, entropy, edges: where_explored_solution(place, entropy, edges) * entropy.sum(),
+            "These are sums of entropy, in nats. Divide by the entropy of all decisions together.",
+            "A weighted count is a share already."),
+        Mistake(lambda place, entropy, edges:
+            where_explored_solution(np.clip(place, edges[0], edges[-1] - 1e-9), entropy, edges),
+            "What lies outside the edges ended up in the first or last bin. Leave it out of every bin.",
+            "The outermost bins are open."),
     ),
     hints=(
         "`np.digitize(place, edges)` says in which bin each decision lies; 0 and len(edges) are outside.",
         "`np.bincount(..., weights=entropy[...], minlength=len(edges) - 1)` adds up what lies in each bin.",
         "Divide by `entropy.sum()`, the sum over all decisions. (`np.histogram` has weights as well.)",
     ),
-    minutes=8,
-    difficulty=2,
-    equation="Σ_{t in bin} H_t / Σ_t H_t",
+    minutes=8, difficulty=2, equation="Σ_{t in bin} H_t / Σ_t H_t",
 )  # fmt: skip
-
-# How much of the road? ------------------------------------------------------------------------------
 
 
 def coverage_solution(place, lane, edges, lanes):
@@ -207,51 +173,36 @@ def cell_cases(rng):
 
 
 coverage = Exercise(
-    call="coverage(place, lane, edges, lanes)",
-    solution=coverage_solution,
+    "coverage(place, lane, edges, lanes)",
+    solution=coverage_solution, cases=cell_cases,
     worked=(
         ((np.array([1.0, 2.0, 11.0]), np.array([0, 0, 1]), np.array([0.0, 10.0, 20.0]), 2), 0.5),
         ((np.array([1.0, 2.0]), np.array([0, 1]), np.array([0.0, 10.0, 20.0]), 2), 0.5),
     ),
-    cases=cell_cases,
     mistakes=(
-        Mistake(
-            answer=columns_only,
-            says="You count stretches of road and forget the lanes: each lane of a stretch is a cell of its own.",
-            belief="Place means how far.",
-        ),
-        Mistake(
-            answer=share_of_time,
-            says="This is the share of the *decisions* that lie inside. Count each cell once, however long one stays.",
-            belief="More time there is more coverage.",
-        ),
-        Mistake(
-            answer=of_all_edges,
-            says="You divide by the number of edges. Between n edges there are n - 1 stretches.",
-            belief="There are as many bins as edges.",
-        ),
-        Mistake(
-            answer=clipped,
-            says="What lies outside the edges counts as the first or last stretch of yours. Leave it out.",
-            belief="The outermost bins are open.",
-        ),
-        Mistake(
-            answer=margins,
-            says="You multiply stretches seen by lanes seen. To have seen both is not to have seen every pair of them.",
-            belief="Being in each lane once and in each stretch once covers the road.",
-        ),
+        Mistake(columns_only,
+            "You count stretches of road and forget the lanes: each lane of a stretch is a cell of its own.",
+            "Place means how far."),
+        Mistake(share_of_time,
+            "This is the share of the *decisions* that lie inside. Count each cell once, however long one stays.",
+            "More time there is more coverage."),
+        Mistake(of_all_edges,
+            "You divide by the number of edges. Between n edges there are n - 1 stretches.",
+            "There are as many bins as edges."),
+        Mistake(clipped,
+            "What lies outside the edges counts as the first or last stretch of yours. Leave it out.",
+            "The outermost bins are open."),
+        Mistake(margins,
+            "You multiply stretches seen by lanes seen. To have seen both is not to have seen every pair of them.",
+            "Being in each lane once and in each stretch once covers the road."),
     ),
     hints=(
         "Give every cell a number: stretch · lanes + lane.",
         "`np.unique` of the numbers of the cells that were visited; those outside the edges are left out first.",
         "`len(np.unique(column[inside] * lanes + lane[inside])) / ((len(edges) - 1) * lanes)`",
     ),
-    minutes=7,
-    difficulty=2,
-    equation="cells visited at least once / all cells",
-)
-
-# Does it ever try? ----------------------------------------------------------------------------------
+    minutes=7, difficulty=2, equation="cells visited at least once / all cells",
+)  # fmt: skip
 
 
 def ever_tries_solution(policy):
@@ -266,43 +217,30 @@ def drive_cases(rng):
 
 
 ever_tries = Exercise(
-    call="ever_tries(policy)",
-    solution=ever_tries_solution,
+    "ever_tries(policy)",
+    solution=ever_tries_solution, cases=drive_cases,
     worked=(((HALVES[:1],), 0.5), ((HALVES,), 0.875), ((SURE,), 0.0)),  # 1 - 1/2; 1 - 1/2 · 1/4
-    cases=drive_cases,
     mistakes=(
-        Mistake(
-            answer=lambda policy: np.prod(policy.max(axis=-1)),
-            says="This is the chance that it *never* tries anything else. Ask for the opposite.",
-            belief="The product of the chances is the chance of at least one.",
-        ),
-        Mistake(
-            answer=lambda policy: 1 - np.mean(policy.max(axis=-1)),
-            says="This is the chance in one decision, on average. One try in the whole drive is enough.",
-            belief="The chance in a drive is that in a second.",
-        ),
-        Mistake(
-            answer=lambda policy: np.sum(1 - policy.max(axis=-1)),
-            says="This is the expected *number* of tries, and can be above 1. Chances of several tries do not add up.",
-            belief="Chances add up.",
-        ),
-        Mistake(
-            answer=lambda policy: np.prod(1 - policy.max(axis=-1)),
-            says="This is the chance that it tries something else in *every* decision. Once is enough.",
-            belief="Independent events are multiplied.",
-        ),
-        Mistake(
-            answer=lambda policy: 1 - np.min(policy.max(axis=-1)),
-            says="You look at the least decided moment alone. The other decisions are chances, too.",
-            belief="The best opportunity is the only one.",
-        ),
+        Mistake(lambda policy: np.prod(policy.max(axis=-1)),
+            "This is the chance that it *never* tries anything else. Ask for the opposite.",
+            "The product of the chances is the chance of at least one."),
+        Mistake(lambda policy: 1 - np.mean(policy.max(axis=-1)),
+            "This is the chance in one decision, on average. One try in the whole drive is enough.",
+            "The chance in a drive is that in a second."),
+        Mistake(lambda policy: np.sum(1 - policy.max(axis=-1)),
+            "This is the expected *number* of tries, and can be above 1. Chances of several tries do not add up.",
+            "Chances add up."),
+        Mistake(lambda policy: np.prod(1 - policy.max(axis=-1)),
+            "This is the chance that it tries something else in *every* decision. Once is enough.",
+            "Independent events are multiplied."),
+        Mistake(lambda policy: 1 - np.min(policy.max(axis=-1)),
+            "You look at the least decided moment alone. The other decisions are chances, too.",
+            "The best opportunity is the only one."),
     ),
     hints=(
         "In one decision, the likeliest action is drawn with probability max π.",
         "It never tries anything else if that happens every time: a product over the decisions.",
         "`1 - np.prod(policy.max(axis=-1))`",
     ),
-    minutes=5,
-    difficulty=2,
-    equation="1 - Π_t max_a π(a|s_t)",
-)
+    minutes=5, difficulty=2, equation="1 - Π_t max_a π(a|s_t)",
+)  # fmt: skip

@@ -8,8 +8,6 @@ import torch
 from bootcourse.lessons.exercise import Exercise, Mistake
 from bootcourse.lessons.exercises.slopes import loss_and_slopes
 
-# A probe --------------------------------------------------------------------------------------------
-
 
 def end_error_solution(q, actions, rewards, terminated):
     taken = q[np.arange(len(actions)), actions]
@@ -37,62 +35,39 @@ def end_cases(rng):
 
 
 end_error = Exercise(
-    call="end_error(q, actions, rewards, terminated)",
-    solution=end_error_solution,
+    "end_error(q, actions, rewards, terminated)",
+    solution=end_error_solution, cases=end_cases,
     worked=(
         # two accidents: Q(s, a) is -8 and -9, both should be -10; the third row goes on
-        (
-            (
-                np.array([[-8.0, 0, 0], [5, -9, 5], [1, 2, 3]]),
-                np.array([0, 1, 2]),
-                np.array([-10.0, -10, 0.5]),
-                np.array([1.0, 1, 0]),
-            ),
-            1.5,
-        ),
+        ((np.array([[-8.0, 0, 0], [5, -9, 5], [1, 2, 3]]), np.array([0, 1, 2]), np.array([-10.0, -10, 0.5]),
+          np.array([1.0, 1, 0])),
+         1.5),
         ((np.array([[4.0, 2.0]]), np.array([1]), np.array([0.3]), np.array([0.0])), 0.0),
     ),
-    cases=end_cases,
     mistakes=(
-        Mistake(
-            answer=lambda q, actions, rewards, terminated: float(
-                (q[np.arange(len(actions)), actions] - rewards).mean()
-            ),
-            says="You look at every row. Only where the episode ended is the right Q known without a guess: it is r.",
-            belief="More rows make a better mean.",
-        ),
-        Mistake(
-            answer=lambda *a: of_rows(*a, q_of=lambda q: q.max(-1)),
-            says="You take the best action's Q. The accident followed the action that was *taken*: pick that one.",
-            belief="A critic says what a state is worth.",
-        ),
-        Mistake(
-            answer=lambda *a: of_rows(*a, over=len),
-            says="You divide by the number of rows. Divide by the number of accidents among them.",
-            belief="A mean divides by the size of the batch.",
-        ),
-        Mistake(
-            answer=lambda *a: -of_rows(*a),
-            says="Your sign is turned: a critic that promises too much should give a positive number.",
-            belief="Errors are target minus guess.",
-        ),
-        Mistake(
-            answer=lambda *a: of_rows(*a, q_of=lambda q: q.mean(-1)),
-            says="You average over the nine actions. Only one of them was taken.",
-            belief="Nobody knows which action counts, so all of them do.",
-        ),
+        Mistake(lambda q, actions, rewards, terminated: float((q[np.arange(len(actions)), actions] - rewards).mean()),
+            "You look at every row. Only where the episode ended is the right Q known without a guess: it is r.",
+            "More rows make a better mean."),
+        Mistake(lambda *a: of_rows(*a, q_of=lambda q: q.max(-1)),
+            "You take the best action's Q. The accident followed the action that was *taken*: pick that one.",
+            "A critic says what a state is worth."),
+        Mistake(lambda *a: of_rows(*a, over=len),
+            "You divide by the number of rows. Divide by the number of accidents among them.",
+            "A mean divides by the size of the batch."),
+        Mistake(lambda *a: -of_rows(*a),
+            "Your sign is turned: a critic that promises too much should give a positive number.",
+            "Errors are target minus guess."),
+        Mistake(lambda *a: of_rows(*a, q_of=lambda q: q.mean(-1)),
+            "You average over the nine actions. Only one of them was taken.",
+            "Nobody knows which action counts, so all of them do."),
     ),
     hints=(
         "Where an episode ended there is no next state: y = r, whatever the networks believe.",
         "`q[np.arange(len(actions)), actions]` is the Q of the action taken in each row.",
         "Keep the rows with `terminated > 0`; if there are none, return 0.",
     ),
-    minutes=6,
-    difficulty=2,
-    equation="mean of Q(s, a) - r over the decisions that ended an episode",
-)
-
-# Who is who -----------------------------------------------------------------------------------------
+    minutes=6, difficulty=2, equation="mean of Q(s, a) - r over the decisions that ended an episode",
+)  # fmt: skip
 
 BUGS = ("flipped_kl", "no_end", "sampled", "no_stop", "bonus_for_all", "shifted_labels")
 
@@ -145,42 +120,32 @@ def renamed(**others):
 
 
 diagnose = Exercise(
-    call="diagnose(agent)",
+    "diagnose(agent)",
     solution=diagnose_solution,
-    worked=((("A",), "flipped_kl"), (("F",), "no_stop")),
     cases=lambda rng: [(letter,) for _ in range(4) for letter in rng.permutation(list("ABCDEF")).tolist()],
+    explain=explain_hunt,
+    worked=((("A",), "flipped_kl"), (("F",), "no_stop")),
     mistakes=(
-        Mistake(
-            answer=renamed(A="shifted_labels", C="flipped_kl"),
-            says="Four of six. Two agents whose trouble is with the rule are mixed up: one of them starts slowly, "
-            "torn between what the rule does now and one second later; the other keeps its rarest action alive.",
-            belief="Whatever is wrong with the KL looks the same.",
-        ),
-        Mistake(
-            answer=renamed(D="bonus_for_all", E="no_end"),
-            says="Four of six. Two agents whose critics are wrong are mixed up: one is wrong everywhere by about the "
-            "same, the other only where episodes end.",
-            belief="A wrong critic is a wrong critic.",
-        ),
-        Mistake(
-            answer=renamed(B="no_stop", F="sampled"),
-            says="Four of six. The two that drive worst are mixed up: one promises more than any road can pay, the "
-            "other's promise is modest and its entropy high.",
-            belief="The worse it drives, the worse the bug.",
-        ),
+        Mistake(renamed(A="shifted_labels", C="flipped_kl"),
+            "Four of six. Two agents whose trouble is with the rule are mixed up: one of them starts slowly, torn "
+            "between what the rule does now and one second later; the other keeps its rarest action alive.",
+            "Whatever is wrong with the KL looks the same."),
+        Mistake(renamed(D="bonus_for_all", E="no_end"),
+            "Four of six. Two agents whose critics are wrong are mixed up: one is wrong everywhere by about the same, "
+            "the other only where episodes end.",
+            "A wrong critic is a wrong critic."),
+        Mistake(renamed(B="no_stop", F="sampled"),
+            "Four of six. The two that drive worst are mixed up: one promises more than any road can pay, the other's "
+            "promise is modest and its entropy high.",
+            "The worse it drives, the worse the bug."),
     ),
     hints=(
         "Begin with the two that drive badly, then look for a promise that is too high, then at where episodes end.",
         "Two are left that drive like the healthy one. Compare alike with late at the first updates, then rarest.",
         "For each bug there is one probe on which only its agent leaves the grey lines.",
     ),
-    minutes=15,
-    difficulty=3,
-    equation="six bugs, six agents",
-    explain=explain_hunt,
-)
-
-# The critic's target --------------------------------------------------------------------------------
+    minutes=15, difficulty=3, equation="six bugs, six agents",
+)  # fmt: skip
 
 
 def fixed_target_solution(reward, is_demonstration, bonus, terminated, next_value, gamma):
@@ -200,60 +165,37 @@ def target_cases(rng):
 
 
 fixed_target = Exercise(
-    call="fixed_target(reward, is_demonstration, bonus, terminated, next_value, gamma)",
-    solution=fixed_target_solution,
+    "fixed_target(reward, is_demonstration, bonus, terminated, next_value, gamma)",
+    solution=fixed_target_solution, cases=target_cases,
     worked=(
-        (
-            (
-                torch.tensor([1.0, 1.0, -10.0]),
-                torch.tensor([0.0, 1.0, 0.0]),
-                2.0,
-                torch.tensor([0.0, 0.0, 1.0]),
-                torch.tensor([5.0, 5.0, 5.0]),
-                0.8,
-            ),
-            torch.tensor([5.0, 7.0, -10.0]),
-        ),
+        ((torch.tensor([1.0, 1.0, -10.0]), torch.tensor([0.0, 1.0, 0.0]), 2.0, torch.tensor([0.0, 0.0, 1.0]),
+          torch.tensor([5.0, 5.0, 5.0]), 0.8),
+         torch.tensor([5.0, 7.0, -10.0])),
     ),
-    cases=target_cases,
     mistakes=(
-        Mistake(
-            answer=lambda r, d, c, t, v, g: r + c + g * v,
-            says="Both bugs are still there: everybody gets the bonus, and the accident has a future.",
-            belief="The code runs, so it is right.",
-        ),
-        Mistake(
-            answer=lambda r, d, c, t, v, g: r + c * d + g * v,
-            says="The bonus is right. But after an accident you still add what the next state would be worth.",
-            belief="The -10 is all that an accident needs.",
-        ),
-        Mistake(
-            answer=lambda r, d, c, t, v, g: r + c + g * (1 - t) * v,
-            says="The end is right. But the agent's own driving still gets the bonus of a demonstration.",
-            belief="A constant added to every reward changes nothing.",
-        ),
-        Mistake(
-            answer=lambda r, d, c, t, v, g: r + c * d + g * t * v,
-            says="Your mask is turned: `terminated` is 1 where the episode is over, so multiply by 1 - terminated.",
-            belief="terminated is 1 while it goes on.",
-        ),
-        Mistake(
-            answer=lambda r, d, c, t, v, g: (r + c * d) * (1 - t) + g * (1 - t) * v,
-            says="You mask the reward as well: the -10 of an accident vanishes. Only the future ends.",
-            belief="Nothing counts at the end.",
-        ),
+        Mistake(lambda r, d, c, t, v, g: r + c + g * v,
+            "Both bugs are still there: everybody gets the bonus, and the accident has a future.",
+            "The code runs, so it is right."),
+        Mistake(lambda r, d, c, t, v, g: r + c * d + g * v,
+            "The bonus is right. But after an accident you still add what the next state would be worth.",
+            "The -10 is all that an accident needs."),
+        Mistake(lambda r, d, c, t, v, g: r + c + g * (1 - t) * v,
+            "The end is right. But the agent's own driving still gets the bonus of a demonstration.",
+            "A constant added to every reward changes nothing."),
+        Mistake(lambda r, d, c, t, v, g: r + c * d + g * t * v,
+            "Your mask is turned: `terminated` is 1 where the episode is over, so multiply by 1 - terminated.",
+            "terminated is 1 while it goes on."),
+        Mistake(lambda r, d, c, t, v, g: (r + c * d) * (1 - t) + g * (1 - t) * v,
+            "You mask the reward as well: the -10 of an accident vanishes. Only the future ends.",
+            "Nothing counts at the end."),
     ),
     hints=(
         "Two of the six arguments are never used in the code above. Which?",
         "The bonus is multiplied by `is_demonstration`, the future by `1 - terminated`.",
         "`reward + bonus * is_demonstration + gamma * (1 - terminated) * next_value`",
     ),
-    minutes=4,
-    difficulty=1,
-    equation="y = r + c [demonstration] + γ (1 - terminated) V(s')",
-)
-
-# The value ------------------------------------------------------------------------------------------
+    minutes=4, difficulty=1, equation="y = r + c [demonstration] + γ (1 - terminated) V(s')",
+)  # fmt: skip
 
 
 def fixed_value_solution(log_pi, q, alpha):
@@ -274,54 +216,36 @@ def value_cases(rng):
 
 
 fixed_value = Exercise(
-    call="fixed_value(log_pi, q, alpha)",
-    solution=fixed_value_solution,
+    "fixed_value(log_pi, q, alpha)",
+    solution=fixed_value_solution, cases=value_cases,
     worked=(
         # two actions, half and half: (1 + 3) / 2 + 0.5 log 2
-        (
-            (torch.full((1, 2), -math.log(2)), torch.tensor([[1.0, 3.0]]), 0.5),
-            torch.tensor([2 + 0.5 * math.log(2)]),
-        ),
+        ((torch.full((1, 2), -math.log(2)), torch.tensor([[1.0, 3.0]]), 0.5), torch.tensor([2 + 0.5 * math.log(2)])),
     ),
-    cases=value_cases,
     mistakes=(
-        Mistake(
-            answer=greedy,
-            says="You look at the most probable action alone. All nine count, each as often as π takes it.",
-            belief="The policy takes its best action, so that one's value is the state's.",
-        ),
-        Mistake(
-            answer=lambda log_pi, q, alpha: (q - alpha * log_pi).mean(-1),
-            says="You weigh the nine actions alike. Weigh each by its probability, `log_pi.exp()`.",
-            belief="The expectation is the mean over actions.",
-        ),
-        Mistake(
-            answer=lambda log_pi, q, alpha: (log_pi.exp() * (q + alpha * log_pi)).sum(-1),
-            says="You charge for entropy: log π is negative, and -α log π is what a little chance is paid.",
-            belief="Entropy is added, so α log π is.",
-        ),
-        Mistake(
-            answer=lambda log_pi, q, alpha: (log_pi.exp() * q).sum(-1),
-            says="Your value has no entropy in it: -α log π is missing.",
-            belief="The value of a state is the mean of Q.",
-        ),
-        Mistake(
-            answer=lambda log_pi, q, alpha: (log_pi * (q - alpha * log_pi)).sum(-1),
-            says="You weigh by log π. The weights are probabilities: `log_pi.exp()`.",
-            belief="log_pi is the policy.",
-        ),
+        Mistake(greedy,
+            "You look at the most probable action alone. All nine count, each as often as π takes it.",
+            "The policy takes its best action, so that one's value is the state's."),
+        Mistake(lambda log_pi, q, alpha: (q - alpha * log_pi).mean(-1),
+            "You weigh the nine actions alike. Weigh each by its probability, `log_pi.exp()`.",
+            "The expectation is the mean over actions."),
+        Mistake(lambda log_pi, q, alpha: (log_pi.exp() * (q + alpha * log_pi)).sum(-1),
+            "You charge for entropy: log π is negative, and -α log π is what a little chance is paid.",
+            "Entropy is added, so α log π is."),
+        Mistake(lambda log_pi, q, alpha: (log_pi.exp() * q).sum(-1),
+            "Your value has no entropy in it: -α log π is missing.",
+            "The value of a state is the mean of Q."),
+        Mistake(lambda log_pi, q, alpha: (log_pi * (q - alpha * log_pi)).sum(-1),
+            "You weigh by log π. The weights are probabilities: `log_pi.exp()`.",
+            "log_pi is the policy."),
     ),
     hints=(
         "With nine actions nothing needs to be drawn: add up all of them.",
         "Each action contributes its probability times (Q - α log π).",
         "`(log_pi.exp() * (q - alpha * log_pi)).sum(-1)`",
     ),
-    minutes=4,
-    difficulty=1,
-    equation="V(s) = Σ_a π (Q - α log π), nothing sampled",
-)
-
-# The actor's loss -----------------------------------------------------------------------------------
+    minutes=4, difficulty=1, equation="V(s) = Σ_a π (Q - α log π), nothing sampled",
+)  # fmt: skip
 
 
 def fixed_loss_solution(log_pi, q, log_rule, alpha, xi):
@@ -354,59 +278,38 @@ def loss_cases(rng):
 HALF = torch.full((1, 2), -math.log(2))
 
 fixed_loss = Exercise(
-    call="fixed_loss(log_pi, q, log_rule, alpha, xi)",
-    solution=fixed_loss_solution,
+    "fixed_loss(log_pi, q, log_rule, alpha, xi)",
+    solution=fixed_loss_solution, cases=loss_cases, run=run_loss,
     worked=(
         # π even, Q = 1 and 3, π̃ = π, α = 0.5, ξ = 1: V = 2 + 0.5 log 2; slopes in log π: -π (Q - α log π - α) + ξ π
-        (
-            (HALF, torch.tensor([[1.0, 3.0]]), HALF, 0.5, 1.0),
-            (
-                torch.tensor(-(2 + 0.5 * math.log(2))),
-                torch.tensor([[0.25 - 0.25 * math.log(2), -0.75 - 0.25 * math.log(2)]]),
-                torch.zeros(1, 2),
-            ),
-        ),
+        ((HALF, torch.tensor([[1.0, 3.0]]), HALF, 0.5, 1.0),
+         (torch.tensor(-(2 + 0.5 * math.log(2))),
+          torch.tensor([[0.25 - 0.25 * math.log(2), -0.75 - 0.25 * math.log(2)]]), torch.zeros(1, 2))),
     ),
-    cases=loss_cases,
-    run=run_loss,
     mistakes=(
-        Mistake(
-            answer=lambda log_pi, q, log_rule, alpha, xi: loss_of(log_pi, q, log_rule, alpha, xi, flipped=True),
-            says="Both bugs are still there: the gradient flows into Q, and the KL is the other way round.",
-            belief="The code runs, so it is right.",
-        ),
-        Mistake(
-            answer=lambda log_pi, q, log_rule, alpha, xi: loss_of(log_pi, q, log_rule, alpha, xi),
-            says="The KL is right. But a gradient still flows into Q: the actor would bend the critic.",
-            belief="The value of the loss is what counts.",
-        ),
-        Mistake(
-            answer=lambda log_pi, q, log_rule, alpha, xi: loss_of(log_pi, q.detach(), log_rule, alpha, xi, True),
-            says="The stop-gradient is right. But your KL is weighed by the rule: it has to be weighed by π.",
-            belief="A divergence is symmetric.",
-        ),
-        Mistake(
-            answer=lambda log_pi, q, log_rule, alpha, xi: loss_of(log_pi.detach(), q, log_rule, alpha, xi),
-            says="You detached the policy, the one thing that this loss is there to change. Detach Q.",
-            belief="Something has to be detached.",
-        ),
-        Mistake(
-            answer=lambda log_pi, q, log_rule, alpha, xi: loss_of(log_pi, q.detach(), log_rule, alpha, -xi),
-            says="You pay for leaving the rule: the KL is subtracted from the value, and the loss is minus the value.",
-            belief="A penalty is added; that the sign turns with the minus of the loss is forgotten.",
-        ),
+        Mistake(lambda log_pi, q, log_rule, alpha, xi: loss_of(log_pi, q, log_rule, alpha, xi, flipped=True),
+            "Both bugs are still there: the gradient flows into Q, and the KL is the other way round.",
+            "The code runs, so it is right."),
+        Mistake(lambda log_pi, q, log_rule, alpha, xi: loss_of(log_pi, q, log_rule, alpha, xi),
+            "The KL is right. But a gradient still flows into Q: the actor would bend the critic.",
+            "The value of the loss is what counts."),
+        Mistake(lambda log_pi, q, log_rule, alpha, xi: loss_of(log_pi, q.detach(), log_rule, alpha, xi, True),
+            "The stop-gradient is right. But your KL is weighed by the rule: it has to be weighed by π.",
+            "A divergence is symmetric."),
+        Mistake(lambda log_pi, q, log_rule, alpha, xi: loss_of(log_pi.detach(), q, log_rule, alpha, xi),
+            "You detached the policy, the one thing that this loss is there to change. Detach Q.",
+            "Something has to be detached."),
+        Mistake(lambda log_pi, q, log_rule, alpha, xi: loss_of(log_pi, q.detach(), log_rule, alpha, -xi),
+            "You pay for leaving the rule: the KL is subtracted from the value, and the loss is minus the value.",
+            "A penalty is added; that the sign turns with the minus of the loss is forgotten."),
     ),
     hints=(
         "Which of the two networks may this loss change?",
         "`q.detach()`; and in the KL it is π that weighs: `(pi * (log_pi - log_rule)).sum(-1)`.",
         "`-((pi * (q.detach() - alpha * log_pi)).sum(-1) - xi * kl).mean()`",
     ),
-    minutes=6,
-    difficulty=2,
-    equation="-E[Σ π (Q - α log π) - ξ D_KL(π ‖ π̃)], Q held fixed",
-)
-
-# The labels -----------------------------------------------------------------------------------------
+    minutes=6, difficulty=2, equation="-E[Σ π (Q - α log π) - ξ D_KL(π ‖ π̃)], Q held fixed",
+)  # fmt: skip
 
 
 def label_pairs_solution(asked):
@@ -414,41 +317,28 @@ def label_pairs_solution(asked):
 
 
 label_pairs = Exercise(
-    call="label_pairs(asked)",
+    "label_pairs(asked)",
     solution=label_pairs_solution,
-    worked=(
-        ((np.array([4, 1, 0, 7]),), np.array([[4, 1], [1, 0], [0, 7]])),
-        ((np.array([2, 5]),), np.array([[2, 5]])),
-    ),
     cases=lambda rng: [(rng.integers(0, 9, int(n)),) for n in (2, 9, 10, *rng.integers(3, 12, 30))],
+    worked=(((np.array([4, 1, 0, 7]),), np.array([[4, 1], [1, 0], [0, 7]])), ((np.array([2, 5]),), np.array([[2, 5]]))),
     mistakes=(
-        Mistake(
-            answer=lambda asked: np.stack([asked[1:], np.append(asked[2:], asked[-1])], axis=-1),
-            says="The bug is still there: the first label of each pair belongs to the state one second later.",
-            belief="What the rule says after the step is what it says about the step.",
-        ),
-        Mistake(
-            answer=lambda asked: np.stack([asked[1:], asked[:-1]], axis=-1),
-            says="Your columns are swapped: first μ(s), then μ(s').",
-            belief="The newer label comes first.",
-        ),
-        Mistake(
-            answer=lambda asked: np.stack([asked[:-1], asked[:-1]], axis=-1),
-            says="Your two labels are the same: s' is the next state, and has the next label.",
-            belief="One decision, one label.",
-        ),
-        Mistake(
-            answer=lambda asked: np.stack([asked, np.append(asked[1:], asked[-1])], axis=-1),
-            says="You have one pair too many: T + 1 states make T decisions, and the last state decides nothing.",
-            belief="Every state gets a row.",
-        ),
+        Mistake(lambda asked: np.stack([asked[1:], np.append(asked[2:], asked[-1])], axis=-1),
+            "The bug is still there: the first label of each pair belongs to the state one second later.",
+            "What the rule says after the step is what it says about the step."),
+        Mistake(lambda asked: np.stack([asked[1:], asked[:-1]], axis=-1),
+            "Your columns are swapped: first μ(s), then μ(s').",
+            "The newer label comes first."),
+        Mistake(lambda asked: np.stack([asked[:-1], asked[:-1]], axis=-1),
+            "Your two labels are the same: s' is the next state, and has the next label.",
+            "One decision, one label."),
+        Mistake(lambda asked: np.stack([asked, np.append(asked[1:], asked[-1])], axis=-1),
+            "You have one pair too many: T + 1 states make T decisions, and the last state decides nothing.",
+            "Every state gets a row."),
     ),
     hints=(
         "Decision t leads from state t to state t + 1.",
         "`asked[:-1]` are the labels of the states in which a decision was made.",
         "`np.stack([asked[:-1], asked[1:]], axis=-1)`",
     ),
-    minutes=4,
-    difficulty=1,
-    equation="(μ(s_t), μ(s_t+1)) for each decision t",
-)
+    minutes=4, difficulty=1, equation="(μ(s_t), μ(s_t+1)) for each decision t",
+)  # fmt: skip

@@ -12,8 +12,6 @@ from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, X, Y
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, N_ACTIONS
 
-# Who drives ahead -----------------------------------------------------------------------------------
-
 
 def road_of(*cars):
     """A road: the ego first; each car is (x in m, speed in m/s, lane)."""
@@ -55,52 +53,37 @@ def of_the_first_row(cars, lane):
 
 
 gap_ahead = Exercise(
-    call="gap_ahead(cars, lane)",
-    solution=gap_ahead_solution,
+    "gap_ahead(cars, lane)",
+    solution=gap_ahead_solution, cases=ahead_cases,
     worked=(
         ((road_of((50, 10, 2), (65, 10, 2), (56, 9, 1)), 2), 10.0),  # 15 m less a car's length
         ((road_of((50, 10, 2), (65, 10, 2), (56, 9, 1)), 1), 1.0),
         ((road_of((50, 10, 2), (65, 10, 2), (56, 9, 1)), 0), np.inf),
     ),
-    cases=ahead_cases,
     mistakes=(
-        Mistake(
-            answer=lambda cars, lane: gap_ahead_solution(cars, lane) + 5,
-            says="Your gap is 5 m too long: you measure from centre to centre. The road that is free ends at a bumper.",
-            belief="A car is a point at its x.",
-        ),
-        Mistake(
-            answer=of_the_nearest,
-            says="You take the nearest car, even where it is behind you. Ahead means a larger x than the ego's.",
-            belief="The nearest car is the one that matters.",
-        ),
-        Mistake(
-            answer=lambda cars, lane: gap_to(cars, cars[cars[:, X] > cars[EGO, X]]),
-            says="You look at every lane. Only the cars whose lane is `lane` count.",
-            belief="Who is ahead is in the way.",
-        ),
-        Mistake(
-            answer=of_the_first_row,
-            says="You take the first car of the table. The rows are not in the order of the road: find the smallest x.",
-            belief="Row 1 is the car ahead, as at the start.",
-        ),
-        Mistake(
-            answer=lambda cars, lane: min(gap_ahead_solution(cars, lane), 200.0),
-            says="Where nobody is ahead, you answer with a number. An empty lane is infinity: `np.inf`.",
-            belief="Nothing is seen beyond 200 m, so 200 m is the largest gap.",
-        ),
+        Mistake(lambda cars, lane: gap_ahead_solution(cars, lane) + 5,
+            "Your gap is 5 m too long: you measure from centre to centre. The road that is free ends at a bumper.",
+            "A car is a point at its x."),
+        Mistake(of_the_nearest,
+            "You take the nearest car, even where it is behind you. Ahead means a larger x than the ego's.",
+            "The nearest car is the one that matters."),
+        Mistake(lambda cars, lane: gap_to(cars, cars[cars[:, X] > cars[EGO, X]]),
+            "You look at every lane. Only the cars whose lane is `lane` count.",
+            "Who is ahead is in the way."),
+        Mistake(of_the_first_row,
+            "You take the first car of the table. The rows are not in the order of the road: find the smallest x.",
+            "Row 1 is the car ahead, as at the start."),
+        Mistake(lambda cars, lane: min(gap_ahead_solution(cars, lane), 200.0),
+            "Where nobody is ahead, you answer with a number. An empty lane is infinity: `np.inf`.",
+            "Nothing is seen beyond 200 m, so 200 m is the largest gap."),
     ),
     hints=(
         "Pick the rows in two steps: those in the lane, then those with a larger x than the ego's.",
         "If no row is left, return `np.inf`. If some are, the nearest has the smallest x.",
         "`others = cars[(cars[:, LANE] == lane) & (cars[:, X] > cars[EGO, X])]`",
     ),
-    minutes=6,
-    difficulty=1,
-    equation="gap to the preceding vehicle, bumper to bumper, Section III-D",
-)
-
-# A rule of your own ---------------------------------------------------------------------------------
+    minutes=6, difficulty=1, equation="gap to the preceding vehicle, bumper to bumper, Section III-D",
+)  # fmt: skip
 
 OUT, BEHIND, OUTSIDE, NOT_SAME, NOT_WHOLE, NOTHING = 0, 4, 5, 6, 7, 8  # 1 to 3 are the accidents
 ENDINGS = {
@@ -177,57 +160,39 @@ def by_chance(cars, scenario):
 
 
 my_rule = Exercise(
-    call="my_rule(cars, scenario)",
-    solution=careful,
-    worked=((start_of(1_300_000), OUT), (start_of(1_300_001), OUT)),
-    cases=lambda rng: [start_of(seed) for seed in range(1_300_002, 1_300_024)],
-    run=drive_out,
+    "my_rule(cars, scenario)",
+    solution=careful, cases=lambda rng: [start_of(seed) for seed in range(1_300_002, 1_300_024)], run=drive_out,
+    explain=explain_rule,
     seconds=90,  # it drives 24 roads; the first drive on a new machine compiles the road
+    worked=((start_of(1_300_000), OUT), (start_of(1_300_001), OUT)),
     mistakes=(
-        Mistake(
-            answer=always(4),
-            says="Your rule drives safely and never gets out: on every road it is still behind trap 1 at the end. "
-            "Fall back first: trap 2 has to be ahead of you before there is room on the left.",
-            belief="A way out will open by itself, if one waits long enough.",
-        ),
-        Mistake(
-            answer=always(7),
-            says="Your rule hits a car on every road. Look at the gap ahead before it accelerates or changes lane.",
-            belief="The way out is forwards.",
-        ),
-        Mistake(
-            answer=always(5),
-            says="Your rule leaves the road every time. Every turn needs a turn back: `toward` does both.",
-            belief="Steering is held until the lane is reached, and the car then drives straight.",
-        ),
-        Mistake(
-            answer=always(1),
-            says="Your rule brakes until the car stands on the road, which is an accident. Fall back at 6 m/s or more.",
-            belief="The more room, the better.",
-        ),
-        Mistake(
-            answer=always(9),
-            says="Your rule answers a number that is no action: give a whole number from 0 to 8.",
-            belief="Nine actions are numbered 1 to 9.",
-        ),
-        Mistake(
-            answer=by_chance,
-            says="Your rule answers the same road differently each time: a label of the KL has to stay what it is.",
-            belief="A stochastic teacher is made by drawing. (The probability p is added later, in π̃.)",
-        ),
+        Mistake(always(4),
+            "Your rule drives safely and never gets out: on every road it is still behind trap 1 at the end. Fall back "
+            "first: trap 2 has to be ahead of you before there is room on the left.",
+            "A way out will open by itself, if one waits long enough."),
+        Mistake(always(7),
+            "Your rule hits a car on every road. Look at the gap ahead before it accelerates or changes lane.",
+            "The way out is forwards."),
+        Mistake(always(5),
+            "Your rule leaves the road every time. Every turn needs a turn back: `toward` does both.",
+            "Steering is held until the lane is reached, and the car then drives straight."),
+        Mistake(always(1),
+            "Your rule brakes until the car stands on the road, which is an accident. Fall back at 6 m/s or more.",
+            "The more room, the better."),
+        Mistake(always(9),
+            "Your rule answers a number that is no action: give a whole number from 0 to 8.",
+            "Nine actions are numbered 1 to 9."),
+        Mistake(by_chance,
+            "Your rule answers the same road differently each time: a label of the KL has to stay what it is.",
+            "A stochastic teacher is made by drawing. (The probability p is added later, in π̃.)"),
     ),
     hints=(
         "Three situations: no room on the left yet (be slower than both traps); room (change lane); free lane (go).",
         "`ahead(cars, lane - 1, scenario)` says if there is room, `toward(cars, speed, lane, scenario)` goes there.",
         "Begin a change only when the car is in the middle of its lane: `abs(cars[EGO, Y] - 4 * lane) < 0.5`.",
     ),
-    minutes=15,
-    difficulty=3,
-    equation="μ(s), a controller of your own in place of Algorithm 1",
-    explain=explain_rule,
-)
-
-# The label of the last state ------------------------------------------------------------------------
+    minutes=15, difficulty=3, equation="μ(s), a controller of your own in place of Algorithm 1",
+)  # fmt: skip
 
 
 def next_labels_solution(now, at_end, ended):
@@ -241,46 +206,33 @@ def label_cases(rng):
 
 
 next_labels = Exercise(
-    call="next_labels(now, at_end, ended)",
-    solution=next_labels_solution,
+    "next_labels(now, at_end, ended)",
+    solution=next_labels_solution, cases=label_cases,
     worked=(
         ((np.array([4, 4, 0]), np.array([7, 1, 8]), np.array([False, True, False])), np.array([4, 1, 0])),
         ((np.array([2]), np.array([5]), np.array([True])), np.array([5])),
     ),
-    cases=label_cases,
     mistakes=(
-        Mistake(
-            answer=lambda now, at_end, ended: now,
-            says="Where an episode ended, `now` is the first second of the *next* one: a label of another state.",
-            belief="After a step, the road shows s'. (With autoreset it may show a new road.)",
-        ),
-        Mistake(
-            answer=lambda now, at_end, ended: at_end,
-            says="Where no episode ended, `at_end` is of some other time: use it only where `ended` is true.",
-            belief="The end is the end for all.",
-        ),
-        Mistake(
-            answer=lambda now, at_end, ended: np.where(ended, now, at_end),
-            says="Your two cases are swapped.",
-            belief="np.where(condition, no, yes).",
-        ),
-        Mistake(
-            answer=lambda now, at_end, ended: np.where(ended, 0, now),
-            says="Action 0 is an action, 'brake left'. An episode that ran out of time has a last state, and a label.",
-            belief="Nothing comes after the end, so its label does not matter. (Out of time is not terminated.)",
-        ),
+        Mistake(lambda now, at_end, ended: now,
+            "Where an episode ended, `now` is the first second of the *next* one: a label of another state.",
+            "After a step, the road shows s'. (With autoreset it may show a new road.)"),
+        Mistake(lambda now, at_end, ended: at_end,
+            "Where no episode ended, `at_end` is of some other time: use it only where `ended` is true.",
+            "The end is the end for all."),
+        Mistake(lambda now, at_end, ended: np.where(ended, now, at_end),
+            "Your two cases are swapped.",
+            "np.where(condition, no, yes)."),
+        Mistake(lambda now, at_end, ended: np.where(ended, 0, now),
+            "Action 0 is an action, 'brake left'. An episode that ran out of time has a last state, and a label.",
+            "Nothing comes after the end, so its label does not matter. (Out of time is not terminated.)"),
     ),
     hints=(
         "An episode that ended has already been replaced by a new one when `now` is asked.",
         "Take `at_end` where `ended` is true, and `now` elsewhere.",
         "`np.where(ended, ..., ...)`",
     ),
-    minutes=4,
-    difficulty=1,
-    equation="μ(s') in a row of the memory",
-)
-
-# Does it help? --------------------------------------------------------------------------------------
+    minutes=4, difficulty=1, equation="μ(s') in a row of the memory",
+)  # fmt: skip
 
 
 def verdict_solution(alone, taught):
@@ -310,41 +262,30 @@ def by_middle(middle):
 
 
 verdict = Exercise(
-    call="verdict(alone, taught)",
-    solution=verdict_solution,
+    "verdict(alone, taught)",
+    solution=verdict_solution, cases=verdict_cases,
     worked=(
         ((np.array([0.0, 0.0, 3.0]), np.array([80.0, 95.0, 100.0])), 1),
         ((np.array([20.0, 23.0, 23.0]), np.array([5.0, -9.0, 14.0])), -1),
         ((np.array([0.0, 0.0, 90.0]), np.array([80.0, 100.0, 100.0])), 0),
     ),
-    cases=verdict_cases,
     mistakes=(
-        Mistake(
-            answer=by_middle(np.mean),
-            says="You compare means. One lucky seed moves a mean of three; ask whether the two groups overlap.",
-            belief="The larger mean is the better method.",
-        ),
-        Mistake(
-            answer=by_middle(np.median),
-            says="You compare medians. They say which is better in the middle, not whether the two groups overlap.",
-            belief="A robust middle makes a comparison sound.",
-        ),
-        Mistake(
-            answer=lambda alone, taught: int(taught.min() >= alone.max()) - int(taught.max() <= alone.min()),
-            says="You count a tie as a difference: `>` is asked for, and where all are equal nothing helps or hurts.",
-            belief="At least as good is better.",
-        ),
-        Mistake(
-            answer=lambda alone, taught: int(taught.min() > alone.max()),
-            says="Your teacher never hurts. Where every taught agent is worse than every one alone, answer -1.",
-            belief="A teacher can only add.",
-        ),
-        Mistake(
-            answer=lambda alone, taught: int((taught > alone).all()) - int((taught < alone).all()),
-            says="You compare seed by seed. Agents with the same seed share nothing that makes them a pair: compare "
-            "every one with every one.",
-            belief="Seed 0 with a teacher is the same agent as seed 0 without.",
-        ),
+        Mistake(by_middle(np.mean),
+            "You compare means. One lucky seed moves a mean of three; ask whether the two groups overlap.",
+            "The larger mean is the better method."),
+        Mistake(by_middle(np.median),
+            "You compare medians. They say which is better in the middle, not whether the two groups overlap.",
+            "A robust middle makes a comparison sound."),
+        Mistake(lambda alone, taught: int(taught.min() >= alone.max()) - int(taught.max() <= alone.min()),
+            "You count a tie as a difference: `>` is asked for, and where all are equal nothing helps or hurts.",
+            "At least as good is better."),
+        Mistake(lambda alone, taught: int(taught.min() > alone.max()),
+            "Your teacher never hurts. Where every taught agent is worse than every one alone, answer -1.",
+            "A teacher can only add."),
+        Mistake(lambda alone, taught: int((taught > alone).all()) - int((taught < alone).all()),
+            "You compare seed by seed. Agents with the same seed share nothing that makes them a pair: compare every "
+            "one with every one.",
+            "Seed 0 with a teacher is the same agent as seed 0 without."),
     ),
     hints=(
         "When is every taught agent better than every agent alone? Only the worst of one group and the best of the "
@@ -352,7 +293,5 @@ verdict = Exercise(
         "`taught.min() > alone.max()`",
         "Ask the same the other way round for -1; everything else is 0.",
     ),
-    minutes=5,
-    difficulty=2,
-    equation="complete separation of two groups of seeds",
-)
+    minutes=5, difficulty=2, equation="complete separation of two groups of seeds",
+)  # fmt: skip
