@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from bootcourse.episodes.rollout import Rollout
+from bootcourse.learn.training import Training
 
 COMMAND = [sys.executable, "-m", "bootcourse"]
 
@@ -40,6 +41,21 @@ def test_train_then_evaluate_then_drive(bootcourse, tmp_path):
     assert driven.status == 0, driven.err
     rollout = Rollout.load(tmp_path / "drive.npz")
     assert (rollout.label, rollout.seed) == ("sac", 4) and rollout.q_values is not None
+
+
+def test_a_rule_of_one_s_own_teaches_and_only_it_goes_on(bootcourse, tmp_path, monkeypatch):
+    (tmp_path / "mine.py").write_text("def follows(cars, scenario):\n    return 4\n")
+    arguments = ("train", "--method", "soft", "--seeds", 1, "--episodes", 3, "--out", tmp_path / "runs", "--quiet")
+    mine = ("--teacher", f"{tmp_path / 'mine.py'}:follows")
+    finished, keep = Training.run, []
+    monkeypatch.setattr(Training, "run", lambda training, *_: keep.append(training) or training.result(True))
+    assert bootcourse(*arguments, *mine).status == 130 and keep[0].teacher.__name__ == "follows"  # stopped at once
+    monkeypatch.setattr(Training, "run", finished)
+    refused = bootcourse(*arguments, "--resume")
+    assert refused.status == 2 and "was taught by 'follows" in refused.err
+    assert bootcourse(*arguments, "--resume", *mine).status == 0
+    wrong = bootcourse(*arguments, "--teacher", f"{tmp_path / 'mine.py'}:leads")
+    assert wrong.status == 2 and "no function 'leads'" in wrong.err
 
 
 REFUSED = {
