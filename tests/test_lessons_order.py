@@ -77,6 +77,7 @@ TWICE = {
     "rows = []\nrows.append(1)": [],
     "def f(rows):\n    rows.append(1)": [],
     "settings.update(a=1)": [],
+    "settings |= {1: 2}": [],
     "x += 1": ["x"],
     "rows.append(1)": ["rows"],
     "for i in range(3):\n    learner.update(i)": ["learner"],

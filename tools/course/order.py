@@ -13,7 +13,9 @@ def of_order(cells: list[Cell]) -> list[str]:
     found = []
     for cell in (cell for cell in cells if cell.is_code):
         nodes = list(outside_functions(ast.parse(cell.solved)))
-        grown = [node.target for node in nodes if isinstance(node, ast.AugAssign)]
+        grown = [
+            node.target for node in nodes if isinstance(node, ast.AugAssign) and not isinstance(node.op, ast.BitOr)
+        ]
         grown += [node.func.value for node in nodes if isinstance(node, ast.Call) and changes(node)]
         own = {node.id for node in nodes if isinstance(node, ast.Name) and node not in grown and stores(node)}
         found += [
