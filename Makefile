@@ -33,7 +33,7 @@ lab: .venv/installed
 		--LabApp.default_url=/lab/tree/$(notdir $(firstword $(NOTEBOOKS))) --log-level=WARN \
 		$(if $(NO_BROWSER),--no-browser) $(if $(filter 0,$(shell id -u)),--allow-root)
 
-# tests/check.txt and tests/all.txt hold what pytest is given.
+# tests/check.txt and tests/all.txt hold what pytest is given: the long files first, and each stays in one process.
 # One thread each, or two workers with two torches fight over the cores.
 check: .venv/installed
 	@$(WITH_PATH) OMP_NUM_THREADS=1 $(BIN)/python -m pytest @tests/check.txt $(PYTEST)

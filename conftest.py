@@ -1,12 +1,10 @@
-"""For all tests: the longest files start first, and each notebook leaves nothing behind (tests/leftovers.py)."""
+"""For the notebooks that nbval runs: each must leave nothing behind (tests/leftovers.py)."""
 
 import pytest
 
 from tests.leftovers import LeavesNothing, files, survey
 
-# A file stays in one process: one that takes a minute and starts last would keep the other process waiting.
-LONGEST = ("13_your_teacher.ipynb", "05_the_barrier.ipynb", "07_soft_constraint.ipynb", "test_book.py")
-# The tests of tests/test_notebooks.py execute of the solved ones what the student's notebooks have not.
+# tests/test_notebooks.py executes these, without the cells that the student's notebooks have, too.
 collect_ignore = ["notebooks/solved"]
 
 
@@ -15,8 +13,7 @@ def is_notebook_cell(item) -> bool:
 
 
 def pytest_collection_modifyitems(items):
-    """The longest files first; one more test after the last cell of each notebook."""
-    items.sort(key=lambda item: LONGEST.index(item.path.name) if item.path.name in LONGEST else len(LONGEST))
+    """One more test after the last cell of each notebook."""
     for place in reversed(range(len(items))):
         item, later = items[place], items[place + 1] if place + 1 < len(items) else None
         if is_notebook_cell(item) and (later is None or later.parent is not item.parent):
