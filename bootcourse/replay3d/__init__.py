@@ -1,4 +1,4 @@
-"""The 3D replay: what was driven, in a notebook, in a browser, or as one HTML file. viser is imported only in here."""
+"""The 3D replay of recorded drives, in a notebook, in a browser, or as one HTML file. Only this folder uses viser."""
 
 from bootcourse.replay3d.recorder import Recording, export, recording
 from bootcourse.replay3d.viewer import Replay, replay

@@ -1,4 +1,4 @@
-"""Where to look from. The world travels with the driver, so a camera is a place that stands still in it."""
+"""Camera positions. The ego stays at the world's origin and the road moves past it, so a camera never has to move."""
 
 from typing import NamedTuple
 
@@ -13,7 +13,7 @@ class Pose(NamedTuple):
 
 
 def pose(name: str, span: float) -> Pose:
-    """A camera over roads that are `span` metres wide together. "free" is where a drag of the mouse starts."""
+    """A camera over roads that are `span` metres wide together. "free": from there, turn it with the mouse."""
     more = max(0.0, span - 14.0)  # one road of three lanes is 14 m wide
     return {
         CHASE: Pose((-17.0 - 0.55 * more, 0.0, 7.5 + 0.32 * more), (13.0, 0.0, 0.0)),
@@ -24,7 +24,7 @@ def pose(name: str, span: float) -> Pose:
 
 
 def point(camera, name: str, span: float) -> None:
-    """Move one viewer's camera (a viser CameraHandle). The position first: setting it also moves the aim."""
+    """Move one viewer's camera (a viser CameraHandle). The position comes first, since setting it moves the aim too."""
     place = pose(name, span)
     camera.up_direction = (0.0, 0.0, 1.0)
     camera.position = place.position

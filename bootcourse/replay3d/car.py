@@ -1,7 +1,7 @@
-"""The one car body that every car shares: a low-polygon saloon made of a few dozen faces.
+"""The body that all cars share: a saloon made of few polygons.
 
-It stands on z = 0 with its centre at the origin and its nose along +x, 5 m long and 2 m wide, and
-is scaled to the scenario's car. A part is one colour: `paint` takes the car's, the others keep theirs.
+It stands on z = 0, with its centre at the origin and its nose along +x, 5 m long and 2 m wide, and is scaled to the
+scenario's car. Each part has one colour: `paint` has the car's, the others have their own.
 """
 
 from functools import lru_cache
@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 DARK, LIGHT = "#20242B", "#EDF1F5"  # glass, tyres and grille; head lamps and hubs
-LAMP_OFF, LAMP_BRAKE, LAMP_POWER = "#6B1414", "#FF2020", "#2BE070"  # the bar at the back
+LAMP_OFF, LAMP_BRAKE, LAMP_POWER = "#6B1414", "#FF2020", "#2BE070"  # of the bar at the rear
 
 # One cross-section of the body per row: x, then half widths at sill, waist and shoulder, then their heights (m).
 BODY = np.array(

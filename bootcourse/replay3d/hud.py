@@ -1,7 +1,7 @@
-"""The head-up display: what the numbers say at time t, as HTML. The live panel and the exported file show the same.
+"""The head-up display: the numbers of a drive at time t, as HTML, for the live panel and the exported file.
 
-Everything is inline HTML and CSS, without scripts, and takes its text colour from the page. A rollout's
-label comes out of a file, so it is escaped.
+It is HTML and CSS without scripts, and takes its text colour from the page. A rollout's label comes from a file, so
+it is escaped.
 """
 
 from html import escape
@@ -44,18 +44,18 @@ left:calc(100%*var(--bc-t,0))}}
 
 
 def cursor(part: float) -> str:
-    """The style element that puts every plot's cursor at a part (0..1) of the time line."""
+    """A style element that moves the cursor of every plot to a part (0..1) of its width."""
     return f"<style>:root{{--bc-t:{part:.4f}}}</style>"
 
 
 def kl(policy: np.ndarray, rule_policy: np.ndarray) -> float:
-    """KL(π ‖ π̃) in nats: what the soft constraint charges the policy for going where the rule would not."""
+    """KL(π ‖ π̃) in nats: the soft constraint's charge for probability on actions that the rule would not take."""
     likely = policy > 0
     return float(np.sum(policy[likely] * np.log(policy[likely] / rule_policy[likely])))
 
 
 def status(timeline: Timeline, t: float) -> tuple[str, str]:
-    """(what to say about how the drive stands at time t, the colour to say it in); ("", "") while it is open."""
+    """(how the drive stands at time t, in words, their colour); ("", "") while that is open."""
     rollout, moment = timeline.rollout, timeline.at(t)
     if t >= timeline.duration and rollout.accident != Accident.NONE:
         return ACCIDENTS[Accident(rollout.accident)], ALARM
@@ -108,7 +108,7 @@ def _reward(timeline: Timeline, t: float) -> str:
 
 
 def _choice(timeline: Timeline, t: float) -> str:
-    """The nine actions with π, π̃ and Q, the KL between the two, and the rule's reason; whatever of it there is."""
+    """The nine actions with π, π̃ and Q, KL(π ‖ π̃), and the rule's reason, as far as the drive recorded them."""
     rollout, k = timeline.rollout, timeline.decision(t)
     policy = None if rollout.policy is None else rollout.policy[k]
     q_values = None if rollout.q_values is None else rollout.q_values[k]
@@ -149,7 +149,7 @@ def _why(timeline: Timeline, k: int) -> str:
 
 
 def table(timelines: list[Timeline], t: float) -> str:
-    """A comparison: one line for each drive at time t."""
+    """A table that compares the drives at time t, one row each."""
     rows = []
     for timeline in timelines:
         moment, rollout = timeline.at(t), timeline.rollout
@@ -166,7 +166,7 @@ def table(timelines: list[Timeline], t: float) -> str:
 
 
 def plots(timelines: list[Timeline]) -> str:
-    """Small plots over the whole time, with a cursor that `cursor` moves and a mark at every accident."""
+    """Small plots over the whole drive, with a mark at each accident and a cursor that `cursor` moves."""
     duration = max(timeline.duration for timeline in timelines)
     parts = []
     for what, name in (("speed", "speed, m/s"), ("lane", "lane (0 is the leftmost)"), ("return", "return")):

@@ -1,6 +1,6 @@
-"""Still pictures and GIFs of a replay, for slides, posters and a README, drawn without a browser or a GPU.
+"""Pictures and GIFs of a replay, for slides, posters and a README, drawn without a browser or a GPU.
 
-The same scene, car and cameras as in the browser, projected and painted from far to near with Pillow.
+Scene, cars and cameras are those of the browser; Pillow paints their projection, from far to near.
 """
 
 import io
@@ -26,7 +26,7 @@ from bootcourse.road.state import TRAFFIC as FIRST_OF_TRAFFIC
 
 SIZE, GIF_SIZE = (1280, 720), (640, 360)  # pixels
 GIF_RATE, GIF_SECONDS, GIF_COLOURS = 10, 12.0, 160
-SMOOTH = 2  # every picture is painted this many times larger, and shrunk
+SMOOTH = 2  # a picture is painted this many times larger and then reduced, which smooths its edges
 NEAR_PLANE, VISIBLE, FOG = 0.6, 380.0, (120.0, 380.0)  # m
 SUN = np.array([-0.42, -0.35, 0.84])
 LAMPS = {"off": LAMP_OFF, "brake": LAMP_BRAKE, "power": LAMP_POWER}
@@ -56,7 +56,7 @@ class Lens:
 
 
 def clip_near(seen: np.ndarray) -> np.ndarray:
-    """The part of a polygon (n, 3) that lies before the near plane; may be empty."""
+    """The part of a polygon (n, 3) that lies beyond the near plane; it may be empty."""
     ahead = seen[:, 2] >= NEAR_PLANE
     if ahead.all():
         return seen
@@ -71,7 +71,7 @@ def clip_near(seen: np.ndarray) -> np.ndarray:
 
 
 class Painter:
-    """Paints polygons onto one picture; whoever paints later covers what was there."""
+    """Paints polygons onto one picture; later ones cover earlier ones."""
 
     def __init__(self, lens: Lens, colours: Theme):
         self.lens, self.colours = lens, colours
@@ -90,7 +90,7 @@ class Painter:
         self.draw.polygon([tuple(p) for p in pixels], fill=(*(int(c) for c in tint), int(255 * opacity)))
 
     def triangles(self, corners: np.ndarray, colours: np.ndarray, opacity: float = 1.0) -> None:
-        """Many triangles (n, 3, 3) in the order in which they are to be painted; colours (n, 3)."""
+        """Many triangles (n, 3, 3), painted in this order; colours (n, 3)."""
         seen = self.lens.see(corners.reshape(-1, 3)).reshape(corners.shape)
         whole = (seen[:, :, 2] >= NEAR_PLANE).all(axis=1)
         seen, colours = seen[whole], colours[whole]
@@ -102,13 +102,13 @@ class Painter:
             self.draw.polygon(corner, fill=(*tint, alpha))
 
     def flat(self, mesh, place, yaw: float, colour, opacity: float = 1.0) -> None:
-        """A mark on the road, as one outline where it is convex."""
+        """A flat convex mark on the road, painted as one polygon."""
         cos, sin = np.cos(yaw), np.sin(yaw)
         turn = np.array([[cos, sin, 0], [-sin, cos, 0], [0, 0, 1]])
         self.polygon(mesh.vertices @ turn + np.array(place), colour, opacity)
 
     def text(self, place, text: str, size: float, colour: str | None = None) -> None:
-        """A label above a place (x, y, z)."""
+        """A label above a point (x, y, z)."""
         seen = self.lens.see(np.array([place]))
         if seen[0, 2] > NEAR_PLANE:
             x, y = self.lens.project(seen)[0]
@@ -124,7 +124,7 @@ class Painter:
 
 
 def _backdrop(lens: Lens, colours: Theme) -> np.ndarray:
-    """Sky and ground as (height, width, 3) uint8: each row has the colour of what it looks at."""
+    """Sky and ground as (height, width, 3) uint8; each row has one colour."""
     rows = np.arange(lens.height) + 0.5
     up = (lens.height / 2 - rows) / lens.focal
     slope = lens.forward[2] + up * lens.up[2]  # of the ray through the middle of each row
@@ -145,7 +145,7 @@ def _font(size: int):
 
 
 class Shot(NamedTuple):
-    """One picture: what, when, from where."""
+    """One picture: the drives, the time (s), and the camera."""
 
     timelines: list[Timeline]
     t: float
@@ -157,8 +157,7 @@ class Shot(NamedTuple):
 def picture(shot: Shot) -> Image.Image:
     """The replay at one time."""
     road = shot.timelines[0].rollout.scenario.road
-    count = len(shot.timelines) if shot.options.layout == scene.ROADS else 1
-    span = count * (road.lanes * road.lane_width + 2 * SHOULDER) + (count - 1) * scene.ROAD_GAP
+    span = scene.span(road, len(shot.timelines), shot.options.layout)
     size = (shot.size[0] * SMOOTH, shot.size[1] * SMOOTH)
     painter = Painter(Lens(pose(shot.camera, span), size), theme(shot.options.dark))
     views = scene.view(shot.timelines, shot.t, shot.options.layout, shot.options.follow)
@@ -242,7 +241,7 @@ def _paint_car(painter: Painter, parts: dict, place, yaw: float, tints: dict, op
     triangles = np.concatenate([parts[name].vertices[parts[name].faces] for name in tints]) @ turn + place
     colours = np.concatenate([np.tile(rgb(tint), (len(parts[name].faces), 1)) for name, tint in tints.items()])
     glow = np.concatenate([np.full(len(parts[name].faces), name in ("lamps", "light")) for name in tints])
-    # Lamps and hubs lie on the body: seen a little nearer, they are painted after it.
+    # Lamps and hubs lie on the body; they are sorted as if a little nearer, so that they are painted after it.
     normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-9)
     towards = painter.lens.eye - triangles.mean(axis=1)
@@ -254,7 +253,7 @@ def _paint_car(painter: Painter, parts: dict, place, yaw: float, tints: dict, op
 
 
 def _paint_numbers(painter: Painter, shot: Shot) -> None:
-    """Label, time, speed and return of every drive, in the corner."""
+    """Label, time, speed and return of each drive, in the corner."""
     size = painter.lens.height / 30
     for k, timeline in enumerate(shot.timelines):
         moment, rollout = timeline.at(shot.t), timeline.rollout
@@ -265,7 +264,7 @@ def _paint_numbers(painter: Painter, shot: Shot) -> None:
 
 
 def best_moment(timeline: Timeline) -> float:
-    """The time (s) that one picture should show: the accident, or the first lane change, or the middle."""
+    """The time (s) for a single picture: the accident, else the first lane change, else the middle."""
     if timeline.rollout.accident != Accident.NONE:
         return timeline.duration
     lanes = timeline.rollout.states[:, EGO, LANE]
@@ -274,7 +273,7 @@ def best_moment(timeline: Timeline) -> float:
 
 
 def png_bytes(rollouts, t: float | None = None, options: Options | None = None, **shot) -> bytes:
-    """One picture as PNG; at `best_moment` of the first drive unless t (s) says otherwise."""
+    """One picture as PNG, at time t (s); by default at `best_moment` of the first drive."""
     timelines = scene.timelines_of(rollouts)
     t = best_moment(timelines[0]) if t is None else t
     buffer = io.BytesIO()
@@ -284,7 +283,7 @@ def png_bytes(rollouts, t: float | None = None, options: Options | None = None, 
 
 def gif_bytes(rollouts, start: float | None = None, seconds: float = GIF_SECONDS,
               options: Options | None = None, **shot) -> bytes:  # fmt: skip
-    """A moving picture; from a little before `best_moment` of the first drive unless start (s) says otherwise."""
+    """A GIF from time `start` (s) on; by default from a little before `best_moment` of the first drive."""
     timelines = scene.timelines_of(rollouts)
     duration = max(timeline.duration for timeline in timelines)
     if start is None:
@@ -303,18 +302,18 @@ def gif_bytes(rollouts, start: float | None = None, seconds: float = GIF_SECONDS
 
 
 def write_png(rollouts, path: Path, t: float | None = None, options: Options | None = None) -> Path:
-    """Write one picture, all or nothing. Returns the path. Raises BootcourseError."""
+    """Write one picture as a whole file. Returns the path. Raises BootcourseError if it does not end in .png."""
     return _write(path, ".png", lambda: png_bytes(rollouts, t, options))
 
 
 def write_gif(rollouts, path: Path, start: float | None = None, options: Options | None = None) -> Path:
-    """Write a moving picture of 12 s, all or nothing. Returns the path. Raises BootcourseError."""
+    """Write a GIF of 12 s as a whole file. Returns the path. Raises BootcourseError if it does not end in .gif."""
     return _write(path, ".gif", lambda: gif_bytes(rollouts, start, options=options))
 
 
 def _write(path: Path, ending: str, make) -> Path:
     path = Path(path)
     if path.suffix.lower() != ending:
-        raise BootcourseError(f"{path} does not end in {ending}: give the file a name that programs know it by.")
+        raise BootcourseError(f"{path} does not end in {ending}: give the file that ending.")
     write_bytes(path, make())
     return path

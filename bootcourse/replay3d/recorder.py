@@ -1,8 +1,8 @@
-"""A replay as one HTML file: no server, no network, camera under the mouse, the numbers laid over the scene.
+"""A replay as one HTML file, without a server or a network; the mouse turns the camera.
 
-viser records the messages of its scene and packs them with its own page. Its panel is not part of
-that, so the head-up display (the very HTML of the live panel) travels as small scripts along the
-recording, and a few lines of JavaScript show it in a box over the scene.
+viser records the messages of its scene and packs them with its own page, but without its panel. So the head-up
+display (the same HTML as in the live panel) is recorded as small scripts, and a few lines of JavaScript show it in a
+box over the scene.
 """
 
 import base64
@@ -22,10 +22,10 @@ from bootcourse.replay3d.pictures import png_bytes
 from bootcourse.replay3d.stage import Options, Stage
 from bootcourse.replay3d.timeline import Timeline
 
-RATES = (30, 20, 15, 10)  # frames a second: the first that fits the budget is taken
-CAR_FRAMES = 90_000  # cars x frames: ten cars for 150 s at 30 Hz make half of it, and 1.4 MB
+RATES = (30, 20, 15, 10)  # frames a second; the first that fits CAR_FRAMES is taken
+CAR_FRAMES = 90_000  # cars x frames, at most: ten cars for 150 s at 30 Hz are half of it, and make 1.4 MB
 HUD_RATE = 2  # Hz
-LINGER = 2.0  # s for which the last moment stays before the replay begins again
+LINGER = 2.0  # s for which the last frame stays before the replay starts again
 
 OVERLAY = """
 <style>
@@ -79,7 +79,7 @@ def rate_for(cars: int, duration: float) -> int:
 
 
 def to_html(rollouts, options: Options | None = None) -> str:
-    """The replay as a whole HTML document. Raises BootcourseError if the drives cannot be shown together."""
+    """The replay as an HTML document. Raises BootcourseError if the drives cannot be shown together."""
     options, timelines = options or Options(), scene.timelines_of(rollouts)
     duration = max(timeline.duration for timeline in timelines)
     rate = rate_for(sum(timeline.rollout.scenario.vehicles for timeline in timelines), duration)
@@ -105,7 +105,7 @@ def to_html(rollouts, options: Options | None = None) -> str:
 
 
 def _hud_script(timelines: list[Timeline], t: float, part: float, follow: int) -> str:
-    """The script that shows the numbers of time t, `part` (0..1) of the way along the plots."""
+    """A script that shows the numbers at time t, with the plots' cursor at `part` (0..1) of their width."""
     numbers = hud.table(timelines, t) if len(timelines) > 1 else ""
     numbers += hud.card(timelines[follow], t)
     return f"window.bootcourseHud&&bootcourseHud({json.dumps(numbers)},{json.dumps(hud.cursor(part))})"
@@ -121,7 +121,7 @@ def _with_overlay(page: str, timelines: list[Timeline], options: Options, span: 
         "STYLE": hud.STYLE,
         "PLOTS": hud.plots(timelines),
         "CAMERAS": json.dumps(poses),
-        "TITLE": title,  # last: it comes from a file, and nothing in it is a name to replace
+        "TITLE": title,  # last, since it comes from a file and nothing in it may be replaced
     }
     overlay = OVERLAY
     for part, text in parts.items():
@@ -132,19 +132,19 @@ def _with_overlay(page: str, timelines: list[Timeline], options: Options, span: 
 
 
 def export(rollouts, path: Path, options: Options | None = None) -> Path:
-    """Write the replay to `path` (.html), all or nothing. Returns the path. Raises BootcourseError."""
+    """Write the replay as a whole file. Returns the path. Raises BootcourseError if it does not end in .html."""
     path = Path(path)
     if path.suffix.lower() not in (".html", ".htm"):
-        raise BootcourseError(f"{path} does not end in .html: give the file a name that a browser opens.")
+        raise BootcourseError(f"{path} does not end in .html: give the file that ending, which a browser opens.")
     write_bytes(path, to_html(rollouts, options).encode())
     return path
 
 
 class Recording:
-    """A replay that lives in the notebook itself: it plays without a kernel, in a saved notebook and in a book.
+    """A replay that is saved in the notebook: it plays without a kernel, also in the book.
 
-    Where a notebook is not trusted, its scripts are taken out and the picture stays. Below it, for those
-    who do not see it, the drives stand in words.
+    In a notebook that is not trusted Jupyter removes the scripts, and the picture `poster` stays. Below it the drives
+    are described in words, for readers who cannot see it.
     """
 
     def __init__(self, html: str, poster: bytes, height: int, alt: str, words: str = ""):
@@ -155,7 +155,7 @@ class Recording:
         return Path(path)
 
     def html_with_poster(self) -> str:
-        """The recording over its own picture, as a piece of a page."""
+        """The recording over its poster, as HTML to put into a page."""
         picture = f"data:image/png;base64,{base64.b64encode(self.poster).decode()}"
         return (
             f'<div style="position:relative;height:{self.height}px;overflow:hidden">'
@@ -173,7 +173,7 @@ class Recording:
 def recording(
     rollouts, *, height: int = 560, layout: str = scene.ROADS, follow: int = 0, dark: bool = False, rule: bool = False
 ) -> Recording:
-    """The same as `replay`, as a recording that stays in the saved notebook (about 1.5 MB per drive)."""
+    """Like `replay`, but as a recording that is saved in the notebook (about 1.5 MB for each drive)."""
     options = Options(layout=layout, follow=follow, dark=dark, rule=rule)
     poster = png_bytes(rollouts, options=options, size=(960, 540))
     drives = [timeline.rollout for timeline in scene.timelines_of(rollouts)]
@@ -181,7 +181,7 @@ def recording(
 
 
 def alt(rollouts) -> str:
-    """What somebody who cannot see the replay should know."""
+    """A sentence for readers who cannot see the replay: how each drive ends."""
     told = (
         f"{display_name(timeline.rollout.label)}: {outcome(timeline.rollout)}"
         for timeline in scene.timelines_of(rollouts)

@@ -1,7 +1,7 @@
-"""The road as meshes: asphalt, markings that stream by, posts that say how fast; and the two themes.
+"""The road as meshes: asphalt, lane markings, and posts that make the speed visible; and the two colour themes.
 
-The road is drawn once, in full length, in the world's directions (see `bootcourse.replay3d.scene`):
-x along it, y to the left, z up; y = 0 is the centre of its leftmost lane.
+The whole road is made once, in world coordinates (see `bootcourse.replay3d.scene`): x along it, y to the left, z up;
+y = 0 is the centre of its leftmost lane.
 """
 
 from typing import NamedTuple
@@ -12,15 +12,15 @@ from bootcourse.replay3d.car import Mesh, box, join, quads
 from bootcourse.scenario import Road
 
 BEHIND, AHEAD = 120.0, 450.0  # m of road before the start and after the last car's end
-DASH, PERIOD, LINE = 4.0, 12.0, 0.16  # m: length of a dash, from dash to dash, width of a line
+DASH, PERIOD, LINE = 4.0, 12.0, 0.16  # m: length of a dash, distance from dash to dash, width of a line
 SHOULDER = 1.0  # m of asphalt beyond the outer lines
 POST_EVERY, SIGN_EVERY = 25.0, 100.0  # m
-PIECE, FAR = 25.0, 900.0  # m: length of a piece of road; the land reaches so far
+PIECE, FAR = 25.0, 900.0  # m: length of a piece of road; how far the ground reaches
 GROUND_Z, LINE_Z = -0.12, 0.02  # m
 
 
 class Theme(NamedTuple):
-    """Colours of everything that is neither car nor driver."""
+    """The colours of everything but the cars."""
 
     sky: str
     horizon: str
@@ -61,13 +61,13 @@ def road_parts(road: Road, start: float, end: float) -> dict[str, Mesh]:
 
 
 def strip(x0: float, x1: float, y0: float, y1: float, z: float = 0.0) -> Mesh:
-    """A long flat rectangle in pieces: the depth of one triangle of two kilometres is too coarse to draw a line on."""
+    """A long flat rectangle in pieces: on a triangle of two kilometres, depth is too inexact to draw a line over it."""
     x = np.append(np.arange(x0, x1, PIECE), x1)
     return quads(x[:-1], x[1:], y0, y1, z)
 
 
 def ground() -> Mesh:
-    """The land around the road, as far as the fog lets one see, in pieces."""
+    """The ground around the road, in pieces, beyond what is visible in the fog."""
     x = np.arange(-FAR, FAR, 4 * PIECE)
     return join(*(quads(x, x + 4 * PIECE, y, y + 4 * PIECE, GROUND_Z) for y in x))
 

@@ -1,12 +1,11 @@
-"""What is drawn where at time t: plain numbers, made from rollouts alone. Nothing here knows viser.
+"""What is drawn where at time t, as numbers computed from rollouts. The browser and the pictures draw the same.
 
-The road's y grows to the right (highway-env's way), which with z up would be a left-handed world.
-So the world's y is minus the road's y, and a world's yaw minus the road's heading: right-handed, x
-along the road, y to the left, z up. This is the one place that turns one into the other.
+On the road y grows to the right (as in highway-env), which with z up is a left-handed system. The world is
+right-handed: x along the road, y = minus the road's y, to the left, z up; yaw = minus the road's heading.
+`to_world` and `to_yaw` convert.
 
-The world is drawn around the driver: x = 0 is where the followed car is now, and the road slides by
-underneath. A camera that stands still in this world travels with the car, and the mouse can turn it
-at any time.
+The world moves with the driver: x = 0 is where the followed car is now, and the road slides past. So a camera that
+does not move in the world travels with the car, and the mouse can turn it at any time.
 """
 
 import math
@@ -17,22 +16,24 @@ import numpy as np
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.episodes.words import ACCIDENTS
 from bootcourse.errors import BootcourseError
+from bootcourse.replay3d.road import SHOULDER
 from bootcourse.replay3d.timeline import Moment, Timeline
 from bootcourse.road.state import EGO, HEADING, TRAP_1, TRAP_2, Accident, X, Y
 from bootcourse.rule import Reason
+from bootcourse.scenario import Road
 
 ROADS, GHOSTS = "side by side", "ghosts on one road"
 LAYOUTS = (ROADS, GHOSTS)
 ROAD_GAP = 5.0  # m of ground between two roads side by side
 CRUMBS = 80  # dots of the path driven, one per simulation step: the last 40 s
-CRUMB_Z, HIDDEN_Z = 0.07, -3.0  # m; a dot of the future waits below the ground
-BRAKES, PUSHES = -0.15, 0.15  # m/s²: from where on the lamps at the back show it
+CRUMB_Z, HIDDEN_Z = 0.07, -3.0  # m; dots that do not exist yet are hidden below the ground
+BRAKES, PUSHES = -0.15, 0.15  # m/s²: accelerations below and above which the rear lamps change colour
 TRAPS = {TRAP_1: "trap 1", TRAP_2: "trap 2"}
 NEAR = 80.0  # m: a trap further away than this has no distance label
 
 
 def to_world(x, y):
-    """The road's (x, y) in the world's directions."""
+    """A point of the road (x, y) in world coordinates."""
     return x, -y
 
 
@@ -42,16 +43,16 @@ def to_yaw(heading):
 
 
 def quaternion(yaw: float) -> tuple[float, float, float, float]:
-    """A turn about z as (w, x, y, z)."""
+    """A rotation by `yaw` about z, as a quaternion (w, x, y, z)."""
     return math.cos(yaw / 2), 0.0, 0.0, math.sin(yaw / 2)
 
 
 @dataclass(frozen=True)
 class RuleMarks:
-    """What the rule wants, to be drawn on the road: its lane, and the gap that a lane change needs."""
+    """The rule's target lane and the gap that its lane change needs, to be drawn on the road."""
 
     lane_y: float  # world y of the target lane's centre
-    gap_x: float  # the front bumper: where the gap is measured from
+    gap_x: float  # world x of the front bumper, from which the gap is measured
     gap_y: float  # world y of the lane whose gap counts
     gap: float  # m, the safety distance
     blocked: bool  # does the rule hold back because of it?
@@ -108,14 +109,20 @@ def _check_comparison(timelines: list[Timeline]) -> None:
 
 
 def offsets(count: int, lanes: int, lane_width: float, layout: str) -> list[float]:
-    """World y of each drive's leftmost lane; the world's y = 0 is the middle of everything."""
+    """World y of each drive's leftmost lane; y = 0 is the middle of all roads together."""
     middle = (lanes - 1) / 2 * lane_width
-    pitch = lanes * lane_width + 2.0 + ROAD_GAP if layout == ROADS else 0.0
+    pitch = lanes * lane_width + 2 * SHOULDER + ROAD_GAP if layout == ROADS else 0.0
     return [middle + pitch * ((count - 1) / 2 - k) for k in range(count)]
 
 
+def span(road: Road, drives: int, layout: str) -> float:
+    """Width of all roads together, m."""
+    count = drives if layout == ROADS else 1
+    return count * (road.lanes * road.lane_width + 2 * SHOULDER) + (count - 1) * ROAD_GAP
+
+
 def view(timelines: list[Timeline], t: float, layout: str = ROADS, follow: int = 0) -> list[DriveView]:
-    """Everything at time t. Side by side, each road moves with its own driver; ghosts share the followed one's."""
+    """All drives at time t. Each road moves with its own ego; with ghosts, all move with the followed ego."""
     road = timelines[0].rollout.scenario.road
     shifts = offsets(len(timelines), road.lanes, road.lane_width, layout)
     moments = [timeline.at(t) for timeline in timelines]

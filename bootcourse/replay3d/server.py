@@ -1,6 +1,6 @@
-"""A viser server that stays on this machine.
+"""A viser server that only this machine can reach.
 
-It binds 127.0.0.1 and nothing else, refuses viewers who ask for a public link, and ends with the kernel.
+It binds 127.0.0.1 alone, opens no public link when a viewer asks for one, and ends with the kernel.
 """
 
 import contextlib
@@ -16,10 +16,10 @@ HOST = "127.0.0.1"
 
 
 class LocalServer(viser.ViserServer):
-    """viser lets any viewer ask the server to open a tunnel to the internet. This one says no."""
+    """In viser any viewer can ask the server to open a tunnel to the internet. This server opens none."""
 
     def request_share_url(self, verbose: bool = True) -> None:
-        """Refused: returns None, and opens nothing."""
+        """Open nothing, and return None."""
         return None
 
     def stop(self) -> None:
@@ -29,7 +29,7 @@ class LocalServer(viser.ViserServer):
 
 @contextlib.contextmanager
 def quiet():
-    """Hold back viser's banner and farewell, in a terminal and in a notebook."""
+    """Suppress what viser prints when it starts and stops."""
     console = get_console()
     before, console.quiet = console.quiet, True
     try:
@@ -46,7 +46,7 @@ def start(port: int = 0) -> LocalServer:
         _check_free(port)
     with quiet():
         server = LocalServer(host=HOST, port=port, label="bootcourse replay", verbose=False)
-    if port and server.get_port() != port:  # somebody was faster; viser would go on with the next port
+    if port and server.get_port() != port:  # taken meanwhile, and viser went on to the next port
         server.stop()
         raise BootcourseError(_taken(port))
     return server
@@ -54,7 +54,7 @@ def start(port: int = 0) -> LocalServer:
 
 def _check_free(port: int) -> None:
     with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as probe:
-        if os.name == "posix":  # a port that was closed a moment ago is free
+        if os.name == "posix":  # so that a port that was closed a moment ago counts as free
             probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
             probe.bind((HOST, port))

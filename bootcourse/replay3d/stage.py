@@ -1,8 +1,8 @@
-"""The scene as viser nodes: built once, then moved. Only here (and in the GUI) is viser spoken.
+"""The scene as viser nodes, which are made once and then moved.
 
-A car is a frame with a few meshes under it, so a frame of the replay moves two numbers per car. All
-changes of one moment go out as one batch. A property is only sent when it changes, and positions are
-rounded to a millimetre, which is what keeps an exported file small.
+A car is a frame with a few meshes under it, so each frame of the replay sends a position and a rotation for each
+car. All changes of one frame go out as one batch. A property is sent only when it changes, and positions are
+rounded to a millimetre; both keep an exported file small.
 """
 
 from dataclasses import dataclass, field
@@ -21,13 +21,13 @@ from bootcourse.road.state import EGO, TRAP_1, TRAP_2, X
 from bootcourse.road.state import TRAFFIC as FIRST_OF_TRAFFIC
 
 LAMPS = {"off": rgb(LAMP_OFF), "brake": rgb(LAMP_BRAKE), "power": rgb(LAMP_POWER)}
-GHOST = 0.45  # opacity of a driver who is not the followed one
-GRAIN = 1024.0  # positions are multiples of 1/1024 m: short in memory, exact in binary
+GHOST = 0.45  # opacity of the egos that are not followed
+GRAIN = 1024.0  # positions are rounded to 1/1024 m, which is exact in binary
 
 
 @dataclass
 class Options:
-    """What viewers can switch; `layout` and `follow` only matter in a comparison."""
+    """What viewers can switch; `layout` and `follow` have an effect with two drives or more."""
 
     layout: str = scene.ROADS
     follow: int = 0
@@ -61,7 +61,7 @@ class Drive:
 
 
 class Stage:
-    """The nodes of all drives on one viser server, and how they follow the time."""
+    """The nodes of all drives on one viser server; `show(t)` moves them."""
 
     def __init__(self, server, timelines: list[Timeline], options: Options):
         options.check(len(timelines))
@@ -72,10 +72,7 @@ class Stage:
     @property
     def span(self) -> float:
         """Width of all roads together, m."""
-        road = self.timelines[0].rollout.scenario.road
-        count = len(self.timelines) if self.options.layout == scene.ROADS else 1
-        one = road.lanes * road.lane_width + 2 * SHOULDER
-        return count * one + (count - 1) * scene.ROAD_GAP
+        return scene.span(self.timelines[0].rollout.scenario.road, len(self.timelines), self.options.layout)
 
     def build(self) -> None:
         """Make every node anew: at the start, and when the layout, the followed car or the theme changes."""
@@ -93,9 +90,9 @@ class Stage:
                 self._move(drive, view)
 
     def unsettle(self) -> None:
-        """Set whatever changes to something else, so that the next `show` sends all of it, changed or not.
+        """Change every property that `show` sets, so that the next `show` sends them all.
 
-        A recording that is wound back starts from its first moment's messages alone.
+        A recording that is played again starts with the messages of its first frame.
         """
         with self.server.atomic():
             for drive in self.drives:
@@ -126,9 +123,9 @@ class Stage:
         camera.near, camera.far = 0.5, 2000.0
 
     def _lights(self, api) -> None:
-        """Two plain lights and no sky picture: a paint looks like its colour in a figure.
+        """Two plain lights and no environment map, so that a car has the same colour as in a figure.
 
-        Where no graphics card helps, each light more and any finer material is paid for at every pixel.
+        Without a graphics card, more lights and finer materials cost time at every pixel.
         """
         api.configure_default_lights(enabled=False)
         api.configure_environment_map(None)
@@ -247,7 +244,7 @@ def _mesh(api, name: str, mesh, colour: str, opacity: float | None = None, flat:
 
 
 def _crumb_mesh(crumbs: np.ndarray):
-    """A small dash for every crumb, along the way it was driven."""
+    """A small dash for every crumb, in the direction in which the car drove."""
     dash = quad(-0.55, 0.55, -0.09, 0.09)
     cos, sin = np.cos(crumbs[:, 3])[:, None], np.sin(crumbs[:, 3])[:, None]
     x, y = dash.vertices[:, 0][None], dash.vertices[:, 1][None]
@@ -257,12 +254,12 @@ def _crumb_mesh(crumbs: np.ndarray):
 
 
 def _linear(colour: str) -> tuple[int, int, int]:
-    """The colour in linear light: fog is mixed before the screen's gamma, everything else is given after it."""
+    """A colour in linear light: fog is blended before gamma correction, all other colours are given after it."""
     return tuple(round(255 * (channel / 255) ** 2.2) for channel in rgb(colour))
 
 
 def _sky(top: str, horizon: str, height: int = 64) -> np.ndarray:
-    """A picture of the sky, (height, 2, 3) uint8: from the top's colour to the horizon's."""
+    """A picture of the sky, (height, 2, 3) uint8, which fades from the colour `top` to the colour `horizon`."""
     part = np.clip(np.linspace(0, 4.0, height), 0, 1)[:, None]
     column = (1 - part) * np.array(rgb(top)) + part * np.array(rgb(horizon))
     return np.repeat(column[:, None, :], 2, axis=1).round().astype(np.uint8)

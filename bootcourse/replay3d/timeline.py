@@ -1,9 +1,8 @@
-"""Where every car is at any time: the road is recorded twice a second, driving is continuous.
+"""Where every car is at any time, computed from a rollout, which records two states a second.
 
-Between two recorded states a car follows the bicycle model's arc under the command that it had in
-that step. The road itself takes one Euler step (`bootcourse.road.formulas.bicycle_step`), which ends
-a few centimetres beside the arc; that difference is spread evenly over the step, so that every
-recorded state is hit exactly and nothing jumps.
+Between two recorded states a car follows the arc of the bicycle model under its command in that step. The simulation
+takes one Euler step (`bootcourse.road.formulas.bicycle_step`), which ends a few centimetres beside the arc. This
+difference is spread evenly over the step, so that the car is at each recorded state exactly and never jumps.
 """
 
 from dataclasses import dataclass
@@ -24,7 +23,7 @@ def arc(heading, v, acceleration, steering, length, tau):
     """The bicycle model under a constant command for `tau` seconds: (Δx, Δy, Δheading).
 
     s = v τ + a τ² / 2;  slip β = arctan(½ tan θ);  the heading turns by κ s with κ = sin β / (length / 2).
-    The path is a piece of a circle: its chord is s · sin(κs/2) / (κs/2), seen at heading + β + κs/2.
+    The path is a piece of a circle; its chord has length s · sin(κs/2) / (κs/2) and direction heading + β + κs/2.
     Metres, radians, seconds; scalars or arrays.
     """
     s = v * tau + acceleration * tau**2 / 2
@@ -37,14 +36,14 @@ def arc(heading, v, acceleration, steering, length, tau):
 
 @dataclass(frozen=True)
 class Moment:
-    """All cars of a drive at one time; every array is (vehicles,), in the road's own directions (y to the right)."""
+    """All cars of a drive at one time; each array is (vehicles,), in the road's coordinates (y to the right)."""
 
     x: np.ndarray  # m
     y: np.ndarray  # m
     heading: np.ndarray  # rad
     speed: np.ndarray  # m/s
-    acceleration: np.ndarray  # m/s², of the step under way
-    steering: np.ndarray  # rad, of the step under way
+    acceleration: np.ndarray  # m/s², in the present simulation step
+    steering: np.ndarray  # rad, in the present simulation step
     lane: np.ndarray  # 0 is the leftmost
     crashed: np.ndarray  # bool
 
@@ -52,7 +51,7 @@ class Moment:
 def between(before: np.ndarray, after: np.ndarray, tau: float, dt: float, length: float) -> Moment:
     """The cars `tau` seconds after `before`, 0 <= tau <= dt. before, after: (vehicles, 10), one step apart.
 
-    The step's command stands in `after`: it is set at the start of the step that leads there.
+    The command of this step is recorded in `after`.
     """
     heading, v = before[:, HEADING], before[:, SPEED]
     acceleration, steering = after[:, ACCELERATION], after[:, STEERING]
@@ -74,7 +73,7 @@ def between(before: np.ndarray, after: np.ndarray, tau: float, dt: float, length
 
 @dataclass(frozen=True)
 class Timeline:
-    """A rollout that can be asked about any time, from 0 to `duration` seconds; earlier and later times hold still."""
+    """A rollout at any time from 0 to `duration` seconds; times before and after show the first and the last state."""
 
     rollout: Rollout
 
@@ -101,11 +100,11 @@ class Timeline:
         return between(states[i], states[i + 1], tau, self.dt, self.rollout.scenario.car.length)
 
     def decision(self, t: float) -> int:
-        """The decision under way at time t, 0 .. decisions - 1."""
+        """Index of the decision that is being carried out at time t, 0 .. decisions - 1."""
         return min(max(int(t * self.rollout.scenario.clock.decision_rate + 1e-9), 0), self.decisions - 1)
 
     def earned(self, t: float) -> int:
-        """How many decisions are over, and their rewards earned, at time t: 0 .. decisions."""
+        """Number of decisions that are over at time t, whose rewards count, 0 .. decisions."""
         if t >= self.duration - 1e-9:
             return self.decisions
         return min(max(int(t * self.rollout.scenario.clock.decision_rate + 1e-9), 0), self.decisions)
