@@ -40,25 +40,25 @@ def run(shell, code: str) -> str:
 
 def test_a_name_of_a_cell_that_did_not_run_yet_is_answered_with_that_cell(shell):
     said = run(shell, "print(later)")
-    assert "`later` is not there yet: first run the cell that begins with `later = np.ones(3)`" in said
+    assert "`later` is not defined yet: first run the cell that begins with `later = np.ones(3)`" in said
     assert "Traceback" not in said and "Run All Above Selected Cell" in said
 
 
 @pytest.mark.parametrize("name", ["np", "place", "helper"])
 def test_an_import_and_a_function_are_found_too(shell, name):
-    assert f"`{name}` is not there yet" in run(shell, f"{name}.shape")
+    assert f"`{name}` is not defined yet" in run(shell, f"{name}.shape")
 
 
 @pytest.mark.parametrize("code", ["print(latter)", "print(inside)", "import statistics; statistics.mean(nothing)"])
 def test_a_name_that_no_cell_makes_gets_the_usual_traceback(shell, code):
     said = run(shell, code)
-    assert "NameError" in said and "Traceback" in said and "is not there yet" not in said
+    assert "NameError" in said and "Traceback" in said and "is not defined yet" not in said
 
 
 def test_an_error_inside_a_library_is_not_explained_away(shell, tmp_path):
     (tmp_path / "broken_library.py").write_text("def f():\n    return later\n")
     said = run(shell, f"import sys; sys.path.insert(0, {str(tmp_path)!r}); import broken_library; broken_library.f()")
-    assert "Traceback" in said and "is not there yet" not in said
+    assert "Traceback" in said and "is not defined yet" not in said
 
 
 def test_without_a_notebook_the_usual_traceback_stays(shell, monkeypatch):

@@ -1,8 +1,8 @@
-"""What a notebook uses: `check.NAME(my_function)`, `check.hint("NAME")`, `check.solution("NAME")`.
+"""The checks that a notebook calls: `check.NAME(my_function)`, `check.hint("NAME")`, `check.solution("NAME")`.
 
-NAME is an exercise (see `exercises/`). A wrong answer is told what is wrong with it, and the notebook
-goes on, because it uses the library's own code from there. `check.strict()` is for solved notebooks:
-from then on an answer that does not pass raises `NotPassed`.
+NAME is an exercise (see `exercises/`). A check says what is wrong with an answer and raises no error, and the cells
+after it use the library's code, so the notebook goes on. `check.strict()` is for solved notebooks: after it, an answer
+that does not pass raises `NotPassed`.
 """
 
 import functools
@@ -23,13 +23,13 @@ class NotPassed(BootcourseError):
 
 
 def strict(on: bool = True) -> None:
-    """From now on a check that does not pass raises."""
+    """From now on, an answer that does not pass raises NotPassed."""
     global _strict
     _strict = on
 
 
 def hint(name: str) -> Verdict:
-    """The next hint; after the last one, the last one again."""
+    """The next hint; after the last, the last one again. Raises BootcourseError for an unknown exercise."""
     exercise = _find(name)
     number = min(_hints_given.get(name, 0) + 1, len(exercise.hints))
     _hints_given[name] = number
@@ -39,7 +39,7 @@ def hint(name: str) -> Verdict:
 
 
 def solution(name: str):
-    """The code of a right answer, shown because you ask for it."""
+    """The code of a right answer. Raises BootcourseError for an unknown exercise."""
     from bootcourse.lessons import code_of
 
     return code_of(_find(name).solution)
@@ -59,7 +59,7 @@ def _check(exercise: Exercise, answer: Callable) -> Verdict:
 
 
 def __getattr__(name: str) -> Callable[[Callable], Verdict]:
-    """check.NAME"""
+    """The check `check.NAME` of an exercise."""
     if name.startswith("_") or name not in registry():
         raise AttributeError(f"The exercise {did_you_mean(name, registry())}.")
     return functools.partial(_check, registry()[name])

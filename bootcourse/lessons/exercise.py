@@ -1,6 +1,6 @@
-"""What an exercise is: what the student writes, what is right, and which wrong answers we know by name.
+"""An exercise: what the student writes, the right answer, and the known mistakes.
 
-The exercises themselves stand in `exercises/`, one file a lesson. How an answer is judged: `judge.py`.
+`exercises/` has the exercises, one file for each lesson; `judge.py` judges the answers.
 """
 
 import inspect
@@ -15,11 +15,11 @@ from bootcourse.errors import BootcourseError
 
 @dataclass(frozen=True)
 class Mistake:
-    """A wrong answer that people really give."""
+    """A wrong answer that students give."""
 
-    answer: Callable  # gives what they give
-    says: str  # what the check tells the student, one or two sentences in their terms
-    belief: str  # what they probably think, for the instructor's page
+    answer: Callable  # a function that makes this mistake
+    says: str  # what the check says about it, one or two sentences
+    belief: str  # what the student probably thinks, for the instructor's page
 
 
 def call_it(answer: Callable, *arguments):
@@ -28,24 +28,22 @@ def call_it(answer: Callable, *arguments):
 
 @dataclass(frozen=True)
 class Exercise:
-    """A few lines of code to write, and everything that judges them."""
+    """A function to write, and all that is needed to judge it."""
 
     call: str  # the student's function with the names of its arguments: "f(reward, gamma)"
     solution: Callable  # the library's own function, or one written beside the exercise
     worked: tuple  # tiny cases worked out by hand: ((arguments, answer), ...)
-    cases: Callable[[np.random.Generator], Iterable[tuple]]  # the hidden ones' arguments, corner cases first
+    cases: Callable[[np.random.Generator], Iterable[tuple]]  # the arguments of the hidden cases, corner cases first
     mistakes: tuple[Mistake, ...]
     hints: tuple[str, ...]  # up to three, from a nudge to the line itself
     minutes: int
     difficulty: int  # 1, 2 or 3
     equation: str  # what is computed and where it stands, as in "D_KL(π ‖ π̃), Equation 9"
-    lesson: str = ""  # "07_soft_constraint"; the registry fills it in from the file's name
-    run: Callable = field(default=call_it)  # run(answer, *case): what is compared; to take gradients, say
-    explain: Callable | None = (
-        None  # explain(cases, answers): the sentence on a mistake that has no name; plain numbers
-    )
-    tolerance: float = 1e-4  # relative; absolute it is a hundredth of this
-    seconds: float = 10.0  # for all cases together; a right answer needs a fraction of one
+    lesson: str = ""  # "07_soft_constraint"; the registry sets it from the file's name
+    run: Callable = field(default=call_it)  # run(answer, *case) gives the value to compare, for instance a gradient
+    explain: Callable | None = None  # explain(cases, answers), plain numbers: a sentence on any other wrong answer
+    tolerance: float = 1e-4  # relative; the absolute tolerance is a hundredth of it
+    seconds: float = 10.0  # limit for all cases together; a right answer needs a fraction of a second
 
     def __post_init__(self):
         if not re.fullmatch(r"\w+\([\w, ]*\)", self.call):
@@ -63,7 +61,7 @@ class Exercise:
 
     @property
     def case_names(self) -> list[str]:
-        """What the parts of a case are called: the function's own arguments, or those of `run`."""
+        """The names of the parts of a case: the function's arguments, or those of `run`."""
         return self.arguments if self.run is call_it else list(inspect.signature(self.run).parameters)[1:]
 
     @property
@@ -72,5 +70,5 @@ class Exercise:
         return "●" * self.difficulty + "○" * (3 - self.difficulty)
 
     def all_arguments(self) -> list[tuple]:
-        """The arguments of every case, the hand-worked ones first; the same ones every time."""
+        """The arguments of every case, those of `worked` first; they are the same at each call."""
         return [arguments for arguments, _ in self.worked] + list(self.cases(np.random.default_rng(0)))

@@ -1,8 +1,7 @@
-"""Run a student's function so that whatever it does, the notebook goes on.
+"""Run a student's function so that the notebook goes on whatever the function does.
 
-It runs in a thread of its own, because that is the one way to stop an endless loop that works the same
-in a Jupyter kernel on Linux, macOS and Windows: Python can raise an exception in another thread, and
-`TimeUp` is raised there again and again until the loop gives way.
+The function runs in a thread, which can be stopped in the same way in a Jupyter kernel on Linux, macOS and Windows:
+Python can raise an exception in another thread. `TimeUp` is raised there repeatedly until an endless loop ends.
 """
 
 import contextlib
@@ -18,33 +17,33 @@ from dataclasses import dataclass, field
 
 from bootcourse.lessons.values import Plain, plain, same
 
-PATIENCE = 1.0  # seconds in which a loop that catches everything may still give way
-LONGEST_PRINT = 500  # characters of what a function prints that are kept
+PATIENCE = 1.0  # seconds during which TimeUp is raised again in a loop that catches every exception
+LONGEST_PRINT = 500  # characters of a function's prints that are kept
 
 
 class TimeUp(SystemExit):
-    """Not an Exception, so that `except Exception` lets it pass; a thread that ends with it says nothing."""
+    """Not an `Exception`, so that `except Exception` does not catch it; a thread that ends with it prints nothing."""
 
 
 @dataclass
 class GuardedRun:
-    """What happened, case by case. The lists end with the first case that raised or took too long."""
+    """What the function did, case by case, up to the first case that raised an error or took too long."""
 
     answers: list[Plain] = field(default_factory=list)
     error: BaseException | None = None
-    changed: tuple[int, int] | None = None  # (case, place of the argument) that was changed in place
+    changed: tuple[int, int] | None = None  # (case, index of the argument) of the first argument changed in place
     out_of_time: bool = False
-    still_runs: bool = False  # it could not be stopped
+    still_runs: bool = False  # the thread could not be stopped
     printed: str = ""
 
     @property
     def case(self) -> int:
-        """The case that was being run when it ended early."""
+        """The case at which it ended, if it ended early."""
         return len(self.answers)
 
 
 class _Printed(io.StringIO):
-    """Keeps the beginning, so that an endless loop that prints fills no memory."""
+    """Keeps only the beginning, so that an endless loop that prints does not fill the memory."""
 
     def write(self, text: str) -> int:
         room = LONGEST_PRINT - self.tell()
@@ -53,7 +52,7 @@ class _Printed(io.StringIO):
 
 
 def run(function: Callable, cases: list[tuple], seconds: float) -> GuardedRun:
-    """Call function(*arguments) for each case, on copies, for at most `seconds` in all."""
+    """Call function(*arguments) for each case, with copies of the arguments, for at most `seconds` in all."""
     report, printed = GuardedRun(), _Printed()
     worker = threading.Thread(target=_work, args=(function, cases, report), daemon=True)
     with contextlib.redirect_stdout(printed):
@@ -61,7 +60,7 @@ def run(function: Callable, cases: list[tuple], seconds: float) -> GuardedRun:
         try:
             _wait(worker, seconds)
             report.out_of_time = worker.is_alive()
-        finally:  # the ■ button interrupts the waiting, and ends the worker, too
+        finally:  # also when the notebook's stop button interrupts the waiting
             report.still_runs = not _stop(worker)
     report.printed = printed.getvalue().strip()
     return report
@@ -76,19 +75,19 @@ def _work(function: Callable, cases: list[tuple], report: GuardedRun) -> None:
                 if report.changed is None and not same(plain(after), plain(before), nan_too=True):
                     report.changed = (number, place)
             report.answers.append(answer)
-    except BaseException as error:  # exit() and the like, too
+    except BaseException as error:  # also SystemExit, which exit() raises
         report.error = error
 
 
 def _wait(worker: threading.Thread, seconds: float) -> None:
-    """Join in short steps: on Windows a longer one cannot be interrupted."""
+    """Join in short steps, since on Windows a join cannot be interrupted."""
     end = time.monotonic() + seconds
     while worker.is_alive() and time.monotonic() < end:
         worker.join(0.05)
 
 
 def _stop(worker: threading.Thread) -> bool:
-    """Raise TimeUp in the worker until it ends. False if it does not."""
+    """Raise TimeUp in the worker until it ends. Returns whether it has ended."""
     end = time.monotonic() + PATIENCE
     while worker.is_alive() and time.monotonic() < end:
         ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(worker.ident), ctypes.py_object(TimeUp))
@@ -97,7 +96,7 @@ def _stop(worker: threading.Thread) -> bool:
 
 
 def where(error: BaseException, function: Callable) -> str:
-    """The student's own line that raised, as in "line 4, `return x + y`"; empty if there is none."""
+    """The student's line that raised the error, as in "line 4, `return x + y`"; empty if none of theirs did."""
     code = getattr(function, "__code__", None)
     frames = [f for f in traceback.extract_tb(error.__traceback__) if code and f.filename == code.co_filename]
     if not frames:

@@ -1,8 +1,9 @@
-"""Judge an answer to an exercise: right, or what is wrong with it in the student's terms.
+"""Judge a student's answer to an exercise: it is right, or a sentence says what is wrong with it.
 
-An answer passes only if it is right in every case. What is wrong is looked for in this order: nothing
-written yet, cannot be called, raises, takes too long, changes its arguments, is one of the mistakes
-that we know by name, wrong type, shape, NaN, different each time, and at last: wrong in this case.
+An answer passes if it is right in every case. Otherwise the first of these that applies is reported: it is no
+function, takes other arguments, is not written yet, returns nothing, takes too long, raises an error, changes its
+arguments, is a mistake that the exercise knows, has a wrong type or shape, is NaN, differs from call to call, or is
+wrong in a case that is shown.
 """
 
 import functools
@@ -30,7 +31,7 @@ from bootcourse.lessons.verdict import Verdict
 
 
 def judge(exercise: Exercise, answer: Callable) -> Verdict:
-    """The verdict on a student's function. Never raises because of what the function does."""
+    """The verdict on a student's function. An error in the function is part of the verdict and is not raised."""
     if not callable(answer):
         return wrong(exercise, f"Give the check your function itself, `check.{exercise.name}({exercise.name})`: "
                                f"this is {plain(answer).words}.")  # fmt: skip
@@ -47,17 +48,18 @@ def judge(exercise: Exercise, answer: Callable) -> Verdict:
 
 
 def takes(answer: Callable, how_many: int) -> bool:
+    """Can it be called with that many arguments?"""
     try:
         inspect.signature(answer).bind(*[None] * how_many)
     except TypeError:
         return False
-    except ValueError:  # written in C, which says nothing about its arguments
+    except ValueError:  # a function written in C may have no signature
         return True
     return True
 
 
 def ended_early(exercise: Exercise, answer: Callable, report: guard.GuardedRun, cases: list[tuple]) -> Verdict | None:
-    """What a function did instead of answering."""
+    """The verdict on a function that did not answer every case, or changed its arguments; None if it did well."""
     empty = [number for number, answer in enumerate(report.answers) if answer.kind == "NoneType"]
     if isinstance(report.error, NotImplementedError) or empty[:1] == [0]:
         sentence = f"Nothing to check yet: write `{exercise.name}` where the `...` stands, and end with `return`."
@@ -78,13 +80,13 @@ def ended_early(exercise: Exercise, answer: Callable, report: guard.GuardedRun, 
         return wrong(exercise, sentence, given(exercise, cases[report.case]))
     if report.changed is not None:
         argument = exercise.case_names[report.changed[1]]
-        return wrong(exercise, f"Your function changes its argument `{argument}`, which others still need: "
+        return wrong(exercise, f"Your function changes its argument `{argument}`, which the caller still needs: "
                                "compute a new value instead of writing into it.")  # fmt: skip
     return None
 
 
 def judge_answers(exercise: Exercise, answer: Callable, report: guard.GuardedRun, cases: list[tuple]) -> Verdict:
-    """All cases were answered: are all of the answers right, and if not, what is wrong?"""
+    """The verdict on the answers to all cases."""
     rights = outcomes(exercise, exercise.solution, cases)
     pairs = list(zip(report.answers, rights, strict=True))
     fails = [number for number, (a, right) in enumerate(pairs) if not same(a, right, exercise.tolerance)]
@@ -101,20 +103,23 @@ def judge_answers(exercise: Exercise, answer: Callable, report: guard.GuardedRun
     if exercise.explain and all(like(a, right) and same_shape(a, right) for a in report.answers):
         return wrong(exercise, exercise.explain(cases, [a.data for a in report.answers]))
     if like(mine, right) and same_shape(mine, right) and changes_its_mind(exercise, answer, report, cases):
-        sentence = "Your function answers the same question differently each time: it draws at random, or remembers."
+        sentence = (
+            "For the same arguments your function answers differently each time: it draws at random, or keeps a value "
+            "from one call to the next."
+        )
         return wrong(exercise, sentence, given(exercise, cases[case]))
     return wrong(exercise, *unknown_mistake(exercise, cases[case], mine, right))
 
 
 def changes_its_mind(exercise: Exercise, answer: Callable, report: guard.GuardedRun, cases: list[tuple]) -> bool:
-    """Asked everything once more, does it answer differently? (One case alone could agree by chance.)"""
+    """Does a second run of all cases give other answers? (In a single case they could agree by chance.)"""
     again = guard.run(functools.partial(exercise.run, answer), cases, exercise.seconds)
     pairs = zip(report.answers, again.answers, strict=False)
     return not all(same(first, second, exercise.tolerance, nan_too=True) for first, second in pairs)
 
 
 def unknown_mistake(exercise: Exercise, case: tuple, mine: Plain, right: Plain) -> tuple[str, tuple]:
-    """(sentence, details) about an answer that is wrong in no way that we know by name."""
+    """(sentence, details) about a wrong answer that is none of the exercise's known mistakes."""
     if not like(mine, right):
         return f"Your function returns {mine.words}: the exercise asks for {right.words}.", ()
     if not same_shape(mine, right):
@@ -131,14 +136,14 @@ def unknown_mistake(exercise: Exercise, case: tuple, mine: Plain, right: Plain) 
 
 
 def outcomes(exercise: Exercise, function: Callable, cases: list[tuple]) -> list[Plain]:
-    """What one of our own functions, right or wrong, answers."""
+    """The answers of a solution or of a known mistake to all cases."""
     with np.errstate(all="ignore"), warnings.catch_warnings():
         warnings.simplefilter("ignore")
         return [plain(exercise.run(function, *deepcopy(case))) for case in cases]
 
 
 def given(exercise: Exercise, case: tuple) -> tuple[str, ...]:
-    """The arguments of a case, a line each."""
+    """The arguments of a case, one line each."""
     return tuple(f"{name} = {numbers(plain(value))}" for name, value in zip(exercise.case_names, case, strict=True))
 
 

@@ -1,6 +1,6 @@
-"""Cells out of order: a name that a cell above would have made is answered with the cell to run first.
+"""Cells run out of order: a NameError says which cell defines the missing name and has to be run first.
 
-`install` is called when a notebook imports `bootcourse.lessons`, as every lesson's first cell does.
+`install` is called when a notebook imports `bootcourse.lessons`, which the first cell of each lesson does.
 """
 
 import ast
@@ -12,12 +12,12 @@ RUN_ABOVE = "or all cells above this one (menu Run, Run All Above Selected Cell)
 
 
 def install(shell) -> None:
-    """Let a notebook's shell (an IPython `InteractiveShell`) explain a NameError of its own cells."""
+    """Let a notebook's shell (an IPython `InteractiveShell`) explain a NameError in its cells."""
     shell.set_custom_exc((NameError,), _explain)
 
 
 def _explain(shell, kind, error, trace, tb_offset=None) -> None:
-    """Show the sentence, or the usual traceback where no cell would help."""
+    """Show the sentence, or the usual traceback if no cell defines the name."""
     sentence = first_run(error, _innermost(trace), code_cells(notebook_of(shell)))
     if sentence:
         shell._showtraceback(kind, error, [sentence])
@@ -26,20 +26,20 @@ def _explain(shell, kind, error, trace, tb_offset=None) -> None:
 
 
 def _innermost(trace) -> str:
-    """The name of the file or cell whose line raised."""
+    """The name of the file or cell that raised the error."""
     while trace.tb_next:
         trace = trace.tb_next
     return trace.tb_frame.f_code.co_filename
 
 
 def notebook_of(shell) -> Path | None:
-    """The notebook's file, as JupyterLab or VS Code tell it to the kernel; None if nobody does."""
+    """The notebook's file, which JupyterLab and VS Code tell the kernel; None in other editors."""
     told = shell.user_ns.get("__vsc_ipynb_file__") or os.environ.get("JPY_SESSION_NAME", "")
     return Path(told) if told.endswith(".ipynb") and Path(told).is_file() else None
 
 
 def code_cells(notebook: Path | None) -> list[str]:
-    """The text of its code cells; none if it cannot be read."""
+    """The text of a notebook's code cells; an empty list if it cannot be read."""
     if notebook is None:
         return []
     try:
@@ -50,18 +50,18 @@ def code_cells(notebook: Path | None) -> list[str]:
 
 
 def first_run(error: NameError, place: str, cells: list[str]) -> str | None:
-    """One sentence: which cell makes the name. None if the error is not a cell's own, or no cell makes it."""
+    """A sentence that names the cell which defines the name. None if no cell does, or a library raised the error."""
     if Path(place).suffix == ".py" and "ipykernel" not in place:
         return None  # raised inside a library
     for text in cells:
         if error.name in names_made(text):
             begins = next(line for line in text.splitlines() if line.strip() and not line.startswith("#"))
-            return f"`{error.name}` is not there yet: first run the cell that begins with `{begins}`, {RUN_ABOVE}."
+            return f"`{error.name}` is not defined yet: first run the cell that begins with `{begins}`, {RUN_ABOVE}."
     return None
 
 
 def names_made(text: str) -> set[str]:
-    """What a cell binds outside of its functions: variables, functions, classes, imports. Empty if it is not Python."""
+    """The names a cell defines outside functions: variables, functions, classes, imports. Empty if it is not Python."""
     try:
         todo, made = list(ast.parse(text).body), set()
     except SyntaxError:

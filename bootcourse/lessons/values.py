@@ -1,6 +1,6 @@
-"""Answers as plain numbers, so that tensors, arrays and numbers can be compared and printed alike.
+"""Answers as plain numbers, so that tensors, arrays and numbers can be compared and printed in one way.
 
-`plain` copies: what a student's function changes later does not reach what it has answered.
+`plain` makes a copy, so that nothing a student's function does later changes its answer.
 """
 
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ class Plain:
 
     @property
     def words(self) -> str:
-        """What it is, in a sentence."""
+        """Its kind, to put into a sentence."""
         if self.kind == "tuple":
             return f"{len(self.data)} values"
         known = {"tensor": "a torch tensor", "array": "a NumPy array", "number": "a number", "text": "a text"}
@@ -31,7 +31,7 @@ class Plain:
 
 
 def plain(value) -> Plain:
-    """The value without anything that could change or surprise."""
+    """A copy of the value as a `Plain`."""
     name = type(value).__name__
     if isinstance(value, str):
         return Plain("text", str(value))
@@ -51,7 +51,7 @@ def plain(value) -> Plain:
 
 
 def like(answer: Plain, right: Plain) -> bool:
-    """Is it of the right kind? A number may come as a tensor or an array that holds one, and the other way round."""
+    """Is it of the right kind? A number and a tensor or an array that holds one number count as the same kind."""
     if right.kind == "tuple":
         same_length = answer.kind == "tuple" and len(answer.data) == len(right.data)
         return same_length and all(map(like, answer.data, right.data))
@@ -66,7 +66,7 @@ def same_shape(answer: Plain, right: Plain) -> bool:
 
 
 def same(answer: Plain, right: Plain, tolerance: float = 0.0, nan_too: bool = False) -> bool:
-    """Equal in kind, shape and value. nan_too: a NaN equals a NaN."""
+    """Equal in kind, shape and value. tolerance: relative; nan_too: NaN equals NaN."""
     if not (like(answer, right) and same_shape(answer, right)):
         return False
     if right.kind == "tuple":
@@ -90,7 +90,7 @@ def shape_words(value: Plain) -> str:
 
 
 def numbers(value: Plain, longest: int = 36) -> str:
-    """The value as a line to read; of a long one its shape."""
+    """The value in one line; of a value with more than `longest` numbers the shape."""
     if value.kind == "tuple":
         return ", ".join(numbers(part, longest) for part in value.data)
     if value.kind == "text":
@@ -105,7 +105,7 @@ def numbers(value: Plain, longest: int = 36) -> str:
 
 
 def first_difference(answer: Plain, right: Plain, tolerance: float) -> tuple[int, ...] | None:
-    """Where two arrays of one shape part; None for numbers, texts and tuples."""
+    """The index of the first difference between two arrays of one shape; None for numbers, texts and tuples."""
     if right.kind not in ("tensor", "array") or right.shape == ():
         return None
     close = np.isclose(answer.data, right.data, rtol=tolerance, atol=tolerance / 100)

@@ -1,10 +1,10 @@
-"""What a check answers: a sentence, and where it helps the numbers behind it. Readable with and without HTML."""
+"""The result of a check: a sentence, with numbers where they help, as HTML and as plain text."""
 
 import re
 from dataclasses import dataclass
 from html import escape
 
-MARKS = {"passed": "✓", "wrong": "✗", "todo": "…", "hint": "?"}  # the same is said in words: colour alone says nothing
+MARKS = {"passed": "✓", "wrong": "✗", "todo": "…", "hint": "?"}  # words say the same, for readers who see no colour
 COLOURS = {"passed": "#009E73", "wrong": "#D55E00", "todo": "#777777", "hint": "#0072B2"}
 
 
@@ -14,7 +14,7 @@ class Verdict:
 
     kind: str
     sentence: str
-    details: tuple[str, ...] = ()  # one line each, as they are: numbers, code
+    details: tuple[str, ...] = ()  # one line each, shown unchanged: numbers, code
     footer: str = ""
 
     @property
@@ -37,12 +37,10 @@ class Verdict:
 
 
 def marked(sentence: str) -> str:
-    """HTML of a sentence in which `backticks` mark code and *asterisks* a word that is stressed."""
+    """HTML of a sentence in which `backticks` mark code and *asterisks* an emphasised word."""
     parts = escape(sentence).split("`")
-    if len(parts) % 2 == 0:  # an odd backtick stays one
+    if len(parts) % 2 == 0:  # a backtick without a partner is left as it is
         return "`".join(parts)
-    return "".join(f"<code>{part}</code>" if i % 2 else stressed(part) for i, part in enumerate(parts))
-
-
-def stressed(text: str) -> str:
-    return re.sub(r"\*(\w+)\*", r"<em>\1</em>", text)
+    return "".join(
+        f"<code>{part}</code>" if i % 2 else re.sub(r"\*(\w+)\*", r"<em>\1</em>", part) for i, part in enumerate(parts)
+    )
