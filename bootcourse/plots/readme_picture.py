@@ -21,7 +21,7 @@ from bootcourse.policies import idle_policy, rule_policy
 from bootcourse.road.state import EGO, LANE
 from bootcourse.scenario import DEFAULT
 
-ROAD = 3  # § one on which the rule passes soon, after 22 s: the clip stays short
+ROAD = 3  # our choice: the rule passes after 22 s there, so the clip is short
 FOLDER = Path(__file__).resolve().parents[2] / "assets" / "readme"
 
 

@@ -116,7 +116,7 @@ class StayingJob:
 
     name: str
     scenario: Scenario
-    gamma: float = 0.8  # † the paper's
+    gamma: float = 0.8  # the paper's
     roads: int = 50  # of the held-out ones
     beam: int = 200
 
