@@ -1,14 +1,13 @@
-"""Every colour of the course, in one place: figures, panels and the 3D replay take them from here.
+"""The colours of figures, panels and the 3D replay; the methods' colours are in `methods.py`.
 
-The colours stay apart for colour-blind eyes and in grey print; a line's style says the same once
-more. A drive is coloured by its label, which names who drove: "sac", "rule", "bootstrapped" ...
+They are distinguishable for colour-blind readers and in grey print; line styles differ as well.
 """
 
 from typing import NamedTuple
 
 
 class Style(NamedTuple):
-    """How a method is drawn."""
+    """The line of a method in figures."""
 
     colour: str  # "#rrggbb"
     line: str | tuple = "-"  # a matplotlib line style
@@ -16,14 +15,14 @@ class Style(NamedTuple):
     marker: str | None = None  # a matplotlib marker
 
 
-OTHER = Style("#6F4FA0")  # any other driver: your own, idle, random
+OTHER = Style("#6F4FA0")  # other drivers: you, idle, random
 
 TRAP = "#7A1F1F"  # the two slow cars
 TRAFFIC = "#B8BEC6"  # all other cars
 ALARM = "#E8112D"  # an accident
 
-INK, QUIET, GRID = "#1F2933", "#5F6B77", "#E3E7EB"  # words and axes; less important words; grid lines
-ASPHALT, PAINT, EDGE = "#F1F3F5", "#B6BEC7", "#7C8792"  # the road from above: its face, lane lines, edges
+INK, QUIET, GRID = "#1F2933", "#5F6B77", "#E3E7EB"  # text and axes; secondary text; grid lines
+ASPHALT, PAINT, EDGE = "#F1F3F5", "#B6BEC7", "#7C8792"  # the road from above: surface, lane lines, edges
 
 
 def rgb(colour: str) -> tuple[int, int, int]:

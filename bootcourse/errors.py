@@ -1,16 +1,15 @@
-"""The one exception that bootcourse raises for a mistake that its user can mend."""
+"""The exception for user mistakes, and suggestions for misspelt words."""
 
 
 class BootcourseError(ValueError):
-    """One clear sentence: the value that was wrong, and what to do about it.
+    """A user mistake, in one sentence: the wrong value and the remedy. Any other exception is a bug in bootcourse.
 
-    The command line prints the sentence and exits with status 2; a notebook shows it as the last
-    line of the error. Anything else that is raised is a bug of ours.
+    The command line prints the sentence and exits with status 2; a notebook shows it as the error's last line.
     """
 
 
 def did_you_mean(word: str, choices) -> str:
-    """`word` in a sentence that offers the choices, the most similar one first."""
+    """A clause for an error message: `word` is unknown, the most similar choice, all choices."""
     import difflib
 
     choices = [str(choice) for choice in choices]

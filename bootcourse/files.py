@@ -1,7 +1,7 @@
-"""Writing and reading files so that nothing is lost and nothing damaged is believed.
+"""Reading and writing files without pickles.
 
-A file is written under a temporary name in its own folder, synced, and renamed: what existed before
-stays whole until the new file is complete. No pickles.
+A file is written under a temporary name in the same folder, synced and renamed: an existing file is replaced only
+when the new one is complete.
 """
 
 import hashlib
@@ -20,7 +20,7 @@ from bootcourse.errors import BootcourseError
 
 
 def write_bytes(path: Path, data: bytes) -> None:
-    """Replace `path` by `data`, all or nothing. Raises BootcourseError if the disk refuses."""
+    """Write `data` to `path`, completely or not at all. Raises BootcourseError if the file cannot be written."""
     path = Path(path)
     temporary = None
     try:
@@ -35,7 +35,7 @@ def write_bytes(path: Path, data: bytes) -> None:
     except OSError as error:
         reason = error.strerror or error
         raise BootcourseError(f"Cannot write {path}: {reason}. Free some space or choose another folder.") from None
-    finally:  # also after an interrupt; once renamed, nothing is there any more
+    finally:  # also after an interrupt; after the renaming there is no temporary file
         if temporary is not None:
             temporary.unlink(missing_ok=True)
 
@@ -47,10 +47,12 @@ def _umask() -> int:
 
 
 def write_json(path: Path, value) -> None:
+    """Write a value as JSON. Raises BootcourseError if the file cannot be written."""
     write_bytes(path, (json.dumps(value, indent=2, sort_keys=True) + "\n").encode())
 
 
 def read_bytes(path: Path) -> bytes:
+    """The bytes of a file. Raises BootcourseError if it cannot be read."""
     try:
         return Path(path).read_bytes()
     except OSError as error:
@@ -58,6 +60,7 @@ def read_bytes(path: Path) -> bytes:
 
 
 def read_json(path: Path):
+    """The value of a JSON file. Raises BootcourseError if it cannot be read or is not JSON."""
     try:
         return json.loads(read_bytes(path))
     except ValueError:
@@ -65,28 +68,29 @@ def read_json(path: Path):
 
 
 def write_arrays(path: Path, arrays: dict[str, np.ndarray], compress: bool = True) -> None:
-    """Write named arrays as an `.npz` without pickles."""
+    """Write named arrays as an `.npz` file. Raises BootcourseError if it cannot be written."""
     buffer = io.BytesIO()
     (np.savez_compressed if compress else np.savez)(buffer, **arrays)
     write_bytes(path, buffer.getvalue())
 
 
 def read_arrays(path: Path) -> dict[str, np.ndarray]:
-    """Every array of a `.npz`. Raises BootcourseError if the file is missing, cut short or has pickles."""
-    read_bytes(path)  # says in one sentence what is wrong with a missing file
+    """All arrays of an `.npz` file. Raises BootcourseError if it is missing, truncated or contains pickles."""
+    read_bytes(path)  # raises BootcourseError for a missing file
     try:
-        with np.load(path, allow_pickle=False) as file:  # a bare array (.npy) is no context: TypeError
+        with np.load(path, allow_pickle=False) as file:  # a single array (.npy) raises TypeError here
             return {name: file[name] for name in file.files}
     except (ValueError, TypeError, OSError, EOFError, KeyError, zipfile.BadZipFile):
         raise BootcourseError(f"{path} is damaged or cut short: record it again, or restore it from a copy.") from None
 
 
 def sha256(path: Path) -> str:
+    """The SHA-256 hash of a file, in hexadecimal."""
     return hashlib.sha256(read_bytes(path)).hexdigest()
 
 
 def provenance(**more) -> dict:
-    """Who made a file: the versions that decide a result, and whatever else is given."""
+    """The versions of Python and of the packages that results depend on, and the given entries."""
     packages = ("bootcourse", "highway-env", "gymnasium", "numpy", "numba", "torch")
     versions = {}
     for name in packages:

@@ -1,10 +1,10 @@
-"""Every method in one place: which settings define it, which learner it needs, how it is named and drawn.
+"""The registry of methods: settings, learner, name and style of each.
 
 To add a method, write its learner (one file: see learn/learner.py for what may be overridden) and one entry:
 
     METHODS["mine"] = Method("my method", Style("#117733"), {"xi_multiplier": 0.0}, "my_package.mine:MyLearner")
 
-It then trains, is saved, evaluated, drawn and offered by the training panel like the others.
+Training, files, evaluation, figures and the training panel then include it.
 """
 
 import importlib
@@ -17,13 +17,13 @@ SAC = "bootcourse.learn.learner:SACLearner"
 
 @dataclass(frozen=True)
 class Method:
-    """What the course knows of a method."""
+    """One method of the registry."""
 
-    name: str  # how text and figures call it
-    style: Style  # how it is drawn
-    settings: dict = field(default_factory=dict)  # what differs from `bootstrapped`, whose values are the defaults
-    learner: str | type = SAC  # the class, or where it is ("module:class"): torch is imported when it trains
-    unused: dict[str, str] = field(default_factory=dict)  # settings without effect, and why: {"gamma": "... "}
+    name: str  # in text and figures
+    style: Style  # in figures
+    settings: dict = field(default_factory=dict)  # those that differ from `bootstrapped`, whose values are the defaults
+    learner: str | type = SAC  # the class, or "module:class", which is imported only for training (torch is slow)
+    unused: dict[str, str] = field(default_factory=dict)  # {setting without effect: reason}
 
     def learner_class(self) -> type:
         """The learner's class, imported."""
@@ -33,10 +33,9 @@ class Method:
         return getattr(importlib.import_module(module), name)
 
 
-# What others do with the same demonstrations, with no word from the rule beyond them. The share of demonstrations in
-# a batch stays where it starts: all of it for those that learn offline, half for GAIL, whose discriminator compares
-# that half with the other, and whose generator learns from the other alone.
-_ALONE = {"xi_multiplier": 0.0, "bonus": 0.0, "beta_episodes": 10**9}
+# The baselines learn from demonstrations without the soft constraint and the bonus. Their share of demonstrations is
+# constant: 1 for offline methods, 0.5 for GAIL, whose discriminator compares the two halves of a batch.
+_BASELINE = {"xi_multiplier": 0.0, "bonus": 0.0, "beta_episodes": 10**9}
 
 METHODS = {
     "sac": Method("plain SAC", Style("#0072B2"), {"xi_multiplier": 0.0, "beta_start": 0.0}),
@@ -48,29 +47,29 @@ METHODS = {
     "bc": Method(
         "behaviour cloning",
         Style("#444444", marker="o"),
-        _ALONE | {"beta_start": 1.0},
+        _BASELINE | {"beta_start": 1.0},
         "bootcourse.learn.bc:BCLearner",
-        unused={"gamma": "values nothing, so it discounts nothing"},
+        unused={"gamma": "has no critic and so no discount factor"},
     ),
     "cql": Method(
         "CQL",
         Style("#777777", marker="s"),
-        _ALONE | {"beta_start": 1.0, "cql_weight": 1.0},
+        _BASELINE | {"beta_start": 1.0, "cql_weight": 1.0},
         "bootcourse.learn.cql:CQLLearner",
     ),
-    "cql_sac": Method(  # the same term on SAC, with its actor
-        "CQL with an actor", Style("#777777", "--", marker="s"), _ALONE | {"beta_start": 1.0, "cql_weight": 1.0}
+    "cql_sac": Method(  # CQL's conservative term added to SAC's critics
+        "CQL with an actor", Style("#777777", "--", marker="s"), _BASELINE | {"beta_start": 1.0, "cql_weight": 1.0}
     ),
     "gail": Method(
         "GAIL",
         Style("#AAAAAA", marker="^"),
-        _ALONE | {"beta_start": 0.5, "batch": 128},
+        _BASELINE | {"beta_start": 0.5, "batch": 128},
         "bootcourse.learn.gail:GAILLearner",
     ),
 }
 ABLATION = ("sac", "soft", "demos", "bootstrapped", "margin", "margin_soft")  # the paper's method and its parts
 BASELINES = ("bc", "cql", "cql_sac", "gail")
-DRIVERS = {  # who drives without having learned
+DRIVERS = {  # name and style of the drivers that are not trained
     "rule": ("rule controller", Style("#009E73", width=1.0)),
     "planner": ("planner", Style("#000000", (0, (8, 4)))),
     "idle": ("idle driver", OTHER),
@@ -79,7 +78,7 @@ DRIVERS = {  # who drives without having learned
 
 
 def display_name(label: str) -> str:
-    """How a drive or a method is called in text and figures: "sac, seed 3" -> "plain SAC, seed 3"."""
+    """The name of a drive or a method in text and figures: "sac, seed 3" -> "plain SAC, seed 3"."""
     first, comma, rest = label.partition(",")
     key = first.strip().lower()
     name = METHODS[key].name if key in METHODS else DRIVERS.get(key, (first.strip(),))[0]
@@ -87,7 +86,7 @@ def display_name(label: str) -> str:
 
 
 def style(label: str) -> Style:
-    """The style of a method, or of a drive whose label begins with one ("sac, seed 3" is "sac")."""
+    """The style of a method, or of a drive whose label begins with a method's name ("sac, seed 3")."""
     words = label.lower().replace(",", " ").replace(":", " ").split()
     key = words[0] if words else ""
     return METHODS[key].style if key in METHODS else DRIVERS.get(key, ("", OTHER))[1]

@@ -1,11 +1,14 @@
-"""What a notebook cell shows and must close when it runs again: replays and panels, which hold servers and threads."""
+"""Closing a notebook cell's replay or panel, with its server and threads, when the cell runs again."""
 
 import threading
 from typing import Protocol
 
 
 class Closable(Protocol):
-    def close(self) -> None: ...
+    """A replay or a panel."""
+
+    def close(self) -> None:
+        """Stop its server and threads."""
 
 
 _shown: dict[object, Closable] = {}  # cell -> what it shows
@@ -13,7 +16,7 @@ _lock = threading.Lock()
 
 
 def this_cell() -> str | None:
-    """The notebook cell that is being run ("" where Jupyter does not tell which); None outside a notebook."""
+    """The id of the running notebook cell ("" if Jupyter does not give one); None outside a notebook."""
     try:
         from IPython import get_ipython
 
@@ -24,7 +27,7 @@ def this_cell() -> str | None:
 
 
 def close_shown_by(cell: object) -> None:
-    """Close what this cell (and, of a cell with several, this place in it) showed when it ran before."""
+    """Close the replay or panel that this cell (or this place in a cell with several) showed when it last ran."""
     with _lock:
         before = _shown.pop(cell, None)
     if before is not None:
@@ -32,18 +35,19 @@ def close_shown_by(cell: object) -> None:
 
 
 def note(cell: object, shown: Closable) -> None:
-    """Remember what a cell shows."""
+    """Register the replay or panel that a cell shows."""
     with _lock:
         _shown[cell if cell is not None else object()] = shown
 
 
 def forget(shown: Closable) -> None:
+    """Remove a closed replay or panel from the register."""
     with _lock:
         for cell in [cell for cell, other in _shown.items() if other is shown]:
             del _shown[cell]
 
 
 def running() -> list[Closable]:
-    """Everything that cells show in this process and that is not closed."""
+    """All open replays and panels of this process."""
     with _lock:
         return list(_shown.values())

@@ -1,8 +1,8 @@
 """Policies: functions that decide on an action for each road.
 
-policy(observations (roads, 26), cars (roads, vehicles, 10)) -> PolicyOutput. A learned agent uses the observations,
-the rule uses the cars, that is the true state. A policy that remembers something has a method `reset(roads)` too,
-which the loop in `episodes/driving.py` calls before each episode. `bootcourse.learn` adds agents.
+policy(observations (roads, 26), cars (roads, vehicles, 10)) -> PolicyOutput. A trained agent uses the observations,
+the rule uses the cars, which are the true state. A policy with internal state also has a method `reset(roads)`, which
+`episodes/driving.py` calls before each episode.
 """
 
 import itertools
@@ -17,7 +17,7 @@ from bootcourse.scenario import ACTION_NAMES, IDLE, N_ACTIONS, RULE_P, Scenario
 
 
 class PolicyOutput(NamedTuple):
-    """The action on each road; π and Q where the policy has them."""
+    """The action on each road; π and Q of policies that have them, None for others."""
 
     actions: np.ndarray  # (roads,) int, 0..8
     policy: np.ndarray | None = None  # (roads, 9) probabilities π(a|s)
@@ -28,20 +28,20 @@ Policy = Callable[[np.ndarray, np.ndarray], PolicyOutput]
 
 
 def idle_policy(observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
-    """Keeps its speed and its steering straight, whatever it sees: action 4 on each road."""
+    """The idle policy: 0 m/s², 0 rad (action 4) on each road."""
     return PolicyOutput(np.full(len(observations), IDLE))
 
 
 def rule_policy(scenario: Scenario) -> Policy:
-    """The rule controller μ (Section III-D, Algorithm 1) as a policy on roads of a scenario."""
+    """The rule controller μ (Section III-D, Algorithm 1) as a policy for roads of a scenario."""
     return lambda observations, cars: PolicyOutput(rule(cars, scenario).actions)
 
 
 def stochastic_rule_policy(scenario: Scenario, rng: np.random.Generator, p: float = RULE_P) -> Policy:
-    """The stochastic rule π̃ (Equation 16) as a policy: it draws each action anew.
+    """The stochastic rule π̃ (Equation 16) as a policy: each action is drawn from π̃ with `rng`.
 
-    rng: what it draws from. p: the probability of the rule's own action; each other has (1 - p) / 8.
-    Raises BootcourseError, when it drives, if p is outside [1/9, 1).
+    p: the probability of the rule's action; each other has (1 - p) / 8. The policy raises BootcourseError, when
+    called, if p is outside [1/9, 1).
     """
 
     def drive(observations, cars):
@@ -52,27 +52,27 @@ def stochastic_rule_policy(scenario: Scenario, rng: np.random.Generator, p: floa
 
 
 def random_policy(rng: np.random.Generator) -> Policy:
-    """The policy that draws each action, all nine with the same probability, from `rng`."""
+    """The uniformly random policy: each of the nine actions has probability 1/9."""
     return lambda observations, cars: PolicyOutput(
         rng.integers(N_ACTIONS, size=len(observations)), np.full((len(observations), N_ACTIONS), 1 / N_ACTIONS)
     )
 
 
 class PlanPolicy:
-    """A policy that takes given actions, one decision after the other, and idles after the last.
+    """A policy that takes the given actions in order, one per decision, and idles after the last.
 
-    actions: int, 0..8, (decisions,) for every road alike, or (decisions, roads). In a loop of your own, call
-    `reset(roads)` before each episode: it begins the plan anew, and raises BootcourseError if `actions` are for
-    another number of roads.
+    actions: int, 0..8, (decisions,) for all roads alike or (decisions, roads). In your own loop, call `reset(roads)`
+    before each episode.
     """
 
     def __init__(self, actions: Sequence[int] | np.ndarray):
         self.actions, self.decision = np.asarray(actions, dtype=np.int64), 0
 
     def reset(self, roads: int) -> None:
+        """Restart the plan. Raises BootcourseError if `actions` are for another number of roads."""
         if self.actions.ndim == 2 and self.actions.shape[1] != roads:
             raise BootcourseError(
-                f"There are plans for {self.actions.shape[1]} roads, and {roads} to drive: give a plan for each road, "
+                f"There are plans for {self.actions.shape[1]} roads, not for {roads}: give one plan for each road, "
                 "in the same order."
             )
         self.decision = 0
@@ -84,10 +84,9 @@ class PlanPolicy:
 
 
 def plan_policy(plan: Sequence[str | tuple[str, int]]) -> PlanPolicy:
-    """Drives a plan written in words, then idles: ["keep straight", ("accelerate left", 2)].
+    """A policy from a plan in words, such as ["keep straight", ("accelerate left", 2)]; after it the policy idles.
 
-    Each entry is one of `ACTION_NAMES`, for one decision or as many as you say.
-    Raises BootcourseError for an unknown action.
+    Each entry is one of `ACTION_NAMES`, or (name, decisions). Raises BootcourseError for an unknown action.
     """
     actions = []
     for entry in plan:
@@ -99,5 +98,5 @@ def plan_policy(plan: Sequence[str | tuple[str, int]]) -> PlanPolicy:
 
 
 def in_words(actions: Sequence[int]) -> list[tuple[str, int]]:
-    """Actions as a plan in words, (name, times): the opposite of `plan_policy`."""
+    """Actions (decisions,) as a plan in words, [(name, decisions), ...]: the inverse of `plan_policy`."""
     return [(ACTION_NAMES[action], len(list(run))) for action, run in itertools.groupby(actions)]

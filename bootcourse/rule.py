@@ -1,9 +1,8 @@
 """The rule controller (Section III-D, Algorithm 1) and its stochastic form π̃.
 
-It escapes by the backward gap: slower than both traps, it falls back until trap 2 is far enough
-ahead, moves left behind it, moves left again, and drives on. The paper gives the target speed and
-the lane; how to reach them with nine actions it leaves to a cited controller. The tracker below is
-our own. Corrections to the printed algorithm are marked (erratum).
+It drives slower than both traps until trap 2 is far enough ahead, changes to the lane behind it, changes left again,
+and overtakes. The paper computes a target speed and a target lane, and cites a controller that reaches them; the
+tracker below is our own. Corrections to the printed algorithm are marked (erratum).
 """
 
 import math
@@ -22,9 +21,9 @@ from bootcourse.scenario import N_ACTIONS, Scenario, check_p
 
 
 class Reason(IntEnum):
-    """Why the rule does what it does."""
+    """The reason for a decision of the rule."""
 
-    FREE = 0  # nobody ahead in this lane: stay
+    FREE = 0  # no car ahead in this lane: stay
     CHANGE = 1  # there is room in the lane to the left: change
     FALL_BACK = 2  # the gap to the new car ahead is shorter than the safety distance
     WAIT_FOR_FOLLOWER = 3  # a car behind in the target lane is too close
@@ -46,8 +45,8 @@ SENTENCES = {
 def target_speed(v_current, v_target, v_min, v_max, n):
     """v_target (Equation 14): the fastest of n grid speeds that is slower than both preceding cars (m/s).
 
-    Infinity stands for no car. Where even the slowest grid speed is too fast, v_min (erratum: the
-    paper leaves this open).
+    v_current, v_target: speeds of the preceding cars in the current and the target lane, infinity for no car.
+    v_min if no grid speed is slow enough (erratum: the paper does not define this case).
     """
     chosen = v_min
     for i in range(1, n):
@@ -61,9 +60,9 @@ def target_speed(v_current, v_target, v_min, v_max, n):
 def safety_distance(v_ego, v_current, v_target, t_safe, floor):
     """d_s (Equation 13): the bumper-to-bumper gap (m) to the new preceding car that a lane change needs.
 
-    (v_e - min(v_current, v_target)) t_safe, and never less than `floor`. (Erratum: the printed d_s
-    adds Δx_current - Δx_target, and the printed test d_s - Δx_current > 0 then says "change when
-    the gap is *shorter* than this", which never happens once the ego is slower than the traps.)
+    (v_e - min(v_current, v_target)) t_safe, at least `floor`. (Erratum: the printed d_s adds Δx_current - Δx_target;
+    the printed condition d_s - Δx_current > 0 then means "change when the gap is *shorter* than this", which is
+    false whenever the ego is slower than the traps.)
     """
     return max(floor, (v_ego - min(v_current, v_target)) * t_safe)
 
@@ -97,23 +96,23 @@ def decide_rule(cars, around, c):
     return speed, lane - 1, distance, Reason.CHANGE.value
 
 
-SETTLED = 0.5  # m from the lane's centre; only from here does the next lane change begin
-HEADING_COST = 20.0  # m² per rad²: how much a skewed car costs against one that is off its lane's centre
-STRAIGHT_FIRST = (1, 0, 2)  # of two plans that cost the same, the one that begins straight
-EDGE_COST = 1e6  # a plan that leaves the road
+SETTLED = 0.5  # m; a further lane change begins only within this distance of the lane's centre
+HEADING_COST = 20.0  # m² per rad²: weight of the squared heading against the squared distance from the lane's centre
+STRAIGHT_FIRST = (1, 0, 2)  # order of the search: of two sequences with the same cost, straight wins
+EDGE_COST = 1e6  # m²; added to a sequence that leaves the road
 
 
 @compiled
 def track(cars, speed, lane, c):
-    """Our tracker: the action (0..8) that brings the ego nearest to a speed and a lane.
+    """Our tracker: the action (0..8) that brings the ego nearest to a speed (m/s) and a lane.
 
-    Accelerate or brake when that brings the speed closer. Steer by looking three decisions ahead:
-    all 27 sequences of left, straight, right through the bicycle model, the cheapest one's first
-    step. (One decision of full steering at 15 m/s moves the car 1.2 m sideways: the nearest action
-    to a smooth controller's wish would leave the road.)
+    It accelerates or brakes if that reduces the speed error. It steers by searching three decisions ahead: all 27
+    sequences of left, straight and right through the bicycle model, then the first step of the cheapest. (Rounding a
+    continuous controller's steering does not work: one decision of full steering at 15 m/s moves the car 1.2 m
+    sideways, and the car leaves the road.)
     """
-    wish = speed - cars[EGO, SPEED]
-    sign = 0 if abs(wish) <= c.ego_acceleration / 2 else (1 if wish > 0 else -1)
+    error = speed - cars[EGO, SPEED]
+    sign = 0 if abs(error) <= c.ego_acceleration / 2 else (1 if error > 0 else -1)
     acceleration = sign * c.ego_acceleration
     goal, best, best_cost = lane * c.lane_width, 1, math.inf
     for first in STRAIGHT_FIRST:
@@ -131,7 +130,7 @@ def track(cars, speed, lane, c):
 
 @compiled
 def _ahead(state, acceleration, steer, goal, c):
-    """One decision of the bicycle model: (y, heading, speed, cost so far) -> the same, later."""
+    """(y, heading, speed, cost) after one more decision of the bicycle model."""
     y, heading, v, cost = state
     for _ in range(c.steps):
         _, y, heading, v = bicycle_step(0.0, y, heading, v, acceleration, (steer - 1) * c.ego_steering, c.length, c.dt)
@@ -143,7 +142,7 @@ def _ahead(state, acceleration, steer, goal, c):
 
 @compiled_loop
 def drive_rule(cars, c, actions, speeds, lanes, distances, reasons):
-    """The rule on every road: cars (roads, vehicles, 10), fills the five arrays (roads,)."""
+    """The rule on every road: reads cars (roads, vehicles, 10), fills the five arrays (roads,)."""
     order, around = np.arange(cars.shape[1]), new_around(cars.shape[1], c)
     for road in range(cars.shape[0]):
         sort_by_x(cars[road], order)
@@ -154,7 +153,7 @@ def drive_rule(cars, c, actions, speeds, lanes, distances, reasons):
 
 @dataclass(frozen=True)
 class RuleDecisions:
-    """What the rule would do on each road, and why; every array is (roads,)."""
+    """The rule's decision on each road and its reason; every array is (roads,)."""
 
     actions: np.ndarray  # int, 0..8
     speeds: np.ndarray  # target speed, m/s
@@ -167,7 +166,7 @@ def rule(cars: np.ndarray, scenario: Scenario) -> RuleDecisions:
     """The rule controller μ: cars (roads, vehicles, 10) -> `RuleDecisions`.
 
     It reads the true state, not the observation. For TrapEnv: `rule(env.unwrapped.cars()[None], scenario)`.
-    Raises BootcourseError if the cars are not those of the scenario's road.
+    Raises BootcourseError for another shape, or an ego outside the scenario's lanes.
     """
     if cars.ndim != 3 or cars.shape[2] != COLUMNS:
         raise BootcourseError(f"cars have shape {cars.shape}: give (roads, vehicles, {COLUMNS}), as in `cars[None]`.")
@@ -188,7 +187,7 @@ def rule(cars: np.ndarray, scenario: Scenario) -> RuleDecisions:
 
 
 def stochastic_rule(rule_actions: np.ndarray, p: float) -> np.ndarray:
-    """π̃(a|s) (Equation 16): p for the rule's own action, (1 - p) / 8 for each other. (…,) int -> (…, 9).
+    """π̃(a|s) (Equation 16): p for the rule's action, (1 - p) / 8 for each other. (…,) int -> (…, 9).
 
     Raises BootcourseError if p is outside [1/9, 1).
     """
@@ -198,7 +197,10 @@ def stochastic_rule(rule_actions: np.ndarray, p: float) -> np.ndarray:
 
 
 def sample_stochastic_rule(rule_actions: np.ndarray, p: float, rng: np.random.Generator) -> np.ndarray:
-    """An action drawn from π̃ for each of the rule's actions. (n,) int -> (n,) int."""
+    """Draw an action from π̃ (Equation 16) for each of the rule's actions. (n,) int -> (n,) int.
+
+    Raises BootcourseError if p is outside [1/9, 1).
+    """
     check_p(p)
     others = (rule_actions + rng.integers(1, N_ACTIONS, size=np.shape(rule_actions))) % N_ACTIONS
     return np.where(rng.random(np.shape(rule_actions)) < p, rule_actions, others)

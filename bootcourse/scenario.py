@@ -1,15 +1,14 @@
-"""Every number of the scenario, in one place, with its unit and where it comes from.
+"""Every number of the scenario, with its unit and its source. For another scenario use `dataclasses.replace`.
 
-The mark behind each field says who chose it: † the paper prints it, ‡ it is inferred from what the
-paper prints, § it is our choice. Two scenarios have names: `DEFAULT` and `CALIBRATED`, whose traps
-drive at the speed that the paper's own results point to. To try another, use `dataclasses.replace`.
+† printed in the paper; ‡ inferred from the paper, with the reason; § our choice. `DEFAULT` is the scenario of the
+course; in `CALIBRATED` the traps drive at the speed that the paper's results suggest.
 """
 
 import json
 import math
 from dataclasses import asdict, dataclass, field, fields, is_dataclass
 
-from bootcourse.errors import BootcourseError
+from bootcourse.errors import BootcourseError, did_you_mean
 
 N_ACTIONS = 9  # 3 accelerations x 3 steering angles † (Equation 8)
 ACTION_NAMES = tuple(f"{a} {s}" for a in ("brake", "keep", "accelerate") for s in ("left", "straight", "right"))
@@ -22,7 +21,7 @@ def _check(holds: bool, sentence: str) -> None:
 
 
 def _check_numbers(part) -> None:
-    """Every number of a part is finite, and every pair is a range (low, high)."""
+    """Check that every number of a part is finite and that every pair is a range (low, high)."""
     for f in fields(part):
         value = getattr(part, f.name)
         name = f"{type(part).__name__}.{f.name}"
@@ -55,11 +54,11 @@ def _range(low: float, high: float):
 
 @dataclass(frozen=True)
 class Road:
-    """A straight road. Lane 0 is the leftmost; y grows to the right, as in highway-env."""
+    """A straight road. Lane 0 is the leftmost lane; y increases to the right, as in highway-env."""
 
     lanes: int = 3  # §
     lane_width: float = 4.0  # m †
-    length: float = 5000.0  # m § more than the fastest ego can drive in an episode
+    length: float = 5000.0  # m § longer than the fastest ego drives in an episode
     speed_limit: float = 30.0  # m/s § highway-env clips every IDM target speed to it
 
     def __post_init__(self):
@@ -70,10 +69,10 @@ class Road:
 
 @dataclass(frozen=True)
 class Clock:
-    """One decision a second for 150 seconds; physics at 2 Hz."""
+    """Time: one decision per second for 150 seconds, simulation at 2 Hz."""
 
     decisions: int = 150  # ‡ 1500 m at 10 m/s
-    decision_rate: int = 1  # Hz ‡
+    decision_rate: int = 1  # Hz ‡ with it 150 decisions are 1500 m at 10 m/s
     simulation_rate: int = 2  # Hz †
 
     def __post_init__(self):
@@ -98,7 +97,7 @@ class Clock:
 
 @dataclass(frozen=True)
 class Car:
-    """Every car is the same rectangle."""
+    """The size of every car, a rectangle."""
 
     length: float = 5.0  # m †
     width: float = 2.0  # m †
@@ -110,13 +109,13 @@ class Car:
 
 @dataclass(frozen=True)
 class Ego:
-    """The car that learns. It starts in the rightmost lane at x = 0 with heading 0."""
+    """The learning car. It starts in the rightmost lane at x = 0 with heading 0."""
 
     speed: float = 10.0  # m/s ‡ CQL's row: 10 ± 0 m/s over 1500 ± 0 m
-    max_speed: float = 25.0  # m/s § no faster, so that no 0.5 s step jumps through a car
-    min_speed: float = 1.0  # m/s § below it: "dangerous stoppage"
+    max_speed: float = 25.0  # m/s § low enough that no 0.5 s step passes through a car
+    min_speed: float = 1.0  # m/s § a lower speed is the accident "dangerous stoppage"
     acceleration: float = 1.0  # m/s² † the actions are -1, 0 and +1 times this
-    steering: float = math.pi / 50  # rad † likewise
+    steering: float = math.pi / 50  # rad † the actions are -1, 0 and +1 times this
 
     def __post_init__(self):
         _check_numbers(self)
@@ -132,11 +131,14 @@ class Ego:
 
 @dataclass(frozen=True)
 class Traps:
-    """The two slow cars (Table 1). Trap 1 drives in the ego's lane, trap 2 in the next lane to its left."""
+    """The two slow cars (Table 1). Trap 1 drives in the ego's lane, trap 2 in the next lane to its left.
 
-    speed: float = 10.0  # m/s § the ego's own, so that doing nothing is a fixed point
-    d1: tuple = _range(14.80, 16.44)  # m † D1, ego to trap 1, centre to centre ‡
-    d2: tuple = _range(4.06, 7.43)  # m † D2, ego to trap 2, centre to centre ‡
+    The table does not say between which points it measures D1 and D2; we take the cars' centres ‡.
+    """
+
+    speed: float = 10.0  # m/s § the ego's initial speed, so that an idle ego stays at the same distance
+    d1: tuple = _range(14.80, 16.44)  # m † D1, ego to trap 1
+    d2: tuple = _range(4.06, 7.43)  # m † D2, ego to trap 2
 
     def __post_init__(self):
         _check_numbers(self)
@@ -153,8 +155,8 @@ class Traffic:
     """The cars ahead of trap 1 (Table 2): IDM, MOBIL and a lane-keeping controller that is stable at 2 Hz."""
 
     cars: int = 6  # §
-    lead: float = 40.0  # m § trap 1 to the first car; at 20 m the first jam backs up into the traps
-    headway: float = 40.0  # m § mean distance between one car and the next; at 20 m the jam reaches the traps
+    lead: float = 40.0  # m § trap 1 to the first car; at 20 m a traffic jam reaches the traps
+    headway: float = 40.0  # m § mean distance from one car to the next; at 20 m a traffic jam reaches the traps
     spacing: tuple = _range(0.5, 1.5)  # § each distance is headway x U[spacing]
     speed: tuple = _range(11.0, 12.5)  # m/s § at the start
     desired_speed: float = 12.5  # m/s † v_desired (the table prints "12.5m")
@@ -164,12 +166,12 @@ class Traffic:
     time_gap: float = 1.5  # s † T
     delta: float = 4.0  # † exponent of the free-road term
     politeness: float = 0.5  # † p of MOBIL (not the p of the stochastic rule)
-    a_threshold: float = 0.2  # m/s² † gain that a lane change must promise
-    safe_braking: float = 2.0  # m/s² § highway-env's default: the most that a lane change may impose
+    a_threshold: float = 0.2  # m/s² † smallest incentive for a lane change
+    safe_braking: float = 2.0  # m/s² § highway-env's default: hardest braking of the new follower
     lane_change_delay: float = 1.0  # s § highway-env's default
     braking_limit: float = 6.0  # m/s² § highway-env's clip of every IDM acceleration
     tau_heading: float = 0.6  # s § highway-env's 0.2 s is unstable at 2 Hz: 0.5 / 0.2 > 2
-    tau_lateral: float = 1.8  # s § highway-env's 0.6 s belongs to its 0.2 s
+    tau_lateral: float = 1.8  # s § three times tau_heading, as in highway-env (0.6 s and 0.2 s)
 
     def __post_init__(self):
         _check_numbers(self)
@@ -181,7 +183,7 @@ class Traffic:
 
 @dataclass(frozen=True)
 class Reward:
-    """Weights of the three terms (Equation 9), and what an accident costs (Section III-C, "Reward")."""
+    """Weights of the three terms (Equation 9), and the reward of an accident (Section III-C, "Reward")."""
 
     w_v: float = 1.5  # † speed
     w_y: float = 0.05  # † lane centring
@@ -196,10 +198,10 @@ class Reward:
 
 @dataclass(frozen=True)
 class Sight:
-    """What the ego sees: itself and the nearest cars."""
+    """The observation: the ego and its nearest neighbours."""
 
-    neighbours: int = 4  # †
-    distance: float = 200.0  # m §
+    neighbours: int = 4  # † cars
+    distance: float = 200.0  # m § range of the observation and of the rule
 
     def __post_init__(self):
         _check_numbers(self)
@@ -213,7 +215,7 @@ class Rule:
     v_min: float = 6.0  # m/s † slowest target speed
     v_max: float = 15.0  # m/s † fastest target speed
     n: int = 5  # † target speeds between the two, evenly spaced
-    t_safe: float = 1.5  # s § the paper gives no value; this is the traffic's time gap
+    t_safe: float = 1.5  # s § the traffic's time gap; the paper gives no value
     floor: float = 3.0  # m § smallest bumper-to-bumper gap for a lane change
 
     def __post_init__(self):
@@ -223,11 +225,11 @@ class Rule:
         _check(self.n >= 2, f"Rule.n = {self.n}: the grid of target speeds needs at least 2 values.")
 
 
-RULE_P = 0.9  # † p: the probability that the stochastic rule π̃ gives to the rule's own action (Equation 16)
+RULE_P = 0.9  # † p, the stochastic rule's probability of the rule's action (Equation 16)
 
 
 def check_p(p: float, name: str = "p") -> None:
-    """Refuse a stochasticity that is not in [1/9, 1): at 1/9 the rule is uniform, at 1 the KL is infinite."""
+    """Raise BootcourseError for a p outside [1/9, 1): at 1/9 π̃ is uniform, at 1 the KL is infinite."""
     _check(
         isinstance(p, (int, float)) and 1 / N_ACTIONS <= p < 1,
         f"{name} = {p!r} is outside [1/9, 1): at 1/9 the rule is uniform, at 1 the KL is infinite.",
@@ -236,7 +238,7 @@ def check_p(p: float, name: str = "p") -> None:
 
 @dataclass(frozen=True)
 class Scenario:
-    """The whole scenario. `Scenario()` is the default one."""
+    """The whole scenario, `Scenario()` is `DEFAULT`. Raises BootcourseError for parts that do not fit together."""
 
     name: str = "default"
     road: Road = field(default_factory=Road)
@@ -292,22 +294,23 @@ class Scenario:
 
     @property
     def observation_size(self) -> int:
-        """Numbers in an observation: 6 about the ego, 5 about each neighbour (26 by default)."""
+        """Numbers in an observation: 6 of the ego, 5 of each neighbour (26 by default)."""
         return 6 + 5 * self.sight.neighbours
 
     def to_json(self) -> str:
+        """The scenario as JSON text, for `from_json`."""
         return json.dumps(asdict(self), sort_keys=True)
 
     @classmethod
     def from_json(cls, text: str) -> "Scenario":
-        """Rebuild a scenario; every number is checked again. Raises BootcourseError."""
+        """A scenario from `to_json`'s text. Raises BootcourseError for other text or an invalid number."""
         try:
             return _build(cls, json.loads(text))
         except (json.JSONDecodeError, TypeError, AttributeError) as error:
             raise BootcourseError(f"This is not a scenario that bootcourse wrote ({error}).") from None
 
 
-FORMER_FIELDS = {"Rule": ("p",)}  # what files of earlier versions hold; p is a setting of the learner now
+FORMER_FIELDS = {"Rule": ("p",)}  # in files of earlier versions; p is now the learner's setting rule_p
 
 
 def _build(cls, data: dict):
@@ -333,9 +336,7 @@ SCENARIOS = {scenario.name: scenario for scenario in (DEFAULT, CALIBRATED)}
 
 
 def named(name: str) -> Scenario:
-    """The scenario of that name. Raises BootcourseError with the nearest name."""
-    from bootcourse.errors import did_you_mean
-
+    """The scenario of that name. Raises BootcourseError for an unknown name."""
     if name not in SCENARIOS:
         raise BootcourseError(f"Scenario {did_you_mean(name, SCENARIOS)}.")
     return SCENARIOS[name]

@@ -1,10 +1,9 @@
-"""Statistics: a number with its interval, for episodes and for scores of training seeds. Pure functions.
+"""Statistics of episodes and of training seeds' scores, with 95 % intervals. Pure functions.
 
-A seed's score is the mean over its held-out episodes. Intervals come from resampling whole seeds,
-each with all its episodes: the seeds are what differs between two studies, and their scores carry
-the spread of their episodes already (Davison & Hinkley 1997, section 3.8: resampling both levels
-counts it twice). Interquartile mean and probability of improvement as in Agarwal et al. (arXiv
-2108.13264); scipy computes them, as its authors' own library, rliable, has had no release since 2024.
+A seed's score is the mean over its held-out episodes. Intervals over seeds resample whole seeds: the scores' spread
+already includes that of their episodes, and resampling both levels would count it twice (Davison & Hinkley 1997,
+section 3.8). Interquartile mean and probability of improvement as in Agarwal et al. (arXiv 2108.13264), computed with
+scipy because rliable, the authors' library, has had no release since 2024.
 """
 
 import warnings
@@ -42,9 +41,9 @@ def mean(values: np.ndarray) -> Estimate:
 
 
 def iqm(scores: np.ndarray, axis: int = -1) -> np.ndarray:
-    """Interquartile mean: the mean of what is left without the lowest and the highest quarter.
+    """Interquartile mean along an axis: the mean without the lowest and the highest quarter of the scores.
 
-    A quarter is rounded down: of 10 scores 6 are left, of 3 or fewer all.
+    A quarter is rounded down: of 10 scores 6 remain, of 3 or fewer all.
     """
     return stats.trim_mean(scores, 0.25, axis=axis)
 
@@ -52,8 +51,8 @@ def iqm(scores: np.ndarray, axis: int = -1) -> np.ndarray:
 def interval(scores: np.ndarray, statistic=iqm, seed: int = 0) -> Estimate:
     """A statistic of scores (seeds,) with its 95 % percentile bootstrap interval over seeds.
 
-    One seed has no interval: NaN. Equal scores have an interval of length 0, which says only that
-    these seeds agree: see `escapes` for what ten equal seeds prove.
+    One seed has no interval: NaN. Equal scores have an interval of length 0, which is too short: for rates of agents
+    use `escapes`, whose interval is exact.
     """
     scores = np.asarray(scores, dtype=np.float64)
     value = float(statistic(scores, axis=-1))
@@ -63,9 +62,9 @@ def interval(scores: np.ndarray, statistic=iqm, seed: int = 0) -> Estimate:
 
 
 def improvement(x: np.ndarray, y: np.ndarray, seed: int = 0) -> Estimate:
-    """P(X > Y): how often a random seed of x (m,) scores above a random seed of y (n,); a tie counts half.
+    """P(X > Y): the probability that a random score of x (m,) is above a random score of y (n,); a tie counts half.
 
-    It is the Mann-Whitney statistic U / (m n), with its bootstrap interval over the seeds of both.
+    It is the Mann-Whitney statistic U / (m n), with a percentile bootstrap interval over the seeds of both.
     """
     x, y = np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
     value = float(_wins(x, y))
@@ -75,7 +74,7 @@ def improvement(x: np.ndarray, y: np.ndarray, seed: int = 0) -> Estimate:
 
 
 def _wins(x: np.ndarray, y: np.ndarray, axis: int = -1) -> np.ndarray:
-    """(..., m) and (..., n) -> (...)."""
+    """The share of pairs with x > y, ties half: (..., m) and (..., n) -> (...)."""
     x, y = x[..., :, None], y[..., None, :]
     return ((x > y) + 0.5 * (x == y)).mean(axis=(-2, -1))
 
@@ -95,9 +94,9 @@ def escapes(success: np.ndarray) -> Estimate:
 
 
 def band(curves: np.ndarray, seed: int = 0, resamples: int = 1000) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Interquartile mean and 95 % band over seeds at every point: (seeds, points) -> three times (points,).
+    """Interquartile mean and 95 % band over seeds: curves (seeds, points) -> middle, low, high, each (points,).
 
-    The same seeds are drawn at every point, so the band is as smooth as the curves.
+    Each resample draws the same seeds at all points, so the band is as smooth as the curves.
     """
     curves = np.asarray(curves, dtype=np.float64)
     middle = iqm(curves, axis=0)
@@ -109,10 +108,10 @@ def band(curves: np.ndarray, seed: int = 0, resamples: int = 1000) -> tuple[np.n
 
 
 def rolling_means(values: np.ndarray, window: int, points: int = 80) -> tuple[np.ndarray, np.ndarray]:
-    """Means of the last `window` episodes: (agents, episodes) -> (episode numbers (points,), (agents, points)).
+    """Means of the last `window` episodes: values (agents, episodes) -> episode numbers (points,), (agents, points).
 
-    Points at even distances, up to where the last agent got; NaN from an agent's first missing episode on.
-    Both are empty where nobody finished one.
+    The points are evenly spaced up to the last episode of any agent. An agent's means are NaN from its first missing
+    episode on. Both arrays are empty if no agent finished an episode.
     """
     values = np.atleast_2d(np.asarray(values, dtype=np.float64))
     episodes = int(np.isfinite(values).sum(axis=1).max(initial=0))

@@ -156,7 +156,7 @@ def test_a_follower_drives_each_time_from_the_start_and_wants_a_road_for_each_pl
     assert all(
         (a.actions == b.actions).all() and (a.states == b.states).all() for a, b in zip(first, second, strict=True)
     )
-    with pytest.raises(BootcourseError, match=f"plans for {len(plans)} roads, and 1 to drive"):
+    with pytest.raises(BootcourseError, match=f"plans for {len(plans)} roads, not for 1"):
         record(drive, SEEDS[:1])
 
 

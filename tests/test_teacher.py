@@ -129,7 +129,7 @@ def test_a_training_is_resumed_by_its_own_teacher_alone(tmp_path):
     training = Training(TWO, 12, teacher=follows)
     training.step()
     save_checkpoint(training, tmp_path / "checkpoint.npz")
-    with pytest.raises(BootcourseError, match="was taught by 'follows"):
+    with pytest.raises(BootcourseError, match="began with the teacher 'follows"):
         load_checkpoint(tmp_path / "checkpoint.npz")
     again = load_checkpoint(tmp_path / "checkpoint.npz", teacher=follows)
     for each in (training, again):

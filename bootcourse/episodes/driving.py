@@ -1,7 +1,6 @@
-"""The one loop that drives episodes: a policy, an environment, one episode on each of its roads.
+"""The loop that drives one episode on each road of an environment; evaluation, recording and demonstrations use it.
 
-Evaluation, recording, demonstrations and the planner all read what it yields. The environment is a
-gymnasium `VectorEnv`, such as `TrapVectorEnv`; only on the trap is there a true state, `cars`.
+The environment is a gymnasium `VectorEnv`, such as `TrapVectorEnv`; only the trap has a true state, `cars`.
 """
 
 from collections.abc import Iterator, Sequence
@@ -14,24 +13,24 @@ from bootcourse.policies import Policy, PolicyOutput
 
 
 class Step(NamedTuple):
-    """One decision on all roads; each array has the roads first."""
+    """One decision on all roads; the first axis of each array is the roads."""
 
-    running: np.ndarray  # (roads,) bool: the episode was not over yet. Of other roads nothing here counts
+    running: np.ndarray  # (roads,) bool: the episode was not over; ignore all other values of roads where it was
     observations: np.ndarray  # (roads, observation), before the decision
     cars: np.ndarray | None  # (roads, vehicles, 10) the true state before the decision; None off the trap
-    output: PolicyOutput  # what the policy decided
+    output: PolicyOutput  # the policy's decision
     rewards: np.ndarray  # (roads,)
-    terminated: np.ndarray  # (roads,) bool: an accident, or another end that leaves no future
-    truncated: np.ndarray  # (roads,) bool: out of time
-    next_observations: np.ndarray  # (roads, observation), also of an episode that ended here
-    next_cars: np.ndarray | None  # (roads, vehicles, 10), the environment's own array: copy it to keep it
-    infos: dict  # as the environment gives them
+    terminated: np.ndarray  # (roads,) bool: the episode ended in an accident or another terminal state
+    truncated: np.ndarray  # (roads,) bool: the episode's time is over
+    next_observations: np.ndarray  # (roads, observation); of an episode that ended, its last
+    next_cars: np.ndarray | None  # (roads, vehicles, 10), the environment's array, which changes: copy it to keep it
+    infos: dict  # the environment's
 
 
 def steps(policy: Policy, env: VectorEnv, seeds: Sequence[int] | int) -> Iterator[Step]:
     """Drive one episode on each road of `env`, reset with `seeds`; yields each decision until all are over.
 
-    A policy with a method `reset(roads)` is reset first: one that follows a plan begins anew.
+    A policy with a method `reset(roads)` is reset first.
     """
     if hasattr(policy, "reset"):
         policy.reset(env.num_envs)
@@ -51,7 +50,10 @@ def steps(policy: Policy, env: VectorEnv, seeds: Sequence[int] | int) -> Iterato
 
 
 def reached_observations(observations: np.ndarray, infos: dict) -> np.ndarray:
-    """What each road shows after a step; where same-step autoreset began an episode anew, the last of the old one."""
+    """The observations that a step led to, (roads, observation): where autoreset has restarted, the old episode's last.
+
+    observations, infos: as returned by the environment's `step`.
+    """
     if "final_obs" not in infos:
         return observations
     reached, ended = observations.copy(), infos["_final_obs"]

@@ -1,4 +1,4 @@
-"""Held-out episodes: how well a driver drives, with 95 % intervals."""
+"""Evaluation of a policy on held-out roads, with 95 % intervals."""
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
@@ -16,34 +16,35 @@ from bootcourse.scenario import DEFAULT, Scenario
 from bootcourse.statistics import Estimate, mean, rate
 
 BLOCK = 1_000_000  # held-out roads of evaluation seed s are s x BLOCK, s x BLOCK + 1, ...
-MAX_SEED = 2**32 // BLOCK - 1  # training roads lie above 2**32: nothing is ever tested where it was trained
+MAX_SEED = 2**32 // BLOCK - 1  # training roads have seeds above 2**32, so held-out roads differ from them
 
 
 @dataclass(frozen=True)
 class Episodes:
-    """What happened in each episode; every array is (episodes,)."""
+    """The results of some episodes; every array is (episodes,)."""
 
     success: np.ndarray  # bool: ahead of trap 1 at the end
     returns: np.ndarray  # sum of rewards
     speed: np.ndarray  # m/s, distance over time
     distance: np.ndarray  # m
-    accident: np.ndarray  # int, an Accident's number
+    accident: np.ndarray  # int, the number of an `Accident`
 
 
 @dataclass(frozen=True)
 class Evaluation:
-    """The columns of the paper's tables, with its "collision rate" taken apart."""
+    """The columns of the paper's tables, with its "collision rate" split into three. Rates are from 0 to 1."""
 
     episodes: int
-    success: Estimate
+    success: Estimate  # rate
     returns: Estimate
     speed: Estimate  # m/s
     distance: Estimate  # m
-    collision: Estimate
-    road_departure: Estimate
-    stoppage: Estimate
+    collision: Estimate  # rate
+    road_departure: Estimate  # rate
+    stoppage: Estimate  # rate
 
     def to_dict(self) -> dict:
+        """As plain dictionaries and numbers, for JSON."""
         return {
             name: value._asdict() if isinstance(value, Estimate) else value
             for name, value in ((name, getattr(self, name)) for name in asdict(self))
@@ -51,7 +52,7 @@ class Evaluation:
 
 
 def held_out_seeds(seed: int, episodes: int) -> range:
-    """The roads of an evaluation. Raises BootcourseError for a seed or number that would leave its block."""
+    """The seeds of the held-out roads of block `seed`. Raises BootcourseError for a seed or number out of range."""
     if not 0 <= seed <= MAX_SEED:
         raise BootcourseError(f"seed = {seed}: give a whole number from 0 to {MAX_SEED}.")
     if not 1 <= episodes <= BLOCK:
@@ -62,13 +63,13 @@ def held_out_seeds(seed: int, episodes: int) -> range:
 def drive_episodes(
     policy: Policy, seeds: Sequence[int], scenario: Scenario = DEFAULT, together: int = 1000
 ) -> Episodes:
-    """One episode on the road of each seed, on the compiled road, `together` at a time."""
+    """Drive one episode on the compiled road of each seed, `together` roads at a time."""
     parts = [_drive(policy, list(seeds[i : i + together]), scenario) for i in range(0, len(seeds), together)]
     return Episodes(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))
 
 
 def _drive(policy: Policy, seeds: list[int], scenario: Scenario) -> tuple[np.ndarray, ...]:
-    env = TrapVectorEnv(len(seeds), scenario, AutoresetMode.DISABLED)  # a road that ended rests, and pays nothing
+    env = TrapVectorEnv(len(seeds), scenario, AutoresetMode.DISABLED)  # after an episode's end its reward is 0
     returns, accident = np.zeros(len(seeds)), np.zeros(len(seeds), dtype=np.int64)
     for step in steps(policy, env, seeds):
         returns += step.rewards
@@ -78,15 +79,15 @@ def _drive(policy: Policy, seeds: list[int], scenario: Scenario) -> tuple[np.nda
 
 
 def evaluate(policy: Policy, episodes: int = 1000, scenario: Scenario = DEFAULT, seed: int = 1) -> Evaluation:
-    """How well a policy drives the held-out roads of block `seed`, with 95 % intervals.
+    """Drive a policy on the first `episodes` held-out roads of block `seed`, and summarise with 95 % intervals.
 
-    Raises BootcourseError for a seed or a number of episodes that would leave its block.
+    Raises BootcourseError for a seed, or a number of episodes, that is out of range.
     """
     return summarise(drive_episodes(policy, held_out_seeds(seed, episodes), scenario))
 
 
 def summarise(episodes: Episodes) -> Evaluation:
-    """The summary of some episodes."""
+    """Rates with Clopper-Pearson intervals, means with Student's t intervals."""
     return Evaluation(
         episodes=len(episodes.success),
         success=rate(episodes.success),
@@ -100,7 +101,7 @@ def summarise(episodes: Episodes) -> Evaluation:
 
 
 def over_seeds(reports: Sequence[Evaluation]) -> dict[str, Estimate]:
-    """Mean over training seeds of each column, with the percentile bootstrap interval over the seeds' own values."""
+    """The mean over training seeds of each column, with a percentile bootstrap interval over seeds."""
     names = [name for name in asdict(reports[0]) if name != "episodes"]
     values = np.array([[getattr(report, name).value for name in names] for report in reports])
     spread = stats.bootstrap((values,), np.mean, axis=0, method="percentile", rng=np.random.default_rng(0))

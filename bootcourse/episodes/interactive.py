@@ -1,6 +1,6 @@
-"""An episode that is driven one decision at a time, from outside: by a key press, a program, a test.
+"""An episode that is driven one decision at a time, by a panel, a program or a test.
 
-`record` lets a policy drive to the end. Both make the same `Rollout` of the same actions.
+Its `Rollout` is the same as that of `record` for the same actions.
 """
 
 import numpy as np
@@ -16,7 +16,7 @@ from bootcourse.scenario import ACTION_NAMES, DEFAULT, N_ACTIONS, Scenario
 
 
 class InteractiveEpisode:
-    """One episode; `decide(action)` drives the next decision. Raises BootcourseError for a seed that is none."""
+    """One episode; `decide(action)` drives the next decision. Raises BootcourseError for an invalid seed."""
 
     def __init__(self, seed: int, scenario: Scenario = DEFAULT, label: str = "you"):
         if not isinstance(seed, (int, np.integer)) or isinstance(seed, bool) or seed < 0:
@@ -28,7 +28,7 @@ class InteractiveEpisode:
         self.accident, self.over = 0, False
 
     def decide(self, action: int) -> None:
-        """Drive one decision, an action in 0..8. Raises BootcourseError if it is none, or if the drive is over."""
+        """Drive one decision. Raises BootcourseError for an action outside 0..8, or after the end of the episode."""
         if self.over:
             raise BootcourseError("This drive is over: start another.")
         if isinstance(action, bool) or not isinstance(action, (int, np.integer)) or not 0 <= action < N_ACTIONS:
@@ -46,15 +46,17 @@ class InteractiveEpisode:
 
     @property
     def time(self) -> float:
-        """Seconds driven."""
+        """The time driven, in seconds."""
         return (len(self.recorder.states) - 1) * self.scenario.clock.dt
 
     @property
     def actions(self) -> list[int]:
+        """The actions so far, 0..8."""
         return [int(action) for action in self.recorder.actions]
 
     @property
     def rewards(self) -> list[float]:
+        """The rewards so far."""
         return [float(reward) for reward in self.recorder.rewards]
 
     @property
@@ -63,11 +65,11 @@ class InteractiveEpisode:
         return tuple(map(float, self.recorder.terms[-1])) if self.recorder.terms else (0.0, 0.0, 0.0)
 
     def cars_at(self, time: float) -> np.ndarray:
-        """Every car's state at a time of this drive (s): (vehicles, 10)."""
+        """The state of all cars at a time (s) of this drive, interpolated: (vehicles, 10)."""
         return interpolate_states(self.recorder.states, time / self.scenario.clock.dt)
 
     def rollout(self) -> Rollout:
-        """What was driven so far. Raises BootcourseError before the first decision."""
+        """The drive so far. Raises BootcourseError before the first decision."""
         if not self.recorder.actions:
             raise BootcourseError("Nothing was driven yet: make a decision first.")
         return self.recorder.rollout(self.scenario, self.label, self.seed, self.accident)

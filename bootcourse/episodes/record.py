@@ -1,4 +1,4 @@
-"""Recording: let a policy drive, on either road, and keep every number of the episode as a `Rollout`."""
+"""Recording a policy's episodes as `Rollout`s, on the compiled road or on highway-env."""
 
 from collections.abc import Sequence
 
@@ -15,19 +15,16 @@ from bootcourse.scenario import DEFAULT, RULE_P, Scenario
 
 
 class EpisodeRecorder:
-    """What is noted of one road while it is driven, decision by decision.
-
-    cars (vehicles, 10) and observation (observation_size,) are those at the start.
-    """
+    """The recording of an episode in progress; cars (vehicles, 10), observation (observation_size,): its start."""
 
     def __init__(self, cars: np.ndarray, observation: np.ndarray):
         self.states, self.observations = [cars.copy()], [observation.copy()]
         self.actions, self.rewards, self.terms = [], [], []
-        self.policy, self.q_values = [], []  # stay empty where the policy has no such thing
-        self.rule = []  # what the rule would have done: a value of each field of `RuleDecisions`
+        self.policy, self.q_values = [], []  # empty for policies without π or Q
+        self.rule = []  # the rule's decisions: a value of each field of `RuleDecisions`
 
     def add_decision(self, output: PolicyOutput, by_rule: RuleDecisions, road: int = 0) -> None:
-        """What was decided on a road, and what the rule would have decided."""
+        """Record the policy's decision on a road, and the rule's."""
         self.actions.append(output.actions[road])
         if output.policy is not None:
             self.policy.append(output.policy[road])
@@ -36,14 +33,14 @@ class EpisodeRecorder:
         self.rule.append([values[road] for values in vars(by_rule).values()])
 
     def add_outcome(self, states: Sequence, observation: np.ndarray, reward: float, terms: Sequence[float]) -> None:
-        """What came of it: the state after each simulation step, the next observation, r, and (r_v, r_y, r_θ)."""
+        """Record its outcome: the state after each simulation step, the next observation, r, and (r_v, r_y, r_θ)."""
         self.states.extend(np.array(state) for state in states)
         self.observations.append(np.array(observation, dtype=np.float32))
         self.rewards.append(reward)
         self.terms.append(terms)
 
     def rollout(self, scenario: Scenario, label: str, seed: int, accident: int, rule_p: float = RULE_P) -> Rollout:
-        """The episode so far."""
+        """The episode so far as a `Rollout`."""
         actions, speeds, lanes, distances, reasons = (np.array(column) for column in zip(*self.rule, strict=True))
         return Rollout(
             scenario=scenario,
@@ -74,9 +71,9 @@ def record(
     label: str = "driver",
     rule_p: float = RULE_P,
 ) -> list[Rollout]:
-    """Drive one episode on the compiled road of each seed; one `Rollout` each.
+    """Drive one episode on the compiled road of each seed; returns a `Rollout` of each.
 
-    label: who drives, such as "sac, seed 3"; rule_p: p of the stochastic rule that the drive's KL is measured against.
+    label: the driver, such as "sac, seed 3"; rule_p: p of the stochastic rule in the drive's KL (Equation 15).
     """
     seeds = list(seeds)
     env = TrapVectorEnv(len(seeds), scenario, AutoresetMode.DISABLED, record=True)
@@ -96,7 +93,7 @@ def record(
 
 
 def driven(trace: np.ndarray, accident: int) -> np.ndarray:
-    """The steps of a decision's trace that were driven: after an accident the road repeats its last state."""
+    """A decision's trace (steps, vehicles, 10) without the repeated last states after an accident."""
     if not accident:
         return trace
     repeats = [bool((trace[step] == trace[step - 1]).all()) for step in range(1, len(trace))]
@@ -104,7 +101,7 @@ def driven(trace: np.ndarray, accident: int) -> np.ndarray:
 
 
 def record_on_highway_env(policy: Policy, seed: int, env, label: str = "driver") -> Rollout:
-    """Drive one episode on `TrapEnv` (as made by gym.make); the same `Rollout` as on the compiled road."""
+    """Drive one episode on `env`, a `TrapEnv` made by gym.make; the `Rollout` is the same as on the compiled road."""
     road, scenario = env.unwrapped, env.unwrapped.scenario
     if hasattr(policy, "reset"):
         policy.reset(1)

@@ -1,4 +1,4 @@
-"""A rollout: one drive, from start to end, with everything that a figure, a panel or a replay shows."""
+"""A rollout: the recording of one episode, which figures, panels and replays show."""
 
 import json
 from dataclasses import dataclass, field
@@ -20,28 +20,28 @@ OPTIONAL = ("policy", "q_values", "rule_actions", "rule_speeds", "rule_lanes", "
 class Rollout:
     """T decisions of one drive, S simulation steps (T x steps per decision; fewer after an accident).
 
-    The optional arrays are None where the driver has no such thing (the idle policy has no Q).
-    Raises BootcourseError if the parts do not fit together or hold a number that is not finite.
+    The optional arrays are None if the driver does not provide them (the idle policy has no Q).
+    Raises BootcourseError if the arrays' shapes do not fit together or a number is not finite.
     """
 
     scenario: Scenario
-    label: str  # who drove, e.g. "rule", "sac", "bootstrapped"
-    seed: int  # of the road
+    label: str  # the driver, e.g. "rule", "sac", "bootstrapped"
+    seed: int  # the road's
     states: np.ndarray  # (S + 1, vehicles, 10) float64, columns of bootcourse.road.state; [0] is the start
     observations: np.ndarray  # (T + 1, observation_size) float32
     actions: np.ndarray  # (T,) int, 0..8
     rewards: np.ndarray  # (T,) float
     terms: np.ndarray  # (T, 3) float: r_v, r_y, r_θ, unweighted
-    accident: int  # an Accident's number
+    accident: int  # the number of an `Accident`
     policy: np.ndarray | None = None  # (T, 9) the driver's probabilities π(a|s)
-    q_values: np.ndarray | None = None  # (T, 9) the smaller of its two Q(s, a)
-    rule_actions: np.ndarray | None = None  # (T,) int, what the rule would have done
+    q_values: np.ndarray | None = None  # (T, 9) the smaller of the driver's two Q(s, a)
+    rule_actions: np.ndarray | None = None  # (T,) int, the rule's action
     rule_speeds: np.ndarray | None = None  # (T,) m/s, the rule's target speed
     rule_lanes: np.ndarray | None = None  # (T,) int, the rule's target lane
     rule_distances: np.ndarray | None = None  # (T,) m, the rule's safety distance
-    rule_reasons: np.ndarray | None = None  # (T,) int, a bootcourse.rule.Reason's number
-    rule_p: float = RULE_P  # p of the stochastic rule that the KL of this drive is measured against
-    provenance: dict = field(default_factory=dict)  # versions, command, time: who made this and how
+    rule_reasons: np.ndarray | None = None  # (T,) int, the number of a `bootcourse.rule.Reason`
+    rule_p: float = RULE_P  # p of the stochastic rule in this drive's KL (Equation 15)
+    provenance: dict = field(default_factory=dict)  # versions, see `bootcourse.files.provenance`
 
     def __post_init__(self):
         check_p(self.rule_p, "rule_p")
@@ -84,21 +84,21 @@ class Rollout:
 
     @property
     def times(self) -> np.ndarray:
-        """Seconds of each state, (S + 1,)."""
+        """The time of each state in seconds, (S + 1,)."""
         return np.arange(len(self.states)) * self.scenario.clock.dt
 
     @property
     def success(self) -> bool:
-        """Is the ego ahead of trap 1 at the end? (A crash after overtaking still counts.)"""
+        """Whether the ego is ahead of trap 1 at the end, also if the episode ended in an accident."""
         return bool(self.states[-1, EGO, X] > self.states[-1, TRAP_1, X])
 
     @property
     def distance(self) -> float:
-        """Metres that the ego drove."""
+        """The distance that the ego drove, in metres."""
         return float(self.states[-1, EGO, X] - self.states[0, EGO, X])
 
     def save(self, path: Path) -> Path:
-        """Write to `path` (.npz, no pickles), all or nothing. Returns the path."""
+        """Write to `path` (.npz) and return it. Raises BootcourseError if the file cannot be written."""
         header = {
             "format": FORMAT,
             "scenario": json.loads(self.scenario.to_json()),
@@ -115,7 +115,7 @@ class Rollout:
 
     @classmethod
     def load(cls, path: Path) -> "Rollout":
-        """Read a rollout and check it. Raises BootcourseError naming the file and the remedy."""
+        """Read and check a rollout. Raises BootcourseError, with the file and the remedy, if it is damaged."""
         arrays = read_arrays(path)
         try:
             header = json.loads(str(arrays.pop("header")))
@@ -130,7 +130,7 @@ class Rollout:
                 label=header["label"],
                 seed=header["seed"],
                 accident=header["accident"],
-                rule_p=header.get("rule_p", RULE_P),  # files of earlier versions do not say it
+                rule_p=header.get("rule_p", RULE_P),  # absent in files of earlier versions
                 provenance=header["provenance"],
                 **arrays,
             )
@@ -161,7 +161,7 @@ def series(rollout: Rollout, what: str) -> tuple[np.ndarray, np.ndarray]:
 
 
 def interpolate_states(states, step: float) -> np.ndarray:
-    """The state at a step that need not be whole, between its two neighbours; beyond the ends, the ends.
+    """The state (vehicles, 10) at a fractional simulation step, by linear interpolation; clamped to the ends.
 
     states: (S + 1, vehicles, 10), or a list of (vehicles, 10).
     """

@@ -1,7 +1,4 @@
-"""A drive in words: what the ego is doing, how the drive ends, and the whole of it as a transcript.
-
-A transcript is for those who do not see the replay: "t = 4 s: changes lane, left. 8.0 m/s, middle lane, ...".
-"""
+"""A drive in words, for readers who do not see the replay: "t = 4 s: changes lane, left. 8.0 m/s, middle lane, ..."."""
 
 from collections.abc import Sequence
 
@@ -18,20 +15,20 @@ ACCIDENTS = {
     Accident.STOPPAGE: "stopped on the road",
 }
 LANES = {1: ("only",), 2: ("left", "right"), 3: ("left", "middle", "right")}
-BESIDE = 5.0  # m between centres: closer than a car's length is neither ahead nor behind
-PATIENCE = 3.0  # s: what lasts for less is told only if it is a change of lane, an overtaking or the end
-PAUSE = 20.0  # s after which something is told even if the car does the same all the time
+BESIDE = 5.0  # m between centres: two cars closer than a car's length are beside each other
+PATIENCE = 3.0  # s; shorter phases are left out, apart from lane changes
+PAUSE = 20.0  # s; longest time without a sentence
 
 
 def sentence(words: str) -> str:
-    """With a capital letter, and otherwise as it is (SAC stays SAC)."""
+    """The words with a capital first letter."""
     return words[:1].upper() + words[1:]
 
 
 def cars_at(rollout: Rollout, time: float) -> np.ndarray:
-    """Every car's state at a time (s), between two simulation steps if it is: (vehicles, 10).
+    """The state of all cars at a time (s), interpolated between simulation steps: (vehicles, 10).
 
-    Raises BootcourseError for a time at which this drive was not on the road.
+    Raises BootcourseError for a time outside the drive.
     """
     end = rollout.times[-1]
     if not 0 <= time <= end + 1e-9:
@@ -40,13 +37,13 @@ def cars_at(rollout: Rollout, time: float) -> np.ndarray:
 
 
 def overtaken(rollout: Rollout) -> float | None:
-    """When the ego passes trap 1 for the last time (s); None if it never stays ahead."""
+    """The time (s) from which the ego is ahead of trap 1 until the end; None if it ends behind trap 1."""
     behind = np.flatnonzero(rollout.states[:, EGO, X] <= rollout.states[:, TRAP_1, X])
     return float(rollout.times[behind[-1] + 1]) if behind[-1] + 1 < len(rollout.states) else None
 
 
 def doing(rollout: Rollout, time: float) -> str:
-    """What the ego is doing, in two or three words."""
+    """The ego's manoeuvre at a time (s), in two or three words."""
     if rollout.accident and time > rollout.times[-1] - 1e-9:
         return ACCIDENTS[Accident(rollout.accident)]
     now, later = (cars_at(rollout, min(t, rollout.times[-1])) for t in (time, time + 1.0))
@@ -66,7 +63,7 @@ def doing(rollout: Rollout, time: float) -> str:
 
 
 def outcome(rollout: Rollout) -> str:
-    """How the drive ends, as the end of a sentence."""
+    """The end of the drive as a clause: "ahead of trap 1 after 57.5 s"."""
     passes, end = overtaken(rollout), rollout.times[-1]
     crash = f"{ACCIDENTS[Accident(rollout.accident)]} after {end:g} s" if rollout.accident else ""
     if passes is None:
@@ -75,7 +72,7 @@ def outcome(rollout: Rollout) -> str:
 
 
 def transcript(rollout: Rollout) -> list[str]:
-    """A drive as sentences in the order of time, one for each thing that the car begins to do, and how it ends."""
+    """A drive as a list of sentences: one for each new manoeuvre, in order, then the end of the drive."""
     rate = rollout.scenario.clock.decision_rate  # decisions for each second
     moments = np.arange(0.0, rollout.times[-1], 1 / rate)
     long = max(1, round(PATIENCE * rate))  # decisions
@@ -97,7 +94,7 @@ def transcript(rollout: Rollout) -> list[str]:
 
 
 def transcripts(rollouts: Sequence[Rollout]) -> str:
-    """The transcripts of some drives below each other, each under its driver's name."""
+    """The transcripts of some drives, each under its driver's name."""
     return "\n\n".join(
         "\n".join([f"{sentence(display_name(r.label))}, road {r.seed}", *transcript(r)]) for r in rollouts
     )
@@ -110,13 +107,13 @@ def _ending(rollout: Rollout) -> str:
 
 
 def names_of(cars: np.ndarray) -> str:
-    """Cars by their rows: "trap 1", "a car of the traffic"."""
+    """The names of cars, given by their rows: "trap 1", "a car of the traffic"."""
     known = [{TRAP_1: "trap 1", TRAP_2: "trap 2"}.get(int(car), "a car of the traffic") for car in cars]
     return " and ".join(dict.fromkeys(known)) or "another car"
 
 
 def _state(rollout: Rollout, time: float) -> str:
-    """Where the ego is at a time: "10.0 m/s, right lane; 16 m behind trap 1, beside trap 2"."""
+    """The ego's speed and place at a time (s): "10.0 m/s, right lane; 16 m behind trap 1, beside trap 2."."""
     cars = cars_at(rollout, time)
     traps = ((TRAP_1, "trap 1"), (TRAP_2, "trap 2"))
     places = ", ".join(f"{_place(cars[trap, X] - cars[EGO, X])} {its_name}" for trap, its_name in traps)
@@ -124,12 +121,12 @@ def _state(rollout: Rollout, time: float) -> str:
 
 
 def _place(ahead: float) -> str:
-    """Where the ego is as seen from a car that is so many metres ahead of it."""
+    """The ego's place relative to a car that is `ahead` metres ahead of it."""
     return "beside" if abs(ahead) < BESIDE else f"{abs(ahead):.0f} m {'behind' if ahead > 0 else 'ahead of'}"
 
 
 def _lane(rollout: Rollout, time: float) -> str:
-    """The lane that the ego's centre is in: "left", "middle", "right"; with more: "4 of 5, from the left,"."""
+    """The lane of the ego's centre: "left", "middle", "right"; with more lanes: "4 of 5, from the left,"."""
     road = rollout.scenario.road
     lane = int(np.clip(round(cars_at(rollout, time)[EGO, Y] / road.lane_width), 0, road.lanes - 1))
     return LANES[road.lanes][lane] if road.lanes in LANES else f"{lane + 1} of {road.lanes}, from the left,"

@@ -1,13 +1,11 @@
-"""`@compiled`: a function that numba turns into machine code, kept on disk between sessions.
+"""`@compiled`: a function that numba compiles to machine code and caches on disk.
 
-numba's own cache looks only at the file of the function that is called. A change in formulas.py
-would leave the old formula inside the cached loop of twin.py. Here the cache lives in a folder
-named after the text of the road and of every other file with a compiled function, so a changed
-formula is always compiled again.
+numba's default cache depends only on the file of the called function: after a change in formulas.py, the cached loop
+of twin.py would still contain the old formula. This cache is in a folder whose name is a hash of every file with
+compiled functions, so any change recompiles all of them.
 
-Two more settings make the road about three times as fast. A small function is put inside the one
-that calls it (forceinline). And only a function that makes arrays counts who holds them (_nrt): to
-count at every call costs more than the formulas do.
+Two settings make the road about three times as fast: small functions are inlined (forceinline), and reference
+counting (_nrt) is on only for functions that allocate arrays, because it costs more than the formulas.
 """
 
 import hashlib
@@ -21,13 +19,13 @@ PACKAGE = Path(__file__).resolve().parent.parent
 
 
 def sources(package: Path) -> list[Path]:
-    """The files whose text decides what is compiled: the road's own, and each with a compiled function."""
+    """The files whose text the cache depends on: all of `road`, and every other file with a compiled function."""
     files = sorted([*package.glob("*.py"), *package.glob("*/*.py")])
     return [file for file in files if file.parent.name == "road" or b"\n@compiled" in file.read_bytes()]
 
 
 def cache_folder(package: Path) -> Path:
-    """Where the machine code of this version lies: beside the package, or where the user's caches are."""
+    """The cache of this version: in the package's `__pycache__` if it is writable, otherwise in the user's cache."""
     text = b"".join(source.read_bytes() for source in sources(package))
     name = f"numba-{hashlib.sha256(text).hexdigest()[:12]}"
     beside = package / "__pycache__"
@@ -39,15 +37,12 @@ CACHE_FOLDER = cache_folder(PACKAGE)
 
 
 def compiled(function):
-    """Compile `function` in numba's nopython mode, with numpy's rules for division by zero.
-
-    It makes no arrays, only numbers: it fills the arrays that it is given.
-    """
+    """Compile a function that allocates no arrays in numba's nopython mode; division by zero as in numpy."""
     return _compile(function, makes_arrays=False)
 
 
 def compiled_loop(function):
-    """The same for a loop over many roads, which may make the arrays that its functions work in."""
+    """Compile a function that may allocate arrays, such as a loop over many roads."""
     return _compile(function, makes_arrays=True)
 
 

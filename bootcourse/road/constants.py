@@ -1,7 +1,6 @@
-"""The numbers of a scenario in the flat form that compiled code reads.
+"""The numbers of a scenario as a flat numpy record for compiled code.
 
-A numpy record reaches a compiled function as one pointer; a tuple of fifty numbers would be copied
-at every call, which costs more than the formulas do.
+A record is passed as one pointer; copying a tuple of fifty numbers at every call costs more than the formulas.
 """
 
 from functools import lru_cache
@@ -13,7 +12,7 @@ from bootcourse.scenario import Scenario
 
 @lru_cache(maxsize=64)
 def constants(scenario: Scenario) -> np.record:
-    """The compiled road's view of a scenario: `constants(s).dt`, `.a_max` ...; units in `bootcourse.scenario`."""
+    """The numbers of a scenario as a record: `constants(s).dt`, `.a_max` ...; units as in `bootcourse.scenario`."""
     s, t = scenario, scenario.traffic
     whole = {"lanes": s.road.lanes, "steps": s.clock.steps, "neighbours": s.sight.neighbours, "rule_n": s.rule.n}
     real = {

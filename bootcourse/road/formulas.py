@@ -1,8 +1,7 @@
-"""One scalar function for each formula of the road, written as the equation is written.
+"""The road's formulas: one compiled scalar function each, also callable from Python with plain numbers.
 
-The traffic's formulas follow highway-env (`IDMVehicle`, `ControlledVehicle`, `Vehicle`), which the
-tests hold them to; the paper's equation stands beside each. All are compiled, and all can be called
-from Python with plain numbers. Units: metres, seconds, radians.
+The traffic's formulas follow highway-env (`IDMVehicle`, `ControlledVehicle`, `Vehicle`); tests compare the two.
+Units: metres, seconds, radians.
 """
 
 import math
@@ -15,12 +14,13 @@ MAX_STEERING = math.pi / 3  # rad, highway-env's limit of the front wheels' angl
 
 @compiled
 def clip(value, low, high):
+    """The value limited to [low, high]."""
     return min(max(value, low), high)
 
 
 @compiled
 def not_zero(value):
-    """The value, or ±0.01 if it is closer to zero than that."""
+    """The value if |value| > 0.01, otherwise ±0.01: a safe divisor, as in highway-env."""
     if abs(value) > EPSILON:
         return value
     return EPSILON if value >= 0 else -EPSILON
@@ -30,19 +30,19 @@ def not_zero(value):
 def wrap_to_pi(angle):
     """The same angle in [-π, π)."""
     if -math.pi <= angle < math.pi:
-        return angle  # the modulo below costs as much as the rest of a lane's controller
+        return angle  # skips the modulo, which costs as much as the rest of the lane controller
     return (angle + math.pi) % (2 * math.pi) - math.pi
 
 
 @compiled
 def power(base, exponent):
-    """base ** exponent; for the IDM's usual exponent 4 by squaring, which is many times faster."""
+    """base ** exponent; the IDM's usual exponent 4 is computed by squaring, which is many times faster."""
     return (base * base) ** 2 if exponent == 4.0 else base**exponent
 
 
 @compiled
 def desired_gap(v, dv, s0, time_gap, a_max, b):
-    """s* of the IDM (Equation 4): the gap that a driver wants at speed v, closing in at dv (m/s).
+    """s* of the IDM (Equation 4): the desired gap (m) at speed v with closing speed dv (m/s).
 
     s* = s0 + T v + v Δv / (2 √(a_max b))
     """
@@ -53,7 +53,7 @@ def desired_gap(v, dv, s0, time_gap, a_max, b):
 def idm_acceleration(v, v_desired, gap, s_star, a_max, delta):
     """The Intelligent Driver Model (Equation 3): acceleration (m/s²) at speed v behind a car `gap` metres ahead.
 
-    a = a_max [1 - (v / v_desired)^δ - (s* / s)²]. An infinite gap is a free road.
+    a = a_max [1 - (v / v_desired)^δ - (s* / s)²]. An infinite gap means that no car is ahead.
     """
     acceleration = a_max * (1 - power(max(v, 0.0) / abs(not_zero(v_desired)), delta))
     if gap < math.inf:
@@ -63,20 +63,20 @@ def idm_acceleration(v, v_desired, gap, s_star, a_max, delta):
 
 @compiled
 def mobil_incentive(own_gain, new_follower_gain, old_follower_gain, politeness):
-    """MOBIL (Equation 5): what a lane change gains for its driver and, at the rate of politeness, for the others.
+    """MOBIL (Equation 5): the incentive of a lane change (m/s²), Δa_ego + p (Δa_rear + Δa_front).
 
-    Δa_ego + p (Δa_rear + Δa_front); the change is worth it from a_threshold on.
+    The gains of the new and the old follower are weighted by the politeness p. A car changes lane if the incentive
+    is at least a_threshold.
     """
     return own_gain + politeness * (new_follower_gain + old_follower_gain)
 
 
 @compiled
 def lane_keeping_steering(offset, heading, v, length, tau_lateral, tau_heading):
-    """Steering angle (rad) that brings a car back to its lane's centre: position -> heading -> wheels.
+    """Steering angle (rad) that brings a car back to its lane's centre, as in highway-env's `ControlledVehicle`.
 
-    offset: metres to the right of the centre. tau_lateral, tau_heading: time constants in seconds.
-    A heading gain times the time step above 2 is unstable: 0.5 s / 0.2 s = 2.5 (highway-env's
-    default at 2 Hz), 0.5 s / 0.6 s = 0.83 (ours).
+    offset: metres to the right of the centre. tau_lateral, tau_heading: time constants in seconds. The controller is
+    unstable if dt / tau_heading > 2: 0.5 s / 0.2 s = 2.5 (highway-env's default at 2 Hz), 0.5 s / 0.6 s = 0.83 (ours).
     """
     if offset == 0.0 and heading == 0.0:
         return 0.0
@@ -89,7 +89,7 @@ def lane_keeping_steering(offset, heading, v, length, tau_lateral, tau_heading):
 
 @compiled
 def direction(heading):
-    """(cos, sin) of a heading; most cars drive straight, and need neither computed."""
+    """(cos, sin) of a heading (rad); both are known without computing for cars that drive straight, which most do."""
     if heading == 0.0:
         return 1.0, 0.0
     return math.cos(heading), math.sin(heading)
@@ -101,7 +101,7 @@ def bicycle_step(x, y, heading, v, acceleration, steering, length, dt):
 
     slip β = arctan(½ tan θ);  ẋ = v cos(ψ + β);  ẏ = v sin(ψ + β);  ψ̇ = v sin β / (length / 2)
     """
-    if steering == 0.0 and heading == 0.0:  # straight along the road, as most cars are: no sines needed
+    if steering == 0.0 and heading == 0.0:  # most cars drive straight: no sines needed
         return x + v * dt, y, heading, v + acceleration * dt
     slip = math.atan(0.5 * math.tan(steering)) if steering != 0.0 else 0.0
     course = heading + slip
@@ -113,11 +113,11 @@ def bicycle_step(x, y, heading, v, acceleration, steering, length, dt):
 
 @compiled
 def nearest_lane(y, heading, lanes, lane_width):
-    """The lane whose centre is nearest; on the line between two, the left one."""
+    """The number of the lane whose centre is nearest to y (m); on the line between two lanes, the left one."""
     best, best_distance = 0, math.inf
     angle = abs(wrap_to_pi(heading))
     for lane in range(lanes):
-        distance = abs(y - lane * lane_width) + angle  # highway-env adds the angle, and so its rounding
+        distance = abs(y - lane * lane_width) + angle  # highway-env adds the angle: the rounding must be the same
         if distance < best_distance:
             best, best_distance = lane, distance
     return best
@@ -125,7 +125,7 @@ def nearest_lane(y, heading, lanes, lane_width):
 
 @compiled
 def _separated(dx, dy, cos_a, sin_a, cos_b, sin_b, length, width):
-    """Does one of rectangle a's two axes separate it from rectangle b, (dx, dy) away?"""
+    """Whether one of rectangle a's two axes separates it from rectangle b, whose centre is (dx, dy) away."""
     along, across = dx * cos_a + dy * sin_a, -dx * sin_a + dy * cos_a
     cos_ab = abs(cos_a * cos_b + sin_a * sin_b)
     sin_ab = abs(cos_a * sin_b - sin_a * cos_b)
@@ -136,7 +136,7 @@ def _separated(dx, dy, cos_a, sin_a, cos_b, sin_b, length, width):
 
 @compiled
 def overlap(x_a, y_a, heading_a, x_b, y_b, heading_b, length, width):
-    """Do two equal rectangles touch? By the separating axis theorem; positions are the centres."""
+    """Whether two equal rectangles touch, by the separating axis theorem; (x, y) are their centres."""
     dx, dy = x_b - x_a, y_b - y_a
     if dx * dx + dy * dy > length * length + width * width:
         return False
@@ -149,7 +149,7 @@ def overlap(x_a, y_a, heading_a, x_b, y_b, heading_b, length, width):
 
 @compiled
 def speed_reward(v_lon):
-    """r_v (Equation 10): 0 up to 5 m/s, gently up to 12.5, steeply up to 1 at 15, gone above."""
+    """r_v (Equation 10), v_lon in m/s: 0 up to 5, 0.2 at 12.5, 1 at 15, linear between; above 15 it falls to 0."""
     if v_lon > 15:
         return math.exp(-((v_lon - 15) ** 2))
     if v_lon > 12.5:
@@ -173,5 +173,5 @@ def steering_reward(theta):
 
 @compiled
 def weighted_reward(r_v, r_y, r_theta, w_v, w_y, w_theta):
-    """The paper's reward without an accident (Equation 9): the weighted mean of its three terms."""
+    """The reward of a decision without an accident (Equation 9): the weighted mean of r_v, r_y and r_θ."""
     return (w_v * r_v + w_y * r_y + w_theta * r_theta) / (w_v + w_y + w_theta)

@@ -1,7 +1,7 @@
-"""The 26 numbers that the ego sees (Section III-C, "State"), scaled to order one.
+"""The observation: 26 numbers (Section III-C, "State"), scaled to order one.
 
-s = (p, x, y, v_lon, v_lat, d_e) of the ego, then (p, Δx, Δy, Δv_lon, Δv_lat) of the four nearest
-cars within 200 m, nearest first; a missing car is five zeros. Both roads and the lessons use this.
+(p, x, y, v_lon, v_lat, d_e) of the ego, then (p, Δx, Δy, Δv_lon, Δv_lat) of the four nearest cars within 200 m,
+nearest first; a missing car is five zeros.
 """
 
 import math
@@ -28,7 +28,7 @@ NEIGHBOUR_SCALES = (1.0, DX_SCALE, Y_SCALE, DV_SCALE, V_LAT_SCALE)
 
 
 def scales(scenario: Scenario) -> np.ndarray:
-    """What each number of an observation was divided by, (observation_size,)."""
+    """The scale that each number of an observation is divided by, (observation_size,)."""
     return np.array(EGO_SCALES + scenario.sight.neighbours * NEIGHBOUR_SCALES)
 
 
@@ -39,11 +39,11 @@ def names(scenario: Scenario) -> list[str]:
 
 
 def bounds(scenario: Scenario) -> tuple[np.ndarray, np.ndarray]:
-    """Finite limits, low and high, that no observation leaves; float32, (observation_size,)."""
+    """Lower and upper limits of the observations, finite: two float32 arrays (observation_size,)."""
     s = scenario
     hardest = max(s.ego.acceleration, s.traffic.a_max, s.traffic.braking_limit)  # m/s²
-    fastest = max(s.ego.max_speed, s.road.speed_limit) + hardest * s.clock.dt  # m/s, a step beyond the limit
-    overshoot = fastest * s.clock.dt  # m, how far beyond the edge the last step can end
+    fastest = max(s.ego.max_speed, s.road.speed_limit) + hardest * s.clock.dt  # m/s, one step above the limit
+    overshoot = fastest * s.clock.dt  # m, the last step may end this far beyond the edge
     across = s.road.lanes * s.road.lane_width + overshoot
     ego = [1, s.road.length + overshoot, across, fastest, fastest, across]
     neighbour = [1, s.sight.distance, s.sight.distance, 2 * fastest, 2 * fastest]
@@ -55,7 +55,7 @@ def bounds(scenario: Scenario) -> tuple[np.ndarray, np.ndarray]:
 
 @compiled
 def observe(cars, c, out):
-    """Write the observation of one road (Equation 7), cars (vehicles, 10), into out (observation_size,)."""
+    """Write the observation of one road (Equation 7) into out (observation_size,); cars (vehicles, 10)."""
     x, y = cars[EGO, X], cars[EGO, Y]
     v_lon, v_lat = cars[EGO, SPEED] * math.cos(cars[EGO, HEADING]), cars[EGO, SPEED] * math.sin(cars[EGO, HEADING])
     out[0] = 1.0
@@ -83,6 +83,6 @@ def observe(cars, c, out):
 
 @compiled
 def observe_all(cars, c, out):
-    """Observations of every road: cars (roads, vehicles, 10) -> out (roads, observation_size)."""
+    """Write the observations of all roads into out (roads, observation_size); cars (roads, vehicles, 10)."""
     for road in range(cars.shape[0]):
         observe(cars[road], c, out[road])

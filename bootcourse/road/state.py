@@ -1,7 +1,6 @@
-"""How a road is stored: one row of numbers for each car.
+"""The state of a road: `cars`, a float64 array (roads, vehicles, 10) or (vehicles, 10), one row for each car.
 
-`cars` is a float64 array of shape (roads, vehicles, 10) or (vehicles, 10); car 0 is the ego, 1 and
-2 are the traps, the rest is traffic. The column names below are its index.
+Car 0 is the ego, 1 and 2 are the traps, the rest is traffic. The column numbers are below.
 """
 
 from enum import IntEnum
@@ -12,7 +11,7 @@ SPEED = 3  # m/s
 STEERING = 4  # rad; the front wheels' angle, right is positive
 ACCELERATION = 5  # m/s²
 LANE, TARGET_LANE = 6, 7  # 0 is the leftmost
-TIMER = 8  # s since this car last thought about a lane change
+TIMER = 8  # s since this car last considered a lane change
 CRASHED = 9  # 0 or 1
 COLUMNS = 10
 
@@ -20,7 +19,7 @@ EGO, TRAP_1, TRAP_2, TRAFFIC = 0, 1, 2, 3  # rows; TRAFFIC is the first of sever
 
 
 class Accident(IntEnum):
-    """How an episode can end badly. The paper's "collision rate" adds the three up; we do not."""
+    """The accidents that end an episode. The paper's "collision rate" is the sum of the three; ours are separate."""
 
     NONE = 0
     COLLISION = 1

@@ -1,9 +1,8 @@
-"""What the other cars decide at each simulation step: IDM along the road, MOBIL across it.
+"""The controllers of the traps and the traffic at each simulation step: IDM for speed, MOBIL for lane changes.
 
-The order of the decisions, and the few rules around the two models (when a driver thinks about a
-lane change, when it gives one up), are highway-env's, so that the compiled road and `TrapEnv`
-agree. Every function works on one road: `cars` is (vehicles, 10), `directions` holds the cosine
-and sine of each car's heading, (vehicles, 2), and `around` who is next to whom (`look_around`).
+The order of the computations and the rules for considering and aborting a lane change are highway-env's, so that the
+compiled road and `TrapEnv` agree. Every function works on one road: `cars` (vehicles, 10), `directions` (vehicles, 2)
+with the cosine and sine of each heading, and `around` (lanes, vehicles, 2) with the neighbours (see `look_around`).
 """
 
 import math
@@ -47,7 +46,7 @@ def new_around(vehicles, c):
 
 @compiled
 def sort_by_x(cars, order):
-    """Bring the rows in `order` (vehicles,) from the rearmost car to the foremost; they hardly ever change."""
+    """Sort `order` (vehicles,), the cars' rows, from rearmost to foremost, by insertion: it is almost sorted."""
     for k in range(1, len(order)):
         i, place = order[k], k
         while place > 0 and cars[order[place - 1], X] > cars[i, X]:
@@ -58,11 +57,10 @@ def sort_by_x(cars, order):
 
 @compiled
 def look_around(cars, order, around, c):
-    """Who is next to whom: around[lane, i] becomes the rows of the nearest car ahead of car i and behind it.
+    """Set around[lane, i] to the rows of the nearest cars ahead of and behind car i in that lane, NOBODY for none.
 
-    For every lane, whether car i drives in it or not, and NOBODY where there is none. around is
-    (lanes, vehicles, 2). `order` is sorted: one walk forwards finds who is behind, one back who is ahead.
-    (Of two cars at exactly the same x one counts as ahead; highway-env says so of both.)
+    `order` must be sorted: one pass forwards finds the cars behind, one pass backwards the cars ahead. Of two cars
+    at exactly the same x, one counts as ahead (in highway-env, both do).
     """
     vehicles, reach = len(order), c.lane_width / 2 + LANE_MARGIN
     for lane in range(c.lanes):
@@ -76,14 +74,14 @@ def look_around(cars, order, around, c):
 
 @compiled
 def wanted_speed(i, c):
-    """The speed (m/s) that car i wants. Traffic takes the ego for one of its own."""
+    """The desired speed of car i (m/s). For the ego, which MOBIL also evaluates, it is the traffic's."""
     wanted = c.trap_speed if EGO < i < TRAFFIC else c.desired_speed
     return clip(wanted, 0.0, c.speed_limit)
 
 
 @compiled
 def gap_wanted(cars, directions, i, front, c):
-    """s* of car i behind car `front`; their velocities are projected on the heading of car i."""
+    """s* (m) of car i behind car `front`; the relative velocity is projected on the heading of car i."""
     v, v_front = cars[i, SPEED], cars[front, SPEED]
     dv_x = v * directions[i, 0] - v_front * directions[front, 0]
     dv_y = v * directions[i, 1] - v_front * directions[front, 1]
@@ -93,7 +91,7 @@ def gap_wanted(cars, directions, i, front, c):
 
 @compiled
 def following_acceleration(cars, directions, i, front, c):
-    """IDM acceleration (m/s²) of car i if `front` were the car ahead of it; 0 for nobody."""
+    """IDM acceleration (m/s²) of car i behind car `front`; 0 if i is NOBODY, a free road if front is."""
     if i == NOBODY:
         return 0.0
     if front == NOBODY:
@@ -105,9 +103,9 @@ def following_acceleration(cars, directions, i, front, c):
 
 @compiled
 def worth_changing(cars, around, directions, i, lane, own_now, old_follower_gain, c):
-    """MOBIL (Equation 5): is the change of car i into `lane` safe for its new follower, and worth it?
+    """MOBIL (Equation 5): whether the change of car i into `lane` is safe for its new follower and gains enough.
 
-    own_now: its present IDM acceleration; old_follower_gain: what the car behind it would gain (m/s²).
+    own_now: present IDM acceleration of car i (m/s²); old_follower_gain: gain of the car behind it (m/s²).
     """
     new_front, new_rear = around[lane, i, FRONT], around[lane, i, REAR]
     new_rear_after = following_acceleration(cars, directions, new_rear, i, c)
@@ -119,8 +117,8 @@ def worth_changing(cars, around, directions, i, lane, own_now, old_follower_gain
 
 
 @compiled
-def _somebody_else_wants_it(cars, directions, i, c):
-    """Is another car, close ahead, already changing into the lane that car i is changing into?"""
+def _target_lane_contested(cars, directions, i, c):
+    """Whether another car, closer ahead than s*, is changing into the target lane of car i."""
     target = cars[i, TARGET_LANE]
     for j in range(1, cars.shape[0]):
         if j != i and cars[j, LANE] != target and cars[j, TARGET_LANE] == target:
@@ -132,13 +130,13 @@ def _somebody_else_wants_it(cars, directions, i, c):
 
 @compiled
 def choose_lane(cars, around, directions, i, own_now, c):
-    """Set car i's target lane: give up a change in progress, or think about a new one now and then.
+    """Set the target lane of car i: abort a contested change, or consider a new one every lane_change_delay seconds.
 
-    own_now: its IDM acceleration in the lane that it drives in (m/s²).
+    own_now: IDM acceleration of car i in its present lane (m/s²).
     """
     lane = int(cars[i, LANE])
     if lane != cars[i, TARGET_LANE]:
-        if _somebody_else_wants_it(cars, directions, i, c):
+        if _target_lane_contested(cars, directions, i, c):
             cars[i, TARGET_LANE] = lane
         return
     if not c.lane_change_delay < cars[i, TIMER]:
@@ -147,8 +145,8 @@ def choose_lane(cars, around, directions, i, own_now, c):
     if abs(cars[i, SPEED]) < MIN_LANE_CHANGE_SPEED:
         return
     front, rear = around[lane, i, FRONT], around[lane, i, REAR]
-    rear_without_me = following_acceleration(cars, directions, rear, front, c)
-    old_follower_gain = rear_without_me - following_acceleration(cars, directions, rear, i, c)
+    rear_after = following_acceleration(cars, directions, rear, front, c)
+    old_follower_gain = rear_after - following_acceleration(cars, directions, rear, i, c)
     for side in (lane - 1, lane + 1):
         if 0 <= side < c.lanes and worth_changing(cars, around, directions, i, side, own_now, old_follower_gain, c):
             cars[i, TARGET_LANE] = side
@@ -156,7 +154,7 @@ def choose_lane(cars, around, directions, i, own_now, c):
 
 @compiled
 def act(cars, around, directions, i, c):
-    """Set steering and acceleration of car i, a trap or traffic, for the coming simulation step."""
+    """Set the steering and the acceleration of car i, a trap or a traffic car, for the next simulation step."""
     if cars[i, CRASHED] != 0:
         return
     lane = int(cars[i, LANE])

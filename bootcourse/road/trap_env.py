@@ -1,10 +1,9 @@
-"""`gym.make("bootcourse:Trap-v0")`: the scenario on highway-env, the road that people know.
+"""`gym.make("bootcourse:Trap-v0")`: the scenario on highway-env, the reference for the compiled road.
 
-This is the reference that the compiled road is held to. It differs from a highway-env default in
-four ways, each on our own vehicle classes so that no other environment notices: steering gains that
-are stable at 2 Hz; a collision is an overlap at a simulation step (highway-env also counts an
-overlap that it predicts for the next step, which at 2 Hz is half a second early); the episode ends
-at the simulation step of the accident; no car drives backwards.
+It differs from highway-env's defaults in four ways, all in our own vehicle classes, so that other environments are
+unaffected: the steering gains are stable at 2 Hz; a collision is an overlap at a simulation step (highway-env also
+counts an overlap predicted for the next step, half a second early at 2 Hz); the episode ends at the simulation step
+of the accident; no car drives backwards.
 """
 
 import gymnasium as gym
@@ -44,7 +43,7 @@ TRAP_COLOUR, TRAFFIC_COLOUR, EGO_COLOUR = (122, 31, 31), (184, 190, 198), (213, 
 
 
 class _CollidesByOverlap:
-    """A collision is an overlap now, not one predicted for the next step; see the head of this file."""
+    """A collision is an overlap at this step, not one predicted for the next step."""
 
     def _is_colliding(self, other, dt: float):
         overlapping, _, _ = super()._is_colliding(other, 0.0)
@@ -52,7 +51,7 @@ class _CollidesByOverlap:
 
 
 class EgoCar(_CollidesByOverlap, Vehicle):
-    """The car that decides. `target_speed` is what the traffic's MOBIL takes it to want."""
+    """The ego. `target_speed` is the desired speed that the traffic's MOBIL assumes for it."""
 
     def __init__(self, road, scenario: Scenario, row: np.ndarray):
         self.LENGTH, self.WIDTH = scenario.car.length, scenario.car.width
@@ -90,10 +89,8 @@ class TrafficCar(_CollidesByOverlap, IDMVehicle):
 class TrapEnv(AbstractEnv):
     """The decision process (Equation 1): observation (26,) float32, nine actions, 150 decisions.
 
-    See `bootcourse.scenario` for every number.
-
-    info holds "rewards" (the terms r_v, r_y, r_theta), "accident" (an `Accident`), "is_success",
-    "distance" (m) and "speed" (m/s). `cars()` returns the state in the compiled road's form.
+    info contains "rewards" (the terms r_v, r_y, r_theta), "accident" (an `Accident`), "is_success", "distance" (m)
+    and "speed" (m/s). `cars()` returns the true state. Raises BootcourseError for a scenario that is none.
     """
 
     def __init__(self, scenario: Scenario = DEFAULT, config: dict | None = None, render_mode: str | None = None):
@@ -112,6 +109,7 @@ class TrapEnv(AbstractEnv):
 
     @classmethod
     def default_config(cls) -> dict:
+        """highway-env's configuration, with the size and the scale of the rendered picture."""
         return super().default_config() | {
             "screen_width": 1000,
             "screen_height": 160,
@@ -120,12 +118,13 @@ class TrapEnv(AbstractEnv):
         }
 
     def configure(self, config: dict | None) -> None:
+        """Set the configuration; the two frequencies are the scenario's."""
         super().configure(config)
         clock = self.scenario.clock
         self.config |= {"simulation_frequency": clock.simulation_rate, "policy_frequency": clock.decision_rate}
 
     def define_spaces(self) -> None:
-        """Once: highway-env makes new spaces at each reset, which would forget `action_space.seed()`."""
+        """Make the spaces once: highway-env makes new ones at each reset, which would undo `action_space.seed()`."""
         if self.action_space is None:
             low, high = bounds(self.scenario)
             self.observation_space = gym.spaces.Box(low, high, dtype=np.float32)
@@ -133,7 +132,7 @@ class TrapEnv(AbstractEnv):
             self.action_type = _NineActions(self)
 
     def reset(self, *, seed: int | None = None, options: dict | None = None):
-        """Start an episode; the same seed gives the same road, here and on the compiled road."""
+        """Start an episode. The same seed gives the same road, here and on the compiled road."""
         gym.Env.reset(self, seed=seed, options=options)
         if options and "config" in options:
             self.configure(options["config"])
@@ -176,7 +175,7 @@ class TrapEnv(AbstractEnv):
         return observation, reward, terminated, truncated, self._info()
 
     def _simulate(self, action: int) -> None:
-        """One decision's simulation steps; an accident ends it."""
+        """The simulation steps of one decision; an accident ends them."""
         self.action_type.act(action)
         self.trace = []
         for frame in range(self.scenario.clock.steps):
@@ -192,7 +191,7 @@ class TrapEnv(AbstractEnv):
         self.enable_auto_render = False
 
     def cars(self) -> np.ndarray:
-        """The state of every car, (vehicles, 10), columns in `bootcourse.road.state`."""
+        """The state of all cars, (vehicles, 10), columns in `bootcourse.road.state`."""
         cars = np.empty((len(self.road.vehicles), COLUMNS))
         for row, car in zip(cars, self.road.vehicles, strict=True):
             row[X], row[Y] = car.position
@@ -235,12 +234,13 @@ class TrapEnv(AbstractEnv):
 
 
 class _NineActions:
-    """What highway-env's renderer and loop ask of an action type."""
+    """The nine actions in the form of a highway-env action type."""
 
     def __init__(self, env: TrapEnv):
         self.env = env
 
     def act(self, action: int) -> None:
+        """Set the ego's acceleration (m/s²) and steering (rad) to those of an action (Equation 8)."""
         ego = self.env.scenario.ego
         self.env.vehicle.act(
             {"acceleration": (action // 3 - 1) * ego.acceleration, "steering": (action % 3 - 1) * ego.steering}

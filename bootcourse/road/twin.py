@@ -1,8 +1,6 @@
-"""The compiled road: thousands of roads, one decision per call.
+"""The compiled road: one decision on thousands of roads per call, arrays in, arrays out.
 
-The loop that `TrapEnv` runs through highway-env's objects, run here over arrays. It knows nothing
-of gymnasium, episodes or random numbers: arrays in, arrays out. `tests/agreement.py` holds the two
-roads to each other.
+It computes the same steps as `TrapEnv` on highway-env; `tests/agreement.py` compares the two.
 """
 
 import math
@@ -46,13 +44,13 @@ NO_TRACE = np.empty((0, 0, 0, 0))
 
 
 def uniforms_needed(vehicles: int) -> int:
-    """Random numbers in [0, 1) that one start takes: D1, D2, the traffic's lanes, speeds, and distances between."""
+    """How many random numbers in [0, 1) one start needs: D1, D2, and the traffic's lanes, speeds and spacings."""
     return 2 + max(0, 3 * (vehicles - TRAFFIC) - 1)
 
 
 @compiled
 def place(uniforms, c, cars):
-    """Fill `cars` (vehicles, 10) with a start of an episode made from `uniforms_needed` numbers in [0, 1)."""
+    """Fill `cars` (vehicles, 10) with the start of an episode (Table 1); uniforms: (uniforms_needed(vehicles),)."""
     traffic = cars.shape[0] - TRAFFIC
     cars[:] = 0.0
     rightmost = c.lanes - 1
@@ -75,13 +73,13 @@ def place(uniforms, c, cars):
                 x = cars[i - 1, X] + c.headway * spacing
         cars[i, X], cars[i, Y], cars[i, SPEED] = x, lane * c.lane_width, speed
         cars[i, LANE] = cars[i, TARGET_LANE] = lane
-        if i != EGO:  # highway-env's way of not letting all drivers think at the same moment
+        if i != EGO:  # as in highway-env, so that the cars consider lane changes at different times
             cars[i, TIMER] = (x + cars[i, Y]) * math.pi % c.lane_change_delay if c.lane_change_delay > 0 else 0.0
 
 
 @compiled
 def move(cars, i, c):
-    """One simulation step of car i under its present steering and acceleration."""
+    """Move car i by one simulation step under its present steering and acceleration."""
     v = cars[i, SPEED]
     fastest = c.max_speed if i == EGO else c.speed_limit
     if cars[i, CRASHED] != 0:
@@ -96,13 +94,13 @@ def move(cars, i, c):
         cars[i, X], cars[i, Y], cars[i, HEADING], v, cars[i, ACCELERATION], cars[i, STEERING], c.length, c.dt
     )
     cars[i, LANE] = nearest_lane(cars[i, Y], cars[i, HEADING], c.lanes, c.lane_width)
-    if i == EGO:  # the ego tells nobody where it is going
+    if i == EGO:  # the other cars cannot see the lane that the ego changes to
         cars[i, TARGET_LANE] = cars[i, LANE]
 
 
 @compiled
 def collide(cars, order, c):
-    """Mark every car that touches another. `order` is sorted, so only the next few can be near."""
+    """Mark every car that touches another. `order` must be sorted: only the next few cars can be close enough."""
     reach = math.sqrt(c.length**2 + c.width**2)
     for k in range(len(order)):
         i = order[k]
@@ -118,7 +116,7 @@ def collide(cars, order, c):
 
 @compiled
 def ego_accident(cars, c):
-    """The kind of the ego's accident, an `Accident`'s number."""
+    """The ego's accident, the number of an `Accident`."""
     if cars[EGO, CRASHED] != 0:
         return COLLISION
     if not -c.lane_width / 2 <= cars[EGO, Y] <= (c.lanes - 0.5) * c.lane_width:
@@ -130,14 +128,14 @@ def ego_accident(cars, c):
 
 @compiled
 def command(cars, action, c):
-    """Give the ego one of the nine actions (Equation 8): 3 x (brake, keep, accelerate) + (left, straight, right)."""
+    """Set the ego's controls to an action (Equation 8): 3 x (brake, keep, accelerate) + (left, straight, right)."""
     cars[EGO, ACCELERATION] = (action // 3 - 1) * c.ego_acceleration
     cars[EGO, STEERING] = (action % 3 - 1) * c.ego_steering
 
 
 @compiled
 def simulate(cars, order, around, directions, c):
-    """One simulation step of one road, whose order is sorted; returns the ego's accident."""
+    """One simulation step of one road; `order` must be sorted. Returns the ego's accident."""
     look_around(cars, order, around, c)
     for i in range(cars.shape[0]):
         directions[i, 0], directions[i, 1] = direction(cars[i, HEADING])
@@ -152,7 +150,7 @@ def simulate(cars, order, around, directions, c):
 
 @compiled
 def reward_terms(cars, c):
-    """(r_v, r_y, r_θ) of the state that the ego has reached."""
+    """(r_v, r_y, r_θ) of the ego's state (Equations 10 to 12)."""
     offset = cars[EGO, Y] - cars[EGO, LANE] * c.lane_width
     return (
         speed_reward(cars[EGO, SPEED] * math.cos(cars[EGO, HEADING])),
@@ -165,9 +163,9 @@ def reward_terms(cars, c):
 def decide(cars, actions, asleep, c, rewards, terms, accidents, trace):
     """One decision on every road that is not asleep, in place.
 
-    cars (roads, vehicles, 10), actions (roads,) in 0..8, asleep (roads,) bool -> rewards (roads,),
-    terms (roads, 3), accidents (roads,). trace is NO_TRACE, or (roads, steps, vehicles, 10) and
-    then takes the state after each simulation step; after an accident, its last state.
+    Reads cars (roads, vehicles, 10), actions (roads,) in 0..8 and asleep (roads,) bool; writes cars, rewards (roads,),
+    terms (roads, 3) and accidents (roads,). trace (roads, steps, vehicles, 10) receives the state after each
+    simulation step (after an accident, the last state again); NO_TRACE records none.
     """
     vehicles = cars.shape[1]
     order, around, directions = np.arange(vehicles), new_around(vehicles, c), np.empty((vehicles, 2))
@@ -192,4 +190,5 @@ def decide(cars, actions, asleep, c, rewards, terms, accidents, trace):
 
 
 def empty_cars(roads: int, vehicles: int) -> np.ndarray:
+    """The state of some roads, all zero: (roads, vehicles, 10)."""
     return np.zeros((roads, vehicles, COLUMNS))

@@ -15,18 +15,17 @@ from bootcourse.scenario import DEFAULT, N_ACTIONS, Scenario
 
 
 class TrapVectorEnv(VectorEnv):
-    """`num_envs` roads (Equation 1) that decide together.
+    """`num_envs` roads (Equation 1) that are stepped together.
 
-    observation (num_envs, 26) float32; action (num_envs,) in 0..8; reward (num_envs,) float64.
-    Road i, reset with `seed`, drives exactly what `TrapEnv` reset with `seed + i` drives.
-    A road that ends starts anew in the same step (same-step autoreset): its last observation is
-    infos["final_obs"], its last infos are infos["final_info"]. With
-    `autoreset_mode=AutoresetMode.DISABLED` it rests, with reward 0, until
-    `reset(options={"reset_mask": ...})` wakes it.
+    observation (num_envs, 26) float32; action (num_envs,) in 0..8; reward (num_envs,) float64. Road i, reset with
+    `seed`, is the same as `TrapEnv` reset with `seed + i`. An episode that ends is restarted in the same step
+    (same-step autoreset); its last observation is infos["final_obs"], its last infos are infos["final_info"]. With
+    `autoreset_mode=AutoresetMode.DISABLED` the road stands still, with reward 0, until it is reset by
+    `reset(options={"reset_mask": ...})`.
 
-    `cars` (num_envs, vehicles, 10) is the true state (columns in `bootcourse.road.state`), `final_cars`
-    what it was before the last autoreset; with
-    `record=True`, `trace` (num_envs, steps, vehicles, 10) holds each simulation step of the last decision.
+    `cars` (num_envs, vehicles, 10) is the true state (columns in `bootcourse.road.state`), `final_cars` the state
+    before the last autoreset. With `record=True`, `trace` (num_envs, steps, vehicles, 10) is the state after each
+    simulation step of the last decision. Raises BootcourseError for an argument that is not supported.
     """
 
     def __init__(
@@ -68,7 +67,10 @@ class TrapVectorEnv(VectorEnv):
         self._accidents = np.zeros(n, dtype=np.int64)
 
     def reset(self, *, seed: int | list[int | None] | None = None, options: dict | None = None):
-        """Start every road, or those of options["reset_mask"]. Road i takes `seed + i`, or `seed[i]`."""
+        """Reset all roads, or those of options["reset_mask"] (num_envs,) bool. Road i has seed `seed + i` or `seed[i]`.
+
+        Returns observations (num_envs, 26) and infos. Raises BootcourseError for a wrong number of seeds or mask.
+        """
         mask = np.ones(self.num_envs, dtype=bool)
         if options and "reset_mask" in options:
             mask = np.asarray(options["reset_mask"], dtype=bool)
@@ -90,7 +92,7 @@ class TrapVectorEnv(VectorEnv):
         return self._observations.copy(), self._infos(mask)
 
     def step(self, actions):
-        """One decision on every road. Raises BootcourseError for an action outside 0..8."""
+        """One decision on every road, actions (num_envs,). Raises BootcourseError for an action outside 0..8."""
         actions = np.asarray(actions)
         if actions.shape != (self.num_envs,) or actions.dtype.kind not in "iu":
             found = f"actions have shape {actions.shape} and type {actions.dtype}"
@@ -117,7 +119,7 @@ class TrapVectorEnv(VectorEnv):
         return self._observations.copy(), rewards, terminated, truncated, infos
 
     def observe(self) -> np.ndarray:
-        """What every ego sees now, (num_envs, 26)."""
+        """The present observations, (num_envs, 26)."""
         observe_all(self.cars, self.constants, self._observations)
         return self._observations.copy()
 
@@ -145,7 +147,7 @@ class TrapVectorEnv(VectorEnv):
         }
 
     def _infos(self, mask: np.ndarray) -> dict:
-        """gymnasium's vector infos: an array for each name, and under _name which roads it holds for."""
+        """gymnasium's vector infos: an array for each name; `_name` is the mask of the roads that it is valid for."""
         infos = {
             "r_v": self._terms[:, 0].copy(),
             "r_y": self._terms[:, 1].copy(),

@@ -1,8 +1,8 @@
-"""What ships with the course, so that nobody has to wait: `assets/` and its manifest.
+"""The shipped files in `assets/`, and their check against the manifest.
 
-`manifest.json` lists every file with its size, its hash, the command that makes it, the versions of the packages
-that made it, and the behaviours that it depends on. Here the files are checked; `bootcourse.study.fingerprint` checks
-the behaviours, and `bootcourse.study.ship` makes it all.
+`manifest.json` lists the size of every file, its hash, the command and the package versions that made it, and the
+behaviours that it depends on. `bootcourse.study.fingerprint` checks the behaviours; `bootcourse.study.ship` makes the
+files.
 """
 
 from pathlib import Path
@@ -11,11 +11,11 @@ from bootcourse.files import read_json, sha256
 
 FOLDER = Path(__file__).resolve().parent.parent.parent / "assets"
 MANIFEST = "manifest.json"
-LIMIT = 25_000_000  # bytes, all together
+LIMIT = 25_000_000  # bytes in total
 
 
 def verify(folder: Path = FOLDER) -> list[str]:
-    """What is wrong with the shipped files, a sentence each."""
+    """The problems of the shipped files, one sentence each."""
     entries = read_json(folder / MANIFEST)["files"]
     problems = []
     for entry in entries:

@@ -1,6 +1,6 @@
-"""The whole state of a training as named arrays: one that was killed goes on as if it had not been.
+"""The whole state of a training as named arrays: networks, optimiser, replay buffer, roads, generators, curves.
 
-Networks, optimiser, replay buffer, roads, every random generator, curves. `runs.py` writes the files.
+A training that is resumed from it gives the same results as an uninterrupted one. `runs.py` writes the files.
 """
 
 import json
@@ -14,7 +14,7 @@ from bootcourse.learn.training import Training
 
 
 def state_of(training: Training) -> dict[str, np.ndarray]:
-    """Everything that a training's future depends on."""
+    """The state of a training as named arrays. Raises BootcourseError off the trap, where roads cannot be saved."""
     if not training.on_the_trap:
         raise BootcourseError("Only a training on the trap can be saved and resumed: let this one run to its end.")
     learner, replay, env, curves = training.learner, training.replay, training.env, training.curves
@@ -44,7 +44,7 @@ def state_of(training: Training) -> dict[str, np.ndarray]:
 
 
 def restore(training: Training, arrays: dict[str, np.ndarray]) -> None:
-    """Put a new `Training` of the same settings into that state. Raises BootcourseError if it does not fit."""
+    """Set a new `Training` with the same settings to a state. Raises BootcourseError if the arrays do not fit it."""
     try:
         _restore(training, arrays)
     except (KeyError, ValueError, IndexError, RuntimeError) as error:

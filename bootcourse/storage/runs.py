@@ -1,8 +1,8 @@
-"""A run: one trained agent in a folder, written whole or not at all, and checked when it is read back.
+"""A run: one trained agent in a folder, written completely or not at all, and checked when it is read.
 
 config.json          settings, scenario, episodes
 weights.safetensors  actor, critics
-curves.npz           one number for each training episode and name (`bootcourse.learn.curves`)
+curves.npz           the curves of the training episodes (`bootcourse.learn.curves`)
 provenance.json      versions, git commit, seconds, and the hash of the three files above
 """
 
@@ -43,7 +43,7 @@ HASHED = ("config.json", "weights.safetensors", "curves.npz")
 
 @dataclass(frozen=True)
 class Run:
-    """A trained agent with its history."""
+    """A trained agent with its training curves."""
 
     agent: Agent
     curves: dict[str, np.ndarray]  # each (episodes,)
@@ -88,7 +88,7 @@ def _save_run(path: Path, agent: Agent, curves: dict[str, np.ndarray], result: R
             seconds=round(result.seconds, 1),
             agents=len(result.agents),
             commit=_commit(),
-            stopped_at_decision=stopped,  # where its loss was not finite; None: it drove all its episodes
+            stopped_at_decision=stopped,  # the decision at which its loss was not finite, or None
             teacher=result.teacher,
             sha256={name: sha256(temporary / name) for name in HASHED},
         )
@@ -101,14 +101,14 @@ def _save_run(path: Path, agent: Agent, curves: dict[str, np.ndarray], result: R
 
 
 def load_run(path: Path) -> Run:
-    """Read a run and check it. Raises BootcourseError naming the file and the remedy."""
+    """Read and check a run. Raises BootcourseError, with the file and the remedy, if it is missing or damaged."""
     path = Path(path)
     if not (path / "provenance.json").is_file():
         raise BootcourseError(f"{path} is not a run: train one with `bootcourse train --out {path}`.")
     made = read_json(path / "provenance.json")
     for name in HASHED:
         if made.get("sha256", {}).get(name) != sha256(path / name):
-            raise BootcourseError(f"{path / name} is damaged: it differs from what was written. Train this run again.")
+            raise BootcourseError(f"{path / name} is damaged: its hash has changed. Train this run again.")
     config = read_json(path / "config.json")
     if config.get("format") != FORMAT:
         raise BootcourseError(f"{path} has the format {config.get('format')!r}, this version reads {FORMAT!r}.")
@@ -129,7 +129,7 @@ def load_run(path: Path) -> Run:
 
 
 def find_runs(folder: Path) -> list[Path]:
-    """The run in a folder, or the runs in its sub-folders, by name. Raises BootcourseError if there is none."""
+    """The folder itself if it is a run, otherwise its sub-folders that are, by name. Raises BootcourseError if none."""
     folder = Path(folder)
     if not folder.is_dir():
         raise BootcourseError(f"{folder} is not a folder: name one that `bootcourse train --out` wrote.")
@@ -142,7 +142,7 @@ def find_runs(folder: Path) -> list[Path]:
 
 
 def save_checkpoint(training: Training, path: Path) -> None:
-    """Write a training in progress to one file, all or nothing."""
+    """Write a training in progress to one file. Raises BootcourseError off the trap, or if it cannot be written."""
     config = {
         "format": FORMAT,
         "settings": [asdict(settings) for settings in training.settings],
@@ -154,9 +154,9 @@ def save_checkpoint(training: Training, path: Path) -> None:
 
 
 def load_checkpoint(path: Path, teacher: Rule = course_rule) -> Training:
-    """Continue from `save_checkpoint`, with the teacher that the training began with.
+    """The training that `save_checkpoint` wrote, to be continued with the same teacher.
 
-    Raises BootcourseError if the file is missing or damaged, or if somebody else taught.
+    Raises BootcourseError if the file is missing or damaged, or for another teacher.
     """
     arrays = read_arrays(path)
     try:
@@ -168,8 +168,7 @@ def load_checkpoint(path: Path, teacher: Rule = course_rule) -> Training:
         raise BootcourseError(f"{path} is not a checkpoint of this version: start again in a new folder.") from None
     if teacher_name(teacher) != began_with:
         raise BootcourseError(
-            f"{path} was taught by '{began_with}', not by '{teacher_name(teacher)}': "
-            "give the teacher that it began with."
+            f"{path} began with the teacher '{began_with}', not '{teacher_name(teacher)}': give the same teacher."
         )
     demonstrations = torch.from_numpy(rows) if len(rows) else None
     training = Training(settings, config["episodes"], scenario, teacher, demonstrations)
@@ -178,7 +177,7 @@ def load_checkpoint(path: Path, teacher: Rule = course_rule) -> Training:
 
 
 def _commit() -> str:
-    """The git commit of the code that runs, "unknown" outside a clone."""
+    """The git commit of this code, "unknown" outside a clone."""
     command = ["git", "-C", str(Path(__file__).parent), "describe", "--always", "--dirty", "--abbrev=12"]
     try:
         return subprocess.run(command, capture_output=True, text=True, timeout=5, check=True).stdout.strip()
