@@ -1,4 +1,4 @@
-"""A trained agent: the networks of one agent, and how it drives."""
+"""A trained agent: its networks and its policy."""
 
 from dataclasses import dataclass
 
@@ -14,12 +14,12 @@ from bootcourse.policies import Policy, PolicyOutput
 
 @dataclass(frozen=True)
 class Agent:
-    """The weights of one agent, with an agents axis of length 1."""
+    """The weights of one agent, with an agents axis of length 1 (see networks.py)."""
 
     settings: Settings
-    actor: list[Tensor]  # [(1, inputs, outputs), (1, 1, outputs), ...], see networks.py
-    critics: list[Tensor]  # the same for the two critics, (2, ...)
-    alpha: float  # the entropy coefficient at the end
+    actor: list[Tensor]  # weights and biases, [(1, inputs, outputs), (1, 1, outputs), ...]
+    critics: list[Tensor]  # those of the two critics, [(2, inputs, outputs), (2, 1, outputs), ...]
+    alpha: float  # the entropy coefficient at the end of the training
 
     @torch.no_grad()
     def probabilities(self, observations: np.ndarray) -> np.ndarray:
@@ -33,7 +33,10 @@ class Agent:
         return sac.min_q(mlp(self.critics, states.repeat(2, 1, 1))).numpy()
 
     def as_policy(self, rng: np.random.Generator | None = None, with_q: bool = False) -> Policy:
-        """Drives by its most probable action; with an rng, by an action drawn from π."""
+        """The agent as a policy: its most probable action or, with an rng, an action drawn from π.
+
+        with_q: whether the policy's outputs contain Q.
+        """
 
         def drive(observations, cars):
             pi = self.probabilities(observations)
@@ -44,6 +47,6 @@ class Agent:
 
 
 def sample_actions(pi: np.ndarray, uniforms: np.ndarray) -> np.ndarray:
-    """One action for each distribution, (..., 9) and (...) in [0, 1) -> (...), by the inverse of its sum."""
+    """An action from each distribution, by inverse transform sampling: (..., 9), (...) in [0, 1) -> (...)."""
     cumulative = pi.cumsum(-1)
     return (cumulative[..., :-1] <= (uniforms * cumulative[..., -1])[..., None]).sum(-1)

@@ -1,4 +1,4 @@
-"""Behaviour cloning: an actor learns to repeat the demonstrator's actions. No reward is used."""
+"""Behaviour cloning: an actor learns the demonstrator's actions by supervised learning, without rewards."""
 
 from collections.abc import Sequence
 
@@ -22,7 +22,7 @@ def cloning_loss(log_pi: Tensor, expert_actions: Tensor) -> Tensor:
 
 
 class BCLearner(SACLearner):
-    """Only the actors learn. Nothing is valued: the critics are zero."""
+    """Only the actors learn; all weights of the critics are zero."""
 
     def __init__(self, settings: Sequence[Settings], observation_size: int, n_actions: int = N_ACTIONS):
         super().__init__(settings, observation_size, n_actions)
@@ -30,6 +30,6 @@ class BCLearner(SACLearner):
             torch._foreach_zero_([*self.critics, *self.target_critics])
 
     def losses(self, batch: Batch) -> dict[str, Tensor]:
-        """The cross-entropy, and the entropy for a curve: each (agents,)."""
+        """The cross-entropy, and the policy's entropy for the curves: each (agents,)."""
         log_pi = sac.log_policy(mlp(self.actor, batch.states))  # (agents, batch, 9)
         return {"actor_loss": cloning_loss(log_pi, batch.actions), "entropy": sac.entropy(log_pi).mean(-1)}

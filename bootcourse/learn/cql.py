@@ -1,12 +1,10 @@
-"""Conservative Q-learning (Kumar et al., arXiv 2006.04779): lower the value of actions that the data does not hold.
+"""Conservative Q-learning (Kumar et al., arXiv 2006.04779): it lowers the value of actions that are not in the data.
 
-`cql` is the usual form for discrete actions (their Section 3.4, and d3rlpy's and Tianshou's): the
-conservative term CQL(H) on top of double Q-learning. It has no actor; its policy is softmax(Q/α)
-with α fixed, all but greedy, so that its episodes can be driven, drawn and saved like any other's.
+`cql` is the usual form for discrete actions (their Section 3.4, d3rlpy, Tianshou): double Q-learning with the
+conservative term CQL(H). It trains no actor; its policy is softmax(Q/α) with a small fixed α, almost greedy.
 
-`cql_sac` adds the same term to the critics of discrete SAC and keeps its actor: a `SACLearner` with
-`cql_weight` above 0. With α falling as in the paper, that actor settles on one action before the
-critics have learned which, and the target follows it.
+`cql_sac` adds the same term to discrete SAC's critics: a `SACLearner` with `cql_weight` above 0. With α decreasing as
+in the paper, its actor becomes deterministic before the critics have learned, and the target uses that actor.
 """
 
 from collections.abc import Sequence
@@ -22,16 +20,16 @@ from bootcourse.scenario import N_ACTIONS
 
 
 def greedy_value(q: Tensor, q_next: Tensor) -> Tensor:
-    """Q_next(s, argmax_a Q(s,a)), double Q-learning's value (arXiv 1509.06461): (..., actions) twice -> (...)."""
+    """Double Q-learning's value Q_next(s, argmax_a Q(s,a)) (arXiv 1509.06461): (..., actions) twice -> (...)."""
     return q_next.gather(-1, q.argmax(-1, keepdim=True)).squeeze(-1)
 
 
 class CQLLearner(SACLearner):
-    """Twin critics that learn conservatively; the actor is the first of them, divided by α."""
+    """Twin critics with the conservative term; the actor is the first critic, divided by α."""
 
     def __init__(self, settings: Sequence[Settings], observation_size: int, n_actions: int = N_ACTIONS):
         super().__init__(settings, observation_size, n_actions)
-        self._act_greedily()
+        self._copy_critic_to_actor()
 
     def critic_target(self, batch: Batch) -> Tensor:
         """Double Q-learning's target, without entropy or KL: (agents, batch)."""
@@ -50,15 +48,15 @@ class CQLLearner(SACLearner):
         return {"critic_loss": error, "conservative_loss": conservative}
 
     def update(self, batch: Batch) -> dict[str, Tensor]:
-        """One step of the critics; the actor follows the first of them."""
+        """One gradient step of the critics, which also sets the actor. Returns `losses`, each (agents,)."""
         terms = super().update(batch)
-        self._act_greedily()
+        self._copy_critic_to_actor()
         return terms
 
     @torch.no_grad()
-    def _act_greedily(self) -> None:
-        """π = softmax(Q₁/α): the first critic's weights, the last layer divided by α."""
+    def _copy_critic_to_actor(self) -> None:
+        """Set the actor to π = softmax(Q₁/α): the first critic's weights, with the last layer divided by α."""
         first = [parameter[: self.agents] for parameter in self.critics]
         alpha = self.log_alpha.exp()[:, None, None]
-        for mine, its in zip(self.actor, [*first[:-2], first[-2] / alpha, first[-1] / alpha], strict=True):
-            mine.copy_(its)
+        for actor, critic in zip(self.actor, [*first[:-2], first[-2] / alpha, first[-1] / alpha], strict=True):
+            actor.copy_(critic)

@@ -1,4 +1,4 @@
-"""What is noted of each training episode: the curves of the paper's training figures and more."""
+"""Training curves: the numbers that are recorded of each training episode."""
 
 from collections.abc import Sequence
 
@@ -9,29 +9,29 @@ NAMES = (
     "return",  # sum of rewards
     "speed",  # m/s, mean over the episode
     "distance",  # m
-    "accident",  # an Accident's number
+    "accident",  # the number of an `Accident`
     "entropy",  # nats, mean of H(π) over the episode
-    "alpha",  # at the episode's end
-    "xi",  # at the episode's end
-    "beta",  # at the episode's end
+    "alpha",  # α at the episode's end
+    "xi",  # ξ at the episode's end
+    "beta",  # β at the episode's end
     "decisions",  # length of the episode
 )
 
 
 class Curves:
-    """Every agent's finished episodes: `values[name]` is (agents, episodes), NaN where still to come."""
+    """The finished episodes of all agents: `values[name]` is (agents, episodes), NaN for episodes to come."""
 
     def __init__(self, agents: int, roads: int, episodes: int):
         self.agents, self.roads, self.episodes = agents, roads, episodes
         self.values = {name: np.full((agents, episodes), np.nan) for name in NAMES}
-        self.finished = np.zeros(agents, dtype=np.int64)  # episodes, also those beyond the last that is noted
+        self.finished = np.zeros(agents, dtype=np.int64)  # episodes, including those after the last that is recorded
         self.unknown = np.full(agents * roads, np.nan)
         self.running = np.zeros((4, agents * roads))  # return, decisions, speed, entropy of the running episodes
 
     def note(self, rewards, entropies, done, infos, now: dict[str, np.ndarray]) -> None:
-        """One decision: rewards, entropies, done (agents x envs,), infos of env.step, now: each (agents,).
+        """Record a decision: rewards, entropies, done (agents x envs,), env.step's infos, now {name: (agents,)}.
 
-        What an environment other than the trap does not report stays NaN.
+        Values that an environment other than the trap does not report are NaN.
         """
         ended = infos.get("final_info", infos)
         ended = {name: ended.get(name, self.unknown) for name in ("speed", "is_success", "distance", "accident")}
@@ -58,7 +58,7 @@ class Curves:
                 self.values[name][agent, episode] = value[agent]
 
     def recent(self, name: str, window: int = 100) -> np.ndarray:
-        """Each agent's mean of its last `window` episodes (NaN before the first), (agents,)."""
+        """The mean of each agent's last `window` episodes, (agents,); NaN before the first episode."""
         means = np.full(self.agents, np.nan)
         for agent, count in enumerate(np.minimum(self.finished, self.episodes)):
             if count:
@@ -67,6 +67,6 @@ class Curves:
 
 
 def by_method(settings: Sequence, curves: dict[str, np.ndarray]) -> dict[str, dict[str, np.ndarray]]:
-    """The curves of agents that trained side by side, apart for each method: {method: {name: (seeds, episodes)}}."""
+    """The curves {name: (agents, episodes)} split by the agents' methods: {method: {name: (seeds, episodes)}}."""
     rows = {s.method: [i for i, other in enumerate(settings) if other.method == s.method] for s in settings}
-    return {method: {name: values[its] for name, values in curves.items()} for method, its in rows.items()}
+    return {method: {name: values[seeds] for name, values in curves.items()} for method, seeds in rows.items()}

@@ -1,4 +1,4 @@
-"""Demonstrations: what a teacher drove, as rows for a `ReplayBuffer` (Section IV-B)."""
+"""Demonstrations: a teacher's transitions as rows for a `ReplayBuffer` (Section IV-B)."""
 
 from collections.abc import Sequence
 
@@ -16,7 +16,7 @@ from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, Scenario
 
-FIRST_SEED = 2**34  # of the demonstrations' roads; training and held-out roads have other seeds
+FIRST_SEED = 2**34  # seed of the first demonstration's road; training and held-out roads have other seeds
 
 
 def collect(
@@ -24,20 +24,20 @@ def collect(
 ) -> Tensor:
     """Rows for a `ReplayBuffer` from whole episodes: (transitions, row).
 
-    policy: who drives, by default the teacher; teacher: whose actions stand in the rows as μ(s) and μ(s').
-    The teacher executes its own action. (The paper runs the 0.9-stochastic rule, and says that every
-    demonstration escapes. At one decision a second its random steering takes the car off the road, so
-    the two cannot both be true. `stochastic_rule_policy` gives the other.)
+    policy: the driver, by default the teacher; teacher: the rule whose actions are μ(s) and μ(s') in the rows.
+    The default driver is deterministic. (The paper runs the 0.9-stochastic rule and says that every demonstration
+    escapes; at one decision per second both cannot be true, because its random steering takes the car off the road.
+    For the stochastic rule give `stochastic_rule_policy`.)
     """
-    asked = teacher_of(teacher, scenario)
+    teach = teacher_of(teacher, scenario)
     env, rows, mu = TrapVectorEnv(episodes, scenario, AutoresetMode.DISABLED), [], None
 
     def follow_teacher(observations, cars):
-        return PolicyOutput(asked(cars) if mu is None else mu)  # asked once for each state
+        return PolicyOutput(teach(cars) if mu is None else mu)  # mu was computed after the last step
 
     for step in steps(policy or follow_teacher, env, FIRST_SEED):
-        mu = asked(step.cars) if mu is None else mu
-        next_mu = asked(step.next_cars)
+        mu = teach(step.cars) if mu is None else mu
+        next_mu = teach(step.next_cars)
         seen = step.observations, step.next_observations
         each = encode_transitions(*seen, step.output.actions, step.rewards, step.terminated, mu, next_mu)
         rows.append(each[step.running])
@@ -46,10 +46,10 @@ def collect(
 
 
 def demonstration_rows(rollouts: Sequence[Rollout], teacher: Rule = course_rule) -> Tensor:
-    """Rows for a `ReplayBuffer` from recorded drives, yours or an agent's: (transitions, row), in their order.
+    """Rows for a `ReplayBuffer` from recorded drives: (transitions, row), in their order.
 
-    A drive that ended without an accident was not terminated: its last state still has a future.
-    Raises BootcourseError for no drive, or drives of different scenarios.
+    Only a drive that ended in an accident is terminated. Raises BootcourseError for no drive, or for drives of
+    different scenarios.
     """
     if not rollouts:
         raise BootcourseError("There is no demonstration: drive one first.")

@@ -1,9 +1,8 @@
-"""Generative adversarial imitation learning: a discriminator's verdict replaces the reward.
+"""Generative adversarial imitation learning: the reward is computed from a discriminator.
 
-Ho & Ermon (arXiv 1606.03476) with an off-policy generator, as in DAC (Kostrikov et al., arXiv
-1809.02925): a discriminator learns to tell demonstrations from the agent's own driving, discrete
-SAC maximises the probability to be taken for a demonstration. The road's reward is not used. DAC's
-absorbing states are left out.
+Ho & Ermon (arXiv 1606.03476) with an off-policy generator, as in DAC (Kostrikov et al., arXiv 1809.02925) but without
+its absorbing states: a discriminator learns to distinguish demonstrations from the agent's transitions, and discrete
+SAC maximises a reward that is high for transitions classified as demonstrations. The road's reward is not used.
 """
 
 from collections.abc import Sequence
@@ -29,12 +28,12 @@ def discriminator_loss(expert_logits: Tensor, own_logits: Tensor) -> Tensor:
 
 
 def imitation_reward(own_logits: Tensor) -> Tensor:
-    """r(s,a) = -log(1 - D(s,a)), any shape. It is never negative: an episode that goes on is never worse."""
+    """r(s,a) = -log(1 - D(s,a)), any shape. It is positive, so a longer episode has a larger return."""
     return F.softplus(own_logits)
 
 
 def gradient_penalty(network: Sequence[Tensor], expert: Tensor) -> Tensor:
-    """E_expert[‖∇ logit‖²] / 2, "R1" (Mescheder et al., arXiv 1801.04406): keeps the discriminator smooth.
+    """E_expert[‖∇ logit‖²] / 2, the R1 penalty (Mescheder et al., arXiv 1801.04406), which smooths the discriminator.
 
     expert (agents, batch, inputs) -> (agents,).
     """
@@ -44,36 +43,41 @@ def gradient_penalty(network: Sequence[Tensor], expert: Tensor) -> Tensor:
 
 
 class GAILLearner(SACLearner):
-    """SAC that is rewarded by a discriminator of its own, for several agents.
+    """SAC of several agents, each with a discriminator that computes its reward.
 
-    A batch must hold as many demonstrations as own transitions, the demonstrations first.
+    The first half of a batch must be demonstrations, the second half the agent's transitions.
     """
 
     def __init__(self, settings: Sequence[Settings], observation_size: int, n_actions: int = N_ACTIONS):
         super().__init__(settings, observation_size, n_actions)
         self.n_actions, shared = n_actions, self.settings[0]
-        generators = [torch.Generator().manual_seed(s.seed + 2**32) for s in settings]  # other draws than the actors'
+        generators = [torch.Generator().manual_seed(s.seed + 2**32) for s in settings]  # not the actors' seeds
         self.discriminator = init_mlp((observation_size + n_actions, *shared.hidden, 1), generators)
         for parameter in self.discriminator:
             parameter.requires_grad_()
         self.optimiser.add_param_group({"params": self.discriminator, "lr": shared.discriminator_lr})
 
     def update(self, batch: Batch) -> dict[str, Tensor]:
-        """One step of the discriminator, one of SAC on the own half. Returns what a curve shows, each (agents,)."""
+        """One step of the discriminator, one of SAC on the agent's half. Returns losses and curves, each (agents,).
+
+        Raises BootcourseError if the halves of the batch are not as above.
+        """
         half = batch.rewards.shape[1] // 2
         if not (batch.is_demonstration[:, :half].all() and not batch.is_demonstration[:, half:].any()):
-            raise BootcourseError("GAIL compares halves: leave its beta_start at 0.5, with an even batch.")
+            raise BootcourseError(
+                "Half of GAIL's batch must be demonstrations: leave beta_start at 0.5, with an even batch."
+            )
         pairs = torch.cat([batch.states, F.one_hot(batch.actions, self.n_actions)], dim=-1)
         logits = mlp(self.discriminator, pairs).squeeze(-1)
         loss = discriminator_loss(logits[:, :half], logits[:, half:])
         penalty = gradient_penalty(self.discriminator, pairs[:, :half])
-        self.optimiser.zero_grad()  # the actor and the critics have no gradient here, so Adam leaves them alone
+        self.optimiser.zero_grad()  # the actor and the critics have no gradient here, so Adam does not change them
         (loss + self.settings[0].gradient_penalty * penalty).sum().backward()
         self.optimiser.step()
         with torch.no_grad():
             rewards = imitation_reward(mlp(self.discriminator, pairs[:, half:]).squeeze(-1))
-        mine = Batch(*(column[:, half:] for column in batch))._replace(rewards=rewards)
-        return super().update(mine) | {"discriminator_loss": loss.detach(), "imitation_reward": rewards.mean(-1)}
+        own = Batch(*(column[:, half:] for column in batch))._replace(rewards=rewards)
+        return super().update(own) | {"discriminator_loss": loss.detach(), "imitation_reward": rewards.mean(-1)}
 
     def tensors(self) -> dict[str, list[Tensor]]:
         """SAC's tensors and the discriminator's."""

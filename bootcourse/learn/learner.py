@@ -1,10 +1,9 @@
-"""One gradient step for many agents: where SAC's losses and the paper's additions meet.
+"""The learner: gradient steps of SAC with the paper's additions, for many agents at once.
 
-`textbook.py` is the same for one agent, in plain torch: read that first. Here every parameter has a
-leading agents axis, so that one batched matrix product serves all agents. Shapes stand beside the
-lines; `batch` is a `Batch`, whose fields are (agents, batch, ...).
+Read `textbook.py` first: it is the same for one agent, in plain torch. Here every parameter has a leading agents axis,
+so that one batched matrix product computes all agents. `batch` is a `Batch`, with fields (agents, batch, ...).
 
-A method of your own overrides what differs: `losses` as a whole, or one of `critic_target`,
+Your own method overrides the parts that differ: `losses` as a whole, or `critic_target`,
 `critic_loss`, `actor_loss`, `temperature_loss`, `kl`, `soft_value`. See bc.py, cql.py, gail.py.
 """
 
@@ -28,9 +27,9 @@ PER_AGENT += ("paper_q_filter", "cql_weight")  # settings that the losses need, 
 class SACLearner:
     """Actors, twin critics and temperatures of several agents, and their update.
 
-    settings: one for each agent; the fields in `settings.SHARED` must be equal. Each name in
-    `PER_AGENT` is an attribute of shape (agents, 1). `alpha` and `xi`, (agents, 1), are those of the
-    present update. Raises BootcourseError for agents whose shared settings differ.
+    settings: one for each agent; the fields in `settings.SHARED` must be equal. Each name in `PER_AGENT` is an
+    attribute (agents, 1); `alpha` and `xi` (agents, 1) are those of the present update. Raises BootcourseError for
+    agents whose shared settings differ.
     """
 
     def __init__(self, settings: Sequence[Settings], observation_size: int, n_actions: int = N_ACTIONS):
@@ -60,16 +59,14 @@ class SACLearner:
         self.note_temperature()
 
     def note_temperature(self) -> None:
-        """Set `alpha` and `xi` (Equation 15) to the present temperature, (agents, 1)."""
+        """Set `alpha` and `xi` (Equation 15), each (agents, 1), from the present `log_alpha`."""
         self.alpha = self.log_alpha.detach().exp()[:, None]
         self.xi = bootstrap.constraint_strength(self.alpha, self.xi_multiplier, self.xi_fixed)
 
-    # One update ----------------------------------------------------------------------------------------
-
     def update(self, batch: Batch) -> dict[str, Tensor]:
-        """One step on every agent's own batch. Returns `losses` as they were before it, each (agents,).
+        """One gradient step of all agents. Returns `losses` before the step, each (agents,).
 
-        Critics, actor and temperature step together, each from where the others stood before.
+        Critics, actor and temperature step together: each loss is computed before any of them changes.
         """
         self.note_temperature()
         terms = self.losses(batch)
@@ -81,7 +78,7 @@ class SACLearner:
         return {name: values.detach() for name, values in terms.items()}
 
     def losses(self, batch: Batch) -> dict[str, Tensor]:
-        """What to minimise, under names that end in "loss", and what a curve may show besides: each (agents,)."""
+        """The losses to minimise, with names that end in "loss", and other numbers for curves: each (agents,)."""
         with torch.no_grad():
             target = self.critic_target(batch)  # (agents, batch)
         q_pair = self.q_pair(self.critics, batch.states)  # (2, agents, batch, 9)
@@ -99,7 +96,7 @@ class SACLearner:
         }
 
     def critic_target(self, batch: Batch) -> Tensor:
-        """y = r + c + γ (V(s') - ξ KL(s')), Equations 6, 15 and 20: (agents, batch). Called without gradients."""
+        """y = r + c + γ (V(s') - ξ KL(s')), Equations 6, 15 and 20: (agents, batch). Call it without gradients."""
         next_log_pi = sac.log_policy(mlp(self.actor, batch.next_states))  # (agents, batch, 9)
         next_q = sac.min_q(self.q_pair(self.target_critics, batch.next_states))  # (agents, batch, 9)
         next_kl = self.kl(next_log_pi, batch.next_rule_actions)  # (agents, batch)
@@ -108,7 +105,7 @@ class SACLearner:
         return sac.critic_target(reward, batch.terminated, next_value, self.gamma)
 
     def critic_loss(self, q_pair: Tensor, target: Tensor, log_pi: Tensor, batch: Batch) -> Tensor:
-        """Both critics' squared errors, and their margin and conservative terms where those have a weight: (agents,).
+        """The critics' squared errors, with the margin and the conservative terms if their weights are set: (agents,).
 
         q_pair (2, agents, batch, 9), target (agents, batch), log_pi (agents, batch, 9) without gradient.
         """
@@ -122,7 +119,7 @@ class SACLearner:
         return loss
 
     def margin_loss(self, q_pair: Tensor, log_pi: Tensor, batch: Batch) -> Tensor:
-        """The filtered large-margin loss of the demonstrations (Equations 17 to 19), both critics: (agents,)."""
+        """The filtered large-margin loss of the demonstrations (Equations 17 to 19), summed over critics: (agents,)."""
         total = 0.0
         for q in q_pair:  # (agents, batch, 9)
             loss = bootstrap.large_margin_loss(q, batch.actions)
@@ -133,11 +130,11 @@ class SACLearner:
         return total
 
     def actor_loss(self, log_pi: Tensor, q: Tensor, constraint: Tensor) -> Tensor:
-        """Minus the soft value with the constraint ξ KL: log_pi, q (agents, batch, 9), constraint (agents, batch)."""
+        """Minus the mean soft value: log_pi, q (agents, batch, 9), constraint ξ KL (agents, batch) -> (agents,)."""
         return sac.actor_loss(log_pi, q, self.alpha, constraint)
 
     def temperature_loss(self, entropy: Tensor) -> Tensor:
-        """α (H - η) of the policies' entropies (agents, batch): (agents,)."""
+        """α (H - η): entropy (agents, batch) -> (agents,)."""
         return sac.temperature_loss(self.log_alpha, entropy, self.target_entropy[:, 0])
 
     def kl(self, log_pi: Tensor, rule_actions: Tensor) -> Tensor:
@@ -146,10 +143,8 @@ class SACLearner:
 
     soft_value = staticmethod(sac.soft_value)  # of the next state, in the critic's target
 
-    # What the networks say -----------------------------------------------------------------------------
-
     def q_pair(self, critics: list[Tensor], states: Tensor) -> Tensor:
-        """Both critics' values: (agents, batch, observation) -> (2, agents, batch, actions)."""
+        """Q(s,a) of both critics: (agents, batch, observation) -> (2, agents, batch, actions)."""
         q = mlp(critics, states.repeat(2, 1, 1))
         return q.view(2, self.agents, *q.shape[1:])
 
@@ -164,15 +159,15 @@ class SACLearner:
         return sac.min_q(self.q_pair(self.critics, states))
 
     def tensors(self) -> dict[str, list[Tensor]]:
-        """Every tensor that a training's future depends on, apart from the optimiser's: for a checkpoint."""
+        """The tensors of a checkpoint: all of the learner's state apart from the optimiser's."""
         networks = {"actor": self.actor, "critics": self.critics, "targets": self.target_critics}
         return networks | {"log_alpha": [self.log_alpha]}
 
 
 def learner_for(settings: Sequence[Settings], observation_size: int, n_actions: int = N_ACTIONS) -> SACLearner:
-    """The learner that the agents' methods need. Raises BootcourseError if they need different ones."""
+    """The learner of the agents' methods. Raises BootcourseError if the methods have different learners."""
     classes = {METHODS[s.method].learner_class() for s in settings}
     if len(classes) > 1:
         methods = ", ".join(sorted({s.method for s in settings}))
-        raise BootcourseError(f"{methods} cannot train side by side: their updates differ. Train these apart.")
+        raise BootcourseError(f"{methods} cannot train side by side: their learners differ. Train these apart.")
     return classes.pop()(settings, observation_size, n_actions)

@@ -1,7 +1,6 @@
-"""Small networks for many agents at once: every parameter has a leading agents axis.
+"""Small networks of many agents: every parameter has a leading agents axis.
 
-On networks this small, calling a library costs more than the arithmetic. One batched matrix product
-for all agents costs little more than one agent's.
+For networks this small, one batched matrix product for all agents takes little longer than one agent's.
 """
 
 from collections.abc import Sequence
@@ -11,10 +10,9 @@ from torch import Tensor
 
 
 def init_mlp(sizes: Sequence[int], generators: Sequence[torch.Generator]) -> list[Tensor]:
-    """Weights and biases, drawn for each agent from its own generator.
+    """Weights and biases, uniform within ±1/√inputs (torch's default); one generator for each agent.
 
     sizes: (inputs, hidden ..., outputs) -> [(agents, inputs, hidden), (agents, 1, hidden), ...].
-    Uniform within ±1/√inputs, torch's default for a linear layer.
     """
     parameters = []
     for n_in, n_out in zip(sizes, sizes[1:], strict=False):
@@ -25,7 +23,7 @@ def init_mlp(sizes: Sequence[int], generators: Sequence[torch.Generator]) -> lis
 
 
 def mlp(parameters: Sequence[Tensor], x: Tensor) -> Tensor:
-    """(agents, batch, inputs) -> (agents, batch, outputs), ReLU between the layers."""
+    """The network's outputs, with ReLU between the layers: (agents, batch, inputs) -> (agents, batch, outputs)."""
     for weight, bias in zip(parameters[:-2:2], parameters[1:-2:2], strict=True):
         x = torch.baddbmm(bias, x, weight).relu_()
     return torch.baddbmm(parameters[-1], x, parameters[-2])

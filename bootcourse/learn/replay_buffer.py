@@ -1,7 +1,7 @@
-"""What agents remember: one table of transitions for the demonstrations and for every agent's driving.
+"""The replay buffer: one table of transitions for the demonstrations and for all agents.
 
-A row holds s, s', a, r, terminated, μ(s) and μ(s'): the rule's actions are what the KL needs, and
-cannot be found again from an observation.
+A row is s, s', a, r, terminated, μ(s) and μ(s'). The KL needs the rule's actions, which cannot be computed from an
+observation.
 """
 
 from typing import NamedTuple
@@ -14,13 +14,13 @@ from bootcourse.errors import BootcourseError
 
 
 class Batch(NamedTuple):
-    """One batch for every agent."""
+    """One batch for each agent."""
 
     states: Tensor  # (agents, batch, observation)
     next_states: Tensor  # (agents, batch, observation)
     actions: Tensor  # (agents, batch) int64
     rewards: Tensor  # (agents, batch)
-    terminated: Tensor  # (agents, batch) 0 or 1; running out of time is 0
+    terminated: Tensor  # (agents, batch) 0 or 1; 0 at a time limit
     rule_actions: Tensor  # (agents, batch) int64, μ(s)
     next_rule_actions: Tensor  # (agents, batch) int64, μ(s')
     is_demonstration: Tensor  # (agents, batch) 0 or 1
@@ -39,11 +39,11 @@ class ReplayBuffer:
         if demonstrations is not None:
             self.table[: self.demonstrations] = demonstrations
         self.first = self.demonstrations + np.arange(agents) * buffer_size  # each agent's first row
-        self.size = 0  # rows filled; the same for every agent, since all decide together
-        self.next = 0
+        self.size = 0  # filled rows of each agent
+        self.next = 0  # the row that is written next, counted from `first`
 
     def add(self, rows: Tensor) -> None:
-        """Remember rows made by `encode_transitions`, (agents, roads, row)."""
+        """Store rows made by `encode_transitions`, (agents, roads, row)."""
         roads = rows.shape[1]
         where = self.first[:, None] + (self.next + np.arange(roads)) % self.buffer_size
         self.table[torch.from_numpy(where.ravel())] = rows.reshape(self.agents * roads, -1)
@@ -51,7 +51,10 @@ class ReplayBuffer:
         self.size = min(self.size + roads, self.buffer_size)
 
     def sample(self, batch: int, beta: np.ndarray, generators: list[np.random.Generator]) -> Batch:
-        """Draw a batch for each agent: the share beta (agents,) from the demonstrations, the rest from its own."""
+        """Draw a batch for each agent: a share beta (agents,) of demonstrations, the rest from its own transitions.
+
+        Raises BootcourseError if beta is above 0 without demonstrations.
+        """
         share = np.rint(beta * batch).astype(np.int64)
         if share.any() and not self.demonstrations:
             raise BootcourseError("beta is above 0 but there are no demonstrations: collect some, or set beta to 0.")
@@ -70,6 +73,7 @@ def encode_transitions(states, next_states, actions, rewards, terminated, rule_a
 
 
 def decode_transitions(rows: Tensor, observation_size: int, is_demonstration: Tensor) -> Batch:
+    """The `Batch` of rows made by `encode_transitions`, (..., row); is_demonstration (...)."""
     n = observation_size
     actions, rule_actions, next_rule_actions = rows[..., [2 * n, 2 * n + 3, 2 * n + 4]].long().unbind(-1)
     return Batch(

@@ -1,9 +1,8 @@
 """Discrete soft actor-critic: the soft value and the three losses, as pure functions.
 
-Shapes: `log_pi` and `q` are (..., batch, actions), what is per state is (..., batch), coefficients
-such as alpha broadcast against (..., batch). Expectations over actions are taken exactly: nothing
-is sampled. Christodoulou (arXiv 1910.07207) gives the discrete form, Section III-C of the paper the
-objective. What the paper adds to SAC stands in `bootstrap.py`; here it arrives as `constraint`.
+Shapes: `log_pi` and `q` (..., batch, actions), one number per state (..., batch); coefficients such as alpha broadcast
+against (..., batch). Expectations over actions are exact sums. Discrete form: Christodoulou (arXiv 1910.07207);
+objective: Section III-C of the paper. The paper's additions are in `bootstrap.py`; `constraint` is ξ KL.
 """
 
 import torch
@@ -13,7 +12,7 @@ from torch import Tensor
 def log_policy(logits: Tensor) -> Tensor:
     """log π(a|s), the logarithm of softmax: (..., actions) -> (..., actions).
 
-    Written out because torch's own log_softmax takes four times as long on rows of nine.
+    torch's log_softmax takes four times as long on rows of nine.
     """
     return logits - logits.logsumexp(-1, keepdim=True)
 
@@ -29,7 +28,7 @@ def soft_value(log_pi: Tensor, q: Tensor, alpha: Tensor, constraint: Tensor | fl
 
 
 def critic_target(reward: Tensor, terminated: Tensor, next_value: Tensor, gamma: Tensor) -> Tensor:
-    """y = r + γ (1 - terminated) V(s'). An episode that ran out of time is not terminated."""
+    """y = r + γ (1 - terminated) V(s'): (..., batch). An episode that ended at its time limit is not terminated."""
     return reward + gamma * (1 - terminated) * next_value
 
 
@@ -41,19 +40,19 @@ def critic_loss(q_taken: Tensor, target: Tensor) -> Tensor:
 def conservative_loss(q: Tensor, actions: Tensor) -> Tensor:
     """Mean over the batch of log Σ_a exp Q(s,a) - Q(s,a_data), CQL's term (arXiv 2006.04779, Equation 4).
 
-    It pushes down what is highest and pulls up what the data did; never negative. q (..., batch,
-    actions), actions (..., batch) -> (...). SAC has no such term: see `cql.py`.
+    Minimising it lowers the highest values and raises those of the data's actions; it is 0 or more. q (..., batch,
+    actions), actions (..., batch) -> (...). Plain SAC has no such term: see `cql.py`.
     """
     return (q.logsumexp(-1) - q.gather(-1, actions.unsqueeze(-1)).squeeze(-1)).mean(-1)
 
 
 def actor_loss(log_pi: Tensor, q: Tensor, alpha: Tensor, constraint: Tensor | float = 0.0) -> Tensor:
-    """Mean over the batch of -V(s), with Q held fixed: (..., batch, actions) -> (...)."""
+    """Mean over the batch of -V(s), without gradient through Q: (..., batch, actions) -> (...)."""
     return -soft_value(log_pi, q.detach(), alpha, constraint).mean(-1)
 
 
 def temperature_loss(log_alpha: Tensor, state_entropy: Tensor, target_entropy: Tensor) -> Tensor:
-    """α (H(π) - target), whose gradient raises α while the entropy is under its target: (...).
+    """α (H(π) - η) with the target entropy η: minimising it raises α while the entropy is below η: (...).
 
     log_alpha and target_entropy (...), state_entropy (..., batch).
     """
