@@ -7,7 +7,7 @@ try:
 except ModuleNotFoundError as error:
     if error.name and error.name.startswith("bootcourse"):
         raise
-    from bootcourse import doctor  # a package is missing: the doctor says which, whatever was asked
+    from bootcourse import doctor  # a package is missing: run the doctor, which names it, instead of the command
 
     sys.exit(doctor.main())
 

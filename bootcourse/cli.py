@@ -1,7 +1,7 @@
 """The command line, `bootcourse` or `python -m bootcourse`: a command is a function with `@app.command()`.
 
-What a command needs is imported inside it, so that `bootcourse --help` answers at once. A training and
-a study can be stopped by Ctrl-C (exit status 130) and continued by the same command.
+Commands import their modules themselves, so that `bootcourse --help` is fast. A training and a study can be stopped by
+Ctrl-C (exit status 130) and resumed.
 """
 
 import contextlib
@@ -18,7 +18,7 @@ import typer
 from bootcourse.errors import BootcourseError, did_you_mean
 
 INTERRUPTED = 130  # exit status
-CHECKPOINT, SECONDS_BETWEEN = "checkpoint.npz", 20.0  # of a training, and how often it is written
+CHECKPOINT, SECONDS_BETWEEN = "checkpoint.npz", 20.0  # a training's checkpoint file, and the time between two (s)
 SENSITIVITY_SEEDS = 3
 BUILT_IN = ("rule", "idle", "random")  # drivers that need no training
 MEASURES = {
@@ -30,7 +30,7 @@ MEASURES = {
     "road_departure": "road departure %",
     "stoppage": "stoppage %",
 }
-ACROSS = 4  # columns of the table of `evaluate` that fit a terminal
+ACROSS = 4  # columns of `evaluate`'s table side by side in a terminal
 
 app = typer.Typer(
     help="A trap on the highway, and how an imperfect driver pulls a learner out of it.",
@@ -42,7 +42,7 @@ app = typer.Typer(
 
 
 def main() -> None:
-    """Run a command. A mistake of the user's is one sentence and exit status 2; Ctrl-C is 130."""
+    """Run a command. Exit status: 2, after one sentence, for a user mistake; 130 for Ctrl-C."""
     try:
         app(prog_name="bootcourse")
     except BootcourseError as error:
@@ -51,6 +51,7 @@ def main() -> None:
 
 
 def show_version(wanted: bool) -> None:
+    """Print the version and exit, if wanted."""
     if wanted:
         from bootcourse import __version__
 
@@ -62,18 +63,15 @@ def show_version(wanted: bool) -> None:
 def options(
     version: bool = typer.Option(False, "--version", callback=show_version, is_eager=True, help="Print the version."),
 ) -> None:
-    pass
+    """The options of `bootcourse` itself."""
 
 
 @app.command()
 def doctor() -> None:
-    """Say what is right and wrong with this machine, and how to mend it."""
+    """Check the installation and this machine, and print a remedy for each problem."""
     from bootcourse import doctor
 
     raise typer.Exit(doctor.main())
-
-
-# Training --------------------------------------------------------------------------------------------
 
 
 @app.command()
@@ -87,52 +85,52 @@ def train(
     out: Path = typer.Option(..., help="A new folder for the runs."),
     scenario: str = typer.Option("default", help="default or calibrated."),
     teacher: str = typer.Option("", help="A rule of your own as the teacher: FILE.py:FUNCTION."),
-    resume: bool = typer.Option(False, "--resume", help="Go on with a training that was interrupted or killed."),
+    resume: bool = typer.Option(False, "--resume", help="Resume a training that was interrupted or killed."),
     quiet: bool = typer.Option(False, "--quiet", help="No progress bar."),
 ) -> None:
-    """Train agents and write a run for each."""
+    """Train agents and write a run of each."""
     from bootcourse.learn.settings import settings_for, with_seeds
     from bootcourse.learn.training import Training
     from bootcourse.scenario import named
     from bootcourse.storage.runs import load_checkpoint, save_checkpoint
 
-    unfinished, taught_by = out / CHECKPOINT, teacher_from(teacher)
+    unfinished, rule = out / CHECKPOINT, teacher_from(teacher)
     if resume:
         if not unfinished.exists():
-            raise BootcourseError(f"{out} holds no unfinished training: leave --resume away to start one.")
-        training = load_checkpoint(unfinished, taught_by)
+            raise BootcourseError(f"{out} has no unfinished training: leave out --resume to start one.")
+        training = load_checkpoint(unfinished, rule)
     else:
         settings, road = with_seeds(settings_for(method), seeds, first_seed), named(scenario)
         if unfinished.exists():
             raise BootcourseError(
-                f"{out} holds an unfinished training: add --resume to go on with it, or choose another."
+                f"{out} has an unfinished training: add --resume to continue it, or choose another folder."
             )
         if out.exists() and (not out.is_dir() or any(out.iterdir())):
             raise BootcourseError(f"{out} exists already and is not empty: choose another folder.")
-        training = Training(settings, episodes, road, taught_by)
-        save_checkpoint(training, unfinished)  # before an hour is spent: can this folder be written?
+        training = Training(settings, episodes, road, rule)
+        save_checkpoint(training, unfinished)  # raises now, not after the training, if the folder is not writable
     raise typer.Exit(finish_training(training, out, progress=not quiet))
 
 
 def teacher_from(place: str):
-    """The rule that "FILE.py:FUNCTION" names; the course's for "". Raises BootcourseError if it is not there."""
+    """The rule "FILE.py:FUNCTION"; the course's for "". Raises BootcourseError if it does not exist."""
     from bootcourse.learn.teachers import course_rule
 
     if not place:
         return course_rule
     file, _, function = place.rpartition(":")
     if not Path(file).is_file():
-        raise BootcourseError(f"--teacher {place}: name a file and a function in it, such as my_rule.py:my_rule.")
+        raise BootcourseError(f"--teacher {place}: give a file and a function in it, such as my_rule.py:my_rule.")
     spec = importlib.util.spec_from_file_location(Path(file).stem, file)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     if not callable(getattr(module, function, None)):
-        raise BootcourseError(f"{file} has no function '{function}': write it there, or name another.")
+        raise BootcourseError(f"{file} has no function '{function}': write it there, or give another name.")
     return getattr(module, function)
 
 
 def finish_training(training, out: Path, progress: bool) -> int:
-    """Train to the end and write the runs, with a checkpoint every 20 s. Returns the exit status."""
+    """Train, with a checkpoint every 20 s, and write the runs. Returns the exit status."""
     from bootcourse.storage.runs import save_checkpoint, save_runs
 
     last = time.monotonic()
@@ -146,7 +144,7 @@ def finish_training(training, out: Path, progress: bool) -> int:
     result = training.run(progress, checkpoint_now_and_then)
     if result.interrupted:
         save_checkpoint(training, out / CHECKPOINT)
-        print(f"Interrupted. Nothing is lost: go on with `bootcourse train --out {out} --resume`.", file=sys.stderr)
+        print(f"Interrupted. To continue, run `bootcourse train --out {out} --resume`.", file=sys.stderr)
         return INTERRUPTED
     for path in save_runs(result, out):
         print(path)
@@ -154,15 +152,12 @@ def finish_training(training, out: Path, progress: bool) -> int:
     return 0
 
 
-# Driving ---------------------------------------------------------------------------------------------
-
-
 @app.command()
 def evaluate(
     who: str = typer.Argument(..., help="rule, idle, or a folder that `bootcourse train` wrote."),
     episodes: int = typer.Option(1000, min=1, help="Held-out episodes."),
-    seed: int = typer.Option(1, min=0, help="Which block of held-out roads."),
-    scenario: str = typer.Option("", help="default or calibrated; a run is tested on its own unless you say."),
+    seed: int = typer.Option(1, min=0, help="The block of held-out roads."),
+    scenario: str = typer.Option("", help="default or calibrated; by default the scenario that a run trained on."),
     sample: bool = typer.Option(False, "--sample", help="Draw an agent's actions instead of taking the most probable."),
     as_json: bool = typer.Option(False, "--json", help="Print JSON."),
 ) -> None:
@@ -190,7 +185,7 @@ def evaluate(
 
 
 def policies_of(who: str, scenario: str, sample: bool, seed: int) -> list[tuple]:
-    """(label, policy, scenario) of everybody that `who` names: a built-in driver, or the runs of a folder."""
+    """(label, policy, scenario) of a built-in driver, or of each run in a folder."""
     import numpy as np
 
     from bootcourse.policies import idle_policy, random_policy, rule_policy
@@ -205,7 +200,7 @@ def policies_of(who: str, scenario: str, sample: bool, seed: int) -> list[tuple]
         }
         return [(who, built_in[who], road)]
     if not Path(who).exists():
-        raise BootcourseError(f"Driver {did_you_mean(who, BUILT_IN)}, or name a folder that `bootcourse train` wrote.")
+        raise BootcourseError(f"Driver {did_you_mean(who, BUILT_IN)}, or give a folder that `bootcourse train` wrote.")
     from bootcourse.storage.runs import find_runs, load_run
 
     found = []
@@ -218,7 +213,7 @@ def policies_of(who: str, scenario: str, sample: bool, seed: int) -> list[tuple]
 
 
 def print_table(columns: dict[str, dict]) -> None:
-    """One column for each driver, one row for each measure: value [low, high]."""
+    """Print a table of value [low, high]: one column for each driver, one row for each measure."""
     print("\n" + " " * 18 + "".join(f"{label:>26}" for label in columns))
     for name, heading in MEASURES.items():
         scale = 100 if "%" in heading else 1
@@ -231,10 +226,10 @@ def drive(
     who: str = typer.Argument(..., help="rule, idle, random, or a run's folder."),
     out: Path = typer.Option(..., help="The rollout to write, such as drive.npz."),
     seed: int = typer.Option(0, min=0, help="The road."),
-    scenario: str = typer.Option("", help="default or calibrated; a run drives its own unless you say."),
+    scenario: str = typer.Option("", help="default or calibrated; by default the scenario that a run trained on."),
     png: Path | None = typer.Option(None, help="Also draw the top view and the traces to this picture."),
 ) -> None:
-    """Record one drive, to be drawn or replayed."""
+    """Record one drive for figures and replays."""
     from bootcourse.episodes.record import record
 
     if out.exists():
@@ -257,9 +252,9 @@ def replay(
     png: Path | None = typer.Option(None, help="Write a picture, such as out.png."),
     text: bool = typer.Option(False, "--text", help="Print each drive in words."),
     port: int = typer.Option(0, min=0, max=65535, help="The server's port; 0: any free one."),
-    browser: bool = typer.Option(True, help="Open the browser, or only print the address."),
+    browser: bool = typer.Option(True, help="Open the browser, or print only the address."),
 ) -> None:
-    """Show drives in 3D in the browser, until Ctrl-C, or write them as a file, or in words."""
+    """Show drives in 3D in the browser until Ctrl-C, or write them to a file, or print them in words."""
     from bootcourse.episodes.rollout import Rollout
 
     rollouts = [Rollout.load(file) for file in files]
@@ -282,17 +277,14 @@ def replay(
         print(transcripts(rollouts))
 
 
-# Studies ---------------------------------------------------------------------------------------------
-
-
 @app.command()
 def study(
-    out: Path = typer.Option(..., help="The study's folder: new, or one to go on with."),
+    out: Path = typer.Option(..., help="The study's folder: new, or that of a study to continue."),
     scenario: str = typer.Option("default", help="default or calibrated; both may share a folder."),
     seeds: int = typer.Option(10, min=1, help="Training seeds of each method."),
     episodes: int = typer.Option(2000, min=1, help="Training episodes of each agent."),
     tests: int = typer.Option(1000, min=1, help="Held-out episodes that each agent is tested on."),
-    only: str = typer.Option("", help="Some methods, such as sac,bootstrapped; planner is the bound."),
+    only: str = typer.Option("", help="Only these methods, such as sac,bootstrapped; planner is the bound."),
     sensitivity: bool = typer.Option(False, "--sensitivity", help="Vary what the paper leaves open, 3 seeds each."),
     backend: str = typer.Option("loky", help="loky (this machine), dask or ray."),
     scheduler: str = typer.Option("", help="The address of a dask or ray cluster that you have."),
@@ -307,7 +299,7 @@ def study(
 
     road, methods = named(scenario), plan.methods_named(only)
     if sensitivity and (only or scenario != "default"):
-        raise BootcourseError("--sensitivity has its own methods and scenarios: leave --only and --scenario away.")
+        raise BootcourseError("--sensitivity has its own methods and scenarios: leave out --only and --scenario.")
     if sensitivity:
         wanted = plan.sensitivity_jobs(min(seeds, SENSITIVITY_SEEDS), episodes, tests)
     else:
@@ -321,7 +313,7 @@ def study(
 
 @app.command()
 def sweep(
-    out: Path = typer.Option(..., help="The folder: new, a study's, or one to go on with."),
+    out: Path = typer.Option(..., help="The folder: new, a study's, or that of a sweep to continue."),
     seeds: int = typer.Option(4, min=1, help="Training seeds of each setting."),
     episodes: int = typer.Option(1500, min=1, help="Training episodes of each agent."),
     tests: int = typer.Option(1000, min=1, help="Held-out episodes that each agent is tested on."),
@@ -348,21 +340,21 @@ def sweep(
 
 
 def compute(wanted: list, out: Path, **how) -> int:
-    """Compute the jobs that are missing; says what went wrong and how to go on. Returns the exit status."""
+    """Compute the missing jobs; print failures and how to continue. Returns the exit status."""
     from bootcourse.study.runner import run_jobs
 
     started = time.monotonic()
     try:
         problems = run_jobs(wanted, out, **how)
     except KeyboardInterrupt:
-        print("Interrupted: start the same command again to go on. What is done is kept.", file=sys.stderr)
+        print("Interrupted. Finished jobs are kept: start the same command again to continue.", file=sys.stderr)
         return INTERRUPTED
     minutes = (time.monotonic() - started) / 60
     print(f"{len(wanted) - len(problems)} of {len(wanted)} jobs are done, after {minutes:.1f} minutes.")
     for problem in problems:
         print(problem)
     if problems:
-        print("Start the same command again to go on: what is done is kept.")
+        print("Finished jobs are kept: start the same command again to continue.")
     return 1 if problems else 0
 
 
@@ -371,7 +363,7 @@ def assets(
     what: str = typer.Argument(..., help="verify: check the shipped files. build: make them from a study's folder."),
     study: Path | None = typer.Option(None, help="The study's folder, for build."),
 ) -> None:
-    """Check what ships with the course, or make it again."""
+    """Check the files that ship with the course, or make them again."""
     if what not in ("verify", "build"):
         raise BootcourseError(f"Action {did_you_mean(what, ('verify', 'build'))}.")
     if what == "build":
@@ -388,7 +380,7 @@ def assets(
 
 
 def report_assets(folder: Path) -> int:
-    """Print which shipped files are wrong, and which are older than the code. Returns the exit status."""
+    """Print the shipped files that are damaged or older than the code. Returns the exit status."""
     from bootcourse.files import read_json
     from bootcourse.storage.assets import MANIFEST, verify
     from bootcourse.study.fingerprint import older

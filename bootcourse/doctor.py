@@ -1,8 +1,7 @@
-"""`bootcourse doctor`: one screen that says what is right and wrong with this machine.
+"""`bootcourse doctor`: checks of the installation and the machine, with a remedy for each problem.
 
-Each check yields findings, and each problem has its remedy beside it. Nothing here is imported from
-outside the standard library until a check needs it, so that the doctor can speak when packages are
-missing. `python bootcourse/doctor.py` runs it too.
+Packages outside the standard library are imported inside the checks, so that it runs when some are missing.
+`python bootcourse/doctor.py` runs it too.
 """
 
 import importlib.metadata
@@ -27,7 +26,7 @@ COLOURS = {"ok": "32", "note": "33", "STOP": "31"}
 
 
 class Finding(NamedTuple):
-    """`level` is "ok", "note" (the lessons run all the same) or "STOP" (they do not)."""
+    """The result of a check. `level` is "ok", "note" (the lessons run) or "STOP" (they do not)."""
 
     level: str
     what: str
@@ -35,6 +34,7 @@ class Finding(NamedTuple):
 
 
 def python() -> Iterator[Finding]:
+    """The version of Python."""
     here = f"Python {platform.python_version()} in {sys.prefix}"
     if sys.version_info < OLDEST:
         yield Finding("STOP", here, "Install Python 3.11 or newer, delete .venv, and run `make lab PYTHON=python3.11`.")
@@ -43,9 +43,9 @@ def python() -> Iterator[Finding]:
 
 
 def packages() -> Iterator[Finding]:
-    """Every package that environment.lock has for this platform, against what is installed."""
+    """The installed packages against those of environment.lock for this platform."""
     if not LOCK.exists():
-        yield Finding("note", f"{LOCK} is not there: versions not compared", "Work in a clone of the course.")
+        yield Finding("note", f"{LOCK} is missing: versions not compared", "Work in a clone of the course.")
         return
     locked = locked_versions(LOCK.read_text())
     installed = {name: installed_version(name) for name in locked}
@@ -66,24 +66,25 @@ def packages() -> Iterator[Finding]:
 
 
 def listed(names: list[str]) -> str:
+    """The first eight names, and the number of the others."""
     return ", ".join(names[:8]) + (f" and {len(names) - 8} more" if len(names) > 8 else "")
 
 
 def locked_versions(lock: str) -> dict[str, str]:
-    """{name: version} of the lock's lines that hold on this machine (`; sys_platform == 'linux'`)."""
+    """{name: version} of the lock's lines whose markers (`; sys_platform == 'linux'`) fit this machine."""
     Marker = packaging().markers.Marker
     lines = re.findall(r"^([\w.-]+)==([^\s;]+)(?: ; ([^\\\n]+?))?(?: \\)?$", lock, flags=re.MULTILINE)
     return {name: version for name, version, marker in lines if not marker or Marker(marker).evaluate()}
 
 
 def needed(name: str, extras: tuple[str, ...] = ("",), found: set | None = None) -> set[str]:
-    """The names of all that the installed package `name` asks for, and what those ask for in turn."""
+    """The names of all direct and indirect requirements of an installed package."""
     found = set() if found is None else found
     try:
-        asked = importlib.metadata.requires(name) or []
+        requirements = importlib.metadata.requires(name) or []
     except importlib.metadata.PackageNotFoundError:
         return found
-    for requirement in map(packaging().requirements.Requirement, asked):
+    for requirement in map(packaging().requirements.Requirement, requirements):
         marker = requirement.marker
         child = re.sub(r"[-_.]+", "-", requirement.name).lower()
         if child not in found and (not marker or any(marker.evaluate({"extra": extra}) for extra in extras)):
@@ -93,7 +94,7 @@ def needed(name: str, extras: tuple[str, ...] = ("",), found: set | None = None)
 
 
 def packaging():
-    """The module that reads requirements: installed by the lock, and inside pip in any case."""
+    """The package `packaging`, which parses requirements: installed, or else pip's copy."""
     try:
         import packaging.markers
         import packaging.requirements
@@ -106,6 +107,7 @@ def packaging():
 
 
 def installed_version(name: str) -> str | None:
+    """The version of a package; None if it is not installed."""
     try:
         return importlib.metadata.version(name)
     except importlib.metadata.PackageNotFoundError:
@@ -113,17 +115,19 @@ def installed_version(name: str) -> str | None:
 
 
 def torch_build() -> Iterator[Finding]:
+    """The version of torch, and whether it is a CUDA build."""
     import torch
 
     threads = f"{torch.get_num_threads()} threads on {os.cpu_count()} cores"
     if torch.version.cuda:
-        advice = "It works. To win back gigabytes of disk, delete .venv and run `make lab`."
+        advice = "It works. To save gigabytes of disk space, delete .venv and run `make lab`."
         yield Finding("note", f"torch {torch.__version__} is a CUDA build, {threads}", advice)
     else:
         yield Finding("ok", f"torch {torch.__version__} is a CPU build, {threads}")
 
 
 def compiler() -> Iterator[Finding]:
+    """numba compiles a function."""
     import numba
 
     start = time.perf_counter()
@@ -134,6 +138,7 @@ def compiler() -> Iterator[Finding]:
 
 
 def road() -> Iterator[Finding]:
+    """The compiled road takes a step."""
     import gymnasium
 
     start = time.perf_counter()
@@ -146,7 +151,7 @@ def road() -> Iterator[Finding]:
 
 
 def port() -> Iterator[Finding]:
-    """JupyterLab and the 3D replays each listen on this machine only, on a free port."""
+    """A local server, as JupyterLab and the 3D replays need."""
     try:
         with socket.create_server(("127.0.0.1", 0)) as server:
             with socket.create_connection(server.getsockname(), timeout=5):
@@ -157,6 +162,7 @@ def port() -> Iterator[Finding]:
 
 
 def cache() -> Iterator[Finding]:
+    """The folder for compiled code is writable."""
     from bootcourse.road.compiled import CACHE_FOLDER
 
     try:
@@ -164,11 +170,12 @@ def cache() -> Iterator[Finding]:
         with tempfile.TemporaryFile(dir=CACHE_FOLDER):
             yield Finding("ok", f"compiled code is kept in {CACHE_FOLDER}")
     except OSError as error:
-        advice = "Make it writable, or every start of a notebook compiles the road again."
+        advice = "Make it writable; otherwise every start of a notebook compiles the road again."
         yield Finding("note", f"{CACHE_FOLDER} cannot be written: {error.strerror}", advice)
 
 
 def disk() -> Iterator[Finding]:
+    """The free disk space."""
     free = shutil.disk_usage(Path.cwd()).free / 1e9
     level = "ok" if free > 1 else "note" if free > 0.1 else "STOP"
     remedy = "" if level == "ok" else "Free some space: trained runs and recordings need up to 1 GB."
@@ -176,11 +183,12 @@ def disk() -> Iterator[Finding]:
 
 
 def browser() -> Iterator[Finding]:
+    """A browser for the tests."""
     found = next(filter(None, map(shutil.which, BROWSERS)), None)
     if found:
         yield Finding("ok", f"browser tests use {found}")
     else:
-        advice = "Only `make test` uses it, and skips those tests. Debian: apt install chromium."
+        advice = "Only `make test` uses it; without it, those tests are skipped. Debian: apt install chromium."
         yield Finding("note", "no Chromium for the browser tests", advice)
 
 
@@ -188,7 +196,7 @@ CHECKS = (python, packages, torch_build, compiler, road, port, cache, disk, brow
 
 
 def findings() -> Iterator[Finding]:
-    """Every check's findings. A check that falls over is a finding itself."""
+    """The findings of all checks. A check that raises an exception yields a STOP finding."""
     for check in CHECKS:
         try:
             yield from check()
@@ -199,7 +207,7 @@ def findings() -> Iterator[Finding]:
 
 
 def main() -> int:
-    """Print the screen. Returns 1 if something stops the lessons, else 0."""
+    """Print all findings. Returns 1 if a finding is STOP, else 0."""
     print(f"The course on {platform.system()} {platform.machine()}\n")
     stops = 0
     for finding in findings():
@@ -208,15 +216,16 @@ def main() -> int:
         if finding.remedy:
             print(f"        -> {finding.remedy}")
         sys.stdout.flush()
-    print("\nSomething stops the lessons: see STOP above." if stops else "\nThe lessons can start: `make lab`.")
+    print("\nThe lessons cannot start: see STOP above." if stops else "\nThe lessons can start: `make lab`.")
     return 1 if stops else 0
 
 
 def painted(level: str) -> str:
+    """A level in its colour, if the output is a terminal."""
     text = f"{level:4}"
     return f"\033[{COLOURS[level]}m{text}\033[0m" if sys.stdout.isatty() else text
 
 
 if __name__ == "__main__":
-    sys.path[0] = str(ROOT)  # as a file, Python looks beside it; the package is one folder up
+    sys.path[0] = str(ROOT)  # run as a file, Python would search this folder instead of the one above the package
     sys.exit(main())

@@ -193,7 +193,7 @@ def test_switching_off_the_gradient_penalty_changes_gail_s_second_update():
 
 
 def test_a_batch_that_gail_cannot_halve_is_refused():
-    with pytest.raises(BootcourseError, match="leave its beta_start at 0.5"):
+    with pytest.raises(BootcourseError, match="leave beta_start at 0.5"):
         learner("gail").update(a_batch(demonstrations=2))
 
 

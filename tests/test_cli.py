@@ -97,7 +97,7 @@ def test_a_training_that_is_stopped_loses_nothing_and_resumes(how, bootcourse, t
     process.send_signal(how)
     _, said = process.communicate(timeout=60)
     if how is signal.SIGINT:
-        assert process.returncode == 130 and "Nothing is lost" in said
+        assert process.returncode == 130 and "To continue, run" in said
     again = bootcourse("train", "--out", out)
     assert again.status == 2 and "add --resume" in again.err
     resumed = bootcourse("train", "--out", out, "--resume", "--quiet")

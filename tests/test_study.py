@@ -149,7 +149,7 @@ REFUSED = {
     "a mistyped scenario": (["--scenario", "calibrate"], "did you mean 'calibrated'"),
     "a mistyped backend": (["--backend", "dusk"], "did you mean 'dask'"),
     "a scheduler for this machine": (["--scheduler", "tcp://somewhere:1"], "needs --backend dask"),
-    "sensitivity of some methods": (["--sensitivity", "--only", "sac"], "leave --only"),
+    "sensitivity of some methods": (["--sensitivity", "--only", "sac"], "leave out --only"),
 }
 
 

@@ -1,7 +1,7 @@
-"""Every setting of a learner, with its source, and the methods: each is a few settings.
+"""Every setting of a learner, with its source.
 
-† Table "RL hyper-parameters" and Section IV of the paper; ‡ inferred from the paper, the reason stands beside it;
-§ our choice, measured by the study.
+† printed in the paper (Table "RL hyper-parameters", Section IV); ‡ inferred from the paper, with the reason; § our
+choice.
 """
 
 import math
@@ -13,27 +13,27 @@ from bootcourse.scenario import check_p
 
 
 def shared(default):
-    """A field in which all agents that train side by side agree."""
+    """A field that must be equal for all agents that train side by side."""
     return field(default=default, metadata={"shared": True})
 
 
 @dataclass(frozen=True)
 class Settings:
-    """One agent's settings. The defaults are the paper's method; `settings_for` gives any other method's.
+    """One agent's settings. The defaults are the paper's method; use `settings_for` for other methods.
 
-    Raises BootcourseError for a value that cannot be.
+    Raises BootcourseError for a value that is out of range or contradicts the method.
     """
 
     method: str = "bootstrapped"
     seed: int = 0
     gamma: float = 0.8  # † discount factor γ
     target_entropy: float = -1.0  # nats † η; a categorical policy's entropy is never negative
-    alpha_init: float = 0.01  # † first entropy coefficient α
+    alpha_init: float = 0.01  # † initial entropy coefficient α
     xi_multiplier: float = 200.0  # † ξ = 200 α; 0 switches the soft constraint off
-    xi_fixed: float = -1.0  # a constant ξ instead, if 0 or more
-    kl_in_target: bool = True  # ‡ the KL stands inside the return, so it is in the critic's target too
-    rule_p: float = 0.9  # † stochasticity of π̃
-    beta_start: float = 0.6  # † share of demonstrations in a batch, at first; 0: no demonstrations
+    xi_fixed: float = -1.0  # § a constant ξ, if 0 or more
+    kl_in_target: bool = True  # ‡ the paper's KL is part of the return, so it is in the critic's target too
+    rule_p: float = 0.9  # † p of the stochastic rule π̃
+    beta_start: float = 0.6  # † initial share of demonstrations in a batch; 0: no demonstrations
     beta_episodes: int = 1000  # † episodes until that share is 0
     bonus: float = 2.0  # † c, added to a demonstration's reward
     margin: float = 0.0  # weight of the large-margin loss; 0 switches it off
@@ -46,14 +46,14 @@ class Settings:
     alpha_lr: float = shared(1e-3)  # †
     batch: int = shared(64)  # † N
     buffer_size: int = shared(50_000)  # † D, transitions
-    tau: float = shared(0.005)  # § share of the critics that their targets take over at each update
-    envs_per_agent: int = shared(4)  # § roads that one agent drives at once
-    updates: int = shared(1)  # § updates for each decision of all its roads
+    tau: float = shared(0.005)  # § the target critics' step towards the critics at each update (Polyak averaging)
+    envs_per_agent: int = shared(4)  # § roads that each agent drives at the same time
+    updates: int = shared(1)  # § updates after each decision on these roads
     learning_starts: int = shared(256)  # § decisions before the first update
     demonstration_episodes: int = shared(200)  # † episodes
-    stochastic_demonstrations: bool = shared(False)  # ‡ driven by π̃ as the paper prints, or by μ: see demonstrations.py
-    discriminator_lr: float = shared(3e-4)  # § GAIL's discriminator
-    gradient_penalty: float = shared(1.0)  # § on that discriminator's slope at demonstrations
+    stochastic_demonstrations: bool = shared(False)  # ‡ of π̃, as printed, some would fail (demonstrations.py)
+    discriminator_lr: float = shared(3e-4)  # § learning rate of GAIL's discriminator
+    gradient_penalty: float = shared(1.0)  # § weight of that discriminator's gradient penalty
 
     def __post_init__(self):
         if self.method not in METHODS:
@@ -78,7 +78,7 @@ class Settings:
         self._check_label()
 
     def _check_label(self) -> None:
-        """A method may have its ingredients switched off, but none switched on that its name says it lacks."""
+        """Check that no ingredient is switched on that the method is defined by leaving out."""
         lacks = {name for name, value in METHODS[self.method].settings.items() if value == 0}
         lacks |= {"xi_fixed"} if "xi_multiplier" in lacks else set()
         for name in sorted(lacks):
@@ -90,6 +90,7 @@ class Settings:
 
     @property
     def needs_demonstrations(self) -> bool:
+        """Whether the agent's batches contain demonstrations."""
         return self.beta_start > 0
 
 
@@ -107,7 +108,7 @@ SHARED = tuple(f.name for f in fields(Settings) if f.metadata.get("shared"))
 
 
 def settings_for(method: str, **changes) -> Settings:
-    """The settings of a method, with changes. Raises BootcourseError for an unknown name or value."""
+    """The settings of a method, with changes. Raises BootcourseError for an unknown name or an invalid value."""
     if method not in METHODS:
         raise BootcourseError(f"Method {did_you_mean(method, METHODS)}.")
     known = [f.name for f in fields(Settings)]
@@ -117,7 +118,7 @@ def settings_for(method: str, **changes) -> Settings:
     return Settings(method=method, **(METHODS[method].settings | changes))
 
 
-FORMER_NAMES = {  # of fields, in files that earlier versions wrote
+FORMER_NAMES = {  # field names in files of earlier versions -> present names
     "p": "rule_p",
     "roads": "envs_per_agent",
     "warm_up": "learning_starts",
@@ -128,7 +129,7 @@ FORMER_NAMES = {  # of fields, in files that earlier versions wrote
 
 
 def renamed(stored: dict) -> dict:
-    """Settings as a file holds them, {name: value}, under the names that they have now."""
+    """Stored settings {name: value} with the present names of the fields."""
     return {FORMER_NAMES.get(name, name): value for name, value in stored.items()}
 
 

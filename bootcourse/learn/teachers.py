@@ -1,13 +1,13 @@
-"""The teacher: whose actions the KL compares with, and who demonstrates. The rule controller, or a rule of your own.
+"""The teacher, whose actions the KL and the demonstrations use: the course's rule controller or your own rule.
 
     def my_rule(cars, scenario):  # cars (vehicles, 10): one road, columns in bootcourse.road.state
         gap, speed = ahead(cars, 2, scenario)
         return toward(cars, speed - 1, 2, scenario)
 
-    record(teacher_policy(my_rule), [7])  # it drives
-    Training(settings, teacher=my_rule).run()  # it teaches
+    record(teacher_policy(my_rule), [7])  # drive with it
+    Training(settings, teacher=my_rule).run()  # train with it
 
-A rule reads the true state of a road and answers one of the nine actions, for the same road the same one.
+A rule is a deterministic function of a road's true state that returns one of the nine actions.
 """
 
 import hashlib
@@ -28,11 +28,8 @@ Rule = Callable[[np.ndarray, Scenario], int]  # one road's cars (vehicles, 10) -
 Teacher = Callable[[np.ndarray], np.ndarray]  # cars (roads, vehicles, 10) -> actions (roads,)
 
 
-# What a rule is written with -------------------------------------------------------------------------
-
-
 def ahead(cars: np.ndarray, lane: int, scenario: Scenario = DEFAULT) -> tuple[float, float]:
-    """(gap in m, bumper to bumper; speed in m/s) of the next car ahead in a lane; (inf, inf) for none."""
+    """(gap in m, bumper to bumper; speed in m/s) of the next car ahead in a lane; (inf, inf) for no car."""
     others = cars[(cars[:, LANE] == lane) & (cars[:, X] > cars[EGO, X])]
     if len(others) == 0:
         return math.inf, math.inf
@@ -41,20 +38,17 @@ def ahead(cars: np.ndarray, lane: int, scenario: Scenario = DEFAULT) -> tuple[fl
 
 
 def toward(cars: np.ndarray, speed: float, lane: int, scenario: Scenario = DEFAULT) -> int:
-    """The action that brings the ego nearest to a speed (m/s) and the centre of a lane: the rule's own tracker.
+    """The action (0..8) that brings the ego nearest to a speed (m/s) and a lane's centre, by the rule's tracker.
 
-    Raises BootcourseError for a lane that is not there, or a speed that is not a number.
+    Raises BootcourseError for a lane outside the road, or a speed that is NaN.
     """
     if not 0 <= lane < scenario.road.lanes or math.isnan(speed):
         raise BootcourseError(f"speed {speed} m/s in lane {lane}: this road has lanes 0..{scenario.road.lanes - 1}.")
     return int(track(cars, float(speed), int(lane), constants(scenario)))
 
 
-# What is made of it ----------------------------------------------------------------------------------
-
-
 def all_roads(many: Callable[[np.ndarray, Scenario], np.ndarray]):
-    """Marks a rule that answers for all roads in one call, (roads, vehicles, 10) -> (roads,): it is faster."""
+    """Mark a rule that computes the actions of all roads in one call, (roads, vehicles, 10) -> (roads,)."""
     many.answers_for_all_roads = True
     return many
 
@@ -66,7 +60,7 @@ def course_rule(cars: np.ndarray, scenario: Scenario) -> np.ndarray:
 
 
 def teacher_of(my_rule: Rule, scenario: Scenario = DEFAULT) -> Teacher:
-    """The rule on many roads at once. It raises BootcourseError where the rule answers anything but an action."""
+    """The rule as a function of many roads. It raises BootcourseError if the rule returns no action."""
 
     def teach(cars: np.ndarray) -> np.ndarray:
         if getattr(my_rule, "answers_for_all_roads", False):
@@ -77,7 +71,7 @@ def teacher_of(my_rule: Rule, scenario: Scenario = DEFAULT) -> Teacher:
 
 
 def checked_action(action) -> int:
-    """The action as a Python int. Raises BootcourseError if it is none."""
+    """The action as a Python int. Raises BootcourseError if it is not a whole number in 0..8."""
     is_whole = isinstance(action, (int, np.integer)) and not isinstance(action, (bool, np.bool_))
     if not is_whole or not 0 <= action < N_ACTIONS:
         raise BootcourseError(f"The rule answers {action!r}: an action is a whole number from 0 to {N_ACTIONS - 1}.")
@@ -85,7 +79,7 @@ def checked_action(action) -> int:
 
 
 def teacher_policy(my_rule: Rule, scenario: Scenario = DEFAULT) -> Policy:
-    """Drives as the rule says."""
+    """The rule as a policy."""
     teacher = teacher_of(my_rule, scenario)
     return lambda observations, cars: PolicyOutput(teacher(cars))
 
@@ -93,7 +87,7 @@ def teacher_policy(my_rule: Rule, scenario: Scenario = DEFAULT) -> Policy:
 def stochastic_teacher_policy(
     my_rule: Rule, rng: np.random.Generator, scenario: Scenario = DEFAULT, p: float = RULE_P
 ) -> Policy:
-    """The rule's stochastic form π̃ (Equation 16): draws its action."""
+    """The rule's stochastic form π̃ (Equation 16) as a policy. It raises BootcourseError if p is outside [1/9, 1)."""
     teacher = teacher_of(my_rule, scenario)
 
     def drive(observations, cars):
@@ -104,12 +98,12 @@ def stochastic_teacher_policy(
 
 
 def teacher_name(my_rule: Rule) -> str:
-    """Who teaches, as a run's files say it: the function's name, and a hash of its source ("rule" for the course's)."""
+    """The teacher's name in a run's files: the function's name and a hash of its source; "rule" for the course's."""
     if my_rule is course_rule:
         return "rule"
     name = getattr(my_rule, "__qualname__", type(my_rule).__name__)
     try:
         source = inspect.getsource(my_rule).encode()
-    except (OSError, TypeError):  # typed at a prompt, or not a function
+    except (OSError, TypeError):  # without a source file, or not a function
         source = getattr(getattr(my_rule, "__code__", None), "co_code", b"")
     return f"{name} {hashlib.sha256(source).hexdigest()[:12]}"

@@ -1,10 +1,9 @@
-"""Page one: the paper's algorithm for one agent, from reset to update, in plain torch.
+"""The paper's algorithm for one agent, in plain torch. Start reading here.
 
     python -m bootcourse.learn.textbook
 
-trains one agent, in a minute or two, and says how often it escapes. What the paper adds to discrete
-SAC names its equation. `learner.py` does the same for many agents at once; a test holds the two equal.
-Shapes: `batch` is the batch size (64), 26 the observation, 9 the actions.
+trains an agent of each of two methods in a few minutes, and prints how often it escapes. `learner.py` does the same for
+many agents at once; a test compares the two. Shapes: `batch` is the batch size (64), 26 the observation, 9 the actions.
 """
 
 import copy
@@ -25,13 +24,14 @@ from bootcourse.scenario import DEFAULT
 
 
 def mlp(inputs: int, outputs: int, hidden: tuple[int, int]) -> nn.Sequential:
+    """A network with two hidden layers: (batch, inputs) -> (batch, outputs)."""
     first, second = hidden
     layers = nn.Linear(inputs, first), nn.ReLU(), nn.Linear(first, second), nn.ReLU(), nn.Linear(second, outputs)
     return nn.Sequential(*layers)
 
 
 class TextbookSAC:
-    """An actor, two critics and their delayed copies, a temperature, and an optimiser for each."""
+    """An actor, two critics with target critics, a temperature, and an optimiser for each."""
 
     def __init__(self, settings: Settings, observation_size: int = 26, n_actions: int = 9):
         self.s, self.n_actions = settings, n_actions
@@ -51,7 +51,7 @@ class TextbookSAC:
         return (log_pi.exp() * (log_pi - pi_rule.log())).sum(1)
 
     def critic_target(self, batch: Batch, alpha: float, xi: float) -> Tensor:
-        """y = r + c + γ V(s'), where V has the entropy and the KL in it (Equations 6, 15, 20): (batch,)."""
+        """y = r + c + γ V(s'), with the entropy and the KL in V (Equations 6, 15, 20): (batch,)."""
         log_pi = F.log_softmax(self.actor(batch.next_states), dim=1)  # (batch, 9)
         q = torch.min(*(target(batch.next_states) for target in self.targets))  # (batch, 9)
         value = (log_pi.exp() * (q - alpha * log_pi)).sum(1)  # (batch,), an exact expectation over 9 actions
@@ -61,7 +61,7 @@ class TextbookSAC:
         return reward + self.s.gamma * (1 - batch.terminated) * value
 
     def critic_loss(self, q: Tensor, target: Tensor, log_pi: Tensor, batch: Batch) -> Tensor:
-        """One critic's squared error, and the filtered margin (Equations 17 to 19) where it has a weight."""
+        """One critic's squared error, plus the filtered margin (Equations 17 to 19) if its weight is above 0."""
         q_taken = q.gather(1, batch.actions[:, None]).squeeze(1)  # (batch,)
         loss = F.mse_loss(q_taken, target)
         if self.s.margin > 0:
@@ -73,17 +73,17 @@ class TextbookSAC:
         return loss
 
     def actor_loss(self, log_pi: Tensor, q: Tensor, alpha: float, xi: float, batch: Batch) -> Tensor:
-        """Minus the value that the policy maximises: Q + α H - ξ KL (Equation 15)."""
-        pull = xi * self.kl(log_pi, batch.rule_actions)  # (batch,)
-        return ((log_pi.exp() * (alpha * log_pi - q)).sum(1) + pull).mean()
+        """Minus the objective of the policy, Q + α H - ξ KL (Equation 15)."""
+        constraint = xi * self.kl(log_pi, batch.rule_actions)  # (batch,)
+        return ((log_pi.exp() * (alpha * log_pi - q)).sum(1) + constraint).mean()
 
     def temperature_loss(self, log_pi: Tensor) -> Tensor:
-        """α (H - η): α falls while the entropy is above its target."""
+        """α (H - η): minimising it lowers α while the entropy is above its target η."""
         entropy = -(log_pi.exp() * log_pi).sum(1).mean()
         return self.log_alpha.exp() * (entropy - self.s.target_entropy)
 
     def update(self, batch: Batch) -> None:
-        """One gradient step: critics, actor and temperature, each from where the others stood before."""
+        """One gradient step of critics, actor and temperature; all losses are computed before the first step."""
         alpha = self.log_alpha.exp().item()
         xi = self.s.xi_fixed if self.s.xi_fixed >= 0 else self.s.xi_multiplier * alpha  # ξ = 200 α
         with torch.no_grad():
@@ -95,20 +95,21 @@ class TextbookSAC:
         minimise(self.critic_optimiser, critic_loss)
         minimise(self.actor_optimiser, actor_loss)
         minimise(self.alpha_optimiser, self.temperature_loss(log_pi.detach()))
-        with torch.no_grad():  # the copies follow slowly
+        with torch.no_grad():  # Polyak averaging
             for critic, target_critic in zip(self.critics, self.targets, strict=True):
                 for new, old in zip(critic.parameters(), target_critic.parameters(), strict=True):
                     old.lerp_(new, self.s.tau)
 
 
 def minimise(optimiser: torch.optim.Optimizer, loss: Tensor) -> None:
+    """One step of an optimiser."""
     optimiser.zero_grad()
     loss.backward()
     optimiser.step()
 
 
 def train(settings: Settings, episodes: int) -> tuple[TextbookSAC, list[bool]]:
-    """Drive and learn; returns the agent, and whether each episode ended ahead of trap 1."""
+    """Train an agent; returns it, and whether each training episode ended ahead of trap 1."""
     torch.manual_seed(settings.seed)
     agent, escaped, memory = TextbookSAC(settings), [], []
     demonstrations = collect(settings.demonstration_episodes) if settings.beta_start > 0 else []  # (n, row)
@@ -120,7 +121,7 @@ def train(settings: Settings, episodes: int) -> tuple[TextbookSAC, list[bool]]:
         actions, mu = torch.multinomial(pi, 1).squeeze(1).numpy(), rule(env.cars, DEFAULT).actions  # a ~ π, and μ(s)
         next_states, rewards, terminated, truncated, infos = env.step(actions)
         reached, reached_cars, ended = next_states.copy(), env.cars.copy(), terminated | truncated
-        if ended.any():  # these roads began anew in the same step: s' is the old episode's last state
+        if ended.any():  # these roads were reset in the same step: s' is the old episode's last state
             reached[ended], reached_cars[ended] = np.stack(infos["final_obs"][ended]), env.final_cars[ended]
             escaped += infos["final_info"]["is_success"][ended].tolist()
         next_mu = rule(reached_cars, DEFAULT).actions  # μ(s')
@@ -128,7 +129,7 @@ def train(settings: Settings, episodes: int) -> tuple[TextbookSAC, list[bool]]:
         del memory[: -settings.buffer_size]
         states = next_states
         if len(memory) >= settings.learning_starts:
-            beta = settings.beta_start * max(0, 1 - len(escaped) / settings.beta_episodes)  # Section IV-B: β fades
+            beta = settings.beta_start * max(0, 1 - len(escaped) / settings.beta_episodes)  # Section IV-B: β decreases
             n = round(beta * settings.batch)  # demonstrations in this batch
             rows = [*random.choices(demonstrations, k=n), *random.choices(memory, k=settings.batch - n)]
             agent.update(decode_transitions(torch.stack(rows), 26, (torch.arange(settings.batch) < n).float()))

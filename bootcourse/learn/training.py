@@ -1,11 +1,11 @@
-"""The training loop: many agents, each on roads of its own, decide and learn together.
+"""The training loop: many agents, each on several roads, drive and learn side by side.
 
     training = Training(with_seeds(settings_for("bootstrapped"), 4), episodes=1000)
     result = training.run()
     result.agents[0].as_policy()
 
-Agents differ in seed and settings; they share the teacher and the demonstrations, and nothing else. An
-interrupt (Ctrl-C, the notebook's stop button) ends `run` early with what was learned so far.
+The agents differ in seed and settings; they share the teacher and the demonstrations. An interrupt (Ctrl-C, the
+notebook's stop button) ends `run` early, with the agents as trained so far.
 """
 
 import signal
@@ -35,31 +35,31 @@ from bootcourse.learn.teachers import Rule, course_rule, stochastic_teacher_poli
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, Scenario
 
-SNAPSHOT_EVERY = 200  # updates; an agent with a non-finite loss falls back to weights at most this old
-FIRST_SEED = 2**33  # of the training roads; demonstrations start at 2**34, held-out roads lie below 2**32
+SNAPSHOT_EVERY = 200  # updates between snapshots; an agent with a non-finite loss is frozen at its last finite one
+FIRST_SEED = 2**33  # seed of the first training road; demonstrations start at 2**34, held-out roads are below 2**32
 
 
 @dataclass(frozen=True)
 class Result:
-    """What a training leaves behind."""
+    """The result of a training."""
 
     agents: list[Agent]
-    curves: dict[str, np.ndarray]  # (agents, episodes), NaN where an interrupt came first
+    curves: dict[str, np.ndarray]  # {name: (agents, episodes)}, NaN for episodes that were not driven
     scenario: Scenario
     seconds: float
     interrupted: bool
     stopped: dict[int, int] = field(default_factory=dict)  # {agent: the decision at which its loss was not finite}
-    teacher: str = "rule"  # who taught: see `teachers.teacher_name`
+    teacher: str = "rule"  # see `teachers.teacher_name`
 
 
 class Training:
     """A training in progress. `step()` is one decision on every road and the updates after it.
 
-    settings: one for each agent (see `with_seeds`). episodes: how many each agent drives.
-    teacher: the rule that demonstrates and that the KL compares with, the course's or your own (teachers.py).
-    demonstrations: recorded drives, or rows (transitions, row), to learn from instead of the teacher's.
-    make_env: makes a vector environment with same-step autoreset of that many copies, by default the trap;
-    off the trap there is no teacher, and its actions stand in the buffer as 0. first_seed: of its copies.
+    settings: one for each agent (see `with_seeds`). episodes: of each agent.
+    teacher: the rule of the demonstrations and the KL, the course's or your own (teachers.py).
+    demonstrations: recorded drives, or rows (transitions, row), instead of the teacher's.
+    make_env: makes a vector environment of n copies with same-step autoreset, by default the trap. Other
+    environments have no teacher: its actions are 0 in the replay buffer. first_seed: of the copies.
     Raises BootcourseError for settings that cannot train side by side, and for demonstrations that do not fit.
     """
 
@@ -91,17 +91,17 @@ class Training:
         self.sample_rngs = [np.random.default_rng(sample) for _, sample in streams]
         seeds = [first_seed + s.seed * 1000 + env for s in settings for env in range(self.envs_per_agent)]
         self.states, _ = self.env.reset(seed=seeds)
-        self.rule_actions = self.taught()  # what the teacher would do in these states
+        self.rule_actions = self.taught()  # μ(s), (envs,)
         self.decisions, self.updates, self.seconds = 0, 0, 0.0
-        self.losses: dict[str, Tensor] = {}  # what the last update returned, each (agents,)
-        self.finished_agents: dict[int, Agent] = {}  # as they were after their last episode
+        self.losses: dict[str, Tensor] = {}  # of the last update, each (agents,)
+        self.finished_agents: dict[int, Agent] = {}  # snapshots after their last episode
         self.stopped: dict[int, int] = {}  # {agent: the decision at which its loss was not finite}
         self.last_finite: dict[int, Agent] = {}  # {agent: a snapshot from an update with a finite loss}
         self.beta_start = np.array([s.beta_start for s in settings])
         self.beta_episodes = np.array([s.beta_episodes for s in settings])
 
     def _demonstration_rows(self, given: Sequence[Rollout] | Tensor | None) -> Tensor | None:
-        """What the replay buffer is given to share among the agents, (transitions, row); None if nobody needs it."""
+        """The demonstrations for the replay buffer, (transitions, row); None if no agent needs any."""
         shared = self.settings[0]
         if not any(s.needs_demonstrations for s in self.settings):
             if given is not None:
@@ -112,7 +112,7 @@ class Training:
         if given is not None:
             rows = demonstration_rows(given, self.teacher)
             if given[0].scenario != self.scenario:
-                raise BootcourseError("These demonstrations are of another scenario than this training: use theirs.")
+                raise BootcourseError("The demonstrations are of another scenario: train with their scenario.")
             return rows
         if not self.on_the_trap:
             raise BootcourseError(f"Method '{shared.method}' needs demonstrations of this environment: give them.")
@@ -133,10 +133,11 @@ class Training:
 
     @property
     def done(self) -> bool:
+        """Whether all agents have finished."""
         return len(self.finished_agents) == self.n_agents
 
     def taught(self) -> np.ndarray:
-        """What the teacher would do now, (envs,); zeros off the trap."""
+        """The teacher's actions in the present states, (envs,); zeros off the trap."""
         return self._teach(self.env.cars) if self.on_the_trap else np.zeros(self.env.num_envs, dtype=np.int64)
 
     def step(self) -> None:
@@ -150,7 +151,7 @@ class Training:
         next_states, rewards, terminated, truncated, infos = self.env.step(actions)
         done, next_rule_actions = terminated | truncated, self.taught()
         reached_rule_actions = next_rule_actions.copy()
-        if done.any() and self.on_the_trap:  # these began anew already: μ(s') is of the old episode's last state
+        if done.any() and self.on_the_trap:  # these roads are already reset: μ(s') is of the old episode's last state
             reached_rule_actions[done] = self._teach(self.env.final_cars[done])
         reached = reached_observations(next_states, infos)
         rows = encode_transitions(
@@ -181,9 +182,9 @@ class Training:
             if i not in self.finished_agents:
                 self.stopped[int(i)] = decision = self.decisions // self.n_agents
                 self.finished_agents[int(i)] = self.last_finite[i]
-                self.curves.finished[i] = self.episodes  # nothing more is noted of it
-                who = f"{self.settings[i].method}, seed {self.settings[i].seed}"
-                warnings.warn(f"{who}: its loss was not finite at decision {decision}; it stops there.", stacklevel=2)
+                self.curves.finished[i] = self.episodes  # records no more episodes
+                label = f"{self.settings[i].method}, seed {self.settings[i].seed}"
+                warnings.warn(f"{label}: its loss was not finite at decision {decision}; it stops there.", stacklevel=2)
 
     def run(
         self,
@@ -191,20 +192,20 @@ class Training:
         callback: Callable[["Training"], None] | None = None,
         stop: Callable[[], bool] | None = None,
     ) -> Result:
-        """Train until every agent has driven its episodes, until an interrupt, or until stop() is true.
+        """Train until all agents have finished, until an interrupt, or until stop() is true.
 
-        progress: show a bar with the success rate of the last 100 episodes. callback: called after
-        every decision with this training; it may read anything.
+        progress: show a bar with the success rate of the last 100 episodes. callback: called with this training
+        after every decision.
         """
         from tqdm.auto import tqdm
 
         started, before = time.perf_counter(), self.seconds
         total = self.n_agents * self.episodes
         bar = tqdm(total=total, unit="episode", disable=not progress, mininterval=0.5)
-        with _one_thread(), bar, _interrupt_waits() as asked_to_stop:
+        with _one_thread(), bar, _interrupt_after_step() as interrupted:
             try:
                 while not self.done:
-                    if asked_to_stop.is_set() or (stop is not None and stop()):
+                    if interrupted.is_set() or (stop is not None and stop()):
                         break
                     self.step()
                     self.seconds = before + time.perf_counter() - started
@@ -215,11 +216,11 @@ class Training:
                         bar.set_postfix_str(_success(self.curves), refresh=False)
                         bar.update(driven - bar.n)
             except KeyboardInterrupt:
-                asked_to_stop.set()
-        return self.result(interrupted=asked_to_stop.is_set() or not self.done)
+                interrupted.set()
+        return self.result(interrupted=interrupted.is_set() or not self.done)
 
     def result(self, interrupted: bool = False) -> Result:
-        """What was learned so far."""
+        """The agents and curves so far."""
         agents = [self.finished_agents.get(i) or self.agent(i) for i in range(self.n_agents)]
         curves, taught = (
             {name: values.copy() for name, values in self.curves.values.items()},
@@ -228,7 +229,7 @@ class Training:
         return Result(agents, curves, self.scenario, self.seconds, interrupted, dict(self.stopped), taught)
 
     def agent(self, i: int) -> Agent:
-        """Agent i as it is now."""
+        """A snapshot of agent i."""
         actor = [parameter.detach()[i : i + 1].clone() for parameter in self.learner.actor]
         critics = [parameter.detach()[[i, self.n_agents + i]].clone() for parameter in self.learner.critics]
         return Agent(self.settings[i], actor, critics, float(self.learner.log_alpha[i].detach().exp()))
@@ -245,9 +246,9 @@ def _success(curves: Curves) -> str:
 
 @contextmanager
 def _one_thread():
-    """On the main thread, torch computes on one core: small matrices are slower on several. Restored afterwards.
+    """On the main thread, set torch to one thread (several are slower on small matrices), and restore it afterwards.
 
-    torch's count belongs to the process, so a background thread leaves it alone.
+    The number is shared by the whole process, so a background thread does not change it.
     """
     before = torch.get_num_threads()
     on_main_thread = threading.current_thread() is threading.main_thread()
@@ -261,20 +262,20 @@ def _one_thread():
 
 
 @contextmanager
-def _interrupt_waits():
-    """An interrupt waits for the step to end, so that the training can go on from there; a second one does not wait."""
-    asked = threading.Event()
+def _interrupt_after_step():
+    """Set an event at the first interrupt, so that the step ends and the training can resume; raise at the second."""
+    interrupted = threading.Event()
 
-    def ask(signum, frame):
-        if asked.is_set():
+    def interrupt(signum, frame):
+        if interrupted.is_set():
             raise KeyboardInterrupt
-        asked.set()
+        interrupted.set()
 
-    if threading.current_thread() is not threading.main_thread():  # interrupts go to the main thread alone
-        yield asked
+    if threading.current_thread() is not threading.main_thread():  # only the main thread receives interrupts
+        yield interrupted
         return
-    before = signal.signal(signal.SIGINT, ask)
+    before = signal.signal(signal.SIGINT, interrupt)
     try:
-        yield asked
+        yield interrupted
     finally:
         signal.signal(signal.SIGINT, before if before is not None else signal.default_int_handler)
