@@ -52,7 +52,7 @@ def test_a_rule_of_one_s_own_teaches_and_only_it_goes_on(bootcourse, tmp_path, m
     assert bootcourse(*arguments, *mine).status == 130 and keep[0].teacher.__name__ == "follows"  # stopped at once
     monkeypatch.setattr(Training, "run", finished)
     refused = bootcourse(*arguments, "--resume")
-    assert refused.status == 2 and "was taught by 'follows" in refused.err
+    assert refused.status == 2 and "began with the teacher 'follows" in refused.err
     assert bootcourse(*arguments, "--resume", *mine).status == 0
     wrong = bootcourse(*arguments, "--teacher", f"{tmp_path / 'mine.py'}:leads")
     assert wrong.status == 2 and "no function 'leads'" in wrong.err
