@@ -107,8 +107,8 @@ def test_dragging_c_moves_the_demonstration_and_not_the_trapped_drive(panel):
 
 def test_with_an_infinite_sight_the_panel_says_to_stay_below_1(panel):
     from_page(panel.gamma.field, value=1.0)
-    assert "stay below 1" in words(panel) and panel.gamma.value == 0.8
-    with pytest.raises(BootcourseError, match="below 1"):
+    assert "give less than 1" in words(panel) and panel.gamma.value == 0.8
+    with pytest.raises(BootcourseError, match="less than 1"):
         bonus_panel(settings=Settings(gamma=1.0))
 
 

@@ -105,7 +105,7 @@ def test_a_sweep_with_holes_says_that_the_nearest_is_shown(tmp_path):
     save_results(invented(lambda s: (s.rule_p, s.xi_multiplier) != (0.99, 200.0)), tmp_path / "some.npz", {})
     panel = sweep_panel(tmp_path / "some.npz")
     panel.p.slider.value, panel.xi.slider.value = 0.99, 200.0
-    assert "This one was not run" in words(panel) and not panel.happened.exact
+    assert "This setting was not run" in words(panel) and not panel.happened.exact
 
 
 def test_the_python_that_it_offers_trains_the_very_settings(panel, monkeypatch):

@@ -85,7 +85,7 @@ def _score(drive: InteractiveEpisode, ghost: Rollout | None, time: float, cars: 
 def _terms(drive: InteractiveEpisode, decisions: int, top: float) -> list[str]:
     """What each term adds to the last reward, as bars from one line; the reward below them."""
     left, weights = 496, [getattr(drive.scenario.reward, weight) for _, weight in TERMS]
-    terms = drive.tape.terms[decisions - 1] if decisions else (0.0, 0.0, 0.0)
+    terms = drive.recorder.terms[decisions - 1] if decisions else (0.0, 0.0, 0.0)
     crashed = drive.accident and decisions == len(drive.rewards)
     shares = [0.0 if crashed else w * r / sum(weights) for w, r in zip(weights, terms, strict=True)]
     reward = drive.rewards[decisions - 1] if decisions else 0.0
