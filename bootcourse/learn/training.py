@@ -202,7 +202,7 @@ class Training:
         started, before = time.perf_counter(), self.seconds
         total = self.n_agents * self.episodes
         bar = tqdm(total=total, unit="episode", disable=not progress, mininterval=0.5)
-        with _one_thread(), bar, _interrupt_after_step() as interrupted:
+        with one_torch_thread(), bar, _interrupt_after_step() as interrupted:
             try:
                 while not self.done:
                     if interrupted.is_set() or (stop is not None and stop()):
@@ -245,10 +245,11 @@ def _success(curves: Curves) -> str:
 
 
 @contextmanager
-def _one_thread():
+def one_torch_thread():
     """On the main thread, set torch to one thread (several are slower on small matrices), and restore it afterwards.
 
-    The number is shared by the whole process, so a background thread does not change it.
+    A new thread takes over the number that was set last: start one inside this context, and it computes on one core.
+    Called in a background thread, this changes nothing.
     """
     before = torch.get_num_threads()
     on_main_thread = threading.current_thread() is threading.main_thread()

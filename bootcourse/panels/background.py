@@ -13,7 +13,7 @@ from collections.abc import Callable
 import torch
 
 from bootcourse.errors import BootcourseError
-from bootcourse.learn.training import Result, Training, _one_thread
+from bootcourse.learn.training import Result, Training, one_torch_thread
 
 LOOKS = 5.0  # Hz, at most
 SHARE = 0.15  # of the thread's time, at most, for looking
@@ -70,7 +70,7 @@ class Background:
             _running = self
             # torch keeps its number of threads for each thread apart, and a new one takes over the number that was set
             # last. On 2 cores that others use as well, an update takes ten times as long with 2 threads as with 1.
-            with _one_thread():
+            with one_torch_thread():
                 self.thread.start()
                 self._begun.wait()
 

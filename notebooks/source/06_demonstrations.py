@@ -88,7 +88,7 @@ check.transitions(transitions)
 # %%
 # NBVAL_CHECK_OUTPUT
 by_rule = bc.collect(200)
-by_chance = bc.collect(200, driver=bc.stochastic_rule_policy(bc.DEFAULT, np.random.default_rng(0)))
+by_chance = bc.collect(200, policy=bc.stochastic_rule_policy(bc.DEFAULT, np.random.default_rng(0)))
 for name, rows in (("rule", by_rule), ("stochastic rule", by_chance)):
     batch = replay_buffer.decode_transitions(
         rows, bc.DEFAULT.observation_size, torch.zeros(len(rows))
