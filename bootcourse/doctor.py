@@ -55,7 +55,7 @@ def packages() -> Iterator[Finding]:
     stopping = [name for name in missing if name in lessons_need]
     others = [name for name in missing if name not in lessons_need]
     if installed_version("bootcourse") is None:
-        yield Finding("STOP", "bootcourse itself is not installed in this Python", SET_UP)
+        yield Finding("STOP", "bootcourse is not installed in this Python", SET_UP)
     if stopping:
         yield Finding("STOP", f"not installed: {listed(stopping)}", SET_UP)
     if others:

@@ -75,22 +75,22 @@ def transcript(rollout: Rollout) -> list[str]:
     """A drive as a list of sentences: one for each new manoeuvre, in order, then the end of the drive."""
     rate = rollout.scenario.clock.decision_rate  # decisions for each second
     moments = np.arange(0.0, rollout.times[-1], 1 / rate)
-    long = max(1, round(PATIENCE * rate))  # decisions
+    patience = max(1, round(PATIENCE * rate))  # decisions
     phases = [doing(rollout, float(time)) for time in moments]
-    told, last, last_lane, when = [], "", _lane(rollout, 0.0), -np.inf
+    lines, last, last_lane, when = [], "", _lane(rollout, 0.0), -np.inf
     for i, (time, phase) in enumerate(zip(moments, phases, strict=True)):
         changes, lane = phase.startswith("changes lane"), _lane(rollout, time)
-        lasting = i == 0 or changes or phases[i : i + long] == [phase] * long
+        lasting = i == 0 or changes or phases[i : i + patience] == [phase] * patience
         if (phase != last and lasting) or time - when >= PAUSE:
-            told.append(f"t = {time:g} s: {phase}. {_state(rollout, time)}")
+            lines.append(f"t = {time:g} s: {phase}. {_state(rollout, time)}")
             last, when = phase, time
         elif lane != last_lane:
-            told.append(f"t = {time:g} s: in the next lane. {_state(rollout, time)}")
+            lines.append(f"t = {time:g} s: in the next lane. {_state(rollout, time)}")
         last_lane = lane
     end = rollout.times[-1]
-    told.append(f"t = {end:g} s: {_ending(rollout)}. {_state(rollout, end)}")
-    told.append(f"In the end: {outcome(rollout)}. Return {rollout.rewards.sum():.1f} over {rollout.distance:.0f} m.")
-    return told
+    lines.append(f"t = {end:g} s: {_ending(rollout)}. {_state(rollout, end)}")
+    lines.append(f"In the end: {outcome(rollout)}. Return {rollout.rewards.sum():.1f} over {rollout.distance:.0f} m.")
+    return lines
 
 
 def transcripts(rollouts: Sequence[Rollout]) -> str:

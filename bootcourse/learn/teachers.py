@@ -74,7 +74,7 @@ def checked_action(action) -> int:
     """The action as a Python int. Raises BootcourseError if it is not a whole number in 0..8."""
     is_whole = isinstance(action, (int, np.integer)) and not isinstance(action, (bool, np.bool_))
     if not is_whole or not 0 <= action < N_ACTIONS:
-        raise BootcourseError(f"The rule answers {action!r}: an action is a whole number from 0 to {N_ACTIONS - 1}.")
+        raise BootcourseError(f"The rule returned {action!r}: an action is a whole number from 0 to {N_ACTIONS - 1}.")
     return int(action)
 
 

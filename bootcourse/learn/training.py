@@ -158,7 +158,7 @@ class Training:
             self.states, reached, actions, rewards, terminated, self.rule_actions, reached_rule_actions
         )
         self.replay.add(rows.view(*shape, -1))
-        self.curves.note(rewards, entropies, done, infos, self._now())
+        self.curves.note(rewards, entropies, done, infos, self._coefficients())
         self.states, self.rule_actions = next_states, next_rule_actions
         self.decisions += len(actions)
         if self.decisions >= self.n_agents * self.settings[0].learning_starts:
@@ -170,19 +170,19 @@ class Training:
 
     def update(self) -> None:
         """One update of every agent. Agents with a non-finite loss are frozen at their last finite snapshot."""
-        now = {} if self.updates % SNAPSHOT_EVERY else {i: self.agent(i) for i in range(self.n_agents)}
+        snapshots = {} if self.updates % SNAPSHOT_EVERY else {i: self.agent(i) for i in range(self.n_agents)}
         self.losses = self.learner.update(self.replay.sample(self.settings[0].batch, self.beta, self.sample_rngs))
         losses = [loss for name, loss in self.losses.items() if name.endswith("loss")]
         finite = torch.stack(losses).isfinite().all(0)
         self.updates += 1
-        self.last_finite |= {i: agent for i, agent in now.items() if finite[i] or i not in self.last_finite}
+        self.last_finite |= {i: agent for i, agent in snapshots.items() if finite[i] or i not in self.last_finite}
         if finite.all():
             return
         for i in np.flatnonzero(~finite.numpy()):
             if i not in self.finished_agents:
                 self.stopped[int(i)] = decision = self.decisions // self.n_agents
                 self.finished_agents[int(i)] = self.last_finite[i]
-                self.curves.finished[i] = self.episodes  # records no more episodes
+                self.curves.finished[i] = self.episodes  # the curves record no more episodes
                 label = f"{self.settings[i].method}, seed {self.settings[i].seed}"
                 warnings.warn(f"{label}: its loss was not finite at decision {decision}; it stops there.", stacklevel=2)
 
@@ -222,11 +222,8 @@ class Training:
     def result(self, interrupted: bool = False) -> Result:
         """The agents and curves so far."""
         agents = [self.finished_agents.get(i) or self.agent(i) for i in range(self.n_agents)]
-        curves, taught = (
-            {name: values.copy() for name, values in self.curves.values.items()},
-            teacher_name(self.teacher),
-        )
-        return Result(agents, curves, self.scenario, self.seconds, interrupted, dict(self.stopped), taught)
+        curves, name = {key: values.copy() for key, values in self.curves.values.items()}, teacher_name(self.teacher)
+        return Result(agents, curves, self.scenario, self.seconds, interrupted, dict(self.stopped), name)
 
     def agent(self, i: int) -> Agent:
         """A snapshot of agent i."""
@@ -234,7 +231,8 @@ class Training:
         critics = [parameter.detach()[[i, self.n_agents + i]].clone() for parameter in self.learner.critics]
         return Agent(self.settings[i], actor, critics, float(self.learner.log_alpha[i].detach().exp()))
 
-    def _now(self) -> dict[str, np.ndarray]:
+    def _coefficients(self) -> dict[str, np.ndarray]:
+        """α, ξ and β of each agent now, for the curves: {name: (agents,)}."""
         self.learner.note_temperature()
         return {"alpha": self.learner.alpha[:, 0].numpy(), "xi": self.learner.xi[:, 0].numpy(), "beta": self.beta}
 
