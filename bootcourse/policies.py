@@ -52,7 +52,7 @@ def stochastic_rule_policy(scenario: Scenario, rng: np.random.Generator, p: floa
 
 
 def random_policy(rng: np.random.Generator) -> Policy:
-    """The uniformly random policy: each of the nine actions has probability 1/9."""
+    """The uniformly random policy: each of the nine actions has probability 1/9, drawn with `rng`."""
     return lambda observations, cars: PolicyOutput(
         rng.integers(N_ACTIONS, size=len(observations)), np.full((len(observations), N_ACTIONS), 1 / N_ACTIONS)
     )

@@ -37,10 +37,8 @@ class InteractiveEpisode:
         self.recorder.add_decision(output, rule(self.env.cars, self.scenario))
         observations, rewards, terminated, truncated, infos = self.env.step(output.actions)
         self.accident = int(infos["accident"][0])
-        terms, states = (
-            [float(infos[name][0]) for name in ("r_v", "r_y", "r_theta")],
-            driven(self.env.trace[0], self.accident),
-        )
+        terms = [float(infos[name][0]) for name in ("r_v", "r_y", "r_theta")]
+        states = driven(self.env.trace[0], self.accident)
         self.recorder.add_outcome(states, observations[0], rewards[0], terms)
         self.over = bool(terminated[0] or truncated[0])
 

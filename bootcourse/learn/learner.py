@@ -165,7 +165,10 @@ class SACLearner:
 
 
 def learner_for(settings: Sequence[Settings], observation_size: int, n_actions: int = N_ACTIONS) -> SACLearner:
-    """The learner of the agents' methods. Raises BootcourseError if the methods have different learners."""
+    """The learner of the agents' methods; settings: one for each agent.
+
+    Raises BootcourseError if the methods have different learners, or the shared settings differ.
+    """
     classes = {METHODS[s.method].learner_class() for s in settings}
     if len(classes) > 1:
         methods = ", ".join(sorted({s.method for s in settings}))

@@ -108,7 +108,10 @@ SHARED = tuple(f.name for f in fields(Settings) if f.metadata.get("shared"))
 
 
 def settings_for(method: str, **changes) -> Settings:
-    """The settings of a method, with changes. Raises BootcourseError for an unknown name or an invalid value."""
+    """The settings of a method, with changes: settings_for("sac", gamma=0.9).
+
+    Raises BootcourseError for an unknown name or an invalid value.
+    """
     if method not in METHODS:
         raise BootcourseError(f"Method {did_you_mean(method, METHODS)}.")
     known = [f.name for f in fields(Settings)]
@@ -134,5 +137,5 @@ def renamed(stored: dict) -> dict:
 
 
 def with_seeds(settings: Settings, seeds: int, first: int = 0) -> list[Settings]:
-    """The same settings for several training seeds."""
+    """The same settings with the seeds first, first + 1, ...: one for each agent of a `Training`."""
     return [replace(settings, seed=seed) for seed in range(first, first + seeds)]

@@ -60,7 +60,7 @@ def course_rule(cars: np.ndarray, scenario: Scenario) -> np.ndarray:
 
 
 def teacher_of(my_rule: Rule, scenario: Scenario = DEFAULT) -> Teacher:
-    """The rule as a function of many roads. It raises BootcourseError if the rule returns no action."""
+    """The rule as a function of many roads. It raises BootcourseError if the rule does not return an action in 0..8."""
 
     def teach(cars: np.ndarray) -> np.ndarray:
         if getattr(my_rule, "answers_for_all_roads", False):
@@ -79,7 +79,7 @@ def checked_action(action) -> int:
 
 
 def teacher_policy(my_rule: Rule, scenario: Scenario = DEFAULT) -> Policy:
-    """The rule as a policy."""
+    """The rule as a policy. The policy raises BootcourseError if the rule does not return an action in 0..8."""
     teacher = teacher_of(my_rule, scenario)
     return lambda observations, cars: PolicyOutput(teacher(cars))
 

@@ -246,8 +246,8 @@ def _success(curves: Curves) -> str:
 def one_torch_thread():
     """On the main thread, set torch to one thread (several are slower on small matrices), and restore it afterwards.
 
-    A new thread takes over the number that was set last: start one inside this context, and it computes on one core.
-    Called in a background thread, this changes nothing.
+    A background thread that is started inside this context also computes on one core, because a new thread inherits
+    the number that was set last. Called in a background thread, this changes nothing.
     """
     before = torch.get_num_threads()
     on_main_thread = threading.current_thread() is threading.main_thread()

@@ -52,7 +52,10 @@ class Run:
 
 
 def save_runs(result: Result, folder: Path) -> list[Path]:
-    """Write each agent of a training to folder/METHOD-SEED. Raises BootcourseError if one exists already."""
+    """Write each agent of a training to folder/METHOD-SEED; returns these folders.
+
+    Raises BootcourseError if one of them exists already or cannot be written.
+    """
     folders = [Path(folder) / f"{agent.settings.method}-{agent.settings.seed}" for agent in result.agents]
     for path in folders:
         if path.exists():
