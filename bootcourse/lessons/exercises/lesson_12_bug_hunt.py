@@ -46,23 +46,23 @@ end_error = Exercise(
     ),
     mistakes=(
         Mistake(lambda q, actions, rewards, terminated: float((q[np.arange(len(actions)), actions] - rewards).mean()),
-            "You look at every row. Only where the episode ended is the right Q known without a guess: it is r.",
+            "You use every row. The right Q is known exactly only where the episode ended: it is r.",
             "More rows make a better mean."),
         Mistake(lambda *a: of_rows(*a, q_of=lambda q: q.max(-1)),
             "You take the best action's Q. The accident followed the action that was *taken*: pick that one.",
-            "A critic says what a state is worth."),
+            "A critic gives the value of a state."),
         Mistake(lambda *a: of_rows(*a, over=len),
             "You divide by the number of rows. Divide by the number of accidents among them.",
             "A mean divides by the size of the batch."),
         Mistake(lambda *a: -of_rows(*a),
-            "Your sign is turned: a critic that promises too much should give a positive number.",
-            "Errors are target minus guess."),
+            "Your sign is wrong: a Q that is too high should give a positive error.",
+            "An error is target minus estimate."),
         Mistake(lambda *a: of_rows(*a, q_of=lambda q: q.mean(-1)),
             "You average over the nine actions. Only one of them was taken.",
-            "Nobody knows which action counts, so all of them do."),
+            "All nine actions count."),
     ),
     hints=(
-        "Where an episode ended there is no next state: y = r, whatever the networks believe.",
+        "Where an episode ended there is no next state: y = r, without any network.",
         "`q[np.arange(len(actions)), actions]` is the Q of the action taken in each row.",
         "Keep the rows with `terminated > 0`; if there are none, return 0.",
     ),
@@ -84,28 +84,28 @@ def diagnose_solution(agent):
     return bugs[agent]
 
 
-# What speaks against a verdict, in the terms of the probes; it names no agent's real bug.
+# The evidence against each verdict, in the terms of the probes. It names no agent's real bug.
 AGAINST = {
-    "flipped_kl": "a flipped KL keeps every action a little likely: its rarest action is far above the healthy one's",
+    "flipped_kl": "a flipped KL keeps every action a little likely: its rarest action is far above the healthy agent's",
     "no_end": "without an end, the critic is wrong by many points just where episodes end",
-    "sampled": "with a sampled value the actor cannot hear Q: it stays as undecided as the rule's noise, and improves "
-    "on nothing",
-    "no_stop": "without the stop-gradient the actor bends the critic: its promise leaves every scale",
-    "bonus_for_all": "a bonus for all adds up: the promise grows to about c / (1 - γ) above what the road pays",
-    "shifted_labels": "with shifted labels an agent does, early, what the rule does one second later nearly as often "
-    "as what it does now",
+    "sampled": "with a sampled value the actor gets no gradient from Q: its entropy stays near that of the stochastic "
+    "rule, and it improves on nothing",
+    "no_stop": "without the stop-gradient the actor's loss changes the critic: the promise grows far beyond any return",
+    "bonus_for_all": "a bonus for all adds up: the promise is about c / (1 - γ) above any possible return",
+    "shifted_labels": "with shifted labels an agent's early actions agree with what the rule does one second later "
+    "nearly as often as with what it does now",
 }
 
 
 def explain_hunt(cases, answers):
-    """Which agents are wrong, and what speaks against the verdict on the first of them."""
+    """How many verdicts are right, and the evidence against the first wrong one."""
     said = {agent: answer for (agent,), answer in zip(cases, answers, strict=True)}
     unknown = [answer for answer in said.values() if answer not in BUGS]
     if unknown:
         return f"Your function returns {str(unknown[0])[:40]!r}: the six names are {', '.join(BUGS)}."
     wrong = sorted(agent for agent, answer in said.items() if answer != diagnose_solution(agent))
     if not wrong:
-        return "Your function answers the same question differently each time: it draws at random, or remembers."
+        return "Your function answers the same question differently each time: it must not draw at random or remember."
     first = wrong[0]
     right = len(said) - len(wrong)
     return (
@@ -115,7 +115,7 @@ def explain_hunt(cases, answers):
 
 
 def renamed(**others):
-    """A verdict that is right but for some agents."""
+    """The right verdicts, except on some agents."""
     return lambda agent: others.get(agent) or diagnose_solution(agent)
 
 
@@ -127,22 +127,22 @@ diagnose = Exercise(
     worked=((("A",), "flipped_kl"), (("F",), "no_stop")),
     mistakes=(
         Mistake(renamed(A="shifted_labels", C="flipped_kl"),
-            "Four of six. Two agents whose trouble is with the rule are mixed up: one of them starts slowly, torn "
-            "between what the rule does now and one second later; the other keeps its rarest action alive.",
-            "Whatever is wrong with the KL looks the same."),
+            "Four of six. You swapped the two agents whose bug concerns the rule. One starts slowly, between what the "
+            "rule does now and what it does one second later; the other keeps its rarest action likely.",
+            "All bugs of the KL look the same."),
         Mistake(renamed(D="bonus_for_all", E="no_end"),
-            "Four of six. Two agents whose critics are wrong are mixed up: one is wrong everywhere by about the same, "
-            "the other only where episodes end.",
-            "A wrong critic is a wrong critic."),
+            "Four of six. You swapped two agents whose critics are wrong: one critic is wrong everywhere by about the "
+            "same amount, the other only where episodes end.",
+            "All wrong critics look the same."),
         Mistake(renamed(B="no_stop", F="sampled"),
-            "Four of six. The two that drive worst are mixed up: one promises more than any road can pay, the other's "
-            "promise is modest and its entropy high.",
-            "The worse it drives, the worse the bug."),
+            "Four of six. You swapped the two that drive worst: one promises more than any possible return; the other "
+            "has a modest promise and a high entropy.",
+            "The driving alone shows the bug."),
     ),
     hints=(
         "Begin with the two that drive badly, then look for a promise that is too high, then at where episodes end.",
-        "Two are left that drive like the healthy one. Compare alike with late at the first updates, then rarest.",
-        "For each bug there is one probe on which only its agent leaves the grey lines.",
+        "The last two drive like the healthy agent. Compare `alike` with `late` at the first updates, then `rarest`.",
+        "For each bug there is one probe in which only the agent with that bug leaves the grey lines.",
     ),
     minutes=15, difficulty=3, equation="six bugs, six agents",
 )  # fmt: skip
@@ -174,20 +174,21 @@ fixed_target = Exercise(
     ),
     mistakes=(
         Mistake(lambda r, d, c, t, v, g: r + c + g * v,
-            "Both bugs are still there: everybody gets the bonus, and the accident has a future.",
+            "Both bugs are still there: every transition gets the bonus, and the target adds a future after an "
+            "accident.",
             "The code runs, so it is right."),
         Mistake(lambda r, d, c, t, v, g: r + c * d + g * v,
-            "The bonus is right. But after an accident you still add what the next state would be worth.",
-            "The -10 is all that an accident needs."),
+            "The bonus is right. But after an accident you still add the value of the next state.",
+            "The -10 is enough for an accident."),
         Mistake(lambda r, d, c, t, v, g: r + c + g * (1 - t) * v,
-            "The end is right. But the agent's own driving still gets the bonus of a demonstration.",
+            "The mask is right. But the agent's own driving still gets the bonus of a demonstration.",
             "A constant added to every reward changes nothing."),
         Mistake(lambda r, d, c, t, v, g: r + c * d + g * t * v,
-            "Your mask is turned: `terminated` is 1 where the episode is over, so multiply by 1 - terminated.",
-            "terminated is 1 while it goes on."),
+            "Your mask is inverted: `terminated` is 1 where the episode is over, so multiply by 1 - terminated.",
+            "`terminated` is 1 while the episode goes on."),
         Mistake(lambda r, d, c, t, v, g: (r + c * d) * (1 - t) + g * (1 - t) * v,
-            "You mask the reward as well: the -10 of an accident vanishes. Only the future ends.",
-            "Nothing counts at the end."),
+            "You mask the reward as well: the -10 of an accident vanishes. Mask the future only.",
+            "The last transition does not count."),
     ),
     hints=(
         "Two of the six arguments are never used in the code above. Which?",
@@ -224,23 +225,23 @@ fixed_value = Exercise(
     ),
     mistakes=(
         Mistake(greedy,
-            "You look at the most probable action alone. All nine count, each as often as π takes it.",
-            "The policy takes its best action, so that one's value is the state's."),
+            "You use the most probable action only. All nine count, each with its probability π.",
+            "The policy takes its most probable action, so the state has the value of that action."),
         Mistake(lambda log_pi, q, alpha: (q - alpha * log_pi).mean(-1),
-            "You weigh the nine actions alike. Weigh each by its probability, `log_pi.exp()`.",
+            "You give the nine actions the same weight. Weigh each by its probability, `log_pi.exp()`.",
             "The expectation is the mean over actions."),
         Mistake(lambda log_pi, q, alpha: (log_pi.exp() * (q + alpha * log_pi)).sum(-1),
-            "You charge for entropy: log π is negative, and -α log π is what a little chance is paid.",
+            "You penalise entropy: log π is negative, so -α log π is a bonus.",
             "Entropy is added, so α log π is."),
         Mistake(lambda log_pi, q, alpha: (log_pi.exp() * q).sum(-1),
-            "Your value has no entropy in it: -α log π is missing.",
+            "Your value has no entropy term: -α log π is missing.",
             "The value of a state is the mean of Q."),
         Mistake(lambda log_pi, q, alpha: (log_pi * (q - alpha * log_pi)).sum(-1),
             "You weigh by log π. The weights are probabilities: `log_pi.exp()`.",
             "log_pi is the policy."),
     ),
     hints=(
-        "With nine actions nothing needs to be drawn: add up all of them.",
+        "With nine actions no sample is needed: add up over all of them.",
         "Each action contributes its probability times (Q - α log π).",
         "`(log_pi.exp() * (q - alpha * log_pi)).sum(-1)`",
     ),
@@ -291,21 +292,21 @@ fixed_loss = Exercise(
             "Both bugs are still there: the gradient flows into Q, and the KL is the other way round.",
             "The code runs, so it is right."),
         Mistake(lambda log_pi, q, log_rule, alpha, xi: loss_of(log_pi, q, log_rule, alpha, xi),
-            "The KL is right. But a gradient still flows into Q: the actor would bend the critic.",
+            "The KL is right. But a gradient still flows into Q: the actor's step would change the critic.",
             "The value of the loss is what counts."),
         Mistake(lambda log_pi, q, log_rule, alpha, xi: loss_of(log_pi, q.detach(), log_rule, alpha, xi, True),
             "The stop-gradient is right. But your KL is weighed by the rule: it has to be weighed by π.",
             "A divergence is symmetric."),
         Mistake(lambda log_pi, q, log_rule, alpha, xi: loss_of(log_pi.detach(), q, log_rule, alpha, xi),
-            "You detached the policy, the one thing that this loss is there to change. Detach Q.",
-            "Something has to be detached."),
+            "You detached the policy, which this loss should change. Detach Q.",
+            "It does not matter which of the two is detached."),
         Mistake(lambda log_pi, q, log_rule, alpha, xi: loss_of(log_pi, q.detach(), log_rule, alpha, -xi),
-            "You pay for leaving the rule: the KL is subtracted from the value, and the loss is minus the value.",
-            "A penalty is added; that the sign turns with the minus of the loss is forgotten."),
+            "You reward leaving the rule: subtract ξ times the KL from the value; the loss is minus the value.",
+            "A penalty is added to V. (The minus of the loss turns it into a reward.)"),
     ),
     hints=(
         "Which of the two networks may this loss change?",
-        "`q.detach()`; and in the KL it is π that weighs: `(pi * (log_pi - log_rule)).sum(-1)`.",
+        "`q.detach()`; and the KL is weighed by π: `(pi * (log_pi - log_rule)).sum(-1)`.",
         "`-((pi * (q.detach() - alpha * log_pi)).sum(-1) - xi * kl).mean()`",
     ),
     minutes=6, difficulty=2, equation="-E[Σ π (Q - α log π) - ξ D_KL(π ‖ π̃)], Q held fixed",
@@ -324,7 +325,7 @@ label_pairs = Exercise(
     mistakes=(
         Mistake(lambda asked: np.stack([asked[1:], np.append(asked[2:], asked[-1])], axis=-1),
             "The bug is still there: the first label of each pair belongs to the state one second later.",
-            "What the rule says after the step is what it says about the step."),
+            "The rule's answer after a step is the label of that step."),
         Mistake(lambda asked: np.stack([asked[1:], asked[:-1]], axis=-1),
             "Your columns are swapped: first μ(s), then μ(s').",
             "The newer label comes first."),
@@ -332,7 +333,7 @@ label_pairs = Exercise(
             "Your two labels are the same: s' is the next state, and has the next label.",
             "One decision, one label."),
         Mistake(lambda asked: np.stack([asked, np.append(asked[1:], asked[-1])], axis=-1),
-            "You have one pair too many: T + 1 states make T decisions, and the last state decides nothing.",
+            "You have one pair too many: T + 1 states make T decisions, and there is no decision in the last state.",
             "Every state gets a row."),
     ),
     hints=(

@@ -14,7 +14,7 @@ from bootcourse.scenario import DEFAULT, N_ACTIONS
 
 
 def road_of(*cars):
-    """A road: the ego first; each car is (x in m, speed in m/s, lane)."""
+    """A road, (vehicles, 10), the ego first; each car is given as (x in m, speed in m/s, lane)."""
     rows = np.zeros((len(cars), 10))
     for row, (x, speed, lane) in zip(rows, cars, strict=True):
         row[[X, Y, SPEED, LANE]] = x, 4.0 * lane, speed, lane
@@ -22,7 +22,7 @@ def road_of(*cars):
 
 
 def ahead_cases(rng):
-    """Nobody there; one behind, nearer than the one ahead; two ahead, the farther first; then 40 at random."""
+    """No car ahead; one behind, nearer than the one ahead; two ahead, the farther first; then 40 at random."""
     yield road_of((50, 10, 2), (60, 9, 1)), 0
     yield road_of((50, 10, 2), (40, 9, 2), (80, 11, 2)), 2
     yield road_of((50, 10, 2), (90, 12, 1), (70, 9, 1)), 1
@@ -62,19 +62,19 @@ gap_ahead = Exercise(
     ),
     mistakes=(
         Mistake(lambda cars, lane: gap_ahead_solution(cars, lane) + 5,
-            "Your gap is 5 m too long: you measure from centre to centre. The road that is free ends at a bumper.",
+            "Your gap is 5 m too long: you measure from centre to centre. Subtract a car's length, 5 m.",
             "A car is a point at its x."),
         Mistake(of_the_nearest,
             "You take the nearest car, even where it is behind you. Ahead means a larger x than the ego's.",
             "The nearest car is the one that matters."),
         Mistake(lambda cars, lane: gap_to(cars, cars[cars[:, X] > cars[EGO, X]]),
             "You look at every lane. Only the cars whose lane is `lane` count.",
-            "Who is ahead is in the way."),
+            "Every car ahead is in the way."),
         Mistake(of_the_first_row,
-            "You take the first car of the table. The rows are not in the order of the road: find the smallest x.",
+            "You take the first car of the table. The rows are not sorted by position: find the smallest x.",
             "Row 1 is the car ahead, as at the start."),
         Mistake(lambda cars, lane: min(gap_ahead_solution(cars, lane), 200.0),
-            "Where nobody is ahead, you answer with a number. An empty lane is infinity: `np.inf`.",
+            "You return a finite number where no car is ahead. The gap of an empty lane is infinite: `np.inf`.",
             "Nothing is seen beyond 200 m, so 200 m is the largest gap."),
     ),
     hints=(
@@ -97,13 +97,13 @@ ENDINGS = {
 def drive_out(answer, cars, scenario):
     """How one road ends: 0 for ahead of trap 1 at the end, without an accident, else what went wrong.
 
-    What is no number at all is handed back as it is.
+    An answer that is not a number is returned unchanged.
     """
     env = TrapVectorEnv(1, scenario, AutoresetMode.DISABLED)
     env.reset(seed=0)
     env.cars[0] = cars
     for second in range(scenario.clock.decisions):
-        now = cars if second == 0 else env.cars[0].copy()  # the first road is the check's own: a change is seen
+        now = cars if second == 0 else env.cars[0].copy()  # its own array, so that the check sees a change
         action, again = answer(now, scenario), answer(env.cars[0].copy(), scenario)
         wrong = no_action(action, again)
         if wrong == NOTHING and second == 0:
@@ -136,11 +136,11 @@ def explain_rule(cases, answers):
     if NOTHING in ends:
         return "Your rule returns nothing in some situations: look for a branch without `return`."
     if NOT_WHOLE in ends:
-        return "An action is a whole number, 0 to 8: yours is sometimes another kind of number."
+        return "Your rule sometimes returns another kind of number: an action is a whole number, 0 to 8."
     if OUTSIDE in ends:
-        return f"Your rule sometimes answers a number that is no action: give a whole number from 0 to {N_ACTIONS - 1}."
+        return f"Your rule sometimes returns a number that is not an action: give a whole number, 0 to {N_ACTIONS - 1}."
     if NOT_SAME in ends:
-        return "Your rule answers the same road differently each time: a label of the KL has to stay what it is."
+        return "Your rule answers the same road differently each time. The label of a state must not change."
     told = ", on ".join(f"{ends.count(end)} it {words}" for end, words in ENDINGS.items() if end in ends)
     return f"Your rule gets out on {ends.count(OUT)} of {len(ends)} roads; on {told}."
 
@@ -167,9 +167,9 @@ my_rule = Exercise(
     worked=((start_of(1_300_000), OUT), (start_of(1_300_001), OUT)),
     mistakes=(
         Mistake(always(4),
-            "Your rule drives safely and never gets out: on every road it is still behind trap 1 at the end. Fall back "
-            "first: trap 2 has to be ahead of you before there is room on the left.",
-            "A way out will open by itself, if one waits long enough."),
+            "Your rule drives safely but does not get out: on every road it is still behind trap 1 at the end. Fall "
+            "back first: trap 2 has to be ahead of you before there is room on the left.",
+            "A gap will open if the ego waits long enough."),
         Mistake(always(7),
             "Your rule hits a car on every road. Look at the gap ahead before it accelerates or changes lane.",
             "The way out is forwards."),
@@ -180,11 +180,11 @@ my_rule = Exercise(
             "Your rule brakes until the car stands on the road, which is an accident. Fall back at 6 m/s or more.",
             "The more room, the better."),
         Mistake(always(9),
-            "Your rule answers a number that is no action: give a whole number from 0 to 8.",
+            "Your rule returns a number that is not an action: give a whole number from 0 to 8.",
             "Nine actions are numbered 1 to 9."),
         Mistake(by_chance,
-            "Your rule answers the same road differently each time: a label of the KL has to stay what it is.",
-            "A stochastic teacher is made by drawing. (The probability p is added later, in π̃.)"),
+            "Your rule answers the same road differently each time. The label of a state must not change.",
+            "A stochastic teacher draws its actions. (The probability p is added later, in π̃.)"),
     ),
     hints=(
         "Three situations: no room on the left yet (be slower than both traps); room (change lane); free lane (go).",
@@ -214,16 +214,17 @@ next_labels = Exercise(
     ),
     mistakes=(
         Mistake(lambda now, at_end, ended: now,
-            "Where an episode ended, `now` is the first second of the *next* one: a label of another state.",
+            "Where an episode ended, `now` belongs to the first second of the *next* one: it is the label of another "
+            "state.",
             "After a step, the road shows s'. (With autoreset it may show a new road.)"),
         Mistake(lambda now, at_end, ended: at_end,
-            "Where no episode ended, `at_end` is of some other time: use it only where `ended` is true.",
-            "The end is the end for all."),
+            "Where no episode ended, `at_end` belongs to another time: use it only where `ended` is true.",
+            "All episodes end together."),
         Mistake(lambda now, at_end, ended: np.where(ended, now, at_end),
             "Your two cases are swapped.",
-            "np.where(condition, no, yes)."),
+            "The arguments of np.where are the condition, the value for False, the value for True."),
         Mistake(lambda now, at_end, ended: np.where(ended, 0, now),
-            "Action 0 is an action, 'brake left'. An episode that ran out of time has a last state, and a label.",
+            "0 is an action, 'brake left'. An episode that ran out of time has a last state, which has a label.",
             "Nothing comes after the end, so its label does not matter. (Out of time is not terminated.)"),
     ),
     hints=(
@@ -271,27 +272,28 @@ verdict = Exercise(
     ),
     mistakes=(
         Mistake(by_middle(np.mean),
-            "You compare means. One lucky seed moves a mean of three; ask whether the two groups overlap.",
+            "You compare means. One lucky seed can change a mean of three: check whether the two groups overlap.",
             "The larger mean is the better method."),
         Mistake(by_middle(np.median),
-            "You compare medians. They say which is better in the middle, not whether the two groups overlap.",
-            "A robust middle makes a comparison sound."),
+            "You compare medians. A median says nothing about whether the two groups overlap.",
+            "A robust average makes the comparison reliable."),
         Mistake(lambda alone, taught: int(taught.min() >= alone.max()) - int(taught.max() <= alone.min()),
-            "You count a tie as a difference: `>` is asked for, and where all are equal nothing helps or hurts.",
-            "At least as good is better."),
+            "You count a tie as a difference. Use `>`: where all scores are equal, the teacher neither helps nor "
+            "hurts.",
+            "At least as good means better."),
         Mistake(lambda alone, taught: int(taught.min() > alone.max()),
-            "Your teacher never hurts. Where every taught agent is worse than every one alone, answer -1.",
-            "A teacher can only add."),
+            "Your answer is never -1. Return -1 where every taught agent is worse than every agent alone.",
+            "A teacher can only help."),
         Mistake(lambda alone, taught: int((taught > alone).all()) - int((taught < alone).all()),
-            "You compare seed by seed. Agents with the same seed share nothing that makes them a pair: compare every "
-            "one with every one.",
+            "You compare seed by seed. Agents with the same seed are not a pair: compare every taught agent with every "
+            "agent alone.",
             "Seed 0 with a teacher is the same agent as seed 0 without."),
     ),
     hints=(
         "When is every taught agent better than every agent alone? Only the worst of one group and the best of the "
         "other decide.",
         "`taught.min() > alone.max()`",
-        "Ask the same the other way round for -1; everything else is 0.",
+        "The opposite comparison gives -1; everything else is 0.",
     ),
     minutes=5, difficulty=2, equation="complete separation of two groups of seeds",
 )  # fmt: skip
