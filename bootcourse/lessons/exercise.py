@@ -35,7 +35,7 @@ class Exercise:
     worked: tuple  # tiny cases worked out by hand: ((arguments, answer), ...)
     cases: Callable[[np.random.Generator], Iterable[tuple]]  # the arguments of the hidden cases, corner cases first
     mistakes: tuple[Mistake, ...]
-    hints: tuple[str, ...]  # up to three, from a nudge to the line itself
+    hints: tuple[str, ...]  # up to three, from a first idea to the line itself
     minutes: int
     difficulty: int  # 1, 2 or 3
     equation: str  # what is computed and where it stands, as in "D_KL(π ‖ π̃), Equation 9"
@@ -62,7 +62,8 @@ class Exercise:
     @property
     def case_names(self) -> list[str]:
         """The names of the parts of a case: the function's arguments, or those of `run`."""
-        return self.arguments if self.run is call_it else list(inspect.signature(self.run).parameters)[1:]
+        names = list(inspect.signature(self.run).parameters)[1:]
+        return self.arguments if names == ["arguments"] else names
 
     @property
     def dots(self) -> str:

@@ -6,7 +6,7 @@ import torch
 
 from bootcourse.learn import sac
 from bootcourse.lessons.exercise import Exercise, Mistake
-from bootcourse.lessons.exercises.slopes import loss_and_slopes
+from bootcourse.lessons.exercises.slopes import with_slopes
 
 LOG_2 = math.log(2)
 
@@ -157,14 +157,9 @@ def actor_loss_solution(log_pi, q, alpha):
     return -value.mean()
 
 
-def run_actor(answer, log_pi, q, alpha):
-    """The loss and its slopes in log π and Q."""
-    return loss_and_slopes(answer, (log_pi, q, alpha), of=(0, 1))
-
-
 actor_loss = Exercise(
     "actor_loss(log_pi, q, alpha)",
-    solution=actor_loss_solution, cases=value_cases, run=run_actor,
+    solution=actor_loss_solution, cases=value_cases, run=with_slopes(0, 1),
     worked=(
         # -V, and its slopes -π (Q - α log π - α) = -(1 + log 2 / 2 - 1/2) / 2, -(3 + log 2 / 2 - 1/2) / 2
         ((HALF, torch.tensor([[1.0, 3.0]]), torch.tensor(0.5)),
@@ -198,11 +193,6 @@ actor_loss = Exercise(
 )  # fmt: skip
 
 
-def run_temperature(answer, log_alpha, state_entropy, target_entropy):
-    """The loss and its slopes in log α and H."""
-    return loss_and_slopes(answer, (log_alpha, state_entropy, target_entropy), of=(0, 1))
-
-
 def temperature_cases(rng):
     """Entropy on target, above, below, a negative target; then 30 at random."""
     pairs = [(0.5, 0.5), (2.0, 0.5), (0.1, 0.5), (0.3, -1.0)]
@@ -214,7 +204,7 @@ def temperature_cases(rng):
 
 temperature_loss = Exercise(
     "temperature_loss(log_alpha, state_entropy, target_entropy)",
-    solution=sac.temperature_loss, cases=temperature_cases, run=run_temperature,
+    solution=sac.temperature_loss, cases=temperature_cases, run=with_slopes(0, 1),
     worked=(
         # α = 1/2, mean entropy 1, target 0.6: 0.5 · 0.4, and its slope in log α is the same
         ((torch.tensor(-LOG_2), torch.tensor([0.5, 1.5]), torch.tensor(0.6)),

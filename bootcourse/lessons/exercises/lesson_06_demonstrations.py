@@ -78,16 +78,6 @@ def return_to_go_solution(rewards, gamma):
     return togo
 
 
-def so_far(rewards, gamma):
-    """What was earned up to each second, discounted from the start."""
-    return np.cumsum(gamma ** np.arange(len(rewards)) * rewards)
-
-
-def from_the_start(rewards, gamma):
-    """What is still to come, but discounted from the start of the drive."""
-    return np.cumsum((gamma ** np.arange(len(rewards)) * rewards)[::-1])[::-1]
-
-
 def forwards(rewards, gamma):
     """The recursion in the wrong direction of time."""
     togo = np.array(rewards, dtype=float)
@@ -123,11 +113,11 @@ return_to_go = Exercise(
         Mistake(lambda rewards, gamma: return_to_go_solution(rewards, 1.0),
             "This is the return to go without a discount: multiply the next second's value by γ.",
             "Return and discounted return are the same."),
-        Mistake(from_the_start,
+        Mistake(lambda rewards, gamma: np.cumsum((gamma ** np.arange(len(rewards)) * rewards)[::-1])[::-1],
             "You discount from the start of the drive. Each second has a clock of its own: its own reward has the "
             "weight 1.",
             "The discount counts from the start of the drive."),
-        Mistake(so_far,
+        Mistake(lambda rewards, gamma: np.cumsum(gamma ** np.arange(len(rewards)) * rewards),
             "This is what was earned *so far*. A value is what comes from this second on.",
             "A cumulative sum in either direction will do."),
         Mistake(forwards,

@@ -7,7 +7,7 @@ import torch
 
 from bootcourse.learn import bootstrap
 from bootcourse.lessons.exercise import Exercise, Mistake
-from bootcourse.lessons.exercises.slopes import loss_and_slopes
+from bootcourse.lessons.exercises.slopes import with_slopes
 
 
 def log_stochastic_rule_solution(rule_action, p):
@@ -76,22 +76,6 @@ def reverse(log_pi, rule_action, p):
     return (rule.exp() * (rule - log_pi)).sum(-1)
 
 
-def cross_entropy(log_pi, rule_action, p):
-    return -(log_pi.exp() * log_rule(rule_action, p, (1 - p) / 8)).sum(-1)
-
-
-def unweighted(log_pi, rule_action, p):
-    return (log_pi - log_rule(rule_action, p, (1 - p) / 8)).sum(-1)
-
-
-def not_shared(log_pi, rule_action, p):
-    return (log_pi.exp() * (log_pi - log_rule(rule_action, p, 1 - p))).sum(-1)
-
-
-def shared_by_nine(log_pi, rule_action, p):
-    return (log_pi.exp() * (log_pi - log_rule(rule_action, p, (1 - p) / 9))).sum(-1)
-
-
 def sure(action, size=9):
     """A policy that takes one action with all but e⁻⁴⁰ of its probability: (1, 9)."""
     return torch.full((1, size), -40.0).double().scatter(-1, torch.tensor([[action]]), 0.0)
@@ -120,16 +104,17 @@ soft_constraint = Exercise(
             "Your KL is the other way round: it is large where the *rule* puts mass and the policy does not. The paper "
             "charges the policy for actions that the rule would not take.",
             "A divergence is a distance, so its order does not matter."),
-        Mistake(cross_entropy,
+        Mistake(lambda log_pi, rule_action, p: -(log_pi.exp() * log_rule(rule_action, p, (1 - p) / 8)).sum(-1),
             "This is the cross-entropy: without the policy's own entropy it is not zero where both agree.",
             "The log π part does not depend on the rule, so it can be dropped. Its gradient cannot."),
-        Mistake(unweighted,
+        Mistake(lambda log_pi, rule_action, p: (log_pi - log_rule(rule_action, p, (1 - p) / 8)).sum(-1),
             "You add up the log-ratios without weighing them: weigh each by π, the probability of its action.",
             "The sum over actions is the expectation."),
-        Mistake(not_shared,
+        Mistake(lambda log_pi, rule_action, p: (log_pi.exp() * (log_pi - log_rule(rule_action, p, 1 - p))).sum(-1),
             "Your rule's probabilities add up to more than 1: the other eight actions *share* 1 - p.",
             "1 - p is the probability of each other action."),
-        Mistake(shared_by_nine,
+        Mistake(lambda log_pi, rule_action, p:
+            (log_pi.exp() * (log_pi - log_rule(rule_action, p, (1 - p) / 9))).sum(-1),
             "You shared 1 - p among nine actions, but the rule's own action already has p: eight are left.",
             "The noise is uniform over all nine. (Then the rule's own action would have p + (1 - p) / 9.)"),
         Mistake(lambda log_pi, rule_action, p: -solution(log_pi, rule_action, p),
@@ -211,23 +196,6 @@ def constrained_loss_solution(log_pi, q, alpha, xi, kl):
     return -value.mean()
 
 
-def undetached(log_pi, q, alpha, xi, kl):
-    return -((log_pi.exp() * (q - alpha * log_pi)).sum(-1) - xi * kl).mean()
-
-
-def rewarded(log_pi, q, alpha, xi, kl):
-    return -((log_pi.exp() * (q.detach() - alpha * log_pi)).sum(-1) + xi * kl).mean()
-
-
-def frozen_kl(log_pi, q, alpha, xi, kl):
-    return constrained_loss_solution(log_pi, q, alpha, xi, kl.detach())
-
-
-def run_loss(answer, log_pi, q, alpha, xi, kl):
-    """The loss, and its slopes in log π, Q and KL: what the actor's step follows."""
-    return loss_and_slopes(answer, (log_pi, q, alpha, xi, kl), of=(0, 1, 4))
-
-
 def loss_cases(rng):
     """No rule (ξ = 0), no entropy (α = 0), one state; then 30 at random."""
     for size, alpha, xi in ((3, 0.2, 0.0), (3, 0.0, 1.0), (1, 0.1, 2.0), *((int(n), 0.1, 0.7) for n in range(1, 31))):
@@ -238,7 +206,7 @@ def loss_cases(rng):
 
 constrained_loss = Exercise(
     "constrained_loss(log_pi, q, alpha, xi, kl)",
-    solution=constrained_loss_solution, cases=loss_cases, run=run_loss,
+    solution=constrained_loss_solution, cases=loss_cases, run=with_slopes(0, 1, 4),
     worked=(
         # two actions, half and half: V = (1 + 3)/2 + 0.5 log 2 - 2 · 0.25, its slope -π (Q - α log π - α)
         ((torch.full((1, 2), -math.log(2)), torch.tensor([[1.0, 3.0]]), 0.5, 2.0, torch.tensor([0.25])),
@@ -247,15 +215,16 @@ constrained_loss = Exercise(
           torch.tensor([2.0]))),
     ),
     mistakes=(
-        Mistake(undetached,
+        Mistake(lambda log_pi, q, alpha, xi, kl: -((log_pi.exp() * (q - alpha * log_pi)).sum(-1) - xi * kl).mean(),
             "Your value is right, but the gradient flows into Q, too: the actor's step would change the critic. Use "
             "`q.detach()`.",
             "The actor's step cannot change the critic. (Here one optimiser holds both networks.)"),
-        Mistake(rewarded,
+        Mistake(lambda log_pi, q, alpha, xi, kl:
+            -((log_pi.exp() * (q.detach() - alpha * log_pi)).sum(-1) + xi * kl).mean(),
             "You reward the actor for leaving the rule: your loss falls as the KL grows. Subtract ξ times the KL from "
             "V.",
             "A penalty is added to V. (The minus of the loss turns it into a reward.)"),
-        Mistake(frozen_kl,
+        Mistake(lambda log_pi, q, alpha, xi, kl: constrained_loss_solution(log_pi, q, alpha, xi, kl.detach()),
             "Your KL has no gradient, so it does not change the actor. Detach Q, not the KL.",
             "Everything that is not π is detached in the actor's loss."),
         Mistake(lambda log_pi, q, alpha, xi, kl: -constrained_loss_solution(log_pi, q, alpha, xi, kl),

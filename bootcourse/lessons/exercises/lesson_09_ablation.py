@@ -22,14 +22,6 @@ def of_one_end(k, n):
     return np.array([low, stats.beta.ppf(0.95, k + 1, n - k) if k < n else 1.0])
 
 
-def of_failures(k, n):
-    return exact_interval_solution(n - k, n)
-
-
-def one_beta(k, n):
-    return stats.beta.ppf([0.025, 0.975], k + 1, n - k + 1)
-
-
 def wilson(k, n):
     test = stats.binomtest(k, n).proportion_ci(method="wilson")
     return np.array([test.low, test.high])
@@ -55,10 +47,10 @@ exact_interval = Exercise(
         Mistake(of_one_end,
             "You leave 5 % at each end. Both ends together may miss in 5 % of the cases: 2.5 % each.",
             "95 % means that 0.05 goes into the formula."),
-        Mistake(of_failures,
+        Mistake(lambda k, n: exact_interval_solution(n - k, n),
             "This is the interval of the failures: k and n - k are swapped.",
             "The order of a beta distribution's two parameters does not matter."),
-        Mistake(one_beta,
+        Mistake(lambda k, n: stats.beta.ppf([0.025, 0.975], k + 1, n - k + 1),
             "You take both ends from one beta distribution, as in a Bayesian interval. The exact ends come from two "
             "different ones.",
             "An interval is two quantiles of one distribution."),
@@ -86,14 +78,6 @@ def unsorted(scores):
     return scores[cut : len(scores) - cut].mean()
 
 
-def between_quartiles(scores):
-    return np.percentile(scores, [25, 75]).mean()
-
-
-def one_side(scores):
-    return np.sort(scores)[len(scores) // 4 :].mean()
-
-
 def score_cases(rng):
     """Two extremes, all equal, three seeds; then 40 at random."""
     yield (np.array([128.0, -10.0, 120.0, 125.0, 126.0, 127.0, -6.0, 129.0]),)
@@ -118,10 +102,10 @@ interquartile_mean = Exercise(
         Mistake(unsorted,
             "You cut by position, not by size: sort the scores first.",
             "The scores are sorted already."),
-        Mistake(between_quartiles,
+        Mistake(lambda scores: np.percentile(scores, [25, 75]).mean(),
             "This is the mean of the two quartiles. Average all scores that lie between them.",
             "The interquartile mean is the mean of the quartiles."),
-        Mistake(one_side,
+        Mistake(lambda scores: np.sort(scores)[len(scores) // 4 :].mean(),
             "You leave out the lowest quarter only. Leave out the highest quarter, too.",
             "Only failures are outliers."),
     ),

@@ -22,10 +22,6 @@ def effective_actions_solution(policy):
     return np.exp(-np.sum(policy * np.log(safe), axis=-1))
 
 
-def in_bits(policy):
-    return np.exp(np.log(effective_actions_solution(policy)) / np.log(2))
-
-
 def policy_cases(rng):
     """Sure, even, halves; then 40 at random."""
     yield from ((SURE,), (EVEN,), (HALVES,))
@@ -41,7 +37,7 @@ effective_actions = Exercise(
         Mistake(lambda policy: np.log(effective_actions_solution(policy)),
             "This is the entropy, in nats. The effective number of actions is e to the power of it.",
             "The entropy is the number of actions."),
-        Mistake(in_bits,
+        Mistake(lambda policy: np.exp(np.log(effective_actions_solution(policy)) / np.log(2)),
             "You mix two units: an entropy in bits (log2) goes with a power of 2, one in nats with a power of e.",
             "The base of the logarithm does not matter."),
         Mistake(lambda policy: 1 / effective_actions_solution(policy),
@@ -143,18 +139,6 @@ def columns_only(place, lane, edges, lanes):
     return coverage_solution(place, np.zeros_like(lane), edges, 1)
 
 
-def clipped(place, lane, edges, lanes):
-    return coverage_solution(np.clip(place, edges[0], edges[-1] - 1e-9), lane, edges, lanes)
-
-
-def share_of_time(place, lane, edges, lanes):
-    return float(np.mean((place >= edges[0]) & (place < edges[-1])))
-
-
-def of_all_edges(place, lane, edges, lanes):
-    return coverage_solution(place, lane, edges, lanes) * (len(edges) - 1) / len(edges)
-
-
 def margins(place, lane, edges, lanes):
     inside = (place >= edges[0]) & (place < edges[-1])
     return columns_only(place, lane, edges, lanes) * len(np.unique(lane[inside])) / lanes
@@ -183,13 +167,15 @@ coverage = Exercise(
         Mistake(columns_only,
             "You count stretches of road without their lanes: each lane of a stretch is a cell of its own.",
             "A place is a position along the road."),
-        Mistake(share_of_time,
+        Mistake(lambda place, lane, edges, lanes: float(np.mean((place >= edges[0]) & (place < edges[-1]))),
             "This is the share of the *decisions* that lie inside. Count each visited cell once.",
             "More time inside means more coverage."),
-        Mistake(of_all_edges,
+        Mistake(lambda place, lane, edges, lanes:
+            coverage_solution(place, lane, edges, lanes) * (len(edges) - 1) / len(edges),
             "You divide by the number of edges. Between n edges there are n - 1 stretches.",
             "There are as many bins as edges."),
-        Mistake(clipped,
+        Mistake(lambda place, lane, edges, lanes:
+            coverage_solution(np.clip(place, edges[0], edges[-1] - 1e-9), lane, edges, lanes),
             "You count decisions outside the edges in the first or last stretch. Leave them out.",
             "The outermost bins are open."),
         Mistake(margins,

@@ -6,7 +6,7 @@ import numpy as np
 import torch
 
 from bootcourse.lessons.exercise import Exercise, Mistake
-from bootcourse.lessons.exercises.slopes import loss_and_slopes
+from bootcourse.lessons.exercises.slopes import with_slopes
 
 
 def end_error_solution(q, actions, rewards, terminated):
@@ -262,11 +262,6 @@ def loss_of(log_pi, q, log_rule, alpha, xi, flipped=False):
     return -((pi * (q - alpha * log_pi)).sum(-1) - xi * kl).mean()
 
 
-def run_loss(answer, log_pi, q, log_rule, alpha, xi):
-    """The loss, and its slopes in log π and Q."""
-    return loss_and_slopes(answer, (log_pi, q, log_rule, alpha, xi), of=(0, 1))
-
-
 def loss_cases(rng):
     """No rule (ξ = 0), no entropy (α = 0), one state; then 40 at random."""
     for size, alpha, xi in ((3, 0.2, 0.0), (3, 0.0, 1.0), (1, 0.1, 2.0), *((int(n), 0.1, 0.7) for n in range(1, 41))):
@@ -280,7 +275,7 @@ HALF = torch.full((1, 2), -math.log(2))
 
 fixed_loss = Exercise(
     "fixed_loss(log_pi, q, log_rule, alpha, xi)",
-    solution=fixed_loss_solution, cases=loss_cases, run=run_loss,
+    solution=fixed_loss_solution, cases=loss_cases, run=with_slopes(0, 1),
     worked=(
         # π even, Q = 1 and 3, π̃ = π, α = 0.5, ξ = 1: V = 2 + 0.5 log 2; slopes in log π: -π (Q - α log π - α) + ξ π
         ((HALF, torch.tensor([[1.0, 3.0]]), HALF, 0.5, 1.0),

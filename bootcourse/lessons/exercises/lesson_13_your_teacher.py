@@ -48,10 +48,6 @@ def of_the_nearest(cars, lane):
     return others[np.abs(others[:, X] - cars[EGO, X]).argmin(), X] - cars[EGO, X] - 5 if len(others) else np.inf
 
 
-def of_the_first_row(cars, lane):
-    return gap_to(cars, cars[(cars[:, LANE] == lane) & (cars[:, X] > cars[EGO, X])][:1])
-
-
 gap_ahead = Exercise(
     "gap_ahead(cars, lane)",
     solution=gap_ahead_solution, cases=ahead_cases,
@@ -70,7 +66,7 @@ gap_ahead = Exercise(
         Mistake(lambda cars, lane: gap_to(cars, cars[cars[:, X] > cars[EGO, X]]),
             "You look at every lane. Only the cars whose lane is `lane` count.",
             "Every car ahead is in the way."),
-        Mistake(of_the_first_row,
+        Mistake(lambda cars, lane: gap_to(cars, cars[(cars[:, LANE] == lane) & (cars[:, X] > cars[EGO, X])][:1]),
             "You take the first car of the table. The rows are not sorted by position: find the smallest x.",
             "Row 1 is the car ahead, as at the start."),
         Mistake(lambda cars, lane: min(gap_ahead_solution(cars, lane), 200.0),
@@ -155,10 +151,6 @@ def always(action):
     return lambda cars, scenario: action
 
 
-def by_chance(cars, scenario):
-    return int(np.random.default_rng().integers(N_ACTIONS))
-
-
 my_rule = Exercise(
     "my_rule(cars, scenario)",
     solution=careful, cases=lambda rng: [start_of(seed) for seed in range(1_300_002, 1_300_024)], run=drive_out,
@@ -182,7 +174,7 @@ my_rule = Exercise(
         Mistake(always(9),
             "Your rule returns a number that is not an action: give a whole number from 0 to 8.",
             "Nine actions are numbered 1 to 9."),
-        Mistake(by_chance,
+        Mistake(lambda cars, scenario: int(np.random.default_rng().integers(N_ACTIONS)),
             "Your rule answers the same road differently each time. The label of a state must not change.",
             "A stochastic teacher draws its actions. (The probability p is added later, in π̃.)"),
     ),

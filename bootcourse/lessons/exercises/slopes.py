@@ -1,4 +1,4 @@
-"""For exercises that write a loss: what counts is its value *and* where it sends a gradient."""
+"""For exercises on a loss: its value is compared, and its slopes, which say what it trains."""
 
 from collections.abc import Callable
 
@@ -6,11 +6,16 @@ import torch
 from torch import Tensor
 
 
+def with_slopes(*places: int) -> Callable:
+    """The `run` of an exercise that compares (loss, its slope with respect to each argument at these places)."""
+    return lambda answer, *arguments: loss_and_slopes(answer, arguments, places)
+
+
 def loss_and_slopes(answer: Callable, arguments: tuple, of: tuple[int, ...]):
     """(loss, its slope with respect to the arguments at the places `of`).
 
-    What is not a loss of tensors (a text, a list) is handed back as it is, and so is the plain value where
-    the answer writes into its arguments: the guard compares those.
+    An answer that is not a loss (a text, a list) is returned unchanged, and so is the loss of an answer that
+    writes into its arguments: the guard finds that.
     """
     before = [a.clone() if isinstance(a, Tensor) else a for a in arguments]
     loss = answer(*arguments)
