@@ -1,9 +1,9 @@
-"""Six silent bugs that people really make, and the agents that were trained with them for the bug hunt.
+"""Six silent bugs that occur in practice, and the agents of the bug hunt, which were trained with them.
 
-Each bug is a `SACLearner` whose update is right but for one place. Nothing raises, nothing is NaN, the
-curves look like curves.
+Each bug is a `SACLearner` whose update is wrong in one place. No error is raised, no number is NaN, and the
+curves look plausible.
 
-    python -m bootcourse.lessons.bugs --out assets/bug_hunt.npz    # trains all seven, some minutes
+    python -m bootcourse.lessons.bugs --out assets/bug_hunt.npz    # trains all seven in some minutes
 
 The file holds curves, probes and weights; `Hunt` reads it and calls the agents A to F.
 """
@@ -44,19 +44,19 @@ class FlippedKL(SACLearner):
 
 
 class NoEnd(SACLearner):
-    """(1 - terminated) is missing: the target counts what would follow an accident."""
+    """(1 - terminated) is missing: the target adds the next value after an accident, too."""
 
     def critic_target(self, batch: Batch) -> Tensor:
         return super().critic_target(batch._replace(terminated=torch.zeros_like(batch.terminated)))
 
 
 class Sampled(SACLearner):
-    """One sampled action stands for the expectation, as in SAC for continuous actions."""
+    """One sampled action replaces the expectation, as in SAC for continuous actions."""
 
     draws = None
 
     def soft_value(self, log_pi: Tensor, q: Tensor, alpha: Tensor, constraint: Tensor) -> Tensor:
-        """Q(s, a) - α log π(a|s) of one action a ~ π; a choice among nine has no gradient."""
+        """Q(s, a) - α log π(a|s) of one action a ~ π; the draw has no gradient."""
         self.draws = self.draws or torch.Generator().manual_seed(0)
         action = torch.multinomial(log_pi.detach().exp().flatten(0, -2), 1, generator=self.draws)
         action = action.view(*log_pi.shape[:-1], 1)
@@ -81,7 +81,7 @@ class BonusForAll(SACLearner):
 
 
 class ShiftedLabels(SACLearner):
-    """The rule was asked after the road had moved on: each label belongs to the state one second later."""
+    """The rule is asked after the step: each label belongs to the state one second later."""
 
     def losses(self, batch: Batch) -> dict[str, Tensor]:
         return super().losses(batch._replace(rule_actions=batch.next_rule_actions))
@@ -97,9 +97,9 @@ BUGS = {
 }
 LEARNERS = {"none": SACLearner, **BUGS}
 LETTERS = "ABCDEF"
-SHUFFLE = 2025  # the seed that says who is who
-SEEDS, UPDATES, EVERY = 2, 10_000, 250  # agents with each bug; updates of each; updates between two looks
-ROADS = range(900, 908)  # on which the rule drives while the probes look
+SHUFFLE = 2025  # the seed that assigns the letters
+SEEDS, UPDATES, EVERY = 2, 10_000, 250  # agents with each bug; updates of each; updates between two probes
+ROADS = range(900, 908)  # whose drives by the rule give the states of the probes
 PROBES = ("kl", "entropy", "alike", "late", "rarest", "promise", "end")
 CURVES = ("success", "return", "accident", "alpha")
 FILE = FOLDER / "bug_hunt.npz"
@@ -109,10 +109,10 @@ COMMAND = "python -m bootcourse.lessons.bugs --out assets/bug_hunt.npz"
 
 
 class Probe:
-    """A training's callback: looks into every agent after every 250 updates, on states that the rule drives through.
+    """A training's callback: measures every agent every 250 updates, on states of drives by the rule.
 
-    kl: mean D_KL(π ‖ π̃) in nats. entropy: mean H(π) in nats. alike: share of the states whose likeliest
-    action is the rule's. late: the same for what the rule does one second later. rarest: mean log of the
+    kl: mean D_KL(π ‖ π̃) in nats. entropy: mean H(π) in nats. alike: share of the states whose most probable
+    action is the rule's. late: the same for the rule's action one second later. rarest: mean log of the
     smallest of the nine probabilities. promise: mean Σ_a π Q. end: mean Q(s, a) of the agent's own
     decisions that ended in an accident; their right value is -10.
     """
@@ -196,7 +196,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 class Hunt:
-    """The trained agents as the student meets them: "healthy", and A to F, who have a bug each.
+    """The trained agents under the names that the student sees: "healthy", and A to F with one bug each.
 
     Raises BootcourseError if the file is missing or damaged, or for another name.
     """
@@ -238,7 +238,7 @@ class Hunt:
         return {name: (self.updates, self.probe(name, what)) for name in self.names}
 
     def agent(self, name: str) -> Agent:
-        """The first seed as it was at the end."""
+        """The agent of the first seed at the end of its training."""
         parts = {part: [] for part in ("actor", "critics")}
         for part, weights in parts.items():
             while f"{self._bug_of.get(name)}/{part}-{len(weights)}" in self._arrays:

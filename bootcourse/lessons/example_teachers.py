@@ -1,4 +1,4 @@
-"""Four teachers to learn from, good and bad, and an exam: is it a rule at all, and how does it drive?"""
+"""Four example teachers, good and bad, and an exam that tests whether a function is a rule, and how it drives."""
 
 from dataclasses import dataclass
 
@@ -21,7 +21,7 @@ def careful(cars: np.ndarray, scenario: Scenario) -> int:
     """Falls back, goes left as soon as there is room, and drives 15 m/s on the free lane."""
     lane = int(cars[EGO, LANE])
     gap, v = ahead(cars, lane, scenario)
-    if lane == 0:  # the free lane: half a metre per second slower than who is near
+    if lane == 0:  # the free lane: 0.5 m/s slower than a car that is near
         return toward(cars, 15.0 if gap > 25 else min(15.0, v - 0.5), 0, scenario)
     left_gap, left_v = ahead(cars, lane - 1, scenario)
     settled = abs(cars[EGO, Y] - lane * scenario.road.lane_width) < 0.5
@@ -30,17 +30,17 @@ def careful(cars: np.ndarray, scenario: Scenario) -> int:
 
 
 def timid(cars: np.ndarray, scenario: Scenario) -> int:
-    """Follows trap 1 for ever: keep straight."""
+    """Follows trap 1 to the end: keeps straight."""
     return 4
 
 
 def reckless(cars: np.ndarray, scenario: Scenario) -> int:
-    """Accelerates, whoever is in the way."""
+    """Always accelerates, also towards a car."""
     return 7
 
 
 def racer(cars: np.ndarray, scenario: Scenario) -> int:
-    """Gets out as `careful` does, then wants 20 m/s and looks at nobody."""
+    """Gets out as `careful` does, then aims for 20 m/s and ignores the other cars."""
     return toward(cars, 20.0, 0, scenario) if cars[EGO, LANE] == 0 else careful(cars, scenario)
 
 
@@ -49,7 +49,7 @@ def racer(cars: np.ndarray, scenario: Scenario) -> int:
 
 @dataclass(frozen=True)
 class Exam:
-    """What `examine` found; `problems` is empty if the rule is one."""
+    """What `examine` found; `problems` is empty if the function is a rule."""
 
     problems: tuple[str, ...]
     episodes: Episodes | None = None
@@ -67,7 +67,7 @@ class Exam:
 
 
 def examine(my_rule: Rule, roads: int = 100, scenario: Scenario = DEFAULT) -> Exam:
-    """Ask the rule about some roads, twice, then let it drive. Problems come as sentences; nothing is raised."""
+    """Ask the rule about some roads, twice, then let it drive. Problems are returned as sentences, not raised."""
     env = TrapVectorEnv(min(roads, 20), scenario)
     env.reset(seed=held_out_seeds(EXAM, env.num_envs)[0])
     problems = []
@@ -85,6 +85,6 @@ def examine(my_rule: Rule, roads: int = 100, scenario: Scenario = DEFAULT) -> Ex
         episodes = drive_episodes(teacher_policy(my_rule, scenario), held_out_seeds(EXAM, roads), scenario)
     except BootcourseError as error:
         return Exam((str(error),))
-    except Exception as error:  # whatever a student's rule does
+    except Exception as error:  # a student's rule may raise anything
         return Exam((f"It raises {type(error).__name__}: {error}.",))
     return Exam((), episodes)

@@ -1,4 +1,4 @@
-"""Where drives went and how undecided the driver was there, and the map that shows it for many agents at once."""
+"""Where drives went, the policy's entropy there, and a map of both for many agents."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ class Visits:
 
     place: np.ndarray  # (n,) m: how far the ego is ahead of trap 1; negative is behind
     lane: np.ndarray  # (n,) 0 is the leftmost
-    policy: np.ndarray  # (n, 9) the driver's probabilities; of a driver without any, 1 for what it did
+    policy: np.ndarray  # (n, 9) the driver's probabilities; for a driver without probabilities, 1 for its action
 
     @property
     def entropy(self) -> np.ndarray:
@@ -43,15 +43,15 @@ def cells_seen(seen: Visits, edges: np.ndarray, lanes: int = 3) -> float:
 
 
 def mean_in_bins(seen: Visits, values: np.ndarray, edges: np.ndarray) -> np.ndarray:
-    """The mean of some values (n,) in each stretch of road, (bins,); NaN where nobody was."""
+    """The mean of some values (n,) in each stretch of road, (bins,); NaN where no decision was made."""
     total, count = (np.histogram(seen.place, bins=edges, weights=w)[0] for w in (values, np.ones(len(values))))
     return np.where(count > 0, total / np.maximum(count, 1), np.nan)
 
 
 def map_of_places(rows: Mapping[str, np.ndarray], edges: np.ndarray, title: str, label: str) -> Figure:
-    """A row for each name, a field for each stretch of road: darker is more, empty is where nobody was.
+    """A row for each name, a field for each stretch of road: darker is more, empty has no decisions.
 
-    rows: {name: (bins,)}, NaN where nobody was; edges (bins + 1,) m relative to trap 1; label says what is shown.
+    rows: {name: (bins,)}, NaN for no decisions; edges (bins + 1,) m relative to trap 1; label says what is shown.
     """
     values, title = np.array(list(rows.values())), wrapped(title)
     head = 0.62 + 0.2 * title.count("\n")

@@ -1,4 +1,4 @@
-"""What ships with the course, as a lesson asks for it: the study's results, its trained agents, its recorded drives."""
+"""What ships with the course, loaded for a lesson: the study's results, its trained agents and recorded drives."""
 
 from dataclasses import replace
 
@@ -56,7 +56,7 @@ def shipped_drive(name: str) -> Rollout:
 
 
 def beginning(drive: Rollout, seconds: int) -> Rollout:
-    """The first seconds of a drive, as a drive of its own; a shorter one as it is."""
+    """The first seconds of a drive, as a drive of its own; a drive that is shorter is returned unchanged."""
     clock = drive.scenario.clock
     decisions = int(seconds * clock.decision_rate)
     if decisions >= len(drive.actions):

@@ -1,4 +1,4 @@
-"""Are our learners right? `python -m bootcourse.study.checks` trains them where others published figures.
+"""Independent checks: `python -m bootcourse.study.checks` trains our learners on tasks with published results.
 
 The training loop and the learners of the road (`Training`, `SACLearner`, `CQLLearner`, `GAILLearner`)
 train here on other gymnasium environments, several seeds side by side. There is no teacher: ξ = 0, and
@@ -44,8 +44,8 @@ TEST_SEED, DATA_SEED, SEED = 10**6, 2 * 10**6, 3 * 10**6  # of the first test, d
 class FixedHorizon(gym.Wrapper):
     """CartPole that goes on for all 500 steps: 1 for each step with the pole up and the cart on its track.
 
-    Like `seals/CartPole-v0`. An episode's length would tell an imitator how well it does, which is
-    not what its discriminator is to be tested for.
+    Like `seals/CartPole-v0`. Otherwise the length of an episode would tell an imitator how well
+    it drives, and the discriminator would not be tested.
     """
 
     def __init__(self, env: gym.Env):
@@ -63,7 +63,7 @@ CARTPOLE_SCALES = (1.0, 1.0, 0.1, 1.0)  # m, m/s, rad, rad/s
 
 
 def scaled(env: gym.Env, scales: Sequence[float]) -> gym.Env:
-    """The same environment; what it shows is divided by these scales."""
+    """The same environment; its observations are divided by these scales."""
     space, by = env.observation_space, np.array(scales, dtype=np.float32)
     space = gym.spaces.Box(space.low / by, space.high / by, dtype=np.float32)
     return gym.wrappers.TransformObservation(env, lambda state: (state / by).astype(np.float32), space)
@@ -82,7 +82,7 @@ def acrobot() -> gym.Env:
 
 
 def balance(states: np.ndarray) -> np.ndarray:
-    """A hand-written CartPole driver, the demonstrator: push to where the pole falls. (n, 4) -> (n,)."""
+    """A hand-written CartPole driver, the demonstrator: it pushes to where the pole falls. (n, 4) -> (n,)."""
     return (states @ np.array([0.1, 0.3, 0.1, 0.3]) > 0).astype(np.int64)
 
 
@@ -181,7 +181,7 @@ def gail_check(seeds: int, progress: bool) -> Outcome:
 
 @dataclass(frozen=True)
 class Check:
-    """A figure that somebody published, and how we try to reach it."""
+    """A published result, and how we try to reach it."""
 
     learner: str
     task: str
@@ -220,7 +220,7 @@ trained where others published figures: `python -m bootcourse.study.checks` make
 the mean over the seeds is within 1 % of the published figure, or above it.
 
 """
-CLOSE = 0.01  # a mean within 1 % of what can be reached counts as reached: 498 of CartPole's 500
+CLOSE = 0.01  # a mean within 1 % of the published figure counts as reached
 
 
 def reached(outcome: Outcome, check: Check) -> bool:

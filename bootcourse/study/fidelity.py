@@ -3,8 +3,8 @@
 The verdicts follow rules that stand here and were fixed before the study was run:
 
 - cannot be compared: the paper's number contradicts itself, or we have no result;
-- reproduced: at least half of our agents score so, which is to say: within the 95 % interval that the
-  paper's number has for its 20 test episodes, or `CLOSE` to that number;
+- reproduced: at least half of our agents agree, which means: they score within the 95 % interval of the
+  paper's number for its 20 test episodes, or `CLOSE` to that number;
 - partly: fewer do, or none but our interval over training seeds meets the paper's;
 - not reproduced: neither.
 

@@ -61,7 +61,7 @@ class Job:
             raise Interrupted(self.name)
         write_arrays(folder / "results.npz", self._tested(result))
         if self.runs:
-            shutil.rmtree(folder / "runs", ignore_errors=True)  # of an attempt that was killed while writing
+            shutil.rmtree(folder / "runs", ignore_errors=True)  # left by an attempt that was killed while it wrote
             save_runs(result, folder / "runs")
         return earlier
 
@@ -133,7 +133,7 @@ AnyJob = Job | BoundJob | StayingJob
 
 
 def asked(job: AnyJob) -> dict:
-    """Everything that decides the job's result, as JSON reads it back."""
+    """All fields that determine the job's result, as JSON reads them back."""
     return json.loads(json.dumps({name: value for name, value in asdict(job).items() if name not in ("name", "runs")}))
 
 

@@ -61,7 +61,7 @@ TABLES = {
 
 
 def paper_interval(method: str, column: str) -> Estimate:
-    """The 95 % interval that the paper's number has, in its own units, if it stands for 20 episodes.
+    """The 95 % interval of the paper's number, in its own units, if it is the result of 20 episodes.
 
     Rates: exact (Clopper-Pearson). Means: Student's t with the printed deviation.
     """

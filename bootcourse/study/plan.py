@@ -1,4 +1,4 @@
-"""What a study is made of: its jobs, as lists."""
+"""The lists of jobs that a study consists of."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -12,7 +12,7 @@ from bootcourse.study.jobs import BoundJob, Job, StayingJob
 
 GROUP = 10  # seeds that train side by side: with 5, each costs a third more
 PLANNER, ROADS = "planner", 50  # held-out roads that one job of the planner searches
-VARIED = ("sac", "soft", "demos", "bootstrapped")  # the paper's ablation: what a variation is run for
+VARIED = ("sac", "soft", "demos", "bootstrapped")  # the paper's ablation: the methods of every variation
 P, XI, C = (0.5, 0.9, 0.99), (0.0, 20.0, 200.0, 2000.0), (0.0, 2.0, 5.0)  # the sweep
 
 
@@ -94,7 +94,7 @@ def sweep_settings(p: Sequence[float] = P, xi: Sequence[float] = XI, c: Sequence
 
 
 def sweep_jobs(seeds: int, episodes: int, tests: int, scenario: Scenario = DEFAULT, together: int = 10) -> list[Job]:
-    """The sweep in a few large jobs: its agents differ in p, ξ and c, and train side by side all the same."""
+    """The sweep in a few large jobs: its agents differ in p, ξ and c, and still train side by side."""
     agents = [agent for settings in sweep_settings() for agent in with_seeds(settings, seeds)]
     parts = [tuple(agents[i : i + together]) for i in range(0, len(agents), together)]
     return [Job(f"sweep/{i:02}", part, scenario, episodes, tests, runs=False) for i, part in enumerate(parts)]

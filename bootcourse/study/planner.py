@@ -1,11 +1,11 @@
-"""The bound: how much could anybody earn on this very road? A search that knows the simulator.
+"""The planner: the best return that a search with access to the simulator finds on a road.
 
-Beam search over the compiled road: every kept drive is continued by all nine actions at once, and
-the best are kept. It sees the other cars' future, which no driver does, so it is a bound to measure
-others by and not a competitor. What it finds is a list of actions that anybody can replay.
+It is a beam search over the compiled road: every kept drive is continued with all nine actions, and
+the best of these are kept. It uses the other cars' future, which a driver cannot see, so it is a reference
+for other methods and not a competitor. A better drive may exist. Its result is a list of actions.
 
-Set γ below 1 and it answers another question: is it worth leaving the trap for somebody who
-discounts like that (`is_staying_optimal`)?
+With γ below 1 it answers another question: does leaving the trap pay with this discount
+(`is_staying_optimal`)?
 """
 
 import math
@@ -26,7 +26,7 @@ from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, IDLE, N_ACTIONS, Scenario
 from bootcourse.statistics import Estimate, mean, rate
 
-# Two drives whose egos fall into the same cell are the same drive, as far as the search cares.
+# Of the drives whose egos fall into the same cell, the search keeps only the best.
 CELL = {X: 0.25, Y: 0.2, HEADING: 0.02, SPEED: 0.5}  # m, m, rad, m/s
 
 
@@ -36,7 +36,7 @@ class Search:
 
     beam: int = 200  # drives that are kept after each decision
     gamma: float = 1.0  # discount factor; 1 for the return itself
-    keep_lane: bool = False  # only drives that never leave the lane they start in
+    keep_lane: bool = False  # only drives that stay in the lane they start in
     decisions: int | None = None  # how far to look; None: to the episode's end
 
     def __post_init__(self):
@@ -84,7 +84,7 @@ def plan(cars: np.ndarray, scenario: Scenario = DEFAULT, search: Search | None =
         if alive.any():
             scores = totals + search.gamma ** (t + 1) * np.interp(children[:, EGO, SPEED], *worth[decisions - t - 1])
             chosen = select(children, scores, alive, search.beam)
-        else:  # every way ends in an accident: the dearest that could be bought before it
+        else:  # all continuations end in an accident: the one with the highest return
             chosen = totals.argmax(keepdims=True)
         history.append((chosen // N_ACTIONS, chosen % N_ACTIONS, rewards.ravel()[chosen]))
         kept, values = children[chosen], totals[chosen]
@@ -109,8 +109,8 @@ def expand(cars: np.ndarray, scenario: Scenario) -> tuple[np.ndarray, np.ndarray
 def select(children: np.ndarray, scores: np.ndarray, alive: np.ndarray, beam: int) -> np.ndarray:
     """Which children to keep: the best of each cell; of those, a fair share for each lane and speed, then the best.
 
-    Half of the beam is shared out. Without that, all that is kept soon does the same: it hurries
-    towards the trap, and finds too late that it cannot brake any more.
+    Half of the beam is shared out. Otherwise all kept drives soon do the same: they accelerate
+    towards the trap until they cannot brake in time.
     """
     order = np.flatnonzero(alive)
     order = order[np.argsort(-scores[order], kind="stable")]
@@ -120,16 +120,16 @@ def select(children: np.ndarray, scores: np.ndarray, alive: np.ndarray, beam: in
     order, egos = order[np.sort(first)], egos[np.sort(first)]  # still best first
     kinds = egos[:, LANE] * 1000 + np.round(egos[:, SPEED])
     share = max(1, beam // (2 * len(np.unique(kinds))))
-    place = np.empty(len(order), dtype=np.int64)  # among its kind, 0 is the best
+    place = np.empty(len(order), dtype=np.int64)  # rank among those of the same lane and speed, 0 is the best
     for kind in np.unique(kinds):
         place[kinds == kind] = np.arange((kinds == kind).sum())
     return order[np.argsort(place >= share, kind="stable")[:beam]]
 
 
 def future_worth(scenario: Scenario, decisions: int, gamma: float) -> list[tuple[np.ndarray, np.ndarray]]:
-    """What an empty road would still pay: for 0, 1, ... decisions left, (speeds, Σ γ^t r_t) to interpolate in.
+    """The return on an empty road: for 0, 1, ... decisions left, (speeds, Σ γ^t r_t) to interpolate in.
 
-    The ego goes to the best speed as fast as it can and keeps its lane. No drive can do better.
+    The ego goes to the best speed as fast as it can and keeps its lane: an upper bound for every drive.
     """
     a, weights = scenario.ego.acceleration / scenario.clock.decision_rate, scenario.reward
     speeds = np.linspace(0.0, scenario.ego.max_speed, 401)
@@ -167,7 +167,7 @@ def follow(plans: Sequence[Plan]) -> PlanPolicy:
 
 
 def empty_road_return(scenario: Scenario = DEFAULT) -> float:
-    """What nobody can exceed: the return of an episode with no other car on the road."""
+    """An upper bound on every return: that of an episode with no other car on the road."""
     return float(np.interp(scenario.ego.speed, *future_worth(scenario, scenario.clock.decisions, 1.0)[-1]))
 
 
@@ -176,8 +176,8 @@ class Staying:
     """Discounted values from the start of an episode, Σ γ^t r_t, each over the same roads."""
 
     gamma: float
-    idle: Estimate  # does nothing: behind the trap for ever
-    keep_lane: Estimate  # the best drive found that never leaves its lane
+    idle: Estimate  # does nothing: stays behind the trap
+    keep_lane: Estimate  # the best drive found that stays in its lane
     rule: Estimate  # leaves by the backward gap, as the rule does
     best: Estimate  # the best drive found
     gain: Estimate  # best less keep_lane, road by road
@@ -187,7 +187,7 @@ class Staying:
 def is_staying_optimal(
     seeds: Sequence[int], scenario: Scenario = DEFAULT, gamma: float = 0.8, beam: int = 200, progress: bool = False
 ) -> Staying:
-    """At this γ, is staying behind the trap the best one can do, or a failure to find better?
+    """Is staying behind the trap optimal at this γ, as far as the search can tell?
 
     Both searches end where γ^t is under a millionth. If `gain` lies above 0, an agent that stays has
     not found what there is to find; a gain of `rule` over `keep_lane` would say that the rule's own

@@ -19,7 +19,7 @@ from bootcourse.study.jobs import HELD_OUT
 from bootcourse.study.paper import COLUMNS, PRINTED, ROWS, TABLES, arithmetic
 from bootcourse.study.results import Results, StudyResults, join
 
-FIGURES = {  # name: (function, the methods that it cannot do without)
+FIGURES = {  # name: (function, the methods that it needs)
     "margin-against-bonus": (training_figures.margin_against_bonus, ("margin", "demos")),
     "ablation": (training_figures.ablation, ("sac", "soft", "demos", "bootstrapped")),
     "baselines": (training_figures.baselines, ("bc", "cql", "gail", "sac", "bootstrapped")),
@@ -70,7 +70,7 @@ def scenario_part(found: StudyResults, name: str, rule: Results, everyone: Resul
 
 
 def pictures(folder: Path, name: str, results: Results, rule: Results) -> list[str]:
-    """Draw what can be drawn with these methods; Markdown that shows it."""
+    """Draw the figures whose methods are there; returns the Markdown that shows them."""
     figures = {}
     for title, (draw, needed) in FIGURES.items():
         if set(needed) <= set(results.methods):

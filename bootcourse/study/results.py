@@ -54,7 +54,7 @@ class Results:
         return self.episodes(measure).mean(axis=1)
 
     def episodes(self, measure: str) -> np.ndarray:
-        """One of `MEASURES` in every held-out episode, (agents, episodes); what happens or not is 0 or 1."""
+        """One of `MEASURES` in every held-out episode, (agents, episodes); an event is 1 where it happened, else 0."""
         values = self.tested["accident"] == KINDS[measure] if measure in KINDS else self.tested[measure]
         return values.astype(np.float64)
 
@@ -140,7 +140,7 @@ def in_study(root: Path) -> StudyResults:
 
 
 def in_assets(root: Path) -> StudyResults:
-    """What ships, or what is about to."""
+    """The results in an assets folder: what ships, or what is prepared for shipping."""
     files = {name: Path(root) / f"study-{name}.npz" for name in SCENARIOS}
     results = {name: load_results(path) for name, path in files.items() if path.exists()}
     bounds = {name: Path(root) / f"bound-{name}.npz" for name in results}
@@ -155,7 +155,7 @@ def in_assets(root: Path) -> StudyResults:
 
 
 def _bound(root: Path, name: str, tests: int) -> np.ndarray | None:
-    """None until the planner has looked at every episode."""
+    """The planner's return on each episode; None until all of them are computed."""
     jobs = [read_arrays(path) for path in root.glob(f"jobs/bound-{name}/*/results.npz")]
     found = {int(job["first"]) + i: value for job in jobs for i, value in enumerate(job["returns"])}
     return np.array([found[i] for i in range(tests)]) if set(range(tests)) <= set(found) else None

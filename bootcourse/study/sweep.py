@@ -1,4 +1,4 @@
-"""The sweep over p, ξ and c: its one file of results, and what happened at the nearest setting that was run.
+"""The sweep over p, ξ and c: its file of results, and the results of the setting nearest to a given one.
 
 happened = nearest_setting(load_sweep(), p=0.8, xi_multiplier=150, c=1)
 print(happened)
@@ -20,12 +20,12 @@ SHIPPED = Path(__file__).resolve().parents[2] / "assets" / "sweep.npz"
 
 @dataclass(frozen=True)
 class SweepResult:
-    """What the agents of one setting did on the held-out episodes; `curves` holds how they got there."""
+    """What the agents of one setting did on the held-out episodes; `curves` holds their training."""
 
     p: float
     xi_multiplier: float
     c: float
-    exact: bool  # is it the very setting that was asked for?
+    exact: bool  # is it exactly the setting that was asked for?
     results: Results
 
     def mean(self, measure: str) -> Estimate:

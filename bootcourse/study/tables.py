@@ -19,7 +19,7 @@ def markdown(headings: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
 
 
 def number(value: float) -> str:
-    """Four figures at most, and never 1.5e+03."""
+    """Two decimals, fewer for large numbers, without an exponent."""
     if np.isnan(value):
         return "?"
     return f"{value:.0f}" if abs(value) >= 1000 else f"{value:.1f}" if abs(value) >= 100 else f"{value:.2f}"

@@ -60,7 +60,7 @@ decode = Exercise(
 
 
 def speed_cases(rng):
-    """Both sides of every border; then 40 speeds at random."""
+    """Both sides of every limit; then 40 speeds at random."""
     for v in (0.0, 4.9, 5.0, 5.1, 10.0, 12.5, 12.6, 14.9, 15.0, 15.1, 16.0, 20.0):
         yield (v,)
     for v in rng.uniform(0, 20, 40):
@@ -219,7 +219,7 @@ def rates(success, accident, kinds=(1, 2, 3)):
 
 
 def outcomes_cases(rng):
-    """A crash after overtaking, nobody at all, one episode; then 30 at random."""
+    """A crash after overtaking, no success; then 30 at random."""
     yield np.array([900.0]), np.array([800.0]), np.array([1])
     yield np.array([1500.0, 12.0]), np.array([1515.0, 27.0]), np.array([0, 2])
     for _ in range(30):

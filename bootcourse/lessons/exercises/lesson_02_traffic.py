@@ -156,12 +156,12 @@ def incentive(own, before, after, old, p):
 
 
 def changing_cases(rng):
-    """Safe or not, worth it or not, an egoist, a saint, a helpful old follower; then 120 at random."""
-    yield 1.0, 0.1, -3.0, 0.0, 0.0, 0.2, 2.0  # worth it for an egoist, but not safe
-    yield 0.5, 0.1, -1.5, 0.0, 0.5, 0.2, 2.0  # safe, but not worth what it costs the other
+    """Safe or not, worth it or not, politeness 0 to 1, a gain of the old follower alone; then 120 at random."""
+    yield 1.0, 0.1, -3.0, 0.0, 0.0, 0.2, 2.0  # worth it without politeness, but not safe
+    yield 0.5, 0.1, -1.5, 0.0, 0.5, 0.2, 2.0  # safe, but the new follower loses more
     yield 0.5, 0.1, -1.5, 0.0, 0.0, 0.2, 2.0
     yield 0.1, 0.0, 0.0, 0.0, 0.5, 0.2, 2.0  # a gain below the threshold
-    yield 0.0, 0.0, 0.0, 1.0, 0.5, 0.2, 2.0  # for the sake of the car behind
+    yield 0.0, 0.0, 0.0, 1.0, 0.5, 0.2, 2.0  # only the old follower gains
     yield 0.4, -0.9, -1.0, 0.0, 1.0, 0.2, 2.0  # the new follower brakes anyway
     yield 0.3, 2.2, 2.3, 0.0, 1.0, 0.2, 2.0
     for _ in range(120):
@@ -174,7 +174,7 @@ worth_changing = Exercise(
     solution=changing_solution, cases=changing_cases,
     worked=(
         ((0.5, 0.1, -1.5, 0.0, 0.5, 0.2, 2.0), False),  # 0.5 + 0.5 · (-1.6) = -0.3
-        ((0.5, 0.1, -1.5, 0.0, 0.0, 0.2, 2.0), True),  # an egoist
+        ((0.5, 0.1, -1.5, 0.0, 0.0, 0.2, 2.0), True),  # politeness 0
         ((5.0, 0.1, -2.5, 0.0, 0.0, 0.2, 2.0), False),  # not safe
     ),
     mistakes=(
@@ -217,7 +217,7 @@ def heading_solution(error, tau, dt, steps):
 
 
 def heading_cases(rng):
-    """Settled in one step, a swing that stays, one that grows; no step at all; then 30 at random."""
+    """Settled in one step, a constant oscillation, growing ones, no step; then 30 at random."""
     for tau in (0.5, 0.25, 0.2, 0.6):
         yield 1.0, tau, 0.5, 6
     yield 0.1, 0.6, 0.5, 0

@@ -7,14 +7,14 @@ from bootcourse.lessons.exercise import Exercise, Mistake
 
 
 def slower(v_current, v_new, v_min, v_max, n, count=lambda grid, limit: grid[grid < limit], other=min):
-    """The fastest grid speed below a limit, with one thing changed."""
+    """The fastest grid speed below a limit; `count` and `other` make the mistakes."""
     grid = np.linspace(v_min, v_max, n)
     kept = count(grid, other(v_current, v_new))
     return float(kept[-1]) if len(kept) else float(v_min)
 
 
 def speed_cases(rng):
-    """Traps on the grid and off it, a free road, one lane free, everybody too slow; then 60 at random."""
+    """Traps on the grid and off it, a free road, one lane free, all too slow; then 60 at random."""
     inf = float("inf")
     yield 10.0, 10.0, 6.0, 15.0, 5
     yield 8.25, 8.25, 6.0, 15.0, 5
@@ -67,7 +67,7 @@ target_speed = Exercise(
 
 
 def cases(rng):
-    """Corner cases: nobody ahead, equal speeds, closing in on one of the two only; then 60 at random."""
+    """No car ahead, equal speeds, closing in on one of the two only; then 60 at random."""
     inf = float("inf")
     yield 12.0, inf, inf, 2.0, 3.0
     yield 12.0, 10.0, inf, 2.0, 3.0
@@ -121,7 +121,7 @@ def change_solution(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor
 
 
 def change_cases(rng):
-    """Nobody there, trap 2 beside us, just enough and just too little, somebody fast behind; then 150 at random."""
+    """No cars, trap 2 alongside, just enough and just too little room, a fast car behind; then 150 at random."""
     inf = float("inf")
     yield inf, inf, 5.0, 3.0, 8.25, 0.0, 1.5, 3.0
     yield 6.0, inf, 5.0, 3.0, 8.25, 0.0, 1.5, 3.0
@@ -243,7 +243,7 @@ def table(actions, own, other):
 
 
 def stochastic_cases(rng):
-    """Every action, p = 1/9 where nothing is left of the rule; then 40 at random."""
+    """Every action, p = 1/9, which is uniform; then 40 at random."""
     yield np.arange(9), 0.9
     yield np.array([3, 3, 8]), 1 / 9
     yield np.array([0]), 0.999

@@ -16,7 +16,7 @@ def log_stochastic_rule_solution(rule_action, p):
 
 
 def rule_cases(rng):
-    """The first and the last action, one state, nine states, p = 1/2 (as sure as not); then 40 at random."""
+    """The first and the last action, one state, nine states, p = 1/2; then 40 at random."""
     yield torch.tensor([0, 8]), 0.9
     yield torch.tensor([4]), 0.5
     yield torch.arange(9), 0.99
@@ -77,7 +77,7 @@ def reverse(log_pi, rule_action, p):
 
 
 def sure(action, size=9):
-    """A policy that takes one action with all but e⁻⁴⁰ of its probability: (1, 9)."""
+    """log π of a policy that takes one action with probability 1 - 8 e⁻⁴⁰: (1, 9)."""
     return torch.full((1, size), -40.0).double().scatter(-1, torch.tensor([[action]]), 0.0)
 
 
@@ -137,7 +137,7 @@ soft_constraint = Exercise(
 
 
 def policy_cases(rng):
-    """ξ = 0 (the rule counts for nothing), Q all equal, ξ far above α, one state; then 40 at random."""
+    """ξ = 0 (without the rule), Q all equal, ξ far above α, one state; then 40 at random."""
 
     def case(size, alpha, xi, scale=2.0):
         q = torch.tensor(rng.normal(0, scale, (size, 9)))

@@ -108,7 +108,7 @@ def taken(q, expert_action):
 
 
 def others(q, expert_action):
-    """q, with the expert's own action out of the running."""
+    """q, with -∞ for the expert's action."""
     return q.scatter(-1, expert_action.unsqueeze(-1), -torch.inf)
 
 
@@ -116,7 +116,7 @@ large_margin_loss = Exercise(
     "large_margin_loss(q, expert_action)",
     solution=bootstrap.large_margin_loss, cases=q_cases,
     worked=(
-        # the expert leads by 0.5: half a margin is missing. It is behind by 2: three are. It leads by 2: nothing is.
+        # the expert leads by 0.5: the loss is 0.5. It is behind by 2: 3. It leads by 2: 0.
         ((torch.tensor([[1.5, 1.0], [1.0, 3.0], [3.0, 1.0]]), torch.tensor([0, 0, 0])), torch.tensor([0.5, 3.0, 0.0])),
     ),
     mistakes=(
@@ -184,7 +184,7 @@ paper_q_filter = Exercise(
 
 
 def filter_cases(rng):
-    """All Q equal, an expert above the mean but below π's value, the other way round; then 40 at random."""
+    """All Q equal, an expert above the mean but below π's value, the opposite; then 40 at random."""
     even = torch.full((1, 3), -np.log(3)).double()
     greedy = torch.tensor([[0.02, 0.08, 0.9]]).double().log()
     yield torch.ones(2, 3).double(), torch.tensor([0, 2]), even.expand(2, 3).contiguous()

@@ -70,7 +70,7 @@ conservative_loss = Exercise(
 
 
 def logit_cases(rng):
-    """Undecided, sure of both, beyond what a computer can tell from 1; then 40 at random."""
+    """D = 1/2, near 0 and 1, D = 1 in floating point; then 40 at random."""
     yield (torch.zeros(1).double(),)
     yield (torch.tensor([5.0, -5.0]).double(),)
     yield (torch.tensor([60.0, -60.0, 1.0]).double(),)
@@ -215,7 +215,7 @@ def share_of_the_bound_solution(returns, bound):
 
 
 def bound_cases(rng):
-    """As good as can be, crashed at once, a poor road and a rich one; then 40 at random."""
+    """As good as the bound, crashed at once, a low bound and a high one; then 40 at random."""
     yield np.array([[140.0, 141.0]]), np.array([140.0, 141.0])
     yield np.array([[-10.0, -9.5, -9.0], [23.4, 23.4, 23.4]]), np.array([140.0, 141.0, 142.0])
     yield np.array([[20.0, 40.0], [10.0, 80.0]]), np.array([20.0, 160.0])
