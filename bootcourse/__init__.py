@@ -3,16 +3,16 @@
 The front door: `import bootcourse as bc` gives every name in `NAMES` and every module in `MODULES`, each loaded when
 it is first used. The parts, each of which uses only those above it:
 
-errors             the one exception for mistakes that a user can mend
-files              to read and write files whole or not at all
+errors             the exception for mistakes that a user can mend
+files              reading and writing files, whole or not at all
 scenario           the numbers of the road, the cars, the reward and the rule
-colours            one place for every colour
+colours            the colours of figures, panels and 3D
 methods            every method: its settings, its learner, its name, its style
 road               the trap in simulation: formulas, the compiled road, highway-env, what the agent observes
 rule               the rule controller and its stochastic form
-policies           whoever can drive: the rule, chance, a plan, nobody
+policies           who can drive: the rule, a plan, a random or an idle policy
 statistics         means, rates, intervals
-episodes           to drive: one recorded drive, many evaluated episodes, a drive in words
+episodes           driving: one recorded drive, many evaluated episodes, a drive in words
 learn              discrete SAC, the rule's help, the baselines, the training loop
 storage            runs, checkpoints and shipped results on disk
 plots              figures: the road from above, a drive over time, training curves

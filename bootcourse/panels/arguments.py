@@ -34,7 +34,7 @@ def whole_number(called: str, low: int, high: int) -> Callable[[float], None]:
     return check
 
 
-check_road = whole_number("road", 0, 2**32 - 1)  # the seeds of roads on which nobody trains
+check_road = whole_number("road", 0, 2**32 - 1)  # seeds below those of the training roads
 
 
 def an_instance(value: object, kind: type, called: str) -> object:

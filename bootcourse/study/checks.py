@@ -93,10 +93,10 @@ def several(make_env: MakeEnv) -> Callable[[int], SyncVectorEnv]:
 
 def collect(actor: Actor, make_env: MakeEnv, episodes: int, seed: int = DATA_SEED) -> tuple[torch.Tensor, np.ndarray]:
     """Whole episodes of an actor as rows for a `ReplayBuffer`, and their returns (episodes,)."""
-    returns, rows, nobody = np.zeros(episodes), [], np.zeros(episodes, dtype=np.int64)
+    returns, rows, no_teacher = np.zeros(episodes), [], np.zeros(episodes, dtype=np.int64)
     for step in steps(lambda states, cars: PolicyOutput(actor(states)), several(make_env)(episodes), seed):
         seen = step.observations, step.next_observations
-        each = encode_transitions(*seen, step.output.actions, step.rewards, step.terminated, nobody, nobody)
+        each = encode_transitions(*seen, step.output.actions, step.rewards, step.terminated, no_teacher, no_teacher)
         rows.append(each[step.running])
         returns += step.rewards * step.running
     return torch.cat(rows), returns

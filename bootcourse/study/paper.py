@@ -50,7 +50,7 @@ PRINTED = {
     for method, row in _PRINTED.items()
 }
 TABLES = {
-    "BonusNumbers results for different methods of integrating suboptimal demonstrations": (
+    "Comparison results for different methods of integrating suboptimal demonstrations": (
         "sac",
         "soft",
         "demos",

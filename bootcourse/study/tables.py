@@ -46,8 +46,8 @@ def result_table(results: Results, methods: Sequence[str]) -> str:
     for method in methods:
         printed = PRINTED.get(method)
         if printed:
-            jobs = [f"{printed[column].mean:g} ± {printed[column].sd:g}" for column in COLUMNS]
-            rows.append([f"**{ROWS[method]}**", "paper: mean ± SD", *jobs, "", ""])
+            cells = [f"{printed[column].mean:g} ± {printed[column].sd:g}" for column in COLUMNS]
+            rows.append([f"**{ROWS[method]}**", "paper: mean ± SD", *cells, "", ""])
         if method not in results.methods:
             rows.append(["", "ours", *["not run"] * len(MEASURES)])
             continue
@@ -67,13 +67,13 @@ def escape_table(results: Results, bound: np.ndarray | None = None) -> str:
     for method in results.methods:
         mine = results.of(method)
         success = mine.scores("success")
-        jobs = [display_name(method), f"{int((success >= 0.5).sum())} of {len(success)}"]
-        jobs.append(bracketed(escapes(success), 100) if len(success) > 1 else "")
+        cells = [display_name(method), f"{int((success >= 0.5).sum())} of {len(success)}"]
+        cells.append(bracketed(escapes(success), 100) if len(success) > 1 else "")
         returns = mine.scores("returns")
-        jobs.append(f"{number(returns.min())} to {number(returns.max())}")
+        cells.append(f"{number(returns.min())} to {number(returns.max())}")
         if bound is not None:
-            jobs.append(bracketed(interval(returns / bound.mean()), 100))
-        rows.append(jobs)
+            cells.append(bracketed(interval(returns / bound.mean()), 100))
+        rows.append(cells)
     headings = ["method", "agents that escape", "share of agents, % [95 %, exact]", "returns of single agents"]
     return markdown([*headings, *(["share of the best known return, % (IQM)"] if bound is not None else [])], rows)
 
@@ -94,11 +94,11 @@ def fidelity_table(findings: dict[str, list[FidelityRow]]) -> str:
     scenarios = list(findings)
     for alike in zip(*findings.values(), strict=True):
         first = alike[0]
-        jobs = [ROWS[first.method], COLUMNS[first.column], bracketed(first.paper)]
+        cells = [ROWS[first.method], COLUMNS[first.column], bracketed(first.paper)]
         for finding in alike:
-            jobs.append("not run" if finding.ours is None else bracketed(finding.ours))
-            jobs.append(f"**{finding.verdict}** {finding.reason}")
-        rows.append(jobs)
+            cells.append("not run" if finding.ours is None else bracketed(finding.ours))
+            cells.append(f"**{finding.verdict}** {finding.reason}")
+        rows.append(cells)
     headings = ["row", "number", "paper [95 % of 20 episodes]"]
     for scenario in scenarios:
         headings += [f"ours, {scenario}", f"verdict, {scenario}"]
@@ -111,9 +111,9 @@ def sensitivity_table(results: dict[str, Results], measure: str) -> str:
     scale = 100 if measure in RATES else 1
     rows = []
     for variation, found in results.items():
-        jobs = []
+        cells = []
         for method in methods:
             scores = found.of(method).scores(measure) * scale
-            jobs.append(f"{number(scores.mean())} ({number(scores.min())} to {number(scores.max())})")
-        rows.append([variation, *jobs])
+            cells.append(f"{number(scores.mean())} ({number(scores.min())} to {number(scores.max())})")
+        rows.append([variation, *cells])
     return markdown([HEADINGS[measure], *(display_name(method) for method in methods)], rows)
