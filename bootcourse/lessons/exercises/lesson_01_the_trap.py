@@ -141,14 +141,11 @@ reward = Exercise(
             "You return the weighted sum. The reward is the weighted mean: divide by the sum of the weights, 1.6.",
             "The weights add up to one."),
         Mistake(lambda v, d, theta, accident:
-            (-10.0 if accident else (weighted_sum(v, d, theta) + 0.1 * abs(np.sin(theta))) / 1.6),
+            -10.0 if accident else (weighted_sum(v, d, theta) + 0.1 * abs(np.sin(theta))) / 1.6,
             "Your reward grows with the steering angle. r_θ is a cost: -|sin θ|.",
             "Every term of a reward is something good."),
-        Mistake(lambda v, d, theta, accident: (
-                    -10.0
-                    if accident
-                    else (1.5 * formulas.speed_reward(v) + 0.05 * np.exp(-1.5 * d**2) - 0.05 * np.sin(theta)) / 1.6
-                ),
+        Mistake(lambda v, d, theta, accident:
+            -10.0 if accident else (weighted_sum(v, d, 0.0) - 0.05 * np.sin(theta)) / 1.6,
             "You reward steering to the left, where sin θ is negative. The cost uses the absolute value, |sin θ|.",
             "The sign of the steering angle does not matter, so the absolute value can be left out."),
     ),

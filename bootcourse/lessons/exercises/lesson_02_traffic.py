@@ -190,15 +190,15 @@ worth_changing = Exercise(
             "minus before.",
             "Its acceleration afterwards is its loss."),
         Mistake(lambda own, before, after, old, p, th, limit:
-            (after >= -limit and incentive(own, before, after, 0, p) > th),
+            after >= -limit and incentive(own, before, after, 0, p) > th,
             "You forgot the old follower: the car behind gains when you leave its lane.",
             "The car that stays behind is not affected."),
         Mistake(lambda own, before, after, old, p, th, limit:
-            (after >= -limit and incentive(own, before, after, old, p) > 0),
+            after >= -limit and incentive(own, before, after, old, p) > 0,
             "You left out the threshold: without it drivers change lanes back and forth for tiny gains.",
             "Any gain is a gain."),
         Mistake(lambda own, before, after, old, p, th, limit:
-            (after >= -limit and incentive(own, after, before, old, p) > th),
+            after >= -limit and incentive(own, after, before, old, p) > th,
             "Your new follower gains when it has to brake: its gain is `follower_after - follower_before`.",
             "A gain is before minus after."),
     ),

@@ -144,12 +144,12 @@ room_to_change = Exercise(
     ),
     mistakes=(
         Mistake(lambda front, rear, length, d_s, v, v_rear, t, floor:
-            (front - length < d_s and rear - length > max(floor, (v_rear - v) * t)),
+            front - length < d_s and rear - length > max(floor, (v_rear - v) * t),
             "You change lane when the gap ahead is *shorter* than the safety distance, as the paper prints it. It has "
             "to be longer.",
             "A printed formula is right."),
         Mistake(lambda front, rear, length, d_s, v, v_rear, t, floor:
-            (front > d_s and rear > max(floor, (v_rear - v) * t)),
+            front > d_s and rear > max(floor, (v_rear - v) * t),
             "You measure from centre to centre. The gap is from bumper to bumper: subtract a car's length from each "
             "distance.",
             "The distance between two cars is the distance between their positions."),
@@ -157,16 +157,16 @@ room_to_change = Exercise(
             "You look ahead only. The car behind you in the new lane needs its distance, too.",
             "The driver behind has to take care."),
         Mistake(lambda front, rear, length, d_s, v, v_rear, t, floor:
-            (front - length > d_s and rear - length > max(floor, (v - v_rear) * t)),
+            front - length > d_s and rear - length > max(floor, (v - v_rear) * t),
             "Behind you, the *other* car closes in: the distance that you need there grows with v_rear - v_ego.",
             "The same formula serves ahead and behind."),
         Mistake(lambda front, rear, length, d_s, v, v_rear, t, floor:
-            (front - length > d_s and rear - length > (v_rear - v) * t),
+            front - length > d_s and rear - length > (v_rear - v) * t,
             "If the car behind is slower than you, your needed distance is negative, and you cut in right in front of "
             "it. Apply the floor there, too.",
             "The floor belongs to the formula for the car ahead."),
         Mistake(lambda front, rear, length, d_s, v, v_rear, t, floor:
-            (front - length > d_s or rear - length > max(floor, (v_rear - v) * t)),
+            front - length > d_s or rear - length > max(floor, (v_rear - v) * t),
             "Room ahead *or* behind is not enough: you need both.",
             "Room on one side is enough."),
     ),

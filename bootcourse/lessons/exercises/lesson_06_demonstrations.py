@@ -86,12 +86,6 @@ def forwards(rewards, gamma):
     return togo
 
 
-def one_step(rewards, gamma):
-    """The next reward instead of the next value."""
-    rewards = np.array(rewards, dtype=float)
-    return rewards + gamma * np.append(rewards[1:], 0.0)
-
-
 def reward_cases(rng):
     """γ of 0 and of 1, one reward, a late reward; then 40 at random."""
     yield np.array([1.0, 2.0, 3.0]), 0.0
@@ -123,7 +117,7 @@ return_to_go = Exercise(
         Mistake(forwards,
             "You go forwards in time, so each second adds up the past. Begin at the last second.",
             "A loop over time begins at 0."),
-        Mistake(one_step,
+        Mistake(lambda rewards, gamma: rewards + gamma * np.append(rewards[1:], 0.0),
             "You add γ times the next *reward*. Add γ times the next *value*, which contains all later rewards.",
             "Only the next second counts."),
     ),

@@ -234,7 +234,7 @@ constrained_loss = Exercise(
             "Your KL has no weight: multiply it by ξ.",
             "A KL in nats is already on the reward's scale."),
         Mistake(lambda log_pi, q, alpha, xi, kl:
-            (-((log_pi.exp() * (q.detach() + alpha * log_pi)).sum(-1) - xi * kl).mean()),
+            -((log_pi.exp() * (q.detach() + alpha * log_pi)).sum(-1) - xi * kl).mean(),
             "You penalise entropy: H is *minus* the sum of π log π, so α log π is subtracted from Q.",
             "Entropy is the sum of π log π."),
     ),

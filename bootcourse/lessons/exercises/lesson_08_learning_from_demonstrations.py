@@ -131,7 +131,7 @@ large_margin_loss = Exercise(
             "actions, the expert's included.",
             "The maximum is over the other actions."),
         Mistake(lambda q, expert:
-            (taken(q, expert) - (q + 1 - torch.nn.functional.one_hot(expert, q.shape[-1])).amax(-1)),
+            taken(q, expert) - (q + 1 - torch.nn.functional.one_hot(expert, q.shape[-1])).amax(-1),
             "Your sign is wrong: the loss grows with the expert's lead, so training would reduce the lead.",
             "The expert's value comes first, since it is the one that should be large."),
         Mistake(lambda q, expert: (q + 1 - torch.nn.functional.one_hot(expert, q.shape[-1])).sum(-1) - taken(q, expert),

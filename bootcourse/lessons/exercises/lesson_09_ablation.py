@@ -12,19 +12,9 @@ def exact_interval_solution(k, n):
     return np.array([low, high])
 
 
-def wald(k, n):
-    half = 1.96 * np.sqrt(k / n * (1 - k / n) / n)
-    return np.array([k / n - half, k / n + half])
-
-
 def of_one_end(k, n):
     low = stats.beta.ppf(0.05, k, n - k + 1) if k > 0 else 0.0
     return np.array([low, stats.beta.ppf(0.95, k + 1, n - k) if k < n else 1.0])
-
-
-def wilson(k, n):
-    test = stats.binomtest(k, n).proportion_ci(method="wilson")
-    return np.array([test.low, test.high])
 
 
 def count_cases(rng):
@@ -40,7 +30,7 @@ exact_interval = Exercise(
     solution=exact_interval_solution, cases=count_cases,
     worked=(((1, 1), np.array([0.025, 1.0])), ((0, 1), np.array([0.0, 0.975]))),  # rate ** 1 = 0.025
     mistakes=(
-        Mistake(wald,
+        Mistake(lambda k, n: k / n + 1.96 * np.array([-1, 1]) * np.sqrt(k / n * (1 - k / n) / n),
             "This is the normal approximation. At 0 of 10 its interval has length 0, as if the rate were known "
             "exactly.",
             "1.96 standard errors are always 95 %."),
@@ -54,7 +44,7 @@ exact_interval = Exercise(
             "You take both ends from one beta distribution, as in a Bayesian interval. The exact ends come from two "
             "different ones.",
             "An interval is two quantiles of one distribution."),
-        Mistake(wilson,
+        Mistake(lambda k, n: np.array([*stats.binomtest(k, n).proportion_ci(method="wilson")]),
             "This is Wilson's interval: it is shorter, and holds the true rate in about 95 % of the cases. The exact "
             "one does so in at least 95 %.",
             "All good intervals of a rate agree."),
@@ -71,11 +61,6 @@ exact_interval = Exercise(
 def interquartile_mean_solution(scores):
     cut = len(scores) // 4
     return np.sort(scores)[cut : len(scores) - cut].mean()
-
-
-def unsorted(scores):
-    cut = len(scores) // 4
-    return scores[cut : len(scores) - cut].mean()
 
 
 def score_cases(rng):
@@ -99,7 +84,7 @@ interquartile_mean = Exercise(
         Mistake(np.median,
             "This is the median, the score of one or two agents. Average the middle *half*.",
             "A robust mean is a median."),
-        Mistake(unsorted,
+        Mistake(lambda scores: scores[len(scores) // 4 : len(scores) - len(scores) // 4].mean(),
             "You cut by position, not by size: sort the scores first.",
             "The scores are sorted already."),
         Mistake(lambda scores: np.percentile(scores, [25, 75]).mean(),

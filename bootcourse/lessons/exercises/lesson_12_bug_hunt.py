@@ -203,11 +203,6 @@ def fixed_value_solution(log_pi, q, alpha):
     return (log_pi.exp() * (q - alpha * log_pi)).sum(-1)
 
 
-def greedy(log_pi, q, alpha):
-    best = log_pi.argmax(-1, keepdim=True)
-    return (q - alpha * log_pi).gather(-1, best).squeeze(-1)
-
-
 def value_cases(rng):
     """α = 0, one state, an even policy, nine states; then 40 at random."""
     for number in range(44):
@@ -224,7 +219,8 @@ fixed_value = Exercise(
         ((torch.full((1, 2), -math.log(2)), torch.tensor([[1.0, 3.0]]), 0.5), torch.tensor([2 + 0.5 * math.log(2)])),
     ),
     mistakes=(
-        Mistake(greedy,
+        Mistake(lambda log_pi, q, alpha:
+            (q - alpha * log_pi).gather(-1, log_pi.argmax(-1, keepdim=True)).squeeze(-1),
             "You use the most probable action only. All nine count, each with its probability π.",
             "The policy takes its most probable action, so the state has the value of that action."),
         Mistake(lambda log_pi, q, alpha: (q - alpha * log_pi).mean(-1),
@@ -286,7 +282,7 @@ fixed_loss = Exercise(
         Mistake(lambda log_pi, q, log_rule, alpha, xi: loss_of(log_pi, q, log_rule, alpha, xi, flipped=True),
             "Both bugs are still there: the gradient flows into Q, and the KL is the other way round.",
             "The code runs, so it is right."),
-        Mistake(lambda log_pi, q, log_rule, alpha, xi: loss_of(log_pi, q, log_rule, alpha, xi),
+        Mistake(loss_of,
             "The KL is right. But a gradient still flows into Q: the actor's step would change the critic.",
             "The value of the loss is what counts."),
         Mistake(lambda log_pi, q, log_rule, alpha, xi: loss_of(log_pi, q.detach(), log_rule, alpha, xi, True),
