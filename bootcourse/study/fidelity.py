@@ -43,11 +43,11 @@ def scores_of(results: Results, method: str, column: str) -> np.ndarray:
     return results.of(method).scores(column) * (100 if column in RATES else 1)
 
 
-def estimate(results: Results, method: str, column: str) -> Estimate:
-    """Our mean in the paper's units, with its interval over agents; of a single driver, over its episodes."""
+def estimate(results: Results, method: str, column: str, statistic=mean_over) -> Estimate:
+    """A statistic in the paper's units with its interval over agents; of a single driver, the mean of its episodes."""
     scale, mine = (100 if column in RATES else 1), results.of(method)
     if len(mine) > 1:
-        return Estimate(*(scale * number for number in interval(mine.scores(column), mean_over)))
+        return Estimate(*(scale * number for number in interval(mine.scores(column), statistic)))
     episodes = mine.episodes(column)[0]
     return Estimate(*(scale * number for number in (rate(episodes > 0) if column in RATES else mean(episodes))))
 

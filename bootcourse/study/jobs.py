@@ -69,11 +69,8 @@ class Job:
         if not (folder / "checkpoint.npz").exists():
             return Training(self.settings, self.episodes, self.scenario)
         training = load_checkpoint(folder / "checkpoint.npz")
-        if (training.settings, training.episodes, training.scenario) != (
-            [*self.settings],
-            self.episodes,
-            self.scenario,
-        ):
+        wanted = ([*self.settings], self.episodes, self.scenario)
+        if (training.settings, training.episodes, training.scenario) != wanted:
             raise BootcourseError(f"{folder} was begun with other settings: choose another folder, or delete this one.")
         return training
 

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from bootcourse.methods import display_name
-from bootcourse.statistics import Estimate, escapes, improvement, interval, mean, rate
-from bootcourse.study.fidelity import FidelityRow
+from bootcourse.statistics import ESCAPES, Estimate, escapes, improvement, interval, iqm
+from bootcourse.study.fidelity import FidelityRow, estimate
 from bootcourse.study.paper import COLUMNS, PRINTED, RATES, ROWS
 from bootcourse.study.results import MEASURES, Results
 
@@ -32,12 +32,8 @@ def bracketed(estimate: Estimate, scale: float = 1) -> str:
 
 
 def score(results: Results, method: str, measure: str) -> Estimate:
-    """Interquartile mean over agents with its interval; of a driver that is not trained, over its episodes."""
-    mine, scale = results.of(method), 100 if measure in RATES else 1
-    if len(mine) > 1:
-        return Estimate(*(scale * part for part in interval(mine.scores(measure))))
-    episodes = mine.episodes(measure)[0]
-    return Estimate(*(scale * part for part in (rate(episodes > 0) if measure in RATES else mean(episodes))))
+    """Interquartile mean over agents with its interval; of a driver that is not trained, the mean of its episodes."""
+    return estimate(results, method, measure, iqm)
 
 
 def result_table(results: Results, methods: Sequence[str]) -> str:
@@ -67,7 +63,7 @@ def escape_table(results: Results, bound: np.ndarray | None = None) -> str:
     for method in results.methods:
         mine = results.of(method)
         success = mine.scores("success")
-        cells = [display_name(method), f"{int((success >= 0.5).sum())} of {len(success)}"]
+        cells = [display_name(method), f"{int((success >= ESCAPES).sum())} of {len(success)}"]
         cells.append(bracketed(escapes(success), 100) if len(success) > 1 else "")
         returns = mine.scores("returns")
         cells.append(f"{number(returns.min())} to {number(returns.max())}")
