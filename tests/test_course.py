@@ -129,7 +129,7 @@ def test_text_is_refreshed_without_execution_and_code_is_not(copy):
 
 def test_a_solution_that_does_not_pass_stops_the_making(tmp_path):
     path = write_source(tmp_path, EXAMPLE.replace("min(v_current, v_new)", "max(v_current, v_new)"))
-    with pytest.raises(CellExecutionError, match="faster of the two cars"):
+    with pytest.raises(CellExecutionError, match="speed of the faster car"):
         make(path)
 
 

@@ -94,7 +94,7 @@ def _listening(live):
     from asyncio.base_events import Server
 
     for thing in gc.get_objects():
-        if isinstance(thing, Server) and thing.get_loop() is loop:
+        if issubclass(type(thing), Server) and thing.get_loop() is loop:  # isinstance would wake deprecated torch names
             found += thing.sockets
     return found
 
