@@ -96,13 +96,20 @@ def test_the_file_plays_without_a_network_and_every_car_is_where_it_was(whole_ep
         assert page.page.inner_text("#bc-numbers") != before, "it does not play"
         for t in (60.0, 0.0, 33.4):  # forwards and backwards
             go_to(page.page, t)
-            placed = page.page.evaluate(CARS, cars)
-            drawn = round(t * 30) / 30  # the frame that the file holds
-            near = [scene.view(timelines, drawn + shift)[0] for shift in (-1 / 30, 0.0, 1 / 30)]
-            wrong = [
-                max(np.hypot(v.x[c] - placed[n][0], v.y[c] - placed[n][1]) for c, n in enumerate(cars)) for v in near
-            ]
-            assert min(wrong) < 5e-3, (t, wrong)
+            frame = round(t * 30)  # the one that the file holds
+            near = [scene.view(timelines, (frame + shift) / 30)[0] for shift in (-1, 0, 1)]
+
+            def apart(near=near) -> float:
+                """How far the car that is farthest off is from where it was (m); a busy machine draws it late."""
+                placed = page.page.evaluate(CARS, cars)
+                return min(
+                    max(np.hypot(v.x[c] - placed[n][0], v.y[c] - placed[n][1]) for c, n in enumerate(cars)) for v in near
+                )
+
+            ends = time.monotonic() + 15
+            while (wrong := apart()) >= 5e-3 and time.monotonic() < ends:
+                page.page.wait_for_timeout(200)
+            assert wrong < 5e-3, (t, wrong)
             shown = float(page.page.inner_text("#bc-numbers .big b >> nth=0"))
             assert abs(shown - t) <= 0.5, "the numbers lag behind"
             rings = page.page.evaluate(NODES, [f"{car}/ring" for car in cars])
