@@ -140,7 +140,7 @@ def my_rule(cars, scenario):
     # solution
     lane = int(cars[EGO, LANE])
     gap, v = ahead(cars, lane, scenario)
-    if lane == 0:  # the free lane: half a metre per second slower than who is near
+    if lane == 0:  # the free lane: 0.5 m/s slower than a car that is near
         return toward(cars, 15.0 if gap > 25 else min(15.0, v - 0.5), 0, scenario)
     left_gap, left_v = ahead(cars, lane - 1, scenario)
     settled = abs(cars[EGO, Y] - lane * scenario.road.lane_width) < 0.5
