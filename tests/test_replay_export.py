@@ -103,7 +103,8 @@ def test_the_file_plays_without_a_network_and_every_car_is_where_it_was(whole_ep
                 """How far the car that is farthest off is from where it was (m); a busy machine draws it late."""
                 placed = page.page.evaluate(CARS, cars)
                 return min(
-                    max(np.hypot(v.x[c] - placed[n][0], v.y[c] - placed[n][1]) for c, n in enumerate(cars)) for v in near
+                    max(np.hypot(v.x[c] - placed[n][0], v.y[c] - placed[n][1]) for c, n in enumerate(cars))
+                    for v in near
                 )
 
             ends = time.monotonic() + 15
