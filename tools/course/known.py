@@ -22,7 +22,7 @@ from bootcourse.lessons.exercises import registry
 from bootcourse.policies import idle_policy, plan_policy, rule_policy
 from bootcourse.road import formulas, observation
 from bootcourse.road.formulas import centring_reward, speed_reward
-from bootcourse.road.state import EGO, SPEED, TRAP_2, Accident, X, Y
+from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, Accident, X, Y
 from bootcourse.rule import HEADING_COST, stochastic_rule, target_speed
 from bootcourse.scenario import ACTION_NAMES, CALIBRATED, DEFAULT, N_ACTIONS, RULE_P
 from bootcourse.statistics import ESCAPES, escapes, improvement, interval, iqm, rate
@@ -129,3 +129,30 @@ def planned(beam: int, gamma: float, keep_lane: bool = False, road: int = ROAD) 
 def undecided(method: str, first: int, last: int | None) -> float:
     """The mean effective number of actions of a method's agents in some of their training episodes."""
     return float(np.exp(of(method).curves["entropy"][:, first:last].mean()))
+
+
+@cache
+def rule_drives() -> list:
+    """The rule's drives on the 60 roads of lesson 6."""
+    return record(rule_policy(DEFAULT), range(60))
+
+
+def way_out() -> tuple[float, float]:
+    """After how many seconds the rule is in the free lane, and ahead of trap 1: medians of those drives."""
+    cars = [drive.states[::2] for drive in rule_drives()]
+    free = [np.argmax(each[:, EGO, LANE] == 0) for each in cars]
+    ahead = [np.argmax(each[:, EGO, X] > each[:, TRAP_1, X]) for each in cars]
+    return float(np.median(free)), float(np.median(ahead))
+
+
+def rule_keeps_left(second: int) -> float:
+    """The share of those drives in which the rule keeps its speed and steers left at a second."""
+    keep_left = ACTION_NAMES.index("keep left")
+    return float(np.mean([drive.actions[second] == keep_left for drive in rule_drives()]))
+
+
+@cache
+def clone_agrees(seed: int, second: int) -> float:
+    """The share of 40 roads on which a clone of the study does at a second what the rule would do in its place."""
+    drives = record(shipped_runs("bc")[seed].agent.as_policy(), range(40))
+    return float(np.mean([drive.actions[second] == drive.rule_actions[second] for drive in drives]))
