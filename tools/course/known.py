@@ -11,7 +11,7 @@ import gymnasium as gym
 import numpy as np
 import torch
 
-from bootcourse.episodes.evaluate import held_out_seeds
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.files import read_arrays
 from bootcourse.learn import bootstrap, sac
@@ -19,7 +19,7 @@ from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.settings import settings_for
 from bootcourse.lessons import bugs, shipped
 from bootcourse.lessons.exercises import registry
-from bootcourse.policies import idle_policy, plan_policy, rule_policy
+from bootcourse.policies import idle_policy, plan_policy, random_policy, rule_policy
 from bootcourse.road import formulas, observation
 from bootcourse.road.formulas import centring_reward, speed_reward
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, Accident, X, Y
@@ -30,7 +30,7 @@ from bootcourse.storage.assets import FOLDER
 from bootcourse.study import report
 from bootcourse.study.checks import CHECKS
 from bootcourse.study.paper import EPISODES, PRINTED, paper_interval
-from bootcourse.study.planner import Search, plan_episodes
+from bootcourse.study.planner import Search, discounted_values, plan_episodes
 from bootcourse.study.results import KINDS, Results, in_assets
 from tools.course.source import NOTEBOOKS
 
@@ -156,3 +156,28 @@ def clone_agrees(seed: int, second: int) -> float:
     """The share of 40 roads on which a clone of the study does at a second what the rule would do in its place."""
     drives = record(shipped_runs("bc")[seed].agent.as_policy(), range(40))
     return float(np.mean([drive.actions[second] == drive.rule_actions[second] for drive in drives]))
+
+
+@cache
+def discounted_scores(method: str) -> np.ndarray:
+    """The shipped agents' discounted returns at their own γ, each the mean of 200 held-out roads: (agents,)."""
+    agents, seeds = [run.agent for run in shipped_runs(method)], held_out_seeds(1, 200)
+    return np.array([discounted_values(a.as_policy(), seeds, DEFAULT, a.settings.gamma).mean() for a in agents])
+
+
+@cache
+def by_chance():
+    """Lesson 5's 5,000 random drives."""
+    return drive_episodes(random_policy(np.random.default_rng(0)), held_out_seeds(6, 5000))
+
+
+@cache
+def cooling_updates(part: float) -> int:
+    """After how many of Adam's steps α is this part of its start if η = −1 and the entropy stays 0."""
+    log_alpha = torch.zeros(1, dtype=torch.float64, requires_grad=True)
+    optimiser, steps = torch.optim.Adam([log_alpha], lr=SETTINGS.alpha_lr), 0
+    while log_alpha.item() > math.log(part):
+        log_alpha.grad = log_alpha.detach().exp() * (0 - SETTINGS.target_entropy)
+        optimiser.step()
+        steps += 1
+    return steps
