@@ -332,7 +332,7 @@ seconds = range(31)
 curves = {"rule itself": strangeness(bc.rule_policy(bc.DEFAULT), seconds)}
 for agent in rule_clones[:2]:
     curves[f"BC clone, seed {agent.settings.seed}"] = strangeness(agent.as_policy(), seconds)
-title = "The clones drive further and further away from the demonstrated states"
+title = "The clones leave the states that the demonstrations cover"
 away = "distance to the nearest demonstrated state (scaled numbers of the observation)"
 bc.show(charts.lines(seconds, curves, title, "time (s)", away))
 
