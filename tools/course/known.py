@@ -10,6 +10,7 @@ from functools import cache
 import gymnasium as gym
 import numpy as np
 import torch
+from scipy import stats
 
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
@@ -193,3 +194,35 @@ def demonstrated_q() -> np.ndarray:
     did = np.concatenate([drive.actions[:20] for drive in drives])
     values = [run.agent.q_values(seen) for run in shipped_runs("demos")]
     return np.array([each[np.arange(len(did)), did].mean() for each in values])
+
+
+def in_training(method: str, first: int, last: int | None) -> np.ndarray:
+    """Each agent's success in some of its training episodes, (agents,)."""
+    return of(method).curves["success"][:, first:last].mean(axis=1)
+
+
+def losing(method: str) -> np.ndarray:
+    """Which agents lose 20 points of success as the demonstrations end: 600 to 800 against 900 to 1,100, (agents,)."""
+    return in_training(method, 900, 1100) < in_training(method, 600, 800) - 0.2
+
+
+def nearest_to_iqm(method: str) -> float:
+    """How far the interquartile mean of a method's returns is from the agent nearest to it."""
+    returns = of(method).scores("returns")
+    return float(np.abs(returns - iqm(returns)).min())
+
+
+def with_one_agent(method: str) -> float:
+    """Fisher's p of our agents that escape against the paper's row, if one agent stands behind that row."""
+    won, theirs = escaped(method), int(PRINTED[method]["success"].mean >= 50)
+    return float(stats.fisher_exact([[won, len(of(method)) - won], [theirs, 1 - theirs]]).pvalue)
+
+
+def positive_target(method: str, measure: str, change: str = "entropy") -> np.ndarray:
+    """Scores of a method's agents in the variations with a positive target entropy."""
+    return np.concatenate([varied()[c].of(method).scores(measure) for c in varied() if change in c])
+
+
+def ended_ahead(method: str, agents: int = 5) -> np.ndarray:
+    """How many training episodes the agents that ship with their networks ended ahead of trap 1, (agents,)."""
+    return of(method).curves["success"][:agents].sum(axis=1)
