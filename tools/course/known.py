@@ -184,6 +184,7 @@ def cooling_updates(part: float) -> int:
     return steps
 
 
+@cache
 def demonstrated_q() -> np.ndarray:
     """After training, what the shipped agents with demonstrations only think of the rule's actions, (agents,).
 
