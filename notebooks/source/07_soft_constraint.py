@@ -15,8 +15,8 @@
 #
 # **What you will be able to do**
 # - turn a rule into a probability for each action, and say in nats what it costs to ignore it;
-# - write down the best compromise between what a learner believes and what the rule says;
-# - say where this pull enters the learner's losses, and how fast it lets go.
+# - write down the best compromise between a learner's Q and what the rule says;
+# - say where this pull enters the learner's losses, and how fast it fades.
 #
 # **Time** 50 minutes, about one of them the machine's. **You need** the rule of lesson 3, and
 # actor, critic and soft value from lesson 4.
@@ -32,7 +32,7 @@ from bootcourse.lessons import charts, check, source
 # %% [markdown]
 # ## Look first
 #
-# An agent that has learned nothing yet drives, and the rule looks over its shoulder. Each row is
+# An agent that has learned nothing yet drives, and you see what the rule would do. Each row is
 # one of the nine actions. The first bar is the agent's own probability, π. The second is the
 # rule's, π̃ ("pi tilde"): nearly all on one action. The third is a compromise of the two. Move the
 # numbers and watch the third.
@@ -48,22 +48,22 @@ bc.panels.policy_panel(first_drive)
 # > look like then? Do it, and put ξ back to 2.
 
 # %% [markdown]
-# **See.** The compromise loses the rule and follows Q alone, the agent's own guesses, which are
-# still noise. ξ is how hard the rule pulls. This lesson takes the pull apart: what it costs to
-# ignore the rule, which compromise is best, where it enters the losses, and how it fades.
+# **See.** The compromise now depends on Q alone, the agent's own estimates, which are still noise.
+# ξ is how hard the rule pulls. This lesson takes the pull apart: what it costs to ignore the rule,
+# which compromise is best, where it enters the losses, and how it fades.
 
 # %% [markdown]
 # ## Round 1: what it costs to ignore the rule
 #
-# The rule names one action, μ(s). To compare it with an agent that has probabilities, we pretend
-# that the rule is a little unsure. It takes its own action with probability $p$, and the other
-# eight share what is left:
+# The rule names one action, μ(s). An agent has a probability for each action. To compare the two,
+# we make the rule random, too: it takes its own action with probability $p$, and the other eight
+# share what is left:
 #
 # $$ \tilde\pi(a|s) = p \text{ if } a = \mu(s), \qquad \tfrac{1-p}{8} \text{ otherwise} $$
 #
-# Call $-\log \tilde\pi(a|s)$ the **price** of an action. Its unit is the **nat**: what the natural
-# logarithm counts. An action that the rule would surely take costs 0 nats; one that it would take
-# once in $e$ times costs 1.
+# Call $-\log \tilde\pi(a|s)$ the **price** of an action. Its unit is the **nat**, the unit of the
+# natural logarithm. An action that π̃ takes with probability 1 costs 0 nats; one that it takes with
+# probability $1/e$ costs 1.
 #
 # > **Predict.** Raise p from 0.9 to 0.99. Any other action than the rule's becomes ten times as
 # > unlikely. Does its price grow by a factor of ten, of two, or by less?
@@ -74,9 +74,9 @@ for p in (0.5, 0.9, 0.99, 0.999):
     print(f"p = {p:5}: the rule's own action {own:.3f} nats, any other {other:.2f} nats")
 
 # %% [markdown]
-# **See.** From p = {{ RULE_P }} on, the price grows by $\log 10$, about 2.3 nats, each time. The
-# rule did not become better from one line to the next. It became surer of itself, and whoever
-# ignores it pays more.
+# **See.** From p = {{ RULE_P }} on, the price of the other actions grows by $\log 10$, about 2.3
+# nats, each time. The rule names the same action in each line, so it has not become better. Only p
+# has changed, and with it what it costs to do something else.
 #
 # **Exercise 7.1 (5 min, ●○○).** Write $\log\tilde\pi$ for a batch of states.
 
@@ -95,9 +95,8 @@ check.log_stochastic_rule(log_stochastic_rule)
 # %% [markdown]
 # ## Round 2: from one action to a policy
 #
-# An agent does not take one action, it has a probability for each. What does a whole policy pay?
-# The mean price under π, less what π would pay for its own choices. That is the
-# **Kullback-Leibler divergence** (KL) from π̃:
+# A policy has a probability for each action. What does a whole policy pay? The mean price of its
+# actions, minus its entropy. That is the **Kullback-Leibler divergence** (KL) from π̃:
 #
 # $$ D_\mathrm{KL}(\pi \,\|\, \tilde\pi) = \sum_a \pi(a|s) \log \frac{\pi(a|s)}{\tilde\pi(a|s)} $$
 #
@@ -119,12 +118,14 @@ for words, pi in (("agrees", sure), (bc.ACTION_NAMES[7], elsewhere), ("undecided
     print(f"{words:20} KL = {kl:.3f} nats")
 
 # %% [markdown]
-# **Explain.** Being sure of something else costs the full price of that action. Being sure of the
-# rule's own action is cheap, but not free: π̃ itself is only {{ 100 * RULE_P }} % sure, and the KL
-# is 0 for π̃ and for nothing else. So the constraint asks for a little doubt, too.
+# **Explain.** A policy that is sure of another action pays the full price of that action. A policy
+# that is sure of the rule's own action pays little, but not 0: the KL is 0 where the policy equals
+# π̃, which gives that action a probability of {{ 100 * RULE_P | .0f }} %. So the constraint also
+# charges for being surer than π̃.
 #
-# The order of the two matters. $D_\mathrm{KL}(\tilde\pi \| \pi)$ would charge an agent for *not*
-# going where the rule might go. Ours charges it for going where the rule would *not*.
+# The order of the two matters. $D_\mathrm{KL}(\tilde\pi \| \pi)$ is large if the agent gives a
+# small probability to an action that π̃ takes often. Ours is large if the agent gives a large
+# probability to an action that π̃ takes seldom.
 #
 # **Exercise 7.2 (5 min, ●●○).** Write the KL for a batch of states.
 
@@ -156,8 +157,8 @@ source("bootcourse.learn.bootstrap", "log_stochastic_rule", "kl_to_rule")
 # %% [markdown]
 # ## Round 3: the best compromise
 #
-# In one state, with its guesses $Q(s,a)$, the agent now wants three things at once: actions that
-# are worth much, a little chance (entropy, weight α), and not too far from the rule (weight ξ).
+# In one state, with its estimates $Q(s,a)$, the agent now has three goals: actions with a high
+# value, entropy (weight α), and a small distance from the rule (weight ξ).
 #
 # $$ \max_\pi \; \sum_a \pi(a)\, Q(a) + \alpha\, \mathcal{H}(\pi)
 # - \xi\, D_\mathrm{KL}(\pi \| \tilde\pi) $$
@@ -167,8 +168,8 @@ source("bootcourse.learn.bootstrap", "log_stochastic_rule", "kl_to_rule")
 #
 # $$ \pi^*(a) \propto \exp \frac{Q(a) + \xi \log \tilde\pi(a)}{\alpha + \xi} $$
 #
-# The rule's price is subtracted from what an action is worth. And ξ stands below as well: it
-# makes the agent less sure, since π̃ is never quite sure.
+# The price of an action, times ξ, is subtracted from its value. ξ stands in the denominator, too:
+# the larger ξ, the less a difference in Q counts. For a very large ξ the best policy is nearly π̃.
 #
 # **Exercise 7.3 (8 min, ●●○).** Write it.
 
@@ -184,8 +185,8 @@ def regularised_policy(q, log_rule, alpha, xi):
 check.regularised_policy(regularised_policy)
 
 # %% [markdown]
-# Is it really the best? Do not believe the algebra: let an optimiser look for something better,
-# from a policy that is even.
+# Is it really the best? Test the algebra: let an optimiser look for something better, starting from
+# a policy that is even.
 
 # %%
 q = torch.tensor([[0.2, 0.1, 0.0, 0.6, 0.4, 0.1, 0.3, 1.2, 0.2]])
@@ -241,9 +242,12 @@ title = f"Where Q leads by 0.6, the rule takes over at ξ = {tie:.2f}"
 bc.show(charts.lines(strengths, probability, title, "ξ (α = 0.01)", "probability", logarithmic="x"))
 
 # %% [markdown]
-# **Explain.** At ξ = 2 nothing that this road pays outweighs the rule. Only an accident would, and
-# the rule has none: the agent is the rule, and Q does not matter. At ξ = 0.002 the rule is a
-# tie-breaker. In between lies everything interesting, and the agent travels through all of it.
+# **Explain.** At ξ = 2 the head start is larger than the discounted rewards of the best drive that
+# this road allows, so a higher speed never outweighs the rule. An accident would (it pays
+# {{ DEFAULT.reward.accident }}), but the rule has none on the held-out roads. So at first the best
+# policy is close to π̃, whatever the speeds earn. At ξ = 0.002 the head start is under 0.01: the
+# rule decides where the values of two actions are almost equal. In training ξ falls from the first
+# to the second.
 # <!-- claim: second_pays(15) / (1 - 0.8) < 2 * math.log(8 * 0.9 / 0.1) < -DEFAULT.reward.accident
 #   and accidents('rule') == 0 -->
 # <!-- claim: 0.002 * math.log(8 * 0.9 / 0.1) < 0.01 -->
@@ -251,14 +255,14 @@ bc.show(charts.lines(strengths, probability, title, "ξ (α = 0.01)", "probabili
 # %% [markdown]
 # ## Round 4: where the pull enters
 #
-# The objective of the lesson so far was for one state. A learner adds up what comes, so the KL
-# stands inside the return, at every second: each second pays $r + \alpha\mathcal{H} - \xi
-# D_\mathrm{KL}$. Two losses have to know.
+# The objective of Round 3 was for one state. A learner maximises a sum over time, so the KL stands
+# inside the return: each second pays $r + \alpha\mathcal{H} - \xi D_\mathrm{KL}$. This changes two
+# losses.
 #
 # **The actor's**: minus the soft value, now with the KL in it.
 #
 # **Exercise 7.4 (8 min, ●●○).** Write it. The check also looks at where your loss sends a
-# gradient: the actor may not improve its lot by changing the critic's mind.
+# gradient: the actor's loss must not change Q.
 
 
 # %%
@@ -277,12 +281,13 @@ check.constrained_loss(constrained_loss)
 
 # %% [markdown]
 # **The critic's**: its target $r + \gamma V(s')$ uses the soft value of the next state, and that
-# has lost $\xi D_\mathrm{KL}$, too. It is easy to forget, and the paper's text does not say it in
-# so many words. What would it change?
+# is smaller by $\xi D_\mathrm{KL}$, too. This is easy to forget: the paper's text does not write it
+# out. What does it change?
 #
-# > **Predict.** An agent follows trap 1 for ever, at 0.15625 a second. The rule, at every one of
-# > those seconds, would do something else. With γ = 0.8, what is this life worth to the critic
-# > without the KL, and with it, at ξ = 2?
+# > **Predict.** An agent follows trap 1 for ever and gets a reward of 0.15625 each second. In each
+# > of those seconds the rule would do something else. With γ = 0.8, what is following worth to the
+# > critic without the KL, and with it, at ξ = 2?
+# <!-- claim: not (idle().rule_actions == idle().actions).any() -->
 
 # %%
 idle = bc.record(bc.idle_policy, [ROAD], label="idle")[0]
@@ -295,12 +300,13 @@ for xi in (0.0, 0.02, 0.2, 2.0):
     print(f"ξ = {xi:4}: a second is worth {second:6.3f}, all of them {second / (1 - gamma):7.2f}")
 
 # %% [markdown]
-# **Explain.** Without the KL in the target, staying behind is worth a little, and an agent that
-# has seen crashes likes it. With the KL, the same life is a disaster: every second of it is one
-# that the rule would not have. The way out, where the agent does as the rule does, costs next to
-# nothing. So the pull does more than whisper the next action: through the critic it makes whole
-# *futures* dear that the rule would not have, and that reaches states where the actor has not yet
-# learned what the rule says.
+# **Explain.** Without the KL in the target, following is worth a little, and more than a crash.
+# With the KL and ξ = 2 it is worth less than a crash, since each second of it differs from what the
+# rule would do. On a way out on which the agent is sure of the rule's actions, the KL costs
+# {{ -2 * math.log(RULE_P) | .2f }} a second. So the KL does more than pull towards the rule's next
+# action: through the critic it raises the cost of every future in which the rule would have acted
+# differently.
+# <!-- claim: (0.15625 - 2 * math.log(8 / 0.1)) / (1 - 0.8) < DEFAULT.reward.accident < 0.15625 -->
 
 # %% tags=["nbval-ignore-output"]
 source("bootcourse.learn.sac", "soft_value", "actor_loss")
@@ -318,17 +324,18 @@ source("bootcourse.learn.textbook", "TextbookSAC.critic_target", "TextbookSAC.ac
 # does that. A good project for two students: ten seeds each, success against episodes.
 
 # %% [markdown]
-# ## Round 5: letting go
+# ## Round 5: how the pull fades
 #
-# A rule that pulls for ever makes an agent that is never better than the rule. The paper couples
-# the pull to the temperature: $\xi = {{ SETTINGS.xi_multiplier }}\,\alpha$. It starts at α =
-# {{ SETTINGS.alpha_init }}, so ξ = {{ SETTINGS.xi_multiplier * SETTINGS.alpha_init }}, and α falls.
-# Why α falls, and cannot do otherwise here, is a part of lesson 4. How fast can it? Adam, the
-# optimiser, changes log α by at most about its learning rate, {{ SETTINGS.alpha_lr }}, at each
-# update.
+# An agent with ξ = 2 for ever stays close to the rule, also where something else would be better.
+# The paper couples the pull to the temperature: $\xi = {{ SETTINGS.xi_multiplier }}\,\alpha$. It
+# starts at α = {{ SETTINGS.alpha_init }}, so ξ =
+# {{ SETTINGS.xi_multiplier * SETTINGS.alpha_init }}, and α falls: with a target entropy of
+# {{ SETTINGS.target_entropy }} it falls at each update (lesson 4). How fast can it? Adam, the
+# optimiser, changes log α by about its learning rate, {{ SETTINGS.alpha_lr }}, at each update while
+# the slopes stay the same, and by less when they shrink.
 #
 # **Exercise 7.5 (3 min, ●○○).** For several agents at once: ξ = multiplier · α, unless a fixed ξ
-# is given. A fixed ξ of 0 is one, too; a negative number says that there is none.
+# is given. A fixed ξ may be 0; a negative number means that none is given.
 # <!-- claim: bool(bootstrap.constraint_strength(torch.tensor([0.01]), torch.tensor([200.0]),
 #   torch.tensor([0.0])) == 0) -->
 
@@ -345,7 +352,7 @@ check.constraint_strength(constraint_strength)
 
 # %% [markdown]
 # > **Predict.** Four agents train, 6,000 updates each: two whose ξ fades, two whose ξ stays at 2.
-# > They have no demonstrations, nothing but the pull. After how many updates is the fading ξ a
+# > They have the soft constraint and no demonstrations. After how many updates is the fading ξ a
 # > tenth of its start? Which of the two kinds will drive more like the rule at the end? Which
 # > earns more?
 
@@ -384,10 +391,15 @@ title = f"ξ is a tenth of its start after {tenth} updates"
 bc.show(charts.lines(updates, named, title, "update", "ξ = 200 α"))
 
 # %% [markdown]
-# **See.** Exponentially, and more slowly than it could. The slope of α's loss is proportional to α
-# itself, and Adam measures each step against the slopes of the last thousand updates, which were
-# larger. In episodes that is not long: the agents above have driven a few hundred, while
+# **See.** At first ξ falls as fast as Adam can, then more slowly. The slope of the temperature's
+# loss, $\alpha (\mathcal{H} - \eta)$, shrinks as α falls and as the policy becomes surer. Adam
+# divides each slope by an average over about the last thousand, which were larger, so its steps
+# become smaller than the learning rate. From α alone, with an entropy that stays the same, a tenth
+# would take {{ cooling_updates(0.1) | , }} updates, and not the
+# {{ math.log(10) / SETTINGS.alpha_lr | ,.0f }} of full speed. The falling entropy adds to that.
+# Counted in episodes, the pull fades early: the agents above have driven a few hundred, while the
 # demonstrations (lesson 8) fade over {{ SETTINGS.beta_episodes | , }}.
+# <!-- claim: cooling_updates(0.1) > 1.5 * math.log(10) / SETTINGS.alpha_lr -->
 
 # %%
 alike = np.array(notes["alike"]).T
@@ -405,16 +417,19 @@ for words, driver in [*rows, ("the rule", bc.rule_policy(bc.DEFAULT))]:
     print(f"{words:17}{100 * r.success.value:11.1f}{r.returns.value:9.1f}{100 * accidents:14.1f}")
 
 # %% [markdown]
-# **See.** Nobody gave these agents a demonstration: whoever has any success was led out by the pull
-# alone. Compare the table with your prediction, seed by seed. Two seeds are an anecdote; lesson 9
-# has ten.
-# <!-- claim: len(of('soft')) == 10 -->
+# **See.** These agents had no demonstrations. Of the study's {{ len(of('sac')) }} plain SAC agents
+# {{ escaped('sac') }} escapes (lesson 5), so we think that the soft constraint led these out.
+# Compare the table with your prediction, seed by seed. Two seeds prove little; lesson 9 has
+# {{ len(of('soft')) }}.
+# <!-- claim: escaped('sac') == 1 < len(of('sac')) / 2 < escaped('soft') -->
 #
-# **Explain.** Copying a rule nearly right is not driving nearly well: an agent that does as the
-# rule in most seconds can still leave the road in one of the others. The fading agents use the
-# rule to get out and then learn from the road itself, whatever the rule thinks of it. (The paper
-# reports that the soft constraint alone never escapes. On our road, with the KL in the target, you
-# have just seen what happens. When two results differ, both sides' numbers belong on the table.)
+# **Explain.** An agent that does as the rule in most seconds can still leave the road in one of the
+# others: being close to a rule is not the same as driving well. While ξ fades, the rewards of the
+# road count more and more, also where the rule would do something else. (The paper's table gives
+# the soft constraint alone a success of
+# {{ 100 * PRINTED['soft']['success'].mean | .0f }} %. On our road, with the KL in the target,
+# {{ escaped('soft') }} of the study's {{ len(of('soft')) }} agents escape. When two results differ,
+# report both.)
 # <!-- claim: PRINTED['soft']['success'].mean == 0 -->
 # <!-- claim: escaped('soft') > 0 -->
 #
@@ -429,10 +444,11 @@ bc.panels.policy_panel(drive, xi=round(float(xi[0, -1]), 3), alpha=round(result.
 #
 # 1. A rule becomes a distribution by one number, p; the price of an action is minus the logarithm
 #    of its probability.
-# 2. The KL from π̃ to π is what a policy pays for going where the rule would not.
+# 2. The KL from π̃ is what a policy pays for actions that the rule would not take.
 # 3. The best compromise is softmax((Q + ξ log π̃) / (α + ξ)): the rule has a head start of ξ log
 #    (8p / (1 − p)) in Q.
-# 4. The KL belongs in the actor's loss and in the critic's target; there it makes the trap dear.
+# 4. The KL belongs in the actor's loss and in the critic's target; there it lowers the value of
+#    staying in the trap.
 # 5. With ξ = {{ SETTINGS.xi_multiplier }} α the pull fades as fast as α does, within a few thousand
 #    updates.
 #
