@@ -262,10 +262,10 @@ print(f"the actor's likeliest: {likeliest}, with a probability of {policy[does]:
 #
 # A higher temperature alone is no cure: none of the
 # {{ len(varied()['target entropy 1'].of('sac')) }} plain SAC agents that were trained with a target
-# entropy of 1 escaped. The first steps of a way out cost reward or end in an accident, and what
-# would repay them comes after many more right decisions. That is the **barrier**. An agent that
-# learns from its own drives alone seldom gets across: of the study's {{ len(of('sac')) }} plain SAC
-# agents {{ escaped('sac') }} escapes.
+# entropy of 1 escaped. A way out takes several right decisions in a row, and most other tries stay
+# behind a trap or end in an accident. That is the **barrier**. An agent that learns from its own
+# drives alone seldom gets across: of the study's {{ len(of('sac')) }} plain SAC agents
+# {{ escaped('sac') }} escapes.
 # <!-- claim: escaped_with('target entropy 1', 'sac') == 0 -->
 # <!-- claim: escaped('sac') == 1 -->
 
