@@ -36,7 +36,7 @@ print(f"{len(hunt.names)} agents, 2 seeds each, {hunt.provenance['updates']} upd
 # Seven agents were trained with the paper's method. One is healthy. Each of the others, A to F,
 # has one **silent bug**: a line that is wrong, raises nothing and prints nothing. The training
 # took some minutes, so it was done before and lies in a file (the line above says how much of
-# it). What you see is real behaviour, whatever it turned out to be.
+# it). The agents drive as they learned to: nothing in the drives or the curves is made up.
 # <!-- claim: len(bugs.LEARNERS) == 7 -->
 
 # %%
@@ -65,7 +65,7 @@ bc.show(bc.top_view_over_time(agent_f, title="Agent F on the same road"))
 # %% [markdown]
 # ## Round 1: the curves
 #
-# Grey is the healthy agent, both seeds; violet is the agent that the panel is named after.
+# Grey is the healthy agent, both seeds; violet is the agent whose letter the panel has.
 
 # %%
 late = {n: np.nanmean(values[:, -10:]) for n, (_, values) in hunt.curves("success").items()}
@@ -88,19 +88,24 @@ bc.show(
 )
 
 # %% [markdown]
-# **See.** Compare with your predictions. Most of these bugs do not show in the one curve that
-# everybody plots, and the agent with the highest return has a bug. A curve that looks right is no
-# evidence that the code is.
+# **See.** Compare with your predictions. Four of these six bugs do not show in the share of escapes
+# at the end of training, and the agent with the highest return has a bug. A curve that looks right
+# is no evidence that the code is right.
+# <!-- claim: (lambda h: sum(np.nanmean(h.curves('success')[n][1][:, -10:]) > 0.85
+#   for n in 'ABCDEF'))(bugs.Hunt()) == 4 -->
+# <!-- claim: (lambda last: max(last, key=last.get) != 'healthy')({n: v[:, -10:].mean()
+#   for n, (_, v) in bugs.Hunt().curves('return').items()}) -->
 #
-# **Explain.** The teacher covers up. It drives demonstrations, it pulls; whatever is wrong with one
-# part of the learner, another part makes good for a while. To see a part, you have to ask it alone.
+# **Explain.** We think that the teacher hides the bugs. It drives demonstrations and it pulls, so
+# the policy is led out of the trap even if another part of the learner is wrong. To judge one part,
+# you have to ask that part alone.
 
 # %% [markdown]
 # ## Round 2: ask the critic what you know
 #
 # A **probe** asks a network something whose answer is known. Nearly nothing is known about Q, with
-# one exception: where an accident ends the episode, $y = r = -{{ -DEFAULT.reward.accident }}$ and
-# nothing is guessed.
+# one exception: where an accident ends the episode, $y = r = -{{ -DEFAULT.reward.accident }}$,
+# without any guess of a next value.
 #
 # > **Predict.** Which of the six bugs makes Q wrong exactly there, and in which direction?
 #
@@ -135,12 +140,12 @@ bc.show(
 )
 
 # %% [markdown]
-# **See.** Even the healthy agents are not at {{ DEFAULT.reward.accident }}: a network that is shown
-# far more other seconds than accidents smooths. So a probe needs a healthy agent beside it. What
-# counts is who leaves the grey lines, and how.
+# **See.** Even the healthy agents are not at {{ DEFAULT.reward.accident }}. We think that this is
+# because a network that sees few accidents among many other seconds smooths its values. So a probe
+# needs a healthy agent beside it. What counts is which agent leaves the grey lines, and how.
 #
 # > **Predict.** The road pays at most about 1 a second, and γ = 0.8 sees about 5 seconds ahead.
-# > What is the most that an honest critic may promise? And one that gets c = 2 on top in *every*
+# > What is the most that a correct critic may promise? And the most if c = 2 is added in *every*
 # > second?
 
 # %%
@@ -157,8 +162,8 @@ bc.show(
 
 # %% [markdown]
 # **Explain.** The healthy promise may lie a little over 5: a part of each batch are demonstrations,
-# which do get the bonus (lesson 8). Two panels are beyond that, one slowly and one at once.
-# The same question can be asked of one drive: what Q promised, and what the road then paid.
+# which do get the bonus (lesson 8). Two panels are far above that: one rises slowly, one at once.
+# You can ask the same of one drive: what did Q promise, and what did the road then pay?
 
 # %%
 for name in hunt.names:
@@ -170,9 +175,9 @@ for name in hunt.names:
     print(f"{name:8} at the start Q promised {promised:6.1f}, and the road paid {paid:5.1f}")
 
 # %% [markdown] tags=["instructor"] minutes=8
-# The start lies behind the trap, so every honest promise is small there, and the healthy agent's
-# includes bonuses of demonstrations. Ask which of the two numbers a supervisor should look at
-# during training, and why nobody does: the promise needs no accident to be wrong.
+# At the start the car is behind the trap, so a correct promise is small there; the healthy agent's
+# contains bonuses of demonstrations. Ask which of the two numbers one should watch during training:
+# a wrong promise shows without any accident.
 
 # %% [markdown]
 # ## Round 3: ask the actor about the rule
@@ -243,10 +248,10 @@ for name in hunt.names:
     print(f"{name:8} {shares} {greedy.returns.value:12.1f} {100 * accidents:12.1f}")
 
 # %% [markdown]
-# **See.** One agent knows the way and cannot walk it: its most probable action escapes, its drawn
-# ones mostly do not. It learned the rule and the rule's noise, and from Q nothing. Which bug would
-# make an actor deaf to Q? (And read escapes beside accidents: a crash after overtaking counts as
-# both.)
+# **See.** In these 200 drives one agent escapes nearly always with its most probable action, and in
+# less than half of the drives with drawn ones. It seems to have learned the rule and the rule's
+# noise, and nothing from Q. Which bug would keep Q out of the actor's gradient? (And read escapes
+# beside accidents: a crash after overtaking counts as both.)
 #
 # **Exercise 12.2 (15 min, ●●●).** The verdict. For each agent one of the six names. The check says
 # how many are right, and what speaks against one of the wrong ones; it does not say who it is
@@ -301,18 +306,19 @@ def fixed_target(reward, is_demonstration, bonus, terminated, next_value, gamma)
 check.fixed_target(fixed_target)
 
 # %% [markdown]
-# Without an end, the target of an accident contains what the critic believes of a car that has just
-# crashed. That state looks like the seconds before an accident, so it is believed to be bad, and
-# the {{ DEFAULT.reward.accident }} is counted again and again.
+# Without the factor (1 − terminated), the target of an accident contains the value that the critic
+# gives to a car that has just crashed. That state looks like the seconds before an accident, so its
+# value is low, and the {{ DEFAULT.reward.accident }} is counted again and again. (An episode that
+# runs out of time after 150 s is *truncated*, not terminated: its target keeps the next value.)
 
 # %%
 print(f"an accident: {-10:.0f}; an accident for ever, γ = 0.8: {-10 / (1 - gamma):.0f}")
 
 # %% [markdown]
-# Here that makes accidents dearer than they are, which shows in no curve. Where episodes end at a
-# goal, it would be the goal that is counted again and again.
+# On this road the bug makes an accident look worse than it is. In a task whose episodes end at a
+# goal, the reward of the goal would be counted again and again.
 #
-# The value, as it is written for continuous actions, where nobody can add up all of them:
+# The value, as it is written for continuous actions, of which there are too many to sum over:
 #
 # ```python
 # action = torch.multinomial(log_pi.exp(), 1)
@@ -417,22 +423,26 @@ print(f"highest return at the end of training: {best}, {last[best]:.0f}")
 print(f"the healthy agent's: {last['healthy']:.0f}")
 
 # %% [markdown]
-# **Explain.** All six: the exercises above judge them in milliseconds. Some of the bugs are nearly
-# harmless *here*, as long as the teacher covers them up, and that is worth knowing, too: it is one
-# way in which such bugs survive. On another road, with another γ or without a teacher, the same
-# line may decide everything. And a bug that raises the return is the most dangerous: nobody looks
-# for it. (Paying everybody a bonus for each second is a *different* reward. It may suit this road;
-# it is not the method that the name promises.)
+# **Explain.** All six: the exercises above test them in milliseconds. Some of the bugs do little
+# damage *here*, with a teacher that leads the agents out of the trap, and that is worth knowing,
+# too: it is one way in which such bugs survive. On another road, with another γ or without a
+# teacher, the same line may do much more. And a bug that raises the return is dangerous, because
+# a good result gives you no reason to look for it. (A bonus for every second is a *different*
+# reward. It may suit this road, but it is not the method that the paper describes.)
 
 # %% [markdown]
 # ## What you now know
 #
 # 1. A curve of escapes or returns can look right with a broken part behind it.
-# 2. A probe asks one part something whose answer is known, with a healthy agent beside it.
+# 2. A probe asks one part of a learner something whose answer is known. Compare with a healthy
+#    agent.
 # 3. At an accident, Q is {{ DEFAULT.reward.accident }}; on this road, a promise far above
 #    {{ 1 / (1 - SETTINGS.gamma) }} is wrong.
-# 4. A drawn action has no gradient, and an actor that may bend its critic will.
-# 5. Small functions with hand-worked cases find in milliseconds what training hides for hours.
+# 4. A drawn action has no gradient. And without the stop-gradient, the actor's loss changes the
+#    critic, because here one optimiser step serves all losses together. With an optimiser for each
+#    and a Q computed anew for the actor, as in many programs, the critic's optimiser deletes that
+#    gradient before its own step, and the same missing line does not change the critic.
+# 5. Small functions with hand-worked cases find in milliseconds what training can hide for hours.
 #
 # **Three questions to think about**
 # - You may run one probe during every training from now on. Which, and at what value does it warn?

@@ -18,7 +18,8 @@ from bootcourse.files import read_arrays
 from bootcourse.learn import bootstrap, sac
 from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.settings import settings_for
-from bootcourse.lessons import bugs, shipped
+from bootcourse.learn.teachers import toward
+from bootcourse.lessons import bugs, example_teachers, shipped
 from bootcourse.lessons.exercises import registry
 from bootcourse.policies import idle_policy, plan_policy, random_policy, rule_policy
 from bootcourse.road import formulas, observation
@@ -227,3 +228,39 @@ def positive_target(method: str, measure: str, change: str = "entropy") -> np.nd
 def ended_ahead(method: str, agents: int = 5) -> np.ndarray:
     """How many training episodes the agents that ship with their networks ended ahead of trap 1, (agents,)."""
     return of(method).curves["success"][:agents].sum(axis=1)
+
+
+@cache
+def checked(row: int, column: str) -> str:
+    """What assets/checks.md says in a row of its table, the first is 0: "learner", "task", "published", ..."""
+    table = [line.strip("| ").split(" | ") for line in (FOLDER / "checks.md").read_text("utf-8").splitlines()]
+    names, _, *rows = [cells for cells in table if len(cells) > 1 or cells[0].startswith("---")]
+    return dict(zip(["ours" if name.startswith("ours") else name for name in names], rows[row], strict=True))[column]
+
+
+@cache
+def separated_by_luck(groups: int, agents: int) -> float:
+    """How often at least one group is wholly above or wholly below one shared control group if none differs.
+
+    All groups have as many agents. Drawn 100,000 times: right to about 0.003.
+    """
+    scores = np.random.default_rng(0).random((100_000, groups + 1, agents))
+    taught, alone = scores[:, 1:], scores[:, :1]
+    return float(((taught.min(-1) > alone.max(-1)) | (taught.max(-1) < alone.min(-1))).any(1).mean())
+
+
+@cache
+def teacher_exam(name: str):
+    """How one of lesson 13's teachers drives on the exam's roads."""
+    return example_teachers.examine(getattr(example_teachers, name)).episodes
+
+
+@cache
+def two_situations(slow: float):
+    """How a rule of two situations drives there: 12 m/s on the free lane, elsewhere slow (m/s) and one lane left."""
+
+    def rule(cars, scenario):
+        lane = int(cars[EGO, LANE])
+        return toward(cars, 12.0 if lane == 0 else slow, max(0, lane - 1), scenario)
+
+    return example_teachers.examine(rule).episodes
