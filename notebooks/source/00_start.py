@@ -28,11 +28,10 @@ from bootcourse.study import report, results, tables
 # %% [markdown]
 # ## Look first
 #
-# Twice the same road. Two slow cars, dark red, hold the driver: **trap 1** ahead of it, **trap 2**
-# beside it. Behind the wheel are two **agents**, which is what we call a program that has learned
-# from its own tries. Both have driven the same number of episodes. The *bootstrapped* one had help
-# while it learned, from a rule that somebody wrote by hand. Press play, and turn the road with the
-# mouse.
+# Both drives below are on the same road. Two slow cars, dark red, hold the driver: **trap 1** ahead
+# of it, **trap 2** beside it. The drivers are **agents**: programs that have learned from their own
+# tries. Both have driven the same number of episodes. A rule that somebody wrote by hand helped the
+# *bootstrapped* agent while it learned. Press play, and turn the road with the mouse.
 # <!-- claim: len({run.curves['success'].shape for method in ('sac', 'bootstrapped') for run in
 #   shipped_runs(method)}) == 1 -->
 
@@ -60,17 +59,18 @@ table(["", *names], rows, below=f"In the end: {'; '.join(ends)}.")
 
 # %% [markdown]
 # The **return** is what a drive has earned: each second pays a little for speed, up to
-# {{ max(np.arange(0, 25, 0.5), key=speed_reward) }} m/s. The car above falls back first, which
-# costs speed, and one clumsy move on the way ends in a crash. A second behind the slow cars pays
-# something every time. That makes it a trap for an agent that learns by trying.
-# <!-- claim: by_rule().states[6, EGO, SPEED] < by_rule().states[0, EGO, SPEED] -->
+# {{ max(np.arange(0, 25, 0.5), key=speed_reward) }} m/s. The bootstrapped agent above falls back
+# first, which costs speed, and one clumsy move on the way would end in a crash. Each second behind
+# the slow cars pays a little. That makes the place a trap for an agent that learns by trying.
+# <!-- claim: shipped_drive('escape').states[6, EGO, SPEED] < DEFAULT.ego.speed -->
 # <!-- claim: idle().rewards.min() > 0 and idle().accident == Accident.NONE -->
 
 # %% [markdown]
 # ## Drive it yourself
 #
 # You decide once a second, and the road waits for you: nine buttons, or click on the pad and use
-# the arrow keys. The faint car is a ghost, which knows the way out.
+# the arrow keys. The faint car is a ghost: it shows how the rule gets out of the trap on this road.
+# <!-- claim: by_rule(10).success -->
 # <!-- claim: N_ACTIONS == 9 -->
 #
 # > **Predict.** How many tries until you are ahead of trap 1?
@@ -79,46 +79,54 @@ table(["", *names], rows, below=f"In the end: {'; '.join(ends)}.")
 bc.panels.drive_panel(seed=10)
 
 # %% [markdown] tags=["instructor"] minutes=5
-# Open with this page on the wall and let two people drive before anybody explains anything. Most of
-# them crash into trap 2. Keep the number of tries on the board for lesson 5.
+# Open with this page on the wall and let two people drive before anybody explains anything. Expect
+# crashes into trap 2. Keep the number of tries on the board for lesson 5.
 
 # %% [markdown]
 # ## What the agents do
 #
-# One drive proves little. We trained several agents of each kind, which differ only in their
-# **seed**, the number that their luck was drawn from, and let each drive the same roads, none of
-# which it had seen. SAC, *soft actor-critic*, is the method that both kinds learn by. An agent
-# **escapes** if it ends ahead of trap 1 on at least half of its roads.
-# <!-- claim: ESCAPES == 1 / 2 -->
+# One drive proves little. We trained {{ len(of('sac')) }} agents of each kind. Agents of one kind
+# differ only in their **seed**, the number from which all chance in their training is drawn. After
+# training each agent drove the same {{ roads() | , }} roads, which were not used in training. Both
+# kinds learn by SAC, *soft actor-critic*. An agent **escapes** if it ends ahead of trap 1 on at
+# least half of its roads.
+# <!-- claim: ESCAPES == 1 / 2 and len(of('sac')) == len(of('bootstrapped')) -->
 #
-# > **Predict.** Of all agents of plain SAC, how many escape? Of those with help? And does who
-# > escapes also drive safely?
+# > **Predict.** How many agents of plain SAC escape? How many of those with help? Do the agents
+# > that escape also drive safely?
+
 
 # %%
+def rounded(estimate, scale=1):
+    value, low, high = (f"{scale * number:.0f}" for number in estimate)
+    return f"{value} [{low}, {high}]"
+
+
 study = bc.shipped_results()
 rows = []
 for method in ("sac", "bootstrapped"):
     mine = study.of(method)
     success = mine.scores("success")
     accidents = 100 * sum(mine.episodes(kind).mean() for kind in results.KINDS)
-    share = tables.bracketed(bc.statistics.escapes(success), 100)
-    returns = tables.bracketed(tables.score(study, method, "returns"))
+    share = rounded(bc.statistics.escapes(success), 100)
+    returns = rounded(tables.score(study, method, "returns"))
     count = f"{(success >= 0.5).sum()} of {len(mine)}: {share} %"
     rows.append([bc.display_name(method), count, returns, f"{accidents:.0f} %"])
 rule = report.rule_results(bc.DEFAULT, 200)
 accidents = 100 * sum(rule.episodes(kind).mean() for kind in results.KINDS)
-returns = tables.bracketed(tables.score(rule, "rule", "returns"))
+returns = rounded(tables.score(rule, "rule", "returns"))
 same = "it always drives the same way"
 rows.append([bc.display_name("rule"), same, returns, f"{accidents:.0f} %"])
 headings = ["", "agents that escape", "return", "drives that end in an accident"]
 table(headings, rows)
 
 # %% [markdown]
-# **See.** In brackets stands the 95 % *interval*: where the truth may well lie, given how few
-# agents there are. The return is that of a typical agent (the mean of the middle half of them).
-# Read the table with three questions; the course is about them. Why does plain SAC miss a way out
-# that a rule of a few lines finds each time? How many agents does the help bring out, and why not
-# all? And those that earn more than the rule: what do they pay for it, in accidents?
+# **See.** The brackets hold the 95 % *interval*: the range in which the true value may well lie,
+# given how few agents (for the rule: drives) we have measured. The return is that of a typical
+# agent: the mean over the middle half of the agents. Read the table with three questions; the
+# course is about them. Why do most agents of plain SAC miss a way out that a rule of a few lines
+# finds on each of the {{ roads() | , }} roads? How many agents does the help bring out, and why not
+# all? Some agents earn more than the rule: do they have more accidents, too?
 # <!-- claim: escaped('sac') < len(of('sac')) / 2 and of('rule').episodes('success').all() -->
 # <!-- claim: escaped('sac') < escaped('bootstrapped') < len(of('bootstrapped')) -->
 # <!-- claim: of('bootstrapped').scores('returns').max() > of('rule').scores('returns').max() and
@@ -126,8 +134,8 @@ table(headings, rows)
 #
 # ## Choose a route
 #
-# *One evening*, to see it happen. *A week*, to be able to do it. *A researcher's*, for those who
-# know SAC and ask what holds.
+# *An evening* shows you what happens. In *a week* you learn to do it yourself. *A researcher's*
+# route is for readers who know SAC and want to know which results hold.
 #
 # | lesson | an evening | a week | a researcher's |
 # |---|:---:|:---:|:---:|

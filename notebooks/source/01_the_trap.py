@@ -51,15 +51,15 @@ bc.show(bc.top_view(idle, time=0, distances=True))
 #
 # Drive first, and think afterwards. In JupyterLab the panel below has nine buttons; click on the
 # pad once and the arrow keys work, too. You decide once a second, and the road waits for you. The
-# faint car is a **ghost**: it drives the same road, and knows the way out.
+# faint car is a **ghost**: it shows how the rule of lesson 3 drives the same road.
 
 # %% tags=["nbval-ignore-output"]
 bc.panels.drive_panel(seed=ROAD)
 
 # %% [markdown] tags=["instructor"] minutes=8
-# Let them crash. Nearly all steer left at once and hit trap 2; the second attempt is to
-# accelerate. Collect on the board what ended each attempt and after how many seconds, and ask who
-# still has a plan. Nobody needs to succeed here.
+# Let them crash. Expect them to steer left at once and hit trap 2, and then to accelerate. Collect
+# on the board what ended each attempt and after how many seconds, and ask who still has a plan.
+# They need not succeed here.
 
 # %% [markdown]
 # The nine buttons are the nine **actions**: {{ -DEFAULT.ego.acceleration }}, 0 or
@@ -105,15 +105,18 @@ my_plan = [("keep left", 2), ("keep right", 2)]  # change it, and run the cell a
 
 mine = bc.record(bc.plan_policy(my_plan), [ROAD], label="you")[0]
 ending = bc.Accident(mine.accident).name.lower()
-print(f"accident: {ending}, after {len(mine.actions)} s, return {mine.rewards.sum():.2f}")
+print(f"accident: {ending}, after {mine.times[-1]:g} s, return {mine.rewards.sum():.2f}")
 near, far = bc.DEFAULT.traps.d2
 print(f"trap 2 starts {near} to {far} m ahead; a car is {bc.DEFAULT.car.length:g} m long")
 bc.show(bc.top_view_over_time(mine, times=[0, 1, 2, 3]))
 
 # %% [markdown]
-# **See.** The first idea of nearly everybody, "go left now", ends in trap 2: from centre to centre
-# it is hardly more than a car's length ahead of you. On roads where it is a little further ahead
-# the same plan ends behind trap 2, at the same 10 m/s. (Try `ROAD = 7`.)
+# **See.** "Go left now" is a natural first idea. On this road it ends in trap 2, which starts
+# {{ idle().states[0, TRAP_2, X] | .2f }} m ahead of you from centre to centre: less than a car's
+# length. On road 7 trap 2 starts further ahead, and the same plan ends behind it, at the same
+# 10 m/s. (Try `ROAD = 7`.)
+# <!-- claim: idle().states[0, TRAP_2, X] < DEFAULT.car.length -->
+# <!-- claim: idle().states[0, TRAP_2, X] < idle(7).states[0, TRAP_2, X] -->
 # <!-- claim: record(plan_policy([('keep left', 2), ('keep right', 2)]), [ROAD])[0].accident ==
 #   Accident.COLLISION -->
 # <!-- claim: record(plan_policy([('keep left', 2), ('keep right', 2)]), [7])[0].states[-1, EGO,
@@ -132,10 +135,10 @@ bad_plans = {
 for name, plan in bad_plans.items():
     drive = bc.record(bc.plan_policy(plan), [ROAD])[0]
     ending = bc.Accident(drive.accident).name.lower()
-    print(f"{name:22} -> {ending:15} after {len(drive.actions):2} s")
+    print(f"{name:22} -> {ending:15} after {drive.times[-1]:4.1f} s")
 
 # %% [markdown]
-# The paper adds all three up and calls them "collision rate". We keep them apart: a policy that
+# The paper adds up all three and calls the sum "collision rate". We keep them apart: a driver that
 # stops on the motorway and one that hits a car have learned different things.
 
 # %% [markdown]
@@ -208,16 +211,23 @@ print(f"trap 1 is {trap_1:.2f} m ahead, trap 2 {trap_2:.2f} m")
 # **See.** The nearest is trap 2, and its `dy` is
 # {{ idle().states[0, TRAP_2, Y] - idle().states[0, EGO, Y] }} m: one lane to the left.
 #
-# The {{ DEFAULT.observation_size }} numbers are the **state** of a *Markov decision process* (MDP):
-# a world in which what comes next, and what it pays, depends on the present state and the action
-# alone. A **policy** is a rule that turns a state into an action, or into a probability for each of
-# the nine.
+# In a *Markov decision process* (MDP), what comes next and what it pays depends on the present
+# **state** and the action alone. The road is such a process. Its state holds the place, speed and
+# heading of all {{ DEFAULT.vehicles }} cars, the lane that each of them wants, how long ago it last
+# considered a lane change, and the number of the second. The observation is *not* the state. It
+# leaves out every car but the four nearest, the lanes that they want, and the seconds that are
+# left. Two moments with the same observation can therefore go on differently: such a world is a
+# *partially observed* MDP. The learners of this course, like the paper's, treat the observation as
+# if it were the state. The rule of lesson 3 reads the true places and speeds of the cars.
+# <!-- claim: DEFAULT.vehicles - 1 > DEFAULT.sight.neighbours == 4 -->
+# <!-- claim: not any('lane' in name or 'time' in name for name in observation.names(DEFAULT)) -->
+#
+# A **policy** turns an observation into an action, or into a probability for each of the nine.
 
 # %% [markdown] tags=["instructor"] minutes=6
-# Ask what is missing from the {{ DEFAULT.observation_size }} numbers: how long a car has been
-# changing lane, the traffic beyond {{ DEFAULT.sight.distance }} m or beyond the fourth car, the
-# seconds that are left. So the road is only nearly Markov for the learner. The rule controller of
-# lesson 3 reads the true state.
+# Ask what is missing from the {{ DEFAULT.observation_size }} numbers before they read on: how long
+# ago a car considered a lane change, the traffic beyond {{ DEFAULT.sight.distance }} m or beyond
+# the fourth car, the seconds that are left. Then ask which of these would change what *they* do.
 
 # %% [markdown]
 # ## Round 3: what you are paid for
@@ -236,9 +246,9 @@ print(f"trap 1 is {trap_1:.2f} m ahead, trap 2 {trap_2:.2f} m")
 bc.show(figures.reward_curve())
 
 # %% [markdown]
-# **See.** Speed pays little up to 12.5 m/s, a lot up to 15, and next to nothing from 17 on. The
-# road on which you earn well is the free one: behind the traps you earn
-# {{ speed_reward(DEFAULT.traps.speed) | .2f }} of the speed term and never more.
+# **See.** Speed pays little up to 12.5 m/s, a lot more from there to 15, and next to nothing from
+# 17 on. At the traps' {{ DEFAULT.traps.speed }} m/s the speed term is
+# {{ speed_reward(DEFAULT.traps.speed) | .2f }}; at 15 m/s, on a free road, it is 1.
 # <!-- claim: speed_reward(12.5) < 0.25 and speed_reward(15) == 1 and speed_reward(17) < 0.02 -->
 #
 # $$ r_v = \begin{cases} \exp(-(v - 15)^2) & v > 15 \\ \frac{8}{25} v - \frac{19}{5} & 12.5 < v \le
@@ -328,9 +338,10 @@ free = formulas.weighted_reward(1.0, 1.0, 0.0, 1.5, 0.05, 0.05)
 print(f"a free road at 15 m/s: {free:.5f} a second, {150 * free:.1f} in 150 s")
 
 # %% [markdown]
-# **Explain.** Your paper, the formula and the road agree. Remember
+# **Explain.** Your calculation, the formula and the road agree. Remember
 # {{ idle().rewards.sum() | .1f }}: a learner that ends there has learned to stay where it is. Doing
-# nothing is a *fixed point*: the trap never punishes you for it.
+# nothing is a *fixed point*: each second is like the one before, and each pays a little.
+# <!-- claim: np.ptp(idle().rewards) < 1e-9 and idle().rewards.min() > 0 -->
 
 # %% [markdown] tags=["instructor"] minutes=6
 # Let two or three read their number for one second aloud before the cell is run.
@@ -354,7 +365,7 @@ print(f"the escape is behind until second {last_behind}; at the end it is {ahead
 print(f"deepest: {np.min(np.cumsum(escape.rewards) - np.cumsum(idle.rewards)):.2f}")
 
 # %% [markdown]
-# So the price of the way out is small. Why is it hard to find, then?
+# So this way out costs little. Why is it hard to find, then?
 #
 # > **Predict.** A driver picks each action at random. In what share of 1,000 episodes does it get
 # > out? In what share does it survive?
@@ -370,11 +381,11 @@ free_from = int(np.flatnonzero(lanes == 0)[0])
 print(f"on road {ROAD} the escape takes {free_from} decisions to reach the free lane")
 
 # %% [markdown]
-# **Explain.** A learner begins with random tries and improves in small steps. Nearly every try away
-# from "follow trap 1" ends at {{ DEFAULT.reward.accident }} before it can pay, so the first lesson
-# that the road teaches is: stay. The escape needs several right decisions in a row, and pays much
-# later. A learner that explores at random almost never sees it. That is the problem that the rest
-# of this course solves.
+# **Explain.** A learner begins with random tries and improves in small steps. All of these 1,000
+# random drives end in an accident, which pays {{ DEFAULT.reward.accident }}, and about one in two
+# hundred is ahead of trap 1 when it does. A learner that has seen such drives has good reason to
+# stay where it is. The escape needs several right decisions in a row, and pays later. The rest of
+# this course is about that problem.
 
 # %% [markdown]
 # ## Round 5: success, and what goes wrong
@@ -415,33 +426,36 @@ for name, driver in drivers.items():
     print(f"{name:7} success {100 * ahead:5.1f} %   of 100 episodes: {counted}")
 
 # %% [markdown]
-# **Explain.** Three drivers, three shapes of failure. The idle one never fails and never
-# succeeds. The random one fails in every way. "How often does it crash?" is only half of a
-# question; the other half is "what did it get done before?".
+# **Explain.** In these 100 episodes the idle driver has no accident and no success. The random
+# driver has no success either, and each of its episodes ends in an accident. The rule succeeds each
+# time without an accident. So ask two questions about a driver: how often does it have an accident,
+# and how often does it succeed?
 
 # %% [markdown]
 # ## What you now know
 #
-# 1. The scenario is a Markov decision process: {{ DEFAULT.observation_size }} numbers in, one of
-#    nine actions out, once a second for {{ DEFAULT.clock.decisions / DEFAULT.clock.decision_rate }}
-#    s.
+# 1. Once a second for {{ DEFAULT.clock.decisions / DEFAULT.clock.decision_rate }} s, a driver sees
+#    {{ DEFAULT.observation_size }} numbers and takes one of nine actions. The numbers are an
+#    observation: they do not hold the whole state of the road.
 # 2. Speed pays most near {{ max(np.arange(0, 25, 0.5), key=speed_reward) }} m/s; accidents pay
 #    {{ DEFAULT.reward.accident }} and end the episode.
-# 3. Doing nothing earns {{ idle().rewards.sum() }} over {{ idle().distance }} m, for ever behind
-#    trap 1.
+# 3. Doing nothing for the whole episode earns {{ idle().rewards.sum() }} over
+#    {{ idle().distance }} m, and ends behind trap 1.
+# <!-- claim: not idle().success -->
 # 4. The way out leads left behind trap 2. Where trap 2 starts far enough ahead, exact steering is
 #    enough; elsewhere the car has to fall back first.
-# 5. The escape pays off late, and one accident on the way costs what a minute of patience earns.
+# 5. The escape pays off late, and one accident costs what about a minute of doing nothing earns.
 # <!-- claim: 50 < -DEFAULT.reward.accident / second_pays(DEFAULT.traps.speed) < 70 -->
 #
 # **Three questions to think about**
 # - Would the trap still be one if trap 2 drove 0.5 m/s faster than you?
 # - Which reward would you change so that a learner leaves at once? What else would that learner
 #   then do?
-# - The observation contains no memory. Which situation on this road looks the same but is not?
+# - The observation holds nothing of the past. Which two situations on this road give the same
+#   observation, but call for different actions?
 #
 # **Read on**: the next lesson is about the other cars, and
-# [the one after it](03_the_rule.ipynb) takes the controller apart that found the way out.
+# [the one after it](03_the_rule.ipynb) explains the controller that found the way out.
 # highway-env, the simulator under this road: Leurent, *An Environment for Autonomous Driving
 # Decision-Making* (2018). MDPs from the beginning: Sutton and Barto, *Reinforcement Learning*
 # (2nd edition, 2018), chapter 3.

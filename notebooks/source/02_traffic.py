@@ -15,8 +15,8 @@
 #
 # **What you will be able to do**
 # - write down how the other cars follow (IDM) and change lane (MOBIL), and compute both by hand;
-# - grow a traffic jam out of one driver's braking, and say why it travels backwards;
-# - find out from one number whether a simulated car steers or swings.
+# - start a traffic jam with one slow driver, and say why it travels backwards;
+# - tell from one number whether a simulated car's steering settles or swings.
 #
 # **Time** 55 minutes, under a minute of it the machine's. **It builds on**
 # [lesson 1](01_the_trap.ipynb).
@@ -32,8 +32,9 @@ from bootcourse.lessons import check, figures_traffic, source
 # %% [markdown]
 # ## Look first
 #
-# Thirty drivers in a circle, on one lane, all alike. One of them begins slower than the others.
-# Nobody overtakes, nobody makes a mistake. Each line in the picture is one car.
+# Thirty identical drivers go round a ring with one lane. One of them begins slower than the others.
+# Overtaking is not possible, and each driver follows the same formula. Each line in the picture is
+# one car.
 
 
 # %%
@@ -79,7 +80,7 @@ bc.show(figures_traffic.space_time(rings, dt=0.5, title=title))
 # ## Round 1: the gap that a driver wants
 #
 # All cars except yours follow the **Intelligent Driver Model** (IDM). It begins with the gap that
-# a driver would like to have, at speed $v$, closing in at $\Delta v$ on the car ahead:
+# a driver wants at speed $v$ while it closes in at $\Delta v$ on the car ahead:
 #
 # $$ s^*(v, \Delta v) = s_0 + T v + \frac{v\, \Delta v}{2 \sqrt{a_{\max} b}} $$
 #
@@ -110,8 +111,9 @@ for v_ahead in (10.0, 8.0):
     print(f"10 m/s behind a car at {v_ahead:g} m/s: {wanted:.0f} m")
 
 # %% [markdown]
-# **Explain.** Two metres per second of difference nearly double the wish. Distances here go from
-# centre to centre, as highway-env measures them: of each gap, one car's length is car.
+# **Explain.** A difference of two metres per second nearly doubles the gap that the driver wants.
+# Distances here go from centre to centre, as highway-env measures them: subtract one car's length
+# to get the free space.
 # <!-- claim: 1.7 < formulas.desired_gap(10, 2, 10, 1.5, 0.5, 0.5) / formulas.desired_gap(10, 0, 10,
 #   1.5, 0.5, 0.5) < 2 -->
 
@@ -172,26 +174,29 @@ for v in (0.0, 6.0, 9.5, 12.0):
     print(f"{v:4} m/s: wants {s_star:4.1f} m, settles at {settled:5.1f} m")
 
 # %% [markdown]
-# **See.** Read the table backwards. Cars that are 20 m apart can only drive about 6 m/s, cars
-# that are 30 m apart about 9.5. That was the ring: room for four lengths is a slow road.
+# **See.** Read the table from right to left. Cars that settle about 20 m apart drive 6 m/s, cars
+# that settle about 30 m apart 9.5 m/s. These are the two rings: four car lengths of distance make a
+# slow road.
 #
 # And the jam? A driver who comes too close brakes below the speed of the car ahead, opens the gap,
 # and accelerates again at $a_{\max}$ = {{ DEFAULT.traffic.a_max }} m/s², which is slow. The driver
 # behind has to brake a little harder. At 20 m that wave grows from car to car, at 30 m it shrinks.
 # Cars leave the jam at its front and arrive at its back, so the *jam* moves backwards.
 #
-# What does that mean for your road? The traffic ahead of the traps starts with a mean distance.
+# What does that mean for your road? The scenario sets the mean distance at which the traffic ahead
+# of the traps starts.
 
 # %%
 for headway in (20.0, 30.0, 40.0):
     denser = dataclasses.replace(bc.DEFAULT.traffic, headway=headway, lead=headway)
     drives = bc.record(bc.idle_policy, range(50), dataclasses.replace(bc.DEFAULT, traffic=denser))
     slowest = [drive.states[:, bc.state.TRAFFIC :, bc.state.SPEED].min() for drive in drives]
-    print(f"{headway:g} m apart: slowest car {np.mean(slowest):.1f} m/s (mean of 50 roads)")
+    mean, least = np.mean(slowest), np.min(slowest)
+    print(f"{headway:g} m apart: slowest car {mean:.1f} m/s (mean of 50 roads; least {least:.1f})")
 
 # %% [markdown]
-# **See.** With three lanes and six cars there is room to spread: the traffic slows a little and
-# never stops. The default is the thinnest of the three.
+# **See.** With three lanes and six cars there is room to spread: the traffic slows a little. On
+# these roads no car stops. The default is the thinnest of the three.
 # <!-- claim: DEFAULT.road.lanes == 3 -->
 # <!-- claim: DEFAULT.traffic.cars == 6 -->
 # <!-- claim: DEFAULT.traffic.headway == max(20.0, 30.0, 40.0) -->
@@ -261,8 +266,9 @@ print(f"your own gain: {own_gain:.2f} m/s²")
 bc.show(figures_traffic.changing(own_gain, new_follower, politeness=(0, 0.5, 1)))
 
 # %% [markdown]
-# **See.** The egoist goes as soon as it is safe. Politeness turns another driver's braking into a
-# cost of one's own.
+# **See.** The egoist changes as soon as the limit on the new follower's braking allows it. A driver
+# with p = 1 waits for a gap almost four times as long, because it counts the new follower's braking
+# as its own loss.
 #
 # > **Predict.** Does polite traffic change lane more often or less often than rude traffic?
 
@@ -272,21 +278,34 @@ for p in (0.0, 0.5, 1.0):
     drives = bc.record(bc.idle_policy, range(100), dataclasses.replace(bc.DEFAULT, traffic=kind))
     lanes = [drive.states[:, bc.state.TRAFFIC :, bc.state.TARGET_LANE] for drive in drives]
     changes = [(np.diff(lane, axis=0) != 0).sum() for lane in lanes]
-    print(f"politeness {p:g}: {np.mean(changes):.2f} lane changes a road (100 roads, 150 s)")
+    error = np.std(changes, ddof=1) / math.sqrt(len(changes))
+    print(f"politeness {p:g}: {np.mean(changes):.2f} ± {error:.2f} lane changes a road (100 roads)")
 
 # %% [markdown]
-# **Explain.** More often, on this road. Two things are weighed by the same $p$: what the new
-# follower loses, and what the *old* follower gains. Behind the leaders there is nearly always
-# somebody who gains, and the other lanes are nearly empty. A polite driver gets out of the way.
+# **Explain.** The number after ± is the standard error of the mean. Traffic with $p$ = 1 changes
+# lane more often than the other two, by about three errors. Between $p$ = 0 and 0.5 the difference
+# is smaller than the errors: these 100 roads do not tell which of the two changes more. We explain
+# the result for $p$ = 1 like this. The same $p$ weighs two things: what the new follower loses, and
+# what the *old* follower gains. On this road the other lanes are nearly empty, so often the new
+# follower loses nothing, while the old one gains. A polite driver gets out of the way.
 #
-# These numbers are all part of the scenario, and you may move them. What cannot be is refused, and
-# the panel says why.
+# All these numbers are part of the scenario, and you can change them. The panel refuses numbers
+# that do not fit together, and says why.
 #
 # > **Predict.** Under *Road and clock* you can shorten the road. At about which length will it be
 # > refused, and why there?
 
 # %% tags=["nbval-ignore-output"]
 bc.panels.scenario_panel()
+
+# %% [markdown]
+# **See.** The road must be at least {{ 150 * DEFAULT.ego.max_speed }} m long. The ego's maximum
+# speed is {{ DEFAULT.ego.max_speed }} m/s, so a car could drive that far in the 150 s of an
+# episode, and no car may reach the end of the road. Traffic starts further ahead, but drives more
+# slowly.
+# <!-- claim: accepts_road(150 * DEFAULT.ego.max_speed) -->
+# <!-- claim: not accepts_road(150 * DEFAULT.ego.max_speed - 1) -->
+# <!-- claim: DEFAULT.clock.decisions / DEFAULT.clock.decision_rate == 150 -->
 
 # %% [markdown]
 # ## Round 4: two steps a second
@@ -347,10 +366,10 @@ for name, numbers in table.items():
     print(f"{name:21} factor {factor:5.2f}: off the road {off:4.0%}, crashes {crashed:4.0%}")
 
 # %% [markdown]
-# **See.** With the default gains at 2 Hz, cars that nobody disturbs leave the road. An agent that
-# trains there learns to live with traffic that is out of its mind, and a table of results shows
-# nothing of it. So we set slower gains, on our own cars only, and test them. Before you believe
-# a simulator, look at the cars that nobody looks at.
+# **See.** With highway-env's gains at 2 Hz, traffic cars leave the road although you do nothing to
+# disturb them. An agent that trains there learns to drive among cars that swerve off the road, and
+# its table of results does not show that. So we set slower gains for our own cars, and tested them
+# as above. Before you believe a simulator, look at all of its cars, not only at the one you train.
 
 # %%
 source("bootcourse.road.formulas", "lane_keeping_steering")
@@ -368,15 +387,16 @@ source("bootcourse.road.formulas", "lane_keeping_steering")
 #    backwards.
 # 3. MOBIL changes lane when it is safe and the gains, the others' weighed by politeness, exceed a
 #    threshold.
-# 4. A polite driver is not one who stays where it is.
-# 5. Gain × time step above 2 is unstable, whatever the equation says.
+# 4. On this road traffic with full politeness (p = 1) changes lane more often than egoists.
+# 5. A simulated controller is unstable if gain × time step exceeds 2, even where its differential
+#    equation is stable.
 # <!-- claim: abs(1 - 1.99) < abs(1 - 2) == 1 < abs(1 - 2.01) -->
 #
 # **Three questions to think about**
 # - The traps are IDM cars, too, with a desired speed of 10 m/s. What would trap 1 do if you
 #   stopped behind it? In front of it?
-# - Traffic takes your car for one of its own. How could a learner take advantage of that?
-# - A jam of traffic ahead of the traps: does it make the trap easier or harder to leave?
+# - The traffic cars react to your car as to any other. How could a learner take advantage of that?
+# - Does a traffic jam ahead of the traps make the trap easier or harder to leave?
 #
 # **Read on**: Treiber, Hennecke and Helbing, *Congested traffic states in empirical observations
 # and microscopic simulations* (2000), for IDM; Kesting, Treiber and Helbing, *General

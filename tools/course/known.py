@@ -4,6 +4,7 @@ What takes long to load or to drive is kept for the next expression.
 """
 # ruff: noqa: F401 (what is imported here is for the expressions)
 
+import dataclasses
 import math
 from functools import cache
 
@@ -14,6 +15,7 @@ from scipy import stats
 
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
+from bootcourse.errors import BootcourseError
 from bootcourse.files import read_arrays
 from bootcourse.learn import bootstrap, sac
 from bootcourse.learn.bootstrap import demonstration_share
@@ -25,7 +27,7 @@ from bootcourse.policies import idle_policy, plan_policy, random_policy, rule_po
 from bootcourse.road import formulas, observation
 from bootcourse.road.formulas import centring_reward, speed_reward
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, Accident, X, Y
-from bootcourse.rule import HEADING_COST, stochastic_rule, target_speed
+from bootcourse.rule import HEADING_COST, Reason, stochastic_rule, target_speed
 from bootcourse.scenario import ACTION_NAMES, CALIBRATED, DEFAULT, N_ACTIONS, RULE_P
 from bootcourse.statistics import ESCAPES, escapes, improvement, interval, iqm, rate
 from bootcourse.storage.assets import FOLDER
@@ -264,3 +266,12 @@ def two_situations(slow: float):
         return toward(cars, 12.0 if lane == 0 else slow, max(0, lane - 1), scenario)
 
     return example_teachers.examine(rule).episodes
+
+
+def accepts_road(length: float) -> bool:
+    """Whether the default scenario accepts a road of this length (m)."""
+    try:
+        dataclasses.replace(DEFAULT, road=dataclasses.replace(DEFAULT.road, length=length))
+    except BootcourseError:
+        return False
+    return True
