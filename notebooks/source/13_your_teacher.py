@@ -260,9 +260,8 @@ for name, shares in heard.items():
 # seconds has driven more episodes by then, and not more seconds.
 #
 # **Yours will differ.** From here on the results depend on your processor: it rounds in its own
-# way, and a training turns a small difference into a large one. With the same seeds the students of
-# `careful` have come out as "helps" on one of our machines and as "cannot be told" on another. Read
-# your own numbers; the text below names none.
+# way, and a training turns a small difference into a large one. Read your own numbers; the text
+# below names none.
 
 # %%
 UPDATES, SEEDS = 3500, 3
