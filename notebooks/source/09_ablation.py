@@ -447,9 +447,8 @@ x, named = means["soft"][0], {method: values.mean(axis=0) for method, (_, values
 label = f"training episode (β is 0 from {gone} on)"
 bc.show(charts.lines(x, named, title, label, "success in the last 50 episodes, %, mean"))
 
+
 # %%
-
-
 def by_seed(method, *spans):
     """A table of the success in some spans of training episodes, seed by seed."""
     rows = [
