@@ -43,10 +43,17 @@ def stochastic_rule_policy(scenario: Scenario, rng: np.random.Generator, p: floa
     p: the probability of the rule's action; each other has (1 - p) / 8. The policy raises BootcourseError, when
     called, if p is outside [1/9, 1).
     """
+    return stochastic_policy(lambda cars: rule(cars, scenario).actions, rng, p)
+
+
+def stochastic_policy(
+    decide: Callable[[np.ndarray], np.ndarray], rng: np.random.Generator, p: float = RULE_P
+) -> Policy:
+    """The same for any rule: decide, cars (roads, vehicles, 10) -> actions (roads,)."""
 
     def drive(observations, cars):
-        rule_actions = rule(cars, scenario).actions
-        return PolicyOutput(sample_stochastic_rule(rule_actions, p, rng), stochastic_rule(rule_actions, p))
+        actions = decide(cars)
+        return PolicyOutput(sample_stochastic_rule(actions, p, rng), stochastic_rule(actions, p))
 
     return drive
 

@@ -14,6 +14,7 @@ from torch import Tensor
 
 from bootcourse.errors import BootcourseError
 from bootcourse.learn import bootstrap, sac
+from bootcourse.learn.agent import Agent
 from bootcourse.learn.networks import init_mlp, mlp
 from bootcourse.learn.replay_buffer import Batch
 from bootcourse.learn.settings import SHARED, Settings
@@ -157,6 +158,12 @@ class SACLearner:
     def q_values(self, states: Tensor) -> Tensor:
         """The smaller of the two critics' Q(s,a): (agents, batch, observation) -> (agents, batch, actions)."""
         return sac.min_q(self.q_pair(self.critics, states))
+
+    def agent(self, i: int) -> Agent:
+        """A snapshot of agent i: it stays as it is when the learner goes on."""
+        actor = [parameter.detach()[i : i + 1].clone() for parameter in self.actor]
+        critics = [parameter.detach()[[i, self.agents + i]].clone() for parameter in self.critics]
+        return Agent(self.settings[i], actor, critics, float(self.log_alpha[i].detach().exp()))
 
     def tensors(self) -> dict[str, list[Tensor]]:
         """The tensors of a checkpoint: all of the learner's state apart from the optimiser's."""

@@ -21,8 +21,8 @@ from bootcourse.errors import BootcourseError
 from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.road.constants import constants
 from bootcourse.road.state import EGO, LANE, SPEED, X
-from bootcourse.rule import rule, sample_stochastic_rule, stochastic_rule, track
-from bootcourse.scenario import DEFAULT, N_ACTIONS, RULE_P, Scenario
+from bootcourse.rule import rule, track
+from bootcourse.scenario import DEFAULT, N_ACTIONS, Scenario
 
 Rule = Callable[[np.ndarray, Scenario], int]  # one road's cars (vehicles, 10) -> an action, 0..8
 Teacher = Callable[[np.ndarray], np.ndarray]  # cars (roads, vehicles, 10) -> actions (roads,)
@@ -82,19 +82,6 @@ def teacher_policy(my_rule: Rule, scenario: Scenario = DEFAULT) -> Policy:
     """The rule as a policy. The policy raises BootcourseError if the rule does not return an action in 0..8."""
     teacher = teacher_of(my_rule, scenario)
     return lambda observations, cars: PolicyOutput(teacher(cars))
-
-
-def stochastic_teacher_policy(
-    my_rule: Rule, rng: np.random.Generator, scenario: Scenario = DEFAULT, p: float = RULE_P
-) -> Policy:
-    """The rule's stochastic form π̃ (Equation 16) as a policy. It raises BootcourseError if p is outside [1/9, 1)."""
-    teacher = teacher_of(my_rule, scenario)
-
-    def drive(observations, cars):
-        actions = teacher(cars)
-        return PolicyOutput(sample_stochastic_rule(actions, p, rng), stochastic_rule(actions, p))
-
-    return drive
 
 
 def teacher_name(my_rule: Rule) -> str:

@@ -31,7 +31,8 @@ from bootcourse.learn.demonstrations import collect, demonstration_rows
 from bootcourse.learn.learner import learner_for
 from bootcourse.learn.replay_buffer import ReplayBuffer, encode_transitions
 from bootcourse.learn.settings import Settings
-from bootcourse.learn.teachers import Rule, course_rule, stochastic_teacher_policy, teacher_name, teacher_of
+from bootcourse.learn.teachers import Rule, course_rule, teacher_name, teacher_of
+from bootcourse.policies import stochastic_policy
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, Scenario
 
@@ -123,7 +124,7 @@ class Training:
                     "Agents that train side by side share their demonstrations, so with stochastic_demonstrations "
                     "they need the same rule_p: train these apart."
                 )
-            policy = stochastic_teacher_policy(self.teacher, np.random.default_rng(0), self.scenario, shared.rule_p)
+            policy = stochastic_policy(self._teach, np.random.default_rng(0), shared.rule_p)
         return collect(shared.demonstration_episodes, self.scenario, policy, self.teacher)
 
     @property
@@ -227,9 +228,7 @@ class Training:
 
     def agent(self, i: int) -> Agent:
         """A snapshot of agent i."""
-        actor = [parameter.detach()[i : i + 1].clone() for parameter in self.learner.actor]
-        critics = [parameter.detach()[[i, self.n_agents + i]].clone() for parameter in self.learner.critics]
-        return Agent(self.settings[i], actor, critics, float(self.learner.log_alpha[i].detach().exp()))
+        return self.learner.agent(i)
 
     def _coefficients(self) -> dict[str, np.ndarray]:
         """α, ξ and β of each agent now, for the curves: {name: (agents,)}."""

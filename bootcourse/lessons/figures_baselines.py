@@ -19,12 +19,7 @@ SHORT = {"bc": "BC", "cql": "CQL", "gail": "GAIL"}
 
 def agents_of(learner: SACLearner) -> list[Agent]:
     """The agents of a learner as they are now; they do not change when it learns on."""
-    found, n = [], learner.agents
-    for i, settings in enumerate(learner.settings):
-        actor = [parameter.detach()[i : i + 1].clone() for parameter in learner.actor]
-        critics = [parameter.detach()[[i, n + i]].clone() for parameter in learner.critics]
-        found.append(Agent(settings, actor, critics, float(learner.log_alpha[i].detach().exp())))
-    return found
+    return [learner.agent(i) for i in range(learner.agents)]
 
 
 def believed(agents: Sequence[Agent], observations: np.ndarray, actions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

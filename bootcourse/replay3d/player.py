@@ -95,6 +95,6 @@ class Player:
             if self.playing and self._watched():
                 due = max(due + 1 / FRAME_RATE, time.perf_counter())
                 self._stop.wait(due - time.perf_counter())
-            else:  # paused, or nobody looks: wait until something wakes the player, 0.2 s at most
+            else:  # paused, or no viewer is connected: wait until something wakes the player, 0.2 s at most
                 self._wake.wait(0.2)
                 before = due = time.perf_counter()
