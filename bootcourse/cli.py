@@ -19,7 +19,6 @@ from bootcourse.errors import BootcourseError, did_you_mean
 
 INTERRUPTED = 130  # exit status
 CHECKPOINT, SECONDS_BETWEEN = "checkpoint.npz", 20.0  # a training's checkpoint file, and the time between two (s)
-SENSITIVITY_SEEDS = 3
 BUILT_IN = ("rule", "idle", "random")  # drivers that need no training
 MEASURES = {
     "success": "success %",
@@ -279,31 +278,34 @@ def replay(
 
 @app.command()
 def study(
-    out: Path = typer.Option(..., help="The study's folder: new, or that of a study to continue."),
-    scenario: str = typer.Option("default", help="default or calibrated; both may share a folder."),
-    seeds: int = typer.Option(10, min=1, help="Training seeds of each method."),
-    episodes: int = typer.Option(2000, min=1, help="Training episodes of each agent."),
+    name: str = typer.Argument("default", help="default, calibrated or paper; sensitivity, clocks or ablations."),
+    out: Path = typer.Option(..., help="The study's folder: new, or that of a study to continue; all may share one."),
+    seeds: int = typer.Option(0, min=0, help="Training seeds of each method; 0: the study's own number."),
+    episodes: int = typer.Option(0, min=0, help="Training episodes of each agent; 0: the study's own number."),
     tests: int = typer.Option(1000, min=1, help="Held-out episodes that each agent is tested on."),
     only: str = typer.Option("", help="Only these methods, such as sac,bootstrapped; planner is the bound."),
-    sensitivity: bool = typer.Option(False, "--sensitivity", help="Vary what the paper leaves open, 3 seeds each."),
     backend: str = typer.Option("loky", help="loky (this machine), dask or ray."),
     scheduler: str = typer.Option("", help="The address of a dask or ray cluster that you have."),
     workers: int = typer.Option(0, min=0, help="Jobs at once; 0: one for each core."),
     recompute: bool = typer.Option(False, "--recompute", help="Compute damaged jobs again."),
 ) -> None:
-    """Train and test every method with many seeds; write tables, figures and the fidelity report."""
-    from bootcourse.scenario import named
+    """Train and test every method with many seeds; write tables, figures and the fidelity report.
+
+    default, calibrated and paper: all methods. sensitivity, clocks and ablations: the paper's ablation, varied.
+    """
     from bootcourse.study import plan
     from bootcourse.study.report import write_report
     from bootcourse.study.results import in_study
 
-    road, methods = named(scenario), plan.methods_named(only)
-    if sensitivity and (only or scenario != "default"):
-        raise BootcourseError("--sensitivity has its own methods and scenarios: leave out --only and --scenario.")
-    if sensitivity:
-        wanted = plan.sensitivity_jobs(min(seeds, SENSITIVITY_SEEDS), episodes, tests)
+    methods = plan.methods_named(only)
+    if name not in plan.STUDIES and name not in plan.EXPERIMENTS:
+        raise BootcourseError(f"Study {did_you_mean(name, (*plan.STUDIES, *plan.EXPERIMENTS))}.")
+    if name in plan.STUDIES:
+        wanted = plan.study_jobs(name, methods, seeds or plan.SEEDS, tests, episodes)
+    elif only:
+        raise BootcourseError(f"The study '{name}' has its own methods: leave out --only.")
     else:
-        wanted = plan.study_jobs(methods, seeds, episodes, road, tests)
+        wanted = plan.EXPERIMENTS[name].jobs(name, seeds, episodes, tests)
     status = compute(wanted, out, backend=backend, scheduler=scheduler, workers=workers, recompute=recompute)
     found = in_study(out)
     if found.results:

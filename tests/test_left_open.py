@@ -13,7 +13,7 @@ from bootcourse.road.formulas import bicycle_step, speed_reward, steering_reward
 from bootcourse.scenario import CALIBRATED, DEFAULT
 from bootcourse.statistics import rate
 from bootcourse.study.paper import EPISODES, PRINTED, earned_at
-from bootcourse.study.plan import variations
+from bootcourse.study.plan import EXPERIMENTS
 from tools.course.left_open import KINDS, PARTS, gaps
 from tools.course.paper_map import items
 from tools.course.problems import exists
@@ -173,6 +173,6 @@ def test_no_number_of_episodes_gives_a_rate_of_5_with_the_printed_deviation():
 
 
 def test_the_settings_that_the_page_calls_variations_are_run_by_the_study():
-    changed = [changes for _, changes in variations().values()]
+    changed = [its.changes for its in EXPERIMENTS["sensitivity"].variations.values()]
     assert {"target_entropy": 0.3} in changed and {"target_entropy": 1.0} in changed
     assert {"updates": 4 * S.updates} in changed and any("hidden" in each for each in changed)

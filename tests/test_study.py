@@ -22,7 +22,7 @@ from bootcourse.scenario import DEFAULT
 from bootcourse.storage.runs import load_run
 from bootcourse.study import jobs as jobs_module
 from bootcourse.study.jobs import BoundJob, Job, asked, finished, run_job
-from bootcourse.study.plan import methods_named, sensitivity_jobs, study_jobs, sweep_jobs, variations
+from bootcourse.study.plan import EXPERIMENTS, methods_named, study_jobs, sweep_jobs
 from bootcourse.study.planner import Search
 from bootcourse.study.results import join, load_jobs, load_results, save_results
 from bootcourse.study.runner import locked, run_jobs
@@ -146,10 +146,10 @@ def test_the_second_study_in_a_folder_is_refused_and_a_killed_one_leaves_no_lock
 
 REFUSED = {
     "a mistyped method": (["--only", "sac,bootstraped"], "did you mean 'bootstrapped'"),
-    "a mistyped scenario": (["--scenario", "calibrate"], "did you mean 'calibrated'"),
+    "a mistyped study": (["calibrate"], "did you mean 'calibrated'"),
     "a mistyped backend": (["--backend", "dusk"], "did you mean 'dask'"),
     "a scheduler for this machine": (["--scheduler", "tcp://somewhere:1"], "needs --backend dask"),
-    "sensitivity of some methods": (["--sensitivity", "--only", "sac"], "leave out --only"),
+    "an experiment of some methods": (["clocks", "--only", "sac"], "leave out --only"),
 }
 
 
@@ -217,17 +217,18 @@ def test_results_of_different_lengths_do_not_join(study, tmp_path):
 
 
 def test_a_study_s_plan_has_every_method_with_every_seed_once():
-    jobs = study_jobs(methods_named(""), 10, 2000, DEFAULT, 1000)
+    jobs = study_jobs("default", methods_named(""), 10, 1000)
     agents = [(s.method, s.seed) for each in jobs if isinstance(each, Job) for s in each.settings]
     assert len(agents) == len(set(agents)) and {seed for _, seed in agents} == set(range(10))
     bounds = [each for each in jobs if isinstance(each, BoundJob)]
     assert sum(each.episodes for each in bounds) == 1000 and len({each.name for each in jobs}) == len(jobs)
 
 
-def test_every_variation_of_the_sensitivity_differs_from_the_others_in_its_question():
-    jobs = sensitivity_jobs(2, 10, 5)
+@pytest.mark.parametrize("name", EXPERIMENTS)
+def test_every_variation_of_an_experiment_differs_from_the_others_in_its_question(name):
+    jobs = EXPERIMENTS[name].jobs(name, 2, 10, 5)
     questions = {json.dumps(asked(each), sort_keys=True) for each in jobs}
-    assert len(questions) == len(variations()) == len({each.name for each in jobs})
+    assert len(questions) == len(EXPERIMENTS[name].variations) == len({each.name for each in jobs})
 
 
 def test_the_sweep_runs_every_combination_once():

@@ -37,9 +37,20 @@ def shipped_agents(method: str) -> list[Agent]:
     return [run.agent for run in shipped_runs(method)]
 
 
+def shipped_experiment(name: str) -> dict[str, Results]:
+    """The agents of an experiment of the study, "sensitivity", "clocks" or "ablations": {what was changed: results}.
+
+    Raises BootcourseError if it does not ship.
+    """
+    experiments = in_assets(FOLDER).experiments
+    if not experiments.get(name):
+        there = ", ".join(key for key, its in experiments.items() if its)
+        raise BootcourseError(f"No results of the experiment '{name}' ship: there are {there or 'none'}.")
+    return experiments[name]
+
+
 def shipped_sensitivity() -> dict[str, Results]:
-    """The study's agents with one number changed: {what was changed: results}."""
-    return in_assets(FOLDER).sensitivity
+    return shipped_experiment("sensitivity")
 
 
 def shipped_bound(scenario: str = "default") -> np.ndarray:

@@ -1,19 +1,41 @@
 """The lists of jobs that a study consists of."""
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from itertools import product
 
 from bootcourse.errors import BootcourseError, did_you_mean
-from bootcourse.learn.settings import Settings, settings_for, with_seeds
+from bootcourse.learn.settings import PAPER, Settings, settings_for, with_seeds
 from bootcourse.methods import ABLATION, BASELINES
-from bootcourse.scenario import DEFAULT, Scenario
+from bootcourse.scenario import CALIBRATED, DEFAULT, Scenario
 from bootcourse.study.jobs import BoundJob, Job, StayingJob
 
+SEEDS = 10  # of training, in a study of all methods
 GROUP = 10  # seeds that train side by side: with 5, each costs a third more
 PLANNER, ROADS = "planner", 50  # held-out roads that one job of the planner searches
-VARIED = ("sac", "soft", "demos", "bootstrapped")  # the paper's ablation: the methods of every variation
+VARIED = ("sac", "soft", "demos", "bootstrapped")  # the paper's ablation
 P, XI, C = (0.5, 0.9, 0.99), (0.0, 20.0, 200.0, 2000.0), (0.0, 2.0, 5.0)  # the sweep
+
+
+# Each updates-per-decision setting of the experiment `clocks`. The paper prints neither updates nor roads.
+UPDATES = {"1/4": {}, "1": {"envs_per_agent": 1}, "2": {"envs_per_agent": 1, "updates": 2},
+           "4": {"envs_per_agent": 1, "updates": 4}}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Study:
+    """All methods in one scenario with one setting."""
+
+    scenario: Scenario
+    changes: dict = field(default_factory=dict)  # settings that differ from the defaults
+    episodes: int = 2000  # of training
+
+
+STUDIES = {
+    "default": Study(DEFAULT),
+    "calibrated": Study(CALIBRATED),
+    "paper": Study(DEFAULT, PAPER, 1500),
+}
 
 
 def methods_named(only: str) -> list[str]:
@@ -26,32 +48,47 @@ def methods_named(only: str) -> list[str]:
     return [name for name in everything if name in names]
 
 
-def study_jobs(methods: Sequence[str], seeds: int, episodes: int, scenario: Scenario, tests: int) -> list:
-    """Every method with its training seeds, GROUP at a time; "planner" is the bound, ROADS roads at a time."""
-    jobs = []
+def study_jobs(study: str, methods: Sequence[str], seeds: int, tests: int, episodes: int = 0) -> list:
+    """Every method with its training seeds, GROUP at a time; "planner" is the bound, ROADS roads at a time.
+
+    study: a name of `STUDIES`. episodes: of training, 0 for the study's own number.
+    """
+    its = STUDIES[study]
+    scenario, jobs = its.scenario, []
     for method, first in product((m for m in methods if m != PLANNER), range(0, seeds, GROUP)):
-        group = with_seeds(settings_for(method), min(GROUP, seeds - first), first)
-        name = f"{scenario.name}/{method}-{first}-{first + len(group) - 1}"
-        jobs.append(Job(name, tuple(group), scenario, episodes, tests))
-    for first in range(0, tests, ROADS) if PLANNER in methods else ():
+        group = with_seeds(settings_for(method, **its.changes), min(GROUP, seeds - first), first)
+        name = f"{study}/{method}-{first}-{first + len(group) - 1}"
+        jobs.append(Job(name, tuple(group), scenario, episodes or its.episodes, tests))
+    if PLANNER not in methods or study != scenario.name:  # the bound depends on the scenario alone
+        return jobs
+    for first in range(0, tests, ROADS):
         name = f"bound-{scenario.name}/{first:04}"
         jobs.append(BoundJob(name, scenario, first, min(ROADS, tests - first)))
-    if PLANNER in methods:
-        jobs.append(StayingJob(f"staying-{scenario.name}/gamma-0.8", scenario, roads=min(ROADS, tests)))
-    return jobs
+    return [*jobs, StayingJob(f"staying-{scenario.name}/gamma-0.8", scenario, roads=min(ROADS, tests))]
 
 
-def variations() -> dict[str, tuple[Scenario, dict]]:
-    """What the paper leaves open, and three of its choices: {name: (scenario, settings that differ)}."""
+@dataclass(frozen=True)
+class Variation:
+    """Some methods of the ablation with something changed."""
+
+    changes: dict = field(default_factory=dict)  # of the settings
+    scenario: Scenario = DEFAULT
+    methods: tuple[str, ...] = VARIED
+
+
+def _sensitivity() -> dict[str, Variation]:
+    """What the paper leaves open, and three of its choices."""
 
     def traps(speed):
-        return replace(DEFAULT, name=f"traps-{speed}", traps=replace(DEFAULT.traps, speed=speed)), {}
+        return Variation(
+            scenario=replace(DEFAULT, name=f"traps-{speed}", traps=replace(DEFAULT.traps, speed=speed)),
+        )
 
     def traffic(name, **changes):
-        return replace(DEFAULT, name=name, traffic=replace(DEFAULT.traffic, **changes)), {}
+        return Variation(scenario=replace(DEFAULT, name=name, traffic=replace(DEFAULT.traffic, **changes)))
 
     return {
-        "as it is": (DEFAULT, {}),
+        "as it is": Variation(),
         "traps at 10.3 m/s": traps(10.3),
         "traps at 10.6 m/s": traps(10.6),
         "traps at 11 m/s": traps(11.0),
@@ -59,32 +96,79 @@ def variations() -> dict[str, tuple[Scenario, dict]]:
         "3 cars": traffic("3-cars", cars=3),
         "12 cars": traffic("12-cars", cars=12),
         "6 cars, twice as close": traffic("close", lead=20.0, headway=20.0),
-        "network 32 x 32": (DEFAULT, {"hidden": (32, 32)}),
-        "network 128 x 128": (DEFAULT, {"hidden": (128, 128)}),
-        "1 update for each decision": (DEFAULT, {"updates": 4}),
-        "demonstrations driven by π̃": (DEFAULT, {"stochastic_demonstrations": True}),
-        "target entropy 0.3": (DEFAULT, {"target_entropy": 0.3}),
-        "target entropy 1": (DEFAULT, {"target_entropy": 1.0}),
-        "γ = 0.9": (DEFAULT, {"gamma": 0.9}),
-        "γ = 0.95": (DEFAULT, {"gamma": 0.95}),
-        "γ = 0.99": (DEFAULT, {"gamma": 0.99}),
-        "γ = 0.9, target entropy 0.3": (DEFAULT, {"gamma": 0.9, "target_entropy": 0.3}),
+        "network 32 x 32": Variation({"hidden": (32, 32)}),
+        "network 128 x 128": Variation({"hidden": (128, 128)}),
+        "1 update for each decision": Variation({"updates": 4}),
+        "demonstrations driven by π̃": Variation({"stochastic_demonstrations": True}),
+        "target entropy 0.3": Variation({"target_entropy": 0.3}),
+        "target entropy 1": Variation({"target_entropy": 1.0}),
+        "γ = 0.9": Variation({"gamma": 0.9}),
+        "γ = 0.95": Variation({"gamma": 0.95}),
+        "γ = 0.99": Variation({"gamma": 0.99}),
+        "γ = 0.9, target entropy 0.3": Variation({"gamma": 0.9, "target_entropy": 0.3}),
     }
 
 
-def sensitivity_jobs(seeds: int, episodes: int, tests: int) -> list[Job]:
-    """One job for each variation: the ablation's methods, side by side."""
-    jobs = []
-    for name, (scenario, changes) in variations().items():
-        agents = [agent for method in VARIED for agent in with_seeds(settings_for(method, **changes), seeds)]
-        jobs.append(Job(f"sensitivity/{folder(name)}", tuple(agents), scenario, episodes, tests, runs=False))
-    return sorted(jobs, key=lambda job: -sum(job.settings[0].hidden) * job.settings[0].updates)  # the longest first
+def _clocks() -> dict[str, Variation]:
+    """ξ = 200 α fades with the updates, β with the episodes: both clocks, and who drives the demonstrations."""
+    found = {}
+    for updates, changes in UPDATES.items():
+        found[f"{updates} updates, no demonstrations"] = Variation(changes, methods=("sac", "soft"))
+        for driver, stochastic in (("μ", False), ("π̃", True)):
+            of_driver = changes | {"stochastic_demonstrations": stochastic}
+            found[f"{updates} updates, demonstrations by {driver}"] = Variation(
+                of_driver, methods=("demos", "bootstrapped")
+            )
+    return found
+
+
+def _ablations() -> dict[str, Variation]:
+    """One choice of the method changed."""
+    helped = ("demos", "bootstrapped")
+    return {
+        "KL in the actor only": Variation({"kl_in_target": False}, methods=("soft", "bootstrapped")),
+        "β over 300 episodes": Variation({"beta_episodes": 300}, methods=helped),
+        "β for ever": Variation({"beta_episodes": 10**9}, methods=helped),
+    }
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """Variations that are run with the same seeds and number of episodes."""
+
+    variations: dict[str, Variation]  # by name
+    seeds: int
+    episodes: int  # of training
+
+    def jobs(self, name: str, seeds: int = 0, episodes: int = 0, tests: int = 1000) -> list[Job]:
+        """One job for each variation, its agents side by side. 0: the experiment's own number."""
+        jobs = []
+        for variation, its in self.variations.items():
+            agents = [a for m in its.methods for a in with_seeds(settings_for(m, **its.changes), seeds or self.seeds)]
+            where = f"{name}/{folder(variation)}"
+            jobs.append(Job(where, tuple(agents), its.scenario, episodes or self.episodes, tests, runs=False))
+        return sorted(jobs, key=lambda job: -sum(job.settings[0].hidden) * job.settings[0].updates)  # the longest first
+
+
+EXPERIMENTS = {
+    "sensitivity": Experiment(_sensitivity(), seeds=3, episodes=1500),
+    "clocks": Experiment(_clocks(), seeds=10, episodes=1500),
+    "ablations": Experiment(_ablations(), seeds=10, episodes=2000),
+}
 
 
 def folder(name: str) -> str:
     """A name as a folder: "γ = 0.9" -> "gamma-0.9"."""
-    plain = name.replace("γ", "gamma").replace("π̃", "stochastic-rule").replace(",", "")
-    return "-".join(word for word in plain.split() if word not in ("=", "x", "at", "m/s"))
+    for letter, word in {
+        "γ": "gamma",
+        "β": "beta",
+        "π̃": "stochastic-rule",
+        "μ": "rule",
+        "1/4": "quarter",
+        ",": "",
+    }.items():
+        name = name.replace(letter, word)
+    return "-".join(word for word in name.split() if word not in ("=", "x", "at", "m/s"))
 
 
 def sweep_settings(p: Sequence[float] = P, xi: Sequence[float] = XI, c: Sequence[float] = C) -> list[Settings]:

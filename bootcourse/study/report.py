@@ -10,13 +10,14 @@ from bootcourse.errors import BootcourseError
 from bootcourse.files import write_bytes
 from bootcourse.plots.figure import save
 from bootcourse.policies import rule_policy
-from bootcourse.scenario import SCENARIOS, Scenario
+from bootcourse.scenario import Scenario
 from bootcourse.statistics import Estimate, mean
+from bootcourse.study import clocks, tables
 from bootcourse.study import figures as training_figures
-from bootcourse.study import tables
 from bootcourse.study.fidelity import CLOSE, VERDICTS, fidelity
 from bootcourse.study.jobs import HELD_OUT
 from bootcourse.study.paper import COLUMNS, PRINTED, ROWS, TABLES, arithmetic
+from bootcourse.study.plan import STUDIES
 from bootcourse.study.results import Results, StudyResults, join
 
 FIGURES = {  # name: (function, the methods that it needs)
@@ -39,21 +40,21 @@ def write_report(found: StudyResults, folder: Path) -> Path:
         raise BootcourseError("No job of this study is finished: run `bootcourse study --out DIR` first.")
     text, findings = [HEAD], {}
     for name, results in found.results.items():
-        rule = rule_results(SCENARIOS[name], results.tested["returns"].shape[1])
+        rule = rule_results(STUDIES[name].scenario, results.tested["returns"].shape[1])
         everyone = join([Results(results.agents, results.stopped, results.tested, {}), rule])
         findings[name] = fidelity(everyone)
-        text += [f"## Scenario: {name}\n", *scenario_part(found, name, rule, everyone, folder)]
+        text += [f"## Study: {name}\n", *study_part(found, name, rule, everyone, folder)]
     text += ["## Fidelity: every number of the paper's two tables\n", FIDELITY.format(close=close()), counted(findings)]
     text += [tables.fidelity_table(findings), "### What each row's own numbers say\n"]
     text += ["\n".join(f"- **{ROWS[method]}.** {arithmetic(method)}" for method in PRINTED) + "\n"]
-    text += sensitivity_part(found)
+    text += experiments_part(found.experiments)
     path = folder / "report.md"
     write_bytes(path, "\n".join(text).encode())
     return path
 
 
-def scenario_part(found: StudyResults, name: str, rule: Results, everyone: Results, folder: Path) -> list[str]:
-    results, text, best = found.results[name], [], found.bound.get(name)
+def study_part(found: StudyResults, name: str, rule: Results, everyone: Results, folder: Path) -> list[str]:
+    results, text, best = found.results[name], [], found.bound.get(STUDIES[name].scenario.name)
     for title, methods in TABLES.items():
         text += [f"### {title}\n", tables.result_table(everyone, methods)]
     others = [method for method in results.methods if not any(method in methods for methods in TABLES.values())]
@@ -116,14 +117,18 @@ def stopped(results: Results) -> str:
     )
 
 
-def sensitivity_part(found: StudyResults) -> list[str]:
-    if not found.sensitivity:
-        return []
-    seeds = len(next(iter(found.sensitivity.values())).of("sac"))
-    text = ["## Sensitivity\n", f"{seeds} seeds each: mean (lowest to highest seed). Too few for intervals.\n"]
-    return text + [
-        tables.sensitivity_table(found.sensitivity, measure) for measure in ("success", "returns", "collision")
-    ]
+def experiments_part(experiments: dict[str, dict[str, Results]]) -> list[str]:
+    """The tables of what was varied."""
+    text = []
+    if varied := experiments.get("sensitivity"):
+        seeds = len(next(iter(varied.values())).of("sac"))
+        text += ["## Sensitivity\n", f"{seeds} seeds each: mean (lowest to highest seed). Too few for intervals.\n"]
+        text += [tables.sensitivity_table(varied, measure) for measure in ("success", "returns", "collision")]
+    if varied := experiments.get("clocks"):
+        text += ["## Two clocks\n", CLOCKS, tables.markdown(*clocks.pattern_rows(varied))]
+    if varied := experiments.get("ablations"):
+        text += ["## One choice of the method changed\n", tables.ablations_table(varied)]
+    return text
 
 
 def close() -> str:
@@ -150,4 +155,10 @@ FIDELITY = """The paper's intervals assume 20 test episodes, the number that its
 An agent of ours scores "so" if it lies in the paper's interval, or close to its value ({close}).
 *Reproduced*: at least half of our agents score so. *Partly*: fewer do, or none does but the intervals meet. *Not
 reproduced*: neither. The rules were fixed before the study was run.
+"""
+
+CLOCKS = """ξ = 200 α fades with the updates, β with the episodes. The paper prints neither how many updates follow a
+decision nor who drove its demonstrations. Each row is one choice of both, with one road per agent (four where a
+decision has 1/4 of an update). The last column is the probability that a table with *one* trained agent per method and
+20 test episodes each reads as the paper's: successes 0, 0, 20 and 20. Its interval is over training seeds (Jeffreys).
 """

@@ -1,4 +1,4 @@
-"""What a study found: the scores and curves of every agent, the planner's bound, the sensitivity.
+"""What a study found: the scores and curves of every agent, the planner's bound, the experiments.
 
 Read from the jobs of a study's folder, or from what ships.
 """
@@ -14,8 +14,7 @@ from bootcourse.errors import BootcourseError
 from bootcourse.files import read_arrays, read_json, write_arrays
 from bootcourse.learn.settings import renamed
 from bootcourse.road.state import Accident
-from bootcourse.scenario import SCENARIOS
-from bootcourse.study.plan import folder, variations
+from bootcourse.study.plan import EXPERIMENTS, STUDIES, folder
 
 MEASURES = ("success", "returns", "speed", "distance", "collision", "road_departure", "stoppage")
 KINDS = {"collision": Accident.COLLISION, "road_departure": Accident.ROAD_DEPARTURE, "stoppage": Accident.STOPPAGE}
@@ -116,42 +115,52 @@ def load_jobs(root: Path, part: str) -> Results:
 
 @dataclass(frozen=True)
 class StudyResults:
-    """Everything is by the scenario's or the variation's name, and absent if it was not computed."""
+    """Everything is by name, and absent if it was not computed."""
 
-    results: dict[str, Results]  # every method's agents
-    bound: dict[str, np.ndarray] = field(default_factory=dict)  # best known return of each held-out episode (tests,)
-    staying: dict[str, dict] = field(default_factory=dict)  # the fields of planner.Staying
-    sensitivity: dict[str, Results] = field(default_factory=dict)
+    results: dict[str, Results]  # {study: every method's agents}, see plan.STUDIES
+    bound: dict[str, np.ndarray] = field(default_factory=dict)  # {scenario: best known return of each episode (tests,)}
+    staying: dict[str, dict] = field(default_factory=dict)  # {scenario: the fields of planner.Staying}
+    experiments: dict[str, dict[str, Results]] = field(default_factory=dict)  # {experiment: {variation: agents}}
 
 
 def in_study(root: Path) -> StudyResults:
     """What the finished jobs of a study's folder hold."""
     root = Path(root)
-    results = {name: load_jobs(root, name) for name in SCENARIOS if list(root.glob(f"jobs/{name}/*/results.npz"))}
+    results = {name: load_jobs(root, name) for name in STUDIES if list(root.glob(f"jobs/{name}/*/results.npz"))}
     bounds = {name: _bound(root, name, found.tested["returns"].shape[1]) for name, found in results.items()}
     staying = {name: root / f"jobs/staying-{name}/gamma-0.8/staying.json" for name in results}
-    varied = {name: root / "jobs" / "sensitivity" / folder(name) / "results.npz" for name in variations()}
     return StudyResults(
         results,
         {name: bound for name, bound in bounds.items() if bound is not None},
         {name: read_json(path) for name, path in staying.items() if path.exists()},
-        {name: load_results(path) for name, path in varied.items() if path.exists()},
+        _experiments(root / "jobs", "/results.npz"),
     )
 
 
 def in_assets(root: Path) -> StudyResults:
     """The results in an assets folder: what ships, or what is prepared for shipping."""
-    files = {name: Path(root) / f"study-{name}.npz" for name in SCENARIOS}
-    results = {name: load_results(path) for name, path in files.items() if path.exists()}
-    bounds = {name: Path(root) / f"bound-{name}.npz" for name in results}
-    staying = {name: Path(root) / f"staying-{name}.json" for name in results}
-    varied = {name: Path(root) / "sensitivity" / f"{folder(name)}.npz" for name in variations()}
+    root = Path(root)
+    bounds = {name: root / f"bound-{name}.npz" for name in STUDIES}
+    staying = {name: root / f"staying-{name}.json" for name in STUDIES}
+    studies = {name: root / f"study-{name}.npz" for name in STUDIES}
     return StudyResults(
-        results,
+        {name: load_results(path) for name, path in studies.items() if path.exists()},
         {name: read_arrays(path)["returns"] for name, path in bounds.items() if path.exists()},
         {name: read_json(path) for name, path in staying.items() if path.exists()},
-        {name: load_results(path) for name, path in varied.items() if path.exists()},
+        _experiments(root, ".npz"),
     )
+
+
+def _experiments(root: Path, ending: str) -> dict[str, dict[str, Results]]:
+    """The variations that were computed, root/EXPERIMENT/VARIATION + ending."""
+    found = {
+        name: {variation: root / name / f"{folder(variation)}{ending}" for variation in its.variations}
+        for name, its in EXPERIMENTS.items()
+    }
+    return {
+        name: {variation: load_results(path) for variation, path in paths.items() if path.exists()}
+        for name, paths in found.items()
+    }
 
 
 def _bound(root: Path, name: str, tests: int) -> np.ndarray | None:

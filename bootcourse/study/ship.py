@@ -22,6 +22,7 @@ from bootcourse.storage.assets import FOLDER, LIMIT, MANIFEST
 from bootcourse.storage.runs import load_run
 from bootcourse.study.fingerprint import alike, fingerprints, key
 from bootcourse.study.jobs import HELD_OUT
+from bootcourse.study.plan import EXPERIMENTS
 from bootcourse.study.report import write_report
 from bootcourse.study.results import in_assets, in_study, load_jobs, load_results, save_results
 
@@ -88,7 +89,7 @@ def build(study: Path, folder: Path = FOLDER) -> None:
     shutil.rmtree(new, ignore_errors=True)
     try:
         shipment = Shipment(study, folder, new)
-        for part in (add_results, add_sensitivity, add_runs, add_demonstrations, add_rollouts, add_report, add_card):
+        for part in (add_results, add_experiments, add_runs, add_demonstrations, add_rollouts, add_report, add_card):
             part(shipment)
         add_kept(shipment, folder)
         shipment.write_manifest()
@@ -120,7 +121,8 @@ def jobs_made(study: Path, part: str) -> tuple[dict[str, list[float]], dict]:
 
 COMMANDS = {
     "default": "bootcourse study --out DIR",
-    "calibrated": "bootcourse study --out DIR --scenario calibrated",
+    "calibrated": "bootcourse study calibrated --out DIR",
+    "paper": "bootcourse study paper --out DIR",
     "sweep": "bootcourse sweep --out DIR",
 }
 
@@ -149,14 +151,15 @@ def add_results(to: Shipment) -> None:
             to.add(answer, how, *jobs_made(to.study, f"staying-{part}"))
 
 
-def add_sensitivity(to: Shipment) -> None:
+def add_experiments(to: Shipment) -> None:
     """Scores and curves of every variation that was run, a file each."""
-    how = f"bootcourse study --out DIR --sensitivity --episodes 1500 && {BUILD}"
-    for job in sorted(to.study.glob("jobs/sensitivity/*/results.npz")):
-        behaviour, versions = jobs_made(to.study, f"sensitivity/{job.parent.name}")
-        path = to.new / "sensitivity" / f"{job.parent.name}.npz"
-        save_results(lighter(load_results(job), CURVES[:2]), path, versions)
-        to.add(path, how, behaviour, versions)
+    for name in EXPERIMENTS:
+        how = f"bootcourse study {name} --out DIR && {BUILD}"
+        for job in sorted(to.study.glob(f"jobs/{name}/*/results.npz")):
+            behaviour, versions = jobs_made(to.study, f"{name}/{job.parent.name}")
+            path = to.new / name / f"{job.parent.name}.npz"
+            save_results(lighter(load_results(job), CURVES[:2]), path, versions)
+            to.add(path, how, behaviour, versions)
 
 
 def add_report(to: Shipment) -> None:

@@ -113,3 +113,16 @@ def sensitivity_table(results: dict[str, Results], measure: str) -> str:
             cells.append(f"{number(scores.mean())} ({number(scores.min())} to {number(scores.max())})")
         rows.append([variation, *cells])
     return markdown([HEADINGS[measure], *(display_name(method) for method in methods)], rows)
+
+
+def ablations_table(varied: dict[str, Results]) -> str:
+    """Who escapes and what they earn, a row for each variation and method."""
+    rows = []
+    for variation, found in varied.items():
+        for method in found.methods:
+            success = found.of(method).scores("success")
+            count = f"{int((success >= ESCAPES).sum())} of {len(success)}"
+            cells = [bracketed(score(found, method, measure)) for measure in ("success", "returns", "collision")]
+            rows.append([variation, display_name(method), count, *cells])
+    headings = ["changed", "method", "agents that escape"]
+    return markdown([*headings, *(HEADINGS[m] for m in ("success", "returns", "collision"))], rows)

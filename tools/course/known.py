@@ -35,7 +35,7 @@ from bootcourse.study import report
 from bootcourse.study.checks import CHECKS
 from bootcourse.study.paper import EPISODES, PRINTED, paper_interval
 from bootcourse.study.planner import Search, discounted_values, plan_episodes
-from bootcourse.study.results import KINDS, Results, in_assets
+from bootcourse.study.results import KINDS, Results
 from tools.course.source import NOTEBOOKS
 
 shipped_results = cache(shipped.shipped_results)
@@ -95,7 +95,7 @@ def escaped(method: str, scenario: str = "default") -> int:
 @cache
 def varied() -> dict[str, Results]:
     """The study's agents with one number changed, by what was changed."""
-    return in_assets(FOLDER).sensitivity
+    return shipped.shipped_experiment("sensitivity")
 
 
 def escaped_with(change: str, method: str) -> int:

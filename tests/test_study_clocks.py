@@ -1,0 +1,48 @@
+"""How often a table of single agents reads as the paper's: `bootcourse.study.clocks`."""
+
+import numpy as np
+import pytest
+
+from bootcourse.study.clocks import as_printed, cells, pattern, pattern_rows
+from bootcourse.study.plan import EXPERIMENTS, STUDIES
+from bootcourse.study.results import Results
+
+
+def agents(**success):
+    """Agents whose held-out success rates are given: agents(sac=[0, 1])."""
+    settings = [{"method": method, "seed": seed} for method, rates in success.items() for seed in range(len(rates))]
+    rates = np.array([rate for each in success.values() for rate in each])
+    tested = {"success": np.arange(100)[None] < 100 * rates[:, None]}
+    return Results(settings, np.full(len(rates), -1), tested, {})
+
+
+def test_a_table_of_single_agents_is_the_paper_s_if_every_row_is():
+    results = agents(sac=[0, 0], soft=[1, 0], demos=[1, 1, 1, 0], bootstrapped=[1, 1])
+    found = pattern(results)
+    assert found.value == pytest.approx(1 * 0.5 * 0.75 * 1)
+    assert found.low < found.value < found.high
+
+
+def test_an_agent_that_fails_on_one_road_in_twenty_shows_twenty_successes_in_a_third_of_its_tests():
+    assert as_printed(np.array([0.95]), "demos") == pytest.approx([0.95**20])
+    assert as_printed(np.array([0.95]), "soft") == pytest.approx([0.05**20])
+
+
+def test_where_no_agent_fits_the_probability_is_zero_and_its_interval_is_not():
+    found = pattern(agents(sac=[0] * 10, soft=[1] * 10, demos=[1] * 10, bootstrapped=[1] * 10))
+    assert found.value == found.low.__round__(3) == 0 and 0.02 < found.high < 0.3
+
+
+def test_a_row_stands_for_a_choice_whose_four_methods_were_computed():
+    alone, helped = agents(sac=[0, 0], soft=[0, 1]), agents(demos=[1, 1], bootstrapped=[1, 1])
+    varied = {"2 updates, no demonstrations": alone, "2 updates, demonstrations by π̃": helped}
+    varied["1 updates, demonstrations by μ"] = helped  # sac and soft are missing there
+    assert list(cells(varied)) == [("2", "π̃")]
+    headings, rows = pattern_rows(varied)
+    assert rows[0][:6] == ["2", "π̃", "0 of 2", "1 of 2", "2 of 2", "2 of 2"] and rows[0][6].startswith("50 [")
+    assert len(headings) == len(rows[0])
+
+
+def test_the_setting_named_after_the_paper_is_one_of_the_choices():
+    paper, choice = STUDIES["paper"].changes, EXPERIMENTS["clocks"].variations["2 updates, demonstrations by π̃"]
+    assert paper == choice.changes and STUDIES["paper"].episodes == EXPERIMENTS["clocks"].episodes
