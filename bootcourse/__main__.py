@@ -1,4 +1,4 @@
-"""`python -m bootcourse`: the same as `bootcourse`. The commands are in `cli.py`."""
+"""`python -m bootcourse`: the same as `bootcourse`. The commands are in `cli`."""
 
 import sys
 

@@ -8,7 +8,7 @@ import sys
 
 import pytest
 
-from bootcourse import cli
+from bootcourse.cli import studies
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import settings_for, with_seeds
@@ -84,7 +84,7 @@ def test_a_damaged_missing_or_unlisted_file_is_named_with_the_command_that_makes
     assert len(problems) == 3
     assert "sweep.npz is damaged" in text and "demonstrations.npz is missing" in text and "notes.txt is not in" in text
     assert "bootcourse sweep --out DIR" in text
-    assert cli.report_assets(shipped) == 1 and "3 wrong" in capsys.readouterr().out
+    assert studies.report_assets(shipped) == 1 and "3 wrong" in capsys.readouterr().out
 
 
 def test_a_file_made_by_older_code_is_named_and_not_called_wrong(shipped, capsys):
@@ -94,7 +94,7 @@ def test_a_file_made_by_older_code_is_named_and_not_called_wrong(shipped, capsys
         if entry["file"] == "sweep.npz":
             entry["behaviour"] |= {"sac": "0000", "removed since": "1111"}
     (shipped / "manifest.json").write_text(json.dumps(manifest))
-    assert cli.report_assets(shipped) == 0
+    assert studies.report_assets(shipped) == 0
     printed = capsys.readouterr().out
     assert "sweep.npz is older than the code's sac, removed since: bootcourse sweep --out DIR" in printed
     assert "0 wrong, 1 made by older code" in printed and printed.count("is older than") == 1
@@ -130,9 +130,9 @@ def test_a_study_that_is_not_complete_is_named(study, tmp_path):
     with pytest.raises(BootcourseError, match="no finished jobs in jobs/default"):
         ship.build(tmp_path, tmp_path / "assets")
     with pytest.raises(BootcourseError, match="build needs --study"):
-        cli.assets("build", None)
+        studies.assets("build", None)
     with pytest.raises(BootcourseError, match="did you mean 'verify'"):
-        cli.assets("verfy", None)
+        studies.assets("verfy", None)
 
 
 def test_the_readme_s_pictures_stay_and_are_listed(study, shipped):

@@ -1,0 +1,58 @@
+"""The command line, `bootcourse` or `python -m bootcourse`: a command is a function in `COMMANDS`.
+
+Commands import their modules themselves, so that `bootcourse --help` is fast.
+"""
+
+import sys
+
+import typer
+
+from bootcourse.cli.driving import drive, evaluate, replay
+from bootcourse.cli.studies import assets, study, sweep
+from bootcourse.cli.training import train
+from bootcourse.errors import BootcourseError
+
+app = typer.Typer(
+    help="A trap on the highway, and how an imperfect driver pulls a learner out of it.",
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode=None,  # plain text, on every terminal
+    pretty_exceptions_enable=False,
+)
+
+
+def main() -> None:
+    """Run a command. Exit status: 2, after one sentence, for a user mistake; 130 for Ctrl-C."""
+    try:
+        app(prog_name="bootcourse")
+    except BootcourseError as error:
+        print(error, file=sys.stderr)
+        sys.exit(2)
+
+
+def show_version(wanted: bool) -> None:
+    """Print the version and exit, if wanted."""
+    if wanted:
+        from bootcourse import __version__
+
+        print(f"bootcourse {__version__}")
+        raise typer.Exit()
+
+
+@app.callback()
+def options(
+    version: bool = typer.Option(False, "--version", callback=show_version, is_eager=True, help="Print the version."),
+) -> None:
+    """The options of `bootcourse` itself."""
+
+
+def doctor() -> None:
+    """Check the installation and this machine, and print a remedy for each problem."""
+    from bootcourse import doctor
+
+    raise typer.Exit(doctor.main())
+
+
+COMMANDS = (doctor, train, evaluate, drive, replay, study, sweep, assets)
+for command in COMMANDS:
+    app.command()(command)

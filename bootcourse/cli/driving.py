@@ -1,0 +1,145 @@
+"""`bootcourse evaluate`, `drive` and `replay`: who drives how well, one drive, and what it looked like."""
+
+import contextlib
+import json
+import threading
+import webbrowser
+from pathlib import Path
+
+import typer
+
+from bootcourse.errors import BootcourseError, did_you_mean
+
+BUILT_IN = ("rule", "idle", "random")  # drivers that need no training
+MEASURES = {
+    "success": "success %",
+    "returns": "return",
+    "speed": "speed m/s",
+    "distance": "distance m",
+    "collision": "collision %",
+    "road_departure": "road departure %",
+    "stoppage": "stoppage %",
+}
+ACROSS = 4  # columns of `evaluate`'s table side by side in a terminal
+
+
+def evaluate(
+    who: str = typer.Argument(..., help="rule, idle, or a folder that `bootcourse train` wrote."),
+    episodes: int = typer.Option(1000, min=1, help="Held-out episodes."),
+    seed: int = typer.Option(1, min=0, help="The block of held-out roads."),
+    scenario: str = typer.Option("", help="default or calibrated; by default the scenario that a run trained on."),
+    sample: bool = typer.Option(False, "--sample", help="Draw an agent's actions instead of taking the most probable."),
+    as_json: bool = typer.Option(False, "--json", help="Print JSON."),
+) -> None:
+    """Drive held-out episodes and print success, return, speed, distance and accidents with 95 % intervals."""
+    from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds, over_seeds, summarise
+
+    seeds = held_out_seeds(seed, episodes)
+    found = {
+        label: summarise(drive_episodes(policy, seeds, road))
+        for label, policy, road in policies_of(who, scenario, sample, seed)
+    }
+    if as_json:
+        everything = {label: each.to_dict() for label, each in found.items()}
+        if len(found) > 1:
+            everything["over seeds"] = {name: e._asdict() for name, e in over_seeds(list(found.values())).items()}
+        print(json.dumps(everything, indent=2))
+        return
+    print(f"{episodes} held-out episodes, block {seed}: value [95 % interval]")
+    columns = {label: {name: getattr(each, name) for name in MEASURES} for label, each in found.items()}
+    if len(found) > 1:
+        columns["mean over seeds"] = over_seeds(list(found.values()))
+    labels = list(columns)
+    for first in range(0, len(labels), ACROSS):
+        print_table({label: columns[label] for label in labels[first : first + ACROSS]})
+
+
+def policies_of(who: str, scenario: str, sample: bool, seed: int) -> list[tuple]:
+    """(label, policy, scenario) of a built-in driver, or of each run in a folder."""
+    import numpy as np
+
+    from bootcourse.policies import idle_policy, random_policy, rule_policy
+    from bootcourse.scenario import DEFAULT, named
+
+    if who in BUILT_IN:
+        road = named(scenario) if scenario else DEFAULT
+        built_in = {
+            "rule": rule_policy(road),
+            "idle": idle_policy,
+            "random": random_policy(np.random.default_rng(seed)),
+        }
+        return [(who, built_in[who], road)]
+    if not Path(who).exists():
+        raise BootcourseError(f"Driver {did_you_mean(who, BUILT_IN)}, or give a folder that `bootcourse train` wrote.")
+    from bootcourse.storage.runs import find_runs, load_run
+
+    found = []
+    for path in find_runs(Path(who)):
+        run = load_run(path)
+        rng = np.random.default_rng(seed) if sample else None
+        road = named(scenario) if scenario else run.scenario
+        found.append((path.name, run.agent.as_policy(rng, with_q=True), road))
+    return found
+
+
+def print_table(columns: dict[str, dict]) -> None:
+    """Print a table of value [low, high]: one column for each driver, one row for each measure."""
+    print("\n" + " " * 18 + "".join(f"{label:>26}" for label in columns))
+    for name, heading in MEASURES.items():
+        scale = 100 if "%" in heading else 1
+        each = [tuple(scale * number for number in column[name]) for column in columns.values()]
+        print(f"{heading:18}" + "".join(f"{f'{v:.1f} [{low:.1f}, {high:.1f}]':>26}" for v, low, high in each))
+
+
+def drive(
+    who: str = typer.Argument(..., help="rule, idle, random, or a run's folder."),
+    out: Path = typer.Option(..., help="The rollout to write, such as drive.npz."),
+    seed: int = typer.Option(0, min=0, help="The road."),
+    scenario: str = typer.Option("", help="default or calibrated; by default the scenario that a run trained on."),
+    png: Path | None = typer.Option(None, help="Also draw the top view and the traces to this picture."),
+) -> None:
+    """Record one drive for figures and replays."""
+    from bootcourse.episodes.record import record
+
+    if out.exists():
+        raise BootcourseError(f"{out} exists already: choose another name.")
+    label, policy, road = policies_of(who, scenario, False, seed)[0]
+    label = label.rsplit("-", 1)[0] if label not in BUILT_IN else label
+    rollout = record(policy, [seed], road, label)[0]
+    print(rollout.save(out))
+    if png is not None:
+        from bootcourse.plots.drive_figure import save_drive
+
+        print(save_drive(rollout, png))
+
+
+def replay(
+    files: list[Path] = typer.Argument(..., help="Rollouts of `bootcourse drive`; several of one road are compared."),
+    export: Path | None = typer.Option(None, help="Write one HTML file that plays anywhere, such as out.html."),
+    gif: Path | None = typer.Option(None, help="Write an animation for slides, such as out.gif."),
+    png: Path | None = typer.Option(None, help="Write a picture, such as out.png."),
+    text: bool = typer.Option(False, "--text", help="Print each drive in words."),
+    port: int = typer.Option(0, min=0, max=65535, help="The server's port; 0: any free one."),
+    browser: bool = typer.Option(True, help="Open the browser, or print only the address."),
+) -> None:
+    """Show drives in 3D in the browser until Ctrl-C, or write them to a file, or print them in words."""
+    from bootcourse.episodes.rollout import Rollout
+
+    rollouts = [Rollout.load(file) for file in files]
+    if not (export or gif or png or text):
+        from bootcourse.replay3d import viewer
+
+        with viewer.replay(rollouts, port=port) as shown, contextlib.suppress(KeyboardInterrupt):
+            print(f"Replay at {shown.url} (Ctrl-C ends it)", flush=True)
+            if browser:
+                webbrowser.open(shown.url)
+            threading.Event().wait()
+        return
+    from bootcourse.episodes.words import transcripts
+    from bootcourse.replay3d import pictures, recorder
+
+    for path, write in ((export, recorder.export), (gif, pictures.write_gif), (png, pictures.write_png)):
+        if path is not None:
+            print(f"{write(rollouts, path)} ({path.stat().st_size / 1e6:.1f} MB)")
+    if text:
+        print(transcripts(rollouts))

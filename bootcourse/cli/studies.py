@@ -1,0 +1,130 @@
+"""`bootcourse study` and `sweep` compute what ships; `assets` checks it and makes it.
+
+A study that is stopped by Ctrl-C (exit status 130) or killed goes on when the same command is started again.
+"""
+
+import sys
+import time
+from pathlib import Path
+
+import typer
+
+from bootcourse.cli.training import INTERRUPTED
+from bootcourse.errors import BootcourseError, did_you_mean
+
+
+def study(
+    name: str = typer.Argument("default", help="default, calibrated or paper; sensitivity, clocks or ablations."),
+    out: Path = typer.Option(..., help="The study's folder: new, or that of a study to continue; all may share one."),
+    seeds: int = typer.Option(0, min=0, help="Training seeds of each method; 0: the study's own number."),
+    episodes: int = typer.Option(0, min=0, help="Training episodes of each agent; 0: the study's own number."),
+    tests: int = typer.Option(1000, min=1, help="Held-out episodes that each agent is tested on."),
+    only: str = typer.Option("", help="Only these methods, such as sac,bootstrapped; planner is the bound."),
+    backend: str = typer.Option("loky", help="loky (this machine), dask or ray."),
+    scheduler: str = typer.Option("", help="The address of a dask or ray cluster that you have."),
+    workers: int = typer.Option(0, min=0, help="Jobs at once; 0: one for each core."),
+    recompute: bool = typer.Option(False, "--recompute", help="Compute damaged jobs again."),
+) -> None:
+    """Train and test every method with many seeds; write tables, figures and the fidelity report.
+
+    default, calibrated and paper: all methods. sensitivity, clocks and ablations: the paper's ablation, varied.
+    """
+    from bootcourse.study import plan
+    from bootcourse.study.report import write_report
+    from bootcourse.study.results import in_study
+
+    methods = plan.methods_named(only)
+    if name not in plan.STUDIES and name not in plan.EXPERIMENTS:
+        raise BootcourseError(f"Study {did_you_mean(name, (*plan.STUDIES, *plan.EXPERIMENTS))}.")
+    if name in plan.STUDIES:
+        wanted = plan.study_jobs(name, methods, seeds or plan.SEEDS, tests, episodes)
+    elif only:
+        raise BootcourseError(f"The study '{name}' has its own methods: leave out --only.")
+    else:
+        wanted = plan.EXPERIMENTS[name].jobs(name, seeds, episodes, tests)
+    status = compute(wanted, out, backend=backend, scheduler=scheduler, workers=workers, recompute=recompute)
+    found = in_study(out)
+    if found.results:
+        print(write_report(found, out))
+    raise typer.Exit(status)
+
+
+def sweep(
+    out: Path = typer.Option(..., help="The folder: new, a study's, or that of a sweep to continue."),
+    seeds: int = typer.Option(4, min=1, help="Training seeds of each setting."),
+    episodes: int = typer.Option(1500, min=1, help="Training episodes of each agent."),
+    tests: int = typer.Option(1000, min=1, help="Held-out episodes that each agent is tested on."),
+    backend: str = typer.Option("loky", help="loky (this machine), dask or ray."),
+    scheduler: str = typer.Option("", help="The address of a dask or ray cluster that you have."),
+    workers: int = typer.Option(0, min=0, help="Jobs at once; 0: one for each core."),
+    recompute: bool = typer.Option(False, "--recompute", help="Compute damaged jobs again."),
+) -> None:
+    """Train the paper's method with many settings of p, ξ and c; write one file of results."""
+    from bootcourse.files import provenance
+    from bootcourse.study.plan import sweep_jobs
+    from bootcourse.study.results import load_jobs, save_results
+    from bootcourse.study.sweep import sweep_table
+
+    wanted = sweep_jobs(seeds, episodes, tests)
+    status = compute(wanted, out, backend=backend, scheduler=scheduler, workers=workers, recompute=recompute)
+    if status == 0:
+        found = load_jobs(out, "sweep")
+        made = provenance(command=f"bootcourse sweep --seeds {seeds} --episodes {episodes}")
+        save_results(found, out / "sweep.npz", made)
+        print(sweep_table(found))
+        print(out / "sweep.npz")
+    raise typer.Exit(status)
+
+
+def compute(wanted: list, out: Path, **how) -> int:
+    """Compute the missing jobs; print failures and how to continue. Returns the exit status."""
+    from bootcourse.study.runner import run_jobs
+
+    started = time.monotonic()
+    try:
+        problems = run_jobs(wanted, out, **how)
+    except KeyboardInterrupt:
+        print("Interrupted. Finished jobs are kept: start the same command again to continue.", file=sys.stderr)
+        return INTERRUPTED
+    minutes = (time.monotonic() - started) / 60
+    print(f"{len(wanted) - len(problems)} of {len(wanted)} jobs are done, after {minutes:.1f} minutes.")
+    for problem in problems:
+        print(problem)
+    if problems:
+        print("Finished jobs are kept: start the same command again to continue.")
+    return 1 if problems else 0
+
+
+def assets(
+    what: str = typer.Argument(..., help="verify: check the shipped files. build: make them from a study's folder."),
+    study: Path | None = typer.Option(None, help="The study's folder, for build."),
+) -> None:
+    """Check the files that ship with the course, or make them again."""
+    if what not in ("verify", "build"):
+        raise BootcourseError(f"Action {did_you_mean(what, ('verify', 'build'))}.")
+    if what == "build":
+        if study is None:
+            raise BootcourseError(
+                "build needs --study DIR, a folder that `bootcourse study` and `bootcourse sweep` wrote."
+            )
+        from bootcourse.study.ship import build
+
+        build(study)
+    from bootcourse.storage.assets import FOLDER
+
+    raise typer.Exit(report_assets(FOLDER))
+
+
+def report_assets(folder: Path) -> int:
+    """Print the shipped files that are damaged or older than the code. Returns the exit status."""
+    from bootcourse.files import read_json
+    from bootcourse.storage.assets import MANIFEST, verify
+    from bootcourse.study.fingerprint import older
+
+    problems, old = verify(folder), older(folder)
+    for sentence in (*problems, *old):
+        print(sentence)
+    entries = read_json(folder / MANIFEST)["files"]
+    size = sum(entry["bytes"] for entry in entries) / 1e6
+    print(f"{len(entries)} files, {size:.1f} MB: {len(problems)} wrong, {len(old)} made by older code.")
+    return 1 if problems else 0
