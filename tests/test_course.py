@@ -192,6 +192,30 @@ check.soft_constraint(soft_constraint)
     ]
 
 
+def test_predictions_are_numbered_after_the_lesson_and_answered_at_its_end(few_exercises, tmp_path):
+    text = """\
+# %%
+from bootcourse.lessons import compare_predictions, predict
+
+# %%
+predict("3.1", "Left?", ["yes", "no"])
+
+# %%
+predict("3.1", "Right?", ["yes", "no"])
+
+# %%
+predict("4.2", "How far?", unit="m")
+
+# %%
+compare_predictions("03", {"3.1": "yes"})
+"""
+    assert problems(write_source(tmp_path, text, "03_the_rule"))[-3:] == [
+        "The prediction 4.2 does not begin with 3.",
+        "There are two predictions 3.1.",
+        "No compare_predictions answers 4.2.",
+    ]
+
+
 def spoil(file: Path, old: str, new: str) -> None:
     text = file.read_text(encoding="utf-8")
     assert old in text

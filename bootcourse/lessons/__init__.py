@@ -7,6 +7,10 @@ import sys
 import textwrap
 from collections.abc import Sequence
 
+from bootcourse.lessons.predictions import compare_predictions, predict
+
+__all__ = ["code_of", "compare_predictions", "predict", "source", "table", "text_of"]
+
 if "IPython" in sys.modules and (_shell := sys.modules["IPython"].get_ipython()) is not None:
     from bootcourse.lessons.order import install
 

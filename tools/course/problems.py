@@ -33,6 +33,7 @@ def problems(path: Path) -> list[str]:
         *of_length(cells),
         *of_imports(cells),
         *of_exercises(cells, path.stem),
+        *of_predictions(cells, path.stem),
         *of_references(cells),
         *of_order(cells),
     ]
@@ -108,6 +109,20 @@ def of_solution(exercise, solved: ast.FunctionDef) -> list[str]:
     if body(shown) != body(solved):
         return [f"{exercise.name}: the source's solution is not the one that check.solution shows."]
     return []
+
+
+# Predictions ----------------------------------------------------------------------------------------
+
+
+def of_predictions(cells: list[Cell], lesson: str) -> list[str]:
+    """Each prediction has a number of its own that begins with the lesson's, and the lesson's end compares them all."""
+    code = "\n".join(cell.solved for cell in cells if cell.is_code)
+    asked = re.findall(r"(?<![\w.])predict\(\s*[\"']([^\"']*)", code)
+    compared = code.rpartition("compare_predictions(")[2] if "compare_predictions(" in code else ""
+    chapter = str(int(lesson[:2]))
+    found = [f"The prediction {n} does not begin with {chapter}." for n in asked if n.partition(".")[0] != chapter]
+    found += [f"There are two predictions {number}." for number in sorted(set(asked)) if asked.count(number) > 1]
+    return found + [f"No compare_predictions answers {number}." for number in asked if f'"{number}":' not in compared]
 
 
 # References -----------------------------------------------------------------------------------------

@@ -1,0 +1,83 @@
+"""The form of a prediction in a notebook: radio buttons or a field, and a button that commits to the answer.
+
+Without a kernel, or where no widgets are shown, a reader sees the question and its choices.
+"""
+
+from html import escape
+
+import ipywidgets as widgets
+
+from bootcourse.lessons.predictions import Question, commit, committed, predictions
+from bootcourse.lessons.verdict import marked
+from bootcourse.panels.panel import Panel, button
+
+STYLE = """<style>
+.bc-panel .widget-radio-box {height: auto}
+.bc-panel .widget-radio-box label {display: flex; flex-direction: row-reverse; justify-content: flex-end; gap: 8px;
+  height: auto; margin: 3px 0; line-height: 1.35; white-space: normal; text-align: left}
+.bc-panel .widget-radio-box input {flex: none; margin: 2px 0 0}
+</style>"""
+# JupyterLab would use the arrows, which choose among radio buttons, to go from cell to cell, and Enter to edit a cell.
+# Text that is put into a page runs no <script>: this is what an empty image does when it cannot be loaded.
+KEYS = """const image = this; let tries = 0; const waiting = setInterval(() => {
+  const form = image.closest('.bc-panel');
+  if (form) {
+    image.remove();
+    form.addEventListener('keydown', event => {
+      if (!event.ctrlKey && !event.metaKey && !event.shiftKey) event.stopPropagation();
+    });
+  }
+  if (form || ++tries > 200) clearInterval(waiting);
+}, 50);"""
+
+
+class PredictionForm(Panel):
+    """Nothing is written before the click. After it, or when an answer is kept already, the form is locked."""
+
+    def __init__(self, question: Question):
+        self.question = question
+        self.field = self._field()
+        self.button = button("Commit", "check", "Keep this answer, with the time. It cannot be changed.", "primary")
+        self.button.on_click(lambda _: self.commit())
+        keys = f'<img src="data:," alt="" style="display:none" onerror="{escape(KEYS)}">'
+        text = widgets.HTML(f"{STYLE}<div>{marked(question.text)}</div>{keys}")
+        super().__init__(f"Prediction {question.number}", text, self.field, self.button)
+        with self.saying_what_is_wrong():
+            kept = predictions().get(question.number)
+            if kept is not None:
+                self._lock(kept)
+
+    def _field(self) -> widgets.Widget:
+        name = f"Prediction {self.question.number}"
+        if self.question.choices:
+            return widgets.RadioButtons(
+                options=self.question.choices, value=None, tooltip=name, layout={"width": "auto"}
+            )
+        if self.question.unit is not None:
+            unit = f", in {self.question.unit}" if self.question.unit else ""
+            return widgets.Text(placeholder=f"a number{unit}", tooltip=name, layout={"width": "200px"})
+        return widgets.Text(placeholder="your answer", tooltip=name, layout={"width": "auto", "max_width": "640px"})
+
+    def commit(self) -> None:
+        """Keep the answer, or say why it is not accepted."""
+        with self.saying_what_is_wrong():
+            self._lock(commit(self.question, self.field.value))
+
+    def _lock(self, kept: dict) -> None:
+        if not self.question.choices:
+            self.field.value = str(kept["answer"])
+        elif kept["answer"] in self.question.choices:  # the question may have changed since
+            self.field.value = kept["answer"]
+        self.field.disabled = self.button.disabled = True
+        self.say(committed(kept))
+
+    def _repr_mimebundle_(self, **kwargs) -> dict:
+        """The same in every notebook, whatever is kept."""
+        question, choices = self.question, "".join(f"<li>{marked(choice)}</li>" for choice in self.question.choices)
+        by_hand = 'No buttons here? Add answer="…" to the call, and run the cell.'
+        html = (
+            f'<div class="bc-prediction"><strong>Prediction {question.number}</strong> {marked(question.text)}'
+            f"{f'<ul>{choices}</ul>' if choices else ''}<div><small>{escape(by_hand)}</small></div></div>"
+        )
+        text = " / ".join([f"Prediction {question.number}: {question.text}", *question.choices])
+        return widgets.VBox._repr_mimebundle_(self, **kwargs) | {"text/html": html, "text/plain": text}

@@ -1,0 +1,143 @@
+"""Predictions: what is kept, what a lesson's end shows, and the form on the page."""
+
+import json
+
+import pytest
+
+from bootcourse.errors import BootcourseError
+from bootcourse.lessons import compare_predictions, predict
+from bootcourse.lessons.prediction_form import PredictionForm
+from bootcourse.lessons.predictions import FILE, NOTHING, predictions
+from tests.browser import needs_browser
+from tests.jupyterlab import open_notebook
+from tests.panels import raise_in_callbacks, words  # noqa: F401
+
+CHOICES = ["it escapes", "it stays"]
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch, raise_in_callbacks):  # noqa: F811
+    """The student's folder."""
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def ask(**more) -> PredictionForm:
+    return predict("5.1", "What does it do?", CHOICES, **more)
+
+
+def test_a_form_without_a_click_writes_nothing(folder):
+    ask()._repr_mimebundle_()
+    assert list(folder.iterdir()) == []
+
+
+def test_a_click_keeps_the_answer_with_its_question_and_the_time_and_locks_the_form():
+    form = ask()
+    form.field.value = "it stays"
+    form.button.click()
+    kept = json.loads(FILE.read_text())["5.1"]
+    assert (kept["answer"], kept["question"], kept["choices"]) == ("it stays", "What does it do?", CHOICES)
+    assert kept["time"].endswith("+00:00")
+    assert form.field.disabled and form.button.disabled and "You predict: it stays." in words(form)
+
+
+def test_a_form_that_is_shown_again_has_the_answer():
+    ask(answer="it stays")
+    form = ask()
+    assert form.field.value == "it stays" and form.button.disabled
+
+
+def test_what_a_reader_without_widgets_sees_does_not_depend_on_what_is_kept():
+    before = ask()._repr_mimebundle_()
+    ask(answer="it stays")
+    after = ask()._repr_mimebundle_()
+    assert [before[kind] for kind in ("text/html", "text/plain")] == [
+        after[kind] for kind in ("text/html", "text/plain")
+    ]
+    assert "<li>it stays</li>" in before["text/html"] and "it escapes / it stays" in before["text/plain"]
+
+
+def test_the_first_answer_stays():
+    ask(answer="it stays")
+    again = ask(answer="it escapes")
+    assert "committed to “it stays” before" in again.sentence
+    assert predictions()["5.1"]["answer"] == "it stays"
+
+
+def test_numbers_are_kept_as_numbers_and_words_as_words():
+    predict("5.2", "How far?", unit="m", answer="12.5 m")
+    predict("5.3", "Why?", answer=" because  it\n is slow ")
+    assert [one["answer"] for one in predictions().values()] == [12.5, "because it is slow"]
+
+
+@pytest.mark.parametrize(
+    "how, sentence",
+    [
+        ({"choices": CHOICES, "answer": "it stay"}, "did you mean 'it stays'"),
+        ({"unit": "m", "answer": "far"}, "= 'far': give a number"),
+        ({"unit": "", "answer": "inf"}, "give a number"),
+        ({"answer": "  "}, "is empty: write an answer"),
+        ({"answer": "x" * 3000}, "3000 characters"),
+        ({"number": "five"}, 'such as "5.1"'),
+    ],
+)
+def test_what_is_no_answer_is_refused_in_one_sentence(how, sentence):
+    with pytest.raises(BootcourseError, match=sentence):
+        predict(**{"number": "5.1", **how})
+    assert predictions() == {}
+
+
+def test_the_form_says_what_is_wrong_and_keeps_nothing():
+    form = ask()
+    form.button.click()
+    assert "choose an answer" in words(form) and not form.field.disabled and predictions() == {}
+
+
+def test_a_damaged_file_is_named_and_not_overwritten():
+    FILE.parent.mkdir()
+    for text in ("{", "[]", '{"5.1": 3}'):
+        FILE.write_text(text)
+        assert "predictions.json is damaged" in words(ask())
+        with pytest.raises(BootcourseError, match="damaged"):
+            ask(answer="it stays")
+        assert FILE.read_text() == text
+
+
+def test_the_end_of_a_lesson_compares_and_escapes_what_a_student_wrote():
+    ask(answer="it stays")
+    predict("5.2", "How far?", unit="m", answer=80)
+    predict("5.3", "Why?", answer="<script>alert(1)</script>")
+    shown = compare_predictions("05", {"5.1": "it `stays`", "5.2": 31.25, "5.3": "traps", "5.4": "nothing"})
+    assert [row[2:] for row in shown.rows[:2]] == [("it stays", "it `stays`"), ("80 m", "31.25 m")]
+    html = shown._repr_html_()
+    assert "<script" not in html and "&lt;script&gt;" in html and "<code>stays</code>" in html
+    assert "3 of 4 predictions" in html and "3 of 4 predictions" in repr(shown)
+
+
+def test_who_committed_to_nothing_is_told_so():
+    assert repr(compare_predictions("05", {"5.1": "it stays"})) == NOTHING
+
+
+def test_a_prediction_of_another_lesson_is_refused():
+    with pytest.raises(BootcourseError, match="1.1 is no prediction of lesson 11"):
+        compare_predictions("11", {"1.1": "yes"})
+
+
+@needs_browser
+def test_the_keyboard_commits_in_jupyterlab(folder):
+    cell = "from bootcourse.lessons import predict\npredict('5.1', 'Does <b>it</b> stay?', ['<i>yes</i>', 'no'])"
+    with open_notebook(folder, cell, width=900) as notebook:
+        notebook.run_all()
+        page = notebook.page
+        page.wait_for_function(
+            "() => document.querySelector('.bc-panel input') && !document.querySelector('.bc-panel img')"
+        )
+        page.locator(".bc-panel input[type=radio]").first.focus()
+        page.keyboard.press("ArrowDown")
+        page.keyboard.press("Tab")
+        page.keyboard.press("Enter")
+        page.wait_for_function("() => document.querySelector('.bc-panel').innerText.includes('You predict: no.')")
+        shown = page.locator(".bc-panel").inner_text()
+        assert "Does <b>it</b> stay?" in shown and "<i>yes</i>" in shown
+        page.locator(".bc-panel").screenshot(path=str(folder / "form.png"))
+    assert json.loads((folder / FILE).read_text())["5.1"]["answer"] == "no"
