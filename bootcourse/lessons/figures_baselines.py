@@ -6,10 +6,13 @@ import numpy as np
 from matplotlib.figure import Figure
 from scipy import stats
 
+from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.learner import SACLearner
 from bootcourse.lessons.charts import lines
+from bootcourse.lessons.shipped import shipped_agents
+from bootcourse.methods import display_name
 from bootcourse.statistics import rolling_means
 from bootcourse.study.results import Results
 
@@ -40,6 +43,16 @@ def as_the_rule_would(drives: Sequence[Rollout]) -> tuple[float, float, float]:
     rule = np.concatenate([drive.rule_actions for drive in drives])
     brakes, accelerates = (float(np.mean((done // 3 == kind)[rule // 3 == kind])) for kind in (0, 2))
     return float(np.mean(done == rule)), brakes, accelerates
+
+
+def followers(methods: Sequence[str], roads: Sequence[int]) -> tuple[list[str], list[list[str]]]:
+    """Headings and a row for each method's shipped agents: how far they do what the rule would, and what they earn."""
+    rows = []
+    for method in methods:
+        drives = [drive for agent in shipped_agents(method) for drive in record(agent.as_policy(), roads)]
+        shares = [f"{100 * share:.0f} %" for share in as_the_rule_would(drives)]
+        rows.append([display_name(method), *shares, f"{np.mean([drive.rewards.sum() for drive in drives]):.1f}"])
+    return ["does what the rule would", "overall", "where it brakes", "where it speeds up", "return"], rows
 
 
 def updates_made(results: Results) -> np.ndarray:

@@ -148,10 +148,11 @@ table(headings, rows)
 # | 7 · [The soft constraint](07_soft_constraint.ipynb) | ● | ● | ● |
 # | 8 · [Learning from demonstrations](08_learning_from_demonstrations.ipynb) | | ● | ● |
 # | 9 · [The ablation](09_ablation.ipynb) | | ● | ● |
-# | 10 · [The baselines](10_baselines.ipynb) | | ● | ● |
-# | 11 · [Exploration](11_exploration.ipynb) | | ● | ● |
-# | 12 · [The bug hunt](12_bug_hunt.ipynb) | | ● | ● |
-# | 13 · [Your teacher](13_your_teacher.ipynb) | | ● | |
+# | 10 · [Imitation](10_imitation.ipynb) | | ● | ● |
+# | 11 · [Offline learning](11_offline_learning.ipynb) | | ● | ● |
+# | 12 · [Exploration](12_exploration.ipynb) | | ● | ● |
+# | 13 · [The bug hunt](13_bug_hunt.ipynb) | | ● | ● |
+# | 14 · [Your teacher](14_your_teacher.ipynb) | | ● | |
 #
 # Each lesson opens on its own, says what it builds on, and runs in a minute or two. In its
 # exercises you write a few lines, and a check says what is wrong with them in plain words;

@@ -390,7 +390,7 @@ for i, agent in enumerate(result.agents):
 #
 # The paper's method has a second ingredient, the soft constraint of lesson 7: it keeps the actor
 # near actions that the demonstrations hold. Offline learners make the critic pessimistic about the
-# other actions instead (lesson 10).
+# other actions instead (lesson 11).
 
 # %% tags=["nbval-ignore-output"]
 source("bootcourse.learn.bootstrap", "augmented_reward", "large_margin_loss", "q_filter")

@@ -565,6 +565,6 @@ print("most successful:", best)
 # - You may train 40 more agents. Ten more seeds for each of four methods, or the sweep's best
 #   setting forty times?
 #
-# **Read on**: [lesson 13](13_your_teacher.ipynb) repeats the ablation with a teacher of your own.
+# **Read on**: [lesson 14](14_your_teacher.ipynb) repeats the ablation with a teacher of your own.
 # Agarwal et al., *Deep Reinforcement Learning at the Edge of the Statistical Precipice* (arXiv
 # 2108.13264); Henderson et al., *Deep Reinforcement Learning that Matters* (arXiv 1709.06560).

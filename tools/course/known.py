@@ -253,7 +253,7 @@ def separated_by_luck(groups: int, agents: int) -> float:
 
 @cache
 def teacher_exam(name: str):
-    """How one of lesson 13's teachers drives on the exam's roads."""
+    """How one of lesson 14's teachers drives on the exam's roads."""
     return example_teachers.examine(getattr(example_teachers, name)).episodes
 
 

@@ -11,7 +11,7 @@
 # ---
 
 # %% [markdown]
-# # 13 · Your teacher
+# # 14 · Your teacher
 #
 # **What you will be able to do**
 # - write a rule controller of your own, have it examined, and let an agent learn from it;
@@ -92,7 +92,7 @@ for name, car in zip(["ego", "trap 1", "trap 2", "traffic", "traffic"], cars, st
 # > **Predict.** From bumper to bumper, how far is trap 2 ahead of you on this road? A car is 5 m
 # > long, and `X` is the place of its centre.
 #
-# **Exercise 13.1 (6 min, ●○○).** Write the question that every rule asks: how much road is free
+# **Exercise 14.1 (6 min, ●○○).** Write the question that every rule asks: how much road is free
 # ahead of me, in a lane of my choice?
 
 
@@ -134,7 +134,7 @@ source("bootcourse.lessons.example_teachers", "timid", "racer")
 # > **Predict.** What is the smallest number of situations that a rule has to tell apart to get
 # > out: two, three or five?
 #
-# **Exercise 13.2 (15 min, ●●●).** Write a rule that gets out. The check drives it on 24 roads: it
+# **Exercise 14.2 (15 min, ●●●).** Write a rule that gets out. The check drives it on 24 roads: it
 # has to be ahead of trap 1 at the end of every one, without an accident. It may be as fast or slow,
 # as bold or careful as you like. It must answer the same road the same way each time, and leave
 # `cars` as it is. How would you use `ahead`, `toward`, `cars[EGO, LANE]` and `cars[EGO, Y]`?
@@ -221,7 +221,7 @@ source("bootcourse.learn.demonstrations", "collect")
 # starts a new one *in the same step*. After that step it shows the first second of the next
 # episode, and the last state of the old episode is kept apart.
 #
-# **Exercise 13.3 (4 min, ●○○).** `now` is what the teacher says about the roads as they stand,
+# **Exercise 14.3 (4 min, ●○○).** `now` is what the teacher says about the roads as they stand,
 # `at_end` what it says about the kept last states. Which label belongs to s'?
 
 
@@ -343,7 +343,7 @@ orders = {n: np.prod([(n + k) / k for k in range(1, n + 1)]) for n in (3, 5)}  #
 print(f"one order in {orders[3]:.0f} with 3 seeds each, one in {orders[5]:.0f} with 5")
 
 # %% [markdown]
-# **Exercise 13.4 (5 min, ●●○).** Write the judge: 1 for "helps", −1 for "hurts", 0 for "cannot be
+# **Exercise 14.4 (5 min, ●●○).** Write the judge: 1 for "helps", −1 for "hurts", 0 for "cannot be
 # told".
 
 

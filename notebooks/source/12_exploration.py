@@ -11,7 +11,7 @@
 # ---
 
 # %% [markdown]
-# # 11 · Exploration
+# # 12 · Exploration
 #
 # **What you will be able to do**
 # - turn a policy's entropy into a number of actions, and say what it does not tell;
@@ -68,7 +68,7 @@ print(f"of {len(seen.policy)}")
 # > what is left. That is the stochastic rule of lesson 3. How many effective actions is that: 1.1,
 # > 1.7 or 3?
 #
-# **Exercise 11.1 (6 min, ●○○).** Write it. A probability may be exactly 0: 0 · log 0 counts as 0.
+# **Exercise 12.1 (6 min, ●○○).** Write it. A probability may be exactly 0: 0 · log 0 counts as 0.
 
 
 # %%
@@ -195,7 +195,7 @@ print(f"{sum(len(v.place) for v in driven.values())} decisions of {len(agents)} 
 # > **Predict.** Where will an agent that escapes be least decided: behind the traps, beside them,
 # > or on the free road? And where will an agent of plain SAC get to in these drives?
 #
-# **Exercise 11.2 (8 min, ●●○).** Of all the entropy of some decisions, which share was spent in
+# **Exercise 12.2 (8 min, ●●○).** Of all the entropy of some decisions, which share was spent in
 # each stretch of road? A stretch begins at its edge and ends before the next one; what lies outside
 # all of them belongs to the total and to no stretch.
 
@@ -299,7 +299,7 @@ table([*headings, "best 100 in a row, %", "after training, % of all held-out roa
 # > **Predict.** Two drivers, 24 roads each. One picks each action at random: log 9 nats, as much
 # > entropy as there can be. The other is the rule: 0 nats. Which one sees more of the road?
 #
-# **Exercise 11.3 (7 min, ●●○).** Cut the road around trap 1 into cells: a stretch between two
+# **Exercise 12.3 (7 min, ●●○).** Cut the road around trap 1 into cells: a stretch between two
 # edges, in one lane. In which share of the cells did a driver make a decision?
 
 
@@ -350,7 +350,7 @@ table(["", "entropy, nats", "a drive lasts", "cells seen, of one driver"], rows)
 # > **Predict.** A trapped agent drives 150 s and draws each action from its policy, as it does in
 # > training. What is the chance that it does anything but its favourite action, even once?
 #
-# **Exercise 11.4 (5 min, ●●○).** The chance that in a drive at least one action that is drawn is
+# **Exercise 12.4 (5 min, ●●○).** The chance that in a drive at least one action that is drawn is
 # not the likeliest one. The policy is given at each second of the drive.
 
 

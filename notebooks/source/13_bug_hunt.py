@@ -11,7 +11,7 @@
 # ---
 
 # %% [markdown]
-# # 12 · The bug hunt
+# # 13 · The bug hunt
 #
 # **What you will be able to do**
 # - find a silent bug in a learner from curves, probes and drives, without reading its code;
@@ -109,7 +109,7 @@ bc.show(
 #
 # > **Predict.** Which of the six bugs makes Q wrong exactly there, and in which direction?
 #
-# **Exercise 12.1 (6 min, ●●○).** Write the probe: by how much is Q above r, on average, where an
+# **Exercise 13.1 (6 min, ●●○).** Write the probe: by how much is Q above r, on average, where an
 # episode ended?
 
 
@@ -253,7 +253,7 @@ for name in hunt.names:
 # noise, and nothing from Q. Which bug would keep Q out of the actor's gradient? (And read escapes
 # beside accidents: a crash after overtaking counts as both.)
 #
-# **Exercise 12.2 (15 min, ●●●).** The verdict. For each agent one of the six names. The check says
+# **Exercise 13.2 (15 min, ●●●).** The verdict. For each agent one of the six names. The check says
 # how many are right, and what speaks against one of the wrong ones; it does not say who it is
 # instead.
 
@@ -292,7 +292,7 @@ check.diagnose(diagnose)
 # target = reward + bonus + gamma * next_value
 # ```
 #
-# **Exercise 12.3 (4 min, ●○○).** Two of the six bugs are in that line. Write it right.
+# **Exercise 13.3 (4 min, ●○○).** Two of the six bugs are in that line. Write it right.
 
 
 # %%
@@ -345,7 +345,7 @@ for name, slope in slopes.items():
     print(f"{name:9} mean slope towards action 7, which is worth 5 more: {slope[7]:.4f}")
 
 # %% [markdown]
-# **Exercise 12.4 (4 min, ●○○).** Write the value without drawing.
+# **Exercise 13.4 (4 min, ●○○).** Write the value without drawing.
 
 
 # %%
@@ -367,7 +367,7 @@ check.fixed_value(fixed_value)
 # loss = -((pi * (q - alpha * log_pi)).sum(-1) - xi * kl).mean()
 # ```
 #
-# **Exercise 12.5 (6 min, ●●○).** Write it right. The check looks at where your loss sends a
+# **Exercise 13.5 (6 min, ●●○).** Write it right. The check looks at where your loss sends a
 # gradient.
 
 
@@ -392,7 +392,7 @@ check.fixed_loss(fixed_loss)
 # labels = asked[1:]
 # ```
 #
-# **Exercise 12.6 (4 min, ●○○).** For each of the T decisions: the label of the state in which it
+# **Exercise 13.6 (4 min, ●○○).** For each of the T decisions: the label of the state in which it
 # was made, and the label of the state to which it led.
 
 

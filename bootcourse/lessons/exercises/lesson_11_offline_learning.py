@@ -1,0 +1,117 @@
+"""Exercises of the lesson on offline learning."""
+
+import math
+
+import numpy as np
+import torch
+
+from bootcourse.learn import sac
+from bootcourse.lessons.exercise import Exercise, Mistake
+
+
+def of_the_data(q, actions):
+    return q.gather(-1, actions.unsqueeze(-1)).squeeze(-1)
+
+
+def offline_cases(rng):
+    """All equal, the data's action far ahead, far behind; then 40 at random."""
+    ahead = 8.0 * torch.eye(9).double()[[2, 5]]
+    yield torch.zeros(3, 9).double(), torch.tensor([0, 4, 8])
+    yield ahead, torch.tensor([2, 5])
+    yield ahead, torch.tensor([5, 2])
+    for _ in range(40):
+        n = int(rng.integers(2, 8))
+        yield torch.tensor(rng.normal(0, 2, (n, 9))), torch.tensor(rng.integers(0, 9, n))
+
+
+conservative_loss = Exercise(
+    "conservative_loss(q, actions)",
+    solution=sac.conservative_loss, cases=offline_cases,
+    worked=(
+        # e^Q is 1, 2, 1, so log Σ is log 4; the data's Q is log 2
+        ((torch.tensor([[0.0, math.log(2), 0.0]]).double(), torch.tensor([1])), torch.tensor(math.log(2))),
+        # log 3 - 0, and log (1 + 1 + 2) - 0
+        ((torch.tensor([[0.0, 0.0, 0.0], [0.0, 0.0, math.log(2)]]).double(), torch.tensor([0, 1])),
+         torch.tensor((math.log(3) + math.log(4)) / 2)),
+    ),
+    mistakes=(
+        Mistake(lambda q, actions: (of_the_data(q, actions) - q.logsumexp(-1)).mean(),
+            "Your sign is wrong: gradient descent on this raises the Q of untried actions and lowers the Q of the "
+            "data's action.",
+            "The data's Q comes first in the difference."),
+        Mistake(lambda q, actions: (q.amax(-1) - of_the_data(q, actions)).mean(),
+            "You push down the highest Q only. log Σ exp also pushes down the Q that come close to it, and it raises "
+            "the data's Q even where that is the highest.",
+            "log Σ exp is the maximum."),
+        Mistake(lambda q, actions: (q.mean(-1) - of_the_data(q, actions)).mean(),
+            "You push down the mean of all nine, so your loss can fall without limit. log Σ exp pushes the *highest* "
+            "most.",
+            "A conservative loss lowers every value by the same amount."),
+        Mistake(lambda q, actions: q.logsumexp(-1).mean(),
+            "You push every Q down and raise none: subtract the Q of the data's action.",
+            "Conservative means that all values are low."),
+        Mistake(lambda q, actions: q.logsumexp(-1) - of_the_data(q, actions),
+            "This is the term of each state: take the mean over the batch.",
+            "The optimiser takes the mean."),
+        Mistake(lambda q, actions: (q.exp().mean(-1).log() - of_the_data(q, actions)).mean(),
+            "You took the mean of e^Q over the actions. With the *sum* the term is always above 0; yours can be "
+            "negative.",
+            "A mean and a sum over nine actions are the same but for a factor."),
+    ),
+    hints=(
+        "In each state two numbers: log Σ_a exp Q(s,a), and the Q of the action that the data holds.",
+        "`q.logsumexp(-1)`, and `q.gather(-1, actions.unsqueeze(-1)).squeeze(-1)`; their difference, then the mean.",
+        "`(q.logsumexp(-1) - q.gather(-1, actions.unsqueeze(-1)).squeeze(-1)).mean()`",
+    ),
+    minutes=6, difficulty=2,
+    equation="E_s[log Σ_a exp Q(s,a) - Q(s,a_data)], Kumar et al., arXiv 2006.04779, Equation 4",
+)  # fmt: skip
+
+
+def share_of_the_bound_solution(returns, bound):
+    return returns.mean(axis=1) / bound.mean()
+
+
+def bound_cases(rng):
+    """As good as the bound, crashed at once, a low bound and a high one; then 40 at random."""
+    yield np.array([[140.0, 141.0]]), np.array([140.0, 141.0])
+    yield np.array([[-10.0, -9.5, -9.0], [23.4, 23.4, 23.4]]), np.array([140.0, 141.0, 142.0])
+    yield np.array([[20.0, 40.0], [10.0, 80.0]]), np.array([20.0, 160.0])
+    for _ in range(40):
+        agents, episodes = int(rng.integers(2, 6)), int(rng.integers(2, 8))
+        bound = rng.uniform(20, 150, episodes)
+        yield bound * rng.uniform(-0.3, 1, (agents, episodes)), bound
+
+
+share_of_the_bound = Exercise(
+    "share_of_the_bound(returns, bound)",
+    solution=share_of_the_bound_solution, cases=bound_cases,
+    worked=(
+        ((np.array([[10.0, 30.0], [-5.0, -5.0]]), np.array([20.0, 100.0])), np.array([1 / 3, -1 / 12])),
+        ((np.array([[70.0, 70.0, 70.0]]), np.array([140.0, 140.0, 140.0])), np.array([0.5])),
+    ),
+    mistakes=(
+        Mistake(lambda returns, bound: (returns / bound).mean(axis=1),
+            "This is the mean of each road's own share: a road where little can be earned counts as much as any other. "
+            "Return the share of *all* that could be earned.",
+            "The mean of ratios is the ratio of means."),
+        Mistake(lambda returns, bound: np.clip(returns.mean(axis=1) / bound.mean(), 0, 1),
+            "You clip at 0. An agent that crashes at once has a negative return, so its share is negative, too.",
+            "A share lies between 0 and 1."),
+        Mistake(lambda returns, bound: returns.mean() / bound.mean(),
+            "You average over the agents, too. Each has a share of its own: return one number for each agent.",
+            "A method has one score."),
+        Mistake(lambda returns, bound: returns.mean(axis=1) / bound.max(),
+            "You divide by the bound of the best road. Divide by the mean of all bounds.",
+            "A bound is a maximum."),
+        Mistake(lambda returns, bound: returns.max(axis=1) / bound.mean(),
+            "You take each agent's best drive. A score is the mean over all of its roads.",
+            "A bound is compared with an agent's best drive."),
+    ),
+    hints=(
+        "Divide what was earned on all roads together by what could be earned on all roads together.",
+        "Agents stand in rows: `returns.mean(axis=1)` has one number for each.",
+        "`returns.mean(axis=1) / bound.mean()`",
+    ),
+    minutes=4, difficulty=1, equation="Σ R / Σ R*, over the same episodes, R* the planner's return",
+)  # fmt: skip
