@@ -1,6 +1,7 @@
 """Panels for notebooks: each function returns a widget. What a panel shows is computed in the rest of the library."""
 
 from bootcourse.panels.bonus import bonus_panel as bonus_panel
+from bootcourse.panels.clocks import clocks_panel as clocks_panel
 from bootcourse.panels.drive import drive_panel as drive_panel
 from bootcourse.panels.policy import policy_panel as policy_panel
 from bootcourse.panels.scenario import scenario_panel as scenario_panel

@@ -1,0 +1,51 @@
+"""`clocks_panel`: its sentences against curves worked by hand, and its controls."""
+
+import numpy as np
+import pytest
+
+from bootcourse.panels.clocks import ClocksPanel
+from bootcourse.study.clocks import faded
+from bootcourse.study.plan import VARIED
+from bootcourse.study.results import Results
+from tests.panels import raise_in_callbacks, words  # noqa: F401
+
+pytestmark = pytest.mark.usefixtures("raise_in_callbacks")
+
+
+def measured(half_life: float) -> Results:
+    """Two agents per method, of which one escapes; ξ halves every `half_life` episodes."""
+    agents = [{"method": method, "seed": seed, "beta_episodes": 100} for method in VARIED for seed in (0, 1)]
+    xi = np.tile(2.0 * 0.5 ** (np.arange(200) / half_life), (len(agents), 1))
+    success = np.tile(np.array([[0.0], [1.0]]), (len(VARIED), 200))
+    return Results(agents, np.full(len(agents), -1), {"success": success}, {"success": success, "xi": xi})
+
+
+@pytest.fixture
+def panel():
+    return ClocksPanel({("1/4", "μ"): measured(30), ("2", "π̃"): measured(3)}, ("1/4", "μ"))
+
+
+def test_xi_that_halves_every_30_episodes_is_down_to_a_tenth_after_100():
+    assert faded(measured(30).curves["xi"]) == 100  # 30 log2(10) = 99.66
+
+
+def test_the_panel_says_when_each_clock_has_run_down_and_who_escapes(panel):
+    assert "1/4 updates per decision: ξ is down to a tenth after 100 episodes, β is 0 after 100." in panel.alt
+    assert "1 of 2 agents escape with the soft constraint alone, 1 with demonstrations alone" in panel.alt
+
+
+def test_another_choice_draws_its_own_curves_and_one_that_was_not_computed_says_so(panel):
+    before = panel.svg
+    panel.updates.value = "2"
+    assert "2 updates per decision with demonstrations by μ were not computed" in words(panel) and panel.svg == before
+    panel.driver.value = "π̃"
+    assert panel.chosen == ("2", "π̃") and "after 10 episodes" in panel.alt and "not computed" not in words(panel)
+    assert panel.view.value == panel.svg != before
+
+
+def test_its_picture_names_every_line(panel):
+    image, kind, _ = panel.picture()
+    drawn = image.decode()
+    assert kind == "image/svg+xml" and all(
+        name in drawn for name in (">ξ<", ">β<", "plain SAC", "soft constraint only")
+    )
