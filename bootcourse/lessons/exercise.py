@@ -26,9 +26,9 @@ def call_it(answer: Callable, *arguments):
     return answer(*arguments)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Exercise:
-    """A function to write, and all that is needed to judge it."""
+    """A function to write, and all that is needed to judge it. Two are equal only if they are one and the same."""
 
     call: str  # the student's function with the names of its arguments: "f(reward, gamma)"
     solution: Callable  # the library's own function, or one written beside the exercise

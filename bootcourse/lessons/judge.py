@@ -1,24 +1,30 @@
 """Judge a student's answer to an exercise: it is right, or a sentence says what is wrong with it.
 
-An answer passes if it is right in every case. Otherwise the first of these that applies is reported: it is no
-function, takes other arguments, is not written yet, returns nothing, takes too long, raises an error, changes its
-arguments, is a mistake that the exercise knows, has a wrong type or shape, is NaN, differs from call to call, or is
-wrong in a case that is shown.
+An answer passes if it is right in every case. Otherwise the first of these that applies is reported: it is not written
+yet, is no function, takes other arguments, returns nothing, takes too long, raises an error, changes its arguments, is
+a mistake that the exercise knows, has a wrong type or shape, is NaN, differs from call to call, or is wrong in a case
+that is shown.
+
+The answer runs in a process of its own (`guard.py`); it is compared here, with values that only our code has made.
 """
 
+import dis
 import functools
-import inspect
+import signal
 import warnings
 from collections.abc import Callable
 from copy import deepcopy
+from dataclasses import replace
 
 import numpy as np
 
 from bootcourse.lessons import guard
 from bootcourse.lessons.exercise import Exercise
 from bootcourse.lessons.values import (
+    SEVERAL,
     Plain,
     first_difference,
+    fitted,
     has_nan,
     like,
     numbers,
@@ -32,52 +38,64 @@ from bootcourse.lessons.verdict import Verdict
 
 def judge(exercise: Exercise, answer: Callable) -> Verdict:
     """The verdict on a student's function. An error in the function is part of the verdict and is not raised."""
-    if not callable(answer):
-        return wrong(exercise, f"Give the check your function itself, `check.{exercise.name}({exercise.name})`: "
-                               f"this is {plain(answer).words}.")  # fmt: skip
-    if not takes(answer, len(exercise.arguments)):
-        return wrong(exercise, f"Your function takes {inspect.signature(answer)}: the check calls `{exercise.call}`.")
+    if does_nothing(answer):  # an untouched stub needs no process
+        return todo(exercise)
+    return judge_any(exercise, answer)
+
+
+def judge_source(exercise: Exercise, source: str, seconds: float | None = None) -> Verdict:
+    """The verdict on a text that defines the function, for instance a cell of a notebook that was handed in.
+
+    The text is executed only in the process that also runs the function (see `guard.py` for what is guarded), within
+    the same `seconds` (the exercise's own if None). Put the imports and the helpers that the function needs before it
+    in the same text. A text that cannot be executed, or does not define the function, gets a verdict, too: no text
+    raises an error here. Texts can be judged one after the other in one process of yours: a warm check takes some
+    hundredths of a second. `guard.stop()` ends the process that runs them, which your own process's end does as well.
+    """
+    return judge_any(exercise if seconds is None else limited(exercise, seconds), source)
+
+
+@functools.lru_cache(maxsize=256)
+def limited(exercise: Exercise, seconds: float) -> Exercise:
+    return replace(exercise, seconds=seconds)
+
+
+def judge_any(exercise: Exercise, answer: Callable | str) -> Verdict:
+    report = guard.run(exercise, answer)
     cases = exercise.all_arguments()
-    report = guard.run(functools.partial(exercise.run, answer), cases, exercise.seconds)
     verdict = ended_early(exercise, answer, report, cases) or judge_answers(exercise, answer, report, cases)
     if report.printed and not verdict.passed:
-        verdict = Verdict(
-            verdict.kind, verdict.sentence, (*verdict.details, f"printed: {report.printed}"), verdict.footer
-        )
+        verdict = replace(verdict, details=(*verdict.details, f"printed: {report.printed}"))
     return verdict
 
 
-def takes(answer: Callable, how_many: int) -> bool:
-    """Can it be called with that many arguments?"""
-    try:
-        inspect.signature(answer).bind(*[None] * how_many)
-    except TypeError:
-        return False
-    except ValueError:  # a function written in C may have no signature
-        return True
-    return True
+def does_nothing(answer) -> bool:
+    """Is it a function whose body is `...`, `pass`, a docstring or `return None`?"""
+    code = getattr(answer, "__code__", None)
+    idle = ("RESUME", "NOP", "COPY_FREE_VARS", "LOAD_CONST", "RETURN_CONST", "RETURN_VALUE")
+    return code is not None and all(
+        step.opname in idle and (not step.opname.endswith("_CONST") or step.argval is None)
+        for step in dis.get_instructions(code)
+    )
 
 
-def ended_early(exercise: Exercise, answer: Callable, report: guard.GuardedRun, cases: list[tuple]) -> Verdict | None:
+def ended_early(
+    exercise: Exercise, answer: Callable | str, report: guard.GuardedRun, cases: list[tuple]
+) -> Verdict | None:
     """The verdict on a function that did not answer every case, or changed its arguments; None if it did well."""
+    if report.refused:
+        return wrong(exercise, report.refused)
     empty = [number for number, answer in enumerate(report.answers) if answer.kind == "NoneType"]
-    if isinstance(report.error, NotImplementedError) or empty[:1] == [0]:
-        sentence = f"Nothing to check yet: write `{exercise.name}` where the `...` stands, and end with `return`."
-        return Verdict("todo", sentence, footer=help_for(exercise))
+    if empty[:1] == [0] or (report.error and report.error["todo"]):
+        return todo(exercise)
     if empty:
         sentence = "Your function returns nothing in this case: look for a branch without `return`."
         return wrong(exercise, sentence, given(exercise, cases[empty[0]]))
-    if report.out_of_time:
-        sentence = f"Your function was stopped after {exercise.seconds:g} s: look for a loop that never ends."
-        if report.still_runs:
-            sentence = (f"Your function did not answer within {exercise.seconds:g} s and cannot be stopped: "
-                        "restart the kernel if the notebook gets slow.")  # fmt: skip
-        return wrong(exercise, sentence, given(exercise, cases[min(report.case, len(cases) - 1)]))
+    here = given(exercise, cases[min(report.case, len(cases) - 1)])
     if report.error is not None:
-        place = guard.where(report.error, answer)
-        what = f"{type(report.error).__name__}: {' '.join(str(report.error).split())}".strip(" :").rstrip(".")
-        sentence = f"Your function raises an error{f' in {place}' if place else ''}: {what}."
-        return wrong(exercise, sentence, given(exercise, cases[report.case]))
+        return wrong(exercise, error_in_words(report, answer), here)
+    if report.ended != "":
+        return wrong(exercise, end_in_words(report.ended, exercise.seconds), here)
     if report.changed is not None:
         argument = exercise.case_names[report.changed[1]]
         return wrong(exercise, f"Your function changes its argument `{argument}`, which the caller still needs: "
@@ -85,48 +103,75 @@ def ended_early(exercise: Exercise, answer: Callable, report: guard.GuardedRun, 
     return None
 
 
+def error_in_words(report: guard.GuardedRun, answer: Callable | str) -> str:
+    """One sentence about an error that the function raised."""
+    error, place = report.error, guard.where(report, answer)
+    where = f" in {place}" if place else ""
+    if error["kind"] == "MemoryError" or "can't allocate memory" in error["text"]:
+        return f"Your function asks for more memory{where} than the {guard.MEMORY / 2**30:.0f} GiB that a check allows."
+    what = f"{error['kind']}: {error['text']}".strip(" :").rstrip(".")
+    return f"Your function raises an error{where}: {what}."
+
+
+def end_in_words(ended: str | int, seconds: float) -> str:
+    """One sentence about a process that ended before the function did."""
+    if ended == "time":
+        return f"Your function was stopped after {seconds:g} s: look for a loop that never ends."
+    if ended == "size":
+        return "Your function returns too much to compare: look for a list or an array that is far too large."
+    if ended < 0:
+        name = signal.Signals(-ended).name if -ended in set(signal.Signals) else f"signal {-ended}"
+        return (f"Your function made Python crash ({name}): look for a recursion without an end, or for compiled code "
+                "that gets arguments of a wrong size.")  # fmt: skip
+    return f"Your function ended Python itself (exit code {ended}): take out `os._exit` and the like."
+
+
 def judge_answers(exercise: Exercise, answer: Callable, report: guard.GuardedRun, cases: list[tuple]) -> Verdict:
     """The verdict on the answers to all cases."""
-    rights = outcomes(exercise, exercise.solution, cases)
-    pairs = list(zip(report.answers, rights, strict=True))
+    rights = outcomes(exercise, exercise.solution)
+    pairs = [(fitted(a, right), right) for a, right in zip(report.answers, rights, strict=True)]
     fails = [number for number, (a, right) in enumerate(pairs) if not same(a, right, exercise.tolerance)]
     if not fails:
         return Verdict(
             "passed", f"Right. Your `{exercise.name}` agrees in all {len(cases)} cases, corner cases included."
         )
     for mistake in exercise.mistakes:
-        theirs = outcomes(exercise, mistake.answer, cases)
-        if all(same(a, m, exercise.tolerance, nan_too=True) for a, m in zip(report.answers, theirs, strict=True)):
+        theirs = [fitted(a, right) for a, right in zip(outcomes(exercise, mistake.answer), rights, strict=True)]
+        if all(same(a, m, exercise.tolerance, nan_too=True) for (a, _), m in zip(pairs, theirs, strict=True)):
             return wrong(exercise, mistake.says)
     case = fails[0]
     mine, right = pairs[case]
-    if exercise.explain and all(like(a, right) and same_shape(a, right) for a in report.answers):
-        return wrong(exercise, exercise.explain(cases, [a.data for a in report.answers]))
-    if like(mine, right) and same_shape(mine, right) and changes_its_mind(exercise, answer, report, cases):
+    if exercise.explain and all(like(a, right) and same_shape(a, right) for a, _ in pairs):
+        return wrong(exercise, exercise.explain(cases, [a.data for a, _ in pairs]))
+    if like(mine, right) and same_shape(mine, right) and changes_its_mind(exercise, answer, len(cases)):
         sentence = (
             "For the same arguments your function answers differently each time: it draws at random, or keeps a value "
             "from one call to the next."
         )
         return wrong(exercise, sentence, given(exercise, cases[case]))
-    return wrong(exercise, *unknown_mistake(exercise, cases[case], mine, right))
+    return wrong(exercise, *unknown_mistake(exercise, cases[case], mine, right, report.warned.get(case)))
 
 
-def changes_its_mind(exercise: Exercise, answer: Callable, report: guard.GuardedRun, cases: list[tuple]) -> bool:
-    """Does a second run of all cases give other answers? (In a single case they could agree by chance.)"""
-    again = guard.run(functools.partial(exercise.run, answer), cases, exercise.seconds)
-    pairs = zip(report.answers, again.answers, strict=False)
+def changes_its_mind(exercise: Exercise, answer: Callable | str, cases: int) -> bool:
+    """Does it answer differently when the same process runs all cases twice? (One case could agree by chance.)"""
+    answers = guard.run(exercise, answer, times=2).answers
+    pairs = zip(answers[:cases], answers[cases:], strict=False)
     return not all(same(first, second, exercise.tolerance, nan_too=True) for first, second in pairs)
 
 
-def unknown_mistake(exercise: Exercise, case: tuple, mine: Plain, right: Plain) -> tuple[str, tuple]:
+def unknown_mistake(
+    exercise: Exercise, case: tuple, mine: Plain, right: Plain, warned: str | None = None
+) -> tuple[str, tuple]:
     """(sentence, details) about a wrong answer that is none of the exercise's known mistakes."""
     if not like(mine, right):
-        return f"Your function returns {mine.words}: the exercise asks for {right.words}.", ()
+        why = ", because training needs one" if right.kind == "tensor" and mine.kind in ("array", *SEVERAL) else ""
+        return f"Your function returns {mine.words}: the exercise asks for {right.words}{why}.", ()
     if not same_shape(mine, right):
         shapes = f"Your answer has shape {shape_words(mine)}: the right one has shape {shape_words(right)}."
         return shapes, given(exercise, case)
     if has_nan(mine) and not has_nan(right):
-        return "Your answer is not a number (NaN) here: look for 0/0, ∞ - ∞ or log 0.", given(exercise, case)
+        why = f": NumPy says '{warned}'" if warned else ""
+        return f"Your answer is not a number (NaN) in this case{why}.", given(exercise, case)
     place = first_difference(mine, right, exercise.tolerance)
     at = f" at [{', '.join(map(str, place))}]" if place else ""
     small = max(mine.data.size, right.data.size) <= 36 if place else True
@@ -135,11 +180,12 @@ def unknown_mistake(exercise: Exercise, case: tuple, mine: Plain, right: Plain) 
     return f"Not right yet: here your answer and the right one differ{at}.", details
 
 
-def outcomes(exercise: Exercise, function: Callable, cases: list[tuple]) -> list[Plain]:
+@functools.lru_cache(maxsize=1024)
+def outcomes(exercise: Exercise, function: Callable) -> list[Plain]:
     """The answers of a solution or of a known mistake to all cases."""
     with np.errstate(all="ignore"), warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        return [plain(exercise.run(function, *deepcopy(case))) for case in cases]
+        return [plain(exercise.run(function, *deepcopy(case))) for case in exercise.all_arguments()]
 
 
 def given(exercise: Exercise, case: tuple) -> tuple[str, ...]:
@@ -149,6 +195,11 @@ def given(exercise: Exercise, case: tuple) -> tuple[str, ...]:
 
 def help_for(exercise: Exercise) -> str:
     return f'Stuck? `check.hint("{exercise.name}")`'
+
+
+def todo(exercise: Exercise) -> Verdict:
+    sentence = f"Nothing to check yet: write `{exercise.name}` where the `...` stands, and end with `return`."
+    return Verdict("todo", sentence, footer=help_for(exercise))
 
 
 def wrong(exercise: Exercise, sentence: str, details: tuple[str, ...] = ()) -> Verdict:

@@ -1,13 +1,18 @@
 """Answers as plain numbers, so that tensors, arrays and numbers can be compared and printed in one way.
 
-`plain` makes a copy, so that nothing a student's function does later changes its answer.
+`plain` makes a copy, so that nothing a student's function does later changes its answer. `as_json` and `from_json`
+carry it from one process to another.
 """
 
+import base64
 from dataclasses import dataclass
 
 import numpy as np
 
 NUMERIC = ("tensor", "array", "number")
+SEVERAL = ("tuple", "list")
+LARGEST = 2**20  # numbers in an array that is compared
+MOST = 10**308  # about the largest number that a float holds
 
 
 @dataclass(frozen=True)
@@ -15,7 +20,7 @@ class Plain:
     """kind: tensor, array, number, text, tuple, or for everything else the name of its type."""
 
     kind: str
-    data: object = None  # a float64 array, a str, a tuple of Plain, or nothing
+    data: object = None  # an array of float64 or bool, a str, a tuple of Plain, or nothing
 
     @property
     def shape(self) -> tuple:
@@ -25,18 +30,20 @@ class Plain:
     def words(self) -> str:
         """Its kind, to put into a sentence."""
         if self.kind == "tuple":
-            return f"{len(self.data)} values"
+            return f"{len(self.data)} value{'s' * (len(self.data) != 1)}"
+        if self.kind == "list":
+            return f"a list of {len(self.data)}"
         known = {"tensor": "a torch tensor", "array": "a NumPy array", "number": "a number", "text": "a text"}
         return known.get(self.kind, f"an object of type {self.kind}")
 
 
 def plain(value) -> Plain:
     """A copy of the value as a `Plain`."""
-    name = type(value).__name__
+    name = type(value).__name__[:80]
     if isinstance(value, str):
         return Plain("text", str(value))
-    if isinstance(value, tuple):
-        return Plain("tuple", tuple(plain(part) for part in value))
+    if isinstance(value, (tuple, list)):
+        return Plain("tuple" if isinstance(value, tuple) else "list", tuple(plain(part) for part in value))
     if isinstance(value, (bool, int, float, np.number, np.bool_)):
         kind = "number"
     elif isinstance(value, np.ndarray):
@@ -45,22 +52,67 @@ def plain(value) -> Plain:
         kind, value = "tensor", value.detach().cpu().numpy()
     else:
         return Plain(name)
-    if np.asarray(value).dtype.kind not in "biuf":  # complex numbers, objects, texts
+    if isinstance(value, int) and abs(value) > MOST:
+        value = float("inf") if value > 0 else -float("inf")
+    letter = np.asarray(value).dtype.kind
+    if letter not in "biuf":  # complex numbers, objects, texts
         return Plain(f"{name} of {np.asarray(value).dtype}")
-    return Plain(kind, np.array(value, dtype=np.float64))
+    if np.asarray(value).size > LARGEST:
+        return Plain(f"{name} of {np.asarray(value).size:,} numbers")
+    return Plain(kind, np.array(value, dtype=bool if letter == "b" else np.float64))
+
+
+def as_json(value: Plain) -> dict:
+    """What `from_json` reads: texts, numbers and the bytes of an array in base64."""
+    if value.kind in SEVERAL:
+        return {"kind": value.kind, "parts": [as_json(part) for part in value.data]}
+    if value.kind in NUMERIC:
+        data = base64.b64encode(value.data.tobytes()).decode()
+        return {"kind": value.kind, "type": value.data.dtype.char, "shape": value.shape, "data": data}
+    return {"kind": value.kind, "text": value.data}
+
+
+def from_json(found: dict) -> Plain:
+    """The Plain again. Raises ValueError, KeyError or TypeError for what `as_json` did not write."""
+    if found["kind"] in SEVERAL:
+        return Plain(found["kind"], tuple(from_json(part) for part in found["parts"]))
+    if found["kind"] in NUMERIC:
+        kind = {"d": np.float64, "?": bool}[found["type"]]
+        flat = np.frombuffer(base64.b64decode(found["data"], validate=True), kind)
+        return Plain(found["kind"], flat.reshape([int(length) for length in found["shape"]]))
+    return Plain(str(found["kind"]), None if found["text"] is None else str(found["text"]))
+
+
+def fitted(answer: Plain, right: Plain) -> Plain:
+    """The answer in the form of the right one, where only the form differs: a list for an array, an array for a tuple.
+
+    What has to be a tensor stays as it is: training needs the tensor itself.
+    """
+    if right.kind == "array" and answer.kind in SEVERAL:
+        parts = [fitted(part, right) for part in answer.data]
+        if parts and all(part.kind in NUMERIC and part.shape == parts[0].shape for part in parts):
+            return Plain("array", np.array([part.data for part in parts]))
+    if right.kind == "array" and answer.kind == "tensor":
+        return Plain("array", answer.data)
+    if right.kind == "tuple":
+        if answer.kind in ("array", "tensor") and len(answer.shape) > 0:
+            answer = Plain("tuple", tuple(Plain(answer.kind, part) for part in answer.data))
+        if answer.kind in SEVERAL and len(answer.data) == len(right.data):
+            return Plain("tuple", tuple(map(fitted, answer.data, right.data)))
+    return answer
 
 
 def like(answer: Plain, right: Plain) -> bool:
     """Is it of the right kind? A number and a tensor or an array that holds one number count as the same kind."""
-    if right.kind == "tuple":
-        same_length = answer.kind == "tuple" and len(answer.data) == len(right.data)
+    if right.kind in SEVERAL:
+        same_length = answer.kind == right.kind and len(answer.data) == len(right.data)
         return same_length and all(map(like, answer.data, right.data))
     single = all(value.kind in NUMERIC and value.shape == () for value in (answer, right))
     return answer.kind == right.kind or single
 
 
 def same_shape(answer: Plain, right: Plain) -> bool:
-    if right.kind == "tuple":
+    if right.kind in SEVERAL:
         return all(map(same_shape, answer.data, right.data))
     return answer.shape == right.shape
 
@@ -69,7 +121,7 @@ def same(answer: Plain, right: Plain, tolerance: float = 0.0, nan_too: bool = Fa
     """Equal in kind, shape and value. tolerance: relative; nan_too: NaN equals NaN."""
     if not (like(answer, right) and same_shape(answer, right)):
         return False
-    if right.kind == "tuple":
+    if right.kind in SEVERAL:
         return all(same(a, r, tolerance, nan_too) for a, r in zip(answer.data, right.data, strict=True))
     if right.kind in NUMERIC:
         return np.allclose(answer.data, right.data, rtol=tolerance, atol=tolerance / 100, equal_nan=nan_too)
@@ -77,21 +129,21 @@ def same(answer: Plain, right: Plain, tolerance: float = 0.0, nan_too: bool = Fa
 
 
 def has_nan(value: Plain) -> bool:
-    if value.kind == "tuple":
+    if value.kind in SEVERAL:
         return any(map(has_nan, value.data))
     return value.kind in NUMERIC and bool(np.isnan(value.data).any())
 
 
 def shape_words(value: Plain) -> str:
     """The shape, in a sentence; a tuple has several."""
-    if value.kind == "tuple":
+    if value.kind in SEVERAL:
         return " and ".join(map(shape_words, value.data))
     return str(value.shape)
 
 
 def numbers(value: Plain, longest: int = 36) -> str:
     """The value in one line; of a value with more than `longest` numbers the shape."""
-    if value.kind == "tuple":
+    if value.kind in SEVERAL:
         return ", ".join(numbers(part, longest) for part in value.data)
     if value.kind == "text":
         return repr(value.data)
@@ -99,6 +151,8 @@ def numbers(value: Plain, longest: int = 36) -> str:
         return value.words
     if value.data.size > longest:
         return f"{value.words} of shape {value.shape}"
+    if value.data.dtype == bool:
+        return str(value.data.tolist())
     if value.shape == ():
         return f"{float(value.data):.6g}"
     return np.array2string(value.data, separator=", ", max_line_width=10_000, formatter={"all": "{:.4g}".format})

@@ -6,10 +6,20 @@ words any sentence will do. A wrong answer that answers as a known mistake of th
 here only if it is written in another style (a loop, other rounding): the mistakes are tested themselves.
 """
 
+import contextlib
 import importlib
+import io
+import pickle
 import pkgutil
+import sys
+import warnings
 from collections import defaultdict
 from collections.abc import Callable
+from unittest import mock
+
+import cloudpickle
+
+from bootcourse.lessons import guard, worker
 
 RIGHT: dict[str, list[Callable]] = defaultdict(list)
 WRONG: dict[str, list[tuple[Callable, str]]] = defaultdict(list)
@@ -31,5 +41,15 @@ def wrong(exercise: str, words: str = ""):
     return note
 
 
+def here(job: bytes, seconds: float):
+    """What a function answers in this process: faster than one of its own, for answers that do no harm."""
+    job, stream = pickle.loads(job), io.BytesIO()
+    with contextlib.redirect_stdout(sys.stdout), contextlib.redirect_stderr(sys.stderr), warnings.catch_warnings():
+        worker.work(job, *worker.prepared(job["exercise"]), stream)
+    return "", stream.getvalue()
+
+
+in_this_process = mock.patch.multiple(guard, _in_a_fork=here, _alone=here)
+
 for _module in pkgutil.iter_modules(__path__):
-    importlib.import_module(f"{__name__}.{_module.name}")
+    cloudpickle.register_pickle_by_value(importlib.import_module(f"{__name__}.{_module.name}"))
