@@ -13,7 +13,7 @@ import numpy as np
 from scipy import stats
 
 RESAMPLES = 9999
-ESCAPES = 0.5  # an agent escapes if it succeeds in at least this share of its episodes
+ESCAPES = 0.95  # an agent escapes if it succeeds in at least this share of its episodes
 
 
 class Estimate(NamedTuple):

@@ -55,9 +55,9 @@ def nine_actions(seconds: int = 2, scenario: Scenario = DEFAULT) -> Figure:
     """Where each action, held for some seconds, brings the ego from its start in the right lane."""
     left, right = -5.0, scenario.ego.speed * seconds + 14.0
     lanes, width = scenario.road.lanes, scenario.road.lane_width
-    road = (lanes * width + 4.4) * (WIDTH - 0.3) / (right - left)
+    road = (lanes * width + 4.4) * (WIDTH - 0.7) / (right - left)
     figure = new_figure(road + 0.95)
-    ax = figure.add_axes((0.15 / WIDTH, 0.45 / (road + 0.95), (WIDTH - 0.3) / WIDTH, road / (road + 0.95)))
+    ax = figure.add_axes((0.55 / WIDTH, 0.45 / (road + 0.95), (WIDTH - 0.7) / WIDTH, road / (road + 0.95)))
     draw_road(MplAxes(ax), scenario, left, right)
     start = (lanes - 1) * width
     draw_car(MplAxes(ax), 0.0, start, 0.0, OTHER.colour, scenario.car)
@@ -78,9 +78,11 @@ def nine_actions(seconds: int = 2, scenario: Scenario = DEFAULT) -> Figure:
     ax.set(xlim=(left, right), ylim=(bottom + 4.0, top - 0.4), aspect="equal")
     for side in ("top", "right", "left", "bottom"):
         ax.spines[side].set_visible(False)
-    ax.set_yticks([])
+    sideways = np.arange(0, start + width / 2 + 0.1, 2)
+    ax.set_yticks(start - sideways, [f"{metres:g}" for metres in sideways])
     ax.tick_params(labelsize=SMALL, labelcolor=QUIET, length=3)
     ax.set_xlabel("distance along the road from the start (m)", fontsize=TEXT, color=INK)
+    ax.set_ylabel("to the left (m)", fontsize=TEXT, color=INK)
     alt = f"Nine paths fan out from the ego in the right lane. After {seconds} s: {'; '.join(ends)}."
     sideways = abs(path_of(3, seconds, scenario)[-1, 1])
     return finish(figure, f"Nine actions, held for {seconds} s: steering moves the car {sideways:.1f} m sideways", alt)

@@ -6,6 +6,7 @@ Each draws what it is given, or one formula of `bootcourse.road.formulas`.
 from collections.abc import Sequence
 
 import numpy as np
+from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
 from bootcourse.colours import ALARM, Style
@@ -16,6 +17,7 @@ from bootcourse.scenario import DEFAULT, Traffic
 
 LOOKS = (Style("#0072B2"), Style("#444444", "--"), Style("#D55E00", "-."))  # of the lines, first to last
 FAST = 12.5  # m/s, the bright end of the colours
+SWING = 3.6  # times its start: where a growing error leaves the picture
 
 
 def space_time(drives: dict[str, tuple[np.ndarray, np.ndarray]], dt: float, title: str) -> Figure:
@@ -28,10 +30,14 @@ def space_time(drives: dict[str, tuple[np.ndarray, np.ndarray]], dt: float, titl
     for k, (name, (places, speeds)) in enumerate(drives.items()):
         ax = figure.add_axes((0.08 + k * (width + 0.04), 0.15, width - 0.02, 0.62))
         seconds = np.arange(len(places)) * dt
-        dots = ax.scatter(
-            np.repeat(seconds, places.shape[1]), places.ravel(), c=speeds.ravel(), s=0.5, cmap="viridis", vmin=0,
-            vmax=FAST, linewidths=0, rasterized=True,
-        )  # fmt: skip
+        length = places.max() - places.min()
+        points = np.stack([np.broadcast_to(seconds[:, None], places.shape), places], axis=-1)
+        pieces = np.stack([points[:-1], points[1:]], axis=2)  # (steps - 1, cars, 2 ends, 2)
+        goes_on = np.abs(np.diff(places, axis=0)) < length / 2  # the others jump from the ring's end to its start
+        colours = LineCollection(pieces[goes_on], array=speeds[1:][goes_on], cmap="viridis", linewidths=0.9)
+        colours.set(clim=(0, FAST), rasterized=True)
+        dots = ax.add_collection(colours)
+        ax.set_ylim(places.min(), places.max())
         plain_axes(ax, f"place on the ring (m): {name}", grid="")
         ax.set_xlim(0, seconds[-1])
         ax.set_xlabel("time (s)", fontsize=TEXT, color=INK)
@@ -41,7 +47,7 @@ def space_time(drives: dict[str, tuple[np.ndarray, np.ndarray]], dt: float, titl
     bar.outline.set_visible(False)
     bar.ax.tick_params(labelsize=SMALL, labelcolor=QUIET, length=0)
     bar.ax.set_title("m/s", fontsize=SMALL, color=INK, loc="left")
-    return finish(figure, title, f"Each line is one car, dark where it is slow. {'; '.join(told)}.")
+    return finish(figure, title, f"Each line is one car, coloured by its speed. {'; '.join(told)}.")
 
 
 def following(v: float, closing: Sequence[float], title: str, traffic: Traffic = DEFAULT.traffic) -> Figure:
@@ -51,11 +57,13 @@ def following(v: float, closing: Sequence[float], title: str, traffic: Traffic =
         s_star = desired_gap(v, dv, traffic.s0, traffic.time_gap, traffic.a_max, traffic.b)
         values = [idm_acceleration(v, traffic.desired_speed, s, s_star, traffic.a_max, traffic.delta) for s in gaps]
         words = f"closing in at {dv:g} m/s" if dv > 0 else (f"falling back at {-dv:g} m/s" if dv < 0 else "same speed")
-        named[f"{words}, s* = {s_star:.0f} m"] = np.maximum(values, -3)
+        named[f"{words}, s* = {s_star:.0f} m"] = np.maximum(values, -traffic.braking_limit)
         told.append(f"{words}: zero at a gap of {np.interp(0, values, gaps):.0f} m")
     x_label, y_label = "gap to the car ahead, centre to centre (m)", "acceleration (m/s²)"
+    told.append(f"no driver brakes harder than {traffic.braking_limit:g} m/s²")
     alt = f"Three curves that rise with the gap from hard braking. {'; '.join(told)}."
-    return lines(gaps, named, title, x_label, y_label, marks={"": 0.0}, limits=(-3, 0.6), looks=LOOKS, alt=alt)
+    limits = (-1.05 * traffic.braking_limit, 0.6)
+    return lines(gaps, named, title, x_label, y_label, marks={"": 0.0}, limits=limits, looks=LOOKS, alt=alt)
 
 
 def changing(own_gain: float, follower, politeness: Sequence[float], traffic: Traffic = DEFAULT.traffic) -> Figure:
@@ -88,8 +96,8 @@ def swinging(taus: Sequence[float], dt: float, seconds: float = 5.0) -> Figure:
         factor = 1 - dt / tau
         kind = "grows" if abs(factor) > 1 else ("overshoots, then settles" if factor < 0 else "settles")
         words = f"τ = {tau:g} s: times {factor:.2f}, {kind}".replace("-", "−")
-        named[words] = np.where(np.abs(factor**steps) < 12, factor**steps, np.nan)
+        named[words] = np.where(np.abs(factor**steps) < 1.2 * SWING, factor**steps, np.nan)
     title = f"At {1 / dt:g} Hz a controller that is too quick throws the car from side to side"
     alt = f"Heading errors over {seconds:g} s, multiplied at each step. {'; '.join(named)}."
-    look = {"marks": {"": 0.0}, "limits": (-8, 8), "looks": [each._replace(marker="o") for each in LOOKS]}
+    look = {"marks": {"": 0.0}, "limits": (-SWING, SWING), "looks": [each._replace(marker="o") for each in LOOKS]}
     return lines(steps * dt, named, title, "time (s)", "heading error (its start is 1)", **look, alt=alt)

@@ -159,30 +159,39 @@ def save(figure: Figure, path: Path) -> Path:
     return path
 
 
+# In JupyterLab's dark theme a figure turns dark: light and dark change places, and the colours stay what they are.
+# On a narrow page it stays wide enough to be read, and the page scrolls. (The book says both in its style.css.)
+DARK = '<style>body[data-jp-theme-light="false"] .bc-figure { filter: invert(0.93) hue-rotate(180deg); }</style>'
+READABLE = "max-width: max(100%, 600px)"
+
+
 class Picture:
-    """A figure as a notebook displays it: an <img> with its alt text.
+    """A figure or a diagram as a notebook displays it: an <img> with its alt text.
 
     JupyterLab drops the alt text of a plain PNG output (nbconvert keeps it), and both leave an HTML
-    output's <img alt="..."> as it is. So the output is HTML, the PNG inside it; where there are no
+    output's <img alt="..."> as it is. So the output is HTML, the picture inside it; where there are no
     pictures at all, in a terminal or a diff, the alt text stands alone.
     """
 
-    def __init__(self, figure: Figure):
+    def __init__(self, figure: "Figure | Diagram"):  # noqa: F821 (diagram.py, which does not draw with matplotlib)
         self.figure = figure
 
     def _repr_mimebundle_(self, include=None, exclude=None) -> dict[str, str]:
-        data = base64.b64encode(png(self.figure)).decode()
-        width = round(self.figure.get_figwidth() * DPI)
-        alt = html.escape(self.figure.alt, quote=True)
-        img = f'<img src="data:image/png;base64,{data}" width="{width}" style="max-width: 100%" alt="{alt}">'
-        return {"text/html": img, "text/plain": self.figure.alt}
+        if isinstance(self.figure, Figure):
+            kind, data, width = "image/png", png(self.figure), round(self.figure.get_figwidth() * DPI)
+        else:
+            kind, data, width = self.figure.html_image()
+        source = f"data:{kind};base64,{base64.b64encode(data).decode()}"
+        look = f'class="bc-figure" width="{width}" style="{READABLE}"'
+        img = f'<img src="{source}" {look} alt="{html.escape(self.figure.alt, quote=True)}">'
+        return {"text/html": f"{DARK}{img}", "text/plain": self.figure.alt}
 
     def __repr__(self) -> str:
         return self.figure.alt
 
 
-def show(figure: Figure) -> None:
-    """Display a figure in a notebook, with its alt text (see `Picture`), anywhere in a cell."""
+def show(figure: "Figure | Diagram") -> None:  # noqa: F821
+    """Display a figure or a diagram in a notebook, with its alt text (see `Picture`), anywhere in a cell."""
     from IPython.display import display
 
     display(Picture(figure))

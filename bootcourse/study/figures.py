@@ -42,7 +42,7 @@ def training_panels(results: Results, methods: Sequence[str], title: str, rule: 
 
 
 def escaped(results: Results, method: str) -> str:
-    """ "7 of 10": how many agents of a method escape in at least half of their held-out episodes."""
+    """ "7 of 10": how many agents of a method escape."""
     success = results.of(method).scores("success")
     return f"{int((success >= ESCAPES).sum())} of {len(success)}"
 

@@ -18,11 +18,11 @@
 # - drive it yourself, and compare yourself with two programs that learned to drive;
 # - choose your route through the course.
 #
-# **Time** five minutes, half of one the machine's. **It builds on** nothing.
+# **Time** 10 minutes, half of one the machine's. **It builds on** nothing.
 
 # %%
 import bootcourse as bc
-from bootcourse.lessons import shipped, table
+from bootcourse.lessons import compare_predictions, predict, shipped, table
 from bootcourse.study import report, results, tables
 
 # %% [markdown]
@@ -75,11 +75,14 @@ table(["", *names], rows, below=f"In the end: {'; '.join(ends)}.")
 #
 # > **Predict.** How many tries until you are ahead of trap 1?
 
+# %%
+predict("0.1", "How many tries until you are ahead of trap 1?", unit="tries")
+
 # %% tags=["nbval-ignore-output"]
 bc.panels.drive_panel(seed=10)
 
 # %% [markdown] tags=["instructor"] minutes=5
-# Open with this page on the wall and let two people drive before anybody explains anything. Expect
+# Open with this page on the wall and let two people drive before you explain anything. Expect
 # crashes into trap 2. Keep the number of tries on the board for lesson 5.
 
 # %% [markdown]
@@ -88,12 +91,25 @@ bc.panels.drive_panel(seed=10)
 # One drive proves little. We trained {{ len(of('sac')) }} agents of each kind. Agents of one kind
 # differ only in their **seed**, the number from which all chance in their training is drawn. After
 # training each agent drove the same {{ roads() | , }} roads, which were not used in training. Both
-# kinds learn by SAC, *soft actor-critic*. An agent **escapes** if it ends ahead of trap 1 on at
-# least half of its roads.
-# <!-- claim: ESCAPES == 1 / 2 and len(of('sac')) == len(of('bootstrapped')) -->
+# kinds learn by SAC, *soft actor-critic*. One drive **escapes** if it ends ahead of trap 1. An
+# *agent* escapes if at least {{ 100 * ESCAPES | .0f }} % of its drives after training do. This is
+# the meaning of the word in the whole course.
+# <!-- claim: len(of('sac')) == len(of('bootstrapped')) -->
 #
-# > **Predict.** How many agents of plain SAC escape? How many of those with help? Do the agents
-# > that escape also drive safely?
+# > **Predict.** How many of the {{ len(of('sac')) }} agents of plain SAC escape? How many of the
+# > {{ len(of('bootstrapped')) }} with help? Who has an accident more often: the agents with help,
+# > or the rule?
+
+# %%
+predict("0.2", "How many agents of plain SAC escape?", unit="of 10")
+
+# %%
+predict("0.3", "How many of the agents with help?", unit="of 10")
+
+# %%
+predict(
+    "0.4", "Who has more accidents?", ["the agents with help", "the rule", "both about the same"]
+)
 
 
 # %%
@@ -110,7 +126,7 @@ for method in ("sac", "bootstrapped"):
     accidents = 100 * sum(mine.episodes(kind).mean() for kind in results.KINDS)
     share = rounded(bc.statistics.escapes(success), 100)
     returns = rounded(tables.score(study, method, "returns"))
-    count = f"{(success >= 0.5).sum()} of {len(mine)}: {share} %"
+    count = f"{(success >= bc.statistics.ESCAPES).sum()} of {len(mine)}: {share} %"
     rows.append([bc.display_name(method), count, returns, f"{accidents:.0f} %"])
 rule = report.rule_results(bc.DEFAULT, 200)
 accidents = 100 * sum(rule.episodes(kind).mean() for kind in results.KINDS)
@@ -123,14 +139,24 @@ table(headings, rows)
 # %% [markdown]
 # **See.** The brackets hold the 95 % *interval*: the range in which the true value may well lie,
 # given how few agents (for the rule: drives) we have measured. The return is that of a typical
-# agent: the mean over the middle half of the agents. Read the table with three questions; the
-# course is about them. Why do most agents of plain SAC miss a way out that a rule of a few lines
-# finds on each of the {{ roads() | , }} roads? How many agents does the help bring out, and why not
-# all? Some agents earn more than the rule: do they have more accidents, too?
+# agent: the mean over the middle half of the agents. The share of accidents is the mean over all
+# drives of all agents. Read the table with three questions; the course is about them. Why do most
+# agents of plain SAC miss a way out that a rule of a few lines finds on each of the {{ roads() | ,
+# }} roads? How many agents does the help bring out, and why not all? Some agents earn more than the
+# rule: do they have more accidents, too?
 # <!-- claim: escaped('sac') < len(of('sac')) / 2 and of('rule').episodes('success').all() -->
 # <!-- claim: escaped('sac') < escaped('bootstrapped') < len(of('bootstrapped')) -->
 # <!-- claim: of('bootstrapped').scores('returns').max() > of('rule').scores('returns').max() and
 #   accidents('bootstrapped') > accidents('rule') -->
+#
+# ## What is the same on your machine, and what is not
+#
+# A road is drawn from its seed, so road 10 is the same road everywhere. The rule drives it in the
+# same way, and the results that ship with the course, as in the table above, are read from files.
+# Numbers of this kind stand in the text. A training that *you* run is another matter. Processors
+# round the last digit of a sum in different ways. In some thousand updates such a difference grows,
+# and your agents become other agents than ours, with the same seed. So where a lesson trains, it
+# says **yours will differ**, and no conclusion rests on that one training.
 #
 # ## Choose a route
 #
@@ -155,9 +181,16 @@ table(headings, rows)
 # | 14 · [Your teacher](14_your_teacher.ipynb) | | ● | |
 #
 # Each lesson opens on its own, says what it builds on, and runs in a minute or two. In its
-# exercises you write a few lines, and a check says what is wrong with them in plain words;
-# `check.hint("name")` helps, and `check.solution("name")` shows the way when you ask for it.
+# exercises you write some lines, and a check says what is wrong with them in plain words;
+# `check.hint("name")` gives a hint, and `check.solution("name")` shows a right answer. The dots say
+# how hard an exercise is, from ●○○ to ●●●.
 #
 # **Read on**: [the trap](01_the_trap.ipynb). The paper that the course follows: Zhang, Peng,
 # Yurtsever and Redmill, *Bootstrapping Reinforcement Learning with Sub-optimal Policies for
 # Autonomous Driving* (2025).
+
+# %%
+helped = (study.of("bootstrapped").scores("success") >= bc.statistics.ESCAPES).sum()
+alone = (study.of("sac").scores("success") >= bc.statistics.ESCAPES).sum()
+found = {"0.1": "what you counted", "0.2": int(alone), "0.3": int(helped)}
+compare_predictions("00", found | {"0.4": "the agents with help"})

@@ -65,8 +65,7 @@ bc.show(bc.top_view_over_time(planned, times=[0, 2, 4, 6, 8, 12]))
 # learned is kept.
 #
 # After training each agent drives 200 roads. In this course an agent **escapes** if it ends ahead
-# of trap 1 on at least {{ 100 * ESCAPES | .0f }} % of the roads that it is tested on. (The line
-# below the table asks for 95 %. Look in the table whether an agent lies between the two.)
+# of trap 1 on at least {{ 100 * ESCAPES | .0f }} % of the roads that it is tested on.
 #
 # > **Predict.** How many of the first three will escape? How many of the three that look further
 # > ahead? What will the others do?
@@ -94,8 +93,8 @@ def table(agents):
     return np.array(successes)
 
 
-escaped_alone = table(alone.agents) >= 0.95
-print(f"{escaped_alone.sum()} of {len(agents)} leave the trap in 95 % of the episodes or more")
+escaped_alone = table(alone.agents) >= bc.statistics.ESCAPES
+print(f"{escaped_alone.sum()} of {len(agents)} escape")
 
 # %%
 driven = training.curves.finished.sum()
@@ -298,7 +297,7 @@ print(f"{helped.seconds:.0f} s, {with_rule.decisions:,} decisions")
 # <!-- claim: accidents('rule') == 0 -->
 
 # %%
-escaped_helped = table(helped.agents) >= 0.95
+escaped_helped = table(helped.agents) >= bc.statistics.ESCAPES
 rule_report = bc.evaluate(bc.rule_policy(bc.DEFAULT), 200, seed=5)
 success = 100 * rule_report.success.value
 print(f"the rule{success:28.1f}{rule_report.returns.value:8.1f}")

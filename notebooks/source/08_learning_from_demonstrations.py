@@ -295,14 +295,16 @@ for seed in range(4):
 #
 # But it is not enough to explain our study. There neither method works on its own: none of the ten
 # agents with the margin and none of the ten with the bonus escapes, that is, ends ahead of trap 1
-# on at least half of the {{ roads() | , }} held-out roads, after training. Together
-# with the soft constraint, {{ escaped('margin_soft') }} of ten escape with the margin, with the
-# same printed filter, and {{ escaped('bootstrapped') }} of ten with the bonus. The soft constraint
-# alone reaches {{ escaped('soft') }} of ten. With ten agents each, 8 and 10 cannot be told apart.
+# on at least {{ 100 * ESCAPES | .0f }} % of the {{ roads() | , }} held-out roads, after training.
+# Together with the soft constraint, {{ escaped('margin_soft') }} of ten escape with the margin,
+# with the same printed filter, and {{ escaped('bootstrapped') }} of ten with the bonus. The soft
+# constraint alone reaches {{ escaped('soft') }} of ten. With ten agents each, {{
+# escaped('bootstrapped') }} and 10 cannot be told apart.
 # <!-- claim: {len(of(m)) for m in ('margin', 'demos', 'margin_soft', 'bootstrapped', 'soft')}
 #   == {10} -->
 # <!-- claim: escaped('margin') == 0 and escaped('demos') == 0 and escaped('margin_soft') == 10 -->
-# <!-- claim: escaped('bootstrapped') == 8 and escaped('soft') == 8 -->
+# <!-- claim: stats.fisher_exact([[escaped('bootstrapped'), 10 - escaped('bootstrapped')], [10,
+#   0]]).pvalue > 0.05 -->
 # <!-- claim: settings_for('margin_soft').paper_q_filter -->
 # <!-- claim: 2 * math.comb(10, 8) * math.comb(10, 10) / math.comb(20, 18) > 0.05 -->
 

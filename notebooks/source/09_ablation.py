@@ -58,8 +58,9 @@ print(f"return {crash.rewards.sum():.0f} after {end:.0f} s")
 # ## Round 1: who escapes?
 #
 # Every agent is trained for the same number of episodes and then drives roads that it has never
-# seen, by its most probable action. It *escapes* if it ends ahead of trap 1 on at least half of
-# them. Thin lines are agents; those of a method differ in nothing but the seed.
+# seen, by its most probable action. It *escapes* if it ends ahead of trap 1 on at least
+# {{ 100 * ESCAPES | .0f }} % of them. Thin lines are agents; those of a method differ in nothing
+# but the seed.
 
 # %%
 methods = ("sac", "soft", "demos", "bootstrapped")
@@ -96,7 +97,8 @@ check.exact_interval(exact_interval)
 rows = []
 for method in methods:
     success = study.of(method).scores("success")
-    won, printed = int((success >= 0.5).sum()), paper.PRINTED[method]["success"].mean
+    won = int((success >= bc.statistics.ESCAPES).sum())
+    printed = paper.PRINTED[method]["success"].mean
     one = int(printed >= 50)  # if the paper's row is one agent: does it escape?
     luck = stats.fisher_exact([[won, len(success) - won], [one, 1 - one]]).pvalue
     ours = tables.bracketed(bc.statistics.escapes(success), 100)
@@ -138,7 +140,8 @@ table(["", "agents that escape", "share of agents, % [95 %, exact]", theirs, p_v
 # %%
 faster = bc.shipped_results("calibrated")
 for method in methods:
-    won = [(each.of(method).scores("success") >= 0.5).sum() for each in (study, faster)]
+    scores = [each.of(method).scores("success") for each in (study, faster)]
+    won = [(success >= bc.statistics.ESCAPES).sum() for success in scores]
     name = bc.display_name(method)
     print(f"{name:24}{won[0]:3} of {agents} escape at 10 m/s,{won[1]:3} at 10.9 m/s")
 
@@ -150,8 +153,8 @@ for method in methods:
 # three agents for each method, trained for
 # {{ varied()['as it is'].curves['success'].shape[1] | , }} episodes; the study above has ten agents
 # and {{ of('sac').curves['success'].shape[1] | , }} episodes.
-# <!-- claim: all(escaped('demos', s) <= escaped('sac', s) < escaped('soft', s) ==
-#   escaped('bootstrapped', s) for s in ('default', 'calibrated')) -->
+# <!-- claim: all(escaped('demos', s) <= escaped('sac', s) <
+#   escaped('bootstrapped', s) <= escaped('soft', s) for s in ('default', 'calibrated')) -->
 # <!-- claim: escaped('sac', 'calibrated') > escaped('sac') and all(escaped(m, 'calibrated') ==
 #   len(of(m)) for m in ('soft', 'bootstrapped')) -->
 # <!-- claim: escaped('soft', 'calibrated') == 10 and escaped('demos', 'calibrated') == 0 -->
@@ -170,7 +173,7 @@ def counted(label, escaped):
 
 
 escaped = {
-    change: [agents_of.of(method).scores("success") >= 0.5 for method in methods]
+    change: [agents_of.of(method).scores("success") >= bc.statistics.ESCAPES for method in methods]
     for change, agents_of in shipped.shipped_sensitivity().items()
 }
 rows = [counted(change, won) for change, won in escaped.items()]
@@ -179,26 +182,28 @@ rows.append(counted("all rows", columns))
 table(["agents that escape", *map(bc.display_name, methods)], rows)
 
 # %% [markdown]
-# **See.** Read it column by column. *Plain SAC*: no agent escapes, in any row. *Both helps*: two or
+# **See.** Read it column by column. *Plain SAC*: no agent escapes, in any row. *Both helps*: one to
 # three of three escape in every row. *The soft constraint alone*: two or three of three escape,
-# except with more updates for each decision. (A likely reason: ξ falls with every update, so the
-# constraint fades before the way out is learned; lesson 7.) *Demonstrations alone* is the column
-# that moves, from none of three to all three; over all rows half of its agents escape.
+# except behind traps at 11 m/s and with more updates for each decision. (A likely reason for the
+# second: ξ falls with every update, so the constraint fades before the way out is learned; lesson
+# 7.) *Demonstrations alone* is the column that moves, from none of three to all three; over all
+# rows a little less than half of its agents escape.
 # <!-- claim: not any(escaped_with(c, 'sac') for c in varied()) -->
-# <!-- claim: min(escaped_with(c, 'bootstrapped') for c in varied()) == 2 -->
-# <!-- claim: [c for c in varied() if escaped_with(c, 'soft') < 2] == ['1 update for each decision']
-#   -->
+# <!-- claim: min(escaped_with(c, 'bootstrapped') for c in varied()) == 1 -->
+# <!-- claim: [c for c in varied() if escaped_with(c, 'soft') < 2] == ['traps at 11 m/s', '1 update
+#   for each decision'] -->
 # <!-- claim: {escaped_with(c, 'demos') for c in varied()} == {0, 1, 2, 3} and
-#   abs(sum(escaped_with(c, 'demos') for c in varied()) / (3 * len(varied())) - 0.5) < 0.05 -->
+#   abs(sum(escaped_with(c, 'demos') for c in varied()) / (3 * len(varied())) - 0.45) < 0.03 -->
 #
 # What moves it? With a larger γ or a positive target entropy two or three of three escape each
-# time. So it is with more updates, and with demonstrations that π̃ drives, as the paper prints it
-# (lesson 6). With one update for each decision
+# time; with both changes it is one. With demonstrations that π̃ drives, as the paper prints it
+# (lesson 6), it is one. With one update for each decision
 # {{ escaped_with('1 update for each decision', 'demos') }} of three escape with demonstrations and
 # {{ escaped_with('1 update for each decision', 'soft') }} of three with the soft constraint. That
 # is the order of the paper's rows, and it comes from a number that the paper does not print.
-# <!-- claim: all(escaped_with(c, 'demos') >= 2 for c in varied() if 'γ' in c or 'entropy' in c) -->
-# <!-- claim: all(escaped_with(c, 'demos') == 2 for c in ('1 update for each decision',
+# <!-- claim: all(escaped_with(c, 'demos') >= 2 for c in varied() if ('γ' in c) != ('entropy' in c))
+#   -->
+# <!-- claim: all(escaped_with(c, 'demos') == 1 for c in ('γ = 0.9, target entropy 0.3',
 #   'demonstrations driven by π̃')) -->
 # <!-- claim: escaped_with('1 update for each decision', 'soft') < escaped_with('1 update for each
 #   decision', 'demos') -->
@@ -516,7 +521,7 @@ bc.panels.sweep_panel()
 
 # %%
 swept = sweep.load_sweep()
-won = swept.scores("success") >= 0.5
+won = swept.scores("success") >= bc.statistics.ESCAPES
 settings = sweep.settings_run(swept)
 print(f"{len(swept)} agents with {len(settings)} settings; {won.sum()} of them escape")
 rows = []

@@ -139,13 +139,14 @@ bc.show(figures.baselines(study, rule))
 # %% [markdown]
 # **See.** Compare with what you wrote down. All ten of our CQL agents escape, and they earn more
 # than their teacher. All ten clones escape, too, and end a little under the rule's return. Of GAIL
-# nine escape, and they leave the road in {{ 100 * of('gail').episodes('road_departure').mean()
-# | .0f }} % of their drives. In the paper's table CQL and GAIL stand at 0 %.
+# {{ escaped('gail') }} escape, and they leave the road in {{ 100 *
+# of('gail').episodes('road_departure').mean() | .0f }} % of their drives. In the paper's table CQL
+# and GAIL stand at 0 %.
 # <!-- claim: escaped('cql') == len(of('cql')) and of('cql').scores('returns').min() >
 #   of('rule').scores('returns').max() -->
 # <!-- claim: escaped('bc') == len(of('bc')) and 0.8 < of('bc').scores('returns').max() /
 #   of('rule').scores('returns').max() < 1 -->
-# <!-- claim: escaped('gail') == 9 -->
+# <!-- claim: len(of('gail')) / 2 < escaped('gail') < len(of('gail')) -->
 # <!-- claim: of('gail').episodes('road_departure').mean() > 0.2 -->
 # <!-- claim: PRINTED['cql']['success'].mean == PRINTED['gail']['success'].mean == 0 -->
 #

@@ -193,7 +193,7 @@ table(headings, rows)
 study, rows = bc.shipped_results(), []
 for method in ("cql", "cql_sac"):
     its, success = study.of(method), study.of(method).scores("success")
-    count = f"{(success >= 0.5).sum()} of {len(success)}"
+    count = f"{(success >= bc.statistics.ESCAPES).sum()} of {len(success)}"
     each = ", ".join(f"{r:.0f}" for r in np.sort(its.scores("returns")))
     rows.append([bc.display_name(method), count, f"{its.episodes('speed').mean():.1f} m/s", each])
 table(["", "agents that escape", "mean speed", "returns of the agents, sorted"], rows)
@@ -321,7 +321,7 @@ print(f"ten seeds: P(bootstrapped > CQL) = {tables.bracketed(both, 100)} %")
 faster, rows = bc.shipped_results("calibrated"), []
 for method in ("bc", "cql", "cql_sac", "gail", "sac", "bootstrapped"):
     both = [each.of(method).scores("success") for each in (study, faster)]
-    counts = [f"{(success >= 0.5).sum()} of {len(success)}" for success in both]
+    counts = [f"{(success >= bc.statistics.ESCAPES).sum()} of {len(success)}" for success in both]
     speed = faster.of(method).episodes("speed")
     returns = tables.bracketed(tables.score(faster, method, "returns"))
     drives = f"{returns} at {speed.mean():.2f} m/s"
