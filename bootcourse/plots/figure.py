@@ -173,7 +173,7 @@ class Picture:
     pictures at all, in a terminal or a diff, the alt text stands alone.
     """
 
-    def __init__(self, figure: "Figure | Diagram"):  # noqa: F821 (diagram.py, which does not draw with matplotlib)
+    def __init__(self, figure: "Figure | Diagram"):  # noqa: F821 (diagrams.py, which draws without matplotlib)
         self.figure = figure
 
     def _repr_mimebundle_(self, include=None, exclude=None) -> dict[str, str]:

@@ -192,5 +192,7 @@ table(headings, rows)
 # %%
 helped = (study.of("bootstrapped").scores("success") >= bc.statistics.ESCAPES).sum()
 alone = (study.of("sac").scores("success") >= bc.statistics.ESCAPES).sum()
-found = {"0.1": "what you counted", "0.2": int(alone), "0.3": int(helped)}
-compare_predictions("00", found | {"0.4": "the agents with help"})
+who = "the agents with help"
+compare_predictions(
+    "00", {"0.1": "what you counted", "0.2": int(alone), "0.3": int(helped), "0.4": who}
+)
