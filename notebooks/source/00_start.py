@@ -156,7 +156,7 @@ table(headings, rows)
 # Numbers of this kind stand in the text. A training that *you* run is another matter. Processors
 # round the last digit of a sum in different ways. In some thousand updates such a difference grows,
 # and your agents become other agents than ours, with the same seed. So where a lesson trains, it
-# says **yours will differ**, and no conclusion rests on that one training.
+# says *yours will differ*, and no conclusion rests on that one training.
 #
 # ## Choose a route
 #
