@@ -10,6 +10,7 @@ import io
 import json
 import os
 import platform
+import shutil
 import tempfile
 import zipfile
 from pathlib import Path
@@ -18,6 +19,8 @@ import numpy as np
 
 from bootcourse.errors import BootcourseError
 
+TEMPORARY = ".tmp"  # at the end of every temporary name
+
 
 def write_bytes(path: Path, data: bytes) -> None:
     """Write `data` to `path`, completely or not at all. Raises BootcourseError if the file cannot be written."""
@@ -25,7 +28,9 @@ def write_bytes(path: Path, data: bytes) -> None:
     temporary = None
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.NamedTemporaryFile(dir=path.parent, prefix=f".{path.name}.", delete=False) as file:
+        with tempfile.NamedTemporaryFile(
+            dir=path.parent, prefix=f".{path.name}.", suffix=TEMPORARY, delete=False
+        ) as file:
             temporary = Path(file.name)
             file.write(data)
             file.flush()
@@ -44,6 +49,15 @@ def _umask() -> int:
     mask = os.umask(0)
     os.umask(mask)
     return mask
+
+
+def remove_temporary(folder: Path) -> None:
+    """Remove the temporary files and folders that killed processes left in a folder and below it."""
+    for path in [*Path(folder).rglob(f".*{TEMPORARY}")]:
+        if path.is_dir():
+            shutil.rmtree(path, ignore_errors=True)
+        else:
+            path.unlink(missing_ok=True)
 
 
 def write_json(path: Path, value) -> None:

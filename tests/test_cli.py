@@ -2,6 +2,7 @@
 
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -12,6 +13,7 @@ import pytest
 
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.training import Training
+from bootcourse.storage.work import locked
 
 COMMAND = [sys.executable, "-m", "bootcourse"]
 
@@ -92,7 +94,7 @@ def test_a_training_that_is_stopped_loses_nothing_and_resumes(how, bootcourse, t
     out = tmp_path / "runs"
     command = [*COMMAND, "train", "--method", "sac", "--seeds", "1", "--episodes", "200", "--out", str(out), "--quiet"]
     process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
-    wait_for(out / "checkpoint.npz")
+    wait_for(out / "unfinished" / "checkpoint.npz")
     time.sleep(0.3)
     process.send_signal(how)
     _, said = process.communicate(timeout=60)
@@ -103,6 +105,30 @@ def test_a_training_that_is_stopped_loses_nothing_and_resumes(how, bootcourse, t
     resumed = bootcourse("train", "--out", out, "--resume", "--quiet")
     assert resumed.status == 0, resumed.err
     assert [path.name for path in out.iterdir()] == ["sac-0"]
+
+
+def test_a_second_training_in_a_folder_is_refused(bootcourse, tmp_path):
+    out = tmp_path / "runs"
+    arguments = ("train", "--method", "sac", "--seeds", 1, "--episodes", 1, "--out", out, "--quiet")
+    with locked(out / "unfinished", "training"):
+        refused = bootcourse(*arguments)
+        assert refused.status == 2 and f"Another training (process {os.getpid()}" in refused.err
+    assert list(out.iterdir()) == []
+    assert bootcourse(*arguments).status == 0
+    assert bootcourse(*arguments).status == 2 and [path.name for path in out.iterdir()] == ["sac-0"]
+    assert "is finished" in bootcourse(*arguments, "--resume").out
+
+
+def test_a_training_whose_checkpoint_is_damaged_says_what_to_do(bootcourse, tmp_path):
+    work = tmp_path / "runs" / "unfinished"
+    work.mkdir(parents=True)
+    (work / "checkpoint.npz").write_bytes(b"half")
+    arguments = ("train", "--method", "sac", "--seeds", 1, "--episodes", 1, "--out", tmp_path / "runs", "--quiet")
+    refused = bootcourse(*arguments, "--resume")
+    assert refused.status == 2 and f"Delete {work}, and start again without --resume." in refused.err
+    assert "unfinished training" in bootcourse("evaluate", tmp_path / "runs").err
+    shutil.rmtree(work)
+    assert bootcourse(*arguments).status == 0
 
 
 def wait_for(path: Path, seconds: float = 60) -> None:

@@ -2,6 +2,7 @@
 
 import json
 import shutil
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -73,6 +74,17 @@ def test_weights_that_are_not_numbers_are_refused_even_with_the_right_hash(run):
         load_run(run)
 
 
+def test_two_agents_of_one_method_and_seed_cannot_be_saved_together(result, tmp_path):
+    with pytest.raises(BootcourseError, match="the same method and seed"):
+        save_runs(replace(result, agents=result.agents[:1] * 2), tmp_path / "runs")
+
+
+@pytest.mark.parametrize("name", ["with\0null", "x" * 300])
+def test_a_folder_whose_name_is_impossible_is_refused_with_a_sentence(result, tmp_path, name):
+    with pytest.raises(BootcourseError, match="Choose another folder"):
+        save_runs(result, tmp_path / name)
+
+
 def test_a_folder_without_a_run_says_how_to_train_one(tmp_path):
     with pytest.raises(BootcourseError, match="bootcourse train"):
         find_runs(tmp_path)
@@ -107,7 +119,7 @@ def test_a_damaged_checkpoint_is_refused(tmp_path):
     path = tmp_path / "checkpoint.npz"
     save_checkpoint(small_training(), path)
     path.write_bytes(path.read_bytes()[:5000])
-    with pytest.raises(BootcourseError, match="damaged or cut short"):
+    with pytest.raises(BootcourseError, match="no checkpoint of this version, or damaged"):
         load_checkpoint(path)
 
 

@@ -20,12 +20,13 @@ from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.scenario import DEFAULT
 from bootcourse.storage.runs import load_run
+from bootcourse.storage.work import locked
 from bootcourse.study import jobs as jobs_module
-from bootcourse.study.jobs import BoundJob, Job, asked, finished, run_job
+from bootcourse.study.jobs import BoundJob, Job, asked, finished, read_job, run_job
 from bootcourse.study.plan import EXPERIMENTS, methods_named, study_jobs, sweep_jobs
 from bootcourse.study.planner import Search
 from bootcourse.study.results import join, load_jobs, load_results, save_results
-from bootcourse.study.runner import locked, run_jobs
+from bootcourse.study.runner import run_jobs
 
 TINY = {"learning_starts": 16, "hidden": (8,), "buffer_size": 2000}
 
@@ -97,6 +98,31 @@ def test_a_cell_that_was_interrupted_goes_on_as_if_it_never_was(study, tmp_path,
     np.testing.assert_array_equal(whole.curves["return"], resumed.curves["return"])
     np.testing.assert_array_equal(whole.tested["returns"], resumed.tested["returns"])
     assert not (tmp_path / "jobs/default/sac-0-1/checkpoint.npz").exists()
+
+
+def test_a_job_with_a_damaged_checkpoint_begins_again_on_request(tmp_path):
+    (tmp_path / "study.json").write_text("{}")
+    folder = tmp_path / "unfinished/default/sac-0-1"
+    folder.mkdir(parents=True)
+    (folder / "checkpoint.npz").write_bytes(b"half")
+    assert "Add --recompute" in run_job(job(), tmp_path) and folder.exists()
+    assert run_job(job(), tmp_path, recompute=True) == "" and finished(job(), tmp_path)
+    assert len(list(tmp_path.glob("damaged/*/job/checkpoint.npz"))) == 1
+
+
+def test_a_flipped_bit_of_job_json_is_noticed(study, tmp_path):
+    folder = copy(study, tmp_path) / "jobs/default/sac-0-1"
+    whole, content, rng = (folder / "job.json").read_bytes(), read_job(folder), np.random.default_rng(0)
+    for place, bit in zip(rng.integers(len(whole), size=200), rng.integers(8, size=200), strict=True):
+        flipped = bytearray(whole)
+        flipped[place] ^= 1 << bit
+        (folder / "job.json").write_bytes(flipped)
+        try:
+            read = read_job(folder)
+        except BootcourseError as error:
+            assert "job.json" in str(error) or "is damaged" in str(error)
+        else:
+            assert read == content  # one space became another
 
 
 def test_a_full_disk_is_a_sentence_and_the_cell_goes_on_afterwards(tmp_path, monkeypatch):

@@ -67,6 +67,18 @@ def test_a_checkpoint_remembers_who_was_stopped(tmp_path):
     assert result.stopped == {1: 52} and torch.isfinite(result.agents[1].actor[0]).all()
 
 
+@pytest.mark.filterwarnings("ignore:sac, seed 1")
+def test_an_agent_that_diverges_after_a_resume_keeps_the_weights_that_it_would_have_kept_without(tmp_path):
+    made = stepped(2, steps=40)
+    save_checkpoint(made, tmp_path / "checkpoint.npz")
+    resumed = load_checkpoint(tmp_path / "checkpoint.npz")
+    assert resumed.updates == made.updates > 0
+    for each in (made, resumed):
+        poison(each, 1)
+        each.step()
+    assert torch.equal(made.finished_agents[1].actor[0], resumed.finished_agents[1].actor[0])
+
+
 def test_stochastic_demonstrations_are_other_demonstrations():
     few = TINY | {"demonstration_episodes": 3}
     mu, pi = (

@@ -5,6 +5,7 @@ A study that is stopped by Ctrl-C (exit status 130) or killed goes on when the s
 
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import typer
@@ -42,11 +43,14 @@ def study(
         raise BootcourseError(f"The study '{name}' has its own methods: leave out --only.")
     else:
         wanted = plan.EXPERIMENTS[name].jobs(name, seeds, episodes, tests)
-    status = compute(wanted, out, backend=backend, scheduler=scheduler, workers=workers, recompute=recompute)
-    found = in_study(out)
-    if found.results:
-        print(write_report(found, out))
-    raise typer.Exit(status)
+
+    def report(problems: list[str]) -> None:
+        found = in_study(out)
+        if found.results:
+            print(write_report(found, out))
+
+    how = {"backend": backend, "scheduler": scheduler, "workers": workers, "recompute": recompute}
+    raise typer.Exit(compute(wanted, out, report, **how))
 
 
 def sweep(
@@ -66,23 +70,26 @@ def sweep(
     from bootcourse.study.sweep import sweep_table
 
     wanted = sweep_jobs(seeds, episodes, tests)
-    status = compute(wanted, out, backend=backend, scheduler=scheduler, workers=workers, recompute=recompute)
-    if status == 0:
-        found = load_jobs(out, "sweep")
-        made = provenance(command=f"bootcourse sweep --seeds {seeds} --episodes {episodes}")
-        save_results(found, out / "sweep.npz", made)
-        print(sweep_table(found))
-        print(out / "sweep.npz")
-    raise typer.Exit(status)
+
+    def write(problems: list[str]) -> None:
+        if not problems:
+            found = load_jobs(out, "sweep")
+            made = provenance(command=f"bootcourse sweep --seeds {seeds} --episodes {episodes}")
+            save_results(found, out / "sweep.npz", made)
+            print(sweep_table(found))
+            print(out / "sweep.npz")
+
+    how = {"backend": backend, "scheduler": scheduler, "workers": workers, "recompute": recompute}
+    raise typer.Exit(compute(wanted, out, write, **how))
 
 
-def compute(wanted: list, out: Path, **how) -> int:
-    """Compute the missing jobs; print failures and how to continue. Returns the exit status."""
+def compute(wanted: list, out: Path, after: Callable[[list[str]], None], **how) -> int:
+    """Compute the missing jobs, then call `after`; print failures and how to continue. Returns the exit status."""
     from bootcourse.study.runner import run_jobs
 
     started = time.monotonic()
     try:
-        problems = run_jobs(wanted, out, **how)
+        problems = run_jobs(wanted, out, after=after, **how)
     except KeyboardInterrupt:
         print("Interrupted. Finished jobs are kept: start the same command again to continue.", file=sys.stderr)
         return INTERRUPTED

@@ -1,8 +1,17 @@
-"""`bootcourse train`: agents of one method, side by side, with a checkpoint now and then."""
+"""`bootcourse train`: agents of one method, side by side, with a checkpoint now and then.
+
+    DIR/unfinished/checkpoint.npz   while they train
+    DIR/unfinished/saving           while their runs are written
+    DIR/unfinished/complete         when all are written, until each is moved to
+    DIR/METHOD-SEED
+
+A training that is stopped by Ctrl-C (exit status 130) or killed goes on with --resume.
+"""
 
 import importlib.util
+import os
+import shutil
 import sys
-import time
 from pathlib import Path
 
 import typer
@@ -10,7 +19,8 @@ import typer
 from bootcourse.errors import BootcourseError
 
 INTERRUPTED = 130  # exit status
-CHECKPOINT, SECONDS_BETWEEN = "checkpoint.npz", 20.0  # a training's checkpoint file, and the time between two (s)
+UNFINISHED, CHECKPOINT, SAVING, COMPLETE = "unfinished", "checkpoint.npz", "saving", "complete"  # see above
+SECONDS_BETWEEN = 20.0  # of checkpoints
 
 
 def train(
@@ -30,24 +40,53 @@ def train(
     from bootcourse.learn.settings import settings_for, with_seeds
     from bootcourse.learn.training import Training
     from bootcourse.scenario import named
+    from bootcourse.storage.checkpoint import DamagedCheckpoint
     from bootcourse.storage.runs import load_checkpoint, save_checkpoint
+    from bootcourse.storage.work import locked
 
-    unfinished, rule = out / CHECKPOINT, teacher_from(teacher)
-    if resume:
-        if not unfinished.exists():
-            raise BootcourseError(f"{out} has no unfinished training: leave out --resume to start one.")
-        training = load_checkpoint(unfinished, rule)
-    else:
-        settings, road = with_seeds(settings_for(method), seeds, first_seed), named(scenario)
-        if unfinished.exists():
-            raise BootcourseError(
-                f"{out} has an unfinished training: add --resume to continue it, or choose another folder."
-            )
-        if out.exists() and (not out.is_dir() or any(out.iterdir())):
-            raise BootcourseError(f"{out} exists already and is not empty: choose another folder.")
-        training = Training(settings, episodes, road, rule)
-        save_checkpoint(training, unfinished)  # raises now, not after the training, if the folder is not writable
-    raise typer.Exit(finish_training(training, out, progress=not quiet))
+    settings, road = with_seeds(settings_for(method), seeds, first_seed), named(scenario)
+    rule, work = teacher_from(teacher), out / UNFINISHED
+    if resume and is_finished(out):
+        with locked(work, "training"):  # removes what is left of it, if it was killed in its last moment
+            print(f"{out} is finished: there is nothing to resume.")
+        return
+    check_folder(out, resume)
+    with locked(work, "training"):
+        check_folder(out, resume)  # another training may have ended before this one had the lock
+        if not resume:
+            training = Training(settings, episodes, road, rule)
+            save_checkpoint(training, work / CHECKPOINT)  # raises now, not at the end, if the disk is full
+        elif (work / COMPLETE).exists():
+            training = None
+        else:
+            try:
+                training = load_checkpoint(work / CHECKPOINT, rule)
+            except DamagedCheckpoint as error:
+                raise BootcourseError(f"{error} Delete {work}, and start again without --resume.") from None
+        raise typer.Exit(finish_training(training, out, progress=not quiet))
+
+
+def check_folder(out: Path, resume: bool) -> None:
+    """Raise BootcourseError unless a training can begin, or be resumed, in this folder."""
+    unfinished = is_unfinished(out)
+    if resume and not unfinished:
+        raise BootcourseError(f"{out} has no unfinished training: leave out --resume to start one.")
+    if not resume and unfinished:
+        raise BootcourseError(
+            f"{out} has an unfinished training: add --resume to continue it, or choose another folder."
+        )
+    if not resume and out.exists() and (not out.is_dir() or any(path.name != UNFINISHED for path in out.iterdir())):
+        raise BootcourseError(f"{out} exists already and is not empty: choose another folder.")
+
+
+def is_unfinished(out: Path) -> bool:
+    """Does the folder hold a training that can be resumed?"""
+    return any((out / UNFINISHED / name).exists() for name in (CHECKPOINT, COMPLETE))
+
+
+def is_finished(out: Path) -> bool:
+    """Does the folder hold runs, and no unfinished training?"""
+    return not is_unfinished(out) and any(out.glob("*/provenance.json"))
 
 
 def teacher_from(place: str):
@@ -68,23 +107,27 @@ def teacher_from(place: str):
 
 
 def finish_training(training, out: Path, progress: bool) -> int:
-    """Train, with a checkpoint every 20 s, and write the runs. Returns the exit status."""
+    """Train, with a checkpoint every 20 s, and move the runs to their places. Returns the exit status.
+
+    training: None if it is over and its runs are complete, but not all in their places.
+    """
     from bootcourse.storage.runs import save_checkpoint, save_runs
+    from bootcourse.storage.work import Checkpoints
 
-    last = time.monotonic()
-
-    def checkpoint_now_and_then(training) -> None:
-        nonlocal last
-        if time.monotonic() - last > SECONDS_BETWEEN:
-            save_checkpoint(training, out / CHECKPOINT)
-            last = time.monotonic()
-
-    result = training.run(progress, checkpoint_now_and_then)
-    if result.interrupted:
-        save_checkpoint(training, out / CHECKPOINT)
-        print(f"Interrupted. To continue, run `bootcourse train --out {out} --resume`.", file=sys.stderr)
-        return INTERRUPTED
-    for path in save_runs(result, out):
-        print(path)
-    (out / CHECKPOINT).unlink()
+    work = out / UNFINISHED
+    if training is not None:
+        result = training.run(progress, Checkpoints(work / CHECKPOINT, SECONDS_BETWEEN))
+        if result.interrupted:
+            save_checkpoint(training, work / CHECKPOINT)
+            print(f"Interrupted. To continue, run `bootcourse train --out {out} --resume`.", file=sys.stderr)
+            return INTERRUPTED
+        shutil.rmtree(work / SAVING, ignore_errors=True)
+        save_runs(result, work / SAVING)
+        os.rename(work / SAVING, work / COMPLETE)
+    for run in sorted((work / COMPLETE).iterdir()):
+        if (out / run.name).exists():
+            raise BootcourseError(f"{out / run.name} exists already: move it away, and add --resume.")
+        print(run.rename(out / run.name))
+    (work / CHECKPOINT).unlink(missing_ok=True)
+    (work / COMPLETE).rmdir()
     return 0

@@ -10,7 +10,16 @@ import torch
 
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.agent import Agent
+from bootcourse.learn.settings import Settings
+from bootcourse.learn.teachers import Rule
 from bootcourse.learn.training import Training
+from bootcourse.scenario import Scenario
+
+ADAM = ("step", "exp_avg", "exp_avg_sq")  # the optimiser's state of each parameter
+
+
+class DamagedCheckpoint(BootcourseError):
+    """A checkpoint that cannot be read: the training must begin again."""
 
 
 def state_of(training: Training) -> dict[str, np.ndarray]:
@@ -20,37 +29,40 @@ def state_of(training: Training) -> dict[str, np.ndarray]:
     learner, replay, env, curves = training.learner, training.replay, training.env, training.curves
     arrays = {f"learner.{name}": tensor.detach().numpy() for name, tensor in _tensors(learner).items()}
     for i, parameter in enumerate(_parameters(learner)):
-        for key, value in learner.optimiser.state.get(parameter, {}).items():
-            arrays[f"optimiser.{i}.{key}"] = value.detach().numpy()
+        for name, values in learner.optimiser.state.get(parameter, {}).items():
+            arrays[f"optimiser.{i}.{name}"] = values.detach().numpy()
     filled = replay.first[:, None] + np.arange(replay.size)
     arrays["replay.own"] = replay.table[torch.from_numpy(filled.ravel())].numpy()
     arrays["replay.demonstrations"] = replay.table[: replay.demonstrations].numpy()
     arrays |= {"env.cars": env.cars, "env.decisions": env.decisions}
     arrays |= {f"curves.{name}": values for name, values in curves.values.items()}
     arrays |= {"curves.finished": curves.finished, "curves.running": curves.running}
-    for i, agent in training.finished_agents.items():
-        parts = [*agent.actor, *agent.critics, torch.tensor(agent.alpha, dtype=torch.float64)]
-        arrays |= {f"finished.{i}.{k}": part.numpy() for k, part in enumerate(parts)}
+    for name, agents in _snapshots(training).items():
+        for i, agent in agents.items():
+            parts = [*agent.actor, *agent.critics, torch.tensor(agent.alpha, dtype=torch.float64)]
+            arrays |= {f"{name}.{i}.{k}": part.numpy() for k, part in enumerate(parts)}
     rngs = [*training.act_rngs, *training.sample_rngs, *env._generators]
     numbers = {
         "rngs": [rng.bit_generator.state for rng in rngs],
         "replay": [replay.size, replay.next],
         "decisions": training.decisions,
+        "updates": training.updates,
         "seconds": training.seconds,
-        "finished": sorted(training.finished_agents),
+        "snapshots": {name: sorted(agents) for name, agents in _snapshots(training).items()},
         "stopped": sorted(training.stopped.items()),
     }
     return arrays | {"numbers": np.array(json.dumps(numbers))}
 
 
-def restore(training: Training, arrays: dict[str, np.ndarray]) -> None:
-    """Set a new `Training` with the same settings to a state. Raises BootcourseError if the arrays do not fit it."""
+def restored(settings: list[Settings], episodes: int, scenario: Scenario, teacher: Rule, arrays: dict) -> Training:
+    """The training with these arguments and the state in `arrays`. Raises DamagedCheckpoint if they do not fit."""
     try:
+        rows = torch.from_numpy(arrays["replay.demonstrations"])
+        training = Training(settings, episodes, scenario, teacher, rows if len(rows) else None)
         _restore(training, arrays)
-    except (KeyError, ValueError, IndexError, RuntimeError) as error:
-        raise BootcourseError(
-            f"This checkpoint does not fit the training's settings ({error}): start again in a new folder."
-        ) from None
+    except (KeyError, ValueError, TypeError, AttributeError, IndexError, RuntimeError) as error:
+        raise DamagedCheckpoint(f"the state does not fit the settings: {error}") from None
+    return training
 
 
 def _restore(training: Training, arrays: dict[str, np.ndarray]) -> None:
@@ -58,32 +70,47 @@ def _restore(training: Training, arrays: dict[str, np.ndarray]) -> None:
     numbers = json.loads(str(arrays["numbers"]))
     with torch.no_grad():
         for name, tensor in _tensors(learner).items():
-            tensor.copy_(torch.from_numpy(arrays[f"learner.{name}"]))
+            tensor.copy_(_like(arrays[f"learner.{name}"], tensor))
     for i, parameter in enumerate(_parameters(learner)):
-        prefix = f"optimiser.{i}."
-        state = {k.removeprefix(prefix): torch.from_numpy(v.copy()) for k, v in arrays.items() if k.startswith(prefix)}
-        if state:
-            learner.optimiser.state[parameter] = state
+        state = {name: arrays[f"optimiser.{i}.{name}"] for name in ADAM if f"optimiser.{i}.{name}" in arrays}
+        for name, values in state.items():
+            like = parameter if name != "step" else torch.zeros(())
+            learner.optimiser.state[parameter][name] = _like(values, like).clone()
     replay.size, replay.next = numbers["replay"]
-    replay.table[: replay.demonstrations] = torch.from_numpy(arrays["replay.demonstrations"])
-    filled = replay.first[:, None] + np.arange(replay.size)
-    replay.table[torch.from_numpy(filled.ravel())] = torch.from_numpy(arrays["replay.own"])
-    env.cars[:], env.decisions[:] = arrays["env.cars"], arrays["env.decisions"]
-    for name, values in curves.values.items():
-        values[:] = arrays[f"curves.{name}"]
-    curves.finished[:], curves.running[:] = arrays["curves.finished"], arrays["curves.running"]
+    filled = torch.from_numpy((replay.first[:, None] + np.arange(replay.size)).ravel())
+    replay.table[filled] = _like(arrays["replay.own"], replay.table[filled])
+    stored = {"env.cars": env.cars, "env.decisions": env.decisions}
+    stored |= {"curves.finished": curves.finished, "curves.running": curves.running}
+    stored |= {f"curves.{name}": values for name, values in curves.values.items()}
+    for name, values in stored.items():
+        values[:] = _like(arrays[name], values)
     rngs = [*training.act_rngs, *training.sample_rngs, *env._generators]
     for rng, state in zip(rngs, numbers["rngs"], strict=True):
         rng.bit_generator.state = state
-    training.decisions, training.seconds = numbers["decisions"], numbers["seconds"]
+    training.decisions, training.updates, training.seconds = (
+        numbers[name] for name in ("decisions", "updates", "seconds")
+    )
     training.stopped = dict(numbers["stopped"])
     layers = len(learner.actor)
-    for i in numbers["finished"]:
-        parts = [torch.from_numpy(arrays[f"finished.{i}.{k}"].copy()) for k in range(2 * layers + 1)]
-        training.finished_agents[i] = Agent(
-            training.settings[i], parts[:layers], parts[layers : 2 * layers], float(parts[-1])
-        )
+    for name, agents in _snapshots(training).items():
+        for i in numbers["snapshots"][name]:
+            like = [*training.agent(i).actor, *training.agent(i).critics]
+            *parts, alpha = (arrays[f"{name}.{i}.{k}"] for k in range(2 * layers + 1))
+            parts = [_like(part, each).clone() for part, each in zip(parts, like, strict=True)]
+            agents[i] = Agent(training.settings[i], parts[:layers], parts[layers:], float(alpha))
     training.states, training.rule_actions = env.observe(), training.taught()
+
+
+def _snapshots(training: Training) -> dict[str, dict[int, Agent]]:
+    return {"finished": training.finished_agents, "last_finite": training.last_finite}
+
+
+def _like(stored: np.ndarray, present):
+    """An array of the checkpoint as what it replaces, array or tensor. Raises ValueError if shape or type differ."""
+    found = torch.from_numpy(stored) if isinstance(present, torch.Tensor) else stored
+    if found.shape != present.shape or found.dtype != present.dtype:
+        raise ValueError(f"{tuple(found.shape)} {found.dtype} instead of {tuple(present.shape)} {present.dtype}")
+    return found
 
 
 def _parameters(learner) -> list[torch.Tensor]:

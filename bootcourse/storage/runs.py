@@ -21,6 +21,7 @@ from safetensors.torch import load, save
 
 from bootcourse.errors import BootcourseError
 from bootcourse.files import (
+    TEMPORARY,
     provenance,
     read_arrays,
     read_bytes,
@@ -35,9 +36,11 @@ from bootcourse.learn.settings import Settings, renamed
 from bootcourse.learn.teachers import Rule, course_rule, teacher_name
 from bootcourse.learn.training import Result, Training
 from bootcourse.scenario import Scenario
-from bootcourse.storage.checkpoint import restore, state_of
+from bootcourse.storage.checkpoint import DamagedCheckpoint, restored, state_of
 
 FORMAT = "bootcourse run 1"
+CHECKPOINT_FORMAT = "bootcourse checkpoint 2"
+UNFINISHED = "unfinished"  # the folder of a training that is not over, beside the runs
 HASHED = ("config.json", "weights.safetensors", "curves.npz")
 
 
@@ -54,15 +57,23 @@ class Run:
 def save_runs(result: Result, folder: Path) -> list[Path]:
     """Write each agent of a training to folder/METHOD-SEED; returns these folders.
 
-    Raises BootcourseError if one of them exists already or cannot be written.
+    Raises BootcourseError if one of them exists already or cannot be written, or if two would have the same name.
     """
     folders = [Path(folder) / f"{agent.settings.method}-{agent.settings.seed}" for agent in result.agents]
-    for path in folders:
-        if path.exists():
-            raise BootcourseError(f"{path} exists already: choose another folder, or move it away.")
-    for i, path in enumerate(folders):
-        curves = {name: values[i] for name, values in result.curves.items()}
-        _save_run(path, result.agents[i], curves, result, result.stopped.get(i))
+    if len(set(folders)) < len(folders):
+        raise BootcourseError("Two agents have the same method and seed, which name a run's folder: save them apart.")
+    try:
+        for path in folders:
+            if path.exists():
+                raise BootcourseError(f"{path} exists already: choose another folder, or move it away.")
+        for i, path in enumerate(folders):
+            curves = {name: values[i] for name, values in result.curves.items()}
+            _save_run(path, result.agents[i], curves, result, result.stopped.get(i))
+    except BootcourseError:
+        raise
+    except (OSError, ValueError) as error:  # ValueError: a null character in the name
+        reason = getattr(error, "strerror", None) or error
+        raise BootcourseError(f"Cannot write {str(folder)!r}: {reason}. Choose another folder.") from None
     return folders
 
 
@@ -77,11 +88,8 @@ def _save_run(path: Path, agent: Agent, curves: dict[str, np.ndarray], result: R
     }
     weights = {f"actor.{i}": tensor for i, tensor in enumerate(agent.actor)}
     weights |= {f"critics.{i}": tensor for i, tensor in enumerate(agent.critics)}
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        temporary = Path(tempfile.mkdtemp(dir=path.parent, prefix=f".{path.name}."))
-    except OSError as error:
-        raise BootcourseError(f"Cannot write {path}: {error.strerror}. Choose another folder.") from None
+    path.parent.mkdir(parents=True, exist_ok=True)
+    temporary = Path(tempfile.mkdtemp(dir=path.parent, prefix=f".{path.name}.", suffix=TEMPORARY))
     try:
         write_json(temporary / "config.json", config)
         write_bytes(temporary / "weights.safetensors", save(weights))
@@ -138,6 +146,10 @@ def find_runs(folder: Path) -> list[Path]:
         raise BootcourseError(f"{folder} is not a folder: name one that `bootcourse train --out` wrote.")
     if (folder / "provenance.json").exists() or (folder / "config.json").exists():
         return [folder]
+    if (folder / UNFINISHED).exists():
+        raise BootcourseError(
+            f"{folder} has an unfinished training: continue it with `bootcourse train --out {folder} --resume`."
+        )
     found = sorted(path.parent for path in folder.glob("[!.]*/config.json"))
     if not found:
         raise BootcourseError(f"{folder} holds no run: train one with `bootcourse train --out {folder}`.")
@@ -147,7 +159,7 @@ def find_runs(folder: Path) -> list[Path]:
 def save_checkpoint(training: Training, path: Path) -> None:
     """Write a training in progress to one file. Raises BootcourseError off the trap, or if it cannot be written."""
     config = {
-        "format": FORMAT,
+        "format": CHECKPOINT_FORMAT,
         "settings": [asdict(settings) for settings in training.settings],
         "episodes": training.episodes,
         "scenario": json.loads(training.scenario.to_json()),
@@ -159,24 +171,22 @@ def save_checkpoint(training: Training, path: Path) -> None:
 def load_checkpoint(path: Path, teacher: Rule = course_rule) -> Training:
     """The training that `save_checkpoint` wrote, to be continued with the same teacher.
 
-    Raises BootcourseError if the file is missing or damaged, or for another teacher.
+    Raises DamagedCheckpoint if the file cannot be read, BootcourseError for another teacher.
     """
-    arrays = read_arrays(path)
     try:
+        arrays = read_arrays(path)
         config = json.loads(str(arrays.pop("config")))
+        if config["format"] != CHECKPOINT_FORMAT:
+            raise DamagedCheckpoint(f"its format is {config['format']!r}")
         settings = [Settings(**renamed(stored)) for stored in config["settings"]]
-        scenario = Scenario.from_json(json.dumps(config["scenario"]))
-        began_with, rows = config.get("teacher", "rule"), arrays["replay.demonstrations"]
-    except (KeyError, TypeError, json.JSONDecodeError):
-        raise BootcourseError(f"{path} is not a checkpoint of this version: start again in a new folder.") from None
-    if teacher_name(teacher) != began_with:
-        raise BootcourseError(
-            f"{path} began with the teacher '{began_with}', not '{teacher_name(teacher)}': give the same teacher."
-        )
-    demonstrations = torch.from_numpy(rows) if len(rows) else None
-    training = Training(settings, config["episodes"], scenario, teacher, demonstrations)
-    restore(training, arrays)
-    return training
+        scenario, began_with = Scenario.from_json(json.dumps(config["scenario"])), config["teacher"]
+        if teacher_name(teacher) == began_with:
+            return restored(settings, config["episodes"], scenario, teacher, arrays)
+    except (KeyError, TypeError, AttributeError, ValueError) as error:  # BootcourseError is a ValueError
+        raise DamagedCheckpoint(f"{path} is no checkpoint of this version, or damaged ({error}).") from None
+    raise BootcourseError(
+        f"{path} began with the teacher '{began_with}', not '{teacher_name(teacher)}': give the same teacher."
+    )
 
 
 def _commit() -> str:

@@ -10,6 +10,7 @@ The folder is moved in one step, so every folder in `jobs` is complete.
 import json
 import os
 import shutil
+import tempfile
 import time
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -18,15 +19,20 @@ import numpy as np
 
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.errors import BootcourseError
-from bootcourse.files import provenance, read_json, sha256, write_arrays, write_json
+from bootcourse.files import provenance, sha256, write_arrays, write_json
 from bootcourse.learn.settings import Settings
 from bootcourse.learn.training import Result, Training
 from bootcourse.scenario import Scenario
+from bootcourse.storage.checkpoint import DamagedCheckpoint
 from bootcourse.storage.runs import load_checkpoint, save_checkpoint, save_runs
+from bootcourse.storage.sealed import is_file_with, read_sealed, write_sealed
+from bootcourse.storage.work import Checkpoints
 from bootcourse.study.fingerprint import behind, fingerprints
 from bootcourse.study.planner import Search, is_staying_optimal, plan_episodes
 
-FORMAT = "bootcourse job 1"
+FORMAT = "bootcourse job 2"
+FORMER_FORMAT = "bootcourse job 1"  # its job.json has no hash of its own
+CHECKPOINT = "checkpoint.npz"
 HELD_OUT = 1  # the block of held-out roads that every method of every study is tested on
 SECONDS_BETWEEN = 60.0  # of checkpoints
 PARENT = os.getppid()  # read at import: a worker may be busy compiling when the process that started it dies
@@ -34,6 +40,10 @@ PARENT = os.getppid()  # read at import: a worker may be busy compiling when the
 
 class Interrupted(Exception):
     """The study was stopped; the job has written a checkpoint."""
+
+
+class OtherQuestion(BootcourseError):
+    """The folder holds a job of the same name with other settings: it is not damaged and must not be replaced."""
 
 
 @dataclass(frozen=True)
@@ -53,11 +63,11 @@ class Job:
 
     def compute(self, folder: Path) -> float:
         """Train, or continue a training, and test. Returns the seconds of earlier attempts. Raises Interrupted."""
-        training = self._training(folder)
+        training, checkpoint = self._training(folder), folder / CHECKPOINT
         earlier = training.seconds
-        result = training.run(progress=False, callback=_Checkpoints(folder), stop=_orphaned)
+        result = training.run(progress=False, callback=Checkpoints(checkpoint, SECONDS_BETWEEN), stop=_orphaned)
         if result.interrupted:
-            save_checkpoint(training, folder / "checkpoint.npz")
+            save_checkpoint(training, checkpoint)
             raise Interrupted(self.name)
         write_arrays(folder / "results.npz", self._tested(result))
         if self.runs:
@@ -66,12 +76,12 @@ class Job:
         return earlier
 
     def _training(self, folder: Path) -> Training:
-        if not (folder / "checkpoint.npz").exists():
+        if not (folder / CHECKPOINT).exists():
             return Training(self.settings, self.episodes, self.scenario)
-        training = load_checkpoint(folder / "checkpoint.npz")
+        training = load_checkpoint(folder / CHECKPOINT)
         wanted = ([*self.settings], self.episodes, self.scenario)
         if (training.settings, training.episodes, training.scenario) != wanted:
-            raise BootcourseError(f"{folder} was begun with other settings: choose another folder, or delete this one.")
+            raise OtherQuestion(f"{folder} was begun with other settings: choose another folder, or delete this one.")
         return training
 
     def _tested(self, result: Result) -> dict[str, np.ndarray]:
@@ -138,18 +148,6 @@ def _small(values: np.ndarray) -> np.ndarray:
     return values.astype(np.float32) if values.dtype == np.float64 else values.astype(np.int8)
 
 
-class _Checkpoints:
-    """A training's callback: writes a checkpoint every `SECONDS_BETWEEN` seconds."""
-
-    def __init__(self, folder: Path):
-        self.path, self.last = folder / "checkpoint.npz", time.monotonic()
-
-    def __call__(self, training: Training) -> None:
-        if time.monotonic() - self.last > SECONDS_BETWEEN:
-            save_checkpoint(training, self.path)
-            self.last = time.monotonic()
-
-
 def _orphaned() -> bool:
     """Has the process that started this one ended?"""
     return os.getppid() != PARENT
@@ -160,10 +158,7 @@ def finished(job: AnyJob, root: Path) -> bool:
     folder = root / "jobs" / job.name
     if not folder.exists():
         return False
-    made = read_json(folder / "job.json")
-    damaged = [name for name, digest in made.get("sha256", {}).items() if _hash(folder / name) != digest]
-    if damaged or made.get("format") != FORMAT:
-        raise BootcourseError(f"{folder} is damaged ({', '.join(damaged) or 'job.json'}).")
+    made = read_job(folder)
     different = [name for name, value in asked(job).items() if made["asked"].get(name) != value]
     if different:
         raise OtherQuestion(
@@ -172,20 +167,26 @@ def finished(job: AnyJob, root: Path) -> bool:
     return True
 
 
-class OtherQuestion(BootcourseError):
-    """The folder holds a job of the same name with other settings: it is not damaged and must not be replaced."""
+def read_job(folder: Path) -> dict:
+    """The `job.json` of a finished job, after a check of all its files. Raises BootcourseError if one is damaged."""
+    made = read_sealed(folder / "job.json", FORMAT, FORMER_FORMAT)
+    if not all(isinstance(made.get(name), dict) for name in ("asked", "sha256", "behaviour", "provenance")):
+        raise BootcourseError(f"{folder} is damaged (job.json).")
+    damaged = [name for name, digest in made["sha256"].items() if not is_file_with(folder / name, digest)]
+    if damaged:
+        raise BootcourseError(f"{folder} is damaged ({', '.join(damaged)}).")
+    return made
 
 
-def _hash(path: Path) -> str:
-    return sha256(path) if path.is_file() else ""
+def run_job(job: AnyJob, root: Path, recompute: bool = False) -> str:
+    """Compute a job and move it to `jobs`. Returns "", or a sentence that says what went wrong.
 
-
-def run_job(job: AnyJob, root: Path) -> str:
-    """Compute a job and move it to `jobs`. Returns "", or a sentence that says what went wrong."""
+    recompute: begin again, with the old files moved aside, if it was begun and its checkpoint is damaged.
+    """
     try:
         if not (root / "study.json").exists():  # on a machine of a cluster that has another disk
             return f"{root} is not there for the process that should compute {job.name}: use a folder that all share."
-        _run(job, root)
+        _run(job, root, recompute)
     except (BootcourseError, OSError) as error:
         return f"{job.name}: {error}"
     except (Interrupted, KeyboardInterrupt):
@@ -193,14 +194,22 @@ def run_job(job: AnyJob, root: Path) -> str:
     return ""
 
 
-def _run(job: AnyJob, root: Path) -> None:
+def _run(job: AnyJob, root: Path, recompute: bool) -> None:
     final, folder = root / "jobs" / job.name, root / "unfinished" / job.name
     if final.exists():  # another process was faster: a cluster may start a job twice
         return
     folder.mkdir(parents=True, exist_ok=True)
     started = time.perf_counter()
-    seconds = (job.compute(folder) or 0.0) + time.perf_counter() - started
-    (folder / "checkpoint.npz").unlink(missing_ok=True)
+    try:
+        earlier = job.compute(folder)
+    except DamagedCheckpoint as error:
+        if not recompute:
+            raise BootcourseError(f"{error} Add --recompute to begin this job again.") from None
+        os.rename(folder, aside(root, job.name))
+        folder.mkdir()
+        earlier = job.compute(folder)
+    seconds = (earlier or 0.0) + time.perf_counter() - started
+    (folder / CHECKPOINT).unlink(missing_ok=True)
     files = [path for path in sorted(folder.rglob("*")) if path.is_file() and path.name != "job.json"]
     made = {
         "format": FORMAT,
@@ -209,6 +218,12 @@ def _run(job: AnyJob, root: Path) -> None:
         "behaviour": fingerprints(*job.behaviours),
         "provenance": provenance(seconds=round(seconds, 1)),
     }
-    write_json(folder / "job.json", made)
+    write_sealed(folder / "job.json", made)
     final.parent.mkdir(parents=True, exist_ok=True)
     os.rename(folder, final)
+
+
+def aside(root: Path, name: str) -> Path:
+    """A free place in `damaged` for the files of a job."""
+    (root / "damaged").mkdir(parents=True, exist_ok=True)
+    return Path(tempfile.mkdtemp(dir=root / "damaged", prefix=f"{name.replace('/', '-')}-")) / "job"

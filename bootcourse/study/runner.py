@@ -1,36 +1,38 @@
-"""Compute jobs on this machine's cores, or on a dask or ray cluster, through joblib.
+"""Compute jobs on this machine's cores, or on a dask or ray cluster, through joblib."""
 
-Only one study at a time may use a folder. The operating system holds its lock until the process ends, also when
-that is killed. (On a network disk without locks, take care yourself to start only one.)
-"""
-
-import json
 import os
-import platform
 import socket
-import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
 import joblib
-from filelock import FileLock, Timeout
 
 from bootcourse.errors import BootcourseError, did_you_mean
 from bootcourse.files import write_json
-from bootcourse.study.jobs import OtherQuestion, finished, run_job
+from bootcourse.storage.work import locked
+from bootcourse.study.jobs import OtherQuestion, aside, finished, run_job
 
 BACKENDS = ("loky", "dask", "ray")
 CONNECT = 10.0  # s until a scheduler must answer
 
 
-def run_jobs(jobs: Sequence, root: Path, backend="loky", scheduler=None, workers=None, recompute=False) -> list[str]:
+def run_jobs(
+    jobs: Sequence,
+    root: Path,
+    backend: str = "loky",
+    scheduler: str | None = None,
+    workers: int | None = None,
+    recompute: bool = False,
+    after: Callable[[list[str]], None] = lambda problems: None,
+) -> list[str]:
     """Compute the jobs that are not done yet. Returns what went wrong, a sentence each.
 
     backend: one of `BACKENDS`; loky uses this machine's cores. scheduler: the address of a dask scheduler or a ray
     cluster; without one, dask and ray start their own on this machine. workers: processes, by default one for each
-    core. recompute: compute damaged jobs again. Raises BootcourseError, before anything is computed, for a mistyped
-    argument, a folder in use, and a damaged job without `recompute`.
+    core. recompute: compute damaged jobs again. after: called with what went wrong, while the folder is still locked.
+    Raises BootcourseError, before anything is computed, for a mistyped argument, a folder in use, and a damaged job
+    without `recompute`.
     """
     if backend not in BACKENDS:
         raise BootcourseError(f"Backend {did_you_mean(backend, BACKENDS)}.")
@@ -39,18 +41,20 @@ def run_jobs(jobs: Sequence, root: Path, backend="loky", scheduler=None, workers
     with locked(root):
         waiting = to_do(jobs, root, recompute)
         print(f"{len(jobs)} jobs in {root}: {len(jobs) - len(waiting)} done already, {len(waiting)} to compute.")
-        if not waiting:
-            return []
-        write_json(root / "study.json", {"jobs": [job.name for job in jobs]})
-        with connected(backend, scheduler, workers):
-            return _compute(waiting, root.resolve(), backend)
+        problems = []
+        if waiting:
+            write_json(root / "study.json", {"jobs": [job.name for job in jobs]})
+            with connected(backend, scheduler, workers):
+                problems = _compute(waiting, root.resolve(), backend, recompute)
+        after(problems)
+        return problems
 
 
-def _compute(waiting: list, root: Path, backend: str) -> list[str]:
+def _compute(waiting: list, root: Path, backend: str, recompute: bool) -> list[str]:
     from tqdm.auto import tqdm
 
     how = "list" if backend == "ray" else "generator_unordered"  # ray returns its answers all at once
-    calls = (joblib.delayed(run_job)(job, root) for job in waiting)
+    calls = (joblib.delayed(run_job)(job, root, recompute) for job in waiting)
     try:
         answers = joblib.Parallel(batch_size=1, pre_dispatch="all", return_as=how)(calls)
         return [answer for answer in tqdm(answers, total=len(waiting), unit="job", smoothing=0) if answer]
@@ -71,45 +75,11 @@ def to_do(jobs: Sequence, root: Path, recompute: bool) -> list:
             damaged.append(str(error))
             waiting.append(job)
             if recompute:
-                os.rename(root / "jobs" / job.name, _aside(root, job.name))
+                os.rename(root / "jobs" / job.name, aside(root, job.name))
                 print(f"{error} It is computed again; the old one is in {root / 'damaged'}.")
     if damaged and not recompute:
         raise BootcourseError(" ".join(damaged) + " Add --recompute to compute it again.")
     return waiting
-
-
-def _aside(root: Path, name: str) -> Path:
-    place = root / "damaged" / f"{name.replace('/', '-')}-{time.strftime('%Y%m%d-%H%M%S')}"
-    place.parent.mkdir(parents=True, exist_ok=True)
-    return place
-
-
-@contextmanager
-def locked(root: Path) -> Iterator[None]:
-    """Lock the folder against other studies. Raises BootcourseError if one is using it."""
-    try:
-        root.mkdir(parents=True, exist_ok=True)
-        lock = FileLock(root / ".lock")
-        lock.acquire(timeout=0)
-    except Timeout:
-        raise BootcourseError(f"{_holder(root)} is at work in {root}: wait for it, or choose another folder.") from None
-    except OSError as error:
-        raise BootcourseError(f"Cannot write {root}: {error.strerror}. Choose another folder.") from None
-    try:
-        write_json(
-            root / ".holder.json", {"pid": os.getpid(), "host": platform.node(), "since": time.strftime("%F %T")}
-        )
-        yield
-    finally:
-        lock.release()
-
-
-def _holder(root: Path) -> str:
-    try:
-        who = json.loads((root / ".holder.json").read_text())
-        return f"Another study (process {who['pid']} on {who['host']}, since {who['since']})"
-    except (OSError, ValueError, KeyError):
-        return "Another study"
 
 
 @contextmanager
