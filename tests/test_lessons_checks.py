@@ -99,6 +99,8 @@ def test_an_exercise_has_two_right_answers_three_known_mistakes_and_with_them_fi
 def test_the_solution_gives_what_was_worked_out_by_hand(exercise):
     assert exercise.worked
     for answer, (_, by_hand) in zip(outcomes(exercise, exercise.solution), exercise.worked, strict=False):
+        if exercise.slopes and not isinstance(by_hand, tuple):
+            answer = answer.data[0]
         assert values.same(answer, values.plain(by_hand), exercise.tolerance), values.numbers(answer)
 
 
@@ -159,8 +161,8 @@ def changed_values(exercise, change):
 
 def is_compared_as_it_is(exercise) -> bool:
     """Numbers that nothing else is computed from before they are compared."""
-    answer = values.plain(exercise.run(exercise.solution, *copy.deepcopy(exercise.all_arguments()[0])))
-    return exercise.run is call_it and answer.kind in (*values.NUMERIC, "tuple")
+    answer = values.plain(exercise.answers(exercise.solution, *copy.deepcopy(exercise.all_arguments()[0])))
+    return exercise.run is call_it and not exercise.slopes and answer.kind in (*values.NUMERIC, "tuple")
 
 
 @some_exercises
@@ -458,23 +460,41 @@ def test_code_and_stressed_words_look_so_in_a_notebook():
     assert "The <em>rule</em> counts in <code>x * y * z</code>, not 2 * 3 * 4." in html
 
 
-def test_gradients_can_be_compared():
-    def gradient(answer, q):
-        q = q.clone().requires_grad_()
-        (answer(q) * 3).sum().backward()
-        return q.grad if q.grad is not None else torch.zeros_like(q)
+def entropy_of(log_pi):
+    return -(log_pi.exp() * log_pi).sum(-1).mean()
 
-    exercise = dataclasses.replace(
-        TARGET,
-        call="square(q)",
-        solution=lambda q: q * q.detach(),
-        run=gradient,
-        worked=((((torch.tensor([2.0])),), torch.tensor([6.0])),),
-        cases=lambda rng: [(torch.tensor(rng.normal(size=3)),) for _ in range(20)],
-        mistakes=(),
-    )
-    assert judge(exercise, lambda q: q.detach() * q).passed
-    assert judge(exercise, lambda q: q * q).kind == "wrong"
+
+SLOPES = dataclasses.replace(
+    TARGET,
+    call="loss(log_pi, q)",
+    solution=lambda log_pi, q: -(log_pi.exp() * q.detach()).sum(-1).mean() - entropy_of(log_pi),
+    slopes=("log_pi", "q"),
+    worked=(),
+    cases=lambda rng: [[torch.tensor(rng.normal(size=(2, 9))).log_softmax(-1), torch.ones(2, 9).double()]] * 20,
+    mistakes=(),
+)
+
+
+@pytest.mark.parametrize(
+    "answer, words",
+    [
+        (lambda log_pi, q: (log_pi.exp() * (log_pi - q.detach())).sum(-1).mean(), ""),
+        (lambda log_pi, q: (log_pi.exp() * (log_pi.detach() - q.detach())).sum(-1).mean(), ""),  # equal on the simplex
+        (lambda log_pi, q: (log_pi.softmax(-1) * (log_pi - q.detach())).sum(-1).mean(), ""),
+        (lambda log_pi, q: SLOPES.solution(log_pi, q).detach(), "no gradient reaches `log_pi`"),
+        (lambda log_pi, q: SLOPES.solution(log_pi, q).item(), "no gradient reaches `log_pi`"),
+        (lambda log_pi, q: torch.tensor(np.asarray(SLOPES.solution(log_pi, q))), "cannot use it: RuntimeError: Can't"),
+        (lambda log_pi, q: (log_pi.exp() * (log_pi - q)).sum(-1).mean(), "flows into `q`"),
+        (
+            lambda log_pi, q: (log_pi.exp().detach() * (log_pi - q.detach())).sum(-1).mean(),
+            "slope in `log_pi` is wrong",
+        ),
+        (lambda log_pi, q: SLOPES.solution(log_pi, q) + 1, "differ"),
+    ],
+)
+def test_of_a_loss_the_slopes_are_compared_through_the_logits(answer, words):
+    verdict = judge(SLOPES, answer)
+    assert (verdict.passed if words == "" else words in verdict.sentence) and one_sentence(verdict), verdict
 
 
 # In a notebook's kernel ---------------------------------------------------------------------------

@@ -40,7 +40,10 @@ class Exercise:
     difficulty: int  # 1, 2 or 3
     equation: str  # what is computed and where it stands, as in "D_KL(π ‖ π̃), Equation 9"
     lesson: str = ""  # "07_soft_constraint"; the registry sets it from the file's name
-    run: Callable = field(default=call_it)  # run(answer, *case) gives the value to compare, for instance a gradient
+    run: Callable = field(default=call_it)  # run(answer, *case) gives the value to compare, if not what is returned
+    # Of a loss: the arguments (tensors) in which its slopes are compared, too; those in log_pi through its logits.
+    # Name all that have a gradient in training, also those that the loss must not change: their slope is 0.
+    slopes: tuple[str, ...] = ()
     explain: Callable | None = None  # explain(cases, answers), plain numbers: a sentence on any other wrong answer
     tolerance: float = 1e-4  # relative; the absolute tolerance is a hundredth of it
     seconds: float = 10.0  # limit for all cases together; a right answer needs a fraction of a second
@@ -50,6 +53,16 @@ class Exercise:
             raise BootcourseError(f"call is '{self.call}': write the function and its arguments, as in 'f(x, y)'.")
         if not 1 <= len(self.hints) <= 3 or self.difficulty not in (1, 2, 3):
             raise BootcourseError(f"{self.name}: give one to three hints, and a difficulty of 1, 2 or 3.")
+
+    def answers(self, answer: Callable, *case):
+        """What is compared with the solution's: what `run` gives, or (value, slopes...) of a loss."""
+        if not self.slopes:
+            return self.run(answer, *case)
+        from bootcourse.lessons.slopes import loss_and_slopes
+
+        places = [self.arguments.index(name) for name in self.slopes]
+        logits = [place for place in places if self.arguments[place] == "log_pi"]
+        return loss_and_slopes(answer, case, places, logits)
 
     @property
     def name(self) -> str:

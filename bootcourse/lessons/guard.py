@@ -77,7 +77,7 @@ def run(exercise: Exercise, answer: Callable | str, times: int = 1) -> GuardedRu
 @functools.lru_cache(maxsize=256)
 def packed(exercise: Exercise) -> bytes:
     """What the process needs of an exercise: how to run an answer, the solution, the cases."""
-    return cloudpickle.dumps((exercise.run, exercise.solution, exercise.all_arguments()))
+    return cloudpickle.dumps((exercise.answers, exercise.solution, exercise.all_arguments()))
 
 
 def report(ended: str | int, stream: bytes) -> GuardedRun:

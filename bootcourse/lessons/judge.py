@@ -126,37 +126,77 @@ def end_in_words(ended: str | int, seconds: float) -> str:
     return f"Your function ended Python itself (exit code {ended}): take out `os._exit` and the like."
 
 
-def judge_answers(exercise: Exercise, answer: Callable, report: guard.GuardedRun, cases: list[tuple]) -> Verdict:
-    """The verdict on the answers to all cases."""
-    rights = outcomes(exercise, exercise.solution)
-    pairs = [(fitted(a, right), right) for a, right in zip(report.answers, rights, strict=True)]
-    fails = [number for number, (a, right) in enumerate(pairs) if not same(a, right, exercise.tolerance)]
+def judge_answers(exercise: Exercise, answer: Callable | str, report: guard.GuardedRun, cases: list[tuple]) -> Verdict:
+    """The verdict on the answers to all cases: first the values, then the slopes."""
+    if not exercise.slopes:
+        return judge_values(exercise, answer, report, cases, list)
+    verdict = judge_values(exercise, answer, report, cases, lambda answers: [each.data[0] for each in answers])
+    return (verdict.passed and judge_slopes(exercise, report.answers, cases)) or verdict
+
+
+def judge_values(
+    exercise: Exercise, answer: Callable | str, report: guard.GuardedRun, cases: list[tuple], of: Callable
+) -> Verdict:
+    """The verdict on the values; of(answers) picks them out."""
+    rights = of(outcomes(exercise, exercise.solution))
+    mine = [fitted(a, right) for a, right in zip(of(report.answers), rights, strict=True)]
+    fails = [k for k, (a, right) in enumerate(zip(mine, rights, strict=True)) if not same(a, right, exercise.tolerance)]
     if not fails:
         return Verdict(
             "passed", f"Right. Your `{exercise.name}` agrees in all {len(cases)} cases, corner cases included."
         )
     for mistake in exercise.mistakes:
-        theirs = [fitted(a, right) for a, right in zip(outcomes(exercise, mistake.answer), rights, strict=True)]
-        if all(same(a, m, exercise.tolerance, nan_too=True) for (a, _), m in zip(pairs, theirs, strict=True)):
+        theirs = [fitted(a, right) for a, right in zip(of(outcomes(exercise, mistake.answer)), rights, strict=True)]
+        if all_same(mine, theirs, exercise.tolerance):
             return wrong(exercise, mistake.says)
     case = fails[0]
-    mine, right = pairs[case]
-    if exercise.explain and all(like(a, right) and same_shape(a, right) for a, _ in pairs):
-        return wrong(exercise, exercise.explain(cases, [a.data for a, _ in pairs]))
-    if like(mine, right) and same_shape(mine, right) and changes_its_mind(exercise, answer, len(cases)):
+    comparable = [like(a, right) and same_shape(a, right) for a, right in zip(mine, rights, strict=True)]
+    if exercise.explain and all(comparable):
+        return wrong(exercise, exercise.explain(cases, [a.data for a in mine]))
+    if comparable[case] and changes_its_mind(exercise, answer, len(cases)):
         sentence = (
             "For the same arguments your function answers differently each time: it draws at random, or keeps a value "
             "from one call to the next."
         )
         return wrong(exercise, sentence, given(exercise, cases[case]))
-    return wrong(exercise, *unknown_mistake(exercise, cases[case], mine, right, report.warned.get(case)))
+    return wrong(exercise, *unknown_mistake(exercise, cases[case], mine[case], rights[case], report.warned.get(case)))
+
+
+def judge_slopes(exercise: Exercise, answers: list[Plain], cases: list[tuple]) -> Verdict | None:
+    """The verdict on a loss whose values are right; None if its slopes are right, too."""
+    rights = outcomes(exercise, exercise.solution)
+    for mistake in exercise.mistakes:
+        theirs = outcomes(exercise, mistake.answer)
+        if not all_same(theirs, rights, exercise.tolerance) and all_same(answers, theirs, exercise.tolerance):
+            return wrong(exercise, mistake.says)
+    but = "Your loss has the right value, but"
+    for place, name in enumerate(exercise.slopes, 1):
+        pairs = [(a.data[place], right.data[place]) for a, right in zip(answers, rights, strict=True)]
+        fails = [case for case, pair in enumerate(pairs) if not same(*pair, exercise.tolerance)]
+        if not fails:
+            continue
+        mine, right = pairs[fails[0]]
+        if mine.kind == "text":
+            return wrong(exercise, f"{but} training cannot use it: {' '.join(mine.data.split()).rstrip('.')}.")
+        if not any(right.data.any() for _, right in pairs):
+            what = f"a gradient flows into `{name}`, which this loss must not change: use `{name}.detach()`."
+            return wrong(exercise, f"{but} {what}")
+        if not any(mine.data.any() for mine, _ in pairs):
+            what = f"no gradient reaches `{name}`: look for `.detach()`, `.item()`, `float()` or NumPy."
+            return wrong(exercise, f"{but} {what}")
+        details = (*given(exercise, cases[fails[0]]), f"your slope = {numbers(mine)}", f"right = {numbers(right)}")
+        return wrong(exercise, f"{but} its slope in `{name}` is wrong: look for a part that is detached.", details)
+    return None
+
+
+def all_same(answers: list[Plain], others: list[Plain], tolerance: float) -> bool:
+    return all(same(a, other, tolerance, nan_too=True) for a, other in zip(answers, others, strict=True))
 
 
 def changes_its_mind(exercise: Exercise, answer: Callable | str, cases: int) -> bool:
     """Does it answer differently when the same process runs all cases twice? (One case could agree by chance.)"""
     answers = guard.run(exercise, answer, times=2).answers
-    pairs = zip(answers[:cases], answers[cases:], strict=False)
-    return not all(same(first, second, exercise.tolerance, nan_too=True) for first, second in pairs)
+    return len(answers) == 2 * cases and not all_same(answers[:cases], answers[cases:], exercise.tolerance)
 
 
 def unknown_mistake(
@@ -185,7 +225,7 @@ def outcomes(exercise: Exercise, function: Callable) -> list[Plain]:
     """The answers of a solution or of a known mistake to all cases."""
     with np.errstate(all="ignore"), warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        return [plain(exercise.run(function, *deepcopy(case))) for case in exercise.all_arguments()]
+        return [plain(exercise.answers(function, *deepcopy(case))) for case in exercise.all_arguments()]
 
 
 def given(exercise: Exercise, case: tuple) -> tuple[str, ...]:

@@ -22,6 +22,7 @@ import cloudpickle
 from bootcourse.lessons import guard, worker
 
 RIGHT: dict[str, list[Callable]] = defaultdict(list)
+EQUIVALENT: dict[str, dict[str, str]] = defaultdict(dict)
 WRONG: dict[str, list[tuple[Callable, str]]] = defaultdict(list)
 
 
@@ -39,6 +40,11 @@ def wrong(exercise: str, words: str = ""):
         return function
 
     return note
+
+
+def equivalent(exercise: str, change: str, why: str) -> None:
+    """Of the changes that `python -m tests.mutants` makes to the solution: one that is no mistake."""
+    EQUIVALENT[exercise][change] = why
 
 
 def here(job: bytes, seconds: float):

@@ -191,7 +191,7 @@ def chosen(log_pi, actions):
 
 cloning_loss = Exercise(
     "cloning_loss(log_pi, expert_actions)",
-    solution=bc.cloning_loss, cases=cloning_cases,
+    solution=bc.cloning_loss, cases=cloning_cases, slopes=("log_pi",),
     worked=(
         ((torch.tensor([[0.5, 0.25, 0.25], [0.1, 0.1, 0.8]]).log(), torch.tensor([0, 1])),
          torch.tensor((np.log(2) + np.log(10)) / 2)),

@@ -1,0 +1,16 @@
+"""A solution that is changed in one place is refused, unless a reason says why the change gives the same answers."""
+
+import pytest
+
+from bootcourse.lessons.exercises import registry
+from tests.answers import EQUIVALENT
+from tests.mutants import surviving
+
+LESSONS = ("05", "06", "07", "09")
+
+
+@pytest.mark.parametrize("exercise", [e for e in registry().values() if e.lesson[:2] in LESSONS], ids=lambda e: e.name)
+def test_the_cases_of_an_exercise_refuse_its_solution_with_one_place_changed(exercise):
+    tried, accepted = surviving(exercise)
+    assert set(accepted) == set(EQUIVALENT[exercise.name])
+    assert tried > 3
