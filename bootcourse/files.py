@@ -1,25 +1,39 @@
 """Reading and writing files without pickles.
 
 A file is written under a temporary name in the same folder, synced and renamed: an existing file is replaced only
-when the new one is complete.
+when the new one is complete. What a file says about its own size and contents is checked before anything is unpacked,
+and whatever a damaged file makes a library raise becomes one sentence that names the file and the remedy.
 """
 
+import contextlib
 import hashlib
 import importlib.metadata
 import io
 import json
+import math
 import os
 import platform
 import shutil
+import stat
 import tempfile
 import zipfile
 from pathlib import Path
+from typing import Any, TypeVar
 
+import msgspec
 import numpy as np
 
 from bootcourse.errors import BootcourseError
 
 TEMPORARY = ".tmp"  # at the end of every temporary name
+LARGEST_JSON = 2**25  # bytes; the manifest of the assets has 0.1 MB
+LARGEST_ARRAYS = 2**32  # bytes; the checkpoint of 100 agents with full replay buffers has 1.3 GB
+UNPACKED = 2**28  # bytes that an .npz file may unpack to beyond its own size; ours compress to a tenth at best
+MEMBERS = 1000  # arrays in an .npz file, at most; the bug hunt has 137
+PACKED = {zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED}  # as numpy writes; others unpack beyond what they declare
+COPY = "restore it from a copy, or make it again"  # the remedy for a damaged file
+FIRST_BYTES = {".png": b"\x89PNG", ".gif": b"GIF8", ".pdf": b"%PDF", ".svg": b"<?xml", ".html": b"<!doctype html"}
+Kind = TypeVar("Kind")
 
 
 def write_bytes(path: Path, data: bytes) -> None:
@@ -65,20 +79,84 @@ def write_json(path: Path, value) -> None:
     write_bytes(path, (json.dumps(value, indent=2, sort_keys=True) + "\n").encode())
 
 
-def read_bytes(path: Path) -> bytes:
-    """The bytes of a file. Raises BootcourseError if it cannot be read."""
-    try:
-        return Path(path).read_bytes()
-    except OSError as error:
-        raise BootcourseError(f"Cannot read {path}: {error.strerror or error}.") from None
+def check_replaceable(path: Path, *endings: str) -> Path:
+    """Raise BootcourseError unless `path` has one of these endings, and what it would replace is a file of that kind.
+
+    A picture may replace an older picture, but not the text that someone gave the wrong name.
+    """
+    path = Path(path)
+    ending = path.suffix.lower()
+    if ending not in endings:
+        raise BootcourseError(f"{path} does not end in {' or '.join(endings)}: give the file that ending.")
+    if os.path.lexists(path):
+        with open_regular(path) as file:
+            if not file.read(20).lower().startswith(FIRST_BYTES[ending].lower()):
+                raise BootcourseError(f"{path} exists already and is not a {ending[1:]} file: choose another name.")
+    return path
 
 
-def read_json(path: Path):
-    """The value of a JSON file. Raises BootcourseError if it cannot be read or is not JSON."""
+def open_regular(path: Path, largest: float = math.inf):
+    """A file, opened to read its bytes. Raises BootcourseError if it is missing, not a regular file, or too large."""
+    path = Path(path)
     try:
-        return json.loads(read_bytes(path))
-    except ValueError:
-        raise BootcourseError(f"{path} is damaged: it is not JSON. Delete it, or restore it from a copy.") from None
+        found = path.stat()  # before it is opened: opening a pipe would wait for its writer
+        if not stat.S_ISREG(found.st_mode):
+            raise BootcourseError(
+                f"{path} is a {'folder' if stat.S_ISDIR(found.st_mode) else 'device'}, not a file: name a file."
+            )
+        if found.st_size > largest:
+            raise BootcourseError(f"{path} has {found.st_size:,} bytes, at most {largest:,} can be right: {COPY}.")
+        return path.open("rb")
+    except (FileNotFoundError, NotADirectoryError):
+        raise BootcourseError(f"{path} is not there: check the name, or {COPY}.") from None
+    except (OSError, ValueError) as error:  # ValueError: a name that no file can have
+        raise BootcourseError(f"Cannot read {path}: {getattr(error, 'strerror', None) or error}.") from None
+
+
+@contextlib.contextmanager
+def decoding(path: Path, remedy: str = COPY):
+    """Turn whatever the block raises on the contents of a file into one sentence that names it: BootcourseError."""
+    try:
+        yield
+    except BootcourseError as error:
+        if str(path) in str(error):
+            raise
+        raise BootcourseError(f"{path}: {error}") from None
+    except msgspec.ValidationError as error:
+        raise BootcourseError(f"{path} is damaged or of another version ({error}): {remedy}.") from None
+    except Exception as error:  # zlib, zipfile, numpy, safetensors, memory, recursion ...: nobody has the whole list
+        raise BootcourseError(f"{path} is damaged or cut short ({_in_short(error)}): {remedy}.") from None
+
+
+def _in_short(error: Exception) -> str:
+    words = " ".join(str(error).split())
+    return f"{words[:80]}..." if len(words) > 80 else words or type(error).__name__
+
+
+def read_bytes(path: Path, largest: int = LARGEST_JSON, remedy: str = COPY) -> bytes:
+    """The bytes of a file. Raises BootcourseError if it is missing, not a regular file, or too large."""
+    with open_regular(path, largest) as file, decoding(path, remedy):
+        return file.read()
+
+
+def read_json(path: Path, kind: type[Kind] = Any, remedy: str = COPY) -> Kind:
+    """The value of a JSON file. Raises BootcourseError if it cannot be read, or is not of this kind (see `parse`)."""
+    return parse(read_bytes(path, remedy=remedy), kind, path, remedy)
+
+
+def parse(text: str | bytes, kind: type[Kind], path: Path, remedy: str = COPY) -> Kind:
+    """The value of JSON text from a file, as msgspec builds a `kind`: each field is checked for its type and range.
+
+    A kind with a class variable FORMAT also wants this text in its field "format".
+    Raises BootcourseError that names the file, the field and the remedy.
+    """
+    with decoding(path, remedy):
+        value, wanted = msgspec.json.decode(text), getattr(kind, "FORMAT", None)
+        if wanted and isinstance(value, dict) and value.get("format") != wanted:
+            raise BootcourseError(
+                f"{path} has the format {value.get('format')!r:.40}, this version reads '{wanted}': {remedy}."
+            )
+        return msgspec.convert(value, kind)
 
 
 def write_arrays(path: Path, arrays: dict[str, np.ndarray], compress: bool = True) -> None:
@@ -88,19 +166,57 @@ def write_arrays(path: Path, arrays: dict[str, np.ndarray], compress: bool = Tru
     write_bytes(path, buffer.getvalue())
 
 
-def read_arrays(path: Path) -> dict[str, np.ndarray]:
-    """All arrays of an `.npz` file. Raises BootcourseError if it is missing, truncated or contains pickles."""
-    read_bytes(path)  # raises BootcourseError for a missing file
-    try:
-        with np.load(path, allow_pickle=False) as file:  # a single array (.npy) raises TypeError here
-            return {name: file[name] for name in file.files}
-    except (ValueError, TypeError, OSError, EOFError, KeyError, zipfile.BadZipFile):
-        raise BootcourseError(f"{path} is damaged or cut short: record it again, or restore it from a copy.") from None
+def read_arrays(path: Path, remedy: str = COPY) -> dict[str, np.ndarray]:
+    """All arrays of an `.npz` file: numbers, booleans or text.
+
+    Raises BootcourseError if it is missing, damaged, holds pickles, or would unpack to more than it can rightly hold.
+    """
+    with open_regular(path, LARGEST_ARRAYS) as file, decoding(path, remedy), zipfile.ZipFile(file) as archive:
+        members = archive.infolist()
+        names = [member.filename.removesuffix(".npy") for member in members]
+        declared = sum(member.file_size for member in members)
+        if len(members) > MEMBERS or declared > os.fstat(file.fileno()).st_size + UNPACKED:
+            raise ValueError(f"it declares {len(members):,} arrays of {declared:,} bytes")
+        if len(set(names)) < len(names) or {member.compress_type for member in members} - PACKED:
+            raise ValueError("numpy would not write it like this")
+        return {name: _array(archive.read(member)) for name, member in zip(names, members, strict=True)}
+
+
+def check_arrays(arrays: dict[str, np.ndarray], shapes: dict[str, tuple], path: Path, remedy: str = COPY) -> None:
+    """Raise BootcourseError unless `arrays` are those of `shapes` {name: shape} and hold numbers."""
+    if odd := sorted(arrays.keys() ^ shapes.keys()):
+        raise BootcourseError(f"{path} is incomplete or of another version (see {', '.join(odd[:3])}): {remedy}.")
+    for name, shape in shapes.items():
+        found = arrays[name]
+        if found.shape != shape or found.dtype.kind not in "biuf":
+            raise BootcourseError(f"{path}: {name} is {found.dtype} {found.shape}, not numbers {shape}: {remedy}.")
+
+
+def _array(data: bytes) -> np.ndarray:
+    """The array of a member. Its header is checked before numpy makes room for what it declares."""
+    stream = io.BytesIO(data)
+    if np.lib.format.read_magic(stream) != (1, 0):
+        raise ValueError("an array has an unknown version")
+    shape, by_columns, dtype = np.lib.format.read_array_header_1_0(stream)
+    if dtype.kind not in "biufU" or not dtype.isnative:
+        raise ValueError(f"an array of {dtype}")
+    if math.prod(shape) * dtype.itemsize != len(data) - stream.tell():
+        raise ValueError(f"an array that should have the shape {shape}")
+    return np.ndarray(shape, dtype, bytearray(data[stream.tell() :]), order="F" if by_columns else "C")
+
+
+def read_tensors(path: Path, remedy: str = COPY) -> dict[str, np.ndarray]:
+    """All tensors of a safetensors file. Raises BootcourseError if it is missing or damaged."""
+    from safetensors.numpy import load
+
+    with decoding(path, remedy):
+        return load(read_bytes(path, LARGEST_ARRAYS, remedy))
 
 
 def sha256(path: Path) -> str:
     """The SHA-256 hash of a file, in hexadecimal."""
-    return hashlib.sha256(read_bytes(path)).hexdigest()
+    with open_regular(path) as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def provenance(**more) -> dict:

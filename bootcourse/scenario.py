@@ -6,6 +6,7 @@ course; in `CALIBRATED` the traps drive at the speed that the paper's results su
 
 import json
 import math
+import sys
 from dataclasses import asdict, dataclass, field, fields, is_dataclass
 
 from bootcourse.errors import BootcourseError, did_you_mean
@@ -28,7 +29,7 @@ def _check_numbers(part) -> None:
         numbers = value if isinstance(value, tuple) else (value,)
         for number in numbers:
             is_number = isinstance(number, (int, float)) and not isinstance(number, bool)
-            _check(is_number and math.isfinite(number), f"{name} = {value!r}: give a finite number.")
+            _check(is_number and abs(number) <= sys.float_info.max, f"{name} = {value!r}: give a finite number.")
         if f.type in ("int", int):
             _check(isinstance(value, int), f"{name} = {value!r}: give a whole number.")
         if f.metadata.get("range"):

@@ -27,6 +27,7 @@ def invented(which=lambda s: True) -> Results:
     wanted = np.array([a["rule_p"] / 2 + a["xi_multiplier"] / 1e4 + a["bonus"] / 100 for a in agents])
     success = (np.arange(200) < (200 * wanted[:, None])).astype(np.int8)
     tested = {"success": success, "returns": 10.0 * success, "accident": (1 - success).astype(np.int8)}
+    tested |= dict.fromkeys(("speed", "distance"), np.zeros(success.shape))
     curves = {"success": np.tile(wanted[:, None], 60).astype(np.float16), "return": np.ones((len(agents), 60))}
     return Results(agents, np.full(len(agents), -1), tested, curves)
 
@@ -122,7 +123,7 @@ def test_the_python_that_it_offers_trains_the_very_settings(panel, monkeypatch):
 
 def test_a_file_that_is_missing_is_one_sentence(tmp_path):
     panel = sweep_panel(tmp_path / "none.npz")
-    assert "Cannot read" in words(panel) and panel.happened is None and panel.picture()[2]
+    assert "is not there" in words(panel) and panel.happened is None and panel.picture()[2]
 
 
 def test_a_file_that_is_damaged_is_one_sentence(tmp_path, file):

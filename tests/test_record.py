@@ -12,7 +12,7 @@ import pytest
 import bootcourse  # noqa: F401  registers the road
 from bootcourse import files
 from bootcourse.episodes.record import record, record_on_highway_env
-from bootcourse.episodes.rollout import FORMAT, Rollout
+from bootcourse.episodes.rollout import Header, Rollout
 from bootcourse.errors import BootcourseError
 from bootcourse.policies import PolicyOutput, idle_policy, rule_policy, stochastic_rule_policy
 from bootcourse.road.state import EGO, Accident, X
@@ -140,18 +140,18 @@ NAN_REWARDS = np.full(10, np.nan)
         ({"rewards": np.zeros(9)}, "rewards have shape (9,), not (10,)"),
         ({"rewards": None}, "incomplete"),
         ({"rewards": np.array(["a"] * 10)}, "rewards"),
-        ({"policy": np.full((10, 9), np.inf)}, "policy hold NaN or infinity"),
+        ({"policy": np.full((10, 9), np.inf)}, "policy hold NaN, infinity"),
         ({"actions": np.full(10, 9)}, "outside 0..8"),
         ({"actions": np.full(10, 4.5)}, "actions"),
         ({"states": np.zeros((3, 9, 10))}, "simulation steps"),
         ({"states": np.array(0.0)}, "states"),
         ({"accident": 7}, "accident"),
-        ({"label": None}, "incomplete"),
+        ({"label": None}, "missing required field `label`"),
         ({"scenario": {"road": {"lanes": 0}}}, "written by another version"),
         ({"surprise": np.zeros(3)}, "surprise"),
-        ({"format": "bootcourse rollout 99"}, f"this version reads '{FORMAT}'"),
-        ({"header": np.array("{")}, "not a rollout"),
-        ({"header": np.array("[]")}, "not a rollout"),
+        ({"format": "bootcourse rollout 99"}, f"this version reads '{Header.FORMAT}'"),
+        ({"header": np.array("{")}, "Input data was truncated"),
+        ({"header": np.array("[]")}, "Expected `object`, got `array`"),
         ({"header": None}, "not a rollout"),
     ],
 )
@@ -184,8 +184,8 @@ def test_a_file_that_is_something_else_or_nowhere_is_refused(tmp_path):
     np.savez(tmp_path / "others.npz", weights=np.zeros(3))
     assert "damaged" in refusal(tmp_path / "text.npz")
     assert "not a rollout" in refusal(tmp_path / "others.npz")
-    assert "No such file" in refusal(tmp_path / "nowhere.npz")
-    assert "directory" in refusal(tmp_path)
+    assert "is not there" in refusal(tmp_path / "nowhere.npz")
+    assert "a folder" in refusal(tmp_path)
 
 
 def test_a_rollout_with_nan_cannot_even_be_made(rollout):

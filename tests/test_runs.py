@@ -12,6 +12,7 @@ from bootcourse.errors import BootcourseError
 from bootcourse.files import sha256, write_bytes, write_json
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
+from bootcourse.scenario import DEFAULT, Sight
 from bootcourse.storage.runs import find_runs, load_checkpoint, load_run, save_checkpoint, save_runs
 
 
@@ -59,7 +60,7 @@ def test_a_damaged_file_of_a_run_is_named(run, name):
 @pytest.mark.parametrize("name", ["config.json", "weights.safetensors", "curves.npz", "provenance.json"])
 def test_a_missing_file_of_a_run_is_named(run, name):
     (run / name).unlink()
-    with pytest.raises(BootcourseError, match="Cannot read|is not a run"):
+    with pytest.raises(BootcourseError, match="is not there|is not a run"):
         load_run(run)
 
 
@@ -83,6 +84,46 @@ def test_two_agents_of_one_method_and_seed_cannot_be_saved_together(result, tmp_
 def test_a_folder_whose_name_is_impossible_is_refused_with_a_sentence(result, tmp_path, name):
     with pytest.raises(BootcourseError, match="Choose another folder"):
         save_runs(result, tmp_path / name)
+
+
+def replaced(run, name: str, **entries) -> None:
+    """Replace entries of one of a run's JSON files, and its hash in provenance.json."""
+    content = json.loads((run / name).read_text()) | entries
+    write_json(run / name, content)
+    if name != "provenance.json":
+        digests = json.loads((run / "provenance.json").read_text())["sha256"]
+        replaced(run, "provenance.json", sha256=digests | {name: sha256(run / name)})
+
+
+@pytest.mark.parametrize(
+    ("name", "entries", "words"),
+    [
+        ("config.json", {"format": "bootcourse run 99"}, "this version reads 'bootcourse run 1'"),
+        ("config.json", {"scenario": json.loads(replace(DEFAULT, sight=Sight(neighbours=6)).to_json())}, "actor.0"),
+        ("config.json", {"settings": {"method": "bootstrapped", "hidden": [32, 32]}}, "actor.0"),
+        ("config.json", {"settings": {"method": "bootstrapped", "hidden": [64]}}, "weights.safetensors is incomplete"),
+        ("config.json", {"settings": {"method": "sac", "invented_later": 1}}, "no invented_later"),
+        ("config.json", {"settings": {"method": "bootstrapped", "gamma": 10**400}}, "gamma"),
+        ("config.json", {"settings": []}, "`$.settings`"),
+        ("config.json", {"episodes": 13}, "curves.npz"),
+        ("config.json", {"alpha": "<b>"}, "`$.alpha`"),
+        ("config.json", {"comment": "x"}, "comment"),
+        ("provenance.json", {"sha256": []}, "`$.sha256`"),
+        ("provenance.json", {"seed": -1}, "`$.seed`"),
+        ("provenance.json", {"teacher": 3}, "`$.teacher`"),
+    ],
+)
+def test_a_wrong_entry_of_a_run_is_named_even_with_the_right_hash(run, name, entries, words):
+    replaced(run, name, **entries)
+    with pytest.raises(BootcourseError) as error:
+        load_run(run)
+    assert words in str(error.value) and str(run) in str(error.value) and "\n" not in str(error.value)
+
+
+def test_a_file_of_a_run_that_is_another_kind_of_json_is_refused(run):
+    (run / "provenance.json").write_text("[]")
+    with pytest.raises(BootcourseError, match="Expected `object`, got `array`"):
+        load_run(run)
 
 
 def test_a_folder_without_a_run_says_how_to_train_one(tmp_path):
@@ -119,7 +160,7 @@ def test_a_damaged_checkpoint_is_refused(tmp_path):
     path = tmp_path / "checkpoint.npz"
     save_checkpoint(small_training(), path)
     path.write_bytes(path.read_bytes()[:5000])
-    with pytest.raises(BootcourseError, match="no checkpoint of this version, or damaged"):
+    with pytest.raises(BootcourseError, match="is damaged or cut short.*begin again"):
         load_checkpoint(path)
 
 

@@ -1,11 +1,13 @@
 """The paper's numbers, the verdicts on them, the tables, the figures and the report."""
 
 import re
+from dataclasses import asdict
 
 import numpy as np
 import pytest
 
 from bootcourse.files import write_json
+from bootcourse.learn.settings import settings_for
 from bootcourse.plots.figure import png
 from bootcourse.scenario import SCENARIOS
 from bootcourse.study import figures as training_figures
@@ -21,7 +23,7 @@ METHODS = ("bc", "cql", "gail", "sac", "soft", "demos", "bootstrapped", "margin"
 def invented(methods=METHODS, seeds: int = 10, tests: int = 40, episodes: int = 90) -> Results:
     """Agents that were never trained: scores and curves drawn at random."""
     rng = np.random.default_rng(0)
-    agents = [{"method": method, "seed": seed} for method in methods for seed in range(seeds)]
+    agents = [asdict(settings_for(method, seed=seed)) for method in methods for seed in range(seeds)]
     shape, n = (len(agents), tests), len(agents)
     tested = {
         "success": (rng.random(shape) < rng.random((n, 1))).astype(np.int8),

@@ -124,14 +124,13 @@ def assets(
 
 def report_assets(folder: Path) -> int:
     """Print the shipped files that are damaged or older than the code. Returns the exit status."""
-    from bootcourse.files import read_json
-    from bootcourse.storage.assets import MANIFEST, verify
+    from bootcourse.storage.assets import read_manifest, verify
     from bootcourse.study.fingerprint import older
 
     problems, old = verify(folder), older(folder)
     for sentence in (*problems, *old):
         print(sentence)
-    entries = read_json(folder / MANIFEST)["files"]
+    entries = read_manifest(folder)["files"]
     size = sum(entry["bytes"] for entry in entries) / 1e6
     print(f"{len(entries)} files, {size:.1f} MB: {len(problems)} wrong, {len(old)} made by older code.")
     return 1 if problems else 0

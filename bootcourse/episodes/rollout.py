@@ -1,19 +1,38 @@
 """A rollout: the recording of one episode, which figures, panels and replays show."""
 
 import json
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
+from typing import Annotated, Any, ClassVar
 
+import msgspec
 import numpy as np
 
 from bootcourse.errors import BootcourseError
-from bootcourse.files import read_arrays, write_arrays
+from bootcourse.files import decoding, parse, read_arrays, write_arrays
 from bootcourse.road.state import COLUMNS, EGO, HEADING, SPEED, TRAP_1, Accident, X, Y
+from bootcourse.rule import Reason
 from bootcourse.scenario import N_ACTIONS, RULE_P, Scenario, check_p
 
-FORMAT = "bootcourse rollout 1"
+LONGEST_LABEL = 100  # characters
+LARGEST = 1e9  # of any number of a drive, either sign; a road is some kilometres long
+RECORD_AGAIN = "record it again, or restore it from a copy"
 REQUIRED = ("states", "observations", "actions", "rewards", "terms")
+HIGHEST = {"actions": N_ACTIONS - 1, "rule_actions": N_ACTIONS - 1, "rule_lanes": 7, "rule_reasons": max(Reason)}
 OPTIONAL = ("policy", "q_values", "rule_actions", "rule_speeds", "rule_lanes", "rule_distances", "rule_reasons")
+
+
+class Header(msgspec.Struct, forbid_unknown_fields=True):
+    """What a rollout's file holds beside its arrays."""
+
+    FORMAT: ClassVar[str] = "bootcourse rollout 1"
+    format: str
+    scenario: dict[str, Any]  # checked by `Scenario.from_json`
+    label: Annotated[str, msgspec.Meta(max_length=LONGEST_LABEL)]
+    seed: Annotated[int, msgspec.Meta(ge=0, le=2**63 - 1)]
+    accident: Accident
+    provenance: dict[str, Any]
+    rule_p: float = RULE_P  # absent in files of earlier versions
 
 
 @dataclass(frozen=True)
@@ -45,16 +64,16 @@ class Rollout:
 
     def __post_init__(self):
         check_p(self.rule_p, "rule_p")
-        whole = ("actions", "rule_actions", "rule_lanes", "rule_reasons")
-        for name in (*REQUIRED, *OPTIONAL):
-            array = getattr(self, name)
-            if array is None and name in OPTIONAL:
-                continue
-            kinds = "iu" if name in whole else "iuf"
-            _check(
-                isinstance(array, np.ndarray) and array.ndim > 0 and array.dtype.kind in kinds,
-                f"This rollout's {name} are not {'whole ' * (name in whole)}numbers in a row: record it again.",
-            )
+        _check(
+            isinstance(self.label, str) and len(self.label) <= LONGEST_LABEL,
+            f"label = {self.label!r:.80}: give a text of at most {LONGEST_LABEL} characters.",
+        )
+        _check(_whole(self.seed, 2**63), f"seed = {self.seed!r:.80}: give a whole number from 0 to 2**63 - 1.")
+        _check(self.accident in set(Accident), f"This rollout's accident {self.accident!r:.80} is unknown.")
+        arrays = {name: getattr(self, name) for name in (*REQUIRED, *OPTIONAL)}
+        arrays = {name: array for name, array in arrays.items() if array is not None or name in REQUIRED}
+        for name, array in arrays.items():
+            _check_kind(name, array)
         steps, decisions = len(self.states) - 1, len(self.actions)
         _check(decisions > 0, "This rollout has no decisions: record it again.")
         shapes = {
@@ -64,23 +83,13 @@ class Rollout:
             "policy": (decisions, N_ACTIONS),
             "q_values": (decisions, N_ACTIONS),
         }
-        for name in (*REQUIRED, *OPTIONAL):
-            array, shape = getattr(self, name), shapes.get(name, (decisions,))
-            if array is None:
-                continue
-            _check(
-                array.shape == shape, f"This rollout's {name} have shape {array.shape}, not {shape}: record it again."
-            )
-            _check(bool(np.isfinite(array).all()), f"This rollout's {name} hold NaN or infinity: record it again.")
+        for name, array in arrays.items():
+            _check_numbers(name, array, shapes.get(name, (decisions,)))
         per_decision = self.scenario.clock.steps
         _check(
             (decisions - 1) * per_decision < steps <= decisions * per_decision,
             f"This rollout has {steps} simulation steps for {decisions} decisions: record it again.",
         )
-        _check(
-            bool(((self.actions >= 0) & (self.actions < N_ACTIONS)).all()), "This rollout has an action outside 0..8."
-        )
-        _check(self.accident in set(Accident), f"This rollout's accident {self.accident} is unknown.")
 
     @property
     def times(self) -> np.ndarray:
@@ -99,15 +108,9 @@ class Rollout:
 
     def save(self, path: Path) -> Path:
         """Write to `path` (.npz) and return it. Raises BootcourseError if the file cannot be written."""
-        header = {
-            "format": FORMAT,
-            "scenario": json.loads(self.scenario.to_json()),
-            "label": self.label,
-            "seed": int(self.seed),
-            "accident": int(self.accident),
-            "rule_p": self.rule_p,
-            "provenance": self.provenance,
-        }
+        header = {name: getattr(self, name) for name in ("label", "rule_p", "provenance")}
+        header |= {"format": Header.FORMAT, "seed": int(self.seed), "accident": int(self.accident)}
+        header["scenario"] = asdict(self.scenario)
         names = (*REQUIRED, *OPTIONAL)
         arrays = {name: getattr(self, name) for name in names if getattr(self, name) is not None}
         write_arrays(path, {**arrays, "header": np.array(json.dumps(header))})
@@ -116,28 +119,18 @@ class Rollout:
     @classmethod
     def load(cls, path: Path) -> "Rollout":
         """Read and check a rollout. Raises BootcourseError, with the file and the remedy, if it is damaged."""
-        arrays = read_arrays(path)
-        try:
-            header = json.loads(str(arrays.pop("header")))
-            written = header["format"]
-        except (KeyError, TypeError, ValueError):
-            raise BootcourseError(f"{path} is not a rollout: record one with `bootcourse drive`.") from None
-        if written != FORMAT:
-            raise BootcourseError(f"{path} has the format '{written}', this version reads '{FORMAT}': record it again.")
-        try:
-            return cls(
-                scenario=Scenario.from_json(json.dumps(header["scenario"])),
-                label=header["label"],
-                seed=header["seed"],
-                accident=header["accident"],
-                rule_p=header.get("rule_p", RULE_P),  # absent in files of earlier versions
-                provenance=header["provenance"],
-                **arrays,
+        arrays = read_arrays(path, RECORD_AGAIN)
+        if "header" not in arrays:
+            raise BootcourseError(f"{path} is not a rollout: record one with `bootcourse drive`.")
+        if odd := (arrays.keys() - set(OPTIONAL)) ^ {*REQUIRED, "header"}:
+            raise BootcourseError(
+                f"{path} is incomplete or of another version (see {', '.join(sorted(odd))}): {RECORD_AGAIN}."
             )
-        except (KeyError, TypeError) as error:
-            raise BootcourseError(f"{path} is incomplete ({error}): record it again.") from None
-        except BootcourseError as error:
-            raise BootcourseError(f"{path}: {error}") from None
+        with decoding(path, RECORD_AGAIN):
+            header = msgspec.structs.asdict(parse(str(arrays.pop("header")), Header, path, RECORD_AGAIN))
+            del header["format"]
+            header["scenario"] = Scenario.from_json(json.dumps(header["scenario"]))
+            return cls(**header, **arrays)
 
 
 def series(rollout: Rollout, what: str) -> tuple[np.ndarray, np.ndarray]:
@@ -173,6 +166,32 @@ def interpolate_states(states, step: float) -> np.ndarray:
     turn = states[after][:, HEADING] - here[:, HEADING]
     moved[:, HEADING] = here[:, HEADING] + (step - before) * ((turn + np.pi) % (2 * np.pi) - np.pi)
     return moved
+
+
+def _check_kind(name: str, array) -> None:
+    whole = name in HIGHEST
+    _check(
+        isinstance(array, np.ndarray) and array.ndim > 0 and array.dtype.kind in ("iu" if whole else "iuf"),
+        f"This rollout's {name} are not {'whole ' * whole}numbers in a row: record it again.",
+    )
+
+
+def _check_numbers(name: str, array: np.ndarray, shape: tuple[int, ...]) -> None:
+    _check(array.shape == shape, f"This rollout's {name} have shape {array.shape}, not {shape}: record it again.")
+    _check(
+        bool((np.abs(array) <= LARGEST).all()),
+        f"This rollout's {name} hold NaN, infinity or a number above {LARGEST:g}: record it again.",
+    )
+    if name in HIGHEST or name == "policy":
+        high = HIGHEST.get(name, 1 + 1e-6)  # float32 probabilities are rounded
+        _check(
+            bool(((array >= 0) & (array <= high)).all()),
+            f"This rollout's {name} hold a number outside 0..{high:g}: record it again.",
+        )
+
+
+def _whole(value, limit: int) -> bool:
+    return isinstance(value, (int, np.integer)) and not isinstance(value, bool) and 0 <= value < limit
 
 
 def _check(holds: bool, sentence: str) -> None:

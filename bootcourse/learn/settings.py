@@ -5,6 +5,7 @@ choice.
 """
 
 import math
+import sys
 from dataclasses import dataclass, field, fields, replace
 
 from bootcourse.errors import BootcourseError, did_you_mean
@@ -98,7 +99,7 @@ def _check_range(settings: Settings, low: float, high: float, *names: str, whole
     for name in names:
         value = getattr(settings, name)
         is_number = isinstance(value, int if whole else (int, float)) and not isinstance(value, bool)
-        if not is_number or not math.isfinite(value) or not low <= value <= high:
+        if not is_number or not abs(value) <= sys.float_info.max or not low <= value <= high:
             limits = [f"of {low:g} or more"] * (low > -math.inf) + [f"at most {high:g}"] * (high < math.inf)
             wanted = " ".join(["whole number" if whole else "finite number", ", ".join(limits)]).strip()
             raise BootcourseError(f"{name} = {value!r}: give a {wanted}.")
@@ -135,9 +136,12 @@ FORMER_NAMES = {  # field names in files of earlier versions -> present names
 }
 
 
-def renamed(stored: dict) -> dict:
-    """Stored settings {name: value} with the present names of the fields."""
-    return {FORMER_NAMES.get(name, name): value for name, value in stored.items()}
+def stored_settings(stored: dict) -> Settings:
+    """The settings in a file {name: value}. Raises BootcourseError for an invalid value or an unknown name."""
+    present = {FORMER_NAMES.get(name, name): value for name, value in stored.items()}
+    if unknown := sorted(present.keys() - {f.name for f in fields(Settings)}):
+        raise BootcourseError(f"Settings have no {', '.join(unknown):.80}: another version wrote them.")
+    return Settings(**present)
 
 
 def with_seeds(settings: Settings, seeds: int, first: int = 0) -> list[Settings]:

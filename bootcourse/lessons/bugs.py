@@ -20,7 +20,7 @@ from torch import Tensor
 
 from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError, did_you_mean
-from bootcourse.files import provenance, read_arrays, write_arrays
+from bootcourse.files import parse, provenance, read_arrays, write_arrays
 from bootcourse.learn import bootstrap, sac
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.learner import SACLearner
@@ -209,7 +209,7 @@ class Hunt:
         self._bug_of = {"healthy": "none", **dict(zip(LETTERS, bugs, strict=True))}
         self.names = tuple(self._bug_of)
         self.updates = self._arrays["updates"]  # (points,)
-        self.provenance = json.loads(str(self._arrays["provenance"]))
+        self.provenance = parse(str(self._arrays["provenance"]), dict, path)
 
     def _of(self, name: str, what: str) -> np.ndarray:
         if name not in self.names:

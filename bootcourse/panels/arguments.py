@@ -1,6 +1,6 @@
 """Checks of what a panel is given. Each raises BootcourseError with a sentence that says what to give instead."""
 
-import math
+import sys
 from collections.abc import Callable, Sequence
 
 from bootcourse.episodes.rollout import Rollout
@@ -19,7 +19,7 @@ def one_drive(drive: Rollout, called: str) -> Rollout:
 
 def a_number(value: float, called: str) -> float:
     """A finite number."""
-    if not isinstance(value, (int, float)) or isinstance(value, bool) or not math.isfinite(value):
+    if not isinstance(value, (int, float)) or isinstance(value, bool) or not abs(value) <= sys.float_info.max:
         raise BootcourseError(f"{called} = {value!r}: give a finite number.")
     return value
 

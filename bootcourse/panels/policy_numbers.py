@@ -4,7 +4,7 @@
 weight of its KL (Section IV-A); the formulas stand in `bootcourse.learn.bootstrap`.
 """
 
-import math
+import sys
 from dataclasses import dataclass
 
 import numpy as np
@@ -33,7 +33,7 @@ class PolicyNumbers:
 def check_weights(xi: float, alpha: float) -> None:
     """Refuse a ξ below 0 and an α that is not above 0."""
     for symbol, value, fine in (("ξ", xi, xi >= 0), ("α", alpha, alpha > 0)):
-        if not (fine and math.isfinite(value)):
+        if not (fine and value <= sys.float_info.max):
             raise BootcourseError(
                 f"{symbol} = {value!r}: give a finite number, {symbol} {'≥' * (symbol == 'ξ') or '>'} 0."
             )

@@ -6,6 +6,9 @@ files.
 """
 
 from pathlib import Path
+from typing import Annotated, TypedDict
+
+from msgspec import Meta
 
 from bootcourse.files import read_json, sha256
 
@@ -14,9 +17,30 @@ MANIFEST = "manifest.json"
 LIMIT = 25_000_000  # bytes in total
 
 
+class Entry(TypedDict):
+    """A shipped file."""
+
+    file: Annotated[str, Meta(pattern=r"^\w[\w.-]*(/\w[\w.-]*)*$")]  # its path in the folder
+    sha256: Annotated[str, Meta(pattern="^[0-9a-f]{64}$")]
+    bytes: Annotated[int, Meta(ge=0, le=LIMIT)]
+    command: str  # that makes it
+    behaviour: dict[str, str]  # {name: key of a fingerprint}
+    versions: dict[str, str]  # {package: version}
+
+
+class Manifest(TypedDict):
+    files: list[Entry]
+    behaviours: dict[str, dict[str, list[float]]]  # {name: {key: fingerprint}}
+
+
+def read_manifest(folder: Path) -> Manifest:
+    """The manifest of an assets folder. Raises BootcourseError if it is missing or damaged."""
+    return read_json(folder / MANIFEST, Manifest)
+
+
 def verify(folder: Path = FOLDER) -> list[str]:
     """The problems of the shipped files, one sentence each."""
-    entries = read_json(folder / MANIFEST)["files"]
+    entries = read_manifest(folder)["files"]
     problems = []
     for entry in entries:
         path = folder / entry["file"]

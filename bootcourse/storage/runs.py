@@ -12,36 +12,77 @@ import shutil
 import subprocess
 import tempfile
 from dataclasses import asdict, dataclass
+from itertools import pairwise
 from pathlib import Path
+from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 import torch
-from safetensors import SafetensorError
-from safetensors.torch import load, save
+from msgspec import Meta, Struct, convert
+from safetensors.torch import save
 
 from bootcourse.errors import BootcourseError
 from bootcourse.files import (
     TEMPORARY,
+    check_arrays,
+    decoding,
+    parse,
     provenance,
     read_arrays,
-    read_bytes,
     read_json,
+    read_tensors,
     sha256,
     write_arrays,
     write_bytes,
     write_json,
 )
 from bootcourse.learn.agent import Agent
-from bootcourse.learn.settings import Settings, renamed
+from bootcourse.learn.curves import NAMES
+from bootcourse.learn.settings import Settings, stored_settings
 from bootcourse.learn.teachers import Rule, course_rule, teacher_name
 from bootcourse.learn.training import Result, Training
-from bootcourse.scenario import Scenario
+from bootcourse.scenario import N_ACTIONS, Scenario
 from bootcourse.storage.checkpoint import DamagedCheckpoint, restored, state_of
 
 FORMAT = "bootcourse run 1"
 CHECKPOINT_FORMAT = "bootcourse checkpoint 2"
 UNFINISHED = "unfinished"  # the folder of a training that is not over, beside the runs
 HASHED = ("config.json", "weights.safetensors", "curves.npz")
+BEGIN_AGAIN = "begin again in a new folder, or restore it from a copy"
+TRAIN_AGAIN = "train this run again, or restore it from a copy"
+
+
+class Config(Struct, forbid_unknown_fields=True):
+    """config.json."""
+
+    FORMAT: ClassVar[str] = FORMAT
+    format: str
+    settings: dict[str, Any]  # checked by `Settings`
+    scenario: dict[str, Any]  # checked by `Scenario`
+    episodes: Annotated[int, Meta(ge=1)]
+    alpha: Annotated[float, Meta(ge=0)]
+
+
+class Provenance(Struct):
+    """The entries of provenance.json that are read; the others, such as the packages' versions, are for people."""
+
+    sha256: dict[Literal[HASHED], Annotated[str, Meta(pattern="^[0-9a-f]{64}$")]]
+    seed: Annotated[int, Meta(ge=0)]
+    seconds: Annotated[float, Meta(ge=0)]
+    agents: Annotated[int, Meta(ge=1)]
+    stopped_at_decision: Annotated[int, Meta(ge=0)] | None = None
+    teacher: str = "rule"  # absent in files of earlier versions
+
+
+class CheckpointConfig(Struct, forbid_unknown_fields=True):
+    """What a checkpoint holds beside the state of the training."""
+
+    FORMAT: ClassVar[str] = CHECKPOINT_FORMAT
+    format: str
+    settings: list[dict[str, Any]]
+    scenario: dict[str, Any]
+    episodes: Annotated[int, Meta(ge=1)]
+    teacher: str
 
 
 @dataclass(frozen=True)
@@ -116,27 +157,34 @@ def load_run(path: Path) -> Run:
     path = Path(path)
     if not (path / "provenance.json").is_file():
         raise BootcourseError(f"{path} is not a run: train one with `bootcourse train --out {path}`.")
-    made = read_json(path / "provenance.json")
+    made = read_json(path / "provenance.json", dict[str, Any], TRAIN_AGAIN)
+    with decoding(path / "provenance.json", TRAIN_AGAIN):
+        digests = convert(made, Provenance).sha256
     for name in HASHED:
-        if made.get("sha256", {}).get(name) != sha256(path / name):
+        if digests.get(name) != sha256(path / name):
             raise BootcourseError(f"{path / name} is damaged: its hash has changed. Train this run again.")
-    config = read_json(path / "config.json")
-    if config.get("format") != FORMAT:
-        raise BootcourseError(f"{path} has the format {config.get('format')!r}, this version reads {FORMAT!r}.")
-    settings = Settings(**renamed(config["settings"]))
-    try:
-        weights = load(read_bytes(path / "weights.safetensors"))
-    except SafetensorError:
-        raise BootcourseError(f"{path / 'weights.safetensors'} is damaged: train this run again.") from None
-    layers = 2 * (len(settings.hidden) + 1)
-    try:
-        actor, critics = ([weights[f"{name}.{i}"] for i in range(layers)] for name in ("actor", "critics"))
-    except KeyError as error:
-        raise BootcourseError(f"{path / 'weights.safetensors'} lacks {error}: train this run again.") from None
-    if not all(bool(torch.isfinite(tensor).all()) for tensor in (*actor, *critics)):
-        raise BootcourseError(f"{path / 'weights.safetensors'} holds NaN or infinity: train this run again.")
-    agent = Agent(settings, actor, critics, config["alpha"])
-    return Run(agent, read_arrays(path / "curves.npz"), Scenario.from_json(json.dumps(config["scenario"])), made)
+    config = read_json(path / "config.json", Config, TRAIN_AGAIN)
+    with decoding(path / "config.json", TRAIN_AGAIN):
+        settings, scenario = stored_settings(config.settings), Scenario.from_json(json.dumps(config.scenario))
+    curves = read_arrays(path / "curves.npz", TRAIN_AGAIN)
+    check_arrays(
+        curves, dict.fromkeys(curves.keys() & set(NAMES), (config.episodes,)), path / "curves.npz", TRAIN_AGAIN
+    )
+    weights, shapes = read_tensors(path / "weights.safetensors", TRAIN_AGAIN), _shapes(settings, scenario)
+    check_arrays(weights, shapes, path / "weights.safetensors", TRAIN_AGAIN)
+    if not all(np.isfinite(values).all() for values in weights.values()):
+        raise BootcourseError(f"{path / 'weights.safetensors'} holds NaN or infinity: {TRAIN_AGAIN}.")
+    actor, critics = (
+        [torch.from_numpy(weights[name]) for name in shapes if name.startswith(part)] for part in ("actor", "critics")
+    )
+    return Run(Agent(settings, actor, critics, config.alpha), curves, scenario, made)
+
+
+def _shapes(settings: Settings, scenario: Scenario) -> dict[str, tuple[int, int, int]]:
+    """The shapes of an agent's weights and biases (see networks.py), by their names in the file."""
+    layers = list(pairwise((scenario.observation_size, *settings.hidden, N_ACTIONS)))
+    rows = [(inputs, outputs) for n_in, outputs in layers for inputs in (n_in, 1)]
+    return {f"{part}.{i}": (n, *row) for part, n in (("actor", 1), ("critics", 2)) for i, row in enumerate(rows)}
 
 
 def find_runs(folder: Path) -> list[Path]:
@@ -174,18 +222,17 @@ def load_checkpoint(path: Path, teacher: Rule = course_rule) -> Training:
     Raises DamagedCheckpoint if the file cannot be read, BootcourseError for another teacher.
     """
     try:
-        arrays = read_arrays(path)
-        config = json.loads(str(arrays.pop("config")))
-        if config["format"] != CHECKPOINT_FORMAT:
-            raise DamagedCheckpoint(f"its format is {config['format']!r}")
-        settings = [Settings(**renamed(stored)) for stored in config["settings"]]
-        scenario, began_with = Scenario.from_json(json.dumps(config["scenario"])), config["teacher"]
-        if teacher_name(teacher) == began_with:
-            return restored(settings, config["episodes"], scenario, teacher, arrays)
-    except (KeyError, TypeError, AttributeError, ValueError) as error:  # BootcourseError is a ValueError
-        raise DamagedCheckpoint(f"{path} is no checkpoint of this version, or damaged ({error}).") from None
+        arrays = read_arrays(path, BEGIN_AGAIN)
+        with decoding(path, BEGIN_AGAIN):
+            config = parse(str(arrays.pop("config")), CheckpointConfig, path, BEGIN_AGAIN)
+            settings = [stored_settings(stored) for stored in config.settings]
+            scenario = Scenario.from_json(json.dumps(config.scenario))
+            if teacher_name(teacher) == config.teacher:
+                return restored(settings, config.episodes, scenario, teacher, arrays)
+    except BootcourseError as error:
+        raise DamagedCheckpoint(str(error)) from None
     raise BootcourseError(
-        f"{path} began with the teacher '{began_with}', not '{teacher_name(teacher)}': give the same teacher."
+        f"{path} began with the teacher '{config.teacher}', not '{teacher_name(teacher)}': give the same teacher."
     )
 
 

@@ -16,7 +16,6 @@ from pathlib import Path
 import numpy as np
 
 from bootcourse.episodes.evaluate import drive_episodes
-from bootcourse.files import read_json
 from bootcourse.learn.demonstrations import collect
 from bootcourse.learn.settings import Settings, settings_for, with_seeds
 from bootcourse.learn.training import Training
@@ -26,7 +25,7 @@ from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.rule import rule
 from bootcourse.scenario import CALIBRATED, DEFAULT, Scenario
 from bootcourse.statistics import escapes, improvement
-from bootcourse.storage.assets import MANIFEST
+from bootcourse.storage.assets import read_manifest
 from bootcourse.study.planner import Search, is_staying_optimal, plan_episodes
 
 ROADS, DECISIONS = 32, 80  # driven by random actions
@@ -163,7 +162,7 @@ def key(values: list[float]) -> str:
 
 def older(folder: Path) -> list[str]:
     """The files in `folder` whose behaviour is no longer the code's, a sentence each."""
-    manifest = read_json(folder / MANIFEST)
+    manifest = read_manifest(folder)
     now = {name: fingerprint(name) for name, known in manifest["behaviours"].items() if known and name in BEHAVIOURS}
     current = {
         (name, made)

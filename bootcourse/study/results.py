@@ -5,18 +5,23 @@ Read from the jobs of a study's folder, or from what ships.
 
 import json
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
+from bootcourse.episodes.evaluate import Episodes
 from bootcourse.errors import BootcourseError
-from bootcourse.files import read_arrays, read_json, write_arrays
-from bootcourse.learn.settings import renamed
+from bootcourse.files import check_arrays, decoding, parse, read_arrays, read_json, write_arrays
+from bootcourse.learn.curves import NAMES
+from bootcourse.learn.settings import stored_settings
 from bootcourse.road.state import Accident
 from bootcourse.study.plan import EXPERIMENTS, STUDIES, folder
+from bootcourse.study.planner import Staying
 
 MEASURES = ("success", "returns", "speed", "distance", "collision", "road_departure", "stoppage")
+RUN_AGAIN = "run the study again, or restore it from a copy"
 KINDS = {"collision": Accident.COLLISION, "road_departure": Accident.ROAD_DEPARTURE, "stoppage": Accident.STOPPAGE}
 
 
@@ -87,19 +92,23 @@ def save_results(results: Results, path: Path, provenance: dict) -> None:
 
 def load_results(path: Path) -> Results:
     """Read a job's `results.npz` or what `save_results` wrote. Raises BootcourseError naming the file."""
-    arrays = read_arrays(path)
-    try:
-        agents, stopped = [renamed(agent) for agent in json.loads(str(arrays["agents"]))], arrays["stopped"]
-        parts = {kind: _of_kind(arrays, kind, len(agents)) for kind in ("tested", "curves")}
-        return Results(agents, stopped, **parts)
-    except (KeyError, ValueError):
-        raise BootcourseError(f"{path} does not hold a study's results: run the study again.") from None
+    arrays = read_arrays(path, RUN_AGAIN)
+    if not {"agents", "stopped", "tested.returns", "curves.return"} <= arrays.keys():
+        raise BootcourseError(f"{path} does not hold a study's results: {RUN_AGAIN}.")
+    arrays.pop("provenance", None)
+    with decoding(path, RUN_AGAIN):
+        stored = parse(str(arrays.pop("agents")), list[dict[str, Any]], path, RUN_AGAIN)
+        agents = [asdict(stored_settings(agent)) for agent in stored]
+        tests, episodes = arrays["tested.returns"].shape[1], arrays["curves.return"].shape[1]
+    tested = {f"tested.{f.name}": (len(agents), tests) for f in fields(Episodes)}
+    curves = {f"curves.{name}": (len(agents), episodes) for name in NAMES if f"curves.{name}" in arrays}
+    check_arrays(arrays, {"stopped": (len(agents),), **tested, **curves}, path, RUN_AGAIN)
+    return Results(agents, arrays["stopped"], _named(arrays, tested), _named(arrays, curves))
 
 
-def _of_kind(arrays: dict, kind: str, agents: int) -> dict[str, np.ndarray]:
-    found = {name.removeprefix(f"{kind}."): values for name, values in arrays.items() if name.startswith(f"{kind}.")}
-    if not found or any(len(values) != agents for values in found.values()):
-        raise ValueError(kind)
+def _named(arrays: dict[str, np.ndarray], names: Iterable[str]) -> dict[str, np.ndarray]:
+    """The arrays KIND.NAME by NAME, float32 instead of the float16 of a file."""
+    found = {name.partition(".")[2]: arrays[name] for name in names}
     return {name: values.astype(np.float32) if values.dtype == np.float16 else values for name, values in found.items()}
 
 
@@ -132,7 +141,7 @@ def in_study(root: Path) -> StudyResults:
     return StudyResults(
         results,
         {name: bound for name, bound in bounds.items() if bound is not None},
-        {name: read_json(path) for name, path in staying.items() if path.exists()},
+        {name: vars(read_json(path, Staying, RUN_AGAIN)) for name, path in staying.items() if path.exists()},
         _experiments(root / "jobs", "/results.npz"),
     )
 
@@ -145,8 +154,8 @@ def in_assets(root: Path) -> StudyResults:
     studies = {name: root / f"study-{name}.npz" for name in STUDIES}
     return StudyResults(
         {name: load_results(path) for name, path in studies.items() if path.exists()},
-        {name: read_arrays(path)["returns"] for name, path in bounds.items() if path.exists()},
-        {name: read_json(path) for name, path in staying.items() if path.exists()},
+        {name: _returns(path)["returns"] for name, path in bounds.items() if path.exists()},
+        {name: vars(read_json(path, Staying, RUN_AGAIN)) for name, path in staying.items() if path.exists()},
         _experiments(root, ".npz"),
     )
 
@@ -165,6 +174,15 @@ def _experiments(root: Path, ending: str) -> dict[str, dict[str, Results]]:
 
 def _bound(root: Path, name: str, tests: int) -> np.ndarray | None:
     """The planner's return on each episode; None until all of them are computed."""
-    jobs = [read_arrays(path) for path in root.glob(f"jobs/bound-{name}/*/results.npz")]
+    jobs = [_returns(path, "first", "success") for path in root.glob(f"jobs/bound-{name}/*/results.npz")]
     found = {int(job["first"]) + i: value for job in jobs for i, value in enumerate(job["returns"])}
     return np.array([found[i] for i in range(tests)]) if set(range(tests)) <= set(found) else None
+
+
+def _returns(path: Path, *others: str) -> dict[str, np.ndarray]:
+    """The planner's returns (episodes,) in a file, and its other arrays."""
+    arrays = read_arrays(path, RUN_AGAIN)
+    n = arrays["returns"].shape[:1] if "returns" in arrays else ()
+    shapes = {"returns": n, "success": n, "first": ()}
+    check_arrays(arrays, {name: shapes[name] for name in ("returns", *others)}, path, RUN_AGAIN)
+    return arrays

@@ -18,7 +18,7 @@ from bootcourse.files import provenance, read_json, sha256, write_arrays, write_
 from bootcourse.methods import METHODS
 from bootcourse.policies import rule_policy
 from bootcourse.scenario import DEFAULT
-from bootcourse.storage.assets import FOLDER, LIMIT, MANIFEST
+from bootcourse.storage.assets import FOLDER, LIMIT, MANIFEST, read_manifest
 from bootcourse.storage.runs import load_run
 from bootcourse.study.fingerprint import alike, fingerprints, key
 from bootcourse.study.jobs import HELD_OUT
@@ -42,7 +42,7 @@ class Shipment:
         self.behaviours: dict[str, dict[str, list[float]]] = {}  # {name: {key: fingerprint}}
         if (now / MANIFEST).exists():
             shutil.copytree(now, new)
-            manifest = read_json(now / MANIFEST)
+            manifest = read_manifest(now)
             self.entries = {entry["file"]: entry for entry in manifest["files"]}
             self.behaviours = manifest["behaviours"]
 
