@@ -9,6 +9,7 @@ from latex2mathml.converter import convert
 project = html_title = "bootcourse"
 extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx_design"]
 html_theme = "furo"
+exclude_patterns = ["front/*"]  # parts of the front page
 html_static_path = ["style.css"]
 html_css_files = ["style.css"]
 html_show_sphinx = html_show_copyright = html_show_sourcelink = html_copy_source = False

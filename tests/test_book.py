@@ -6,6 +6,8 @@ import shutil
 import pytest
 
 import bootcourse as bc
+from bootcourse.lessons.shipped import shipped_drive
+from bootcourse.study.sweep import load_sweep, nearest_setting
 from tests.browser import ARTEFACTS, is_blank, needs_browser, open_browser
 from tools import book
 from tools.course.source import NOTEBOOKS
@@ -130,3 +132,48 @@ def test_a_replay_plays_in_the_book(made, new_page):
     picture = page.page.locator("iframe").first.screenshot(path=ARTEFACTS / "book-replay.png")
     assert not is_blank(picture) and page.errors == []
     page.page.close()
+
+
+@needs_browser
+def test_the_front_page_s_sliders_answer_to_the_keyboard_with_what_the_study_measured(made, new_page):
+    page = new_page()
+    page.page.goto((made / "index.html").as_uri())
+    said = page.page.inner_text("#bc-sweep-says")
+    paper = nearest_setting(load_sweep())
+    assert f"Success {100 * paper.mean('success').value:.0f} %" in said and f"{len(paper.results)} agents" in said
+    page.page.focus("#bc-xi")
+    page.page.keyboard.press("Home")
+    assert "Without ξ, p makes no difference" in page.page.inner_text("#bc-sweep-says")
+    without = nearest_setting(load_sweep(), xi_multiplier=0.0)
+    assert f"Success {100 * without.mean('success').value:.0f} %" in page.page.inner_text("#bc-sweep-says")
+    assert page.page.locator("#bc-sweep-chart circle").count() == 2 * len(without.results)
+    assert page.errors == []
+    page.page.close()
+
+
+@needs_browser
+def test_the_front_page_s_drive_plays_pauses_and_shows_the_agent_s_policy(made, new_page):
+    page = new_page()
+    page.page.goto((made / "index.html").as_uri())
+    page.page.wait_for_function("() => parseInt(document.getElementById('bc-time').textContent) >= 2")
+    page.page.focus("#bc-play")
+    page.page.keyboard.press("Enter")
+    assert page.page.inner_text("#bc-play") == "Play"
+    drive = shipped_drive("escape")
+    page.page.evaluate(
+        "() => { const at = document.getElementById('bc-at'); at.value = 20; at.dispatchEvent(new Event('input')); }"
+    )
+    decision = 20 // drive.scenario.clock.steps
+    likely = bc.ACTION_NAMES[int(drive.policy[decision].argmax())]
+    assert f"most probable action: {likely}." in page.page.inner_text("#bc-drive-says")
+    widths = page.page.evaluate(
+        "() => [...document.querySelectorAll('#bc-bars rect[height=\"12\"]')].map(b => +b.getAttribute('width'))"
+    )
+    assert [width / 468 for width in widths] == pytest.approx(drive.policy[decision].tolist(), abs=0.001)
+    page.page.close()
+
+
+def test_each_figure_of_the_front_page_is_small(made):
+    page = (made / "index.html").read_text(encoding="utf-8")
+    parts = re.findall(r'<section id="bc-.*?</script>', page, flags=re.S)
+    assert len(parts) == 2 and all(len(part) < 300_000 for part in parts) and "{{ data }}" not in page

@@ -18,6 +18,7 @@ SOLVED = re.compile(r"\[([^]]*)\]\(\.\./solved/([^)]*)\)")
 
 def gather(to: Path) -> None:
     """Put all that the book is made of into the folder `to`."""
+    from tools.course import front_page
     from tools.course.claims import claims_page
 
     shutil.rmtree(to, ignore_errors=True)
@@ -25,6 +26,7 @@ def gather(to: Path) -> None:
     shutil.copytree(ROOT / "assets/report", to / "report")
     shutil.copytree(ROOT / "assets/readme", to / "pictures")
     shutil.copy(ROOT / "assets/checks.md", to)
+    front_page.fill(to / "front")
     (to / "lessons/instructor").mkdir(parents=True)
     for notebook in sorted((ROOT / "notebooks").glob("*.ipynb")):
         shutil.copy(notebook, to / "lessons")

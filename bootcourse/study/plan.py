@@ -34,7 +34,7 @@ class Study:
 STUDIES = {
     "default": Study(DEFAULT),
     "calibrated": Study(CALIBRATED),
-    "paper": Study(DEFAULT, PAPER, 1500),
+    "paper": Study(DEFAULT, PAPER, 1200),
 }
 
 
@@ -152,7 +152,7 @@ class Experiment:
 
 EXPERIMENTS = {
     "sensitivity": Experiment(_sensitivity(), seeds=3, episodes=1500),
-    "clocks": Experiment(_clocks(), seeds=10, episodes=1500),
+    "clocks": Experiment(_clocks(), seeds=10, episodes=1200),
     "ablations": Experiment(_ablations(), seeds=10, episodes=2000),
 }
 

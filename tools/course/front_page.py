@@ -1,0 +1,87 @@
+"""The two things to do on the book's front page, without a kernel: explore the sweep, watch a trained agent decide.
+
+Each is one HTML file of book/front with its data filled in: plain HTML, SVG and script, no network.
+"""
+
+import json
+from pathlib import Path
+
+import numpy as np
+
+from bootcourse.colours import TRAFFIC, TRAP
+from bootcourse.learn.settings import settings_for
+from bootcourse.lessons.shipped import shipped_drive, shipped_results
+from bootcourse.methods import DRIVERS, style
+from bootcourse.road.state import EGO, HEADING, SPEED, TRAP_1, TRAP_2, X, Y
+from bootcourse.scenario import ACTION_NAMES, DEFAULT
+from bootcourse.study.report import rule_results
+from bootcourse.study.sweep import load_sweep, nearest_setting, settings_run
+
+PACE = 6  # s of the drive in a second
+
+
+def sweep_data() -> dict:
+    """Every setting of p, ξ and c that was run, and what each of its agents did."""
+    sweep, paper = load_sweep(), settings_for("bootstrapped")
+    found = [nearest_setting(sweep, *setting) for setting in settings_run(sweep)]
+    rule = rule_results(DEFAULT, shipped_results().tested["returns"].shape[1])
+    returns = sweep.scores("returns")
+    return {
+        "p": sorted({each.p for each in found}),
+        "xi": sorted({each.xi_multiplier for each in found}),
+        "c": sorted({each.c for each in found}),
+        "paper": {"p": paper.rule_p, "xi": paper.xi_multiplier, "c": paper.bonus},
+        "settings": [
+            {
+                "p": each.p,
+                "xi": each.xi_multiplier,
+                "c": each.c,
+                "success": _rounded(each.results.scores("success"), 3),
+                "returns": _rounded(each.results.scores("returns"), 1),
+                "accidents": _rounded((each.results.tested["accident"] > 0).mean(axis=1), 3),
+            }
+            for each in found
+        ],
+        "low": 10 * int(np.floor(returns.min() / 10)),
+        "high": 10 * int(np.ceil(returns.max() / 10)),
+        "rule": round(float(rule.scores("returns")[0]), 1),
+        "rule_colour": DRIVERS["rule"][1].colour,
+        "colour": style("bootstrapped").colour,
+    }
+
+
+def drive_data(name: str = "escape") -> dict:
+    """One of the drives that ship: the cars at every simulation step, the policy and the rule at every decision."""
+    drive = shipped_drive(name)
+    scenario, cars = drive.scenario, drive.states[:, :, [X, Y, HEADING]]
+    colours = [TRAFFIC] * scenario.vehicles
+    colours[TRAP_1] = colours[TRAP_2] = TRAP
+    colours[EGO] = style(drive.label).colour
+    return {
+        "states": [[_rounded(car, 2) for car in step] for step in cars],
+        "speeds": _rounded(drive.states[:, EGO, SPEED], 1),
+        "policy": [_rounded(pi, 3) for pi in drive.policy],
+        "rule": drive.rule_actions.tolist(),
+        "actions": list(ACTION_NAMES),
+        "colours": colours,
+        "colour": colours[EGO],
+        "steps": scenario.clock.steps,
+        "dt": 1 / (scenario.clock.decision_rate * scenario.clock.steps),
+        "pace": PACE,
+        "lanes": scenario.road.lanes,
+        "lane": scenario.road.lane_width,
+        "length": scenario.car.length,
+        "width": scenario.car.width,
+    }
+
+
+def _rounded(values: np.ndarray, digits: int) -> list[float]:
+    return [round(float(value), digits) for value in values]
+
+
+def fill(folder: Path) -> None:
+    """Fill in the data of both files in a folder."""
+    for name, data in (("sweep", sweep_data()), ("drive", drive_data())):
+        path = folder / f"{name}.html"
+        text = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
+        path.write_text(path.read_text(encoding="utf-8").replace("{{ data }}", text), encoding="utf-8")
