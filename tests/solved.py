@@ -5,13 +5,11 @@ checks strict), every later cell that uses what a solution made, and of the cell
 """
 
 import ast
-import symtable
-from collections.abc import Iterator
 from pathlib import Path
 
 import nbformat
 
-from bootcourse.lessons.order import names_made
+from bootcourse.lessons.order import names_made, names_used
 
 
 def code_of(notebook: Path) -> list[str]:
@@ -34,18 +32,6 @@ def cells_to_run(solved: list[str], student: list[str]) -> list[str]:
             run.add(place)
             needed |= used[place]
     return [solved[place] for place in sorted(run)]
-
-
-def names_used(text: str) -> set[str]:
-    """Every variable of the notebook that a cell reads, inside its functions, too."""
-    return set(read_in(symtable.symtable(text, "a cell", "exec")))
-
-
-def read_in(scope: symtable.SymbolTable) -> Iterator[str]:
-    inside = scope.get_type() != "module"
-    yield from (each.get_name() for each in scope.get_symbols() if each.is_referenced() and each.is_global() >= inside)
-    for child in scope.get_children():
-        yield from read_in(child)
 
 
 def names_changed(text: str) -> set[str]:

@@ -42,9 +42,8 @@ class CQLLearner(SACLearner):
         with torch.no_grad():
             target = self.critic_target(batch)  # (agents, batch)
         q_pair = self.q_pair(self.critics, batch.states)  # (2, agents, batch, 9)
-        actions = batch.actions.expand(2, -1, -1)
-        error = sac.critic_loss(q_pair.gather(-1, actions.unsqueeze(-1)).squeeze(-1), target).sum(0)
-        conservative = self.cql_weight[:, 0] * sac.conservative_loss(q_pair, actions).sum(0)
+        error = self.squared_error(q_pair, batch.actions, target)
+        conservative = self.cql_weight[:, 0] * self.conservative_loss(q_pair, batch.actions)
         return {"critic_loss": error, "conservative_loss": conservative}
 
     def update(self, batch: Batch) -> dict[str, Tensor]:

@@ -4,7 +4,7 @@ Read `textbook.py` first: it is the same for one agent, in plain torch. Here eve
 so that one batched matrix product computes all agents. `batch` is a `Batch`, with fields (agents, batch, ...).
 
 Your own method overrides the parts that differ: `losses` as a whole, or `critic_target`,
-`critic_loss`, `actor_loss`, `temperature_loss`, `kl`, `soft_value`. See bc.py, cql.py, gail.py.
+`critic_loss` (or its parts), `actor_loss`, `temperature_loss`, `kl`, `soft_value`. See bc.py, cql.py, gail.py.
 """
 
 from collections.abc import Sequence
@@ -88,7 +88,7 @@ class SACLearner:
         entropy = sac.entropy(log_pi)  # (agents, batch)
         return {
             "critic_loss": self.critic_loss(q_pair, target, log_pi.detach(), batch),
-            "actor_loss": self.actor_loss(log_pi, sac.min_q(q_pair), self.xi * kl),
+            "actor_loss": self.actor_loss(log_pi, sac.min_q(q_pair), kl),
             "temperature_loss": self.temperature_loss(entropy),
             "entropy": entropy.detach().mean(-1),
             "kl": kl.detach().mean(-1),
@@ -110,14 +110,21 @@ class SACLearner:
 
         q_pair (2, agents, batch, 9), target (agents, batch), log_pi (agents, batch, 9) without gradient.
         """
-        actions = batch.actions.expand(2, -1, -1)  # (2, agents, batch)
-        q_taken = q_pair.gather(-1, actions.unsqueeze(-1)).squeeze(-1)  # (2, agents, batch)
-        loss = sac.critic_loss(q_taken, target).sum(0)
+        loss = self.squared_error(q_pair, batch.actions, target)
         if self.margin.any():
             loss = loss + self.margin[:, 0] * self.margin_loss(q_pair, log_pi, batch)
         if self.cql_weight.any():
-            loss = loss + self.cql_weight[:, 0] * sac.conservative_loss(q_pair, actions).sum(0)
+            loss = loss + self.cql_weight[:, 0] * self.conservative_loss(q_pair, batch.actions)
         return loss
+
+    def squared_error(self, q_pair: Tensor, actions: Tensor, target: Tensor) -> Tensor:
+        """Both critics' mean (Q(s,a) - y)², summed: (2, agents, batch, 9), (agents, batch) twice -> (agents,)."""
+        q_taken = q_pair.gather(-1, actions.expand(2, -1, -1).unsqueeze(-1)).squeeze(-1)  # (2, agents, batch)
+        return sac.critic_loss(q_taken, target).sum(0)
+
+    def conservative_loss(self, q_pair: Tensor, actions: Tensor) -> Tensor:
+        """CQL's term, summed over critics: (2, agents, batch, 9), (agents, batch) -> (agents,)."""
+        return sac.conservative_loss(q_pair, actions.expand(2, -1, -1)).sum(0)
 
     def margin_loss(self, q_pair: Tensor, log_pi: Tensor, batch: Batch) -> Tensor:
         """The filtered large-margin loss of the demonstrations (Equations 17 to 19), summed over critics: (agents,)."""
@@ -130,9 +137,9 @@ class SACLearner:
             total = total + (loss * keep * batch.is_demonstration).mean(-1)
         return total
 
-    def actor_loss(self, log_pi: Tensor, q: Tensor, constraint: Tensor) -> Tensor:
-        """Minus the mean soft value: log_pi, q (agents, batch, 9), constraint ξ KL (agents, batch) -> (agents,)."""
-        return sac.actor_loss(log_pi, q, self.alpha, constraint)
+    def actor_loss(self, log_pi: Tensor, q: Tensor, kl: Tensor) -> Tensor:
+        """Minus the mean soft value with -ξ KL: log_pi, q (agents, batch, 9), kl (agents, batch) -> (agents,)."""
+        return sac.actor_loss(log_pi, q, self.alpha, self.xi * kl)
 
     def temperature_loss(self, entropy: Tensor) -> Tensor:
         """α (H - η): entropy (agents, batch) -> (agents,)."""

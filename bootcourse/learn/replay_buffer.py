@@ -12,6 +12,8 @@ from torch import Tensor
 
 from bootcourse.errors import BootcourseError
 
+REWARD = -4  # the column of a row that holds the reward
+
 
 class Batch(NamedTuple):
     """One batch for each agent."""

@@ -27,12 +27,31 @@ def table(headings: Sequence[str], rows: Sequence[Sequence[str]], below: str = "
 
 
 def source(module: str, *names: str):
-    """The library's own code of some functions, or of a "Class.method", as a notebook output: it is what runs."""
-    return code_of(*(operator.attrgetter(name)(importlib.import_module(module)) for name in names))
+    """The library's own code of some functions, or of a "Class.method", as a notebook output: it is what runs.
+
+    It is folded, since it may be the answer to an exercise.
+    """
+    code = code_of(*(operator.attrgetter(name)(importlib.import_module(module)) for name in names))
+    listed = ", ".join(f"<code>{name}</code>" for name in names)
+    html = f"<details><summary>{module}: {listed}</summary>{code._repr_html_()}</details>"
+    return Folded(html, f"{module}: {', '.join(names)}\n\n{code.data}")
+
+
+class Folded:
+    """An output that a click opens; in plain text all of it."""
+
+    def __init__(self, html: str, text: str):
+        self.html, self.text = html, text
+
+    def _repr_html_(self) -> str:
+        return self.html
+
+    def __repr__(self) -> str:
+        return self.text
 
 
 def code_of(*functions):
-    """The same for functions at hand."""
+    """The code of functions at hand, as a notebook output."""
     from IPython.display import Code
 
     return Code("\n\n".join(text_of(function) for function in functions), language="python")

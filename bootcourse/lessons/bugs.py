@@ -62,15 +62,15 @@ class Sampled(SACLearner):
         action = action.view(*log_pi.shape[:-1], 1)
         return q.gather(-1, action)[..., 0] - alpha * log_pi.gather(-1, action)[..., 0] - constraint
 
-    def actor_loss(self, log_pi: Tensor, q: Tensor, constraint: Tensor) -> Tensor:
-        return -self.soft_value(log_pi, q.detach(), self.alpha, constraint).mean(-1)
+    def actor_loss(self, log_pi: Tensor, q: Tensor, kl: Tensor) -> Tensor:
+        return -self.soft_value(log_pi, q.detach(), self.alpha, self.xi * kl).mean(-1)
 
 
 class NoStop(SACLearner):
     """The stop-gradient on Q is missing in the actor's loss."""
 
-    def actor_loss(self, log_pi: Tensor, q: Tensor, constraint: Tensor) -> Tensor:
-        return -sac.soft_value(log_pi, q, self.alpha, constraint).mean(-1)
+    def actor_loss(self, log_pi: Tensor, q: Tensor, kl: Tensor) -> Tensor:
+        return -sac.soft_value(log_pi, q, self.alpha, self.xi * kl).mean(-1)
 
 
 class BonusForAll(SACLearner):

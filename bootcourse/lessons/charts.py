@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import LogLocator, MaxNLocator
 
 from bootcourse.colours import OTHER, Style
 from bootcourse.methods import style
@@ -59,6 +59,13 @@ def lines(
         ends.append((y, words, QUIET))
     for axis in logarithmic:
         getattr(ax, f"set_{axis}scale")("log")
+        numbered = getattr(ax, f"{axis}axis")
+        numbered.set_major_formatter("{x:g}")
+        numbered.set_minor_formatter("")
+        if np.ptp(np.log10(getattr(ax, f"get_{axis}lim")())) < 2:
+            numbered.set_minor_locator(LogLocator(subs=(2, 5)))
+            numbered.set_minor_formatter("{x:g}")
+        ax.tick_params(axis=axis, which="minor", length=0, labelsize=SMALL, labelcolor=QUIET)
     ax.set_xlim(min(x), max(x))
     ax.set_ylim(limits)
     if "y" in logarithmic:  # labels are placed in a linear height

@@ -17,6 +17,7 @@ from bootcourse.learn.training import Training
 from bootcourse.lessons.charts import lines
 from bootcourse.methods import style
 from bootcourse.plots.canvas import MplAxes
+from bootcourse.plots.diagrams import sac_diagram as sac_diagram
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, WIDTH, Picture, finish, new_figure, one_axes, plain_axes
 from bootcourse.plots.road import draw_car, draw_road, edges_of
 from bootcourse.plots.training_curves import training_curves
@@ -210,8 +211,8 @@ def clones(measured: dict[str, np.ndarray], title: str) -> Figure:
     return finish(figure, title, f"A dot for each clone, a bar for their mean. {words}.")
 
 
-def cartpole_strip(drives: Mapping[str, np.ndarray], title: str, every: int = 10) -> Figure:
-    """Each drive as pictures from left to right, one every `every` decisions: {name: observations (T, 4)}.
+def cartpole_strip(drives: Mapping[str, np.ndarray], title: str) -> Figure:
+    """Each drive as pictures from its first to its last state: {name: observations (T, 4)}.
 
     The observations are scaled, as the learner sees them.
     """
@@ -224,23 +225,20 @@ def cartpole_strip(drives: Mapping[str, np.ndarray], title: str, every: int = 10
         ax.axis("off")
         ax.text(-2.5, 2.6, sentence(label), fontsize=TEXT, color=INK)
         states = np.asarray(observations) * CARTPOLE_SCALES
-        for picture, t in enumerate(range(0, PICTURES * every, every)):
-            over = t >= len(states)
-            _draw_cart(ax, states[min(t, len(states) - 1)], STEP * picture, style(label).colour, over)
-            ax.text(STEP * picture, -1.25, f"{t}" if not over else "over", ha="center", fontsize=SMALL, color=QUIET)
-            if over:
-                break
-        told.append(f"{label}: the episode lasts {len(states)} decisions")
-    return finish(figure, title, f"A cart on a track and the pole on it, every {every} decisions. {'; '.join(told)}.")
+        for picture, t in enumerate(np.linspace(0, len(states) - 1, PICTURES).round().astype(int)):
+            _draw_cart(ax, states[t], STEP * picture, style(label).colour)
+            ax.text(STEP * picture, -1.25, f"push {t + 1}", ha="center", fontsize=SMALL, color=QUIET)
+        told.append(f"{label}: the episode lasts {len(states)} pushes")
+    alt = f"A cart on a track and the pole on it, {PICTURES} pictures from the first push to the last"
+    return finish(figure, title, f"{alt}. {'; '.join(told)}.")
 
 
-def _draw_cart(ax, state: np.ndarray, x: float, colour: str, over: bool) -> None:
+def _draw_cart(ax, state: np.ndarray, x: float, colour: str) -> None:
     cart, angle = x + np.clip(state[0], -TRACK, TRACK), state[2]
     ax.plot([x - TRACK, x + TRACK], [-0.35, -0.35], color=QUIET, linewidth=1)
-    alpha = 0.35 if over else 1.0
-    ax.add_patch(Rectangle((cart - 0.6, -0.35), 1.2, 0.5, facecolor=INK, alpha=alpha))
+    ax.add_patch(Rectangle((cart - 0.6, -0.35), 1.2, 0.5, facecolor=INK))
     tip = (cart + POLE * np.sin(angle), 0.15 + POLE * np.cos(angle))
-    ax.plot([cart, tip[0]], [0.15, tip[1]], color=colour, linewidth=3.5, alpha=alpha, solid_capstyle="round")
+    ax.plot([cart, tip[0]], [0.15, tip[1]], color=colour, linewidth=3.5, solid_capstyle="round")
 
 
 class LiveCurves:

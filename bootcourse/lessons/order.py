@@ -6,6 +6,8 @@
 import ast
 import json
 import os
+import symtable
+from collections.abc import Iterator
 from pathlib import Path
 
 RUN_ABOVE = "or all cells above this one (menu Run, Run All Above Selected Cell)"
@@ -78,3 +80,15 @@ def names_made(text: str) -> set[str]:
         if not isinstance(node, (ast.Lambda, ast.ListComp, ast.DictComp, ast.SetComp, ast.GeneratorExp)):
             todo += ast.iter_child_nodes(node)
     return made
+
+
+def names_used(text: str) -> set[str]:
+    """Every global variable that a text of Python reads, inside its functions, too."""
+    return set(read_in(symtable.symtable(text, "a cell", "exec")))
+
+
+def read_in(scope: symtable.SymbolTable) -> Iterator[str]:
+    inside = scope.get_type() != "module"
+    yield from (each.get_name() for each in scope.get_symbols() if each.is_referenced() and each.is_global() >= inside)
+    for child in scope.get_children():
+        yield from read_in(child)

@@ -14,20 +14,28 @@
 # # 4 · Discrete soft actor-critic
 #
 # **What you will be able to do**
-# - work out the soft value of a state, and write the critic's target and the losses of the actor
-#   and of the temperature;
-# - train six agents side by side on a pole that has to be balanced, and read their curves;
+# - write each part of discrete soft actor-critic: the soft value, the losses of critics, actor and
+#   temperature, and the replay buffer;
+# - train agents with the parts that you wrote, and read their curves;
 # - show why a target entropy of {{ SETTINGS.target_entropy }} can only cool an agent with nine
 #   actions, and choose a better one.
 #
-# **Time** 55 minutes, about one of them the machine's. **You need** Python and a little torch;
-# states, actions and rewards as in lesson 1.
+# **Time** 100 minutes, about one of them the machine's. You can stop after any round. **You need**
+# Python and a little torch; states, actions and rewards as in lesson 1.
 
 # %%
 import bootcourse as bc
 import numpy as np
 import torch
-from bootcourse.lessons import charts, check, figures, source
+from bootcourse.lessons import (
+    charts,
+    check,
+    compare_predictions,
+    figures,
+    own_code,
+    predict,
+    source,
+)
 from bootcourse.study import checks
 
 # %% [markdown]
@@ -59,15 +67,53 @@ bc.show(figures.cartpole_strip(drives, title))
 
 # %% [markdown]
 # > **Predict.** The second driver is one line that somebody wrote. A learner knows nothing about
-# > poles: it sees four numbers and gets a reward of 1 for each push. Give it 16,000 pushes to learn
-# > from. How long will it balance then: for about 20 pushes, 200, or all 500?
+# > poles: it sees four numbers and gets a reward of 1 for each push. Three learners get
+# > 8,000 pushes each to learn from. How long will the best of them balance after that?
+
+# %%
+predict("4.1", "Pushes of the best of three learners", ["about 20", "about 100", "250 or more"])
+
+# %%
+PUSHES, TARGET = 8_000, 0.3 * np.log(2).item()
+changes = {"gamma": 0.99, "tau": 0.05}  # looks 100 pushes ahead; targets that follow faster
+learners = bc.with_seeds(bc.settings_for("sac", target_entropy=TARGET, **changes), 3)
+first = own_code.training(learners, PUSHES, make_env=checks.several(checks.cartpole))
+first.run(stop=lambda: first.decisions >= PUSHES * len(learners))
+balanced = checks.scores(first.learner, checks.cartpole, 20)
+print("mean of 20 test episodes:", *(f"{pushes:.0f}" for pushes in balanced), "pushes")
+
+# %%
+grid, lasted = np.linspace(0, PUSHES, 200), []
+for returns in first.curves.values["return"]:
+    returns = returns[np.isfinite(returns)]
+    lasted.append(np.interp(grid, returns.cumsum(), returns))  # at the end of each episode
+title = "Each learner's training episodes get longer"
+label = "pushes of its training so far"
+bc.show(charts.lines(grid, {"sac": np.array(lasted)}, title, label, "pushes in an episode"))
+
+# %% [markdown]
+# **See.** At first the learners drop the pole as fast as chance does. Then they find out. (Your
+# numbers will differ from those of another machine, and three learners differ from each other.)
+#
+# The line above the bar names six parts, all of them **ours**. In this lesson you write each of
+# them. A part that passes its check replaces ours from there on, so that the agents at the end of
+# this lesson learn with your code. It is kept in the folder `answers`, beside the notebooks, for
+# the lessons that build on it.
+#
+# ## The parts in one picture
+
+# %%
+bc.show(figures.sac_diagram())
+
+# %% [markdown]
+# The **actor** gives each action a probability, $\pi(a|s)$: its **policy**. The **critics**
+# estimate what each action is worth from here on, $Q(s,a)$. Both are small neural networks. What
+# the actor does goes into a **replay buffer**, and each update learns from a **batch** of it. The
+# other boxes come one by one: the soft value and the target (Rounds 1 and 2), the actor's loss
+# (Round 3), the temperature (Round 4), the buffer (Round 5).
 
 # %% [markdown]
 # ## Round 1: what is a state worth if undecided policies earn more?
-#
-# The learner has two parts. An **actor** gives each action a probability, $\pi(a|s)$: its
-# **policy**. A **critic** estimates what each action is worth from here on, $Q(s,a)$. Both are
-# small neural networks.
 #
 # *Soft* actor-critic (SAC) adds a small reward for an undecided policy. The **entropy** of the
 # policy says how undecided it is, in nats (natural logarithm):
@@ -76,6 +122,9 @@ bc.show(figures.cartpole_strip(drives, title))
 #
 # > **Predict.** What is the entropy of a policy that is sure of one action? Of an even choice
 # > between two? Between nine? Can it be negative?
+
+# %%
+predict("4.2", "The smallest entropy that a policy can have, in nats", unit="nats")
 
 # %%
 for words, pi in (
@@ -113,8 +162,25 @@ check.entropy(entropy)
 #
 # $$ V(s) = \sum_a \pi(a|s)\, Q(s,a) + \alpha\, \mathcal{H}(\pi(\cdot|s)) $$
 #
+# **Exercise 4.2 (5 min, ●○○).** Write the soft value.
+
+
+# %%
+def soft_value(log_pi, q, alpha):
+    """V(s). log_pi, q: (batch, actions); alpha: a tensor with one number. Returns (batch,)."""
+    # solution
+    return (log_pi.exp() * (q - alpha * log_pi)).sum(-1)
+    # end solution
+
+
+check.soft_value(soft_value)
+
+# %% [markdown]
 # > **Predict.** Two actions, worth 1 and 3. A policy that is sure of the better one, and an even
 # > one. At which α are they worth the same? (The entropy of the even one is 0.693.)
+
+# %%
+predict("4.3", "The α at which both are worth the same", ["0.5", "0.693", "1", "1.44", "2"])
 
 # %%
 q = torch.tensor([[1.0, 3.0]])
@@ -130,6 +196,16 @@ for alpha in (0.1, 1.0, 1.4427, 2.0):
 # between the two: it is a *softmax*, $\pi(a|s) \propto \exp(Q(s,a)/\alpha)$. With a high α this
 # policy is nearly even, with a low α it is nearly sure of one action. In physics, too, a high
 # temperature makes all states nearly equally likely: hence the name.
+#
+# <details><summary>Why a softmax?</summary>
+#
+# Move a little probability ε from action b to action a. The value changes by
+# $\varepsilon\,[(Q_a - \alpha\log\pi_a) - (Q_b - \alpha\log\pi_b)]$, since the slope of
+# $-\pi\log\pi$ is $-\log\pi - 1$ and the two ones cancel. At the best policy no such move gains
+# anything, so $Q_a - \alpha\log\pi_a$ is the same number Z for each action. Solve for π:
+# $\log\pi_a = (Q_a - Z)/\alpha$, a softmax of Q/α; Z follows from the sum of 1.
+#
+# </details>
 
 # %%
 temperatures = np.geomspace(0.1, 30, 60)
@@ -141,20 +217,6 @@ bc.show(
         temperatures, {"softmax(Q / α)": best}, title, "temperature α", label, logarithmic="x"
     )
 )
-
-# %% [markdown]
-# **Exercise 4.2 (5 min, ●○○).** Write the soft value.
-
-
-# %%
-def soft_value(log_pi, q, alpha):
-    """V(s). log_pi, q: (batch, actions); alpha: a tensor with one number. Returns (batch,)."""
-    # solution
-    return (log_pi.exp() * (q - alpha * log_pi)).sum(-1)
-    # end solution
-
-
-check.soft_value(soft_value)
 
 # %% [markdown] tags=["instructor"] minutes=10
 # Those who know continuous SAC will want to sample an action and use Q − α log π of it. With two
@@ -176,15 +238,13 @@ check.soft_value(soft_value)
 # > pushes were over. γ = 0.99, r = 1, and the critic holds V(s') for 50. What is y in each?
 
 # %%
-terminated = torch.tensor([1.0, 0.0])  # it fell; the time was up
-print(bc.sac.critic_target(torch.ones(2), terminated, torch.tensor([50.0, 50.0]), 0.99).tolist())
+predict(
+    "4.4",
+    "y of the pole that fell, and of the one whose time was up",
+    ["1 and 1", "1 and 50.5", "50.5 and 1", "50.5 and 50.5"],
+)
 
 # %% [markdown]
-# **Explain.** After the pole has fallen, no more reward follows. A pole that still stands when the
-# time is up would go on earning; the episode was only cut off. So `terminated` is 1 for the first
-# and 0 for the second. If you mix them up, the critic learns that nothing follows after the best
-# episodes' last states.
-#
 # **Exercise 4.3 (5 min, ●○○).** Write the target.
 
 
@@ -198,12 +258,38 @@ def critic_target(reward, terminated, next_value, gamma):
 
 check.critic_target(critic_target)
 
+# %%
+terminated = torch.tensor([1.0, 0.0])  # it fell; the time was up
+print(bc.sac.critic_target(torch.ones(2), terminated, torch.tensor([50.0, 50.0]), 0.99).tolist())
+
+# %% [markdown]
+# **Explain.** After the pole has fallen, no more reward follows. A pole that still stands when the
+# time is up would go on earning; the episode was only cut off. So `terminated` is 1 for the first
+# and 0 for the second. If you mix them up, the critic learns that nothing follows after the best
+# episodes' last states.
+
 # %% [markdown]
 # Two tricks keep the estimates from growing without limit. There are **two critics**, and V uses
 # the smaller value of the two: the actor prefers actions that a critic overestimates, and the
 # smaller of two estimates is too high less often. And V is computed with **target networks**, slow
 # copies of the critics that take over a small share τ ("tau") of the new weights at each update.
 # Without them, each update of the critic would also move the target that it is fitted to.
+#
+# **Exercise 4.4 (8 min, ●●○).** Write the loss of both critics: for each of them the mean over the
+# batch of $(Q(s,a) - y)^2$, and then the sum of the two. a is the action that was taken. The target
+# is held fixed, and the check also looks at where the gradient goes.
+
+
+# %%
+def critic_loss(q_pair, action, target):
+    """A scalar tensor. q_pair: (2, batch, actions), with gradients; action, target: (batch,)."""
+    # solution
+    q_taken = q_pair.gather(-1, action.expand(2, -1).unsqueeze(-1)).squeeze(-1)
+    return (q_taken - target.detach()).square().mean(-1).sum()
+    # end solution
+
+
+check.critic_loss(critic_loss)
 
 # %% [markdown]
 # ## Round 3: the actor
@@ -218,7 +304,29 @@ check.critic_target(critic_target)
 # > happens if the gradient may change both?
 
 # %%
-learned = {}
+predict(
+    "4.5",
+    "If the gradient may change both",
+    ["the policy gets better sooner", "both get better", "Q grows and nothing gets better"],
+)
+
+# %% [markdown]
+# **Exercise 4.5 (8 min, ●●○).** Write the actor's loss. The check also looks at where its gradient
+# goes.
+
+
+# %%
+def actor_loss(log_pi, q, alpha):
+    """A scalar tensor. log_pi, q: (batch, actions); alpha: a tensor with one number."""
+    # solution
+    value = (log_pi.exp() * (q.detach() - alpha * log_pi)).sum(-1)
+    return -value.mean()
+    # end solution
+
+
+check.actor_loss(actor_loss)
+
+# %%
 for words, keeps_q in (("Q held fixed", True), ("Q may move, too", False)):
     logits, q = torch.zeros(1, 2, requires_grad=True), torch.tensor([[1.0, 3.0]]).requires_grad_()
     optimiser = torch.optim.Adam([logits, q], lr=0.05)
@@ -235,21 +343,6 @@ for words, keeps_q in (("Q held fixed", True), ("Q may move, too", False)):
 # **Explain.** With Q held fixed, the actor finds the softmax of Round 1. If Q may move, the loss
 # also falls when Q rises, although no action has become better. So Q is **detached**: its value
 # counts, but no gradient goes into it.
-#
-# **Exercise 4.4 (8 min, ●●○).** Write the actor's loss. The check also looks at where its gradient
-# goes.
-
-
-# %%
-def actor_loss(log_pi, q, alpha):
-    """A scalar tensor. log_pi, q: (batch, actions); alpha: a tensor with one number."""
-    # solution
-    value = (log_pi.exp() * (q.detach() - alpha * log_pi)).sum(-1)
-    return -value.mean()
-    # end solution
-
-
-check.actor_loss(actor_loss)
 
 # %% [markdown]
 # ## Round 4: the temperature
@@ -261,7 +354,7 @@ check.actor_loss(actor_loss)
 #
 # $$ L_\alpha = \alpha\, (\mathcal{H}(\pi) - \eta) $$
 #
-# **Exercise 4.5 (5 min, ●●○).** Write it. The parameter is log α, so that α stays positive; again
+# **Exercise 4.6 (5 min, ●●○).** Write it. The parameter is log α, so that α stays positive; again
 # the check looks at the gradient.
 
 
@@ -280,6 +373,13 @@ check.temperature_loss(temperature_loss)
 #
 # > **Predict.** Remember the range of the entropy. In which direction does this thermostat turn,
 # > and when does it stop?
+
+# %%
+predict(
+    "4.6",
+    "With η = −1, α",
+    ["falls, and stops at H = η", "rises for ever", "falls for ever", "moves up and down"],
+)
 
 # %%
 most = np.log(9).item()  # nats: nine actions, all as likely
@@ -314,24 +414,80 @@ for part in (10, 100):
     print(f"α can be a {'tenth' if part == 10 else 'hundredth'} after {updates:,.0f} updates")
 
 # %% [markdown]
-# ## Round 5: train
+# ## Round 5: the memory
 #
-# Six agents learn CartPole side by side, from different random starts, with the library's versions
-# of the functions above. Three have η = {{ SETTINGS.target_entropy }}. Three have η = 0.3 log 2,
-# about the entropy of "19 to 1", which a policy with two actions can have. Each makes 16,000
-# pushes.
+# Where do the transitions of a batch come from? SAC keeps what it has done in a table, the **replay
+# buffer**, and each update learns from rows drawn at random, also from those of its earlier
+# policies. Learning from what another policy did is called **off-policy**: it works since the
+# target asks what the *present* policy would do in s'. Two reasons to draw at random: neighbours in
+# time are alike, so a batch of them says little; and a row can be used more than once.
+#
+# > **Predict.** The buffer holds 1,000 rows, and a new row comes in for each batch of 64. In how
+# > many batches does a row appear, on average, before it is thrown out?
+
+# %%
+predict("4.7", "Batches in which a row appears", ["fewer than 1", "1", "about 16", "64", "1,000"])
+
+# %% [markdown]
+# **Exercise 4.7 (20 min, ●●●).** Write the buffer. It keeps the last `size` rows; a row is a
+# tensor. When it is full, each new row replaces the oldest one. `sample` draws rows with the
+# generator `rng`, each row with the same chance. Your agents call `add` after each decision and
+# `sample` at each update, thousands of times: do not copy the whole table.
+
+
+# %%
+class ReplayBuffer:
+    """The last `size` rows."""
+
+    def __init__(self, size):
+        """size: the most rows that it holds."""
+        # solution
+        self.size, self.rows, self.next = size, [], 0
+        # end solution
+
+    def add(self, row):
+        """Keep a row, a tensor (n,). A full buffer forgets its oldest row."""
+        # solution
+        if len(self.rows) < self.size:
+            self.rows.append(row)
+        else:
+            self.rows[self.next] = row
+        self.next = (self.next + 1) % self.size
+        # end solution
+
+    def sample(self, batch, rng):
+        """Rows drawn at random: (batch, n). rng: a NumPy generator."""
+        # solution
+        drawn = rng.integers(len(self.rows), size=batch)
+        return torch.stack([self.rows[i] for i in drawn])
+        # end solution
+
+
+check.ReplayBuffer(ReplayBuffer)
+
+# %% [markdown]
+# <details><summary>Compare with your prediction</summary>
+#
+# A row stays for 1,000 batches, and each batch draws 64 of 1,000 rows: it appears about 64 times.
+# The size of the buffer cancels. What counts is how many rows are drawn for each new one.
+#
+# </details>
+#
+# ## Round 6: your agents
+#
+# Now train again, with your parts where they have passed. Six agents learn side by side. Three have
+# the paper's η = {{ SETTINGS.target_entropy }}. Three have η = 0.3 log 2, about the entropy of "19
+# to 1", which a policy with two actions can have.
 # <!-- claim: abs(0.3 * math.log(2) - float(sac.entropy(torch.tensor([19 / 20, 1 / 20]).log()))) <
 #   0.01 -->
 #
-# > **Predict.** Draw α over the updates for both kinds. And: which kind will balance better at the
-# > end?
+# > **Predict.** Draw α over the updates for both kinds. Which kind ends with the higher α?
 
 # %%
-SEEDS, PUSHES = 3, 16_000
-changes = {"gamma": 0.99, "tau": 0.05}  # looks 100 pushes ahead; targets that follow faster
-target = 0.3 * np.log(2).item()
-agents = bc.with_seeds(bc.settings_for("sac", target_entropy=target, **changes), SEEDS)
-agents += bc.with_seeds(bc.settings_for("sac", **changes), SEEDS)  # η = -1, the paper's
+predict("4.8", "The higher α at the end", ["η = −1", "η = 0.21", "the same"])
+
+# %%
+agents = learners + bc.with_seeds(bc.settings_for("sac", **changes), 3)  # η = 0.21, and the paper's
 noted = []
 
 
@@ -340,27 +496,25 @@ def note(training):
         noted.append(training.losses)
 
 
-learner = checks.train(agents, checks.cartpole, PUSHES, progress=True, callback=note)
+training = own_code.training(agents, PUSHES, make_env=checks.several(checks.cartpole))
+training.run(callback=note, stop=lambda: training.decisions >= PUSHES * len(agents))
+learner = training.learner
 print(f"{len(noted):,} updates of {len(agents)} agents")
 
 # %%
 alpha = torch.stack([each["alpha"] for each in noted[::50]]).T.numpy()
 updates = np.arange(len(noted))[::50]
-named = {"sac: η = 0.21": alpha[:SEEDS], "η = −1": alpha[SEEDS:]}
-title = "With η = −1 the temperature knows one direction"
+named = {"sac: η = 0.21": alpha[:3], "η = −1": alpha[3:]}
+title = "The temperature of six agents"
 bc.show(charts.lines(updates, named, title, "update", "temperature α", logarithmic="y"))
 
 # %%
 state_entropy = torch.stack([each["entropy"] for each in noted]).T.numpy()
 smooth = state_entropy[:, : len(noted) // 50 * 50].reshape(len(agents), -1, 50).mean(-1)
-named = {"sac: η = 0.21": smooth[:SEEDS], "η = −1": smooth[SEEDS:]}
-title = "The entropy of a policy never reaches −1"
-updates = np.arange(smooth.shape[1]) * 50
-bc.show(
-    charts.lines(
-        updates, named, title, "update", "entropy (nats)", marks={"target 0.21": target, "0": 0.0}
-    )
-)
+named = {"sac: η = 0.21": smooth[:3], "η = −1": smooth[3:]}
+updates, marks = np.arange(smooth.shape[1]) * 50, {"target 0.21": TARGET, "0": 0.0}
+title = "Their entropy"
+bc.show(charts.lines(updates, named, title, "update", "entropy (nats)", marks=marks))
 
 # %%
 results = checks.scores(learner, checks.cartpole, 20)
@@ -374,21 +528,17 @@ best, worst = int(results.argmax()), int(results.argmin())
 drives = {}
 for i in (worst, best):
     rows, returns = checks.collect(checks.actor_of(learner, i), checks.cartpole, 1, seed=0)
-    drives[f"agent {i} (η = {agents[i].target_entropy:.2f}): {returns[0]:.0f} pushes"] = rows[
-        :, :4
-    ].numpy()
-title = "The worst and the best of the six, from the same start"
-bc.show(figures.cartpole_strip(drives, title, every=20))
+    name = f"agent {i} (η = {agents[i].target_entropy:.2f}): {returns[0]:.0f} pushes"
+    drives[name] = rows[:, :4].numpy()
+bc.show(figures.cartpole_strip(drives, "The worst and the best of the six, from the same start"))
 
 # %% [markdown]
-# **See.** Compare with your predictions. With η = {{ SETTINGS.target_entropy }}, α falls in all
-# three seeds. The scores say less: look at how far apart the seeds of *one* kind are before you
-# conclude anything about the two kinds.
+# **See.** With η = {{ SETTINGS.target_entropy }}, α falls in all three seeds. The scores say less:
+# look at how far apart the seeds of *one* kind are before you conclude anything about the two
+# kinds. If your own parts are named above the bar, these agents learned with your code.
 #
 # **Explain.** This experiment is too short to show what a low temperature costs. Look at the figure
 # of the entropies: as long as the curves lie together, the two kinds drive alike, whatever their α.
-# In the run that is kept with this lesson they part after about 2,300 of 3,937 updates, and all six
-# agents stay below the 500 pushes of the one-line rule.
 #
 # Two things are known about a policy that has become sure. An action with a small probability is
 # seldom tried. And the slope of a softmax is proportional to π, so a small probability changes
@@ -400,13 +550,22 @@ bc.show(figures.cartpole_strip(drives, title, every=20))
 # escaped. Our default stays at the paper's η = {{ SETTINGS.target_entropy }}.
 # <!-- claim: escaped_with('target entropy 0.3', 'sac') + escaped_with('target entropy 1', 'sac')
 #   == 0 -->
+#
+# Does your code make the same update as ours? This compares the losses and the gradients of each of
+# your parts on one batch:
+
+# %%
+own_code.compare()
 
 # %% [markdown]
-# These are the losses of SAC, as the library computes them (the dots stand for "of any number of
-# agents"; `constraint` is lesson 7's). One part is still missing: where the transitions come from.
-# SAC keeps what it has done in a table and learns from rows drawn at random, also from those of its
-# earlier policies. This is called *off-policy* learning. Lesson 8 shows the table, and puts drives
-# of somebody else into it.
+# **Try.** Plant a mistake: copy your `critic_target` into a new cell, leave out `(1 - terminated)`,
+# and call `own_code.use(critic_target)`. That trains with it unchecked. Then run the last cell and
+# the training again. What does the comparison say, and do the agents still learn? (Run the check of
+# Exercise 4.3 again to get back to the right one.)
+
+# %% [markdown]
+# Here are the losses of SAC as the library computes them, for many agents at once (the dots stand
+# for "of any number of agents"; `constraint` is lesson 7's). Open them beside yours.
 
 # %% tags=["nbval-ignore-output"]
 source("bootcourse.learn.sac", "soft_value", "critic_target", "critic_loss", "actor_loss")
@@ -416,9 +575,8 @@ source("bootcourse.learn.sac", "temperature_loss", "min_q")
 
 # %% [markdown]
 # These lines, and a loop from reset to update around them, are one short program for one agent:
-# `bootcourse/learn/textbook.py`. Open it beside this lesson. Two things in it are still to come:
-# the KL (lesson 7) and the demonstrations (lesson 8). `python -m bootcourse.learn.textbook` trains
-# it.
+# `bootcourse/learn/textbook.py`. Two things in it are still to come: the KL (lesson 7) and the
+# demonstrations (lesson 8). `python -m bootcourse.learn.textbook` trains it.
 
 # %% [markdown] tags=["instructor"] minutes=10
 # How far does it get with more pushes? `python -m bootcourse.study.checks --only sac-cartpole`
@@ -432,12 +590,24 @@ source("bootcourse.learn.sac", "temperature_loss", "min_q")
 #
 # 1. The soft value is the mean of Q under the policy plus α times its entropy; its best policy is
 #    softmax(Q / α).
-# 2. The critic follows r + γ (1 − terminated) V(s'); an episode that ran out of time is not over.
+# 2. The critics follow r + γ (1 − terminated) V(s'), with the target held fixed; an episode that
+#    ran out of time is not over.
 # 3. The actor follows minus the soft value, with Q held fixed.
-# 4. The temperature is a thermostat for the entropy.
-# 5. The entropy of a policy over a list of actions is never negative: with η =
-#    {{ SETTINGS.target_entropy }}, α falls at every update.
-#
+# 4. The temperature is a thermostat for the entropy of the policy, which over a list of actions is
+#    never negative: with η = {{ SETTINGS.target_entropy }}, α falls at every update.
+# 5. The buffer gives rows of earlier policies, drawn at random: SAC learns off-policy.
+# <!-- claim: 0 - SETTINGS.target_entropy > 0 -->
+
+# %%
+best_of_three = "250 or more" if balanced.max() >= 250 else f"{balanced.max():.0f}"
+nothing = "Q grows and nothing gets better"
+compare_predictions(
+    "04",
+    {"4.1": best_of_three, "4.2": 0.0, "4.3": "1.44", "4.4": "1 and 50.5", "4.5": nothing}
+    | {"4.6": "falls for ever", "4.7": "64", "4.8": "η = 0.21"},
+)
+
+# %% [markdown]
 # **Three questions to think about**
 # - What would η = log 9 do to an agent on the road?
 # - In training the learner draws its actions from its policy; in the test it takes the most
@@ -448,3 +618,15 @@ source("bootcourse.learn.sac", "temperature_loss", "min_q")
 # the thermostat (arXiv 1812.05905); Christodoulou, *Soft Actor-Critic for Discrete Action Settings*
 # (arXiv 1910.07207); Xu et al., *Target Entropy Annealing for Discrete Soft Actor-Critic* (arXiv
 # 2112.02852).
+
+# %% [markdown] tags=["instructor"]
+# *Answers to the three questions.* **η = log 9** is the largest entropy of nine actions. While the
+# policy is not even, H < η and α rises; it goes on rising until entropy outweighs all of Q, and the
+# agent drives at random. **Drawing or not:** in training rare actions still occur, at one chance in
+# nine decisions or in a thousand, according to H. A swerve of one second can end a drive that the
+# most probable actions would have survived, so training scores are lower than test scores. The
+# other way round, a policy that is even between two actions may take the same one for ever in the
+# test. **The larger of two:** the actor looks for actions that one critic overestimates, the target
+# then contains that error, and the estimates drive each other up (overestimation; Fujimoto et al.,
+# arXiv 1802.09477). The smaller one errs in the other direction, which is not fed back in the same
+# way, since actions that are underestimated are taken less.

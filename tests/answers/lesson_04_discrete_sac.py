@@ -1,5 +1,7 @@
 """Answers to the exercises of the lesson on discrete SAC."""
 
+import collections
+
 import torch
 
 from tests.answers import right, wrong
@@ -148,3 +150,122 @@ def plus_target(log_alpha, state_entropy, target_entropy):
 @wrong("temperature_loss")
 def squared(log_alpha, state_entropy, target_entropy):
     return log_alpha.exp() * (state_entropy.detach().mean() - target_entropy) ** 2
+
+
+# critic_loss ----------------------------------------------------------------------------------------
+
+
+@right("critic_loss")
+def one_critic_after_the_other(q_pair, action, target):
+    rows, y = torch.arange(len(action)), target.detach()
+    return sum(torch.nn.functional.mse_loss(q[rows, action], y) for q in q_pair)
+
+
+@right("critic_loss")
+def with_a_one_hot_mask(q_pair, action, target):
+    taken = torch.nn.functional.one_hot(action, q_pair.shape[-1])
+    with torch.no_grad():
+        y = target.clone()
+    return (((q_pair * taken).sum(-1) - y) ** 2).mean(dim=1).sum()
+
+
+@wrong("critic_loss", "mean over the two critics")
+def mean_of_both(q_pair, action, target):
+    rows = torch.arange(len(action))
+    return sum(((q[rows, action] - target.detach()) ** 2).mean() for q in q_pair) / 2
+
+
+@wrong("critic_loss")
+def summed_over_states(q_pair, action, target):
+    return sum(((q.gather(1, action[:, None])[:, 0] - target.detach()) ** 2).sum() for q in q_pair)
+
+
+@wrong("critic_loss")
+def absolute(q_pair, action, target):
+    return sum((q.gather(1, action[:, None])[:, 0] - target.detach()).abs().mean() for q in q_pair)
+
+
+@wrong("critic_loss")
+def a_broadcast(q_pair, action, target):
+    return sum(((q.gather(1, action[:, None]) - target.detach()) ** 2).mean() for q in q_pair)
+
+
+# ReplayBuffer ---------------------------------------------------------------------------------------
+
+
+@right("ReplayBuffer")
+class WithADeque:
+    def __init__(self, size):
+        self.rows = collections.deque(maxlen=size)
+
+    def add(self, row):
+        self.rows.append(row)
+
+    def sample(self, batch, rng):
+        return torch.stack([self.rows[i] for i in rng.choice(len(self.rows), batch)])
+
+
+@right("ReplayBuffer")
+class WithATable:
+    def __init__(self, size):
+        self.size, self.count, self.table = size, 0, None
+
+    def add(self, row):
+        if self.table is None:
+            self.table = torch.zeros(self.size, len(row))
+        self.table[self.count % self.size] = row
+        self.count += 1
+
+    def sample(self, batch, rng):
+        filled = min(self.count, self.size)
+        return self.table[torch.from_numpy((rng.random(batch) * filled).astype(int))]
+
+
+@right("ReplayBuffer")
+class WithSlicing:
+    def __init__(self, size):
+        self.size, self.rows = size, torch.empty(0)
+
+    def add(self, row):
+        self.rows = torch.cat([self.rows.reshape(-1, len(row)), row[None]])[-self.size :]
+
+    def sample(self, batch, rng):
+        return self.rows[rng.integers(0, len(self.rows), batch)]
+
+
+@wrong("ReplayBuffer", "keeps every row")
+class WithoutAnEnd(WithADeque):
+    def __init__(self, size):
+        self.rows = []
+
+
+@wrong("ReplayBuffer", "gives back the rows")
+class OneTooSmall(WithADeque):
+    def __init__(self, size):
+        self.rows = collections.deque(maxlen=size - 1)
+
+
+@wrong("ReplayBuffer", "neighbours")
+class AStretch(WithADeque):
+    def sample(self, batch, rng):
+        start = rng.integers(len(self.rows))
+        return torch.stack([self.rows[(start + i) % len(self.rows)] for i in range(batch)])
+
+
+@wrong("ReplayBuffer", "nobody put in")
+class OneRowForAll(WithADeque):
+    def add(self, row):
+        row[1:] = 0
+        self.rows.append(row)
+
+
+@wrong("ReplayBuffer", "rows was asked for")
+class OneRowTooMany(WithADeque):
+    def sample(self, batch, rng):
+        return super().sample(batch + 1, rng)
+
+
+@wrong("ReplayBuffer", "returns")
+class AListOfRows(WithADeque):
+    def sample(self, batch, rng):
+        return [self.rows[i] for i in rng.integers(len(self.rows), size=batch)]

@@ -16,7 +16,7 @@ from bootcourse.lessons.exercises import registry
 from tools.course.claims import filled
 from tools.course.order import of_order
 from tools.course.products import IMPORTS_CHECK, out_of_date, solved_file, student_file
-from tools.course.source import Cell, body, function_in
+from tools.course.source import Cell, arguments_of, body, function_in
 
 LONGEST_CELL = 25  # lines
 MOST_IMPORTS = 5  # lines, at the top
@@ -90,7 +90,7 @@ def of_exercise(name: str, cell: Cell, before: Cell | None) -> list[str]:
     stub, solved = function_in(cell.student, name), function_in(cell.solved, name)
     if stub is None or solved is None:
         return [*found, f"{name}: its cell defines no function of that name."]
-    if [argument.arg for argument in stub.args.args] != exercise.arguments:
+    if arguments_of(stub) != exercise.arguments:
         found.append(f"{name}: its stub takes other arguments than `{exercise.call}`.")
     if not ast.get_docstring(stub):
         found.append(f"{name}: its stub has no docstring with shapes and units.")
@@ -99,13 +99,13 @@ def of_exercise(name: str, cell: Cell, before: Cell | None) -> list[str]:
     return found + of_solution(exercise, solved)
 
 
-def of_solution(exercise, solved: ast.FunctionDef) -> list[str]:
+def of_solution(exercise, solved: ast.FunctionDef | ast.ClassDef) -> list[str]:
     """A solution that stands beside the exercise, and is shown on request, is the one in the source."""
     if not exercise.solution.__module__.startswith("bootcourse.lessons.exercises"):
         return []  # the library's own
     shown = ast.parse(textwrap.dedent(inspect.getsource(exercise.solution))).body[0]
-    if not isinstance(shown, ast.FunctionDef):
-        return [f"{exercise.name}: write its solution with def, so that it can be shown."]
+    if not isinstance(shown, (ast.FunctionDef, ast.ClassDef)):
+        return [f"{exercise.name}: write its solution with def or class, so that it can be shown."]
     if body(shown) != body(solved):
         return [f"{exercise.name}: the source's solution is not the one that check.solution shows."]
     return []

@@ -20,7 +20,7 @@ SOLVED_NOTE = (
     "*This notebook is solved: each exercise holds a right answer. The one to work in is [{0}](../{0}.ipynb).*"
 )
 STRICT = "check.strict()  # in this notebook every check must pass"
-IMPORTS_CHECK = re.compile(r"^from bootcourse\.lessons import .*\bcheck\b", re.M)
+IMPORTS_CHECK = re.compile(r"^from bootcourse\.lessons import (?:.*|\([^)]*)\bcheck\b", re.M)
 
 
 def student_file(path: Path) -> Path:
@@ -85,6 +85,8 @@ def execute(path: Path) -> dict[str, list]:
             steps.append(cell.student)
             if cell.is_exercise:
                 steps += ["check.strict()", cell.solved, "check.strict(False)"]
+    if answers := list(path.parent.parent.glob("answers/*.py")):
+        raise ValueError(f"Move {answers[0].parent} away: the notebooks would be made with these answers.")
     ran = notebook([nbformat.v4.new_code_cell(step) for step in steps])
     NotebookClient(ran, timeout=300, resources={"metadata": {"path": path.parent.parent}}).execute()
     outputs = {STRICT: [[]]}

@@ -101,13 +101,21 @@ def one_folder_down(text: str) -> str:
     return re.sub(r"(\]\()(?![a-z]+:|#|/)", r"\1../", text)
 
 
-def function_in(text: str, name: str) -> ast.FunctionDef | None:
-    """The function of that name that a cell defines."""
-    found = [node for node in ast.parse(text).body if isinstance(node, ast.FunctionDef) and node.name == name]
+def function_in(text: str, name: str) -> ast.FunctionDef | ast.ClassDef | None:
+    """The function or class of that name that a cell defines."""
+    kinds = (ast.FunctionDef, ast.ClassDef)
+    found = [node for node in ast.parse(text).body if isinstance(node, kinds) and node.name == name]
     return found[0] if found else None
 
 
-def body(function: ast.FunctionDef) -> list[str]:
+def arguments_of(function: ast.FunctionDef | ast.ClassDef) -> list[str]:
+    """The names of the arguments of a call; a class is called as its `__init__` says."""
+    if isinstance(function, ast.FunctionDef):
+        return [argument.arg for argument in function.args.args]
+    return next(arguments_of(each)[1:] for each in function.body if getattr(each, "name", "") == "__init__")
+
+
+def body(function: ast.FunctionDef | ast.ClassDef) -> list[str]:
     """What it does, for comparison: without docstring, annotations and comments."""
     statements = function.body[1:] if ast.get_docstring(function) is not None else function.body
     return [ast.dump(statement) for statement in statements]

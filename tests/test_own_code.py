@@ -1,0 +1,217 @@
+"""A student's own code: it is kept, found again, trains the agent, and is compared with the library's."""
+
+import linecache
+
+import numpy as np
+import pytest
+import torch
+
+from bootcourse.errors import BootcourseError
+from bootcourse.learn.learner import SACLearner
+from bootcourse.learn.settings import settings_for, with_seeds
+from bootcourse.learn.training import Training
+from bootcourse.lessons import check, own_code
+from bootcourse.lessons.exercises import registry
+from bootcourse.lessons.own_learner import LATER, OwnReplay, OwnSAC, parts_of
+
+PARTS = [name for name in own_code.PARTS if name in registry()]
+
+
+@pytest.fixture(autouse=True)
+def nobody_wrote_anything(monkeypatch, tmp_path):
+    monkeypatch.setattr(own_code, "_own", {})
+    monkeypatch.chdir(tmp_path)
+
+
+def cell(text: str) -> dict:
+    """Run a notebook's cell, and return what it defines."""
+    name, space = f"cell {hash(text)}", {"__name__": "__main__"}
+    linecache.cache[name] = len(text), None, text.splitlines(keepends=True), name
+    exec(compile(text, name, "exec"), space)
+    return space
+
+
+RIGHT = """\
+import torch
+import torch as t
+from math import exp
+ONE = 1
+
+def alive(terminated):
+    return ONE - terminated
+
+def critic_target(reward, terminated, next_value, gamma):
+    return reward + gamma * alive(terminated) * next_value * t.ones(()) * exp(0)
+"""
+
+
+def solutions(*left_out: str) -> dict:
+    return {name: registry()[name].solution for name in PARTS if name not in left_out}
+
+
+# Kept and found again -------------------------------------------------------------------------------
+
+
+def test_an_answer_that_passes_is_kept_with_all_that_it_uses_and_found_again_in_another_notebook(tmp_path, capsys):
+    verdict = check.critic_target(cell(RIGHT)["critic_target"])
+    assert "kept in answers/critic_target.py" in verdict.footer and verdict.passed
+    own_code._own.clear()
+    own_code.load()
+    assert "your critic_target" in capsys.readouterr().out
+    ends = torch.tensor([1.0, 0.0])
+    assert own_code._own["critic_target"](torch.ones(2), ends, torch.ones(2), 0.5).tolist() == [1, 1.5]
+    assert [path.name for path in (tmp_path / "answers").iterdir()] == ["critic_target.py"]
+
+
+def test_a_class_is_kept_too():
+    own_code.keep("ReplayBuffer", cell(BUFFER)["ReplayBuffer"])
+    own_code._own.clear()
+    own_code.load()
+    buffer = own_code._own["ReplayBuffer"](3)
+    buffer.add(torch.ones(2))
+    assert buffer.sample(3, np.random.default_rng(0)).shape == (3, 2)
+
+
+def test_an_answer_that_does_not_pass_and_the_library_s_own_are_not_kept(tmp_path):
+    check.critic_target(cell(RIGHT.replace("ONE = 1", "ONE = 2"))["critic_target"])
+    check.critic_target(registry()["critic_target"].solution)
+    check.strict()
+    try:
+        check.critic_target(cell(RIGHT)["critic_target"])
+    finally:
+        check.strict(False)
+    assert not own_code._own and not (tmp_path / "answers").exists()
+
+
+def test_an_answer_that_uses_what_no_file_holds_trains_in_its_notebook_alone(tmp_path):
+    text = RIGHT.replace("ONE = 1", "ONE = torch.ones(())")
+    assert "uses `ONE`, which a file cannot hold" in check.critic_target(cell(text)["critic_target"]).footer
+    assert "critic_target" in own_code._own and not (tmp_path / "answers").exists()
+
+
+def test_a_file_that_does_not_run_is_one_sentence_with_the_remedy(tmp_path):
+    (tmp_path / "answers").mkdir()
+    (tmp_path / "answers/critic_target.py").write_text("def critic_target(:\n")
+    with pytest.raises(BootcourseError, match=r"critic_target.py does not run \(SyntaxError.*delete the file"):
+        own_code.load()
+
+
+def test_no_file_and_no_part_is_said(capsys):
+    own_code.load()
+    assert capsys.readouterr().out == f"{own_code.NONE}\n" and own_code.compare().sentence == own_code.NONE
+    with pytest.raises(BootcourseError, match="did you mean 'critic_target'"):
+        own_code.use(cell("def critic_targets(): pass")["critic_targets"])
+
+
+# It trains ------------------------------------------------------------------------------------------
+
+
+def test_without_a_part_of_one_s_own_the_library_trains(capsys):
+    made = own_code.training([settings_for("sac")])
+    assert type(made.learner) is SACLearner and type(made) is Training
+    assert capsys.readouterr().out.startswith("Training with our soft_value, our critic_target")
+
+
+def test_a_part_of_one_s_own_replaces_the_library_s_and_a_line_says_so(capsys):
+    own_code.use(cell(RIGHT)["critic_target"])
+    made = own_code.training(with_seeds(settings_for("sac", learning_starts=16, batch=16, hidden=(8,)), 2))
+    called = []
+    made.learner.own["critic_target"] = lambda *given: (
+        called.append(given) or registry()["critic_target"].solution(*given)
+    )
+    made.run(progress=False, stop=lambda: made.updates >= 2)
+    assert len(called) == 4 and called[0][0].shape == (16,)
+    assert "our soft_value, your critic_target, our critic_loss" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("method", ["sac", "soft", "margin_soft"])
+@pytest.mark.parametrize("left_out", [(), tuple(LATER)], ids=["with the later parts", "without"])
+def test_the_solutions_make_the_library_s_update(method, left_out):
+    agents, batch = with_seeds(settings_for(method, hidden=(8,), alpha_init=0.3), 2), own_code.batch_with_everything(2)
+    library, own = SACLearner(agents, 26), OwnSAC(solutions(*left_out), agents, 26)
+    for _ in range(3):
+        library.update(batch)
+        own.update(batch)
+    for right, mine in zip(library.actor + library.critics, own.actor + own.critics, strict=True):
+        assert torch.allclose(right, mine, atol=1e-5)
+
+
+def test_a_later_part_replaces_the_earlier_ones_where_there_is_a_constraint():
+    sac, soft = [settings_for("sac")], [settings_for("soft")]
+    target = {"constrained_target": None, "critic_target": None}
+    assert "constrained_target" not in parts_of(sac, target)
+    assert "critic_target" not in parts_of(soft, target) and "critic_target" in parts_of(soft, {"critic_target": None})
+    assert "mixed_batch" in parts_of([settings_for("demos")], {}) and "margin_loss" in parts_of(
+        [settings_for("margin")], {}
+    )
+
+
+def test_a_buffer_of_one_s_own_gives_a_batch_for_each_agent():
+    made = OwnReplay({}, with_seeds(settings_for("sac", buffer_size=64), 2), 26, None)
+    made.add(torch.arange(2.0)[:, None, None].expand(2, 3, 57))
+    batch = made.sample(5, np.zeros(2), [np.random.default_rng(i) for i in range(2)])
+    assert batch.states.shape == (2, 5, 26) and batch.rewards.tolist() == [[0] * 5, [1] * 5]
+    assert not batch.is_demonstration.any()
+
+
+def test_a_method_without_parts_is_refused_in_one_sentence():
+    own_code.use(cell(RIGHT)["critic_target"])
+    with pytest.raises(BootcourseError, match="'bc' has no parts"):
+        own_code.training([settings_for("bc")])
+
+
+# It is compared -------------------------------------------------------------------------------------
+
+
+def test_the_solutions_make_the_same_update():
+    own_code._own.update(solutions())
+    verdict = own_code.compare()
+    assert verdict.passed and all(f"your `{name}`" in verdict.sentence for name in PARTS), verdict
+
+
+BUGS = {
+    "soft_value": ("log_pi, q, alpha", "(log_pi.exp() * (q + alpha * log_pi)).sum(-1)"),  # the entropy's sign
+    "critic_target": ("reward, terminated, next_value, gamma", "reward + gamma * next_value"),  # no mask
+    "critic_loss": (  # the mean of both critics
+        "q_pair, action, target",
+        "sum((q.gather(1, action[:, None])[:, 0] - target).square().mean() / 2 for q in q_pair)",
+    ),
+    "actor_loss": ("log_pi, q, alpha", "-(log_pi.exp() * (q - alpha * log_pi)).sum(-1).mean()"),  # no stop-gradient
+    "temperature_loss": ("log_alpha, h, target", "log_alpha.exp() * (target - h.detach().mean())"),  # its sign
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", BUGS)
+def test_with_a_planted_bug_the_comparison_names_the_part_that_differs(name):
+    arguments, value = BUGS[name]
+    own_code._own.update(solutions())
+    own_code.use(cell(f"def {name}({arguments}):\n    return {value}")[name])
+    verdict = own_code.compare()
+    assert verdict.kind == "wrong" and verdict.sentence == f"Something is wrong with your `{name}`.", verdict
+    assert "differs from ours by" in verdict.details[0]
+
+
+BUFFER = """\
+import torch
+
+class ReplayBuffer:
+    def __init__(self, size):
+        self.rows = []
+
+    def add(self, row):
+        self.rows = [*self.rows[-9:], row]
+
+    def sample(self, batch, rng):
+        return torch.stack([self.rows[i] for i in rng.integers(len(self.rows), size=batch)])
+"""
+
+
+def test_a_buffer_that_is_wrong_is_found_by_its_check():
+    text = BUFFER.replace("self.rows[-9:]", "self.rows")
+    own_code.use(cell(text)["ReplayBuffer"])
+    assert "keeps every row" in own_code.compare().details[0]
+
+
+def test_a_part_that_raises_is_named():
+    own_code.use(cell("def critic_target(*all):\n    return 1 / 0")["critic_target"])
+    assert own_code.compare().details == ("critic_target raises ZeroDivisionError: division by zero",)
