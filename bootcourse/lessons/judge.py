@@ -177,7 +177,8 @@ def judge_slopes(exercise: Exercise, answers: list[Plain], cases: list[tuple]) -
             continue
         mine, right = pairs[fails[0]]
         if mine.kind == "text":
-            return wrong(exercise, f"{but} training cannot use it: {' '.join(mine.data.split()).rstrip('.')}.")
+            why = "use torch's functions" if "numpy" in mine.data else " ".join(mine.data.split()).rstrip(".")
+            return wrong(exercise, f"{but} no gradient can pass through it: {why}.")
         if not any(right.data.any() for _, right in pairs):
             what = f"a gradient flows into `{name}`, which this loss must not change: use `{name}.detach()`."
             return wrong(exercise, f"{but} {what}")

@@ -22,7 +22,7 @@ def row_by_row(observations, actions, rewards, accident):
     for t in range(len(actions)):
         ended = 1.0 if accident and t == len(actions) - 1 else 0.0
         found.append([*observations[t], *observations[t + 1], actions[t], rewards[t], ended])
-    return np.array(found)
+    return found
 
 
 @right("transitions")
@@ -33,7 +33,7 @@ def by_comparison(observations, actions, rewards, accident):
 
 @wrong("transitions", "shape")
 def without_the_end(observations, actions, rewards, accident):
-    return row_by_row(observations, actions, rewards, accident)[:, :-1]
+    return rows(observations, actions, rewards, [0] * len(actions))[:, :-1]
 
 
 @wrong("transitions")
@@ -54,7 +54,7 @@ def from_the_end(rewards, gamma):
     for reward in rewards[::-1]:
         total = reward + gamma * total
         found.append(total)
-    return np.array(found[::-1])
+    return found[::-1]
 
 
 @wrong("return_to_go", "without a discount")
@@ -121,6 +121,21 @@ def by_index(log_pi, expert_actions):
 def with_one_hot(log_pi, expert_actions):
     own = torch.nn.functional.one_hot(expert_actions, log_pi.shape[-1])
     return -(own * log_pi).sum(-1).mean()
+
+
+@wrong("cloning_loss", "no gradient reaches `log_pi`")
+def as_a_number(log_pi, expert_actions):
+    return by_index(log_pi, expert_actions).item()
+
+
+@wrong("cloning_loss", "no gradient reaches `log_pi`")
+def detached(log_pi, expert_actions):
+    return by_index(log_pi.detach(), expert_actions)
+
+
+@wrong("cloning_loss", "use torch's functions")
+def in_numpy(log_pi, expert_actions):
+    return torch.tensor(-np.mean(log_pi.numpy()[np.arange(len(log_pi)), expert_actions]))
 
 
 @wrong("cloning_loss", "all nine actions")

@@ -21,6 +21,16 @@ def by_searching(k, n):
     return np.array([low, high])
 
 
+@right("exact_interval")
+def as_two_numbers(k, n):
+    return tuple(with_binomtest(k, n))
+
+
+@wrong("exact_interval", "not a number (NaN) in this case")
+def without_the_low_end(k, n):
+    return [stats.beta.ppf(0.025, k, n - k + 1), stats.beta.ppf(0.975, k + 1, n - k) if k < n else 1.0]
+
+
 @wrong("exact_interval", "5 % at each end")
 def ninety(k, n):
     found = stats.binomtest(k, n).proportion_ci(0.90, method="exact")
@@ -67,6 +77,11 @@ def rounded_up(scores):
 def draw_by_draw(scores, draws):
     means = [np.mean([scores[i] for i in draw]) for draw in draws]
     return np.quantile(means, [0.025, 0.975])
+
+
+@right("bootstrap_interval")
+def as_a_list(scores, draws):
+    return np.percentile(scores[draws].mean(axis=1), [2.5, 97.5]).tolist()
 
 
 @right("bootstrap_interval")

@@ -17,6 +17,10 @@ def of_one_end(k, n):
     return np.array([low, stats.beta.ppf(0.95, k + 1, n - k) if k < n else 1.0])
 
 
+def without_the_ends(k, n):
+    return np.array([stats.beta.ppf(0.025, k, n - k + 1), stats.beta.ppf(0.975, k + 1, n - k)])
+
+
 def count_cases(rng):
     """None and all of few and of many; then 40 at random."""
     yield from ((0, 10), (10, 10), (1, 10), (20, 20), (0, 1))
@@ -48,6 +52,10 @@ exact_interval = Exercise(
             "This is Wilson's interval: it is shorter, and holds the true rate in about 95 % of the cases. The exact "
             "one does so in at least 95 %.",
             "All good intervals of a rate agree."),
+        Mistake(without_the_ends,
+            "At k = 0 and at k = n one of your ends is not a number (NaN): a beta distribution has no parameter 0. "
+            "There the low end is 0, and the high end is 1.",
+            "The formula holds for every k."),
     ),
     hints=(
         "The low end is the rate at which k or more of n has a chance of 2.5 %; at the high end, k or fewer has it.",
@@ -93,6 +101,10 @@ interquartile_mean = Exercise(
         Mistake(lambda scores: np.sort(scores)[len(scores) // 4 :].mean(),
             "You leave out the lowest quarter only. Leave out the highest quarter, too.",
             "Only failures are outliers."),
+        Mistake(lambda scores: np.sort(scores)[len(scores) // 4 : -(len(scores) // 4)].mean(),
+            "With fewer than four scores your slice `[cut:-cut]` is `[0:0]`, which is empty, and its mean is not a "
+            "number (NaN). Let it end at `len(scores) - cut`.",
+            "`[:-cut]` leaves out the last `cut` scores, for every `cut`."),
     ),
     hints=(
         "Sort. Then leave out a quarter of the scores at each end; `len(scores) // 4` rounds down.",
