@@ -319,6 +319,10 @@ def test_a_thousand_idle_roads_all_earn_the_same():
         (lambda: make_vec(2, render_mode="rgb_array"), "gym.make('bootcourse:Trap-v0')"),
         (lambda: make_vec(2).reset(seed=[1, 2, 3]), "3 seeds for 2 roads"),
         (lambda: make_vec(2).reset(options={"reset_mask": np.array([True])}), "reset_mask has shape (1,)"),
+        (lambda: make_vec(2).reset(seed=[1, -2]), "a seed is not negative"),
+        (lambda: make_vec(2).reset(seed=0.5), "seed = 0.5: give a whole number"),
+        (lambda: make_vec(2).reset(options={"reset_mask": np.array([True, False])}), "reset all of them first"),
+        (lambda: make_vec(2).step(np.array([4, 4])), "call env.reset(seed=0) before env.step"),
         (lambda: make_vec(2).step(np.array([4, 9])), "Action 9 is outside 0..8"),
         (lambda: make_vec(2).step(np.array([-1, 4])), "Action -1 is outside 0..8"),
         (lambda: make_vec(2).step(np.array([4.0, 4.0])), "give 2 whole numbers"),
@@ -329,3 +333,17 @@ def test_a_mistake_with_the_vector_env_is_one_sentence(mistake, words):
     with pytest.raises(BootcourseError) as refusal:
         mistake()
     assert words in str(refusal.value) and "\n" not in str(refusal.value)
+
+
+@pytest.mark.parametrize("seed", [np.int64(5), np.array([5, 6]), [np.int32(5), 6]])
+def test_seeds_may_be_numpys(seed):
+    np.testing.assert_array_equal(make_vec(2).reset(seed=seed)[0], make_vec(2).reset(seed=5)[0])
+
+
+def test_refused_seeds_change_no_road():
+    roads, others = make_vec(2), make_vec(2)
+    for each in (roads, others):
+        each.reset(seed=1)
+    with pytest.raises(BootcourseError):
+        roads.reset(seed=[7, "8"])
+    np.testing.assert_array_equal(roads.reset()[0], others.reset()[0])

@@ -1,5 +1,8 @@
 """`gym.make_vec("bootcourse:Trap-v0", num_envs=256)`: the compiled road as a gymnasium VectorEnv."""
 
+import operator
+from collections.abc import Sequence
+
 import gymnasium as gym
 import numpy as np
 from gymnasium.utils import seeding
@@ -59,17 +62,19 @@ class TrapVectorEnv(VectorEnv):
         steps = self.constants.steps
         self.trace = np.zeros((n, steps, vehicles, self.cars.shape[2])) if record else twin.NO_TRACE
         self.decisions = np.zeros(n, dtype=np.int64)
-        self.asleep = np.ones(n, dtype=bool)
+        self.asleep = np.ones(n, dtype=bool)  # roads that stand still
+        self.placed = np.zeros(n, dtype=bool)  # roads that were reset
         self._uniforms = twin.uniforms_needed(vehicles)
         self._generators = [seeding.np_random()[0] for _ in range(n)]
         self._observations = np.zeros((n, scenario.observation_size), dtype=np.float32)
         self._rewards, self._terms = np.zeros(n), np.zeros((n, 3))
         self._accidents = np.zeros(n, dtype=np.int64)
 
-    def reset(self, *, seed: int | list[int | None] | None = None, options: dict | None = None):
+    def reset(self, *, seed: int | Sequence[int | None] | None = None, options: dict | None = None):
         """Reset all roads, or those of options["reset_mask"] (num_envs,) bool. Road i has seed `seed + i` or `seed[i]`.
 
-        Returns observations (num_envs, 26) and infos. Raises BootcourseError for a wrong number of seeds or mask.
+        Returns observations (num_envs, 26) and infos. Raises BootcourseError, before any road is reset, for a wrong
+        seed, number of seeds, or mask.
         """
         mask = np.ones(self.num_envs, dtype=bool)
         if options and "reset_mask" in options:
@@ -78,27 +83,32 @@ class TrapVectorEnv(VectorEnv):
                 raise BootcourseError(
                     f"reset_mask has shape {mask.shape}: give one value for each road ({self.num_envs})."
                 )
+            if not (mask | self.placed).all():
+                raise BootcourseError("reset_mask leaves out roads that were never reset: reset all of them first.")
         if seed is not None:
-            seeds = [seed + i for i in range(self.num_envs)] if isinstance(seed, (int, np.integer)) else list(seed)
-            if len(seeds) != self.num_envs:
-                raise BootcourseError(f"{len(seeds)} seeds for {self.num_envs} roads: give one, or one for each road.")
+            seeds = seeds_of(seed, self.num_envs)
+            super().reset(seed=seeds[0])
             for i in np.flatnonzero(mask):
                 if seeds[i] is not None:
-                    self._generators[i] = seeding.np_random(int(seeds[i]))[0]
-            super().reset(seed=seeds[0])
+                    self._generators[i] = seeding.np_random(seeds[i])[0]
         self._start(mask)
         self._rewards[mask], self._terms[mask], self._accidents[mask] = 0.0, 0.0, 0
         observe_all(self.cars, self.constants, self._observations)
         return self._observations.copy(), self._infos(mask)
 
     def step(self, actions):
-        """One decision on every road, actions (num_envs,). Raises BootcourseError for an action outside 0..8."""
+        """One decision on every road, actions (num_envs,).
+
+        Raises BootcourseError for an action outside 0..8, and before the first reset.
+        """
         actions = np.asarray(actions)
         if actions.shape != (self.num_envs,) or actions.dtype.kind not in "iu":
             found = f"actions have shape {actions.shape} and type {actions.dtype}"
             raise BootcourseError(f"{found}: give {self.num_envs} whole numbers.")
         if actions.min() < 0 or actions.max() >= N_ACTIONS:
             raise BootcourseError(f"Action {int(actions[(actions < 0) | (actions >= N_ACTIONS)][0])} is outside 0..8.")
+        if not self.placed.all():
+            raise BootcourseError("There are no cars on these roads yet: call env.reset(seed=0) before env.step.")
         self._rewards[self.asleep], self._terms[self.asleep] = 0.0, 0.0
         twin.decide(
             self.cars, actions.astype(np.int64), self.asleep, self.constants,
@@ -127,7 +137,7 @@ class TrapVectorEnv(VectorEnv):
         for i in np.flatnonzero(mask):
             twin.place(self._generators[i].random(self._uniforms), self.constants, self.cars[i])
         self.decisions[mask] = 0
-        self.asleep[mask] = False
+        self.asleep[mask], self.placed[mask] = False, True
 
     def _restart(self, done: np.ndarray, infos: dict) -> dict:
         final_obs = np.full(self.num_envs, None, dtype=object)
@@ -158,3 +168,17 @@ class TrapVectorEnv(VectorEnv):
             "speed": self.cars[:, EGO, SPEED].copy(),
         }
         return infos | {f"_{name}": mask.copy() for name in infos}
+
+
+def seeds_of(seed, roads: int) -> list[int | None]:
+    """The seed of each road: seed, seed + 1, ... for a whole number, otherwise those given. Raises BootcourseError."""
+    try:
+        given = [seed + i for i in range(roads)] if np.ndim(seed) == 0 else list(seed)
+        seeds = [None if each is None else operator.index(each) for each in given]
+    except TypeError:
+        raise BootcourseError(f"seed = {seed!r}: give a whole number, or one for each road.") from None
+    if len(seeds) != roads:
+        raise BootcourseError(f"{len(seeds)} seeds for {roads} roads: give one, or one for each road.")
+    if any(each is not None and each < 0 for each in seeds):
+        raise BootcourseError(f"seed = {seed!r}: a seed is not negative.")
+    return seeds
