@@ -8,7 +8,7 @@ import ipywidgets as widgets
 import numpy as np
 import pytest
 
-from bootcourse import one_per_cell
+from bootcourse import one_per_cell, panels
 from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError
 from bootcourse.panels.arguments import a_number, an_instance, one_drive
@@ -133,6 +133,17 @@ def test_a_closed_panel_leaves_no_part_of_it_behind():
     panel.close()
     assert set(widgets.widget._instances) == before
     assert one_per_cell.running() == []
+
+
+@pytest.mark.parametrize(
+    "make", ["bonus_panel", "drive_panel", "policy_panel", "scenario_panel", "sweep_panel", "train_panel"]
+)
+def test_every_panel_that_is_closed_leaves_no_widget_behind(make, escape):
+    before = set(widgets.widget._instances)
+    panel = getattr(panels, make)(*[escape] * (make == "policy_panel"))
+    assert len(widgets.widget._instances) > len(before) + 10
+    panel.close()
+    assert set(widgets.widget._instances) == before
 
 
 def test_a_panel_says_the_librarys_sentence_and_lets_a_bug_through():

@@ -69,11 +69,9 @@ class Panel(widgets.VBox):
             return
         self.closed = True
         one_per_cell.forget(self)
-        for part in _below(self):
-            part.layout.close()
-            getattr(part, "style", part.layout).close()
-            part.close()
-        self.layout.close()
+        for part in _parts(self, {}).values():
+            if part is not self:
+                part.close()
         super().close()
 
     def _repr_mimebundle_(self, **kwargs) -> dict:
@@ -95,6 +93,14 @@ def beside(*parts: widgets.Widget) -> widgets.Box:
     return widgets.Box(parts, layout=widgets.Layout(flex_flow="row wrap", grid_gap="6px 32px", margin="6px 0 4px"))
 
 
-def _below(widget: widgets.Widget) -> list[widgets.Widget]:
-    """Every part of a widget, and theirs."""
-    return [each for part in getattr(widget, "children", ()) for each in (part, *_below(part))]
+def _parts(value, found: dict[int, widgets.Widget]) -> dict[int, widgets.Widget]:
+    """Every widget that a value holds, also in its traits and attributes: children, layouts, styles, hidden parts."""
+    if isinstance(value, widgets.Widget) and id(value) not in found:
+        found[id(value)] = value
+        _parts(vars(value), found)  # its traits are in `_trait_values`
+    elif isinstance(value, dict):
+        _parts(list(value.values()), found)
+    elif isinstance(value, (list, tuple)):
+        for each in value:
+            _parts(each, found)
+    return found
