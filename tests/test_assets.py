@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
 from bootcourse.cli import studies
@@ -15,9 +16,10 @@ from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.scenario import CALIBRATED, DEFAULT
 from bootcourse.storage import assets
 from bootcourse.storage.runs import find_runs, load_run
+from bootcourse.storage.sealed import write_sealed
 from bootcourse.study import ship
 from bootcourse.study.fingerprint import older
-from bootcourse.study.jobs import Job, run_job
+from bootcourse.study.jobs import Job, read_job, run_job
 from bootcourse.study.results import load_results
 
 
@@ -88,15 +90,15 @@ def test_a_damaged_missing_or_unlisted_file_is_named_with_the_command_that_makes
 
 
 def test_a_file_made_by_older_code_is_named_and_not_called_wrong(shipped, capsys):
-    manifest = json.loads((shipped / "manifest.json").read_text())
+    manifest = assets.read_manifest(shipped)
     manifest["behaviours"]["sac"]["0000"] = [0.0]
     for entry in manifest["files"]:
         if entry["file"] == "sweep.npz":
             entry["behaviour"] |= {"sac": "0000", "removed since": "1111"}
-    (shipped / "manifest.json").write_text(json.dumps(manifest))
+    write_sealed(shipped / "manifest.json", manifest | {"format": assets.FORMAT})
     assert studies.report_assets(shipped) == 0
     printed = capsys.readouterr().out
-    assert "sweep.npz is older than the code's sac, removed since: bootcourse sweep --out DIR" in printed
+    assert "sweep.npz is older than the code's removed since, sac: bootcourse sweep --out DIR" in printed
     assert "0 wrong, 1 made by older code" in printed and printed.count("is older than") == 1
 
 
@@ -104,12 +106,12 @@ def test_what_older_code_computed_stays_older_when_it_is_shipped_by_newer_code(s
     later = shutil.copytree(study, tmp_path / "later")
     for name in ("sac", "soft"):
         path = later / "jobs/default" / name / "job.json"
-        made = json.loads(path.read_text())
+        made = read_job(path.parent)
         if name == "sac":
             made["behaviour"]["sac"] = [0.0]
         else:  # earlier versions recorded no behaviour
             del made["behaviour"]
-        path.write_text(json.dumps(made))
+        write_sealed(path, made)
     ship.build(later, tmp_path / "assets")
     old = {sentence.split()[0]: sentence for sentence in older(tmp_path / "assets")}
     assert "study-default.npz" in old and "study-calibrated.npz" not in old and "sweep.npz" not in old
@@ -130,9 +132,51 @@ def test_a_study_that_is_not_complete_is_named(study, tmp_path):
     with pytest.raises(BootcourseError, match="no finished jobs in jobs/default"):
         ship.build(tmp_path, tmp_path / "assets")
     with pytest.raises(BootcourseError, match="build needs --study"):
-        studies.assets("build", None)
+        studies.assets("build", None, False)
     with pytest.raises(BootcourseError, match="did you mean 'verify'"):
-        studies.assets("verfy", None)
+        studies.assets("verfy", None, False)
+
+
+def test_a_folder_that_is_no_study_is_named_and_changes_nothing(shipped, tmp_path):
+    with pytest.raises(BootcourseError, match="nothere holds no finished jobs"):
+        ship.build(tmp_path / "nothere", shipped)
+    assert assets.verify(shipped) == [] and [path.name for path in tmp_path.iterdir()] == ["assets"]
+
+
+def test_a_smaller_study_replaces_a_larger_one_only_if_told_to_and_the_other_runs_stay(shipped, tmp_path):
+    small = tmp_path / "small"
+    small.mkdir()
+    (small / "study.json").write_text("{}")
+    agents = with_seeds(settings_for("sac", learning_starts=16, hidden=(8,), buffer_size=2000), 1)
+    assert run_job(Job("default/sac", tuple(agents), DEFAULT, 2, 2), small) == ""
+    before = {path: path.read_bytes() for path in shipped.rglob("*") if path.is_file()}
+    with pytest.raises(BootcourseError, match=r"smaller.*1 agents of sac instead of 2.*2 held-out.*--replace-larger"):
+        ship.build(small, shipped)
+    assert before == {path: path.read_bytes() for path in shipped.rglob("*") if path.is_file()}
+    ship.build(small, shipped, replace_larger=True)
+    assert len(load_results(shipped / "study-default.npz")) == 1 and assets.verify(shipped) == []
+    assert {"soft-0", "sac-1"} <= {path.name for path in find_runs(shipped / "runs")}
+
+
+def test_files_that_a_killed_build_had_moved_aside_are_put_back(shipped, bootcourse, monkeypatch):
+    monkeypatch.setattr(assets, "FOLDER", shipped)
+    assets.unfinished(shipped).mkdir()
+    shipped.rename(assets.unfinished(shipped) / "old")
+    answer = bootcourse("assets", "verify")
+    assert answer.status == 0 and "0 wrong" in answer.out
+
+
+def test_a_flipped_bit_of_the_manifest_is_noticed(shipped):
+    path, rng = shipped / "manifest.json", np.random.default_rng(0)
+    whole, content = path.read_bytes(), assets.read_manifest(shipped)
+    for place, bit in zip(rng.integers(len(whole), size=150), rng.integers(8, size=150), strict=True):
+        flipped = bytearray(whole)
+        flipped[place] ^= 1 << bit
+        path.write_bytes(flipped)
+        try:
+            assert assets.read_manifest(shipped) == content  # one space became another
+        except BootcourseError as error:
+            assert "manifest.json" in str(error)
 
 
 def test_the_readme_s_pictures_stay_and_are_listed(study, shipped):

@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 import torch
 
-from bootcourse.files import read_json, write_json
 from bootcourse.learn import bc, bootstrap, gail, sac, training
 from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.replay_buffer import ReplayBuffer
 from bootcourse.methods import METHODS
 from bootcourse.road import vector_env
 from bootcourse.road.constants import constants
-from bootcourse.storage.assets import FOLDER, MANIFEST
+from bootcourse.storage.assets import FOLDER, FORMAT, MANIFEST, read_manifest
+from bootcourse.storage.sealed import write_sealed
 from bootcourse.study import fingerprint as fingerprints
 from bootcourse.study import planner
 from bootcourse.study.fingerprint import COMPUTED, LEARNED, alike, fingerprint, older
@@ -22,12 +22,12 @@ from bootcourse.study.fingerprint import COMPUTED, LEARNED, alike, fingerprint, 
 
 def listing(tmp_path, *files: str):
     """A folder with the shipped manifest, cut down to these files."""
-    manifest = read_json(FOLDER / MANIFEST)
+    manifest = read_manifest(FOLDER)
     kept = [entry for entry in manifest["files"] if entry["file"] in files]
     assert len(kept) == len(files)
     names = {name for entry in kept for name in entry["behaviour"]}
     behaviours = {name: known for name, known in manifest["behaviours"].items() if name in names}
-    write_json(tmp_path / MANIFEST, {"behaviours": behaviours, "files": kept})
+    write_sealed(tmp_path / MANIFEST, {"format": FORMAT, "behaviours": behaviours, "files": kept})
     return tmp_path
 
 

@@ -105,8 +105,13 @@ def compute(wanted: list, out: Path, after: Callable[[list[str]], None], **how) 
 def assets(
     what: str = typer.Argument(..., help="verify: check the shipped files. build: make them from a study's folder."),
     study: Path | None = typer.Option(None, help="The study's folder, for build."),
+    replace_larger: bool = typer.Option(
+        False, "--replace-larger", help="Let build replace results of more agents or episodes."
+    ),
 ) -> None:
     """Check the files that ship with the course, or make them again."""
+    from bootcourse.storage import assets
+
     if what not in ("verify", "build"):
         raise BootcourseError(f"Action {did_you_mean(what, ('verify', 'build'))}.")
     if what == "build":
@@ -116,10 +121,9 @@ def assets(
             )
         from bootcourse.study.ship import build
 
-        build(study)
-    from bootcourse.storage.assets import FOLDER
-
-    raise typer.Exit(report_assets(FOLDER))
+        build(study, assets.FOLDER, replace_larger)
+    assets.put_back(assets.FOLDER)
+    raise typer.Exit(report_assets(assets.FOLDER))
 
 
 def report_assets(folder: Path) -> int:

@@ -5,15 +5,19 @@ behaviours that it depends on. `bootcourse.study.fingerprint` checks the behavio
 files.
 """
 
+import os
 from pathlib import Path
 from typing import Annotated, TypedDict
 
-from msgspec import Meta
+from msgspec import Meta, convert
 
-from bootcourse.files import read_json, sha256
+from bootcourse.errors import BootcourseError
+from bootcourse.files import decoding
+from bootcourse.storage.sealed import is_file_with, read_sealed
 
 FOLDER = Path(__file__).resolve().parent.parent.parent / "assets"
 MANIFEST = "manifest.json"
+FORMAT = "bootcourse assets 1"
 LIMIT = 25_000_000  # bytes in total
 
 
@@ -34,19 +38,36 @@ class Manifest(TypedDict):
 
 
 def read_manifest(folder: Path) -> Manifest:
-    """The manifest of an assets folder. Raises BootcourseError if it is missing or damaged."""
-    return read_json(folder / MANIFEST, Manifest)
+    """The manifest of an assets folder. Raises BootcourseError if it is damaged, or not there."""
+    path = folder / MANIFEST
+    if not path.exists():
+        raise BootcourseError(f"{folder} holds no shipped results: work in a whole copy of the course's repository.")
+    content = read_sealed(path, FORMAT, None)
+    with decoding(path):
+        return convert(content, Manifest)
+
+
+def unfinished(folder: Path) -> Path:
+    """Where new files are made, and the old ones lie for a moment, before the new ones take their place."""
+    return folder.parent / f".{folder.name}.unfinished"
+
+
+def put_back(folder: Path) -> None:
+    """Put back the old files, if the process that was replacing them was killed in that moment."""
+    old = unfinished(folder) / "old"
+    if old.exists() and not folder.exists():
+        os.rename(old, folder)
 
 
 def verify(folder: Path = FOLDER) -> list[str]:
-    """The problems of the shipped files, one sentence each."""
+    """The problems of the shipped files, one sentence each. Raises BootcourseError for a damaged manifest."""
     entries = read_manifest(folder)["files"]
     problems = []
     for entry in entries:
         path = folder / entry["file"]
         if not path.is_file():
             problems.append(f"{path} is missing: restore it from a copy, or make it again: {entry['command']}")
-        elif path.stat().st_size != entry["bytes"] or sha256(path) != entry["sha256"]:
+        elif not is_file_with(path, entry["sha256"]):
             problems.append(f"{path} is damaged: restore it from a copy, or make it again: {entry['command']}")
     listed = {MANIFEST, *(entry["file"] for entry in entries)}
     for path in sorted(folder.rglob("*")):

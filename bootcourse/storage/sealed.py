@@ -13,15 +13,15 @@ def write_sealed(path: Path, content: dict) -> None:
     write_json(path, content | {"seal": seal(content)})
 
 
-def read_sealed(path: Path, format: str, former: str = "") -> dict:
-    """The object that `write_sealed` wrote, with the given "format". former: of files that have no seal yet.
+def read_sealed(path: Path, format: str, *former: str | None) -> dict:
+    """The object that `write_sealed` wrote, with the given "format". former: formats that have no seal yet.
 
     Raises BootcourseError if the file is missing, damaged, or of another version.
     """
     content = read_json(path)
     if not isinstance(content, dict):
         raise BootcourseError(f"{path} is damaged: it is not a JSON object.")
-    if former and content.get("format") == former:
+    if content.get("format") in former:
         return content
     if content.pop("seal", None) != seal(content):
         raise BootcourseError(f"{path} is damaged: it does not fit its own hash.")

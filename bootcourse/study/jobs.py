@@ -170,7 +170,7 @@ def finished(job: AnyJob, root: Path) -> bool:
 def read_job(folder: Path) -> dict:
     """The `job.json` of a finished job, after a check of all its files. Raises BootcourseError if one is damaged."""
     made = read_sealed(folder / "job.json", FORMAT, FORMER_FORMAT)
-    if not all(isinstance(made.get(name), dict) for name in ("asked", "sha256", "behaviour", "provenance")):
+    if not all(isinstance(made.get(name), dict) for name in ("asked", "sha256", "provenance")):
         raise BootcourseError(f"{folder} is damaged (job.json).")
     damaged = [name for name, digest in made["sha256"].items() if not is_file_with(folder / name, digest)]
     if damaged:

@@ -4,6 +4,7 @@ Each file is listed in the manifest with the command that makes it and the finge
 depends on. `bootcourse.storage.assets` checks the files, `bootcourse.study.fingerprint` the behaviours.
 """
 
+import os
 import shutil
 from collections.abc import Sequence
 from dataclasses import replace
@@ -14,17 +15,19 @@ import numpy as np
 from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError
-from bootcourse.files import provenance, read_json, sha256, write_arrays, write_bytes, write_json
+from bootcourse.files import provenance, sha256, write_arrays, write_bytes, write_json
 from bootcourse.methods import METHODS
 from bootcourse.policies import rule_policy
 from bootcourse.scenario import DEFAULT
-from bootcourse.storage.assets import FOLDER, LIMIT, MANIFEST, read_manifest
+from bootcourse.storage.assets import FOLDER, FORMAT, LIMIT, MANIFEST, put_back, read_manifest, unfinished
 from bootcourse.storage.runs import load_run
+from bootcourse.storage.sealed import is_file_with, write_sealed
+from bootcourse.storage.work import locked
 from bootcourse.study.fingerprint import alike, fingerprints, key
-from bootcourse.study.jobs import HELD_OUT
+from bootcourse.study.jobs import HELD_OUT, read_job
 from bootcourse.study.plan import EXPERIMENTS
 from bootcourse.study.report import write_report
-from bootcourse.study.results import in_assets, in_study, load_jobs, load_results, save_results
+from bootcourse.study.results import Results, in_assets, in_study, load_jobs, load_results, save_results
 
 CURVES = ("success", "return", "speed", "distance", "accident", "entropy")  # the others are in runs/
 VARIED_CURVES = ("success", "return", "xi")  # of the experiments
@@ -36,8 +39,8 @@ STUDY = f"bootcourse study --out DIR && {BUILD}"
 class Shipment:
     """The new folder while it is filled. Files that the study has not computed are taken from today's folder."""
 
-    def __init__(self, study: Path, now: Path, new: Path):
-        self.study, self.new = study, new
+    def __init__(self, study: Path, now: Path, new: Path, replace_larger: bool):
+        self.study, self.new, self.replace_larger = study, new, replace_larger
         self.entries: dict[str, dict] = {}
         self.behaviours: dict[str, dict[str, list[float]]] = {}  # {name: {key: fingerprint}}
         if (now / MANIFEST).exists():
@@ -49,6 +52,23 @@ class Shipment:
     def has(self, part: str) -> bool:
         """Has the study finished any job of this part?"""
         return any((self.study / "jobs" / part).rglob("job.json"))
+
+    def check_size(self, results: Results, path: Path) -> None:
+        """Raise BootcourseError if `path` holds more agents or episodes than the results that would replace it."""
+        entry = self.entries.get(path.relative_to(self.new).as_posix())
+        if self.replace_larger or entry is None or not is_file_with(path, entry["sha256"]):
+            return
+        ships = load_results(path)
+        sizes = [(f"agents of {method}", len(ships.of(method)), len(results.of(method))) for method in ships.methods]
+        for kind, name in (("tested", "held-out episodes"), ("curves", "training episodes")):
+            before, after = (next(iter(getattr(each, kind).values())).shape[1] for each in (ships, results))
+            sizes.append((name, before, after))
+        smaller = [f"{after} {name} instead of {before}" for name, before, after in sizes if after < before]
+        if smaller:
+            raise BootcourseError(
+                f"{self.study} would replace {path.name} by a smaller one ({', '.join(smaller)}): "
+                "compute the whole study, or add --replace-larger."
+            )
 
     def clear(self, pattern: str) -> None:
         """Remove the files that are made again."""
@@ -77,38 +97,50 @@ class Shipment:
         used = {name: {entry["behaviour"].get(name) for entry in files} for name in self.behaviours}
         for name, known in self.behaviours.items():
             self.behaviours[name] = {made: values for made, values in known.items() if made in used[name]}
-        write_json(self.new / MANIFEST, {"behaviours": self.behaviours, "files": files})
+        write_sealed(self.new / MANIFEST, {"format": FORMAT, "behaviours": self.behaviours, "files": files})
 
 
-def build(study: Path, folder: Path = FOLDER) -> None:
+def build(study: Path, folder: Path = FOLDER, replace_larger: bool = False) -> None:
     """Make the shipped files from a study's folder; parts that it has not computed stay as they are.
 
-    `folder` is replaced only after everything is made. Raises BootcourseError if neither the study nor
-    `folder` has results of the default scenario, or if the files are too large to ship.
+    `folder` is replaced, by a renaming, only after everything is made. Raises BootcourseError if the study holds no
+    finished jobs, if neither it nor `folder` has results of the default scenario, if its results are smaller than those
+    that they would replace (unless `replace_larger`), or if the files are too large to ship.
     """
-    new = folder.parent / f".{folder.name}.new"
-    shutil.rmtree(new, ignore_errors=True)
-    try:
-        shipment = Shipment(study, folder, new)
-        for part in (add_results, add_experiments, add_runs, add_demonstrations, add_rollouts, add_report, add_card):
-            part(shipment)
-        add_kept(shipment, folder)
-        shipment.write_manifest()
-        size = sum(entry["bytes"] for entry in shipment.entries.values())
-        if size >= LIMIT:
-            raise BootcourseError(
-                f"These assets would hold {size / 1e6:.1f} MB: they must stay under {LIMIT / 1e6:.0f} MB."
-            )
-    except BaseException:
+    if not any((study / "jobs").rglob("job.json")):
+        raise BootcourseError(f"{study} holds no finished jobs: name a folder that `bootcourse study` wrote.")
+    work = unfinished(folder)
+    new, old = work / "new", work / "old"
+    with locked(work, "build"):
+        put_back(folder)
+        shutil.rmtree(old, ignore_errors=True)
         shutil.rmtree(new, ignore_errors=True)
-        raise
-    shutil.rmtree(folder, ignore_errors=True)
-    new.rename(folder)
+        try:
+            _fill(Shipment(study, folder, new, replace_larger), folder)
+        except BaseException:
+            shutil.rmtree(new, ignore_errors=True)
+            raise
+        if folder.exists():
+            os.rename(folder, old)
+        os.rename(new, folder)
+        shutil.rmtree(old, ignore_errors=True)
+
+
+def _fill(shipment: Shipment, folder: Path) -> None:
+    for part in (add_results, add_experiments, add_runs, add_demonstrations, add_rollouts, add_report, add_card):
+        part(shipment)
+    add_kept(shipment, folder)
+    shipment.write_manifest()
+    size = sum(entry["bytes"] for entry in shipment.entries.values())
+    if size >= LIMIT:
+        raise BootcourseError(
+            f"These assets would hold {size / 1e6:.1f} MB: they must stay under {LIMIT / 1e6:.0f} MB."
+        )
 
 
 def jobs_made(study: Path, part: str) -> tuple[dict[str, list[float]], dict]:
     """(behaviour, versions) of the jobs of a part. A fingerprint on which they differ is [], never current."""
-    jobs = [read_json(path) for path in sorted((study / "jobs" / part).rglob("job.json"))]
+    jobs = [read_job(path.parent) for path in sorted((study / "jobs" / part).rglob("job.json"))]
     if not jobs:
         raise BootcourseError(f"{study} has no finished jobs in jobs/{part}: compute them first.")
     behaviour = {}
@@ -140,6 +172,7 @@ def add_results(to: Shipment) -> None:
             continue
         behaviour, versions = jobs_made(to.study, part)
         results = load_jobs(to.study, part)
+        to.check_size(results, path)
         save_results(lighter(results, CURVES[:2] if part == "sweep" else CURVES), path, versions)
         to.add(path, how, behaviour, versions)
         if part in found.bound:
@@ -159,7 +192,9 @@ def add_experiments(to: Shipment) -> None:
         for job in sorted(to.study.glob(f"jobs/{name}/*/results.npz")):
             behaviour, versions = jobs_made(to.study, f"{name}/{job.parent.name}")
             path = to.new / name / f"{job.parent.name}.npz"
-            save_results(lighter(load_results(job), VARIED_CURVES), path, versions)
+            results = load_results(job)
+            to.check_size(results, path)
+            save_results(lighter(results, VARIED_CURVES), path, versions)
             to.add(path, how, behaviour, versions)
 
 
@@ -181,13 +216,11 @@ def lighter(results, curves: Sequence[str]):
 
 def add_runs(to: Shipment) -> None:
     """The first agents of every method on the default scenario, as `load_run` reads them."""
-    if not to.has("default"):
-        return
-    to.clear("runs/**/*")
     for run in sorted(to.study.glob("jobs/default/*/runs/*")):
         method, _, seed = run.name.rpartition("-")
         if int(seed) >= RUNS:
             continue
+        to.clear(f"runs/{run.name}/*")
         shutil.copytree(run, to.new / "runs" / run.name, dirs_exist_ok=True)
         behaviour, versions = jobs_made(to.study, f"default/{run.parent.parent.name}")
         for path in sorted((to.new / "runs" / run.name).iterdir()):
@@ -212,7 +245,6 @@ def add_rollouts(to: Shipment) -> None:
     """Four drives for the replay: the rule, SAC in the trap, an escape and a crash, where an agent drove such a one."""
     if not to.has("default"):
         return
-    to.clear("rollouts/*")
     results = load_jobs(to.study, "default")
     success, accident = results.tested["success"] > 0, results.tested["accident"]
     wanted = {
@@ -226,7 +258,7 @@ def add_rollouts(to: Shipment) -> None:
         mine = [i for i, agent in enumerate(results.agents) if agent["method"] == method]
         found = [(i, road) for i in mine for road in np.flatnonzero(fits[i])]
         if not found:
-            print(f"No agent of '{method}' drove a rollout for {name}: left out.")
+            print(f"No agent of '{method}' drove a rollout for {name}: none is made.")
             continue
         agent, road = max(found, key=lambda place: results.tested["returns"][place])
         run = next(to.study.glob(f"jobs/default/*/runs/{method}-{results.agents[agent]['seed']}"))

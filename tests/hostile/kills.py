@@ -65,8 +65,9 @@ def commands(study: Path) -> list[Command]:
 
 @functools.cache
 def _built(study: Path) -> Path:
-    from bootcourse.study import ship
+    from bootcourse.study import fingerprint, ship
 
+    fingerprint.fingerprint = fingerprint._of_this_process  # computed once, not by every attempt
     ship.build(study, study.parent / "assets")
     return study.parent / "assets"
 
@@ -91,9 +92,10 @@ def run(arguments: list[str], folder: Path, at: int = -1, how: str = "") -> tupl
 
 def _in_the_child(arguments: list[str], folder: Path, at: int, how: str, told: mmap.mmap) -> int:
     from bootcourse.cli import main
+    from bootcourse.storage import assets
     from bootcourse.study import jobs
 
-    jobs.PARENT = os.getppid()
+    jobs.PARENT, assets.FOLDER = os.getppid(), folder / "assets"
     count = itertools.count()
 
     def operation(event: str, path) -> None:
