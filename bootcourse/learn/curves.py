@@ -66,7 +66,7 @@ class Curves:
         return means
 
 
-def by_method(settings: Sequence, curves: dict[str, np.ndarray]) -> dict[str, dict[str, np.ndarray]]:
-    """The curves {name: (agents, episodes)} split by the agents' methods: {method: {name: (seeds, episodes)}}."""
-    rows = {s.method: [i for i, other in enumerate(settings) if other.method == s.method] for s in settings}
-    return {method: {name: values[seeds] for name, values in curves.items()} for method, seeds in rows.items()}
+def by_label(labels: Sequence[str], curves: dict[str, np.ndarray]) -> dict[str, dict[str, np.ndarray]]:
+    """The curves {name: (agents, episodes)} split by the agents' labels: {label: {name: (seeds, episodes)}}."""
+    rows = {label: [i for i, other in enumerate(labels) if other == label] for label in labels}
+    return {label: {name: values[seeds] for name, values in curves.items()} for label, seeds in rows.items()}

@@ -11,7 +11,7 @@ from bootcourse.colours import ALARM, OTHER, Style
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.episodes.words import sentence
 from bootcourse.learn.bootstrap import demonstration_share
-from bootcourse.learn.curves import by_method
+from bootcourse.learn.curves import by_label
 from bootcourse.learn.settings import Settings
 from bootcourse.learn.training import Training
 from bootcourse.lessons.charts import lines
@@ -242,13 +242,14 @@ def _draw_cart(ax, state: np.ndarray, x: float, colour: str) -> None:
 
 
 class LiveCurves:
-    """A training's callback: redraws the methods' success and return, at most every `every` seconds.
+    """A training's callback: redraws the agents' success and return, at most every `every` seconds.
 
-    The picture is replaced in place, so that the page does not jump.
+    labels: one for each agent, those of a label are drawn together; without them, each agent's method. The picture is
+    replaced in place, so that the page does not jump.
     """
 
-    def __init__(self, every: float = 3.0):
-        self.every, self.last, self.output = every, time.monotonic(), None
+    def __init__(self, labels: Sequence[str] = (), every: float = 3.0):
+        self.labels, self.every, self.last, self.output = labels, every, time.monotonic(), None
 
     def __call__(self, training: Training) -> None:
         now = time.monotonic()
@@ -263,7 +264,6 @@ class LiveCurves:
         else:
             self.output.update(picture)
 
-    @staticmethod
-    def draw(training: Training):
-        curves = by_method(training.settings, training.curves.values)
-        return training_curves(curves, title="Training, as it happens")
+    def draw(self, training: Training):
+        labels = self.labels or [settings.method for settings in training.settings]
+        return training_curves(by_label(labels, training.curves.values), title="Training, as it happens")

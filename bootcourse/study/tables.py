@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from bootcourse.methods import display_name
-from bootcourse.statistics import ESCAPES, Estimate, escapes, improvement, interval, iqm
+from bootcourse.statistics import ESCAPES, Estimate, improvement, interval, iqm, rate
 from bootcourse.study.fidelity import FidelityRow, estimate
 from bootcourse.study.paper import COLUMNS, PRINTED, RATES, ROWS
 from bootcourse.study.results import MEASURES, Results
@@ -29,6 +29,12 @@ def bracketed(estimate: Estimate, scale: float = 1) -> str:
     """ "value [low, high]"; one seed has no interval."""
     value, low, high = (number(scale * part) for part in estimate)
     return value if low == "?" else f"{value} [{low}, {high}]"
+
+
+def k_of_n(hits: np.ndarray) -> str:
+    """ "1 of 10 (0 to 45 %)": how many, and the exact 95 % interval of the rate; one has none. hits (n,) bool."""
+    its, counted = rate(hits), f"{int(np.sum(hits))} of {len(hits)}"
+    return counted if len(hits) < 2 else f"{counted} ({100 * its.low:.0f} to {100 * its.high:.0f} %)"
 
 
 def score(results: Results, method: str, measure: str) -> Estimate:
@@ -63,14 +69,13 @@ def escape_table(results: Results, bound: np.ndarray | None = None) -> str:
     for method in results.methods:
         mine = results.of(method)
         success = mine.scores("success")
-        cells = [display_name(method), f"{int((success >= ESCAPES).sum())} of {len(success)}"]
-        cells.append(bracketed(escapes(success), 100) if len(success) > 1 else "")
+        cells = [display_name(method), k_of_n(success >= ESCAPES)]
         returns = mine.scores("returns")
         cells.append(f"{number(returns.min())} to {number(returns.max())}")
         if bound is not None:
             cells.append(bracketed(interval(returns / bound.mean()), 100))
         rows.append(cells)
-    headings = ["method", "agents that escape", "share of agents, % [95 %, exact]", "returns of single agents"]
+    headings = ["method", "agents that escape (95 % interval of the rate)", "returns of single agents"]
     return markdown([*headings, *(["share of the best known return, % (IQM)"] if bound is not None else [])], rows)
 
 

@@ -3,46 +3,8 @@
 import numpy as np
 from scipy import stats
 
+from bootcourse.lessons import chain
 from tests.answers import right, wrong
-
-# discounted_value -----------------------------------------------------------------------------------
-
-
-@right("discounted_value")
-def backwards(rewards, gamma):
-    value = 0.0
-    for reward in rewards[::-1]:
-        value = reward + gamma * value
-    return value
-
-
-@right("discounted_value")
-def as_a_polynomial(rewards, gamma):
-    return np.polyval(rewards[::-1], gamma)
-
-
-@wrong("discounted_value", "the first reward, too")
-def from_one(rewards, gamma):
-    return sum(gamma ** (t + 1) * reward for t, reward in enumerate(rewards))
-
-
-@wrong("discounted_value", "backwards")
-def forwards(rewards, gamma):
-    value = 0.0
-    for reward in rewards:
-        value = reward + gamma * value
-    return value
-
-
-@wrong("discounted_value")
-def linear(rewards, gamma):
-    return sum(max(0, 1 - t * (1 - gamma)) * reward for t, reward in enumerate(rewards))
-
-
-@wrong("discounted_value", "returns")
-def each_second(rewards, gamma):
-    return gamma ** np.arange(len(rewards)) * rewards
-
 
 # share_of_the_future --------------------------------------------------------------------------------
 
@@ -88,6 +50,91 @@ def capped(good, decisions, tries):
 @wrong("luck")
 def of_eight(good, decisions, tries):
     return 1 - (1 - (good / 8) ** decisions) ** tries
+
+
+# learn_chain ----------------------------------------------------------------------------------------
+
+
+@right("learn_chain")
+def with_lists(chances, gamma, step, taught):
+    q, s = [[0.0, 0.0] for _ in range(5)], 0
+    for t, chance in enumerate(list(chances)):
+        s = 0 if t % 20 == 0 else s
+        a = chance if chance >= 0 else int(q[s][1] > q[s][0])
+        for x, u in ((s, a),) + tuple(taught):
+            q[x][u] = (1 - step) * q[x][u] + step * (chain.REWARD[x, u] + gamma * max(q[chain.NEXT[x, u]]))
+        s = chain.NEXT[s, a]
+    return np.array(q)
+
+
+@right("learn_chain")
+def episode_by_episode(chances, gamma, step, taught):
+    q = np.zeros((5, 2))
+
+    def update(s, a):
+        after = chain.NEXT[s][a]
+        q[s][a] += step * (chain.REWARD[s][a] + gamma * np.max(q[after]) - q[s][a])
+        return after
+
+    for begin in range(0, len(chances), chain.EPISODE):
+        s = 0
+        for chance in chances[begin : begin + chain.EPISODE]:
+            s = update(s, np.argmax(q[s]) if chance == -1 else chance)
+            for each in taught:
+                update(*each)
+    return q
+
+
+@right("learn_chain")
+def with_one_row_of_numbers(chances, gamma, step, taught):
+    q, s = np.zeros(10), 0
+    for t in range(len(chances)):
+        s = 0 if t % 20 == 0 else s
+        a = int(chances[t]) if chances[t] != -1 else int(q[2 * s + 1] > q[2 * s])
+        for x, u in ((s, a), *taught):
+            y = chain.NEXT[x, u]
+            error = chain.REWARD[x, u] + gamma * max(q[2 * y], q[2 * y + 1]) - q[2 * x + u]
+            q[2 * x + u] = q[2 * x + u] + step * error
+        s = chain.NEXT[s, a]
+    return q.reshape(5, 2)
+
+
+def chain_learner(first=0, ties=0, ahead=0, sarsa=False, own=True):
+    """Q-learning in the chain with other slips than the exercise knows."""
+
+    def answer(chances, gamma, step, taught):
+        q, s = np.zeros((5, 2)), 0
+        for t, chance in enumerate(chances):
+            s = 0 if t % 20 == first else s
+            greedy = int(q[s, 1] > q[s, 0]) if not ties else int(q[s, 1] >= q[s, 0])
+            a = greedy if chance < 0 else chance
+            for x, u in [(s, a)] * own + list(taught):
+                y = chain.NEXT[x, u] if not ahead else x
+                best = q[y, u] if sarsa else q[y].max()
+                q[x, u] += step * (chain.REWARD[x, u] + gamma * best - q[x, u])
+            s = chain.NEXT[s, a]
+        return q
+
+    return answer
+
+
+for _slip in ({"first": 19}, {"ties": 1}, {"ahead": 1}, {"sarsa": True}, {"own": False}):
+    wrong("learn_chain")(chain_learner(**_slip))
+
+
+@wrong("learn_chain")
+def with_a_step_of_a_half(chances, gamma, step, taught):
+    return chain.learn_chain(chances, gamma, 0.5, taught)
+
+
+@wrong("learn_chain")
+def with_the_paper_s_discount(chances, gamma, step, taught):
+    return chain.learn_chain(chances, 0.8, step, taught)
+
+
+@wrong("learn_chain")
+def the_values_of_the_states(chances, gamma, step, taught):
+    return chain.learn_chain(chances, gamma, step, taught).max(axis=1)
 
 
 # lowest_rate ----------------------------------------------------------------------------------------

@@ -2,51 +2,8 @@
 
 import numpy as np
 
+from bootcourse.lessons import chain
 from bootcourse.lessons.exercise import Exercise, Mistake
-
-
-def discounted_value_solution(rewards, gamma):
-    return float(np.sum(gamma ** np.arange(len(rewards)) * rewards))
-
-
-def value_cases(rng):
-    """One reward, γ = 1, γ = 0, a late reward alone; then 40 at random."""
-    yield np.array([3.0]), 0.8
-    yield np.array([1.0, 2.0, 4.0]), 1.0
-    yield np.array([1.0, 2.0, 4.0]), 0.0
-    yield np.array([0.0, 0.0, 0.0, -10.0]), 0.9
-    for _ in range(40):
-        yield rng.normal(0, 1, int(rng.integers(2, 40))), float(rng.uniform(0.3, 0.99))
-
-
-discounted_value = Exercise(
-    "discounted_value(rewards, gamma)",
-    solution=discounted_value_solution, cases=value_cases,
-    worked=(((np.array([1.0, 1.0, 1.0]), 0.5), 1.75), ((np.array([0.0, 0.0, 8.0]), 0.5), 2.0)),
-    mistakes=(
-        Mistake(lambda rewards, gamma: gamma * discounted_value_solution(rewards, gamma),
-            "You discount the first reward, too. It comes now, so its weight is γ⁰ = 1.",
-            "Counting begins at 1."),
-        Mistake(lambda rewards, gamma: float(np.sum(rewards)),
-            "This is the return without a discount. The reward after t seconds has the weight γ^t.",
-            "γ is in the reward already."),
-        Mistake(lambda rewards, gamma: float(gamma * np.sum(rewards)),
-            "You multiply the whole sum by γ. Each further second adds another factor γ.",
-            "The discount is a factor, so it is multiplied once."),
-        Mistake(lambda rewards, gamma: discounted_value_solution(rewards[::-1], gamma),
-            "Your weights run backwards: the last reward counts in full, and the first one hardly at all.",
-            "The recursion y = r + γ y begins with the first reward."),
-        Mistake(lambda rewards, gamma: discounted_value_solution(rewards, gamma) * (1 - gamma),
-            "You normalised: this is a weighted mean of the rewards. Leave out the factor 1 - γ.",
-            "Weights have to add up to 1."),
-    ),
-    hints=(
-        "The first reward counts 1, the next γ, the next γ²: write these weights as an array.",
-        "`gamma ** np.arange(len(rewards))` are the weights.",
-        "`np.sum(gamma ** np.arange(len(rewards)) * rewards)`",
-    ),
-    minutes=3, difficulty=1, equation="Σ_t γ^t r_t, Section III, Equation of the objective",
-)  # fmt: skip
 
 
 def share_of_the_future_solution(gamma, seconds):
@@ -130,6 +87,83 @@ luck = Exercise(
         "`1 - (1 - (good / 9) ** decisions) ** tries`",
     ),
     minutes=5, difficulty=2, equation="1 - (1 - (g/9)^n)^tries: the chance of a way out by chance",
+)  # fmt: skip
+
+
+def walk(chances, gamma, step, taught, best=np.max, restart=True, ends=False, one_step=False, after=False):
+    """Q-learning in the chain, with one thing done differently: what students do."""
+    q, s = np.zeros((chain.STATES, 2)), 0
+    for t, chance in enumerate(chances):
+        if restart and t % chain.EPISODE == 0:
+            s = 0
+        a = int(q[s].argmax()) if chance < 0 else chance
+        seen = [(s, a)] if after else [(s, a), *taught]
+        for state, action in seen:
+            last = ends and t % chain.EPISODE == chain.EPISODE - 1 and (state, action) == (s, a)
+            target = chain.REWARD[state, action] + (0 if last else gamma) * best(q[chain.NEXT[state, action]])
+            q[state, action] = target if one_step else q[state, action] + step * (target - q[state, action])
+        s = chain.NEXT[s, a]
+    for state, action in taught if after else ():
+        target = chain.REWARD[state, action] + gamma * best(q[chain.NEXT[state, action]])
+        q[state, action] += step * (target - q[state, action])
+    return q
+
+
+def chain_cases(rng):
+    """Greedy only, one decision, two episodes, a demonstration and a part of one; then 30 at random."""
+    yield np.full(30, -1), 0.8, 0.5, ()
+    yield np.array([1]), 0.8, 0.5, ()
+    yield np.full(3, -1), 0.9, 0.5, chain.WAY_OUT
+    yield np.array([1] * 45), 0.8, 0.3, ()
+    yield np.array([1, 1, 0] * 15), 0.8, 1.0, chain.WAY_OUT[3:]
+    for k in range(30):
+        taught = chain.WAY_OUT if k % 2 else ()
+        drawn = chain.chances(float(rng.uniform(0.2, 1)), int(rng.integers(5, 90)), int(rng.integers(1000)))
+        yield drawn, float(rng.uniform(0.5, 0.95)), float(rng.uniform(0.1, 0.9)), taught
+
+
+learn_chain = Exercise(
+    "learn_chain(chances, gamma, step, taught)",
+    solution=chain.learn_chain, cases=chain_cases,
+    worked=(
+        ((np.array([0, 0]), 0.5, 0.5, ()), np.array([[0.14, 0], [0, 0], [0, 0], [0, 0], [0, 0]])),  # 0.08, then + 0.06
+        ((np.array([0]), 0.8, 1.0, ((4, 1), (3, 1))), np.array([[0.16, 0], [0, 0], [0, 0], [0, 0.8], [0, 1.0]])),
+    ),
+    mistakes=(
+        Mistake(lambda *case: walk(*case, restart=False),
+            "Your walk does not start again: every 20 decisions the time is up, and it continues in state 0.",
+            "An episode goes on until somebody ends it."),
+        Mistake(lambda *case: walk(*case, ends=True),
+            "You treat the last decision of an episode as an end, after which nothing follows. The time was up, and "
+            "the road goes on: the target keeps γ max Q(s').",
+            "Nothing follows the last row of an episode."),
+        Mistake(lambda *case: walk(*case, best=np.mean),
+            "You bootstrap with the mean of Q(s', ·): that is the value of acting at random. Q-learning takes the "
+            "largest.",
+            "The value of a state is the mean over its actions."),
+        Mistake(lambda *case: walk(*case, best=lambda each: each[1]),
+            "You bootstrap with the value of going on. In the next state the better of the two actions counts.",
+            "The next action is the one that we want it to learn."),
+        Mistake(lambda chances, gamma, step, taught: walk(chances, 1.0, step, taught),
+            "The value of the next state is not discounted: multiply it by γ.",
+            "γ discounts rewards, and a value is no reward."),
+        Mistake(lambda *case: walk(*case, one_step=True),
+            "You replace Q(s, a) by the target. Move it there by a part of the way only, `step` times the difference.",
+            "The target is the new value."),
+        Mistake(lambda *case: walk(*case, after=True),
+            "You replay the demonstration at the end. Replay it after *each* decision: the next choice depends on it.",
+            "The order of the updates does not matter."),
+        Mistake(lambda chances, gamma, step, taught: walk(chances, gamma, step, ()),
+            "You do not replay the demonstration `taught`.",
+            "A learner learns from its own decisions."),
+    ),
+    hints=(
+        "One loop over `chances`. Start again in state 0 where `t % chain.EPISODE == 0`; choose a; update; move on.",
+        "The same update for your own decision and for each (s, a) in `taught`: the target is `chain.REWARD[s, a] + "
+        "gamma * q[chain.NEXT[s, a]].max()`.",
+        "`q[s, a] += step * (target - q[s, a])`; the next state of the walk is `chain.NEXT[s, a]` of *your* decision.",
+    ),
+    minutes=20, difficulty=3, equation="Q(s, a) ← Q(s, a) + step (r + γ max Q(s', ·) - Q(s, a)), Watkins (1989)",
 )  # fmt: skip
 
 

@@ -1,0 +1,43 @@
+"""A barrier of five states, and Q-learning in it: lesson 5's road with everything left out but the detour.
+
+State 0 is the trap, state 4 the free road. Action 0 stays (in states 1 to 3: goes back to the trap), action 1 goes on.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+STATES, EPISODE = 5, 20  # decisions in an episode; then the time is up and the next one begins in state 0
+NEXT = np.array([[0, 1], [0, 2], [0, 3], [0, 4], [4, 4]])  # NEXT[s, a]
+REWARD = np.array([[0.16, 0.0], [0.0, 0.0], [0.0, 0.0], [0.0, 0.0], [1.0, 1.0]])  # REWARD[s, a]
+WAY_OUT = tuple((s, 1) for s in range(STATES))  # a demonstration: (state, action)
+
+
+def learn_chain(chances, gamma, step, taught):
+    """Q (5, 2) after len(chances) decisions, from zeros.
+
+    chances: at each decision -1 for the greedy action (of two equal ones action 0), or the action that is tried.
+    taught: decisions (s, a) of a demonstrator, replayed in this order after each decision of our own.
+    """
+    q, s = np.zeros((STATES, 2)), 0
+    for t, chance in enumerate(chances):
+        if t % EPISODE == 0:
+            s = 0
+        a = int(q[s].argmax()) if chance < 0 else chance
+        for state, action in [(s, a), *taught]:
+            target = REWARD[state, action] + gamma * q[NEXT[state, action]].max()
+            q[state, action] += step * (target - q[state, action])
+        s = NEXT[s, a]
+    return q
+
+
+def chances(explore: float, decisions: int, seed: int) -> np.ndarray:
+    """ε-greedy: which decisions are drawn at random, and what is tried there: (decisions,) of -1, 0 or 1."""
+    rng = np.random.default_rng(seed)
+    return np.where(rng.random(decisions) < explore, rng.integers(0, 2, decisions), -1)
+
+
+def leaving(explore: float, gamma: float, taught: Sequence[tuple[int, int]] = (), walks: int = 30) -> int:
+    """In how many walks of 1,000 decisions Q ends with leaving above staying in the trap."""
+    found = (learn_chain(chances(explore, 1000, seed), gamma, 0.3, taught) for seed in range(walks))
+    return sum(bool(q[0, 1] > q[0, 0]) for q in found)
