@@ -80,7 +80,7 @@ def changes(node: ast.AST, first: dict) -> Iterator[ast.AST]:
                 yield args[0]
             if isinstance(func, ast.Attribute) and name not in CASTS:  # x.f() becomes x
                 yield func.value
-            for k in range(len(node.keywords)):
+            for k in range(len(node.keywords)) if "device" not in [each.arg for each in node.keywords] else ():
                 changed = copy.deepcopy(node)
                 del changed.keywords[k]
                 yield changed
@@ -91,7 +91,7 @@ def changes(node: ast.AST, first: dict) -> Iterator[ast.AST]:
         case ast.Return(value=ast.expr() as value):
             if not isinstance(value, ast.Constant):
                 yield ast.Return(ast.UnaryOp(ast.USub(), value))
-            for method in ("detach", "item") if first.get("a loss") else ():
+            for method in ("detach", "item") if first["slopes"] else ():
                 yield ast.Return(ast.Call(ast.Attribute(value, method, ast.Load()), [], []))
         case ast.If(test=test, body=body, orelse=orelse):
             yield ast.If(ast.Constant(True), body, orelse)
@@ -100,7 +100,7 @@ def changes(node: ast.AST, first: dict) -> Iterator[ast.AST]:
             yield ast.Pass()
     if isinstance(node, (ast.Name, ast.Attribute)) and isinstance(node.ctx, ast.Load):
         value = value_of(node, first)
-        if isinstance(value, torch.Tensor) and value.is_floating_point() and first.get("a loss"):
+        if isinstance(node, ast.Name) and node.id in first["slopes"]:
             yield ast.Call(ast.Attribute(node, "detach", ast.Load()), [], [])
         if isinstance(value, (bool, int, float, np.number)):  # hard-coded
             yield ast.Constant(value.item() if isinstance(value, np.generic) else value)
@@ -128,7 +128,7 @@ def mutants(exercise: Exercise) -> Iterator[tuple[str, Callable]]:
         argument.annotation = None
     arguments = [a.arg for a in function.args.args]
     first = dict(zip(arguments, exercise.all_arguments()[0], strict=False)) if exercise.run is call_it else {}
-    first["a loss"] = bool(exercise.slopes)
+    first["slopes"] = exercise.slopes
     space = solution.__globals__
     seen = {ast.unparse(function)}
     parents = {}
@@ -142,7 +142,7 @@ def mutants(exercise: Exercise) -> Iterator[tuple[str, Callable]]:
             put(parent, name, place, other)
             ast.fix_missing_locations(tree)
             text = ast.unparse(function)
-            if text not in seen:
+            if text not in seen and "detach().detach()" not in text:
                 seen.add(text)
                 after = first_line(other if around is function else around)
                 yield f"{before}  ->  {after}", compiled(text, function.name, space)

@@ -9,7 +9,7 @@ from collections.abc import Callable
 import torch
 from torch import Tensor
 
-STEP = 1e-3  # slopes are taken this far from the case, where no two values tie and no maximum has a kink
+STEP = 1e-5  # slopes are taken this far from the case, where no two values tie and no maximum has a kink
 
 
 def loss_and_slopes(answer: Callable, arguments: tuple, places: list[int], logits: list[int]):

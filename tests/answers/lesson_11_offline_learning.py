@@ -4,9 +4,13 @@ import numpy as np
 import torch
 from torch.nn import functional
 
-from tests.answers import right, wrong
+from tests.answers import equivalent, right, wrong
 
 # conservative_loss ------------------------------------------------------------------------------------
+
+
+TERMS = "(q.logsumexp(-1) - q.gather(-1, actions.unsqueeze(-1)).squeeze(-1))"
+equivalent("conservative_loss", f"{TERMS}.mean(-1)  ->  {TERMS}.mean(0)", "the batch is the only axis left")
 
 
 @right("conservative_loss")
@@ -20,6 +24,11 @@ def state_by_state(q, actions):
     for row, action in zip(q, actions, strict=True):
         total = total + torch.log(torch.exp(row).sum()) - row[action]
     return total / len(q)
+
+
+@wrong("conservative_loss", "no gradient reaches `q`")
+def as_a_number(q, actions):
+    return functional.cross_entropy(q, actions).item()
 
 
 @wrong("conservative_loss")

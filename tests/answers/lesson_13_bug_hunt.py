@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 import torch
 
-from tests.answers import right, wrong
+from tests.answers import equivalent, right, wrong
 
 # end_error ------------------------------------------------------------------------------------------
 
@@ -168,7 +168,19 @@ def with_no_grad(log_pi, q, log_rule, alpha, xi):
     return (xi * kl - value).mean()
 
 
-@wrong("fixed_loss")
+FLAT = "the mean of a change of log π under π is 0"
+equivalent("fixed_loss", "alpha * log_pi  ->  alpha * log_pi.detach()", FLAT)
+equivalent("fixed_loss", "log_pi - log_rule  ->  log_pi.detach() - log_rule", FLAT)
+
+
+@right("fixed_loss")
+def with_torch_s_own(log_pi, q, log_rule, alpha, xi):
+    policy = torch.distributions.Categorical(logits=log_pi)
+    kl = torch.distributions.kl_divergence(policy, torch.distributions.Categorical(logits=log_rule))
+    return -((policy.probs * q.detach()).sum(-1) + alpha * policy.entropy() - xi * kl).mean()
+
+
+@wrong("fixed_loss", "no gradient reaches `log_pi`")
 def everything_detached(log_pi, q, log_rule, alpha, xi):
     return in_one_line(log_pi.detach(), q, log_rule, alpha, xi)
 

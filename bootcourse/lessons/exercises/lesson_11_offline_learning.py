@@ -26,7 +26,7 @@ def offline_cases(rng):
 
 conservative_loss = Exercise(
     "conservative_loss(q, actions)",
-    solution=sac.conservative_loss, cases=offline_cases,
+    solution=sac.conservative_loss, cases=offline_cases, slopes=("q",),
     worked=(
         # e^Q is 1, 2, 1, so log Σ is log 4; the data's Q is log 2
         ((torch.tensor([[0.0, math.log(2), 0.0]]).double(), torch.tensor([1])), torch.tensor(math.log(2))),

@@ -6,7 +6,6 @@ import numpy as np
 import torch
 
 from bootcourse.lessons.exercise import Exercise, Mistake
-from bootcourse.lessons.exercises.slopes import with_slopes
 
 
 def end_error_solution(q, actions, rewards, terminated):
@@ -271,12 +270,12 @@ HALF = torch.full((1, 2), -math.log(2))
 
 fixed_loss = Exercise(
     "fixed_loss(log_pi, q, log_rule, alpha, xi)",
-    solution=fixed_loss_solution, cases=loss_cases, run=with_slopes(0, 1),
+    solution=fixed_loss_solution, cases=loss_cases, slopes=("log_pi", "q"),
     worked=(
-        # π even, Q = 1 and 3, π̃ = π, α = 0.5, ξ = 1: V = 2 + 0.5 log 2; slopes in log π: -π (Q - α log π - α) + ξ π
+        # π even, Q = 1 and 3, π̃ = π, α = 0.5, ξ = 1: V = 2 + 0.5 log 2; slopes in the logits: -π (Q - 2)
         ((HALF, torch.tensor([[1.0, 3.0]]), HALF, 0.5, 1.0),
          (torch.tensor(-(2 + 0.5 * math.log(2))),
-          torch.tensor([[0.25 - 0.25 * math.log(2), -0.75 - 0.25 * math.log(2)]]), torch.zeros(1, 2))),
+          torch.tensor([[0.5, -0.5]]), torch.zeros(1, 2))),
     ),
     mistakes=(
         Mistake(lambda log_pi, q, log_rule, alpha, xi: loss_of(log_pi, q, log_rule, alpha, xi, flipped=True),
