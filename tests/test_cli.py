@@ -62,6 +62,7 @@ def test_a_rule_of_one_s_own_teaches_and_only_it_goes_on(bootcourse, tmp_path, m
 
 REFUSED = {
     "a mistyped method": (["train", "--method", "bootstraped", "--out", "new"], "did you mean 'bootstrapped'"),
+    "a mistyped setting": (["train", "--setting", "papr", "--out", "new"], "did you mean 'paper'"),
     "a mistyped scenario": (["train", "--scenario", "calibratd", "--out", "new"], "did you mean 'calibrated'"),
     "a folder that is not empty": (["train", "--out", "full"], "exists already and is not empty"),
     "nothing to resume": (["train", "--out", "new", "--resume"], "no unfinished training"),

@@ -17,6 +17,13 @@ def test_the_defaults_are_the_papers_table():
     assert s.xi_multiplier * s.alpha_init == 2.0  # w_kl
 
 
+def test_the_paper_s_setting_takes_two_updates_for_each_decision_and_the_quick_one_a_quarter():
+    quick, paper = (settings_for("bootstrapped", setting) for setting in ("quick", "paper"))
+    assert [s.updates / s.envs_per_agent for s in (quick, paper)] == [0.25, 2.0]
+    with pytest.raises(BootcourseError, match="'papr' is unknown: did you mean 'paper'"):
+        settings_for("sac", "papr")
+
+
 def test_a_mistyped_method_suggests_the_nearest():
     with pytest.raises(BootcourseError, match="'bootstraped' is unknown: did you mean 'bootstrapped'"):
         settings_for("bootstraped")

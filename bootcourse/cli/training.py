@@ -32,6 +32,7 @@ def train(
     episodes: int = typer.Option(1000, min=1, help="Training episodes of each agent."),
     out: Path = typer.Option(..., help="A new folder for the runs."),
     scenario: str = typer.Option("default", help="default or calibrated."),
+    setting: str = typer.Option("quick", help="quick or paper: a quarter of an update per decision, or two."),
     teacher: str = typer.Option("", help="A rule of your own as the teacher: FILE.py:FUNCTION."),
     resume: bool = typer.Option(False, "--resume", help="Resume a training that was interrupted or killed."),
     quiet: bool = typer.Option(False, "--quiet", help="No progress bar."),
@@ -44,7 +45,7 @@ def train(
     from bootcourse.storage.runs import load_checkpoint, save_checkpoint
     from bootcourse.storage.work import locked
 
-    settings, road = with_seeds(settings_for(method), seeds, first_seed), named(scenario)
+    settings, road = with_seeds(settings_for(method, setting), seeds, first_seed), named(scenario)
     rule, work = teacher_from(teacher), out / UNFINISHED
     if resume and is_finished(out):
         with locked(work, "training"):  # removes what is left of it, if it was killed in its last moment

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 from itertools import product
 
 from bootcourse.errors import BootcourseError, did_you_mean
-from bootcourse.learn.settings import PAPER, Settings, settings_for, with_seeds
+from bootcourse.learn.settings import SETTINGS, Settings, settings_for, with_seeds
 from bootcourse.methods import ABLATION, BASELINES
 from bootcourse.scenario import CALIBRATED, DEFAULT, Scenario
 from bootcourse.study.jobs import BoundJob, Job, StayingJob
@@ -34,7 +34,7 @@ class Study:
 STUDIES = {
     "default": Study(DEFAULT),
     "calibrated": Study(CALIBRATED),
-    "paper": Study(DEFAULT, PAPER, 1200),
+    "paper": Study(DEFAULT, SETTINGS["paper"], 1200),
 }
 
 
