@@ -9,6 +9,7 @@ import unicodedata
 
 import typer
 
+from bootcourse.cli.classroom import grade, handout, submit
 from bootcourse.cli.driving import drive, evaluate, replay
 from bootcourse.cli.studies import assets, study, sweep
 from bootcourse.cli.training import train
@@ -68,6 +69,6 @@ def doctor() -> None:
     raise typer.Exit(doctor.main())
 
 
-COMMANDS = (doctor, train, evaluate, drive, replay, study, sweep, assets)
+COMMANDS = (doctor, train, evaluate, drive, replay, study, sweep, assets, handout, submit, grade)
 for command in COMMANDS:
     app.command()(command)
