@@ -24,6 +24,7 @@ class Method:
     settings: dict = field(default_factory=dict)  # those that differ from `bootstrapped`, whose values are the defaults
     learner: str | type = SAC  # the class, or "module:class", which is imported only for training (torch is slow)
     unused: dict[str, str] = field(default_factory=dict)  # {setting without effect: reason}
+    on_policy: bool = False  # learns from its own last decisions alone; its settings are `PPOSettings`
 
     def learner_class(self) -> type:
         """The learner's class, imported."""
@@ -36,6 +37,19 @@ class Method:
 # The baselines learn from demonstrations without the soft constraint and the bonus. Their share of demonstrations is
 # constant: 1 for offline methods, 0.5 for GAIL, whose discriminator compares the two halves of a batch.
 _BASELINE = {"xi_multiplier": 0.0, "bonus": 0.0, "beta_episodes": 10**9}
+
+# PPO drives a few hundred roads at once and looks further ahead.
+_PPO = {
+    "gamma": 0.99,
+    "xi_multiplier": 0.0,
+    "beta_start": 0.0,
+    "bonus": 0.0,
+    "envs_per_agent": 512,
+    "batch": 2048,
+    "actor_lr": 7e-4,
+    "critic_lr": 7e-4,
+    "buffer_size": 2048,
+}
 
 METHODS = {
     "sac": Method("plain SAC", Style("#0072B2"), {"xi_multiplier": 0.0, "beta_start": 0.0}),
@@ -66,9 +80,18 @@ METHODS = {
         _BASELINE | {"beta_start": 0.5, "batch": 128},
         "bootcourse.learn.gail:GAILLearner",
     ),
+    "ppo": Method("PPO", Style("#44AA99", ":"), _PPO, "bootcourse.learn.ppo:PPOLearner", on_policy=True),
+    "ppo_cloned": Method(
+        "PPO after cloning",
+        Style("#44AA99", width=2.0),
+        _PPO | {"cloning_updates": 400, "stochastic_demonstrations": True},
+        "bootcourse.learn.ppo:PPOLearner",
+        on_policy=True,
+    ),
 }
 ABLATION = ("sac", "soft", "demos", "bootstrapped", "margin", "margin_soft")  # the paper's method and its parts
 BASELINES = ("bc", "cql", "cql_sac", "gail")
+AFTER = ("ppo", "ppo_cloned")  # learners that the paper does not have
 DRIVERS = {  # name and style of the drivers that are not trained
     "rule": ("rule controller", Style("#009E73", width=1.0)),
     "planner": ("planner", Style("#000000", (0, (8, 4)))),

@@ -14,7 +14,7 @@ from bootcourse.learn.networks import init_mlp, mlp
 from bootcourse.learn.replay_buffer import Batch
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
-from bootcourse.methods import BASELINES, METHODS
+from bootcourse.methods import ABLATION, AFTER, BASELINES, METHODS
 from bootcourse.storage.runs import load_checkpoint, load_run, save_checkpoint, save_runs
 
 
@@ -248,6 +248,6 @@ def test_a_baseline_is_not_given_what_its_name_says_it_lacks():
 
 
 def test_every_name_is_one_method_and_knows_its_settings():
-    assert len(METHODS) == 6 + len(BASELINES)
+    assert set(METHODS) == {*ABLATION, *BASELINES, *AFTER}
     for method in METHODS:
         assert replace(settings_for(method), seed=3).method == method

@@ -25,7 +25,8 @@ SECONDS_BETWEEN = 20.0  # of checkpoints
 
 def train(
     method: str = typer.Option(
-        "bootstrapped", help="sac, soft, demos, bootstrapped, margin, margin_soft, bc, cql, cql_sac or gail."
+        "bootstrapped",
+        help="sac, soft, demos, bootstrapped, margin, margin_soft, bc, cql, cql_sac, gail, ppo or ppo_cloned.",
     ),
     seeds: int = typer.Option(4, min=1, max=64, help="How many agents, side by side, each with its own seed."),
     first_seed: int = typer.Option(0, min=0, help="The first training seed."),
@@ -52,12 +53,14 @@ def train(
             print(f"{out} is finished: there is nothing to resume.")
         return
     check_folder(out, resume)
-    training = None if resume else Training(settings, episodes, road, rule)
     with locked(work, "training"):
         check_folder(out, resume)  # another training may have ended before this one had the lock
-        if training is not None:
+        if not resume:
+            training = Training(settings, episodes, road, rule)
             save_checkpoint(training, work / CHECKPOINT)  # raises now, not at the end, if the disk is full
-        elif not (work / COMPLETE).exists():
+        elif (work / COMPLETE).exists():
+            training = None
+        else:
             try:
                 training = load_checkpoint(work / CHECKPOINT, rule)
             except DamagedCheckpoint as error:

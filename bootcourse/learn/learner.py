@@ -16,7 +16,7 @@ from bootcourse.errors import BootcourseError
 from bootcourse.learn import bootstrap, sac
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.networks import init_mlp, mlp
-from bootcourse.learn.replay_buffer import Batch
+from bootcourse.learn.replay_buffer import Batch, ReplayBuffer
 from bootcourse.learn.settings import SHARED, Settings
 from bootcourse.methods import METHODS
 from bootcourse.scenario import N_ACTIONS
@@ -36,7 +36,7 @@ class SACLearner:
     def __init__(self, settings: Sequence[Settings], observation_size: int, n_actions: int = N_ACTIONS):
         self.settings = list(settings)
         for name in SHARED:
-            if len({getattr(s, name) for s in settings}) > 1:
+            if len({getattr(s, name, None) for s in settings}) > 1:
                 raise BootcourseError(f"Agents that train side by side need the same {name}: train these apart.")
         shared, self.agents = self.settings[0], len(self.settings)
         generators = [torch.Generator().manual_seed(s.seed) for s in settings]
@@ -63,6 +63,14 @@ class SACLearner:
         """Set `alpha` and `xi` (Equation 15), each (agents, 1), from the present `log_alpha`."""
         self.alpha = self.log_alpha.detach().exp()[:, None]
         self.xi = bootstrap.constraint_strength(self.alpha, self.xi_multiplier, self.xi_fixed)
+
+    def make_buffer(self, observation_size: int, demonstrations: Tensor | None) -> ReplayBuffer:
+        """The buffer that a training fills and samples; demonstrations: rows (transitions, row), or None."""
+        return ReplayBuffer(self.agents, self.settings[0].buffer_size, observation_size, demonstrations)
+
+    def updates_due(self, replay: ReplayBuffer, decisions: int) -> int:
+        """How many updates follow a decision on every road; decisions: of each agent so far."""
+        return self.settings[0].updates if decisions >= self.settings[0].learning_starts else 0
 
     def update(self, batch: Batch) -> dict[str, Tensor]:
         """One gradient step of all agents. Returns `losses` before the step, each (agents,).

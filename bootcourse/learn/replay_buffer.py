@@ -44,8 +44,8 @@ class ReplayBuffer:
         self.size = 0  # filled rows of each agent
         self.next = 0  # the row that is written next, counted from `first`
 
-    def add(self, rows: Tensor) -> None:
-        """Store rows made by `encode_transitions`, (agents, roads, row)."""
+    def add(self, rows: Tensor, ended: np.ndarray | None = None) -> None:
+        """Store rows made by `encode_transitions`, (agents, roads, row). Where episodes ended makes no difference."""
         roads = rows.shape[1]
         where = self.first[:, None] + (self.next + np.arange(roads)) % self.buffer_size
         self.table[torch.from_numpy(where.ravel())] = rows.reshape(self.agents * roads, -1)
@@ -66,6 +66,18 @@ class ReplayBuffer:
         rows = np.where(is_demonstration, (draws * self.demonstrations).astype(np.int64), own)
         picked = self.table.index_select(0, torch.from_numpy(rows.ravel())).view(self.agents, batch, -1)
         return decode_transitions(picked, self.observation_size, torch.from_numpy(is_demonstration).float())
+
+    def state(self) -> dict[str, np.ndarray]:
+        """What a checkpoint keeps: all filled rows, and the place of the next."""
+        filled = torch.from_numpy((self.first[:, None] + np.arange(self.size)).ravel())
+        own, demonstrations = self.table[filled].numpy(), self.table[: self.demonstrations].numpy()
+        return {"own": own, "demonstrations": demonstrations, "place": np.array([self.size, self.next])}
+
+    def restore(self, state: dict[str, np.ndarray]) -> None:
+        """Set a new buffer to a state. Raises ValueError or RuntimeError if it does not fit."""
+        self.size, self.next = (int(number) for number in state["place"])
+        filled = torch.from_numpy((self.first[:, None] + np.arange(self.size)).ravel())
+        self.table[filled] = torch.from_numpy(state["own"])
 
 
 def encode_transitions(states, next_states, actions, rewards, terminated, rule_actions, next_rule_actions) -> Tensor:

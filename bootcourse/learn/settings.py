@@ -12,8 +12,6 @@ from bootcourse.errors import BootcourseError, did_you_mean
 from bootcourse.methods import METHODS
 from bootcourse.scenario import check_p
 
-MAX_SEED = 8_000_000  # the roads of a larger training seed would be those of the demonstrations (see training.py)
-
 
 def shared(default):
     """A field that must be equal for all agents that train side by side."""
@@ -69,8 +67,7 @@ class Settings:
         _check_range(self, -math.inf, math.inf, "target_entropy", "bonus", "xi_fixed")
         _check_range(self, 1, math.inf, "beta_episodes", "batch", "envs_per_agent", "updates", whole=True)
         _check_range(self, 1, math.inf, "demonstration_episodes", whole=True)
-        _check_range(self, 0, math.inf, "learning_starts", whole=True)
-        _check_range(self, 0, MAX_SEED, "seed", whole=True)
+        _check_range(self, 0, math.inf, "learning_starts", "seed", whole=True)
         _check_range(self, max(self.batch, self.envs_per_agent), math.inf, "buffer_size", whole=True)
         for name in ("kl_in_target", "paper_q_filter", "stochastic_demonstrations"):
             if not isinstance(getattr(self, name), bool):
@@ -98,17 +95,47 @@ class Settings:
         return self.beta_start > 0
 
 
+@dataclass(frozen=True)
+class PPOSettings(Settings):
+    """The settings of PPO, which shares γ, the network and the roads with the other methods. All are our choice §."""
+
+    horizon: int = shared(32)  # decisions on every road between two rounds of updates
+    epochs: int = shared(4)  # passes over these decisions
+    clip: float = shared(0.2)  # ε: how far the ratio of new to old probabilities counts
+    gae_lambda: float = shared(0.95)  # λ of the advantages
+    entropy_weight: float = shared(0.01)  # of the entropy bonus
+    cloning_updates: int = shared(0)  # before the first drive: clone the teacher; 0 for PPO alone
+    label_smoothing: float = shared(0.1)  # of the cloned actions
+
+    def __post_init__(self):
+        super().__post_init__()
+        _check_range(self, 1, math.inf, "horizon", "epochs", whole=True)
+        _check_range(self, 0, math.inf, "cloning_updates", whole=True)
+        _check_range(self, 0.0, 1.0, "clip", "gae_lambda", "label_smoothing")
+        _check_range(self, 0.0, math.inf, "entropy_weight")
+
+    @property
+    def needs_demonstrations(self) -> bool:
+        """Whether the agent begins as a clone of the teacher."""
+        return self.cloning_updates > 0
+
+
+def settings_class(method: str) -> type[Settings]:
+    """The class of a method's settings; `Settings`, which refuses it, for an unknown method."""
+    return PPOSettings if method in METHODS and METHODS[method].on_policy else Settings
+
+
 def _check_range(settings: Settings, low: float, high: float, *names: str, whole: bool = False) -> None:
     for name in names:
         value = getattr(settings, name)
         is_number = isinstance(value, int if whole else (int, float)) and not isinstance(value, bool)
         if not is_number or not abs(value) <= sys.float_info.max or not low <= value <= high:
-            limits = [f"of {low:g} or more"] * (low > -math.inf) + [f"at most {high:,.12g}"] * (high < math.inf)
+            limits = [f"of {low:g} or more"] * (low > -math.inf) + [f"at most {high:g}"] * (high < math.inf)
             wanted = " ".join(["whole number" if whole else "finite number", ", ".join(limits)]).strip()
             raise BootcourseError(f"{name} = {value!r}: give a {wanted}.")
 
 
-SHARED = tuple(f.name for f in fields(Settings) if f.metadata.get("shared"))
+SHARED = tuple(f.name for f in fields(PPOSettings) if f.metadata.get("shared"))
 
 
 # Named settings. The defaults are quick: a quarter of an update for each decision. With those of "paper", which trains
@@ -128,11 +155,14 @@ def settings_for(method: str, setting: str = "quick", **changes) -> Settings:
         raise BootcourseError(f"Method {did_you_mean(method, METHODS)}.")
     if setting not in SETTINGS:
         raise BootcourseError(f"Setting {did_you_mean(setting, SETTINGS)}.")
-    known = [f.name for f in fields(Settings)]
+    kind = settings_class(method)
+    if setting != "quick" and kind is not Settings:
+        raise BootcourseError(f"Method '{method}' has no setting '{setting}': leave it out.")
+    known = [f.name for f in fields(kind)]
     for name in changes:
         if name not in known:
             raise BootcourseError(f"Setting {did_you_mean(name, known)}.")
-    return Settings(method=method, **(METHODS[method].settings | SETTINGS[setting] | changes))
+    return kind(method=method, **(METHODS[method].settings | SETTINGS[setting] | changes))
 
 
 FORMER_NAMES = {  # field names in files of earlier versions -> present names
@@ -148,9 +178,10 @@ FORMER_NAMES = {  # field names in files of earlier versions -> present names
 def stored_settings(stored: dict) -> Settings:
     """The settings in a file {name: value}. Raises BootcourseError for an invalid value or an unknown name."""
     present = {FORMER_NAMES.get(name, name): value for name, value in stored.items()}
-    if unknown := sorted(present.keys() - {f.name for f in fields(Settings)}):
+    kind = settings_class(present.get("method", ""))
+    if unknown := sorted(present.keys() - {f.name for f in fields(kind)}):
         raise BootcourseError(f"Settings have no {', '.join(unknown):.80}: another version wrote them.")
-    return Settings(**present)
+    return kind(**present)
 
 
 def with_seeds(settings: Settings, seeds: int, first: int = 0) -> list[Settings]:

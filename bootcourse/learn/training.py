@@ -29,7 +29,7 @@ from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.curves import Curves
 from bootcourse.learn.demonstrations import collect, demonstration_rows
 from bootcourse.learn.learner import learner_for
-from bootcourse.learn.replay_buffer import ReplayBuffer, encode_transitions
+from bootcourse.learn.replay_buffer import encode_transitions
 from bootcourse.learn.settings import Settings
 from bootcourse.learn.teachers import Rule, course_rule, teacher_name, teacher_of
 from bootcourse.policies import stochastic_policy
@@ -37,7 +37,6 @@ from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, Scenario
 
 SNAPSHOT_EVERY = 200  # updates between snapshots; an agent with a non-finite loss is frozen at its last finite one
-MOST_EPISODES = 100_000  # of each agent, whose curves take 8 MB then
 FIRST_SEED = 2**33  # seed of the first training road; demonstrations start at 2**34, held-out roads are below 2**32
 
 
@@ -75,13 +74,10 @@ class Training:
         make_env: Callable[[int], VectorEnv] | None = None,
         first_seed: int = FIRST_SEED,
     ):
-        if not settings or not 1 <= episodes <= MOST_EPISODES:
-            raise BootcourseError(
-                f"{len(settings)} agents and {episodes} episodes: give at least 1 of each, at most {MOST_EPISODES:,} "
-                "episodes."
-            )
+        if not settings or episodes < 1:
+            raise BootcourseError(f"{len(settings)} agents and {episodes} episodes: give at least 1 of each.")
         self.settings, self.episodes, self.scenario, self.teacher = list(settings), int(episodes), scenario, teacher
-        shared, self.n_agents, self.envs_per_agent = self.settings[0], len(settings), settings[0].envs_per_agent
+        self.n_agents, self.envs_per_agent = len(settings), settings[0].envs_per_agent
         n_envs = self.n_agents * self.envs_per_agent
         self.env = TrapVectorEnv(n_envs, scenario) if make_env is None else make_env(n_envs)
         self.on_the_trap = hasattr(self.env, "cars")
@@ -89,7 +85,7 @@ class Training:
         self.learner = learner_for(self.settings, size, n_actions)
         self._teach = teacher_of(teacher, scenario)
         rows = self._demonstration_rows(demonstrations)
-        self.replay = ReplayBuffer(self.n_agents, shared.buffer_size, size, rows)
+        self.replay = self.learner.make_buffer(size, rows)
         self.curves = Curves(self.n_agents, self.envs_per_agent, self.episodes)
         streams = [np.random.SeedSequence([s.seed]).spawn(2) for s in settings]
         self.act_rngs = [np.random.default_rng(act) for act, _ in streams]
@@ -162,13 +158,12 @@ class Training:
         rows = encode_transitions(
             self.states, reached, actions, rewards, terminated, self.rule_actions, reached_rule_actions
         )
-        self.replay.add(rows.view(*shape, -1))
+        self.replay.add(rows.view(*shape, -1), done.reshape(shape))
         self.curves.note(rewards, entropies, done, infos, self._coefficients())
         self.states, self.rule_actions = next_states, next_rule_actions
         self.decisions += len(actions)
-        if self.decisions >= self.n_agents * self.settings[0].learning_starts:
-            for _ in range(self.settings[0].updates):
-                self.update()
+        for _ in range(self.learner.updates_due(self.replay, self.decisions // self.n_agents)):
+            self.update()
         for agent in np.flatnonzero(self.curves.finished >= self.episodes):
             if agent not in self.finished_agents:
                 self.finished_agents[int(agent)] = self.agent(agent)

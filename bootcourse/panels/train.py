@@ -6,7 +6,6 @@
 The training runs in `background.py`, the drawing is `training_chart.py`; this file joins them.
 """
 
-import os
 import threading
 import time
 from collections.abc import Sequence
@@ -60,7 +59,7 @@ class TrainPanel(Panel):
         chooser = widgets.VBox(
             [widgets.HBox([label, self.method], layout={"align_items": "center"}), about], layout={"width": "420px"}
         )
-        self.numbers = numbers_for(changes)
+        self.numbers, self._usual_gamma = numbers_for(changes), Settings().gamma
         self.seeds = Number("seeds", seeds, 1, 10, 1, "Agents that learn side by side, each with its own seed.",
                             check=whole_number("seeds", 1, SEEDS))  # fmt: skip
         self.episodes = Number("episodes", episodes, 50, 3000, 50, "Drives of each agent: 150 s, or until an accident.",
@@ -117,7 +116,10 @@ class TrainPanel(Panel):
             press()
 
     def _choose(self) -> None:
-        reasons = without(self.method.value)
+        reasons, gamma, own = without(self.method.value), self.numbers["gamma"], settings_for(self.method.value).gamma
+        if gamma.value == self._usual_gamma:  # untouched: it is the method's
+            gamma.value = own
+        self._usual_gamma = own
         for setting, control in self.numbers.items():
             control.lock(reasons.get(setting, ""))
 
@@ -219,7 +221,7 @@ class TrainPanel(Panel):
             raise BootcourseError("There is nothing to save: train first, or stop what runs.")
         if not self.path.value.strip():
             raise BootcourseError("Name a folder to save to, such as runs/mine.")
-        folders = save_runs(self.result, Path(os.path.expanduser(self.path.value.strip())))
+        folders = save_runs(self.result, Path(self.path.value.strip()).expanduser())
         self.say(f"Saved {len(folders)} run{'s' * (len(folders) > 1)} to {folders[0].parent.resolve()}.")
 
     def _close_replay(self) -> None:

@@ -31,9 +31,7 @@ def state_of(training: Training) -> dict[str, np.ndarray]:
     for i, parameter in enumerate(_parameters(learner)):
         for name, values in learner.optimiser.state.get(parameter, {}).items():
             arrays[f"optimiser.{i}.{name}"] = values.detach().numpy()
-    filled = replay.first[:, None] + np.arange(replay.size)
-    arrays["replay.own"] = replay.table[torch.from_numpy(filled.ravel())].numpy()
-    arrays["replay.demonstrations"] = replay.table[: replay.demonstrations].numpy()
+    arrays |= {f"replay.{name}": values for name, values in replay.state().items()}
     arrays |= {"env.cars": env.cars, "env.decisions": env.decisions}
     arrays |= {f"curves.{name}": values for name, values in curves.values.items()}
     arrays |= {"curves.finished": curves.finished, "curves.running": curves.running}
@@ -44,7 +42,6 @@ def state_of(training: Training) -> dict[str, np.ndarray]:
     rngs = [*training.act_rngs, *training.sample_rngs, *env._generators]
     numbers = {
         "rngs": [rng.bit_generator.state for rng in rngs],
-        "replay": [replay.size, replay.next],
         "decisions": training.decisions,
         "updates": training.updates,
         "seconds": training.seconds,
@@ -76,9 +73,7 @@ def _restore(training: Training, arrays: dict[str, np.ndarray]) -> None:
         for name, values in state.items():
             like = parameter if name != "step" else torch.zeros(())
             learner.optimiser.state[parameter][name] = _like(values, like).clone()
-    replay.size, replay.next = numbers["replay"]
-    filled = torch.from_numpy((replay.first[:, None] + np.arange(replay.size)).ravel())
-    replay.table[filled] = _like(arrays["replay.own"], replay.table[filled])
+    replay.restore({name.partition(".")[2]: each for name, each in arrays.items() if name.startswith("replay.")})
     stored = {"env.cars": env.cars, "env.decisions": env.decisions}
     stored |= {"curves.finished": curves.finished, "curves.running": curves.running}
     stored |= {f"curves.{name}": values for name, values in curves.values.items()}

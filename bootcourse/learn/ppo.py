@@ -1,0 +1,200 @@
+"""Proximal policy optimisation (Schulman et al., arXiv 1707.06347), alone or after cloning the teacher.
+
+On-policy: a few hundred roads are driven for `horizon` decisions, the policy takes `epochs` passes over them in
+minibatches, and the decisions are thrown away. Advantages: GAE (arXiv 1506.02438). An episode that ran out of time is
+bootstrapped with the value of its last state; an accident is worth nothing afterwards.
+
+Many agents side by side, as in learner.py: the first axis of every parameter is the agents.
+"""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+import torch
+import torch.nn.functional as F
+from torch import Tensor
+
+from bootcourse.learn import sac
+from bootcourse.learn.bc import BCLearner
+from bootcourse.learn.networks import init_mlp, mlp
+from bootcourse.learn.replay_buffer import decode_transitions
+from bootcourse.learn.settings import PPOSettings
+from bootcourse.scenario import N_ACTIONS
+
+
+def advantages(
+    rewards: Tensor, values: Tensor, next_values: Tensor, terminated: Tensor, ended: Tensor, gamma: Tensor, lam: float
+) -> Tensor:
+    """A_t = δ_t + γ λ (1 - ended_t) A_{t+1} with δ_t = r_t + γ (1 - terminated_t) V(s_{t+1}) - V(s_t).
+
+    All are (horizon, ...); gamma broadcasts against one decision. Generalised advantage estimation, Equation 16 of
+    arXiv 1506.02438. ended: terminated or out of time.
+    """
+    delta = rewards + gamma * (1 - terminated) * next_values - values
+    found, following = torch.empty_like(delta), torch.zeros_like(delta[0])
+    for t in reversed(range(len(delta))):
+        found[t] = following = delta[t] + gamma * lam * (1 - ended[t]) * following
+    return found
+
+
+def clipped_loss(ratio: Tensor, advantage: Tensor, clip: float) -> Tensor:
+    """-E[min(ratio A, clip(ratio, 1 - ε, 1 + ε) A)], Equation 7: (..., batch) -> (...). ratio: π(a|s) / π_old(a|s)."""
+    return -torch.minimum(ratio * advantage, ratio.clamp(1 - clip, 1 + clip) * advantage).mean(-1)
+
+
+class Minibatch(NamedTuple):
+    """A part of the last decisions, each (agents, batch, ...)."""
+
+    states: Tensor  # (agents, batch, observation)
+    actions: Tensor  # (agents, batch) int64
+    log_pi: Tensor  # (agents, batch) log π_old(a|s)
+    advantages: Tensor  # (agents, batch)
+    returns: Tensor  # (agents, batch) what V(s) should be
+
+
+class RolloutBuffer:
+    """The last `horizon` decisions of all agents on all their roads, drawn without replacement.
+
+    table: rows of `encode_transitions`, (horizon, agents, roads, row); ended (horizon, agents, roads).
+    """
+
+    def __init__(self, agents: int, roads: int, horizon: int, observation_size: int):
+        self.table = torch.zeros(horizon, agents, roads, 2 * observation_size + 5)
+        self.ended = torch.zeros(horizon, agents, roads)
+        self.observation_size, self.filled, self.drawn = observation_size, 0, 0
+        self.columns: Minibatch | None = None  # all decisions, each (agents, horizon x roads, ...)
+        self.order = np.zeros((agents, horizon * roads), dtype=np.int64)  # in which this epoch draws them
+
+    def add(self, rows: Tensor, ended: np.ndarray) -> None:
+        """Store one decision on every road: rows (agents, roads, row), ended (agents, roads) bool."""
+        self.filled = 0 if self.full else self.filled
+        self.table[self.filled], self.ended[self.filled] = rows, torch.from_numpy(ended).float()
+        self.filled += 1
+
+    @property
+    def full(self) -> bool:
+        return self.filled == len(self.table)
+
+    def sample(self, batch: int, beta: np.ndarray, generators: list[np.random.Generator]) -> Minibatch:
+        """The next minibatch; each epoch shuffles anew. beta, the share of demonstrations, has no effect."""
+        size = self.order.shape[1]
+        if self.drawn % size == 0:
+            self.drawn, self.order = 0, np.stack([generator.permutation(size) for generator in generators])
+        chosen = torch.from_numpy(self.order[:, self.drawn : self.drawn + batch])  # (agents, batch)
+        self.drawn += batch
+        agents = torch.arange(len(self.order))[:, None]
+        return Minibatch(*(column[agents, chosen] for column in self.columns))
+
+    def state(self) -> dict[str, np.ndarray]:
+        """What a checkpoint keeps: the decisions of an unfinished round."""
+        rows = self.table[: self.filled].numpy()
+        return {"own": rows, "ended": self.ended[: self.filled].numpy(), "demonstrations": rows[:0, 0, 0]}
+
+    def restore(self, state: dict[str, np.ndarray]) -> None:
+        """Set a new buffer to a state. Raises RuntimeError if it does not fit."""
+        self.filled = len(state["own"])
+        self.table[: self.filled] = torch.from_numpy(state["own"])
+        self.ended[: self.filled] = torch.from_numpy(state["ended"])
+
+
+class PPOLearner(BCLearner):
+    """Actors and value functions of several agents. There are no Q values: all weights of the critics are zero."""
+
+    settings: list[PPOSettings]
+
+    def __init__(self, settings: Sequence[PPOSettings], observation_size: int, n_actions: int = N_ACTIONS):
+        super().__init__(settings, observation_size, n_actions)
+        shared, generators = self.settings[0], [torch.Generator().manual_seed(s.seed + 2**32) for s in settings]
+        self.value = init_mlp((observation_size, *shared.hidden, 1), generators)
+        with torch.no_grad():
+            self.actor[-2] *= 0.01  # begin with nearly equal probabilities
+        for parameter in self.value:
+            parameter.requires_grad_()
+        groups = [{"params": self.actor, "lr": shared.actor_lr}, {"params": self.value, "lr": shared.critic_lr}]
+        self.optimiser = torch.optim.Adam(groups, fused=True)
+
+    def make_buffer(self, observation_size: int, demonstrations: Tensor | None) -> RolloutBuffer:
+        """An empty rollout buffer. With demonstrations, the actors are cloned from them first."""
+        shared = self.settings[0]
+        if demonstrations is not None:
+            self.clone(demonstrations, observation_size)
+        return RolloutBuffer(self.agents, shared.envs_per_agent, shared.horizon, observation_size)
+
+    def clone(self, rows: Tensor, observation_size: int) -> None:
+        """Behaviour cloning of the teacher's actions μ(s) in the demonstrations' states, with smoothed labels."""
+        shared, generators = self.settings[0], [np.random.default_rng([s.seed, 1]) for s in self.settings]
+        demonstrations = decode_transitions(rows, observation_size, torch.zeros(len(rows)))
+        optimiser = torch.optim.Adam(self.actor, lr=1e-3, fused=True)
+        for _ in range(shared.cloning_updates):
+            chosen = torch.from_numpy(np.stack([rng.integers(len(rows), size=512) for rng in generators]))
+            logits = mlp(self.actor, demonstrations.states[chosen])  # (agents, 512, 9)
+            taught = demonstrations.rule_actions[chosen]  # (agents, 512)
+            loss = F.cross_entropy(logits.flatten(0, 1), taught.flatten(), label_smoothing=shared.label_smoothing)
+            optimiser.zero_grad()
+            (self.agents * loss).backward()
+            optimiser.step()
+
+    def updates_due(self, replay: RolloutBuffer, decisions: int) -> int:
+        """None until `horizon` decisions are there; then the minibatches of all epochs."""
+        if not replay.full:
+            return 0
+        self.prepare(replay)
+        decided = replay.order.shape[1]
+        return self.settings[0].epochs * -(-decided // self.settings[0].batch)
+
+    @torch.no_grad()
+    def prepare(self, replay: RolloutBuffer) -> None:
+        """Compute the advantages and returns of the stored decisions."""
+        taken = decode_transitions(replay.table, replay.observation_size, replay.ended)
+        values, next_values = (self._values(states) for states in (taken.states, taken.next_states))
+        gamma, lam = self.gamma, self.settings[0].gae_lambda  # gamma (agents, 1)
+        found = advantages(taken.rewards, values, next_values, taken.terminated, replay.ended, gamma, lam)
+        log_pi = self._log_pi(_agents_first(taken.states)).gather(-1, _agents_first(taken.actions)[..., None])[..., 0]
+        columns = (taken.states, taken.actions, None, found, found + values)
+        replay.columns = Minibatch(*(log_pi if column is None else _agents_first(column) for column in columns))
+        replay.drawn = 0
+
+    def losses(self, batch: Minibatch) -> dict[str, Tensor]:
+        """The clipped objective with its entropy bonus, and the values' squared error: each (agents,)."""
+        log_pi = self._log_pi(batch.states)  # (agents, batch, 9)
+        ratio = (log_pi.gather(-1, batch.actions[..., None])[..., 0] - batch.log_pi).exp()
+        advantage = batch.advantages - batch.advantages.mean(-1, keepdim=True)
+        advantage = advantage / (batch.advantages.std(-1, keepdim=True) + 1e-8)
+        entropy, shared = sac.entropy(log_pi).mean(-1), self.settings[0]
+        values = mlp(self.value, batch.states)[..., 0]
+        return {
+            "actor_loss": clipped_loss(ratio, advantage, shared.clip) - shared.entropy_weight * entropy,
+            "value_loss": sac.critic_loss(values, batch.returns) / 2,
+            "entropy": entropy,
+        }
+
+    def update(self, batch: Minibatch) -> dict[str, Tensor]:
+        """One gradient step of all agents on a minibatch, each network's gradient clipped to a norm of 0.5."""
+        terms = self.losses(batch)
+        self.optimiser.zero_grad()
+        sum(loss for name, loss in terms.items() if name.endswith("loss")).sum().backward()
+        for network in (self.actor, self.value):
+            norm = sum(p.grad.square().flatten(1).sum(1) for p in network).sqrt()  # (agents,)
+            for parameter in network:
+                parameter.grad *= (0.5 / (norm + 1e-6)).clamp(max=1.0)[:, None, None]
+        self.optimiser.step()
+        return {name: values.detach() for name, values in terms.items()}
+
+    def tensors(self) -> dict[str, list[Tensor]]:
+        """The actor's and the critics' tensors, and the values'."""
+        return super().tensors() | {"value": self.value}
+
+    def _log_pi(self, states: Tensor) -> Tensor:
+        return sac.log_policy(mlp(self.actor, states))
+
+    def _values(self, states: Tensor) -> Tensor:
+        """V(s): (horizon, agents, roads, observation) -> (horizon, agents, roads)."""
+        horizon, agents, roads, _ = states.shape
+        values = mlp(self.value, _agents_first(states))[..., 0]
+        return values.view(agents, horizon, roads).transpose(0, 1)
+
+
+def _agents_first(column: Tensor) -> Tensor:
+    """(horizon, agents, roads, ...) -> (agents, horizon x roads, ...)."""
+    return column.transpose(0, 1).flatten(1, 2)

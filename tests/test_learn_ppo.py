@@ -1,0 +1,130 @@
+"""PPO: advantages and the clipped objective against numbers worked by hand, its minibatches, its files."""
+
+import numpy as np
+import pytest
+import torch
+
+from bootcourse.errors import BootcourseError
+from bootcourse.learn.ppo import Minibatch, RolloutBuffer, advantages, clipped_loss
+from bootcourse.learn.settings import PPOSettings, Settings, settings_for, with_seeds
+from bootcourse.learn.training import Training
+from bootcourse.storage.runs import load_checkpoint, load_run, save_checkpoint, save_runs
+
+SMALL = {"hidden": (8,), "envs_per_agent": 4, "horizon": 8, "batch": 16, "epochs": 2, "buffer_size": 16}
+GAMMA = torch.tensor(0.5)
+
+
+def steps(*numbers):
+    return torch.tensor(numbers)
+
+
+def test_an_advantage_is_the_discounted_sum_of_the_surprises():
+    zeros = torch.zeros(3)
+    found = advantages(steps(1.0, 2.0, 4.0), zeros, zeros, zeros, zeros, GAMMA, lam=0.5)
+    assert found.tolist() == [1 + (2 + 4 / 4) / 4, 2 + 4 / 4, 4]
+
+
+def test_nothing_follows_an_accident_and_a_time_limit_is_worth_its_last_state():
+    values, next_values = steps(1.0, 1.0), steps(10.0, 10.0)
+    accident = advantages(steps(0.0, 0.0), values, next_values, steps(1.0, 0.0), steps(1.0, 0.0), GAMMA, lam=1.0)
+    assert accident.tolist() == [0 + 0 - 1, 0.5 * 10 - 1]
+    out_of_time = advantages(steps(0.0, 0.0), values, next_values, steps(0.0, 0.0), steps(1.0, 0.0), GAMMA, lam=1.0)
+    assert out_of_time.tolist() == [0.5 * 10 - 1, 0.5 * 10 - 1]  # and no surprise of the next episode
+
+
+def test_with_lambda_1_an_advantage_is_the_return_less_the_value():
+    rewards, values = torch.randn(6), torch.randn(7)
+    zeros = torch.zeros(6)
+    found = advantages(rewards, values[:6], values[1:], zeros, zeros, GAMMA, lam=1.0)
+    returns = [float(sum(0.5**k * rewards[t + k] for k in range(6 - t)) + 0.5 ** (6 - t) * values[6]) for t in range(6)]
+    assert torch.allclose(found, torch.tensor(returns) - values[:6], atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    "ratio, advantage, loss, slope",
+    [
+        (1.1, 2.0, -2.2, True),  # within ε: the plain objective
+        (1.5, 2.0, -2.4, False),  # a good action is not made likelier beyond 1 + ε,
+        (0.5, 2.0, -1.0, True),  # but its way back is open
+        (0.5, -2.0, 1.6, False),
+        (1.5, -2.0, 3.0, True),
+    ],
+)
+def test_the_objective_is_clipped_where_a_step_would_go_too_far(ratio, advantage, loss, slope):
+    ratio = torch.tensor([ratio], requires_grad=True)
+    found = clipped_loss(ratio, torch.tensor([advantage]), clip=0.2)
+    found.backward()
+    assert found.item() == pytest.approx(loss) and bool(ratio.grad.abs() > 0) is slope
+
+
+def test_an_epoch_draws_every_decision_of_an_agent_once():
+    buffer = RolloutBuffer(agents=2, roads=4, horizon=8, observation_size=1)
+    numbers = torch.arange(64).view(2, 32)
+    buffer.columns = Minibatch(*([numbers] * 5))
+    generators = [np.random.default_rng(seed) for seed in (0, 1)]
+    for _ in range(2):
+        drawn = torch.cat([buffer.sample(16, np.zeros(2), generators).actions for _ in range(2)], dim=1)
+        assert torch.equal(drawn.sort(dim=1).values, numbers) and not torch.equal(drawn, numbers)
+
+
+def test_a_training_updates_in_rounds_after_a_number_of_decisions():
+    training = Training(with_seeds(settings_for("ppo", **SMALL), 2), episodes=10)
+    for decision in range(1, 17):
+        training.step()
+        assert training.updates == (decision // 8) * 2 * 2  # epochs x minibatches
+    assert set(training.losses) == {"actor_loss", "value_loss", "entropy"}
+
+
+def test_an_agent_learns_the_same_alone_and_beside_others():
+    alone = Training(with_seeds(settings_for("ppo", **SMALL), 1, first=5), episodes=10)
+    beside = Training(with_seeds(settings_for("ppo", **SMALL), 3, first=4), episodes=10)
+    for _ in range(8):
+        alone.step()
+        beside.step()
+    for mine, its in zip(alone.agent(0).actor, beside.agent(1).actor, strict=True):
+        assert torch.allclose(mine, its, atol=1e-5)
+
+
+def test_a_clone_begins_with_the_teacher_s_actions():
+    changes = SMALL | {"hidden": (32, 32), "demonstration_episodes": 10, "cloning_updates": 150}
+    cloned, plain = (Training([settings_for(method, **changes)], 5) for method in ("ppo_cloned", "ppo"))
+    agreement = []
+    for training in (cloned, plain):
+        pi = training.learner.probabilities(torch.from_numpy(training.states).float()[None])[0].numpy()
+        agreement.append(pi[np.arange(len(pi)), training.taught()].mean())
+    assert agreement[0] > 1.5 * agreement[1]
+
+
+def test_a_run_keeps_the_settings_that_only_ppo_has(tmp_path):
+    result = Training([settings_for("ppo", clip=0.3, **SMALL)], episodes=2).run(progress=False)
+    settings = load_run(save_runs(result, tmp_path)[0]).agent.settings
+    assert type(settings) is PPOSettings and settings.clip == 0.3 and type(settings_for("sac")) is Settings
+
+
+def test_a_resumed_training_ends_as_an_uninterrupted_one(tmp_path):
+    settings = with_seeds(settings_for("ppo", **SMALL), 2)
+    whole, first = Training(settings, episodes=30), Training(settings, episodes=30)
+    for _ in range(11):  # in the middle of a round
+        first.step()
+    save_checkpoint(first, tmp_path / "checkpoint.npz")
+    resumed = load_checkpoint(tmp_path / "checkpoint.npz")
+    for _ in range(11):
+        whole.step()
+    for training in (whole, resumed):
+        training.run(progress=False)
+    for a, b in zip(whole.agent(1).actor, resumed.agent(1).actor, strict=True):
+        assert torch.equal(a, b)
+
+
+@pytest.mark.parametrize(
+    "changes, sentence",
+    [({"clip": 1.5}, "clip = 1.5"), ({"horizon": 0}, "horizon = 0"), ({"cloning_updates": 2.5}, "cloning_updates")],
+)
+def test_a_setting_that_makes_no_sense_is_refused(changes, sentence):
+    with pytest.raises(BootcourseError, match=sentence):
+        settings_for("ppo", **changes)
+
+
+def test_a_setting_of_ppo_is_none_of_sac():
+    with pytest.raises(BootcourseError, match="Setting 'clip'"):
+        settings_for("sac", clip=0.3)
