@@ -267,7 +267,7 @@ def test_a_notebook_gets_the_picture_with_its_alt_text(idle, capsys):
     figure.alt = 'a "quoted" <word>'
     bundle = Picture(figure)._repr_mimebundle_()
     assert set(bundle) == {"text/html", "text/plain"} and bundle["text/plain"] == figure.alt
-    assert 'alt="a &quot;quoted&quot; &lt;word&gt;"' in bundle["text/html"]
+    assert 'alt="a &#34;quoted&#34; &lt;word&gt;"' in bundle["text/html"]
     show(figure)  # outside a notebook: the words
     assert capsys.readouterr().out.strip() == figure.alt
 

@@ -130,7 +130,7 @@ def test_a_file_that_is_damaged_is_one_sentence(tmp_path, file):
     (tmp_path / "cut.npz").write_bytes(file.read_bytes()[:500])
     np.savez(tmp_path / "other.npz", numbers=np.arange(3))
     assert "damaged or cut short" in words(sweep_panel(tmp_path / "cut.npz"))
-    assert "does not hold a study's results" in words(sweep_panel(tmp_path / "other.npz")).replace("&#x27;", "'")
+    assert "does not hold a study's results" in words(sweep_panel(tmp_path / "other.npz")).replace("&#39;", "'")
 
 
 def test_a_reader_without_a_kernel_sees_the_maps(panel):

@@ -136,8 +136,9 @@ def test_a_recording_plays_inside_a_saved_page_and_marks_the_accident(crash, tmp
     with open_browser(width=900, offline=True) as new_page:
         page = new_page()
         page.page.goto(page_path.as_uri())
-        page.page.wait_for_function("() => frames[0].__viserMutable?.nodeRefFromName['/drive0/car0/paint']")
+        assert page.page.locator("iframe").get_attribute("sandbox") == "allow-scripts", "it has no access to this page"
         inside = page.page.frames[1]
+        inside.wait_for_function("() => window.__viserMutable?.nodeRefFromName['/drive0/car0/paint']")
         go_to(inside, Timeline(crash).duration)
         page.page.wait_for_timeout(500)
         assert "collision" in inside.inner_text("#bc-numbers")

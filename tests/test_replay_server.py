@@ -1,5 +1,6 @@
 """The live replay: it starts, serves, stops, frees its port, stays on this machine, and shows what was driven."""
 
+import http.client
 import socket
 import subprocess
 import sys
@@ -14,6 +15,7 @@ import numpy as np
 import pytest
 import viser
 import viser._viser
+from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
 from bootcourse import one_per_cell
@@ -97,6 +99,46 @@ def _listening(live):
         if issubclass(type(thing), Server) and thing.get_loop() is loop:  # isinstance would wake deprecated torch names
             found += thing.sockets
     return found
+
+
+def answer(port: int, **headers: str) -> int:
+    """The status of the page, asked for with these headers."""
+    asked = http.client.HTTPConnection("127.0.0.1", port, timeout=10)
+    asked.request("GET", "/", headers=headers)
+    return asked.getresponse().status
+
+
+def opens(port: int, host: str, **options) -> bool:
+    """Does a WebSocket to host:port open? It reaches 127.0.0.1, as a rebound name would."""
+    with socket.create_connection(("127.0.0.1", port)) as sock:
+        try:
+            connect(f"ws://{host}", sock=sock, subprotocols=[f"viser-v{viser.__version__}"], **options).close()
+        except InvalidStatus as error:
+            assert error.response.status_code == 403
+            return False
+    return True
+
+
+def test_a_page_of_another_site_cannot_connect(shown):
+    here = f"127.0.0.1:{shown.port}"
+    assert opens(shown.port, here) and opens(shown.port, here, origin=f"http://{here}")
+    assert opens(shown.port, "localhost:8080", origin="http://localhost:8080"), "through a tunnel such as ssh's"
+    for origin in ("http://evil.example", "http://127.0.0.1:1", "null", ""):
+        assert not opens(shown.port, here, origin=origin), origin
+
+
+def test_a_name_of_another_site_that_leads_here_is_refused(shown):
+    for host in (f"evil.example:{shown.port}", "127.0.0.1.evil.example", "localhost.evil.example", "[::ffff"):
+        assert answer(shown.port, Host=host) == 403, host
+    assert not opens(shown.port, f"evil.example:{shown.port}", origin=f"http://evil.example:{shown.port}")
+    assert answer(shown.port, Host=f"localhost:{shown.port}") == 200
+
+
+def test_behind_a_hub_the_hubs_own_page_may_connect_and_no_other(shown, monkeypatch):
+    monkeypatch.setenv("JUPYTERHUB_SERVICE_PREFIX", "/user/ada/")
+    assert answer(shown.port, Host="hub.example") == 200
+    assert opens(shown.port, "hub.example", origin="https://hub.example")
+    assert not opens(shown.port, "hub.example", origin="https://evil.example")
 
 
 class NoTunnel:

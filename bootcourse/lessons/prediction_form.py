@@ -3,12 +3,11 @@
 Without a kernel, or where no widgets are shown, a reader sees the question and its choices.
 """
 
-from html import escape
-
 import ipywidgets as widgets
 
 from bootcourse.lessons.predictions import Question, commit, committed, predictions
 from bootcourse.lessons.verdict import marked
+from bootcourse.markup import Markup, html, joined
 from bootcourse.panels.panel import Panel, button
 
 STYLE = """<style>
@@ -39,8 +38,8 @@ class PredictionForm(Panel):
         self.field = self._field()
         self.button = button("Commit", "check", "Keep this answer, with the time. It cannot be changed.", "primary")
         self.button.on_click(lambda _: self.commit())
-        keys = f'<img src="data:," alt="" style="display:none" onerror="{escape(KEYS)}">'
-        text = widgets.HTML(f"{STYLE}<div>{marked(question.text)}</div>{keys}")
+        keys = html('<img src="data:," alt="" style="display:none" onerror="{}">', KEYS)
+        text = widgets.HTML(Markup(STYLE) + html("<div>{}</div>{}", marked(question.text), keys))
         super().__init__(f"Prediction {question.number}", text, self.field, self.button)
         with self.saying_what_is_wrong():
             kept = predictions().get(question.number)
@@ -73,11 +72,10 @@ class PredictionForm(Panel):
 
     def _repr_mimebundle_(self, **kwargs) -> dict:
         """The same in every notebook, whatever is kept."""
-        question, choices = self.question, "".join(f"<li>{marked(choice)}</li>" for choice in self.question.choices)
-        by_hand = 'No buttons here? Add answer="…" to the call, and run the cell.'
-        html = (
-            f'<div class="bc-prediction"><strong>Prediction {question.number}</strong> {marked(question.text)}'
-            f"{f'<ul>{choices}</ul>' if choices else ''}<div><small>{escape(by_hand)}</small></div></div>"
-        )
+        question, by_hand = self.question, 'No buttons here? Add answer="…" to the call, and run the cell.'
+        choices = joined(html("<li>{}</li>", marked(choice)) for choice in question.choices)
+        choices = html("<ul>{}</ul>", choices) if choices else ""
+        page = '<div class="bc-prediction"><strong>Prediction {}</strong> {}{}<div><small>{}</small></div></div>'
+        page = html(page, question.number, marked(question.text), choices, by_hand)
         text = " / ".join([f"Prediction {question.number}: {question.text}", *question.choices])
-        return widgets.VBox._repr_mimebundle_(self, **kwargs) | {"text/html": html, "text/plain": text}
+        return widgets.VBox._repr_mimebundle_(self, **kwargs) | {"text/html": str(page), "text/plain": text}

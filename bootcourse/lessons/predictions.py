@@ -9,12 +9,12 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from html import escape
 from pathlib import Path
 
 from bootcourse.errors import BootcourseError, did_you_mean
 from bootcourse.files import read_json, write_json
 from bootcourse.lessons.verdict import marked
+from bootcourse.markup import html
 
 FILE = Path("answers/predictions.json")  # in the folder of the notebooks, where a kernel works
 LONGEST = 2000  # characters of an answer
@@ -144,7 +144,7 @@ class Note:
         return self.sentence
 
     def _repr_html_(self) -> str:
-        return f'<div role="status">{escape(self.sentence)}</div>'
+        return str(html('<div role="status">{}</div>', self.sentence))
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,8 @@
 
 import re
 from dataclasses import dataclass
-from html import escape
+
+from bootcourse.markup import Markup, html, joined
 
 MARKS = {"passed": "✓", "wrong": "✗", "todo": "…", "hint": "?"}  # words say the same, for readers who see no colour
 COLOURS = {"passed": "#009E73", "wrong": "#D55E00", "todo": "#777777", "hint": "#0072B2"}
@@ -26,21 +27,24 @@ class Verdict:
         return "\n".join(line for line in lines if line)
 
     def _repr_mimebundle_(self, include=None, exclude=None) -> dict[str, str]:
-        numbers = "".join(f"<div>{escape(line)}</div>" for line in self.details)
+        numbers = joined(html("<div>{}</div>", line) for line in self.details)
         if numbers:
             style = "margin: 6px 0 0; font-family: monospace; white-space: pre-wrap; overflow-wrap: anywhere"
-            numbers = f'<div style="{style}">{numbers}</div>'
-        footer = f'<div style="margin-top: 6px; opacity: 0.8">{marked(self.footer)}</div>' if self.footer else ""
+            numbers = html('<div style="{}">{}</div>', style, numbers)
+        footer = html('<div style="margin-top: 6px; opacity: 0.8">{}</div>', marked(self.footer)) if self.footer else ""
         box = f"border-left: 4px solid {COLOURS[self.kind]}; padding: 4px 12px; max-width: 800px; line-height: 1.45"
-        html = f'<div role="status" style="{box}">{MARKS[self.kind]} {marked(self.sentence)}{numbers}{footer}</div>'
-        return {"text/html": html, "text/plain": repr(self)}
+        told = html("{} {}{}{}", MARKS[self.kind], marked(self.sentence), numbers, footer)
+        return {"text/html": str(html('<div role="status" style="{}">{}</div>', box, told)), "text/plain": repr(self)}
 
 
-def marked(sentence: str) -> str:
+def marked(sentence: str) -> Markup:
     """HTML of a sentence in which `backticks` mark code and *asterisks* an emphasised word."""
-    parts = escape(sentence).split("`")
+    parts = sentence.split("`")
     if len(parts) % 2 == 0:  # a backtick without a partner is left as it is
-        return "`".join(parts)
-    return "".join(
-        f"<code>{part}</code>" if i % 2 else re.sub(r"\*(\w+)\*", r"<em>\1</em>", part) for i, part in enumerate(parts)
-    )
+        return html("{}", sentence)
+    return joined(html("<code>{}</code>", part) if i % 2 else _emphasised(part) for i, part in enumerate(parts))
+
+
+def _emphasised(words: str) -> Markup:
+    parts = re.split(r"\*(\w+)\*", words)
+    return joined(html("<em>{}</em>", part) if i % 2 else part for i, part in enumerate(parts))

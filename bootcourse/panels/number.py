@@ -2,12 +2,12 @@
 
 import math
 from collections.abc import Callable
-from html import escape
 
 import ipywidgets as widgets
 import traitlets
 
 from bootcourse.errors import BootcourseError
+from bootcourse.markup import html
 
 
 class Number(widgets.VBox):
@@ -35,7 +35,7 @@ class Number(widgets.VBox):
         self._why_locked = ""
         self.refused: float | None = None  # the number entered last, if it was refused,
         self.wrong = ""  # and why it was
-        label = widgets.HTML(f"<b>{escape(symbol)}</b>{f' ({escape(unit)})' if unit else ''}")
+        label = widgets.HTML(html("<b>{}</b>{}", symbol, f" ({unit})" if unit else ""))
         label.layout.width = "92px"
         make = widgets.FloatLogSlider if logarithmic else widgets.FloatSlider
         self.slider = make(value=value, min=low, max=high, step=step, readout=False, tooltip=f"{symbol}: {help}")
@@ -107,5 +107,5 @@ class Number(widgets.VBox):
         self._tell()
 
     def _tell(self, wrong: str = "") -> None:
-        kind = 'class="bc-quiet bc-wrong" role="alert"' if wrong else 'class="bc-quiet"'
-        self.help.value = f"<div {kind}>{escape(wrong or self._why_locked or self.sentence)}</div>"
+        page = '<div class="bc-quiet bc-wrong" role="alert">{}</div>' if wrong else '<div class="bc-quiet">{}</div>'
+        self.help.value = html(page, wrong or self._why_locked or self.sentence)

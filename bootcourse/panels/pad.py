@@ -7,11 +7,11 @@ Where a page forbids the handler, the buttons still work with Tab and Enter.
 """
 
 from collections.abc import Callable
-from html import escape
 
 import ipywidgets as widgets
 
 from bootcourse.colours import OTHER
+from bootcourse.markup import Markup, html
 from bootcourse.scenario import ACTION_NAMES
 
 SIGNS = ("↙", "↓", "↘", "←", "•", "→", "↖", "↑", "↗")  # in the order of ACTION_NAMES
@@ -72,10 +72,11 @@ class Pad(widgets.VBox):
             self.buttons.append(button)
         rows = [widgets.HBox([self.buttons[action] for action in row]) for row in ROWS]
         told = "Click here, then drive with the arrow keys: ↑ accelerates, ↓ brakes, ← → steer, Space keeps straight."
-        keys = (
-            f'{STYLE}<div class="bc-keys" tabindex="0" role="application" aria-label="{escape(told)}">{escape(told)}'
-            f'</div><img src="data:," alt="" style="display:none" onerror="{escape(SCRIPT)}">'
+        page = (
+            '<div class="bc-keys" tabindex="0" role="application" aria-label="{told}">{told}</div>'
+            '<img src="data:," alt="" style="display:none" onerror="{script}">'
         )
+        keys = Markup(STYLE) + html(page, told=told, script=SCRIPT)
         super().__init__([*rows, widgets.HTML(keys, layout={"width": "206px"})])
         self.layout.width = "220px"
         self.add_class("bc-drive")

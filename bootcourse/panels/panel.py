@@ -6,13 +6,13 @@ sentence appears in the panel.
 
 import base64
 import contextlib
-from html import escape
 
 import ipywidgets as widgets
 
 from bootcourse import one_per_cell
 from bootcourse.colours import ALARM
 from bootcourse.errors import BootcourseError
+from bootcourse.markup import Markup, html
 
 STYLE = """<style>
 .bc-panel {border: 1px solid var(--jp-border-color2, #E3E7EB); border-radius: 6px; padding: 10px 14px 12px;
@@ -37,7 +37,7 @@ class Panel(widgets.VBox):
 
     def __init__(self, title: str, *parts: widgets.Widget):
         self.says = widgets.HTML()
-        head = widgets.HTML(f"{STYLE}<h3>{escape(title)}</h3>")
+        head = widgets.HTML(Markup(STYLE) + html("<h3>{}</h3>", title))
         super().__init__([head, *parts, self.says])
         self.add_class("bc-panel")
         place = (one_per_cell.this_cell(), type(self).__name__)
@@ -49,7 +49,7 @@ class Panel(widgets.VBox):
         """Show a message in the panel; an empty one removes it."""
         kind = "bc-says bc-wrong" if wrong else "bc-says"
         role = "alert" if wrong else "status"
-        self.says.value = f'<div class="{kind}" role="{role}">{escape(sentence)}</div>' if sentence else ""
+        self.says.value = html('<div class="{}" role="{}">{}</div>', kind, role, sentence) if sentence else ""
 
     @contextlib.contextmanager
     def saying_what_is_wrong(self):
@@ -77,8 +77,8 @@ class Panel(widgets.VBox):
     def _repr_mimebundle_(self, **kwargs) -> dict:
         image, kind, alt = self.picture()
         data = base64.b64encode(image).decode()
-        img = f'<img src="data:{kind};base64,{data}" alt="{escape(alt)}" style="max-width:100%">'
-        return super()._repr_mimebundle_(**kwargs) | {"text/html": img, "text/plain": alt}
+        img = html('<img src="data:{};base64,{}" alt="{}" style="max-width:100%">', kind, data, alt)
+        return super()._repr_mimebundle_(**kwargs) | {"text/html": str(img), "text/plain": alt}
 
 
 def button(label: str, icon: str, help: str, kind: str = "", width: str = "104px") -> widgets.Button:

@@ -3,10 +3,9 @@
 `scenario_fields.py` lists the numbers and makes the scenario, `scenario_view.py` draws it.
 """
 
-from html import escape
-
 import ipywidgets as widgets
 
+from bootcourse.markup import html
 from bootcourse.panels.arguments import a_number, an_instance, check_road
 from bootcourse.panels.number import Number
 from bootcourse.panels.panel import Panel, beside
@@ -85,8 +84,8 @@ class ScenarioPanel(Panel):
         cars = start_of(self.scenario, int(self.road.value))
         self.svg, self.alt = top_view(self.scenario, cars), alt_text(self.scenario, cars)
         self.view.value = self.svg
-        code = escape(as_code(self.scenario, self.start))
-        self.code.value = f'<div class="bc-quiet">In Python: <code style="user-select: all">{code}</code></div>'
+        page = '<div class="bc-quiet">In Python: <code style="user-select: all">{}</code></div>'
+        self.code.value = html(page, as_code(self.scenario, self.start))
         self._tell()
 
     def _tell(self, change=None) -> None:

@@ -6,12 +6,12 @@ Nothing is trained here: `study/sweep.py` finds the agents of a setting, `sweep_
 """
 
 from collections.abc import Callable, Sequence
-from html import escape
 from pathlib import Path
 
 import ipywidgets as widgets
 
 from bootcourse.errors import BootcourseError
+from bootcourse.markup import html
 from bootcourse.panels.panel import Panel
 from bootcourse.panels.sweep_view import choices, rerun, view
 from bootcourse.plots.svg import printed
@@ -27,7 +27,7 @@ class Snap(widgets.VBox):
 
     def __init__(self, symbol: str, unit: str, help: str, values: Sequence[float], snap: Callable[[float], float]):
         self.snap, self.sentence, self._busy = snap, help, False
-        label = widgets.HTML(f"<b>{escape(symbol)}</b>{f' ({escape(unit)})' if unit else ''}")
+        label = widgets.HTML(html("<b>{}</b>{}", symbol, f" ({unit})" if unit else ""))
         label.layout.width = "64px"
         options = [(f"{value:g}", value) for value in values]
         self.slider = widgets.SelectionSlider(
@@ -68,7 +68,7 @@ class Snap(widgets.VBox):
         self._tell()
 
     def _tell(self, words: str = "", kind: str = "") -> None:
-        self.help.value = f'<div class="bc-quiet {kind}">{escape(words or self.sentence)}</div>'
+        self.help.value = html('<div class="bc-quiet {}">{}</div>', kind, words or self.sentence)
 
 
 class SweepPanel(Panel):
@@ -111,13 +111,13 @@ class SweepPanel(Panel):
         asked = (self.p.value, self.xi.value, self.c.value)
         self.happened = nearest_setting(self.sweep, *asked)
         missing = "" if self.happened.exact else "This setting was not run. The nearest that was: "
-        self.sentence.value = f'<div class="bc-says" role="status">{escape(missing + str(self.happened))}</div>'
+        self.sentence.value = html('<div class="bc-says" role="status">{}</div>', f"{missing}{self.happened}")
         self.chart.value = self._view()
-        self.code.value = (
+        page = (
             '<div class="bc-quiet">To train these agents again:</div>'
-            '<pre style="margin:2px 0 0;font-size:12px;line-height:1.4;user-select:all;overflow-x:auto">'
-            f"{escape(rerun(self.happened))}</pre>"
+            '<pre style="margin:2px 0 0;font-size:12px;line-height:1.4;user-select:all;overflow-x:auto">{}</pre>'
         )
+        self.code.value = html(page, rerun(self.happened))
 
     def _view(self) -> str:
         happened = self.happened

@@ -9,7 +9,6 @@ The training runs in `background.py`, the drawing is `training_chart.py`; this f
 import threading
 import time
 from collections.abc import Sequence
-from html import escape
 from pathlib import Path
 
 import ipywidgets as widgets
@@ -21,6 +20,7 @@ from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import Settings, settings_for, with_seeds
 from bootcourse.learn.training import Result, Training
+from bootcourse.markup import html
 from bootcourse.methods import METHODS, display_name
 from bootcourse.panels.arguments import whole_number
 from bootcourse.panels.background import Background
@@ -235,8 +235,8 @@ class TrainPanel(Panel):
         self.save.disabled = self.path.disabled = running or self.result is None
 
     def _show_progress(self, words: str, share: float) -> None:
-        bar = f'<progress max="1" value="{share:.4f}" style="width:300px;vertical-align:middle"></progress>'
-        self.progress.value = f'<div class="bc-quiet" role="status">{bar}&ensp;{escape(words)}</div>'
+        bar = html('<progress max="1" value="{:.4f}" style="width:300px;vertical-align:middle"></progress>', share)
+        self.progress.value = html('<div class="bc-quiet" role="status">{}&ensp;{}</div>', bar, words)
 
     def _all_drawn(self, now: Drawn | None = None) -> list[Drawn]:
         """The present training's curves over those of the last EARLIER that are over."""

@@ -2,9 +2,9 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from html import escape
 
 from bootcourse.colours import INK
+from bootcourse.markup import html
 from bootcourse.plots.figure import Picture
 from bootcourse.plots.svg import FONT
 
@@ -44,8 +44,8 @@ def box(x: float, y: float, width: float, height: float, lines: Sequence[str], t
 
 def label(x: float, y: float, words: str, anchor: str = "middle", bold: bool = False) -> str:
     """Words whose base line is at y."""
-    look = f'text-anchor="{anchor}" fill="currentColor" font-weight="{650 if bold else 400}"'
-    return f'<text x="{x:g}" y="{y:g}" {look}>{escape(words)}</text>'
+    page = '<text x="{:g}" y="{:g}" text-anchor="{}" fill="currentColor" font-weight="{}">{}</text>'
+    return str(html(page, x, y, anchor, 650 if bold else 400, words))
 
 
 def line(x1: float, y1: float, x2: float, y2: float) -> str:

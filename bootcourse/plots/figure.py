@@ -5,7 +5,6 @@ stays in memory. `finish` gives it a title and `figure.alt`: the sentences for t
 """
 
 import base64
-import html
 import io
 import textwrap
 from pathlib import Path
@@ -17,6 +16,7 @@ from matplotlib.figure import Figure
 from bootcourse.colours import GRID, INK, QUIET, Style
 from bootcourse.errors import BootcourseError
 from bootcourse.files import write_bytes
+from bootcourse.markup import html
 from bootcourse.methods import style
 
 DPI = 110
@@ -181,9 +181,8 @@ class Picture:
             kind, data, width = "image/png", png(self.figure), round(self.figure.get_figwidth() * DPI)
         else:
             kind, data, width = self.figure.html_image()
-        source = f"data:{kind};base64,{base64.b64encode(data).decode()}"
-        look = f'class="bc-figure" width="{width}" style="{READABLE}"'
-        img = f'<img src="{source}" {look} alt="{html.escape(self.figure.alt, quote=True)}">'
+        img = '<img src="data:{};base64,{}" class="bc-figure" width="{}" style="{}" alt="{}">'
+        img = html(img, kind, base64.b64encode(data).decode(), width, READABLE, self.figure.alt)
         return {"text/html": f"{DARK}{img}", "text/plain": self.figure.alt}
 
     def __repr__(self) -> str:

@@ -6,11 +6,11 @@ Lengths are pixels of a drawing that shrinks with its column. `SvgAxes` is one o
 import math
 import re
 from collections.abc import Sequence
-from html import escape
 
 import numpy as np
 
 from bootcourse.colours import ASPHALT, EDGE, GRID, INK, PAINT, QUIET
+from bootcourse.markup import html
 
 FONT = "system-ui, -apple-system, 'Segoe UI', sans-serif"
 POINT = 1.5  # pixels
@@ -28,13 +28,13 @@ THEME = {  # what follows JupyterLab's theme, light or dark; outside it, it has 
 
 def drawing(width: float, height: float, parts: Sequence[str], alt: str) -> str:
     """A whole SVG; alt is what a screen reader says."""
-    themed = "".join(parts)
+    themed, alt = "".join(parts), html("{}", alt)
     for colour, variable in THEME.items():
         themed = themed.replace(f'"{colour}"', f'"var({variable}, {colour})"')
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:g} {height:g}" width="{width:g}" '
-        f'height="{height:g}" role="img" aria-label="{escape(alt)}" font-family="{FONT}" font-size="12">'
-        f"<title>{escape(alt)}</title>{themed}</svg>"
+        f'height="{height:g}" role="img" aria-label="{alt}" font-family="{FONT}" font-size="12">'
+        f"<title>{alt}</title>{themed}</svg>"
     )
 
 
@@ -49,8 +49,8 @@ def text(
 ) -> str:
     """Words whose base line is at y; anchor: "start", "middle" or "end"."""
     weight = 650 if bold else 400
-    look = f'text-anchor="{anchor}" fill="{fill}" font-size="{size:g}" font-weight="{weight}"'
-    return f'<text x="{x:.1f}" y="{y:.1f}" {look}>{escape(words)}</text>'
+    page = '<text x="{:.1f}" y="{:.1f}" text-anchor="{}" fill="{}" font-size="{:g}" font-weight="{}">{}</text>'
+    return str(html(page, x, y, anchor, fill, size, weight, words))
 
 
 def rect(x: float, y: float, width: float, height: float, fill: str, more: str = "") -> str:

@@ -32,8 +32,8 @@ class ReplayControls:
         self._cameras(gui)
         self.table = gui.add_html("") if len(self.timelines) > 1 else None
         self.card = gui.add_html("")
-        gui.add_html(hud.plots(self.timelines))
-        self.cursor = gui.add_html(hud.cursor(0.0))
+        gui.add_html(str(hud.plots(self.timelines)))
+        self.cursor = gui.add_html(str(hud.cursor(0.0)))
         with gui.add_folder("More"):
             self._pace(gui)
             self._switches(gui)
@@ -114,7 +114,7 @@ class ReplayControls:
     def refresh(self, t: float) -> None:
         """Show time t: the cursor in every frame, the numbers when a tenth of a second of the replay has passed."""
         with self.server.atomic():
-            self.cursor.content = hud.cursor(t / self.player.duration)
+            self.cursor.content = str(hud.cursor(t / self.player.duration))  # viser sends no subclass of str
             self.play.label = PAUSE if self.player.playing else PLAY
             if round(t, 1) == self._shown:
                 return
@@ -122,6 +122,6 @@ class ReplayControls:
             if not self.player.held:
                 self.time.value = min(self._shown, self.player.duration)
             follow = self.stage.options.follow
-            self.card.content = hud.card(self.timelines[follow], t)
+            self.card.content = str(hud.card(self.timelines[follow], t))
             if self.table is not None:
-                self.table.content = hud.table(self.timelines, t)
+                self.table.content = str(hud.table(self.timelines, t))

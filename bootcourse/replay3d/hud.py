@@ -1,16 +1,14 @@
 """The head-up display: the numbers of a drive at time t, as HTML, for the live panel and the exported file.
 
-It is HTML and CSS without scripts, and takes its text colour from the page. A rollout's label comes from a file, so
-it is escaped.
+It is HTML and CSS without scripts, and takes its text colour from the page.
 """
-
-from html import escape
 
 import numpy as np
 
 from bootcourse.colours import ALARM
 from bootcourse.episodes.rollout import series
 from bootcourse.episodes.words import ACCIDENTS
+from bootcourse.markup import Markup, html, joined
 from bootcourse.methods import style
 from bootcourse.plots.svg import SvgAxes
 from bootcourse.replay3d.timeline import Timeline
@@ -43,9 +41,9 @@ left:calc(100%*var(--bc-t,0))}}
 </style>"""
 
 
-def cursor(part: float) -> str:
+def cursor(part: float) -> Markup:
     """A style element that moves the cursor of every plot to a part (0..1) of its width."""
-    return f"<style>:root{{--bc-t:{part:.4f}}}</style>"
+    return html("<style>:root{{--bc-t:{:.4f}}}</style>", part)
 
 
 def kl(policy: np.ndarray, rule_policy: np.ndarray) -> float:
@@ -64,22 +62,24 @@ def status(timeline: Timeline, t: float) -> tuple[str, str]:
     return ("trapped" if t >= timeline.duration else ""), "#7A1F1F"
 
 
-def card(timeline: Timeline, t: float) -> str:
+def card(timeline: Timeline, t: float) -> Markup:
     """One drive's numbers at time t."""
-    return (
-        f'<div class="bc">{_head(timeline, t)}{_numbers(timeline, t)}{_reward(timeline, t)}{_choice(timeline, t)}</div>'
-    )
+    return html('<div class="bc">{}</div>', joined(part(timeline, t) for part in (_head, _numbers, _reward, _choice)))
 
 
-def _head(timeline: Timeline, t: float) -> str:
+def _dot(rollout) -> Markup:
+    return html('<span class="dot" style="background:{}"></span>', style(rollout.label).colour)
+
+
+def _head(timeline: Timeline, t: float) -> Markup:
     rollout = timeline.rollout
     text, colour = status(timeline, t)
-    badge = f'<span class="badge" style="background:{colour}">{text}</span>' if text else ""
-    dot = f'<span class="dot" style="background:{style(rollout.label).colour}"></span>'
-    return f'<h4>{dot}{escape(rollout.label)} <span class="dim">road {rollout.seed}</span>{badge}</h4>'
+    badge = html('<span class="badge" style="background:{}">{}</span>', colour, text) if text else ""
+    road = html('<span class="dim">road {}</span>', rollout.seed)
+    return html("<h4>{}{} {}{}</h4>", _dot(rollout), rollout.label, road, badge)
 
 
-def _numbers(timeline: Timeline, t: float) -> str:
+def _numbers(timeline: Timeline, t: float) -> Markup:
     moment, t = timeline.at(t), min(t, timeline.duration)
     driven = moment.x[EGO] - timeline.rollout.states[0, EGO, 0]
     cells = [
@@ -88,84 +88,80 @@ def _numbers(timeline: Timeline, t: float) -> str:
         (f"{moment.lane[EGO]}", f"lane, 0…{timeline.rollout.scenario.road.lanes - 1}"),
         (f"{driven:.0f}", "m driven"),
     ]
-    return (
-        '<div class="big">'
-        + "".join(f"<div><b>{value}</b><span>{unit}</span></div>" for value, unit in cells)
-        + "</div>"
-    )
+    each = (html("<div><b>{}</b><span>{}</span></div>", value, unit) for value, unit in cells)
+    return html('<div class="big">{}</div>', joined(each))
 
 
-def _reward(timeline: Timeline, t: float) -> str:
+def _reward(timeline: Timeline, t: float) -> Markup:
     rollout, weights = timeline.rollout, timeline.rollout.scenario.reward
     earned = timeline.earned(t)
-    total = f"return <b>{timeline.returns[earned]:.2f}</b>"
+    total = html("return <b>{:.2f}</b>", timeline.returns[earned])
     if earned == 0:
-        return f'<div>{total} <span class="dim">no reward yet</span></div>'
+        return html('<div>{} <span class="dim">no reward yet</span></div>', total)
     reward, (r_v, r_y, r_theta) = rollout.rewards[earned - 1], rollout.terms[earned - 1]
-    terms = f"r<sub>v</sub> {r_v:.2f} · r<sub>y</sub> {r_y:.2f} · r<sub>θ</sub> {round(r_theta, 3) + 0.0:.3f}"
+    terms = "r<sub>v</sub> {:.2f} · r<sub>y</sub> {:.2f} · r<sub>θ</sub> {:.3f}"
+    terms = html(terms, r_v, r_y, round(r_theta, 3) + 0.0)
     hint = f"the three terms, unweighted; their weights are {weights.w_v:g}, {weights.w_y:g}, {weights.w_theta:g}"
-    return f'<div>{total} · reward <b>{reward:.3f}</b></div><div class="dim" title="{hint}">{terms}</div>'
+    page = '<div>{} · reward <b>{:.3f}</b></div><div class="dim" title="{}">{}</div>'
+    return html(page, total, reward, hint, terms)
 
 
-def _choice(timeline: Timeline, t: float) -> str:
+def _choice(timeline: Timeline, t: float) -> Markup:
     """The nine actions with π, π̃ and Q, KL(π ‖ π̃), and the rule's reason, as far as the drive recorded them."""
     rollout, k = timeline.rollout, timeline.decision(t)
-    policy = None if rollout.policy is None else rollout.policy[k]
-    q_values = None if rollout.q_values is None else rollout.q_values[k]
-    by_rule = None
+    own, columns = style(rollout.label).colour, {}  # {heading: (its colour, the nine numbers)}
+    if rollout.policy is not None:
+        columns["π"] = own, rollout.policy[k]
     if rollout.rule_actions is not None:
-        by_rule = stochastic_rule(rollout.rule_actions[k], rollout.rule_p)
-    own = style(rollout.label).colour
-    rows = []
+        columns["π̃"] = GREEN, stochastic_rule(rollout.rule_actions[k], rollout.rule_p)
+    bars = list(columns.values())
+    if rollout.q_values is not None:
+        columns["Q"] = "inherit", rollout.q_values[k]
+    heads = (html('<th style="color:{}">{}</th>', colour, name) for name, (colour, _) in columns.items())
+    rows = [html("<tr><th>action</th><th></th>{}</tr>", joined(heads))]
     for action, name in enumerate(ACTION_NAMES):
-        bars = ""
-        if policy is not None:
-            bars += f'<i style="width:{100 * policy[action]:.0f}%;background:{own}"></i>'
-        if by_rule is not None:
-            bars += f'<i style="width:{100 * by_rule[action]:.0f}%;background:{GREEN}"></i>'
-        cells = f'<td>{"▸" if action == rollout.actions[k] else " "} {name}</td><td class="bar">{bars}</td>'
-        cells += f"<td>{policy[action]:.2f}</td>" if policy is not None else ""
-        cells += f"<td>{by_rule[action]:.2f}</td>" if by_rule is not None else ""
-        cells += f"<td>{q_values[action]:.2f}</td>" if q_values is not None else ""
-        rows.append(f"<tr{' class=on' if action == rollout.actions[k] else ''}>{cells}</tr>")
-    heads = "<th>action</th><th></th>"
-    heads += f'<th style="color:{own}">π</th>' if policy is not None else ""
-    heads += f'<th style="color:{GREEN}">π̃</th>' if by_rule is not None else ""
-    heads += "<th>Q</th>" if q_values is not None else ""
-    text = f"<table><tr>{heads}</tr>{''.join(rows)}</table>"
-    if policy is not None and by_rule is not None:
-        text += f"<div>KL(π‖π̃) = <b>{kl(policy, by_rule):.2f}</b> nats</div>"
-    return text + _why(timeline, k)
+        bar = '<i style="width:{:.0f}%;background:{}"></i>'
+        drawn = joined(html(bar, 100 * numbers[action], colour) for colour, numbers in bars)
+        cells = joined(html("<td>{:.2f}</td>", numbers[action]) for _, numbers in columns.values())
+        taken = action == rollout.actions[k]
+        row = '<tr class="{}"><td>{} {}</td><td class="bar">{}</td>{}</tr>'
+        rows.append(html(row, "on" if taken else "", "▸" if taken else " ", name, drawn, cells))
+    page = html("<table>{}</table>", joined(rows))
+    if len(bars) == 2:
+        page += html("<div>KL(π‖π̃) = <b>{:.2f}</b> nats</div>", kl(*(numbers for _, numbers in bars)))
+    return page + _why(timeline, k)
 
 
-def _why(timeline: Timeline, k: int) -> str:
-    rollout = timeline.rollout
+def _why(timeline: Timeline, k: int) -> Markup:
+    rollout, aim = timeline.rollout, ""
     if rollout.rule_reasons is None:
-        return ""
-    text = f"<b>Rule:</b> {SENTENCES[Reason(int(rollout.rule_reasons[k]))]}"
+        return Markup("")
     if rollout.rule_lanes is not None and rollout.rule_speeds is not None:
-        text += f' <span class="dim">(lane {int(rollout.rule_lanes[k])}, {rollout.rule_speeds[k]:.1f} m/s)</span>'
-    return f'<div class="why">{text}</div>'
+        aim = ' <span class="dim">(lane {}, {:.1f} m/s)</span>'
+        aim = html(aim, int(rollout.rule_lanes[k]), rollout.rule_speeds[k])
+    return html('<div class="why"><b>Rule:</b> {}{}</div>', SENTENCES[Reason(int(rollout.rule_reasons[k]))], aim)
 
 
-def table(timelines: list[Timeline], t: float) -> str:
+def table(timelines: list[Timeline], t: float) -> Markup:
     """A table that compares the drives at time t, one row each."""
-    rows = []
+    rows = [Markup("<tr><th>driver</th><th>m/s</th><th>m</th><th>lane</th><th>return</th><th></th></tr>")]
     for timeline in timelines:
         moment, rollout = timeline.at(t), timeline.rollout
         text, colour = status(timeline, t)
-        dot = f'<span class="dot" style="background:{style(rollout.label).colour}"></span>'
         driven = moment.x[EGO] - rollout.states[0, EGO, 0]
-        rows.append(
-            f"<tr><td>{dot} {escape(rollout.label)}</td><td>{moment.speed[EGO]:.1f}</td><td>{driven:.0f}</td>"
-            f"<td>{moment.lane[EGO]}</td><td>{timeline.returns[timeline.earned(t)]:.1f}</td>"
-            f'<td style="color:{colour};font-weight:650">{text.removesuffix(" of trap 1")}</td></tr>'
-        )
-    head = "<tr><th>driver</th><th>m/s</th><th>m</th><th>lane</th><th>return</th><th></th></tr>"
-    return f'<div class="bc"><table>{head}{"".join(rows)}</table></div>'
+        cells = [
+            html("{} {}", _dot(rollout), rollout.label),
+            f"{moment.speed[EGO]:.1f}",
+            f"{driven:.0f}",
+            moment.lane[EGO],
+            f"{timeline.returns[timeline.earned(t)]:.1f}",
+            html('<span style="color:{};font-weight:650">{}</span>', colour, text.removesuffix(" of trap 1")),
+        ]
+        rows.append(html("<tr>{}</tr>", joined(html("<td>{}</td>", cell) for cell in cells)))
+    return html('<div class="bc"><table>{}</table></div>', joined(rows))
 
 
-def plots(timelines: list[Timeline]) -> str:
+def plots(timelines: list[Timeline]) -> Markup:
     """Small plots over the whole drive, with a mark at each accident and a cursor that `cursor` moves."""
     duration = max(timeline.duration for timeline in timelines)
     parts = []
@@ -178,9 +174,10 @@ def plots(timelines: list[Timeline]) -> str:
             axes.line(seconds, values, style(timeline.rollout.label).colour, 1.1)
             if timeline.rollout.accident != Accident.NONE:
                 axes.line([timeline.duration] * 2, axes.y, ALARM, 1.3, ":")
-        lines = "".join(axes.parts).replace("<path ", '<path vector-effect="non-scaling-stroke" ')
-        parts.append(
-            f'<div class="plot"><div class="name"><span>{name}</span><span>{low:.1f} … {high:.1f}</span></div>'
-            f'<svg viewBox="0 0 1000 44" preserveAspectRatio="none">{lines}</svg><div class="cursor"></div></div>'
+        lines = Markup("".join(axes.parts).replace("<path ", '<path vector-effect="non-scaling-stroke" '))
+        page = (
+            '<div class="plot"><div class="name"><span>{}</span><span>{:.1f} … {:.1f}</span></div>'
+            '<svg viewBox="0 0 1000 44" preserveAspectRatio="none">{}</svg><div class="cursor"></div></div>'
         )
-    return f'<div class="bc">{"".join(parts)}</div>'
+        parts.append(html(page, name, low, high, lines))
+    return html('<div class="bc">{}</div>', joined(parts))

@@ -7,14 +7,13 @@ box over the scene.
 
 import base64
 import json
-from html import escape
 from pathlib import Path
 
 from viser import _messages
 
 from bootcourse.episodes.words import outcome, sentence, transcripts
-from bootcourse.errors import BootcourseError
-from bootcourse.files import write_bytes
+from bootcourse.files import check_replaceable, write_bytes
+from bootcourse.markup import Markup, html
 from bootcourse.methods import display_name
 from bootcourse.replay3d import hud, scene, server
 from bootcourse.replay3d.camera import BIRD, CHASE, SIDE, pose
@@ -106,14 +105,14 @@ def to_html(rollouts, options: Options | None = None) -> str:
 
 def _hud_script(timelines: list[Timeline], t: float, part: float, follow: int) -> str:
     """A script that shows the numbers at time t, with the plots' cursor at `part` (0..1) of their width."""
-    numbers = hud.table(timelines, t) if len(timelines) > 1 else ""
+    numbers = hud.table(timelines, t) if len(timelines) > 1 else Markup("")
     numbers += hud.card(timelines[follow], t)
     return f"window.bootcourseHud&&bootcourseHud({json.dumps(numbers)},{json.dumps(hud.cursor(part))})"
 
 
 def _with_overlay(page: str, timelines: list[Timeline], options: Options, span: float) -> str:
     drivers = " · ".join(timeline.rollout.label for timeline in timelines)
-    title = escape(f"{drivers} on road {timelines[0].rollout.seed}")
+    title = html("{} on road {}", drivers, timelines[0].rollout.seed)
     poses = {name: [*pose(name, span).position, *pose(name, span).look_at] for name in (CHASE, BIRD, SIDE)}
     parts = {
         "INK": "#EEF1F4" if options.dark else "#14181C",
@@ -133,9 +132,7 @@ def _with_overlay(page: str, timelines: list[Timeline], options: Options, span: 
 
 def export(rollouts, path: Path, options: Options | None = None) -> Path:
     """Write the replay as a whole file. Returns the path. Raises BootcourseError if it does not end in .html."""
-    path = Path(path)
-    if path.suffix.lower() not in (".html", ".htm"):
-        raise BootcourseError(f"{path} does not end in .html: give the file that ending, which a browser opens.")
+    path = check_replaceable(path, ".html")
     write_bytes(path, to_html(rollouts, options).encode())
     return path
 
@@ -154,20 +151,20 @@ class Recording:
         write_bytes(path, self.html.encode())
         return Path(path)
 
-    def html_with_poster(self) -> str:
+    def html_with_poster(self) -> Markup:
         """The recording over its poster, as HTML to put into a page."""
-        picture = f"data:image/png;base64,{base64.b64encode(self.poster).decode()}"
-        return (
-            f'<div style="position:relative;height:{self.height}px;overflow:hidden">'
-            f'<img src="{picture}" alt="{escape(self.alt)}" style="width:100%;height:100%;object-fit:cover">'
-            f'<iframe title="Replay in 3D" srcdoc="{escape(self.html)}" '
+        page = (
+            '<div style="position:relative;height:{}px;overflow:hidden">'
+            '<img src="data:image/png;base64,{}" alt="{}" style="width:100%;height:100%;object-fit:cover">'
+            '<iframe title="Replay in 3D" sandbox="allow-scripts" srcdoc="{}" '
             'style="position:absolute;inset:0;width:100%;height:100%;border:0"></iframe></div>'
         )
+        return html(page, self.height, base64.b64encode(self.poster).decode(), self.alt, self.html)
 
     def _repr_mimebundle_(self, include=None, exclude=None) -> dict:
-        words = f'<pre style="white-space:pre-wrap">{escape(self.words)}</pre>'
-        told = f"<details><summary>In words</summary>{words}</details>" if self.words else ""
-        return {"text/html": self.html_with_poster() + told, "text/plain": self.alt}
+        page = '<details><summary>In words</summary><pre style="white-space:pre-wrap">{}</pre></details>'
+        told = html(page, self.words) if self.words else ""
+        return {"text/html": str(self.html_with_poster() + told), "text/plain": self.alt}
 
 
 def recording(

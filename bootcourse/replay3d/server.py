@@ -1,18 +1,27 @@
 """A viser server that only this machine can reach.
 
-It binds 127.0.0.1 alone, opens no public link when a viewer asks for one, and ends with the kernel.
+It binds 127.0.0.1 alone, opens no public link when a viewer asks for one, and ends with the kernel. It answers the
+pages that it serves itself and no others: a page of another site, open in the same browser, could otherwise connect to
+it, and a name that leads to 127.0.0.1 could be that of another site.
 """
 
 import contextlib
+import http
 import os
+import re
 import socket
+import threading
+from unittest import mock
 
 import viser
+import websockets.asyncio.server
 from rich import get_console
 
 from bootcourse.errors import BootcourseError
 
 HOST = "127.0.0.1"
+OWN_NAME = re.compile(r"(127\.0\.0\.1|localhost|\[::1\])(:\d+)?")  # of this machine, also through a tunnel to it
+REFUSAL = "This replay answers only the page at its own address: open http://127.0.0.1 with its port.\n"
 
 
 class LocalServer(viser.ViserServer):
@@ -38,13 +47,44 @@ def quiet():
         console.quiet = before
 
 
+def is_foreign(headers) -> bool:
+    """Does a request come from another site's page? headers: "Host", and the "Origin" that browsers add.
+
+    Behind a hub, jupyter-server-proxy has checked who asks, and passes the hub's own name on, which we cannot know.
+    """
+    host, origin = headers.get("Host", ""), headers.get("Origin")
+    if origin not in (None, f"http://{host}", f"https://{host}"):
+        return True
+    return "JUPYTERHUB_SERVICE_PREFIX" not in os.environ and not OWN_NAME.fullmatch(host)
+
+
+_starting = threading.Lock()
+
+
+@contextlib.contextmanager
+def guarded():
+    """Let viser's servers that start in this block refuse foreign requests; viser has no setting for that."""
+    serve = websockets.asyncio.server.serve
+
+    def guarded_serve(*args, process_request, **options):
+        def check_first(connection, request):
+            if is_foreign(request.headers):
+                return connection.respond(http.HTTPStatus.FORBIDDEN, REFUSAL)
+            return process_request(connection, request)
+
+        return serve(*args, process_request=check_first, **options)
+
+    with _starting, mock.patch.object(websockets.asyncio.server, "serve", guarded_serve):
+        yield
+
+
 def start(port: int = 0) -> LocalServer:
     """A running server. port 0 lets the system choose. Raises BootcourseError if the port is taken."""
     if not 0 <= port <= 65535:
         raise BootcourseError(f"Port {port} does not exist: choose one from 1024 to 65535, or 0 for any that is free.")
     if port:
         _check_free(port)
-    with quiet():
+    with quiet(), guarded():
         server = LocalServer(host=HOST, port=port, label="bootcourse replay", verbose=False)
     if port and server.get_port() != port:  # taken meanwhile, and viser went on to the next port
         server.stop()

@@ -4,10 +4,10 @@ import os
 import threading
 import time
 from collections.abc import Callable
-from html import escape
 from pathlib import Path
 
 from bootcourse import one_per_cell
+from bootcourse.markup import Markup, html
 from bootcourse.replay3d import scene, server
 from bootcourse.replay3d.gui import ReplayControls
 from bootcourse.replay3d.player import Player
@@ -91,14 +91,14 @@ class Replay:
             self._frame(self.player.t)
 
     def _repr_mimebundle_(self, include=None, exclude=None) -> dict:
-        return {"text/html": self._html(), "text/plain": f"<replay at {self.url}>"}
+        return {"text/html": str(self._html()), "text/plain": f"<replay at {self.url}>"}
 
-    def _html(self) -> str:
+    def _html(self) -> Markup:
         address, advice = address_for_browser(self.port)
         if address is None:
-            return f"<p>{escape(advice)}</p>"
-        frame = f'<iframe src="{escape(address)}" width="100%" height="{self.height}" style="border:0"></iframe>'
-        return f'{frame}<div style="font-size:smaller;opacity:.7">{escape(advice)}</div>'
+            return html("<p>{}</p>", advice)
+        frame = html('<iframe src="{}" width="100%" height="{}" style="border:0"></iframe>', address, self.height)
+        return frame + html('<div style="font-size:smaller;opacity:.7">{}</div>', advice)
 
 
 def address_for_browser(port: int) -> tuple[str | None, str]:
