@@ -1,6 +1,7 @@
 """The figures: what is drawn is what was driven, everything has words, and bad input gets a sentence."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -200,6 +201,10 @@ def test_traces_of_nothing_are_refused(escape, arguments, sentence):
 # Training curves
 
 
+def test_a_dollar_in_a_drivers_label_is_not_the_start_of_a_formula(escape):
+    assert png(traces(replace(escape, label="5 $ and $\\frac{"))).startswith(b"\x89PNG")
+
+
 def test_training_curves_have_labels_names_and_the_callers_title():
     figure = training_curves({"sac": curves(), "bootstrapped": curves()}, "The trap opens", {"rule": {"return": 25.0}})
     assert figure.alt.startswith("The trap opens. ") and "4 agents" in figure.alt
@@ -293,7 +298,7 @@ def test_a_saved_figure_says_what_it_shows(idle, tmp_path):
 
 
 def test_a_figure_of_an_unknown_format_is_refused(idle, tmp_path):
-    with pytest.raises(BootcourseError, match="name it .png, .pdf or .svg"):
+    with pytest.raises(BootcourseError, match="does not end in .png or .pdf or .svg"):
         save(top_view(idle, 0), tmp_path / "road.xyz")
     assert not list(tmp_path.iterdir())
 

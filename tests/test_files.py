@@ -7,6 +7,7 @@ import zipfile
 import numpy as np
 import pytest
 
+from bootcourse.cli.driving import drive
 from bootcourse.errors import BootcourseError
 from bootcourse.files import UNPACKED, check_replaceable, read_arrays, read_bytes, read_json, sha256
 
@@ -91,6 +92,15 @@ def test_numbers_booleans_and_texts_are_read_as_they_were_written(tmp_path):
     for name, values in arrays.items():
         np.testing.assert_array_equal(found[name], values)
         assert found[name].dtype == values.dtype and found[name].flags.writeable
+
+
+def test_a_drive_is_refused_before_it_begins_if_its_picture_has_another_ending(tmp_path):
+    for name in ("thesis.tex", "q.npz"):
+        (tmp_path / "thesis.tex").write_text("Chapter 1")
+        with pytest.raises(BootcourseError, match="does not end in .png"):
+            drive("rule", tmp_path / "q.npz", 0, "", tmp_path / name)
+    assert [path.name for path in tmp_path.iterdir()] == ["thesis.tex"]
+    assert (tmp_path / "thesis.tex").read_text() == "Chapter 1"
 
 
 def test_a_picture_replaces_a_picture_and_nothing_else(tmp_path):

@@ -100,9 +100,12 @@ def drive(
 ) -> None:
     """Record one drive for figures and replays."""
     from bootcourse.episodes.record import record
+    from bootcourse.files import check_replaceable
 
     if out.exists():
         raise BootcourseError(f"{out} exists already: choose another name.")
+    if png is not None:
+        check_replaceable(png, ".png")
     label, policy, road = policies_of(who, scenario, False, seed)[0]
     label = label.rsplit("-", 1)[0] if label not in BUILT_IN else label
     rollout = record(policy, [seed], road, label)[0]

@@ -19,7 +19,7 @@ from bootcourse.episodes.words import cars_at, doing, outcome, overtaken, senten
 from bootcourse.errors import BootcourseError
 from bootcourse.files import write_bytes
 from bootcourse.methods import display_name, style
-from bootcourse.plots.figure import INK, QUIET, WIDTH, new_figure
+from bootcourse.plots.figure import INK, QUIET, WIDTH, as_written, new_figure
 from bootcourse.plots.top_view import draw_moment
 from bootcourse.road.state import EGO, SPEED, TRAP_1, X
 
@@ -81,7 +81,7 @@ def frame_times(rollouts: Sequence[Rollout], until: float | None = None) -> list
 
 def _pictures(rollouts: Sequence[Rollout], times: Sequence[float]) -> Iterator[Image.Image]:
     for time in times:
-        canvas = FigureCanvasAgg(frame(rollouts, time))
+        canvas = FigureCanvasAgg(as_written(frame(rollouts, time)))
         canvas.draw()
         yield Image.fromarray(np.asarray(canvas.buffer_rgba())[..., :3])
 

@@ -6,14 +6,18 @@ from pathlib import Path
 from PIL import Image, PngImagePlugin
 
 from bootcourse.episodes.rollout import Rollout
-from bootcourse.files import write_bytes
+from bootcourse.files import check_replaceable, write_bytes
 from bootcourse.plots.figure import DPI, png
 from bootcourse.plots.top_view import top_view_over_time
 from bootcourse.plots.traces import traces
 
 
 def save_drive(rollout: Rollout, path: Path) -> Path:
-    """A drive on one page, as PNG: the road at its key moments, and its traces. Returns the path."""
+    """A drive on one page, as PNG: the road at its key moments, and its traces. Returns the path.
+
+    Raises BootcourseError for another ending, or for a file that is not a picture.
+    """
+    check_replaceable(path, ".png")
     figures = [top_view_over_time(rollout), traces(rollout, title="The same drive over time")]
     pages = [Image.open(io.BytesIO(png(figure))).convert("RGB") for figure in figures]
     whole = Image.new("RGB", (max(page.width for page in pages), sum(page.height for page in pages)), "white")

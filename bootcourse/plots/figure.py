@@ -14,8 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from bootcourse.colours import GRID, INK, QUIET, Style
-from bootcourse.errors import BootcourseError
-from bootcourse.files import write_bytes
+from bootcourse.files import check_replaceable, write_bytes
 from bootcourse.markup import html
 from bootcourse.methods import style
 
@@ -137,23 +136,28 @@ def _apart(wanted: np.ndarray, heights: np.ndarray) -> np.ndarray:
 def png(figure: Figure) -> bytes:
     """The figure as a PNG whose description is its alt text."""
     buffer = io.BytesIO()
-    figure.savefig(buffer, format="png", metadata={"Description": figure.alt, "Software": "bootcourse"})
+    as_written(figure).savefig(buffer, format="png", metadata={"Description": figure.alt, "Software": "bootcourse"})
     return buffer.getvalue()
+
+
+def as_written(figure: Figure) -> Figure:
+    """Draw a $ in a driver's label as a $, not as the start of a formula; our own formulas are on the axes."""
+    for words in (*figure.texts, *(words for ax in figure.axes for words in ax.texts)):
+        words.set_parse_math(False)
+    return figure
 
 
 def save(figure: Figure, path: Path) -> Path:
     """Write the figure, all or nothing: .png, .pdf or .svg by its name. Returns the path.
 
-    Raises BootcourseError for another name, or if the disk refuses.
+    Raises BootcourseError for another name, for a file that is not such a picture, or if the disk refuses.
     """
-    path = Path(path)
-    if path.suffix.lower() not in (".png", ".pdf", ".svg"):
-        raise BootcourseError(f"{path.name}: a figure is saved as a picture, name it .png, .pdf or .svg.")
+    path = check_replaceable(path, ".png", ".pdf", ".svg")
     if path.suffix.lower() == ".png":
         data = png(figure)
     else:
         buffer = io.BytesIO()
-        figure.savefig(buffer, format=path.suffix.lstrip(".").lower())
+        as_written(figure).savefig(buffer, format=path.suffix.lstrip(".").lower())
         data = buffer.getvalue()
     write_bytes(path, data)
     return path

@@ -12,8 +12,7 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 from bootcourse.colours import ALARM, TRAFFIC, TRAP, rgb
-from bootcourse.errors import BootcourseError
-from bootcourse.files import write_bytes
+from bootcourse.files import check_replaceable, write_bytes
 from bootcourse.methods import style
 from bootcourse.replay3d import hud, scene
 from bootcourse.replay3d.camera import CHASE, FIELD_OF_VIEW, Pose, pose
@@ -312,8 +311,6 @@ def write_gif(rollouts, path: Path, start: float | None = None, options: Options
 
 
 def _write(path: Path, ending: str, make) -> Path:
-    path = Path(path)
-    if path.suffix.lower() != ending:
-        raise BootcourseError(f"{path} does not end in {ending}: give the file that ending.")
+    path = check_replaceable(path, ending)
     write_bytes(path, make())
     return path
