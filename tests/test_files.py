@@ -9,7 +9,7 @@ import pytest
 
 from bootcourse.cli.driving import drive
 from bootcourse.errors import BootcourseError
-from bootcourse.files import UNPACKED, check_replaceable, read_arrays, read_bytes, read_json, sha256
+from bootcourse.files import MEMBERS, UNPACKED, check_replaceable, read_arrays, read_bytes, read_json, sha256
 
 
 def refusal(read, *given) -> str:
@@ -76,7 +76,7 @@ def test_other_packings_and_repeated_names_are_refused(tmp_path):
     one = header("{'descr': '|i1', 'fortran_order': False, 'shape': (1,), }") + b"1"
     refusal(read_arrays, packed(tmp_path / "a.npz", {"a.npy": one}, zipfile.ZIP_BZIP2))
     refusal(read_arrays, packed(tmp_path / "b.npz", {"a.npy": one, "a": one}))
-    refusal(read_arrays, packed(tmp_path / "c.npz", {f"{i}.npy": one for i in range(1001)}))
+    refusal(read_arrays, packed(tmp_path / "c.npz", {f"{i}.npy": one for i in range(MEMBERS + 1)}))
 
 
 @pytest.mark.parametrize("text", [b"", b"{", b"\xff\xfe", b"[" * 10**6, b"NaN", b"1e999", b"9" * 5000, b'"\xff"'])
