@@ -67,7 +67,7 @@ def commands(study: Path) -> list[Command]:
 def _built(study: Path) -> Path:
     from bootcourse.study import fingerprint, ship
 
-    fingerprint.fingerprint = fingerprint._of_this_process  # computed once, not by every attempt
+    fingerprint.fingerprint = functools.cache(fingerprint.fingerprint)  # computed once, not by every attempt
     ship.build(study, study.parent / "assets")
     return study.parent / "assets"
 
