@@ -73,6 +73,16 @@ def improvement(x: np.ndarray, y: np.ndarray, seed: int = 0) -> Estimate:
     return Estimate(value, *_percentile((x, y), _wins, seed))
 
 
+def difference(x: np.ndarray, y: np.ndarray, seed: int = 0) -> Estimate:
+    """IQM of x (m,) less IQM of y (n,), two seeds or more each, with a percentile bootstrap interval over both."""
+    x, y = np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
+    return Estimate(float(_less(x, y)), *_percentile((x, y), _less, seed))
+
+
+def _less(x: np.ndarray, y: np.ndarray, axis: int = -1) -> np.ndarray:
+    return iqm(x, axis) - iqm(y, axis)
+
+
 def _wins(x: np.ndarray, y: np.ndarray, axis: int = -1) -> np.ndarray:
     """The share of pairs with x > y, ties half: (..., m) and (..., n) -> (...)."""
     x, y = x[..., :, None], y[..., None, :]

@@ -90,17 +90,15 @@ def exploration(results: Results, methods: Sequence[str] = ("sac", "soft", "demo
 def final_scores(results: Results, methods: Sequence[str], column: str = "returns") -> Figure:
     """Each agent's score on the held-out episodes, and their interquartile mean with its interval."""
     methods = [method for method in methods if method in results.methods]
-    height = 0.9 + 0.36 * len(methods)
+    height = 1.1 + 0.36 * len(methods)
     figure = new_figure(height)
     ax = figure.add_axes((0.27, 0.55 / height, 0.68, 0.9 * 0.36 * len(methods) / height))
     scale, words = 100 if column in RATES else 1, []
     for row, method in enumerate(methods):
         scores, its = results.of(method).scores(column) * scale, style(method)
         middle = interval(scores)
-        ax.plot(
-            scores, np.full(len(scores), row) + np.linspace(-0.2, 0.2, len(scores)), ".", color=its.colour, alpha=0.45
-        )
-        ax.plot([middle.low, middle.high], [row, row], "-", color=its.colour, linewidth=3, alpha=0.6)
+        ax.plot(scores, np.full(len(scores), row) + np.linspace(-0.3, 0.3, len(scores)), "o", color=its.colour, ms=4)
+        ax.plot([middle.low, middle.high], [row, row], "-", color=its.colour, linewidth=6, alpha=0.3, zorder=1)
         ax.plot(middle.value, row, "|", color=its.colour, ms=14, mew=2.5)
         if method in PRINTED and column in COLUMNS:
             ax.plot(PRINTED[method][column].mean, row, "D", mfc="white", mec=its.colour, ms=5, zorder=4)
@@ -110,7 +108,9 @@ def final_scores(results: Results, methods: Sequence[str], column: str = "return
     ax.set_ylim(len(methods) - 0.5, -0.5)
     ax.set_xlabel(COLUMNS.get(column, column), fontsize=SMALL, color=QUIET)
     ax.spines["bottom"].set_color(GRID)
-    middles = {method: interval(results.of(method).scores(column)).value for method in methods}
-    best = [display_name(method) for method in methods if middles[method] == max(middles.values())]
-    title = f"Highest {COLUMNS.get(column, column).split(',')[0]}: {', '.join(best)}"
+    middles = {method: interval(results.of(method).scores(column)) for method in methods}
+    best = max(middle.value for middle in middles.values())
+    ahead = [display_name(m) for m, middle in middles.items() if middle.value == best or middle.high >= best]
+    within = ", as far as the intervals tell" * (len(ahead) > 1)
+    title = f"Highest {COLUMNS.get(column, column).split(',')[0]}{within}: {', '.join(ahead)}"
     return finish(figure, title, "Interquartile means over agents with 95 % intervals: " + "; ".join(words) + ".")

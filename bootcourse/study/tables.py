@@ -31,6 +31,12 @@ def bracketed(estimate: Estimate, scale: float = 1) -> str:
     return value if low == "?" else f"{value} [{low}, {high}]"
 
 
+def per_cent(estimate: Estimate) -> str:
+    """ "62 [39, 83]": a share of few agents, in whole per cent."""
+    value, low, high = (f"{100 * part:.0f}" for part in estimate)
+    return f"{value} [{low}, {high}]"
+
+
 def k_of_n(hits: np.ndarray) -> str:
     """ "1 of 10 (0 to 45 %)": how many, and the exact 95 % interval of the rate; one has none. hits (n,) bool."""
     its, counted = rate(hits), f"{int(np.sum(hits))} of {len(hits)}"
@@ -85,7 +91,7 @@ def improvement_rows(results: Results, method: str = "bootstrapped", measure: st
     rows = []
     for other in results.methods:
         if other != method and len(results.of(other)) > 1:
-            rows.append([display_name(other), bracketed(improvement(mine, results.of(other).scores(measure)), 100)])
+            rows.append([display_name(other), per_cent(improvement(mine, results.of(other).scores(measure)))])
     return [f"P({display_name(method)} > ...) on {HEADINGS[measure]}", "% [95 %]"], rows
 
 

@@ -622,7 +622,7 @@ compare_predictions(
     },
 )
 
-# %% [markdown] tags=["instructor"]
+# %% [markdown] tags=["instructor"] minutes=5
 # **Model answers.**
 #
 # - *More exploration?* A larger `alpha_init` delays the moment at which the policy is sure; a

@@ -3,7 +3,7 @@
 import numpy as np
 from scipy import optimize, stats
 
-from tests.answers import right, wrong
+from tests.answers import equivalent, right, wrong
 
 # exact_interval --------------------------------------------------------------------------------------
 
@@ -121,3 +121,87 @@ def at_least(x, y):
 @wrong("chance_of_improvement")
 def of_the_median(x, y):
     return np.mean(x > np.median(y))
+
+
+# difference_interval --------------------------------------------------------------------------------
+
+MIDDLE = "[..., cut:scores.shape[-1] - cut]"
+equivalent(
+    "difference_interval",
+    f"np.sort(scores, axis=-1){MIDDLE}  ->  np.sort(scores){MIDDLE}",
+    "the default is the last axis",
+)
+
+
+def middle_mean(scores):
+    """The interquartile mean of one list."""
+    ordered = sorted(scores)
+    cut = len(ordered) // 4
+    return np.mean(ordered[cut : len(ordered) - cut])
+
+
+@right("difference_interval")
+def in_a_loop(x, y, draws_x, draws_y):
+    each = [middle_mean(x[a]) - middle_mean(y[b]) for a, b in zip(draws_x, draws_y, strict=True)]
+    return np.array([middle_mean(x) - middle_mean(y), np.percentile(each, 2.5), np.percentile(each, 97.5)])
+
+
+@right("difference_interval")
+def with_scipy(x, y, draws_x, draws_y):
+    each = stats.trim_mean(x[draws_x], 0.25, axis=1) - stats.trim_mean(y[draws_y], 0.25, axis=1)
+    whole = stats.trim_mean(x, 0.25) - stats.trim_mean(y, 0.25)
+    return np.concatenate([[whole], np.quantile(each, [0.025, 0.975])])
+
+
+@right("difference_interval")
+def with_take(x, y, draws_x, draws_y):
+    def iqm(rows):
+        n = rows.shape[1]
+        return np.sort(rows, 1)[:, n // 4 : n - n // 4].mean(1)
+
+    found = iqm(np.take(x, draws_x)) - iqm(np.take(y, draws_y))
+    low, high = np.percentile(found, (2.5, 97.5))
+    return np.array([(iqm(x[None]) - iqm(y[None]))[0], low, high])
+
+
+@wrong("difference_interval")
+def medians_of_both(x, y, draws_x, draws_y):
+    each = np.median(x[draws_x], axis=1) - np.median(y[draws_y], axis=1)
+    return np.array([np.median(x) - np.median(y), *np.percentile(each, [2.5, 97.5])])
+
+
+@wrong("difference_interval")
+def without_the_difference(x, y, draws_x, draws_y):
+    each = [middle_mean(x[a]) - middle_mean(y[b]) for a, b in zip(draws_x, draws_y, strict=True)]
+    return np.percentile(each, [2.5, 97.5])
+
+
+@wrong("difference_interval")
+def draws_swapped(x, y, draws_x, draws_y):
+    each = [middle_mean(x[a % len(x)]) - middle_mean(y[b % len(y)]) for a, b in zip(draws_y, draws_x, strict=True)]
+    return np.array([middle_mean(x) - middle_mean(y), *np.percentile(each, [2.5, 97.5])])
+
+
+@wrong("difference_interval")
+def mean_of_the_resamples(x, y, draws_x, draws_y):
+    each = [middle_mean(x[a]) - middle_mean(y[b]) for a, b in zip(draws_x, draws_y, strict=True)]
+    return np.array([np.mean(each), *np.percentile(each, [2.5, 97.5])])
+
+
+@wrong("difference_interval")
+def always_two_cut(x, y, draws_x, draws_y):
+    def iqm(rows):
+        return np.sort(rows, -1)[..., 2:-2].mean(-1) if rows.shape[-1] > 4 else rows.mean(-1)
+
+    return np.array([iqm(x) - iqm(y), *np.percentile(iqm(x[draws_x]) - iqm(y[draws_y]), [2.5, 97.5])])
+
+
+@wrong("difference_interval")
+def in_per_cent(x, y, draws_x, draws_y):
+    return 100 * in_a_loop(x, y, draws_x, draws_y)
+
+
+@wrong("difference_interval")
+def normal_errors(x, y, draws_x, draws_y):
+    each = [middle_mean(x[a]) - middle_mean(y[b]) for a, b in zip(draws_x, draws_y, strict=True)]
+    return middle_mean(x) - middle_mean(y) + np.array([0, -1.96, 1.96]) * np.std(each)

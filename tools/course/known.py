@@ -211,6 +211,11 @@ def losing(method: str) -> np.ndarray:
     return in_training(method, 900, 1100) < in_training(method, 600, 800) - 0.2
 
 
+def tenth_of_xi(method: str) -> np.ndarray:
+    """The training episodes in which α, and with it ξ, is first below a tenth of its start, for the shipped agents."""
+    return np.array([int(np.argmax(run.curves["alpha"] < 0.1 * SETTINGS.alpha_init)) for run in shipped_runs(method)])
+
+
 def nearest_to_iqm(method: str) -> float:
     """How far the interquartile mean of a method's returns is from the agent nearest to it."""
     returns = of(method).scores("returns")

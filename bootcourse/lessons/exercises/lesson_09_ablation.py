@@ -206,3 +206,90 @@ chance_of_improvement = Exercise(
     ),
     minutes=6, difficulty=2, equation="P(X > Y) + P(X = Y) / 2, the Mann-Whitney statistic U / (m n)",
 )  # fmt: skip
+
+
+def difference_interval_solution(x, y, draws_x, draws_y):
+    def iqm(scores):  # over the last axis
+        cut = scores.shape[-1] // 4
+        return np.sort(scores, axis=-1)[..., cut : scores.shape[-1] - cut].mean(axis=-1)
+
+    differences = iqm(x[draws_x]) - iqm(y[draws_y])
+    return np.array([iqm(x) - iqm(y), *np.percentile(differences, [2.5, 97.5])])
+
+
+def iqm_of_rows(scores):
+    cut = scores.shape[-1] // 4
+    return np.sort(scores, axis=-1)[..., cut : scores.shape[-1] - cut].mean(axis=-1)
+
+
+def of_differences(x, y, differences):
+    return np.array([iqm_of_rows(x) - iqm_of_rows(y), *np.percentile(differences, [2.5, 97.5])])
+
+
+def less_each_end(x, y, draws_x, draws_y):
+    """Low end less low end, high end less high end."""
+    ends = [np.percentile(iqm_of_rows(scores[draws]), [2.5, 97.5]) for scores, draws in ((x, draws_x), (y, draws_y))]
+    return np.array([iqm_of_rows(x) - iqm_of_rows(y), *(ends[0] - ends[1])])
+
+
+def widest(x, y, draws_x, draws_y):
+    """Low end less high end, high end less low end."""
+    ends = [np.percentile(iqm_of_rows(scores[draws]), [2.5, 97.5]) for scores, draws in ((x, draws_x), (y, draws_y))]
+    return np.array([iqm_of_rows(x) - iqm_of_rows(y), *(ends[0] - ends[1][::-1])])
+
+
+def of_one_end_each(x, y, draws_x, draws_y):
+    ends = np.percentile(iqm_of_rows(x[draws_x]) - iqm_of_rows(y[draws_y]), [5, 95])
+    return np.array([iqm_of_rows(x) - iqm_of_rows(y), *ends])
+
+
+def group_cases(rng):
+    """Equal groups, two clusters, three seeds, one resample; then 30 at random, of different sizes."""
+    sizes = [(5, 5), (10, 10), (3, 3), (4, 8), *((int(m), int(n)) for m, n in rng.integers(2, 12, (30, 2)))]
+    for k, (m, n) in enumerate(sizes):
+        x = np.full(m, 100.0) if k == 0 else np.where(rng.random(m) < 0.7, rng.normal(120, 5, m), -10.0)
+        y = np.full(n, 100.0) if k == 0 else np.where(rng.random(n) < 0.5, rng.normal(110, 5, n), -10.0)
+        resamples = 1 if k == 3 else 200
+        yield x, y, rng.integers(m, size=(resamples, m)), rng.integers(n, size=(resamples, n))
+
+
+difference_interval = Exercise(
+    "difference_interval(x, y, draws_x, draws_y)",
+    solution=difference_interval_solution, cases=group_cases,
+    worked=(
+        ((np.array([0.0, 8.0]), np.array([1.0, 1.0]), np.array([[0, 0], [0, 1], [1, 1]]), np.array([[0, 1]] * 3)),
+         np.array([3.0, -0.8, 6.8])),  # means 0, 4, 8, each less 1
+        ((np.array([0.0, 2.0, 4.0, 90.0]), np.zeros(2), np.array([[0, 1, 2, 3]]), np.array([[0, 0]])),
+         np.array([3.0, 3.0, 3.0])),  # 2 and 4 are left of the four
+    ),
+    mistakes=(
+        Mistake(lambda x, y, draws_x, draws_y: difference_interval_solution(y, x, draws_y, draws_x),
+            "Your sign is turned: the first group less the second.",
+            "The sign of a difference does not matter."),
+        Mistake(less_each_end,
+            "You subtract the ends of two intervals. Subtract in each resample, and take the percentiles of these "
+            "differences.",
+            "The interval of a difference is the difference of the intervals."),
+        Mistake(widest,
+            "You take the worst case at both ends: that both groups are unlucky in opposite directions is rarer than "
+            "5 %. Take the percentiles of the resampled differences.",
+            "An interval has to allow for the worst case."),
+        Mistake(lambda x, y, draws_x, draws_y: np.array([x.mean() - y.mean(), *np.percentile(
+                x[draws_x].mean(-1) - y[draws_y].mean(-1), [2.5, 97.5])]),
+            "You compare means. Take the interquartile mean, of the groups and of each resample.",
+            "The statistic does not matter."),
+        Mistake(lambda x, y, draws_x, draws_y: of_differences(x, y, np.sort(x)[draws_x].mean(-1) - np.sort(y)[
+                draws_y].mean(-1)),
+            "In the resamples you take the mean. Sort each resample and leave out its own quarters.",
+            "Sorting once is enough."),
+        Mistake(of_one_end_each,
+            "You leave 5 % at each end. Both ends together may miss in 5 % of the cases.",
+            "95 % means the 95th percentile."),
+    ),
+    hints=(
+        "`x[draws_x]` has a row for each resample. Write an `iqm` along the last axis: `np.sort(..., axis=-1)`.",
+        "One difference for each resample: `iqm(x[draws_x]) - iqm(y[draws_y])`.",
+        "`np.array([iqm(x) - iqm(y), *np.percentile(differences, [2.5, 97.5])])`",
+    ),
+    minutes=20, difficulty=3, equation="the percentile bootstrap of IQM(x) - IQM(y), both groups resampled",
+)  # fmt: skip
