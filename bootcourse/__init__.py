@@ -22,6 +22,7 @@ one_per_cell       a notebook cell that runs again replaces what it showed
 replay3d           drives in 3D: in a notebook, in a browser, as one file
 panels             widgets for notebooks: drive, train, look into one decision
 lessons            exercises, their checks, and what only lessons need
+classroom          a class: handing out lessons, collecting answers, grading them
 doctor             what is wrong with an installation, and what to do about it
 cli                the command line
 """

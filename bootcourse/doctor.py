@@ -4,6 +4,7 @@ Packages outside the standard library are imported inside the checks, so that it
 `python bootcourse/doctor.py` runs it too.
 """
 
+import errno
 import importlib.metadata
 import os
 import platform
@@ -22,6 +23,7 @@ LOCK = ROOT / "environment.lock"
 OLDEST = (3, 11)
 SET_UP = "Run `make lab` in the course's folder (on Windows, the install line of README.md)."
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "chrome")
+COMPILED = 10_000_000  # bytes that compiled code needs, with room to spare
 COLOURS = {"ok": "32", "note": "33", "STOP": "31"}
 
 
@@ -167,11 +169,32 @@ def cache() -> Iterator[Finding]:
 
     try:
         CACHE_FOLDER.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=CACHE_FOLDER):
-            yield Finding("ok", f"compiled code is kept in {CACHE_FOLDER}")
+        with tempfile.TemporaryFile(dir=CACHE_FOLDER) as file:
+            file.write(bytes(COMPILED))
+            file.flush()
+        yield Finding("ok", f"compiled code is kept in {CACHE_FOLDER}")
     except OSError as error:
+        if error.errno in (errno.ENOSPC, errno.EDQUOT):  # numba would raise this error at the first step
+            yield Finding("STOP", f"{CACHE_FOLDER} cannot hold the compiled road: {error.strerror}", "Free some space.")
+            return
         advice = "Make it writable; otherwise every start of a notebook compiles the road again."
         yield Finding("note", f"{CACHE_FOLDER} cannot be written: {error.strerror}", advice)
+
+
+def lessons() -> Iterator[Finding]:
+    """The lessons and the shipped results, which an installed package does not hold."""
+    from bootcourse.storage.assets import FOLDER, MANIFEST, verify
+
+    notebooks = list((ROOT / "notebooks").glob("*.ipynb"))
+    whole = "Work in a whole copy of the course's repository, and run `make lab` there. (Training works here.)"
+    if not notebooks:
+        yield Finding("STOP", f"the lessons are not in {ROOT / 'notebooks'}", whole)
+    if not (FOLDER / MANIFEST).exists():
+        yield Finding("STOP", f"the results that the lessons show are not in {FOLDER}", whole)
+    elif problems := verify():
+        yield Finding("STOP", f"{len(problems)} of the shipped files are wrong. {problems[0]}", "git checkout assets")
+    elif notebooks:
+        yield Finding("ok", f"{len(notebooks)} lessons, and the results that they show")
 
 
 def disk() -> Iterator[Finding]:
@@ -192,7 +215,7 @@ def browser() -> Iterator[Finding]:
         yield Finding("note", "no Chromium for the browser tests", advice)
 
 
-CHECKS = (python, packages, torch_build, compiler, road, port, cache, disk, browser)
+CHECKS = (python, packages, torch_build, compiler, cache, road, lessons, port, disk, browser)
 
 
 def findings() -> Iterator[Finding]:
@@ -221,9 +244,10 @@ def main() -> int:
 
 
 def painted(level: str) -> str:
-    """A level in its colour, if the output is a terminal."""
+    """A level in its colour, if the output is a terminal that wants colours (see no-color.org)."""
     text = f"{level:4}"
-    return f"\033[{COLOURS[level]}m{text}\033[0m" if sys.stdout.isatty() else text
+    coloured = sys.stdout.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
+    return f"\033[{COLOURS[level]}m{text}\033[0m" if coloured else text
 
 
 if __name__ == "__main__":

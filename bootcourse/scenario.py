@@ -223,18 +223,22 @@ class Rule:
         _check_numbers(self)
         _positive(self, "v_min", "t_safe", "floor")
         _check(self.v_min < self.v_max, f"Rule.v_max = {self.v_max} m/s must be above v_min ({self.v_min}).")
-        _check(self.n >= 2, f"Rule.n = {self.n}: the grid of target speeds needs at least 2 values.")
+        _check(2 <= self.n <= 1000, f"Rule.n = {self.n}: the grid of target speeds needs 2 to 1000 values.")
 
 
 RULE_P = 0.9  # † p, the stochastic rule's probability of the rule's action (Equation 16)
 
 
+LARGEST_P = 1 - 2**-24  # the largest number below 1 in float32, in which the networks compute
+
+
 def check_p(p: float, name: str = "p") -> None:
-    """Raise BootcourseError for a p outside [1/9, 1): at 1/9 π̃ is uniform, at 1 the KL is infinite."""
+    """Raise BootcourseError for a p outside [1/9, LARGEST_P]: at 1/9 π̃ is uniform, at 1 the KL is infinite."""
     _check(
         isinstance(p, (int, float)) and 1 / N_ACTIONS <= p < 1,
         f"{name} = {p!r} is outside [1/9, 1): at 1/9 the rule is uniform, at 1 the KL is infinite.",
     )
+    _check(p <= LARGEST_P, f"{name} = {p!r} is 1 in single precision, and the KL infinite: give at most 0.9999999.")
 
 
 @dataclass(frozen=True)

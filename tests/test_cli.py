@@ -11,8 +11,11 @@ from pathlib import Path
 
 import pytest
 
+from bootcourse.cli.driving import Driver, alike
 from bootcourse.episodes.rollout import Rollout
+from bootcourse.learn.settings import settings_for
 from bootcourse.learn.training import Training
+from bootcourse.scenario import DEFAULT
 from bootcourse.storage.work import locked
 
 COMMAND = [sys.executable, "-m", "bootcourse"]
@@ -38,7 +41,7 @@ def test_train_then_evaluate_then_drive(bootcourse, tmp_path):
     assert trained.status == 0, trained.err
     assert sorted(path.name for path in out.iterdir()) == ["sac-0", "sac-1"]
     evaluated = bootcourse("evaluate", out, "--episodes", 5)
-    assert "sac-0" in evaluated.out and "mean over seeds" in evaluated.out
+    assert "sac-0" in evaluated.out and "mean of sac" in evaluated.out
     driven = bootcourse("drive", out / "sac-1", "--out", tmp_path / "drive.npz", "--seed", 4)
     assert driven.status == 0, driven.err
     rollout = Rollout.load(tmp_path / "drive.npz")
@@ -60,12 +63,26 @@ def test_a_rule_of_one_s_own_teaches_and_only_it_goes_on(bootcourse, tmp_path, m
     assert wrong.status == 2 and "no function 'leads'" in wrong.err
 
 
+def test_only_agents_that_differ_in_nothing_but_their_seed_are_averaged():
+    def driver(label, **settings):
+        return Driver(label, None, DEFAULT, settings_for(**settings))
+
+    drivers = [driver("a-0", method="sac"), driver("a-1", method="sac"), driver("b-0", method="soft")]
+    assert alike(drivers) == {"mean of sac": ["a-0", "a-1"]}
+    others = [driver(f"c-{i}", method="sac", gamma=0.9) for i in range(2)]
+    assert alike(drivers + others) == {"mean of a-0 ...": ["a-0", "a-1"], "mean of c-0 ...": ["c-0", "c-1"]}
+    assert alike([Driver("rule", None, DEFAULT)] * 2) == {}
+
+
 REFUSED = {
     "a mistyped method": (["train", "--method", "bootstraped", "--out", "new"], "did you mean 'bootstrapped'"),
     "a mistyped setting": (["train", "--setting", "papr", "--out", "new"], "did you mean 'paper'"),
     "a mistyped scenario": (["train", "--scenario", "calibratd", "--out", "new"], "did you mean 'calibrated'"),
     "a folder that is not empty": (["train", "--out", "full"], "exists already and is not empty"),
     "nothing to resume": (["train", "--out", "new", "--resume"], "no unfinished training"),
+    "too many episodes": (["train", "--episodes", "99999999999", "--out", "new"], "at most 100,000 episodes"),
+    "a seed that is too large": (["train", "--first-seed", str(2**63), "--out", "new"], "at most 8,000,000"),
+    "a name that is too long": (["train", "--out", "x" * 300], "File name too long"),
     "a mistyped driver": (["evaluate", "rul"], "did you mean 'rule'"),
     "a folder without runs": (["evaluate", "full"], "holds no run"),
     "a held-out block that does not exist": (["evaluate", "rule", "--seed", "5000"], "seed = 5000"),

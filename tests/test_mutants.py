@@ -13,4 +13,4 @@ LESSONS = ("05", "06", "09", "11", "13")
 def test_the_cases_of_an_exercise_refuse_its_solution_with_one_place_changed(exercise):
     tried, accepted = surviving(exercise)
     assert set(accepted) == set(EQUIVALENT[exercise.name])
-    assert tried > 3
+    assert tried > 1  # something was changed, whatever the solution looks like

@@ -343,6 +343,10 @@ def test_save_writes_runs_and_never_writes_over_them(tmp_path):
     panel.path.value = "  "
     panel.save.click()
     assert "Name a folder" in words(panel)
+    for impossible in ("with\0null", "x" * 300, "~nobody-of-that-name/\0"):
+        panel.path.value = impossible
+        panel.save.click()
+        assert "Cannot write" in words(panel)
 
 
 def test_what_has_no_sense_yet_is_said_in_a_sentence():

@@ -64,6 +64,8 @@ IMPOSSIBLE = [
     (lambda: Sight(distance=-200.0), "Sight.distance = -200.0"),
     (lambda: Rule(v_max=6.0), "Rule.v_max = 6.0 m/s must be above v_min (6.0)"),
     (lambda: Rule(n=1), "Rule.n = 1"),
+    (lambda: Rule(n=10**12), "Rule.n = 1000000000000: the grid of target speeds needs 2 to 1000 values"),
+    (lambda: check_p(1 - 1e-9), "is 1 in single precision"),
     (lambda: Rule(floor=0.0), "Rule.floor = 0.0"),
     (lambda: check_p(1.0), "p = 1.0 is outside [1/9, 1)"),
     (lambda: check_p(0.1), "p = 0.1 is outside [1/9, 1)"),

@@ -12,6 +12,7 @@ import pytest
 
 from bootcourse import __version__, doctor
 from bootcourse.errors import BootcourseError
+from bootcourse.storage import assets
 
 ROOT = Path(__file__).resolve().parent.parent
 LOCKS = ("environment.lock", "bench.lock")
@@ -127,6 +128,43 @@ def test_the_doctor_only_notes_that_there_is_no_browser(healthy, capsys):
     assert "note  no Chromium" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize(
+    ("missing", "said"),
+    [("notebooks", "STOP  the lessons are not in"), ("assets", "STOP  the results that the lessons")],
+)
+def test_the_doctor_stops_without_the_lessons_or_their_results(missing, said, healthy, capsys, tmp_path):
+    healthy.setattr(doctor, "CHECKS", (doctor.lessons,))
+    if missing == "notebooks":
+        healthy.setattr(doctor, "ROOT", tmp_path)
+    else:
+        healthy.setattr(assets, "FOLDER", tmp_path)
+    assert doctor.main() == 1
+    printed = capsys.readouterr().out
+    assert said in printed and "whole copy of the course's repository" in printed and "cannot start" in printed
+
+
+def test_the_doctor_stops_when_the_cache_is_full(healthy, capsys):
+    def full(**options):
+        raise OSError(28, "No space left on device")
+
+    healthy.setattr(doctor.tempfile, "TemporaryFile", full)
+    healthy.setattr(doctor, "CHECKS", (doctor.cache,))
+    assert doctor.main() == 1
+    assert "cannot hold the compiled road: No space left on device" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("environment", "coloured"), [({}, True), ({"NO_COLOR": "1"}, False), ({"TERM": "dumb"}, False)]
+)
+def test_colours_are_for_terminals_that_want_them(environment, coloured, monkeypatch):
+    for name in ("NO_COLOR", "TERM"):
+        monkeypatch.delenv(name, raising=False)
+    for name, value in environment.items():
+        monkeypatch.setenv(name, value)
+    monkeypatch.setattr(sys.stdout, "isatty", lambda: True)
+    assert ("\033[" in doctor.painted("ok")) == coloured
+
+
 def test_the_doctor_reads_the_lock_for_this_platform_only():
     lines = ["here==1.0 ; sys_platform != 'nowhere'", "elsewhere==2.0 ; sys_platform == 'nowhere'", "plain==3.0+cpu"]
     lock = "".join(f"{line} \\\n    --hash=sha256:00\n" for line in lines)
@@ -147,6 +185,14 @@ def test_the_doctor_speaks_when_nothing_is_installed():
 def test_help_lists_the_commands(bootcourse):
     answer = bootcourse("--help")
     assert answer.status == 0 and "doctor" in answer.out
+
+
+@pytest.mark.parametrize("command", ["", "study", "sweep", "train"])
+def test_help_can_be_printed_in_windows_usual_encoding(command):
+    arguments = [sys.executable, "-m", "bootcourse", *command.split(), "--help"]
+    answer = subprocess.run(arguments, env=os.environ | {"PYTHONIOENCODING": "cp1252"}, capture_output=True)
+    assert answer.returncode == 0, answer.stderr
+    assert command != "sweep" or b"settings of p, xi and c" in answer.stdout
 
 
 def test_a_mistyped_command_is_told_the_nearest_one(bootcourse):

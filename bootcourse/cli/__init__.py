@@ -3,10 +3,13 @@
 Commands import their modules themselves, so that `bootcourse --help` is fast.
 """
 
+import codecs
 import sys
+import unicodedata
 
 import typer
 
+from bootcourse.cli.classroom import grade, handout, submit
 from bootcourse.cli.driving import drive, evaluate, replay
 from bootcourse.cli.studies import assets, study, sweep
 from bootcourse.cli.training import train
@@ -23,11 +26,24 @@ app = typer.Typer(
 
 def main() -> None:
     """Run a command. Exit status: 2, after one sentence, for a user mistake; 130 for Ctrl-C."""
+    codecs.register_error("spell", spell)
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="spell")
     try:
         app(prog_name="bootcourse")
     except BootcourseError as error:
         print(error, file=sys.stderr)
         sys.exit(2)
+    except OSError as error:  # a name that is too long, a folder without permission, a disk that is gone ...
+        print(f"{error.filename or 'A file'}: {error.strerror or error}.", file=sys.stderr)
+        sys.exit(2)
+
+
+def spell(error: UnicodeError) -> tuple[str, int]:
+    """Print what the terminal's encoding lacks, such as Windows' cp1252: Greek letters by name, others as "?"."""
+    names = [unicodedata.name(letter, "").split() for letter in error.object[error.start : error.end]]
+    return "".join(name[-1].lower() if name[:1] == ["GREEK"] else "?" for name in names), error.end
 
 
 def show_version(wanted: bool) -> None:
@@ -53,6 +69,6 @@ def doctor() -> None:
     raise typer.Exit(doctor.main())
 
 
-COMMANDS = (doctor, train, evaluate, drive, replay, study, sweep, assets)
+COMMANDS = (doctor, train, evaluate, drive, replay, study, sweep, assets, handout, submit, grade)
 for command in COMMANDS:
     app.command()(command)

@@ -4,7 +4,10 @@ import contextlib
 import json
 import threading
 import webbrowser
+from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
+from typing import Any, NamedTuple
 
 import typer
 
@@ -34,28 +37,50 @@ def evaluate(
     """Drive held-out episodes and print success, return, speed, distance and accidents with 95 % intervals."""
     from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds, over_seeds, summarise
 
-    seeds = held_out_seeds(seed, episodes)
-    found = {
-        label: summarise(drive_episodes(policy, seeds, road))
-        for label, policy, road in policies_of(who, scenario, sample, seed)
-    }
+    seeds, drivers = held_out_seeds(seed, episodes), drivers_of(who, scenario, sample, seed)
+    found = {each.label: summarise(drive_episodes(each.policy, seeds, each.road)) for each in drivers}
+    means = {name: over_seeds([found[label] for label in labels]) for name, labels in alike(drivers).items()}
     if as_json:
         everything = {label: each.to_dict() for label, each in found.items()}
-        if len(found) > 1:
-            everything["over seeds"] = {name: e._asdict() for name, e in over_seeds(list(found.values())).items()}
+        for name, estimates in means.items():
+            everything[name] = {measure: estimate._asdict() for measure, estimate in estimates.items()}
         print(json.dumps(everything, indent=2))
         return
-    print(f"{episodes} held-out episodes, block {seed}: value [95 % interval]")
-    columns = {label: {name: getattr(each, name) for name in MEASURES} for label, each in found.items()}
-    if len(found) > 1:
-        columns["mean over seeds"] = over_seeds(list(found.values()))
+    print(f"{episodes} held-out episodes, block {seed}: value [95 % interval]; a mean is over training seeds")
+    columns = {label: {name: getattr(each, name) for name in MEASURES} for label, each in found.items()} | means
     labels = list(columns)
     for first in range(0, len(labels), ACROSS):
         print_table({label: columns[label] for label in labels[first : first + ACROSS]})
 
 
-def policies_of(who: str, scenario: str, sample: bool, seed: int) -> list[tuple]:
-    """(label, policy, scenario) of a built-in driver, or of each run in a folder."""
+class Driver(NamedTuple):
+    """Who is evaluated, and on which roads."""
+
+    label: str
+    policy: Callable
+    road: Any  # a Scenario
+    settings: Any = None  # a trained agent's, without its seed
+
+
+def alike(drivers: list[Driver]) -> dict[str, list[str]]:
+    """{name of a mean: labels of the agents that differ in nothing but their training seed}, at least two of them."""
+    groups: dict[tuple, list[Driver]] = {}
+    for driver in drivers:
+        if driver.settings is not None:
+            groups.setdefault((driver.settings, driver.road), []).append(driver)
+    several = [group for group in groups.values() if len(group) > 1]
+    methods = [group[0].settings.method for group in several]
+    return {  # where two groups have the same method, each is named after its first agent
+        f"mean of {method if methods.count(method) == 1 else f'{group[0].label} ...'}": [each.label for each in group]
+        for method, group in zip(methods, several, strict=True)
+    }
+
+
+def drivers_of(who: str, scenario: str, sample: bool, seed: int) -> list[Driver]:
+    """A built-in driver, or the agent of each run in a folder.
+
+    Raises BootcourseError for a name that is neither, and for an agent that sees another number of cars.
+    """
     import numpy as np
 
     from bootcourse.policies import idle_policy, random_policy, rule_policy
@@ -68,7 +93,7 @@ def policies_of(who: str, scenario: str, sample: bool, seed: int) -> list[tuple]
             "idle": idle_policy,
             "random": random_policy(np.random.default_rng(seed)),
         }
-        return [(who, built_in[who], road)]
+        return [Driver(who, built_in[who], road)]
     if not Path(who).exists():
         raise BootcourseError(f"Driver {did_you_mean(who, BUILT_IN)}, or give a folder that `bootcourse train` wrote.")
     from bootcourse.storage.runs import find_runs, load_run
@@ -78,7 +103,13 @@ def policies_of(who: str, scenario: str, sample: bool, seed: int) -> list[tuple]
         run = load_run(path)
         rng = np.random.default_rng(seed) if sample else None
         road = named(scenario) if scenario else run.scenario
-        found.append((path.name, run.agent.as_policy(rng, with_q=True), road))
+        if road.observation_size != run.scenario.observation_size:
+            raise BootcourseError(
+                f"{path} sees {run.scenario.sight.neighbours} neighbours, and {road.name} shows "
+                f"{road.sight.neighbours}: leave out --scenario."
+            )
+        settings = replace(run.agent.settings, seed=0)
+        found.append(Driver(path.name, run.agent.as_policy(rng, with_q=True), road, settings))
     return found
 
 
@@ -106,7 +137,7 @@ def drive(
         raise BootcourseError(f"{out} exists already: choose another name.")
     if png is not None:
         check_replaceable(png, ".png")
-    label, policy, road = policies_of(who, scenario, False, seed)[0]
+    label, policy, road, _ = drivers_of(who, scenario, False, seed)[0]
     label = label.rsplit("-", 1)[0] if label not in BUILT_IN else label
     rollout = record(policy, [seed], road, label)[0]
     print(rollout.save(out))

@@ -53,14 +53,12 @@ def train(
             print(f"{out} is finished: there is nothing to resume.")
         return
     check_folder(out, resume)
+    training = None if resume else Training(settings, episodes, road, rule)
     with locked(work, "training"):
         check_folder(out, resume)  # another training may have ended before this one had the lock
-        if not resume:
-            training = Training(settings, episodes, road, rule)
+        if training is not None:
             save_checkpoint(training, work / CHECKPOINT)  # raises now, not at the end, if the disk is full
-        elif (work / COMPLETE).exists():
-            training = None
-        else:
+        elif not (work / COMPLETE).exists():
             try:
                 training = load_checkpoint(work / CHECKPOINT, rule)
             except DamagedCheckpoint as error:

@@ -12,6 +12,8 @@ from bootcourse.errors import BootcourseError, did_you_mean
 from bootcourse.methods import METHODS
 from bootcourse.scenario import check_p
 
+MAX_SEED = 8_000_000  # the roads of a larger training seed would be those of the demonstrations (see training.py)
+
 
 def shared(default):
     """A field that must be equal for all agents that train side by side."""
@@ -67,7 +69,8 @@ class Settings:
         _check_range(self, -math.inf, math.inf, "target_entropy", "bonus", "xi_fixed")
         _check_range(self, 1, math.inf, "beta_episodes", "batch", "envs_per_agent", "updates", whole=True)
         _check_range(self, 1, math.inf, "demonstration_episodes", whole=True)
-        _check_range(self, 0, math.inf, "learning_starts", "seed", whole=True)
+        _check_range(self, 0, math.inf, "learning_starts", whole=True)
+        _check_range(self, 0, MAX_SEED, "seed", whole=True)
         _check_range(self, max(self.batch, self.envs_per_agent), math.inf, "buffer_size", whole=True)
         for name in ("kl_in_target", "paper_q_filter", "stochastic_demonstrations"):
             if not isinstance(getattr(self, name), bool):
@@ -130,7 +133,7 @@ def _check_range(settings: Settings, low: float, high: float, *names: str, whole
         value = getattr(settings, name)
         is_number = isinstance(value, int if whole else (int, float)) and not isinstance(value, bool)
         if not is_number or not abs(value) <= sys.float_info.max or not low <= value <= high:
-            limits = [f"of {low:g} or more"] * (low > -math.inf) + [f"at most {high:g}"] * (high < math.inf)
+            limits = [f"of {low:g} or more"] * (low > -math.inf) + [f"at most {high:,.12g}"] * (high < math.inf)
             wanted = " ".join(["whole number" if whole else "finite number", ", ".join(limits)]).strip()
             raise BootcourseError(f"{name} = {value!r}: give a {wanted}.")
 

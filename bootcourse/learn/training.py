@@ -37,6 +37,7 @@ from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, Scenario
 
 SNAPSHOT_EVERY = 200  # updates between snapshots; an agent with a non-finite loss is frozen at its last finite one
+MOST_EPISODES = 100_000  # of each agent, whose curves take 8 MB then
 FIRST_SEED = 2**33  # seed of the first training road; demonstrations start at 2**34, held-out roads are below 2**32
 
 
@@ -74,8 +75,11 @@ class Training:
         make_env: Callable[[int], VectorEnv] | None = None,
         first_seed: int = FIRST_SEED,
     ):
-        if not settings or episodes < 1:
-            raise BootcourseError(f"{len(settings)} agents and {episodes} episodes: give at least 1 of each.")
+        if not settings or not 1 <= episodes <= MOST_EPISODES:
+            raise BootcourseError(
+                f"{len(settings)} agents and {episodes} episodes: give at least 1 of each, at most {MOST_EPISODES:,} "
+                "episodes."
+            )
         self.settings, self.episodes, self.scenario, self.teacher = list(settings), int(episodes), scenario, teacher
         self.n_agents, self.envs_per_agent = len(settings), settings[0].envs_per_agent
         n_envs = self.n_agents * self.envs_per_agent

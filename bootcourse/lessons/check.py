@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from bootcourse.errors import BootcourseError, did_you_mean
+from bootcourse.lessons.edition import need_open_solutions, solutions_are_open
 from bootcourse.lessons.exercise import Exercise
 from bootcourse.lessons.exercises import registry
 from bootcourse.lessons.judge import judge
@@ -35,12 +36,14 @@ def hint(name: str) -> Verdict:
     number = min(_hints_given.get(name, 0) + 1, len(exercise.hints))
     _hints_given[name] = number
     left = len(exercise.hints) - number
-    more = f'`check.hint("{name}")` gives another.' if left else f'`check.solution("{name}")` shows the solution.'
+    more = f'`check.solution("{name}")` shows the solution.' if solutions_are_open() else ""
+    more = f'`check.hint("{name}")` gives another.' if left else more
     return Verdict("hint", f"Hint {number} of {len(exercise.hints)}: {exercise.hints[number - 1]}", footer=more)
 
 
 def solution(name: str):
-    """The code of a right answer. Raises BootcourseError for an unknown exercise."""
+    """The code of a right answer. Raises BootcourseError for an unknown exercise, and where solutions are closed."""
+    need_open_solutions()
     from bootcourse.lessons import code_of
 
     return code_of(_find(name).solution)

@@ -64,9 +64,9 @@ def predictions(folder: Path | None = None) -> dict[str, dict]:
     path = Path(folder or "") / FILE
     if not path.exists():
         return {}
-    kept = read_json(path)
-    if not isinstance(kept, dict) or not all(isinstance(one, dict) and "answer" in one for one in kept.values()):
-        raise BootcourseError(f"{path} is damaged: it does not hold predictions. Delete it, or restore it from a copy.")
+    kept = read_json(path, dict[str, dict])
+    if not all("answer" in one for one in kept.values()):
+        raise BootcourseError(f"{path} is damaged: a prediction has no answer. Delete it, or restore it from a copy.")
     return kept
 
 

@@ -6,6 +6,7 @@
 The training runs in `background.py`, the drawing is `training_chart.py`; this file joins them.
 """
 
+import os
 import threading
 import time
 from collections.abc import Sequence
@@ -221,7 +222,7 @@ class TrainPanel(Panel):
             raise BootcourseError("There is nothing to save: train first, or stop what runs.")
         if not self.path.value.strip():
             raise BootcourseError("Name a folder to save to, such as runs/mine.")
-        folders = save_runs(self.result, Path(self.path.value.strip()).expanduser())
+        folders = save_runs(self.result, Path(os.path.expanduser(self.path.value.strip())))
         self.say(f"Saved {len(folders)} run{'s' * (len(folders) > 1)} to {folders[0].parent.resolve()}.")
 
     def _close_replay(self) -> None:

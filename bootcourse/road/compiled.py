@@ -25,9 +25,14 @@ def sources(package: Path) -> list[Path]:
 
 
 def cache_folder(package: Path) -> Path:
-    """The cache of this version: in the package's `__pycache__` if it is writable, otherwise in the user's cache."""
+    """The cache of this version: in the package's `__pycache__` if it is writable, otherwise in the user's cache.
+
+    Where numba's own NUMBA_CACHE_DIR is set, it is there.
+    """
     text = b"".join(source.read_bytes() for source in sources(package))
     name = f"numba-{hashlib.sha256(text).hexdigest()[:12]}"
+    if os.environ.get("NUMBA_CACHE_DIR"):
+        return Path(os.environ["NUMBA_CACHE_DIR"]) / name
     beside = package / "__pycache__"
     writable = os.access(beside if beside.exists() else package, os.W_OK)
     return (beside if writable else Path(user_cache_dir("bootcourse"))) / name

@@ -16,10 +16,10 @@
 # **What you will be able to do**
 # - collect demonstrations in three ways, and say what is in them before you learn from them;
 # - train clones of a driver in seconds, and judge them by how they drive instead of by their loss;
-# - explain why a clone that agrees with its teacher most of the time can still leave the road, and
-#   what helps.
+# - explain why a clone that agrees with its teacher most of the time can still leave the road;
+# - let a clone drive, have the rule label what it meets, and see what that changes.
 #
-# **Time** 55 minutes, under a minute of it the machine's. **It builds on**
+# **Time** 65 minutes, under a minute of it the machine's. **It builds on**
 # [lesson 1](01_the_trap.ipynb) and [lesson 3](03_the_rule.ipynb).
 
 # %%
@@ -27,7 +27,16 @@ import bootcourse as bc
 import numpy as np
 import torch
 from bootcourse.learn import demonstrations, replay_buffer
-from bootcourse.lessons import charts, check, figures, source
+from bootcourse.lessons import (
+    charts,
+    check,
+    cloning,
+    compare_predictions,
+    figures,
+    predict,
+    source,
+    table,
+)
 
 # %% [markdown]
 # ## Look first
@@ -48,9 +57,13 @@ bc.show(figures.where_they_were(driven, seconds=30, title=title))
 # > **Predict.** You learn to drive from one of these two by watching alone. Which one do you
 # > choose: the rule, which has no accident in these drives, or the stochastic rule, which often
 # > leaves the road?
+
+# %%
+predict("6.1", "From whose drives do you learn?", ["the rule's", "the stochastic rule's"])
+
+# %% [markdown]
+# Round 5 answers it.
 # <!-- claim: all(drive.accident == 0 for drive in rule_drives()) -->
-#
-# Write it down. Round 5 answers it.
 
 # %% [markdown]
 # ## Round 1: collect them
@@ -61,7 +74,11 @@ bc.show(figures.where_they_were(driven, seconds=30, title=title))
 #
 # > **Predict.** One drive ends after 150 s because the time is up. Another ends after 20 s in a
 # > collision. In which of the two does the last transition count as terminated?
-#
+
+# %%
+predict("6.2", "Whose last transition is terminated?", ["the first", "the second", "both"])
+
+# %% [markdown]
 # **Exercise 6.1 (6 min, ●●○).** Turn one drive into transitions.
 
 
@@ -88,15 +105,18 @@ check.transitions(transitions)
 # > and how many the stochastic rule?
 
 # %%
+predict("6.3", "Transitions of the rule", unit="transitions")
+
+# %%
 # NBVAL_CHECK_OUTPUT
 by_rule = bc.collect(200)
-by_chance = bc.collect(200, policy=bc.stochastic_rule_policy(bc.DEFAULT, np.random.default_rng(0)))
-for name, rows in (("rule", by_rule), ("stochastic rule", by_chance)):
-    batch = replay_buffer.decode_transitions(
-        rows, bc.DEFAULT.observation_size, torch.zeros(len(rows))
-    )
-    ended = int(batch.terminated.sum())
-    print(f"{name:16} {len(rows):6,} transitions, {ended:3} of 200 episodes end in an accident")
+unsure = bc.stochastic_rule_policy(bc.DEFAULT, np.random.default_rng(0))
+by_chance = bc.collect(200, policy=unsure)
+rows = []
+for name, each in (("the rule", by_rule), ("the stochastic rule", by_chance)):
+    batch = replay_buffer.decode_transitions(each, cloning.SIZE, torch.zeros(len(each)))
+    rows.append([name, f"{len(each):,}", int(batch.terminated.sum())])
+table(["200 episodes of", "transitions", "end in an accident"], rows)
 
 # %% [markdown]
 # The third way is to drive yourself. Drive, press **Keep as demonstration**, and the next cell
@@ -123,25 +143,20 @@ print(f"the last one: return {mine[-1].rewards.sum():.1f}, success {mine[-1].suc
 # > **Predict.** What share of the rule's decisions is "keep straight"?
 
 # %%
-batch = replay_buffer.decode_transitions(
-    by_rule, bc.DEFAULT.observation_size, torch.zeros(len(by_rule))
-)
+predict("6.4", "Share of 'keep straight'", unit="%")
+
+# %%
+batch = replay_buffer.decode_transitions(by_rule, cloning.SIZE, torch.zeros(len(by_rule)))
 shares = np.bincount(batch.actions.numpy(), minlength=9) / len(by_rule)
 most = int(shares.argmax())
 title = f"{shares[most]:.0%} of the rule's decisions are '{bc.ACTION_NAMES[most]}'"
 bc.show(charts.action_bars({"rule": shares}, title, "share of the decisions"))
-cars = [d.states[::2] for d in driven["the rule"]]  # each second's
-free = np.median([np.argmax(c[:, bc.state.EGO, bc.state.LANE] == 0) for c in cars])
-x = bc.state.X
-ahead = np.median([np.argmax(c[:, bc.state.EGO, x] > c[:, bc.state.TRAP_1, x]) for c in cars])
-print(f"the rule is in the free lane after {free:.0f} s, {free / 150:.0%} of a demonstration,")
-print(f"and ahead of trap 1 after {ahead:.0f} s, {ahead / 150:.0%} of it (medians of 60 roads)")
-
 # %% [markdown]
-# **See.** All nine actions occur. The rule needs {{ way_out()[0] | .0f }} s to get out from between
-# the traps into the free lane, and {{ way_out()[1] | .0f }} s to be ahead of trap 1 (medians of
-# these 60 drives). Those first seconds are {{ 100 * way_out()[0] / 150 | .0f }} % of a
-# demonstration, and a loss that averages over all decisions gives them as little weight.
+# **See.** Each of the nine actions occurs. The rule needs {{ way_out()[0] | .0f }} s to get out
+# from between the traps into the free lane, and {{ way_out()[1] | .0f }} s to be ahead of trap 1
+# (medians of the 60 drives in the figure at the top). So the way to the free lane is
+# {{ 100 * way_out()[0] / 150 | .0f }} % of a demonstration, and a loss that averages over the
+# decisions gives it that little weight.
 #
 # What is a demonstration worth, and from which second on? The paper's learners discount: a reward
 # $t$ seconds later counts $\gamma^t$, with γ = {{ SETTINGS.gamma }}. From second t on a drive is
@@ -170,22 +185,26 @@ check.return_to_go(return_to_go)
 # > *start*, when γ = 0.8?
 
 # %%
+predict("6.5", "Worth more at the start, γ = 0.8", ["the rule's drive", "doing nothing"])
+
+# %%
 # NBVAL_CHECK_OUTPUT
 idle = bc.record(bc.idle_policy, [ROAD])[0]
+rows = []
 for gamma in (1.0, 0.99, 0.95, 0.9, 0.8):
     weights = gamma ** np.arange(150)
-    nothing, escape = (weights @ d.rewards for d in (idle, driven["the rule"][ROAD]))
-    print(f"γ = {gamma:4}: doing nothing {nothing:6.2f}, the rule {escape:6.2f}")
-
+    rows.append([gamma, *(f"{weights @ d.rewards:.2f}" for d in (idle, driven["the rule"][ROAD]))])
 lead = driven["the rule"][ROAD].rewards - idle.rewards  # of each second; then γ = 0.8, from t on
 behind = [t for t in range(150) if weights[: 150 - t] @ lead[t:] < 0]
-print(f"γ = 0.8: from second {behind[-1] + 1} on, the rule's drive is worth more to the end")
+below = f"γ = 0.8: from second {behind[-1] + 1} on, the rule's drive is worth more to the end."
+table(["γ", "doing nothing", "the rule"], rows, below=below)
 
 # %% [markdown]
-# **Explain.** A learner with γ = {{ SETTINGS.gamma }} looks about five seconds ahead, and in its
-# first five seconds the rule brakes. Judged by the discounted reward, this escape is worth less at
-# its start than doing nothing. So such a learner has no reason to copy it. Lesson 8 pays a bonus
-# for the demonstrated actions. Here we leave the reward out and copy the actions.
+# **Explain.** A learner with γ = {{ SETTINGS.gamma }} looks about five seconds ahead
+# (1 / (1 − γ) = {{ 1 / (1 - SETTINGS.gamma) | .0f }}), and in its first five seconds the rule
+# brakes. Judged by the discounted reward, this escape is worth less at its start than doing
+# nothing, so such a learner has no reason to copy it. Lesson 8 pays a bonus for the demonstrated
+# actions. Here we leave the reward out and copy the actions.
 # <!-- claim: round(1 / (1 - SETTINGS.gamma)) == 5 -->
 # <!-- claim: by_rule().states[10, EGO, SPEED] < by_rule().states[0, EGO, SPEED] -->
 
@@ -211,25 +230,15 @@ def cloning_loss(log_pi, expert_actions):
 check.cloning_loss(cloning_loss)
 
 # %% [markdown]
-# Four clones of each data set, side by side: the same network as every learner in this course,
-# {{ DEFAULT.observation_size }} numbers in, nine probabilities out.
+# Now train four clones side by side with that loss, on the rule's drives. Each is the network of
+# the learners in this course: {{ DEFAULT.observation_size }} numbers in, nine probabilities out.
 
+# %% tags=["nbval-ignore-output"]
+source("bootcourse.lessons.cloning", "clone")
 
 # %%
-def clone(rows, updates=1500, seeds=4):
-    """Clones of what is in the rows, one for each seed."""
-    settings = bc.with_seeds(bc.settings_for("bc"), seeds)
-    cloner = bc.learner_for(settings, bc.DEFAULT.observation_size)
-    replay = bc.ReplayBuffer(seeds, 64, bc.DEFAULT.observation_size, rows)
-    generators = [np.random.default_rng(each.seed) for each in settings]
-    for _ in range(updates):
-        cloner.update(replay.sample(64, np.ones(seeds), generators))  # 64 rows, all demonstrations
-    weights = [[layer.detach()[i : i + 1] for layer in cloner.actor] for i in range(seeds)]
-    return [bc.Agent(s, actor, [], alpha=0.0) for s, actor in zip(settings, weights, strict=True)]
-
-
 torch.set_num_threads(1)  # small matrices are faster on one thread
-rule_clones = clone(by_rule)
+rule_clones = cloning.clone(by_rule)
 
 # %% [markdown]
 # How often is the clone's most probable action the demonstrated one?
@@ -253,27 +262,27 @@ check.agreement(agreement)
 # > {{ roads() | , }} held-out roads of the study and has no accident there.)
 # <!-- claim: of('rule').scores('success').min() == 1 and accidents('rule') == 0 -->
 
+# %%
+predict("6.6", "Drives of such a clone that end in an accident", unit="%")
+
 
 # %%
-def measure(agents, rows, roads=200):
-    """Each clone's agreement with its data, successes, accidents on held-out roads: (clones, 3)."""
-    size, found = bc.DEFAULT.observation_size, []
-    batch = replay_buffer.decode_transitions(rows, size, torch.zeros(len(rows)))
-    for agent in agents:
-        agrees = agent.probabilities(batch.states.numpy()).argmax(1) == batch.actions.numpy()
-        e = bc.drive_episodes(agent.as_policy(), bc.held_out_seeds(6, roads))
-        found.append((agrees.mean(), e.success.mean(), (e.accident > 0).mean()))
-    return np.array(found)
+def shown(measured):
+    """A table of what was measured: {name: (agreement, success, accidents)}."""
+    rows = [
+        [name, *(f"{100 * share:.0f} %" for share in three)] for name, three in measured.items()
+    ]
+    return table(["", "agrees with its data", "escapes", "has an accident"], rows)
 
 
-measured = {"clones of the rule": measure(rule_clones, by_rule)}
-for agrees, success, accident in measured["clones of the rule"]:
-    print(f"agrees {agrees:.0%}, escapes {success:.0%}, has an accident {accident:.0%}")
+measured = {"clones of the rule": cloning.measure(rule_clones, by_rule)}
+shown({f"clone, seed {i}": three for i, three in enumerate(measured["clones of the rule"])})
 
 # %% [markdown]
-# **See.** The four clones have the same data and the same loss; only the seed differs. Their
-# agreement differs by a few per cent, their escapes and accidents by far more (your numbers will
-# differ a little). So the agreement does not tell how well a clone drives.
+# **See.** The four clones have the same data, the same loss, and different seeds. Your numbers will
+# differ from another machine's. Compare the columns: by how much do the agreements of the four
+# differ, and by how much their accidents? What does the agreement tell about how well a clone
+# drives?
 
 # %% [markdown] tags=["instructor"] minutes=6
 # Somebody will say "train longer". They are right: the ten clones of the study were trained far
@@ -285,36 +294,44 @@ for agrees, success, accident in measured["clones of the rule"]:
 # %% [markdown]
 # ## Round 4: why it is not enough
 #
-# Suppose that each decision is wrong with probability ε, independently of the others. Then the
-# probability that a drive has an error somewhere grows with its length.
+# A clone errs with probability ε at a decision as long as it is in the demonstrator's states. How
+# much can that cost over a whole drive?
 #
-# **Exercise 6.5 (3 min, ●○○).** How likely is at least one wrong decision?
-
-
-# %%
-def any_error(error_rate, decisions):
-    """The probability of one wrong decision or more, error_rate in [0, 1] for each of them."""
-    # solution
-    return 1 - (1 - error_rate) ** decisions
-    # end solution
-
-
-check.any_error(any_error)
+# > **Predict.** A drive becomes twice as long. By what factor can the expected number of wrong
+# > decisions grow, in the worst case?
 
 # %%
-# NBVAL_CHECK_OUTPUT
-for error_rate in (0.2, 0.01, 0.001):
-    somewhere = 1 - (1 - error_rate) ** 150
-    print(f"ε = {error_rate}: an error in 150 decisions with probability {somewhere:.2f}")
+predict("6.7", "The worst case grows by a factor of", ["less than 2", "2", "4"])
 
 # %% [markdown]
-# **Explain.** Even at one error in a hundred, most drives have one. What matters is what comes
-# *after* it.
-# <!-- claim: 1 - (1 - 1 / 100) ** 150 > 0.5 -->
+# <details><summary>The answer, in five lines</summary>
 #
-# > **Predict.** Take the distance from where a driver is to the nearest state in the
+# Until its first error the clone is in the demonstrator's states. So the first error comes at
+# decision $t$ of $T$ with a probability of at most ε, whatever $t$ is. In the worst case the clone
+# does not know what to do from there on, and each of the remaining $T - t + 1$ decisions is wrong.
+# The expected number of wrong decisions is at most
+#
+# $$ \sum_{t=1}^{T} \epsilon \, (T - t + 1) = \epsilon \, \frac{T (T + 1)}{2} $$
+#
+# which grows with $T^2$: about four times as much for twice the length. A driver that finds back
+# within $k$ decisions pays at most $k$ for each error, together $\epsilon k T$. With ε = 0.01,
+# T = 150 and k = 5 the two are {{ 0.01 * 150 * 151 / 2 | .0f }} and {{ 0.01 * 5 * 150 | .1f }}.
+#
+# </details>
+#
+# Such errors that lead to more errors are called **compounding errors**. The number that decides is
+# not ε but what comes *after* an error. Does it happen here?
+#
+# > **Predict.** Take the distance from what a driver sees to the nearest observation in the
 # > demonstrations. For the rule on other roads it is small. How does it change for a clone, from
 # > second to second?
+
+# %%
+predict(
+    "6.8",
+    "A clone's distance from the demonstrations over 30 s",
+    ["small throughout", "large from the start", "small, then large"],
+)
 
 
 # %%
@@ -341,20 +358,22 @@ bc.show(charts.lines(seconds, curves, title, "time (s)", away))
 # agreement with the rule on what the *rule* sees at some second, and on what the *clone* sees then.
 
 # %%
-times = [0, 1, 2, 3, 5, 10, 30]
-print("agreement with the rule at", times, "s")
+times, rows = [0, 1, 2, 3, 5, 10, 30], []
 for agent in rule_clones:
-    own, quiz, exam = bc.record(agent.as_policy(), range(40)), [], []
+    own, on_rule, on_own = bc.record(agent.as_policy(), range(40)), [], []
     for t in times:
         seen = np.array([d.observations[t] for d in driven["the rule"]])
         right = np.array([d.actions[t] for d in driven["the rule"]])
-        quiz.append(np.mean(agent.probabilities(seen).argmax(1) == right))
-        exam.append(np.mean([d.actions[t] == d.rule_actions[t] for d in own if len(d.actions) > t]))
-    print(f"seed {agent.settings.seed}: on the rule's states {np.round(quiz, 2)}")
-    print(f"        on its own states    {np.round(exam, 2)}")
+        on_rule.append(np.mean(agent.probabilities(seen).argmax(1) == right))
+        still = [d for d in own if len(d.actions) > t]
+        on_own.append(np.mean([d.actions[t] == d.rule_actions[t] for d in still]))
+    for states, agreed in (("the rule's", on_rule), ("its own", on_own)):
+        rows.append([agent.settings.seed, states, *(f"{100 * share:.0f}" for share in agreed)])
+table(["seed", "agreement, %, in states of", *(f"{t} s" for t in times)], rows)
 
 # %% [markdown]
-# **Explain.** Read the two rows from left to right.
+# **Explain.** Read the two rows of a clone from left to right. What is said here was seen in our
+# runs; yours will differ in the numbers.
 #
 # - **At 2 s** the clone has done the same as the rule so far, with few exceptions, so it is in the
 #   rule's states. It agrees on few roads nevertheless: this is an error on the demonstrator's *own*
@@ -365,8 +384,7 @@ for agent in rule_clones:
 # - **From 5 s on** the rows part: the clone agrees with the rule far less often on its own states
 #   than on the rule's. Its states are now far from the demonstrated ones, as the figure shows. An
 #   error brings a clone to such states, it errs more often there, and that brings it further away.
-#   This is **compounding error**: with an error rate ε on the demonstrator's states, the cost over
-#   $T$ steps can grow with $\epsilon T^2$ instead of $\epsilon T$ (Ross and Bagnell 2010).
+#   The errors compound (Ross and Bagnell 2010).
 # - **And yet these clones escape in most of their drives.** Agreement counts each difference as an
 #   error, also one that does little harm, such as keeping the speed where the rule accelerates. A
 #   clone of the study agrees with the rule, after 3 s on its own states, on
@@ -385,44 +403,110 @@ for agent in rule_clones:
 # avoids this: the stochastic rule drives, and each state is labelled with the rule's action.
 # <!-- claim: round(1 / (1 - RULE_P)) == 10 -->
 #
-# > **Predict.** Which clones drive best? Which agree best with their data?
+# > **Predict.** Which clones have the fewest accidents?
 
 # %%
-ACTION = 2 * bc.DEFAULT.observation_size  # columns
-RULE_ACTION = ACTION + 3
+KINDS = ["clones of the rule", "of the stochastic rule", "its drives, rule's labels"]
+predict("6.9", "Fewest accidents", KINDS)
+
+# %%
+ACTION, RULE_ACTION = cloning.ACTION, cloning.RULE_ACTION  # columns
 labelled = by_chance.clone()
 labelled[:, ACTION] = labelled[:, RULE_ACTION]
-measured["of the stochastic rule"] = measure(clone(by_chance), by_chance)
-measured["its drives, rule's labels"] = measure(clone(labelled), labelled)
-title = "Agreement with the data says little about how a clone drives"
+measured[KINDS[1]] = cloning.measure(cloning.clone(by_chance), by_chance)
+measured[KINDS[2]] = cloning.measure(cloning.clone(labelled), labelled)
+title = "Agreement with the data and driving: a dot for each clone"
 bc.show(figures.clones(measured, title))
 
 # %%
-for name, values in measured.items():
-    agrees, success, accident = 100 * values.mean(0)
-    size = {"clones of the rule": by_rule}.get(name, by_chance)
-    print(f"{name:26} {len(size):6,} rows: {agrees:3.0f} % agree, {success:3.0f} % escape, "
-          f"{accident:3.0f} % have an accident")  # fmt: skip
+shown({f"{name} (mean of 4)": values.mean(axis=0) for name, values in measured.items()})
 
 # %% [markdown]
 # **Explain.** The stochastic rule gave less than half as many rows, and most of its drives end
-# beside the road. With these 1,500 updates its clones escape more often and have fewer accidents
-# than the clones of the rule. We think so because its data **cover** more states: they show how to
-# return to the path. To disturb the teacher on purpose is known as DART; to let the pupil drive and
-# the teacher label is known as DAgger.
+# beside the road. Do its clones drive worse for it? In our runs they escaped more often and had
+# fewer accidents than the clones of the rule, while they agreed less with their data. A likely
+# reason: these data **cover** more states, and they show how to return to the path. To disturb the
+# teacher on purpose is known as DART.
 #
 # How much coverage matters depends on the budget. The ten clones of the study learned from drives
 # of the rule alone, with far more updates: {{ escaped('bc') }} of 10 escape, and they have an
 # accident in {{ 100 * accidents('bc') | .1f }} % of their drives on {{ roads() | , }} held-out
-# roads. Try `clone(by_rule, updates=12_000)`, about half a minute, and measure it.
+# roads. Try `cloning.clone(by_rule, updates=12_000)`, about half a minute, and measure it.
 # <!-- claim: len(of('bc')) == 10 and escaped('bc') == 10 and accidents('bc') < 0.01 -->
 #
-# The cloning loss contains no reward: it asks a clone to be like its teacher, not to be better. An
-# agent that is to drive better than the rule has to learn from what its actions lead to, with the
-# demonstrations as a start: lesson 8.
+# ## Round 6: the clone drives, the rule labels
+#
+# The stochastic rule strays from the path at random. The states that count are those in which *your
+# clone* ends up. So let the clone drive, ask the rule at each of its states what it would have
+# done, add these labelled states to the data, and train again. Repeat this for some rounds. The
+# method is called **DAgger**, for data aggregation (Ross, Gordon and Bagnell). It needs a teacher
+# who answers in any state: a rule controller does, a recorded drive does not.
+#
+# > **Predict.** You begin with 20 drives of the rule instead of 200. In each of three rounds the
+# > newest clone drives 20 episodes, and the rule labels them. Compared with the clones of 200
+# > drives, does the last clone have more accidents or fewer? And does it agree with the rule's 20
+# > drives more or less than the first clone does?
 
 # %%
-source("bootcourse.learn.demonstrations", "collect")
+predict(
+    "6.10",
+    "The last clone, compared with the clones of 200 drives",
+    ["more accidents", "about as many", "fewer accidents"],
+)
+
+# %% [markdown]
+# **Exercise 6.5 (20 min, ●●●).** Write DAgger. `train(rows)` returns a driver, `drive(driver)`
+# returns the transitions of its drives. In a transition, column `ACTION` holds what was done, which
+# a clone copies, and column `RULE_ACTION` what the rule would have done.
+
+
+# %%
+def dagger(rows, train, drive, rounds):
+    """A list of rounds + 1 drivers, each trained on all transitions so far.
+
+    rows: the rule's transitions, a tensor (n, row). First train on them alone; then, in each round,
+    let the newest driver drive, label its transitions with the rule's actions, add them, train.
+    """
+    # solution
+    drivers = [train(rows)]
+    for _ in range(rounds):
+        own = drive(drivers[-1]).clone()
+        own[:, ACTION] = own[:, RULE_ACTION]
+        rows = torch.cat([rows, own])
+        drivers.append(train(rows))
+    return drivers
+    # end solution
+
+
+check.dagger(dagger)
+
+
+# %%
+def one_clone(rows):
+    """One clone, trained from the beginning with 1,500 updates."""
+    return cloning.clone(rows, seeds=1)[0]
+
+
+few = bc.collect(20)
+drivers = cloning.dagger(few, one_clone, cloning.own_drives(20), rounds=3)
+rounds = cloning.measure(drivers, few)
+shown({f"after {20 * i} drives of its own": three for i, three in enumerate(rounds)})
+
+# %% [markdown]
+# **Explain.** The first column is the agreement on the rule's 20 drives, so it can fall while the
+# clone drives better: the network now serves other states, too. Compare the last row with the
+# clones of 200 drives in round 3. There were fewer labels and as many updates. What differs is
+# *where* the labels are.
+#
+# The cloning loss contains no reward, with or without DAgger: it asks a clone to be like its
+# teacher and does not ask it to be better. An agent that is to drive better than the rule has to
+# learn from what its actions lead to, with the demonstrations as a start: lesson 8.
+
+# %% [markdown] tags=["instructor"] minutes=8
+# Ask what DAgger costs: here a label is free, with a human teacher each one is work, and somebody
+# must let a bad driver drive. Then ask why the method trains on *all* rows and not on the newest:
+# otherwise a clone that has learned to return to the path no longer visits the states beside it,
+# and forgets what to do there.
 
 # %% [markdown]
 # ## What you now know
@@ -434,14 +518,47 @@ source("bootcourse.learn.demonstrations", "collect")
 # 4. A clone is trained on the teacher's states and drives in its own, so its errors can compound.
 # 5. With few updates, the states that the data cover can matter more than how well they were
 #    driven; a longer training closes most of the gap.
+# 6. DAgger asks the teacher for labels in the clone's own states.
 #
 # **Three questions to think about**
 # - The rule reads the true state of all cars, the clone 26 numbers. Can two different states of
 #   the road look the same to the clone, although the rule decides differently in them?
-# - You may ask the rule for 1,000 labels, on states of your choice. Which ones?
+# - The teacher is a person, who watches and says "left now". What becomes hard in DAgger?
 # - A demonstrator that crashes at the end of each drive: which of its rows would you keep?
 #
 # **Read on**: Pomerleau, *ALVINN* (1989), the first clone that drove; Ross, Gordon and Bagnell,
 # *A Reduction of Imitation Learning and Structured Prediction to No-Regret Online Learning*
 # (arXiv 1011.0686), which is DAgger; Laskey et al., *DART* (arXiv 1703.09327). Next:
 # [the soft constraint](07_soft_constraint.ipynb).
+
+# %%
+crashed = {name: round(100 * values[:, 2].mean()) for name, values in measured.items()}
+compare_predictions(
+    "06",
+    {
+        "6.1": f"accidents: {crashed[KINDS[0]]} % and {crashed[KINDS[1]]} %, in this order",
+        "6.2": "the second",
+        "6.3": len(by_rule),
+        "6.4": round(100 * shares[4], 1),
+        "6.5": "doing nothing",
+        "6.6": crashed[KINDS[0]],
+        "6.7": "4",
+        "6.8": "small, then large",
+        "6.9": min(crashed, key=crashed.get),
+        "6.10": f"accidents: {100 * rounds[-1, 2]:.0f} % against {crashed[KINDS[0]]} %",
+    },
+)
+
+# %% [markdown] tags=["instructor"] minutes=6
+# **Model answers.**
+#
+# - *Two states that look the same?* Yes: the clone sees the four nearest cars within 200 m, the
+#   rule all of them, with their lanes and exact positions, and it remembers nothing either. A fifth
+#   car in the target lane is invisible to the clone. Then the best clone gives each action its
+#   frequency, and cannot agree always.
+# - *A person as the teacher?* A person corrects what happens and does not answer a question about a
+#   state: labels come late by a reaction time, and without the feedback of one's own steering they
+#   get worse. That is why variants let the person take over the wheel for a while.
+# - *A demonstrator that crashes?* Keep the rows that lead to good states, drop the last seconds.
+#   How many seconds? Until a driver that you trust could still have avoided the accident; testing
+#   that is an exercise for lesson 13.

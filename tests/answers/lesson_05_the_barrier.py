@@ -4,7 +4,7 @@ import numpy as np
 from scipy import stats
 
 from bootcourse.lessons import chain
-from tests.answers import right, wrong
+from tests.answers import equivalent, right, wrong
 
 # share_of_the_future --------------------------------------------------------------------------------
 
@@ -53,6 +53,15 @@ def of_eight(good, decisions, tries):
 
 
 # learn_chain ----------------------------------------------------------------------------------------
+
+for _start in (-1, 1):
+    _before, _after = (f"(np.zeros((STATES, 2)), {s})" for s in (0, _start))
+    equivalent("learn_chain", f"{_before}  ->  {_after}", "decision 0 begins an episode, and so in state 0")
+equivalent(
+    "learn_chain",
+    "int(q[s].argmax()) if chance < 0 else chance  ->  q[s].argmax() if chance < 0 else chance",
+    "a number of NumPy's is an index, too",
+)
 
 
 @right("learn_chain")

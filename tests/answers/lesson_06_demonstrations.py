@@ -3,6 +3,8 @@
 import numpy as np
 import torch
 
+from bootcourse.lessons import cloning
+from bootcourse.lessons.cloning import ACTION, RULE_ACTION
 from tests.answers import equivalent, right, wrong
 
 PICKED = "log_pi.gather(-1, expert_actions.unsqueeze(-1)).squeeze(-1)"
@@ -154,24 +156,89 @@ def share_of_errors(log_pi, expert_actions):
     return (log_pi.argmax(-1) != expert_actions).double().mean()
 
 
-@right("any_error")
-def complement(error_rate, decisions):
-    no_error = 1.0
-    for _ in range(decisions):
-        no_error *= 1 - error_rate
-    return 1 - no_error
+# dagger ---------------------------------------------------------------------------------------------
 
 
-@right("any_error")
-def added_up(error_rate, decisions):
-    return sum(error_rate * (1 - error_rate) ** t for t in range(decisions))
+@right("dagger")
+def with_a_list_of_rows(rows, train, drive, rounds):
+    everything, drivers = [rows], [train(rows)]
+    for number in range(rounds):
+        own = drive(drivers[number])
+        relabelled = torch.cat([own[:, :ACTION], own[:, RULE_ACTION : RULE_ACTION + 1], own[:, ACTION + 1 :]], dim=1)
+        everything.append(relabelled)
+        drivers.append(train(torch.cat(everything)))
+    return drivers
 
 
-@wrong("any_error")
-def the_last_one(error_rate, decisions):
-    return error_rate * (1 - error_rate) ** (decisions - 1)
+@right("dagger")
+def by_recursion(rows, train, drive, rounds):
+    driver = train(rows)
+    if rounds == 0:
+        return [driver]
+    own = drive(driver)
+    own[:, ACTION] = own[:, RULE_ACTION]
+    return [driver, *by_recursion(torch.vstack((rows, own)), train, drive, rounds - 1)]
 
 
-@wrong("any_error")
-def exponential(error_rate, decisions):
-    return 1 - np.exp(-error_rate * decisions)
+@right("dagger")
+def relabelled_row_by_row(rows, train, drive, rounds):
+    drivers = []
+    for number in range(rounds + 1):
+        drivers.append(train(rows))
+        if number < rounds:
+            for row in drive(drivers[-1]):
+                row = row.clone()
+                row[ACTION] = row[RULE_ACTION]
+                rows = torch.cat([rows, row[None]])
+    return drivers
+
+
+@wrong("dagger")
+def one_round_too_many(rows, train, drive, rounds):
+    return cloning.dagger(rows, train, drive, rounds + 1)
+
+
+@wrong("dagger")
+def always_three_rounds(rows, train, drive, rounds):
+    return cloning.dagger(rows, train, drive, 3)
+
+
+@wrong("dagger")
+def labels_that_do_not_match_the_state(rows, train, drive, rounds):
+    def backwards(driver):
+        own = drive(driver)
+        own[:, RULE_ACTION] = own[:, RULE_ACTION].flip(0)
+        return own
+
+    return cloning.dagger(rows, train, backwards, rounds)
+
+
+@wrong("dagger")
+def with_half_of_the_rows(rows, train, drive, rounds):
+    return cloning.dagger(rows, train, lambda driver: drive(driver)[::2], rounds)
+
+
+@wrong("dagger")
+def relabelled_after_the_training(rows, train, drive, rounds):
+    drivers = [train(rows)]
+    for _ in range(rounds):
+        own = drive(drivers[-1])
+        rows = torch.cat([own, rows])
+        drivers.append(train(rows))
+    return drivers
+
+
+@wrong("dagger")
+def without_the_rule_s_own_rows(rows, train, drive, rounds):
+    drivers, collected = [train(rows)], rows[:0]
+    for _ in range(rounds):
+        own = drive(drivers[-1])
+        own[:, ACTION] = own[:, RULE_ACTION]
+        collected = torch.cat([collected, own])
+        drivers.append(train(collected))
+    return drivers
+
+
+@wrong("dagger")
+def a_number_of_drivers(rows, train, drive, rounds):
+    return len(cloning.dagger(rows, train, drive, rounds))

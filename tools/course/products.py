@@ -6,6 +6,7 @@ and then the solution, whose check must pass; all other cells run once and serve
 
 import hashlib
 import re
+from collections import Counter
 from pathlib import Path
 
 import nbformat
@@ -60,9 +61,15 @@ def node(cell: Cell, text: str) -> nbformat.NotebookNode:
 
 
 def notebook(nodes: list[nbformat.NotebookNode]) -> nbformat.NotebookNode:
-    """A notebook of these cells; a cell's id follows from its place and text."""
-    for place, cell in enumerate(nodes):
-        cell.id = hashlib.sha256(f"{place} {cell.source}".encode()).hexdigest()[:8]
+    """A notebook of these cells. The id of an exercise's cell follows from its name, so that the update of a handout
+    finds it when its text has changed; the id of any other cell follows from its text.
+    """
+    times = Counter()
+    for cell in nodes:
+        exercise = re.search(r"^check\.(\w+)\(\1\)", cell.source, re.M)
+        times[cell.source] += 1
+        text = f"{times[cell.source]} {cell.source}"
+        cell.id = f"exercise-{exercise[1]}" if exercise else hashlib.sha256(text.encode()).hexdigest()[:12]
     kernel = {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"}
     metadata = {"kernelspec": kernel, "language_info": {"name": "python"}}
     return nbformat.v4.new_notebook(cells=nodes, metadata=metadata)

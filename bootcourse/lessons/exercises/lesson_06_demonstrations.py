@@ -4,6 +4,7 @@ import numpy as np
 import torch
 
 from bootcourse.learn import bc
+from bootcourse.lessons import cloning
 from bootcourse.lessons.exercise import Exercise, Mistake
 
 
@@ -226,43 +227,82 @@ cloning_loss = Exercise(
 )  # fmt: skip
 
 
-def any_error_solution(error_rate, decisions):
-    return 1 - (1 - error_rate) ** decisions
+def collecting(answer, rows, rounds):
+    """The drivers that an answer trains, as numbers: each says on which rows with which labels it was trained."""
+
+    def train(some):
+        return float((some[:, cloning.ACTION] * some[:, 0]).sum() + len(some) / 64)  # in whatever order
+
+    def drive(driver):
+        own = torch.zeros(3, rows.shape[1])
+        own[:, 0] = torch.arange(2, 5)
+        own[:, cloning.ACTION] = torch.arange(3) + int(driver) % 3
+        own[:, cloning.RULE_ACTION] = torch.arange(3) * 2 + int(driver) % 4
+        return own
+
+    drivers = answer(rows, train, drive, rounds)
+    trained = isinstance(drivers, list) and all(isinstance(driver, float) for driver in drivers)
+    return np.array(drivers) if trained else drivers
 
 
-def any_error_cases(rng):
-    for error_rate in (0.0, 1.0, 0.5):
-        yield error_rate, 10
-    for _ in range(40):
-        yield float(rng.uniform(0.001, 0.2)), int(rng.integers(2, 151))
+def dagger_cases(rng):
+    """No round, one round, several; from one row to many."""
+    drawn = zip(rng.integers(1, 9, 20), rng.integers(1, 5, 20), strict=True)
+    for n, rounds in ((4, 0), (1, 1), (4, 1), (4, 2), *drawn):
+        rows = torch.zeros(n, cloning.RULE_ACTION + 2)
+        rows[:, cloning.ACTION] = torch.tensor(rng.integers(0, 9, n)).float()
+        rows[:, cloning.RULE_ACTION] = rows[:, cloning.ACTION]
+        rows[:, 0] = torch.arange(1, n + 1)
+        yield rows, int(rounds)
 
 
-any_error = Exercise(
-    "any_error(error_rate, decisions)",
-    solution=any_error_solution, cases=any_error_cases,
-    worked=(((0.5, 2), 0.75), ((0.1, 1), 0.1), ((0.0, 150), 0.0)),
+def taught(rows, train, drive, rounds, relabel=True, keep=True, latest=True):
+    """DAgger with one thing done differently."""
+    drivers = [train(rows)]
+    for _ in range(rounds):
+        own = drive(drivers[-1 if latest else 0]).clone()
+        if relabel:
+            own[:, cloning.ACTION] = own[:, cloning.RULE_ACTION]
+        rows = torch.cat([rows, own]) if keep else own
+        drivers.append(train(rows))
+    return drivers
+
+
+def one_row(label):
+    row = torch.zeros(1, cloning.RULE_ACTION + 2)
+    row[0, [0, cloning.ACTION, cloning.RULE_ACTION]] = torch.tensor([1.0, label, label])
+    return row
+
+
+dagger = Exercise(
+    "dagger(rows, train, drive, rounds)",
+    solution=cloning.dagger, cases=dagger_cases, run=collecting,
+    worked=(
+        ((one_row(4), 0), np.array([4 + 1 / 64])),  # one driver; the numbers stand for what it was trained on
+        ((one_row(4), 1), np.array([4 + 1 / 64, 4 + 0 * 2 + 2 * 3 + 4 * 4 + 4 / 64])),  # labels 0, 2, 4 of own drives
+    ),
     mistakes=(
-        Mistake(lambda rate, decisions: (1 - rate) ** decisions,
-            "This is the probability that *nothing* goes wrong. The probability of at least one error is 1 minus this.",
-            "The probability of no error is the answer."),
-        Mistake(lambda rate, decisions: rate * decisions,
-            "This is the expected *number* of errors, which may exceed 1.",
-            "The probabilities of several events are added."),
-        Mistake(lambda rate, decisions: min(1.0, rate * decisions),
-            "A sum that is cut off at 1 counts drives with two errors twice. Multiply the chances that a decision is "
-            "right.",
-            "Probabilities are added, up to 1."),
-        Mistake(lambda rate, decisions: rate**decisions,
-            "This is the probability that *every* decision is wrong.",
-            "Independent chances are multiplied, whatever the question."),
-        Mistake(lambda rate, decisions: 1 - rate**decisions,
-            "This is the probability that not *every* decision is wrong. Multiply the chances of being right.",
-            "The opposite of 'all wrong' is 'all right'."),
+        Mistake(lambda *given: taught(*given, relabel=False),
+            "You learn what the *clone* did in its own drives, errors included. Put the rule's action, column "
+            "`RULE_ACTION`, where the clone's stands, column `ACTION`.",
+            "More data of any kind help."),
+        Mistake(lambda *given: taught(*given, keep=False),
+            "You train on the newest drives alone. Keep all rows so far: DAgger means data *aggregation*.",
+            "Old data are of an old policy, and so are out of date."),
+        Mistake(lambda *given: taught(*given, latest=False),
+            "You always let the first clone drive. The states that matter are those of the newest one.",
+            "A clone's states do not change much."),
+        Mistake(lambda *given: taught(*given)[1:],
+            "Your list begins after the first round. It begins with the clone of the rule's own rows.",
+            "Round 0 is no round."),
+        Mistake(lambda *given: taught(*given)[-1:],
+            "You return the last driver alone. Return the list of all, so that they can be compared.",
+            "What counts is the result."),
     ),
     hints=(
-        "What is the probability that one decision is right? That all of them are?",
-        "`(1 - error_rate) ** decisions` is the probability of no error.",
-        "`1 - (1 - error_rate) ** decisions`",
+        "Train the first driver on `rows`. In each round: drive with the newest driver, relabel, append, train again.",
+        "`own = drive(drivers[-1]).clone()`, then `own[:, ACTION] = own[:, RULE_ACTION]`.",
+        "`rows = torch.cat([rows, own])`, then `drivers.append(train(rows))`; return `drivers`.",
     ),
-    minutes=3, difficulty=1, equation="1 - (1 - ε)^T",
+    minutes=20, difficulty=3, equation="DAgger, Algorithm 3.1 of arXiv 1011.0686; here the clone drives in each round",
 )  # fmt: skip

@@ -1,0 +1,25 @@
+"""The edition: in what a lecturer hands out, solutions may be closed."""
+
+from pathlib import Path
+
+import bootcourse
+from bootcourse.errors import BootcourseError
+from bootcourse.files import read_json
+
+HANDOUT = "handout.json"
+CLOSED = "Solutions are closed in this handout: `check.hint` helps, and so does your lecturer."
+
+
+def solutions_are_open() -> bool:
+    """False in a handout, unless its lecturer has opened them. Raises BootcourseError for a damaged handout.json."""
+    here = Path.cwd()
+    for folder in (here, here.parent, Path(bootcourse.__file__).resolve().parent.parent):
+        if (folder / HANDOUT).is_file():
+            return read_json(folder / HANDOUT).get("solutions") is True
+    return True
+
+
+def need_open_solutions() -> None:
+    """Raises BootcourseError where solutions are closed."""
+    if not solutions_are_open():
+        raise BootcourseError(CLOSED)
