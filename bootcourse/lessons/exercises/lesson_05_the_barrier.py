@@ -163,7 +163,8 @@ learn_chain = Exercise(
         "gamma * q[chain.NEXT[s, a]].max()`.",
         "`q[s, a] += step * (target - q[s, a])`; the next state of the walk is `chain.NEXT[s, a]` of *your* decision.",
     ),
-    minutes=20, difficulty=3, equation="Q(s, a) ← Q(s, a) + step (r + γ max Q(s', ·) - Q(s, a)), Watkins (1989)",
+    minutes=20, difficulty=3,
+    equation="Q(s, a) ← Q(s, a) + step (r + γ max Q(s', ·) - Q(s, a)), Watkins & Dayan (1992)",
 )  # fmt: skip
 
 
