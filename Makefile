@@ -2,7 +2,7 @@
 # make check  in less than a minute: the road, the learner, the rule, what is recorded, and one lesson
 # make test   every test, the notebooks included: about eight minutes on two cores
 # make bench  how fast the road and the learner are, as ratios
-# make book   the lessons as pages that need no server, in build/book/html
+# make book   the lessons as pages that need no server, in build/book/html  (EDITION=instructor: with solutions)
 # make notebooks  execute the lessons' sources again and write the notebooks, solved and not, and the instructor's pages
 # make doctor what is right and wrong with this machine
 # make lock   resolve environment.lock and bench.lock again
@@ -49,7 +49,7 @@ notebooks: .venv/installed
 	@$(BIN)/python -m tools.course.paper_map
 
 book: .venv/installed
-	@$(BIN)/python tools/book.py
+	@$(BIN)/python tools/book.py $(EDITION)
 
 doctor: .venv/installed
 	@$(BIN)/bootcourse doctor

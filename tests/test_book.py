@@ -21,7 +21,7 @@ def made(tmp_path_factory):
     folder = tmp_path_factory.mktemp("book")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("bootcourse.replay3d.recorder.RATES", (10,))
-        book.gather(folder / "source")
+        book.gather(folder / "source", "instructor")
     assert book.build(folder / "source", folder / "html") == 0, "Sphinx has something to say: see above"
     return folder / "html"
 
@@ -46,6 +46,14 @@ def test_every_lesson_and_every_page_to_look_things_up_is_in_it(made):
         "checks",
         "report/report",
     } <= pages
+
+
+def test_the_student_s_edition_has_no_instructor_s_page_and_does_not_speak_of_one(tmp_path, monkeypatch):
+    monkeypatch.setattr(book, "replays", lambda: "# Replays\n")
+    book.gather(tmp_path / "source")
+    assert list((tmp_path / "source/lessons/instructor").iterdir()) == []
+    index = (tmp_path / "source/index.md").read_text(encoding="utf-8")
+    assert "instructor" not in index and "lessons/[0-9]*" in index
 
 
 def test_a_dead_link_stops_the_book(tmp_path, capfd):

@@ -1,7 +1,8 @@
 """`make book`: the lessons as pages in build/book/html that need neither a kernel nor a server nor the network.
 
-The pages of book/, the executed notebooks, what ships with the results and the instructor's pages are
-gathered in one folder, and Sphinx makes the rest (book/conf.py).
+The pages of book/, the executed notebooks and what ships with the results are gathered in one folder, and Sphinx makes
+the rest (book/conf.py). `make book EDITION=instructor` adds the instructor's pages, which hold the solutions, in
+build/book/instructor.
 """
 
 import re
@@ -13,11 +14,12 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))  # so that `tools.course` is found
 
 BUILD = ROOT / "build/book"
+INSTRUCTOR = re.compile(r"<!-- instructor -->\n(.*?)<!-- end -->\n", re.S)  # of index.md, for this edition only
 SOLVED = re.compile(r"\[([^]]*)\]\(\.\./solved/([^)]*)\)")
 
 
-def gather(to: Path) -> None:
-    """Put all that the book is made of into the folder `to`."""
+def gather(to: Path, edition: str = "student") -> None:
+    """Put all that the book is made of into the folder `to`. edition: student, or instructor with the solutions."""
     from tools.course import front_page
     from tools.course.claims import claims_page
 
@@ -27,9 +29,13 @@ def gather(to: Path) -> None:
     shutil.copytree(ROOT / "assets/readme", to / "pictures")
     shutil.copy(ROOT / "assets/checks.md", to)
     front_page.fill(to / "front")
+    index = (to / "index.md").read_text(encoding="utf-8")
+    (to / "index.md").write_text(INSTRUCTOR.sub(r"\1" if edition == "instructor" else "", index), encoding="utf-8")
     (to / "lessons/instructor").mkdir(parents=True)
     for notebook in sorted((ROOT / "notebooks").glob("*.ipynb")):
         shutil.copy(notebook, to / "lessons")
+        if edition != "instructor":
+            continue
         page = (ROOT / "notebooks/instructor" / notebook.name).with_suffix(".md")
         # The solved notebooks are not in the book: the page has the solutions itself, and says where they lie.
         text = SOLVED.sub(r"\1 (`notebooks/solved/\2`)", page.read_text(encoding="utf-8"))
@@ -62,13 +68,17 @@ def build(source: Path, html: Path) -> int:
     return main(["-b", "html", "-q", "-W", "--keep-going", "-d", str(html.parent / "doctrees"), str(source), str(html)])
 
 
-def main() -> int:
-    gather(BUILD / "source")
-    status = build(BUILD / "source", BUILD / "html")
+def main(edition: str = "student") -> int:
+    if edition not in ("student", "instructor"):
+        print(f"EDITION={edition}: choose student or instructor.", file=sys.stderr)
+        return 2
+    html = BUILD / ("html" if edition == "student" else edition)
+    gather(BUILD / "source", edition)
+    status = build(BUILD / "source", html)
     if status == 0:
-        print(f"The book: {(BUILD / 'html/index.html').as_uri()}")
+        print(f"The book: {(html / 'index.html').as_uri()}")
     return status
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(*sys.argv[1:]))
