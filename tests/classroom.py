@@ -78,7 +78,7 @@ def notebook(answers: dict[str, str]) -> str:
 
 def make(folder: Path, students: int, exercises: list[str], attacks: dict[str, str], seed: int = 0) -> None:
     """Write a class: `students` honest ones, then one of each special kind. Every honest text differs."""
-    rng, texts = random.Random(seed), {name: texts_of(name) for name in exercises}
+    rng, texts = random.Random(seed), {name: found for name in exercises if (found := texts_of(name))[0]}
     folder.mkdir(parents=True)
     for number in range(students):
         skill, answers = rng.random(), {}
