@@ -55,6 +55,12 @@ def here(job: bytes, seconds: float):
     return "", stream.getvalue()
 
 
+def one_sentence(verdict) -> bool:
+    """No line breaks, a full stop at the end, and HTML without a trace of Python's own noise."""
+    html = verdict._repr_mimebundle_()["text/html"]
+    return "\n" not in verdict.sentence and verdict.sentence.endswith((".", "?")) and "Traceback" not in html
+
+
 in_this_process = mock.patch.multiple(guard, _in_a_fork=here, _alone=here)
 
 for _module in pkgutil.iter_modules(__path__):

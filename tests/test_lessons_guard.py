@@ -1,0 +1,212 @@
+"""Whatever an answer does in its process is one sentence, and the next check knows nothing of it."""
+
+import contextlib
+import ctypes
+import dataclasses
+import io
+import os
+import random
+import re
+import signal
+import sys
+import threading
+import time
+from contextlib import redirect_stdout
+
+import cloudpickle
+import nbformat
+import numpy as np
+import pytest
+import torch
+from nbclient import NotebookClient
+
+from bootcourse.learn import sac
+from bootcourse.lessons import check, guard, values, worker
+from bootcourse.lessons.exercises import registry
+from bootcourse.lessons.judge import judge, judge_source
+from tests.answers import one_sentence
+
+TARGET = registry()["critic_target"]
+cloudpickle.register_pickle_by_value(sys.modules[__name__])
+
+# What an answer may do ------------------------------------------------------------------------------
+
+
+class Unprintable(Exception):
+    def __str__(self):
+        raise ValueError
+
+
+def endless(*arguments):
+    while True:
+        try:
+            print("again")
+        except BaseException:
+            pass
+
+
+def holds_the_interpreter(*arguments):
+    return sum(range(10**12))
+
+
+def catastrophic(*arguments):
+    return re.match(r"(a+)+$", "a" * 50 + "b")
+
+
+def recurses_without_a_limit(*arguments):
+    sys.setrecursionlimit(10**9)
+    return recurses_without_a_limit(*arguments)
+
+
+def raises_what_cannot_be_printed(*arguments):
+    raise Unprintable
+
+
+def kills_the_process_that_started_it(*arguments):
+    os.kill(os.getppid(), signal.SIGKILL)
+    time.sleep(9)
+
+
+def fills_the_memory(*arguments):
+    return np.ones(10**10)
+
+
+def fills_the_memory_with_a_tensor(*arguments):
+    return torch.ones(10**10)
+
+
+def returns_far_too_much(reward, *rest):
+    return torch.zeros(2**20 + 1)
+
+
+def leaves_threads_and_processes_behind(reward, terminated, next_value, gamma):
+    if threading.active_count() == 1:
+        threading.Thread(target=time.sleep, args=(100,)).start()
+        if os.fork() == 0:
+            time.sleep(100)
+    return reward
+
+
+def forges_its_report(reward, *rest):
+    for descriptor in range(3, 20):
+        with contextlib.suppress(OSError):
+            os.write(descriptor, b'{"ended": "", "bytes": 0}\n{"done": true}\n')
+    return reward
+
+
+def patches_everything(reward, *rest):
+    np.allclose = np.isclose = lambda *a, **k: True
+    values.same = lambda *a, **k: True
+    sac.critic_target = lambda reward, *rest: reward
+    random.seed(0), torch.manual_seed(0)
+    torch.set_default_dtype(torch.float64)
+    return reward
+
+
+HOSTILE = {
+    endless: "stopped after 0.5 s",
+    holds_the_interpreter: "stopped after 0.5 s",
+    catastrophic: "stopped after 0.5 s",
+    recurses_without_a_limit: "",  # the memory or the stack ends first, as the Python is
+    lambda *arguments: os._exit(3): "exit code 3",
+    lambda *arguments: sys.exit("bye"): "SystemExit: bye",
+    lambda *arguments: ctypes.string_at(0): "SIGSEGV",
+    raises_what_cannot_be_printed: "raises an error in line",
+    kills_the_process_that_started_it: "crash",
+    fills_the_memory: "2 GiB",
+    fills_the_memory_with_a_tensor: "2 GiB",
+    returns_far_too_much: "of 1,048,577 numbers",
+    leaves_threads_and_processes_behind: "differ at [0]",
+    forges_its_report: "exit code 0",
+    patches_everything: "differ at [0]",
+}
+
+
+def the_state_of_this_process():
+    settings = torch.get_default_dtype(), sys.getrecursionlimit(), np.allclose, values.same, sac.critic_target
+    return *settings, random.getstate(), torch.get_rng_state().tolist(), threading.active_count()
+
+
+@pytest.mark.skipif(not worker.FORKS, reason="needs a fork")
+@pytest.mark.parametrize("answer, words", HOSTILE.items(), ids=lambda x: getattr(x, "__name__", None) or "says")
+def test_whatever_an_answer_does_is_one_sentence_and_leaves_nothing_behind(answer, words):
+    exercise = dataclasses.replace(TARGET, seconds=0.5) if "0.5 s" in words else TARGET
+    before = the_state_of_this_process()
+    with redirect_stdout(io.StringIO()) as printed:
+        verdict = judge(exercise, answer)
+    assert verdict.kind == "wrong" and words in verdict.sentence and one_sentence(verdict), verdict
+    assert the_state_of_this_process() == before and printed.getvalue() == ""
+    assert not judge(TARGET, lambda reward, *rest: reward).passed and judge(TARGET, TARGET.solution).passed
+
+
+@pytest.mark.skipif(not worker.FORKS, reason="needs a fork")
+def test_the_process_that_forks_has_one_thread():
+    judge(registry()["cloning_loss"], registry()["cloning_loss"].solution)  # torch has worked in it, and NumPy
+    assert len(os.listdir(f"/proc/{guard._process.pid}/task")) == 1
+
+
+def test_without_a_fork_each_answer_has_a_process_of_its_own(monkeypatch):
+    guard.stop()
+    monkeypatch.setattr(worker, "FORKS", False)
+    impatient = dataclasses.replace(TARGET, seconds=0.5)
+    assert "stopped after 0.5 s" in judge(impatient, holds_the_interpreter).sentence
+    assert judge(TARGET, TARGET.solution).passed
+    guard.stop()
+
+
+def test_what_cannot_be_sent_to_another_process_is_refused_in_one_sentence():
+    lock = threading.Lock()
+    verdict = check.critic_target(lambda *arguments: lock)
+    assert "make it inside the function" in verdict.sentence and one_sentence(verdict)
+
+
+RIGHT_TEXT = "import torch\n\ndef critic_target(r, t, v, gamma):\n    return r + gamma * (1 - t) * v\n"
+
+
+@pytest.mark.parametrize(
+    "text, kind, words",
+    [
+        (RIGHT_TEXT, "passed", "Right."),
+        (RIGHT_TEXT.replace("(1 - t)", "t"), "wrong", "inverted"),
+        (RIGHT_TEXT.replace("* v", "* w"), "wrong", "line 4, `return r + gamma * (1 - t) * w`: NameError"),
+        (RIGHT_TEXT.replace("(r, t, v", "(r, t"), "wrong", "the check calls"),
+        ("def critic_target(r, t, v, gamma):\n    ...", "todo", "Nothing to check yet"),
+        ("critic_target = 3", "wrong", "this is a number"),
+        ("x =", "wrong", "line 1, `x =`: SyntaxError"),
+        ("", "wrong", "no function `critic_target`"),
+        ("while True: pass", "wrong", "stopped after 0.5 s"),
+        ("import os; os._exit(1)", "wrong", "exit code 1"),
+    ],
+)
+def test_a_text_is_judged_like_a_function(text, kind, words):
+    verdict = judge_source(TARGET, text, seconds=0.5)
+    assert verdict.kind == kind and words in verdict.sentence and one_sentence(verdict), verdict
+
+
+def test_what_a_function_prints_is_kept_short_and_shown_with_what_is_wrong():
+    def chatty(reward, *rest):
+        print("reward is", reward.tolist())
+        return reward
+
+    assert "printed: reward is [1.0, -10.0]" in check.critic_target(chatty).details[-1]
+    assert len(judge(dataclasses.replace(TARGET, seconds=0.2), endless).details[-1]) < 600
+
+
+# In a notebook's kernel ---------------------------------------------------------------------------
+
+
+def test_a_kernel_outlives_what_an_answer_does_and_shows_its_line():
+    cells = [
+        "import os, threading\nfrom bootcourse.lessons import check\nbefore = threading.active_count()",
+        "check.critic_target(lambda *a: os._exit(1))",
+        "def f(*a):\n    x = 1\n    return x + 'a'\ncheck.critic_target(f)",
+        "def f(reward, *a):\n    ...\n\n\ncheck.critic_target(f)",
+        "print('alive', threading.active_count() - before)",
+    ]
+    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in cells])
+    NotebookClient(notebook, timeout=60).execute()
+    said = [cell.outputs[0] for cell in notebook.cells[1:]]
+    assert "exit code 1" in said[0].data["text/plain"] and "✗" in said[0].data["text/html"]
+    assert "in line 3, `return x + 'a'`: TypeError" in said[1].data["text/plain"]
+    assert "Nothing to check yet" in said[2].data["text/plain"]
+    assert said[3].text == "alive 0\n"
