@@ -14,6 +14,7 @@ from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
 from bootcourse.scenario import DEFAULT, Sight
 from bootcourse.storage.runs import find_runs, load_checkpoint, load_run, save_checkpoint, save_runs
+from bootcourse.storage.sealed import write_sealed
 
 
 def small_training(method: str = "bootstrapped", episodes: int = 12) -> Training:
@@ -70,7 +71,8 @@ def test_weights_that_are_not_numbers_are_refused_even_with_the_right_hash(run):
     save_file(weights, run / "weights.safetensors")
     made = json.loads((run / "provenance.json").read_text())
     made["sha256"]["weights.safetensors"] = sha256(run / "weights.safetensors")
-    write_json(run / "provenance.json", made)
+    del made["seal"]
+    write_sealed(run / "provenance.json", made)
     with pytest.raises(BootcourseError, match="NaN or infinity"):
         load_run(run)
 
@@ -89,7 +91,8 @@ def test_a_folder_whose_name_is_impossible_is_refused_with_a_sentence(result, tm
 def replaced(run, name: str, **entries) -> None:
     """Replace entries of one of a run's JSON files, and its hash in provenance.json."""
     content = json.loads((run / name).read_text()) | entries
-    write_json(run / name, content)
+    content.pop("seal", None)
+    (write_sealed if name == "provenance.json" else write_json)(run / name, content)
     if name != "provenance.json":
         digests = json.loads((run / "provenance.json").read_text())["sha256"]
         replaced(run, "provenance.json", sha256=digests | {name: sha256(run / name)})
@@ -118,6 +121,13 @@ def test_a_wrong_entry_of_a_run_is_named_even_with_the_right_hash(run, name, ent
     with pytest.raises(BootcourseError) as error:
         load_run(run)
     assert words in str(error.value) and str(run) in str(error.value) and "\n" not in str(error.value)
+
+
+def test_a_changed_provenance_is_noticed(run):
+    text = (run / "provenance.json").read_text()
+    (run / "provenance.json").write_text(text.replace('"seed": 0', '"seed": 1'))
+    with pytest.raises(BootcourseError, match="provenance.json is damaged: it does not fit its own hash"):
+        load_run(run)
 
 
 def test_a_file_of_a_run_that_is_another_kind_of_json_is_refused(run):

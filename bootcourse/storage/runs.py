@@ -3,7 +3,7 @@
 config.json          settings, scenario, episodes
 weights.safetensors  actor, critics
 curves.npz           the curves of the training episodes (`bootcourse.learn.curves`)
-provenance.json      versions, git commit, seconds, and the hash of the three files above
+provenance.json      versions, git commit, seconds, the hash of the three files above, and its own
 """
 
 import json
@@ -43,6 +43,7 @@ from bootcourse.learn.teachers import Rule, course_rule, teacher_name
 from bootcourse.learn.training import Result, Training
 from bootcourse.scenario import N_ACTIONS, Scenario
 from bootcourse.storage.checkpoint import DamagedCheckpoint, restored, state_of
+from bootcourse.storage.sealed import seal, write_sealed
 
 FORMAT = "bootcourse run 1"
 CHECKPOINT_FORMAT = "bootcourse checkpoint 2"
@@ -144,7 +145,7 @@ def _save_run(path: Path, agent: Agent, curves: dict[str, np.ndarray], result: R
             teacher=result.teacher,
             sha256={name: sha256(temporary / name) for name in HASHED},
         )
-        write_json(temporary / "provenance.json", made)
+        write_sealed(temporary / "provenance.json", made)
         temporary.chmod(0o755)
         os.rename(temporary, path)
     except BaseException:
@@ -158,6 +159,11 @@ def load_run(path: Path) -> Run:
     if not (path / "provenance.json").is_file():
         raise BootcourseError(f"{path} is not a run: train one with `bootcourse train --out {path}`.")
     made = read_json(path / "provenance.json", dict[str, Any], TRAIN_AGAIN)
+    sealed = made.pop("seal", None)
+    if sealed not in (None, seal(made)):  # files of earlier versions have none
+        raise BootcourseError(
+            f"{path / 'provenance.json'} is damaged: it does not fit its own hash. Train this run again."
+        )
     with decoding(path / "provenance.json", TRAIN_AGAIN):
         digests = convert(made, Provenance).sha256
     for name in HASHED:

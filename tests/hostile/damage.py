@@ -77,13 +77,14 @@ def kinds(folder: Path) -> list[Kind]:
     def reseal(path: Path) -> None:
         made = json.loads((path.parent / "provenance.json").read_text())
         write_json(path.parent / "provenance.json", made | {"sha256": {n: sha256(path.parent / n) for n in HASHED}})
+        _seal(path.parent / "provenance.json")
 
     return [
         Kind("rollout", drive, Rollout.load, _show),
         Kind("checkpoint", folder / "checkpoint.npz", lambda path: state_of(load_checkpoint(path))),
         *(Kind(f"run: {name}", run / name, of_run, lambda r: r.agent.probabilities(np.zeros((1, 26))), reseal)
           for name in HASHED),
-        Kind("run: provenance.json", run / "provenance.json", of_run),
+        Kind("run: provenance.json", run / "provenance.json", of_run, resealed=_seal),
         Kind("results", folder / "results.npz", load_results, lambda r: [r.scores("success"), r.scores("collision")]),
         Kind("manifest", folder / MANIFEST, lambda path: read_manifest(path.parent)),
         Kind("job", folder / "job" / "job.json", lambda path: read_job(path.parent), resealed=_seal),
