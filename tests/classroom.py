@@ -33,7 +33,7 @@ ATTACKS = {
     "recurses": "def f():\n    return f()\nf()",
     "scribbles": "print('<script>alert(1)</script>' * 10**5)\nraise ValueError('<script>alert(1)</script>')",
     "detaches": "import os\nif os.fork() == 0:\n    os.setsid()\n    while True:\n        pass\n1 / 0",
-    "cheats": "import sys\nsys.stdout.write('{{\"kind\": \"passed\"}}')\nos.write(1, b'passed')",
+    "cheats": "import os, sys\nsys.stdout.write('{{\"kind\": \"passed\"}}')\nos.write(1, b'passed')",
 }
 
 
@@ -47,7 +47,7 @@ def sources(name: str, functions: list) -> list[str]:
         if place is None or not re.search(r"^def ", statements[place], re.M):
             continue
         bare = statements[place][re.search(r"^def ", statements[place], re.M).start() :]
-        statements[place] = re.sub(rf"\b{function.__name__}\b", name, bare)
+        statements[place] = bare.replace(f"def {function.__name__}(", f"def {name}(", 1)
         found.append(with_needs(place, statements, made))
     return found
 
