@@ -6,10 +6,13 @@ from bootcourse.lessons.exercises import registry
 from tests.answers import EQUIVALENT
 from tests.mutants import surviving
 
-LESSONS = ("05", "06", "09", "11", "13")
+LESSONS = ("04", "05", "06", "07", "08", "09", "11", "13")
 
 
-@pytest.mark.parametrize("exercise", [e for e in registry().values() if e.lesson[:2] in LESSONS], ids=lambda e: e.name)
+FUNCTIONS = [e for e in registry().values() if e.lesson[:2] in LESSONS and not isinstance(e.solution, type)]
+
+
+@pytest.mark.parametrize("exercise", FUNCTIONS, ids=lambda e: e.name)
 def test_the_cases_of_an_exercise_refuse_its_solution_with_one_place_changed(exercise):
     tried, accepted = surviving(exercise)
     assert set(accepted) == set(EQUIVALENT[exercise.name])

@@ -19,15 +19,12 @@ from bootcourse.learn.replay_buffer import Batch
 from bootcourse.learn.settings import Settings, settings_for
 from bootcourse.learn.training import Training
 from bootcourse.lessons import answer_files
+from bootcourse.lessons.answer_files import PARTS
 from bootcourse.lessons.exercises import registry
 from bootcourse.lessons.judge import judge
 from bootcourse.lessons.own_learner import BUFFER, OwnReplay, own_learner, parts_of
 from bootcourse.lessons.verdict import Verdict
 
-PARTS = (
-    "soft_value", "critic_target", "critic_loss", "actor_loss", "temperature_loss", "ReplayBuffer",
-    "soft_constraint", "constrained_loss", "constrained_target", "mixed_batch", "margin_loss",
-)  # fmt: skip
 NONE = "No part is yours yet: agents train with the library's own."
 TOLERANCE = 1e-3  # relative difference of a loss or a gradient; rounding gives about 1e-6
 _own: dict[str, Callable] = {}  # the student's parts in this kernel
@@ -59,7 +56,7 @@ def load() -> None:
     """Run the parts' files in `answers/`, use them, print which. Raises BootcourseError if one does not run."""
     found = [name for name in PARTS if name in answer_files.kept()]
     for name in found:
-        _own.setdefault(name, answer_files.read(name))  # a part that passed in this notebook is newer
+        _own[name] = answer_files.read(name)
     print(f"Found in {answer_files.FOLDER}: {whose(found)}.".replace("`", "") if found else NONE)
 
 

@@ -46,7 +46,7 @@ def policy_chart(seen: PolicyNumbers, p: float, xi: float, alpha: float, who: st
             parts.append(text(x, ROWS - 9, "not recorded" if symbol == "Q" else "needs Q", "end", QUIET, 11))
     dear, cheap = seen.price.max(), seen.price.min()
     price = f"Price of an action, −log π̃: {cheap:.2f} nats for the rule's own, {dear:.2f} nats for any other."
-    formula = "optimum = softmax((Q + ξ log π̃) / (α + ξ)), the best of Q + α·entropy − ξ·KL."
+    formula = "optimum: the policy with the most Q + α·entropy − ξ·KL."
     return [*parts, text(0, bottom + 20, price, bold=True), text(0, bottom + 39, formula, fill=QUIET)]
 
 

@@ -560,8 +560,8 @@ own_code.compare()
 # %% [markdown]
 # **Try.** Plant a mistake: copy your `critic_target` into a new cell, leave out `(1 - terminated)`,
 # and call `own_code.use(critic_target)`. That trains with it unchecked. Then run the last cell and
-# the training again. What does the comparison say, and do the agents still learn? (Run the check of
-# Exercise 4.3 again to get back to the right one.)
+# the training again. What does the comparison say, and do the agents still learn?
+# (`own_code.load()` gets back the right one.)
 
 # %% [markdown]
 # Here are the losses of SAC as the library computes them, for many agents at once (the dots stand

@@ -15,10 +15,10 @@
 #
 # **What you will be able to do**
 # - turn a rule into a probability for each action, and say in nats what it costs to ignore it;
-# - write down the best compromise between a learner's Q and what the rule says;
-# - say where this pull enters the learner's losses, and how fast it fades.
+# - derive the best compromise between a learner's Q and what the rule says;
+# - write the two losses that the pull enters, train with them, and say how fast the pull fades.
 #
-# **Time** 50 minutes, about one of them the machine's. **You need** the rule of lesson 3, and
+# **Time** 90 minutes, about one of them the machine's. **You need** the rule of lesson 3, and
 # actor, critic and soft value from lesson 4.
 
 # %%
@@ -27,7 +27,7 @@ import math
 import bootcourse as bc
 import numpy as np
 import torch
-from bootcourse.lessons import charts, check, source
+from bootcourse.lessons import charts, check, compare_predictions, own_code, predict, source
 
 # %% [markdown]
 # ## Look first
@@ -47,10 +47,22 @@ bc.panels.policy_panel(first_drive)
 # > **Predict.** Set ξ ("xi") to 0. Which of the three columns of bars changes, and what does it
 # > look like then? Do it, and put ξ back to 2.
 
+# %%
+predict(
+    "7.1", "With ξ = 0, the compromise is", ["even", "the agent's π", "the rule's π̃", "by Q alone"]
+)
+
 # %% [markdown]
 # **See.** The compromise now depends on Q alone, the agent's own estimates, which are still noise.
 # ξ is how hard the rule pulls. This lesson takes the pull apart: what it costs to ignore the rule,
 # which compromise is best, where it enters the losses, and how it fades.
+#
+# The agents of this lesson train with the parts that you wrote in lesson 4, if they have passed
+# their checks there. The next cell looks for them. It runs the files in the folder `answers`, which
+# hold your own code; no other cell does that.
+
+# %%
+own_code.load()
 
 # %% [markdown]
 # ## Round 1: what it costs to ignore the rule
@@ -66,7 +78,10 @@ bc.panels.policy_panel(first_drive)
 # probability $1/e$ costs 1.
 #
 # > **Predict.** Raise p from 0.9 to 0.99. Any other action than the rule's becomes ten times as
-# > unlikely. Does its price grow by a factor of ten, of two, or by less?
+# > unlikely. Does its price grow by a factor of 10, of 2, or of about 1.5?
+
+# %%
+predict("7.2", "The price of another action grows by a factor of", ["10", "2", "about 1.5"])
 
 # %%
 for p in (0.5, 0.9, 0.99, 0.999):
@@ -109,6 +124,13 @@ check.log_stochastic_rule(log_stochastic_rule)
 # > order of their KL. Is any of them 0?
 
 # %%
+predict(
+    "7.3",
+    "The smallest KL has",
+    ["the one that is sure of keep left: 0", "the same one, but not 0", "the even one"],
+)
+
+# %%
 rule_says = torch.tensor([bc.ACTION_NAMES.index("keep left")])
 sure = torch.full((1, 9), 1e-12).scatter(1, rule_says[:, None], 1.0)
 elsewhere = torch.full((1, 9), 1e-12).scatter(1, torch.tensor([[7]]), 1.0)
@@ -143,8 +165,8 @@ def soft_constraint(log_pi, rule_action, p):
 check.soft_constraint(soft_constraint)
 
 # %% [markdown]
-# The library does the same, for many agents at once (`p[..., None, None]` makes room for the
-# batch and the actions):
+# The library does the same for many agents at once (`p[..., None, None]` makes room for the batch
+# and the actions). Open it when yours has passed:
 
 # %% tags=["nbval-ignore-output"]
 source("bootcourse.learn.bootstrap", "log_stochastic_rule", "kl_to_rule")
@@ -163,15 +185,26 @@ source("bootcourse.learn.bootstrap", "log_stochastic_rule", "kl_to_rule")
 # $$ \max_\pi \; \sum_a \pi(a)\, Q(a) + \alpha\, \mathcal{H}(\pi)
 # - \xi\, D_\mathrm{KL}(\pi \| \tilde\pi) $$
 #
-# Write out the KL and collect: π is multiplied by $Q + \xi \log\tilde\pi$, and $\pi \log \pi$ by
-# $-(\alpha + \xi)$. Such a sum is largest for a softmax:
+# > **Predict.** For a very large ξ the rule decides, for ξ = 0 it is SAC. Which π is best for a ξ
+# > in between, if Q is the same for all actions and α = ξ?
+
+# %%
+predict(
+    "7.4",
+    "With all Q equal and α = ξ, the best π is",
+    ["π̃", "halfway between π̃ and even", "proportional to the root of π̃", "even"],
+)
+
+# %% [markdown]
+# **Exercise 7.3 (15 min, ●●●).** Derive the best policy on paper, then write it. Use that without
+# the KL it is softmax(Q / α) (lesson 4 shows why). The check wants probabilities.
 #
-# $$ \pi^*(a) \propto \exp \frac{Q(a) + \xi \log \tilde\pi(a)}{\alpha + \xi} $$
+# <details><summary>First step</summary>
 #
-# The price of an action, times ξ, is subtracted from its value. ξ stands in the denominator, too:
-# the larger ξ, the less a difference in Q counts. For a very large ξ the best policy is nearly π̃.
+# Write out the KL as $\sum_a \pi \log\pi - \sum_a \pi\log\tilde\pi$, and the entropy as
+# $-\sum_a \pi\log\pi$. Then collect what multiplies π, and what multiplies π log π.
 #
-# **Exercise 7.3 (8 min, ●●○).** Write it.
+# </details>
 
 
 # %%
@@ -185,6 +218,17 @@ def regularised_policy(q, log_rule, alpha, xi):
 check.regularised_policy(regularised_policy)
 
 # %% [markdown]
+# <details><summary>The derivation in four lines</summary>
+#
+# The objective is $\sum_a \pi\,(Q + \xi\log\tilde\pi) - (\alpha+\xi) \sum_a \pi\log\pi$: that of
+# SAC with $Q + \xi\log\tilde\pi$ in place of Q, and α + ξ in place of α. Its best policy is
+# therefore a softmax: $\pi^*(a) \propto \exp\frac{Q(a) + \xi\log\tilde\pi(a)}{\alpha+\xi}$. The
+# price of an action, times ξ, is subtracted from its value. ξ stands in the denominator, too: the
+# larger ξ, the less a difference in Q counts. With all Q equal and α = ξ this is
+# $\sqrt{\tilde\pi}$, divided by its sum.
+#
+# </details>
+#
 # Is it really the best? Test the algebra: let an optimiser look for something better, starting from
 # a policy that is even.
 
@@ -218,6 +262,9 @@ bc.show(
 #
 # > **Predict.** With p = 0.9 and the paper's first ξ = 2, how large is that head start? Compare it
 # > with the most that one second on the road can pay, which is 1.5/1.6 + 0.05/1.6, about 1.
+
+# %%
+predict("7.5", "The head start, in seconds of the best reward", ["0.5", "2", "9", "40"])
 
 # %%
 step = math.log(8 * 0.9 / 0.1)
@@ -267,9 +314,9 @@ bc.show(charts.lines(strengths, probability, title, "ξ (α = 0.01)", "probabili
 
 # %%
 def constrained_loss(log_pi, q, alpha, xi, kl):
-    """Mean over the batch of -(Σ_a π (Q - α log π) - ξ KL), a scalar tensor.
+    """A scalar tensor. log_pi, q: (batch, actions); kl: (batch,), nats; all with gradients.
 
-    log_pi, q: (batch, actions); kl: (batch,), nats; all with gradients. alpha, xi: floats.
+    alpha, xi: floats.
     """
     # solution
     value = (log_pi.exp() * (q.detach() - alpha * log_pi)).sum(-1) - xi * kl
@@ -280,14 +327,58 @@ def constrained_loss(log_pi, q, alpha, xi, kl):
 check.constrained_loss(constrained_loss)
 
 # %% [markdown]
-# **The critic's**: its target $r + \gamma V(s')$ uses the soft value of the next state, and that
-# is smaller by $\xi D_\mathrm{KL}$, too. This is easy to forget: the paper's text does not write it
-# out. What does it change?
+# **The critics'**: their target follows from the same sum over time. The paper's text does not
+# write it out, and it is easy to get wrong.
+#
+# **Exercise 7.5 (20 min, ●●●).** Derive the target, then write it. Begin on paper: which seconds
+# does $Q(s,a)$ count, if a has been taken already? Which of their entropies and KLs follow from a
+# choice of the policy, and in which state was it made? Then put the whole target into code: the
+# smaller of two critics, the entropy, the KL, the end of an episode.
+
+
+# %%
+def constrained_target(reward, terminated, next_log_pi, next_q_pair, next_kl, alpha, xi, gamma):
+    """y, (batch,). reward, terminated (0 or 1), next_kl: (batch,); next_log_pi: (batch, 9).
+
+    next_q_pair: (2, batch, 9), of the target critics; next_kl: in s'; alpha, xi, gamma: floats.
+    """
+    # solution
+    next_q = next_q_pair.amin(0)
+    value = (next_log_pi.exp() * (next_q - alpha * next_log_pi)).sum(-1) - xi * next_kl
+    return reward + gamma * (1 - terminated) * value
+    # end solution
+
+
+check.constrained_target(constrained_target)
+
+# %% [markdown]
+# <details><summary>The derivation in five lines</summary>
+#
+# $Q(s,a)$ is what follows *after* a was taken in s. The policy made no choice between the two, so
+# neither the entropy nor the KL of s is in it. From s' on the policy chooses, and each second pays
+# $r + \alpha\mathcal{H} - \xi D_\mathrm{KL}$: so $V(s') = \sum_a \pi\,Q(s',a) + \alpha\mathcal{H} -
+# \xi D_\mathrm{KL}$, all in s', and $y = r + \gamma\,(1 - \text{terminated})\,V(s')$. After an
+# accident there is no s' in which to choose: its KL is not charged.
+#
+# </details>
+#
+# What does the KL in the target change?
 #
 # > **Predict.** An agent follows trap 1 for ever and gets a reward of 0.15625 each second. In each
 # > of those seconds the rule would do something else. With γ = 0.8, what is following worth to the
-# > critic without the KL, and with it, at ξ = 2?
+# > critic without the KL, and with it, at ξ = 2: more or less than a crash, which pays −10?
 # <!-- claim: not (idle().rule_actions == idle().actions).any() -->
+
+# %%
+predict(
+    "7.6",
+    "Following is worth",
+    [
+        "more than a crash in both",
+        "less than a crash, but only with the KL",
+        "less than a crash in both",
+    ],
+)
 
 # %%
 idle = bc.record(bc.idle_policy, [ROAD], label="idle")[0]
@@ -333,28 +424,22 @@ source("bootcourse.learn.textbook", "TextbookSAC.critic_target", "TextbookSAC.ac
 # {{ SETTINGS.target_entropy }} it falls at each update (lesson 4). How fast can it? Adam, the
 # optimiser, changes log α by about its learning rate, {{ SETTINGS.alpha_lr }}, at each update while
 # the slopes stay the same, and by less when they shrink.
-#
-# **Exercise 7.5 (3 min, ●○○).** For several agents at once: ξ = multiplier · α, unless a fixed ξ
-# is given. A fixed ξ may be 0; a negative number means that none is given.
-# <!-- claim: bool(bootstrap.constraint_strength(torch.tensor([0.01]), torch.tensor([200.0]),
-#   torch.tensor([0.0])) == 0) -->
-
-
-# %%
-def constraint_strength(alpha, multiplier, fixed):
-    """ξ of each agent. alpha, multiplier, fixed: (agents,) tensors. Returns (agents,)."""
-    # solution
-    return torch.where(fixed >= 0, fixed, multiplier * alpha)
-    # end solution
-
-
-check.constraint_strength(constraint_strength)
 
 # %% [markdown]
 # > **Predict.** Four agents train, 6,000 updates each: two whose ξ fades, two whose ξ stays at 2.
 # > They have the soft constraint and no demonstrations. After how many updates is the fading ξ a
 # > tenth of its start? Which of the two kinds will drive more like the rule at the end? Which
 # > earns more?
+
+# %%
+predict("7.7", "Updates until the fading ξ is a tenth of its start", unit="updates")
+
+# %%
+predict(
+    "7.8",
+    "More like the rule at the end",
+    ["those whose ξ fades", "those whose ξ stays", "no difference"],
+)
 
 # %%
 UPDATES, EVERY = 6000, 250
@@ -377,7 +462,7 @@ def note(training):
 
 
 # %%
-training = bc.Training(agents, episodes=5000)
+training = own_code.training(agents, episodes=5000)
 result = training.run(callback=note, stop=lambda: training.updates > UPDATES)
 print(f"{result.seconds:.0f} s; episodes of each agent: {training.curves.finished.tolist()}")
 
@@ -388,7 +473,7 @@ fastest = its.alpha_init * 200 * np.exp(-its.alpha_lr * updates)
 tenth = updates[np.argmax(xi[0] <= xi[0, 0] / 10)]
 named = {"soft: measured": xi[:2], "as fast as Adam can": fastest}
 title = f"ξ is a tenth of its start after {tenth} updates"
-bc.show(charts.lines(updates, named, title, "update", "ξ = 200 α"))
+bc.show(charts.lines(updates, named, title, "update", "ξ = 200 α", logarithmic="y"))
 
 # %% [markdown]
 # **See.** At first ξ falls as fast as Adam can, then more slowly. The slope of the temperature's
@@ -403,7 +488,7 @@ bc.show(charts.lines(updates, named, title, "update", "ξ = 200 α"))
 
 # %%
 alike = np.array(notes["alike"]).T
-title = "A ξ that stays brings the agent closer and closer to the rule"
+title = "How often the agent's likeliest action is the rule's"
 named = {"soft: ξ fades": alike[:2], "ξ stays at 2": alike[2:]}
 bc.show(charts.lines(updates, named, title, "update", "likeliest action is the rule's (%)"))
 
@@ -433,6 +518,12 @@ for words, driver in [*rows, ("the rule", bc.rule_policy(bc.DEFAULT))]:
 # <!-- claim: PRINTED['soft']['success'].mean == 0 -->
 # <!-- claim: escaped('soft') > 0 -->
 #
+# Do your parts make the same update as ours?
+
+# %%
+own_code.compare()
+
+# %% [markdown]
 # Now look into a decision of the trained agent.
 
 # %%
@@ -452,6 +543,16 @@ bc.panels.policy_panel(drive, xi=round(float(xi[0, -1]), 3), alpha=round(result.
 # 5. With ξ = {{ SETTINGS.xi_multiplier }} α the pull fades as fast as α does, within a few thousand
 #    updates.
 #
+# %%
+stays = "those whose ξ stays" if alike[2:, -1].min() > alike[:2, -1].max() else "no difference"
+kl_alone = "less than a crash, but only with the KL"
+compare_predictions(
+    "07",
+    {"7.1": "by Q alone", "7.2": "about 1.5", "7.3": "the same one, but not 0", "7.5": "9"}
+    | {"7.4": "proportional to the root of π̃", "7.6": kl_alone, "7.7": int(tenth), "7.8": stays},
+)
+
+# %% [markdown]
 # **Three questions to think about**
 # - p and ξ both say how much the rule counts. Which of them can you change without changing the
 #   policy that has a KL of 0?
@@ -463,3 +564,14 @@ bc.panels.policy_panel(drive, xi=round(float(xi[0, -1]), 3), alpha=round(result.
 # Learning with Imitative Expert Priors for Autonomous Driving* (arXiv 2103.10690). Why a softmax
 # is what solves such problems: Levine, *Reinforcement Learning and Control as Probabilistic
 # Inference* (arXiv 1805.00909).
+
+# %% [markdown] tags=["instructor"]
+# *Answers to the three questions.* **p and ξ:** p moves π̃ itself, the policy that has a KL of 0; ξ
+# leaves it where it is and changes how much the distance costs. So ξ. (They are not independent: a
+# larger p raises the head start, too.) **Where the rule is wrong:** a small p, nearly even, so that
+# the price of every action is about the same. p could depend on the state, for instance on how
+# often drives that followed the rule from such states ended in an accident; then π̃ is surest where
+# the rule has proved itself. **ξ = 2 for ever:** the agent converges to the best policy of the
+# objective *with* the KL, softmax((Q + ξ log π̃) / (α + ξ)). It stays near π̃ on the free road as
+# well, where the rule is slow. Its critic counts each second's KL as a cost: it believes that the
+# free road is worth little more than what a drive by the rule earns there.

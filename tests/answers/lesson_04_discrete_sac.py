@@ -4,7 +4,16 @@ import collections
 
 import torch
 
-from tests.answers import right, wrong
+from tests.answers import equivalent, right, wrong
+
+ONE = "α is one number"
+equivalent("soft_value", "alpha.unsqueeze(-1) * log_pi  ->  alpha * log_pi", ONE)
+equivalent("soft_value", "alpha.unsqueeze(-1)  ->  alpha.unsqueeze(0)", ONE)
+VALUE = "return (log_pi.exp() * (q - alpha.unsqueeze(-1) * log_pi)).sum(-1)"
+equivalent("soft_value", f"{VALUE} - constraint  ->  {VALUE} + constraint", "the exercise has no constraint")
+equivalent("actor_loss", "alpha * log_pi  ->  alpha * log_pi.detach()", "its slope, -α, is the same for all actions")
+MEAN = "state_entropy.detach().mean"
+equivalent("temperature_loss", f"{MEAN}(-1)  ->  {MEAN}(0)", "the batch is the only axis")
 
 
 @right("critic_target")
@@ -115,6 +124,17 @@ def without_a_graph(log_pi, q, alpha):
     pi = log_pi.exp()
     entropy = -(pi * log_pi).sum(-1)
     return -torch.mean((pi * worth).sum(-1) + alpha * entropy)
+
+
+@right("actor_loss")
+def log_pi_detached_in_the_bracket(log_pi, q, alpha):  # its slope, -α, is the same for all actions: no logit feels it
+    return -(log_pi.exp() * (q.detach() - alpha * log_pi.detach())).sum(-1).mean()
+
+
+@right("actor_loss")
+def with_a_categorical(log_pi, q, alpha):
+    pi = torch.distributions.Categorical(logits=log_pi)
+    return -((pi.probs * q.detach()).sum(-1) + alpha * pi.entropy()).mean()
 
 
 @wrong("actor_loss")

@@ -5,7 +5,15 @@ import math
 import torch
 
 from bootcourse.learn.bootstrap import kl_to_rule
-from tests.answers import right, wrong
+from tests.answers import equivalent, right, wrong
+
+SAME = "its slope in log π is the same for all actions, so no logit feels it"
+equivalent("soft_constraint", "log_pi - log_rule  ->  log_pi.detach() - log_rule", SAME)
+FULL = "math.log((1 - p) / 8))"
+equivalent(
+    "soft_constraint", f"torch.full_like(log_pi, {FULL}  ->  torch.full_like(log_pi.detach(), {FULL}", "only its shape"
+)
+equivalent("constrained_loss", "alpha * log_pi  ->  alpha * log_pi.detach()", SAME)
 
 
 def pi_tilde(rule_action, p, others=None):
@@ -38,6 +46,12 @@ def minus_entropy_minus_cross(log_pi, rule_action, p):
     of_rule = pi.gather(1, rule_action[:, None])[:, 0]
     cross = of_rule * math.log(p) + (1 - of_rule) * math.log((1 - p) / 8)
     return (pi * log_pi).sum(-1) - cross
+
+
+@wrong("soft_constraint", "no gradient")
+def a_measurement(log_pi, rule_action, p):
+    with torch.no_grad():
+        return with_probabilities(log_pi, rule_action, p)
 
 
 @wrong("soft_constraint", "the other way round")
@@ -172,7 +186,7 @@ def prices(rule_action, p):
     return -pi_tilde(rule_action, p).log()
 
 
-@wrong("log_stochastic_rule")
+@wrong("log_stochastic_rule", "Pair each row")
 def columns_for_rows(rule_action, p):
     log_rule = torch.full((len(rule_action), 9), math.log((1 - p) / 8))
     log_rule[:, rule_action] = math.log(p)
@@ -225,6 +239,12 @@ def as_a_cost(log_pi, q, alpha, xi, kl):
     return torch.mean(cost + xi * kl)
 
 
+@right("constrained_loss")
+def softmax_again(log_pi, q, alpha, xi, kl):
+    pi = log_pi.softmax(-1)
+    return -((pi * (q.detach() - alpha * log_pi.log_softmax(-1))).sum(-1) - xi * kl).mean()
+
+
 @wrong("constrained_loss")
 def all_detached(log_pi, q, alpha, xi, kl):
     return three_means(log_pi, q, alpha, xi, kl).detach()
@@ -240,21 +260,52 @@ def one_for_each_state(log_pi, q, alpha, xi, kl):
     return -((log_pi.exp() * (q.detach() - alpha * log_pi)).sum(-1) - xi * kl)
 
 
-# constraint_strength --------------------------------------------------------------------------------
+# constrained_target ---------------------------------------------------------------------------------
 
 
-@right("constraint_strength")
-def with_a_mask(alpha, multiplier, fixed):
-    is_fixed = (fixed >= 0).to(alpha.dtype)
-    return is_fixed * fixed + (1 - is_fixed) * multiplier * alpha
+@right("constrained_target")
+def with_the_smaller_of_two(reward, terminated, next_log_pi, next_q_pair, next_kl, alpha, xi, gamma):
+    pi, q = next_log_pi.exp(), torch.minimum(next_q_pair[0], next_q_pair[1])
+    entropy = torch.special.entr(pi).sum(-1)
+    value = (pi * q).sum(-1) + alpha * entropy - xi * next_kl
+    return torch.where(terminated > 0, reward, reward + gamma * value)
 
 
-@right("constraint_strength")
-def one_by_one(alpha, multiplier, fixed):
-    pairs = zip(alpha.tolist(), multiplier.tolist(), fixed.tolist(), strict=True)
-    return torch.tensor([f if f >= 0 else m * a for a, m, f in pairs])
+@right("constrained_target")
+def one_row_after_the_other(reward, terminated, next_log_pi, next_q_pair, next_kl, alpha, xi, gamma):
+    rows = []
+    for i in range(len(reward)):
+        q, log_pi = next_q_pair[:, i].min(dim=0).values, next_log_pi[i]
+        value = sum(log_pi[a].exp() * (q[a] - alpha * log_pi[a]) for a in range(len(q))) - xi * next_kl[i]
+        rows.append(reward[i] + (0 if terminated[i] else gamma * value))
+    return torch.stack(rows)
 
 
-@wrong("constraint_strength")
-def added(alpha, multiplier, fixed):
-    return alpha * multiplier + fixed.clamp_min(0)
+@wrong("constrained_target")
+def value_first_and_then_the_minimum(reward, terminated, next_log_pi, next_q_pair, next_kl, alpha, xi, gamma):
+    values = (next_log_pi.exp() * (next_q_pair - alpha * next_log_pi)).sum(-1)  # two values: their smaller one
+    return reward + gamma * (1 - terminated) * (values.min(0).values - xi * next_kl)
+
+
+@wrong("constrained_target")
+def masked_reward(reward, terminated, next_log_pi, next_q_pair, next_kl, alpha, xi, gamma):
+    value = (next_log_pi.exp() * (next_q_pair.amin(0) - alpha * next_log_pi)).sum(-1) - xi * next_kl
+    return (1 - terminated) * (reward + gamma * value)
+
+
+@wrong("constrained_target")
+def discount_of_the_course(reward, terminated, next_log_pi, next_q_pair, next_kl, alpha, xi, gamma):
+    value = (next_log_pi.exp() * (next_q_pair.amin(0) - alpha * next_log_pi)).sum(-1) - xi * next_kl
+    return reward + 0.8 * (1 - terminated) * value
+
+
+@wrong("constrained_target", "differ")
+def xi_of_the_course(reward, terminated, next_log_pi, next_q_pair, next_kl, alpha, xi, gamma):
+    value = (next_log_pi.exp() * (next_q_pair.amin(0) - alpha * next_log_pi)).sum(-1) - 200 * alpha * next_kl
+    return reward + gamma * (1 - terminated) * value
+
+
+@wrong("constrained_target", "outside the value")
+def a_penalty_on_the_reward(reward, terminated, next_log_pi, next_q_pair, next_kl, alpha, xi, gamma):
+    value = (next_log_pi.exp() * (next_q_pair.amin(0) - alpha * next_log_pi)).sum(-1)
+    return reward - xi * next_kl + gamma * (1 - terminated) * value

@@ -3,71 +3,70 @@
 import numpy as np
 import torch
 
-from tests.answers import right, wrong
+from bootcourse.learn.replay_buffer import REWARD
+from tests.answers import equivalent, right, wrong
 
-# demonstration_share --------------------------------------------------------------------------------
+PLACES = "rng.integers(len(demonstrations), size=n)"
+TORCH_PLACES = f"demonstrations[torch.from_numpy({PLACES})]"
+equivalent("mixed_batch", f"{TORCH_PLACES}  ->  demonstrations[{PLACES}]", "either library's numbers index a tensor")
+ACTIONS = "torch.arange(q.shape[-1], device=q.device)"
+equivalent("large_margin_loss", "q.shape[-1]  ->  q.detach().shape[-1]", "only its shape")
+equivalent("large_margin_loss", f"{ACTIONS}  ->  {ACTIONS.replace('q.device', 'q.detach().device')}", "only its device")
 
-
-@right("demonstration_share")
-def what_is_left(episode, beta_start, beta_episodes):
-    left = np.maximum(beta_episodes - episode, 0)
-    return beta_start * left / beta_episodes
-
-
-@right("demonstration_share")
-def interpolated(episode, beta_start, beta_episodes):
-    return np.interp(episode, [0, beta_episodes], [beta_start, 0.0])
+# mixed_batch ----------------------------------------------------------------------------------------
 
 
-@wrong("demonstration_share")
-def halving(episode, beta_start, beta_episodes):
-    return beta_start * 0.5 ** (episode / beta_episodes)
+@right("mixed_batch")
+def with_choice(own, demonstrations, size, beta, bonus, rng):
+    n = int(round(beta * size))
+    theirs = demonstrations[rng.choice(len(demonstrations), n)].clone()
+    theirs[:, REWARD] = theirs[:, REWARD] + bonus
+    marks = torch.cat([torch.ones(n), torch.zeros(size - n)])
+    return torch.cat([theirs, own.sample(size - n, rng)]), marks
 
 
-@wrong("demonstration_share")
-def a_switch(episode, beta_start, beta_episodes):
-    return np.where(np.asarray(episode) < beta_episodes, beta_start, 0.0)
+@right("mixed_batch")
+def own_rows_first(own, demonstrations, size, beta, bonus, rng):
+    marks = torch.zeros(size)
+    rows = own.sample(size, rng).clone()
+    for i in range(size - round(beta * size), size):
+        rows[i] = demonstrations[int(rng.integers(len(demonstrations)))]
+        rows[i, REWARD] += bonus
+        marks[i] = 1
+    return rows, marks
 
 
-@wrong("demonstration_share", "raises an error")
-def numbers_only(episode, beta_start, beta_episodes):
-    return max(0.0, beta_start * (1 - episode / beta_episodes))
+@wrong("mixed_batch", "changes its argument `demonstrations`")
+def paid_in_the_table(own, demonstrations, size, beta, bonus, rng):
+    demonstrations[:, REWARD] += bonus  # again at each call
+    return with_choice(own, demonstrations, size, beta, 0.0, rng)
 
 
-# augmented_reward -----------------------------------------------------------------------------------
+@wrong("mixed_batch")
+def a_coin_for_each_row(own, demonstrations, size, beta, bonus, rng):
+    marks = torch.from_numpy(rng.random(size) < beta)
+    n = int(marks.sum())
+    theirs = demonstrations[rng.integers(len(demonstrations), size=n)]
+    theirs[:, REWARD] += bonus
+    rows = torch.empty(size, theirs.shape[1])
+    rows[marks], rows[~marks] = theirs, own.sample(size - n, rng)
+    return rows, marks.float()
 
 
-@right("augmented_reward")
-def with_where(reward, is_demonstration, bonus):
-    return torch.where(is_demonstration > 0, reward + bonus, reward)
+@wrong("mixed_batch")
+def bonus_of_the_course(own, demonstrations, size, beta, bonus, rng):
+    return with_choice(own, demonstrations, size, beta, 2.0, rng)
 
 
-@right("augmented_reward")
-def on_a_copy(reward, is_demonstration, bonus):
-    paid = reward.clone()
-    paid[is_demonstration.bool()] += bonus
-    return paid
+@wrong("mixed_batch")
+def too_many_rows(own, demonstrations, size, beta, bonus, rng):
+    theirs, _ = with_choice(own, demonstrations, size, beta, bonus, rng)
+    return torch.cat([theirs, own.sample(1, rng)]), torch.ones(size + 1)
 
 
-@wrong("augmented_reward", "own driving")
-def to_the_agent(reward, is_demonstration, bonus):
-    return torch.where(is_demonstration > 0, reward, reward + bonus)
-
-
-@wrong("augmented_reward", "multiply the reward")
-def a_percentage(reward, is_demonstration, bonus):
-    return reward + bonus * is_demonstration * reward
-
-
-@wrong("augmented_reward")
-def subtracted(reward, is_demonstration, bonus):
-    return reward - bonus * is_demonstration
-
-
-@wrong("augmented_reward", "changes its argument `reward`")
-def in_place(reward, is_demonstration, bonus):
-    reward += bonus * is_demonstration
-    return reward
+@wrong("mixed_batch")
+def without_rng(own, demonstrations, size, beta, bonus, rng):
+    return with_choice(own, demonstrations, size, beta, bonus, np.random.default_rng())
 
 
 # large_margin_loss ----------------------------------------------------------------------------------
@@ -87,6 +86,11 @@ def with_one_hot(q, expert_action):
 def rivals_and_relu(q, expert_action):
     rivals = q.scatter(-1, expert_action[:, None], float("-inf")).amax(-1)
     return torch.relu(rivals + 1 - of_expert(q, expert_action))
+
+
+@wrong("large_margin_loss", "no gradient")
+def a_number(q, expert_action):
+    return torch.tensor(with_one_hot(q, expert_action).detach().numpy())
 
 
 @wrong("large_margin_loss")
@@ -111,6 +115,11 @@ def nobody_is_better(q, expert_action):
 @right("paper_q_filter")
 def level_with_the_best(q, expert_action):
     return torch.where(of_expert(q, expert_action) == q.max(dim=1).values, 1.0, 0.0)
+
+
+@wrong("paper_q_filter", "compare the values")
+def the_greedy_action(q, expert_action):
+    return (q.argmax(dim=1) == expert_action).float()
 
 
 @wrong("paper_q_filter")
@@ -138,6 +147,22 @@ def with_where_again(q, expert_action, log_pi):
     return torch.where(of_expert(q, expert_action) > worth, 1.0, 0.0)
 
 
+@right("q_filter")
+def with_a_softmax(q, expert_action, log_pi):
+    return (of_expert(q, expert_action) > (log_pi.softmax(-1) * q).sum(-1)).float()
+
+
+@right("q_filter")
+def mean_advantage(q, expert_action, log_pi):
+    ahead = of_expert(q, expert_action)[:, None] - q
+    return ((log_pi.exp() * ahead).sum(-1) > 0).to(q.dtype)
+
+
+@wrong("q_filter", "exactly as good")
+def at_least(q, expert_action, log_pi):
+    return (of_expert(q, expert_action) >= (log_pi.exp() * q).sum(-1)).float()
+
+
 @wrong("q_filter")
 def with_the_expert_s_probability(q, expert_action, log_pi):
     return (of_expert(q * log_pi.exp(), expert_action) > (log_pi.exp() * q).sum(-1)).double()
@@ -146,3 +171,46 @@ def with_the_expert_s_probability(q, expert_action, log_pi):
 @wrong("q_filter", "shape")
 def for_each_action(q, expert_action, log_pi):
     return (q > (log_pi.exp() * q).sum(-1, keepdim=True)).double()
+
+
+# margin_loss ----------------------------------------------------------------------------------------
+
+
+@right("margin_loss")
+def one_sum_for_both(q_pair, action, is_demonstration):
+    taken = q_pair.gather(-1, action.expand(2, -1)[..., None])[..., 0]
+    ahead = q_pair + 1 - torch.nn.functional.one_hot(action, q_pair.shape[-1])
+    keep = (taken >= q_pair.max(-1).values).float() * is_demonstration
+    return ((ahead.max(-1).values - taken) * keep.detach()).sum() / len(action)
+
+
+@right("margin_loss")
+def with_a_mask(q_pair, action, is_demonstration):
+    losses = []
+    for q in q_pair:
+        q_expert = of_expert(q, action)
+        on = (q_expert.detach() == q.detach().amax(-1)) & (is_demonstration > 0)
+        losses.append(torch.where(on, with_one_hot(q, action), torch.zeros_like(q_expert)).mean())
+    return losses[0] + losses[1]
+
+
+@wrong("margin_loss", "Q-filter")
+def unfiltered(q_pair, action, is_demonstration):
+    return sum((with_one_hot(q, action) * is_demonstration).mean() for q in q_pair)
+
+
+@wrong("margin_loss")
+def summed(q_pair, action, is_demonstration):
+    return one_sum_for_both(q_pair, action, is_demonstration) * len(action)
+
+
+@wrong("margin_loss", "own rows")
+def everybody_is_an_expert(q_pair, action, is_demonstration):
+    return one_sum_for_both(q_pair, action, torch.ones_like(is_demonstration))
+
+
+@wrong("margin_loss")
+def strictly_ahead(q_pair, action, is_demonstration):
+    taken = torch.stack([of_expert(q, action) for q in q_pair])
+    rivals = q_pair.scatter(-1, action.expand(2, -1)[..., None], float("-inf")).amax(-1)
+    return (torch.relu(rivals + 1 - taken) * (taken > rivals) * is_demonstration).mean(-1).sum()

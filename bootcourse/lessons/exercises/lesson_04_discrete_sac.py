@@ -7,7 +7,6 @@ import torch
 
 from bootcourse.learn import sac
 from bootcourse.lessons.exercise import Exercise, Mistake
-from bootcourse.lessons.exercises.slopes import with_slopes
 
 LOG_2 = math.log(2)
 
@@ -181,11 +180,11 @@ def errors(q_pair, action, target):
 
 critic_loss = Exercise(
     "critic_loss(q_pair, action, target)",
-    solution=critic_loss_solution, cases=pair_cases, run=with_slopes(0, 2),
+    solution=critic_loss_solution, cases=pair_cases, slopes=("q_pair", "target"),
     worked=(
         # critic 1 is 1 too high for the first action, critic 2 is 2 too low; the second action was not taken
         ((torch.tensor([[[4.0, 9.0]], [[1.0, 9.0]]]), torch.tensor([0]), torch.tensor([3.0])),
-         (torch.tensor(5.0), torch.tensor([[[2.0, 0.0]], [[-4.0, 0.0]]]), torch.zeros(1))),
+         torch.tensor(5.0)),
     ),
     mistakes=(
         Mistake(lambda q_pair, action, target: errors(q_pair, action, target).square().mean(-1).sum(),
@@ -229,12 +228,9 @@ def actor_loss_solution(log_pi, q, alpha):
 
 actor_loss = Exercise(
     "actor_loss(log_pi, q, alpha)",
-    solution=actor_loss_solution, cases=value_cases, run=with_slopes(0, 1),
+    solution=actor_loss_solution, cases=value_cases, slopes=("log_pi", "q"),
     worked=(
-        # -V, and its slopes -π (Q - α log π - α) = -(1 + log 2 / 2 - 1/2) / 2, -(3 + log 2 / 2 - 1/2) / 2
-        ((HALF, torch.tensor([[1.0, 3.0]]), torch.tensor(0.5)),
-         (torch.tensor(-(2 + 0.5 * LOG_2)), torch.tensor([[-0.25 - 0.25 * LOG_2, -1.25 - 0.25 * LOG_2]]),
-          torch.zeros(1, 2))),
+        ((HALF, torch.tensor([[1.0, 3.0]]), torch.tensor(0.5)), torch.tensor(-(2 + 0.5 * LOG_2))),
     ),
     mistakes=(
         Mistake(lambda log_pi, q, alpha: -sac.soft_value(log_pi, q, alpha).mean(),
@@ -274,11 +270,10 @@ def temperature_cases(rng):
 
 temperature_loss = Exercise(
     "temperature_loss(log_alpha, state_entropy, target_entropy)",
-    solution=sac.temperature_loss, cases=temperature_cases, run=with_slopes(0, 1),
+    solution=sac.temperature_loss, cases=temperature_cases, slopes=("log_alpha", "state_entropy"),
     worked=(
-        # α = 1/2, mean entropy 1, target 0.6: 0.5 · 0.4, and its slope in log α is the same
-        ((torch.tensor(-LOG_2), torch.tensor([0.5, 1.5]), torch.tensor(0.6)),
-         (torch.tensor(0.2), torch.tensor(0.2), torch.zeros(2))),
+        # α = 1/2, mean entropy 1, target 0.6: 0.5 · 0.4
+        ((torch.tensor(-LOG_2), torch.tensor([0.5, 1.5]), torch.tensor(0.6)), torch.tensor(0.2)),
     ),
     mistakes=(
         Mistake(lambda log_alpha, h, target: log_alpha.exp() * (target - h.detach().mean()),

@@ -2,12 +2,16 @@
 
 import math
 
-import numpy as np
 import torch
 
 from bootcourse.learn import bootstrap
 from bootcourse.lessons.exercise import Exercise, Mistake
-from bootcourse.lessons.exercises.slopes import with_slopes
+
+
+def one_column_for_all(rule_action, p):
+    log_rule = torch.full((len(rule_action), 9), math.log((1 - p) / 8))
+    log_rule[:, rule_action] = math.log(p)
+    return log_rule
 
 
 def log_stochastic_rule_solution(rule_action, p):
@@ -49,6 +53,13 @@ log_stochastic_rule = Exercise(
         Mistake(lambda rule_action, p: log_rule(rule_action[:1].expand(len(rule_action)), p, (1 - p) / 8),
             "All your rows are the same. The rule has its own action in each state.",
             "The rule's action is the same in the whole batch."),
+        Mistake(one_column_for_all,
+            "You wrote log p into the same columns of *every* row: `x[:, rule_action]` picks columns for all rows at "
+            "once. Pair each row with its own column, as `scatter` or `x[torch.arange(len(x)), rule_action]` does.",
+            "`x[:, rule_action] = ...` goes through the rows and the actions side by side."),
+        Mistake(lambda rule_action, p: log_rule(rule_action, 0.9, 0.0125),
+            "Your p is always 0.9: use the argument.",
+            "p is a constant of the course."),
     ),
     hints=(
         "Begin with a tensor of shape (batch, 9) that holds log((1 - p) / 8) everywhere.",
@@ -69,6 +80,10 @@ def solution(log_pi, rule_action, p):
     log_rule = torch.full_like(log_pi, math.log((1 - p) / 8))
     log_rule.scatter_(-1, rule_action.unsqueeze(-1), math.log(p))
     return (log_pi.exp() * (log_pi - log_rule)).sum(-1)
+
+
+def columns_for_all(log_pi, rule_action, p):
+    return (log_pi.exp() * (log_pi - one_column_for_all(rule_action, p))).sum(-1)
 
 
 def reverse(log_pi, rule_action, p):
@@ -94,7 +109,7 @@ def cases(rng):
 
 soft_constraint = Exercise(
     "soft_constraint(log_pi, rule_action, p)",
-    solution=solution, cases=cases,
+    solution=solution, cases=cases, slopes=("log_pi",),
     worked=(
         ((sure(5), torch.tensor([3]), 0.9), torch.tensor([math.log(80)])),  # log 1 / (0.1 / 8): 4.4 nats
         ((sure(3), torch.tensor([3]), 0.9), torch.tensor([-math.log(0.9)])),  # in agreement: log 1 / 0.9
@@ -126,6 +141,14 @@ soft_constraint = Exercise(
         Mistake(lambda log_pi, rule_action, p: solution(log_pi, rule_action, p).mean(),
             "You took the mean over the batch: return one number for each state; the loss takes the mean later.",
             "A loss term is a scalar."),
+        Mistake(columns_for_all,
+            "You wrote log p into the same columns of *every* row: `x[:, rule_action]` picks columns for all rows at "
+            "once. Pair each row with its own column, as `scatter` or `x[torch.arange(len(x)), rule_action]` does.",
+            "`x[:, rule_action] = ...` goes through the rows and the actions side by side."),
+        Mistake(lambda log_pi, rule_action, p: solution(log_pi.detach(), rule_action, p),
+            "Your KL has the right value but no gradient, so it cannot change the policy: leave out `.detach()`, "
+            "`.item()` and NumPy.",
+            "A constraint is a number that is only measured."),
     ),
     hints=(
         "Write log π̃ first: an array of the shape of `log_pi` that holds log((1 - p) / 8), and log p in one column.",
@@ -183,11 +206,11 @@ regularised_policy = Exercise(
             "softmax(0) runs over the actions."),
     ),
     hints=(
-        "What multiplies π(a) in the objective, and what multiplies π(a) log π(a)?",
-        "π(a) is multiplied by Q + ξ log π̃, and π log π by -(α + ξ): a softmax of the first, divided by the second.",
+        "Write out the KL. What multiplies π(a) in the objective, and what multiplies π(a) log π(a)?",
+        "π(a) is multiplied by Q + ξ log π̃, and π log π by -(α + ξ): as with α alone, the best π is a softmax.",
         "`((q + xi * log_rule) / (alpha + xi)).softmax(-1)`",
     ),
-    minutes=8, difficulty=2, equation="π* = softmax((Q + ξ log π̃) / (α + ξ)), from the objective of Section IV-A",
+    minutes=15, difficulty=3, equation="π* = softmax((Q + ξ log π̃) / (α + ξ)), from the objective of Section IV-A",
 )  # fmt: skip
 
 
@@ -206,13 +229,11 @@ def loss_cases(rng):
 
 constrained_loss = Exercise(
     "constrained_loss(log_pi, q, alpha, xi, kl)",
-    solution=constrained_loss_solution, cases=loss_cases, run=with_slopes(0, 1, 4),
+    solution=constrained_loss_solution, cases=loss_cases, slopes=("log_pi", "q", "kl"),
     worked=(
-        # two actions, half and half: V = (1 + 3)/2 + 0.5 log 2 - 2 · 0.25, its slope -π (Q - α log π - α)
+        # two actions, half and half: V = (1 + 3)/2 + 0.5 log 2 - 2 · 0.25
         ((torch.full((1, 2), -math.log(2)), torch.tensor([[1.0, 3.0]]), 0.5, 2.0, torch.tensor([0.25])),
-         (torch.tensor(-(2 + 0.5 * math.log(2) - 0.5)),
-          torch.tensor([[-0.25 - 0.25 * math.log(2), -1.25 - 0.25 * math.log(2)]]), torch.zeros(1, 2),
-          torch.tensor([2.0]))),
+         torch.tensor(-(2 + 0.5 * math.log(2) - 0.5))),
     ),
     mistakes=(
         Mistake(lambda log_pi, q, alpha, xi, kl: -((log_pi.exp() * (q - alpha * log_pi)).sum(-1) - xi * kl).mean(),
@@ -247,47 +268,94 @@ constrained_loss = Exercise(
 )  # fmt: skip
 
 
-def strength_cases(rng):
-    """A fixed 0 (off, whatever α is), all fixed, none fixed; then 30 at random. Each (agents,)."""
-    yield torch.tensor([0.01, 0.5]), torch.tensor([200.0, 200.0]), torch.tensor([0.0, 0.0])
-    yield torch.tensor([0.01, 0.5]), torch.tensor([200.0, 200.0]), torch.tensor([2.0, 0.3])
-    yield torch.tensor([0.01]), torch.tensor([200.0]), torch.tensor([-1.0])
-    for _ in range(30):
-        size = int(rng.integers(2, 6))
-        fixed = np.where(rng.random(size) < 0.5, -1.0, rng.uniform(0, 3, size))
-        yield torch.tensor(rng.uniform(1e-4, 0.1, size)), torch.tensor(rng.uniform(1, 300, size)), torch.tensor(fixed)
+def constrained_target_solution(reward, terminated, next_log_pi, next_q_pair, next_kl, alpha, xi, gamma):
+    next_q = next_q_pair.amin(0)
+    value = (next_log_pi.exp() * (next_q - alpha * next_log_pi)).sum(-1) - xi * next_kl
+    return reward + gamma * (1 - terminated) * value
 
 
-constraint_strength = Exercise(
-    "constraint_strength(alpha, multiplier, fixed)",
-    solution=bootstrap.constraint_strength, cases=strength_cases,
+def target_cases(rng):
+    """All ended, none ended, ξ = 0, α = 0, one state, nine states, two actions; then 40 at random."""
+
+    def case(size, ended=0.4, alpha=None, xi=None, actions=9):
+        log_pi = torch.tensor(rng.normal(0, 1.5, (size, actions))).log_softmax(-1)
+        numbers = torch.tensor(rng.normal(0, 3, size)), torch.tensor(rng.random(size) < ended).double()
+        q_pair, kl = torch.tensor(rng.normal(0, 3, (2, size, actions))), torch.tensor(rng.uniform(0, 4, size))
+        alpha, xi = rng.uniform(0.05, 1) if alpha is None else alpha, rng.uniform(0.1, 2) if xi is None else xi
+        return *numbers, log_pi, q_pair, kl, float(alpha), float(xi), float(rng.uniform(0.5, 0.99))
+
+    yield case(4, ended=1.0)
+    yield case(4, ended=0.0)
+    yield case(3, xi=0.0)
+    yield case(3, alpha=0.0)
+    yield case(1, ended=0.0)
+    yield case(9)
+    yield case(4, actions=2)
+    for _ in range(40):
+        yield case(int(rng.integers(2, 7)))
+
+
+def target_with(value):
+    """A target that computes the next state's value otherwise: value(log_pi, q_pair, kl, alpha, xi)."""
+
+    def target(reward, terminated, log_pi, q_pair, kl, alpha, xi, gamma):
+        return reward + gamma * (1 - terminated) * value(log_pi, q_pair, kl, alpha, xi)
+
+    return target
+
+
+def soft(log_pi, q, alpha):
+    return (log_pi.exp() * (q - alpha * log_pi)).sum(-1)
+
+
+HALVES = torch.full((2, 2), -math.log(2))
+constrained_target = Exercise(
+    "constrained_target(reward, terminated, next_log_pi, next_q_pair, next_kl, alpha, xi, gamma)",
+    solution=constrained_target_solution, cases=target_cases,
     worked=(
-        # three agents: ξ = 200 · 0.01; the same α, but ξ fixed at 0.5; ξ fixed at 0
-        ((torch.tensor([0.01, 0.01, 0.01]), torch.tensor([200.0, 200.0, 200.0]), torch.tensor([-1.0, 0.5, 0.0])),
-         torch.tensor([2.0, 0.5, 0.0])),
+        # half and half, min Q = (1, 3): V = 2 + 0.5 log 2 - 2 · 0.25; it goes on: 1 + 0.8 V; it ended: -10
+        ((torch.tensor([1.0, -10.0]), torch.tensor([0.0, 1.0]), HALVES,
+          torch.tensor([[[1.0, 4.0], [1.0, 4.0]], [[2.0, 3.0], [2.0, 3.0]]]), torch.tensor([0.25, 0.25]),
+          0.5, 2.0, 0.8),
+         torch.tensor([1 + 0.8 * (1.5 + 0.5 * math.log(2)), -10.0])),
     ),
     mistakes=(
-        Mistake(lambda alpha, multiplier, fixed: torch.where(fixed > 0, fixed, multiplier * alpha),
-            "A fixed ξ of 0 counts, too: it means 'without the rule'. Only a negative one means 'use 200 α'.",
-            "0 means 'not given', as in `if fixed:`."),
-        Mistake(lambda alpha, multiplier, fixed: multiplier * alpha,
-            "You do not use `fixed`: where it is 0 or more, it is ξ.",
-            "The paper's ξ = 200 α is the only one there is."),
-        Mistake(lambda alpha, multiplier, fixed: torch.where(fixed >= 0, fixed * alpha, multiplier * alpha),
-            "You multiply the fixed ξ by α. A fixed ξ does not depend on α.",
-            "`fixed` is another multiplier."),
-        Mistake(lambda alpha, multiplier, fixed: torch.where(fixed >= 0, multiplier * alpha, fixed),
-            "Your two cases are swapped: your ξ is negative for some agents, and a negative ξ rewards leaving the "
-            "rule.",
-            "The arguments of torch.where are the condition, the value for False, the value for True."),
-        Mistake(lambda alpha, multiplier, fixed: torch.maximum(fixed, multiplier * alpha),
-            "You take the larger of the two. A fixed ξ also holds where 200 α is larger.",
-            "`fixed` is negative so that the maximum is the other number."),
+        Mistake(target_with(lambda log_pi, q, kl, alpha, xi: soft(log_pi, q.amin(0), alpha)),
+            "Your target has no KL: the critic would price every future as if the rule did not exist.",
+            "The KL belongs in the actor's loss only."),
+        Mistake(target_with(lambda log_pi, q, kl, alpha, xi: soft(log_pi, q.amin(0), alpha) + xi * kl),
+            "Your target rewards leaving the rule: a large KL makes the next state's value *smaller*.",
+            "A penalty is added, as in a loss."),
+        Mistake(target_with(lambda log_pi, q, kl, alpha, xi: soft(log_pi, q.amin(0), alpha) - kl),
+            "Your KL has no weight: multiply it by ξ.",
+            "A KL in nats is already on the reward's scale."),
+        Mistake(target_with(lambda log_pi, q, kl, alpha, xi: soft(log_pi, q.amax(0), alpha) - xi * kl),
+            "You take the larger of the two critics. The smaller one keeps the estimates from growing without limit.",
+            "The best estimate is the highest."),
+        Mistake(target_with(lambda log_pi, q, kl, alpha, xi: soft(log_pi, q.mean(0), alpha) - xi * kl),
+            "You take the mean of the two critics: here it is the smaller of the two, for each action.",
+            "Two estimates are averaged."),
+        Mistake(lambda r, ended, log_pi, q, kl, alpha, xi, gamma:
+            r + gamma * (1 - ended) * soft(log_pi, q.amin(0), alpha) - xi * kl,
+            "Your KL stands outside the value of s': it is charged after an accident, too, and is not discounted. It "
+            "is part of V(s').",
+            "The KL is subtracted from the reward of this second. (That KL is of s, before the action.)"),
+        Mistake(lambda r, ended, log_pi, q, kl, alpha, xi, gamma:
+            r + gamma * (soft(log_pi, q.amin(0), alpha) - xi * kl),
+            "Your target adds a future after the accident. Where an episode ended, the target is the reward alone.",
+            "The mask makes no difference on average. (It does: -10 plus a high V' is no warning.)"),
+        Mistake(target_with(lambda log_pi, q, kl, alpha, xi: (log_pi.exp() * q.amin(0)).sum(-1) - xi * kl),
+            "Your value has no entropy: add α H(π(·|s')).",
+            "The KL replaces the entropy. (It contains one, with the weight ξ; α's comes on top.)"),
+        Mistake(target_with(lambda log_pi, q, kl, alpha, xi:
+            (log_pi.exp() * (q.amin(0) + alpha * log_pi)).sum(-1) - xi * kl),
+            "You penalise entropy: H is *minus* the sum of π log π, so α log π is subtracted from Q.",
+            "Entropy is the sum of π log π."),
     ),
     hints=(
-        "Each agent has its own α, its own multiplier and its own `fixed`: work on whole tensors, without `if`.",
-        "`torch.where(condition, a, b)` takes a where the condition holds, and b elsewhere.",
-        "`torch.where(fixed >= 0, fixed, ...)`",
+        "What is the value of s' if each second pays r + α H - ξ KL? Which of these terms belong to s, which to s'?",
+        "The soft value of s' as in lesson 4, of the smaller Q (`next_q_pair.amin(0)`), minus ξ times `next_kl`.",
+        "`value = (next_log_pi.exp() * (next_q - alpha * next_log_pi)).sum(-1) - xi * next_kl`",
     ),
-    minutes=3, difficulty=1, equation="ξ = 200 α, Section IV-A; or a fixed ξ",
+    minutes=20, difficulty=3, equation="y = r + γ (1 - terminated) (V(s') - ξ D_KL(s')), from Equation 15",
 )  # fmt: skip

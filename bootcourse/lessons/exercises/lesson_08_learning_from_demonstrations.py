@@ -4,98 +4,149 @@ import numpy as np
 import torch
 
 from bootcourse.learn import bootstrap
+from bootcourse.learn.replay_buffer import REWARD
 from bootcourse.lessons.exercise import Exercise, Mistake
 
-
-def share_cases(rng):
-    """The first episode, the last, long after, all at once, a start of 1; then 40 at random."""
-    yield 0, 0.6, 1000
-    yield 1000, 0.6, 1000
-    yield 3000, 0.6, 1000
-    yield np.array([0, 250, 500, 999, 1000, 5000]), 0.6, 1000
-    yield 300, 1.0, 400
-    for _ in range(40):
-        yield rng.integers(0, 3000, 4), float(rng.uniform(0.1, 1)), int(rng.integers(100, 2000))
+ROW = 8  # columns of a row in the exercise: its number, zeros, and the reward in the column REWARD
 
 
-demonstration_share = Exercise(
-    "demonstration_share(episode, beta_start, beta_episodes)",
-    solution=bootstrap.demonstration_share, cases=share_cases,
-    worked=(((500, 0.6, 1000), 0.3), ((2000, 0.6, 1000), 0.0)),
-    mistakes=(
-        Mistake(lambda episode, start, episodes: start * (1 - np.asarray(episode) / episodes),
-            "After the last of the `beta_episodes` your share is negative. From there on it stays 0.",
-            "Training ends with the `beta_episodes`."),
-        Mistake(lambda episode, start, episodes: np.clip(1 - np.asarray(episode) / episodes, 0, start),
-            "Your share starts to fall too late: the line begins at `beta_start` in episode 0, not at 1.",
-            "The line runs from 1 to 0, and beta_start is a ceiling on it."),
-        Mistake(lambda episode, start, episodes: np.clip(start - np.asarray(episode) / episodes, 0, 1),
-            "Your share reaches 0 too early: it falls by `beta_start` in `beta_episodes`, not by 1.",
-            "Each episode takes away 1 / beta_episodes."),
-        Mistake(lambda episode, start, episodes: start * np.clip(np.asarray(episode) / episodes, 0, 1),
-            "Your share grows with the episodes. It has to fall to 0.",
-            "The share follows the progress, episode / beta_episodes."),
-        Mistake(lambda episode, start, episodes: start * 0.001 ** (np.asarray(episode) / episodes),
-            "Your share falls exponentially. The text asks for a straight line that ends at 0.",
-            "Schedules in machine learning decay exponentially."),
-    ),
-    hints=(
-        "What share of the `beta_episodes` is over, and what share is left?",
-        "What is left is 1 - episode / beta_episodes, but at least 0. `np.clip` works for numbers and arrays.",
-        "`beta_start * np.clip(1 - episode / beta_episodes, 0, 1)`",
-    ),
-    minutes=3, difficulty=1, equation="β, from 0.6 to 0 over 1000 episodes, Section IV-B",
-)  # fmt: skip
+class TableBuffer:
+    """A replay buffer with rows that are there already; sample(batch, rng) draws from them."""
+
+    def __init__(self, rows):
+        self.rows = rows
+
+    def sample(self, batch, rng):
+        return self.rows[torch.from_numpy(rng.integers(len(self.rows), size=batch))]
 
 
-def reward_cases(rng):
-    """All demonstrations, none, c = 0, a negative c; then 30 at random."""
-    for number in range(34):
-        size = int(rng.integers(2, 7))
-        is_demonstration = torch.tensor(rng.random(size) < 0.5).double()
-        is_demonstration = (torch.ones(size), torch.zeros(size))[number] if number < 2 else is_demonstration
-        bonus = {2: 0.0, 3: -1.0}.get(number, float(rng.uniform(0.1, 5)))
-        yield torch.tensor(rng.normal(0, 3, size)), is_demonstration, bonus
+def mixed_batch_solution(own, demonstrations, size, beta, bonus, rng):
+    n = round(beta * size)
+    theirs = demonstrations[torch.from_numpy(rng.integers(len(demonstrations), size=n))]
+    theirs[:, REWARD] += bonus
+    rows = torch.cat([theirs, own.sample(size - n, rng)])
+    return rows, (torch.arange(size) < n).float()
 
 
-augmented_reward = Exercise(
-    "augmented_reward(reward, is_demonstration, bonus)",
-    solution=bootstrap.augmented_reward, cases=reward_cases,
+def numbered(first, count):
+    """Rows with the numbers first, first + 1, ..., and rewards that follow from them: (count, ROW)."""
+    rows = torch.zeros(count, ROW)
+    rows[:, 0] = torch.arange(first, first + count)
+    rows[:, REWARD] = rows[:, 0] / 10
+    return rows
+
+
+def mixed_three_times(answer, demonstrations, size, beta, bonus):
+    """What is in a batch that is drawn a third time from the same tables.
+
+    Returns the shapes of the rows and of the marks; how many rows are demonstrations; the share of the marks that are
+    right; what was added to the reward of demonstrations, and of own rows; whether more than half of the demonstrations
+    of two batches differ, the same of own rows; whether equal generators give equal batches.
+    """
+    own, rng = TableBuffer(numbered(1000, 400)), np.random.default_rng(0)
+    drawn = [answer(own, demonstrations, size, beta, bonus, rng) for _ in range(3)]
+    if not all(isinstance(pair, tuple) and len(pair) == 2 and isinstance(pair[0], torch.Tensor) for pair in drawn):
+        return drawn[0]
+    again = [answer(own, demonstrations, size, beta, bonus, np.random.default_rng(1))[0] for _ in range(2)]
+    (before, _), (rows, marks) = drawn[1:]
+    if rows.dim() != 2 or rows.shape[1] != ROW or marks.shape != rows.shape[:1]:
+        return np.array(rows.shape), np.array(marks.shape)
+    theirs, added = rows[:, 0] < 1000, rows[:, REWARD] - rows[:, 0] / 10
+    paid = [float(added[who].mean()) if who.any() else 0.0 for who in (theirs, ~theirs)]
+    fresh = [differ(rows[:, 0][who], before[:, 0][(before[:, 0] < 1000) == mine])
+             for who, mine in ((theirs, True), (~theirs, False))]  # fmt: skip
+    right = float((marks.bool() == theirs).float().mean())
+    same = float(torch.equal(*again))
+    return np.array([*rows.shape, *marks.shape]), float(theirs.sum()), right, *paid, *fresh, same
+
+
+def differ(one, other):
+    """Whether more than half of two draws differ (1 or 0); 1 for fewer than four rows, which may agree by chance."""
+    return float(len(one) < 4 or len(one) != len(other) or (one != other).float().mean() > 0.5)
+
+
+def batch_cases(rng):
+    """Half, none, all, shares that are no whole number from above and below, no bonus; then 16 at random."""
+    for size, beta, bonus in (
+        (8, 0.5, 2.0),
+        (8, 0.0, 2.0),
+        (8, 1.0, 0.5),
+        (64, 0.59, 1.0),
+        (64, 0.51, 1.0),
+        (32, 0.6, 0.0),
+    ):
+        yield numbered(0, 300), size, beta, bonus
+    for _ in range(16):
+        yield numbered(0, 300), int(rng.integers(12, 65)), float(rng.uniform(0.1, 0.9)), float(rng.uniform(0.1, 3))
+
+
+def mixed(n=None, pay=None, marks=None, rows=None):
+    """A wrong mixture: another number of demonstrations, other rewards, other marks, or other rows."""
+
+    def answer(own, demonstrations, size, beta, bonus, rng):
+        k = round(beta * size) if n is None else n(beta, size)
+        theirs = demonstrations[torch.from_numpy(rng.integers(len(demonstrations), size=k))]
+        theirs = theirs if rows is None else rows(demonstrations, k)
+        both = torch.cat([theirs, own.sample(size - k, rng)])
+        is_theirs = (torch.arange(size) < k).float()
+        both[:, REWARD] += bonus * (is_theirs if pay is None else pay(is_theirs))
+        return both, is_theirs if marks is None else marks(is_theirs)
+
+    return answer
+
+
+mixed_batch = Exercise(
+    "mixed_batch(own, demonstrations, size, beta, bonus, rng)",
+    solution=mixed_batch_solution, cases=batch_cases, run=mixed_three_times,
     worked=(
-        ((torch.tensor([0.15, 0.15, -10.0]), torch.tensor([1.0, 0.0, 0.0]), 2.0), torch.tensor([2.15, 0.15, -10.0])),
+        # half of four rows are demonstrations, paid 2 more
+        ((numbered(0, 50), 4, 0.5, 2.0), (np.array([4, ROW, 4]), 2.0, 1.0, 2.0, 0.0, 1.0, 1.0, 1.0)),
     ),
     mistakes=(
-        Mistake(lambda reward, is_demonstration, bonus: reward + bonus,
+        Mistake(mixed(pay=lambda is_theirs: 1),
             "You add the bonus to every reward, even where the agent stays behind the trap: only demonstrations get "
             "it.",
             "The bonus is a new reward function."),
-        Mistake(lambda reward, is_demonstration, bonus: reward + bonus * (1 - is_demonstration),
-            "Your bonus goes to the agent's own driving: `is_demonstration` is 1 where the *rule* drove.",
+        Mistake(mixed(pay=lambda is_theirs: -is_theirs),
+            "Your bonus is subtracted: the critic would learn to avoid what the rule did.",
+            "c is a cost."),
+        Mistake(mixed(pay=lambda is_theirs: 1 - is_theirs),
+            "Your bonus goes to the agent's own driving. It belongs to the rows of the *demonstrations*.",
             "The bonus encourages the agent, so its own driving gets it."),
-        Mistake(lambda reward, is_demonstration, bonus: bonus * is_demonstration,
-            "You drop the reward. (SQIL does that, and pays 1 or 0.) Here the bonus is added to the reward.",
-            "The bonus replaces the reward."),
-        Mistake(lambda reward, is_demonstration, bonus: reward * (1 + bonus * is_demonstration),
-            "You multiply the reward. A demonstrated second that earns nothing has to get the bonus, too: add it.",
-            "A bonus is a percentage."),
-        Mistake(lambda reward, is_demonstration, bonus: (reward + bonus * is_demonstration).mean(),
-            "You took the mean over the batch: each transition keeps its own reward.",
-            "Everything in a loss ends in a mean."),
+        Mistake(mixed(pay=lambda is_theirs: 0 * is_theirs),
+            "You pay no bonus: add it to the reward of each demonstration, in the column `REWARD`.",
+            "The critic's target adds the bonus."),
+        Mistake(mixed(marks=lambda is_theirs: 1 - is_theirs),
+            "Your marks are the wrong way round: 1 says that a row is a demonstration.",
+            "1 marks the agent's own rows."),
+        Mistake(mixed(n=lambda beta, size: size - round(beta * size)),
+            "You swapped the shares: β is the share of the demonstrations.",
+            "β is the share of the agent's own rows."),
+        Mistake(mixed(n=lambda beta, size: int(beta * size)),
+            "Your number of demonstrations is cut off, not rounded: use `round(beta * size)`.",
+            "`int` rounds."),
+        Mistake(mixed(rows=lambda demonstrations, k: demonstrations[:k].clone()),
+            "You always take the same demonstrations. Draw them at random, with `rng`.",
+            "The table is in random order. (It holds one drive after the other.)"),
     ),
     hints=(
-        "What is added where `is_demonstration` is 1, and what where it is 0?",
-        "A product of two of the three arguments is the right amount in both cases.",
-        "`reward + bonus * is_demonstration`",
+        "How many rows come from the demonstrations? Draw that many row numbers with `rng.integers`, and index.",
+        "Indexing with a tensor of row numbers makes a copy, so `theirs[:, REWARD] += bonus` leaves the table alone.",
+        "`rows = torch.cat([theirs, own.sample(size - n, rng)])` and `(torch.arange(size) < n).float()`",
     ),
-    minutes=3, difficulty=1, equation="r'(s, a_E) = r(s, a_E) + c, Section IV-B",
+    minutes=20, difficulty=3, equation="a share β of a batch are demonstrations, with r + c, Section IV-B",
 )  # fmt: skip
 
 
 def q_cases(rng):
-    """Expert far ahead, ahead by less than the margin, behind, all equal, one state; then 40 at random."""
+    """Expert far ahead, ahead by less than the margin, behind, level; in float32, too; then 40 at random."""
     q = torch.zeros(4, 9).double()
     q[0, 2], q[1, 2], q[2, 2] = 3.0, 0.4, -1.0
     yield q, torch.full((4,), 2)
+    yield q.float(), torch.full((4,), 2)
+    level = torch.zeros(3, 9)
+    level[:, [1, 5]] = torch.tensor([[2.0, 2.0], [2.0, 2.0 - 1e-3], [2.0 - 1e-3, 2.0]])
+    yield level, torch.full((3,), 5)
     yield torch.tensor([[0.3, -0.2, 0.1]]), torch.tensor([1])
     yield torch.tensor([[-5.0, -7.0, -6.0], [-5.0, -7.0, -6.0]]), torch.tensor([0, 1])
     for _ in range(40):
@@ -114,10 +165,11 @@ def others(q, expert_action):
 
 large_margin_loss = Exercise(
     "large_margin_loss(q, expert_action)",
-    solution=bootstrap.large_margin_loss, cases=q_cases,
+    solution=bootstrap.large_margin_loss, cases=q_cases, slopes=("q",),
     worked=(
         # the expert leads by 0.5: the loss is 0.5. It is behind by 2: 3. It leads by 2: 0.
-        ((torch.tensor([[1.5, 1.0], [1.0, 3.0], [3.0, 1.0]]), torch.tensor([0, 0, 0])), torch.tensor([0.5, 3.0, 0.0])),
+        ((torch.tensor([[1.5, 1.0], [1.0, 3.0], [3.0, 1.0]]), torch.tensor([0, 0, 0])),
+         torch.tensor([0.5, 3.0, 0.0])),
     ),
     mistakes=(
         Mistake(lambda q, expert: (q + 1).amax(-1) - taken(q, expert),
@@ -137,6 +189,10 @@ large_margin_loss = Exercise(
         Mistake(lambda q, expert: (q + 1 - torch.nn.functional.one_hot(expert, q.shape[-1])).sum(-1) - taken(q, expert),
             "You add up the actions. Only the largest counts: take the maximum.",
             "All wrong actions should be punished."),
+        Mistake(lambda q, expert: bootstrap.large_margin_loss(q.detach(), expert),
+            "Your loss has the right value but no gradient, so it cannot move Q: leave out `.detach()`, `.item()` and "
+            "NumPy.",
+            "A loss is a number that is only measured."),
         Mistake(lambda q, expert: bootstrap.large_margin_loss(q, expert).mean(),
             "You took the mean over the batch. Return one number for each state: the Q-filter comes next.",
             "A loss is a scalar."),
@@ -160,6 +216,10 @@ paper_q_filter = Exercise(
         Mistake(lambda q, expert: (taken(q, expert) > others(q, expert).amax(-1)).double(),
             "Your filter is off where the expert's Q equals the largest. The formula says ≥.",
             "At least as good means better."),
+        Mistake(lambda q, expert: (q.argmax(-1) == expert).double(),
+            "Where two actions share the largest Q, `argmax` names the first of them, and your filter is off although "
+            "≥ holds: compare the values, not the actions' numbers.",
+            "The greedy action is unique."),
         Mistake(lambda q, expert: (taken(q, expert) < q.amax(-1)).double(),
             "Your filter is on where the printed one is off. That would make more sense, but this exercise asks for "
             "the printed one.",
@@ -184,12 +244,18 @@ paper_q_filter = Exercise(
 
 
 def filter_cases(rng):
-    """All Q equal, an expert above the mean but below π's value, the opposite; then 40 at random."""
-    even = torch.full((1, 3), -np.log(3)).double()
-    greedy = torch.tensor([[0.02, 0.08, 0.9]]).double().log()
-    yield torch.ones(2, 3).double(), torch.tensor([0, 2]), even.expand(2, 3).contiguous()
-    yield torch.tensor([[1.0, 5.0, 6.0]]).double(), torch.tensor([1]), greedy
-    yield torch.tensor([[9.0, 5.0, 1.0]]).double(), torch.tensor([1]), greedy
+    """An expert a little above and below π's value, above the mean but below π's value, the opposite; in both dtypes.
+
+    First, exactly equal: all Q are 1, with probabilities that add up to 1 without rounding. Last, 40 at random.
+    """
+    yield torch.ones(1, 2).double(), torch.tensor([0]), torch.full((1, 2), 0.5).double().log()
+    even = torch.full((2, 3), 1 / 3).log()
+    greedy = torch.tensor([[0.02, 0.08, 0.9]]).log()
+    for dtype in (torch.float32, torch.float64):
+        yield torch.tensor([[1.0, 1.01, 1.0], [1.0, 0.99, 1.0]], dtype=dtype), torch.tensor([1, 1]), even.to(dtype)
+        yield torch.tensor([[1.0, 5.0, 6.0]], dtype=dtype), torch.tensor([1]), greedy.to(dtype)
+        yield torch.tensor([[9.0, 5.0, 1.0]], dtype=dtype), torch.tensor([1]), greedy.to(dtype)
+        yield torch.tensor([[-3.0, -1.0, -2.0]], dtype=dtype), torch.tensor([1]), greedy.to(dtype)
     for _ in range(40):
         size = int(rng.integers(1, 6))
         log_pi = torch.tensor(rng.normal(0, 2, (size, 9))).log_softmax(-1)
@@ -209,6 +275,10 @@ q_filter = Exercise(
         Mistake(lambda q, expert, log_pi: bootstrap.paper_q_filter(q, expert),
             "This is the printed filter again: it compares with the largest Q, not with the mean of Q under π.",
             "Both filters ask whether the expert is at least as good."),
+        Mistake(lambda q, expert, log_pi: (taken(q, expert) >= (log_pi.exp() * q).sum(-1)).double(),
+            "Your filter is on where the expert is exactly as good as the policy, for instance where all Q are equal. "
+            "The condition is >.",
+            "At least as good means better."),
         Mistake(lambda q, expert, log_pi: (taken(q, expert) > q.mean(-1)).double(),
             "You give all actions the same weight. The policy's value is the mean of Q under *its* probabilities.",
             "The value of a state is the mean of its Q."),
@@ -229,4 +299,77 @@ q_filter = Exercise(
         "`(q_expert > (log_pi.exp() * q).sum(-1)).to(q.dtype)`",
     ),
     minutes=5, difficulty=2, equation="on where Q(s,a_E) > Σ_a π(a|s) Q(s,a); Nair et al., arXiv 1709.10089",
+)  # fmt: skip
+
+
+def margin_loss_solution(q_pair, action, is_demonstration):
+    total = 0.0
+    for q in q_pair:
+        q_taken = q.gather(-1, action.unsqueeze(-1)).squeeze(-1)
+        margin = (torch.arange(q.shape[-1]) != action.unsqueeze(-1)).to(q.dtype)
+        keep = (q_taken >= q.amax(-1)) * is_demonstration
+        total = total + (((q + margin).amax(-1) - q_taken) * keep).mean()
+    return total
+
+
+def margin_cases(rng):
+    """No demonstration, all demonstrations, float32; then 40 at random. Experts lead by about 1, are level, behind."""
+    for number in range(43):
+        size = int(rng.integers(2, 9))
+        q_pair, action = torch.tensor(rng.normal(0, 1, (2, size, 9))), torch.tensor(rng.integers(0, 9, size))
+        lead = torch.tensor(rng.choice([2.0, 1.05, 0.95, 0.4, 0.0, -0.02, -1.0], (2, size, 1)))
+        best = q_pair.amax(-1, keepdim=True) + lead
+        q_pair = q_pair.scatter(-1, action.expand(2, -1).unsqueeze(-1), best)
+        theirs = torch.tensor(rng.random(size) < (0.0, 1.1, 0.6)[min(number, 2)]).to(q_pair.dtype)
+        yield (q_pair.float(), action, theirs.float()) if number == 2 else (q_pair, action, theirs)
+
+
+def margins(q_pair, action, filtered=True):
+    """The (filtered) margin losses of both critics, one by one: (2, batch)."""
+    each = torch.stack([bootstrap.large_margin_loss(q, action) for q in q_pair])
+    return each * torch.stack([bootstrap.paper_q_filter(q, action) for q in q_pair]) if filtered else each
+
+
+margin_loss = Exercise(
+    "margin_loss(q_pair, action, is_demonstration)",
+    solution=margin_loss_solution, cases=margin_cases, slopes=("q_pair",),
+    worked=(
+        # critic 1: the expert leads by 0.5, so 0.5 is missing; critic 2: it is behind, so the filter is off
+        ((torch.tensor([[[1.5, 1.0], [5.0, 9.0]], [[1.0, 3.0], [5.0, 9.0]]]), torch.tensor([0, 0]),
+          torch.tensor([1.0, 0.0])),
+         torch.tensor(0.25)),
+    ),
+    mistakes=(
+        Mistake(lambda q_pair, action, theirs: margins(q_pair, action).mean(-1).sum(),
+            "Your loss also counts the agent's own rows: there is no expert in them. Multiply by `is_demonstration`.",
+            "Every action in the buffer is an expert's."),
+        Mistake(lambda q_pair, action, theirs: (margins(q_pair, action, False) * theirs).mean(-1).sum(),
+            "You left out the Q-filter: your loss also counts where the critic prefers another action.",
+            "The filter is an option."),
+        Mistake(lambda q_pair, action, theirs:
+            (margins(q_pair, action) * theirs).sum() / theirs.sum().clamp(min=1),
+            "You divide by the number of demonstrations. Here it is the mean over the whole batch, so that the loss "
+            "fades with β.",
+            "A mean is over what counts."),
+        Mistake(lambda q_pair, action, theirs: (margins(q_pair, action) * theirs).mean(),
+            "You took the mean over the two critics, too: add their losses, as in the critics' squared errors.",
+            "`.mean()` does everything at once."),
+        Mistake(lambda q_pair, action, theirs: (margins(q_pair, action)[0] * theirs).mean(),
+            "You train the first critic only. The second has a loss of its own: add it.",
+            "The second critic is a copy."),
+        Mistake(lambda q_pair, action, theirs: (margins(q_pair.detach(), action) * theirs).mean(-1).sum(),
+            "Your loss has the right value but no gradient, so it cannot move Q: leave out `.detach()`, `.item()` and "
+            "NumPy.",
+            "Detaching is always safe. (The filter needs no gradient, and has none.)"),
+        Mistake(lambda q_pair, action, theirs:
+            (margins(q_pair.amin(0, keepdim=True), action) * theirs).mean(-1).sum(),
+            "You take the smaller of the two critics first. Each critic has its own margin, and its own filter.",
+            "Twin critics act as one, their minimum."),
+    ),
+    hints=(
+        "For one critic: the margin loss of each row, times the filter, times `is_demonstration`. Then the mean.",
+        "`is_demonstration` has no gradient, and a comparison has none either: nothing needs to be detached.",
+        "`for q in q_pair: total = total + (loss * (q_taken >= q.amax(-1)) * is_demonstration).mean()`",
+    ),
+    minutes=15, difficulty=3, equation="the mean of J_E with the Q-filter (Equations 17 to 19), both critics",
 )  # fmt: skip
