@@ -123,6 +123,11 @@ def test_a_wrong_entry_of_a_run_is_named_even_with_the_right_hash(run, name, ent
     assert words in str(error.value) and str(run) in str(error.value) and "\n" not in str(error.value)
 
 
+def test_an_agent_that_sees_another_number_of_neighbours_is_refused(run):
+    with pytest.raises(BootcourseError, match="observes 26 numbers, not 36"):
+        load_run(run).agent.probabilities(np.zeros((1, 36)))
+
+
 def test_a_changed_provenance_is_noticed(run):
     text = (run / "provenance.json").read_text()
     (run / "provenance.json").write_text(text.replace('"seed": 0', '"seed": 1'))

@@ -6,6 +6,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
+from bootcourse.errors import BootcourseError
 from bootcourse.learn import sac
 from bootcourse.learn.networks import mlp
 from bootcourse.learn.settings import Settings
@@ -23,7 +24,10 @@ class Agent:
 
     @torch.no_grad()
     def probabilities(self, observations: np.ndarray) -> np.ndarray:
-        """π(a|s): (batch, observation) -> (batch, 9)."""
+        """π(a|s): (batch, observation) -> (batch, 9). Raises BootcourseError for observations of another size."""
+        size, given = self.actor[0].shape[1], np.shape(observations)[-1]
+        if size != given:
+            raise BootcourseError(f"This agent observes {size} numbers, not {given}: drive the scenario it trained on.")
         return mlp(self.actor, torch.as_tensor(observations, dtype=torch.float32)[None])[0].softmax(-1).numpy()
 
     @torch.no_grad()
