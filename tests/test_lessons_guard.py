@@ -12,6 +12,7 @@ import sys
 import threading
 import time
 from contextlib import redirect_stdout
+from pathlib import Path
 
 import cloudpickle
 import nbformat
@@ -137,6 +138,19 @@ def test_whatever_an_answer_does_is_one_sentence_and_leaves_nothing_behind(answe
     assert verdict.kind == "wrong" and words in verdict.sentence and one_sentence(verdict), verdict
     assert the_state_of_this_process() == before and printed.getvalue() == ""
     assert not judge(TARGET, lambda reward, *rest: reward).passed and judge(TARGET, TARGET.solution).passed
+
+
+@pytest.mark.skipif(not worker.FORKS, reason="needs a fork")
+def test_an_answer_that_kills_the_process_that_started_it_ends_with_it(tmp_path):
+    def answer(*arguments):
+        (tmp_path / "pid").write_text(str(os.getpid()))
+        kills_the_process_that_started_it()
+
+    judge(TARGET, answer)
+    time.sleep(0.2)
+    pid = int((tmp_path / "pid").read_text())
+    status = Path(f"/proc/{pid}/status")
+    assert not status.exists() or "State:\tZ" in status.read_text()
 
 
 @pytest.mark.skipif(not worker.FORKS, reason="needs a fork")

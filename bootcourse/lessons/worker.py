@@ -11,6 +11,7 @@ What a function answers is written as one JSON object a line, never as a pickle:
 
 import contextlib
 import copy
+import ctypes
 import faulthandler
 import functools
 import inspect
@@ -34,6 +35,7 @@ FORKS = sys.platform == "linux"  # on macOS system libraries may break in a fork
 LONGEST_PRINT = 500  # characters of a function's prints that are kept
 LONGEST_ANSWER = 64 * 2**20  # bytes of all that one job may write
 READY, DONE = b"ready\n", b'{"done": true}\n'
+PR_SET_PDEATHSIG = 1  # of Linux's prctl: the signal that a process gets when its parent ends
 SOURCE = "your answer"  # the file name of a function that came as text
 
 
@@ -97,9 +99,10 @@ def in_a_fork(job: dict, run: Callable, cases: list[tuple], close: tuple) -> tup
 
 
 def limit(memory: int, seconds: float) -> None:
-    """At most `memory` bytes more than now; and, should nobody be left to stop it, some more seconds of computing."""
+    """At most `memory` bytes more than now, `seconds` of computing and some more, no life after the parent's end."""
     import resource
 
+    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
     with open("/proc/self/statm") as file:
         size = int(file.read().split()[0]) * resource.getpagesize()
     resource.setrlimit(resource.RLIMIT_AS, (size + memory, size + memory))
