@@ -226,7 +226,7 @@ def test_the_page_about_the_class_says_what_to_look_at(graded):
     text = (graded[0] / "grades-pages/class/index.html").read_text(encoding="utf-8")
     assert "other-version.html" in text and "made with another version" in text
     assert "did not run: <code>luck</code>" in text and "identical in all but spaces" in text
-    assert "damaged: it is not JSON" in text and "<b>Mallory" not in text and "<script>" not in text
+    assert "damaged.json is damaged" in text and "<b>Mallory" not in text and "<script>" not in text
     assert "How many?" in text
 
 
