@@ -40,7 +40,7 @@ def per_cent(estimate: Estimate) -> str:
 def k_of_n(hits: np.ndarray) -> str:
     """ "1 of 10 (0 to 45 %)": how many, and the exact 95 % interval of the rate; one has none. hits (n,) bool."""
     its, counted = rate(hits), f"{int(np.sum(hits))} of {len(hits)}"
-    return counted if len(hits) < 2 else f"{counted} ({100 * its.low:.0f} to {100 * its.high:.0f} %)"
+    return counted if len(hits) < 2 else f"{counted} ({100 * its.low:.0f} to {100 * its.high:.0f}\u00a0%)"
 
 
 def score(results: Results, method: str, measure: str) -> Estimate:

@@ -91,7 +91,7 @@ bc.show(bc.top_view_over_time(planned, times=[0, 2, 4, 6, 8, 12]))
 predict("5.1", "How many of the three agents with γ = 0.8 escape?", ["0", "1", "2", "3"])
 
 # %%
-SEEDS, UPDATES = 3, 3000
+SEEDS, UPDATES = 3, 2000
 agents = bc.with_seeds(bc.settings_for("sac"), SEEDS)
 agents += bc.with_seeds(bc.settings_for("sac", gamma=0.95), SEEDS)
 labels = ["sac, γ = 0.8"] * SEEDS + ["γ = 0.95"] * SEEDS
@@ -139,7 +139,7 @@ print(f"{100 * ended / driven:.0f} % of all ended in an accident.")
 # - **Exploration.** Leaving pays even for such an agent, but its own attempts rarely get there.
 
 # %% [markdown] tags=["instructor"] minutes=8
-# The training takes 20 seconds on a free machine: have the predictions on the board before it
+# The training takes 10 seconds on a free machine: have the predictions on the board before it
 # starts, and collect explanations for a flat line while it runs. Somebody will say "train longer".
 # Let a group do that at home (`UPDATES = 30_000`) and bring the curves. The ten agents of the study
 # had {{ of('sac').curves['success'].shape[1] | , }} episodes each.
@@ -292,10 +292,10 @@ below = f"α has fallen from {agents[0].alpha_init} to {alone.agents[0].alpha:.5
 table(["", "action", "Q", "π"], rows, below=below)
 
 # %% [markdown]
-# **Explain.** By now the temperature is low, and the policy is almost sure of its actions (lesson
-# 4). The gradient of a softmax is proportional to π. So the probability of an unlikely action grows
-# slowly, even where the critic gives that action the highest value. The agent tries little that is
-# new, and learns little that is new.
+# **Explain.** By now the temperature has fallen, and the policy is far surer of its actions than at
+# the start (lesson 4). The gradient of a softmax is proportional to π. So the probability of an
+# unlikely action grows slowly, even where the critic gives that action the highest value. The agent
+# tries little that is new, and learns little that is new.
 #
 # A higher temperature alone is no cure: none of the
 # {{ len(varied()['target entropy 1'].of('sac')) }} plain SAC agents that were trained with a target
@@ -454,8 +454,8 @@ with_rule = bc.Training(bc.with_seeds(bc.settings_for("bootstrapped"), SEEDS), e
 helped = with_rule.run(callback=figures.LiveCurves(), stop=lambda: with_rule.updates > UPDATES)
 
 # %% [markdown] tags=["instructor"] minutes=6
-# "So it imitates." Have them compare the return with the rule's after 3,000 updates and again after
-# five times as many (`UPDATES = 15_000`, some minutes), and the accidents: the rule has none. What
+# "So it imitates." Have them compare the return with the rule's after 2,000 updates and again after
+# seven times as many (`UPDATES = 14_000`, some minutes), and the accidents: the rule has none. What
 # does an agent give up when it becomes better than its teacher?
 # <!-- claim: accidents('rule') == 0 -->
 
