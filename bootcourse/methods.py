@@ -60,23 +60,23 @@ METHODS = {
     "margin_soft": Method("large margin and KL", Style("#CC79A7", "-."), {"bonus": 0.0, "margin": 1.0}),
     "bc": Method(
         "behaviour cloning",
-        Style("#444444", marker="o"),
+        Style("#332288", marker="o"),
         _BASELINE | {"beta_start": 1.0},
         "bootcourse.learn.bc:BCLearner",
         unused={"gamma": "has no critic and so no discount factor"},
     ),
     "cql": Method(
         "CQL",
-        Style("#777777", marker="s"),
+        Style("#999933", marker="s"),
         _BASELINE | {"beta_start": 1.0, "cql_weight": 1.0},
         "bootcourse.learn.cql:CQLLearner",
     ),
     "cql_sac": Method(  # CQL's conservative term added to SAC's critics
-        "CQL with an actor", Style("#777777", "--", marker="s"), _BASELINE | {"beta_start": 1.0, "cql_weight": 1.0}
+        "CQL with an actor", Style("#999933", "--", marker="s"), _BASELINE | {"beta_start": 1.0, "cql_weight": 1.0}
     ),
     "gail": Method(
         "GAIL",
-        Style("#AAAAAA", marker="^"),
+        Style("#882255", marker="^"),
         _BASELINE | {"beta_start": 0.5, "batch": 128},
         "bootcourse.learn.gail:GAILLearner",
     ),

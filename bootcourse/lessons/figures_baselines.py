@@ -1,6 +1,6 @@
 """The lesson on the baselines: what critics believe, when pupils first escape, who stays on the road."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -11,8 +11,8 @@ from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.learner import SACLearner
 from bootcourse.lessons.charts import lines
-from bootcourse.lessons.shipped import shipped_agents
-from bootcourse.methods import display_name
+from bootcourse.road.state import EGO, TRAP_1, X
+from bootcourse.scenario import N_ACTIONS
 from bootcourse.statistics import rolling_means
 from bootcourse.study.results import Results
 
@@ -45,13 +45,28 @@ def as_the_rule_would(drives: Sequence[Rollout]) -> tuple[float, float, float]:
     return float(np.mean(done == rule)), brakes, accelerates
 
 
-def followers(methods: Sequence[str], roads: Sequence[int]) -> tuple[list[str], list[list[str]]]:
-    """Headings and a row for each method's shipped agents: how far they do what the rule would, and what they earn."""
+def occupancy(drives: Sequence[Rollout], edges: Sequence[float], seconds: int = 20) -> np.ndarray:
+    """The share of all decisions in the first seconds that fall into a stretch of road, by action: (stretches, 9).
+
+    edges (stretches + 1,) m ahead of trap 1.
+    """
+    place, action = [], []
+    for drive in drives:
+        cars = drive.states[:: drive.scenario.clock.steps][: len(drive.actions)][:seconds]
+        place.append(cars[:, EGO, X] - cars[:, TRAP_1, X])
+        action.append(drive.actions[:seconds])
+    place, action = np.concatenate(place), np.concatenate(action)
+    counts, _, _ = np.histogram2d(place, action, bins=[edges, np.arange(N_ACTIONS + 1) - 0.5])
+    return counts / len(place)
+
+
+def followers(groups: Mapping[str, Sequence[Agent]], roads: Sequence[int]) -> tuple[list[str], list[list[str]]]:
+    """Headings and a row for each group of agents: how far they do what the rule would, and what they earn."""
     rows = []
-    for method in methods:
-        drives = [drive for agent in shipped_agents(method) for drive in record(agent.as_policy(), roads)]
+    for name, agents in groups.items():
+        drives = [drive for agent in agents for drive in record(agent.as_policy(), roads)]
         shares = [f"{100 * share:.0f} %" for share in as_the_rule_would(drives)]
-        rows.append([display_name(method), *shares, f"{np.mean([drive.rewards.sum() for drive in drives]):.1f}"])
+        rows.append([name, *shares, f"{np.mean([drive.rewards.sum() for drive in drives]):.1f}"])
     return ["does what the rule would", "overall", "where it brakes", "where it speeds up", "return"], rows
 
 

@@ -9,6 +9,48 @@ from torch.nn import functional
 
 from tests.answers import right, wrong
 
+# discriminator_loss -----------------------------------------------------------------------------------
+
+
+@right("discriminator_loss")
+def as_two_classes(rule_logits, own_logits):
+    ones, zeros = torch.ones_like(rule_logits), torch.zeros_like(own_logits)
+    of_the_rule = functional.binary_cross_entropy_with_logits(rule_logits, ones)
+    return of_the_rule + functional.binary_cross_entropy_with_logits(own_logits, zeros)
+
+
+@right("discriminator_loss")
+def by_logsigmoid(rule_logits, own_logits):
+    return -functional.logsigmoid(rule_logits).mean() - functional.logsigmoid(-own_logits).mean()
+
+
+@wrong("discriminator_loss")
+def of_all_logits_together(rule_logits, own_logits):
+    return functional.softplus(torch.cat([-rule_logits, own_logits])).mean()
+
+
+@wrong("discriminator_loss", "take each for the other")
+def loop_with_the_wrong_sign(rule_logits, own_logits):
+    right = sum(functional.logsigmoid(x) for x in rule_logits) / len(rule_logits)
+    return right + sum(functional.logsigmoid(-x) for x in own_logits) / len(own_logits)
+
+
+@wrong("discriminator_loss")
+def half_of_it(rule_logits, own_logits):
+    return (functional.softplus(-rule_logits).mean() + functional.softplus(own_logits).mean()) / 2
+
+
+@wrong("discriminator_loss")
+def with_the_same_sign(rule_logits, own_logits):
+    return functional.softplus(rule_logits).mean() + functional.softplus(own_logits).mean()
+
+
+@wrong("discriminator_loss")
+def safe_by_clamping(rule_logits, own_logits):
+    d = torch.sigmoid(rule_logits), torch.sigmoid(own_logits)
+    return -d[0].clamp(min=1e-6).log().mean() - (1 - d[1]).clamp(min=1e-6).log().mean()
+
+
 # imitation_reward -------------------------------------------------------------------------------------
 
 

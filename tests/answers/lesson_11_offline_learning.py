@@ -42,6 +42,62 @@ def summed(q, actions):
     return functional.cross_entropy(q, actions, reduction="sum")
 
 
+@wrong("conservative_loss", "no gradient")
+def with_numpy(q, actions):
+    rows = q.detach().numpy()
+    return torch.tensor((np.log(np.exp(rows).sum(-1)) - rows[np.arange(len(rows)), actions.numpy()]).mean())
+
+
+# offline_loss -----------------------------------------------------------------------------------------
+
+
+@right("offline_loss")
+def with_no_grad(q, next_q, next_target, actions, rewards, terminated, gamma, weight):
+    with torch.no_grad():
+        best = next_q.argmax(dim=1)
+        y = rewards + gamma * next_target[torch.arange(len(best)), best] * (1 - terminated)
+    taken = q[torch.arange(len(actions)), actions]
+    return functional.mse_loss(taken, y) + weight * functional.cross_entropy(q, actions)
+
+
+@right("offline_loss")
+def row_by_row(q, next_q, next_target, actions, rewards, terminated, gamma, weight):
+    total = 0.0
+    for i, action in enumerate(actions):
+        after = next_target[i, next_q[i].argmax()].detach() if terminated[i] == 0 else 0.0
+        total = total + (q[i, action] - rewards[i] - gamma * after) ** 2 + weight * (q[i].logsumexp(0) - q[i, action])
+    return total / len(actions)
+
+
+@wrong("offline_loss")
+def half_squared(q, next_q, next_target, actions, rewards, terminated, gamma, weight):
+    y = rewards + gamma * (1 - terminated) * next_target.gather(1, next_q.argmax(1, keepdim=True))[:, 0].detach()
+    taken = q.gather(1, actions[:, None])[:, 0]
+    return 0.5 * (taken - y).pow(2).mean() + weight * functional.cross_entropy(q, actions)
+
+
+@wrong("offline_loss")
+def summed_over_the_batch(q, next_q, next_target, actions, rewards, terminated, gamma, weight):
+    return len(q) * with_no_grad(q, next_q, next_target, actions, rewards, terminated, gamma, weight)
+
+
+@wrong("offline_loss")
+def with_a_number_for_gamma(q, next_q, next_target, actions, rewards, terminated, gamma, weight):
+    return with_no_grad(q, next_q, next_target, actions, rewards, terminated, 0.8, weight)
+
+
+@wrong("offline_loss")
+def with_the_data_s_next_action(q, next_q, next_target, actions, rewards, terminated, gamma, weight):
+    y = rewards + gamma * (1 - terminated) * next_target.gather(1, actions[:, None])[:, 0].detach()
+    return functional.mse_loss(q.gather(1, actions[:, None])[:, 0], y) + weight * functional.cross_entropy(q, actions)
+
+
+@wrong("offline_loss")
+def all_actions_learn(q, next_q, next_target, actions, rewards, terminated, gamma, weight):
+    y = rewards + gamma * (1 - terminated) * next_target.gather(1, next_q.argmax(1, keepdim=True))[:, 0].detach()
+    return (q - y[:, None]).pow(2).mean() + weight * functional.cross_entropy(q, actions)
+
+
 # share_of_the_bound -----------------------------------------------------------------------------------
 
 
@@ -68,3 +124,8 @@ def upside_down(returns, bound):
 @wrong("share_of_the_bound")
 def by_road(returns, bound):
     return returns.mean(axis=0) / bound
+
+
+@wrong("share_of_the_bound", "clip at 1")
+def not_above_the_bound(returns, bound):
+    return np.array([min(1.0, row.sum() / bound.sum()) for row in returns])

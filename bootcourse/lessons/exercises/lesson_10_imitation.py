@@ -8,13 +8,80 @@ from torch.nn import functional
 
 from bootcourse.learn import gail
 from bootcourse.lessons.exercise import Exercise, Mistake
+from bootcourse.lessons.exercises.slopes import with_slopes
+
+
+def judged_cases(rng):
+    """D near 1/2, right and wrong, very certain in both precisions, batches of two lengths; then 30 at random."""
+    yield torch.tensor([0.01, -0.01]).double(), torch.tensor([0.01, 0.0, -0.01]).double()
+    yield torch.tensor([3.0, 1.0]).double(), torch.tensor([-2.0, -4.0]).double()
+    yield torch.tensor([-3.0, -1.0]).double(), torch.tensor([2.0, 4.0]).double()
+    yield torch.tensor([60.0, -60.0]).double(), torch.tensor([-60.0, 60.0, 0.0]).double()
+    yield torch.tensor([100.0, -100.0]), torch.tensor([-100.0, 100.0, 0.0])
+    for _ in range(30):
+        yield tuple(torch.tensor(rng.normal(0, 3, int(n))) for n in rng.integers(1, 8, 2))
+
+
+def swapped(rule_logits, own_logits):
+    return gail.discriminator_loss(own_logits, rule_logits)
+
+
+discriminator_loss = Exercise(
+    "discriminator_loss(rule_logits, own_logits)",
+    solution=gail.discriminator_loss, cases=judged_cases, run=with_slopes(0, 1),
+    worked=(
+        # D = 3/4 for the rule, 1/4 for the agent: twice -log 3/4; the slopes are D - 1 and D
+        ((torch.tensor([math.log(3)]).double(), torch.tensor([-math.log(3)]).double()),
+         (torch.tensor(2 * math.log(4 / 3)), torch.tensor([-0.25]), torch.tensor([0.25]))),
+        # the rule's D are 3/4 and 1/4, the agent's 1/4; each term is a mean over its batch
+        ((torch.tensor([math.log(3), -math.log(3)]).double(), torch.tensor([-math.log(3)]).double()),
+         (torch.tensor((math.log(4 / 3) + math.log(4)) / 2 + math.log(4 / 3)),
+          torch.tensor([-1 / 8, -3 / 8]), torch.tensor([1 / 4]))),
+    ),
+    mistakes=(
+        Mistake(swapped,
+            "You have taken the two batches for each other: this discriminator learns to give the *agent* a high D.",
+            "D is the probability that it is the agent's own driving (in the paper that introduced GAIL it is)."),
+        Mistake(lambda rule_logits, own_logits: -gail.discriminator_loss(rule_logits, own_logits),
+            "Your sign is wrong: gradient descent on this makes the discriminator take each for the other.",
+            "A log-likelihood is minimised."),
+        Mistake(lambda rule_logits, own_logits:
+                -torch.log(torch.sigmoid(rule_logits)).mean() - torch.log(1 - torch.sigmoid(own_logits)).mean(),
+            "This is right on paper, but infinite where the discriminator is certain and wrong: in floating point "
+            "σ(100) is exactly 1. -log σ(x) is log (1 + e⁻ˣ), which is called softplus.",
+            "A formula that is right can be computed as it is printed."),
+        Mistake(lambda rule_logits, own_logits:
+                torch.log(1 + torch.exp(-rule_logits)).mean() + torch.log(1 + torch.exp(own_logits)).mean(),
+            "e¹⁰⁰ is too large for a float32, so your loss is infinite there. `softplus` computes log (1 + eˣ) safely.",
+            "Only the logarithm of 0 has to be avoided."),
+        Mistake(lambda rule_logits, own_logits:
+                functional.softplus(-rule_logits).sum() + functional.softplus(own_logits).sum(),
+            "Both terms are expectations: take the mean over each batch, so that a longer batch does not count more.",
+            "A loss is a sum over the data."),
+        Mistake(lambda rule_logits, own_logits: functional.softplus(own_logits).mean(),
+            "The rule's half is missing: nothing keeps D high where the rule drives, so D = 0 everywhere is the best.",
+            "The discriminator only has to find out the agent."),
+        Mistake(lambda rule_logits, own_logits: gail.discriminator_loss(rule_logits, own_logits).detach(),
+            "Your value is right, but no gradient flows back to the logits (`.detach()`, `.item()` or NumPy): the "
+            "discriminator would not learn.",
+            "A loss is a number."),
+    ),
+    hints=(
+        "With D = σ(x): log D = -log (1 + e⁻ˣ), and log (1 - D) = -log (1 + eˣ).",
+        "`torch.nn.functional.softplus(x)` is log (1 + eˣ), safe for every x. Mind the sign of each x.",
+        "`softplus(-rule_logits).mean() + softplus(own_logits).mean()`",
+    ),
+    minutes=15, difficulty=3,
+    equation="-E_rule[log D] - E_own[log (1 - D)], Ho & Ermon, arXiv 1606.03476, Equation 17, with D for 1 - D",
+)  # fmt: skip
 
 
 def logit_cases(rng):
-    """D = 1/2, near 0 and 1, D = 1 in floating point; then 40 at random."""
+    """D = 1/2, near 0 and 1, D = 1 in floating point, e^x infinite in float32; then 40 at random."""
     yield (torch.zeros(1).double(),)
     yield (torch.tensor([5.0, -5.0]).double(),)
     yield (torch.tensor([60.0, -60.0, 1.0]).double(),)
+    yield (torch.tensor([100.0, -100.0, 2.0]),)
     for _ in range(40):
         yield (torch.tensor(rng.normal(0, 3, int(rng.integers(1, 8)))),)
 
@@ -49,6 +116,10 @@ imitation_reward = Exercise(
             "This is right on paper, but infinite where the discriminator is very certain: in floating point σ(60) is "
             "exactly 1. -log (1 - σ(x)) is log (1 + e^x), which is called softplus.",
             "A formula that is right can be computed as it is printed."),
+        Mistake(lambda own_logits: torch.log(1 + torch.exp(own_logits)),
+            "This is right on paper, but in float32 e^x is infinite from x = 89 on, and so is your reward. `softplus` "
+            "computes log (1 + e^x) safely.",
+            "Only σ(x) = 1 has to be avoided."),
     ),
     hints=(
         "With D = σ(x): 1 - D = 1 / (1 + e^x). What is minus the logarithm of that?",

@@ -7,6 +7,7 @@ import torch
 
 from bootcourse.learn import sac
 from bootcourse.lessons.exercise import Exercise, Mistake
+from bootcourse.lessons.exercises.slopes import with_slopes
 
 
 def of_the_data(q, actions):
@@ -68,13 +69,107 @@ conservative_loss = Exercise(
 )  # fmt: skip
 
 
+def offline_loss_solution(q, next_q, next_target, actions, rewards, terminated, gamma, weight):
+    next_value = next_target.gather(-1, next_q.argmax(-1, keepdim=True)).squeeze(-1)
+    target = (rewards + gamma * (1 - terminated) * next_value).detach()
+    taken = q.gather(-1, actions.unsqueeze(-1)).squeeze(-1)
+    return (taken - target).square().mean() + weight * (q.logsumexp(-1) - taken).mean()
+
+
+def changed_offline(value=None, loss=None):
+    """The solution with one piece replaced, for the known mistakes."""
+
+    def answer(q, next_q, next_target, actions, rewards, terminated, gamma, weight):
+        next_value = (value or (lambda n, t: of_the_data(t, n.argmax(-1))))(next_q, next_target)
+        taken = of_the_data(q, actions)
+        error = (taken - (rewards + gamma * (1 - terminated) * next_value).detach()).square().mean()
+        return (loss or (lambda error, term, w: error + w * term))(error, (q.logsumexp(-1) - taken).mean(), weight)
+
+    return answer
+
+
+def without_stop(q, next_q, next_target, actions, rewards, terminated, gamma, weight):
+    next_value = of_the_data(next_target, next_q.argmax(-1))
+    error = of_the_data(q, actions) - rewards - gamma * (1 - terminated) * next_value
+    return error.square().mean() + weight * sac.conservative_loss(q, actions)
+
+
+def critic_cases(rng):
+    """No weight, no next value, both ends; critics that disagree on the best action; then 30 at random."""
+    for case in range(34):
+        n = int(rng.integers(2, 7))
+        q, next_q, next_target = (torch.tensor(rng.normal(0, 2, (n, 9))) for _ in range(3))
+        terminated = torch.tensor((rng.random(n) < (0.0, 1.0, 0.5)[case % 3]).astype(float))
+        actions, rewards = torch.tensor(rng.integers(0, 9, n)), torch.tensor(rng.normal(0, 2, n))
+        gamma, weight = float(rng.choice([0.5, 0.8, 0.99])), float((0.0, 1.0, 0.3, 5.0)[case % 4])
+        yield q, next_q, next_target, actions, rewards, terminated, gamma, weight
+
+
+ONE = (torch.zeros(1, 3).double(), torch.tensor([[0.0, 2.0, 1.0]]).double(), torch.tensor([[3.0, 4.0, 9.0]]).double(),
+       torch.tensor([0]), torch.tensor([1.0]).double())  # fmt: skip
+NO_SLOPE = torch.zeros(1, 3)
+offline_loss = Exercise(
+    "offline_loss(q, next_q, next_target, actions, rewards, terminated, gamma, weight)",
+    solution=offline_loss_solution, cases=critic_cases, run=with_slopes(0, 1, 2),
+    worked=(
+        # the critic's best next action is 1, which the target critic values at 4: y = 1 + 4/2 = 3, (0 - 3)² + log 3
+        ((*ONE, torch.zeros(1).double(), 0.5, 1.0),
+         (torch.tensor(9 + math.log(3)), torch.tensor([[-6 - 2 / 3, 1 / 3, 1 / 3]]), NO_SLOPE, NO_SLOPE)),
+        # after an accident y = r = 1, and without a weight the term is gone
+        ((*ONE, torch.ones(1).double(), 0.5, 0.0),
+         (torch.tensor(1.0), torch.tensor([[-2.0, 0.0, 0.0]]), NO_SLOPE, NO_SLOPE)),
+    ),
+    mistakes=(
+        Mistake(changed_offline(value=lambda n, t: t.amax(-1)),
+            "You take the target critic's own best action, which is ordinary Q-learning: its largest guess is chosen "
+            "and believed by the same network. Double Q-learning lets `next_q` choose and `next_target` value.",
+            "The maximum over the next actions is taken by the network that values them."),
+        Mistake(changed_offline(value=lambda n, t: n.amax(-1)),
+            "You value the next action by the network that is being trained. `next_q` only chooses it; `next_target` "
+            "says what it is worth.",
+            "There is one critic."),
+        Mistake(changed_offline(value=lambda n, t: of_the_data(n, t.argmax(-1))),
+            "The two are swapped: `next_q` chooses the next action, and `next_target` says what it is worth.",
+            "The slower network decides, the faster one values."),
+        Mistake(changed_offline(value=lambda n, t: t.mean(-1)),
+            "You take the mean over the next actions. The agent will take one of them: the one that `next_q` prefers.",
+            "A state's value is the mean of its actions' values."),
+        Mistake(lambda q, next_q, next_target, actions, rewards, terminated, gamma, weight: offline_loss_solution(
+                q, next_q, next_target, actions, rewards, 0 * terminated, gamma, weight),
+            "Where an accident ended the episode, nothing comes after it: multiply the next value by 1 - terminated.",
+            "The data hold a next state, so it has a value."),
+        Mistake(without_stop,
+            "The target is a constant for the gradient: nothing may flow into `next_target`. Use `.detach()`.",
+            "A target that comes from another network has no gradient."),
+        Mistake(changed_offline(loss=lambda error, term, w: error + term),
+            "The weight of the conservative term is missing.",
+            "The two terms of the loss count the same."),
+        Mistake(changed_offline(loss=lambda error, term, w: error - w * term),
+            "You subtract the conservative term: this *rewards* high values of actions that nobody tried.",
+            "Conservative means minus."),
+        Mistake(lambda *arguments: offline_loss_solution(*arguments).detach(),
+            "Your value is right, but no gradient flows back to Q: only the target is a constant.",
+            "A loss is a number."),
+    ),
+    hints=(
+        "Three pieces: the next value (`next_q` chooses the action, `next_target` values it), the target y without "
+        "gradient, and (Q - y)² plus the weighted term of exercise 11.1.",
+        "`next_target.gather(-1, next_q.argmax(-1, keepdim=True)).squeeze(-1)` is the next value. What multiplies it?",
+        "`target = (rewards + gamma * (1 - terminated) * next_value).detach()`",
+    ),
+    minutes=20, difficulty=3,
+    equation="E[(Q(s,a) - y)²] + w E[log Σ_a exp Q(s,a) - Q(s,a_data)], y = r + γ Q'(s', argmax_a Q(s',a))",
+)  # fmt: skip
+
+
 def share_of_the_bound_solution(returns, bound):
     return returns.mean(axis=1) / bound.mean()
 
 
 def bound_cases(rng):
-    """As good as the bound, crashed at once, a low bound and a high one; then 40 at random."""
+    """As good as the bound, better than it, crashed at once, a low bound and a high one; then 40 at random."""
     yield np.array([[140.0, 141.0]]), np.array([140.0, 141.0])
+    yield np.array([[150.0, 160.0], [70.0, 20.0]]), np.array([140.0, 141.0])
     yield np.array([[-10.0, -9.5, -9.0], [23.4, 23.4, 23.4]]), np.array([140.0, 141.0, 142.0])
     yield np.array([[20.0, 40.0], [10.0, 80.0]]), np.array([20.0, 160.0])
     for _ in range(40):
@@ -98,6 +193,10 @@ share_of_the_bound = Exercise(
         Mistake(lambda returns, bound: np.clip(returns.mean(axis=1) / bound.mean(), 0, 1),
             "You clip at 0. An agent that crashes at once has a negative return, so its share is negative, too.",
             "A share lies between 0 and 1."),
+        Mistake(lambda returns, bound: np.minimum(returns.mean(axis=1) / bound.mean(), 1),
+            "You clip at 1. The planner's return is what a search found, not the most that is possible: an agent may "
+            "beat it.",
+            "Nothing can be above a bound."),
         Mistake(lambda returns, bound: returns.mean() / bound.mean(),
             "You average over the agents, too. Each has a share of its own: return one number for each agent.",
             "A method has one score."),
