@@ -8,6 +8,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from bootcourse.colours import ALARM, OTHER, Style
+from bootcourse.episodes.evaluate import held_out_seeds
+from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.episodes.words import sentence
 from bootcourse.learn.bootstrap import demonstration_share
@@ -15,12 +17,15 @@ from bootcourse.learn.curves import by_label
 from bootcourse.learn.settings import Settings
 from bootcourse.learn.training import Training
 from bootcourse.lessons.charts import lines
+from bootcourse.lessons.exercises.lesson_03_the_rule import direct_solution
 from bootcourse.methods import style
 from bootcourse.plots.canvas import MplAxes
+from bootcourse.plots.diagrams import agent_loop as agent_loop
 from bootcourse.plots.diagrams import sac_diagram as sac_diagram
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, WIDTH, Picture, finish, new_figure, one_axes, plain_axes
 from bootcourse.plots.road import draw_car, draw_road, edges_of
 from bootcourse.plots.training_curves import training_curves
+from bootcourse.policies import plan_policy
 from bootcourse.road.formulas import bicycle_step, speed_reward
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, X, Y
 from bootcourse.rule import SENTENCES, Reason, safety_distance
@@ -128,6 +133,28 @@ def when_to_change(drive: Rollout) -> Figure:
     place = {"textcoords": "offset points", "ha": "right", "fontsize": TEXT, "color": rule}
     figure.axes[0].annotate("room: change", (seconds[first], gap[first]), xytext=(-8, 10), **place)
     return figure
+
+
+def escape_against_d2(plan: Sequence | None, roads: int = 400) -> Figure:
+    """Whether a plan gets out, against D2, where trap 2 starts: a dot for each held-out road.
+
+    plan: as for `plan_policy`; None for the kit's own.
+    """
+    drives = record(plan_policy(plan or direct_solution()), held_out_seeds(1, roads))
+    d2 = np.array([drive.states[0, TRAP_2, X] - drive.states[0, EGO, X] for drive in drives])
+    out = np.array([drive.success for drive in drives])
+    title = "Where trap 2 starts decides whether one plan gets out"
+    figure, ax = one_axes(2.4, title, "D2: trap 2 starts so far ahead (m, centre to centre)", "")
+    spread = np.random.default_rng(0).uniform(-0.25, 0.25, roads)
+    ax.scatter(d2, out + spread, s=7, c=np.where(out, style("rule").colour, ALARM), linewidths=0)
+    ax.set_yticks([0, 1], ["stays behind", "gets out"])
+    ax.set_position((0.13, *ax.get_position().bounds[1:2], 0.845, ax.get_position().height))
+    ax.set_ylim(-0.5, 1.5)
+    alt = f"The plan gets out on {out.mean():.0%} of {roads} roads."
+    if out.any() and not out.all():
+        alt += f" Where it gets out D2 is {np.min(d2[out]):.2f} to {np.max(d2[out]):.2f} m, and where it does not "
+        alt += f"{np.min(d2[~out]):.2f} to {np.max(d2[~out]):.2f} m."
+    return finish(figure, title, alt)
 
 
 def reasons_over_time(rollout: Rollout, title: str) -> Figure:
@@ -245,17 +272,18 @@ class LiveCurves:
     """A training's callback: redraws the agents' success and return, at most every `every` seconds.
 
     labels: one for each agent, those of a label are drawn together; without them, each agent's method. The picture is
-    replaced in place, so that the page does not jump.
+    replaced in place, so that the page does not jump. On a busy machine that happens less often, so that the training
+    gets most of the time.
     """
 
     def __init__(self, labels: Sequence[str] = (), every: float = 3.0):
-        self.labels, self.every, self.last, self.output = labels, every, time.monotonic(), None
+        self.labels, self.every, self.pause = labels, every, every
+        self.last, self.output = time.monotonic(), None
 
     def __call__(self, training: Training) -> None:
         now = time.monotonic()
-        if now - self.last < self.every or training.curves.finished.min() < 2:
+        if now - self.last < self.pause or training.curves.finished.min() < 2:
             return
-        self.last = now
         from IPython.display import display
 
         picture = Picture(self.draw(training))
@@ -263,6 +291,8 @@ class LiveCurves:
             self.output = display(picture, display_id=True)
         else:
             self.output.update(picture)
+        self.last = time.monotonic()
+        self.pause = max(self.every, 5 * (self.last - now))
 
     def draw(self, training: Training):
         labels = self.labels or [settings.method for settings in training.settings]

@@ -16,6 +16,7 @@ from bootcourse.road.formulas import desired_gap, idm_acceleration, mobil_incent
 from bootcourse.scenario import DEFAULT, Traffic
 
 LOOKS = (Style("#0072B2"), Style("#444444", "--"), Style("#D55E00", "-."))  # of the lines, first to last
+ROW = (Style("#444444", "--"), Style("#56B4E9"), Style("#0072B2"), Style("#332288"))  # a leader, and drivers behind it
 FAST = 12.5  # m/s, the bright end of the colours
 SWING = 3.6  # times its start: where a growing error leaves the picture
 

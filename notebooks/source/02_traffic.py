@@ -18,7 +18,7 @@
 # - start a traffic jam with one slow driver, and say why it travels backwards;
 # - tell from one number whether a simulated car's steering settles or swings.
 #
-# **Time** 55 minutes, under a minute of it the machine's. **It builds on**
+# **Time** 75 minutes, under a minute of it the machine's. **It builds on**
 # [lesson 1](01_the_trap.ipynb).
 
 # %%
@@ -27,7 +27,16 @@ import math
 
 import bootcourse as bc
 import numpy as np
-from bootcourse.lessons import check, figures_traffic, source
+from bootcourse.lessons import (
+    charts,
+    check,
+    compare_predictions,
+    figures_traffic,
+    predict,
+    source,
+    table,
+    traffic,
+)
 
 # %% [markdown]
 # ## Look first
@@ -36,39 +45,20 @@ from bootcourse.lessons import check, figures_traffic, source
 # Overtaking is not possible, and each driver follows the same formula. Each line in the picture is
 # one car.
 
-
 # %%
-def follow(v, dv, gap, t=bc.DEFAULT.traffic):
-    """Acceleration (m/s²) of a driver at v (m/s), closing in at dv on a car `gap` metres ahead."""
-    s_star = bc.formulas.desired_gap(v, dv, t.s0, t.time_gap, t.a_max, t.b)
-    a = bc.formulas.idm_acceleration(v, t.desired_speed, gap, s_star, t.a_max, t.delta)
-    return max(a, -t.braking_limit)
-
-
-def ring(spacing, cars=30, seconds=400, dt=0.5):
-    """Places (m) and speeds (m/s) of cars in a circle, both (steps, cars)."""
-    x, v = spacing * np.arange(cars, dtype=float), np.full(cars, 6.0)
-    v[0] = 1.0
-    places, speeds = [], []
-    for _ in range(int(seconds / dt)):
-        gaps = (np.roll(x, -1) - x) % (spacing * cars)
-        a = np.array([follow(*car) for car in zip(v, v - np.roll(v, -1), gaps, strict=True)])
-        x, v = x + v * dt, np.maximum(v + a * dt, 0)
-        places.append(x % (spacing * cars))
-        speeds.append(v)
-    return np.array(places), np.array(speeds)
-
-
-# %%
-rings = {f"{spacing} m apart": ring(spacing) for spacing in (20, 30)}
-title = "One slow driver: at 20 m a jam is born and travels backwards, at 30 m it dies"
+rings = {f"{spacing} m apart": traffic.ring(spacing) for spacing in (20, 30)}
+title = "One slow driver starts a jam at 20 m; at 30 m the disturbance dies out"
 bc.show(figures_traffic.space_time(rings, dt=0.5, title=title))
 
 # %% [markdown]
-# > **Predict.** At 20 m the cars have room for four car lengths each. Why do they stop at all?
-# > And why does the dark band move *backwards* while every car drives forwards?
-#
-# Keep your answer. Round 2 comes back to it.
+# > **Predict.** At 20 m the cars have room for four car lengths each. Why do they stop? And why
+# > does the band of standing cars move *backwards* while the cars drive forwards?
+
+# %%
+predict("2.1", "Why does the jam move backwards?")
+
+# %% [markdown]
+# Round 2 comes back to it.
 
 # %% [markdown] tags=["instructor"] minutes=6
 # Let them find the band's speed: in the 400 s of the picture it goes back by a little more than
@@ -79,7 +69,7 @@ bc.show(figures_traffic.space_time(rings, dt=0.5, title=title))
 # %% [markdown]
 # ## Round 1: the gap that a driver wants
 #
-# All cars except yours follow the **Intelligent Driver Model** (IDM). It begins with the gap that
+# The other cars follow the **Intelligent Driver Model** (IDM). It begins with the gap that
 # a driver wants at speed $v$ while it closes in at $\Delta v$ on the car ahead:
 #
 # $$ s^*(v, \Delta v) = s_0 + T v + \frac{v\, \Delta v}{2 \sqrt{a_{\max} b}} $$
@@ -89,7 +79,11 @@ bc.show(figures_traffic.space_time(rings, dt=0.5, title=title))
 #
 # > **Predict.** $s_0$ = 10 m, $T$ = 1.5 s, $a_{\max} = b$ = 0.5 m/s². What gap do you want at 10
 # > m/s behind a car at 10 m/s? Behind one at 8 m/s?
-#
+
+# %%
+predict("2.2", "The gap that you want behind the car at 8 m/s?", unit="m")
+
+# %% [markdown]
 # **Exercise 2.1 (4 min, ●○○).** Write $s^*$.
 
 
@@ -103,19 +97,19 @@ def desired_gap(v, dv, s0, time_gap, a_max, b):
 
 check.desired_gap(desired_gap)
 
-# %%
-# NBVAL_CHECK_OUTPUT
-t = bc.DEFAULT.traffic
-for v_ahead in (10.0, 8.0):
-    wanted = bc.formulas.desired_gap(10.0, 10.0 - v_ahead, t.s0, t.time_gap, t.a_max, t.b)
-    print(f"10 m/s behind a car at {v_ahead:g} m/s: {wanted:.0f} m")
-
 # %% [markdown]
-# **Explain.** A difference of two metres per second nearly doubles the gap that the driver wants.
-# Distances here go from centre to centre, as highway-env measures them: subtract one car's length
-# to get the free space.
+# <details><summary>Answer</summary>
+#
+# {{ formulas.desired_gap(10, 0, 10, 1.5, 0.5, 0.5) | g }} m behind a car at 10 m/s, and {{
+# formulas.desired_gap(10, 2, 10, 1.5, 0.5, 0.5) | g }} m behind one at 8 m/s. A difference of two
+# metres per second nearly doubles the gap that the driver wants.
 # <!-- claim: 1.7 < formulas.desired_gap(10, 2, 10, 1.5, 0.5, 0.5) / formulas.desired_gap(10, 0, 10,
 #   1.5, 0.5, 0.5) < 2 -->
+#
+# </details>
+#
+# Distances here go from centre to centre, as highway-env measures them: subtract one car's length
+# to get the free space.
 
 # %% [markdown]
 # ## Round 2: how hard to brake
@@ -127,29 +121,78 @@ for v_ahead in (10.0, 8.0):
 #
 # > **Predict.** A driver at exactly its desired speed, at exactly its desired gap. Does it
 # > accelerate, hold its speed, or brake?
-#
-# **Exercise 2.2 (5 min, ●○○).** Write the acceleration.
-
 
 # %%
-def idm_acceleration(v, v_desired, gap, s_star, a_max, delta):
-    """a in m/s². Speeds in m/s, gap s (infinite on a free road) and s_star in m."""
-    # solution
-    return a_max * (1 - (v / v_desired) ** delta - (s_star / gap) ** 2)
-    # end solution
-
-
-check.idm_acceleration(idm_acceleration)
+predict(
+    "2.3",
+    "At its desired speed and its desired gap, what does it do?",
+    ["accelerate", "hold", "brake"],
+)
 
 # %%
-at_both = bc.formulas.idm_acceleration(12.5, 12.5, 25.0, 25.0, t.a_max, t.delta)
-print(f"at the desired speed and the desired gap: {at_both:.2f} m/s²")
+t = bc.DEFAULT.traffic
 title = "A driver at 10 m/s brakes much earlier when it closes in"
 bc.show(figures_traffic.following(10.0, closing=(-2, 0, 2), title=title))
 
 # %% [markdown]
-# **Explain.** It brakes, with all of $a_{\max}$: the bracket is 1 − 1 − 1. So the gap at which a
-# driver is *content* is longer than $s^*$. It is where a line crosses zero in the picture.
+# <details><summary>Answer</summary>
+#
+# It brakes at $a_{\max}$: the bracket is 1 − 1 − 1. So the gap at which a driver is content is
+# longer than $s^*$. In the picture it is where a line crosses zero.
+# <!-- claim: formulas.idm_acceleration(12.5, 12.5, 25.0, 25.0, 0.5, 4.0) == -0.5 -->
+#
+# </details>
+#
+# A simulation repeats one step. From the present speeds and the present gap follows the
+# acceleration, which is at least −{{ DEFAULT.traffic.braking_limit | g }} m/s² here: no car brakes
+# harder. For dt seconds both cars move with their present speeds, then the speed changes by a · dt.
+# It does not fall below 0.
+# <!-- claim: traffic.follow(10.0, 10.0, 0.1) == -DEFAULT.traffic.braking_limit -->
+#
+# **Exercise 2.2 (20 min, ●●●).** Simulate a driver behind a car whose speeds are given. You need
+# both formulas, a loop, and the right order inside it.
+
+
+# %%
+def drive_behind(leader, v, gap, dt, v_desired, s0, time_gap, a_max, b, delta, limit):
+    """The gap (m) and the speed (m/s) at the start and after each step: (steps,) -> (steps + 1, 2).
+
+    leader: speeds of the car ahead in each step, m/s; v (m/s) and gap (m): at the start; dt in s;
+    limit: the hardest braking, a positive number (m/s²). The other numbers are those of IDM.
+    """
+    # solution
+    states = [(gap, v)]
+    for v_leader in leader:
+        s_star = s0 + time_gap * v + v * (v - v_leader) / (2 * math.sqrt(a_max * b))
+        a = a_max * (1 - (v / v_desired) ** delta - (s_star / gap) ** 2)
+        gap, v = gap + (v_leader - v) * dt, max(v + max(a, -limit) * dt, 0.0)
+        states.append((gap, v))
+    return np.array(states)
+    # end solution
+
+
+check.drive_behind(drive_behind)
+
+# %% [markdown]
+# Here are eight of the library's drivers in a row, 25 m apart. Their leader drives 10 m/s, brakes
+# to 4 m/s for 20 s, and drives on. Each driver follows the one ahead.
+
+# %%
+leader = np.repeat([10.0, 4.0, 10.0], [60, 40, 140])
+rows, ahead = {"leader": leader}, leader
+for k in range(1, 9):
+    ahead = traffic.behind(ahead, v=10.0, gap=25.0)[:-1, 1]
+    if k in (1, 4, 8):
+        rows[f"driver {k}, down to {ahead.min():.1f} m/s"] = ahead
+seconds = 0.5 * np.arange(len(leader))
+title = "Each driver brakes to a lower speed than the one ahead"
+bc.show(charts.lines(seconds, rows, title, "time (s)", "speed (m/s)", looks=figures_traffic.ROW))
+
+# %% [markdown]
+# **See.** The first driver comes too close and has to open the gap again, so for a moment it is
+# slower than its leader. The next one meets a stronger disturbance than the first, and so on: from
+# driver to driver the lowest speed falls.
+# <!-- claim: (np.diff([4.0, *lowest_speeds()]) < 0).all() -->
 #
 # **Exercise 2.3 (6 min, ●●○).** Which gap does a driver settle at, behind a car at its own speed?
 # Set $a = 0$ and $\Delta v = 0$, and solve for $s$.
@@ -168,35 +211,39 @@ check.equilibrium_gap(equilibrium_gap)
 
 # %%
 # NBVAL_CHECK_OUTPUT
-for v in (0.0, 6.0, 9.5, 12.0):
-    s_star = bc.formulas.desired_gap(v, 0.0, t.s0, t.time_gap, t.a_max, t.b)
-    settled = s_star / math.sqrt(1 - (v / t.desired_speed) ** t.delta)
-    print(f"{v:4} m/s: wants {s_star:4.1f} m, settles at {settled:5.1f} m")
+rows = []
+for v in (1.0, 6.0, 9.5, 12.0):
+    wanted = bc.formulas.desired_gap(v, 0.0, t.s0, t.time_gap, t.a_max, t.b)
+    settled = traffic.behind(np.full(20_000, v), v, wanted)[-1, 0]  # 10,000 s behind this speed
+    rows.append([f"{v:g} m/s", f"{wanted:.1f} m", f"{settled:.1f} m"])
+table(["speed", "wants s*", "settles at"], rows)
 
 # %% [markdown]
 # **See.** Read the table from right to left. Cars that settle about 20 m apart drive 6 m/s, cars
 # that settle about 30 m apart 9.5 m/s. These are the two rings: four car lengths of distance make a
 # slow road.
 #
-# And the jam? A driver who comes too close brakes below the speed of the car ahead, opens the gap,
-# and accelerates again at $a_{\max}$ = {{ DEFAULT.traffic.a_max }} m/s², which is slow. The driver
-# behind has to brake a little harder. At 20 m that wave grows from car to car, at 30 m it shrinks.
-# Cars leave the jam at its front and arrive at its back, so the *jam* moves backwards.
+# And the jam? As you saw, a driver who comes too close brakes below the speed of the car ahead,
+# opens the gap, and accelerates again at $a_{\max}$ = {{ DEFAULT.traffic.a_max }} m/s², which is
+# slow. The driver behind has to brake a little harder. At 20 m that wave grows from car to car, at
+# 30 m it shrinks. Cars leave the jam at its front and arrive at its back, so the *jam* moves
+# backwards.
 #
 # What does that mean for your road? The scenario sets the mean distance at which the traffic ahead
 # of the traps starts.
 
 # %%
+rows = []
 for headway in (20.0, 30.0, 40.0):
     denser = dataclasses.replace(bc.DEFAULT.traffic, headway=headway, lead=headway)
     drives = bc.record(bc.idle_policy, range(50), dataclasses.replace(bc.DEFAULT, traffic=denser))
     slowest = [drive.states[:, bc.state.TRAFFIC :, bc.state.SPEED].min() for drive in drives]
-    mean, least = np.mean(slowest), np.min(slowest)
-    print(f"{headway:g} m apart: slowest car {mean:.1f} m/s (mean of 50 roads; least {least:.1f})")
+    rows.append([f"{headway:g} m", f"{np.mean(slowest):.1f} m/s", f"{np.min(slowest):.1f} m/s"])
+table(["mean distance", "slowest car, mean of 50 roads", "slowest of all"], rows)
 
 # %% [markdown]
-# **See.** With three lanes and six cars there is room to spread: the traffic slows a little. On
-# these roads no car stops. The default is the thinnest of the three.
+# **See.** With three lanes and six cars there is room to spread: the traffic slows a little, and in
+# these 150 drives it does not stop. The default is the thinnest of the three.
 # <!-- claim: DEFAULT.road.lanes == 3 -->
 # <!-- claim: DEFAULT.traffic.cars == 6 -->
 # <!-- claim: DEFAULT.traffic.headway == max(20.0, 30.0, 40.0) -->
@@ -254,32 +301,40 @@ check.worth_changing(worth_changing)
 # > egoist with p = 0?
 
 # %%
-own_gain = follow(11.5, 0.0, math.inf) - follow(11.5, 0.5, 40.0)
+predict("2.4", "The polite driver's gap over the egoist's?", ["the same", "twice", "four times"])
+
+# %%
+own_gain = traffic.follow(11.5, 0.0, math.inf) - traffic.follow(11.5, 0.5, 40.0)
 
 
 def new_follower(gap):
     """Its acceleration before and after you have changed into its lane (m/s²)."""
-    return follow(12.5, 0.0, math.inf), follow(12.5, 12.5 - 11.5, gap)
+    return traffic.follow(12.5, 0.0, math.inf), traffic.follow(12.5, 12.5 - 11.5, gap)
 
 
-print(f"your own gain: {own_gain:.2f} m/s²")
 bc.show(figures_traffic.changing(own_gain, new_follower, politeness=(0, 0.5, 1)))
 
 # %% [markdown]
 # **See.** The egoist changes as soon as the limit on the new follower's braking allows it. A driver
-# with p = 1 waits for a gap almost four times as long, because it counts the new follower's braking
-# as its own loss.
+# with p = 1 waits for a gap almost four times as long: it counts the new follower's braking as its
+# own loss.
 #
-# > **Predict.** Does polite traffic change lane more often or less often than rude traffic?
+# > **Predict.** Does polite traffic (p = 1) change lane more often or less often than rude traffic
+# > (p = 0)?
 
 # %%
+predict("2.5", "Polite traffic changes lane …", ["more often", "about as often", "less often"])
+
+# %%
+rows = []
 for p in (0.0, 0.5, 1.0):
     kind = dataclasses.replace(bc.DEFAULT.traffic, politeness=p)
     drives = bc.record(bc.idle_policy, range(100), dataclasses.replace(bc.DEFAULT, traffic=kind))
     lanes = [drive.states[:, bc.state.TRAFFIC :, bc.state.TARGET_LANE] for drive in drives]
     changes = [(np.diff(lane, axis=0) != 0).sum() for lane in lanes]
     error = np.std(changes, ddof=1) / math.sqrt(len(changes))
-    print(f"politeness {p:g}: {np.mean(changes):.2f} ± {error:.2f} lane changes a road (100 roads)")
+    rows.append([f"{p:g}", f"{np.mean(changes):.2f} ± {error:.2f}"])
+table(["politeness", "lane changes a road (100 roads)"], rows)
 
 # %% [markdown]
 # **Explain.** The number after ± is the standard error of the mean. Traffic with $p$ = 1 changes
@@ -289,23 +344,29 @@ for p in (0.0, 0.5, 1.0):
 # what the *old* follower gains. On this road the other lanes are nearly empty, so often the new
 # follower loses nothing, while the old one gains. A polite driver gets out of the way.
 #
-# All these numbers are part of the scenario, and you can change them. The panel refuses numbers
-# that do not fit together, and says why.
+# These numbers are part of the scenario, and you can change them. The panel refuses numbers that do
+# not fit together, and says why.
 #
 # > **Predict.** Under *Road and clock* you can shorten the road. At about which length will it be
 # > refused, and why there?
+
+# %%
+predict("2.6", "Below which length is the road refused?", unit="m")
 
 # %% tags=["nbval-ignore-output"]
 bc.panels.scenario_panel()
 
 # %% [markdown]
-# **See.** The road must be at least {{ 150 * DEFAULT.ego.max_speed }} m long. The ego's maximum
-# speed is {{ DEFAULT.ego.max_speed }} m/s, so a car could drive that far in the 150 s of an
-# episode, and no car may reach the end of the road. Traffic starts further ahead, but drives more
-# slowly.
+# <details><summary>Answer</summary>
+#
+# The road must be at least {{ 150 * DEFAULT.ego.max_speed | g }} m long. The ego's maximum speed is
+# {{ DEFAULT.ego.max_speed | g }} m/s, so a car could drive that far in the 150 s of an episode, and
+# it must not reach the end of the road. Traffic starts further ahead, but drives more slowly.
 # <!-- claim: accepts_road(150 * DEFAULT.ego.max_speed) -->
 # <!-- claim: not accepts_road(150 * DEFAULT.ego.max_speed - 1) -->
 # <!-- claim: DEFAULT.clock.decisions / DEFAULT.clock.decision_rate == 150 -->
+#
+# </details>
 
 # %% [markdown]
 # ## Round 4: two steps a second
@@ -317,7 +378,12 @@ bc.panels.scenario_panel()
 #
 # > **Predict.** highway-env's own τ is 0.2 s: quick and precise at its usual 15 Hz. What happens
 # > at 2 Hz to a heading error of 1°?
-#
+
+# %%
+choices = ["it settles in one step", "it swings and settles", "it swings and grows"]
+predict("2.7", "What happens to the heading error at 2 Hz?", choices)
+
+# %% [markdown]
 # **Exercise 2.5 (6 min, ●●○).** Follow the error, step by step.
 
 
@@ -358,18 +424,20 @@ def broken(tau_heading, tau_lateral, rate=2, roads=100):
 
 
 # %%
-table = {"highway-env's, 2 Hz": (0.2, 0.6, 2), "highway-env's, 10 Hz": (0.2, 0.6, 10)}
-table["ours, 2 Hz"] = (t.tau_heading, t.tau_lateral, 2)
-for name, numbers in table.items():
-    off, crashed = broken(*numbers)
+tried = {"highway-env's, 2 Hz": (0.2, 0.6, 2), "highway-env's, 10 Hz": (0.2, 0.6, 10)}
+tried["ours, 2 Hz"] = (t.tau_heading, t.tau_lateral, 2)
+rows = []
+for name, numbers in tried.items():
     factor = 1 - 1 / numbers[2] / numbers[0]
-    print(f"{name:21} factor {factor:5.2f}: off the road {off:4.0%}, crashes {crashed:4.0%}")
+    rows.append([name, f"{factor:.2f}", *(f"{share:.0%}" for share in broken(*numbers))])
+table(["gains", "factor of a step", "roads where a car leaves the road", "where cars crash"], rows)
 
 # %% [markdown]
 # **See.** With highway-env's gains at 2 Hz, traffic cars leave the road although you do nothing to
 # disturb them. An agent that trains there learns to drive among cars that swerve off the road, and
 # its table of results does not show that. So we set slower gains for our own cars, and tested them
-# as above. Before you believe a simulator, look at all of its cars, not only at the one you train.
+# as above. Before you believe a simulator, look at each of its cars, and not just at the one that
+# you train.
 
 # %%
 source("bootcourse.road.formulas", "lane_keeping_steering")
@@ -382,7 +450,7 @@ source("bootcourse.road.formulas", "lane_keeping_steering")
 # %% [markdown]
 # ## What you now know
 #
-# 1. IDM brakes for the closing speed as much as for the gap, and settles at more than $s^*$.
+# 1. IDM brakes for the closing speed as well as for the gap, and settles at more than $s^*$.
 # 2. Density decides the speed; above a density, a disturbance becomes a jam that travels
 #    backwards.
 # 3. MOBIL changes lane when it is safe and the gains, the others' weighed by politeness, exceed a
@@ -401,3 +469,30 @@ source("bootcourse.road.formulas", "lane_keeping_steering")
 # **Read on**: Treiber, Hennecke and Helbing, *Congested traffic states in empirical observations
 # and microscopic simulations* (2000), for IDM; Kesting, Treiber and Helbing, *General
 # lane-changing model MOBIL for car-following models* (2007). Next: [the rule](03_the_rule.ipynb).
+
+# %%
+backwards = "cars leave it at its front and join it at its back"
+compare_predictions(
+    "02",
+    {
+        "2.1": f"{backwards}; it begins where a driver brakes below the speed ahead",
+        "2.2": bc.formulas.desired_gap(10.0, 2.0, 10.0, 1.5, 0.5, 0.5),
+        "2.3": "brake",
+        "2.4": "four times",
+        "2.5": "more often",
+        "2.6": 150 * bc.DEFAULT.ego.max_speed,
+        "2.7": "it swings and grows",
+    },
+)
+
+# %% [markdown] tags=["instructor"]
+# *Model answers to the three questions:*
+#
+# - **Trap 1 and you.** Behind it you do not exist for trap 1: IDM looks at the car ahead. In front
+#   of it you are its leader. If you stop there, it brakes, up to {{ DEFAULT.traffic.braking_limit |
+#   g }} m/s², and stops behind you if the gap allows it.
+# - **To take advantage.** A learner can push in just ahead of a traffic car and let it brake, since
+#   IDM avoids the crash for it. What it learns then fails among drivers who react more slowly.
+# - **A jam ahead.** The traps slow down with it, and the jam may reach you. But slower traps are
+#   easier to pass, and the left lane may jam as well. Which effect wins is an experiment:
+#   `dataclasses.replace(bc.DEFAULT.traffic, headway=20.0, lead=20.0)`.

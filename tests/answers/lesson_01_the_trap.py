@@ -20,6 +20,16 @@ def by_divmod(actions):
     return np.column_stack([row - 1.0, (column - 1.0) * np.pi / 50])
 
 
+@right("decode")
+def one_by_one(actions):
+    return np.array([[a // 3 - 1, (a - 3 * (a // 3) - 1) * 0.02 * np.pi] for a in actions.tolist()])
+
+
+@wrong("decode")
+def rounded_angle(actions):
+    return np.column_stack([actions // 3 - 1, (actions % 3 - 1) * 0.06])
+
+
 @wrong("decode", "shape")
 def two_rows(actions):
     return np.array([actions // 3 - 1, (actions % 3 - 1) * np.pi / 50])
@@ -30,13 +40,12 @@ def columns_swapped(actions):
     return by_divmod(actions)[:, ::-1].copy()
 
 
-@wrong("decode", "shape")
+@wrong("decode", "2 values")
 def a_tuple(actions):
     return actions // 3 - 1, (actions % 3 - 1) * np.pi / 50
 
 
-@right("speed_reward")
-def from_below(v_lon):
+def speed_term(v_lon):
     if v_lon <= 5:
         return 0.0
     if v_lon <= 12.5:
@@ -46,28 +55,8 @@ def from_below(v_lon):
     return math.exp(-((v_lon - 15) ** 2))
 
 
-@right("speed_reward")
-def by_interpolation(v_lon):
-    return float(np.interp(v_lon, [5, 12.5, 15], [0, 0.2, 1]) if v_lon <= 15 else np.exp(-((v_lon - 15) ** 2)))
-
-
-@wrong("speed_reward")
-def growing_exponential(v_lon):
-    return math.exp((v_lon - 15) ** 2) if v_lon > 15 else from_below(v_lon)
-
-
-@wrong("speed_reward")
-def proportional(v_lon):
-    return v_lon / 15
-
-
-@wrong("speed_reward")
-def steep_from_the_start(v_lon):
-    return from_below(v_lon) if not 5 < v_lon <= 12.5 else max(0.0, 8 / 25 * v_lon - 19 / 5)
-
-
 def terms(v_lon, offset, theta):
-    return from_below(v_lon), math.exp(-1.5 * offset**2), -abs(math.sin(theta))
+    return speed_term(v_lon), math.exp(-1.5 * offset**2), -abs(math.sin(theta))
 
 
 @right("reward")
@@ -102,6 +91,23 @@ def turned(v_lon, offset, theta, accident):
     return summed(v_lon, offset, theta) / 1.6 if accident else -10.0
 
 
+@right("reward")
+def penalty_last(v_lon, offset, theta, accident):
+    mean = (30 * speed_term(v_lon) + math.exp(-1.5 * offset**2) - abs(math.sin(theta))) / 32
+    return np.float64(mean if not accident else -10)
+
+
+@wrong("reward")
+def the_angle_itself(v_lon, offset, theta, accident):
+    mean = (1.5 * speed_term(v_lon) + 0.05 * math.exp(-1.5 * offset**2) - 0.05 * abs(theta)) / 1.6
+    return -10.0 if accident else mean
+
+
+@wrong("reward")
+def departures_are_free(v_lon, offset, theta, accident):
+    return -10.0 if accident in (1, 3) else summed(v_lon, offset, theta) / 1.6
+
+
 @right("idle_return")
 def by_the_line(speed, seconds):
     return (0.025 * speed - 0.09375) * seconds
@@ -125,6 +131,61 @@ def always_the_default(speed, seconds):
     return 23.4375
 
 
+@right("idle_return")
+def with_the_terms_in_a_row(speed, seconds):
+    return float(np.dot([1.5, 0.05, 0.05], [(speed - 5) / 37.5, 1, 0]) / 1.6 * seconds)
+
+
+@wrong("idle_return")
+def one_second_short(speed, seconds):
+    return by_the_line(speed, seconds - 1)
+
+
+@right("bearable_risk")
+def clipped(stay, escape, crash):
+    return (
+        float(np.clip((escape - stay) / (escape - crash), 0, 1)) if escape > max(stay, crash) else float(crash > stay)
+    )
+
+
+@right("bearable_risk")
+def from_the_share_that_must_succeed(stay, escape, crash):
+    if escape <= stay:
+        return 0
+    return 1 - max(0.0, (stay - crash) / (escape - crash))
+
+
+@right("bearable_risk")
+def by_bisection(stay, escape, crash):
+    if escape <= stay:
+        return 0.0
+    low, high = 0.0, 1.0
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if (1 - middle) * escape + middle * crash > stay else (low, middle)
+    return low
+
+
+@wrong("bearable_risk")
+def in_per_cent(stay, escape, crash):
+    return 100 * clipped(stay, escape, crash)
+
+
+@wrong("bearable_risk")
+def always_the_rule_s(stay, escape, crash):
+    return 0.4556
+
+
+@wrong("bearable_risk")
+def a_crash_costs_ten(stay, escape, crash):
+    return clipped(stay, escape, -10.0)
+
+
+@wrong("bearable_risk")
+def a_verdict(stay, escape, crash):
+    return escape > stay
+
+
 @right("outcome_rates")
 def with_bincount(x_ego, x_trap_1, accident):
     counts = np.bincount(accident, minlength=4)[1:]
@@ -132,13 +193,20 @@ def with_bincount(x_ego, x_trap_1, accident):
 
 
 @right("outcome_rates")
-def one_by_one(x_ego, x_trap_1, accident):
+def episode_by_episode(x_ego, x_trap_1, accident):
     found = np.zeros(4)
     for ego, trap, kind in zip(x_ego, x_trap_1, accident, strict=True):
         found[0] += ego > trap
         if kind:
             found[kind] += 1
     return found / len(x_ego)
+
+
+@right("outcome_rates")
+def from_lists(x_ego, x_trap_1, accident):
+    success = [ego > trap for ego, trap in zip(x_ego.tolist(), x_trap_1.tolist(), strict=True)]
+    kinds = accident.tolist()
+    return np.array([sum(success), kinds.count(1), kinds.count(2), kinds.count(3)]) / len(kinds)
 
 
 @wrong("outcome_rates", "'no accident'")

@@ -27,31 +27,76 @@ def python_reads_from_left_to_right(v, dv, s0, time_gap, a_max, b):
     return s0 + v * time_gap + v * dv / 2 * math.sqrt(a_max * b)
 
 
-@right("idm_acceleration")
-def as_printed(v, v_desired, gap, s_star, a_max, delta):
-    return a_max * (1 - (v / v_desired) ** delta - (s_star / gap) ** 2)
+def acceleration(v, dv, gap, v_desired, s0, time_gap, a_max, b, delta):
+    return a_max * (1 - (v / v_desired) ** delta - (three_terms(v, dv, s0, time_gap, a_max, b) / gap) ** 2)
 
 
-@right("idm_acceleration")
-def in_two_parts(v, v_desired, gap, s_star, a_max, delta):
-    free_road = a_max - a_max * pow(v / v_desired, delta)
-    braking = 0.0 if math.isinf(gap) else a_max * s_star**2 / gap**2
-    return free_road - braking
+@right("drive_behind")
+def with_places(leader, v, gap, dt, *driver):
+    *driver, limit = driver
+    mine, theirs, states = 0.0, gap, [[gap, v]]
+    for v_leader in leader:
+        a = np.clip(acceleration(v, v - v_leader, theirs - mine, *driver), -limit, None)
+        mine, theirs = mine + v * dt, theirs + v_leader * dt
+        v = v + a * dt if v + a * dt > 0 else 0.0
+        states.append([theirs - mine, v])
+    return np.asarray(states)
 
 
-@wrong("idm_acceleration")
-def on_a_free_road_only(v, v_desired, gap, s_star, a_max, delta):
-    return a_max * (1 - (v / v_desired) ** delta)
+@right("drive_behind")
+def into_an_array(leader, v, gap, dt, *driver):
+    found = np.zeros((len(leader) + 1, 2))
+    found[0] = gap, v
+    for k in range(len(leader)):
+        gap, v = found[k]
+        a = max(-driver[-1], acceleration(v, v - leader[k], gap, *driver[:-1]))
+        found[k + 1] = gap - (v - leader[k]) * dt, max(0, v + dt * a)
+    return found
 
 
-@wrong("idm_acceleration")
-def delta_everywhere(v, v_desired, gap, s_star, a_max, delta):
-    return a_max * (1 - (v / v_desired) ** delta - (s_star / gap) ** delta)
+@right("drive_behind")
+def step_after_step(leader, v, gap, dt, *driver):
+    if len(leader) == 0:
+        return np.array([[gap, v]])
+    *others, limit = driver
+    a = max(acceleration(v, v - leader[0], gap, *others), -limit)
+    rest = step_after_step(leader[1:], max(v + a * dt, 0.0), gap + (leader[0] - v) * dt, dt, *driver)
+    return np.vstack([[gap, v], rest])
 
 
-@wrong("idm_acceleration")
-def never_brakes(v, v_desired, gap, s_star, a_max, delta):
-    return max(0.0, as_printed(v, v_desired, gap, s_star, a_max, delta))
+@wrong("drive_behind", "shape")
+def without_its_start(leader, v, gap, dt, *driver):
+    return into_an_array(leader, v, gap, dt, *driver)[1:]
+
+
+@wrong("drive_behind")
+def two_rows(leader, v, gap, dt, *driver):
+    return into_an_array(leader, v, gap, dt, *driver).T.copy()
+
+
+@wrong("drive_behind")
+def half_a_second(leader, v, gap, dt, *driver):
+    return into_an_array(leader, v, gap, 0.5, *driver)
+
+
+@wrong("drive_behind")
+def six_metres_per_second_squared(leader, v, gap, dt, *driver):
+    return into_an_array(leader, v, gap, dt, *driver[:-1], 6.0)
+
+
+@wrong("drive_behind", "NaN")
+def divided_by_the_leader(leader, v, gap, dt, *driver):
+    return into_an_array(leader, v, gap, dt, *driver) * np.where(leader[0] == leader[0], np.nan, 1)
+
+
+@wrong("drive_behind")
+def the_leader_stands(leader, v, gap, dt, *driver):
+    return into_an_array(np.zeros(len(leader)), v, gap, dt, *driver)
+
+
+@wrong("drive_behind")
+def never_brakes(leader, v, gap, dt, *driver):
+    return into_an_array(leader, v, gap, dt, *driver[:-1], 0.0)
 
 
 @right("equilibrium_gap")
@@ -96,6 +141,18 @@ def with_steps(own_gain, follower_before, follower_after, old_follower_gain, pol
     return 1 if is_safe and total > threshold else 0
 
 
+@right("worth_changing")
+def unsafe_is_worth_nothing(own_gain, follower_before, follower_after, old_follower_gain, politeness, threshold, limit):
+    gains = np.array([own_gain, follower_after - follower_before, old_follower_gain]) @ [1, politeness, politeness]
+    return np.where(follower_after + limit >= 0, gains, -np.inf) > threshold
+
+
+@wrong("worth_changing")
+def the_default_s_numbers(own_gain, follower_before, follower_after, old_follower_gain, politeness, threshold, limit):
+    others = follower_after - follower_before + old_follower_gain
+    return follower_after >= -2.0 and own_gain + politeness * others > 0.2
+
+
 @wrong("worth_changing")
 def safety_turned(own_gain, follower_before, follower_after, old_follower_gain, politeness, threshold, limit):
     others = follower_after - follower_before + old_follower_gain
@@ -127,6 +184,17 @@ def in_a_loop(error, tau, dt, steps):
 @right("heading_errors")
 def by_a_product(error, tau, dt, steps):
     return np.cumprod([error] + steps * [1 - dt / tau])
+
+
+@right("heading_errors")
+def by_recursion(error, tau, dt, steps):
+    rest = by_recursion(error * (tau - dt) / tau, tau, dt, steps - 1) if steps else []
+    return np.array([error, *rest])
+
+
+@wrong("heading_errors")
+def at_two_hertz(error, tau, dt, steps):
+    return error * (1 - 0.5 / tau) ** np.arange(steps + 1)
 
 
 @wrong("heading_errors", "shape")

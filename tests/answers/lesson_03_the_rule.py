@@ -114,6 +114,17 @@ def lengths_on_the_other_side(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_s
     return int(dx_front > d_s + length) * int(dx_rear > (behind if behind > floor else floor) + length)
 
 
+@right("room_to_change")
+def by_the_shorter_margin(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor):
+    behind = max(floor, (v_rear - v_ego) * t_safe)
+    return min(dx_front - d_s, dx_rear - behind) > length
+
+
+@wrong("room_to_change")
+def our_own_numbers(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor):
+    return dx_front - 5 > d_s and dx_rear - 5 > max(3.0, (v_rear - v_ego) * 1.5)
+
+
 @wrong("room_to_change")
 def the_same_distance_behind(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor):
     return dx_front - length > d_s and dx_rear - length > d_s
@@ -177,3 +188,55 @@ def states_in_columns(rule_actions, p):
 @wrong("stochastic_rule")
 def logarithms(rule_actions, p):
     return np.log(filled(rule_actions, p))
+
+
+@right("direct_plan")
+def second_by_second():
+    words = {"l": "keep left", "r": "keep right", "a": "accelerate straight"}
+    return [words[letter] for letter in "llrlrrrlaaaaa"]
+
+
+@right("direct_plan")
+def a_tuple_of_pairs():
+    left, right = "keep left", "keep right"
+    return ((left, 2), (right, 1), (left, 1), (right, 3), (left, 1), ("accelerate straight", 8))
+
+
+@right("direct_plan")
+def idle_at_the_end():
+    return [*second_by_second(), ("keep straight", 30)]
+
+
+@wrong("direct_plan", "brake")
+def the_rule_s_way():
+    return [("brake straight", 2), ("keep straight", 4), ("keep left", 2), ("keep right", 2), ("keep left", 2)]
+
+
+@wrong("direct_plan")
+def around_trap_2():
+    return [("keep left", 2), ("keep right", 3), ("accelerate straight", 5)]
+
+
+@wrong("direct_plan", "off the road")
+def to_the_right():
+    return [("keep right", 3)]
+
+
+@wrong("direct_plan", "ahead of trap 1")
+def stay():
+    return [("keep straight", 10)]
+
+
+@wrong("direct_plan", "cannot be driven")
+def misspelt():
+    return [("keep lft", 2)]
+
+
+@wrong("direct_plan", "shape")
+def numbers():
+    return np.array([3, 3, 5, 3, 5, 5, 5, 3])
+
+
+@wrong("direct_plan", "ahead of trap 1")
+def nothing_at_all():
+    return []

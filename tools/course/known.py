@@ -21,7 +21,7 @@ from bootcourse.learn import bootstrap, sac
 from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.settings import settings_for
 from bootcourse.learn.teachers import toward
-from bootcourse.lessons import bugs, chain, example_teachers, shipped
+from bootcourse.lessons import bugs, chain, example_teachers, shipped, traffic
 from bootcourse.lessons.chain import leaving
 from bootcourse.lessons.exercises import registry
 from bootcourse.policies import idle_policy, plan_policy, random_policy, rule_policy
@@ -272,6 +272,16 @@ def two_situations(slow: float):
         return toward(cars, 12.0 if lane == 0 else slow, max(0, lane - 1), scenario)
 
     return example_teachers.examine(rule).episodes
+
+
+@cache
+def lowest_speeds() -> list[float]:
+    """Of lesson 2's eight drivers in a row, behind a leader that brakes to 4 m/s for 20 s."""
+    ahead, found = np.repeat([10.0, 4.0, 10.0], [60, 40, 140]), []
+    for _ in range(8):
+        ahead = traffic.behind(ahead, v=10.0, gap=25.0)[:-1, 1]
+        found.append(ahead.min())
+    return found
 
 
 def accepts_road(length: float) -> bool:

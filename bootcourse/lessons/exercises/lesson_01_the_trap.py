@@ -59,45 +59,6 @@ decode = Exercise(
 )  # fmt: skip
 
 
-def speed_cases(rng):
-    """Both sides of every limit; then 40 speeds at random."""
-    for v in (0.0, 4.9, 5.0, 5.1, 10.0, 12.5, 12.6, 14.9, 15.0, 15.1, 16.0, 20.0):
-        yield (v,)
-    for v in rng.uniform(0, 20, 40):
-        yield (float(v),)
-
-
-speed_reward = Exercise(
-    "speed_reward(v_lon)",
-    solution=formulas.speed_reward, cases=speed_cases,
-    worked=(((10.0,), 2 / 15), ((15.0,), 1.0), ((13.75,), 0.6), ((3.0,), 0.0)),
-    mistakes=(
-        Mistake(lambda v: 0.0 if v <= 5 else (2 * v / 75 - 2 / 15 if v <= 12.5 else 8 * v / 25 - 19 / 5),
-            "Your reward keeps rising above 15 m/s. There it has to fall, as exp(-(v - 15)²).",
-            "Faster is better; the last line is read as 'above 12.5'."),
-        Mistake(lambda v: 1.0 if v > 15 else formulas.speed_reward(v),
-            "Your reward stays at 1 above 15 m/s. There it has to fall, as exp(-(v - 15)²).",
-            "15 m/s is a minimum that has been reached, not a target."),
-        Mistake(lambda v: 2 / 75 * v - 2 / 15 if v <= 12.5 else formulas.speed_reward(v),
-            "Your reward is negative below 5 m/s. There it has to be 0: a slow car earns nothing, but it gets no "
-            "penalty.",
-            "The line goes on below 5 m/s."),
-        Mistake(lambda v: 2 / 75 * v - 2 / 15 if 12.5 < v <= 15 else formulas.speed_reward(v),
-            "You use the flat line up to 15 m/s. Between 12.5 and 15 m/s the steep one holds, 8/25 v - 19/5.",
-            "One line leads from 5 to 15 m/s."),
-        Mistake(lambda v: np.exp(15 - v) if v > 15 else formulas.speed_reward(v),
-            "Above 15 m/s the difference is squared: exp(-(v - 15)²).",
-            "Exponential decay has no square in it."),
-    ),
-    hints=(
-        "Each of four ranges of speed has a formula. Begin with the fastest range: then each `if` checks one limit.",
-        "`if v_lon > 15:` return the exponential; `if v_lon > 12.5:` the steep line; `if v_lon > 5:` the flat one.",
-        "The last line is `return 0.0`.",
-    ),
-    minutes=6, difficulty=1, equation="r_v, Section III-C, Reward",
-)  # fmt: skip
-
-
 def reward_solution(v_lon, offset, theta, accident):
     if accident:
         return -10.0
@@ -112,13 +73,13 @@ def weighted_sum(v, d, theta):
 
 
 def reward_cases(rng):
-    """Each accident, steering left and right, off the centre; then 40 at random."""
+    """Each accident, steering left and right, far more than an action does, off the centre; then 40 at random."""
     for accident in range(4):
         yield 12.0, 0.0, 0.0, accident
-    for theta in (-np.pi / 50, np.pi / 50):
+    for theta in (-np.pi / 50, np.pi / 50, -1.2, 1.2):
         yield 10.0, 0.8, theta, 0
     for _ in range(40):
-        v, d, theta = rng.uniform(0, 17), rng.uniform(-2, 2), rng.choice([-1, 0, 1]) * np.pi / 50
+        v, d, theta = rng.uniform(0, 17), rng.uniform(-2, 2), rng.uniform(-1, 1)
         yield float(v), float(d), float(theta), int(rng.choice(4, p=[0.7, 0.1, 0.1, 0.1]))
 
 
@@ -148,6 +109,11 @@ reward = Exercise(
             -10.0 if accident else (weighted_sum(v, d, 0.0) - 0.05 * np.sin(theta)) / 1.6,
             "You reward steering to the left, where sin θ is negative. The cost uses the absolute value, |sin θ|.",
             "The sign of the steering angle does not matter, so the absolute value can be left out."),
+        Mistake(lambda v, d, theta, accident:
+            -10.0 if accident else (1.5 * v + 0.05 * abs(d) + 0.05 * abs(theta)) / 1.6,
+            "You weigh the speed, the offset and the angle themselves. Each goes through its own term first: r_v, r_y "
+            "and r_θ are functions of them.",
+            "The terms are the quantities."),
     ),
     hints=(
         "Check for an accident first: in that second the reward is -10 and nothing else.",
@@ -205,6 +171,72 @@ idle_return = Exercise(
 )  # fmt: skip
 
 
+def risk_solution(stay, escape, crash):
+    if escape <= stay:
+        return 0.0
+    if crash >= stay:
+        return 1.0
+    return (escape - stay) / (escape - crash)
+
+
+def risk_cases(rng):
+    """The rule's numbers, an escape that pays no more than to stay, a harmless crash, both edges; 40 at random."""
+    yield 23.4375, 51.0, -9.5
+    yield 23.4375, 20.0, -9.5
+    yield 23.4375, 23.4375, -9.5
+    yield -30.0, 51.0, -9.5
+    yield -9.5, 51.0, -9.5
+    for _ in range(40):
+        stay, gain = rng.uniform(-20, 40), rng.uniform(-10, 120)
+        yield float(stay), float(stay + gain), float(stay + min(gain - 1, rng.uniform(-60, 10)))
+
+
+def risk(stay, escape, crash, share):
+    """An answer that has the two special cases right and the share wrong."""
+    return 0.0 if escape <= stay else 1.0 if crash >= stay else share(stay, escape, crash)
+
+
+bearable_risk = Exercise(
+    "bearable_risk(stay, escape, crash)",
+    solution=risk_solution, cases=risk_cases,
+    worked=(
+        ((20.0, 60.0, -20.0), 0.5),  # half of 60 and half of -20 are 20, what staying pays
+        ((20.0, 100.0, -20.0), 2 / 3),
+        ((20.0, 10.0, -20.0), 0.0),  # this way out pays less than to stay
+        ((-50.0, 10.0, -20.0), 1.0),  # even a crash is better than to stay
+    ),
+    mistakes=(
+        Mistake(lambda s, e, c: risk(s, e, c, lambda s, e, c: (s - c) / (e - c)),
+            "This is the share of tries that must *succeed*. The risk is the share that crash: one minus that.",
+            "The probability in the equation is that of success."),
+        Mistake(lambda s, e, c: risk(s, e, c, lambda s, e, c: (e - s) / abs(c)),
+            "You compare the gain with the crash's own return. A crash costs what the try would have earned otherwise, "
+            "escape - crash.",
+            "A crash costs ten, whatever it interrupts."),
+        Mistake(lambda s, e, c: risk(s, e, c, lambda s, e, c: (e - s) / (s - c)),
+            "You divide by what a crash loses against staying. That ratio is the *odds*, crashes for each success; the "
+            "question asks for a probability.",
+            "Odds and probability are the same."),
+        Mistake(lambda s, e, c: (e - s) / (e - c),
+            "Your risk leaves the range from 0 to 1. If the escape pays no more than to stay, no risk is worth it: 0. "
+            "If even a crash pays more than to stay, each risk is: 1.",
+            "The formula holds for all numbers."),
+        Mistake(lambda s, e, c: max(0.0, (e - s) / (e - c)),
+            "If a crash pays as much as to stay or more, each risk is worth it: return 1.",
+            "A crash is worse than to stay."),
+        Mistake(lambda s, e, c: risk(s, e, c, lambda s, e, c: e / (e - c)),
+            "You compare with a return of 0. The alternative to a try is to stay, which pays `stay`.",
+            "Staying pays nothing."),
+    ),
+    hints=(
+        "A try pays `escape` with probability 1 - q and `crash` with probability q. What does it pay on average?",
+        "(1 - q) · escape + q · crash = stay. Solve for q.",
+        "What is q if `escape` is not larger than `stay`? And if `crash` is not smaller than `stay`?",
+    ),
+    minutes=8, difficulty=2, equation="the q with (1 - q) · escape + q · crash = stay",
+)  # fmt: skip
+
+
 def outcomes_solution(x_ego, x_trap_1, accident):
     success = np.mean(x_ego > x_trap_1)
     kinds = [np.mean(accident == kind) for kind in (1, 2, 3)]
@@ -216,9 +248,10 @@ def rates(success, accident, kinds=(1, 2, 3)):
 
 
 def outcomes_cases(rng):
-    """A crash after overtaking, no success; then 30 at random."""
+    """A crash after overtaking, no success, level with trap 1, just ahead of it and just behind; then 30 at random."""
     yield np.array([900.0]), np.array([800.0]), np.array([1])
     yield np.array([1500.0, 12.0]), np.array([1515.0, 27.0]), np.array([0, 2])
+    yield np.array([700.0, 700.5, 699.5]), np.array([700.0, 700.0, 700.0]), np.array([1, 3, 1])
     for _ in range(30):
         n = int(rng.integers(1, 12))
         yield rng.uniform(0, 2000, n), rng.uniform(15, 1515, n), rng.choice(4, n, p=[0.4, 0.3, 0.2, 0.1])
@@ -251,6 +284,12 @@ outcome_rates = Exercise(
         Mistake(lambda x, x1, accident: rates(x < x1, accident),
             "You count the egos that are *behind* trap 1 at the end.",
             "The car with the larger x is further back."),
+        Mistake(lambda x, x1, accident: rates(x >= x1, accident),
+            "You count an ego that is level with trap 1. Ahead means x_ego > x_trap_1.",
+            "Not behind is ahead."),
+        Mistake(lambda x, x1, accident: rates(x - 5 > x1, accident),
+            "You ask for a car's length more. The definition compares the two positions as they are.",
+            "A car is ahead when its tail is."),
     ),
     hints=(
         "Compare the two positions at the end: they alone decide whether the episode is a success.",

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from bootcourse.lessons import traffic
 from bootcourse.lessons.exercise import Exercise, Mistake
 from bootcourse.road import formulas
 
@@ -56,49 +57,84 @@ desired_gap = Exercise(
 )  # fmt: skip
 
 
-def idm_cases(rng):
-    """A free road, faster than wanted, exactly at the desired gap; then 40 at random."""
-    yield 10.0, 12.5, math.inf, 25.0, 0.5, 4.0
-    yield 14.0, 12.5, math.inf, 25.0, 0.5, 4.0
-    yield 12.5, 12.5, 25.0, 25.0, 0.5, 4.0
-    yield 10.0, 12.5, 50.0, 25.0, 2.0, 2.0
-    for _ in range(40):
-        v, wanted, gap, s_star, a_max = rng.uniform([2, 8, 10, 5, 0.3], [15, 16, 120, 60, 2]).tolist()
-        yield v, wanted, gap, s_star, a_max, float(rng.choice([2.0, 4.0]))
+def behind(change):
+    """drive_behind with a change in one step: change(name, right) -> what is used instead."""
+
+    def answer(leader, v, gap, dt, w, s0, T, a_max, b, d, limit):
+        states = [(gap, v)]
+        for u in leader:
+            wished = s0 + T * v + change("closing", v - u) * v / (2 * math.sqrt(a_max * b))
+            a = a_max * (1 - (v / w) ** d - change("ratio", wished / gap) ** change("power", 2))
+            a = max(a, -change("limit", limit))
+            new = change("speed", max(v + a * dt, 0.0), v + a * dt)
+            gap, v = gap + (u - change("moves", v, new)) * dt, new
+            states.append((gap, v))
+        return np.array(states)
+
+    return answer
 
 
-idm_acceleration = Exercise(
-    "idm_acceleration(v, v_desired, gap, s_star, a_max, delta)",
-    solution=formulas.idm_acceleration, cases=idm_cases,
+def slip(name, wrong):
+    """The change of one name; wrong(right, other)."""
+    return behind(lambda each, right, other=None: wrong(right, other) if each == name else right)
+
+
+def behind_cases(rng):
+    """A leader at the same speed, one that stops, a free road, hard braking from close by; then 25 at random."""
+    usual = (12.5, 10.0, 1.5, 0.5, 0.5, 4.0, 6.0)
+    yield np.full(6, 10.0), 10.0, 25.0, 0.5, *usual
+    yield np.array([8.0, 4.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]), 10.0, 20.0, 0.5, *usual
+    yield np.full(5, 15.0), 12.0, 1e6, 0.5, *usual
+    yield np.zeros(6), 6.0, 14.0, 0.5, *usual[:-1], 3.0
+    for _ in range(25):
+        leader = np.maximum(rng.uniform(5, 14) + np.cumsum(rng.normal(0, 0.8, 8)), 0)
+        driver = rng.uniform([9, 2, 0.8, 0.4, 0.4, 1.5, 2], [16, 11, 2, 2, 2, 5, 8]).tolist()
+        yield leader, float(rng.uniform(4, 12)), float(rng.uniform(25, 60)), float(rng.choice([0.25, 0.5])), *driver
+
+
+drive_behind = Exercise(
+    "drive_behind(leader, v, gap, dt, v_desired, s0, time_gap, a_max, b, delta, limit)",
+    solution=traffic.drive_behind, cases=behind_cases,
     worked=(
-        ((12.5, 12.5, 25.0, 25.0, 0.5, 4.0), -0.5),  # 0.5 (1 - 1 - 1)
-        ((12.5, 12.5, math.inf, 25.0, 0.5, 4.0), 0.0),
-        ((5.0, 10.0, 50.0, 25.0, 1.0, 2.0), 0.5),  # 1 - 1/4 - 1/4
+        # s* = 10 and 1.5 s · 10 m/s is the gap: a = 0.5 (1 - 0.4096 - 1), a tenth of a metre per second in 0.5 s
+        ((np.array([10.0]), 10.0, 25.0, 0.5, 12.5, 10.0, 1.5, 0.5, 0.5, 4.0, 6.0),
+         np.array([[25.0, 10.0], [25.0, 9.8976]])),
+        # a car that stands, 1 m ahead: the brakes give 6 m/s², the gap shrinks by 2 m/s · 0.5 s
+        ((np.array([0.0]), 2.0, 2.0, 0.5, 12.5, 10.0, 1.5, 0.5, 0.5, 4.0, 6.0), np.array([[2.0, 2.0], [1.0, 0.0]])),
     ),
     mistakes=(
-        Mistake(lambda v, w, gap, s, a, d: a * (1 - (v / w) ** d - (gap / s) ** 2),
-            "Your driver brakes harder the *farther* the car ahead is: the fraction is s* over the gap.",
-            "It does not matter which gap is divided by the other."),
-        Mistake(lambda v, w, gap, s, a, d: a * (1 - (v / w) ** d - s / gap),
+        Mistake(slip("closing", lambda right, _: -right),
+            "Your driver keeps a shorter gap when it closes in. Δv is its own speed minus that of the car ahead.",
+            "Δv is theirs minus mine."),
+        Mistake(slip("moves", lambda _, new: new),
+            "You move the car with its *new* speed. In a step both cars move with the speeds that they have at its "
+            "start; compute the new gap first, or keep the old speed.",
+            "The order of two assignments does not matter."),
+        Mistake(slip("limit", lambda *_: math.inf),
+            "Your driver brakes harder than `limit` when the gap is short: the acceleration is at least -limit.",
+            "The formula itself has all limits."),
+        Mistake(slip("speed", lambda _, free: free),
+            "Your car drives backwards when it brakes at a standstill: its speed is at least 0.",
+            "Braking ends by itself."),
+        Mistake(slip("power", lambda *_: 1),
             "The square of s*/s is missing: at twice the desired gap the term is a quarter, not a half.",
             "The exponent belongs to the speed only."),
-        Mistake(lambda v, w, gap, s, a, d: a * (1 - (v / w) ** d) - (s / gap) ** 2,
-            "a_max multiplies the whole bracket, also the braking term.",
-            "Maximum acceleration has nothing to do with braking."),
-        Mistake(lambda v, w, gap, s, a, d: a * (1 - (v / w) ** d + (s / gap) ** 2),
-            "Your driver accelerates because of the car ahead. Subtract the term of the gap.",
-            "The terms of a model are added."),
-        Mistake(lambda v, w, gap, s, a, d: a * (1 - v / w - (s / gap) ** 2),
-            "You left out the exponent δ: with it a driver accelerates less only when it is close to the speed it "
-            "wants.",
-            "The exponent is a detail."),
+        Mistake(slip("ratio", lambda right, _: 1 / right),
+            "Your driver brakes harder the *farther* the car ahead is: the fraction is s* over the gap.",
+            "It does not matter which gap is divided by the other."),
+        Mistake(lambda leader, *rest: traffic.drive_behind(np.full(len(leader), leader[0]), *rest),
+            "You use the leader's first speed in every step. In step k it drives leader[k].",
+            "The leader's speed is a number."),
+        Mistake(lambda leader, *rest: traffic.drive_behind(leader, *rest)[:, ::-1].copy(),
+            "Your two columns are swapped: the gap comes first, then the speed.",
+            "The order of the columns is free."),
     ),
     hints=(
-        "a_max times a bracket: 1, minus something about speed, minus something about the gap.",
-        "`v / v_desired` to the power delta; `s_star / gap` squared. An infinite gap needs no case of its own.",
-        "`a_max * (1 - (v / v_desired) ** delta - (s_star / gap) ** 2)`",
+        "Keep `gap` and `v` in two variables and a list of what they were. One turn of the loop is one step.",
+        "In a step: `s_star`, then `a = max(..., -limit)`, then both new values from the *old* ones.",
+        "`gap, v = gap + (v_leader - v) * dt, max(v + a * dt, 0.0)` computes the right side before it assigns.",
     ),
-    minutes=5, difficulty=1, equation="a = a_max [1 - (v / v_desired)^δ - (s* / s)²], Section III-B",
+    minutes=20, difficulty=3, equation="IDM in steps of dt, Section III-B",
 )  # fmt: skip
 
 
@@ -164,9 +200,22 @@ def changing_cases(rng):
     yield 0.0, 0.0, 0.0, 1.0, 0.5, 0.2, 2.0  # only the old follower gains
     yield 0.4, -0.9, -1.0, 0.0, 1.0, 0.2, 2.0  # the new follower brakes anyway
     yield 0.3, 2.2, 2.3, 0.0, 1.0, 0.2, 2.0
+    yield 1.0, 0.0, -2.0, 0.0, 0.0, 0.2, 2.0  # exactly at the limit: safe
+    yield 1.0, 0.0, -2.01, 0.0, 0.0, 0.2, 2.0
+    yield 0.25, 0.0, 0.0, 0.0, 0.5, 0.25, 2.0  # exactly at the threshold: not worth it
+    yield 0.26, 0.0, 0.0, 0.0, 0.5, 0.25, 2.0
     for _ in range(120):
+        threshold, limit = rng.uniform([0.05, 0.5], [0.6, 4.0]).tolist()
         own, before, after, old = rng.normal(0.4, 0.8), rng.normal(0, 0.6), rng.normal(-1, 1.2), rng.normal(0.1, 0.4)
-        yield float(own), float(before), float(after), float(old), float(rng.choice([0.0, 0.3, 0.5, 1.0])), 0.2, 2.0
+        yield (
+            float(own),
+            float(before),
+            float(after),
+            float(old),
+            float(rng.choice([0.0, 0.3, 0.5, 1.0])),
+            threshold,
+            limit,
+        )
 
 
 worth_changing = Exercise(
@@ -201,6 +250,18 @@ worth_changing = Exercise(
             after >= -limit and incentive(own, after, before, old, p) > th,
             "Your new follower gains when it has to brake: its gain is `follower_after - follower_before`.",
             "A gain is before minus after."),
+        Mistake(lambda own, before, after, old, p, th, limit:
+            after >= -limit and incentive(own, before, after, old, p) >= th,
+            "You change lane at exactly the threshold. The formula says more than the threshold.",
+            "More than and at least are the same."),
+        Mistake(lambda own, before, after, old, p, th, limit:
+            after > -limit and incentive(own, before, after, old, p) > th,
+            "You refuse a change that makes the new follower brake exactly as hard as the limit allows.",
+            "The limit itself is too much."),
+        Mistake(lambda own, before, after, old, p, th, limit:
+            after >= limit and incentive(own, before, after, old, p) > th,
+            "Braking is a negative acceleration: the new follower's must be at least -limit.",
+            "A limit has the sign of what it limits."),
     ),
     hints=(
         "Ask two questions: is the change safe, and is it worth it? If it is not safe, the answer is False.",

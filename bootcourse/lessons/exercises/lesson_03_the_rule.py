@@ -3,7 +3,11 @@
 import numpy as np
 
 from bootcourse import rule
+from bootcourse.episodes.record import record
+from bootcourse.errors import BootcourseError
 from bootcourse.lessons.exercise import Exercise, Mistake
+from bootcourse.policies import plan_policy
+from bootcourse.road.state import Accident
 
 
 def slower(v_current, v_new, v_min, v_max, n, count=lambda grid, limit: grid[grid < limit], other=min):
@@ -129,9 +133,15 @@ def change_cases(rng):
     yield inf, 7.0, 5.0, 3.0, 8.25, 8.0, 1.5, 3.0
     yield inf, 9.0, 5.0, 3.0, 8.0, 12.0, 1.5, 3.0  # 4 m behind, and it closes in 6 m
     yield inf, 6.0, 5.0, 3.0, 12.0, 8.0, 1.5, 3.0  # it falls back, but is 1 m behind
+    yield 8.0, inf, 5.0, 3.0, 8.25, 0.0, 1.5, 3.0  # the gap is exactly the distance: no room
+    yield 8.1, inf, 5.0, 3.0, 8.25, 0.0, 1.5, 3.0
+    yield inf, 8.0, 5.0, 3.0, 8.25, 8.0, 1.5, 3.0
+    yield inf, 11.0, 5.0, 3.0, 8.0, 12.0, 1.5, 3.0  # behind, too
+    yield inf, 11.1, 5.0, 3.0, 8.0, 12.0, 1.5, 3.0
     for _ in range(150):
         front, rear, d_s, v, v_rear = rng.uniform([4, 4, 3, 6, 6], [22, 22, 12, 15, 15]).tolist()
-        yield front, rear, 5.0, d_s, v, v_rear, 1.5, 3.0
+        length, t_safe, floor = rng.uniform([3, 0.5, 1], [8, 3, 5]).tolist()
+        yield front, rear, length, d_s, v, v_rear, t_safe, floor
 
 
 room_to_change = Exercise(
@@ -169,6 +179,10 @@ room_to_change = Exercise(
             front - length > d_s or rear - length > max(floor, (v_rear - v) * t),
             "Room ahead *or* behind is not enough: you need both.",
             "Room on one side is enough."),
+        Mistake(lambda front, rear, length, d_s, v, v_rear, t, floor:
+            front - length >= d_s and rear - length >= max(floor, (v_rear - v) * t),
+            "A gap that is exactly the needed distance is not longer than it: compare with >.",
+            "At least and more than are the same."),
     ),
     hints=(
         "Two gaps, from bumper to bumper, and a needed distance for each. `d_s` is the one ahead.",
@@ -235,6 +249,75 @@ best_first_step = Exercise(
         "`costs.min(axis=(1, 2)).argmin()`",
     ),
     minutes=5, difficulty=2, equation="the tracker's choice among 27 sequences of steering, bootcourse.rule",
+)  # fmt: skip
+
+
+ROADS = (7, 3, 5, 8, 11, 12, 13, 15)  # on each of them trap 2 starts 4.85 m ahead or more
+EARLY = 15  # s; an accident until then is the plan's own, not the traffic's
+
+
+def direct_solution():
+    steering = [("keep left", 2), "keep right", "keep left", ("keep right", 3), "keep left"]
+    return [*steering, ("accelerate straight", 5)]
+
+
+def drive_plan(answer, road):
+    """[seconds with the brake, the kind of an accident in the first 15 s, ends ahead of trap 1] on a road."""
+    plan = answer()
+    if not isinstance(plan, (list, tuple)):
+        return plan
+    try:
+        policy = plan_policy(list(plan))
+    except (BootcourseError, TypeError, ValueError) as error:
+        raise BootcourseError(f"It returns a plan that cannot be driven. {error}") from error
+    drive = record(policy, [road])[0]
+    early = drive.accident if drive.times[-1] <= EARLY else 0
+    return np.array([(drive.actions // 3 == 0).sum(), early, drive.success], dtype=float)
+
+
+def what_happened(cases, answers):
+    """A sentence on a plan that is none of the known ones."""
+    for (road,), (brakes, accident, ahead) in zip(cases, answers, strict=True):
+        if brakes:
+            return f"Your plan brakes for {brakes:.0f} s. Find one that only keeps its speed or accelerates."
+        if accident:
+            kind = Accident(int(accident)).name.lower().replace("_", " ")
+            return f"On road {road} your plan ends in an accident in the first {EARLY} s: {kind}."
+        if not ahead:
+            return f"On road {road} your plan does not end ahead of trap 1."
+    return "Your plan drives differently from call to call."
+
+
+def plan(*steps):
+    return lambda: list(steps)
+
+
+direct_plan = Exercise(
+    "direct_plan()",
+    solution=direct_solution, run=drive_plan, explain=what_happened,
+    cases=lambda rng: ((road,) for road in ROADS[1:] * 3),
+    worked=(((ROADS[0],), np.array([0.0, 0.0, 1.0])),),
+    mistakes=(
+        Mistake(plan(("keep left", 2), ("keep right", 2)),
+            "Your plan is safe, but it does not get ahead of trap 1. Draw it, and see in which lane the car ends, "
+            "and behind which trap.",
+            "One lane change leads out."),
+        Mistake(plan(("keep left", 5)),
+            "Your plan steers the car off the road. Each turn needs a turn back.",
+            "Left is where the free lane is."),
+        Mistake(plan(("brake straight", 2), ("keep left", 2), ("keep right", 2)),
+            "You brake. That makes room behind trap 2, but this exercise asks for a way without it.",
+            "Without braking there is no room."),
+        Mistake(plan(("accelerate straight", 5)),
+            "Your plan hits one of the traps. Draw it on road 7, and see which one, and when.",
+            "Speed alone overtakes."),
+    ),
+    hints=(
+        "Two seconds of `keep left` move the car 2.5 m to the left and leave it turned. Try what turns it back.",
+        "In the middle lane turn back only halfway, and go on to the left lane at once. Eight seconds of steering do.",
+        'It begins with `("keep left", 2), "keep right", "keep left"`, and ends with `("accelerate straight", 5)`.',
+    ),
+    minutes=20, difficulty=3, equation="a plan without braking, on roads with D2 ≥ 4.85 m",
 )  # fmt: skip
 
 
