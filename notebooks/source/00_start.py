@@ -81,7 +81,7 @@ predict("0.1", "How many tries until you are ahead of trap 1?", unit="tries")
 # %% tags=["nbval-ignore-output"]
 bc.panels.drive_panel(seed=10)
 
-# %% [markdown] tags=["instructor"] minutes=5
+# %% [markdown] tags=["instructor"] minutes=10
 # Open with this page on the wall and let two people drive before you explain anything. Expect
 # crashes into trap 2. Keep the number of tries on the board for lesson 5.
 
@@ -156,7 +156,8 @@ table(headings, rows)
 # Numbers of this kind stand in the text. A training that *you* run is another matter. Processors
 # round the last digit of a sum in different ways. In some thousand updates such a difference grows,
 # and your agents become other agents than ours, with the same seed. So where a lesson trains, it
-# says *yours will differ*, and no conclusion rests on that one training.
+# says *yours will differ*, and draws its conclusions from results of more agents, which ship with
+# the course.
 #
 # ## Choose a route
 #

@@ -19,7 +19,7 @@
 # - work out by hand what doing nothing earns, and check it on the road;
 # - explain why leaving the trap looks like a bad idea, and say on one page what SAC is made of.
 #
-# **Time** 80 minutes, about one of them the machine's. **It builds on** Python. You need not know
+# **Time** 75 minutes, about one of them the machine's. **It builds on** Python. You need not know
 # reinforcement learning.
 
 # %%
@@ -571,16 +571,16 @@ table(["of 100 episodes", "success", *kinds], rows)
 bc.show(figures.sac_diagram())
 
 # %% [markdown]
-# The **replay buffer** keeps what happened: a row for each second, with the observation s, the
+# The *replay buffer* keeps what happened: a row for each second, with the observation s, the
 # action a, the reward r and the next observation s′. After some seconds a *batch* of rows is drawn
 # from it, and three things learn from these rows:
 #
-# - The **critic** is a network that guesses, for each of the nine actions, the sum of the rewards
+# - The *critic* is a network that guesses, for each of the nine actions, the sum of the rewards
 #   from here on. Later rewards count less. The guess is called Q. Two critics learn the same task
 #   and the smaller guess counts, since a guess that is too high by chance would mislead the agent.
-# - The **actor** is a network that holds the policy. It raises the probability of actions with a
+# - The *actor* is a network that holds the policy. It raises the probability of actions with a
 #   large Q.
-# - The **temperature** α keeps the actor from choosing too early. The **entropy** of a policy says
+# - The *temperature* α keeps the actor from choosing too early. The *entropy* of a policy says
 #   how undecided it is: 0 if it is sure of one action, large if the nine actions are about equally
 #   probable. SAC adds α times the entropy to what it maximises. Large α: the agent tries a lot.
 #   Small α: it repeats what worked. SAC adjusts α by itself.
@@ -635,7 +635,7 @@ compare_predictions(
     },
 )
 
-# %% [markdown] tags=["instructor"]
+# %% [markdown] tags=["instructor"] minutes=8
 # *Model answers to the three questions:*
 #
 # - **Trap 2 drives 0.5 m/s faster.** After ten seconds it is 5 m further ahead, and the middle lane

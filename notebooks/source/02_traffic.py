@@ -60,7 +60,7 @@ predict("2.1", "Why does the jam move backwards?")
 # %% [markdown]
 # Round 2 comes back to it.
 
-# %% [markdown] tags=["instructor"] minutes=6
+# %% [markdown] tags=["instructor"] minutes=8
 # Let them find the band's speed: in the 400 s of the picture it goes back by a little more than
 # one round of the ring, 600 m. The band is a place where cars stop, not a group of cars: cars
 # leave it at its front and join it at its back. A ring of real cars did the same: Sugiyama et al.,
@@ -248,7 +248,7 @@ table(["mean distance", "slowest car, mean of 50 roads", "slowest of all"], rows
 # <!-- claim: DEFAULT.traffic.cars == 6 -->
 # <!-- claim: DEFAULT.traffic.headway == max(20.0, 30.0, 40.0) -->
 
-# %% [markdown] tags=["instructor"] minutes=6
+# %% [markdown] tags=["instructor"] minutes=8
 # Ask for a ring of 25 m: does the jam live or die? It depends on how hard the first car is
 # disturbed, so `v[0] = 5.0` and `v[0] = 1.0` end differently. Small disturbances die where large
 # ones live: the ring has two stable states there.
@@ -442,7 +442,7 @@ table(["gains", "factor of a step", "roads where a car leaves the road", "where 
 # %%
 source("bootcourse.road.formulas", "lane_keeping_steering")
 
-# %% [markdown] tags=["instructor"] minutes=6
+# %% [markdown] tags=["instructor"] minutes=8
 # Ask where else a gain meets a time step: a learning rate times a curvature above 2 diverges in
 # the same way, with the same alternating signs. That picture is worth drawing on the board.
 # <!-- claim: abs(1 - 1.99) < abs(1 - 2) == 1 < abs(1 - 2.01) -->
@@ -485,7 +485,7 @@ compare_predictions(
     },
 )
 
-# %% [markdown] tags=["instructor"]
+# %% [markdown] tags=["instructor"] minutes=8
 # *Model answers to the three questions:*
 #
 # - **Trap 1 and you.** Behind it you do not exist for trap 1: IDM looks at the car ahead. In front

@@ -19,21 +19,28 @@
 #   traps, and how we read it instead;
 # - say where the rule wastes time, and what a stochastic rule is good for.
 #
-# **Time** 60 minutes, under a minute of it the machine's. **It builds on**
+# **Time** 80 minutes, under a minute of it the machine's. **It builds on**
 # [lesson 1](01_the_trap.ipynb); [lesson 2](02_traffic.ipynb) helps.
 
 # %%
-import itertools
-
 import bootcourse as bc
 import numpy as np
-from bootcourse.lessons import charts, check, figures, source
-from bootcourse.road.state import EGO, HEADING, LANE, SPEED, Y
+from bootcourse.lessons import (
+    charts,
+    check,
+    compare_predictions,
+    figures,
+    predict,
+    source,
+    table,
+    tracking,
+)
+from bootcourse.road.state import EGO, LANE, SPEED
 
 # %% [markdown]
 # ## Look first
 #
-# A *rule controller* is a driver that somebody wrote by hand. This one makes no use of rewards.
+# A *rule controller* is a driver that somebody wrote by hand. This one does not use the reward.
 # Watch it leave.
 
 # %%
@@ -42,14 +49,16 @@ drive = bc.record(bc.rule_policy(bc.DEFAULT), [ROAD], label="rule")[0]
 bc.show(bc.top_view_over_time(drive, times=[0, 3, 5, 7, 9, 12]))
 
 # %% [markdown]
-# At every second it can say *why* it does what it does.
+# It also says *why* it does what it does, once a second.
 
 # %%
+rows = []
 for second in range(16):
     reason = bc.rule.SENTENCES[bc.rule.Reason(drive.rule_reasons[second])]
     speed, lane = drive.rule_speeds[second], drive.rule_lanes[second]
     doing = bc.policies.in_words(drive.actions[second : second + 1])[0][0]
-    print(f"{second:2} s  {reason:40} wants {speed:5.2f} m/s in lane {lane}: {doing}")
+    rows.append([f"{second} s", reason, f"{speed:.2f} m/s", f"{lane}", doing])
+table(["time", "reason", "wants", "in lane", "does"], rows)
 
 # %%
 bc.show(figures.reasons_over_time(drive, "First the rule gets out, then it follows the traffic"))
@@ -64,11 +73,14 @@ bc.show(figures.reasons_over_time(drive, "First the rule gets out, then it follo
 # $$ v_\text{target} = \max\{ v_i : v_i < \min(v_\text{current}, v_\text{new}) \}, \qquad v_i =
 # {{ DEFAULT.rule.v_min }} + \tfrac{i-1}{4}\,(15 - 6) $$
 #
-# > **Predict.** Both traps drive 10 m/s. Which of the five speeds does it take? And with a free
-# > road ahead?
-#
-# The paper does not say what happens when every car ahead is at or below 6 m/s and no speed is
-# left. We take the slowest, $v_1$.
+# > **Predict.** Both traps drive 10 m/s. Which of the five speeds does it take?
+
+# %%
+predict("3.1", "Which of the five speeds does it take behind the traps?", unit="m/s")
+
+# %% [markdown]
+# The paper does not say what happens when a car ahead is at or below 6 m/s, so that none of the
+# five is left. We take the slowest, $v_1$.
 # <!-- claim: target_speed(6.0, 6.0, 6.0, 15.0, 5) == 6 -->
 #
 # **Exercise 3.1 (6 min, ●○○).** Write the target speed.
@@ -90,16 +102,16 @@ check.target_speed(target_speed)
 # NBVAL_CHECK_OUTPUT
 numbers = bc.DEFAULT.rule
 grid = numbers.v_min, numbers.v_max, numbers.n
-print("the five:", [float(v) for v in np.linspace(*grid)])
-print("behind the traps:", bc.rule.target_speed(10.0, 10.0, *grid))
-print("with nobody ahead:", bc.rule.target_speed(np.inf, np.inf, *grid))
-print("behind traffic at 12.5 m/s:", bc.rule.target_speed(12.5, 12.5, *grid))
+rows = [["the five", ", ".join(f"{v:g}" for v in np.linspace(*grid))]]
+for where, v in (("behind the traps", 10.0), ("nobody ahead", np.inf), ("behind 12.5 m/s", 12.5)):
+    rows.append([where, f"{bc.rule.target_speed(v, v, *grid):g}"])
+table(["", "m/s"], rows)
 
 # %% [markdown]
 # **Explain.** It wants {{ by_rule().rule_speeds[0] }} m/s (and gets
 # {{ by_rule().states[6, EGO, SPEED] }}, since each second of braking takes
 # {{ DEFAULT.ego.acceleration }} m/s off {{ DEFAULT.ego.speed }}): slower than both, so the gap
-# grows. It also means that behind traffic at 12.5 m/s it drives no faster than 10.5. Keep that in
+# grows. It also means that behind traffic at 12.5 m/s it drives 10.5. Keep that in
 # mind.
 
 # %% [markdown] tags=["instructor"] minutes=5
@@ -116,10 +128,15 @@ print("behind traffic at 12.5 m/s:", bc.rule.target_speed(12.5, 12.5, *grid))
 #
 # > **Predict.** What is $d_s$ when you are *slower* than both cars? Would you change lane with that
 # > distance to the car ahead?
-#
-# Two numbers here are our choice (§): the paper gives no value for $t_\text{safe}$, where we take
-# {{ DEFAULT.rule.t_safe }} s, and it has no *floor*. We let $d_s$ not fall below
-# {{ DEFAULT.rule.floor | g }} m.
+
+# %%
+choices = ["positive", "zero", "negative"]
+predict("3.2", "What is d_s when you are slower than both cars?", choices)
+
+# %% [markdown]
+# Two numbers here are our choice (§): the paper leaves $t_\text{safe}$ open, where we take {{
+# DEFAULT.rule.t_safe }} s, and the *floor* is ours. We let $d_s$ not fall below {{
+# DEFAULT.rule.floor | g }} m.
 #
 # **Exercise 3.2 (5 min, ●○○).** Write the distance with its floor.
 
@@ -146,15 +163,20 @@ check.safety_distance(safety_distance)
 # > condition true? Can it become true while you are slower than the traps?
 
 # %%
+choices = ["true now", "false now, true later", "false as long as you are slower"]
+predict("3.3", "The printed condition is …", choices)
+
+# %%
 v_ego, v_traps, dx_current, dx_new = 8.25, 10.0, 25.0, 12.0
 d_s_printed = (v_ego - v_traps) * numbers.t_safe + dx_current - dx_new
 printed = d_s_printed - dx_current
-print(f"printed: d_s - x_current = {printed:.2f} m, so change lane: {printed > 0}")
 
 d_s = bc.rule.safety_distance(v_ego, v_traps, v_traps, numbers.t_safe, numbers.floor)
 gap = dx_new - bc.DEFAULT.car.length  # from bumper to bumper
-print(f"ours: gap {gap:.2f} m, safety distance {d_s:.2f} m, so change lane: {gap > d_s}")
+rows = [["printed", f"d_s − x_current = {printed:.2f} m > 0?", "yes" if printed > 0 else "no"]]
+rows.append(["ours", f"gap {gap:.2f} m > d_s = {d_s:.2f} m?", "yes" if gap > d_s else "no"])
 bc.show(figures.when_to_change(drive))
+table(["", "the test", "change lane?"], rows)
 
 # %% [markdown]
 # **Explain.** As printed, the left side is negative while you are slower than the traps, and the
@@ -171,10 +193,10 @@ bc.show(figures.when_to_change(drive))
 # <!-- claim: (by_rule().rule_distances[by_rule().rule_reasons == Reason.CHANGE] ==
 #   DEFAULT.rule.floor).all() -->
 #
-# There is one more condition. The paper asks for a flag that says that no car behind, in the new
-# lane, is cut off, and sets it to true, because no car drives there. We compute it (§): the gap
-# behind must be longer than the distance that the *other* car closes in during $t_\text{safe}$,
-# with the same floor.
+# There is one more condition. The paper has a flag for the car behind in the new lane, which must
+# not be cut off, and sets it to true: in its scene that lane is empty behind you. We compute it
+# (§): the gap behind must be longer than the distance that the *other* car closes in during
+# $t_\text{safe}$, with the same floor.
 #
 # **Exercise 3.3 (6 min, ●●○).** Decide whether there is room.
 
@@ -216,62 +238,31 @@ source("bootcourse.rule", "decide_rule")
 # > **Predict.** The smooth controller has a time constant, 0.6 s for the traffic. Which drives
 # > better with three steering angles, a quicker one (0.4 s) or a slower one (1 s)?
 
+# %%
+predict(
+    "3.4", "Which time constant drives better?", ["0.4 s", "1 s", "both escape", "neither escapes"]
+)
 
 # %%
-def nearest_action(tau):
-    """The rule's wishes, and of the three steering angles the one nearest to the smooth one."""
-
-    def drive(observations, cars):
-        wanted = bc.rule.rule(cars, bc.DEFAULT)
-        actions = wanted.actions // 3 * 3  # the rule's brake, keep or accelerate
-        for i, car in enumerate(cars[:, EGO]):
-            offset = car[Y] - wanted.lanes[i] * bc.DEFAULT.road.lane_width
-            smooth = bc.formulas.lane_keeping_steering(
-                offset, car[HEADING], car[SPEED], bc.DEFAULT.car.length, 3 * tau, tau
-            )
-            actions[i] += 1 + int(np.clip(np.rint(smooth / bc.DEFAULT.ego.steering), -1, 1))
-        return bc.PolicyOutput(actions)
-
-    return drive
-
-
-def in_short(driver, roads=200):
-    e = bc.drive_episodes(driver, bc.held_out_seeds(1, roads))
-    off, hit = (
-        np.mean(e.accident == bc.Accident.ROAD_DEPARTURE),
-        np.mean(e.accident == bc.Accident.COLLISION),
-    )
-    return f"escapes {e.success.mean():5.1%}   off the road {off:5.1%}   collides {hit:5.1%}"
-
-
-# %%
+rows = []
 for tau in (0.2, 0.4, 0.5, 0.6, 0.7, 0.8, 1.0, 1.5):
-    print(f"time constant {tau:3} s: {in_short(nearest_action(tau))}")
+    rows.append([f"{tau} s", *tracking.in_short(tracking.nearest_action(tau))])
+headings = ["escapes", "leaves the road", "collides"]
+table(["time constant", *headings], rows, below="(200 roads each)")
 
 # %% [markdown]
 # **See.** Neither of the two in the question escapes: 0.4 s leaves the road, and 1 s does not get
-# ahead of trap 1. The values from 0.5 to 0.7 s escape on all of these 200 roads, and 0.8 s
+# ahead of trap 1. The values from 0.5 to 0.7 s escape on each of these 200 roads, and 0.8 s
 # collides on about half. So the first idea works, in a narrow range that you have to find by
-# trying. The second idea needs no time constant: **look ahead**. Try every sequence of left,
-# straight and right for the next three seconds, 27 of them, on the car's own equations of motion.
-# Each second costs (distance from the lane)² + {{ HEADING_COST }} (heading)², and leaving the road
-# costs a million. Then do the *first step* of the cheapest sequence, and begin again.
+# trying. The second idea does without a time constant: **look ahead**. Try the 27 sequences of
+# left, straight and right for the next three seconds on the car's own equations of motion. Each
+# second costs (distance from the lane)² + {{ HEADING_COST }} (heading)², and leaving the road costs
+# a million. Then do the *first step* of the cheapest sequence, and begin again.
+# <!-- claim: all(tracking.in_short(tracking.nearest_action(t))[0] == '100.0%' for t in (0.5, 0.6,
+#   0.7)) and 3 ** 3 == 27 -->
 
-
-# %%
-def plan_costs(y, heading, v, goal, depth):
-    """The cost of every steering sequence on each road: arrays (roads,) -> (roads, 3, ..., 3)."""
-    plans = np.array(list(itertools.product((-1, 0, 1), repeat=depth)))
-    y, heading, v, goal = (part[:, None] + np.zeros(len(plans)) for part in (y, heading, v, goal))
-    cost, dt = np.zeros_like(y), bc.DEFAULT.clock.dt
-    for steer in plans.T:
-        slip = np.arctan(0.5 * np.tan(steer * bc.DEFAULT.ego.steering))
-        for _ in range(bc.DEFAULT.clock.steps):
-            y = y + v * np.sin(heading + slip) * dt
-            heading = heading + v * np.sin(slip) / (bc.DEFAULT.car.length / 2) * dt
-        cost += (y - goal) ** 2 + 20 * heading**2 + 1e6 * ((y < -2) | (y > 10))
-    return cost.reshape(-1, *[3] * depth)
-
+# %% tags=["nbval-ignore-output"]
+source("bootcourse.lessons.tracking", "plan_costs")
 
 # %% [markdown]
 # **Exercise 3.4 (5 min, ●●○).** For one road, `costs[first, second, third]` holds the cost of each
@@ -295,21 +286,12 @@ check.best_first_step(best_first_step)
 # > **Predict.** How far must the controller look ahead: one second, two, or three? What goes wrong
 # > with one?
 
+# %%
+predict("3.5", "How far must it look ahead to escape?", ["1 s", "2 s", "3 s"])
 
 # %%
-def looks_ahead(depth):
-    def drive(observations, cars):
-        wanted, ego = bc.rule.rule(cars, bc.DEFAULT), cars[:, EGO]
-        goal = wanted.lanes * bc.DEFAULT.road.lane_width
-        costs = plan_costs(ego[:, Y], ego[:, HEADING], ego[:, SPEED], goal, depth)
-        first = costs.reshape(len(costs), 3, -1).min(-1).argmin(-1)
-        return bc.PolicyOutput(wanted.actions // 3 * 3 + first)
-
-    return drive
-
-
-for depth in (1, 2, 3):
-    print(f"{depth} s ahead: {in_short(looks_ahead(depth))}")
+rows = [[f"{n} s ahead", *tracking.in_short(tracking.looks_ahead(n))] for n in (1, 2, 3)]
+table(["", *headings], rows, below="(200 roads each)")
 
 # %% [markdown]
 # **Explain.** A lane change turns the car and turns it back. A search over one second includes the
@@ -318,12 +300,78 @@ for depth in (1, 2, 3):
 # called *model predictive control*.
 
 # %% [markdown] tags=["instructor"] minutes=6
-# Ask what the learner will have instead: neither a model of the car nor a search, only
+# Ask what the learner will have instead of a model of the car and a search:
 # {{ DEFAULT.observation_size }} numbers and a network. The network has to learn what the search
 # finds.
 
 # %% [markdown]
-# ## Round 4: how well does it drive?
+# ## Round 4: a way out without braking
+#
+# The rule falls back before it changes lane. On roads where trap 2 starts far enough ahead there is
+# a quicker way without braking: one exact sequence of turns that ends behind trap 2 and goes
+# on to the left lane.
+#
+# > **Predict.** Trap 2 starts {{ DEFAULT.traps.d2[0] }} to {{ DEFAULT.traps.d2[1] }} m ahead, and a
+# > car is {{ DEFAULT.car.length | g }} m long. From which D2 on can such a plan work?
+
+# %%
+predict("3.6", "From which D2 on can a plan without braking work?", unit="m")
+
+# %% [markdown]
+# **Exercise 3.5 (20 min, ●●●).** Find the plan. It must not brake, it must be free of accidents for
+# the first 15 s, and it must end ahead of trap 1 on eight roads where trap 2 starts 4.85 m ahead or
+# more. Try plans in the cell below the exercise, or with the buttons of
+# `bc.panels.drive_panel(seed=7)`. A short search in code is fair, too.
+
+
+# %%
+def direct_plan():
+    """A list of actions in words, alone or with seconds: ["keep left", ("keep right", 2)]."""
+    # solution
+    steering = [("keep left", 2), "keep right", "keep left", ("keep right", 3), "keep left"]
+    return [*steering, ("accelerate straight", 5)]
+    # end solution
+
+
+check.direct_plan(direct_plan)
+
+# %%
+a_try = [("keep left", 2), ("keep right", 2)]  # change it, and look where the car ends
+tried = bc.record(bc.plan_policy(a_try), [7], label="you")[0]
+bc.show(bc.top_view_over_time(tried, times=[0, 2, 4, 6, 8]))
+
+# %% [markdown]
+# How far does your plan carry? Here it drives 400 roads. (Without a plan of yours, the kit's own.)
+
+# %%
+bc.show(figures.escape_against_d2(direct_plan()))
+
+# %% [markdown]
+# <details><summary>What we found</summary>
+#
+# Our plan gets out on each of {{ roads() | , }} held-out roads with D2 ≥ 4.85 m, and on {{ 100 *
+# without_braking()[1][without_braking()[0] < 4.85].mean() | .0f }} % of the roads below. That is {{
+# 100 * without_braking()[1].mean() | .0f }} % of the roads together. Below, the right front corner
+# of your car does not get past the tail of trap 2, and there you have to fall back first. A longer
+# plan may do with less; we have not proved that none does.
+# <!-- claim: without_braking()[1][without_braking()[0] >= 4.85].all() -->
+# <!-- claim: without_braking()[1][without_braking()[0] < 4.85].mean() < 0.1 -->
+#
+# So for most roads there is a way out that costs nothing at first. Lesson 5 asks why plain SAC does
+# not find it. The plan above takes eight turns of the wheel in a row. An agent that picks each at
+# random from nine actions hits exactly these eight with a probability of 9⁻⁸, one in 43 million.
+# <!-- claim: 43e6 < 9 ** 8 < 43.1e6 -->
+#
+# </details>
+
+# %% [markdown] tags=["instructor"] minutes=4
+# Groups that drive the panel find it in ten minutes or so, once they see that the middle lane is
+# passed through and not entered. Let one group write the search: sequences of eight turns with the
+# speed kept, tested on road 7, are 6,561.
+# <!-- claim: 3 ** 8 == 6561 -->
+
+# %% [markdown]
+# ## Round 5: how well does it drive?
 #
 # Now the rule drives 1,000 roads on which nothing was chosen or trained. Each number comes with its
 # 95 % interval.
@@ -332,18 +380,23 @@ for depth in (1, 2, 3):
 # > covers 1500 m in 150 s. How far does the rule get?
 
 # %%
-episodes = bc.drive_episodes(bc.rule_policy(bc.DEFAULT), bc.held_out_seeds(1, 1000))
-result = bc.summarise(episodes)
-for name, scale in (("success", 100), ("returns", 1), ("distance", 1)):
-    value, low, high = (scale * number for number in getattr(result, name))
-    print(f"{name:9} {value:7.1f}  [{low:.1f}, {high:.1f}]")
-print(f"accidents of any kind: {int((episodes.accident > 0).sum())}")
-free = 150 * bc.formulas.weighted_reward(1.0, 1.0, 0.0, 1.5, 0.05, 0.05)
-share = result.returns.value / free
-print(f"150 s at 15 m/s on a free road pay {free:.0f}: the rule earns {share:.0%} of that")
+predict("3.7", "How far does the rule get in 150 s, on average?", unit="m")
 
 # %%
-title = "The rule always escapes, and is paid very differently for it"
+episodes = bc.drive_episodes(bc.rule_policy(bc.DEFAULT), bc.held_out_seeds(1, 1000))
+result = bc.summarise(episodes)
+rows = []
+for name, scale in (("success", 100), ("returns", 1), ("distance", 1)):
+    value, low, high = (scale * number for number in getattr(result, name))
+    unit = {"success": " %", "returns": "", "distance": " m"}[name]
+    rows.append([name, f"{value:.1f}{unit}", f"[{low:.1f}, {high:.1f}]"])
+rows.append(["accidents of any kind", f"{int((episodes.accident > 0).sum())}", ""])
+free = 150 * bc.formulas.weighted_reward(1.0, 1.0, 0.0, 1.5, 0.05, 0.05)
+share = f"150 s at 15 m/s on a free road pay {free:.0f}: the rule earns "
+table(["1,000 roads", "mean", "95 %"], rows, f"{share}{result.returns.value / free:.0%} of that.")
+
+# %%
+title = "The rule escapes on each of 1,000 roads, and earns very different returns"
 bc.show(charts.histogram(episodes.returns, "return of an episode", title))
 
 # %% [markdown]
@@ -357,8 +410,8 @@ bc.show(charts.histogram(episodes.returns, "return of an episode", title))
 after = drive.states[:: bc.DEFAULT.clock.steps, EGO]
 free = after[:-1, LANE] == 0
 speed = after[:-1, SPEED][free].mean()
-print(f"in the left lane for {free.sum()} s, at {speed:.1f} m/s on average")
-bc.show(bc.traces([drive]))
+title = f"The rule is in the left lane for {free.sum()} s, at {speed:.1f} m/s on average"
+bc.show(bc.traces([drive], title=title))
 
 # %% [markdown]
 # **Explain.** The rule wastes time in three ways. It has five speeds, so behind traffic at 12.5 m/s
@@ -371,14 +424,14 @@ bc.show(bc.traces([drive]))
 # <!-- claim: 150 < DEFAULT.sight.distance -->
 
 # %% [markdown]
-# ## Round 5: an unsure rule
+# ## Round 6: an unsure rule
 #
 # Later a learner is pulled towards the rule. For that the rule must give probabilities, not one
 # action. So we make it unsure: it takes its own action with probability $p$ and each
 # of the other eight with $(1-p)/8$. Call this $\tilde\pi$, the **stochastic rule**.
 # <!-- claim: N_ACTIONS - 1 == 8 -->
 #
-# **Exercise 3.5 (5 min, ●○○).** Write it for many states at once.
+# **Exercise 3.6 (5 min, ●○○).** Write it for many states at once.
 
 
 # %%
@@ -394,13 +447,8 @@ def stochastic_rule(rule_actions, p):
 check.stochastic_rule(stochastic_rule)
 
 # %%
-# NBVAL_CHECK_OUTPUT
-probabilities = bc.rule.stochastic_rule(np.array(3), p=0.9)
-print(probabilities.round(4), "sum", probabilities.sum().round(6))
-
-# %%
-title = "The stochastic rule with p = 0.9: keep left, and a little of everything"
-bc.show(charts.action_bars({"rule: π̃": probabilities}, title))
+shown = {f"p = {p:g}": bc.rule.stochastic_rule(np.array(3), p=p) for p in (0.5, 0.9)}
+bc.show(charts.action_bars(shown, "The stochastic rule where the rule keeps left, for two p"))
 
 # %% [markdown]
 # > **Predict.** Let the stochastic rule drive: in each second it does something else with
@@ -408,11 +456,18 @@ bc.show(charts.action_bars({"rule: π̃": probabilities}, title))
 # > nearly all, half, or hardly any?
 
 # %%
+choices = ["nearly all", "about half", "hardly any"]
+predict("3.8", "In how many episodes is the stochastic rule without an accident?", choices)
+
+# %%
 rng = np.random.default_rng(0)
 unsure = bc.drive_episodes(bc.stochastic_rule_policy(bc.DEFAULT, rng), bc.held_out_seeds(2, 1000))
+rows = []
 for kind in bc.Accident:
-    print(f"{kind.name.lower():15} {100 * np.mean(unsure.accident == kind):5.1f} %")
-print(f"escapes {100 * unsure.success.mean():.0f} %")
+    name = kind.name.lower().replace("_", " ").replace("none", "no accident")
+    rows.append([name, f"{100 * np.mean(unsure.accident == kind):.1f} %"])
+rows.append(["escapes", f"{100 * unsure.success.mean():.1f} %"])
+table(["1,000 roads, p = 0.9", ""], rows)
 
 # %% [markdown]
 # **Explain.** A wrong action for one second is a lot on this road: full steering for a second
@@ -425,10 +480,12 @@ print(f"escapes {100 * unsure.success.mean():.0f} %")
 # What if only p changes?
 
 # %%
+rows = []
 for p in (0.5, 0.9, 0.99, 0.999):
     driver = bc.stochastic_rule_policy(bc.DEFAULT, np.random.default_rng(0), p)
     driven = bc.drive_episodes(driver, bc.held_out_seeds(2, 500))
-    print(f"p = {p:5}: {100 * np.mean(driven.accident == 0):5.1f} % without an accident")
+    rows.append([f"{p}", f"{100 * np.mean(driven.accident == 0):.1f} %"])
+table(["p", "without an accident (500 roads)"], rows)
 
 # %% [markdown]
 # ## What you now know
@@ -447,11 +504,41 @@ for p in (0.5, 0.9, 0.99, 0.999):
 #
 # **Three questions to think about**
 # - Which one number in the rule would you change to earn more? What could go wrong then?
-# - The rule reads the true state of all cars, the learner only 26 numbers. Can a learner imitate
-#   it perfectly?
-# - The traps react to the car ahead of them and to no other. What should the rule look at if they
+# - The rule reads the true state of the cars, the learner 26 numbers. Can a learner imitate it
+#   perfectly?
+# - The traps react to the car ahead of them. What should the rule look at if they
 #   reacted to cars beside them, too?
 #
 # **Read on**: the next lessons let an agent learn alone, and then with this rule at its side. The
 # idea of a safety distance that grows with speed is old: Gipps, *A behavioural car-following
 # model* (1981).
+
+# %%
+compare_predictions(
+    "03",
+    {
+        "3.1": drive.rule_speeds[0],
+        "3.2": "negative",
+        "3.3": "false as long as you are slower",
+        "3.4": "neither escapes",
+        "3.5": "2 s",
+        "3.6": "about 4.85 m, for the plan that we found",
+        "3.7": round(result.distance.value),
+        "3.8": "hardly any",
+    },
+)
+
+# %% [markdown] tags=["instructor"] minutes=10
+# *Model answers to the three questions:*
+#
+# - **One number.** More speeds (n = 10 instead of five): behind traffic at 12.5 m/s it could drive
+#   12 m/s instead of 10.5 and earn more. But behind the traps it would then take 9 m/s, fall back
+#   more slowly and take longer to get out. Measure it: `dataclasses.replace(bc.DEFAULT.rule,
+#   n=10)`.
+# - **Imitation.** Not perfectly. The rule depends on cars that the observation may leave out (a
+#   fifth one, or one beyond {{ DEFAULT.sight.distance | g }} m) and on the number of its lane,
+#   which has to be read off y. Where two states give one observation and the rule acts differently,
+#   a learner can at best learn how often it does which.
+# - **Traps that look sideways.** A trap that brakes for you in the next lane reopens the gap that
+#   you fall back to find. Then the rule should look at how the gap changes after its own move, not
+#   at the gap now, which takes a model of the traps.

@@ -75,9 +75,11 @@ def blocks(text: str) -> list[str]:
 
 
 def unclaimed(path: Path) -> list[str]:
-    """The sentences about all cases without a claim in their paragraph; those that ask need none."""
+    """The sentences about all cases without a claim in their paragraph, other than questions and predictions."""
     found = []
     for block in (block for cell in read(path) for block in blocks(cell.text) if not CLAIM.search(block)):
+        if block.lstrip().startswith(">"):
+            continue
         sentences = re.split(r"(?<=[.!?])[\"”')*]*\s", " ".join(block.split()))
         found += [each for each in sentences if STRONG.search(each) and not each.endswith("?")]
     return found

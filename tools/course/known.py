@@ -21,7 +21,7 @@ from bootcourse.learn import bootstrap, sac
 from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.settings import settings_for
 from bootcourse.learn.teachers import toward
-from bootcourse.lessons import bugs, chain, example_teachers, shipped, traffic
+from bootcourse.lessons import bugs, chain, example_teachers, shipped, tracking, traffic
 from bootcourse.lessons.chain import leaving
 from bootcourse.lessons.exercises import registry
 from bootcourse.policies import idle_policy, plan_policy, random_policy, rule_policy
