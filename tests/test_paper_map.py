@@ -58,7 +58,7 @@ def test_every_row_of_a_table_of_settings_is_there(where):
 
 def test_the_number_of_an_exercise_is_the_lesson_s_own():
     assert exercise_number("07_soft_constraint", "soft_constraint") == "7.2"
-    assert exercise_number("08_learning_from_demonstrations", "q_filter") == "8.5"
+    assert exercise_number("08_learning_from_demonstrations", "q_filter") == "8.4"
     assert exercise_number("03_the_rule", "soft_constraint") == "", "it belongs to another lesson"
 
 
