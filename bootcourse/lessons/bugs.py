@@ -224,14 +224,25 @@ class Hunt:
         """One of `PROBES` after each of `updates`: (2 seeds, points)."""
         return self._of(name, "probes")[:, :, PROBES.index(what)].T.astype(float)
 
-    def curves(self, what: str, window: int = 30, points: int = 100) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-        """A curve of every agent, for a picture: {name: (% of its training (points,), rolling means (2, points))}."""
-        found, shares = {}, np.linspace(0, 100, points)
+    def curves(self, what: str, window: int = 30) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        """A curve of every agent, for a picture: {name: (episode (points,), rolling means (2, points))}.
+
+        The seeds made as many updates, and not as many episodes: a shorter curve is NaN where it has ended.
+        """
+        found = {}
+        for name in self.names:
+            curve = self.curve(name, what)
+            longest = int(np.isfinite(curve).sum(axis=1).max())
+            found[name] = rolling_means(curve[:, :longest], window, longest)
+        return found
+
+    def at_the_end(self, what: str, window: int = 30) -> dict[str, np.ndarray]:
+        """The mean of the last episodes of every seed: {name: (2,)}."""
+        ends = {}
         for name in self.names:
             rows = [row[np.isfinite(row)] for row in self.curve(name, what)]
-            rows = [rolling_means(row, window, len(row))[1][0] for row in rows]
-            found[name] = shares, np.array([np.interp(shares, np.linspace(0, 100, len(row)), row) for row in rows])
-        return found
+            ends[name] = np.array([row[-window:].mean() for row in rows])
+        return ends
 
     def probes(self, what: str) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         """A probe of every agent, for a picture: {name: (updates (points,), values (2, points))}."""

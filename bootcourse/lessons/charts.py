@@ -140,11 +140,13 @@ def many(
     reference: str | None = None,
     columns: int = 3,
     limits: tuple[float, float] | None = None,
+    x_scale: str = "linear",
 ) -> Figure:
     """A panel for each name, {name: (x (points,), values (seeds, points))}: a line for each seed.
 
     reference: the name of one that has no panel of its own and is drawn in grey in every other panel. All
-    panels share their axes; limits cuts the values' axis. The alt text gives where every line ends.
+    panels share their axes; limits cuts the values' axis; x_scale: "linear" or "log". The alt text gives where
+    every line ends.
     """
     own = [name for name in named if name != reference]
     rows, title = math.ceil(len(own) / columns), wrapped(title)
@@ -165,8 +167,9 @@ def many(
         ax.plot(x, values.T, color=OTHER.colour, linewidth=1.3, zorder=3)
         plain_axes(ax, "")
         ax.text(0, 1.05, label, transform=ax.transAxes, fontsize=TEXT, color=INK, fontweight="bold", va="bottom")
-        ax.set(xlim=(0, last_x), ylim=(low, high))
-        ax.xaxis.set_major_locator(MaxNLocator(3 if columns < 5 else 2))
+        ax.set(xscale=x_scale, xlim=(0 if x_scale == "linear" else x[0], last_x), ylim=(low, high))
+        if x_scale == "linear":
+            ax.xaxis.set_major_locator(MaxNLocator(3 if columns < 5 else 2))
         if column:
             ax.tick_params(labelleft=False)
         if k + columns < len(own):

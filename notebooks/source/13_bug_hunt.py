@@ -15,17 +15,17 @@
 #
 # **What you will be able to do**
 # - find a silent bug in a learner from curves, probes and drives, without reading its code;
-# - write a probe: ask a trained network something whose right answer you know;
+# - write a probe: ask a part of a learner something whose right answer you know;
 # - repair six bugs that people really make, each in one line.
 #
-# **Time** 60 minutes, under a minute of it the machine's. **It builds on** the losses of lesson 4,
+# **Time** 95 minutes, under a minute of it the machine's. **It builds on** the losses of lesson 4,
 # the soft constraint (7) and learning from demonstrations (8).
 
 # %%
 import bootcourse as bc
 import numpy as np
 import torch
-from bootcourse.lessons import bugs, charts, check, source
+from bootcourse.lessons import bugs, charts, check, compare_predictions, predict, source, table
 
 hunt = bugs.Hunt()
 print(f"{len(hunt.names)} agents, 2 seeds each, {hunt.provenance['updates']} updates of each")
@@ -58,6 +58,10 @@ bc.show(bc.top_view_over_time(agent_f, title="Agent F on the same road"))
 # > - `bonus_for_all`: the bonus c is paid for the agent's own driving as well;
 # > - `shifted_labels`: the rule was asked after the step, so each label is one second late.
 
+# %%
+choices = ["none", "one or two", "three or four", "five", "all six"]
+predict("13.1", "Broken agents that still escape in training", choices)
+
 # %% [markdown] tags=["instructor"] minutes=8
 # Collect the predictions in a table on the board, bugs in rows. Most people expect all six to ruin
 # the escapes. Come back to the table at the end of Round 1, and again after the verdict.
@@ -67,34 +71,33 @@ bc.show(bc.top_view_over_time(agent_f, title="Agent F on the same road"))
 #
 # Grey is the healthy agent, both seeds; violet is the agent whose letter the panel has.
 
+# Each training has the same number of updates; an agent that crashes early drives more episodes
+# with them. So the panels' axes are long, and logarithmic.
+
 # %%
-late = {n: np.nanmean(values[:, -10:]) for n, (_, values) in hunt.curves("success").items()}
-fine = [name for name in "ABCDEF" if late[name] > 0.85]
-title = f"Judged by escapes, {len(fine)} of 6 broken agents are fine: {', '.join(fine)}"
+episode, share = "training episode", "share of escapes, last 30 episodes"
 curves = hunt.curves("success")
-bc.show(
-    charts.many(
-        curves, title, "% of training", "share of escapes, last 30 episodes", reference="healthy"
-    )
-)
+title = "Escapes in training"
+bc.show(charts.many(curves, title, episode, share, reference="healthy", x_scale="log"))
 
 # %%
 curves = hunt.curves("return")
-last = {name: values[:, -10:].mean() for name, (_, values) in curves.items()}
-best = max(last, key=last.get)
-title = f"At the end of training, agent {best} has the highest return of all seven"
-bc.show(
-    charts.many(curves, title, "% of training", "return, last 30 episodes", reference="healthy")
-)
+title = "Returns in training"
+words = "return, last 30 episodes"
+bc.show(charts.many(curves, title, episode, words, reference="healthy", x_scale="log"))
+
+# %%
+late, last = hunt.at_the_end("success"), hunt.at_the_end("return")
+rows = [[n, f"{100 * late[n].mean():.0f} %", f"{last[n].mean():.0f}"] for n in hunt.names]
+table(["at the end of training", "escapes", "return"], rows)
 
 # %% [markdown]
 # **See.** Compare with your predictions. Four of these six bugs do not show in the share of escapes
 # at the end of training, and the agent with the highest return has a bug. A curve that looks right
 # is no evidence that the code is right.
-# <!-- claim: (lambda h: sum(np.nanmean(h.curves('success')[n][1][:, -10:]) > 0.85
-#   for n in 'ABCDEF'))(bugs.Hunt()) == 4 -->
-# <!-- claim: (lambda last: max(last, key=last.get) != 'healthy')({n: v[:, -10:].mean()
-#   for n, (_, v) in bugs.Hunt().curves('return').items()}) -->
+# <!-- claim: sum(bugs.Hunt().at_the_end('success')[n].mean() > 0.8 for n in 'ABCDEF') == 4 -->
+# <!-- claim: (lambda last: max(last, key=last.get) != 'healthy')({n: v.mean() for n, v in
+#   bugs.Hunt().at_the_end('return').items()}) -->
 #
 # **Explain.** We think that the teacher hides the bugs. It drives demonstrations and it pulls, so
 # the policy is led out of the trap even if another part of the learner is wrong. To judge one part,
@@ -108,7 +111,12 @@ bc.show(
 # without any guess of a next value.
 #
 # > **Predict.** Which of the six bugs makes Q wrong exactly there, and in which direction?
-#
+
+# %%
+names = list(bugs.BUGS)
+predict("13.2", "Q is wrong at accidents because of", names)
+
+# %% [markdown]
 # **Exercise 13.1 (6 min, ●●○).** Write the probe: by how much is Q above r, on average, where an
 # episode ended?
 
@@ -133,8 +141,7 @@ check.end_error(end_error)
 
 # %%
 probes = hunt.probes("end")
-lowest = min(probes, key=lambda name: np.nanmean(probes[name][1][:, -10:]))
-title = f"Agent {lowest} thinks that accidents cost far more than the 10 they cost"
+title = "What the critics think of their own accidents"
 bc.show(
     charts.many(probes, title, "updates", "Q where an accident followed (right: −10)", "healthy")
 )
@@ -149,11 +156,13 @@ bc.show(
 # > second?
 
 # %%
+predict("13.3", "The most that a correct critic may promise", unit="")
+
+# %%
 gamma, c = 0.8, 2.0
 print(f"honest: {1 / (1 - gamma):.0f}; with the bonus in every second: {(1 + c) / (1 - gamma):.0f}")
 probes = hunt.probes("promise")
-highest = {name: np.nanmax(np.abs(values)) for name, (_, values) in probes.items()}
-title = f"One agent promised {max(highest.values()):.0f} in between, on a road that pays 5"
+title = "What the critics promise for the seconds of the rule's drives"
 bc.show(
     charts.many(
         probes, title, "updates", "promise Σ π Q, cut off at 20", "healthy", limits=(-2, 20)
@@ -166,13 +175,14 @@ bc.show(
 # You can ask the same of one drive: what did Q promise, and what did the road then pay?
 
 # %%
+rows = []
 for name in hunt.names:
     drive = bc.record(hunt.agent(name).as_policy(with_q=True), [ROAD])[0]
     paid = 0.0
     for reward in drive.rewards[::-1]:  # from the end to the start
         paid = reward + gamma * paid
-    promised = drive.q_values[0, drive.actions[0]]
-    print(f"{name:8} at the start Q promised {promised:6.1f}, and the road paid {paid:5.1f}")
+    rows.append([name, f"{drive.q_values[0, drive.actions[0]]:.1f}", f"{paid:.1f}"])
+table(["one road, from the start", "Q promised", "the road paid"], rows)
 
 # %% [markdown] tags=["instructor"] minutes=8
 # At the start the car is behind the trap, so a correct promise is small there; the healthy agent's
@@ -195,23 +205,22 @@ for name in hunt.names:
 
 # %%
 probes = hunt.probes("entropy")
-end = {name: values[:, -1].mean() for name, (_, values) in probes.items()}
-title = f"Agent {max(end, key=end.get)} never makes up its mind"
+title = "How undecided are the policies?"
 bc.show(charts.many(probes, title, "updates", "entropy of π (nats)", reference="healthy"))
 
 # %%
-early = slice(2, 6)  # after 500 to 1,250 updates
-print("early in training     as the rule now   one second later   rarest, log π (at the end)")
+early, rows = slice(2, 6), []  # after 500 to 1,250 updates
 for name in hunt.names:
-    now, later, rarest = (hunt.probe(name, what) for what in ("alike", "late", "rarest"))
-    seeds = [f"{100 * values[:, early].mean(1).round(2)}" for values in (now, later)]
-    print(f"{name:16} {seeds[0]:>18} % {seeds[1]:>16} %   {rarest[:, -1].round(1)}")
+    seeds = [hunt.probe(name, what)[:, early].mean(1) for what in ("alike", "late")]
+    cells = [" and ".join(f"{100 * s:.0f} %" for s in values) for values in seeds]
+    least = " and ".join(f"{v:.1f}" for v in hunt.probe(name, "rarest")[:, -1])
+    rows.append([name, *cells, least])
+headings = ["early, both seeds", "as the rule now", "as one second later"]
+table([*headings, "rarest action, log π, at the end"], rows)
 
 # %%
 probes = hunt.probes("alike")
-first = {name: values[:, early].mean() for name, (_, values) in probes.items()}
-two = sorted("ABCDEF", key=first.get)[:2]
-title = f"Early on, {two[0]} and {two[1]} do least of all what the rule does"
+title = "How often the likeliest action is the rule's"
 bc.show(charts.many(probes, title, "updates", "likeliest action is the rule's (share)", "healthy"))
 
 # %%
@@ -223,6 +232,10 @@ bc.show(charts.many(probes, title, "updates", "log of the rarest action's probab
 # > **Predict.** KL(π‖π̃) charges the policy for going where the rule would not. The flipped one
 # > charges it for *not* going where the rule might. The rule's noise gives every action a little
 # > probability. What does each of the two do to an action that the rule would hardly ever take?
+
+# %%
+choices = ["it drops it", "it keeps it a little likely", "it makes it the favourite"]
+predict("13.4", "With the flipped KL the policy treats such an action so:", choices)
 
 # %% [markdown]
 # **Explain.** Read the table and the last picture with that question. An action to which the rule
@@ -238,14 +251,16 @@ bc.show(charts.many(probes, title, "updates", "log of the rarest action's probab
 # drive better, or worse. Here drives the first seed of each, on 200 roads that it has not seen.
 
 # %%
-print("            escapes, most probable   escapes, drawn   return   accidents (%)")
+rows = []
 for name in hunt.names:
     agent = hunt.agent(name)
     greedy = bc.evaluate(agent.as_policy(), 200, seed=12)
     drawn = bc.evaluate(agent.as_policy(np.random.default_rng(0)), 200, seed=12)
     accidents = greedy.collision.value + greedy.road_departure.value + greedy.stoppage.value
-    shares = f"{100 * greedy.success.value:20.1f} {100 * drawn.success.value:18.1f}"
-    print(f"{name:8} {shares} {greedy.returns.value:12.1f} {100 * accidents:12.1f}")
+    shares = [f"{100 * share:.1f}" for share in (greedy.success.value, drawn.success.value)]
+    rows.append([name, *shares, f"{greedy.returns.value:.1f}", f"{100 * accidents:.1f}"])
+headings = ["200 roads", "escapes, most probable, %", "escapes, drawn, %", "return", "accidents, %"]
+table(headings, rows)
 
 # %% [markdown]
 # **See.** In these 200 drives one agent escapes nearly always with its most probable action, and in
@@ -254,8 +269,7 @@ for name in hunt.names:
 # beside accidents: a crash after overtaking counts as both.)
 #
 # **Exercise 13.2 (15 min, ●●●).** The verdict. For each agent one of the six names. The check says
-# how many are right, and what speaks against one of the wrong ones; it does not say who it is
-# instead.
+# whether all six are right. It does not say how many are, or which: settle each by a picture.
 
 
 # %%
@@ -385,6 +399,33 @@ def fixed_loss(log_pi, q, log_rule, alpha, xi):
 check.fixed_loss(fixed_loss)
 
 # %% [markdown]
+# ### A probe that needs no training
+#
+# You found these bugs in agents that took minutes to train. The target can be tested in a
+# millisecond, from outside, with a few transitions whose right y you work out by hand.
+#
+# **Exercise 13.6 (20 min, ●●●).** Write that test. You are given a function
+# `target(reward, demo, bonus, end, next_value, gamma)`, of which you do not see the code: arrays of
+# shape (batch,), and two floats. Say whether it is wrong. The check hands you three functions that
+# are right, and twelve that people have really written.
+# <!-- claim: (lambda e: len(e.TARGETS) - len(e.RIGHT_TARGETS) == 12 and len(e.RIGHT_TARGETS) ==
+#   3)(__import__('bootcourse.lessons.exercises.lesson_13_bug_hunt', fromlist=['x'])) -->
+
+
+# %%
+def unmasks(target):
+    """True if target(reward, demo, bonus, end, next_value, gamma) is not y, False if it is."""
+    # solution
+    reward, value = np.array([1.0, -10.0, 0.5, -3.0]), np.array([4.0, 2.0, 7.0, -1.0])
+    demo, end = np.array([0.0, 0.0, 1.0, 1.0]), np.array([0.0, 1.0, 0.0, 1.0])
+    right = reward + 3.0 * demo + 0.5 * (1 - end) * value
+    return not np.allclose(target(reward, demo, 3.0, end, value, 0.5), right)
+    # end solution
+
+
+check.unmasks(unmasks)
+
+# %% [markdown]
 # The labels. After a drive the rule was asked about all of its T + 1 states, in order. The buggy
 # version began one state too late:
 #
@@ -392,7 +433,7 @@ check.fixed_loss(fixed_loss)
 # labels = asked[1:]
 # ```
 #
-# **Exercise 13.6 (4 min, ●○○).** For each of the T decisions: the label of the state in which it
+# **Exercise 13.7 (4 min, ●○○).** For each of the T decisions: the label of the state in which it
 # was made, and the label of the state to which it led.
 
 
@@ -416,11 +457,8 @@ source("bootcourse.lessons.bugs", "NoEnd", "BonusForAll", "ShiftedLabels", "Flip
 # > **Predict.** Which of the six would you have found by testing your code, and not by training?
 
 # %%
-print(
-    f"bugs: {len(bugs.BUGS)}; broken agents that escape as if nothing were wrong: {', '.join(fine)}"
-)
-print(f"highest return at the end of training: {best}, {last[best]:.0f}")
-print(f"the healthy agent's: {last['healthy']:.0f}")
+choices = ["none", "one or two", "three or four", "all six"]
+predict("13.5", "Found by tests of single functions", choices)
 
 # %% [markdown]
 # **Explain.** All six: the exercises above test them in milliseconds. Some of the bugs do little
@@ -448,7 +486,29 @@ print(f"the healthy agent's: {last['healthy']:.0f}")
 # - You may run one probe during every training from now on. Which, and at what value does it warn?
 # - Two bugs at once: which pair would hide each other in all of the pictures above?
 # - A bug raises the return of your method in a paper's table. How would a reader ever know?
-#
+
+# %%
+fine = sum(late[name].mean() > 0.8 for name in "ABCDEF")
+compare_predictions(
+    "13",
+    {
+        "13.1": f"{fine} of six, on more than 80 % of the last episodes",
+        "13.2": "no_end",
+        "13.3": round(1 / (1 - gamma), 1),
+        "13.4": "it keeps it a little likely",
+        "13.5": "all six",
+    },
+)
+
+# %% [markdown] tags=["instructor"] minutes=3
+# Answers to the three questions. (1) The promise: it costs nothing, needs no accident and no
+# teacher, and its bound is known, the largest reward of a second divided by 1 − γ, here 5 (7 with
+# room for the bonus). (2) For example `no_end` and `bonus_for_all`: at accidents one pulls Q down
+# and the other up, and both move the promise. Ask for pairs whose probes differ only by sign. (3)
+# From the printed text hardly; from the code, if it ships, with tests of single functions; or when
+# somebody else's program of the same method earns less.
+
+# %% [markdown]
 # **Read on**: what goes wrong in deep reinforcement learning, and how little of it is reported:
 # Henderson et al., *Deep Reinforcement Learning that Matters* (arXiv 1709.06560); Engstrom et al.,
 # *Implementation Matters in Deep Policy Gradients* (arXiv 2005.12729).

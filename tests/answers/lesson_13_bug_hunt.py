@@ -65,17 +65,17 @@ def with_branches(agent):
     return "bonus_for_all" if agent == "E" else "no_stop"
 
 
-@wrong("diagnose", "5 of 6 are right. Look at D again")
+@wrong("diagnose", "Not all six verdicts are right")
 def one_twice(agent):
     return {**TRUE, "D": "sampled"}[agent]
 
 
-@wrong("diagnose", "0 of 6 are right. Look at A again")
+@wrong("diagnose", "Not all six verdicts are right")
 def all_turned(agent):
     return dict(zip("ABCDEF", [TRUE[letter] for letter in "BCDEFA"], strict=True))[agent]
 
 
-@wrong("diagnose", "1 of 6 are right")
+@wrong("diagnose", "Not all six verdicts are right")
 def one_for_all(agent):
     return "no_stop"
 
@@ -216,3 +216,68 @@ def in_rows(asked):
 @wrong("label_pairs")
 def around_the_end(asked):
     return np.stack([np.roll(asked, 1)[:-1], asked[:-1]], axis=1)
+
+
+# unmasks ----------------------------------------------------------------------------------------------
+
+
+def right_y(reward, demo, bonus, end, value, gamma):
+    return reward + bonus * demo + gamma * (1 - end) * value
+
+
+@right("unmasks")
+def at_random(target):
+    rng = np.random.default_rng(1)
+    rows = [rng.normal(0, 3, 20), rng.integers(0, 2, 20), 1.7, rng.integers(0, 2, 20), rng.normal(0, 3, 20), 0.6]
+    return bool((abs(target(*rows) - right_y(*rows)) > 1e-9).any())
+
+
+@right("unmasks")
+def four_questions(target):
+    """One transition after the other, each with a partner, so that a mean over the batch shows."""
+    for demo in (0.0, 1.0):
+        for end in (0.0, 1.0):
+            for reward in (-2.0, 3.0):
+                rows = (
+                    np.array([reward, 1.0]),
+                    np.array([demo, 0.0]),
+                    5.0,
+                    np.array([end, 0.0]),
+                    np.array([4.0, 9.0]),
+                    0.3,
+                )
+                if any(abs(a - b) > 1e-6 for a, b in zip(target(*rows), right_y(*rows), strict=True)):
+                    return True
+    return False
+
+
+@wrong("unmasks", "bonus of 2")
+def with_the_paper_s_numbers(target):
+    rng = np.random.default_rng(1)
+    rows = [rng.normal(0, 3, 20), rng.integers(0, 2, 20), 2.0, rng.integers(0, 2, 20), rng.normal(0, 3, 20), 0.8]
+    return not np.allclose(target(*rows), right_y(*rows))
+
+
+@wrong("unmasks")
+def equal_next_values(target):
+    rng = np.random.default_rng(1)
+    rows = [rng.normal(0, 3, 20), rng.integers(0, 2, 20), 1.7, rng.integers(0, 2, 20), np.full(20, 4.0), 0.6]
+    return not np.allclose(target(*rows), right_y(*rows))
+
+
+@wrong("unmasks")
+def positive_rewards_only(target):
+    rng = np.random.default_rng(1)
+    rows = [rng.uniform(0, 3, 20), rng.integers(0, 2, 20), 1.7, rng.integers(0, 2, 20), rng.normal(0, 3, 20), 0.6]
+    return not np.allclose(target(*rows), right_y(*rows))
+
+
+@wrong("unmasks", "accuses a target function that is right")
+def the_answers_inverted(target):
+    return not at_random(target)
+
+
+@wrong("fixed_value", "no gradient")
+def in_numpy(log_pi, q, alpha):
+    log, values = log_pi.detach().numpy(), q.detach().numpy()
+    return torch.tensor((np.exp(log) * (values - alpha * log)).sum(-1))

@@ -83,33 +83,18 @@ def diagnose_solution(agent):
     return bugs[agent]
 
 
-# The evidence against each verdict, in the terms of the probes. It names no agent's real bug.
-AGAINST = {
-    "flipped_kl": "a flipped KL keeps every action a little likely: its rarest action is far above the healthy agent's",
-    "no_end": "without an end, the critic is wrong by many points just where episodes end",
-    "sampled": "with a sampled value the actor gets no gradient from Q: its entropy stays near that of the stochastic "
-    "rule, and it improves on nothing",
-    "no_stop": "without the stop-gradient the actor's loss changes the critic: the promise grows far beyond any return",
-    "bonus_for_all": "a bonus for all adds up: the promise is about c / (1 - γ) above any possible return",
-    "shifted_labels": "with shifted labels an agent's early actions agree with what the rule does one second later "
-    "nearly as often as with what it does now",
-}
-
-
 def explain_hunt(cases, answers):
-    """How many verdicts are right, and the evidence against the first wrong one."""
-    said = {agent: answer for (agent,), answer in zip(cases, answers, strict=True)}
-    unknown = [answer for answer in said.values() if answer not in BUGS]
+    """That not all verdicts are right; neither how many nor which, so that guessing does not help."""
+    unknown = [answer for answer in answers if answer not in BUGS]
     if unknown:
         return f"Your function returns {str(unknown[0])[:40]!r}: the six names are {', '.join(BUGS)}."
-    wrong = sorted(agent for agent, answer in said.items() if answer != diagnose_solution(agent))
-    if not wrong:
+    if {agent: answer for (agent,), answer in zip(cases, answers, strict=True)} == {
+        a: diagnose_solution(a) for a in "ABCDEF"
+    }:
         return "Your function answers the same question differently each time: it must not draw at random or remember."
-    first = wrong[0]
-    right = len(said) - len(wrong)
     return (
-        f"{right} of 6 are right. Look at {first} again, which you call {said[first]}: {AGAINST[said[first]]}. "
-        "Is that what you see?"
+        "Not all six verdicts are right. Write beside each the picture that shows it; the one without a picture is the "
+        "one to doubt."
     )
 
 
@@ -126,22 +111,25 @@ diagnose = Exercise(
     worked=((("A",), "flipped_kl"), (("F",), "no_stop")),
     mistakes=(
         Mistake(renamed(A="shifted_labels", C="flipped_kl"),
-            "Four of six. You swapped the two agents whose bug concerns the rule. One starts slowly, between what the "
+            "You swapped the two agents whose bug concerns the rule. One starts slowly, between what the "
             "rule does now and what it does one second later; the other keeps its rarest action likely.",
             "All bugs of the KL look the same."),
         Mistake(renamed(D="bonus_for_all", E="no_end"),
-            "Four of six. You swapped two agents whose critics are wrong: one critic is wrong everywhere by about the "
+            "You swapped two agents whose critics are wrong: one critic is wrong everywhere by about the "
             "same amount, the other only where episodes end.",
             "All wrong critics look the same."),
         Mistake(renamed(B="no_stop", F="sampled"),
-            "Four of six. You swapped the two that drive worst: one promises more than any possible return; the other "
+            "You swapped the two that drive worst: one promises more than any possible return; the other "
             "has a modest promise and a high entropy.",
             "The driving alone shows the bug."),
     ),
     hints=(
         "Begin with the two that drive badly, then look for a promise that is too high, then at where episodes end.",
-        "The last two drive like the healthy agent. Compare `alike` with `late` at the first updates, then `rarest`.",
-        "For each bug there is one probe in which only the agent with that bug leaves the grey lines.",
+        "What each bug shows: without an end, Q is wrong by many points where episodes end; with a drawn value Q does "
+        "not reach the actor, so the entropy stays near the stochastic rule's; without the stop-gradient the promise "
+        "grows far beyond any return; a bonus for all adds about c / (1 - γ) to it.",
+        "The last two drive like the healthy agent. Compare `alike` with `late` at the first updates (shifted labels), "
+        "then `rarest` (a flipped KL keeps every action a little likely).",
     ),
     minutes=15, difficulty=3, equation="six bugs, six agents",
 )  # fmt: skip
@@ -198,6 +186,97 @@ fixed_target = Exercise(
 )  # fmt: skip
 
 
+def standard_target(reward, is_demonstration, bonus, terminated, next_value, gamma):
+    return fixed_target_solution(reward, is_demonstration, bonus, terminated, next_value, gamma)
+
+
+TARGETS = {  # what a learner might compute; the first three are right
+    "as it is printed": standard_target,
+    "with where": lambda r, demo, c, end, v, gamma: np.where(demo > 0, r + c, r) + np.where(end > 0, 0, gamma * v),
+    "in another order": lambda r, demo, c, end, v, gamma: gamma * (v - v * end) + demo * c + r,
+    "no end": lambda r, demo, c, end, v, gamma: r + c * demo + gamma * v,
+    "the end kept, the rest dropped": lambda r, demo, c, end, v, gamma: r + c * demo + gamma * end * v,
+    "a bonus for all": lambda r, demo, c, end, v, gamma: r + c + gamma * (1 - end) * v,
+    "no bonus": lambda r, demo, c, end, v, gamma: r + gamma * (1 - end) * v,
+    "a bonus for the agent's own": lambda r, demo, c, end, v, gamma: r + c * (1 - demo) + gamma * (1 - end) * v,
+    "a bonus of 2": lambda r, demo, c, end, v, gamma: r + 2 * demo + gamma * (1 - end) * v,
+    "a bonus lost at the end": lambda r, demo, c, end, v, gamma: r + (1 - end) * (c * demo + gamma * v),
+    "a discount of 0.8": lambda r, demo, c, end, v, gamma: r + c * demo + 0.8 * (1 - end) * v,
+    "a discounted reward": lambda r, demo, c, end, v, gamma: gamma * (r + (1 - end) * v) + c * demo,
+    "no discount": lambda r, demo, c, end, v, gamma: r + c * demo + (1 - end) * v,
+    "only gains": lambda r, demo, c, end, v, gamma: np.maximum(r, 0) + c * demo + gamma * (1 - end) * v,
+    "a mean over the batch": lambda r, demo, c, end, v, gamma: standard_target(
+        r, demo, c, end, np.mean(v) + 0 * v, gamma
+    ),
+}
+RIGHT_TARGETS = tuple(TARGETS)[:3]
+
+
+def is_unmasked(answer, name):
+    """What the student's probe says of one target function."""
+    return answer(TARGETS[name])
+
+
+def unmasks_solution(target):
+    reward, value = np.array([1.0, -10.0, 0.5, -3.0]), np.array([4.0, 2.0, 7.0, -1.0])
+    demo, end = np.array([0.0, 0.0, 1.0, 1.0]), np.array([0.0, 1.0, 0.0, 1.0])
+    right = reward + 3.0 * demo + 0.5 * (1 - end) * value
+    return not np.allclose(target(reward, demo, 3.0, end, value, 0.5), right)
+
+
+def explain_probe(cases, answers):
+    """Which target function the probe judged wrongly."""
+    said = dict(zip([name for (name,) in cases], answers, strict=True))
+    if any(bool(said[name]) for name in RIGHT_TARGETS):
+        return "Your probe accuses a target function that is right, only written in another way: compare numbers."
+    missed = [name for name, found in said.items() if name not in RIGHT_TARGETS and not found]
+    return (
+        f"Your probe lets {len(missed)} of {len(TARGETS) - len(RIGHT_TARGETS)} wrong target functions pass. One "
+        f"is '{missed[0]}'."
+        if missed
+        else "Your probe judges the same function differently each time."
+    )
+
+
+def one_row(demo, end, c=3.0, gamma=0.5):
+    """A probe that looks at one transition only."""
+
+    def answer(target):
+        got = target(np.array([1.0]), np.array([demo]), c, np.array([end]), np.array([4.0]), gamma)
+        return not np.allclose(got, 1.0 + c * demo + gamma * (1 - end) * 4.0)
+
+    return answer
+
+
+unmasks = Exercise(
+    "unmasks(target)",
+    solution=unmasks_solution, cases=lambda rng: [(name,) for name in TARGETS] * 2,
+    run=is_unmasked, explain=explain_probe,
+    worked=((("as it is printed",), False), (("no end",), True)),
+    mistakes=(
+        Mistake(lambda target: False,
+            "Your probe calls every target function right, the one without (1 - terminated) too.",
+            "If nothing raises an error, it works."),
+        Mistake(lambda target: True,
+            "Your probe accuses every target function, the right one too.",
+            "A test is there to find something."),
+        Mistake(one_row(0.0, 1.0),
+            "You look at one transition, an accident of the agent's own. It tests neither the bonus nor the discount.",
+            "A bug at the end shows at the end, and there are no others."),
+        Mistake(one_row(0.0, 0.0),
+            "You look at one transition that goes on. A target without (1 - terminated) is right there.",
+            "A typical transition is a good test."),
+    ),
+    hints=(
+        "Work out y by hand for four transitions: the agent's own or a demonstration, going on or ended.",
+        "Choose numbers that no mistake can hit by chance: a bonus that is not 2, a γ that is not 0.8, next values "
+        "that differ, one of them negative.",
+        "`target(reward, demo, 3.0, end, value, 0.5)` with arrays of four; compare with `np.allclose`.",
+    ),
+    minutes=20, difficulty=3, equation="y = r + c·1[demonstration] + γ (1 - terminated) V(s'), tested from outside",
+)  # fmt: skip
+
+
 def fixed_value_solution(log_pi, q, alpha):
     return (log_pi.exp() * (q - alpha * log_pi)).sum(-1)
 
@@ -212,7 +291,7 @@ def value_cases(rng):
 
 fixed_value = Exercise(
     "fixed_value(log_pi, q, alpha)",
-    solution=fixed_value_solution, cases=value_cases,
+    solution=fixed_value_solution, cases=value_cases, slopes=("q",),
     worked=(
         # two actions, half and half: (1 + 3) / 2 + 0.5 log 2
         ((torch.full((1, 2), -math.log(2)), torch.tensor([[1.0, 3.0]]), 0.5), torch.tensor([2 + 0.5 * math.log(2)])),
