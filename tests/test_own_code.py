@@ -8,12 +8,12 @@ import torch
 
 from bootcourse.episodes.evaluate import evaluate
 from bootcourse.errors import BootcourseError
-from bootcourse.learn.learner import SACLearner
+from bootcourse.learn.learner import SACLearner, learner_for
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
 from bootcourse.lessons import check, own_code
 from bootcourse.lessons.exercises import registry
-from bootcourse.lessons.own_learner import LATER, OwnReplay, OwnSAC, parts_of
+from bootcourse.lessons.own_learner import LATER, OwnReplay, OwnSAC, own_learner, parts_of
 
 PARTS = [name for name in own_code.PARTS if name in registry()]
 
@@ -145,6 +145,17 @@ def test_a_part_of_one_s_own_replaces_the_library_s_and_a_line_says_so(capsys):
 def test_the_solutions_make_the_library_s_update(method, left_out):
     agents, batch = with_seeds(settings_for(method, hidden=(8,), alpha_init=0.3), 2), own_code.batch_with_everything(2)
     library, own = SACLearner(agents, 26), OwnSAC(solutions(*left_out), agents, 26)
+    for _ in range(3):
+        library.update(batch)
+        own.update(batch)
+    for right, mine in zip(library.actor + library.critics, own.actor + own.critics, strict=True):
+        assert torch.allclose(right, mine, atol=1e-5)
+
+
+@pytest.mark.parametrize("method", ["cql", "gail"])
+def test_the_solutions_make_the_library_s_update_of_a_baseline(method):
+    agents, batch = with_seeds(settings_for(method, hidden=(8,)), 2), own_code.batch_with_everything(2)
+    library, own = learner_for(agents, 26), own_learner(solutions(), agents, 26, 9)
     for _ in range(3):
         library.update(batch)
         own.update(batch)

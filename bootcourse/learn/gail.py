@@ -57,6 +57,9 @@ class GAILLearner(SACLearner):
             parameter.requires_grad_()
         self.optimiser.add_param_group({"params": self.discriminator, "lr": shared.discriminator_lr})
 
+    discriminator_loss = staticmethod(discriminator_loss)
+    imitation_reward = staticmethod(imitation_reward)
+
     def update(self, batch: Batch) -> dict[str, Tensor]:
         """One step of the discriminator, one of SAC on the agent's half. Returns losses and curves, each (agents,).
 
@@ -69,13 +72,13 @@ class GAILLearner(SACLearner):
             )
         pairs = torch.cat([batch.states, F.one_hot(batch.actions, self.n_actions)], dim=-1)
         logits = mlp(self.discriminator, pairs).squeeze(-1)
-        loss = discriminator_loss(logits[:, :half], logits[:, half:])
+        loss = self.discriminator_loss(logits[:, :half], logits[:, half:])
         penalty = gradient_penalty(self.discriminator, pairs[:, :half])
         self.optimiser.zero_grad()  # the actor and the critics have no gradient here, so Adam does not change them
         (loss + self.settings[0].gradient_penalty * penalty).sum().backward()
         self.optimiser.step()
         with torch.no_grad():
-            rewards = imitation_reward(mlp(self.discriminator, pairs[:, half:]).squeeze(-1))
+            rewards = self.imitation_reward(mlp(self.discriminator, pairs[:, half:]).squeeze(-1))
         own = Batch(*(column[:, half:] for column in batch))._replace(rewards=rewards)
         return super().update(own) | {"discriminator_loss": loss.detach(), "imitation_reward": rewards.mean(-1)}
 

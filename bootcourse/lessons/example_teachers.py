@@ -1,20 +1,20 @@
-"""Four example teachers, good and bad, and an exam that tests whether a function is a rule, and how it drives."""
+"""Example teachers, good and bad, and an exam that tests whether a function is a rule, and how it drives."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.teachers import Rule, ahead, teacher_of, teacher_policy, toward
-from bootcourse.road.state import EGO, LANE, Accident, Y
+from bootcourse.road.state import EGO, LANE, SPEED, TARGET_LANE, TRAFFIC, Accident, X, Y
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, Scenario
 
 EXAM = 13  # the evaluation seed of its roads
 
 
-# Four teachers ---------------------------------------------------------------------------------------
+# The teachers --------------------------------------------------------------------------------------
 
 
 def careful(cars: np.ndarray, scenario: Scenario) -> int:
@@ -44,7 +44,42 @@ def racer(cars: np.ndarray, scenario: Scenario) -> int:
     return toward(cars, 20.0, 0, scenario) if cars[EGO, LANE] == 0 else careful(cars, scenario)
 
 
-# The exam --------------------------------------------------------------------------------------------
+# A harder road --------------------------------------------------------------------------------------
+
+DENSE = replace(DEFAULT, name="dense left lane", traffic=replace(DEFAULT.traffic, cars=10))
+
+
+def dense_road(seed: int) -> np.ndarray:
+    """A road of `DENSE` as it begins: all ten traffic cars drive in the left lane, from 50 m behind the ego on."""
+    env, rng = TrapVectorEnv(1, DENSE), np.random.default_rng(seed)
+    env.reset(seed=int(seed))
+    cars = env.cars[0].copy()
+    queue = cars[TRAFFIC:]
+    queue[:, X] = -50 + np.cumsum(rng.uniform(14, 26, len(queue)))
+    queue[:, [LANE, TARGET_LANE, Y]] = 0.0
+    queue[:, SPEED] = rng.uniform(10.5, 11.5, len(queue))
+    return cars
+
+
+def watchful(cars: np.ndarray, scenario: Scenario) -> int:
+    """Changes to the left only where there is room ahead and behind; waits in its lane for a gap."""
+    lane, v = int(cars[EGO, LANE]), cars[EGO, SPEED]
+    gap, front = ahead(cars, lane, scenario)
+    if lane == 0:  # the free lane
+        return toward(cars, 15.0 if gap > 40 else min(15.0, front - 0.5), 0, scenario)
+    left_gap, left_front = ahead(cars, lane - 1, scenario)
+    behind = cars[(cars[:, LANE] == lane - 1) & (cars[:, X] <= cars[EGO, X])]
+    last = behind[behind[:, X].argmax()] if len(behind) else None
+    back, closing = (np.inf, 0.0) if last is None else (cars[EGO, X] - last[X] - 5, last[SPEED] - v)
+    room = left_gap > 4 + max(0.0, 2 * (v - left_front)) and back > 4 + max(0.0, 3 * closing)
+    arrived = cars[EGO, Y] - lane * scenario.road.lane_width < 0.5
+    speed = min(front, left_front, 14.0) - 1.5
+    if lane == 1:  # beside the queue: stay behind trap 2
+        speed = min(front - 0.5, 14.0) if gap > 12 else front - 1
+    return toward(cars, max(6.5, speed), lane - 1 if room and arrived else lane, scenario)
+
+
+# The exam -------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)

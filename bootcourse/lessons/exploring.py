@@ -48,10 +48,19 @@ def mean_in_bins(seen: Visits, values: np.ndarray, edges: np.ndarray) -> np.ndar
     return np.where(count > 0, total / np.maximum(count, 1), np.nan)
 
 
-def map_of_places(rows: Mapping[str, np.ndarray], edges: np.ndarray, title: str, label: str) -> Figure:
+def lanes_in_bins(seen: Visits, edges: np.ndarray) -> list[str]:
+    """The lanes in which decisions were made in each stretch of road: "0 2" for the lanes 0 and 2."""
+    stretch = np.digitize(seen.place, edges) - 1
+    return [" ".join(map(str, np.unique(seen.lane[stretch == k]))) for k in range(len(edges) - 1)]
+
+
+def map_of_places(
+    rows: Mapping[str, np.ndarray], words: Mapping[str, Sequence[str]], edges: np.ndarray, title: str, label: str
+) -> Figure:
     """A row for each name, a field for each stretch of road: darker is more, empty has no decisions.
 
-    rows: {name: (bins,)}, NaN for no decisions; edges (bins + 1,) m relative to trap 1; label says what is shown.
+    rows: {name: (bins,)}, NaN for no decisions; words: {name: what is written into each field}; edges (bins + 1,) m
+    relative to trap 1; label says what is shown.
     """
     values, title = np.array(list(rows.values())), wrapped(title)
     head = 0.62 + 0.2 * title.count("\n")
@@ -63,14 +72,17 @@ def map_of_places(rows: Mapping[str, np.ndarray], edges: np.ndarray, title: str,
     for (row, column), value in np.ndenumerate(values):
         if np.isfinite(value):
             colour = "white" if value > middle else INK
-            ax.text(column, row, f"{value:.2f}", fontsize=SMALL - 1, color=colour, ha="center", va="center")
+            text = list(words.values())[row][column]
+            ax.text(column, row, text, fontsize=SMALL - 1, color=colour, ha="center", va="center")
     ax.set_yticks(range(len(values)), list(rows), fontsize=SMALL)
     ax.set_xticks(np.arange(len(edges)) - 0.5, [f"{edge:g}" for edge in edges], fontsize=SMALL)
     ax.tick_params(length=0, labelcolor=QUIET)
     for side in ax.spines.values():
         side.set_visible(False)
     ax.set_xlabel("metres ahead of trap 1 (negative: behind it)", fontsize=TEXT, color=INK)
-    figure.text(0.012, 1 - (head - 0.26) / height, f"{label}; empty: never there", fontsize=TEXT, color=QUIET)
+    figure.text(
+        0.012, 1 - (head - 0.26) / height, f"{label}; empty: not there in these drives", fontsize=TEXT, color=QUIET
+    )
     return finish(figure, title, f"A map of {label}. {_told(rows, edges)}")
 
 

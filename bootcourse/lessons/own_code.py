@@ -25,6 +25,7 @@ from bootcourse.lessons.judge import judge
 from bootcourse.lessons.own_learner import BUFFER, OwnReplay, own_learner, parts_of
 from bootcourse.lessons.verdict import Verdict
 
+BASELINES = PARTS[-3:]  # they are parts of GAIL and CQL
 NONE = "No part is yours yet: agents train with the library's own."
 TOLERANCE = 1e-3  # relative difference of a loss or a gradient; rounding gives about 1e-6
 _own: dict[str, Callable] = {}  # the student's parts in this kernel
@@ -92,7 +93,8 @@ LOSSES = {
 def compare() -> Verdict:
     """Whether each of the student's parts makes the same update as the library's, on one batch; if not, which differs.
 
-    Losses and gradients are compared. The buffer's parts draw at random: they go through their checks again.
+    Losses and gradients are compared. The buffer's parts, which draw at random, and those of `BASELINES` go through
+    their checks again.
     """
     mine = [name for name in PARTS if name in _own]
     if not mine:
@@ -106,7 +108,7 @@ def compare() -> Verdict:
 
 def difference(name: str) -> str:
     """What differs if this one part is the student's and all others are ours; "" if nothing does."""
-    if name in BUFFER:
+    if name in (*BUFFER, *BASELINES):
         verdict = judge(registry()[name], _own[name])
         return "" if verdict.passed else f"{name}: {verdict.sentence}"
     try:

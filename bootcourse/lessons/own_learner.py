@@ -13,6 +13,8 @@ from torch import Tensor
 
 from bootcourse.errors import BootcourseError
 from bootcourse.learn import bootstrap, sac
+from bootcourse.learn.cql import CQLLearner
+from bootcourse.learn.gail import GAILLearner
 from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.networks import mlp
 from bootcourse.learn.replay_buffer import Batch, decode_transitions
@@ -35,6 +37,9 @@ def parts_of(settings: Sequence[Settings], own: Parts) -> list[str]:
 
     A part of a later lesson replaces those in `LATER` as soon as it is given.
     """
+    method = settings[0].method
+    if method in ("cql", "gail"):
+        return ["offline_loss"] if method == "cql" else ["discriminator_loss", "imitation_reward"]
     names = ["soft_value", "critic_target", "critic_loss", "actor_loss", "temperature_loss", "ReplayBuffer"]
     if any(s.xi_multiplier > 0 or s.xi_fixed > 0 for s in settings):
         names.append("soft_constraint")
@@ -108,7 +113,45 @@ class OwnSAC(SACLearner):
         return self.each(lambda i: kl(log_pi[i], rule_actions[i], float(self.rule_p[i])))
 
 
-LEARNERS = {SACLearner: OwnSAC}  # the library's learner -> the one that is made of parts
+class OwnCQL(CQLLearner):
+    """CQL whose critics' loss is a function of one critic of one agent."""
+
+    def __init__(self, own: Parts, *arguments):
+        self.own = own
+        super().__init__(*arguments)
+
+    def losses(self, batch: Batch) -> dict[str, Tensor]:
+        loss, q_pair = part(self.own, "offline_loss"), self.q_pair(self.critics, batch.states)  # (2, agents, batch, 9)
+        next_q = self.q_pair(self.critics, batch.next_states)[0].detach()
+        next_target = sac.min_q(self.q_pair(self.target_critics, batch.next_states)).detach()
+
+        def of_agent(i: int) -> Tensor:
+            rows = next_q[i], next_target[i], batch.actions[i], batch.rewards[i], batch.terminated[i]
+            return sum(loss(q[i], *rows, float(self.gamma[i]), float(self.cql_weight[i])) for q in q_pair)
+
+        return {"critic_loss": torch.stack([of_agent(i) for i in range(self.agents)])}
+
+
+class OwnGAIL(GAILLearner):
+    """GAIL whose discriminator's loss and reward are functions of one agent."""
+
+    def __init__(self, own: Parts, *arguments):
+        self.own = own
+        super().__init__(*arguments)
+
+    def discriminator_loss(self, expert_logits: Tensor, own_logits: Tensor) -> Tensor:
+        loss = part(self.own, "discriminator_loss")
+        return torch.stack([loss(*rows) for rows in zip(expert_logits, own_logits, strict=True)])
+
+    def imitation_reward(self, own_logits: Tensor) -> Tensor:
+        return torch.stack([part(self.own, "imitation_reward")(row) for row in own_logits])
+
+
+LEARNERS = {
+    SACLearner: OwnSAC,
+    CQLLearner: OwnCQL,
+    GAILLearner: OwnGAIL,
+}  # the library's learner -> the one that is made of parts
 
 
 def own_learner(own: Parts, settings: Sequence[Settings], observation_size: int, n_actions: int) -> SACLearner:

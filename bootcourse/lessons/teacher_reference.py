@@ -8,10 +8,12 @@ One training depends on the processor's rounding; the lesson's text rests on thi
 import argparse
 import json
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from scipy import stats
 
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
@@ -91,6 +93,19 @@ def alike(agents: list[Agent], teacher: Rule, roads: int = 4) -> np.ndarray:
         cars = np.concatenate([drive.states[:: DEFAULT.clock.steps][: len(drive.actions)] for drive in drives])
         shares.append(np.mean(ask(cars) == np.concatenate([drive.actions for drive in drives])))
     return np.array(shares)
+
+
+def p_value(taught: np.ndarray, alone: np.ndarray) -> float:
+    """Mann and Whitney's two-sided p-value of the scores of two groups of agents, (m,) and (n,)."""
+    return float(stats.mannwhitneyu(taught, alone).pvalue)
+
+
+def holm(p: Sequence[float]) -> np.ndarray:
+    """Holm's adjusted p-values (Holm 1979), in the order of p: (tests,) -> (tests,)."""
+    order, m = np.argsort(p), len(p)
+    adjusted = np.empty(m)
+    adjusted[order] = np.minimum(np.maximum.accumulate(np.asarray(p)[order] * (m - np.arange(m))), 1)
+    return adjusted
 
 
 def main(arguments: list[str] | None = None) -> int:

@@ -272,6 +272,10 @@ def add_rollouts(to: Shipment) -> None:
 
 KEPT = {  # what no study makes: the command that does, and the behaviours that it depends on
     "bug_hunt.npz": ("python -m bootcourse.lessons.bugs --out assets/bug_hunt.npz", ("road", "rule", "bootstrapped")),
+    "teachers.npz": (
+        "python -m bootcourse.lessons.teacher_reference --out assets/teachers.npz",
+        ("road", "rule", "sac", "bootstrapped"),
+    ),
     "checks.md": ("python -m bootcourse.study.checks --out assets/checks.md", ("sac", "cql", "gail")),
     "readme/*": ("python -m bootcourse.plots.readme_picture", ("road", "rule")),
 }

@@ -18,13 +18,21 @@
 # - find out where on the road an agent still tries things, and where it does not get;
 # - tell being undecided from seeing new places, and finding a way out from keeping it.
 #
-# **Time** 45 minutes, under half of one the machine's. **It builds on** discrete SAC (lesson 4) and
+# **Time** 60 minutes, under half of one the machine's. **It builds on** discrete SAC (lesson 4) and
 # the barrier (5).
 
 # %%
 import bootcourse as bc
 import numpy as np
-from bootcourse.lessons import charts, check, exploring, shipped, table
+from bootcourse.lessons import (
+    charts,
+    check,
+    compare_predictions,
+    exploring,
+    predict,
+    shipped,
+    table,
+)
 from bootcourse.study.figures import exploration
 
 # %% [markdown]
@@ -65,9 +73,12 @@ print(f"of {len(seen.policy)}")
 # entropy log k, so $e^\mathcal{H} = k$. We call it the **effective number of actions**.
 #
 # > **Predict.** A policy takes its favourite with probability 0.9, and the other eight evenly with
-# > what is left. That is the stochastic rule of lesson 3. How many effective actions is that: 1.1,
-# > 1.7 or 3?
-#
+# > what is left. That is the stochastic rule of lesson 3. How many effective actions is that?
+
+# %%
+predict("12.1", "Effective actions of the stochastic rule", ["1.1", "1.7", "3"])
+
+# %% [markdown]
 # **Exercise 12.1 (6 min, ●○○).** Write it. A probability may be exactly 0: 0 · log 0 counts as 0.
 
 
@@ -103,6 +114,10 @@ for p in (1 / 9, 0.5, 0.9, 0.99):
 #
 # > **Predict.** An agent that never leaves the trap, and one that does. Which of them is more
 # > undecided at the end of its training? Among how many actions does each still choose?
+
+# %%
+choices = ["the one that never leaves", "the one that does", "both are nearly certain"]
+predict("12.2", "More undecided at the end of training", choices)
 
 # %%
 study = bc.shipped_results()
@@ -194,7 +209,12 @@ print(f"{sum(len(v.place) for v in driven.values())} decisions of {len(agents)} 
 # %% [markdown]
 # > **Predict.** Where will an agent that escapes be least decided: behind the traps, beside them,
 # > or on the free road? And where will an agent of plain SAC get to in these drives?
-#
+
+# %%
+choices = ["behind the traps", "beside them", "on the free road"]
+predict("12.3", "Where are escaping agents least decided?", choices)
+
+# %% [markdown]
 # **Exercise 12.2 (8 min, ●●○).** Of all the entropy of some decisions, which share was spent in
 # each stretch of road? A stretch begins at its edge and ends before the next one; what lies outside
 # all of them belongs to the total and to no stretch.
@@ -214,8 +234,9 @@ def where_explored(place, entropy, edges):
 check.where_explored(where_explored)
 
 # %% [markdown]
-# The map shows means: how many effective actions each agent has in a stretch, when it is there. An
-# empty field means that the agent did not get there in these 24 drives.
+# Each field of the map has two pieces of information. Its colour says how many effective actions
+# the agent has there, on average. Its digits say in which lanes it was there: 0 is the leftmost, 2
+# the lane of the start. An empty field means that the agent did not get there in these 24 drives.
 
 # %%
 edges = np.array([-80, -40, -25, -15, -5, 5, 20, 60, 200, 1000])
@@ -223,7 +244,9 @@ actions = {k: exploring.mean_in_bins(v, np.exp(v.entropy), edges) for k, v in dr
 furthest = {k: v.place.max() for k, v in driven.items()}
 passed = sum(far > 0 for far in furthest.values())
 title = f"After training, {passed} of {len(agents)} agents get ahead in these drives"
-bc.show(exploring.map_of_places(actions, edges, title, "effective actions in these drives"))
+lanes = {label: exploring.lanes_in_bins(v, edges) for label, v in driven.items()}
+words = "colour: effective actions, digits: lanes"
+bc.show(exploring.map_of_places(actions, lanes, edges, title, words))
 
 # %%
 rows = []
@@ -241,13 +264,39 @@ table(headings, rows)
 
 # %% [markdown]
 # **See.** The fields are nearly all close to 1: after training an agent hardly tries anything,
-# wherever it is. And the trapped agents' rows are empty ahead of trap 1. The entropy at the places
-# that an agent reaches says nothing about the others.
+# wherever it is. The digits separate the agents better: read the rows of those that get ahead, and
+# of those that stay behind. And the trapped agents' rows are empty ahead of trap 1. The entropy at
+# the places that an agent reaches says nothing about the others.
 #
 # > **Predict.** Ten of the twenty agents do not escape after training. How many of these ten
 # > ended an episode ahead of trap 1 at some time in their training?
 # <!-- claim: sum((of(m).scores('success')[:5] < ESCAPES).sum() for m in ('sac', 'soft', 'demos',
 #   'bootstrapped')) == 10 -->
+
+# %%
+predict("12.4", "How many of them had been ahead?", ["none", "1 to 3", "4 to 7", "8 or more"])
+
+# %% [markdown]
+# **Exercise 12.3 (15 min, ●●●).** An agent that had it and lost it has *forgotten*. Measure that in
+# the training curves. For each agent: the best share of successes in any `window` episodes in a
+# row, the share in the last `window`, and the episode with which the last window of at least one
+# half ends (0 if there is none). Episodes are counted from 1.
+
+
+# %%
+def forgetting(success, window):
+    """Best share, last share, end of the last good one: (agents, episodes) 0/1 -> (agents, 3)."""
+    # solution
+    sums = np.cumsum(np.pad(np.asarray(success, dtype=float), ((0, 0), (1, 0))), axis=1)
+    means = (sums[:, window:] - sums[:, :-window]) / window
+    often = means >= 0.5
+    from_the_end = often[:, ::-1].argmax(axis=1)
+    last = np.where(often.any(axis=1), window + means.shape[1] - 1 - from_the_end, 0)
+    return np.stack([means.max(axis=1), means[:, -1], last], axis=1)
+    # end solution
+
+
+check.forgetting(forgetting)
 
 # %%
 rows = []
@@ -298,8 +347,12 @@ table([*headings, "best 100 in a row, %", "after training, % of all held-out roa
 #
 # > **Predict.** Two drivers, 24 roads each. One picks each action at random: log 9 nats, as much
 # > entropy as there can be. The other is the rule: 0 nats. Which one sees more of the road?
-#
-# **Exercise 12.3 (7 min, ●●○).** Cut the road around trap 1 into cells: a stretch between two
+
+# %%
+predict("12.5", "Who sees more of the road?", ["the random driver", "the rule", "about the same"])
+
+# %% [markdown]
+# **Exercise 12.4 (7 min, ●●○).** Cut the road around trap 1 into cells: a stretch between two
 # edges, in one lane. In which share of the cells did a driver make a decision?
 
 
@@ -349,8 +402,13 @@ table(["", "entropy, nats", "a drive lasts", "cells seen, of one driver"], rows)
 #
 # > **Predict.** A trapped agent drives 150 s and draws each action from its policy, as it does in
 # > training. What is the chance that it does anything but its favourite action, even once?
-#
-# **Exercise 12.4 (5 min, ●●○).** The chance that in a drive at least one action that is drawn is
+
+# %%
+choices = ["under 5 %", "about half", "over 95 %", "it differs widely between agents"]
+predict("12.6", "A trapped agent tries something else with a chance", choices)
+
+# %% [markdown]
+# **Exercise 12.5 (5 min, ●●○).** The chance that in a drive at least one action that is drawn is
 # not the likeliest one. The policy is given at each second of the drive.
 
 
@@ -410,7 +468,32 @@ table(["one drive", "ends", "tries at all", "tries expected"], rows)
 # - With a target entropy of 0.3 nats, how many effective actions would an agent keep, and what
 #   would that do at 15 m/s on the free road?
 # - Could an agent be paid for cells that it has not seen? What would it do in this traffic?
-#
+
+# %%
+was_ahead = [run.curves["success"].any() for m in methods for run in shipped.shipped_runs(m)]
+trapped = [study.of(m).scores("success")[:5] < bc.statistics.ESCAPES for m in methods]
+compare_predictions(
+    "12",
+    {
+        "12.1": "1.7",
+        "12.2": "both are nearly certain",
+        "12.3": "see the table below the map",
+        "12.4": f"{np.sum(np.array(was_ahead) & np.concatenate(trapped))} of {np.sum(trapped)}",
+        "12.5": "the rule",
+        "12.6": "it differs widely between agents",
+    },
+)
+
+# %% [markdown] tags=["instructor"] minutes=3
+# Answers to the three questions. (1) Coverage of cells, or how often training episodes end ahead:
+# the entropy says how a policy chooses, and not where it gets. (2) e to the power of 0.3, so about
+# 1.35 actions. At 15 m/s on the free road one second of steering moves the car more than a metre,
+# so now and then a drawn action costs the lane; with the most probable action it need not show. (3)
+# Yes: with counts, or a bonus for the surprise of a model. Here every new cell also lies near a
+# car, and traffic never repeats itself, so the bonus would not run out, and risky places would pay
+# best.
+
+# %% [markdown]
 # **Read on**: what a reachable target does in [lesson 4](04_discrete_sac.ipynb), and a way out that
 # comes from somebody else in [lesson 8](08_learning_from_demonstrations.ipynb). Christodoulou,
 # *Soft Actor-Critic for Discrete Action Settings* (arXiv 1910.07207); Ecoffet et al., *First

@@ -101,3 +101,52 @@ def with_logarithms(policy):
 @wrong("ever_tries")
 def over_everything(policy):
     return 1 - policy.max() ** len(policy)
+
+
+# forgetting -------------------------------------------------------------------------------------------
+
+
+@right("forgetting")
+def agent_by_agent(success, window):
+    rows = []
+    for agent in success:
+        means = [np.mean(agent[i : i + window]) for i in range(len(agent) - window + 1)]
+        good = [i + window for i, mean in enumerate(means) if mean >= 0.5]
+        rows.append([max(means), means[-1], good[-1] if good else 0])
+    return np.array(rows, dtype=float)
+
+
+@right("forgetting")
+def by_sliding_windows(success, window):
+    means = np.lib.stride_tricks.sliding_window_view(np.asarray(success), window, axis=1).mean(-1)
+    ends = window + np.arange(means.shape[1])
+    return np.stack([means.max(1), means[:, -1], np.where(means >= 0.5, ends, 0).max(1)], 1)
+
+
+@wrong("forgetting")
+def more_than_half(success, window):
+    means = np.lib.stride_tricks.sliding_window_view(np.asarray(success), window, axis=1).mean(-1)
+    ends = window + np.arange(means.shape[1])
+    return np.stack([means.max(1), means[:, -1], np.where(means > 0.5, ends, 0).max(1)], 1)
+
+
+@wrong("forgetting")
+def blocks_that_do_not_overlap(success, window):
+    n = np.asarray(success).shape[1] // window * window
+    means = np.asarray(success)[:, :n].reshape(len(success), -1, window).mean(-1)
+    ends = window * (1 + np.arange(means.shape[1]))
+    return np.stack([means.max(1), means[:, -1], np.where(means >= 0.5, ends, 0).max(1)], 1)
+
+
+@wrong("forgetting")
+def the_first_good_window(success, window):
+    means = np.lib.stride_tricks.sliding_window_view(np.asarray(success), window, axis=1).mean(-1)
+    good = means >= 0.5
+    return np.stack([means.max(1), means[:, -1], np.where(good.any(1), good.argmax(1) + window, 0)], 1)
+
+
+@wrong("forgetting")
+def the_last_episodes_alone(success, window):
+    found = by_sliding_windows(success, window)
+    found[:, 1] = np.asarray(success)[:, -1]
+    return found

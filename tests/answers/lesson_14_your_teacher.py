@@ -3,6 +3,7 @@
 import numpy as np
 
 from bootcourse.learn import teachers as teacher
+from bootcourse.lessons.example_teachers import watchful
 from bootcourse.road.state import EGO, LANE, X, Y
 from tests.answers import right, wrong
 
@@ -172,3 +173,97 @@ def the_other_way_round(alone, taught):
 @wrong("verdict")
 def best_against_best(alone, taught):
     return int(np.sign(max(taught) - max(alone)))
+
+
+# verdict ------------------------------------------------------------------------------------------------
+
+
+@right("verdict")
+def of_pairs(alone, taught):
+    pairs = [(a, t) for a in alone for t in taught]
+    return int(all(t > a for a, t in pairs)) - int(all(t < a for a, t in pairs))
+
+
+# watchful_rule ------------------------------------------------------------------------------------------
+
+
+@right("watchful_rule")
+def very_patient(cars, scenario):
+    """Waits until the left lane is empty for 30 m on both sides."""
+    lane = int(cars[EGO, LANE])
+    gap, v = teacher.ahead(cars, lane, scenario)
+    if lane == 0:
+        return teacher.toward(cars, 14.0 if gap > 50 else min(14.0, v - 1), 0, scenario)
+    near = 30 if lane == 1 else 12
+    apart = cars[cars[:, LANE] == lane - 1][:, X] - cars[EGO, X]
+    free = not (np.abs(apart) < near).any()
+    late = cars[EGO, Y] - 4 * lane > 0.5  # still on the way into this lane
+    return teacher.toward(cars, 9.0, lane if late or not free else lane - 1, scenario)
+
+
+@right("watchful_rule")
+def the_library_s_with_other_names(cars, scenario):
+    return watchful(cars, scenario)
+
+
+@wrong("watchful_rule", "collides")
+def looks_ahead_only(cars, scenario):
+    lane = int(cars[EGO, LANE])
+    if lane == 0:
+        return teacher.toward(cars, 12.0, 0, scenario)
+    free = teacher.ahead(cars, lane - 1, scenario)[0] > 8
+    return teacher.toward(cars, 9.0, lane - 1 if free else lane, scenario)
+
+
+@wrong("watchful_rule", "branch without `return`")
+def nothing_in_the_middle_lane(cars, scenario):
+    if cars[EGO, LANE] != 1:
+        return teacher.toward(cars, 9.0, max(int(cars[EGO, LANE]) - 1, 0), scenario)
+
+
+@wrong("watchful_rule", "stays in its lane")
+def waits_for_ever(cars, scenario):
+    return teacher.toward(cars, 8.0, 2, scenario)
+
+
+# holm ---------------------------------------------------------------------------------------------------
+
+
+@right("holm")
+def step_by_step(p):
+    found, before = [0.0] * len(p), 0.0
+    for k, i in enumerate(sorted(range(len(p)), key=lambda i: p[i])):
+        before = found[i] = max(before, min(1.0, (len(p) - k) * p[i]))
+    return np.array(found)
+
+
+@right("holm")
+def by_definition(p):
+    p = np.asarray(p)
+    ranks = np.argsort(np.argsort(p, kind="stable"), kind="stable")
+    scaled = np.minimum((len(p) - ranks) * p, 1)
+    return np.array([scaled[ranks <= rank].max() for rank in ranks])
+
+
+@wrong("holm")
+def of_benjamini_and_hochberg(p):
+    from scipy import stats
+
+    return stats.false_discovery_control(np.asarray(p))
+
+
+@wrong("holm")
+def above_one(p):
+    order = np.argsort(p)
+    adjusted = np.empty(len(p))
+    adjusted[order] = np.maximum.accumulate(np.asarray(p)[order] * (len(p) - np.arange(len(p))))
+    return adjusted
+
+
+@wrong("holm")
+def one_test_too_many(p):
+    order = np.argsort(p)
+    adjusted = np.empty(len(p))
+    scaled = np.asarray(p)[order] * (len(p) + 1 - np.arange(len(p)))
+    adjusted[order] = np.minimum(np.maximum.accumulate(scaled), 1)
+    return adjusted

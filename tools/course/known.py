@@ -21,9 +21,10 @@ from bootcourse.learn import bootstrap, sac
 from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.settings import settings_for
 from bootcourse.learn.teachers import toward
-from bootcourse.lessons import bugs, chain, example_teachers, shipped, tracking, traffic
+from bootcourse.lessons import bugs, chain, example_teachers, shipped, teacher_reference, tracking, traffic
 from bootcourse.lessons.chain import leaving
 from bootcourse.lessons.exercises import registry
+from bootcourse.lessons.exercises.lesson_14_your_teacher import OUT, drive_out
 from bootcourse.policies import idle_policy, plan_policy, random_policy, rule_policy
 from bootcourse.road import formulas, observation
 from bootcourse.road.formulas import centring_reward, speed_reward
@@ -261,6 +262,33 @@ def separated_by_luck(groups: int, agents: int) -> float:
 def teacher_exam(name: str):
     """How one of lesson 14's teachers drives on the exam's roads."""
     return example_teachers.examine(getattr(example_teachers, name)).episodes
+
+
+@cache
+def dense_escapes(name: str) -> float:
+    """The share of lesson 14's roads with a dense left lane on which one of its teachers gets out unharmed."""
+    rule = getattr(example_teachers, name)
+    roads = registry()["watchful_rule"].all_arguments()
+    return float(np.mean([drive_out(rule, cars, scenario) == OUT for cars, scenario in roads]))
+
+
+@cache
+def students(teacher: str) -> dict:
+    """What ships of the ten students of one of lesson 14's teachers, or of the ten that learned "alone"."""
+    return teacher_reference.reference()[teacher]
+
+
+def student_escapes(teacher: str) -> int:
+    """How many of these ten escape."""
+    return int((students(teacher)["success"] >= ESCAPES).sum())
+
+
+def teacher_tests() -> dict:
+    """Holm's adjusted p-values against the ten that learned alone: {(teacher, score): p}."""
+    names = [job.name for job in teacher_reference.teacher_jobs(1) if job.name != "alone"]
+    pairs = [(name, score) for name in names for score in ("success", "returns")]
+    p = [stats.mannwhitneyu(students(name)[score], students("alone")[score]).pvalue for name, score in pairs]
+    return dict(zip(pairs, teacher_reference.holm(p), strict=True))
 
 
 @cache

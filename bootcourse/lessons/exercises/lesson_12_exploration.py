@@ -232,3 +232,69 @@ ever_tries = Exercise(
     ),
     minutes=5, difficulty=2, equation="1 - Π_t max_a π(a|s_t)",
 )  # fmt: skip
+
+
+def forgetting_solution(success, window):
+    sums = np.cumsum(np.pad(np.asarray(success, dtype=float), ((0, 0), (1, 0))), axis=1)
+    means = (sums[:, window:] - sums[:, :-window]) / window
+    often = means >= 0.5
+    from_the_end = often[:, ::-1].argmax(axis=1)
+    last = np.where(often.any(axis=1), window + means.shape[1] - 1 - from_the_end, 0)
+    return np.stack([means.max(axis=1), means[:, -1], last], axis=1)
+
+
+def training_curves(rng):
+    """Never, always, found and kept, found and lost, a window as long as the training; then 30 at random."""
+    yield np.zeros((2, 6)), 3
+    yield np.ones((1, 5)), 2
+    yield np.array([[0, 0, 1, 1, 1, 1], [0, 1, 1, 1, 0, 0]]), 2
+    yield np.array([[1, 1, 0, 0, 0, 1, 0, 0]]), 2
+    yield np.array([[0, 1, 1, 0]]), 4
+    for _ in range(30):
+        agents, episodes = int(rng.integers(1, 4)), int(rng.integers(6, 20))
+        yield (rng.random((agents, episodes)) < rng.random((agents, 1))).astype(int), int(rng.integers(2, 6))
+
+
+def with_last(change):
+    """The solution with its third column changed."""
+
+    def answer(success, window):
+        found = forgetting_solution(success, window)
+        found[:, 2] = change(found[:, 2], np.asarray(success), window)
+        return found
+
+    return answer
+
+
+forgetting = Exercise(
+    "forgetting(success, window)",
+    solution=forgetting_solution, cases=training_curves,
+    worked=(
+        # the means of two in a row: 0, 1/2, 1, 1, 1/2, 0; the last of at least 1/2 ends with episode 6
+        ((np.array([[0, 0, 1, 1, 1, 0, 0]]), 2), np.array([[1.0, 0.0, 6.0]])),
+        ((np.array([[0, 0, 0, 0], [1, 0, 1, 1]]), 4), np.array([[0.0, 0.0, 0.0], [0.75, 0.75, 4.0]])),
+    ),
+    mistakes=(
+        Mistake(with_last(lambda last, success, window: np.where(last > 0, last - 1, 0)),
+            "Your third number is one too small: episodes are counted from 1, so a window that ends with the first "
+            "`window` episodes ends with episode `window`.",
+            "Episodes are counted from 0, as in Python."),
+        Mistake(with_last(lambda last, success, window: np.where(last > 0, last - window + 1, 0)),
+            "Your third number says where the last good window *begins*. Say with which episode it ends.",
+            "A window is where it begins."),
+        Mistake(lambda success, window:
+                np.stack([np.asarray(success).mean(1), *forgetting_solution(success, window).T[1:]], 1),
+            "Your first number is the mean over the whole training. The best window says whether the agent ever could.",
+            "How well an agent learned is its mean."),
+        Mistake(lambda success, window: forgetting_solution(success, window)[:, [1, 0, 2]],
+            "Your first two numbers are swapped: the best window first, then the last one.",
+            "The order of the columns does not matter."),
+    ),
+    hints=(
+        "First the mean of every `window` episodes in a row, for each agent. A cumulative sum gives all of them.",
+        "`sums = np.cumsum(...)` with a 0 in front: the difference of sums `window` apart, divided by `window`.",
+        "The last window of at least one half: look for the first one in the reversed row, `[:, ::-1].argmax(axis=1)`.",
+    ),
+    minutes=15, difficulty=3,
+    equation="means over a sliding window: their maximum, the last, and the end of the last good one",
+)  # fmt: skip

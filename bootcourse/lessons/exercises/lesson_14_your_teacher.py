@@ -5,7 +5,7 @@ from gymnasium.vector import AutoresetMode
 
 from bootcourse.errors import BootcourseError
 from bootcourse.learn import teachers as teacher
-from bootcourse.lessons.example_teachers import careful
+from bootcourse.lessons.example_teachers import DENSE, careful, dense_road, watchful
 from bootcourse.lessons.exercise import Exercise, Mistake
 from bootcourse.lessons.values import NUMERIC, plain
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, X, Y
@@ -183,7 +183,51 @@ my_rule = Exercise(
         "`ahead(cars, lane - 1, scenario)` says if there is room, `toward(cars, speed, lane, scenario)` goes there.",
         "Begin a change only when the car is in the middle of its lane: `abs(cars[EGO, Y] - 4 * lane) < 0.5`.",
     ),
-    minutes=15, difficulty=3, equation="μ(s), a controller of your own in place of Algorithm 1",
+    minutes=12, difficulty=2, equation="μ(s), a controller of your own in place of Algorithm 1",
+)  # fmt: skip
+
+
+def without_a_look(cars, scenario):
+    lane = int(cars[EGO, LANE])
+    return teacher.toward(cars, 12.0 if lane == 0 else 9.0, max(lane - 1, 0), scenario)
+
+
+def dense_start(seed):
+    return dense_road(seed), DENSE
+
+
+watchful_rule = Exercise(
+    "watchful_rule(cars, scenario)",
+    solution=watchful, cases=lambda rng: [dense_start(seed) for seed in range(1_300_002, 1_300_024)], run=drive_out,
+    explain=explain_rule,
+    seconds=90,  # it drives 24 roads
+    worked=((dense_start(1_300_000), OUT), (dense_start(1_300_001), OUT)),
+    mistakes=(
+        Mistake(without_a_look,
+            "Your rule hits a car on nearly every road: it changes lane without a look. Ask which cars are beside you "
+            "and behind you in the lane on the left.",
+            "Falling back makes the room that a lane change needs."),
+        Mistake(careful,
+            "Your rule escapes on some roads and hits a car on the others: there is room *ahead* in the left lane, and "
+            "a faster car comes from behind. Look at the gap behind you, and at how fast it closes.",
+            "A lane is free if the next car ahead in it is far away."),
+        Mistake(lambda cars, scenario: teacher.toward(cars, 9.0, 2, scenario),
+            "Your rule is safe and stays in its lane on every road: the queue has an end, and gaps before that.",
+            "If the left lane is full, wait."),
+        Mistake(always(7),
+            "Your rule hits a car on every road. Look at the gap ahead before it accelerates or changes lane.",
+            "The way out is forwards."),
+    ),
+    hints=(
+        "Room on the left means two gaps: to the next car ahead in that lane, and to the next one behind. A faster "
+        "follower needs a longer gap.",
+        "`cars[(cars[:, LANE] == lane - 1) & (cars[:, X] <= cars[EGO, X])]` are the cars beside and behind. Wait "
+        "in the "
+        "middle lane, slower than trap 2.",
+        "A change takes about 3 s: ask for 4 m + 3 s × (its speed − yours) behind, and for 4 m + 2 s × (your "
+        "speed − its speed) ahead. A change that has begun must not be taken back at the next second.",
+    ),
+    minutes=25, difficulty=3, equation="μ(s) where looking matters: safe gaps ahead and behind, as in MOBIL",
 )  # fmt: skip
 
 
@@ -237,16 +281,15 @@ def verdict_solution(alone, taught):
 
 
 def verdict_cases(rng):
-    """All equal, ties, one seed each, means and medians that disagree, an overlap; then 60 at random."""
+    """All equal, ties, means and medians that disagree, an overlap; then 60 at random, of three seeds or more."""
     yield np.zeros(3), np.zeros(3)
     yield np.array([10.0, 20.0, 30.0]), np.array([30.0, 40.0, 50.0])
     yield np.array([30.0, 40.0, 50.0]), np.array([10.0, 20.0, 30.0])
-    yield np.array([20.0]), np.array([80.0])
     yield np.array([0.0, 10.0, 90.0]), np.array([20.0, 30.0, 40.0])
     yield np.array([0.0, 0.0, 90.0]), np.array([80.0, 100.0, 100.0])
     yield np.array([0.0, 10.0, 20.0]), np.array([5.0, 15.0, 25.0])
     for _ in range(60):
-        n, shift = int(rng.integers(2, 5)), rng.choice([-60, -20, 0, 20, 60])
+        n, shift = int(rng.integers(3, 6)), rng.choice([-60, -20, 0, 20, 60])
         yield rng.uniform(0, 40, n).round(), rng.uniform(0, 40, n).round() + shift
 
 
@@ -288,4 +331,70 @@ verdict = Exercise(
         "The opposite comparison gives -1; everything else is 0.",
     ),
     minutes=5, difficulty=2, equation="complete separation of two groups of seeds",
+)  # fmt: skip
+
+
+def holm_solution(p):
+    order, m = np.argsort(p), len(p)
+    scaled = np.asarray(p)[order] * (m - np.arange(m))
+    adjusted = np.empty(m)
+    adjusted[order] = np.minimum(np.maximum.accumulate(scaled), 1)
+    return adjusted
+
+
+def p_values(rng):
+    """One test, equal ones, some that fall below their predecessor when scaled, large ones; then 40 at random."""
+    yield (np.array([0.03]),)
+    yield (np.array([0.02, 0.02, 0.02]),)
+    yield (np.array([0.04, 0.01, 0.021, 0.9]),)
+    yield (np.array([0.9, 0.6, 0.7]),)
+    for _ in range(40):
+        yield (rng.uniform(0, 1, int(rng.integers(2, 9))) ** 3,)
+
+
+def sorted_holm(p):
+    return np.sort(holm_solution(p))
+
+
+def not_monotone(p):
+    ranks = np.argsort(np.argsort(p))
+    return np.minimum(np.asarray(p) * (len(p) - ranks), 1)
+
+
+def from_the_largest(p):
+    ranks = np.argsort(np.argsort(-np.asarray(p)))
+    return np.minimum(np.asarray(p) * (len(p) - ranks), 1)
+
+
+holm = Exercise(
+    "holm(p)",
+    solution=holm_solution, cases=p_values,
+    worked=(
+        ((np.array([0.01, 0.04]),), np.array([0.02, 0.04])),  # 2 · 0.01; 1 · 0.04
+        ((np.array([0.03, 0.5, 0.02]),), np.array([0.06, 0.5, 0.06])),  # 3 · 0.02 = 0.06; 2 · 0.03 = 0.06; 0.5
+    ),
+    mistakes=(
+        Mistake(lambda p: np.minimum(np.asarray(p) * len(p), 1),
+            "You multiply every p by the number of tests. That is Bonferroni's correction: it is right, too, but "
+            "Holm's multiplies only the smallest by m, the next by m - 1, and finds more.",
+            "All p-values are corrected alike."),
+        Mistake(sorted_holm,
+            "Your numbers are right, but sorted. Return them in the order of the tests.",
+            "The order of the answer does not matter."),
+        Mistake(not_monotone,
+            "A larger p must not end below a smaller one: each adjusted p is at least as large as the one before it.",
+            "Each p is corrected for itself."),
+        Mistake(from_the_largest,
+            "You multiply the *largest* p by m. Holm begins with the smallest.",
+            "The weakest result needs the strongest correction."),
+        Mistake(lambda p: np.asarray(p) * 1.0,
+            "These are the p-values themselves. Of twenty of them one is below 0.05 by luck.",
+            "A p-value knows how many tests were made."),
+    ),
+    hints=(
+        "Sort the m p-values. Multiply the smallest by m, the next by m - 1, ..., the largest by 1.",
+        "`np.argsort(p)` gives the order; `np.maximum.accumulate` makes each at least as large as the one before.",
+        "`adjusted[order] = np.minimum(np.maximum.accumulate(p[order] * (m - np.arange(m))), 1)`",
+    ),
+    minutes=8, difficulty=2, equation="max over j ≤ k of (m - j + 1) p_(j), at most 1: Holm 1979",
 )  # fmt: skip
