@@ -206,3 +206,13 @@ def test_every_module_that_a_shipped_file_s_command_names_exists():
 def test_the_files_are_checked_without_the_study_s_code():
     program = "import sys, bootcourse.storage.assets; print([name for name in sys.modules if 'study' in name])"
     assert subprocess.run([sys.executable, "-c", program], capture_output=True, text=True).stdout == "[]\n"
+
+
+def test_the_report_is_made_again_from_what_ships_without_a_study(tmp_path):
+    folder = tmp_path / "assets"
+    shutil.copytree(assets.FOLDER, folder)
+    (folder / "report/report.md").write_text("spoiled")
+    ship.build(None, folder)
+    assert assets.verify(folder) == []
+    assert (folder / "report/report.md").read_bytes() == (assets.FOLDER / "report/report.md").read_bytes()
+    assert (folder / "study-default.npz").read_bytes() == (assets.FOLDER / "study-default.npz").read_bytes()

@@ -103,7 +103,10 @@ def compute(wanted: list, out: Path, after: Callable[[list[str]], None], **how) 
 
 
 def assets(
-    what: str = typer.Argument(..., help="verify: check the shipped files. build: make them from a study's folder."),
+    what: str = typer.Argument(
+        ...,
+        help="verify: check them. build: make them from a study's folder. report: only the report, from themselves.",
+    ),
     study: Path | None = typer.Option(None, help="The study's folder, for build."),
     replace_larger: bool = typer.Option(
         False, "--replace-larger", help="Let build replace results of more agents or episodes."
@@ -112,16 +115,16 @@ def assets(
     """Check the files that ship with the course, or make them again."""
     from bootcourse.storage import assets
 
-    if what not in ("verify", "build"):
-        raise BootcourseError(f"Action {did_you_mean(what, ('verify', 'build'))}.")
-    if what == "build":
-        if study is None:
+    if what not in ("verify", "build", "report"):
+        raise BootcourseError(f"Action {did_you_mean(what, ('verify', 'build', 'report'))}.")
+    if what != "verify":
+        if what == "build" and study is None:
             raise BootcourseError(
                 "build needs --study DIR, a folder that `bootcourse study` and `bootcourse sweep` wrote."
             )
         from bootcourse.study.ship import build
 
-        build(study, assets.FOLDER, replace_larger)
+        build(study if what == "build" else None, assets.FOLDER, replace_larger)
     assets.put_back(assets.FOLDER)
     raise typer.Exit(report_assets(assets.FOLDER))
 

@@ -39,8 +39,8 @@ STUDY = f"bootcourse study --out DIR && {BUILD}"
 class Shipment:
     """The new folder while it is filled. Files that the study has not computed are taken from today's folder."""
 
-    def __init__(self, study: Path, now: Path, new: Path, replace_larger: bool):
-        self.study, self.new, self.replace_larger = study, new, replace_larger
+    def __init__(self, study: Path | None, now: Path, new: Path, replace_larger: bool):
+        self.study, self.new, self.replace_larger = study or new / "no study", new, replace_larger
         self.entries: dict[str, dict] = {}
         self.behaviours: dict[str, dict[str, list[float]]] = {}  # {name: {key: fingerprint}}
         if (now / MANIFEST).exists():
@@ -100,14 +100,16 @@ class Shipment:
         write_sealed(self.new / MANIFEST, {"format": FORMAT, "behaviours": self.behaviours, "files": files})
 
 
-def build(study: Path, folder: Path = FOLDER, replace_larger: bool = False) -> None:
+def build(study: Path | None, folder: Path = FOLDER, replace_larger: bool = False) -> None:
     """Make the shipped files from a study's folder; parts that it has not computed stay as they are.
+
+    study: None makes only the report and the model card again, from the results in `folder`.
 
     `folder` is replaced, by a renaming, only after everything is made. Raises BootcourseError if the study holds no
     finished jobs, if neither it nor `folder` has results of the default scenario, if its results are smaller than those
     that they would replace (unless `replace_larger`), or if the files are too large to ship.
     """
-    if not any((study / "jobs").rglob("job.json")):
+    if study is not None and not any((study / "jobs").rglob("job.json")):
         raise BootcourseError(f"{study} holds no finished jobs: name a folder that `bootcourse study` wrote.")
     work = unfinished(folder)
     new, old = work / "new", work / "old"
@@ -168,7 +170,10 @@ def add_results(to: Shipment) -> None:
         if not to.has(part):
             if part == "default" and not path.exists():
                 raise BootcourseError(f"{to.study} has no finished jobs in jobs/default: compute them first.")
-            print(f"{path.name} {'stays as it is' if path.exists() else 'is left out'}: {to.study} has no such jobs.")
+            if to.study.exists():
+                print(
+                    f"{path.name} {'stays as it is' if path.exists() else 'is left out'}: {to.study} has no such jobs."
+                )
             continue
         behaviour, versions = jobs_made(to.study, part)
         results = load_jobs(to.study, part)
