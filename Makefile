@@ -5,19 +5,15 @@
 # make book   the lessons as pages that need no server, in build/book/html  (EDITION=instructor: with solutions)
 # make notebooks  execute the lessons' sources again and write the notebooks, solved and not, and the instructor's pages
 # make doctor what is right and wrong with this machine
-# make lock   resolve environment.lock and bench.lock again
+# make lock   resolve environment.lock, student.lock and bench.lock again
 # make clean  remove .venv and the caches
 #
 # PYTHON=python3.12 make lab   uses another Python, 3.11 or newer
 
 PYTHON ?= python3
-# Where Linux finds torch without its gigabytes of CUDA. Nothing else is fetched from there.
-TORCH_INDEX ?= https://download.pytorch.org/whl/cpu
 
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check
-# The lock is complete, so pip has nothing to resolve (--no-deps) and takes only what the hashes allow.
-INSTALL := $(PIP) install --no-deps --require-hashes
 NOTEBOOKS := $(sort $(wildcard notebooks/*.ipynb))
 
 # So that a notebook finds this `bootcourse` and this `python`.
@@ -62,24 +58,14 @@ clean:
 	rm -rf .venv .pytest_cache .ruff_cache build *.egg-info
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 
-# On Linux torch comes first and alone: from what pip is set up to use, if that has the CPU build,
-# else from torch's own index. The lock asks for +cpu there, so the CUDA build can never be taken.
 .venv/installed: environment.lock pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' \
 		|| { echo "bootcourse needs Python 3.11 or newer: install it, or name yours, as in PYTHON=python3.11 make lab"; exit 1; }
 	@$(PYTHON) -m venv .venv \
 		|| { echo "Python cannot make .venv: on Debian or Ubuntu, apt install python3-venv, then run make again"; exit 1; }
-	@if [ "$$(uname -s)" = Linux ]; then \
-		sed -n '/^torch==.*linux/,/[^\\]$$/p' environment.lock > .venv/torch.lock; \
-		$(INSTALL) -r .venv/torch.lock > /dev/null 2>&1 \
-			|| $(INSTALL) --index-url $(TORCH_INDEX) -r .venv/torch.lock \
-			|| { echo "torch cannot be fetched: check the network, or name a mirror, as in TORCH_INDEX=... make lab"; exit 1; }; \
-	fi
-	@$(INSTALL) -r environment.lock \
-		|| { echo "Some packages cannot be fetched: check the network and the free disk space, then run make again"; exit 1; }
-	@$(PIP) install --quiet --no-deps --no-build-isolation --editable .
+	@sh tools/install.sh $(BIN)/python
 	@touch $@
 
 .venv/bench: .venv/installed bench.lock
-	@$(INSTALL) --no-build-isolation -r bench.lock
+	@$(PIP) install --no-deps --require-hashes --no-build-isolation -r bench.lock
 	@touch $@

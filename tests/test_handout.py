@@ -2,6 +2,7 @@
 
 import copy
 import json
+import re
 import zipfile
 
 import nbformat
@@ -17,7 +18,7 @@ from tools.course.products import notebook
 @pytest.fixture(autouse=True)
 def small(monkeypatch):
     """A handout of a few files."""
-    monkeypatch.setattr(handout, "COPIED", ("LICENSE", "pyproject.toml"))
+    monkeypatch.setattr(handout, "COPIED", ("LICENSE", "pyproject.toml", "tools/install.sh"))
 
 
 @pytest.fixture
@@ -40,7 +41,13 @@ def test_it_has_the_lessons_a_page_and_no_solution(folder):
 def test_its_makefile_offers_only_what_it_can_do(folder):
     text = (folder / "Makefile").read_text()
     assert "\nlab:" in text and "\n.venv/installed:" in text and "# make lab" in text
-    assert "\ntest:" not in text and "# make test" not in text and "\nbook:" not in text and "tools/" not in text
+    assert "\ntest:" not in text and "# make test" not in text and "\nbook:" not in text
+    assert [name for name in re.findall(r"tools/[\w./]+", text) if not (folder / name).exists()] == []
+
+
+def test_its_lock_is_the_students_under_the_name_that_its_makefile_knows(folder):
+    lock = (folder / "environment.lock").read_text()
+    assert "-r environment.lock\n" in lock and "\njupyterlab==" in lock and "\npytest==" not in lock
 
 
 def test_solutions_are_closed_in_it_and_hints_are_not(folder, monkeypatch):

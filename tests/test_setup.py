@@ -1,7 +1,9 @@
 """The set-up: the lock, the doctor, and a command line that says what it wants."""
 
+import json
 import os
 import re
+import shutil
 import socket
 import subprocess
 import sys
@@ -13,9 +15,10 @@ import pytest
 from bootcourse import __version__, doctor
 from bootcourse.errors import BootcourseError
 from bootcourse.storage import assets
+from tests.jupyterlab import CALM
 
 ROOT = Path(__file__).resolve().parent.parent
-LOCKS = ("environment.lock", "bench.lock")
+LOCKS = ("environment.lock", "student.lock", "bench.lock")
 
 
 def requirements(lock: str) -> list[str]:
@@ -59,6 +62,56 @@ def test_everything_that_pyproject_asks_for_is_in_the_lock():
     asked = project["dependencies"] + extras["test"] + extras["book"]
     assert {re.match(r"[\w-]+", requirement)[0] for requirement in asked} - {"bootcourse"} <= locked
     assert "d3rlpy" in {line.partition("==")[0] for line in requirements("bench.lock")}
+
+
+def test_the_students_lock_is_the_part_of_the_lock_that_the_lessons_need():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    lessons = {re.match(r"[\w-]+", requirement)[0] for requirement in project["dependencies"]}
+    student = requirements("student.lock")
+    assert set(student) < set(requirements("environment.lock"))
+    names = {line.partition("==")[0] for line in student}
+    assert lessons | {"setuptools"} <= names, "setuptools builds the package itself"
+    assert not names & {"pytest", "sphinx", "playwright", "ruff"}
+
+
+# Where it is installed
+
+
+def test_every_place_has_the_oldest_python_that_the_course_runs_on():
+    oldest = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["requires-python"].removeprefix(">=")
+    assert (ROOT / ".binder/runtime.txt").read_text() == f"python-{oldest}\n"
+    assert json.loads((ROOT / ".devcontainer/devcontainer.json").read_text())["image"] == f"python:{oldest}"
+    assert f"\nFROM python:{oldest}-slim\n" in (ROOT / "tools/image/Dockerfile").read_text()
+
+
+@pytest.mark.skipif(not shutil.which("bash"), reason="the scripts are for Linux and macOS")
+@pytest.mark.parametrize("script", ["tools/install.sh", "tools/hub.sh", ".binder/postBuild"])
+def test_a_script_has_no_error_of_syntax_and_calls_files_that_exist(script):
+    assert subprocess.run(["bash", "-n", script], cwd=ROOT).returncode == 0
+    text = (ROOT / script).read_text()
+    assert re.search(r"^set -e", text, re.M), "a step that fails ends it"
+    assert [name for name in re.findall(r"tools/[\w.]+", text) if not (ROOT / name).exists()] == []
+
+
+@pytest.mark.skipif(not shutil.which("bash"), reason="the scripts are for Linux and macOS")
+def test_the_install_compiles_the_road_and_jupyterlab_will_ask_nothing(tmp_path):
+    python, called = tmp_path / "python", tmp_path / "called"
+    python.write_text(f'#!/bin/sh\necho "$@" >> {called}\ncase "$2" in *sys.prefix*) echo {tmp_path};; esac\n')
+    python.chmod(0o755)
+    subprocess.run(["sh", "tools/install.sh", str(python), "student.lock"], cwd=ROOT, check=True, capture_output=True)
+    *_, lock, package, prefix, compiled = called.read_text().splitlines()
+    assert lock.endswith("--require-hashes -r student.lock") and "--editable ." in package
+    assert "bootcourse.doctor import road" in compiled
+    settings = json.loads((tmp_path / "share/jupyter/lab/settings/overrides.json").read_text())
+    assert settings == {name: CALM[name] for name in settings}, "the settings that the tests of JupyterLab rely on"
+    assert CALM["@jupyterlab/apputils-extension:notification"] in settings.values()
+
+
+@pytest.mark.skipif(not shutil.which("make"), reason="make is for Linux and macOS")
+def test_make_lab_opens_the_first_lesson():
+    said = subprocess.run(["make", "--dry-run", "lab"], cwd=ROOT, capture_output=True, text=True).stdout
+    first = re.search(r"default_url=/lab/tree/(\S+)", said)[1]
+    assert first == "00_start.ipynb" and (ROOT / "notebooks" / first).exists()
 
 
 # The doctor

@@ -21,7 +21,7 @@ from bootcourse.lessons.edition import HANDOUT
 
 KIT = Path(bootcourse.__file__).resolve().parent.parent
 FORMAT = "bootcourse handout 1"
-COPIED = ("bootcourse", "assets", "environment.lock", "pyproject.toml", "LICENSE")
+COPIED = ("bootcourse", "assets", "tools/install.sh", "pyproject.toml", "LICENSE")
 TARGETS = ("lab", "doctor", "clean")  # of the Makefile; the others need what is not handed out
 README = """# {title}
 
@@ -114,6 +114,8 @@ def content(lessons: set[int] | None, deadline: str, solutions: bool) -> Iterato
     if not files:
         raise BootcourseError(f"{KIT}/notebooks has none of these lessons: install the course as its README says.")
     files |= {str(path.relative_to(KIT).as_posix()): read_bytes(path) for path in kit_files()}
+    lock = read_bytes(KIT / "student.lock")  # no test and book packages; under the name that its Makefile knows
+    files["environment.lock"] = lock.replace(b"student.lock", b"environment.lock")
     files["Makefile"] = makefile((KIT / "Makefile").read_text(encoding="utf-8")).encode()
     files["README.md"] = readme(titles, deadline, solutions).encode()
     yield from files.items()
