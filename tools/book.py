@@ -1,8 +1,8 @@
 """`make book`: the lessons as pages in build/book/html that need neither a kernel nor a server nor the network.
 
 The pages of book/, the executed notebooks and what ships with the results are gathered in one folder, and Sphinx makes
-the rest (book/conf.py). `make book EDITION=instructor` adds the instructor's pages, which hold the solutions, in
-build/book/instructor.
+the rest (book/conf.py). `make book EDITION=instructor` adds the exam and the instructor's pages, which hold the
+solutions, in build/book/instructor.
 """
 
 import re
@@ -14,14 +14,14 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))  # so that `tools.course` is found
 
 BUILD = ROOT / "build/book"
-INSTRUCTOR = re.compile(r"<!-- instructor -->\n(.*?)<!-- end -->\n", re.S)  # of index.md, for this edition only
+INSTRUCTOR = re.compile(r"<!-- instructor -->\n(.*?)<!-- end -->\n", re.S)  # in a page, for this edition only
 SOLVED = re.compile(r"\[([^]]*)\]\(\.\./solved/([^)]*)\)")
 
 
 def gather(to: Path, edition: str = "student") -> None:
     """Put all that the book is made of into the folder `to`. edition: student, or instructor with the solutions."""
     from tools.course import front_page
-    from tools.course.claims import claims_page
+    from tools.course.claims import claims_page, fill_in
 
     shutil.rmtree(to, ignore_errors=True)
     shutil.copytree(ROOT / "book", to)
@@ -29,8 +29,11 @@ def gather(to: Path, edition: str = "student") -> None:
     shutil.copytree(ROOT / "assets/readme", to / "pictures")
     shutil.copy(ROOT / "assets/checks.md", to)
     front_page.fill(to / "front")
-    index = (to / "index.md").read_text(encoding="utf-8")
-    (to / "index.md").write_text(INSTRUCTOR.sub(r"\1" if edition == "instructor" else "", index), encoding="utf-8")
+    if edition != "instructor":
+        (to / "teaching/exam.md").unlink()
+    for page, fill in ((to / "index.md", str), (to / "teaching/plans.md", fill_in)):
+        text = INSTRUCTOR.sub(r"\1" if edition == "instructor" else "", page.read_text(encoding="utf-8"))
+        page.write_text(fill(text), encoding="utf-8")
     (to / "lessons/instructor").mkdir(parents=True)
     for notebook in sorted((ROOT / "notebooks").glob("*.ipynb")):
         shutil.copy(notebook, to / "lessons")

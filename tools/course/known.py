@@ -6,6 +6,7 @@ What takes long to load or to drive is kept for the next expression.
 
 import dataclasses
 import math
+import re
 from functools import cache
 
 import gymnasium as gym
@@ -38,7 +39,8 @@ from bootcourse.study.checks import CHECKS
 from bootcourse.study.paper import EPISODES, PRINTED, paper_interval
 from bootcourse.study.planner import Search, discounted_values, plan_episodes
 from bootcourse.study.results import KINDS, Results
-from tools.course.source import NOTEBOOKS
+from tools.course.reference import lessons
+from tools.course.source import NOTEBOOKS, read
 
 shipped_results = cache(shipped.shipped_results)
 shipped_runs = cache(shipped.shipped_runs)
@@ -50,6 +52,22 @@ SETTINGS = settings_for("bootstrapped")  # the paper's
 def roads() -> int:
     """How many held-out roads each agent of the study has driven."""
     return shipped_results().tested["returns"].shape[1]
+
+
+def minutes(*numbers: int) -> int:
+    """The time of these lessons together, as they state it at their top."""
+    texts = [lessons()[number].read_text(encoding="utf-8") for number in numbers]
+    return sum(int(re.search(r"^# \*\*Time\*\* (\d+) minutes", text, re.M)[1]) for text in texts)
+
+
+def talk(*numbers: int) -> int:
+    """The minutes that the instructor's pages of these lessons have for talk."""
+    return sum(cell.metadata.get("minutes", 0) for number in numbers for cell in read(lessons()[number]))
+
+
+def work(*names: str) -> int:
+    """The minutes of these exercises."""
+    return sum(registry()[name].minutes for name in names)
 
 
 @cache

@@ -1,0 +1,76 @@
+"""The pages for lecturers: their minutes are the lessons' own, and the exam is in the instructor's edition alone."""
+
+import re
+
+import pytest
+
+from tools import book
+from tools.course import claims, front_page
+from tools.course.known import minutes
+from tools.course.reference import lessons
+
+TEACHING = book.ROOT / "book/teaching"
+EXAM = (TEACHING / "exam.md").read_text(encoding="utf-8")
+PLANS = claims.fill_in(book.INSTRUCTOR.sub("", (TEACHING / "plans.md").read_text(encoding="utf-8")))
+
+
+def rows(heading: str) -> list[list[str]]:
+    """The cells of the table below a heading, without its head."""
+    lines = re.search(rf"^## {heading}\n.*?(?=^## |\Z)", PLANS, re.M | re.S)[0].splitlines()
+    return [[cell.strip(" *") for cell in line.strip("|").split("|")] for line in lines if line.startswith("|")][2:]
+
+
+def lessons_in(text: str) -> list[int]:
+    return [int(number) for number in re.findall(r"\[(?:Lesson )?\d+\]\(\.\./lessons/(\d\d)_", text)]
+
+
+@pytest.mark.parametrize(("heading", "cell"), [("One week", 1), ("One term", 2)])
+def test_a_plan_has_every_lesson_once_and_its_minutes(heading, cell):
+    *parts, total = rows(heading)
+    for part in parts:
+        assert int(part[cell + 1]) == minutes(*lessons_in(part[cell])), part
+    assert sum(int(part[cell + 1]) for part in parts) == int(total[cell + 1])
+    assert sorted(number for part in parts for number in lessons_in(part[cell])) == sorted(lessons())
+
+
+def test_the_evening_and_the_homework_add_up_and_a_meeting_fits_into_90_minutes():
+    *parts, total = rows("One evening")
+    assert sum(int(part[1]) for part in parts) == int(total[1])
+    *weeks, total = rows("One term")
+    assert sum(int(week[4]) for week in weeks) == int(total[4])
+    assert [week[0] for week in weeks if int(week[3]) - int(week[4]) > 90] == []
+
+
+def test_the_board_has_a_sketch_for_every_lesson():
+    assert [lessons_in(row[0]) for row in rows("The board and one question for each lesson")] == [
+        [n] for n in lessons()
+    ]
+
+
+def test_each_of_twenty_questions_has_an_answer_and_five_points():
+    questions = re.split(r"^### \d+\. ", EXAM, flags=re.M)[1:]
+    assert len(questions) == 20 and all("**Answer.**" in question for question in questions)
+    rubrics = [question.split("**Points.**")[1] for question in questions]
+    assert [sum(map(int, re.findall(r"\([a-d]\)\s(\d)", rubric))) for rubric in rubrics] == [5] * 20
+
+
+def test_what_the_exam_quotes_from_the_report_stands_there():
+    report = (book.ROOT / "assets/report/report.md").read_text(encoding="utf-8")
+    quoted = re.search(r"^### 3\..*?^### 4\.", EXAM, re.M | re.S)[0]
+    found = re.findall(r"^(\| [a-z].*?\| \d\.\d\d) \|$", quoted, re.M)
+    assert len(found) == 4 and all(f"\n{row} [" in report.split("## Scenario: calibrated")[0] for row in found)
+
+
+@pytest.mark.parametrize("edition", ["student", "instructor"])
+def test_the_exam_and_what_leads_to_solutions_are_in_the_instructor_s_edition_alone(edition, tmp_path, monkeypatch):
+    monkeypatch.setattr(book, "replays", lambda: "# Replays\n")
+    monkeypatch.setattr(front_page, "fill", lambda folder: None)
+    monkeypatch.setattr(claims, "claims_page", lambda: "# Claims\n")
+    book.gather(tmp_path / "source", edition)
+    pages = [tmp_path / "source" / name for name in ("index.md", *(f"teaching/{p.name}" for p in TEACHING.iterdir()))]
+    there = [page for page in pages if page.exists()]
+    text = "".join(page.read_text(encoding="utf-8") for page in there if page.name != "exam.md")
+    of_the_instructor = edition == "instructor"
+    assert (tmp_path / "source/teaching/exam.md").exists() == of_the_instructor
+    assert ("teaching/exam" in text) == ("](../lessons/instructor/" in text) == of_the_instructor
+    assert "<!-- instructor -->" not in text
