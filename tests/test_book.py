@@ -41,6 +41,7 @@ def test_every_lesson_and_every_page_to_look_things_up_is_in_it(made):
         "paper_map",
         "left_open",
         "bibliography",
+        "cloud",
         "claims",
         "replays",
         "checks",
