@@ -280,3 +280,12 @@ def test_two_bootstrapped_agents_escape_within_320_episodes_and_two_of_plain_sac
     success = Training(settings, 320).run(progress=False).curves["success"][:, -50:].mean(1)
     assert success[:2].mean() >= 0.8, f"bootstrapped {success[:2]}"
     assert success[2:].max() <= 0.1, f"sac {success[2:]}"
+
+
+def test_a_training_counts_tiny_numbers_as_zero_and_nothing_does_so_afterwards():
+    def tiny():
+        return (torch.tensor([1e-39]) * 1.0).item()
+
+    seen = []
+    Training([settings_for("sac", hidden=(8,))], episodes=1).run(progress=False, callback=lambda _: seen.append(tiny()))
+    assert set(seen) == {0.0} and tiny() > 0
