@@ -143,7 +143,7 @@ def test_each_bug_leaves_the_healthy_agents_on_the_probe_that_the_lesson_names()
 
 
 def test_a_file_that_is_missing_or_another_is_named_with_the_remedy(tmp_path):
-    with pytest.raises(BootcourseError, match="Cannot read"):
+    with pytest.raises(BootcourseError, match="is not there"):
         Hunt(tmp_path / "none.npz")
     write_arrays(tmp_path / "other.npz", {"a": np.zeros(3), "provenance": np.array(json.dumps({}))})
     with pytest.raises(BootcourseError, match="python -m bootcourse.lessons.bugs"):
@@ -165,9 +165,9 @@ def test_the_command_makes_such_a_file(tmp_path, monkeypatch, capsys):
 def test_it_is_kept_and_listed_when_the_assets_are_built(tmp_path):
     new = tmp_path / "new"
     new.mkdir()
-    shipment = Shipment(tmp_path / "study", tmp_path / "nothing", new)
+    shipment = Shipment(None, tmp_path / "nothing", new, False)
     add_kept(shipment, FOLDER)
     entry = shipment.entries["bug_hunt.npz"]
     assert entry["sha256"] == sha256(FILE) == sha256(new / "bug_hunt.npz") and entry["command"] == COMMAND
     assert list(entry["behaviour"]) == ["road", "rule", "bootstrapped"]
-    add_kept(Shipment(tmp_path / "study", tmp_path / "nothing", tmp_path / "other"), tmp_path / "nothing")
+    add_kept(Shipment(None, tmp_path / "nothing", tmp_path / "other", False), tmp_path / "nothing")

@@ -44,7 +44,7 @@ def test_a_mistyped_setting_suggests_the_nearest():
         ({"bonus": float("inf")}, "bonus = inf: give a finite number."),
         ({"rule_p": 0.1}, "rule_p = 0.1"),
         ({"rule_p": 1.0}, "rule_p = 1.0"),
-        ({"seed": -1}, "seed = -1: give a whole number of 0 or more."),
+        ({"seed": -1}, "seed = -1: give a whole number of 0 or more, at most 8,000,000."),
         ({"batch": 64.5}, "batch = 64.5: give a whole number of 1 or more."),
         ({"updates": True}, "updates = True"),
         ({"envs_per_agent": 0}, "envs_per_agent = 0"),

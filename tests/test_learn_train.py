@@ -40,7 +40,7 @@ def same(first: dict, second: dict) -> bool:
 def rows_of(training: Training, steps: int) -> torch.Tensor:
     """What the next steps put into the replay: (steps, roads, row)."""
     added, add = [], training.replay.add
-    training.replay.add = lambda rows: (added.append(rows.flatten(0, 1).clone()), add(rows))[1]
+    training.replay.add = lambda rows, ended: (added.append(rows.flatten(0, 1).clone()), add(rows, ended))[1]
     for _ in range(steps):
         training.step()
     return torch.stack(added)

@@ -9,7 +9,12 @@ from tests.mutants import surviving
 LESSONS = ("04", "05", "06", "07", "08", "09", "11", "13")
 
 
-FUNCTIONS = [e for e in registry().values() if e.lesson[:2] in LESSONS and not isinstance(e.solution, type)]
+UNCHANGED = ("unmasks",)  # its solution has no number, comparison or sign to change
+FUNCTIONS = [
+    e
+    for e in registry().values()
+    if e.lesson[:2] in LESSONS and not isinstance(e.solution, type) and e.name not in UNCHANGED
+]
 
 
 @pytest.mark.parametrize("exercise", FUNCTIONS, ids=lambda e: e.name)

@@ -173,8 +173,8 @@ class OwnReplay:
         self.own, self.bonuses = own, [s.bonus for s in settings]
         self.buffers = [part(own, "ReplayBuffer")(settings[0].buffer_size) for _ in settings]
 
-    def add(self, rows: Tensor) -> None:
-        """Store rows of transitions, (agents, roads, row)."""
+    def add(self, rows: Tensor, ended: np.ndarray | None = None) -> None:
+        """Store rows of transitions, (agents, roads, row). Where episodes ended makes no difference."""
         for buffer, own in zip(self.buffers, rows, strict=True):
             for row in own:
                 buffer.add(row)

@@ -40,7 +40,7 @@ def columns_swapped(actions):
     return by_divmod(actions)[:, ::-1].copy()
 
 
-@wrong("decode", "2 values")
+@wrong("decode", "has shape (2, 3)")
 def a_tuple(actions):
     return actions // 3 - 1, (actions % 3 - 1) * np.pi / 50
 
