@@ -133,7 +133,9 @@ PLANTED = {  # what is wrong: (a behaviour, a shipped file that depends on it, w
     "CQL's sign, with an actor": (
         "cql_sac", weights("cql_sac"), sac, "conservative_loss", negative(sac.conservative_loss)
     ),
-    "GAIL's reward": ("gail", weights("gail"), gail, "imitation_reward", negative(gail.imitation_reward)),
+    "GAIL's reward": (
+        "gail", weights("gail"), gail.GAILLearner, "imitation_reward", staticmethod(negative(gail.imitation_reward))
+    ),
     "BC's sign": ("bc", weights("bc"), bc, "cloning_loss", negative(bc.cloning_loss)),
     "β that does not fall": (
         "bootstrapped", weights("bootstrapped"), training, "demonstration_share",
