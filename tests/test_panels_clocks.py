@@ -1,12 +1,17 @@
 """`clocks_panel`: its sentences against curves worked by hand, and its controls."""
 
+from dataclasses import asdict, replace
+
 import numpy as np
 import pytest
 
+from bootcourse.errors import BootcourseError
+from bootcourse.learn.settings import settings_for
+from bootcourse.panels import clocks_panel
 from bootcourse.panels.clocks import ClocksPanel
 from bootcourse.study.clocks import faded
 from bootcourse.study.plan import VARIED
-from bootcourse.study.results import Results
+from bootcourse.study.results import Results, save_results
 from tests.panels import raise_in_callbacks, words  # noqa: F401
 
 pytestmark = pytest.mark.usefixtures("raise_in_callbacks")
@@ -17,7 +22,10 @@ def measured(half_life: float) -> Results:
     agents = [{"method": method, "seed": seed, "beta_episodes": 100} for method in VARIED for seed in (0, 1)]
     xi = np.tile(2.0 * 0.5 ** (np.arange(200) / half_life), (len(agents), 1))
     success = np.tile(np.array([[0.0], [1.0]]), (len(VARIED), 200))
-    return Results(agents, np.full(len(agents), -1), {"success": success}, {"success": success, "xi": xi})
+    tested = dict.fromkeys(("success", "returns", "speed", "distance"), success)
+    tested["accident"] = np.zeros_like(success, dtype=np.int8)
+    curves = {"success": success, "return": success, "xi": xi}
+    return Results(agents, np.full(len(agents), -1), tested, curves)
 
 
 @pytest.fixture
@@ -49,3 +57,30 @@ def test_its_picture_names_every_line(panel):
     assert kind == "image/svg+xml" and all(
         name in drawn for name in (">ξ<", ">β<", "plain SAC", "soft constraint only")
     )
+
+
+def kept(root, half_life=30):
+    """A study's folder with the two jobs of one choice."""
+    results = measured(half_life)
+    for folder, methods in (
+        ("no-demonstrations", ("sac", "soft")),
+        ("demonstrations-by-rule", ("demos", "bootstrapped")),
+    ):
+        mine = results.pick([i for i, agent in enumerate(results.agents) if agent["method"] in methods])
+        settings = [asdict(settings_for(a["method"], seed=a["seed"], beta_episodes=100)) for a in mine.agents]
+        path = root / "jobs" / "clocks" / f"2-updates-{folder}" / "results.npz"
+        path.parent.mkdir(parents=True)
+        save_results(replace(mine, agents=settings), path, {})
+
+
+def test_a_study_s_folder_is_what_the_panel_shows(tmp_path):
+    kept(tmp_path)
+    panel = clocks_panel(tmp_path)
+    assert panel.chosen == ("2", "μ") and "1 of 2 agents escape" in panel.alt
+    with pytest.raises(BootcourseError, match="'4 μ' is unknown"):
+        clocks_panel(tmp_path, "4")
+
+
+def test_a_folder_without_such_jobs_says_which_command_makes_them(tmp_path):
+    with pytest.raises(BootcourseError, match="bootcourse study clocks --out"):
+        clocks_panel(tmp_path)

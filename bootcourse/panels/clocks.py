@@ -1,9 +1,10 @@
 """Two clocks: ξ = 200 α fades with the updates, β with the episodes. Which help lasts depends on the updates.
 
-The panel shows what the experiment `clocks` measured with ten seeds; nothing is trained or modelled here.
+The panel shows what `bootcourse study clocks` measured; nothing is trained or modelled here.
 """
 
 from collections.abc import Mapping
+from pathlib import Path
 
 import ipywidgets as widgets
 import numpy as np
@@ -14,10 +15,9 @@ from bootcourse.panels.panel import Panel
 from bootcourse.plots.svg import QUIET, SvgAxes, drawing, printed, text
 from bootcourse.plots.training_curves import WINDOW, draw_band
 from bootcourse.statistics import ESCAPES, iqm, rolling_means
-from bootcourse.storage.assets import FOLDER
 from bootcourse.study.clocks import cells, faded
 from bootcourse.study.plan import VARIED
-from bootcourse.study.results import Results, in_assets
+from bootcourse.study.results import Results, in_study
 
 WIDTH, HEIGHT = 940, 500
 FADING, SUCCESS = (52, 84, 660, 140), (52, 296, 660, 150)  # the charts' left, top, width and height, pixels
@@ -107,13 +107,18 @@ def _label(axes: SvgAxes, ends: dict[str, tuple[float, str]]) -> None:
         axes.parts.append(text(across, y, name, fill=colour, bold=True))
 
 
-def clocks_panel(updates: str = "1/4", demonstrations: str = "μ") -> ClocksPanel:
+def clocks_panel(study: Path | str, updates: str = "", demonstrations: str = "") -> ClocksPanel:
     """See which help lasts: ξ, β and success over the episodes, for a chosen number of updates per decision.
 
-    updates: "1/4", "1", "2" or "4", as far as they ship. demonstrations: driven by "μ", the rule, or by "π̃", the
-    stochastic rule. Raises BootcourseError for a choice that does not ship.
+    study: a folder in which `bootcourse study clocks` has finished jobs. updates: "1/4", "1", "2" or "4", and
+    demonstrations: driven by "μ", the rule, or by "π̃", the stochastic rule; by default the first pair that was
+    computed. Raises BootcourseError for a pair that was not.
     """
-    measured = cells(in_assets(FOLDER).experiments["clocks"])
-    if (updates, demonstrations) not in measured:
-        raise BootcourseError(f"Choice {did_you_mean(f'{updates} {demonstrations}', [' '.join(m) for m in measured])}.")
-    return ClocksPanel(measured, (updates, demonstrations))
+    measured = cells(in_study(Path(study)).experiments["clocks"])
+    if not measured:
+        raise BootcourseError(f"{study} has no finished jobs of `bootcourse study clocks --out {study}`: run it first.")
+    first = next(iter(measured))
+    chosen = (updates or first[0], demonstrations or first[1])
+    if chosen not in measured:
+        raise BootcourseError(f"Choice {did_you_mean(' '.join(chosen), [' '.join(pair) for pair in measured])}.")
+    return ClocksPanel(measured, chosen)
