@@ -133,11 +133,11 @@ def test_equations_are_drawn_as_mathematics(made, new_page):
 def test_a_replay_plays_in_the_book(made, new_page):
     page = new_page()
     page.page.goto((made / "lessons/00_start.html").as_uri())
-    page.page.wait_for_function("() => frames[0].__viserMutable?.nodeRefFromName['/drive0/car0/paint']")
-    before = page.page.frames[1].inner_text("#bc-numbers .big b >> nth=0")
-    page.page.wait_for_function(
-        "before => frames[0].document.querySelector('#bc-numbers .big b').innerText !== before", arg=before
-    )
+    frame = page.page.frames[1]  # sandboxed: the page itself cannot look into it
+    frame.wait_for_function("() => window.__viserMutable?.nodeRefFromName['/drive0/car0/paint']")
+    page.page.locator("iframe").first.scroll_into_view_if_needed()  # out of sight it is not laid out
+    before = frame.text_content("#bc-numbers .big b >> nth=0")
+    frame.wait_for_function("before => document.querySelector('#bc-numbers .big b').textContent !== before", arg=before)
     picture = page.page.locator("iframe").first.screenshot(path=ARTEFACTS / "book-replay.png")
     assert not is_blank(picture) and page.errors == []
     page.page.close()
