@@ -9,8 +9,8 @@ from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, finish, new_figure, plain_axes
 from bootcourse.plots.training_curves import WINDOW
 from bootcourse.statistics import ESCAPES, rolling_means
-from bootcourse.study.figures import escaped
 from bootcourse.study.results import Results
+from bootcourse.study.tables import escaped
 
 PANEL, GAP = 1.15, 0.5  # inches: the height of a panel, and between two
 

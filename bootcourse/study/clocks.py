@@ -7,10 +7,11 @@ paper's Table 4 if the agents are drawn from ours.
 import numpy as np
 
 from bootcourse.methods import display_name
-from bootcourse.statistics import ESCAPES, Estimate
+from bootcourse.statistics import Estimate
 from bootcourse.study.paper import EPISODES, PRINTED
 from bootcourse.study.plan import UPDATES, VARIED
 from bootcourse.study.results import Results, join
+from bootcourse.study.tables import escaped
 
 DRIVERS = ("μ", "π̃")  # of the demonstrations
 DRAWS = 100_000
@@ -57,10 +58,7 @@ def pattern_rows(varied: dict[str, Results]) -> tuple[list[str], list[list[str]]
     """(headings, rows): who escapes with each choice, and how often a table of single agents reads as the paper's."""
     rows = []
     for (updates, driver), results in cells(varied).items():
-        escaping = []
-        for method in VARIED:
-            success = results.of(method).scores("success")
-            escaping.append(f"{int((success >= ESCAPES).sum())} of {len(success)}")
+        escaping = [escaped(results, method) for method in VARIED]
         probability, low, high = (f"{100 * part:.0f}" for part in pattern(results))
         rows.append([updates, driver, *escaping, f"{probability} [{low}, {high}]"])
     return ["updates per decision", "demonstrations by", *map(display_name, VARIED), "as the paper, % [95 %]"], rows

@@ -12,9 +12,10 @@ from matplotlib.figure import Figure
 from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import GRID, QUIET, SMALL, finish, new_figure, plain_axes
 from bootcourse.plots.training_curves import MEASURES, training_curves
-from bootcourse.statistics import ESCAPES, interval
+from bootcourse.statistics import interval
 from bootcourse.study.paper import COLUMNS, PRINTED, RATES
 from bootcourse.study.results import Results
+from bootcourse.study.tables import escaped
 
 TRAINING = {"success": "success", "return": "returns", "speed": "speed", "distance": "distance"}  # curve: column
 
@@ -39,12 +40,6 @@ def training_panels(results: Results, methods: Sequence[str], title: str, rule: 
     }
     levels = {curve: float(rule.scores(column)[0]) for curve, column in TRAINING.items()} if rule is not None else {}
     return training_curves(of_methods(results, methods), title, {"rule": levels}, printed, tuple(TRAINING))
-
-
-def escaped(results: Results, method: str) -> str:
-    """ "7 of 10": how many agents of a method escape."""
-    success = results.of(method).scores("success")
-    return f"{int((success >= ESCAPES).sum())} of {len(success)}"
 
 
 def _escapes(results: Results, short: dict[str, str], rule: Results | None) -> Figure:

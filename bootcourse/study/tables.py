@@ -43,6 +43,12 @@ def k_of_n(hits: np.ndarray) -> str:
     return counted if len(hits) < 2 else f"{counted} ({100 * its.low:.0f} to {100 * its.high:.0f}\u00a0%)"
 
 
+def escaped(results: Results, method: str) -> str:
+    """ "7 of 10": how many agents of a method escape."""
+    success = results.of(method).scores("success")
+    return f"{int((success >= ESCAPES).sum())} of {len(success)}"
+
+
 def score(results: Results, method: str, measure: str) -> Estimate:
     """Interquartile mean over agents with its interval; of a driver that is not trained, the mean of its episodes."""
     return estimate(results, method, measure, iqm)
@@ -131,9 +137,7 @@ def ablations_table(varied: dict[str, Results]) -> str:
     rows = []
     for variation, found in varied.items():
         for method in found.methods:
-            success = found.of(method).scores("success")
-            count = f"{int((success >= ESCAPES).sum())} of {len(success)}"
             cells = [bracketed(score(found, method, measure)) for measure in ("success", "returns", "collision")]
-            rows.append([variation, display_name(method), count, *cells])
+            rows.append([variation, display_name(method), escaped(found, method), *cells])
     headings = ["changed", "method", "agents that escape"]
     return markdown([*headings, *(HEADINGS[m] for m in ("success", "returns", "collision"))], rows)
