@@ -141,8 +141,8 @@ def _check_range(settings: Settings, low: float, high: float, *names: str, whole
 SHARED = tuple(f.name for f in fields(PPOSettings) if f.metadata.get("shared"))
 
 
-# Named settings. The defaults are quick: a quarter of an update for each decision. With those of "paper", which trains
-# eight times as long, the study's ranking is most often the paper's (see the report, "Two clocks").
+# Named settings. The defaults are quick: a quarter of an update for each decision. Those of "paper" make eight times as
+# many updates, on one road per agent. The paper prints neither number; `bootcourse study clocks` compares such choices.
 SETTINGS = {
     "quick": {},
     "paper": {"envs_per_agent": 1, "updates": 2, "stochastic_demonstrations": True},  # §

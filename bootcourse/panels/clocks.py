@@ -1,4 +1,4 @@
-"""Two clocks: ξ = 200 α fades with the updates, β with the episodes. Which help lasts depends on the updates.
+"""Two clocks: ξ = 200 α fades with the updates, β with the episodes. Which help lasts?
 
 The panel shows what `bootcourse study clocks` measured; nothing is trained or modelled here.
 """

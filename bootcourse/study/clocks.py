@@ -1,4 +1,4 @@
-"""Which help lasts depends on the updates: ξ = 200 α fades with updates, β with episodes (the experiment `clocks`).
+"""Which help lasts? ξ = 200 α fades with updates, β with episodes: the experiment `clocks` varies the updates.
 
 The paper reports one trained agent per method. `pattern` is the probability that such a table comes out as the
 paper's Table 4 if the agents are drawn from ours.
