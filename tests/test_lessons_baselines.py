@@ -21,8 +21,8 @@ from bootcourse.lessons.shipped import (
     shipped_agents,
     shipped_bound,
     shipped_drive,
+    shipped_experiment,
     shipped_results,
-    shipped_sensitivity,
 )
 from bootcourse.study.results import Results
 
@@ -90,5 +90,5 @@ def test_the_bound_that_ships_is_of_the_roads_that_the_agents_were_tested_on():
 
 
 def test_what_was_changed_one_number_at_a_time_ships_with_the_agents_of_the_ablation():
-    varied = shipped_sensitivity()
+    varied = shipped_experiment("sensitivity")
     assert varied and all("bootstrapped" in results.methods for results in varied.values())

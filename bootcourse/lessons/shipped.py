@@ -49,10 +49,6 @@ def shipped_experiment(name: str) -> dict[str, Results]:
     return experiments[name]
 
 
-def shipped_sensitivity() -> dict[str, Results]:
-    return shipped_experiment("sensitivity")
-
-
 def shipped_bound(scenario: str = "default") -> np.ndarray:
     """The best return that the planner found on each held-out road of the study, (episodes,)."""
     return in_assets(FOLDER).bound[scenario]

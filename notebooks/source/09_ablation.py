@@ -195,7 +195,7 @@ def counted(label, escaped):
 
 escaped = {
     change: [agents_of.of(method).scores("success") >= bc.statistics.ESCAPES for method in methods]
-    for change, agents_of in shipped.shipped_sensitivity().items()
+    for change, agents_of in shipped.shipped_experiment("sensitivity").items()
 }
 rows = [counted(change, won) for change, won in escaped.items()]
 columns = [np.concatenate(column) for column in zip(*escaped.values(), strict=True)]
