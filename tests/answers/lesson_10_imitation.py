@@ -7,9 +7,14 @@ import numpy as np
 import torch
 from torch.nn import functional
 
-from tests.answers import right, wrong
+from tests.answers import equivalent, right, wrong
 
 # discriminator_loss -----------------------------------------------------------------------------------
+
+
+for _name in ("-expert_logits", "own_logits"):
+    _change = f"F.softplus({_name}).mean(-1)  ->  F.softplus({_name}).mean(0)"
+    equivalent("discriminator_loss", _change, "the batch is the only axis")
 
 
 @right("discriminator_loss")
@@ -77,6 +82,9 @@ def cut_at_zero(own_logits):
 # deviation_of_a_rate ----------------------------------------------------------------------------------
 
 
+equivalent("deviation_of_a_rate", "[100.0, 0.0]  ->  [-100.0, 0.0]", "-100 lies as far from 0 as 100 does")
+
+
 @right("deviation_of_a_rate")
 def by_formula(k, n):
     p = k / n
@@ -94,6 +102,10 @@ def half_of_an_interval(k, n):
 
 
 # episodes_needed --------------------------------------------------------------------------------------
+
+
+NEEDED = "np.ceil(np.log(0.05) / np.log(1 - rate))"
+equivalent("episodes_needed", f"return int({NEEDED})  ->  return {NEEDED}", "the same whole number, as a float")
 
 
 @right("episodes_needed")

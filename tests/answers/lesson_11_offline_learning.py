@@ -51,6 +51,15 @@ def with_numpy(q, actions):
 # offline_loss -----------------------------------------------------------------------------------------
 
 
+BEST = "next_q.argmax(-1, keepdim=True)"
+equivalent("offline_loss", f"{BEST}  ->  {BEST.replace('.', '.detach().', 1)}", "an index has no gradient")
+equivalent(
+    "offline_loss",
+    f"next_target.gather(-1, {BEST})  ->  next_target.detach().gather(-1, {BEST})",
+    "the whole target is detached afterwards",
+)
+
+
 @right("offline_loss")
 def with_no_grad(q, next_q, next_target, actions, rewards, terminated, gamma, weight):
     with torch.no_grad():

@@ -3,9 +3,14 @@
 import numpy as np
 from scipy import stats
 
-from tests.answers import right, wrong
+from tests.answers import equivalent, right, wrong
 
 # effective_actions ----------------------------------------------------------------------------------
+
+
+for _value in (1.01, 1.1):
+    _change = f"np.where(policy > 0, policy, 1.0)  ->  np.where(policy > 0, policy, {_value})"
+    equivalent("effective_actions", _change, "its logarithm is multiplied by a policy of 0")
 
 
 @right("effective_actions")
@@ -64,6 +69,10 @@ def open_on_the_left(place, entropy, edges):
 # coverage -------------------------------------------------------------------------------------------
 
 
+NUMBERS = "np.unique(column[inside] * lanes {0} lane[inside])"
+equivalent("coverage", f"{NUMBERS.format('+')}  ->  {NUMBERS.format('-')}", "each cell still has a number of its own")
+
+
 @right("coverage")
 def as_a_set(place, lane, edges, lanes):
     columns = np.searchsorted(edges, place, side="right") - 1
@@ -104,6 +113,10 @@ def over_everything(policy):
 
 
 # forgetting -------------------------------------------------------------------------------------------
+
+
+PADDED = "np.pad(np.asarray(success{0}), ((0, 0), (1, 0)))"
+equivalent("forgetting", f"{PADDED.format(', dtype=float')}  ->  {PADDED.format('')}", "sums of 0 and 1 are exact")
 
 
 @right("forgetting")

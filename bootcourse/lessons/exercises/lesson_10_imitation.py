@@ -8,7 +8,6 @@ from torch.nn import functional
 
 from bootcourse.learn import gail
 from bootcourse.lessons.exercise import Exercise, Mistake
-from bootcourse.lessons.exercises.slopes import with_slopes
 
 
 def judged_cases(rng):
@@ -28,7 +27,7 @@ def swapped(rule_logits, own_logits):
 
 discriminator_loss = Exercise(
     "discriminator_loss(rule_logits, own_logits)",
-    solution=gail.discriminator_loss, cases=judged_cases, run=with_slopes(0, 1),
+    solution=gail.discriminator_loss, cases=judged_cases, slopes=("rule_logits", "own_logits"),
     worked=(
         # D = 3/4 for the rule, 1/4 for the agent: twice -log 3/4; the slopes are D - 1 and D
         ((torch.tensor([math.log(3)]).double(), torch.tensor([-math.log(3)]).double()),
@@ -61,10 +60,6 @@ discriminator_loss = Exercise(
         Mistake(lambda rule_logits, own_logits: functional.softplus(own_logits).mean(),
             "The rule's half is missing: nothing keeps D high where the rule drives, so D = 0 everywhere is the best.",
             "The discriminator only has to find out the agent."),
-        Mistake(lambda rule_logits, own_logits: gail.discriminator_loss(rule_logits, own_logits).detach(),
-            "Your value is right, but no gradient flows back to the logits (`.detach()`, `.item()` or NumPy): the "
-            "discriminator would not learn.",
-            "A loss is a number."),
     ),
     hints=(
         "With D = σ(x): log D = -log (1 + e⁻ˣ), and log (1 - D) = -log (1 + eˣ).",
