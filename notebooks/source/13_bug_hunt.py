@@ -16,7 +16,7 @@
 # **What you will be able to do**
 # - find a silent bug in a learner from curves, probes and drives, without reading its code;
 # - write a probe: ask a part of a learner something whose right answer you know;
-# - repair six bugs that people really make, each in one line.
+# - repair six bugs that are easily made, each in one line.
 #
 # **Time** 95 minutes, under a minute of it the machine's. **It builds on** the losses of lesson 4,
 # the soft constraint (7) and learning from demonstrations (8).
@@ -34,9 +34,9 @@ print(f"{len(hunt.names)} agents, 2 seeds each, {hunt.provenance['updates']} upd
 # ## Look first
 #
 # Seven agents were trained with the paper's method. One is healthy. Each of the others, A to F,
-# has one **silent bug**: a line that is wrong, raises nothing and prints nothing. The training
-# took some minutes, so it was done before and lies in a file (the line above says how much of
-# it). The agents drive as they learned to: nothing in the drives or the curves is made up.
+# has one **silent bug**: a line that is wrong, raises nothing and prints nothing. Training them
+# takes some minutes, so their networks and curves ship with the kit (the line above says how long
+# they trained). The curves are those of the training, and the agents drive here as they learned to.
 # <!-- claim: len(bugs.LEARNERS) == 7 -->
 
 # %%
@@ -63,16 +63,15 @@ choices = ["none", "one or two", "three or four", "five", "all six"]
 predict("13.1", "Broken agents that still escape in training", choices)
 
 # %% [markdown] tags=["instructor"] minutes=8
-# Collect the predictions in a table on the board, bugs in rows. Most people expect all six to ruin
-# the escapes. Come back to the table at the end of Round 1, and again after the verdict.
+# Collect the predictions in a table on the board, bugs in rows. If somebody writes "a lot" in each
+# row, ask why. Come back to the table at the end of Round 1, and again after the verdict.
 
 # %% [markdown]
 # ## Round 1: the curves
 #
-# Grey is the healthy agent, both seeds; violet is the agent whose letter the panel has.
-
-# Each training has the same number of updates; an agent that crashes early drives more episodes
-# with them. So the panels' axes are long, and logarithmic.
+# Grey lines are the healthy agent's two seeds, violet lines the two seeds of the agent whose letter
+# stands above the panel. The trainings have the same number of updates. An agent that crashes early
+# has short episodes, so it drives more of them; that is why the axis is logarithmic.
 
 # %%
 episode, share = "training episode", "share of escapes, last 30 episodes"
@@ -92,23 +91,25 @@ rows = [[n, f"{100 * late[n].mean():.0f} %", f"{last[n].mean():.0f}"] for n in h
 table(["at the end of training", "escapes", "return"], rows)
 
 # %% [markdown]
-# **See.** Compare with your predictions. Four of these six bugs do not show in the share of escapes
-# at the end of training, and the agent with the highest return has a bug. A curve that looks right
-# is no evidence that the code is right.
-# <!-- claim: sum(bugs.Hunt().at_the_end('success')[n].mean() > 0.8 for n in 'ABCDEF') == 4 -->
+# **See.** Compare with your predictions. Three of the six broken agents escape at the end of
+# training as often as the healthy one, a fourth in over 80 % of its last episodes, and the agent
+# with the highest return has a bug. Code can be wrong although its curve looks right.
+# <!-- claim: sum(hunt().at_the_end('success')[n].mean() >=
+#   hunt().at_the_end('success')['healthy'].mean() for n in 'ABCDEF') == 3 -->
+# <!-- claim: sum(hunt().at_the_end('success')[n].mean() > 0.8 for n in 'ABCDEF') == 4 -->
 # <!-- claim: (lambda last: max(last, key=last.get) != 'healthy')({n: v.mean() for n, v in
-#   bugs.Hunt().at_the_end('return').items()}) -->
+#   hunt().at_the_end('return').items()}) -->
 #
-# **Explain.** We think that the teacher hides the bugs. It drives demonstrations and it pulls, so
-# the policy is led out of the trap even if another part of the learner is wrong. To judge one part,
+# **Explain.** We think that the teacher hides the bugs. Its demonstrations and the soft constraint
+# lead the policy out of the trap even if another part of the learner is wrong. To judge one part,
 # you have to ask that part alone.
 
 # %% [markdown]
 # ## Round 2: ask the critic what you know
 #
-# A **probe** asks a network something whose answer is known. Nearly nothing is known about Q, with
-# one exception: where an accident ends the episode, $y = r = -{{ -DEFAULT.reward.accident }}$,
-# without any guess of a next value.
+# A **probe** asks a network something whose answer is known. For most states we do not know the
+# right Q. We do know it where an accident ends the episode: there $y = r =
+# -{{ -DEFAULT.reward.accident }}$, without a guess of the next value.
 #
 # > **Predict.** Which of the six bugs makes Q wrong exactly there, and in which direction?
 
@@ -138,6 +139,7 @@ check.end_error(end_error)
 # %% [markdown]
 # During training each agent was asked this about its own accidents, every {{ bugs.EVERY }} updates.
 # The picture shows Q itself; right is {{ DEFAULT.reward.accident }}.
+# <!-- claim: set(np.diff(hunt().updates)) == {bugs.EVERY} -->
 
 # %%
 probes = hunt.probes("end")
@@ -147,13 +149,14 @@ bc.show(
 )
 
 # %% [markdown]
-# **See.** Even the healthy agents are not at {{ DEFAULT.reward.accident }}. We think that this is
-# because a network that sees few accidents among many other seconds smooths its values. So a probe
-# needs a healthy agent beside it. What counts is which agent leaves the grey lines, and how.
+# **See.** Even the two healthy seeds are above {{ DEFAULT.reward.accident }} at the end. We think
+# that the network sees few accidents among many other seconds, and smooths its values. So a probe
+# needs a healthy agent beside it. Ask which agent leaves the grey lines, and in which direction.
+# <!-- claim: (hunt().probe('healthy', 'end')[:, -1] > DEFAULT.reward.accident + 1).all() -->
 #
 # > **Predict.** The road pays at most about 1 a second, and γ = 0.8 sees about 5 seconds ahead.
-# > What is the most that a correct critic may promise? And the most if c = 2 is added in *every*
-# > second?
+# > The value that a critic gives to a state is what it *promises*. What is the most that a correct
+# > critic may promise? And the most if c = 2 is added in *every* second?
 
 # %%
 predict("13.3", "The most that a correct critic may promise", unit="")
@@ -170,9 +173,11 @@ bc.show(
 )
 
 # %% [markdown]
-# **Explain.** The healthy promise may lie a little over 5: a part of each batch are demonstrations,
-# which do get the bonus (lesson 8). Two panels are far above that: one rises slowly, one at once.
-# You can ask the same of one drive: what did Q promise, and what did the road then pay?
+# **Explain.** An honest critic, one that is right, promises at most 5. The healthy promise may lie
+# a little over 5: part of each batch is demonstrations, and they do get the bonus (lesson 8). In
+# two panels the promise is far above that: in one it rises slowly, in one at once. You can ask the
+# same of one drive: what did Q promise, and what did the road then pay?
+# <!-- claim: {n for n in 'ABCDEF' if hunt().probe(n, 'promise').max() > 10} == {'E', 'F'} -->
 
 # %%
 rows = []
@@ -186,16 +191,17 @@ table(["one road, from the start", "Q promised", "the road paid"], rows)
 
 # %% [markdown] tags=["instructor"] minutes=8
 # At the start the car is behind the trap, so a correct promise is small there; the healthy agent's
-# contains bonuses of demonstrations. Ask which of the two numbers one should watch during training:
-# a wrong promise shows without any accident.
+# contains bonuses of demonstrations. Ask which of the two probes one should watch during training:
+# Q at accidents, or the promise. A wrong promise shows without an accident.
 
 # %% [markdown]
 # ## Round 3: ask the actor about the rule
 #
-# The other probes look at the policy, on seconds that the *rule* drove, the same ones for all.
+# The other probes look at the policy, on seconds that the *rule* drove, the same seconds for each
+# agent.
 #
-# - **entropy** of π, in nats: 0 is sure, log {{ N_ACTIONS }} ≈ {{ math.log(N_ACTIONS) | .1f }} is
-#   no opinion;
+# - **entropy** of π, in nats: 0 is sure of one action, log {{ N_ACTIONS }} ≈
+#   {{ math.log(N_ACTIONS) | .1f }} is the same probability for each action;
 # - **alike**: the share of seconds in which the likeliest action is the rule's;
 # - **late**: the same with what the rule does *one second later*;
 # - **rarest**: the logarithm of the smallest of the nine probabilities.
@@ -238,17 +244,19 @@ choices = ["it drops it", "it keeps it a little likely", "it makes it the favour
 predict("13.4", "With the flipped KL the policy treats such an action so:", choices)
 
 # %% [markdown]
-# **Explain.** Read the table and the last picture with that question. An action to which the rule
-# gives one in eighty, and Q nothing, may be dropped under the right KL: dropping it costs little.
-# The flipped KL grows without bound when any of the nine goes to zero. So both have nearly the same
-# favourite, and quite different tails.
+# **Explain.** Read the table and the last picture with that question. The stochastic rule gives
+# one in eighty to each action that the rule does not take. With the right KL the policy may drop
+# such an action: dropping it costs little. The flipped KL grows without bound when the probability
+# of one of the nine goes to zero. So both policies have nearly the same favourite, and quite
+# different rare actions.
 # <!-- claim: math.isclose((1 - RULE_P) / (N_ACTIONS - 1), 1 / 80) -->
 
 # %% [markdown]
 # ## Round 4: watch them drive
 #
-# Curves during training are driven with actions drawn from π. The most probable action alone may
-# drive better, or worse. Here drives the first seed of each, on 200 roads that it has not seen.
+# In training the agents draw their actions from π. With the most probable action alone they may
+# drive better, or worse. Here the first seed of each agent drives both ways, on 200 roads that it
+# has not seen.
 
 # %%
 rows = []
@@ -267,9 +275,14 @@ table(headings, rows)
 # less than half of the drives with drawn ones. It seems to have learned the rule and the rule's
 # noise, and nothing from Q. Which bug would keep Q out of the actor's gradient? (And read escapes
 # beside accidents: a crash after overtaking counts as both.)
+# <!-- claim: drive_episodes(hunt().agent('B').as_policy(), held_out_seeds(12, 200)).success.mean()
+#   > 0.9 -->
+# <!-- claim: drive_episodes(hunt().agent('B').as_policy(np.random.default_rng(0)),
+#   held_out_seeds(12, 200)).success.mean() < 0.5 -->
 #
-# **Exercise 13.2 (15 min, ●●●).** The verdict. For each agent one of the six names. The check says
-# whether all six are right. It does not say how many are, or which: settle each by a picture.
+# **Exercise 13.2 (15 min, ●●●).** The verdict. For each agent one of the six names. The check
+# judges the six together: it does not say how many are right, or which. Find a picture that decides
+# each.
 
 
 # %%
@@ -293,14 +306,14 @@ check.diagnose(diagnose)
 # %% [markdown] tags=["instructor"] minutes=12
 # The order that works: F (promise leaves the scale), B (undecided, fails when drawn), D
 # (accidents), E (promise too high, the *best* return), C (slow start, later rather than now), A
-# (what is left: the rarest action). Let groups defend a verdict with one picture only. If a group
-# is stuck on A and C, ask which of the two is like the healthy agent in the first thousand
+# (what is left: the rarest action). Let each group defend its verdict with a single picture. If a
+# group is stuck on A and C, ask which of the two is like the healthy agent in the first thousand
 # updates.
 
 # %% [markdown]
 # ## Round 5: six repairs
 #
-# Now the code, each piece as the buggy learner had it. First the target:
+# Now the code. Each piece is shown with its bugs. First the critic's target:
 #
 # ```python
 # target = reward + bonus + gamma * next_value
@@ -331,17 +344,20 @@ print(f"an accident: {-10:.0f}; an accident for ever, γ = 0.8: {-10 / (1 - gamm
 # %% [markdown]
 # On this road the bug makes an accident look worse than it is. In a task whose episodes end at a
 # goal, the reward of the goal would be counted again and again.
+# <!-- claim: any((hunt().probe(n, 'end')[:, -1] < DEFAULT.reward.accident).all() for n in
+#   'ABCDEF') -->
 #
-# The value, as it is written for continuous actions, of which there are too many to sum over:
+# Next the value of a state. SAC for continuous actions draws one action instead of summing over
+# them. This learner does the same with its nine actions:
 #
 # ```python
 # action = torch.multinomial(log_pi.exp(), 1)
 # value = (q - alpha * log_pi).gather(-1, action).squeeze(-1)
 # ```
 #
-# For a critic's target that is only noisy. For the actor it is fatal: a drawn number from 0 to
-# {{ N_ACTIONS - 1 }} has no gradient, and Q is held fixed, so nothing of Q is left in the actor's
-# slope.
+# In the critic's target the draw adds noise and leaves the mean as it is. In the actor's loss it is
+# fatal: the gradient does not pass through the draw, and Q is held fixed, so Q drops out of the
+# actor's gradient. The next cell shows it.
 
 # %%
 torch.manual_seed(0)
@@ -399,15 +415,15 @@ def fixed_loss(log_pi, q, log_rule, alpha, xi):
 check.fixed_loss(fixed_loss)
 
 # %% [markdown]
-# ### A probe that needs no training
+# ### A probe without training
 #
 # You found these bugs in agents that took minutes to train. The target can be tested in a
 # millisecond, from outside, with a few transitions whose right y you work out by hand.
 #
 # **Exercise 13.6 (20 min, ●●●).** Write that test. You are given a function
 # `target(reward, demo, bonus, end, next_value, gamma)`, of which you do not see the code: arrays of
-# shape (batch,), and two floats. Say whether it is wrong. The check hands you three functions that
-# are right, and twelve that people have really written.
+# shape (batch,), and two floats. Say whether it is wrong. The check gives it three functions that
+# are right and twelve that are wrong, each in another way.
 # <!-- claim: (lambda e: len(e.TARGETS) - len(e.RIGHT_TARGETS) == 12 and len(e.RIGHT_TARGETS) ==
 #   3)(__import__('bootcourse.lessons.exercises.lesson_13_bug_hunt', fromlist=['x'])) -->
 
@@ -426,7 +442,7 @@ def unmasks(target):
 check.unmasks(unmasks)
 
 # %% [markdown]
-# The labels. After a drive the rule was asked about all of its T + 1 states, in order. The buggy
+# Last, the labels. After a drive the rule was asked about its T + 1 states, in order. The buggy
 # version began one state too late:
 #
 # ```python
@@ -448,7 +464,7 @@ def label_pairs(asked):
 check.label_pairs(label_pairs)
 
 # %% [markdown]
-# How the bugs were made: each is the right learner with one piece exchanged. Four of the six:
+# Each buggy learner is the right one with one piece exchanged. Here are four of the six:
 
 # %% tags=["nbval-ignore-output"]
 source("bootcourse.lessons.bugs", "NoEnd", "BonusForAll", "ShiftedLabels", "FlippedKL")
@@ -461,12 +477,14 @@ choices = ["none", "one or two", "three or four", "all six"]
 predict("13.5", "Found by tests of single functions", choices)
 
 # %% [markdown]
-# **Explain.** All six: the exercises above test them in milliseconds. Some of the bugs do little
-# damage *here*, with a teacher that leads the agents out of the trap, and that is worth knowing,
-# too: it is one way in which such bugs survive. On another road, with another γ or without a
-# teacher, the same line may do much more. And a bug that raises the return is dangerous, because
-# a good result gives you no reason to look for it. (A bonus for every second is a *different*
-# reward. It may suit this road, but it is not the method that the paper describes.)
+# **Explain.** The six are in the pieces that you have just repaired: two in the target (13.3), one
+# in the value (13.4), two in the actor's loss (13.5), one in the labels (13.7). A test of such a
+# piece takes milliseconds. Some of the bugs do little damage *here*, with a teacher that leads the
+# agents out of the trap: that is one way in which such bugs survive. On another road, with another
+# γ or without a teacher, the same line may do much more. And a bug that raises the return is
+# dangerous: few people search for a mistake in a good result. (With the bonus paid for the agent's
+# own driving, the reward is a different one. It may suit this road, but it is not the method that
+# the paper describes.)
 
 # %% [markdown]
 # ## What you now know
@@ -476,16 +494,16 @@ predict("13.5", "Found by tests of single functions", choices)
 #    agent.
 # 3. At an accident, Q is {{ DEFAULT.reward.accident }}; on this road, a promise far above
 #    {{ 1 / (1 - SETTINGS.gamma) }} is wrong.
-# 4. A drawn action has no gradient. And without the stop-gradient, the actor's loss changes the
-#    critic, because here one optimiser step serves all losses together. With an optimiser for each
-#    and a Q computed anew for the actor, as in many programs, the critic's optimiser deletes that
+# 4. The gradient does not pass through a drawn action. And without the stop-gradient, the actor's
+#    loss changes the critic: here one optimiser step serves both. Many programs have an optimiser
+#    for each network and compute Q anew for the actor. There the critic's optimiser deletes that
 #    gradient before its own step, and the same missing line does not change the critic.
 # 5. Small functions with hand-worked cases find in milliseconds what training can hide for hours.
 #
 # **Three questions to think about**
-# - You may run one probe during every training from now on. Which, and at what value does it warn?
-# - Two bugs at once: which pair would hide each other in all of the pictures above?
-# - A bug raises the return of your method in a paper's table. How would a reader ever know?
+# - You may run one probe during your trainings from now on. Which, and at what value does it warn?
+# - Two bugs at once: which pair could hide each other in the pictures above?
+# - A bug raises the return of your method in a paper's table. How would a reader find out?
 
 # %%
 fine = sum(late[name].mean() > 0.8 for name in "ABCDEF")
@@ -501,12 +519,12 @@ compare_predictions(
 )
 
 # %% [markdown] tags=["instructor"] minutes=3
-# Answers to the three questions. (1) The promise: it costs nothing, needs no accident and no
-# teacher, and its bound is known, the largest reward of a second divided by 1 − γ, here 5 (7 with
-# room for the bonus). (2) For example `no_end` and `bonus_for_all`: at accidents one pulls Q down
-# and the other up, and both move the promise. Ask for pairs whose probes differ only by sign. (3)
-# From the printed text hardly; from the code, if it ships, with tests of single functions; or when
-# somebody else's program of the same method earns less.
+# Answers to the three questions. (1) The promise: it costs one pass through the networks, needs
+# neither accidents nor a teacher, and its bound is known, the largest reward of a second divided by
+# 1 − γ, here 5 (7 with room for the bonus). (2) For example `no_end` and `bonus_for_all`: at
+# accidents one pulls Q down and the other up. Ask for more pairs that move the same probe in
+# opposite directions. (3) From the printed text hardly; from the code, if it ships, with tests of
+# single functions; or when somebody else's program of the same method earns less.
 
 # %% [markdown]
 # **Read on**: what goes wrong in deep reinforcement learning, and how little of it is reported:

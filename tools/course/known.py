@@ -45,6 +45,7 @@ from tools.course.source import NOTEBOOKS, read
 shipped_results = cache(shipped.shipped_results)
 shipped_runs = cache(shipped.shipped_runs)
 shipped_drive = cache(shipped.shipped_drive)
+hunt = cache(bugs.Hunt)  # lesson 13's agents
 ROAD = 10  # the road that most lessons show
 SETTINGS = settings_for("bootstrapped")  # the paper's
 
