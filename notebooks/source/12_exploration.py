@@ -68,9 +68,9 @@ print(f"of {len(seen.policy)}")
 #
 # $$ \mathcal{H}(\pi(\cdot|s)) = -\sum_a \pi(a|s) \log \pi(a|s) $$
 #
-# It is 0 when one action has all the probability. Its unit, the *nat*, is hard to picture. But e to
-# the power of it is a number of actions: a policy that chooses evenly among k actions has the
-# entropy log k, so $e^\mathcal{H} = k$. We call it the **effective number of actions**.
+# It is 0 when one action has probability 1. Its unit, the *nat*, is hard to picture. But e to the
+# power of it is a number of actions: a policy that chooses evenly among k actions has the entropy
+# log k, so $e^\mathcal{H} = k$. We call it the **effective number of actions**.
 #
 # > **Predict.** A policy takes its favourite with probability 0.9, and the other eight evenly with
 # > what is left. That is the stochastic rule of lesson 3. How many effective actions is that?
@@ -110,7 +110,7 @@ for p in (1 / 9, 0.5, 0.9, 0.99):
 # those who say 1.1 by its probability.
 
 # %% [markdown]
-# ## Round 2: over a training
+# ## Round 2: how undecided, from the first episode to the last?
 #
 # > **Predict.** An agent that never leaves the trap, and one that does. Which of them is more
 # > undecided at the end of its training? Among how many actions does each still choose?
@@ -189,11 +189,11 @@ for method in methods:
 # time to look for a way out by itself.
 
 # %% [markdown]
-# ## Round 3: where?
+# ## Round 3: where does an agent still try things?
 #
-# A mean over a drive hides where the entropy lies. Twenty-four held-out roads, five agents of each
-# method, driven *after training* by their most probable action: at each second we note how far the
-# car is ahead of trap 1 and how undecided the policy is.
+# A mean over a drive hides where the entropy lies. So five agents of each method drive on 24
+# held-out roads, *after training*, with their most probable action. At each second we note how far
+# the car is ahead of trap 1 and how undecided the policy is.
 # <!-- claim: len(shipped_runs('sac')) == 5 -->
 
 # %%
@@ -215,9 +215,9 @@ choices = ["behind the traps", "beside them", "on the free road"]
 predict("12.3", "Where are escaping agents least decided?", choices)
 
 # %% [markdown]
-# **Exercise 12.2 (8 min, ●●○).** Of all the entropy of some decisions, which share was spent in
-# each stretch of road? A stretch begins at its edge and ends before the next one; what lies outside
-# all of them belongs to the total and to no stretch.
+# **Exercise 12.2 (8 min, ●●○).** You get the entropy of some decisions, and where on the road each
+# was made. Which share of the whole entropy was spent in each stretch? A stretch begins at its edge
+# and ends before the next one. Decisions outside the stretches count in the whole.
 
 
 # %%
@@ -263,10 +263,11 @@ headings = ["", "effective actions, overall", "entropy spent behind", "beside tr
 table(headings, rows)
 
 # %% [markdown]
-# **See.** The fields are nearly all close to 1: after training an agent hardly tries anything,
-# wherever it is. The digits separate the agents better: read the rows of those that get ahead, and
-# of those that stay behind. And the trapped agents' rows are empty ahead of trap 1. The entropy at
-# the places that an agent reaches says nothing about the others.
+# **See.** Most fields are close to one effective action: after training these agents hardly try
+# anything where they drive.
+# The digits separate the agents better: compare the rows of those that get ahead with the rows of
+# those that stay behind, which are empty ahead of trap 1. The entropy at the places that an agent
+# reaches says nothing about the places that it does not reach.
 #
 # > **Predict.** Ten of the twenty agents do not escape after training. How many of these ten
 # > ended an episode ahead of trap 1 at some time in their training?
@@ -277,10 +278,11 @@ table(headings, rows)
 predict("12.4", "How many of them had been ahead?", ["none", "1 to 3", "4 to 7", "8 or more"])
 
 # %% [markdown]
-# **Exercise 12.3 (15 min, ●●●).** An agent that had it and lost it has *forgotten*. Measure that in
-# the training curves. For each agent: the best share of successes in any `window` episodes in a
-# row, the share in the last `window`, and the episode with which the last window of at least one
-# half ends (0 if there is none). Episodes are counted from 1.
+# **Exercise 12.3 (15 min, ●●●).** An agent that found the way out and lost it has *forgotten*.
+# Measure that in the training curves, over windows of `window` episodes in a row. For each agent:
+# the share of successes in its best window, the share in its last window, and the episode that ends
+# the last window with a share of at least one half (0 without such a window). Episodes are counted
+# from 1.
 
 
 # %%
@@ -316,12 +318,14 @@ table([*headings, "best 100 in a row, %", "after training, % of all held-out roa
 # {{ sum((ended_ahead(m) > 0).sum() for m in ('sac', 'soft', 'demos', 'bootstrapped')) }} of the 20
 # agents ended training episodes ahead of trap 1. After training
 # {{ sum((of(m).scores('success')[:5] >= ESCAPES).sum() for m in ('sac', 'soft', 'demos',
-# 'bootstrapped')) }} escape. So nine of the ten others had been ahead. Look at demonstrations
+# 'bootstrapped')) }} escape: they get ahead on at least {{ 100 * ESCAPES | g }} % of the held-out
+# roads. So nine of the ten others had been ahead. Look at demonstrations
 # alone: four of the five ended {{ np.sort(ended_ahead('demos'))[1] | .0f }} to
 # {{ np.sort(ended_ahead('demos'))[-1] | .0f }} episodes ahead, three of them at least 99 of a
-# hundred in a row, and none escapes after training. They found the way out and *forgot* it. In
-# plain SAC it is less: three agents that do not escape after training were ahead
-# {{ np.sort(ended_ahead('sac'))[1] | .0f }} to {{ np.sort(ended_ahead('sac'))[3] | .0f }} times.
+# hundred in a row, and after training none of the five gets ahead on one of the {{ roads() | , }}
+# held-out roads. These four found the way out and *forgot* it. The trapped agents of plain SAC had
+# less to forget: three of the four were ahead {{ np.sort(ended_ahead('sac'))[1] | .0f }} to
+# {{ np.sort(ended_ahead('sac'))[3] | .0f }} times, the fourth not once.
 # <!-- claim: sum((ended_ahead(m) > 0).sum() for m in ('sac', 'soft', 'demos', 'bootstrapped')) ==
 #   19 and (ended_ahead('sac') == 0).sum() == 1 -->
 # <!-- claim: sum((of(m).scores('success')[:5] >= ESCAPES).sum() for m in ('sac', 'soft', 'demos',
@@ -332,15 +336,15 @@ table([*headings, "best 100 in a row, %", "after training, % of all held-out roa
 # <!-- claim: np.sort(ended_ahead('sac'))[3] < 20 and (of('sac').scores('success')[:5] >=
 #   ESCAPES).sum() == 1 and of('sac').scores('success')[ended_ahead('sac').argmax()] >= ESCAPES -->
 #
-# A map of drives after training does not show this. For these four agents the question is not why
-# they did not find the way out. It is why they did not keep it. Lesson 9, round 5, shows when four
-# of the ten agents with demonstrations alone lose it: as the demonstrations run out.
+# A map of drives after training does not show this. These four agents did find the way out. The
+# question is why they did not keep it. Lesson 9, round 5, shows when four of the ten agents with
+# demonstrations alone lose it: as the demonstrations run out.
 
 # %% [markdown] tags=["instructor"] minutes=7
-# Stop at the map and ask what it cannot show before they see the table: these are drives after
-# training, and the map adds up the lanes. The training curves record whether an episode ended
-# ahead, but not the places in between. How would they find these out? (Train with `Training.run`
-# and a callback that calls `visits` on a few drives now and then, as lesson 7 does.)
+# Stop at the map and ask what it does not show before they see the table: these are drives after
+# training, and a colour is a mean over lanes and drives. The training curves record whether an
+# episode ended ahead, but not the places in between. How would they find these out? (Train with
+# `Training.run` and a callback that calls `visits` on a few drives now and then, as lesson 7 does.)
 
 # %% [markdown]
 # ## Round 4: undecided drivers and the places they see
@@ -392,10 +396,10 @@ table(["", "entropy, nats", "a drive lasts", "cells seen, of one driver"], rows)
 
 # %% [markdown]
 # **Explain.** Entropy is noise on single decisions. In these drives the random driver crashes
-# within seconds, so it does not get far. A driver without any noise can see many places if its plan
-# leads there, as the rule's does; if not, it sees the same few places in each drive. A new place
-# takes several right decisions in a row, and independent noise seldom makes them. A demonstration
-# or a rule adds *other places*, without more randomness.
+# within seconds, so it does not get far. A driver without noise can see many places if its plan
+# leads there, as the rule's does. To get to a new place, a driver has to make several right
+# decisions in a row, and independent noise seldom does. A demonstration or a rule adds *other
+# places*, without more randomness.
 
 # %% [markdown]
 # ## Round 5: does a trapped agent still try?
@@ -442,10 +446,9 @@ table(["one drive", "ends", "tries at all", "tries expected"], rows)
 # **Explain.** Why does more training not free a trapped agent? A tempting answer: its policy is its
 # source of data, and data from the trap give no reason to leave it. For an agent that tries nothing
 # this is likely. But it is not the whole story: nine of these ten agents had data of drives that
-# ended ahead, five of them of more than a hundred, and still came to stay behind on some or all
-# roads. To look for new
-# places helps an agent that has not found the way out. To keep what it has found, it needs values
-# that stay right when the data change.
+# ended ahead, five of them of more than a hundred, and after training they still stay behind on
+# some or all roads. Looking for new places helps an agent that has not found the way out. An agent
+# that has found it needs values that stay right when the data change.
 # <!-- claim: sum(((ended_ahead(m) > 100) & (of(m).scores('success')[:5] < ESCAPES)).sum() for m in
 #   ('sac', 'soft', 'demos', 'bootstrapped')) == 5 -->
 
@@ -457,10 +460,14 @@ table(["one drive", "ends", "tries at all", "tries expected"], rows)
 #    agent's temperature falls to almost 0 in all four methods.
 # <!-- claim: all(np.median([run.curves['alpha'][-1] for run in shipped_runs(m)]) < 1e-6 for m in
 #   ('sac', 'soft', 'demos', 'bootstrapped')) -->
-# 3. Entropy in the places that an agent reaches says nothing about the others: look at the places.
-# 4. Noise on single decisions covers little of this road; plans cover more, and a rule has one.
-# 5. 19 of 20 agents ended training episodes ahead of trap 1, and 11 escape after training: finding
-#    a way out is one problem, keeping it is another.
+# 3. Entropy at the places that an agent reaches says nothing about the places that it does not
+#    reach: look at the places, too.
+# 4. In 24 drives a random driver sees less of the road than the rule does, which has a plan.
+# 5. {{ sum((ended_ahead(m) > 0).sum() for m in ('sac', 'soft', 'demos', 'bootstrapped')) }} of 20
+#    agents ended training episodes ahead of trap 1, and
+#    {{ sum((of(m).scores('success')[:5] >= ESCAPES).sum() for m in ('sac', 'soft', 'demos',
+#    'bootstrapped')) }} escape after training: finding a way out is one problem, keeping it is
+#    another.
 #
 # **Three questions to think about**
 # - The paper reads a higher entropy as better exploration. Which measure of this lesson would you
@@ -489,9 +496,8 @@ compare_predictions(
 # the entropy says how a policy chooses, and not where it gets. (2) e to the power of 0.3, so about
 # 1.35 actions. At 15 m/s on the free road one second of steering moves the car more than a metre,
 # so now and then a drawn action costs the lane; with the most probable action it need not show. (3)
-# Yes: with counts, or a bonus for the surprise of a model. Here every new cell also lies near a
-# car, and traffic never repeats itself, so the bonus would not run out, and risky places would pay
-# best.
+# Yes: with counts, or a bonus for the surprise of a model. Here the places near other cars are new
+# on each road, so a bonus for surprise would hardly run out, and it would pay for risky places.
 
 # %% [markdown]
 # **Read on**: what a reachable target does in [lesson 4](04_discrete_sac.ipynb), and a way out that
