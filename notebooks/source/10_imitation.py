@@ -16,7 +16,7 @@
 # **What you will be able to do**
 # - say what each of seven drivers learns from, and what that costs;
 # - write GAIL's two halves: the judge's loss, and the reward that the agent makes of it;
-# - read a table of {{ EPISODES }} test drives: what it shows and what it cannot show.
+# - read a table of {{ EPISODES }} test drives, and say what it leaves open.
 #
 # **Time** 50 minutes, under one of them the machine's. **It builds on** demonstrations (lesson 6)
 # and the ablation (9).
@@ -39,7 +39,7 @@ from bootcourse.study import checks, figures, paper, planner, report, results, t
 # %% [markdown]
 # ## Look first
 #
-# Three pupils of one teacher, on the same road. They learned from the same
+# Three agents drive on the same road. They learned from the same
 # {{ SETTINGS.demonstration_episodes }} drives of the rule, by three methods: behaviour cloning
 # (BC), CQL and GAIL. Five agents of each ship with the course. You see the one whose drive here
 # ends first, if any ends early. Press play, and turn the road with the mouse.
@@ -96,15 +96,19 @@ predict("10.1", "How many of ten GAIL agents escape?", ["none", "1 to 5", "6 to 
 # | plain SAC | its own driving | yes | yes | never |
 # | bootstrapped SAC | both kinds of driving | yes | yes | for {{
 # SETTINGS.demonstration_episodes }} drives and at each second |
-# | planner | nothing: it tries all actions in a copy of the road | | yes | never |
+# | planner | nothing: it tries all nine actions in a copy of the road | | yes | never |
+# <!-- claim: [of(m).agents[0]['beta_start'] for m in ('bc', 'cql', 'sac')] == [1, 1, 0] and 0 <
+#   of('gail').agents[0]['beta_start'] < 1 and 0 < of('bootstrapped').agents[0]['beta_start'] < 1
+#   -->
 #
-# BC and CQL are **offline**: they need no road while they learn. The other learners drive. SAC is
-# *off-policy*: it also learns from decisions that an older policy made, or somebody else. So
+# BC and CQL are **offline**: they learn from recorded drives alone. The other learners drive. SAC
+# is *off-policy*: it also learns from decisions that an older policy made, or another driver. So
 # demonstrations can stand in its memory.
 #
 # The paper announces "one state-of-the-art behavior cloning method" and then lists CQL, SAC and
 # GAIL. It probably means GAIL, which learns by driving. Behaviour cloning as in lesson 6 has no row
 # in the paper's table; in ours it has one. The price of each method:
+# <!-- claim: 'bc' not in PRINTED and len(of('bc')) == 10 -->
 
 # %%
 study, demonstrations = bc.shipped_results(), bc.collect(200)
@@ -121,11 +125,11 @@ rows.append([bc.display_name("planner"), "0", own, "0"])
 table(["decisions that it uses", "the rule's", "its own", "updates, about"], rows)
 
 # %% [markdown]
-# Now the paper's table, beside ours: ten agents of each method, {{ roads() | , }} roads that none
-# of them has seen. The paper prints mean ± standard deviation. Our returns are interquartile means
-# over agents with their 95 % interval (the rule's: its mean); our rates are means over all drives.
-# The paper says that a road departure counts in its collision rate, too; we count them apart.
-# Speeds and distances are in `assets/report`.
+# Now the paper's table, beside ours: ten agents of each method, {{ roads() | , }} held-out roads.
+# The paper prints mean ± standard deviation. Our returns are interquartile means over agents with
+# their 95 % interval (the rule's: its mean). Our rates are means over the agents' drives. The paper
+# counts a road departure in its collision rate, too; we count the two apart. Speeds and distances
+# are in `assets/report`.
 
 # %%
 rule = report.rule_results(bc.DEFAULT, study.tested["returns"].shape[1])
@@ -183,17 +187,15 @@ print(paper.arithmetic("gail"))
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Collect the votes for each method before the table. The class will be tempted to conclude that the
-# paper is wrong. What the table shows is weaker and enough: a sentence such as "CQL cannot leave
-# the trap" does not hold for CQL as such.
+# paper is wrong. The table shows less: "CQL stays in the trap" is not true of CQL as such.
 
 # %% [markdown]
 # ## Round 2: a judge instead of a reward
 #
-# A clone copies actions, one state at a time. GAIL asks for more: the agent shall *visit* the same
-# states as the rule, and do there what the rule does. How often a driver is in state s and does a
-# is its **occupancy measure** ρ(s, a): of all decisions in its drives, the share that are this one.
-# Two drivers with the same ρ drive alike. Here is a small part of ρ, with the states cut into
-# stretches of the road:
+# A clone copies actions, one state at a time. GAIL asks for more: the agent should *visit* the same
+# states as the rule, and do there what the rule does. A driver's **occupancy measure** ρ(s, a) is
+# the share of its decisions in which it is in state s and takes action a. Two drivers with the same
+# ρ drive alike. Here is a small part of ρ, with the states cut into stretches of the road:
 
 # %%
 edges = [-60, -40, -25, -15, -5]
@@ -225,7 +227,7 @@ table(headings, rows)
 #
 # <details><summary>Why the best judge says ρ_rule / (ρ_rule + ρ_own)</summary>
 #
-# The loss is a sum over all pairs (s, a). One pair adds −ρ_rule log D − ρ_own log (1 − D). Its
+# The loss is a sum over the pairs (s, a). One pair adds −ρ_rule log D − ρ_own log (1 − D). Its
 # slope with respect to D is −ρ_rule / D + ρ_own / (1 − D). It is 0 where ρ_rule (1 − D) = ρ_own D,
 # so at D = ρ_rule / (ρ_rule + ρ_own). Where both are equal, D = ½. If D = ½ everywhere, the two
 # occupancy measures are the same, and the agent drives like the rule.
@@ -240,7 +242,7 @@ table(headings, rows)
 #   bool(torch.tensor(100.0).exp().isinf()) -->
 #
 # **Exercise 10.1 (15 min, ●●●).** Write the judge's loss from its logits, so that it is right for
-# every logit from −100 to 100. First work out, on paper, log D and log (1 − D) as functions of x.
+# logits from −100 to 100. First work out, on paper, log D and log (1 − D) as functions of x.
 
 
 # %%
@@ -255,12 +257,13 @@ def discriminator_loss(rule_logits, own_logits):
 check.discriminator_loss(discriminator_loss)
 
 # %% [markdown]
-# The agent learns to deserve a high D. It sees no reward of the road. It makes its own:
+# The agent learns to get a high D from the judge. In place of the road's reward it is paid
 #
 # $$ r(s,a) = -\log (1 - D(s,a)) $$
 #
-# > **Predict.** Others pay log D, which also grows with D. Suppose the judge cannot tell: D = ½ at
-# > every second. For which of the two rewards is a drive of 150 s better than a crash after 5 s?
+# > **Predict.** Other programs pay log D, which also grows with D. Suppose the judge cannot tell: D
+# > = ½ at every second. With which of the two rewards does a drive of 150 s earn more than a crash
+# > after 5 s?
 
 # %%
 predict("10.2", "A long drive is better with", ["−log (1 − D)", "log D", "both", "neither"])
@@ -289,8 +292,9 @@ for d in (0.1, 0.5, 0.9):
 
 # %% [markdown]
 # **Explain.** The sign alone decides whether it pays to go on. With our reward each second is worth
-# something, however badly one imitates; with log D each second costs something, and an early crash
-# is the cheapest drive. On this road, where only accidents end a drive early, we want the first.
+# something, however bad the imitation is; with log D each second costs something, and an early
+# crash is the cheapest drive. On this road, where a drive that ends early is one with an accident,
+# we want the first.
 #
 # > **Predict.** So GAIL is paid for staying on the road. In which share of the test drives does a
 # > GAIL agent leave it all the same? How many of those drives count as successes?
@@ -321,16 +325,17 @@ table(headings, rows)
 # **Explain.** We have not tested why; this is a likely reading. A clone learns the rule's own
 # action in each state. The judge only decides whether a second looks like one of the rule's, and
 # many seconds do. In the last table GAIL's agents do what the rule would in fewer seconds than the
-# clones. The demonstrations contain no accident, so
-# nothing in them says what one costs. GAIL loses by an accident what the seconds after it would
-# have paid, and γ = {{ settings_for('gail').gamma }} counts about five of them. The measure of the
-# paper hides such accidents: a car that leaves the road *after* overtaking counts as a success.
+# clones. The demonstrations contain no accident, so they do not show what an accident costs. GAIL
+# loses by an accident what the seconds after it would have paid, and γ =
+# {{ settings_for('gail').gamma }} counts about five of them. The paper's success rate hides such
+# accidents: a car that leaves the road *after* overtaking counts as a success.
 # <!-- claim: round(1 / (1 - settings_for('gail').gamma)) == 5 -->
+# <!-- claim: accidents('rule') == 0 -->
 #
 # ### How long is long enough?
 #
 # > **Predict.** In the training figure of round 1, GAIL finds the way out last, by far. Somebody
-# > stops every method after 300 episodes and prints the table: what stands in GAIL's row? And if
+# > stops every method after 300 episodes and prints the table. What stands in GAIL's row? And if
 # > all are stopped after the same number of *updates*?
 
 # %%
@@ -354,10 +359,11 @@ headings += [f"success, %, at update {budgets[0]}", *(f"{b:,}" for b in budgets[
 table(headings, rows)
 
 # %% [markdown]
-# **See.** GAIL needs several times the episodes of CQL, and less than twice its updates: an agent
-# that crashes after a few seconds gets through hundreds of episodes with hardly an update. What the
-# axis counts decides which method looks slow. And each of the first three would stand in a table as
-# a failure, if its training had been stopped early enough.
+# **See.** Compare the columns "from episode" and "from update". GAIL needs several times the
+# episodes of CQL, and less than twice its updates: an agent that crashes after a few seconds drives
+# hundreds of episodes with few updates. So it depends on the axis which method looks slow. And each
+# of the first three methods would look like a failure if its training had been stopped early
+# enough.
 #
 # **Explain.** How would a reader notice? The row itself does not show it. So test your learners
 # where others have published what can be reached: `python -m bootcourse.study.checks` trains the
@@ -376,10 +382,11 @@ table(headings, rows)
 # | {{ checked(3, 'learner') }}, CartPole of fixed length | {{ checked(3, 'published') }} | {{
 # checked(3, 'ours') }} | {{ checked(3, 'reached') }} |
 #
-# A *no* says where to look before you believe a table. Acrobot's was a no at first, and the cause
-# was not the learner: with scaled observations, or with fewer updates, only about half of the
-# agents met the goal in time. A badly trained baseline makes *any* new method look good, so make
-# such checks for the baselines, too. Who published the scores, and with which budget:
+# A score that is not reached says where to look before you believe a table. Acrobot's was not
+# reached at first, and the learner was right: with scaled observations, or with fewer updates,
+# about half of the agents did not reach the goal in time. Next to a badly trained baseline a new
+# method looks good, so make such checks for the baselines, too. Who published the scores, and with
+# which budget:
 
 # %%
 rows = [
@@ -389,15 +396,15 @@ rows = [
 table(["learner", "task", "published", "with", "by"], rows)
 
 # %% [markdown] tags=["instructor"] minutes=6
-# A good quarrel: is it fair to train all methods for the same number of episodes, of updates, of
-# seconds, or until each stops improving? There is no answer that is right for all questions, but a
-# paper has to say which it took.
+# A good question to argue about: is it fair to train all methods for the same number of episodes,
+# of updates, of seconds, or until each stops improving? The answer depends on what the table is
+# for, but a paper has to say which it took.
 
 # %% [markdown]
-# ## Round 3: twenty test drives
+# ## Round 3: what can twenty test drives show?
 #
-# The paper does not say how many drives it tests. Its numbers give away that it is {{ EPISODES }}:
-# you will see how.
+# The paper does not say how many drives it tests. You will see how its numbers give away that there
+# are {{ EPISODES }}.
 #
 # > **Predict.** In 20 drives, no accident. Which true rates of accidents are compatible with that,
 # > in the sense of a 95 % interval? And if there was one?
@@ -413,8 +420,9 @@ for k in (0, 1, 20):
     print(f"{k:2} of {paper.EPISODES}: {value:3.0f} %, true rate in [{low:.1f}, {high:.1f}] %")
 
 # %% [markdown]
-# **See.** 0 of 20 and 20 of 20 are far apart: an agent that always escapes does not show 0 % in 20
-# drives by bad luck. The second suspect can go. But 0 of 20 and 1 of 20 are nearly the same.
+# **See.** 0 of 20 and 20 of 20 are far apart: an agent that escapes on nearly all roads does not
+# show 0 % in 20 drives by bad luck. The luck of the test drives does not explain the 0 %. But 0 of
+# 20 and 1 of 20 are nearly the same.
 # <!-- claim: rate(np.arange(20) < 0).high < rate(np.arange(20) < 20).low -->
 # <!-- claim: rate(np.arange(20) < 0).high > rate(np.arange(20) < 1).value -->
 #
@@ -448,10 +456,12 @@ for k in range(4):
     print(f"{5 * k} ± {np.repeat([100, 0], [k, 20 - k]).std(ddof=1):.2f} %", end=";  ")
 
 # %% [markdown]
-# **Explain.** The deviation of a rate carries no news of its own: k and n decide it. "5 ± 22.36" is
-# one drive of {{ EPISODES }}, and of no other number. That is how we know the {{ EPISODES }}. "5 ±
-# 29.69" is nothing at all: no number of drives gives 5 % that much. A misprint, probably; but which
-# of the two numbers?
+# **Explain.** The deviation of a rate adds nothing new: k and n decide it. "5 ± 22.36" is one drive
+# of {{ EPISODES }}, and of no other number. That is how we know the {{ EPISODES }}. "5 ± 29.69" is
+# not possible: at a rate of 5 % no number of drives has so large a deviation. One of the two
+# numbers is probably a misprint; but which?
+# <!-- claim: [n for n in range(1, 99) if round(np.repeat([100, 0], [n, 19 * n]).std(ddof=1), 2) ==
+#   22.36] == [1] -->
 # <!-- claim: PRINTED['demos']['collision'] == (5, 29.69) and max(np.repeat([100, 0], [n, 19 *
 #   n]).std(ddof=1) for n in range(1, 99)) < 29.69 -->
 
@@ -459,15 +469,15 @@ for k in range(4):
 source("bootcourse.study.paper", "possible")
 
 # %% [markdown]
-# > **Predict.** A driver collides in one drive of 20. How many drives without a collision must you
-# > see until such a driver would have been found out with 95 %?
+# > **Predict.** A driver collides in one drive of 20, on average. How many drives must you watch so
+# > that you see a collision with a probability of 95 %?
 
 # %%
 predict("10.6", "Drives until one in 20 is found out", ["20", "60", "400"])
 
 # %% [markdown]
 # **Exercise 10.4 (5 min, ●●○).** Write it: the smallest n for which n drives in a row without an
-# accident have a chance of 5 % or less.
+# accident have a probability of 5 % or less.
 
 
 # %%
@@ -489,8 +499,8 @@ for r in (0.5, 0.05, 0.01, 0.001):
 
 # %% [markdown]
 # Now to the row of the paper's method, "0 ± 0 %" collisions in {{ EPISODES }} drives. Our ten
-# bootstrapped agents have driven {{ roads() | , }} roads each. How likely would 20 drives of each
-# show no collision?
+# bootstrapped agents have driven {{ roads() | , }} roads each. For each of them: how likely are 20
+# drives without a collision?
 # <!-- claim: PRINTED['bootstrapped']['collision'] == (0, 0) -->
 
 # %%
@@ -501,7 +511,8 @@ rows.append(["20 drives show none", *(f"{100 * p:.0f} %" for p in lucky)])
 table(["bootstrapped agents", *map(str, range(1, len(collisions) + 1))], rows)
 
 # %% [markdown]
-# Returns are no different. CQL's first agent earns more than the rule, over 1,000 roads.
+# The same question can be asked of returns. CQL's first agent earns more than the rule, as a mean
+# over {{ roads() | , }} roads.
 # <!-- claim: of('cql').scores('returns')[0] > of('rule').scores('returns')[0] and roads() == 1000
 #   -->
 #
@@ -524,10 +535,14 @@ headings = ["first agents of", "true difference", "20 roads each", "the same 20"
 table(headings, rows)
 
 # %% [markdown]
-# **Explain.** Twenty drives are enough where both drivers earn about the same on every road, as in
-# the last row. Where roads differ more than drivers, they are not. The same roads for all is then
-# the cheapest help: what a road gives or takes, it gives or takes from both. The study tests every
-# agent on the same {{ roads() | , }}. And yet, all of this speaks of *one agent* of each method.
+# **Explain.** In the last row the returns of either driver differ little from road to road, and 20
+# drives find the difference. In the other rows those of at least one driver differ more, and 20
+# drives are often too few. Testing both drivers on the same roads helps and costs nothing: part of
+# what makes a road good or bad is the same for both, and drops out of the difference. The study
+# tests its agents on the same {{ roads() | , }} roads. But this comparison is between *one agent*
+# of a method and one of another.
+# <!-- claim: max(of(m).episodes('returns')[0].std() for m in ('bc', 'gail')) < 10 <
+#   min(of(m).episodes('returns')[0].std() for m in ('cql', 'rule')) -->
 
 # %% [markdown] tags=["instructor"] minutes=5
 # "Then {{ roads() | , }} drives settle it." Hold that thought until lesson 11: they settle which
@@ -536,9 +551,9 @@ table(headings, rows)
 # %% [markdown]
 # ## What you now know
 #
-# 1. BC and CQL learn without driving; GAIL has to drive. BC and GAIL never hear of a reward.
-# 2. GAIL earns a reward of its own making; its sign decides whether going on pays.
-# 3. A method can stand in a table as a failure because its training was stopped too early.
+# 1. BC and CQL learn without driving; GAIL has to drive. BC and GAIL do not use the road's reward.
+# 2. GAIL is paid by its judge; the sign of that reward decides whether going on pays.
+# 3. A method whose training was stopped too early looks like a failure in a table.
 # 4. Twenty drives tell 0 % from 100 %, and hardly 0 % from 5 %; k and n fix the ± of a rate.
 # <!-- claim: 5 < 100 * rate(np.arange(20) < 0).high < 100 * rate(np.arange(20) < 20).low -->
 # 5. Rates of accidents are means: an interquartile mean hides the agents that crash most.
@@ -569,12 +584,12 @@ compare_predictions(
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Answers to the three questions. (1) In the centring and steering terms: a car between two lanes
-# earns nothing for centring, and one that steers all the time loses a little at each second.
+# earns nothing for centring, and a car that keeps steering loses a little at each second.
 # Braking below 5 m/s costs the most, since the speed term has its own shape there: 11.5 m/s *on
 # average* can be made of slow and fast seconds that pay less than a steady speed. (2) The places
 # and speeds of the rule, by whatever actions lead there: *imitation from observation*. Where two
 # actions lead to nearly the same state, it would be free to choose. (3) Both copy what they see. BC
-# copies the agent's actions, those before accidents included, and cannot tell that they ended
+# copies the agent's actions, those before accidents included, and does not learn that they ended
 # badly. GAIL's judge would take the seconds before a crash for the demonstrator's, so it would pay
 # for them.
 
