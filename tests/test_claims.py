@@ -12,7 +12,16 @@ from tools.course.products import documents, instructor_file, refresh_prose, stu
 from tools.course.source import read, sources
 
 # These lessons leave no sentence with ever, never, all, only, because ... unclaimed. The others are to follow.
-CLAIMED = ("00_start", "01_the_trap", "02_traffic", "03_the_rule", "12_exploration", "13_bug_hunt")
+CLAIMED = (
+    "00_start",
+    "01_the_trap",
+    "02_traffic",
+    "03_the_rule",
+    "10_imitation",
+    "11_offline_learning",
+    "12_exploration",
+    "13_bug_hunt",
+)
 
 TEXT = """\
 # %% [markdown]

@@ -75,14 +75,15 @@ print(paper.arithmetic("cql"))
 # <!-- claim: escaped('cql') == len(of('cql')) -->
 
 # %% [markdown]
-# ## Round 1: a critic that distrusts what nobody tried
+# ## Round 1: a critic that distrusts untried actions
 #
-# Q-learning asks of each next state: what is the best action worth? Offline, the best is often one
-# that nobody tried there. Its value is a guess, and the largest of nine guesses is mostly too high.
-# An agent that drives would try the action and see what it pays. An offline agent keeps its guess.
+# Q-learning asks of each next state: what is the best action worth? Offline, the action with the
+# highest Q is often one that is missing from the data there. Its value is a guess, and the largest
+# of nine guesses is mostly too high. An agent that drives would try the action and see what it
+# pays. An offline agent keeps its guess.
 #
 # > **Predict.** Train Q-learning on the 200 drives, offline. How will it value the actions that
-# > nobody tried? And how does an agent drive that follows such values?
+# > nobody tried? And how will an agent drive if it follows these values?
 
 # %%
 choices = ["lower than the rule's action", "about as high", "higher than the rule's action"]
@@ -167,8 +168,8 @@ check.offline_loss(offline_loss)
 
 # %% [markdown]
 # Now train six learners side by side: two with the term, two without, and two with the term whose
-# rewards are all set to 0. Ask the critics about the first 20 seconds of the rule's drives, the way
-# out: what is the rule's action worth to you, and what the best of the other eight?
+# rewards are set to 0. We ask the critics about the first 20 seconds of the rule's drives, the way
+# out. What is the rule's action worth, and what is the best of the other eight worth?
 
 # %%
 torch.set_num_threads(1)  # small matrices are faster on one thread
@@ -219,9 +220,9 @@ table(headings, rows)
 # %% [markdown]
 # **See.** (These six were trained on your machine: your numbers will differ from ours.) Data,
 # network and number of updates are the same. Compare the first two pairs, which differ in one term.
-# Without it the guesses feed on each other: each target contains the best guess about the next
-# state. With it, the rule's action is worth about what the rule's drive pays. Compare the curves
-# with the line that no drive can reach.
+# Without it, each target contains the highest guess about the next state, and the guesses raise
+# each other. Compare the curves with the dotted line, which says how much a drive can be worth at
+# most.
 #
 # **Explain.** What does the term do to the car? Compare it with the cloning loss of lesson 6:
 
@@ -235,17 +236,17 @@ for action in (1, 7, 8):
     print(f"the cloning loss of softmax(Q) {cloning:.4f}")
 
 # %% [markdown]
-# They are the same number. CQL is Q-learning and a clone in one: the clone decides where the data
-# are clear, the rewards decide between actions that the data hold side by side. (We
-# think that this is why it takes the way out, although with γ = 0.8 the rule's drive is worth less
-# than staying: lesson 6.)
+# They are the same number. CQL is Q-learning and cloning in one. Where the data hold one action,
+# the cloning term decides; where they hold several, the rewards can decide. (We think that this is
+# why it takes the way out, although with γ = 0.8 the rule's drive is worth less than staying:
+# lesson 6.)
 # <!-- claim: discounted(by_rule(), 0.8) < discounted(idle(), 0.8) and settings_for('cql').gamma ==
 #   0.8 -->
 #
 # ## Round 2: what the rewards add, and what an actor changes
 #
-# > **Predict.** The clone has the rule's actions only, CQL has their rewards, too. Where the rule
-# > brakes, which of the two brakes more often?
+# > **Predict.** The clone learns from the rule's actions, CQL from their rewards, too. Where the
+# > rule brakes, which of the two brakes more often?
 
 # %%
 choices = ["the clone", "CQL", "both equally often"]
@@ -260,14 +261,14 @@ table(headings, rows)
 # %% [markdown]
 # **See.** The two differ from the rule in different places. In these 24 drives of each agent, the
 # clones brake nearly always where the rule does, and do about half of its accelerations. CQL's
-# agents leave out a good part of the braking and do most of the accelerations. Do the rewards tell
-# them that? Compare the last two rows (yours will differ): the same data, the same loss, and all
-# rewards set to 0 for the last. If the braking comes back there, it is the rewards that took it
-# away.
+# agents leave out a good part of the braking and do most of the accelerations. Do they learn that
+# from the rewards? Compare the last two rows (yours will differ): the data and the loss are the
+# same, and the last row's rewards are 0. If it brakes more where the rule brakes, the rewards make
+# the difference.
 #
-# There is also more than one CQL. This one has no actor and follows its critic. You can as well
-# put the same term on the critics of SAC and keep the actor. Both are called CQL in papers. The
-# study has both:
+# There is also more than one CQL. This one is a critic alone: the agent takes the action with the
+# highest Q. You can also put the same term on the critics of SAC and keep the actor. Both are
+# called CQL in papers. The study has both:
 
 # %%
 study, rows = bc.shipped_results(), []
@@ -285,9 +286,8 @@ table(["", "agents that escape", "mean speed", "returns of the agents, sorted"],
 #   idle().rewards.sum(), atol=1) -->
 #
 # **Explain.** Why the actor makes this difference is open. One idea is that α falls too early, so
-# that the actor settles on one action before the critic knows which. We have not tested it. So the
-# first suspect, *which* CQL it was, is a strong one. That does not show
-# that the paper's CQL was of this kind.
+# that the actor settles on one action before the critic knows which. We have not tested it. So
+# *which* CQL it was is a strong suspect. That does not show that the paper's CQL had an actor.
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Ask who expected offline Q-learning to do *something* sensible with
@@ -306,11 +306,11 @@ choices = ["one agent, 10,000 drives", "ten agents, 1,000 drives each", "both th
 predict("11.3", "What says more about a method?", choices)
 
 # %% [markdown]
-# As a yardstick take the planner, which knows what every other car will do. On each of the
-# {{ roads() | , }} roads we know the best return that it found, the bound.
+# As a yardstick take the planner, which tries actions in a copy of the road, other cars included.
+# On each of the {{ roads() | , }} roads we know the best return that it found, the bound.
 #
-# **Exercise 11.2 (4 min, ●○○).** Write the share of the bound: of all that the planner earned on
-# these roads, which share did each agent earn?
+# **Exercise 11.3 (4 min, ●○○).** Write the share of the bound: an agent's mean return on these
+# roads, divided by the planner's.
 
 
 # %%
@@ -366,11 +366,12 @@ print(f"ten seeds: P(bootstrapped > CQL) = {tables.bracketed(both, 100)} %")
 #   of('cql').scores('returns'))) -->
 #
 # **Explain.** None of the ten clones earns more than the rule, and all ten CQL agents do, by a
-# little. That is no law. A clone can beat its teacher: if a teacher errs at random, its clone may
-# learn the teacher's most frequent action and leave out the errors. This teacher does not err at
-# random. CQL hears of rewards as well, but its term lowers the value of what nobody demonstrated:
-# its agents stay near their teacher, at less than half of the bound. The bootstrapped agents try
-# things out. Most of them come much nearer to the bound, and some crash.
+# little. Elsewhere it may be different. A clone can beat its teacher: if a teacher errs at random,
+# its clone may learn the teacher's most frequent action and leave out the errors. This teacher does
+# not err at random. CQL uses the rewards as well, but its term lowers the value of actions that
+# nobody demonstrated: its agents stay near their teacher, at less than half of the bound. The
+# bootstrapped agents also try other actions. Most of them come much nearer to the bound, and some
+# crash.
 # <!-- claim: of('bc').scores('returns').max() < of('rule').scores('returns')[0] -->
 # <!-- claim: of('cql').scores('returns').min() > of('rule').scores('returns')[0] -->
 # <!-- claim: of('cql').scores('returns').max() < bound().mean() / 2 -->
@@ -384,15 +385,14 @@ print(f"ten seeds: P(bootstrapped > CQL) = {tables.bracketed(both, 100)} %")
 # <!-- claim: 0 / bound().mean() == 0 < idle().rewards.sum() -->
 # <!-- claim: 100 * max(shipped_results().scores('returns')) / bound().mean() < 100 -->
 #
-# ## Round 4: the road
+# ## Round 4: do faster traps explain the paper's rows?
 #
 # What about the suspects? *Which* CQL: of one kind all ten agents escape, of the other kind
 # none. How *long*: each of the three methods fails if its training is stopped early enough. *Luck*:
 # {{ EPISODES }} test drives do not explain it; a single unlucky seed might, for GAIL. The *road* is
-# left. The paper's traps were probably a
-# little faster than ours, and a method that gets out of one trap need not get out of another. So
-# the whole study was run a second time, behind traps at {{ CALIBRATED.traps.speed }} m/s (lesson
-# 9).
+# left. The paper's traps were probably a little faster than ours, and a method that gets out of one
+# trap need not get out of another. So the whole study was run a second time, behind traps at
+# {{ CALIBRATED.traps.speed }} m/s (lesson 9).
 # <!-- claim: escaped('cql') == len(of('cql')) and escaped('cql_sac') == 0 -->
 #
 # > **Predict.** Behind faster traps there is less to gain. For which methods do fewer of ten agents
@@ -452,7 +452,7 @@ table(headings, rows)
 #    its seeds differ.
 #
 # **Three questions to think about**
-# - You may write one letter to the authors of a paper whose baseline does nothing at all. Which
+# - You may write one letter to the authors of a paper whose baseline drives like an idle car. Which
 #   three things do you ask for?
 # - What would CQL learn from 200 drives of a bootstrapped agent, accidents included?
 # - CQL's bound holds for the value of the policy. Why is a bound on each Q(a) not needed?
@@ -484,12 +484,12 @@ compare_predictions(
 # %% [markdown] tags=["instructor"] minutes=3
 # Answers to the three questions. (1) The learner's code or its settings in full (which CQL, which
 # weight, how many updates); the number of training seeds, with the result of each; a drive of the
-# baseline, or its curve, that shows that it learned anything at all. (2) The frequent actions of
-# those drives, and where good and bad drives pass through the same states, the better ones: CQL
-# hears the rewards, −10 for each accident included. Data with accidents tell it what nobody could
-# tell it before: what they cost. (3) The agent follows the policy, so what it will earn is the
-# policy's value. An action whose Q is too high and that the policy does not take does no harm. One
-# that it takes more often than the data is pushed below its target.
+# baseline, or its curve, that shows that it learned something. (2) The frequent actions of those
+# drives, and where good and bad drives pass through the same states, the better ones: CQL uses the
+# rewards, −10 for each accident included. The rule's drives could not tell it what an accident
+# costs; these can. (3) The agent follows the policy, so what it will earn is the policy's value. An
+# action whose Q is too high does not matter as long as the policy does not take it. An action that
+# the policy takes more often than the data do is pushed below its target.
 
 # %% [markdown]
 # **Read on**: Kumar et al., *Conservative Q-Learning for Offline Reinforcement Learning* (arXiv
