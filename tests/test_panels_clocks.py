@@ -75,12 +75,12 @@ def kept(root, half_life=30):
 
 def test_a_study_s_folder_is_what_the_panel_shows(tmp_path):
     kept(tmp_path)
-    panel = clocks_panel(tmp_path)
+    panel = clocks_panel(study=tmp_path)
     assert panel.chosen == ("2", "μ") and "1 of 2 agents escape" in panel.alt
     with pytest.raises(BootcourseError, match="'4 μ' is unknown"):
-        clocks_panel(tmp_path, "4")
+        clocks_panel("4", "μ", study=tmp_path)
 
 
 def test_a_folder_without_such_jobs_says_which_command_makes_them(tmp_path):
     with pytest.raises(BootcourseError, match="bootcourse study clocks --out"):
-        clocks_panel(tmp_path)
+        clocks_panel(study=tmp_path)

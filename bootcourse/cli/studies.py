@@ -15,7 +15,9 @@ from bootcourse.errors import BootcourseError, did_you_mean
 
 
 def study(
-    name: str = typer.Argument("default", help="default, calibrated or paper; sensitivity, clocks or ablations."),
+    name: str = typer.Argument(
+        "default", help="default, calibrated or paper; sensitivity, clocks, ablations or longer-view."
+    ),
     out: Path = typer.Option(..., help="The study's folder: new, or that of a study to continue; all may share one."),
     seeds: int = typer.Option(0, min=0, help="Training seeds of each method; 0: the study's own number."),
     episodes: int = typer.Option(0, min=0, help="Training episodes of each agent; 0: the study's own number."),
@@ -29,6 +31,7 @@ def study(
     """Train and test every method with many seeds; write tables, figures and the fidelity report.
 
     default, calibrated and paper: all methods. sensitivity, clocks and ablations: the paper's ablation, varied.
+    longer-view: its method with other numbers.
     """
     from bootcourse.study import plan
     from bootcourse.study.report import write_report

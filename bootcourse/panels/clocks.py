@@ -1,6 +1,6 @@
 """Two clocks: ξ = 200 α fades with the updates, β with the episodes. Which help lasts?
 
-The panel shows what `bootcourse study clocks` measured; nothing is trained or modelled here.
+The panel shows what `bootcourse study clocks` measured, by default the results that ship; nothing is trained here.
 """
 
 from collections.abc import Mapping
@@ -15,9 +15,10 @@ from bootcourse.panels.panel import Panel
 from bootcourse.plots.svg import QUIET, SvgAxes, drawing, printed, text
 from bootcourse.plots.training_curves import WINDOW, draw_band
 from bootcourse.statistics import ESCAPES, iqm, rolling_means
+from bootcourse.storage.assets import FOLDER
 from bootcourse.study.clocks import cells, faded
 from bootcourse.study.plan import VARIED
-from bootcourse.study.results import Results, in_study
+from bootcourse.study.results import Results, in_assets, in_study
 
 WIDTH, HEIGHT = 940, 500
 FADING, SUCCESS = (52, 84, 660, 140), (52, 296, 660, 150)  # the charts' left, top, width and height, pixels
@@ -107,16 +108,17 @@ def _label(axes: SvgAxes, ends: dict[str, tuple[float, str]]) -> None:
         axes.parts.append(text(across, y, name, fill=colour, bold=True))
 
 
-def clocks_panel(study: Path | str, updates: str = "", demonstrations: str = "") -> ClocksPanel:
+def clocks_panel(updates: str = "", demonstrations: str = "", study: Path | str = "") -> ClocksPanel:
     """See which help lasts: ξ, β and success over the episodes, for a chosen number of updates per decision.
 
-    study: a folder in which `bootcourse study clocks` has finished jobs. updates: "1/4", "1", "2" or "4", and
-    demonstrations: driven by "μ", the rule, or by "π̃", the stochastic rule; by default the first pair that was
-    computed. Raises BootcourseError for a pair that was not.
+    updates: "1/4", "1", "2" or "4", and demonstrations: driven by "μ", the rule, or by "π̃", the stochastic rule; by
+    default the first pair that was computed. study: a folder in which `bootcourse study clocks` has finished jobs; by
+    default the results that ship. Raises BootcourseError for a pair that was not computed.
     """
-    measured = cells(in_study(Path(study)).experiments["clocks"])
+    measured = cells((in_study(Path(study)) if study else in_assets(FOLDER)).experiments["clocks"])
     if not measured:
-        raise BootcourseError(f"{study} has no finished jobs of `bootcourse study clocks --out {study}`: run it first.")
+        where = study or FOLDER
+        raise BootcourseError(f"{where} has no finished jobs of `bootcourse study clocks --out {where}`: run it first.")
     first = next(iter(measured))
     chosen = (updates or first[0], demonstrations or first[1])
     if chosen not in measured:

@@ -132,6 +132,13 @@ def _ablations() -> dict[str, Variation]:
     }
 
 
+def _longer_view() -> dict[str, Variation]:
+    """The paper's method with a longer view, a smaller bonus, a larger batch and two updates per decision."""
+    saner = {**SETTINGS["paper"], "bonus": 0.5, "batch": 128}
+    both = ("bootstrapped",)
+    return {f"γ = {gamma}": Variation(saner | {"gamma": gamma}, methods=both) for gamma in (0.95, 0.97)}
+
+
 @dataclass(frozen=True)
 class Experiment:
     """Variations that are run with the same seeds and number of episodes."""
@@ -154,6 +161,7 @@ EXPERIMENTS = {
     "sensitivity": Experiment(_sensitivity(), seeds=3, episodes=1500),
     "clocks": Experiment(_clocks(), seeds=10, episodes=1200),
     "ablations": Experiment(_ablations(), seeds=10, episodes=2000),
+    "longer-view": Experiment(_longer_view(), seeds=10, episodes=1500),
 }
 
 

@@ -132,7 +132,7 @@ def sensitivity_table(results: dict[str, Results], measure: str) -> str:
     return markdown([HEADINGS[measure], *(display_name(method) for method in methods)], rows)
 
 
-def ablations_table(varied: dict[str, Results]) -> str:
+def variations_table(varied: dict[str, Results]) -> str:
     """Who escapes and what they earn, a row for each variation and method."""
     rows = []
     for variation, found in varied.items():
