@@ -34,6 +34,7 @@ from bootcourse.rule import HEADING_COST, Reason, stochastic_rule, target_speed
 from bootcourse.scenario import ACTION_NAMES, CALIBRATED, DEFAULT, N_ACTIONS, RULE_P
 from bootcourse.statistics import ESCAPES, escapes, improvement, interval, iqm, rate
 from bootcourse.storage.assets import FOLDER
+from bootcourse.study import clocks as study_clocks
 from bootcourse.study import report
 from bootcourse.study.checks import CHECKS
 from bootcourse.study.paper import EPISODES, PRINTED, paper_interval
@@ -109,8 +110,7 @@ def of(method: str) -> Results:
 
 def escaped(method: str, scenario: str = "default") -> int:
     """How many agents of a method escape."""
-    results = of(method) if scenario == "default" else shipped_results(scenario).of(method)
-    return int((results.scores("success") >= ESCAPES).sum())
+    return escapers(of(method) if scenario == "default" else shipped_results(scenario), method)
 
 
 @cache
@@ -121,7 +121,24 @@ def varied() -> dict[str, Results]:
 
 def escaped_with(change: str, method: str) -> int:
     """How many of the few agents of a method escape with a number changed."""
-    return int((varied()[change].of(method).scores("success") >= ESCAPES).sum())
+    return escapers(varied()[change], method)
+
+
+@cache
+def ablations() -> dict[str, Results]:
+    """The ten agents of each method with one choice of the method changed, by what was changed."""
+    return shipped.shipped_experiment("ablations")
+
+
+@cache
+def clocks() -> dict[tuple[str, str], Results]:
+    """The four methods' ten agents each, by (updates per decision, who drives the demonstrations): ("2", "π̃")."""
+    return study_clocks.cells(shipped.shipped_experiment("clocks"))
+
+
+def escapers(results: Results, method: str) -> int:
+    """How many of a method's agents in these results escape."""
+    return int((results.of(method).scores("success") >= ESCAPES).sum())
 
 
 def accidents(method: str) -> float:
