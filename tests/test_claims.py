@@ -17,6 +17,7 @@ CLAIMED = (
     "01_the_trap",
     "02_traffic",
     "03_the_rule",
+    "04_discrete_sac",
     "10_imitation",
     "11_offline_learning",
     "12_exploration",

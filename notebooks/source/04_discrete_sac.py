@@ -17,8 +17,8 @@
 # - write each part of discrete soft actor-critic: the soft value, the losses of critics, actor and
 #   temperature, and the replay buffer;
 # - train agents with the parts that you wrote, and read their curves;
-# - show why a target entropy of {{ SETTINGS.target_entropy }} can only cool an agent with nine
-#   actions, and choose a better one.
+# - say in which direction a target entropy of {{ SETTINGS.target_entropy }} moves the temperature
+#   of an agent with nine actions, and choose another target.
 #
 # **Time** 100 minutes, about one of them the machine's. You can stop after any round. **You need**
 # Python and a little torch; states, actions and rewards as in lesson 1.
@@ -42,9 +42,9 @@ from bootcourse.study import checks
 # ## Look first
 #
 # Before the road, a smaller world. A pole stands on a cart. Each fiftieth of a second you push
-# the cart to the left or to the right: two actions. Each push pays 1 while the pole stands. It is
-# over when the pole leans more than 12 degrees, when the cart leaves its track, or after 500
-# pushes. This is **CartPole**, a common first test for a learner.
+# the cart to the left or to the right: two actions. Each push pays 1 while the pole stands. The
+# episode ends when the pole leans more than 12 degrees, when the cart leaves its track, or after
+# 500 pushes. This is **CartPole**, a common first test for a learner.
 # <!-- claim: gym.make('CartPole-v1').unwrapped.tau == 1 / 50 -->
 # <!-- claim: (lambda env: (env.reset(seed=0), env.step(0))[1][1])(gym.make('CartPole-v1')) == 1 -->
 # <!-- claim: math.degrees(gym.make('CartPole-v1').unwrapped.theta_threshold_radians) == 12 -->
@@ -66,9 +66,9 @@ title = "One line of code balances the pole; chance does not"
 bc.show(figures.cartpole_strip(drives, title))
 
 # %% [markdown]
-# > **Predict.** The second driver is one line that somebody wrote. A learner knows nothing about
-# > poles: it sees four numbers and gets a reward of 1 for each push. Three learners get
-# > 8,000 pushes each to learn from. How long will the best of them balance after that?
+# > **Predict.** The second driver is one line of code. A learner knows nothing about poles: it
+# > sees four numbers and gets a reward of 1 for each push. Three learners get 8,000 pushes each to
+# > learn from. For how many pushes will the best of them balance the pole after that?
 
 # %%
 predict("4.1", "Pushes of the best of three learners", ["about 20", "about 100", "250 or more"])
@@ -92,13 +92,16 @@ label = "pushes of its training so far"
 bc.show(charts.lines(grid, {"sac": np.array(lasted)}, title, label, "pushes in an episode"))
 
 # %% [markdown]
-# **See.** At first the learners drop the pole as fast as chance does. Then they find out. (Your
-# numbers will differ from those of another machine, and three learners differ from each other.)
+# **See.** Compare the first episodes with the last ones, and the three learners with each other.
+# (Yours will differ from those of another machine.)
 #
-# The line above the bar names six parts, all of them **ours**. In this lesson you write each of
-# them. A part that passes its check replaces ours from there on, so that the agents at the end of
-# this lesson learn with your code. It is kept in the folder `answers`, beside the notebooks, for
-# the lessons that build on it.
+# The line above the bar names six parts of a learner and says whose they are: so far **ours**. In
+# this lesson you write all six. A part that passes its check replaces ours from there on, so that
+# the agents at the end of this lesson learn with your code. Your part is kept in the folder
+# `answers`, beside the notebooks, for the lessons that build on it.
+# <!-- claim: len(parts_of([settings_for('sac')], {})) == 6 -->
+# <!-- claim: all(f'check.{part}({part})' in code_of('04_discrete_sac')
+#   for part in parts_of([settings_for('sac')], {})) -->
 #
 # ## The parts in one picture
 
@@ -113,7 +116,7 @@ bc.show(figures.sac_diagram())
 # (Round 3), the temperature (Round 4), the buffer (Round 5).
 
 # %% [markdown]
-# ## Round 1: what is a state worth if undecided policies earn more?
+# ## Round 1: what is a state worth if an undecided policy earns more?
 #
 # *Soft* actor-critic (SAC) adds a small reward for an undecided policy. The **entropy** of the
 # policy says how undecided it is, in nats (natural logarithm):
@@ -194,16 +197,18 @@ for alpha in (0.1, 1.0, 1.4427, 2.0):
 # %% [markdown]
 # **Explain.** The even policy loses 1 in Q and gets 0.693 α for its entropy. The best policy lies
 # between the two: it is a *softmax*, $\pi(a|s) \propto \exp(Q(s,a)/\alpha)$. With a high α this
-# policy is nearly even, with a low α it is nearly sure of one action. In physics, too, a high
-# temperature makes all states nearly equally likely: hence the name.
+# policy is nearly even, with a low α it is nearly sure of one action. The name comes from physics:
+# there a state of energy E has a probability proportional to $\exp(-E/T)$, with the temperature T
+# in the place of α.
 #
 # <details><summary>Why a softmax?</summary>
 #
 # Move a little probability ε from action b to action a. The value changes by
 # $\varepsilon\,[(Q_a - \alpha\log\pi_a) - (Q_b - \alpha\log\pi_b)]$, since the slope of
-# $-\pi\log\pi$ is $-\log\pi - 1$ and the two ones cancel. At the best policy no such move gains
-# anything, so $Q_a - \alpha\log\pi_a$ is the same number Z for each action. Solve for π:
-# $\log\pi_a = (Q_a - Z)/\alpha$, a softmax of Q/α; Z follows from the sum of 1.
+# $-\pi\log\pi$ is $-\log\pi - 1$ and the two ones cancel. If the bracket is not 0, a small move in
+# the right direction gains something, so this is not the best policy yet. At the best one the
+# brackets are 0: $Q_a - \alpha\log\pi_a$ is the same number Z for each action. Solve for π:
+# $\log\pi_a = (Q_a - Z)/\alpha$, a softmax of Q/α. Z is such that the probabilities add up to 1.
 #
 # </details>
 
@@ -220,22 +225,23 @@ bc.show(
 
 # %% [markdown] tags=["instructor"] minutes=10
 # Those who know continuous SAC will want to sample an action and use Q − α log π of it. With two
-# or nine actions the expectation is a sum of so many terms: nothing is sampled, and the target has
-# no noise from the policy. Ask what that noise would have cost (the variance of Q under π).
+# or nine actions the expectation is a sum of two or nine terms, which we compute exactly. Ask what
+# sampling would add to the target (noise, with the variance of Q − α log π under π).
 
 # %% [markdown]
-# ## Round 2: the critic
+# ## Round 2: what should the critic's estimate have been?
 #
 # The critic learns from **transitions**: in state s the learner took action a, got the reward r,
 # and came to the state s'. What should $Q(s,a)$ have been? The reward, plus γ times what the next
-# state is worth. γ ("gamma") is the **discount**, a number between 0 and 1: what comes one step
-# later counts γ times as much, what comes t steps later $\gamma^t$ times as much.
+# state is worth. γ ("gamma") is the **discount**, a number between 0 and 1: a reward one step
+# later counts γ times as much, a reward t steps later $\gamma^t$ times as much. This number, y, is
+# the critic's *target*, and its loss is the mean squared distance from it:
 #
 # $$ y = r + \gamma\, (1 - \text{terminated})\, V(s'), \qquad
 # L_\text{critic} = \text{mean of } (Q(s,a) - y)^2 $$
 #
-# > **Predict.** Two episodes end in the same state. In one the pole fell. In the other the 500
-# > pushes were over. γ = 0.99, r = 1, and the critic holds V(s') for 50. What is y in each?
+# > **Predict.** Two episodes end. In one the pole fell. In the other the 500 pushes were over while
+# > the pole stood. γ = 0.99, r = 1, and the critic's estimate of V(s') is 50. What is y in each?
 
 # %%
 predict(
@@ -263,21 +269,21 @@ terminated = torch.tensor([1.0, 0.0])  # it fell; the time was up
 print(bc.sac.critic_target(torch.ones(2), terminated, torch.tensor([50.0, 50.0]), 0.99).tolist())
 
 # %% [markdown]
-# **Explain.** After the pole has fallen, no more reward follows. A pole that still stands when the
-# time is up would go on earning; the episode was only cut off. So `terminated` is 1 for the first
-# and 0 for the second. If you mix them up, the critic learns that nothing follows after the best
-# episodes' last states.
+# **Explain.** The rewards end when the pole falls. A pole that still stands when the time is up
+# would go on earning: the episode was cut off. So `terminated` is 1 for the first and 0 for the
+# second. If you set it to 1 for both, the critic is told that the longest episodes end as badly as
+# the shortest.
 
 # %% [markdown]
-# Two tricks keep the estimates from growing without limit. There are **two critics**, and V uses
-# the smaller value of the two: the actor prefers actions that a critic overestimates, and the
-# smaller of two estimates is too high less often. And V is computed with **target networks**, slow
-# copies of the critics that take over a small share τ ("tau") of the new weights at each update.
-# Without them, each update of the critic would also move the target that it is fitted to.
+# Two tricks make the estimates steadier. There are **two critics**, and V uses the smaller value
+# of the two: the actor prefers actions that a critic overestimates, and the smaller of two
+# estimates is too high less often. And V is computed with **target networks**, slow copies of the
+# critics that take over a small share τ ("tau") of the new weights at each update. Without them,
+# an update that moves a critic towards its target would at once move the target as well.
 #
 # **Exercise 4.4 (8 min, ●●○).** Write the loss of both critics: for each of them the mean over the
-# batch of $(Q(s,a) - y)^2$, and then the sum of the two. a is the action that was taken. The target
-# is held fixed, and the check also looks at where the gradient goes.
+# batch of $(Q(s,a) - y)^2$, and then the sum of the two. Here a is the action that was taken. The
+# target is held fixed, and the check also looks at where the gradient goes.
 
 
 # %%
@@ -292,7 +298,7 @@ def critic_loss(q_pair, action, target):
 check.critic_loss(critic_loss)
 
 # %% [markdown]
-# ## Round 3: the actor
+# ## Round 3: what does the actor minimise?
 #
 # The actor is trained to make the soft value large, as the critics estimate it. Its loss is minus
 # the soft value:
@@ -341,16 +347,16 @@ for words, keeps_q in (("Q held fixed", True), ("Q may move, too", False)):
 
 # %% [markdown]
 # **Explain.** With Q held fixed, the actor finds the softmax of Round 1. If Q may move, the loss
-# also falls when Q rises, although no action has become better. So Q is **detached**: its value
-# counts, but no gradient goes into it.
+# also falls when Q rises, although the actions are worth what they were worth before. So Q is
+# **detached** (`q.detach()`): its value counts, and the gradient stops there.
 
 # %% [markdown]
-# ## Round 4: the temperature
+# ## Round 4: which temperature is right?
 #
-# Which α is right? That depends on how large Q is, which is not known before training. So SAC
-# adjusts α as a thermostat adjusts the heating. You choose a **target entropy** η ("eta"), how
-# undecided the policy should be on average. While it is more undecided than that, α falls; while
-# it is less, α rises.
+# That depends on how large Q is, which is not known before training. So SAC adjusts α as a
+# thermostat adjusts the heating. You choose a **target entropy** η ("eta"), how undecided the
+# policy should be on average. While the policy is more undecided than that, α falls; while it is
+# less undecided, α rises.
 #
 # $$ L_\alpha = \alpha\, (\mathcal{H}(\pi) - \eta) $$
 #
@@ -399,13 +405,6 @@ for h in (most, 1.0, 0.1, 0.0):
 # every state, and α falls at each update. How fast? The optimiser, Adam, changes log α by about its
 # learning rate at each update while the slopes stay the same. The next cell assumes that they do.
 # <!-- claim: 0 - SETTINGS.target_entropy == 1 -->
-#
-# In fact α falls more slowly. The slope of the loss is $\alpha (\mathcal{H} - \eta)$: it shrinks
-# as α falls. Adam divides each slope by an average over about the last thousand, and these were
-# larger, so its steps become smaller than the learning rate. With an entropy that stays the same,
-# α is a tenth of its start after {{ cooling_updates(0.1) | , }} updates, and a hundredth after
-# {{ cooling_updates(0.01) | , }}.
-# <!-- claim: cooling_updates(0.1) > 1.5 * math.log(10) / SETTINGS.alpha_lr -->
 
 # %%
 settings = bc.Settings()
@@ -414,13 +413,21 @@ for part in (10, 100):
     print(f"α can be a {'tenth' if part == 10 else 'hundredth'} after {updates:,.0f} updates")
 
 # %% [markdown]
-# ## Round 5: the memory
+# In fact α falls more slowly. The slope of the loss is $\alpha (\mathcal{H} - \eta)$: it shrinks
+# as α falls. Adam divides each slope by an average size of about the last thousand slopes. These
+# were larger, so the steps become smaller than the learning rate. With an entropy that stays the
+# same, α is a tenth of its start after {{ cooling_updates(0.1) | , }} updates, and a hundredth
+# after {{ cooling_updates(0.01) | , }}.
+# <!-- claim: cooling_updates(0.1) > 1.5 * math.log(10) / SETTINGS.alpha_lr -->
+
+# %% [markdown]
+# ## Round 5: where does a batch come from?
 #
-# Where do the transitions of a batch come from? SAC keeps what it has done in a table, the **replay
-# buffer**, and each update learns from rows drawn at random, also from those of its earlier
-# policies. Learning from what another policy did is called **off-policy**: it works since the
-# target asks what the *present* policy would do in s'. Two reasons to draw at random: neighbours in
-# time are alike, so a batch of them says little; and a row can be used more than once.
+# SAC keeps its transitions in a table, the **replay buffer**. Each update learns from rows of this
+# table that are drawn at random, so most of them come from earlier policies. Learning from what
+# another policy did is called **off-policy**. It works since the target asks what the *present*
+# policy would do in s'. Why a table, and why at random? A row can be used more than once. And
+# transitions that follow each other are alike: a batch of them would say little.
 #
 # > **Predict.** The buffer holds 1,000 rows, and a new row comes in for each batch of 64. In how
 # > many batches does a row appear, on average, before it is thrown out?
@@ -473,7 +480,7 @@ check.ReplayBuffer(ReplayBuffer)
 #
 # </details>
 #
-# ## Round 6: your agents
+# ## Round 6: how do the agents with your parts learn?
 #
 # Now train again, with your parts where they have passed. Six agents learn side by side. Three have
 # the paper's η = {{ SETTINGS.target_entropy }}. Three have η = 0.3 log 2, about the entropy of "19
@@ -533,12 +540,15 @@ for i in (worst, best):
 bc.show(figures.cartpole_strip(drives, "The worst and the best of the six, from the same start"))
 
 # %% [markdown]
-# **See.** With η = {{ SETTINGS.target_entropy }}, α falls in all three seeds. The scores say less:
-# look at how far apart the seeds of *one* kind are before you conclude anything about the two
-# kinds. If your own parts are named above the bar, these agents learned with your code.
+# **See.** With η = {{ SETTINGS.target_entropy }}, α falls from update to update, as Round 4 says it
+# must. The scores say less: look at how far apart the seeds of *one* kind are before you conclude
+# anything about the two kinds. If your own parts are named above the bar, these agents learned with
+# your code.
+# <!-- claim: 0 - SETTINGS.target_entropy > 0 -->
 #
 # **Explain.** This experiment is too short to show what a low temperature costs. Look at the figure
-# of the entropies: as long as the curves lie together, the two kinds drive alike, whatever their α.
+# of the entropies: as long as the curves lie together, the two kinds are undecided to the same
+# degree, whatever their α.
 #
 # Two things are known about a policy that has become sure. An action with a small probability is
 # seldom tried. And the slope of a softmax is proportional to π, so a small probability changes
@@ -551,21 +561,21 @@ bc.show(figures.cartpole_strip(drives, "The worst and the best of the six, from 
 # <!-- claim: escaped_with('target entropy 0.3', 'sac') + escaped_with('target entropy 1', 'sac')
 #   == 0 -->
 #
-# Does your code make the same update as ours? This compares the losses and the gradients of each of
-# your parts on one batch:
+# Does your code make the same update as ours? The next cell compares the losses and the gradients
+# on one batch, for each of your parts:
 
 # %%
 own_code.compare()
 
 # %% [markdown]
 # **Try.** Plant a mistake: copy your `critic_target` into a new cell, leave out `(1 - terminated)`,
-# and call `own_code.use(critic_target)`. That trains with it unchecked. Then run the last cell and
-# the training again. What does the comparison say, and do the agents still learn?
-# (`own_code.load()` gets back the right one.)
+# and call `own_code.use(critic_target)`. From then on agents train with it, without a check. Run
+# the last cell and the training again. What does the comparison say, and do the agents still learn?
+# (`own_code.load()` brings back the part that passed.)
 
 # %% [markdown]
-# Here are the losses of SAC as the library computes them, for many agents at once (the dots stand
-# for "of any number of agents"; `constraint` is lesson 7's). Open them beside yours.
+# Here are the losses of SAC as the library computes them. Open them beside yours. The dots in a
+# shape stand for any number of agents, which learn side by side; `constraint` belongs to lesson 7.
 
 # %% tags=["nbval-ignore-output"]
 source("bootcourse.learn.sac", "soft_value", "critic_target", "critic_loss", "actor_loss")
@@ -574,9 +584,9 @@ source("bootcourse.learn.sac", "soft_value", "critic_target", "critic_loss", "ac
 source("bootcourse.learn.sac", "temperature_loss", "min_q")
 
 # %% [markdown]
-# These lines, and a loop from reset to update around them, are one short program for one agent:
-# `bootcourse/learn/textbook.py`. Two things in it are still to come: the KL (lesson 7) and the
-# demonstrations (lesson 8). `python -m bootcourse.learn.textbook` trains it.
+# With a loop around them, these lines are a short program for one agent:
+# `bootcourse/learn/textbook.py`. It also has two things that are still to come: the KL (lesson 7)
+# and the demonstrations (lesson 8). `python -m bootcourse.learn.textbook` runs it.
 
 # %% [markdown] tags=["instructor"] minutes=10
 # How far does it get with more pushes? `python -m bootcourse.study.checks --only sac-cartpole`
@@ -590,13 +600,12 @@ source("bootcourse.learn.sac", "temperature_loss", "min_q")
 #
 # 1. The soft value is the mean of Q under the policy plus α times its entropy; its best policy is
 #    softmax(Q / α).
-# 2. The critics follow r + γ (1 − terminated) V(s'), with the target held fixed; an episode that
-#    ran out of time is not over.
-# 3. The actor follows minus the soft value, with Q held fixed.
-# 4. The temperature is a thermostat for the entropy of the policy, which over a list of actions is
-#    never negative: with η = {{ SETTINGS.target_entropy }}, α falls at every update.
+# 2. The critics are fitted to r + γ (1 − terminated) V(s'), with this target held fixed; an episode
+#    that ran out of time is not terminated.
+# 3. The actor's loss is minus the soft value, with Q held fixed.
+# 4. The temperature is a thermostat for the entropy of the policy. Over a list of actions that
+#    entropy is 0 or more, so with η = {{ SETTINGS.target_entropy }} α falls at each update.
 # 5. The buffer gives rows of earlier policies, drawn at random: SAC learns off-policy.
-# <!-- claim: 0 - SETTINGS.target_entropy > 0 -->
 
 # %%
 best_of_three = "250 or more" if balanced.max() >= 250 else f"{balanced.max():.0f}"
@@ -621,12 +630,12 @@ compare_predictions(
 
 # %% [markdown] tags=["instructor"]
 # *Answers to the three questions.* **η = log 9** is the largest entropy of nine actions. While the
-# policy is not even, H < η and α rises; it goes on rising until entropy outweighs all of Q, and the
-# agent drives at random. **Drawing or not:** in training rare actions still occur, at one chance in
-# nine decisions or in a thousand, according to H. A swerve of one second can end a drive that the
-# most probable actions would have survived, so training scores are lower than test scores. The
-# other way round, a policy that is even between two actions may take the same one for ever in the
-# test. **The larger of two:** the actor looks for actions that one critic overestimates, the target
-# then contains that error, and the estimates drive each other up (overestimation; Fujimoto et al.,
-# arXiv 1802.09477). The smaller one errs in the other direction, which is not fed back in the same
-# way, since actions that are underestimated are taken less.
+# policy is not even, H < η and α rises, until entropy outweighs the differences in Q and the agent
+# drives almost at random. **Drawing or not:** in training unlikely actions still occur, the more
+# often the higher the entropy is. A swerve of one second can end a drive that the most probable
+# actions would have survived, so scores in training can be lower than in the test. It can also be
+# the other way round: where a policy is even between two actions, the test repeats one of them.
+# **The larger of two:** the actor looks for actions that one critic overestimates, the target then
+# contains that error, and the estimates drive each other up (overestimation; Fujimoto et al., arXiv
+# 1802.09477). The smaller one errs in the other direction, which feeds back less, since the actor
+# takes underestimated actions less often.

@@ -26,6 +26,7 @@ from bootcourse.lessons import bugs, chain, example_teachers, shipped, teacher_r
 from bootcourse.lessons.chain import leaving
 from bootcourse.lessons.exercises import registry
 from bootcourse.lessons.exercises.lesson_14_your_teacher import OUT, drive_out
+from bootcourse.lessons.own_learner import parts_of
 from bootcourse.policies import idle_policy, plan_policy, random_policy, rule_policy
 from bootcourse.road import formulas, observation
 from bootcourse.road.formulas import centring_reward, speed_reward
