@@ -22,6 +22,7 @@ CLAIMED = (
     "11_offline_learning",
     "12_exploration",
     "13_bug_hunt",
+    "14_your_teacher",
 )
 
 TEXT = """\
