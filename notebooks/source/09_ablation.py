@@ -311,7 +311,7 @@ table(["return", "mean", "median", "IQM", "the agents, sorted"], rows)
 # <!-- claim: np.diff(np.sort(of('bootstrapped').scores('returns'))).max() > 40 -->
 
 # %% [markdown]
-# ## Round 3: how sure?
+# ## Round 3: how sure are we?
 #
 # > **Predict.** Somebody repeats the study of the bootstrapped agents with ten other seeds. By how
 # > much might their mean return differ from ours: by 2, by 10, by 40?
@@ -320,10 +320,11 @@ table(["return", "mean", "median", "IQM", "the agents, sorted"], rows)
 predict("9.4", "Half the length of the mean's 95 % interval", unit="of return")
 
 # %% [markdown]
-# Training a hundred agents again would take hours, so the computer imitates it. Draw ten agents out
-# of our ten *with* replacement: some come twice and others not at all. Take their mean. Do this
-# some thousand times. The middle 95 % of these means are the **bootstrap interval**. (The word has
-# another meaning here: the interval has nothing to do with the paper's method.)
+# Training a hundred agents again would take hours, so the computer imitates a repetition. Draw ten
+# agents out of our ten *with* replacement: some come twice or more, and others are left out. Take
+# their mean. Do this some thousand times. The middle 95 % of these means are the **bootstrap
+# interval**. (The word has another meaning here: the interval has nothing to do with the paper's
+# method.)
 #
 # **Exercise 9.3 (7 min, ●●○).** Write it. The draws are given, so that yours and ours agree.
 
@@ -381,8 +382,9 @@ table(headings, rows)
 predict("9.5", "How often the bootstrapped agent earns more", unit="%")
 
 # %% [markdown]
-# **Exercise 9.4 (6 min, ●●○).** That is the **probability of improvement**: over all pairs of one
-# agent x of the first method and one y of the second, how often x is above; a tie counts half.
+# **Exercise 9.4 (6 min, ●●○).** That is the **probability of improvement**. Pair each agent x of
+# the first method with each agent y of the second: in which share of the pairs is x above? A tie
+# counts half.
 
 
 # %%
@@ -405,16 +407,17 @@ words = f"Both helps against the soft constraint alone: on the return, {agents} 
 table(*tables.improvement_rows(four), below=words)
 
 # %% [markdown]
-# **Explain.** One half is a coin. An interval that holds 50 % does not say that two methods are
-# equal; it says that this many seeds do not show a difference. How many would, if the true value
-# were 0.7? Try it: `improvement(x, y)` with invented scores of 10, 20, 50 agents.
+# **Explain.** One half is what a coin would give. An interval that holds 50 % does not say that two
+# methods are equal; it says that this many seeds do not show a difference. How many seeds would
+# show one, if the true value were 70 %? Try it: `bc.statistics.improvement(x, y)` with invented
+# scores of 10, 20, 50 agents.
 # <!-- claim: 100 * improvement([1.0, 1.0], [1.0, 1.0]).value == 50 -->
 # <!-- claim: (lambda p: p.low <= 0.5 <= p.high)(improvement(of('bootstrapped').scores('returns'),
 #   of('soft').scores('returns'))) -->
 #
-# The same tools settle how far our study supports the paper's *first* ablation. It compares two
-# ways to use demonstrations, the bonus c and the large margin (lesson 8), and reports that the
-# bonus is better in all its measures.
+# The same tools say how far our study supports the paper's *first* ablation. It compares two ways
+# to use demonstrations, the bonus c and the large margin (lesson 8). It reports that in training
+# the bonus is better in each of its metrics.
 #
 # > **Predict.** Which of the two lets more agents escape in our study: without the soft constraint,
 # > and with it?
@@ -596,13 +599,13 @@ print("In the study, ξ is a tenth of its start at the episodes", *sorted(cold))
 # %% [markdown]
 # ## Round 7: an ablation of your own
 #
-# Now ask a question of your own: what does one number of the method do? You train five agents with
-# it and five without, and say how sure five seeds make you. For that you need an interval for a
-# *difference*.
+# Now ask a question of your own: what does one number of the method do? You train five agents as
+# they are and five with that number changed, and say how sure five seeds make you. For that you
+# need an interval for a *difference*.
 #
 # **Exercise 9.5 (20 min, ●●●).** Write it: the IQM of one group less the IQM of the other, and the
-# 95 % bootstrap interval of that difference. Each resample draws both groups anew. No loop over
-# the resamples is needed.
+# 95 % bootstrap interval of that difference. Each resample draws both groups anew. It can be
+# written without a loop over the resamples.
 
 
 # %%
@@ -625,10 +628,10 @@ def difference_interval(x, y, draws_x, draws_y):
 check.difference_interval(difference_interval)
 
 # %% [markdown]
-# Choose what to change. `bonus=0.0` takes the bonus from the demonstrations; others are
-# `xi_multiplier`, `rule_p`, `beta_start`, `gamma`: `bootcourse.learn.settings.Settings` has them
-# all. The score is the success of an agent after 900 updates on 200 roads: who has learned the
-# way out early?
+# Choose what to change. `bonus=0.0` takes the bonus from the demonstrations; other numbers are
+# `xi_multiplier`, `rule_p`, `beta_start`, `gamma`: `bootcourse.learn.settings.Settings` lists them.
+# The score is an agent's success on 200 roads after 900 updates, so it asks who learns the way out
+# early.
 #
 # > **Predict.** By how many points of success does your change raise or lower the IQM?
 
@@ -655,20 +658,21 @@ told += "holds 0." if effect.low <= 0 <= effect.high else "does not hold 0."
 table(["success after 900 updates, %", "IQM", "the agents, sorted"], rows, below=told)
 
 # %% [markdown]
-# **Explain.** What may you say now? That five agents learned earlier or later *with these settings,
-# after 900 updates*, and how far five others might differ. You may not say that the bonus is
-# useless or needed: the same agents after 20,000 updates are another question. Be careful with the
-# interval, too: of five scores the IQM leaves out the highest and the lowest, and with so few
-# agents a bootstrap interval is often too short. If it just misses 0, train ten more.
+# **Explain.** What may you say now? Whether five agents learned earlier or later *with these
+# settings, after 900 updates*, and how far five others might differ. Yours will differ from ours.
+# You may not say that the bonus is useless or needed: the same agents after 20,000 updates are
+# another question. Be careful with the interval, too: of five scores the IQM leaves out the highest
+# and the lowest, and with so few agents a bootstrap interval is often too short. If it just misses
+# 0, train ten more.
 
 # %% [markdown] tags=["instructor"] minutes=10
 # Give each group another number to change, and collect the results on the board: one row for each
-# group, with its interval. With ten groups, the chance that at least one interval misses 0 although
-# no change has an effect is {{ 100 * (1 - 0.95**10) | .0f }} %. Ask what to do about that (say
+# group, with its interval. If the changes of ten groups have zero effect, the chance that at least
+# one interval misses 0 is {{ 100 * (1 - 0.95**10) | .0f }} %. Ask what to do about that (say
 # beforehand which comparison counts, or make each interval wider).
 
 # %% [markdown]
-# ## Round 8: p, ξ and c
+# ## Round 8: what do p, ξ and c change?
 #
 # > **Predict.** Three numbers were chosen by the paper: p = 0.9, ξ = 200α, c = 2. Which of them,
 # > set to 0 or far off, costs the most agents?
@@ -760,13 +764,13 @@ compare_predictions(
 # %% [markdown] tags=["instructor"] minutes=10
 # **Model answers.**
 #
-# - *Would you let β end?* A reason to end it: the demonstrations' bonus is no reward of the road,
-#   so while it lasts the critic values imitation. A reason against: as β ends,
+# - *Would you let β end?* A reason to end it: the road does not pay the demonstrations' bonus, so
+#   while it lasts the critic values imitation. A reason against: as β ends,
 #   {{ losing('bootstrapped').sum() }} of ten agents lose 20 points or more. Watch the success of
 #   each seed around that episode, and the Q of the demonstrated actions.
 # - *What can 20 episodes show?* Of two agents: with 20 of 20 the interval of the rate begins at
 #   {{ 100 * rate(np.ones(20)).low | .0f }} %, so a difference of 30 points or more, roughly, shows.
 #   Of two methods: with one agent behind each row, nothing beyond these two agents.
 # - *40 more agents?* Ten more seeds for each method, if the question is whether the methods differ:
-#   the intervals above overlap. The sweep's best setting forty times, if one setting is to be used,
-#   because its few seeds were chosen for being lucky; ten or twenty would do.
+#   the intervals above overlap. The sweep's best setting, if one setting is to be used: it came out
+#   best partly by the luck of its few seeds. Ten or twenty more would do.
