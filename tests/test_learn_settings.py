@@ -104,7 +104,7 @@ def test_agents_that_cannot_share_a_batch_are_not_trained_side_by_side():
 
 
 def test_a_training_needs_an_agent_and_an_episode():
-    with pytest.raises(BootcourseError, match="0 agents and 10 episodes"):
+    with pytest.raises(BootcourseError, match="no agents: give the settings of at least one"):
         Training([], 10)
-    with pytest.raises(BootcourseError, match="1 agents and 0 episodes"):
+    with pytest.raises(BootcourseError, match="episodes = 0: give a whole number from 1"):
         Training([settings_for("sac")], 0)

@@ -8,7 +8,7 @@ from gymnasium.vector import AutoresetMode
 from scipy import stats
 
 from bootcourse.episodes.driving import steps
-from bootcourse.errors import BootcourseError
+from bootcourse.errors import whole
 from bootcourse.policies import Policy
 from bootcourse.road.state import Accident
 from bootcourse.road.vector_env import TrapVectorEnv
@@ -53,11 +53,8 @@ class Evaluation:
 
 def held_out_seeds(seed: int, episodes: int) -> range:
     """The seeds of the held-out roads of block `seed`. Raises BootcourseError for a seed or number out of range."""
-    if not 0 <= seed <= MAX_SEED:
-        raise BootcourseError(f"seed = {seed}: give a whole number from 0 to {MAX_SEED}.")
-    if not 1 <= episodes <= BLOCK:
-        raise BootcourseError(f"episodes = {episodes}: give a whole number from 1 to {BLOCK}.")
-    return range(seed * BLOCK, seed * BLOCK + episodes)
+    first = whole(seed, "seed", MAX_SEED) * BLOCK
+    return range(first, first + whole(episodes, "episodes", BLOCK, low=1))
 
 
 def drive_episodes(

@@ -8,7 +8,7 @@ from gymnasium.vector import AutoresetMode
 
 from bootcourse.episodes.record import EpisodeRecorder, driven
 from bootcourse.episodes.rollout import Rollout, interpolate_states
-from bootcourse.errors import BootcourseError
+from bootcourse.errors import BootcourseError, whole
 from bootcourse.policies import PolicyOutput
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.rule import rule
@@ -19,9 +19,7 @@ class InteractiveEpisode:
     """One episode; `decide(action)` drives the next decision. Raises BootcourseError for an invalid seed."""
 
     def __init__(self, seed: int, scenario: Scenario = DEFAULT, label: str = "you"):
-        if not isinstance(seed, (int, np.integer)) or isinstance(seed, bool) or seed < 0:
-            raise BootcourseError(f"seed = {seed!r}: give a whole number of 0 or more.")
-        self.seed, self.scenario, self.label = int(seed), scenario, label
+        self.seed, self.scenario, self.label = whole(seed, "seed"), scenario, label
         self.env = TrapVectorEnv(1, scenario, AutoresetMode.DISABLED, record=True)
         observations, _ = self.env.reset(seed=[self.seed])
         self.recorder = EpisodeRecorder(self.env.cars[0], observations[0])

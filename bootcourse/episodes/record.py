@@ -7,6 +7,7 @@ from gymnasium.vector import AutoresetMode
 
 from bootcourse.episodes.driving import steps
 from bootcourse.episodes.rollout import Rollout
+from bootcourse.errors import whole
 from bootcourse.files import provenance
 from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.road.vector_env import TrapVectorEnv
@@ -74,8 +75,9 @@ def record(
     """Drive one episode on the compiled road of each seed; returns a `Rollout` of each.
 
     label: the driver, such as "sac, seed 3"; rule_p: p of the stochastic rule in the drive's KL (Equation 15).
+    Raises BootcourseError for a seed that is not a whole number of 0 or more.
     """
-    seeds = list(seeds)
+    seeds = [whole(seed, "seed") for seed in (seeds if np.iterable(seeds) else [seeds])]
     env = TrapVectorEnv(len(seeds), scenario, AutoresetMode.DISABLED, record=True)
     recorders, accidents = [], np.zeros(len(seeds), dtype=np.int64)
     for step in steps(policy, env, seeds):

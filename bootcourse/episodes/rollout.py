@@ -8,7 +8,7 @@ from typing import Annotated, Any, ClassVar
 import msgspec
 import numpy as np
 
-from bootcourse.errors import BootcourseError
+from bootcourse.errors import BootcourseError, whole
 from bootcourse.files import decoding, parse, read_arrays, write_arrays
 from bootcourse.road.state import COLUMNS, EGO, HEADING, SPEED, TRAP_1, Accident, X, Y
 from bootcourse.rule import Reason
@@ -68,7 +68,7 @@ class Rollout:
             isinstance(self.label, str) and len(self.label) <= LONGEST_LABEL,
             f"label = {self.label!r:.80}: give a text of at most {LONGEST_LABEL} characters.",
         )
-        _check(_whole(self.seed, 2**63), f"seed = {self.seed!r:.80}: give a whole number from 0 to 2**63 - 1.")
+        whole(self.seed, "seed")
         _check(self.accident in set(Accident), f"This rollout's accident {self.accident!r:.80} is unknown.")
         arrays = {name: getattr(self, name) for name in (*REQUIRED, *OPTIONAL)}
         arrays = {name: array for name, array in arrays.items() if array is not None or name in REQUIRED}
@@ -188,10 +188,6 @@ def _check_numbers(name: str, array: np.ndarray, shape: tuple[int, ...]) -> None
             bool(((array >= 0) & (array <= high)).all()),
             f"This rollout's {name} hold a number outside 0..{high:g}: record it again.",
         )
-
-
-def _whole(value, limit: int) -> bool:
-    return isinstance(value, (int, np.integer)) and not isinstance(value, bool) and 0 <= value < limit
 
 
 def _check(holds: bool, sentence: str) -> None:

@@ -8,7 +8,9 @@ import math
 import sys
 from dataclasses import dataclass, field, fields, replace
 
-from bootcourse.errors import BootcourseError, did_you_mean
+import numpy as np
+
+from bootcourse.errors import BootcourseError, did_you_mean, whole
 from bootcourse.methods import METHODS
 from bootcourse.scenario import check_p
 
@@ -59,6 +61,9 @@ class Settings:
     gradient_penalty: float = shared(1.0)  # § weight of that discriminator's gradient penalty
 
     def __post_init__(self):
+        for name, value in vars(self).items():
+            if isinstance(value, np.generic):  # a number of NumPy's
+                object.__setattr__(self, name, value.item())
         if self.method not in METHODS:
             raise BootcourseError(f"Method {did_you_mean(self.method, METHODS)}.")
         check_p(self.rule_p, "rule_p")
@@ -189,4 +194,5 @@ def stored_settings(stored: dict) -> Settings:
 
 def with_seeds(settings: Settings, seeds: int, first: int = 0) -> list[Settings]:
     """The same settings with the seeds first, first + 1, ...: one for each agent of a `Training`."""
+    first, seeds = whole(first, "first", MAX_SEED), whole(seeds, "seeds", MAX_SEED)
     return [replace(settings, seed=seed) for seed in range(first, first + seeds)]

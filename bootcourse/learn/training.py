@@ -23,7 +23,7 @@ from torch import Tensor
 
 from bootcourse.episodes.driving import reached_observations
 from bootcourse.episodes.rollout import Rollout
-from bootcourse.errors import BootcourseError
+from bootcourse.errors import BootcourseError, whole
 from bootcourse.learn.agent import Agent, sample_actions
 from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.curves import Curves
@@ -75,12 +75,10 @@ class Training:
         make_env: Callable[[int], VectorEnv] | None = None,
         first_seed: int = FIRST_SEED,
     ):
-        if not settings or not 1 <= episodes <= MOST_EPISODES:
-            raise BootcourseError(
-                f"{len(settings)} agents and {episodes} episodes: give at least 1 of each, at most {MOST_EPISODES:,} "
-                "episodes."
-            )
-        self.settings, self.episodes, self.scenario, self.teacher = list(settings), int(episodes), scenario, teacher
+        if not settings:
+            raise BootcourseError("There are no agents: give the settings of at least one.")
+        self.episodes = whole(episodes, "episodes", MOST_EPISODES, low=1)
+        self.settings, self.scenario, self.teacher = list(settings), scenario, teacher
         self.n_agents, self.envs_per_agent = len(settings), settings[0].envs_per_agent
         n_envs = self.n_agents * self.envs_per_agent
         self.env = TrapVectorEnv(n_envs, scenario) if make_env is None else make_env(n_envs)
@@ -94,7 +92,8 @@ class Training:
         streams = [np.random.SeedSequence([s.seed]).spawn(2) for s in settings]
         self.act_rngs = [np.random.default_rng(act) for act, _ in streams]
         self.sample_rngs = [np.random.default_rng(sample) for _, sample in streams]
-        seeds = [first_seed + s.seed * 1000 + env for s in settings for env in range(self.envs_per_agent)]
+        first = whole(first_seed, "first_seed")
+        seeds = [first + s.seed * 1000 + env for s in settings for env in range(self.envs_per_agent)]
         self.states, _ = self.env.reset(seed=seeds)
         self.rule_actions = self.taught()  # μ(s), (envs,)
         self.decisions, self.updates, self.seconds = 0, 0, 0.0

@@ -34,7 +34,8 @@ def whole_number(called: str, low: int, high: int) -> Callable[[float], None]:
     return check
 
 
-check_road = whole_number("road", 0, 2**32 - 1)  # seeds below those of the training roads
+LAST_ROAD = 2**32 - 1  # the training roads have higher seeds
+check_road = whole_number("road", 0, LAST_ROAD)
 
 
 def an_instance(value: object, kind: type, called: str) -> object:

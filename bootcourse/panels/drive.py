@@ -17,8 +17,8 @@ import ipywidgets as widgets
 from bootcourse.episodes.interactive import InteractiveEpisode
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
-from bootcourse.errors import BootcourseError
-from bootcourse.panels.arguments import check_road
+from bootcourse.errors import BootcourseError, whole
+from bootcourse.panels.arguments import LAST_ROAD, check_road
 from bootcourse.panels.cockpit import alt_text, cockpit
 from bootcourse.panels.number import Number
 from bootcourse.panels.pad import Pad
@@ -224,8 +224,10 @@ def drive_panel(seed: int = 0, ghost: Rollout | Policy | None = None, scenario: 
     """Drive the road of a seed yourself.
 
     ghost: whom you drive against. None: the rule. A policy (such as `agent.as_policy()`) drives each road that you
-    choose; a rollout is one drive, of this seed and scenario. Raises BootcourseError if it is of another.
+    choose; a rollout is one drive, of this seed and scenario. Raises BootcourseError if it is of another, or if the
+    seed is not a whole number in range.
     """
+    seed = whole(seed, "seed", LAST_ROAD)
     if isinstance(ghost, Rollout):
         if ghost.seed != seed or ghost.scenario != scenario:
             raise BootcourseError(

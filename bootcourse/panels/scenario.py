@@ -5,8 +5,9 @@
 
 import ipywidgets as widgets
 
+from bootcourse.errors import whole
 from bootcourse.markup import html
-from bootcourse.panels.arguments import a_number, an_instance, check_road
+from bootcourse.panels.arguments import LAST_ROAD, an_instance, check_road
 from bootcourse.panels.number import Number
 from bootcourse.panels.panel import Panel, beside
 from bootcourse.panels.scenario_fields import FIELDS, GROUPS, Field, as_code, changed
@@ -108,5 +109,4 @@ def scenario_panel(scenario: Scenario = DEFAULT, seed: int = 0) -> ScenarioPanel
     or the seed is out of range.
     """
     an_instance(scenario, Scenario, "scenario")
-    check_road(a_number(seed, "seed"))
-    return ScenarioPanel(scenario, int(seed))
+    return ScenarioPanel(scenario, whole(seed, "seed", LAST_ROAD))

@@ -14,7 +14,7 @@ from highway_env.road.road import Road, RoadNetwork
 from highway_env.vehicle.behavior import IDMVehicle
 from highway_env.vehicle.kinematics import Vehicle
 
-from bootcourse.errors import BootcourseError
+from bootcourse.errors import BootcourseError, whole
 from bootcourse.road import twin
 from bootcourse.road.constants import constants
 from bootcourse.road.formulas import weighted_reward
@@ -132,8 +132,11 @@ class TrapEnv(AbstractEnv):
             self.action_type = _NineActions(self)
 
     def reset(self, *, seed: int | None = None, options: dict | None = None):
-        """Start an episode. The same seed gives the same road, here and on the compiled road."""
-        gym.Env.reset(self, seed=seed, options=options)
+        """Start an episode. The same seed gives the same road, here and on the compiled road.
+
+        Raises BootcourseError for a seed that is not a whole number of 0 or more.
+        """
+        gym.Env.reset(self, seed=None if seed is None else whole(seed, "seed"), options=options)
         if options and "config" in options:
             self.configure(options["config"])
         self.time = self.steps = 0

@@ -1,6 +1,5 @@
 """`gym.make_vec("bootcourse:Trap-v0", num_envs=256)`: the compiled road as a gymnasium VectorEnv."""
 
-import operator
 from collections.abc import Sequence
 
 import gymnasium as gym
@@ -9,7 +8,7 @@ from gymnasium.utils import seeding
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
-from bootcourse.errors import BootcourseError
+from bootcourse.errors import BootcourseError, whole
 from bootcourse.road import twin
 from bootcourse.road.constants import constants
 from bootcourse.road.observation import bounds, observe_all
@@ -172,13 +171,9 @@ class TrapVectorEnv(VectorEnv):
 
 def seeds_of(seed, roads: int) -> list[int | None]:
     """The seed of each road: seed, seed + 1, ... for a whole number, otherwise those given. Raises BootcourseError."""
-    try:
-        given = [seed + i for i in range(roads)] if np.ndim(seed) == 0 else list(seed)
-        seeds = [None if each is None else operator.index(each) for each in given]
-    except TypeError:
-        raise BootcourseError(f"seed = {seed!r}: give a whole number, or one for each road.") from None
+    if not np.iterable(seed):
+        return [whole(seed, "seed") + i for i in range(roads)]
+    seeds = [None if each is None else whole(each, "seed") for each in seed]
     if len(seeds) != roads:
         raise BootcourseError(f"{len(seeds)} seeds for {roads} roads: give one, or one for each road.")
-    if any(each is not None and each < 0 for each in seeds):
-        raise BootcourseError(f"seed = {seed!r}: a seed is not negative.")
     return seeds
