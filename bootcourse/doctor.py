@@ -4,7 +4,6 @@ Packages outside the standard library are imported inside the checks, so that it
 `python bootcourse/doctor.py` runs it too.
 """
 
-import errno
 import importlib.metadata
 import os
 import platform
@@ -165,20 +164,18 @@ def port() -> Iterator[Finding]:
 
 def cache() -> Iterator[Finding]:
     """The folder for compiled code is writable."""
-    from bootcourse.road.compiled import CACHE_FOLDER
+    from bootcourse.road.compiled import ADVICE, CACHE_FOLDER, UNWRITABLE
 
+    if UNWRITABLE:
+        yield Finding("note", f"every start compiles the road again: nothing can be kept in {UNWRITABLE}", ADVICE)
+        return
     try:
-        CACHE_FOLDER.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=CACHE_FOLDER) as file:
             file.write(bytes(COMPILED))
             file.flush()
         yield Finding("ok", f"compiled code is kept in {CACHE_FOLDER}")
-    except OSError as error:
-        if error.errno in (errno.ENOSPC, errno.EDQUOT):  # numba would raise this error at the first step
-            yield Finding("STOP", f"{CACHE_FOLDER} cannot hold the compiled road: {error.strerror}", "Free some space.")
-            return
-        advice = "Make it writable; otherwise every start of a notebook compiles the road again."
-        yield Finding("note", f"{CACHE_FOLDER} cannot be written: {error.strerror}", advice)
+    except OSError as error:  # numba would raise it at the first step
+        yield Finding("STOP", f"{CACHE_FOLDER} cannot hold the compiled road: {error.strerror}", "Free some space.")
 
 
 def lessons() -> Iterator[Finding]:

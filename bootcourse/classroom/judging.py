@@ -110,7 +110,7 @@ def environment(folder: str) -> dict[str, str]:
     from bootcourse.road.compiled import CACHE_FOLDER
 
     caches = Path(folder) / "numba"
-    if CACHE_FOLDER.exists():  # a copy: what a stranger may write to is not executed by anybody else
+    if CACHE_FOLDER is not None:  # a copy: what a stranger may write to is not executed by anybody else
         shutil.copytree(CACHE_FOLDER, caches / CACHE_FOLDER.name)
     kept = {name: os.environ[name] for name in ("PATH", "LANG", "LC_ALL", "SYSTEMROOT") if name in os.environ}
     own = {"HOME": folder, "TMPDIR": folder, "TEMP": folder, "TMP": folder, "MPLCONFIGDIR": folder}

@@ -2,14 +2,20 @@
 
 numba's default cache depends only on the file of the called function: after a change in formulas.py, the cached loop
 of twin.py would still contain the old formula. This cache is in a folder whose name is a hash of every file with
-compiled functions, so any change recompiles all of them.
+compiled functions, so any change recompiles all of them. Where no lasting folder can be written, the cache lasts as
+long as the process, in a temporary folder that nobody else may open.
 
 Two settings make the road about three times as fast: small functions are inlined (forceinline), and reference
 counting (_nrt) is on only for functions that allocate arrays, because it costs more than the formulas.
 """
 
+import atexit
 import hashlib
 import os
+import shutil
+import sys
+import tempfile
+from contextlib import suppress
 from pathlib import Path
 
 import numba
@@ -24,21 +30,45 @@ def sources(package: Path) -> list[Path]:
     return [file for file in files if file.parent.name == "road" or b"\n@compiled" in file.read_bytes()]
 
 
-def cache_folder(package: Path) -> Path:
-    """The cache of this version: in the package's `__pycache__` if it is writable, otherwise in the user's cache.
+def cache_places() -> list[Path]:
+    """Where compiled code may be kept, the best place first: numba's own NUMBA_CACHE_DIR, if it is set, goes first."""
+    chosen = os.environ.get("NUMBA_CACHE_DIR")
+    return [*([Path(chosen)] if chosen else []), PACKAGE / "__pycache__", Path(user_cache_dir("bootcourse"))]
 
-    Where numba's own NUMBA_CACHE_DIR is set, it is there.
-    """
+
+def cache_folder(package: Path, places: list[Path]) -> tuple[Path | None, str]:
+    """(the cache of this version, "") in the first of these places that can be written, or (None, why none can)."""
     text = b"".join(source.read_bytes() for source in sources(package))
-    name = f"numba-{hashlib.sha256(text).hexdigest()[:12]}"
-    if os.environ.get("NUMBA_CACHE_DIR"):
-        return Path(os.environ["NUMBA_CACHE_DIR"]) / name
-    beside = package / "__pycache__"
-    writable = os.access(beside if beside.exists() else package, os.W_OK)
-    return (beside if writable else Path(user_cache_dir("bootcourse"))) / name
+    name, reasons = f"numba-{hashlib.sha256(text).hexdigest()[:12]}", []
+    for place in places:
+        try:
+            (place / name).mkdir(parents=True, exist_ok=True)
+            with tempfile.TemporaryFile(dir=place / name):
+                return place / name, ""
+        except OSError as error:
+            reasons.append(f"{place} ({error.strerror})")
+    return None, ", ".join(reasons)
 
 
-CACHE_FOLDER = cache_folder(PACKAGE)
+def make_temporary_place() -> None:
+    """Set NUMBA_CACHE_DIR to a new folder, for this process and those that it starts; it is removed at the end.
+
+    The folder has an unpredictable name and mode 700: compiled code that somebody else put there would be executed.
+    """
+    with suppress(OSError):
+        folder, owner = tempfile.mkdtemp(prefix="bootcourse-"), os.getpid()
+        os.environ["NUMBA_CACHE_DIR"] = folder
+        atexit.register(lambda: os.getpid() == owner and shutil.rmtree(folder, ignore_errors=True))
+
+
+CACHE_FOLDER, UNWRITABLE = cache_folder(PACKAGE, cache_places())
+ADVICE = "Make one of them writable, or set NUMBA_CACHE_DIR to a folder of yours that can be written."
+if UNWRITABLE:
+    print(
+        f"Every start compiles the road again, because nothing can be kept in {UNWRITABLE}. {ADVICE}", file=sys.stderr
+    )
+    make_temporary_place()
+    CACHE_FOLDER, _ = cache_folder(PACKAGE, cache_places())
 
 
 def compiled(function):
@@ -52,9 +82,9 @@ def compiled_loop(function):
 
 
 def _compile(function, makes_arrays: bool):
-    before = numba.config.CACHE_DIR
+    before, kept = numba.config.CACHE_DIR, CACHE_FOLDER is not None
     numba.config.CACHE_DIR = str(CACHE_FOLDER)
     try:
-        return numba.njit(cache=True, error_model="numpy", nogil=True, forceinline=True, _nrt=makes_arrays)(function)
+        return numba.njit(cache=kept, error_model="numpy", nogil=True, forceinline=True, _nrt=makes_arrays)(function)
     finally:
         numba.config.CACHE_DIR = before
