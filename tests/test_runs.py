@@ -77,6 +77,17 @@ def test_weights_that_are_not_numbers_are_refused_even_with_the_right_hash(run):
         load_run(run)
 
 
+def test_a_hash_that_lost_its_name_is_missed_except_in_files_of_earlier_versions(run):
+    path = run / "provenance.json"
+    made = path.read_text()
+    path.write_text(made.replace('"seal"', '"sea|"'))
+    with pytest.raises(BootcourseError, match="does not fit its own hash"):
+        load_run(run)
+    former = {name: value for name, value in json.loads(made).items() if name not in ("seal", "teacher")}
+    write_json(path, former)
+    assert load_run(run).provenance == former
+
+
 def test_two_agents_of_one_method_and_seed_cannot_be_saved_together(result, tmp_path):
     with pytest.raises(BootcourseError, match="the same method and seed"):
         save_runs(replace(result, agents=result.agents[:1] * 2), tmp_path / "runs")

@@ -4,9 +4,12 @@ A training that is resumed from it gives the same results as an uninterrupted on
 """
 
 import json
+from typing import Annotated, Any, Literal
 
 import numpy as np
 import torch
+from msgspec import Meta, MsgspecError, Struct, convert
+from msgspec.structs import asdict
 
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.agent import Agent
@@ -20,6 +23,20 @@ ADAM = ("step", "exp_avg", "exp_avg_sq")  # the optimiser's state of each parame
 
 class DamagedCheckpoint(BootcourseError):
     """A checkpoint that cannot be read: the training must begin again."""
+
+
+Count = Annotated[int, Meta(ge=0)]
+
+
+class Numbers(Struct, forbid_unknown_fields=True):
+    """What is not an array."""
+
+    rngs: list[dict[str, Any]]  # checked by NumPy
+    decisions: Count
+    updates: Count
+    seconds: Annotated[float, Meta(ge=0)]
+    snapshots: dict[Literal["finished", "last_finite"], list[Count]]  # the agents that have one
+    stopped: list[tuple[Count, Count]]  # (agent, the decision at which its loss was not finite)
 
 
 def state_of(training: Training) -> dict[str, np.ndarray]:
@@ -40,15 +57,15 @@ def state_of(training: Training) -> dict[str, np.ndarray]:
             parts = [*agent.actor, *agent.critics, torch.tensor(agent.alpha, dtype=torch.float64)]
             arrays |= {f"{name}.{i}.{k}": part.numpy() for k, part in enumerate(parts)}
     rngs = [*training.act_rngs, *training.sample_rngs, *env._generators]
-    numbers = {
-        "rngs": [rng.bit_generator.state for rng in rngs],
-        "decisions": training.decisions,
-        "updates": training.updates,
-        "seconds": training.seconds,
-        "snapshots": {name: sorted(agents) for name, agents in _snapshots(training).items()},
-        "stopped": sorted(training.stopped.items()),
-    }
-    return arrays | {"numbers": np.array(json.dumps(numbers))}
+    numbers = Numbers(
+        rngs=[rng.bit_generator.state for rng in rngs],
+        decisions=training.decisions,
+        updates=training.updates,
+        seconds=training.seconds,
+        snapshots={name: sorted(agents) for name, agents in _snapshots(training).items()},
+        stopped=sorted(training.stopped.items()),
+    )
+    return arrays | {"numbers": np.array(json.dumps(asdict(numbers)))}
 
 
 def restored(settings: list[Settings], episodes: int, scenario: Scenario, teacher: Rule, arrays: dict) -> Training:
@@ -57,14 +74,14 @@ def restored(settings: list[Settings], episodes: int, scenario: Scenario, teache
         rows = torch.from_numpy(arrays["replay.demonstrations"])
         training = Training(settings, episodes, scenario, teacher, rows if len(rows) else None)
         _restore(training, arrays)
-    except (KeyError, ValueError, TypeError, AttributeError, IndexError, RuntimeError) as error:
+    except (KeyError, ValueError, TypeError, AttributeError, IndexError, RuntimeError, MsgspecError) as error:
         raise DamagedCheckpoint(f"the state does not fit the settings: {error}") from None
     return training
 
 
 def _restore(training: Training, arrays: dict[str, np.ndarray]) -> None:
     learner, replay, env, curves = training.learner, training.replay, training.env, training.curves
-    numbers = json.loads(str(arrays["numbers"]))
+    numbers = convert(json.loads(str(arrays["numbers"])), Numbers)
     with torch.no_grad():
         for name, tensor in _tensors(learner).items():
             tensor.copy_(_like(arrays[f"learner.{name}"], tensor))
@@ -80,15 +97,13 @@ def _restore(training: Training, arrays: dict[str, np.ndarray]) -> None:
     for name, values in stored.items():
         values[:] = _like(arrays[name], values)
     rngs = [*training.act_rngs, *training.sample_rngs, *env._generators]
-    for rng, state in zip(rngs, numbers["rngs"], strict=True):
+    for rng, state in zip(rngs, numbers.rngs, strict=True):
         rng.bit_generator.state = state
-    training.decisions, training.updates, training.seconds = (
-        numbers[name] for name in ("decisions", "updates", "seconds")
-    )
-    training.stopped = dict(numbers["stopped"])
+    training.decisions, training.updates, training.seconds = numbers.decisions, numbers.updates, numbers.seconds
+    training.stopped = dict(numbers.stopped)
     layers = len(learner.actor)
     for name, agents in _snapshots(training).items():
-        for i in numbers["snapshots"][name]:
+        for i in numbers.snapshots[name]:
             like = [*training.agent(i).actor, *training.agent(i).critics]
             *parts, alpha = (arrays[f"{name}.{i}.{k}"] for k in range(2 * layers + 1))
             parts = [_like(part, each).clone() for part, each in zip(parts, like, strict=True)]

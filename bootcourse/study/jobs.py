@@ -14,12 +14,14 @@ import tempfile
 import time
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Annotated, Any
 
 import numpy as np
+from msgspec import Meta, Struct, convert
 
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.errors import BootcourseError
-from bootcourse.files import provenance, sha256, write_arrays, write_json
+from bootcourse.files import decoding, provenance, sha256, write_arrays, write_json
 from bootcourse.learn.settings import Settings
 from bootcourse.learn.training import Result, Training
 from bootcourse.scenario import Scenario
@@ -36,6 +38,21 @@ CHECKPOINT = "checkpoint.npz"
 HELD_OUT = 1  # the block of held-out roads that every method of every study is tested on
 SECONDS_BETWEEN = 60.0  # of checkpoints
 PARENT = os.getppid()  # read at import: a worker may be busy compiling when the process that started it dies
+
+
+class Provenance(Struct):
+    """The entry of a job's provenance that is a number; the others, the packages' versions, are for people."""
+
+    seconds: Annotated[float, Meta(ge=0)] = 0.0
+
+
+class Made(Struct):
+    """The entries of job.json that are read."""
+
+    asked: dict[str, Any]  # compared with what is asked for, see `finished`
+    sha256: dict[str, str]  # {file: its hash}
+    provenance: Provenance
+    behaviour: dict[str, list[float]] = {}  # {name: fingerprint}; absent in files of earlier versions
 
 
 class Interrupted(Exception):
@@ -170,8 +187,8 @@ def finished(job: AnyJob, root: Path) -> bool:
 def read_job(folder: Path) -> dict:
     """The `job.json` of a finished job, after a check of all its files. Raises BootcourseError if one is damaged."""
     made = read_sealed(folder / "job.json", FORMAT, FORMER_FORMAT)
-    if not all(isinstance(made.get(name), dict) for name in ("asked", "sha256", "provenance")):
-        raise BootcourseError(f"{folder} is damaged (job.json).")
+    with decoding(folder / "job.json"):
+        convert(made, Made)
     damaged = [name for name, digest in made["sha256"].items() if not is_file_with(folder / name, digest)]
     if damaged:
         raise BootcourseError(f"{folder} is damaged ({', '.join(damaged)}).")

@@ -26,7 +26,7 @@ from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.episodes.words import transcripts
 from bootcourse.errors import BootcourseError
-from bootcourse.files import provenance, sha256, write_json
+from bootcourse.files import provenance, read_arrays, sha256, write_json
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
 from bootcourse.policies import rule_policy
@@ -60,7 +60,8 @@ class Kind:
 def kinds(folder: Path) -> list[Kind]:
     """One whole file of each kind, in `folder`."""
     drive = record(rule_policy(DEFAULT), [1], DEFAULT, "rule")[0].save(folder / "drive.npz")
-    training = Training(with_seeds(settings_for("bootstrapped", demonstration_episodes=2, learning_starts=8), 1), 2)
+    small = settings_for("bootstrapped", demonstration_episodes=2, learning_starts=8, buffer_size=500)
+    training = Training(with_seeds(small, 1), 2)
     training.step()
     save_checkpoint(training, folder / "checkpoint.npz")
     result = training.run(progress=False)
@@ -68,7 +69,7 @@ def kinds(folder: Path) -> list[Kind]:
     shipped = load_results(FOLDER / "study-default.npz").pick(range(3))
     save_results(shipped, folder / "results.npz", provenance())
     shutil.copy(FOLDER / MANIFEST, folder / MANIFEST)
-    job = {"format": JOB, "asked": {"episodes": 2}, "behaviour": {}, "provenance": provenance()}
+    job = {"format": JOB, "asked": {}, "behaviour": {"road": [1.0, 2.0]}, "provenance": provenance(seconds=1.5)}
     write_sealed(folder / "job" / "job.json", job | {"sha256": {}})
 
     def of_run(path: Path):
@@ -86,7 +87,7 @@ def kinds(folder: Path) -> list[Kind]:
           for name in HASHED),
         Kind("run: provenance.json", run / "provenance.json", of_run, resealed=_seal),
         Kind("results", folder / "results.npz", load_results, lambda r: [r.scores("success"), r.scores("collision")]),
-        Kind("manifest", folder / MANIFEST, lambda path: read_manifest(path.parent)),
+        Kind("manifest", folder / MANIFEST, lambda path: read_manifest(path.parent), resealed=_seal),
         Kind("job", folder / "job" / "job.json", lambda path: read_job(path.parent), resealed=_seal),
     ]  # fmt: skip
 
@@ -171,7 +172,7 @@ def _other_json(text: str, rng: np.random.Generator) -> str:
     """JSON text with one value replaced, left out or added, anywhere in it."""
     content = json.loads(text)
     places = list(_places(content))
-    inside, key = places[rng.integers(len(places))]
+    inside, key, _ = places[rng.integers(len(places))]
     how = rng.integers(6)
     if how == 0:
         del inside[key]
@@ -182,11 +183,37 @@ def _other_json(text: str, rng: np.random.Generator) -> str:
     return json.dumps(content)
 
 
-def _places(value) -> Iterator[tuple]:
-    for key, below in value.items() if isinstance(value, dict) else enumerate(value):
-        yield value, key
+def _places(value, above: str = "") -> Iterator[tuple]:
+    """(object or list, key, the names on the way to it) of every value in JSON."""
+    for key, below in [*value.items()] if isinstance(value, dict) else enumerate(value):
+        field = f"{above}.{key}" if isinstance(value, dict) else f"{above}[]"
+        yield value, key, field
         if isinstance(below, (dict, list)):
-            yield from _places(below)
+            yield from _places(below, field)
+
+
+def with_text_for_numbers(path: Path) -> Iterator[tuple[str, bytes]]:
+    """(field, the file with the payload instead of that number) for each number in its JSON, one of each list."""
+    if path.suffix == ".json":
+        yield from ((field, text.encode()) for field, text in _with_text_for_numbers(path.read_text()))
+    elif path.suffix == ".npz":
+        arrays = read_arrays(path)
+        for name in [name for name, values in arrays.items() if values.dtype.kind == "U"]:
+            for field, text in _with_text_for_numbers(str(arrays[name])):
+                buffer = io.BytesIO()
+                np.savez(buffer, **arrays | {name: np.array(text)})
+                yield f"{name}: {field}", buffer.getvalue()
+
+
+def _with_text_for_numbers(text: str) -> Iterator[tuple[str, str]]:
+    content, seen = json.loads(text), set()
+    for inside, key, field in _places(content):
+        number = inside[key]
+        if isinstance(number, (int, float)) and not isinstance(number, bool) and field not in seen:
+            seen.add(field)
+            inside[key] = PAYLOAD
+            yield field, json.dumps(content)
+            inside[key] = number
 
 
 def same(a, b) -> bool:
