@@ -4,8 +4,10 @@
     python -m tests.hostile.kills --every 10 train study    # one operation in ten of two commands
 
 Each operation (a file is opened for writing, synced, renamed or removed, a folder made or removed) is the last one
-twice: once the process is killed just before it, once the disk is full from there on. The command runs in a fork of
-this process, which is warm, so that an attempt takes a fraction of a second.
+twice: once the process is killed just before it, once the disk is full from there on. A kill leaves the files as they
+are in that moment, so that one run, whose folder is copied before each operation, shows what every kill leaves. A
+command runs in a fork of this process, which has done the same before, and files that differ in their times alone
+are tried once: an attempt takes a second. TMPDIR=/dev/shm keeps it off the disk.
 """
 
 import argparse
@@ -16,6 +18,7 @@ import itertools
 import json
 import mmap
 import os
+import re
 import shutil
 import sys
 import tempfile
@@ -25,11 +28,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import SimpleNamespace
 
-KILLED = 137  # exit status
 WRITING = os.O_WRONLY | os.O_RDWR | os.O_CREAT
 GROWING = {"open", "os.mkdir", "fsync"}  # what a full disk refuses
 CHANGING = GROWING | {"os.rename", "os.remove", "os.rmdir", "os.chmod"}
-HOW = ("killed", "full")
+Before = Callable[[int, str, str], None]  # called before each operation: its number, what it is, the path
 
 
 @dataclass(frozen=True)
@@ -50,10 +52,13 @@ BUILD = ["assets", "build", "--study", "{}/study"]
 
 def commands(study: Path) -> list[Command]:
     """All of them. study: a finished one, for `assets build`."""
+    from bootcourse.study import ship
 
     def ready_to_ship(folder: Path) -> None:
+        if not (study.parent / "assets").exists():
+            ship.build(study, study.parent / "assets")
         shutil.copytree(study, folder / "study")
-        shutil.copytree(_built(study), folder / "assets")
+        shutil.copytree(study.parent / "assets", folder / "assets")
 
     return [
         Command("train", TRAIN, [[*TRAIN, "--resume"], TRAIN]),
@@ -63,51 +68,32 @@ def commands(study: Path) -> list[Command]:
     ]
 
 
-@functools.cache
-def _built(study: Path) -> Path:
-    from bootcourse.study import fingerprint, ship
-
-    fingerprint.fingerprint = functools.cache(fingerprint.fingerprint)  # computed once, not by every attempt
-    ship.build(study, study.parent / "assets")
-    return study.parent / "assets"
-
-
-def run(arguments: list[str], folder: Path, at: int = -1, how: str = "") -> tuple[int, list[str], str]:
-    """Run a command in a fork: (exit status, the operations that it began, what it printed).
-
-    at, how: the operation at which it is killed, or from which on the disk is full; -1: none.
-    """
+def run(arguments: list[str], folder: Path, before: Before = lambda *_: None) -> tuple[int, list[str], str]:
+    """Run a command in a fork: (exit status, the operations that it began, what it printed)."""
     told = mmap.mmap(-1, 1 << 20)
     with tempfile.TemporaryFile() as printed:
         child = os.fork()
         if child == 0:
             os.dup2(printed.fileno(), 1)
             os.dup2(printed.fileno(), 2)
-            os._exit(_in_the_child([each.format(folder) for each in arguments], folder, at, how, told))
+            os._exit(_in_the_child(arguments, folder, before, told))
         _, status = os.waitpid(child, 0)
         printed.seek(0)
         operations = told[:].split(b"\0", 1)[0].decode().splitlines()
         return os.waitstatus_to_exitcode(status), operations, printed.read().decode(errors="replace")
 
 
-def _in_the_child(arguments: list[str], folder: Path, at: int, how: str, told: mmap.mmap) -> int:
-    from bootcourse.cli import main
-    from bootcourse.storage import assets
-    from bootcourse.study import jobs
+def _in_the_child(arguments: list[str], folder: Path, before: Before, told: mmap.mmap) -> int:
+    count, ours = itertools.count(), []
 
-    jobs.PARENT, assets.FOLDER = os.getppid(), folder / "assets"
-    count = itertools.count()
-
-    def operation(event: str, path) -> None:
-        told.write(f"{event} {os.path.basename(os.fspath(path))}\n".encode())
-        number = next(count)
-        if how == "killed" and number == at:
-            os._exit(KILLED)
-        if how == "full" and number >= at and event in GROWING:
-            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
+    def operation(event: str, path: str) -> None:
+        told.write(f"{event} {os.path.basename(path)}\n".encode())
+        ours.append(True)  # `before` may copy files
+        before(next(count), event, path)
+        ours.pop()
 
     def hook(event: str, args) -> None:
-        if event not in CHANGING or (event == "open" and not args[2] & WRITING):
+        if ours or event not in CHANGING or (event == "open" and not args[2] & WRITING):
             return
         path = args[0]
         if isinstance(path, (str, bytes, os.PathLike)) and _inside(os.fsdecode(path), folder):
@@ -116,21 +102,32 @@ def _in_the_child(arguments: list[str], folder: Path, at: int, how: str, told: m
     synced = os.fsync
     os.fsync = lambda file: (operation("fsync", ""), synced(file))[1]
     sys.addaudithook(hook)
-    sys.argv = ["bootcourse", *arguments]
-    try:
-        main()
-    except SystemExit as ended:
-        sys.stdout.flush()
-        return ended.code or 0
-    except BaseException:
-        traceback.print_exc()
-        sys.stderr.flush()
-        return 70
-    return 0
+    status = run_here(arguments, folder)
+    sys.stdout.flush()
+    sys.stderr.flush()
+    return status
 
 
 def _inside(path: str, folder: Path) -> bool:
     return not os.path.isabs(path) or path.startswith(str(folder))  # rmtree names files relative to their folder
+
+
+def run_here(arguments: list[str], folder: Path) -> int:
+    """Run a command in this process: its exit status."""
+    from bootcourse.cli import main
+    from bootcourse.storage import assets
+    from bootcourse.study import jobs
+
+    jobs.PARENT, assets.FOLDER = os.getppid(), folder / "assets"
+    sys.argv = ["bootcourse", *(each.format(folder) for each in arguments)]
+    try:
+        main()
+    except SystemExit as ended:
+        return ended.code or 0
+    except BaseException:
+        traceback.print_exc()
+        return 70
+    return 0
 
 
 def left(folder: Path) -> dict[str, str]:
@@ -140,72 +137,111 @@ def left(folder: Path) -> dict[str, str]:
 
 
 def _timeless(path: Path) -> bytes:
-    if path.suffix != ".json":
-        return path.read_bytes()
+    data = path.read_bytes()
 
     def without(value):
         if isinstance(value, dict):
-            kept = {k: v for k, v in value.items() if k not in ("seconds", "seal") and "provenance.json" not in k}
+            kept = {k: v for k, v in value.items() if k not in ("seconds", "seal", "pid") and "provenance" not in k}
             return {key: without(its) for key, its in kept.items()}
         return value
 
-    return json.dumps(without(json.loads(path.read_bytes())), sort_keys=True).encode()
+    try:
+        return json.dumps(without(json.loads(data)), sort_keys=True).encode()
+    except ValueError:  # no JSON, or not all of it
+        return data
 
 
-def attempt(command: Command, at: int, how: str, expected: dict[str, str], scratch: Path) -> list[str]:
-    """Disturb a command once and start it again: what went wrong, a sentence each."""
-    folder = Path(tempfile.mkdtemp(dir=scratch))
-    command.prepare(folder)
-    status, operations, printed = run(command.arguments, folder, at, how)
-    where = f"{command.name}, {how} at {at} ({operations[at] if at < len(operations) else 'the end'})"
-    wrong = []
-    if "Traceback" in printed:
-        wrong.append(f"{where}: a traceback: {printed.strip().splitlines()[-1]}")
-    if how == "full" and status == 0 and left(folder) != expected:
-        wrong.append(f"{where}: it says that all is well")
+def state(folder: Path) -> tuple:
+    """All that a command which is started again finds; temporary names are drawn by chance."""
+    modes = {path.relative_to(folder).as_posix(): path.stat().st_mode for path in folder.rglob("*")}
+    hashes = left(folder)
+    each = [(re.sub(r"\.\w{8}\.tmp\b", ".tmp", name), mode, hashes.get(name)) for name, mode in modes.items()]
+    return tuple(sorted(each, key=str))
+
+
+def start_again(command: Command, folder: Path, expected: dict[str, str]) -> str:
+    """Start a disturbed command again: what went wrong, or ""."""
     for arguments in command.again:
         status, _, printed = run(arguments, folder)
         if status != 2:
             break
     if status != 0 or "Traceback" in printed:
-        wrong.append(f"{where}: a dead end, status {status}: {(printed.strip().splitlines() or [''])[-1]}")
-    else:
-        there = left(folder)
-        names = sorted(name for name in {*there, *expected} if there.get(name) != expected.get(name))
-        if names:
-            wrong.append(f"{where}: other files than undisturbed: {', '.join(names[:5])}")
-    shutil.rmtree(folder)
-    return wrong
+        return f"a dead end, status {status}: {(printed.strip().splitlines() or [''])[-1]}"
+    there = left(folder)
+    names = sorted(name for name in {*there, *expected} if there.get(name) != expected.get(name))
+    return f"other files than undisturbed: {', '.join(names[:5])}" if names else ""
 
 
-def disturb(command: Command, every: int, scratch: Path) -> Iterator[list[str]]:
-    """What went wrong in each attempt, at one operation in `every`."""
-    folder = scratch / "undisturbed"
-    folder.mkdir()
-    command.prepare(folder)
-    status, operations, printed = run(command.arguments, folder)
+def disturb(command: Command, every: int, scratch: Path) -> Iterator[str]:
+    """What went wrong in each attempt, or "", at one operation in `every`."""
+    folder, moments = scratch / "folder", scratch / "moments"
+
+    def begin() -> None:
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir()
+        command.prepare(folder)
+
+    def copy(number: int, event: str, path: str) -> None:
+        if number % every == 0:
+            shutil.copytree(folder, moments / str(number))
+
+    def full_from(at: int) -> Before:
+        def refuse(number: int, event: str, path: str) -> None:
+            if number >= at and event in GROWING:
+                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), path)
+
+        return refuse
+
+    begin()
+    run_here(command.arguments, folder)  # what it imports, compiles and remembers, every fork has
+    begin()
+    status, operations, printed = run(command.arguments, folder, copy)
     assert status == 0, printed
-    expected = left(folder)
-    shutil.rmtree(folder)
+    expected, known = left(folder), {}
     print(f"{command.name}: {len(operations)} operations, {len(expected)} files", flush=True)
-    for at, how in itertools.product(range(0, len(operations), every), HOW):
-        yield attempt(command, at, how, expected, scratch)
+
+    def and_again(where: str) -> str:
+        found = state(folder)
+        if found not in known:
+            known[found] = start_again(command, folder, expected)
+        return known[found] and f"{where}: {known[found]}"
+
+    for at in range(0, len(operations), every):
+        shutil.rmtree(folder)
+        os.rename(moments / str(at), folder)
+        yield and_again(f"{command.name}, killed at {at} ({operations[at]})")
+    for at in range(0, len(operations), every):
+        begin()
+        where = f"{command.name}, full at {at} ({operations[at]})"
+        status, _, printed = run(command.arguments, folder, full_from(at))
+        if "Traceback" in printed:
+            yield f"{where}: a traceback: {printed.strip().splitlines()[-1]}"
+        elif status == 0 and left(folder) != expected:
+            yield f"{where}: it says that all is well"
+        else:
+            yield and_again(where)
+    shutil.rmtree(folder)
+    print(f"{command.name}: started again from {len(known)} different states", flush=True)
 
 
 def warm(scratch: Path) -> Path:
-    """Import and compile everything, and compute a small study. Returns its folder."""
+    """Make this process one whose forks repeat themselves, and compute a small study. Returns its folder."""
     import torch
     import tqdm
 
+    from bootcourse.learn import training
     from bootcourse.learn.settings import settings_for, with_seeds
     from bootcourse.scenario import DEFAULT
     from bootcourse.storage import work
+    from bootcourse.study import fingerprint
     from bootcourse.study.jobs import Job, run_job
 
+    fingerprint.fingerprint = functools.cache(fingerprint.fingerprint)  # computed once, not by every attempt
     torch.set_num_threads(1)
     tqdm.tqdm.monitor_interval = 0  # its thread would not survive a fork
-    seconds = itertools.count().__next__  # a clock of its own, so that every attempt writes the same checkpoints
+    seconds = itertools.count().__next__  # clocks of their own, so that every attempt writes the same checkpoints
     work.time = SimpleNamespace(monotonic=seconds, strftime=lambda _: "today")
+    training.time = SimpleNamespace(perf_counter=lambda: 0.0)
     made = scratch / "made" / "study"
     made.mkdir(parents=True)
     (made / "study.json").write_text("{}")
@@ -222,16 +258,16 @@ def main() -> int:
     chosen = parser.parse_args()
     os.environ["OMP_NUM_THREADS"] = "1"
     with tempfile.TemporaryDirectory() as place:
-        scratch, wrong, attempts = Path(place), [], 0
+        scratch, wrong, attempts = Path(place), 0, 0
         study = warm(scratch)
         for command in commands(study):
             if chosen.names and command.name not in chosen.names:
                 continue
             for found in disturb(command, chosen.every, scratch):
                 attempts += 1
-                wrong += found
-                print(*found, sep="\n", end="\n" * bool(found), flush=True)
-    print(f"{attempts} attempts, {len(wrong)} went wrong")
+                wrong += bool(found)
+                print(found, end="\n" * bool(found), flush=True)
+    print(f"{attempts} attempts, {wrong} went wrong")
     return 1 if wrong else 0
 
 
