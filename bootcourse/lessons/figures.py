@@ -17,7 +17,7 @@ from bootcourse.learn.curves import by_label
 from bootcourse.learn.settings import Settings
 from bootcourse.learn.training import Training
 from bootcourse.lessons.charts import lines
-from bootcourse.lessons.exercises.lesson_03_the_rule import direct_solution
+from bootcourse.lessons.plans import direct_solution
 from bootcourse.methods import style
 from bootcourse.plots.canvas import MplAxes
 from bootcourse.plots.diagrams import agent_loop as agent_loop

@@ -3,8 +3,27 @@
 import math
 
 import numpy as np
+import torch
 
-from tests.answers import right, wrong
+from tests.answers import equivalent, right, wrong
+
+STRAIGHT = "it drives straight, so r_theta is 0"
+for _before, _after in (
+    (
+        "seconds * (1.5 * r_v + 0.05 * r_y + 0.05 * r_theta)",
+        "seconds * (1.5 * r_v + 0.05 * r_y - 0.05 * r_theta)",
+    ),
+    ("0.05 * r_theta", "-0.05 * r_theta"),
+    ("0.05 * r_theta", "0.0505 * r_theta"),
+    ("0.05 * r_theta", "0.15000000000000002 * r_theta"),
+):
+    equivalent("idle_return", f"{_before}  ->  {_after}", STRAIGHT)
+equivalent("idle_return", "1.5 * r_v + 0.05 * r_y  ->  1.5 * r_v + 0.05 / r_y", "it is centred, so r_y is 1")
+BOTH = "the formula gives the same there"
+equivalent("bearable_risk", "if escape <= stay:  ->  if escape < stay:", BOTH)
+equivalent("bearable_risk", "if crash >= stay:  ->  if crash > stay:", BOTH)
+
+# decode ---------------------------------------------------------------------------------------------
 
 
 @right("decode")
@@ -22,7 +41,38 @@ def by_divmod(actions):
 
 @right("decode")
 def one_by_one(actions):
-    return np.array([[a // 3 - 1, (a - 3 * (a // 3) - 1) * 0.02 * np.pi] for a in actions.tolist()])
+    return [(a // 3 - 1, (a - 3 * (a // 3) - 1) * 0.02 * math.pi) for a in actions.tolist()]
+
+
+@right("decode")
+def with_torch(actions):
+    row = torch.from_numpy(actions).div(3, rounding_mode="floor")
+    column = torch.from_numpy(actions).remainder(3)
+    return torch.stack([row - 1, (column - 1) * torch.pi / 50], dim=1)
+
+
+@wrong("decode", "whole numbers")
+def into_whole_numbers(actions):
+    found = np.zeros((len(actions), 2), dtype=int)
+    found[:, 0] = actions // 3 - 1
+    found[:, 1] = (actions % 3 - 1) * np.pi / 50
+    return found
+
+
+@wrong("decode")
+def the_three_of_the_example(actions):
+    known = {0: (-1, -np.pi / 50), 4: (0, 0), 8: (1, np.pi / 50)}
+    return np.array([known.get(a, (0, 0)) for a in actions.tolist()])
+
+
+@wrong("decode")
+def divided_as_floats(actions):
+    return np.column_stack([actions / 3 - 1, (actions % 3 - 1) * np.pi / 50])
+
+
+@wrong("decode")
+def rows_of_two(actions):
+    return np.column_stack([actions // 2 - 1, (actions % 3 - 1) * np.pi / 50])
 
 
 @wrong("decode")
@@ -43,6 +93,9 @@ def columns_swapped(actions):
 @wrong("decode", "has shape (2, 3)")
 def a_tuple(actions):
     return actions // 3 - 1, (actions % 3 - 1) * np.pi / 50
+
+
+# reward ---------------------------------------------------------------------------------------------
 
 
 def speed_term(v_lon):
@@ -108,6 +161,27 @@ def departures_are_free(v_lon, offset, theta, accident):
     return -10.0 if accident in (1, 3) else summed(v_lon, offset, theta) / 1.6
 
 
+@wrong("reward")
+def squared_steering(v_lon, offset, theta, accident):
+    mean = (1.5 * speed_term(v_lon) + 0.05 * math.exp(-1.5 * offset**2) - 0.05 * math.sin(theta) ** 2) / 1.6
+    return -10.0 if accident else mean
+
+
+@wrong("reward")
+def the_line_goes_on_below_five(v_lon, offset, theta, accident):
+    r_v = speed_term(v_lon) if v_lon > 5 else (2 * v_lon - 10) / 75
+    mean = (1.5 * r_v + 0.05 * math.exp(-1.5 * offset**2) - 0.05 * abs(math.sin(theta))) / 1.6
+    return -10.0 if accident else mean
+
+
+@wrong("reward")
+def no_reward_for_too_fast(v_lon, offset, theta, accident):
+    return -10.0 if accident else summed(v_lon if v_lon <= 15 else 0.0, offset, theta) / 1.6
+
+
+# idle_return ----------------------------------------------------------------------------------------
+
+
 @right("idle_return")
 def by_the_line(speed, seconds):
     return (0.025 * speed - 0.09375) * seconds
@@ -139,6 +213,24 @@ def with_the_terms_in_a_row(speed, seconds):
 @wrong("idle_return")
 def one_second_short(speed, seconds):
     return by_the_line(speed, seconds - 1)
+
+
+@wrong("idle_return")
+def discounted(speed, seconds):
+    return sum(0.8**t * by_the_line(speed, 1) for t in range(seconds))
+
+
+@wrong("idle_return")
+def the_rewards_of_all_seconds(speed, seconds):
+    return np.full(seconds, by_the_line(speed, 1))
+
+
+@wrong("idle_return")
+def with_the_steep_line(speed, seconds):
+    return (1.5 * (8 / 25 * speed - 19 / 5) + 0.05) / 1.6 * seconds
+
+
+# bearable_risk --------------------------------------------------------------------------------------
 
 
 @right("bearable_risk")
@@ -186,6 +278,24 @@ def a_verdict(stay, escape, crash):
     return escape > stay
 
 
+@wrong("bearable_risk")
+def at_least_one_per_cent(stay, escape, crash):
+    return max(0.01, clipped(stay, escape, crash))
+
+
+@wrong("bearable_risk")
+def no_more_than_nine_in_ten(stay, escape, crash):
+    return clipped(stay, escape, crash) if crash >= stay else min(0.9, clipped(stay, escape, crash))
+
+
+@wrong("bearable_risk")
+def signs_are_dropped(stay, escape, crash):
+    return float(np.clip((escape - stay) / (abs(escape) + abs(crash)), 0, 1))
+
+
+# outcome_rates --------------------------------------------------------------------------------------
+
+
 @right("outcome_rates")
 def with_bincount(x_ego, x_trap_1, accident):
     counts = np.bincount(accident, minlength=4)[1:]
@@ -206,7 +316,7 @@ def episode_by_episode(x_ego, x_trap_1, accident):
 def from_lists(x_ego, x_trap_1, accident):
     success = [ego > trap for ego, trap in zip(x_ego.tolist(), x_trap_1.tolist(), strict=True)]
     kinds = accident.tolist()
-    return np.array([sum(success), kinds.count(1), kinds.count(2), kinds.count(3)]) / len(kinds)
+    return [count / len(kinds) for count in (sum(success), kinds.count(1), kinds.count(2), kinds.count(3))]
 
 
 @wrong("outcome_rates", "'no accident'")
@@ -217,6 +327,35 @@ def no_accident_is_success(x_ego, x_trap_1, accident):
 @wrong("outcome_rates", "shifted by one")
 def from_zero_on(x_ego, x_trap_1, accident):
     return np.array([np.mean(x_ego > x_trap_1), *(np.mean(accident == kind) for kind in range(3))])
+
+
+@right("outcome_rates")
+def with_torch_s_mean(x_ego, x_trap_1, accident):
+    ahead, kind = torch.tensor(x_ego > x_trap_1), torch.tensor(accident)
+    return torch.stack([ahead.double().mean(), *((kind == k).double().mean() for k in (1, 2, 3))])
+
+
+@wrong("outcome_rates", "number of accidents")
+def shares_of_the_accidents(x_ego, x_trap_1, accident):
+    counts = np.bincount(accident, minlength=4)[1:]
+    return np.array([np.mean(x_ego > x_trap_1), *counts / max(counts.sum(), 1)])
+
+
+@wrong("outcome_rates")
+def into_whole_numbers_too(x_ego, x_trap_1, accident):
+    found = np.zeros(4, dtype=int)
+    found[:] = with_bincount(x_ego, x_trap_1, accident)
+    return found
+
+
+@wrong("outcome_rates")
+def one_episode_too_few(x_ego, x_trap_1, accident):
+    return with_bincount(x_ego, x_trap_1, accident) * len(x_ego) / max(1, len(x_ego) - 1)
+
+
+@wrong("outcome_rates", "shape")
+def for_each_episode(x_ego, x_trap_1, accident):
+    return np.stack([x_ego > x_trap_1, *(accident == kind for kind in (1, 2, 3))]).astype(float)
 
 
 @wrong("outcome_rates", "shape")

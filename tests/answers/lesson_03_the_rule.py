@@ -1,8 +1,16 @@
 """Answers to the exercises of the lesson on the rule controller."""
 
 import numpy as np
+import torch
 
-from tests.answers import right, wrong
+from tests.answers import equivalent, right, wrong
+
+equivalent("target_speed", "range(1, n)  ->  range(0, n)", "the slowest speed is v_min, which is taken anyway")
+for _after in ("pass", "p", "check_p(0.9)"):
+    equivalent("stochastic_rule", f"check_p(p)  ->  {_after}", "the exercise gives no p outside [1/9, 1)")
+equivalent("stochastic_rule", "rule_actions = np.asarray(rule_actions)  ->  pass", "the exercise gives an array")
+
+# safety_distance ------------------------------------------------------------------------------------
 
 
 @right("safety_distance")
@@ -16,6 +24,38 @@ def the_longer_of_two(v_ego, v_current, v_new, t_safe, floor):
     if distance < floor:
         return floor
     return distance
+
+
+@right("safety_distance")
+def with_numpy(v_ego, v_current, v_new, t_safe, floor):
+    return np.maximum(floor, t_safe * np.subtract(v_ego, [v_current, v_new]).max())
+
+
+@right("safety_distance")
+def for_each_car(v_ego, v_current, v_new, t_safe, floor):
+    return max([floor] + [t_safe * (v_ego - v) for v in (v_current, v_new)])
+
+
+@wrong("safety_distance", "absolute value")
+def how_far_they_drift_apart(v_ego, v_current, v_new, t_safe, floor):
+    drift = (v_ego - min(v_current, v_new)) * t_safe
+    return drift if drift > floor else max(floor, -drift)
+
+
+@wrong("safety_distance")
+def the_scenario_s_numbers(v_ego, v_current, v_new, t_safe, floor):
+    return max(3.0, (v_ego - min(v_current, v_new)) * 1.5)
+
+
+@wrong("safety_distance")
+def the_floor_for_equal_speeds_only(v_ego, v_current, v_new, t_safe, floor):
+    distance = (v_ego - min(v_current, v_new)) * t_safe
+    return distance if distance > 0 else floor
+
+
+@wrong("safety_distance")
+def the_mean_of_both_cars(v_ego, v_current, v_new, t_safe, floor):
+    return max(floor, (v_ego - (v_current + v_new) / 2) * t_safe)
 
 
 @wrong("safety_distance")
@@ -43,6 +83,9 @@ def zero_for_the_floor(v_ego, v_current, v_new, t_safe, floor):
     return max(0.0, (v_ego - min(v_current, v_new)) * t_safe)
 
 
+# target_speed ---------------------------------------------------------------------------------------
+
+
 @right("target_speed")
 def by_a_list(v_current, v_new, v_min, v_max, n):
     return max([v for v in np.linspace(v_min, v_max, n) if v < v_current and v < v_new], default=v_min)
@@ -55,6 +98,45 @@ def counted_down(v_current, v_new, v_min, v_max, n):
         if v_min + i * step < min(v_current, v_new):
             return v_min + i * step
     return v_min
+
+
+@right("target_speed")
+def by_a_mask(v_current, v_new, v_min, v_max, n):
+    grid = np.linspace(v_min, v_max, n)
+    slow = (grid < v_current) & (grid < v_new)
+    return np.max(grid, where=slow, initial=v_min)
+
+
+@right("target_speed")
+def by_searching_the_sorted_grid(v_current, v_new, v_min, v_max, n):
+    grid = torch.linspace(v_min, v_max, n, dtype=torch.float64)
+    place = torch.searchsorted(grid, torch.tensor(min(v_current, v_new), dtype=torch.float64)).item()
+    return grid[max(place - 1, 0)]
+
+
+@wrong("target_speed", "new lane only")
+def slower_than_the_new_car(v_current, v_new, v_min, v_max, n):
+    return max([v for v in np.linspace(v_min, v_max, n) if v < v_new], default=v_min)
+
+
+@wrong("target_speed")
+def equal_in_the_new_lane(v_current, v_new, v_min, v_max, n):
+    return max([v for v in np.linspace(v_min, v_max, n) if v < v_current and v <= v_new], default=v_min)
+
+
+@wrong("target_speed")
+def five_speeds(v_current, v_new, v_min, v_max, n):
+    return max([v for v in np.linspace(v_min, v_max, 5) if v < min(v_current, v_new)], default=v_min)
+
+
+@wrong("target_speed")
+def without_the_fastest(v_current, v_new, v_min, v_max, n):
+    return max([v for v in np.linspace(v_min, v_max, n)[:-1] if v < min(v_current, v_new)], default=v_min)
+
+
+@wrong("target_speed")
+def its_number(v_current, v_new, v_min, v_max, n):
+    return int(np.sum(np.linspace(v_min, v_max, n) < min(v_current, v_new)))
 
 
 @wrong("target_speed", "has to be *slower*")
@@ -99,6 +181,9 @@ def the_nearest(v_current, v_new, v_min, v_max, n):
     return grid[np.argmin(abs(grid - min(v_current, v_new, 1e6)))]
 
 
+# room_to_change -------------------------------------------------------------------------------------
+
+
 @right("room_to_change")
 def two_questions(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor):
     if dx_front - length <= d_s:
@@ -130,10 +215,39 @@ def the_same_distance_behind(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_sa
     return dx_front - length > d_s and dx_rear - length > d_s
 
 
-@wrong("room_to_change")
+@wrong("room_to_change", "half a length")
 def half_a_length(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor):
     half = length / 2
     return dx_front - half > d_s and dx_rear - half > max(floor, (v_rear - v_ego) * t_safe)
+
+
+@wrong("room_to_change")
+def the_floor_and_the_closing_distance(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor):
+    return dx_front - length > d_s and dx_rear - length > floor + max(0.0, (v_rear - v_ego) * t_safe)
+
+
+@wrong("room_to_change")
+def a_slower_car_behind_does_not_count(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor):
+    behind = v_rear <= v_ego or dx_rear - length > max(floor, (v_rear - v_ego) * t_safe)
+    return dx_front - length > d_s and behind
+
+
+@wrong("room_to_change")
+def a_length_ahead_only(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor):
+    return dx_front - length > d_s and dx_rear > max(floor, (v_rear - v_ego) * t_safe)
+
+
+@wrong("room_to_change")
+def always(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor):
+    return True
+
+
+@wrong("room_to_change", "a number")
+def both_answers(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor):
+    return dx_front - length > d_s, dx_rear - length > max(floor, (v_rear - v_ego) * t_safe)
+
+
+# best_first_step ------------------------------------------------------------------------------------
 
 
 @right("best_first_step")
@@ -145,6 +259,46 @@ def unravelled(costs):
 def row_by_row(costs):
     best = [min(cost for second in first for cost in second) for first in costs]
     return best.index(min(best))
+
+
+@right("best_first_step")
+def with_torch(costs):
+    return torch.from_numpy(costs).amin(dim=(1, 2)).argmin()
+
+
+@right("best_first_step")
+def nine_plans_each(costs):
+    return int(np.argmin(costs)) // 9
+
+
+@wrong("best_first_step")
+def greedy(costs):
+    return costs[:, 0, 0].argmin()
+
+
+@wrong("best_first_step", "only its first step")
+def the_best_of_27(costs):
+    return min(range(27), key=lambda plan: costs.flat[plan])
+
+
+@wrong("best_first_step")
+def the_remainder(costs):
+    return costs.argmin() % 9 // 3
+
+
+@wrong("best_first_step")
+def right_in_the_examples(costs):
+    return 2 if costs[2, 0, 1] == 1.0 else 0
+
+
+@wrong("best_first_step", "a number")
+def the_whole_plan(costs):
+    return np.unravel_index(costs.argmin(), costs.shape)
+
+
+@wrong("best_first_step")
+def the_lowest_cost(costs):
+    return costs.min()
 
 
 @wrong("best_first_step")
@@ -162,6 +316,9 @@ def the_three_costs(costs):
     return costs.min(axis=(1, 2))
 
 
+# stochastic_rule ------------------------------------------------------------------------------------
+
+
 @right("stochastic_rule")
 def filled(rule_actions, p):
     pi = np.full((len(rule_actions), 9), (1 - p) / 8)
@@ -173,6 +330,44 @@ def filled(rule_actions, p):
 def with_an_identity(rule_actions, p):
     own = np.eye(9)[rule_actions]
     return p * own + (1 - p) / 8 * (1 - own)
+
+
+@right("stochastic_rule")
+def row_by_row_in_lists(rule_actions, p):
+    return [[p if a == own else (1 - p) / 8 for a in range(9)] for own in rule_actions]
+
+
+@right("stochastic_rule")
+def one_hot(rule_actions, p):
+    own = torch.nn.functional.one_hot(torch.from_numpy(rule_actions), 9)
+    return torch.where(own == 1, p, (1 - p) / 8)
+
+
+@wrong("stochastic_rule", "*every* row")
+def columns_of_all_rows(rule_actions, p):
+    pi = np.full((len(rule_actions), 9), (1 - p) / 8)
+    pi[:, rule_actions] = p
+    return pi
+
+
+@wrong("stochastic_rule")
+def nine_tenths(rule_actions, p):
+    return filled(rule_actions, 0.9)
+
+
+@wrong("stochastic_rule")
+def counted_from_one(rule_actions, p):
+    return filled((rule_actions - 1) % 9, p)
+
+
+@wrong("stochastic_rule")
+def into_whole_numbers(rule_actions, p):
+    return filled(rule_actions, p).astype(int)
+
+
+@wrong("stochastic_rule", "shape")
+def the_first_state_only(rule_actions, p):
+    return filled(rule_actions, p)[0]
 
 
 @wrong("stochastic_rule")
@@ -188,6 +383,9 @@ def states_in_columns(rule_actions, p):
 @wrong("stochastic_rule")
 def logarithms(rule_actions, p):
     return np.log(filled(rule_actions, p))
+
+
+# direct_plan ----------------------------------------------------------------------------------------
 
 
 @right("direct_plan")

@@ -49,6 +49,10 @@ decode = Exercise(
         Mistake(lambda actions: columns(actions // 3 - 1, (actions % 3 - 1) * 3.6),
             "Your steering is in degrees: π/50 rad are 3.6°, and the column is in rad.",
             "An angle is a number of degrees."),
+        Mistake(lambda actions: columns(actions // 3 - 1, 0 * actions),
+            "Your steering is always 0. If you write into an array of whole numbers, ±π/50 is cut off to 0: make an "
+            "array of floats.",
+            "An array takes whatever number is written into it."),
     ),
     hints=(
         "Write 0 to 8 as three rows of three: which row is the acceleration, which column the steering?",
@@ -180,12 +184,14 @@ def risk_solution(stay, escape, crash):
 
 
 def risk_cases(rng):
-    """The rule's numbers, an escape that pays no more than to stay, a harmless crash, both edges; 40 at random."""
+    """The rule's numbers, an escape that pays no more than to stay, a harmless crash, all edges; 40 at random."""
     yield 23.4375, 51.0, -9.5
     yield 23.4375, 20.0, -9.5
     yield 23.4375, 23.4375, -9.5
     yield -30.0, 51.0, -9.5
     yield -9.5, 51.0, -9.5
+    yield 20.0, 20.5, -20.0  # hardly any risk is worth it
+    yield 20.0, 100.0, 19.5  # almost any risk is worth it
     for _ in range(40):
         stay, gain = rng.uniform(-20, 40), rng.uniform(-10, 120)
         yield float(stay), float(stay + gain), float(stay + min(gain - 1, rng.uniform(-60, 10)))
@@ -251,7 +257,7 @@ def outcomes_cases(rng):
     """A crash after overtaking, no success, level with trap 1, just ahead of it and just behind; then 30 at random."""
     yield np.array([900.0]), np.array([800.0]), np.array([1])
     yield np.array([1500.0, 12.0]), np.array([1515.0, 27.0]), np.array([0, 2])
-    yield np.array([700.0, 700.5, 699.5]), np.array([700.0, 700.0, 700.0]), np.array([1, 3, 1])
+    yield np.array([700.0, 700.01, 699.99]), np.array([700.0, 700.0, 700.0]), np.array([1, 3, 1])
     for _ in range(30):
         n = int(rng.integers(1, 12))
         yield rng.uniform(0, 2000, n), rng.uniform(15, 1515, n), rng.choice(4, n, p=[0.4, 0.3, 0.2, 0.1])
@@ -278,6 +284,10 @@ outcome_rates = Exercise(
         Mistake(lambda x, x1, accident: rates(x > x1, accident) * 100,
             "You return percentages: shares between 0 and 1 are asked for.",
             "Rates are written in per cent, as in the paper's tables."),
+        Mistake(lambda x, x1, accident: np.array([np.mean(x > x1), *(
+                np.sum(accident == kind) / max(1, np.sum(accident > 0)) for kind in (1, 2, 3))]),
+            "You divide each kind by the number of accidents. Its rate is its share of *all* the episodes.",
+            "The rates of the three kinds add up to one."),
         Mistake(lambda x, x1, accident: rates(x > x1, accident, (0, 1, 2)),
             "Your kinds are shifted by one: 0 means no accident, 1 collision, 2 road departure, 3 stoppage.",
             "Counting begins at 0."),

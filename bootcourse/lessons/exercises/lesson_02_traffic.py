@@ -47,6 +47,13 @@ desired_gap = Exercise(
         Mistake(lambda v, dv, s0, T, a, b: T * v + v * dv / (2 * math.sqrt(a * b)),
             "You left out s0, the gap that is kept at a standstill.",
             "A car that stands still needs no gap."),
+        Mistake(lambda v, dv, s0, T, a, b: s0 + max(0.0, T * v + v * dv / (2 * math.sqrt(a * b))),
+            "You keep s* from falling below s0, as some versions of IDM do. The formula above has no such limit.",
+            "A gap that a driver wants is at least s0."),
+        Mistake(lambda v, dv, s0, T, a, b: s0 + T * v + v * dv / 2 * math.sqrt(a * b),
+            "You multiply by √(a_max b): Python computes `x / 2 * y` as `(x / 2) * y`. Put the denominator in "
+            "parentheses.",
+            "A product after a division sign belongs to the denominator, as on paper."),
     ),
     hints=(
         "Three terms: a gap at standstill, a gap that grows with speed, and one that grows when you close in.",
@@ -64,8 +71,9 @@ def behind(change):
         states = [(gap, v)]
         for u in leader:
             wished = s0 + T * v + change("closing", v - u) * v / (2 * math.sqrt(a_max * b))
-            a = a_max * (1 - (v / w) ** d - change("ratio", wished / gap) ** change("power", 2))
-            a = max(a, -change("limit", limit))
+            seen = change("seen", gap, gap + (u - v) * dt)
+            a = a_max * (1 - (v / w) ** d - change("ratio", wished / seen) ** change("power", 2))
+            a = change("top", max(a, -change("limit", limit)), min(max(a, -limit), limit))
             new = change("speed", max(v + a * dt, 0.0), v + a * dt)
             gap, v = gap + (u - change("moves", v, new)) * dt, new
             states.append((gap, v))
@@ -86,6 +94,7 @@ def behind_cases(rng):
     yield np.array([8.0, 4.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]), 10.0, 20.0, 0.5, *usual
     yield np.full(5, 15.0), 12.0, 1e6, 0.5, *usual
     yield np.zeros(6), 6.0, 14.0, 0.5, *usual[:-1], 3.0
+    yield np.full(4, 12.0), 5.0, 200.0, 0.5, 12.5, 10.0, 1.5, 3.0, 0.5, 4.0, 1.0  # speeds up harder than `limit`
     for _ in range(25):
         leader = np.maximum(rng.uniform(5, 14) + np.cumsum(rng.normal(0, 0.8, 8)), 0)
         driver = rng.uniform([9, 2, 0.8, 0.4, 0.4, 1.5, 2], [16, 11, 2, 2, 2, 5, 8]).tolist()
@@ -113,6 +122,14 @@ drive_behind = Exercise(
         Mistake(slip("limit", lambda *_: math.inf),
             "Your driver brakes harder than `limit` when the gap is short: the acceleration is at least -limit.",
             "The formula itself has all limits."),
+        Mistake(slip("top", lambda _, clipped: clipped),
+            "You limit the driver's acceleration, too: `limit` is for braking. IDM's own bracket keeps the "
+            "acceleration below a_max.",
+            "A limit holds in both directions."),
+        Mistake(slip("seen", lambda _, after: after),
+            "You move the cars first and then compute the acceleration from the *new* gap. Compute it from the speeds "
+            "and the gap at the start of the step.",
+            "It does not matter when the acceleration is computed."),
         Mistake(slip("speed", lambda _, free: free),
             "Your car drives backwards when it brakes at a standstill: its speed is at least 0.",
             "Braking ends by itself."),
@@ -262,6 +279,11 @@ worth_changing = Exercise(
             after >= limit and incentive(own, before, after, old, p) > th,
             "Braking is a negative acceleration: the new follower's must be at least -limit.",
             "A limit has the sign of what it limits."),
+        Mistake(lambda own, before, after, old, p, th, limit:
+            abs(after) <= limit and incentive(own, before, after, old, p) > th,
+            "You refuse a change after which the new follower *accelerates* by more than the limit: only its braking "
+            "is limited.",
+            "An acceleration and a braking of the same size are equally dangerous."),
     ),
     hints=(
         "Ask two questions: is the change safe, and is it worth it? If it is not safe, the answer is False.",

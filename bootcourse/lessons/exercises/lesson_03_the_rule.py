@@ -3,25 +3,24 @@
 import numpy as np
 
 from bootcourse import rule
-from bootcourse.episodes.record import record
-from bootcourse.errors import BootcourseError
 from bootcourse.lessons.exercise import Exercise, Mistake
-from bootcourse.policies import plan_policy
-from bootcourse.road.state import Accident
+from bootcourse.lessons.plans import ROADS, direct_solution, drive_plan, what_happened
 
 
-def slower(v_current, v_new, v_min, v_max, n, count=lambda grid, limit: grid[grid < limit], other=min):
-    """The fastest grid speed below a limit; `count` and `other` make the mistakes."""
-    grid = np.linspace(v_min, v_max, n)
-    kept = count(grid, other(v_current, v_new))
-    return float(kept[-1]) if len(kept) else float(v_min)
+def of_grid(low, high, n, allowed, choose=max):
+    """The fastest of n speeds that is allowed."""
+    return choose((v for v in np.linspace(low, high, n) if allowed(v)), default=low)
 
 
 def speed_cases(rng):
-    """Traps on the grid and off it, a free road, one lane free, all too slow; then 60 at random."""
+    """Traps on the grid, at its ends and off it, a free road, one lane free, all too slow; then 60 at random."""
     inf = float("inf")
     yield 10.0, 10.0, 6.0, 15.0, 5
     yield 8.25, 8.25, 6.0, 15.0, 5
+    yield 8.25, 20.0, 6.0, 15.0, 5
+    yield 20.0, 8.25, 6.0, 15.0, 5
+    yield 6.0, 6.0, 6.0, 15.0, 5
+    yield 15.0, 15.0, 6.0, 15.0, 5
     yield inf, inf, 6.0, 15.0, 5
     yield 10.0, inf, 6.0, 15.0, 5
     yield inf, 10.0, 6.0, 15.0, 5
@@ -41,23 +40,26 @@ target_speed = Exercise(
         ((float("inf"), float("inf"), 6.0, 15.0, 5), 15.0),
     ),
     mistakes=(
-        Mistake(lambda a, b, low, high, n: slower(a, b, low, high, n, lambda grid, limit: grid[grid <= limit]),
+        Mistake(lambda a, b, low, high, n: of_grid(low, high, n, lambda v: v <= min(a, b)),
             "You allow the speed of the car ahead itself. Your speed has to be *slower*: otherwise the gap does not "
             "grow.",
             "Equal speeds are safe, so equal is allowed."),
-        Mistake(lambda a, b, low, high, n: slower(a, a, low, high, n),
+        Mistake(lambda a, b, low, high, n: of_grid(low, high, n, lambda v: v < a),
             "You look at the car in your own lane only. While you change, the new car ahead limits you, too.",
             "The new lane matters only after the change."),
-        Mistake(lambda a, b, low, high, n: slower(a, b, low, high, n, other=max),
+        Mistake(lambda a, b, low, high, n: of_grid(low, high, n, lambda v: v < b),
+            "You look at the car in the new lane only. Until you are there, the car ahead of you limits you, too.",
+            "The old lane does not matter any more."),
+        Mistake(lambda a, b, low, high, n: of_grid(low, high, n, lambda v: v < max(a, b)),
             "You compare with the faster of the two cars: slower than *both* means slower than the minimum.",
             "The other lane is faster, so its car sets the limit."),
         Mistake(lambda a, b, low, high, n: min(max(min(a, b), low), high),
             "You return the slower car's own speed. The rule takes one of its n speeds: the fastest one below that.",
             "The grid is only there to describe a range."),
-        Mistake(lambda a, b, low, high, n: slower(a, b, low, high, n, lambda grid, limit: grid[grid < limit][:1]),
+        Mistake(lambda a, b, low, high, n: of_grid(low, high, n, lambda v: v < min(a, b), choose=min),
             "You take the slowest of the speeds that qualify: the rule takes the fastest.",
             "Slower is safer."),
-        Mistake(lambda a, b, low, high, n: slower(a, b, low, low + (high - low) * (n - 1) / n, n),
+        Mistake(lambda a, b, low, high, n: of_grid(low, high - (high - low) / n, n, lambda v: v < min(a, b)),
             "Your grid does not reach v_max: n speeds have n - 1 steps between them.",
             "n speeds, n steps."),
     ),
@@ -100,6 +102,9 @@ safety_distance = Exercise(
         Mistake(lambda v_ego, v_current, v_new, t_safe, floor: max(floor, (min(v_current, v_new) - v_ego) * t_safe),
             "Your sign is wrong: the distance has to grow when you are *faster* than the car ahead, not slower.",
             "The speed difference is theirs minus mine, as the gap is."),
+        Mistake(lambda v_ego, v_current, v_new, t_safe, floor: max(floor, abs(v_ego - min(v_current, v_new)) * t_safe),
+            "You take the absolute value. A car that is slower than both does not close in: the floor is enough.",
+            "A distance is positive, so its sign can be dropped."),
         Mistake(lambda v_ego, v_current, v_new, t_safe, floor: floor + (v_ego - min(v_current, v_new)) * t_safe,
             "You add `floor` to the distance. It is a lower bound: the larger of the two counts.",
             "A floor is a margin that is added."),
@@ -138,6 +143,8 @@ def change_cases(rng):
     yield inf, 8.0, 5.0, 3.0, 8.25, 8.0, 1.5, 3.0
     yield inf, 11.0, 5.0, 3.0, 8.0, 12.0, 1.5, 3.0  # behind, too
     yield inf, 11.1, 5.0, 3.0, 8.0, 12.0, 1.5, 3.0
+    yield inf, 6.8, 5.0, 3.0, 8.0, 10.0, 1.0, 1.5  # 1.8 m behind: more than the floor, and it closes in 2 m
+    yield inf, 9.2, 5.0, 3.0, 8.0, 12.0, 1.0, 4.5  # 4.2 m behind: it closes in 4 m, less than the floor
     for _ in range(150):
         front, rear, d_s, v, v_rear = rng.uniform([4, 4, 3, 6, 6], [22, 22, 12, 15, 15]).tolist()
         length, t_safe, floor = rng.uniform([3, 0.5, 1], [8, 3, 5]).tolist()
@@ -163,6 +170,10 @@ room_to_change = Exercise(
             "You measure from centre to centre. The gap is from bumper to bumper: subtract a car's length from each "
             "distance.",
             "The distance between two cars is the distance between their positions."),
+        Mistake(lambda front, rear, length, d_s, v, v_rear, t, floor:
+            front - length / 2 > d_s and rear - length / 2 > max(floor, (v_rear - v) * t),
+            "You subtract half a length. From bumper to bumper two halves go: half of your car and half of the other.",
+            "Only the other car's length counts."),
         Mistake(lambda front, rear, length, d_s, v, v_rear, t, floor: front - length > d_s,
             "You look ahead only. The car behind you in the new lane needs its distance, too.",
             "The driver behind has to take care."),
@@ -252,42 +263,6 @@ best_first_step = Exercise(
 )  # fmt: skip
 
 
-ROADS = (7, 3, 5, 8, 11, 12, 13, 15)  # on each of them trap 2 starts 4.85 m ahead or more
-EARLY = 15  # s; an accident until then is the plan's own, not the traffic's
-
-
-def direct_solution():
-    steering = [("keep left", 2), "keep right", "keep left", ("keep right", 3), "keep left"]
-    return [*steering, ("accelerate straight", 5)]
-
-
-def drive_plan(answer, road):
-    """[seconds with the brake, the kind of an accident in the first 15 s, ends ahead of trap 1] on a road."""
-    plan = answer()
-    if not isinstance(plan, (list, tuple)):
-        return plan
-    try:
-        policy = plan_policy(list(plan))
-    except (BootcourseError, TypeError, ValueError) as error:
-        raise BootcourseError(f"It returns a plan that cannot be driven. {error}") from error
-    drive = record(policy, [road])[0]
-    early = drive.accident if drive.times[-1] <= EARLY else 0
-    return np.array([(drive.actions // 3 == 0).sum(), early, drive.success], dtype=float)
-
-
-def what_happened(cases, answers):
-    """A sentence on a plan that is none of the known ones."""
-    for (road,), (brakes, accident, ahead) in zip(cases, answers, strict=True):
-        if brakes:
-            return f"Your plan brakes for {brakes:.0f} s. Find one that only keeps its speed or accelerates."
-        if accident:
-            kind = Accident(int(accident)).name.lower().replace("_", " ")
-            return f"On road {road} your plan ends in an accident in the first {EARLY} s: {kind}."
-        if not ahead:
-            return f"On road {road} your plan does not end ahead of trap 1."
-    return "Your plan drives differently from call to call."
-
-
 def plan(*steps):
     return lambda: list(steps)
 
@@ -358,6 +333,10 @@ stochastic_rule = Exercise(
         Mistake(lambda actions, p: table(actions, p, 0.0),
             "The other eight actions have probability 0, which makes the KL of lesson 7 infinite. They share 1 - p.",
             "The rule would never do them."),
+        Mistake(lambda actions, p: table([actions] * len(actions), p, (1 - p) / 8).max(axis=1),
+            "`table[:, rule_actions] = p` writes p into these columns of *every* row. Each row has one p: give the "
+            "number of the row as well, `table[np.arange(n), rule_actions]`.",
+            "A list of columns is used row by row."),
     ),
     hints=(
         "Begin with a table (n, 9) that holds the probability of each *other* action.",
