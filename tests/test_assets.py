@@ -74,7 +74,7 @@ def test_what_ships_reads_back(built):
     ]
     assert Rollout.load(built / "rollouts/rule.npz").success
     card = (built / "MODEL_CARD.md").read_text()
-    assert "| sac | 2 |" in card and "3 held-out episodes" in card
+    assert " of 2 (" in card.split("| sac |")[1] and "3 held-out episodes" in card
 
 
 def test_a_damaged_missing_or_unlisted_file_is_named_with_the_command_that_makes_it(shipped, capsys):

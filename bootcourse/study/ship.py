@@ -19,6 +19,7 @@ from bootcourse.files import provenance, sha256, write_arrays, write_bytes, writ
 from bootcourse.methods import METHODS
 from bootcourse.policies import rule_policy
 from bootcourse.scenario import DEFAULT
+from bootcourse.statistics import ESCAPES
 from bootcourse.storage.assets import FOLDER, FORMAT, LIMIT, MANIFEST, put_back, read_manifest, unfinished
 from bootcourse.storage.runs import load_run
 from bootcourse.storage.sealed import is_file_with, write_sealed
@@ -27,7 +28,7 @@ from bootcourse.study.fingerprint import alike, fingerprints, key
 from bootcourse.study.jobs import HELD_OUT, read_job
 from bootcourse.study.plan import EXPERIMENTS
 from bootcourse.study.report import write_report
-from bootcourse.study.results import Results, in_assets, in_study, load_jobs, load_results, save_results
+from bootcourse.study.results import KINDS, Results, in_assets, in_study, load_jobs, load_results, save_results
 
 CURVES = ("success", "return", "speed", "distance", "accident", "entropy")  # the others are in runs/
 VARIED_CURVES = ("success", "return", "xi")  # of the experiments
@@ -299,19 +300,21 @@ def add_kept(to: Shipment, now: Path) -> None:
 
 def add_card(to: Shipment) -> None:
     """The model card, with the numbers of the shipped study."""
-    from bootcourse.study.tables import HEADINGS, bracketed, markdown, score
+    from bootcourse.study.tables import HEADINGS, bracketed, k_of_n, markdown, score
 
     results = load_results(to.new / "study-default.npz")
-    measures = ("success", "returns", "collision", "road_departure", "stoppage")
-    rows = [
-        [m, len(results.of(m)), *(bracketed(score(results, m, measure)) for measure in measures)]
-        for m in results.methods
-    ]
-    table = markdown(["method", "agents", *(HEADINGS[measure] for measure in measures)], rows)
+    rows = []
+    for method in results.methods:
+        mine = results.of(method)
+        accidents = [f"{100 * mine.episodes(kind).mean():.1f}" for kind in KINDS]
+        escape = k_of_n(mine.scores("success") >= ESCAPES)
+        rows.append([method, escape, bracketed(score(results, method, "returns")), *accidents])
+    table = markdown(["method", "agents that escape", *(HEADINGS[name] for name in ("returns", *KINDS))], rows)
     agent = results.agents[0]
     text = CARD.format(
         table=table,
         tests=results.tested["returns"].shape[1],
+        escapes=f"{100 * ESCAPES:g}",
         hidden=" x ".join(map(str, agent["hidden"])),
         runs=RUNS,
     )
@@ -332,13 +335,13 @@ end of training: none was selected.
 anything on a road. They have seen one straight road, one kind of trap and eight other cars that are models
 themselves, and some of them crash often.
 
-**How well they drive.** {tests} held-out episodes each; interquartile mean over agents with its 95 % interval.
-They drive by their most probable action.
+**How well they drive.** {tests} held-out episodes each, by their most probable action. An agent escapes if at least
+{escapes} % of them end ahead of trap 1. Returns are interquartile means over agents with a 95 % interval. Accident
+rates are means over the agents' episodes: an interquartile mean would leave out the agents that crash most.
 
 {table}
 **Data.** Their own driving in simulation, and for some methods 200 simulated episodes of a rule
 controller. No person and no real car is in it.
 
-**Known faults.** Success counts a crash after overtaking, as the paper does: read it beside the accidents. An
-agent that earns more than the rule does so by driving close to others.
+**Known faults.** Success counts a crash after overtaking, as the paper does: read it beside the accidents.
 """
