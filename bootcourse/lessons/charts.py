@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, MaxNLocator
 
 from bootcourse.colours import OTHER, Style
-from bootcourse.methods import style
+from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import (
     INK,
     QUIET,
@@ -53,7 +53,8 @@ def lines(
         look_of = {"color": look.colour, "linestyle": look.line, "marker": look.marker if len(x) <= 30 else None}
         ax.plot(x, values.T, **look_of, ms=4, linewidth=2 if len(values) == 1 else 1.1)
         last = values[:, np.isfinite(values).any(axis=0)][:, -1].max()
-        ends.append((float(last if limits is None else np.clip(last, *limits)), label, look.colour))
+        end = float(last if limits is None else np.clip(last, *limits))
+        ends.append((end, display_name(label), look.colour))
     for words, y in (marks or {}).items():
         ax.axhline(y, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
         ends.append((y, words, QUIET))

@@ -80,9 +80,7 @@ def map_of_places(
     for side in ax.spines.values():
         side.set_visible(False)
     ax.set_xlabel("metres ahead of trap 1 (negative: behind it)", fontsize=TEXT, color=INK)
-    figure.text(
-        0.012, 1 - (head - 0.26) / height, f"{label}; empty: not there in these drives", fontsize=TEXT, color=QUIET
-    )
+    figure.text(0.012, 1 - (head - 0.26) / height, f"{label}; empty: not there", fontsize=TEXT, color=QUIET)
     return finish(figure, title, f"A map of {label}. {_told(rows, edges)}")
 
 
