@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 
+from bootcourse.methods import display_name
 from bootcourse.replay3d import hud, scene
 from bootcourse.replay3d.camera import CAMERAS, point
 from bootcourse.replay3d.player import SPEEDS
@@ -88,7 +89,7 @@ class ReplayControls:
     def _switches(self, gui) -> None:
         options = self.stage.options
         if len(self.timelines) > 1:
-            names = tuple(f"{k + 1} {line.rollout.label}" for k, line in enumerate(self.timelines))
+            names = tuple(f"{k + 1} {display_name(line.rollout.label)}" for k, line in enumerate(self.timelines))
             follow = gui.add_dropdown("Follow", names, initial_value=names[options.follow])
             layout = gui.add_dropdown("Roads", scene.LAYOUTS, initial_value=options.layout)
             follow.on_update(lambda event: self._set("follow", names.index(event.target.value), rebuild=True))

@@ -9,7 +9,7 @@ from bootcourse.colours import ALARM
 from bootcourse.episodes.rollout import series
 from bootcourse.episodes.words import ACCIDENTS
 from bootcourse.markup import Markup, html, joined
-from bootcourse.methods import style
+from bootcourse.methods import display_name, style
 from bootcourse.plots.svg import SvgAxes
 from bootcourse.replay3d.timeline import Timeline
 from bootcourse.road.state import EGO, Accident
@@ -76,7 +76,7 @@ def _head(timeline: Timeline, t: float) -> Markup:
     text, colour = status(timeline, t)
     badge = html('<span class="badge" style="background:{}">{}</span>', colour, text) if text else ""
     road = html('<span class="dim">road {}</span>', rollout.seed)
-    return html("<h4>{}{} {}{}</h4>", _dot(rollout), rollout.label, road, badge)
+    return html("<h4>{}{} {}{}</h4>", _dot(rollout), display_name(rollout.label), road, badge)
 
 
 def _numbers(timeline: Timeline, t: float) -> Markup:
@@ -150,7 +150,7 @@ def table(timelines: list[Timeline], t: float) -> Markup:
         text, colour = status(timeline, t)
         driven = moment.x[EGO] - rollout.states[0, EGO, 0]
         cells = [
-            html("{} {}", _dot(rollout), rollout.label),
+            html("{} {}", _dot(rollout), display_name(rollout.label)),
             f"{moment.speed[EGO]:.1f}",
             f"{driven:.0f}",
             moment.lane[EGO],

@@ -13,7 +13,7 @@ from PIL import Image, ImageDraw, ImageFont
 
 from bootcourse.colours import ALARM, TRAFFIC, TRAP, rgb
 from bootcourse.files import check_replaceable, write_bytes
-from bootcourse.methods import style
+from bootcourse.methods import display_name, style
 from bootcourse.replay3d import hud, scene
 from bootcourse.replay3d.camera import CHASE, FIELD_OF_VIEW, Pose, pose
 from bootcourse.replay3d.car import DARK, LAMP_BRAKE, LAMP_OFF, LAMP_POWER, LIGHT, car_parts, quad, ring
@@ -257,8 +257,9 @@ def _paint_numbers(painter: Painter, shot: Shot) -> None:
     for k, timeline in enumerate(shot.timelines):
         moment, rollout = timeline.at(shot.t), timeline.rollout
         text, _ = hud.status(timeline, shot.t)
-        line = f"{rollout.label}   {min(shot.t, timeline.duration):5.1f} s   {moment.speed[EGO]:4.1f} m/s   return "
-        line += f"{timeline.returns[timeline.earned(shot.t)]:.1f}" + (f"   {text}" if text else "")
+        line = f"{display_name(rollout.label)}   {min(shot.t, timeline.duration):5.1f} s   "
+        line += f"{moment.speed[EGO]:4.1f} m/s   return {timeline.returns[timeline.earned(shot.t)]:.1f}"
+        line += f"   {text}" if text else ""
         painter.box(size, size * (1.6 + 1.8 * k), line, size, style(rollout.label).colour)
 
 

@@ -111,7 +111,7 @@ def _hud_script(timelines: list[Timeline], t: float, part: float, follow: int) -
 
 
 def _with_overlay(page: str, timelines: list[Timeline], options: Options, span: float) -> str:
-    drivers = " · ".join(timeline.rollout.label for timeline in timelines)
+    drivers = " · ".join(display_name(timeline.rollout.label) for timeline in timelines)
     title = html("{} on road {}", drivers, timelines[0].rollout.seed)
     poses = {name: [*pose(name, span).position, *pose(name, span).look_at] for name in (CHASE, BIRD, SIDE)}
     parts = {
