@@ -198,7 +198,7 @@ print(paper.arithmetic("gail"))
 # ρ drive alike. Here is a small part of ρ, with the states cut into stretches of the road:
 
 # %%
-edges = [-60, -40, -25, -15, -5]
+edges = [-40, -25, -15, -5]
 ways = {"rule controller": bc.record(bc.rule_policy(bc.DEFAULT), range(20))}
 ways["idle driver"] = bc.record(bc.idle_policy, range(20))
 shares = {name: figures_baselines.occupancy(drives, edges) for name, drives in ways.items()}
