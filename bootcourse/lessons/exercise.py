@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from bootcourse.errors import BootcourseError
+from bootcourse.lessons.values import plain
 
 
 @dataclass(frozen=True)
@@ -20,6 +21,19 @@ class Mistake:
     answer: Callable  # a function that makes this mistake
     says: str  # what the check says about it, one or two sentences
     belief: str  # what the student probably thinks, for the instructor's page
+
+
+class NotAsAsked(Exception):
+    """A `run` raises it: what the answer returned is of no use. Its text is the verdict's sentence."""
+
+
+def refuse(value, asked: str) -> None:
+    """For a `run` that got something else than the exercise asks for. None passes: nothing was returned.
+
+    Raises NotAsAsked for everything else.
+    """
+    if value is not None:
+        raise NotAsAsked(f"Your function returns {plain(value).words}: the exercise asks for {asked}.")
 
 
 def call_it(answer: Callable, *arguments):

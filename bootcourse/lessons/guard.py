@@ -116,7 +116,7 @@ def where(report: GuardedRun, answer: Callable | str) -> str:
         lines = answer.splitlines()
         text = lines[line - 1].strip() if 0 < line <= len(lines) else ""
     else:
-        text = linecache.getline(answer.__code__.co_filename, line).strip()
+        text = linecache.getline(worker.file_of(answer), line).strip()
     return f"line {line}" + (f", `{text}`" if text else "")
 
 

@@ -19,7 +19,7 @@ from dataclasses import replace
 import numpy as np
 
 from bootcourse.lessons import guard
-from bootcourse.lessons.exercise import Exercise, Mistake
+from bootcourse.lessons.exercise import Exercise, Mistake, NotAsAsked
 from bootcourse.lessons.values import (
     SEVERAL,
     Plain,
@@ -108,6 +108,8 @@ def ended_early(
 def error_in_words(report: guard.GuardedRun, answer: Callable | str) -> str:
     """One sentence about an error that the function raised."""
     error, place = report.error, guard.where(report, answer)
+    if error["kind"] == NotAsAsked.__name__:
+        return error["text"]
     where = f" in {place}" if place else ""
     if error["kind"] == "MemoryError" or "can't allocate memory" in error["text"]:
         return f"Your function asks for more memory{where} than the {guard.MEMORY / 2**30:.0f} GiB that a check allows."

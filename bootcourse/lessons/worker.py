@@ -33,6 +33,7 @@ from bootcourse.lessons.values import as_json, plain, same
 
 FORKS = sys.platform == "linux"  # on macOS system libraries may break in a fork, and Windows has none
 LONGEST_PRINT = 500  # characters of a function's prints that are kept
+LONGEST_WAIT = 10  # of a process for the processor, in units of its time limit
 LONGEST_ANSWER = 64 * 2**20  # bytes of all that one job may write
 READY, DONE = b"ready\n", b'{"done": true}\n'
 PR_SET_PDEATHSIG = 1  # of Linux's prctl: the signal that a process gets when its parent ends
@@ -89,7 +90,7 @@ def in_a_fork(job: dict, run: Callable, cases: list[tuple], close: tuple) -> tup
             os._exit(0)
     os.close(theirs)
     try:
-        ended, stream = read(ours, time.monotonic() + job["seconds"])
+        ended, stream = read(ours, Clock(child, job["seconds"]))
     finally:
         os.close(ours)
         with contextlib.suppress(ProcessLookupError, PermissionError):
@@ -109,11 +110,29 @@ def limit(memory: int, seconds: float) -> None:
     resource.setrlimit(resource.RLIMIT_CPU, (int(seconds) + 10, int(seconds) + 10))
 
 
-def read(pipe: int, end: float) -> tuple[str, bytes]:
+class Clock:
+    """The time that is left to a process: seconds in which it only waits for a busy processor do not count."""
+
+    def __init__(self, process: int, seconds: float):
+        self.process, self.seconds, self.start = process, seconds, time.monotonic()
+
+    def left(self) -> float:
+        passed = time.monotonic() - self.start
+        waited = 0.0
+        with contextlib.suppress(OSError):  # a kernel that does not count it
+            with open(f"/proc/{self.process}/schedstat") as file:
+                waited = int(file.read().split()[1]) / 1e9
+        return self.seconds - passed + min(waited, LONGEST_WAIT * self.seconds)
+
+
+def read(pipe: int, clock: Clock) -> tuple[str, bytes]:
     """What comes until the last line, the end of the pipe, or the end of the time."""
     parts, size = [], 0
     while not (parts and DONE in parts[-1]):
-        if not select.select([pipe], [], [], max(0.0, end - time.monotonic()))[0]:
+        left = clock.left()
+        if not select.select([pipe], [], [], max(0.0, left))[0]:
+            if left > 0:
+                continue  # it may have waited for the processor
             return "time", b"".join(parts)
         parts.append(os.read(pipe, 2**20))
         size += len(parts[-1])
@@ -197,13 +216,19 @@ def no_answer(answer, job: dict) -> str | None:
     return None
 
 
+def file_of(answer) -> str:
+    """The file in which a function or a class is written; SOURCE if that is not known."""
+    parts = [answer, *vars(answer).values()] if isinstance(answer, type) else [answer]
+    return next((part.__code__.co_filename for part in parts if hasattr(part, "__code__")), SOURCE)
+
+
 def told(error: BaseException, answer) -> dict:
     """An error in plain words: its type, its text, and the last line of the student's file that it passed."""
     try:
         text = " ".join(str(error).split())[:LONGEST_PRINT]
     except BaseException:  # an error may come with a text that cannot be made
         text = ""
-    file = getattr(getattr(answer, "__code__", None), "co_filename", SOURCE)
+    file = file_of(answer)
     lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == file]
     if isinstance(error, SyntaxError) and error.filename == SOURCE:
         lines, text = [error.lineno], error.msg

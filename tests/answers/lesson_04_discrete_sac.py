@@ -241,7 +241,7 @@ class WithATable:
         return self.table[torch.from_numpy((rng.random(batch) * filled).astype(int))]
 
 
-@right("ReplayBuffer")
+@wrong("ReplayBuffer", "copies all its rows")
 class WithSlicing:
     def __init__(self, size):
         self.size, self.rows = size, torch.empty(0)
@@ -251,6 +251,24 @@ class WithSlicing:
 
     def sample(self, batch, rng):
         return self.rows[rng.integers(0, len(self.rows), batch)]
+
+
+@wrong("ReplayBuffer", "copies all its rows")
+class StackedAtEachDraw(WithADeque):
+    def sample(self, batch, rng):
+        return torch.stack(list(self.rows))[rng.integers(len(self.rows), size=batch)]
+
+
+@wrong("ReplayBuffer", "again and again")
+class OneRowManyTimes(WithADeque):
+    def sample(self, batch, rng):
+        return self.rows[rng.integers(len(self.rows))].repeat(batch, 1)
+
+
+@wrong("ReplayBuffer", "`return super().sample(batch, rng)[batch]`: IndexError")
+class ANumberTooMany(WithADeque):
+    def sample(self, batch, rng):
+        return super().sample(batch, rng)[batch]
 
 
 @wrong("ReplayBuffer", "keeps every row")

@@ -69,6 +69,31 @@ def without_rng(own, demonstrations, size, beta, bonus, rng):
     return with_choice(own, demonstrations, size, beta, bonus, np.random.default_rng())
 
 
+@wrong("mixed_batch", "to the rewards of the demonstrations")
+def the_column_counted_from_the_left(own, demonstrations, size, beta, bonus, rng):
+    rows, marks = with_choice(own, demonstrations, size, beta, 0.0, rng)
+    rows[:, 4] += bonus * marks
+    return rows, marks
+
+
+@wrong("mixed_batch", "again and again")
+def one_demonstration_for_all(own, demonstrations, size, beta, bonus, rng):
+    rows, marks = with_choice(own, demonstrations, size, beta, bonus, rng)
+    n = int(marks.sum())
+    rows[:n] = rows[: min(n, 1)]
+    return rows, marks
+
+
+@wrong("mixed_batch", "more often than others")
+def the_last_demonstration_left_out(own, demonstrations, size, beta, bonus, rng):
+    return with_choice(own, demonstrations[:-1], size, beta, bonus, rng)
+
+
+@wrong("mixed_batch", "the rows and their marks")
+def without_marks(*arguments):
+    return with_choice(*arguments)[0]
+
+
 # large_margin_loss ----------------------------------------------------------------------------------
 
 

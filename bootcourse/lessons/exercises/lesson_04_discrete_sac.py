@@ -2,11 +2,11 @@
 
 import math
 
-import numpy as np
 import torch
 
 from bootcourse.learn import sac
 from bootcourse.lessons.exercise import Exercise, Mistake
+from bootcourse.lessons.exercises import replay_buffer
 
 LOG_2 = math.log(2)
 
@@ -305,152 +305,4 @@ temperature_loss = Exercise(
     minutes=5, difficulty=2, equation="α (H(π) - η), η the target entropy, Table of RL hyper-parameters",
 )  # fmt: skip
 
-
-class ReplayBufferSolution:
-    def __init__(self, size):
-        """size: the most rows that it holds."""
-        self.size, self.rows, self.next = size, [], 0
-
-    def add(self, row):
-        """Keep a row, a tensor (n,). A full buffer forgets its oldest row."""
-        if len(self.rows) < self.size:
-            self.rows.append(row)
-        else:
-            self.rows[self.next] = row
-        self.next = (self.next + 1) % self.size
-
-    def sample(self, batch, rng):
-        """Rows drawn at random: (batch, n). rng: a NumPy generator."""
-        drawn = rng.integers(len(self.rows), size=batch)
-        return torch.stack([self.rows[i] for i in drawn])
-
-
-DRAWS = 300  # of each row that a buffer should hold
-
-
-def filled_and_drawn(answer, size, added, batch):
-    """What a buffer gives back after the rows 1, 2, ... `added` were put in.
-
-    Returns the shape of a batch; the rows that are ever drawn, as in "2 3"; whether each is drawn about equally often;
-    whether they come back unchanged; whether two equal generators give the same batch; whether the rows of a batch are
-    independent of each other (all 1 or 0).
-    """
-    buffer = answer(size)
-    if not (hasattr(buffer, "add") and hasattr(buffer, "sample")):
-        return buffer
-    rows = torch.arange(1.0, added + 1)[:, None] * torch.tensor([1.0, 0.5, -2.0])  # (added, 3)
-    for row in rows:
-        buffer.add(row.clone())
-    first, again = (buffer.sample(batch, np.random.default_rng(1)) for _ in range(2))
-    if not isinstance(first, torch.Tensor) or first.dim() != 2 or first.shape[1] != 3:
-        return first
-    rng, held = np.random.default_rng(0), min(size, added)
-    drawn = torch.stack([buffer.sample(batch, rng) for _ in range(DRAWS * held // batch + 1)])  # (times, batch, 3)
-    number = drawn[..., 0].flatten().long().clamp(0, added)
-    shares = torch.bincount(number, minlength=added + 1).numpy() * held / len(number)
-    even = ((shares == 0) | (abs(shares - 1) < 0.5)).all()
-    intact = torch.equal(drawn.flatten(0, 1)[number > 0], rows[number[number > 0] - 1])
-    steps = drawn[:, 1:, 0] - drawn[:, :-1, 0]
-    apart = batch == 1 or float((steps == 1).float().mean()) < 0.5
-    kept, same = " ".join(map(str, np.flatnonzero(shares))), torch.equal(first, again)
-    return np.array(first.shape), kept, float(even), float(intact), float(same), float(apart)
-
-
-def buffer_cases(rng):
-    """Half full, just full, one more than full, overwritten twice; then 16 at random."""
-    yield 6, 3, 8
-    yield 6, 6, 8
-    yield 6, 7, 8
-    yield 5, 13, 8
-    for _ in range(16):
-        size = int(rng.integers(3, 9))
-        yield size, int(rng.integers(3, 3 * size)), int(rng.integers(2, 33))
-
-
-def of_the_buffer(cases, answers):
-    """A sentence on a buffer that gives back the wrong rows."""
-    for (size, added, batch), answer in zip(cases, answers, strict=True):
-        shape, kept, _, intact, same, apart = (part.data for part in answer)
-        if shape[0] != batch:
-            return f"A batch of {batch} rows was asked for, and your buffer gave {shape[0]:.0f}."
-        if kept != " ".join(map(str, range(max(added - size, 0) + 1, added + 1))):
-            return f"A buffer of size {size} got the rows 1 to {added}; yours then gives back the rows {kept}."
-        if not intact:
-            return "Your buffer gives back rows that nobody put in: look for a row that is overwritten or mixed up."
-        if not same:
-            return "Two equal generators give different batches: draw with `rng`, so that a training can be repeated."
-        if not apart:
-            return "The rows of your batch are neighbours: draw each row for itself."
-    return "Your buffer draws some rows more often than others: each row has the same chance."
-
-
-def buffer_with(**methods):
-    """The right buffer with other methods."""
-    return type("ReplayBuffer", (ReplayBufferSolution,), methods)
-
-
-def add_to_the_end(self, row):
-    self.rows.append(row)
-
-
-def add_while_there_is_room(self, row):
-    self.rows += [row] * (len(self.rows) < self.size)
-
-
-def add_in_front(self, row):
-    self.rows = [row, *self.rows[: self.size - 1]] if len(self.rows) < self.size else [row, *self.rows[1:]]
-
-
-def draw_all_but_the_last(self, batch, rng):
-    return torch.stack([self.rows[i] for i in rng.integers(max(len(self.rows) - 1, 1), size=batch)])
-
-
-def draw_the_newest(self, batch, rng):
-    return torch.stack([self.rows[-1]] * batch)
-
-
-def draw_from_the_whole_table(self, batch, rng):
-    table = [*self.rows, *[torch.zeros_like(self.rows[0])] * (self.size - len(self.rows))]
-    return torch.stack([table[i] for i in rng.integers(self.size, size=batch)])
-
-
-def draw_without_rng(self, batch, rng):
-    return torch.stack([self.rows[i] for i in torch.randint(len(self.rows), (batch,))])
-
-
-ReplayBuffer = Exercise(
-    "ReplayBuffer(size)",
-    solution=ReplayBufferSolution, cases=buffer_cases, run=filled_and_drawn, explain=of_the_buffer,
-    worked=(
-        ((2, 3, 4), (np.array([4, 3]), "2 3", 1.0, 1.0, 1.0, 1.0)),  # the oldest of three rows is gone
-    ),
-    mistakes=(
-        Mistake(buffer_with(add=add_to_the_end),
-            "Your buffer keeps every row. Once it holds `size` rows, the oldest one has to go for each new one.",
-            "Memory is cheap. (Old policies' transitions also show states that the agent no longer meets.)"),
-        Mistake(buffer_with(add=add_while_there_is_room),
-            "Your full buffer ignores new rows: the agent would learn from its first policy for ever.",
-            "When the buffer is full, it is finished."),
-        Mistake(buffer_with(add=add_in_front),
-            "Your full buffer throws out the wrong row: a new row replaces the *oldest* one.",
-            "Any row may go."),
-        Mistake(buffer_with(sample=draw_all_but_the_last),
-            "One row is never drawn: `rng.integers(n)` already stops at n - 1.",
-            "The upper end is included, as in `random.randint`."),
-        Mistake(buffer_with(sample=draw_the_newest),
-            "You always give the newest row. Draw each row of the batch at random from all rows.",
-            "The newest transition is the most useful one."),
-        Mistake(buffer_with(sample=draw_from_the_whole_table),
-            "You also draw places that nobody has written yet: draw among the rows that are filled.",
-            "An empty row does no harm. (It is a state of zeros with a reward of 0.)"),
-        Mistake(buffer_with(sample=draw_without_rng),
-            "Two equal generators give different batches: draw with `rng`, so that a training can be repeated.",
-            "One source of random numbers is as good as another."),
-    ),
-    hints=(
-        "Keep a list and the place of the oldest row. While the list is short, append; then overwrite at that place.",
-        "The place moves on by one with each row and starts again at 0: `self.next = (self.next + 1) % self.size`.",
-        "`drawn = rng.integers(len(self.rows), size=batch)`, then `torch.stack([self.rows[i] for i in drawn])`",
-    ),
-    minutes=20, difficulty=3, equation="the last D transitions, of which N are drawn, Table of RL hyper-parameters",
-)  # fmt: skip
+ReplayBuffer = replay_buffer.ReplayBuffer
