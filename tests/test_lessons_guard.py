@@ -153,6 +153,14 @@ def test_an_answer_that_kills_the_process_that_started_it_ends_with_it(tmp_path)
     assert not status.exists() or "State:\tZ" in status.read_text()
 
 
+def test_a_wait_for_a_busy_processor_does_not_count_as_the_answer_s_time(monkeypatch):
+    waited = 3  # seconds that the kernel says it waited
+    monkeypatch.setattr(worker, "open", lambda path: io.StringIO(f"5 {waited * 10**9} 1"), raising=False)
+    assert 2 + waited - 1 < worker.Clock(1, 2.0).left() <= 2 + waited
+    waited = 10**6
+    assert worker.Clock(1, 2.0).left() <= 2 + 2 * worker.LONGEST_WAIT
+
+
 @pytest.mark.skipif(not worker.FORKS, reason="needs a fork")
 def test_the_process_that_forks_has_one_thread():
     judge(registry()["cloning_loss"], registry()["cloning_loss"].solution)  # torch has worked in it, and NumPy

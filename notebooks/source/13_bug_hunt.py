@@ -425,7 +425,7 @@ check.fixed_loss(fixed_loss)
 # shape (batch,), and two floats. Say whether it is wrong. The check gives it three functions that
 # are right and twelve that are wrong, each in another way.
 # <!-- claim: (lambda e: len(e.TARGETS) - len(e.RIGHT_TARGETS) == 12 and len(e.RIGHT_TARGETS) ==
-#   3)(__import__('bootcourse.lessons.exercises.lesson_13_bug_hunt', fromlist=['x'])) -->
+#   3)(__import__('bootcourse.lessons.exercises.target_probe', fromlist=['x'])) -->
 
 
 # %%

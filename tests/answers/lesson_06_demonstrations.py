@@ -193,7 +193,7 @@ def relabelled_row_by_row(rows, train, drive, rounds):
     return drivers
 
 
-@wrong("dagger")
+@wrong("dagger", "one driver too many")
 def one_round_too_many(rows, train, drive, rounds):
     return cloning.dagger(rows, train, drive, rounds + 1)
 
@@ -242,3 +242,18 @@ def without_the_rule_s_own_rows(rows, train, drive, rounds):
 @wrong("dagger")
 def a_number_of_drivers(rows, train, drive, rounds):
     return len(cloning.dagger(rows, train, drive, rounds))
+
+
+@right("cloning_loss")
+def a_row_of_nine_marks(log_pi, expert_actions):
+    return -(torch.nn.functional.one_hot(expert_actions, 9) * log_pi).sum(-1).mean()
+
+
+@wrong("dagger", "the last driver alone")
+def the_newest_alone(rows, train, drive, rounds):
+    return cloning.dagger(rows, train, drive, rounds)[-1]
+
+
+@wrong("dagger", "a list of drivers")
+def the_rows(rows, train, drive, rounds):
+    return rows

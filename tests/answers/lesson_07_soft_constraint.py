@@ -309,3 +309,12 @@ def xi_of_the_course(reward, terminated, next_log_pi, next_q_pair, next_kl, alph
 def a_penalty_on_the_reward(reward, terminated, next_log_pi, next_q_pair, next_kl, alpha, xi, gamma):
     value = (next_log_pi.exp() * (next_q_pair.amin(0) - alpha * next_log_pi)).sum(-1)
     return reward - xi * next_kl + gamma * (1 - terminated) * value
+
+
+@right("constrained_target")
+def action_by_action(reward, terminated, next_log_pi, next_q_pair, next_kl, alpha, xi, gamma):
+    value = -xi * next_kl
+    for a in range(9):
+        q = torch.minimum(next_q_pair[0, :, a], next_q_pair[1, :, a])
+        value = value + next_log_pi[:, a].exp() * (q - alpha * next_log_pi[:, a])
+    return reward + gamma * (1 - terminated) * value

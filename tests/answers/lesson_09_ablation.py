@@ -205,3 +205,19 @@ def in_per_cent(x, y, draws_x, draws_y):
 def normal_errors(x, y, draws_x, draws_y):
     each = [middle_mean(x[a]) - middle_mean(y[b]) for a, b in zip(draws_x, draws_y, strict=True)]
     return middle_mean(x) - middle_mean(y) + np.array([0, -1.96, 1.96]) * np.std(each)
+
+
+@wrong("chance_of_improvement")
+def over_m_squared(x, y):
+    return np.heaviside(x[:, None] - y, 0.5).sum() / len(x) ** 2
+
+
+@right("chance_of_improvement")
+def by_a_rank_test(x, y):
+    return stats.mannwhitneyu(x, y).statistic / (len(x) * len(y))
+
+
+@wrong("bootstrap_interval", "single means at the two ends")
+def from_a_sorted_list(scores, draws):
+    means = sorted(scores[draw].mean() for draw in draws)
+    return means[int(0.025 * len(means))], means[int(0.975 * len(means))]

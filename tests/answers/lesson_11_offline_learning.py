@@ -138,3 +138,15 @@ def by_road(returns, bound):
 @wrong("share_of_the_bound", "clip at 1")
 def not_above_the_bound(returns, bound):
     return np.array([min(1.0, row.sum() / bound.sum()) for row in returns])
+
+
+@right("conservative_loss")
+def a_row_of_nine_marks(q, actions):
+    return (q.logsumexp(-1) - (functional.one_hot(actions, 9) * q).sum(-1)).mean()
+
+
+@right("offline_loss")
+def action_by_action(q, next_q, next_target, actions, rewards, terminated, gamma, weight):
+    own, best = functional.one_hot(actions, 9), functional.one_hot(next_q.argmax(-1), 9)
+    y = rewards + gamma * (1 - terminated) * (best * next_target.detach()).sum(-1)
+    return (((own * q).sum(-1) - y) ** 2).mean() + weight * functional.cross_entropy(q, actions)

@@ -281,3 +281,52 @@ def the_answers_inverted(target):
 def in_numpy(log_pi, q, alpha):
     log, values = log_pi.detach().numpy(), q.detach().numpy()
     return torch.tensor((np.exp(log) * (values - alpha * log)).sum(-1))
+
+
+# Nine actions, one after the other -------------------------------------------------------------------
+
+
+@right("fixed_value")
+def action_by_action(log_pi, q, alpha):
+    value = 0
+    for a in range(9):
+        value = value + log_pi[:, a].exp() * (q[:, a] - alpha * log_pi[:, a])
+    return value
+
+
+@right("fixed_value")
+def with_q_held_fixed(log_pi, q, alpha):  # as the actor needs it
+    return (log_pi.exp() * (q.detach() - alpha * log_pi)).sum(-1)
+
+
+@wrong("fixed_value", "no gradient")
+def with_the_policy_held_fixed(log_pi, q, alpha):
+    pi = torch.distributions.Categorical(logits=log_pi.detach())
+    return (pi.probs * q).sum(-1) + alpha * pi.entropy()
+
+
+@right("fixed_loss")
+def loss_action_by_action(log_pi, q, log_rule, alpha, xi):
+    loss = 0
+    for a in range(9):
+        price = alpha * log_pi[:, a] + xi * (log_pi[:, a] - log_rule[:, a])
+        loss = loss + (log_pi[:, a].exp() * (price - q[:, a].detach())).mean()
+    return loss
+
+
+@right("end_error")
+def q_action_by_action(q, actions, rewards, terminated):
+    errors = [q[i, a] - rewards[i] for a in range(9) for i in range(len(q)) if actions[i] == a and terminated[i]]
+    return sum(errors) / max(1, len(errors))
+
+
+@wrong("end_error")
+def minus_ten_by_heart(q, actions, rewards, terminated):
+    taken = q[np.arange(len(actions)), actions]
+    return np.sum((taken + 10) * terminated) / max(1, terminated.sum())
+
+
+@wrong("end_error")
+def where_the_reward_is_minus_ten(q, actions, rewards, terminated):
+    crashed = rewards == -10
+    return np.sum((q[np.arange(len(actions)), actions] + 10)[crashed]) / max(1, crashed.sum())

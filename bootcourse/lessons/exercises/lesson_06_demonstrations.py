@@ -5,7 +5,7 @@ import torch
 
 from bootcourse.learn import bc
 from bootcourse.lessons import cloning
-from bootcourse.lessons.exercise import Exercise, Mistake
+from bootcourse.lessons.exercise import Exercise, Mistake, refuse
 
 
 def transitions_solution(observations, actions, rewards, accident):
@@ -194,7 +194,7 @@ cloning_loss = Exercise(
     "cloning_loss(log_pi, expert_actions)",
     solution=bc.cloning_loss, cases=cloning_cases, slopes=("log_pi",),
     worked=(
-        ((torch.tensor([[0.5, 0.25, 0.25], [0.1, 0.1, 0.8]]).log(), torch.tensor([0, 1])),
+        ((torch.tensor([[0.5] + [0.0625] * 8, [0.2] + [0.1] * 8]).log(), torch.tensor([0, 1])),
          torch.tensor((np.log(2) + np.log(10)) / 2)),
     ),
     mistakes=(
@@ -241,8 +241,10 @@ def collecting(answer, rows, rounds):
         return own
 
     drivers = answer(rows, train, drive, rounds)
-    trained = isinstance(drivers, list) and all(isinstance(driver, float) for driver in drivers)
-    return np.array(drivers) if trained else drivers
+    drivers = [drivers] if isinstance(drivers, float) else drivers  # the last one alone
+    if not isinstance(drivers, (list, tuple)) or not all(isinstance(driver, float) for driver in drivers):
+        return refuse(drivers, "a list of drivers, each as `train` returns it")
+    return np.array(drivers)
 
 
 def dagger_cases(rng):
@@ -298,6 +300,9 @@ dagger = Exercise(
         Mistake(lambda *given: taught(*given)[-1:],
             "You return the last driver alone. Return the list of all, so that they can be compared.",
             "What counts is the result."),
+        Mistake(lambda rows, train, drive, rounds: taught(rows, train, drive, rounds + 1),
+            "You train one driver too many: `rounds` rounds after the first training make `rounds + 1` drivers.",
+            "`rounds + 1` drivers need as many rounds."),
     ),
     hints=(
         "Train the first driver on `rows`. In each round: drive with the newest driver, relabel, append, train again.",

@@ -149,6 +149,11 @@ bootstrap_interval = Exercise(
         Mistake(lambda scores, draws: scores.mean() + 1.96 * np.array([-1, 1]) * scores[draws].mean(axis=1).std(),
             "You replace the draws by a normal distribution. Take the percentiles of the means themselves.",
             "The means of ten numbers are normally distributed."),
+        Mistake(lambda scores, draws:
+            np.sort(scores[draws].mean(axis=1))[[int(0.025 * len(draws)), int(0.975 * len(draws))]],
+            "You take single means at the two ends. `np.percentile` goes on between two of them, so that yours and "
+            "ours agree: `np.percentile(means, [2.5, 97.5])`.",
+            "A percentile is one of the numbers."),
         Mistake(lambda scores, draws: np.percentile(np.median(scores[draws], axis=1), [2.5, 97.5]),
             "You took the median of each draw. Here you need the interval of the mean.",
             "The statistic does not matter to the bootstrap."),
@@ -168,13 +173,15 @@ def chance_of_improvement_solution(x, y):
 
 
 def rival_cases(rng):
-    """All ties, all above, all under; then 40 at random, whole numbers, so that there are ties."""
+    """All ties, all above, all under; then 40 of whole numbers, so that there are ties; one agent against several."""
     yield np.zeros(3), np.zeros(3)
     yield np.array([5.0, 6.0]), np.array([1.0, 2.0])
     yield np.array([1.0, 2.0]), np.array([5.0, 2.0])
     for _ in range(40):
         m = int(rng.integers(2, 9))
         yield rng.integers(0, 9, m).astype(float), rng.integers(0, 7, m).astype(float)
+    yield np.array([5.0]), np.array([6.0, 1.0, 5.0, 2.0])
+    yield np.array([6.0, 1.0, 5.0]), np.array([4.0])
 
 
 chance_of_improvement = Exercise(

@@ -28,11 +28,11 @@ conservative_loss = Exercise(
     "conservative_loss(q, actions)",
     solution=sac.conservative_loss, cases=offline_cases, slopes=("q",),
     worked=(
-        # e^Q is 1, 2, 1, so log Σ is log 4; the data's Q is log 2
-        ((torch.tensor([[0.0, math.log(2), 0.0]]).double(), torch.tensor([1])), torch.tensor(math.log(2))),
-        # log 3 - 0, and log (1 + 1 + 2) - 0
-        ((torch.tensor([[0.0, 0.0, 0.0], [0.0, 0.0, math.log(2)]]).double(), torch.tensor([0, 1])),
-         torch.tensor((math.log(3) + math.log(4)) / 2)),
+        # e^Q is 8 for the data's action and 1 for the other eight, so log Σ is log 16; the data's Q is log 8
+        ((math.log(8) * torch.eye(9).double()[[1]], torch.tensor([1])), torch.tensor(math.log(2))),
+        # log 9 - 0, and log (8 + 8) - 0
+        ((math.log(8) * torch.eye(9).double()[[2]] * torch.tensor([[0.0], [1.0]]), torch.tensor([0, 1])),
+         torch.tensor((math.log(9) + math.log(16)) / 2)),
     ),
     mistakes=(
         Mistake(lambda q, actions: (of_the_data(q, actions) - q.logsumexp(-1)).mean(),
@@ -104,19 +104,19 @@ def critic_cases(rng):
         yield q, next_q, next_target, actions, rewards, terminated, gamma, weight
 
 
-ONE = (torch.zeros(1, 3).double(), torch.tensor([[0.0, 2.0, 1.0]]).double(), torch.tensor([[3.0, 4.0, 9.0]]).double(),
-       torch.tensor([0]), torch.tensor([1.0]).double())  # fmt: skip
-NO_SLOPE = torch.zeros(1, 3)
+ONE = (torch.zeros(1, 9).double(), torch.tensor([[0.0, 2.0] + [1.0] * 7]).double(),
+       torch.tensor([[3.0, 4.0] + [9.0] * 7]).double(), torch.tensor([0]), torch.tensor([1.0]).double())  # fmt: skip
+NO_SLOPE = torch.zeros(1, 9)
 offline_loss = Exercise(
     "offline_loss(q, next_q, next_target, actions, rewards, terminated, gamma, weight)",
     solution=offline_loss_solution, cases=critic_cases, slopes=("q", "next_q", "next_target"),
     worked=(
-        # the critic's best next action is 1, which the target critic values at 4: y = 1 + 4/2 = 3, (0 - 3)² + log 3
+        # the critic's best next action is 1, which the target critic values at 4: y = 1 + 4/2 = 3, (0 - 3)² + log 9
         ((*ONE, torch.zeros(1).double(), 0.5, 1.0),
-         (torch.tensor(9 + math.log(3)), torch.tensor([[-6 - 2 / 3, 1 / 3, 1 / 3]]), NO_SLOPE, NO_SLOPE)),
+         (torch.tensor(9 + math.log(9)), torch.tensor([[-6 - 8 / 9] + [1 / 9] * 8]), NO_SLOPE, NO_SLOPE)),
         # after an accident y = r = 1, and without a weight the term is gone
         ((*ONE, torch.ones(1).double(), 0.5, 0.0),
-         (torch.tensor(1.0), torch.tensor([[-2.0, 0.0, 0.0]]), NO_SLOPE, NO_SLOPE)),
+         (torch.tensor(1.0), torch.tensor([[-2.0] + [0.0] * 8]), NO_SLOPE, NO_SLOPE)),
     ),
     mistakes=(
         Mistake(changed_offline(value=lambda n, t: t.amax(-1)),

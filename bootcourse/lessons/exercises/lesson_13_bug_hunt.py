@@ -6,6 +6,8 @@ import numpy as np
 import torch
 
 from bootcourse.lessons.exercise import Exercise, Mistake
+from bootcourse.lessons.exercises import target_probe
+from bootcourse.lessons.exercises.target_probe import standard_target
 
 
 def end_error_solution(q, actions, rewards, terminated):
@@ -24,12 +26,12 @@ def of_rows(q, actions, rewards, terminated, q_of=None, over=None):
 
 
 def end_cases(rng):
-    """No accident at all, only accidents, one row; then 40 at random."""
+    """No accident at all, only accidents, one row; then 40 at random, half of them on a road with other rewards."""
     shares = [0.0, 1.0, 1.0, *rng.uniform(0.2, 0.8, 40)]
     for number, share in enumerate(shares):
         n = 1 if number == 2 else int(rng.integers(3, 9))
         terminated = (rng.random(n) < share).astype(float)
-        rewards = np.where(terminated > 0, -10.0, rng.uniform(0, 1, n))
+        rewards = rng.uniform(-10, 5, n) if number % 2 else np.where(terminated > 0, -10.0, rng.uniform(0, 1, n))
         yield rng.normal(-10, 6, (n, 9)), rng.integers(0, 9, n), rewards, terminated
 
 
@@ -38,10 +40,10 @@ end_error = Exercise(
     solution=end_error_solution, cases=end_cases,
     worked=(
         # two accidents: Q(s, a) is -8 and -9, both should be -10; the third row goes on
-        ((np.array([[-8.0, 0, 0], [5, -9, 5], [1, 2, 3]]), np.array([0, 1, 2]), np.array([-10.0, -10, 0.5]),
+        ((np.array([[-8.0] + [0] * 8, [5, -9] + [5] * 7, range(9)]), np.array([0, 1, 2]), np.array([-10.0, -10, 0.5]),
           np.array([1.0, 1, 0])),
          1.5),
-        ((np.array([[4.0, 2.0]]), np.array([1]), np.array([0.3]), np.array([0.0])), 0.0),
+        ((np.array([[4.0, 2.0] + [1] * 7]), np.array([1]), np.array([0.3]), np.array([0.0])), 0.0),
     ),
     mistakes=(
         Mistake(lambda q, actions, rewards, terminated: float((q[np.arange(len(actions)), actions] - rewards).mean()),
@@ -135,10 +137,6 @@ diagnose = Exercise(
 )  # fmt: skip
 
 
-def fixed_target_solution(reward, is_demonstration, bonus, terminated, next_value, gamma):
-    return reward + bonus * is_demonstration + gamma * (1 - terminated) * next_value
-
-
 def target_cases(rng):
     """Nothing special, all demonstrations, all terminated, no bonus; then 40 at random."""
     kinds = [(0, 0, 2.0), (1, 0, 2.0), (0, 1, 2.0), (1, 1, 0.0)]
@@ -153,7 +151,7 @@ def target_cases(rng):
 
 fixed_target = Exercise(
     "fixed_target(reward, is_demonstration, bonus, terminated, next_value, gamma)",
-    solution=fixed_target_solution, cases=target_cases,
+    solution=standard_target, cases=target_cases,
     worked=(
         ((torch.tensor([1.0, 1.0, -10.0]), torch.tensor([0.0, 1.0, 0.0]), 2.0, torch.tensor([0.0, 0.0, 1.0]),
           torch.tensor([5.0, 5.0, 5.0]), 0.8),
@@ -185,96 +183,7 @@ fixed_target = Exercise(
     minutes=4, difficulty=1, equation="y = r + c [demonstration] + γ (1 - terminated) V(s')",
 )  # fmt: skip
 
-
-def standard_target(reward, is_demonstration, bonus, terminated, next_value, gamma):
-    return fixed_target_solution(reward, is_demonstration, bonus, terminated, next_value, gamma)
-
-
-TARGETS = {  # what a learner might compute; the first three are right
-    "as it is printed": standard_target,
-    "with where": lambda r, demo, c, end, v, gamma: np.where(demo > 0, r + c, r) + np.where(end > 0, 0, gamma * v),
-    "in another order": lambda r, demo, c, end, v, gamma: gamma * (v - v * end) + demo * c + r,
-    "no end": lambda r, demo, c, end, v, gamma: r + c * demo + gamma * v,
-    "the end kept, the rest dropped": lambda r, demo, c, end, v, gamma: r + c * demo + gamma * end * v,
-    "a bonus for all": lambda r, demo, c, end, v, gamma: r + c + gamma * (1 - end) * v,
-    "no bonus": lambda r, demo, c, end, v, gamma: r + gamma * (1 - end) * v,
-    "a bonus for the agent's own": lambda r, demo, c, end, v, gamma: r + c * (1 - demo) + gamma * (1 - end) * v,
-    "a bonus of 2": lambda r, demo, c, end, v, gamma: r + 2 * demo + gamma * (1 - end) * v,
-    "a bonus lost at the end": lambda r, demo, c, end, v, gamma: r + (1 - end) * (c * demo + gamma * v),
-    "a discount of 0.8": lambda r, demo, c, end, v, gamma: r + c * demo + 0.8 * (1 - end) * v,
-    "a discounted reward": lambda r, demo, c, end, v, gamma: gamma * (r + (1 - end) * v) + c * demo,
-    "no discount": lambda r, demo, c, end, v, gamma: r + c * demo + (1 - end) * v,
-    "only gains": lambda r, demo, c, end, v, gamma: np.maximum(r, 0) + c * demo + gamma * (1 - end) * v,
-    "a mean over the batch": lambda r, demo, c, end, v, gamma: standard_target(
-        r, demo, c, end, np.mean(v) + 0 * v, gamma
-    ),
-}
-RIGHT_TARGETS = tuple(TARGETS)[:3]
-
-
-def is_unmasked(answer, name):
-    """What the student's probe says of one target function."""
-    return answer(TARGETS[name])
-
-
-def unmasks_solution(target):
-    reward, value = np.array([1.0, -10.0, 0.5, -3.0]), np.array([4.0, 2.0, 7.0, -1.0])
-    demo, end = np.array([0.0, 0.0, 1.0, 1.0]), np.array([0.0, 1.0, 0.0, 1.0])
-    right = reward + 3.0 * demo + 0.5 * (1 - end) * value
-    return not np.allclose(target(reward, demo, 3.0, end, value, 0.5), right)
-
-
-def explain_probe(cases, answers):
-    """Which target function the probe judged wrongly."""
-    said = dict(zip([name for (name,) in cases], answers, strict=True))
-    if any(bool(said[name]) for name in RIGHT_TARGETS):
-        return "Your probe accuses a target function that is right, only written in another way: compare numbers."
-    missed = [name for name, found in said.items() if name not in RIGHT_TARGETS and not found]
-    return (
-        f"Your probe lets {len(missed)} of {len(TARGETS) - len(RIGHT_TARGETS)} wrong target functions pass. One "
-        f"is '{missed[0]}'."
-        if missed
-        else "Your probe judges the same function differently each time."
-    )
-
-
-def one_row(demo, end, c=3.0, gamma=0.5):
-    """A probe that looks at one transition only."""
-
-    def answer(target):
-        got = target(np.array([1.0]), np.array([demo]), c, np.array([end]), np.array([4.0]), gamma)
-        return not np.allclose(got, 1.0 + c * demo + gamma * (1 - end) * 4.0)
-
-    return answer
-
-
-unmasks = Exercise(
-    "unmasks(target)",
-    solution=unmasks_solution, cases=lambda rng: [(name,) for name in TARGETS] * 2,
-    run=is_unmasked, explain=explain_probe,
-    worked=((("as it is printed",), False), (("no end",), True)),
-    mistakes=(
-        Mistake(lambda target: False,
-            "Your probe calls every target function right, the one without (1 - terminated) too.",
-            "If nothing raises an error, it works."),
-        Mistake(lambda target: True,
-            "Your probe accuses every target function, the right one too.",
-            "A test is there to find something."),
-        Mistake(one_row(0.0, 1.0),
-            "You look at one transition, an accident of the agent's own. It tests neither the bonus nor the discount.",
-            "A bug at the end shows at the end, and there are no others."),
-        Mistake(one_row(0.0, 0.0),
-            "You look at one transition that goes on. A target without (1 - terminated) is right there.",
-            "A typical transition is a good test."),
-    ),
-    hints=(
-        "Work out y by hand for four transitions: the agent's own or a demonstration, going on or ended.",
-        "Choose numbers that no mistake can hit by chance: a bonus that is not 2, a γ that is not 0.8, next values "
-        "that differ, one of them negative.",
-        "`target(reward, demo, 3.0, end, value, 0.5)` with arrays of four; compare with `np.allclose`.",
-    ),
-    minutes=20, difficulty=3, equation="y = r + c·1[demonstration] + γ (1 - terminated) V(s'), tested from outside",
-)  # fmt: skip
+unmasks = target_probe.unmasks
 
 
 def fixed_value_solution(log_pi, q, alpha):
@@ -289,12 +198,15 @@ def value_cases(rng):
         yield logits.log_softmax(-1), torch.tensor(rng.normal(0, 3, (n, 9))), float(alpha)
 
 
+EVEN = torch.full((1, 9), -math.log(9))
+ONE_TO_NINE = torch.arange(1.0, 10.0)[None]
+
 fixed_value = Exercise(
     "fixed_value(log_pi, q, alpha)",
-    solution=fixed_value_solution, cases=value_cases, slopes=("q",),
+    solution=fixed_value_solution, cases=value_cases, slopes=("log_pi",),
     worked=(
-        # two actions, half and half: (1 + 3) / 2 + 0.5 log 2
-        ((torch.full((1, 2), -math.log(2)), torch.tensor([[1.0, 3.0]]), 0.5), torch.tensor([2 + 0.5 * math.log(2)])),
+        # nine actions, all alike: (1 + 2 + ... + 9) / 9 + 0.5 log 9
+        ((EVEN, ONE_TO_NINE, 0.5), torch.tensor([5 + 0.5 * math.log(9)])),
     ),
     mistakes=(
         Mistake(lambda log_pi, q, alpha:
@@ -345,16 +257,13 @@ def loss_cases(rng):
         yield log_pi, torch.tensor(rng.normal(0, 3, log_pi.shape)), rule.log(), alpha, xi
 
 
-HALF = torch.full((1, 2), -math.log(2))
-
 fixed_loss = Exercise(
     "fixed_loss(log_pi, q, log_rule, alpha, xi)",
     solution=fixed_loss_solution, cases=loss_cases, slopes=("log_pi", "q"),
     worked=(
-        # π even, Q = 1 and 3, π̃ = π, α = 0.5, ξ = 1: V = 2 + 0.5 log 2; slopes in the logits: -π (Q - 2)
-        ((HALF, torch.tensor([[1.0, 3.0]]), HALF, 0.5, 1.0),
-         (torch.tensor(-(2 + 0.5 * math.log(2))),
-          torch.tensor([[0.5, -0.5]]), torch.zeros(1, 2))),
+        # π even, Q = 1 to 9, π̃ = π, α = 0.5, ξ = 1: V = 5 + 0.5 log 9; slopes in the logits: -π (Q - 5)
+        ((EVEN, ONE_TO_NINE, EVEN, 0.5, 1.0),
+         (torch.tensor(-(5 + 0.5 * math.log(9))), (5 - ONE_TO_NINE) / 9, torch.zeros(1, 9))),
     ),
     mistakes=(
         Mistake(lambda log_pi, q, log_rule, alpha, xi: loss_of(log_pi, q, log_rule, alpha, xi, flipped=True),
