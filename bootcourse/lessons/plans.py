@@ -4,6 +4,7 @@ import numpy as np
 
 from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError
+from bootcourse.lessons.exercise import NotAsAsked, refuse
 from bootcourse.policies import plan_policy
 from bootcourse.road.state import Accident
 
@@ -20,11 +21,14 @@ def drive_plan(answer, road):
     """[seconds with the brake, the kind of an accident in the first 15 s, ends ahead of trap 1] on a road."""
     plan = answer()
     if not isinstance(plan, (list, tuple)):
-        return plan
+        return refuse(plan, 'a list of actions in words, such as ["keep left", ("keep right", 2)]')
     try:
         policy = plan_policy(list(plan))
-    except (BootcourseError, TypeError, ValueError) as error:
-        raise BootcourseError(f"It returns a plan that cannot be driven. {error}") from error
+    except BootcourseError as error:
+        raise NotAsAsked(f"Your plan cannot be driven: {error}") from error
+    except (TypeError, ValueError):
+        wanted = 'an action in words, "keep left", or such an action with its seconds, ("keep right", 2)'
+        raise NotAsAsked(f"Your plan cannot be driven: each of its parts is {wanted}.") from None
     drive = record(policy, [road])[0]
     early = drive.accident if drive.times[-1] <= EARLY else 0
     return np.array([(drive.actions // 3 == 0).sum(), early, drive.success], dtype=float)

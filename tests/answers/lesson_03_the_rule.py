@@ -425,14 +425,19 @@ def stay():
     return [("keep straight", 10)]
 
 
-@wrong("direct_plan", "cannot be driven")
+@wrong("direct_plan", "Your plan cannot be driven: Action 'keep lft' is unknown: did you mean 'keep left'?")
 def misspelt():
     return [("keep lft", 2)]
 
 
-@wrong("direct_plan", "shape")
+@wrong("direct_plan", "returns a NumPy array: the exercise asks for a list of actions in words")
 def numbers():
     return np.array([3, 3, 5, 3, 5, 5, 5, 3])
+
+
+@wrong("direct_plan", "Your plan cannot be driven: each of its parts")
+def numbers_in_a_list():
+    return [3, 3, 5, 3, 5, 5, 5, 3]
 
 
 @wrong("direct_plan", "ahead of trap 1")
