@@ -18,6 +18,7 @@ CLAIMED = (
     "02_traffic",
     "03_the_rule",
     "04_discrete_sac",
+    "05_the_barrier",
     "10_imitation",
     "11_offline_learning",
     "12_exploration",

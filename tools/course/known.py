@@ -214,6 +214,12 @@ def by_chance():
     return drive_episodes(random_policy(np.random.default_rng(0)), held_out_seeds(6, 5000))
 
 
+def free_road_seen(explore: float, gamma: float, walks: int = 30) -> int:
+    """How many learners of lesson 5's chain have been on its free road, of which Q(3, 1) tells."""
+    walked = (chain.learn_chain(chain.chances(explore, 1000, seed), gamma, 0.3, ()) for seed in range(walks))
+    return sum(bool(q[3, 1] > 0) for q in walked)
+
+
 @cache
 def cooling_updates(part: float) -> int:
     """After how many of Adam's steps α is this part of its start if η = −1 and the entropy stays 0."""
