@@ -56,6 +56,17 @@ def safe_by_clamping(rule_logits, own_logits):
     return -d[0].clamp(min=1e-6).log().mean() - (1 - d[1]).clamp(min=1e-6).log().mean()
 
 
+@right("discriminator_loss")
+def by_logaddexp(rule_logits, own_logits):
+    terms = (torch.logaddexp(x, torch.zeros_like(x)).mean() for x in (-rule_logits, own_logits))
+    return sum(terms)
+
+
+@wrong("discriminator_loss", "no gradient")
+def as_a_number(rule_logits, own_logits):
+    return float(by_logsigmoid(rule_logits, own_logits))
+
+
 # imitation_reward -------------------------------------------------------------------------------------
 
 
@@ -79,6 +90,31 @@ def cut_at_zero(own_logits):
     return torch.relu(own_logits)
 
 
+@right("imitation_reward")
+def large_and_small_apart(own_logits):
+    return own_logits.clamp(min=0) + torch.log1p(torch.exp(-own_logits.abs()))
+
+
+@wrong("imitation_reward", "training needs one")
+def with_numpy(own_logits):
+    return np.logaddexp(0, own_logits.numpy())
+
+
+@wrong("imitation_reward", "shape")
+def one_for_the_batch(own_logits):
+    return functional.softplus(own_logits).mean()
+
+
+@wrong("imitation_reward")
+def in_bits(own_logits):
+    return functional.softplus(own_logits) / math.log(2)
+
+
+@wrong("imitation_reward")
+def shifted_to_zero_where_it_cannot_tell(own_logits):
+    return functional.softplus(own_logits) - math.log(2)
+
+
 # deviation_of_a_rate ----------------------------------------------------------------------------------
 
 
@@ -99,6 +135,37 @@ def of_a_list(k, n):
 @wrong("deviation_of_a_rate")
 def half_of_an_interval(k, n):
     return 1.96 * 100 * math.sqrt(k / n * (1 - k / n) / n)
+
+
+@right("deviation_of_a_rate")
+def by_the_sum_of_squares(k, n):
+    mean = 100 * k / n
+    return np.sqrt((k * (100 - mean) ** 2 + (n - k) * mean**2) / (n - 1))
+
+
+@wrong("deviation_of_a_rate")
+def right_for_one_of_n(k, n):
+    return 100 / math.sqrt(n)
+
+
+@wrong("deviation_of_a_rate")
+def of_twenty(k, n):
+    return by_formula(k, 20) if k <= 20 else 0.0
+
+
+@wrong("deviation_of_a_rate")
+def mean_distance_from_the_mean(k, n):
+    return np.abs(np.repeat([100.0, 0.0], [k, n - k]) - 100 * k / n).mean()
+
+
+@wrong("deviation_of_a_rate", "raises an error")
+def of_k_numbers(k, n):
+    return statistics.stdev([100.0] * k)
+
+
+@wrong("deviation_of_a_rate", "2 values")
+def with_the_mean(k, n):
+    return 100 * k / n, by_formula(k, n)
 
 
 # episodes_needed --------------------------------------------------------------------------------------
@@ -137,3 +204,32 @@ def both_sides(rate):
 @wrong("episodes_needed")
 def added_up(rate):
     return math.ceil(0.95 / rate)
+
+
+@right("episodes_needed")
+def by_halving(rate):
+    low, high = 0, 1_000_000  # too few, enough
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (low, middle) if (1 - rate) ** middle <= 0.05 else (middle, high)
+    return high
+
+
+@wrong("episodes_needed")
+def to_the_nearest(rate):
+    return round(math.log(0.05) / math.log(1 - rate))
+
+
+@wrong("episodes_needed")
+def one_more(rate):
+    return by_trying(rate) + 1
+
+
+@wrong("episodes_needed")
+def for_99_percent(rate):
+    return math.ceil(math.log(0.01) / math.log(1 - rate))
+
+
+@wrong("episodes_needed", "returns")
+def as_an_array(rate):
+    return np.array([by_trying(rate)])

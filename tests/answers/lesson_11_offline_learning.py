@@ -48,6 +48,16 @@ def with_numpy(q, actions):
     return torch.tensor((np.log(np.exp(rows).sum(-1)) - rows[np.arange(len(rows)), actions.numpy()]).mean())
 
 
+@wrong("conservative_loss")
+def over_the_states(q, actions):
+    return (q.logsumexp(0).mean() - q.gather(-1, actions.unsqueeze(-1)).squeeze(-1)).mean()
+
+
+@wrong("conservative_loss")
+def of_nine_actions_each_with_its_share(q, actions):
+    return (q.softmax(-1) * q).sum(-1).mean() - q.gather(-1, actions.unsqueeze(-1)).mean()
+
+
 # offline_loss -----------------------------------------------------------------------------------------
 
 
@@ -107,6 +117,22 @@ def all_actions_learn(q, next_q, next_target, actions, rewards, terminated, gamm
     return (q - y[:, None]).pow(2).mean() + weight * functional.cross_entropy(q, actions)
 
 
+@wrong("offline_loss", "no gradient reaches `q`")
+def as_a_number_too(q, next_q, next_target, actions, rewards, terminated, gamma, weight):
+    return with_no_grad(q, next_q, next_target, actions, rewards, terminated, gamma, weight).item()
+
+
+@wrong("offline_loss", "slope in `q` is wrong")
+def with_half_of_it_detached(q, next_q, next_target, actions, rewards, terminated, gamma, weight):
+    squares = with_no_grad(q, next_q, next_target, actions, rewards, terminated, gamma, 0.0)
+    return squares + weight * functional.cross_entropy(q.detach(), actions)
+
+
+@wrong("offline_loss")
+def with_the_smallest_next_value(q, next_q, next_target, actions, rewards, terminated, gamma, weight):
+    return with_no_grad(q, -next_q, next_target, actions, rewards, terminated, gamma, weight)
+
+
 # share_of_the_bound -----------------------------------------------------------------------------------
 
 
@@ -150,3 +176,18 @@ def action_by_action(q, next_q, next_target, actions, rewards, terminated, gamma
     own, best = functional.one_hot(actions, 9), functional.one_hot(next_q.argmax(-1), 9)
     y = rewards + gamma * (1 - terminated) * (best * next_target.detach()).sum(-1)
     return (((own * q).sum(-1) - y) ** 2).mean() + weight * functional.cross_entropy(q, actions)
+
+
+@right("share_of_the_bound")
+def agent_by_agent(returns, bound):
+    return [sum(row) / sum(bound) for row in returns.tolist()]
+
+
+@wrong("share_of_the_bound")
+def of_the_middle_road(returns, bound):
+    return np.median(returns, axis=1) / np.median(bound)
+
+
+@wrong("share_of_the_bound")
+def in_percent(returns, bound):
+    return 100 * returns.mean(axis=1) / bound.mean()

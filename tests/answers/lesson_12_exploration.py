@@ -39,6 +39,16 @@ def inverse_of_the_largest(policy):
     return 1 / policy.max(axis=-1)
 
 
+@wrong("effective_actions")
+def away_from_zero(policy):
+    return np.exp(-(policy * np.log(policy + 1e-3)).sum(-1))
+
+
+@wrong("effective_actions", "a number")
+def of_the_whole_drive(policy):
+    return np.exp(stats.entropy(policy.mean(axis=0)))
+
+
 # where_explored -------------------------------------------------------------------------------------
 
 
@@ -66,6 +76,30 @@ def open_on_the_left(place, entropy, edges):
     return np.array([entropy[(place > low) & (place <= high)].sum() for low, high in pairs]) / entropy.sum()
 
 
+@right("where_explored")
+def one_by_one(place, entropy, edges):
+    spent = [0.0] * (len(edges) - 1)
+    for x, h in zip(place, entropy, strict=True):
+        for k in range(len(spent)):
+            spent[k] += h * bool(edges[k] <= x < edges[k + 1])
+    return [part / sum(entropy) for part in spent]
+
+
+@wrong("where_explored", "shape")
+def a_bin_for_each_edge(place, entropy, edges):
+    return np.bincount(np.digitize(place, edges), weights=entropy, minlength=len(edges))[: len(edges)] / entropy.sum()
+
+
+@wrong("where_explored")
+def in_bins_of_equal_width(place, entropy, edges):
+    return np.histogram(place, len(edges) - 1, (edges[0], edges[-1]), weights=entropy)[0] / entropy.sum()
+
+
+@wrong("where_explored")
+def added_up(place, entropy, edges):
+    return np.cumsum(with_histogram(place, entropy, edges))
+
+
 # coverage -------------------------------------------------------------------------------------------
 
 
@@ -91,6 +125,36 @@ def number_of_cells(place, lane, edges, lanes):
     return as_a_set(place, lane, edges, lanes) * lanes * (len(edges) - 1)
 
 
+@right("coverage")
+def cell_by_cell(place, lane, edges, lanes):
+    visited = [
+        any(edges[i] <= x < edges[i + 1] and k == j for x, k in zip(place, lane, strict=True))
+        for i in range(len(edges) - 1)
+        for j in range(lanes)
+    ]
+    return sum(visited) / len(visited)
+
+
+@wrong("coverage")
+def of_three_lanes(place, lane, edges, lanes):
+    return as_a_set(place, lane, edges, 3)
+
+
+@wrong("coverage")
+def open_on_the_left_too(place, lane, edges, lanes):
+    columns = np.searchsorted(edges, place, side="left") - 1
+    seen = {(c, k) for c, k in zip(columns, lane, strict=True) if 0 <= c < len(edges) - 1}
+    return len(seen) / (lanes * (len(edges) - 1))
+
+
+@wrong("coverage")
+def of_the_visited_stretches(place, lane, edges, lanes):
+    columns = np.digitize(place, edges) - 1
+    inside = (columns >= 0) & (columns < len(edges) - 1)
+    stretches = len(set(columns[inside]))
+    return as_a_set(place, lane, edges, lanes) * (len(edges) - 1) / max(stretches, 1)
+
+
 # ever_tries -----------------------------------------------------------------------------------------
 
 
@@ -110,6 +174,30 @@ def with_logarithms(policy):
 @wrong("ever_tries")
 def over_everything(policy):
     return 1 - policy.max() ** len(policy)
+
+
+@right("ever_tries")
+def first_at_each_second(policy):
+    """Something else for the first time at second t: never before, and then."""
+    favourite, so_far, never = policy.max(axis=1), 0.0, 1.0
+    for p in favourite.tolist():
+        so_far, never = so_far + never * (1 - p), never * p
+    return so_far
+
+
+@wrong("ever_tries")
+def the_first_action(policy):
+    return 1 - np.prod(policy[:, 0])
+
+
+@wrong("ever_tries", "a NumPy array")
+def of_each_action(policy):
+    return 1 - np.prod(policy, axis=0)
+
+
+@wrong("ever_tries")
+def as_if_every_second_were_the_mean(policy):
+    return 1 - policy.max(axis=1).mean() ** len(policy)
 
 
 # forgetting -------------------------------------------------------------------------------------------
@@ -162,4 +250,26 @@ def the_first_good_window(success, window):
 def the_last_episodes_alone(success, window):
     found = by_sliding_windows(success, window)
     found[:, 1] = np.asarray(success)[:, -1]
+    return found
+
+
+@right("forgetting")
+def with_convolve(success, window):
+    rows = []
+    for agent in np.asarray(success, dtype=float):
+        means = np.convolve(agent, np.full(window, 1 / window), mode="valid")
+        good = np.flatnonzero(means >= 0.5 - 1e-9)
+        rows.append((means.max(), means[-1], good.max() + window if good.size else 0))
+    return np.array(rows)
+
+
+@wrong("forgetting", "shape")
+def of_the_first_agent(success, window):
+    return by_sliding_windows(success, window)[0]
+
+
+@wrong("forgetting")
+def windows_that_grow(success, window):
+    found = by_sliding_windows(success, window)
+    found[:, 0] = (np.cumsum(success, axis=1) / np.arange(1, np.asarray(success).shape[1] + 1)).max(axis=1)
     return found

@@ -4,7 +4,7 @@ import numpy as np
 
 from bootcourse.learn import teachers as teacher
 from bootcourse.lessons.example_teachers import watchful
-from bootcourse.road.state import EGO, LANE, X, Y
+from bootcourse.road.state import EGO, LANE, SPEED, X, Y
 from tests.answers import right, wrong
 
 # gap_ahead ----------------------------------------------------------------------------------------------
@@ -109,6 +109,23 @@ def speed_and_lane(cars, scenario):
     return 9.0, 1
 
 
+@right("my_rule")
+def late_and_slow(cars, scenario):
+    """Waits until 12 m are free ahead on the left, and keeps 30 m distance there; whole numbers of NumPy's."""
+    lane = int(cars[EGO, LANE])
+    gap, speed = teacher.ahead(cars, lane, scenario)
+    if lane == 0:
+        return np.int64(teacher.toward(cars, 14.0 if gap > 30 else min(14.0, speed - 1), 0, scenario))
+    free = teacher.ahead(cars, lane - 1, scenario)[0] > 12 and abs(cars[EGO, Y] - 4 * lane) < 0.5
+    return np.int64(teacher.toward(cars, 8.0, lane - free, scenario))
+
+
+@wrong("my_rule", "changes its argument")
+def moves_the_traps(cars, scenario):
+    cars[1:3, X] -= 50
+    return 4
+
+
 # next_labels ----------------------------------------------------------------------------------------
 
 
@@ -138,6 +155,31 @@ def only_those_that_ended(now, at_end, ended):
 @wrong("next_labels")
 def the_larger(now, at_end, ended):
     return np.maximum(now, at_end * ended)
+
+
+@right("next_labels")
+def as_a_list(now, at_end, ended):
+    return [int(at_end[i]) if ended[i] else int(now[i]) for i in range(len(ended))]
+
+
+@wrong("next_labels")
+def no_label_at_the_end(now, at_end, ended):
+    return np.where(ended, -1, now)
+
+
+@wrong("next_labels")
+def of_the_road_before(now, at_end, ended):
+    return np.where(np.roll(ended, 1), at_end, now)
+
+
+@wrong("next_labels")
+def all_if_any_ended(now, at_end, ended):
+    return at_end if ended.any() else now
+
+
+@wrong("next_labels")
+def both_added(now, at_end, ended):
+    return now + at_end * ended
 
 
 # verdict --------------------------------------------------------------------------------------------
@@ -175,13 +217,26 @@ def best_against_best(alone, taught):
     return int(np.sign(max(taught) - max(alone)))
 
 
-# verdict ------------------------------------------------------------------------------------------------
-
-
 @right("verdict")
 def of_pairs(alone, taught):
     pairs = [(a, t) for a in alone for t in taught]
     return int(all(t > a for a, t in pairs)) - int(all(t < a for a, t in pairs))
+
+
+@wrong("verdict")
+def as_a_text(alone, taught):
+    return {1: "helps", 0: "cannot be told", -1: "hurts"}[sorted_by_value(alone, taught)]
+
+
+@wrong("verdict")
+def most_of_the_pairs(alone, taught):
+    better = (taught[:, None] > alone).mean()
+    return 1 if better > 0.8 else -1 if better < 0.2 else 0
+
+
+@wrong("verdict")
+def by_ten_points(alone, taught):
+    return int(taught.min() > alone.max() + 10) - int(taught.max() < alone.min() - 10)
 
 
 # watchful_rule ------------------------------------------------------------------------------------------
@@ -226,6 +281,34 @@ def waits_for_ever(cars, scenario):
     return teacher.toward(cars, 8.0, 2, scenario)
 
 
+@right("watchful_rule")
+def by_the_time_until_they_meet(cars, scenario):
+    """Changes where neither the car ahead nor the one behind on the left comes within 4 m in the next 4 s."""
+    lane, x, v = int(cars[EGO, LANE]), cars[EGO, X], cars[EGO, SPEED]
+    gap, front = teacher.ahead(cars, lane, scenario)
+    if lane == 0:
+        return teacher.toward(cars, 14.0 if gap > 45 else min(14.0, front - 1), 0, scenario)
+    others = cars[cars[:, LANE] == lane - 1]
+    apart, closing = others[:, X] - x, others[:, SPEED] - v
+    now = np.abs(apart) - 5
+    later = np.where(apart > 0, apart + 4 * np.minimum(closing, 0), -apart - 4 * np.maximum(closing, 0)) - 5
+    free = bool((np.minimum(now, later) > 4).all())
+    arrived = cars[EGO, Y] - 4 * lane < 0.5
+    speed = 8.5 if lane == 2 else min(front - 0.5, 14.0) if gap > 12 else front - 1
+    return teacher.toward(cars, max(6.5, speed), lane - 1 if free and arrived else lane, scenario)
+
+
+@wrong("watchful_rule", "whole number")
+def a_float_in_the_left_lane(cars, scenario):
+    action = watchful(cars, scenario)
+    return float(action) if cars[EGO, LANE] == 0 else action
+
+
+@wrong("watchful_rule", "differently each time")
+def changes_at_random(cars, scenario):
+    return int(np.random.default_rng().integers(9))
+
+
 # holm ---------------------------------------------------------------------------------------------------
 
 
@@ -267,3 +350,30 @@ def one_test_too_many(p):
     scaled = np.asarray(p)[order] * (len(p) + 1 - np.arange(len(p)))
     adjusted[order] = np.minimum(np.maximum.accumulate(scaled), 1)
     return adjusted
+
+
+@right("holm")
+def with_a_table(p):
+    p = np.asarray(p, dtype=float)
+    order = np.lexsort((np.arange(len(p)), p))
+    scaled = np.minimum(p[order] * np.arange(len(p), 0, -1), 1)
+    larger = np.tril(np.ones((len(p), len(p)), dtype=bool))
+    return np.where(larger, scaled, 0).max(axis=1)[np.argsort(order)]
+
+
+@wrong("holm")
+def of_sidak(p):
+    return 1 - (1 - np.asarray(p)) ** len(p)
+
+
+@wrong("holm")
+def for_three_tests(p):
+    order = np.argsort(p)
+    adjusted = np.empty(len(p))
+    adjusted[order] = np.minimum(np.maximum.accumulate(np.asarray(p)[order] * np.maximum(3 - np.arange(len(p)), 1)), 1)
+    return adjusted
+
+
+@wrong("holm")
+def which_are_significant(p):
+    return np.asarray(p) * len(p) < 0.05

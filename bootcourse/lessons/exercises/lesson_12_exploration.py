@@ -145,11 +145,12 @@ def margins(place, lane, edges, lanes):
 
 
 def cell_cases(rng):
-    """One cell again and again, all outside, a diagonal; then 40 at random."""
+    """One cell again and again, all outside, a diagonal, on two edges; then 40 at random."""
     edges = np.array([0.0, 10.0, 20.0, 30.0])
     yield np.array([1.0, 2.0, 3.0]), np.array([2, 2, 2]), edges, 3
     yield np.array([-5.0, 45.0]), np.array([0, 1]), edges, 3
     yield np.array([5.0, 15.0, 25.0]), np.array([0, 1, 2]), edges, 3
+    yield np.array([0.0, 10.0]), np.array([2, 0]), edges, 3
     for _ in range(40):
         n = int(rng.integers(1, 40))
         edges = np.arange(-30.0, 31.0, float(rng.integers(5, 15)))
