@@ -26,9 +26,11 @@ import bootcourse as bc
 import numpy as np
 import torch
 from bootcourse.lessons import (
+    charts,
     check,
     compare_predictions,
     figures_baselines,
+    own_code,
     predict,
     shipped,
     source,
@@ -332,6 +334,54 @@ table(headings, rows)
 # <!-- claim: round(1 / (1 - settings_for('gail').gamma)) == 5 -->
 # <!-- claim: accidents('rule') == 0 -->
 #
+# ### Your judge at work
+#
+# Now train two agents by GAIL. The judge's loss and the reward are yours if they have passed their
+# checks; the first line that the cell prints says whose they are.
+
+# %%
+torch.set_num_threads(1)  # small matrices are faster on one thread
+agents, noted = bc.with_seeds(bc.settings_for("gail"), 2), []
+
+
+def note(training):
+    if training.losses:  # what the last update returned
+        noted.append(training.losses)
+
+
+training = own_code.training(agents, episodes=5000)
+result = training.run(callback=note, stop=lambda: training.updates >= 2500)
+print(f"episodes of each agent: {training.curves.finished.tolist()}")
+
+# %%
+loss = torch.stack([each["discriminator_loss"] for each in noted]).T.numpy()
+smooth = loss[:, : len(noted) // 50 * 50].reshape(len(agents), -1, 50).mean(-1)
+updates, marks = np.arange(smooth.shape[1]) * 50, {"D = ½: it cannot tell": 2 * np.log(2)}
+title = "The loss of two judges"
+bc.show(charts.lines(updates, {"gail": smooth}, title, "update", "judge's loss", marks=marks))
+
+# %%
+rows = []
+for agent in result.agents:
+    r = bc.evaluate(agent.as_policy(), 200, seed=10)
+    cells = [f"{100 * kind.value:.0f}" for kind in (r.success, r.collision, r.road_departure)]
+    rows.append([f"seed {agent.settings.seed}", *cells, f"{r.returns.value:.1f}"])
+table(["200 roads", "success, %", "collisions, %", "road departures, %", "return"], rows)
+
+# %%
+bc.show(bc.top_view_over_time(bc.record(result.agents[0].as_policy(), [road], label="gail")[0]))
+
+# %% [markdown]
+# **See.** (These two were trained on your machine: your numbers will differ from ours.) A judge
+# that says D = ½ to everything has a loss of 2 log 2, the dotted line. The farther a curve lies
+# under the line, the better the judge tells the agent from the rule. The second part of its loss,
+# −E log (1 − D), is what the agent is paid on average: a judge that recognises it pays little.
+#
+# What does the sign of the reward do to a car? Write an `imitation_reward` that pays log D, call
+# `own_code.use(imitation_reward)`, which trains with it unchecked, and run these cells again. How
+# many episodes does each agent drive now, in as many updates? (`own_code.load()` gets back the
+# right one.)
+#
 # ### How long is long enough?
 #
 # > **Predict.** In the training figure of round 1, GAIL finds the way out last, by far. Somebody
@@ -438,10 +488,7 @@ for k in (0, 1, 20):
 # %%
 def deviation_of_a_rate(k, n):
     """The standard deviation, in %, of n outcomes of which k are 100 % and the others 0 %."""
-    # solution
-    outcomes = np.repeat([100.0, 0.0], [k, n - k])
-    return outcomes.std(ddof=1)
-    # end solution
+    # solution: the exercise's own
 
 
 check.deviation_of_a_rate(deviation_of_a_rate)
@@ -483,9 +530,7 @@ predict("10.6", "Drives until one in 20 is found out", ["20", "60", "400"])
 # %%
 def episodes_needed(rate):
     """How many drives without an accident rule out this rate, in (0, 1), and higher ones: int."""
-    # solution
-    return int(np.ceil(np.log(0.05) / np.log(1 - rate)))
-    # end solution
+    # solution: the exercise's own
 
 
 check.episodes_needed(episodes_needed)
