@@ -13,7 +13,15 @@ from tools.course import problems as problems_module
 from tools.course.problems import dead_names, has_alt, of_pictures, problems
 from tools.course.products import WIDGET, instructor_file, make, refresh_prose, solved_file, student_file, tidy
 from tools.course.reference import BOOK
-from tools.course.source import NOTEBOOKS, one_folder_down, read, sources, without_solution
+from tools.course.source import (
+    NOTEBOOKS,
+    one_folder_down,
+    read,
+    sources,
+    with_solutions,
+    without_marks,
+    without_solution,
+)
 
 SOURCES = sources()
 EXAMPLE = re.search(r"```python\n(.*?)```", (NOTEBOOKS / "source/README.md").read_text(encoding="utf-8"), re.S)[1]
@@ -241,6 +249,27 @@ def test_a_picture_without_alt_text_is_found(copy):
 def test_each_solution_of_a_cell_becomes_dots_at_its_own_indent():
     text = "a\n    # solution\n    b\n    # end solution\nc\n# solution\nd\n# end solution"
     assert without_solution(text) == "a\n    ...\nc\n..."
+
+
+def test_a_source_takes_the_solution_that_its_exercise_holds():
+    text = """\
+class ReplayBuffer:
+    def __init__(self, size):
+        # solution
+        self.rows = []
+        # end solution
+
+    def sample(self, batch, rng):
+        '''Rows drawn at random.'''
+        # solution: the exercise's own
+
+
+check.ReplayBuffer(ReplayBuffer)
+"""
+    assert without_solution(with_solutions(text)).count("        ...\n") == 2
+    solved = without_marks(with_solutions(text))
+    assert "        self.rows = []\n\n    def sample" in solved
+    assert "random.'''\n        drawn = rng.integers(len(self.rows), size=batch)\n" in solved
 
 
 def test_links_lead_to_the_same_place_from_a_folder_further_down():

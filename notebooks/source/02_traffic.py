@@ -160,15 +160,7 @@ def drive_behind(leader, v, gap, dt, v_desired, s0, time_gap, a_max, b, delta, l
     leader: speeds of the car ahead in each step, m/s; v (m/s) and gap (m): at the start; dt in s;
     limit: the hardest braking, a positive number (m/s²). The other numbers are those of IDM.
     """
-    # solution
-    states = [(gap, v)]
-    for v_leader in leader:
-        s_star = s0 + time_gap * v + v * (v - v_leader) / (2 * math.sqrt(a_max * b))
-        a = a_max * (1 - (v / v_desired) ** delta - (s_star / gap) ** 2)
-        gap, v = gap + (v_leader - v) * dt, max(v + max(a, -limit) * dt, 0.0)
-        states.append((gap, v))
-    return np.array(states)
-    # end solution
+    # solution: the exercise's own
 
 
 check.drive_behind(drive_behind)
@@ -201,10 +193,7 @@ bc.show(charts.lines(seconds, rows, title, "time (s)", "speed (m/s)", looks=figu
 # %%
 def equilibrium_gap(v, v_desired, s0, time_gap, delta):
     """The gap (m) at which nothing changes, v < v_desired (m/s); s0 in m, time_gap in s."""
-    # solution
-    wanted = s0 + time_gap * v
-    return wanted / math.sqrt(1 - (v / v_desired) ** delta)
-    # end solution
+    # solution: the exercise's own
 
 
 check.equilibrium_gap(equilibrium_gap)
@@ -283,12 +272,7 @@ def worth_changing(
     follower_before, follower_after: the new follower's acceleration without and with the change;
     limit: the hardest braking (a positive number) that a change may impose on it.
     """
-    # solution
-    if follower_after < -limit:
-        return False
-    new_follower_gain = follower_after - follower_before
-    return own_gain + politeness * (new_follower_gain + old_follower_gain) > threshold
-    # end solution
+    # solution: the exercise's own
 
 
 check.worth_changing(worth_changing)
@@ -390,9 +374,7 @@ predict("2.7", "What happens to the heading error at 2 Hz?", choices)
 # %%
 def heading_errors(error, tau, dt, steps):
     """The heading error at the start and after each step: (steps + 1,), in the unit of error."""
-    # solution
-    return error * (1 - dt / tau) ** np.arange(steps + 1)
-    # end solution
+    # solution: the exercise's own
 
 
 check.heading_errors(heading_errors)

@@ -289,10 +289,7 @@ print(bc.sac.critic_target(torch.ones(2), terminated, torch.tensor([50.0, 50.0])
 # %%
 def critic_loss(q_pair, action, target):
     """A scalar tensor. q_pair: (2, batch, actions), with gradients; action, target: (batch,)."""
-    # solution
-    q_taken = q_pair.gather(-1, action.expand(2, -1).unsqueeze(-1)).squeeze(-1)
-    return (q_taken - target.detach()).square().mean(-1).sum()
-    # end solution
+    # solution: the exercise's own
 
 
 check.critic_loss(critic_loss)
@@ -324,10 +321,7 @@ predict(
 # %%
 def actor_loss(log_pi, q, alpha):
     """A scalar tensor. log_pi, q: (batch, actions); alpha: a tensor with one number."""
-    # solution
-    value = (log_pi.exp() * (q.detach() - alpha * log_pi)).sum(-1)
-    return -value.mean()
-    # end solution
+    # solution: the exercise's own
 
 
 check.actor_loss(actor_loss)
@@ -448,26 +442,15 @@ class ReplayBuffer:
 
     def __init__(self, size):
         """size: the most rows that it holds."""
-        # solution
-        self.size, self.rows, self.next = size, [], 0
-        # end solution
+        # solution: the exercise's own
 
     def add(self, row):
         """Keep a row, a tensor (n,). A full buffer forgets its oldest row."""
-        # solution
-        if len(self.rows) < self.size:
-            self.rows.append(row)
-        else:
-            self.rows[self.next] = row
-        self.next = (self.next + 1) % self.size
-        # end solution
+        # solution: the exercise's own
 
     def sample(self, batch, rng):
         """Rows drawn at random: (batch, n). rng: a NumPy generator."""
-        # solution
-        drawn = rng.integers(len(self.rows), size=batch)
-        return torch.stack([self.rows[i] for i in drawn])
-        # end solution
+        # solution: the exercise's own
 
 
 check.ReplayBuffer(ReplayBuffer)

@@ -162,9 +162,7 @@ predict("5.2", "Share of the value more than 5 s ahead, γ = 0.8", unit="%")
 # %%
 def share_of_the_future(gamma, seconds):
     """The share of Σ γ^t, t = 0, 1, 2 ..., that comes from t ≥ seconds: in [0, 1]."""
-    # solution
-    return gamma**seconds
-    # end solution
+    # solution: the exercise's own
 
 
 check.share_of_the_future(share_of_the_future)
@@ -252,10 +250,7 @@ predict("5.4", "Attempts until one works", unit="attempts")
 # %%
 def luck(good, decisions, tries):
     """The chance of a lucky try. good: right actions of 9; decisions: in a row."""
-    # solution
-    once = (good / 9) ** decisions
-    return 1 - (1 - once) ** tries
-    # end solution
+    # solution: the exercise's own
 
 
 check.luck(luck)
@@ -503,9 +498,7 @@ predict("5.8", "Three of three escape: could the true rate be one in two?", ["ye
 # %%
 def lowest_rate(agents):
     """The lower end of the exact 95 % interval of n out of n. agents: n ≥ 1. Returns a rate."""
-    # solution
-    return 0.025 ** (1 / agents)
-    # end solution
+    # solution: the exercise's own
 
 
 check.lowest_rate(lowest_rate)

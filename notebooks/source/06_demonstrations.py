@@ -88,11 +88,7 @@ def transitions(observations, actions, rewards, accident):
 
     terminated is 1 where an accident ended the episode there, else 0; accident 0 means none.
     """
-    # solution
-    terminated = np.zeros(len(actions))
-    terminated[-1] = accident > 0
-    return np.column_stack([observations[:-1], observations[1:], actions, rewards, terminated])
-    # end solution
+    # solution: the exercise's own
 
 
 check.transitions(transitions)
@@ -170,12 +166,7 @@ bc.show(charts.action_bars({"rule": shares}, title, "share of the decisions"))
 # %%
 def return_to_go(rewards, gamma):
     """G_t of each second, the last one's is its reward: rewards (T,), gamma in [0, 1] -> (T,)."""
-    # solution
-    togo = np.array(rewards, dtype=float)
-    for t in range(len(togo) - 2, -1, -1):
-        togo[t] += gamma * togo[t + 1]
-    return togo
-    # end solution
+    # solution: the exercise's own
 
 
 check.return_to_go(return_to_go)
@@ -249,9 +240,7 @@ rule_clones = cloning.clone(by_rule)
 # %%
 def agreement(pi, actions):
     """A share, a number: probabilities (n, actions), demonstrated actions (n,), NumPy arrays."""
-    # solution
-    return np.mean(pi.argmax(axis=1) == actions)
-    # end solution
+    # solution: the exercise's own
 
 
 check.agreement(agreement)
@@ -467,15 +456,7 @@ def dagger(rows, train, drive, rounds):
     rows: the rule's transitions, a tensor (n, row). First train on them alone; then, in each round,
     let the newest driver drive, label its transitions with the rule's actions, add them, train.
     """
-    # solution
-    drivers = [train(rows)]
-    for _ in range(rounds):
-        own = drive(drivers[-1]).clone()
-        own[:, ACTION] = own[:, RULE_ACTION]
-        rows = torch.cat([rows, own])
-        drivers.append(train(rows))
-    return drivers
-    # end solution
+    # solution: the exercise's own
 
 
 check.dagger(dagger)

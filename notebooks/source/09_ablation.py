@@ -103,11 +103,7 @@ bc.show(figures_ablation.who_escapes(study, methods))
 # %%
 def exact_interval(k, n):
     """The exact 95 % interval of a rate, from k of n: two whole numbers -> (2,), low and high."""
-    # solution
-    low = stats.beta.ppf(0.025, k, n - k + 1) if k > 0 else 0.0
-    high = stats.beta.ppf(0.975, k + 1, n - k) if k < n else 1.0
-    return np.array([low, high])
-    # end solution
+    # solution: the exercise's own
 
 
 check.exact_interval(exact_interval)
@@ -284,10 +280,7 @@ predict("9.3", "What changes most if one more agent crashes?", ["mean", "median"
 # %%
 def interquartile_mean(scores):
     """The mean without the lowest and the highest quarter: (agents,) -> a number."""
-    # solution
-    cut = len(scores) // 4
-    return np.sort(scores)[cut : len(scores) - cut].mean()
-    # end solution
+    # solution: the exercise's own
 
 
 check.interquartile_mean(interquartile_mean)
@@ -332,10 +325,7 @@ predict("9.4", "Half the length of the mean's 95 % interval", unit="of return")
 # %%
 def bootstrap_interval(scores, draws):
     """95 % interval of the mean: scores (n,), draws (resamples, n) whole numbers 0..n-1 -> (2,)."""
-    # solution
-    means = scores[draws].mean(axis=1)
-    return np.percentile(means, [2.5, 97.5])
-    # end solution
+    # solution: the exercise's own
 
 
 check.bootstrap_interval(bootstrap_interval)
@@ -390,10 +380,7 @@ predict("9.5", "How often the bootstrapped agent earns more", unit="%")
 # %%
 def chance_of_improvement(x, y):
     """P(X > Y), a tie counts half: scores (m,) and (n,) -> a number from 0 to 1."""
-    # solution
-    x, y = x[:, None], y[None, :]
-    return np.mean((x > y) + 0.5 * (x == y))
-    # end solution
+    # solution: the exercise's own
 
 
 check.chance_of_improvement(chance_of_improvement)

@@ -125,13 +125,7 @@ predict("13.2", "Q is wrong at accidents because of", names)
 # %%
 def end_error(q, actions, rewards, terminated):
     """Mean of Q(s, a) - r where terminated is 1, or 0. q: (batch, 9); the others (batch,)."""
-    # solution
-    taken = q[np.arange(len(actions)), actions]
-    ended = terminated > 0
-    if not ended.any():
-        return 0.0
-    return (taken[ended] - rewards[ended]).mean()
-    # end solution
+    # solution: the exercise's own
 
 
 check.end_error(end_error)
@@ -288,17 +282,7 @@ table(headings, rows)
 # %%
 def diagnose(agent):
     """The bug of an agent, "A" to "F": flipped_kl, no_end, sampled, no_stop, bonus_for_all, ..."""
-    # solution
-    bugs = {
-        "A": "flipped_kl",
-        "B": "sampled",
-        "C": "shifted_labels",
-        "D": "no_end",
-        "E": "bonus_for_all",
-        "F": "no_stop",
-    }
-    return bugs[agent]
-    # end solution
+    # solution: the exercise's own
 
 
 check.diagnose(diagnose)
@@ -325,9 +309,7 @@ check.diagnose(diagnose)
 # %%
 def fixed_target(reward, is_demonstration, bonus, terminated, next_value, gamma):
     """y, (batch,). is_demonstration, terminated: 0 or 1; bonus, gamma: floats."""
-    # solution
-    return reward + bonus * is_demonstration + gamma * (1 - terminated) * next_value
-    # end solution
+    # solution: the exercise's own
 
 
 check.fixed_target(fixed_target)
@@ -381,9 +363,7 @@ for name, slope in slopes.items():
 # %%
 def fixed_value(log_pi, q, alpha):
     """V(s), (batch,). log_pi, q: (batch, 9); alpha: a float."""
-    # solution
-    return (log_pi.exp() * (q - alpha * log_pi)).sum(-1)
-    # end solution
+    # solution: the exercise's own
 
 
 check.fixed_value(fixed_value)
@@ -404,12 +384,7 @@ check.fixed_value(fixed_value)
 # %%
 def fixed_loss(log_pi, q, log_rule, alpha, xi):
     """The actor's loss, a scalar. log_pi, q, log_rule: (batch, 9); alpha, xi: floats."""
-    # solution
-    pi = log_pi.exp()
-    kl = (pi * (log_pi - log_rule)).sum(-1)
-    value = (pi * (q.detach() - alpha * log_pi)).sum(-1) - xi * kl
-    return -value.mean()
-    # end solution
+    # solution: the exercise's own
 
 
 check.fixed_loss(fixed_loss)
@@ -431,12 +406,7 @@ check.fixed_loss(fixed_loss)
 # %%
 def unmasks(target):
     """True if target(reward, demo, bonus, end, next_value, gamma) is not y, False if it is."""
-    # solution
-    reward, value = np.array([1.0, -10.0, 0.5, -3.0]), np.array([4.0, 2.0, 7.0, -1.0])
-    demo, end = np.array([0.0, 0.0, 1.0, 1.0]), np.array([0.0, 1.0, 0.0, 1.0])
-    right = reward + 3.0 * demo + 0.5 * (1 - end) * value
-    return not np.allclose(target(reward, demo, 3.0, end, value, 0.5), right)
-    # end solution
+    # solution: the exercise's own
 
 
 check.unmasks(unmasks)
@@ -456,9 +426,7 @@ check.unmasks(unmasks)
 # %%
 def label_pairs(asked):
     """(μ(s), μ(s')) of each decision: whole numbers (T + 1,) -> (T, 2)."""
-    # solution
-    return np.stack([asked[:-1], asked[1:]], axis=-1)
-    # end solution
+    # solution: the exercise's own
 
 
 check.label_pairs(label_pairs)

@@ -128,12 +128,7 @@ predict("14.3", "Trap 2 is ahead of you by", unit="m")
 # %%
 def gap_ahead(cars, lane):
     """Bumper to bumper (m) to the next car ahead in a lane; np.inf for none. cars: (cars, 10)."""
-    # solution
-    others = cars[(cars[:, LANE] == lane) & (cars[:, X] > cars[EGO, X])]
-    if len(others) == 0:
-        return np.inf
-    return others[:, X].min() - cars[EGO, X] - 5
-    # end solution
+    # solution: the exercise's own
 
 
 check.gap_ahead(gap_ahead)
@@ -259,22 +254,7 @@ print("cars in the left lane, m ahead of you:", ", ".join(f"{x:.0f}" for x in le
 # %%
 def watchful_rule(cars, scenario):
     """One of the nine actions, for one road with a dense left lane. cars: (vehicles, 10)."""
-    # solution
-    lane, v = int(cars[EGO, LANE]), cars[EGO, SPEED]
-    gap, front = ahead(cars, lane, scenario)
-    if lane == 0:  # the free lane
-        return toward(cars, 15.0 if gap > 40 else min(15.0, front - 0.5), 0, scenario)
-    left_gap, left_front = ahead(cars, lane - 1, scenario)
-    behind = cars[(cars[:, LANE] == lane - 1) & (cars[:, X] <= cars[EGO, X])]
-    last = behind[behind[:, X].argmax()] if len(behind) else None
-    back, closing = (np.inf, 0.0) if last is None else (cars[EGO, X] - last[X] - 5, last[SPEED] - v)
-    room = left_gap > 4 + max(0.0, 2 * (v - left_front)) and back > 4 + max(0.0, 3 * closing)
-    arrived = cars[EGO, Y] - lane * scenario.road.lane_width < 0.5
-    speed = min(front, left_front, 14.0) - 1.5
-    if lane == 1:  # beside the queue: stay behind trap 2
-        speed = min(front - 0.5, 14.0) if gap > 12 else front - 1
-    return toward(cars, max(6.5, speed), lane - 1 if room and arrived else lane, scenario)
-    # end solution
+    # solution: the exercise's own
 
 
 check.watchful_rule(watchful_rule)
@@ -315,9 +295,7 @@ source("bootcourse.learn.demonstrations", "collect")
 # %%
 def next_labels(now, at_end, ended):
     """μ(s') of each road. now, at_end: (roads,) actions; ended: (roads,) bool. Returns (roads,)."""
-    # solution
-    return np.where(ended, at_end, now)
-    # end solution
+    # solution: the exercise's own
 
 
 check.next_labels(next_labels)
@@ -416,13 +394,7 @@ print(", ".join(f"with {n} seeds each one order in {orders[n]:,.0f}" for n in or
 # %%
 def verdict(alone, taught):
     """1, -1 or 0. alone, taught: what each agent scored (seeds,); more is better."""
-    # solution
-    if taught.min() > alone.max():
-        return 1
-    if taught.max() < alone.min():
-        return -1
-    return 0
-    # end solution
+    # solution: the exercise's own
 
 
 check.verdict(verdict)
@@ -445,13 +417,7 @@ check.verdict(verdict)
 # %%
 def holm(p):
     """The adjusted p-values, in the order of p: (tests,) -> (tests,)."""
-    # solution
-    order, m = np.argsort(p), len(p)
-    scaled = np.asarray(p)[order] * (m - np.arange(m))
-    adjusted = np.empty(m)
-    adjusted[order] = np.minimum(np.maximum.accumulate(scaled), 1)
-    return adjusted
-    # end solution
+    # solution: the exercise's own
 
 
 check.holm(holm)

@@ -1,18 +1,23 @@
 """A lesson's source, notebooks/source/NAME.py in percent format, as cells with a student's and a solved text.
 
 Lines between `# solution` and `# end solution` are the student's to write: the student gets `...` for
-them. A markdown cell tagged "instructor" goes to the instructor's page only.
+them. `# solution: the exercise's own` stands for the one that the exercise itself holds. A markdown cell tagged
+"instructor" goes to the instructor's page only.
 """
 
 import ast
+import inspect
 import re
 from dataclasses import dataclass
 from pathlib import Path
 
 import jupytext
 
+from bootcourse.lessons.exercises import registry
+
 NOTEBOOKS = Path(__file__).resolve().parent.parent.parent / "notebooks"
 BEGIN, END = "# solution", "# end solution"
+OWN = re.compile(rf"^( +){BEGIN}: the exercise's own$", re.M)
 NUMBER = re.compile(r"\{\{\s+(.+?)(?:\s+\|\s+([\w.,+%]+))?\s+\}\}", re.S)
 CLAIM = re.compile(r"\s*<!-- claim:\s+(.+?)\s+-->", re.S)
 
@@ -64,14 +69,38 @@ def read(path: Path) -> list[Cell]:
     """All cells of a source. Raises ValueError where the marks of a solution do not come in pairs."""
     cells = []
     for cell in jupytext.read(path).cells:
-        both = (without_solution(cell.source), without_marks(cell.source))
-        both = both if cell.cell_type == "code" else (cell.source, cell.source)
+        both = cell.source, cell.source
+        if cell.cell_type == "code":
+            text = with_solutions(cell.source)
+            both = without_solution(text), without_marks(text)
         cells.append(Cell(cell.cell_type, *both, dict(cell.metadata)))
     return cells
 
 
 def title(cells: list[Cell]) -> str:
     return next(found[1] for cell in cells if (found := re.search(r"^# (.+)", cell.text, re.M)))
+
+
+def with_solutions(text: str) -> str:
+    """A cell with the exercise's own solution, between marks, where the text asks for it."""
+
+    def written_out(mark: re.Match) -> str:
+        name = re.search(r"^check\.(\w+)\(", text, re.M)[1]
+        function = re.findall(r"def (\w+)", text[: mark.start()])[-1]  # the exercise's, or a method of its class
+        return f"{mark[1]}{BEGIN}\n{own_solution(name, function)}\n{mark[1]}{END}"
+
+    return OWN.sub(written_out, text)
+
+
+def own_solution(name: str, function: str) -> str:
+    """The body, without its docstring, of an exercise's solution; of a class, that of the method `function`."""
+    text = inspect.getsource(registry()[name].solution)
+    node = ast.parse(text).body[0]
+    if isinstance(node, ast.ClassDef):
+        node = next(each for each in node.body if getattr(each, "name", "") == function)
+    first = node.body[0]
+    before = first.end_lineno if ast.get_docstring(node) is not None else first.lineno - 1
+    return "\n".join(text.splitlines()[before : node.end_lineno])
 
 
 def without_solution(text: str) -> str:
