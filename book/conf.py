@@ -4,18 +4,21 @@ import dataclasses
 import inspect
 import re
 
-from latex2mathml.converter import convert
+from tools.course.mathematics import mathml
 
 project = html_title = "bootcourse"
 extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx_design"]
 html_theme = "furo"
 exclude_patterns = ["front/*"]  # parts of the front page
-html_static_path = ["style.css"]
+html_static_path = ["style.css", "wide.js"]
 html_css_files = ["style.css"]
+html_js_files = ["wide.js"]
+html_extra_path = ["whole"]  # pages that are whole already: the slides
 html_show_sphinx = html_show_copyright = html_show_sourcelink = html_copy_source = False
 html_math_renderer = "mathml"
 nb_execution_mode = "off"  # the notebooks are shown as they were executed
 nb_render_markdown_format = "gfm"  # their outputs have tables
+nb_code_prompt_show, nb_code_prompt_hide = "Show the code that draws this", "Hide the code"
 myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 add_module_names = False
@@ -26,12 +29,6 @@ python_use_unqualified_type_names = True
 python_maximum_signature_line_length = 88  # a longer one gets a line for each argument
 suppress_warnings = ["myst.header"]  # a printed table may begin with a heading of its own
 pygments_style, pygments_dark_style = "friendly", "monokai"
-
-
-def mathml(latex, display):
-    """An equation as MathML, which every browser of today draws by itself: no script, no network."""
-    text = convert(latex, display=display)
-    return re.sub(r"(<mi>(?:log|exp|max|min|sin)</mi>)(?!<mo)", r'\1<mspace width="0.17em"/>', text)  # log x, not logx
 
 
 def inline_math(self, node):

@@ -13,6 +13,17 @@ from tools import book
 from tools.course.source import NOTEBOOKS
 
 LESSONS = sorted(path.stem for path in NOTEBOOKS.glob("*.ipynb"))
+# What sticks out of the screen, and what scrolls sideways without a line that says so. Code is known to scroll.
+TOO_WIDE = """() => {
+  const scrolls = e => ["auto", "scroll"].includes(getComputedStyle(e).overflowX);
+  const inside = e => e.closest(".toc-drawer, .sidebar-drawer")
+    || (e !== document.body && (scrolls(e) || inside(e.parentElement)));
+  const all = [...document.body.querySelectorAll("*")], name = e => `${e.tagName}.${e.className}`;
+  const out = all.filter(e => e.getBoundingClientRect().right > innerWidth + 1 && !inside(e));
+  const silent = all.filter(e => e.tagName !== "PRE" && scrolls(e) && e.clientWidth && e.scrollWidth > e.clientWidth + 1
+    && !getComputedStyle(e, "::before").content.includes("scroll"));
+  return [...out, ...silent].map(name);
+}"""
 
 
 @pytest.fixture(scope="module")
@@ -46,7 +57,9 @@ def test_every_lesson_and_every_page_to_look_things_up_is_in_it(made):
         "replays",
         "checks",
         "report/report",
+        "teaching/slides",
     } <= pages
+    assert {f"slides/{name}" for name in LESSONS} <= pages
 
 
 def test_the_student_s_edition_has_no_instructor_s_page_and_does_not_speak_of_one(tmp_path, monkeypatch):
@@ -113,6 +126,36 @@ def test_a_page_shows_its_pictures_its_equations_and_its_tables(made, new_page, 
     assert page.errors == [] and all(url.startswith(("file:", "data:", "blob:", "about:")) for url in page.requests)
     if name.startswith("lessons/"):
         assert pictures, "a lesson without a picture"
+    page.page.close()
+
+
+@needs_browser
+@pytest.mark.parametrize("theme", ["light", "dark"])
+@pytest.mark.parametrize(
+    "name", ["index", "cloud", "report/report", "teaching/plans", "teaching/exam", "lessons/01_the_trap"]
+)
+def test_on_a_phone_what_is_wider_than_the_screen_scrolls_inside_itself_and_says_so(made, new_page, name, theme):
+    page = new_page()
+    page.page.set_viewport_size({"width": 390, "height": 844})
+    page.page.emulate_media(color_scheme=theme)
+    page.page.goto((made / f"{name}.html").as_uri())
+    assert page.page.evaluate(TOO_WIDE) == []
+    assert page.page.evaluate("document.documentElement.scrollWidth") == 390
+    figure = page.page.locator(".cell_output img.bc-figure").first
+    if name.startswith("lessons/"):
+        dark = "invert" in figure.evaluate("image => getComputedStyle(image).filter")
+        assert dark == (theme == "dark") and page.page.locator(".bc-scrolls").count() > 3
+    page.page.close()
+
+
+@needs_browser
+def test_a_cell_that_only_draws_is_folded_and_a_click_shows_its_code(made, new_page):
+    page = new_page()
+    page.page.goto((made / "lessons/04_discrete_sac.html").as_uri())
+    fold = page.page.locator("details.hide").first
+    assert not fold.locator("pre").is_visible() and "Show the code" in fold.inner_text()
+    fold.locator("summary").click()
+    assert "bc.show(" in fold.locator("pre").inner_text()
     page.page.close()
 
 

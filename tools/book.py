@@ -20,8 +20,9 @@ SOLVED = re.compile(r"\[([^]]*)\]\(\.\./solved/([^)]*)\)")
 
 def gather(to: Path, edition: str = "student") -> None:
     """Put all that the book is made of into the folder `to`. edition: student, or instructor with the solutions."""
-    from tools.course import front_page
+    from tools.course import front_page, slides
     from tools.course.claims import claims_page, fill_in
+    from tools.course.folding import folded
 
     shutil.rmtree(to, ignore_errors=True)
     shutil.copytree(ROOT / "book", to)
@@ -29,6 +30,7 @@ def gather(to: Path, edition: str = "student") -> None:
     shutil.copytree(ROOT / "assets/readme", to / "pictures")
     shutil.copy(ROOT / "assets/checks.md", to)
     front_page.fill(to / "front")
+    slides.fill(to)
     if edition != "instructor":
         (to / "teaching/exam.md").unlink()
     for page, fill in ((to / "index.md", str), (to / "teaching/plans.md", fill_in)):
@@ -36,7 +38,7 @@ def gather(to: Path, edition: str = "student") -> None:
         page.write_text(fill(text), encoding="utf-8")
     (to / "lessons/instructor").mkdir(parents=True)
     for notebook in sorted((ROOT / "notebooks").glob("*.ipynb")):
-        shutil.copy(notebook, to / "lessons")
+        (to / "lessons" / notebook.name).write_text(folded(notebook.read_text(encoding="utf-8")), encoding="utf-8")
         if edition != "instructor":
             continue
         page = (ROOT / "notebooks/instructor" / notebook.name).with_suffix(".md")
