@@ -51,8 +51,8 @@ def write_bytes(path: Path, data: bytes) -> None:
             os.fsync(file.fileno())
         temporary.chmod(0o666 & ~_umask())
         temporary.replace(path)
-    except OSError as error:
-        reason = error.strerror or error
+    except (OSError, ValueError) as error:  # ValueError: a null character in the name
+        reason = getattr(error, "strerror", None) or error
         raise BootcourseError(f"Cannot write {path}: {reason}. Free some space or choose another folder.") from None
     finally:  # also after an interrupt; after the renaming there is no temporary file
         if temporary is not None:
@@ -107,6 +107,8 @@ def open_regular(path: Path, largest: float = math.inf):
         if found.st_size > largest:
             raise BootcourseError(f"{path} has {found.st_size:,} bytes, at most {largest:,} can be right: {COPY}.")
         return path.open("rb")
+    except BootcourseError:
+        raise
     except (FileNotFoundError, NotADirectoryError):
         raise BootcourseError(f"{path} is not there: check the name, or {COPY}.") from None
     except (OSError, ValueError) as error:  # ValueError: a name that no file can have

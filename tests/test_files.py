@@ -39,7 +39,7 @@ def test_what_is_not_a_file_is_refused_at_once(read, tmp_path):
 def test_a_device_and_a_pipe_are_refused_at_once(read, tmp_path):
     os.mkfifo(tmp_path / "pipe")
     assert "is a device, not a file" in refusal(read, tmp_path / "pipe")
-    assert "is a device, not a file" in refusal(read, "/dev/zero")
+    assert refusal(read, "/dev/zero").startswith("/dev/zero is a device, not a file")
 
 
 def packed(path, members: dict[str, bytes], compression: int = zipfile.ZIP_DEFLATED):

@@ -187,9 +187,15 @@ def test_a_drive_is_saved_and_never_over_another(tmp_path):
     assert Rollout.load(tmp_path / "mine.npz").actions.tolist() == [IDLE]
     panel.save.click()
     assert "exists already" in words(panel)
-    panel.path.value = " "
-    panel.save.click()
-    assert "Name a file" in words(panel) and len(list(tmp_path.iterdir())) == 1
+    for none in (" ", ".", "..", "/"):
+        panel.path.value = none
+        panel.save.click()
+        assert "Name a file" in words(panel), none
+    for impossible in ("with\0null", "x" * 300, "~nobody-of-that-name/\0"):
+        panel.path.value = impossible
+        panel.save.click()
+        assert "Cannot write" in words(panel)
+    assert len(list(tmp_path.iterdir())) == 1
 
 
 def test_drives_that_are_kept_bootstrap_an_agent():

@@ -7,6 +7,7 @@
 `episodes/interactive.py` drives, `cockpit.py` draws, `pad.py` reads the keys.
 """
 
+import os
 import threading
 import time
 from collections.abc import Callable
@@ -203,11 +204,11 @@ class DrivePanel(Panel):
     def _save(self) -> None:
         with self._lock:
             rollout = self.drive.rollout()
-        if not self.path.value.strip():
+        path = Path(os.path.expanduser(self.path.value.strip()))
+        if path.name in ("", ".."):
             raise BootcourseError("Name a file to save to, such as drives/mine.npz.")
-        path = Path(self.path.value.strip()).expanduser()
         path = path if path.suffix == ".npz" else path.with_name(path.name + ".npz")
-        if path.exists():
+        if os.path.lexists(path):
             raise BootcourseError(f"{path} exists already: choose another name.")
         self.say(f"Saved to {rollout.save(path).resolve()}.")
 
