@@ -30,5 +30,5 @@ def whole(value, called: str, high: int = 2**63 - 1, low: int = 0) -> int:
     except TypeError:
         number = None
     if number is None or not low <= number <= high:
-        raise BootcourseError(f"{called} = {value!r:.80}: give a whole number from {low} to {high}.")
+        raise BootcourseError(f"{called} = {value!r:.80}: give a whole number from {low} to {high:,}.")
     return number

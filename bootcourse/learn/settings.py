@@ -194,5 +194,5 @@ def stored_settings(stored: dict) -> Settings:
 
 def with_seeds(settings: Settings, seeds: int, first: int = 0) -> list[Settings]:
     """The same settings with the seeds first, first + 1, ...: one for each agent of a `Training`."""
-    first, seeds = whole(first, "first", MAX_SEED), whole(seeds, "seeds", MAX_SEED)
+    first, seeds = whole(first, "first seed", MAX_SEED), whole(seeds, "seeds", MAX_SEED)
     return [replace(settings, seed=seed) for seed in range(first, first + seeds)]
