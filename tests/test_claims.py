@@ -19,6 +19,7 @@ CLAIMED = (
     "03_the_rule",
     "04_discrete_sac",
     "05_the_barrier",
+    "06_demonstrations",
     "10_imitation",
     "11_offline_learning",
     "12_exploration",

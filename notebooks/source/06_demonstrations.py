@@ -41,7 +41,7 @@ from bootcourse.lessons import (
 # %% [markdown]
 # ## Look first
 #
-# Here is where two demonstrators have been in their first 30 seconds, on the same 60 roads. One is
+# Here is where two demonstrators were in their first 30 seconds, on the same 60 roads. One is
 # the rule. The other is the stochastic rule with p = {{ RULE_P }}: one decision in ten is drawn
 # from the other eight actions.
 # <!-- claim: round(1 / (1 - RULE_P)) == 10 -->
@@ -54,9 +54,8 @@ title = "The rule drives along a narrow path, the unsure rule strays from it"
 bc.show(figures.where_they_were(driven, seconds=30, title=title))
 
 # %% [markdown]
-# > **Predict.** You learn to drive from one of these two by watching alone. Which one do you
-# > choose: the rule, which has no accident in these drives, or the stochastic rule, which often
-# > leaves the road?
+# > **Predict.** You learn to drive by watching one of these two. Which one do you choose: the rule,
+# > which has no accident in these drives, or the stochastic rule, which often leaves the road?
 
 # %%
 predict("6.1", "From whose drives do you learn?", ["the rule's", "the stochastic rule's"])
@@ -66,7 +65,7 @@ predict("6.1", "From whose drives do you learn?", ["the rule's", "the stochastic
 # <!-- claim: all(drive.accident == 0 for drive in rule_drives()) -->
 
 # %% [markdown]
-# ## Round 1: collect them
+# ## Round 1: what does a demonstration consist of?
 #
 # A **demonstration** is somebody's drive, kept as **transitions**. A transition is one decision:
 # what the driver saw, what it did, what it was paid, what it saw next, and whether an accident
@@ -95,7 +94,8 @@ check.transitions(transitions)
 
 # %% [markdown]
 # The library's rows hold two more numbers: what the rule would have done in s and in s′. Now
-# collect {{ SETTINGS.demonstration_episodes }} episodes from each demonstrator, as the paper does.
+# collect {{ SETTINGS.demonstration_episodes }} episodes from each demonstrator, as many as the
+# paper has. (Its text lets the stochastic rule drive them.)
 #
 # > **Predict.** 200 episodes of at most 150 decisions. How many transitions does the rule give,
 # > and how many the stochastic rule?
@@ -131,10 +131,10 @@ print(f"the last one: return {mine[-1].rewards.sum():.1f}, success {mine[-1].suc
 
 # %% [markdown] tags=["instructor"] minutes=6
 # With a class: everybody keeps one drive that escapes, and you pool them. Human drives differ from
-# the rule's in one way that matters in round 5: people make mistakes and correct them.
+# the rule's in one way that matters in Round 5: people make mistakes and correct them.
 
 # %% [markdown]
-# ## Round 2: what is in them?
+# ## Round 2: what is in the demonstrations?
 #
 # > **Predict.** What share of the rule's decisions is "keep straight"?
 
@@ -148,11 +148,11 @@ most = int(shares.argmax())
 title = f"{shares[most]:.0%} of the rule's decisions are '{bc.ACTION_NAMES[most]}'"
 bc.show(charts.action_bars({"rule": shares}, title, "share of the decisions"))
 # %% [markdown]
-# **See.** Each of the nine actions occurs. The rule needs {{ way_out()[0] | .0f }} s to get out
-# from between the traps into the free lane, and {{ way_out()[1] | .0f }} s to be ahead of trap 1
-# (medians of the 60 drives in the figure at the top). So the way to the free lane is
+# **See.** Each of the nine actions occurs. The rule needs {{ way_out()[0] | .0f }} s to get from
+# behind the traps into the free lane, and {{ way_out()[1] | .0f }} s to be ahead of trap 1 (medians
+# of the 60 drives in the figure at the top). So the way to the free lane is
 # {{ 100 * way_out()[0] / 150 | .0f }} % of a demonstration, and a loss that averages over the
-# decisions gives it that little weight.
+# decisions gives it a weight of as much.
 #
 # What is a demonstration worth, and from which second on? The paper's learners discount: a reward
 # $t$ seconds later counts $\gamma^t$, with γ = {{ SETTINGS.gamma }}. From second t on a drive is
@@ -160,7 +160,7 @@ bc.show(charts.action_bars({"rule": shares}, title, "share of the decisions"))
 #
 # $$ G_t = r_t + \gamma\, G_{t+1} $$
 #
-# **Exercise 6.2 (5 min, ●○○).** Write it for every second of a drive. Where do you have to begin?
+# **Exercise 6.2 (5 min, ●○○).** Write it for each second of a drive. Where do you have to begin?
 
 
 # %%
@@ -193,14 +193,14 @@ table(["γ", "doing nothing", "the rule"], rows, below=below)
 # %% [markdown]
 # **Explain.** A learner with γ = {{ SETTINGS.gamma }} looks about five seconds ahead
 # (1 / (1 − γ) = {{ 1 / (1 - SETTINGS.gamma) | .0f }}), and in its first five seconds the rule
-# brakes. Judged by the discounted reward, this escape is worth less at its start than doing
-# nothing, so such a learner has no reason to copy it. Lesson 8 pays a bonus for the demonstrated
-# actions. Here we leave the reward out and copy the actions.
+# brakes. In discounted reward this escape is worth less at its start than doing nothing, so a
+# learner that goes by the reward would rather do nothing. Lesson 8 pays a bonus for the
+# demonstrated actions. Here we leave the reward out and copy the actions.
 # <!-- claim: round(1 / (1 - SETTINGS.gamma)) == 5 -->
 # <!-- claim: by_rule().states[10, EGO, SPEED] < by_rule().states[0, EGO, SPEED] -->
 
 # %% [markdown]
-# ## Round 3: clone it
+# ## Round 3: how well does a clone drive?
 #
 # **Behaviour cloning** (BC) is supervised learning: the input is a state, the right answer is the
 # action that the demonstrator took there. The loss is the mean of $-\log \pi(a_E | s)$, with $a_E$
@@ -270,7 +270,7 @@ shown({f"clone, seed {i}": three for i, three in enumerate(measured["clones of t
 # %% [markdown]
 # **See.** The four clones have the same data, the same loss, and different seeds. Your numbers will
 # differ from another machine's. Compare the columns: by how much do the agreements of the four
-# differ, and by how much their accidents? What does the agreement tell about how well a clone
+# differ, and by how much do their accidents? Can you tell from its agreement how well a clone
 # drives?
 
 # %% [markdown] tags=["instructor"] minutes=6
@@ -281,7 +281,7 @@ shown({f"clone, seed {i}": three for i, three in enumerate(measured["clones of t
 # <!-- claim: escaped('bc') == len(of('bc')) -->
 
 # %% [markdown]
-# ## Round 4: why it is not enough
+# ## Round 4: what follows an error?
 #
 # A clone errs with probability ε at a decision as long as it is in the demonstrator's states. How
 # much can that cost over a whole drive?
@@ -302,14 +302,15 @@ predict("6.7", "The worst case grows by a factor of", ["less than 2", "2", "4"])
 #
 # $$ \sum_{t=1}^{T} \epsilon \, (T - t + 1) = \epsilon \, \frac{T (T + 1)}{2} $$
 #
-# which grows with $T^2$: about four times as much for twice the length. A driver that finds back
-# within $k$ decisions pays at most $k$ for each error, together $\epsilon k T$. With ε = 0.01,
-# T = 150 and k = 5 the two are {{ 0.01 * 150 * 151 / 2 | .0f }} and {{ 0.01 * 5 * 150 | .1f }}.
+# which grows with $T^2$: about four times as much for twice the length. A driver that is back in
+# the demonstrator's states within $k$ decisions makes at most $k$ wrong ones for each error,
+# together $\epsilon k T$. With ε = 0.01, T = 150 and k = 5 the two bounds are
+# {{ 0.01 * 150 * 151 / 2 | .0f }} and {{ 0.01 * 5 * 150 | .1f }} wrong decisions.
 #
 # </details>
 #
-# Such errors that lead to more errors are called **compounding errors**. The number that decides is
-# not ε but what comes *after* an error. Does it happen here?
+# Errors that lead to more errors are called **compounding errors**. How well a clone drives depends
+# less on ε than on what comes *after* an error. Do errors compound here?
 #
 # > **Predict.** Take the distance from what a driver sees to the nearest observation in the
 # > demonstrations. For the rule on other roads it is small. How does it change for a clone, from
@@ -361,19 +362,19 @@ for agent in rule_clones:
 table(["seed", "agreement, %, in states of", *(f"{t} s" for t in times)], rows)
 
 # %% [markdown]
-# **Explain.** Read the two rows of a clone from left to right. What is said here was seen in our
-# runs; yours will differ in the numbers.
+# **Explain.** Read the two rows of a clone from left to right. We describe our own runs; yours will
+# differ.
 #
 # - **At 2 s** the clone has done the same as the rule so far, with few exceptions, so it is in the
-#   rule's states. It agrees on few roads nevertheless: this is an error on the demonstrator's *own*
+#   rule's states. It agrees on few roads nevertheless: this is an error in the *demonstrator's*
 #   states. The decision is a close one. On {{ 100 * rule_keeps_left(2) | .0f }} % of the 60 roads
 #   the rule begins its lane change here, on most others one second later, and these clones choose
 #   the earlier second too often.
 # <!-- claim: 0.1 < rule_keeps_left(2) < 0.5 and rule_keeps_left(3) > 0.9 -->
-# - **From 5 s on** the rows part: the clone agrees with the rule far less often on its own states
-#   than on the rule's. Its states are now far from the demonstrated ones, as the figure shows. An
-#   error brings a clone to such states, it errs more often there, and that brings it further away.
-#   The errors compound (Ross and Bagnell 2010).
+# - **From 5 s on** the two rows differ: the clone agrees with the rule far less often in its own
+#   states than in the rule's. Its states are now far from the demonstrated ones, as the figure
+#   shows. An error brings a clone to such states, it errs more often there, and that brings it
+#   further away. The errors compound (Ross and Bagnell 2010).
 # - **And yet these clones escape in most of their drives.** Agreement counts each difference as an
 #   error, also one that does little harm, such as keeping the speed where the rule accelerates. A
 #   clone of the study agrees with the rule, after 3 s on its own states, on
@@ -385,7 +386,7 @@ table(["seed", "agreement, %, in states of", *(f"{t} s" for t in times)], rows)
 # clone is not.
 
 # %% [markdown]
-# ## Round 5: worse drives, better demonstrations
+# ## Round 5: whose drives teach more?
 #
 # The stochastic rule often leaves the rule's path, and its next decisions *correct* that: its data
 # show what to do beside the path. But one of its actions in ten is not the rule's. A third data set
@@ -411,11 +412,11 @@ bc.show(figures.clones(measured, title))
 shown({f"{name} (mean of 4)": values.mean(axis=0) for name, values in measured.items()})
 
 # %% [markdown]
-# **Explain.** The stochastic rule gave less than half as many rows, and most of its drives end
-# beside the road. Do its clones drive worse for it? In our runs they escaped more often and had
-# fewer accidents than the clones of the rule, while they agreed less with their data. A likely
-# reason: these data **cover** more states, and they show how to return to the path. To disturb the
-# teacher on purpose is known as DART.
+# **Explain.** The stochastic rule gave less than half as many rows, and most of its drives end in
+# an accident. In our runs its clones escaped more often and had fewer accidents than the clones of
+# the rule, while they agreed less with their data. (Yours will differ.) A likely reason: these data
+# **cover** more states, and they show how to return to the path. To disturb the teacher on purpose
+# is a method of its own, DART.
 #
 # How much coverage matters depends on the budget. The ten clones of the study learned from drives
 # of the rule alone, with far more updates: {{ escaped('bc') }} of 10 escape, and they have an
@@ -423,13 +424,13 @@ shown({f"{name} (mean of 4)": values.mean(axis=0) for name, values in measured.i
 # roads. Try `cloning.clone(by_rule, updates=12_000)`, about half a minute, and measure it.
 # <!-- claim: len(of('bc')) == 10 and escaped('bc') == 10 and accidents('bc') < 0.01 -->
 #
-# ## Round 6: the clone drives, the rule labels
+# ## Round 6: what if the rule labels the clone's own states?
 #
 # The stochastic rule strays from the path at random. The states that count are those in which *your
-# clone* ends up. So let the clone drive, ask the rule at each of its states what it would have
-# done, add these labelled states to the data, and train again. Repeat this for some rounds. The
-# method is called **DAgger**, for data aggregation (Ross, Gordon and Bagnell). It needs a teacher
-# who answers in any state: a rule controller does, a recorded drive does not.
+# clone* ends up. So let the clone drive, ask the rule in each of the clone's states what it would
+# have done there, add these labelled states to the data, and train again. Repeat this for some
+# rounds. The method is called **DAgger**, for data aggregation (Ross, Gordon and Bagnell). It needs
+# a teacher that answers in any state, as a rule controller does. A recorded drive does not.
 #
 # > **Predict.** You begin with 20 drives of the rule instead of 200. In each of three rounds the
 # > newest clone drives 20 episodes, and the rule labels them. Compared with the clones of 200
@@ -474,20 +475,20 @@ rounds = cloning.measure(drivers, few)
 shown({f"after {20 * i} drives of its own": three for i, three in enumerate(rounds)})
 
 # %% [markdown]
-# **Explain.** The first column is the agreement on the rule's 20 drives, so it can fall while the
-# clone drives better: the network now serves other states, too. Compare the last row with the
-# clones of 200 drives in round 3. There were fewer labels and as many updates. What differs is
-# *where* the labels are.
+# **Explain.** The first column is the agreement on the rule's 20 drives. It can fall while the
+# clone drives better, since the same network now has to be right in other states, too. Compare the
+# last row with the clones of 200 drives in Round 3. They had more labels and as many updates. What
+# differs is *where* the labels are.
 #
-# The cloning loss contains no reward, with or without DAgger: it asks a clone to be like its
-# teacher and does not ask it to be better. An agent that is to drive better than the rule has to
+# The reward does not enter the cloning loss, with or without DAgger: the loss asks a clone to be
+# like its teacher, and not to be better. An agent that is to drive better than the rule has to
 # learn from what its actions lead to, with the demonstrations as a start: lesson 8.
 
 # %% [markdown] tags=["instructor"] minutes=8
 # Ask what DAgger costs: here a label is free, with a human teacher each one is work, and somebody
-# must let a bad driver drive. Then ask why the method trains on *all* rows and not on the newest:
-# otherwise a clone that has learned to return to the path no longer visits the states beside it,
-# and forgets what to do there.
+# must let a bad driver drive. Then ask why the method keeps the old rows beside the newest: a clone
+# that has learned to return to the path seldom visits the states beside it, and trained on its
+# newest rows alone it could forget what to do there.
 
 # %% [markdown]
 # ## What you now know
@@ -497,19 +498,19 @@ shown({f"after {20 * i} drives of its own": three for i, three in enumerate(roun
 # 3. With γ = 0.8 the rule's escape on road 10 is worth *less* at its start than doing nothing.
 # <!-- claim: discounted(by_rule(), 0.8) < discounted(idle(), 0.8) -->
 # 4. A clone is trained on the teacher's states and drives in its own, so its errors can compound.
-# 5. With few updates, the states that the data cover can matter more than how well they were
-#    driven; a longer training closes most of the gap.
+# 5. With few updates, the states that the data cover can matter more than how well the demonstrator
+#    drove. With many updates, the study's ten clones of the rule itself escape.
+# <!-- claim: escaped('bc') == len(of('bc')) == 10 -->
 # 6. DAgger asks the teacher for labels in the clone's own states.
 #
 # **Three questions to think about**
-# - The rule reads the true state of all cars, the clone 26 numbers. Can two different states of
-#   the road look the same to the clone, although the rule decides differently in them?
+# - The rule reads the true places and speeds of the cars, the clone 26 numbers. Can two different
+#   states of the road look the same to the clone, although the rule decides differently in them?
 # - The teacher is a person, who watches and says "left now". What becomes hard in DAgger?
 # - A demonstrator that crashes at the end of each drive: which of its rows would you keep?
 #
-# **Read on**: Pomerleau, *ALVINN* (1989), the first clone that drove; Ross, Gordon and Bagnell,
-# *A Reduction of Imitation Learning and Structured Prediction to No-Regret Online Learning*
-# (arXiv 1011.0686), which is DAgger; Laskey et al., *DART* (arXiv 1703.09327). Next:
+# **Read on**: Pomerleau, *ALVINN* (1989), an early clone that drove; Ross, Gordon and Bagnell on
+# *DAgger* (arXiv 1011.0686); Laskey et al., *DART* (arXiv 1703.09327). Next:
 # [the soft constraint](07_soft_constraint.ipynb).
 
 # %%
@@ -533,13 +534,14 @@ compare_predictions(
 # %% [markdown] tags=["instructor"] minutes=6
 # **Model answers.**
 #
-# - *Two states that look the same?* Yes: the clone sees the four nearest cars within 200 m, the
-#   rule all of them, with their lanes and exact positions, and it remembers nothing either. A fifth
-#   car in the target lane is invisible to the clone. Then the best clone gives each action its
-#   frequency, and cannot agree always.
+# - *Two states that look the same?* Yes: the clone sees the four nearest cars within
+#   {{ DEFAULT.sight.distance }} m, and the rule reads the place and speed of each of the
+#   {{ DEFAULT.vehicles }}. A fifth car in the target lane is invisible to the clone. In such states
+#   the best clone gives each action its frequency in the data, and disagrees on the rarer ones.
+# <!-- claim: DEFAULT.sight.neighbours == 4 < DEFAULT.vehicles - 1 -->
 # - *A person as the teacher?* A person corrects what happens and does not answer a question about a
 #   state: labels come late by a reaction time, and without the feedback of one's own steering they
 #   get worse. That is why variants let the person take over the wheel for a while.
 # - *A demonstrator that crashes?* Keep the rows that lead to good states, drop the last seconds.
-#   How many seconds? Until a driver that you trust could still have avoided the accident; testing
-#   that is an exercise for lesson 13.
+#   How many seconds? Go back to a state from which a driver that you trust avoids the accident.
+#   That can be tested: start the rule in these states.
