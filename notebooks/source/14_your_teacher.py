@@ -360,9 +360,10 @@ bc.show(charts.many(curves, title, "updates", "escapes, % of the last 30 episode
 # <!-- claim: student_escapes('alone') == 1 and student_escapes('racer') == 5 -->
 #
 # Compare two columns of the racer: with its most probable action a student may escape on few roads,
-# and with *drawn* actions on nearly all. A little chance probably carries it over a place where it
-# is undecided. A table with one of the two columns would hide that. And look at the return: the
-# racer's students earn less than the agents that learned alone, and have an accident in {{ 100 *
+# and with *drawn* actions each of the ten escapes on {{ 100 * students('racer')['drawn'].min() |
+# .0f }} % or more. A little chance probably carries it over a place where it is undecided. A table
+# with one of the two columns would hide that. And look at the return: the racer's students earn
+# less than the agents that learned alone, and have an accident in {{ 100 *
 # students('racer')['accident'].mean() | .0f }} % of the drives.
 # <!-- claim: students('racer')['drawn'].min() > 0.8 and
 #   np.sort(students('racer')['success'])[3] < 0.3 -->
@@ -486,7 +487,8 @@ table(headings, rows)
 # - **A safe one that stays.** All ten students of `timid` do what it does in each second, earn what
 #   doing nothing earns, and have no accident.
 # <!-- claim: (students('timid')['alike'] > 0.99).all() and
-#   (students('timid')['accident'] == 0).all() -->
+#   (students('timid')['accident'] == 0).all() and np.allclose(students('timid')['returns'],
+#   idle().rewards.sum()) -->
 # - **A reckless one** leads into an accident within seconds, at {{ DEFAULT.reward.accident }} each
 #   time. Its students' episodes are short, and β counts episodes: it has fallen to 0 in all ten.
 #   The KL is what is left of the teacher. Nine of the ten crash in nearly every test drive.
