@@ -20,6 +20,7 @@ CLAIMED = (
     "04_discrete_sac",
     "05_the_barrier",
     "06_demonstrations",
+    "07_soft_constraint",
     "10_imitation",
     "11_offline_learning",
     "12_exploration",

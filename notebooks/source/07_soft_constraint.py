@@ -34,8 +34,8 @@ from bootcourse.lessons import charts, check, compare_predictions, own_code, pre
 #
 # An agent that has learned nothing yet drives, and you see what the rule would do. Each row is
 # one of the nine actions. The first bar is the agent's own probability, π. The second is the
-# rule's, π̃ ("pi tilde"): nearly all on one action. The third is a compromise of the two. Move the
-# numbers and watch the third.
+# rule's, π̃ ("pi tilde"), which is nearly sure of one action. The third is a compromise of the two.
+# Move the numbers and watch the third.
 
 # %%
 ROAD = 10
@@ -59,13 +59,14 @@ predict(
 #
 # The agents of this lesson train with the parts that you wrote in lesson 4, if they have passed
 # their checks there. The next cell looks for them. It runs the files in the folder `answers`, which
-# hold your own code; no other cell does that.
+# hold your own code; no other cell of this lesson does that.
+# <!-- claim: len(re.findall('\nown_code.load()', code_of('07_soft_constraint'))) == 1 -->
 
 # %%
 own_code.load()
 
 # %% [markdown]
-# ## Round 1: what it costs to ignore the rule
+# ## Round 1: what does it cost to ignore the rule?
 #
 # The rule names one action, μ(s). An agent has a probability for each action. To compare the two,
 # we make the rule random, too: it takes its own action with probability $p$, and the other eight
@@ -90,8 +91,8 @@ for p in (0.5, 0.9, 0.99, 0.999):
 
 # %% [markdown]
 # **See.** From p = {{ RULE_P }} on, the price of the other actions grows by $\log 10$, about 2.3
-# nats, each time. The rule names the same action in each line, so it has not become better. Only p
-# has changed, and with it what it costs to do something else.
+# nats, from line to line. The rule names the same action in each line, so it has not become better.
+# What has changed is p, and with it the price of doing something else.
 #
 # **Exercise 7.1 (5 min, ●○○).** Write $\log\tilde\pi$ for a batch of states.
 
@@ -105,14 +106,14 @@ def log_stochastic_rule(rule_action, p):
 check.log_stochastic_rule(log_stochastic_rule)
 
 # %% [markdown]
-# ## Round 2: from one action to a policy
+# ## Round 2: what does a whole policy pay?
 #
-# A policy has a probability for each action. What does a whole policy pay? The mean price of its
-# actions, minus its entropy. That is the **Kullback-Leibler divergence** (KL) from π̃:
+# A policy has a probability for each action. It pays the mean price of its actions, minus its
+# entropy. That is the **Kullback-Leibler divergence** (KL) from π̃:
 #
 # $$ D_\mathrm{KL}(\pi \,\|\, \tilde\pi) = \sum_a \pi(a|s) \log \frac{\pi(a|s)}{\tilde\pi(a|s)} $$
 #
-# It is 0 where the two agree in every action, and positive everywhere else.
+# It is 0 if the two policies are equal, and positive if they differ.
 # <!-- claim: bool((lambda a, p: bootstrap.kl_to_rule(bootstrap.log_stochastic_rule(a, p), a,
 #   p))(torch.tensor([3]), torch.tensor(0.9)) == 0) -->
 #
@@ -158,8 +159,7 @@ def soft_constraint(log_pi, rule_action, p):
 check.soft_constraint(soft_constraint)
 
 # %% [markdown]
-# The library does the same for many agents at once (`p[..., None, None]` makes room for the batch
-# and the actions). Open it when yours has passed:
+# The library does the same for many agents at once. Open it when yours has passed:
 
 # %% tags=["nbval-ignore-output"]
 source("bootcourse.learn.bootstrap", "log_stochastic_rule", "kl_to_rule")
@@ -170,7 +170,7 @@ source("bootcourse.learn.bootstrap", "log_stochastic_rule", "kl_to_rule")
 # mass plus noise, both have the same minimum; what differs is the gradient far away from it.
 
 # %% [markdown]
-# ## Round 3: the best compromise
+# ## Round 3: which compromise is best?
 #
 # In one state, with its estimates $Q(s,a)$, the agent now has three goals: actions with a high
 # value, entropy (weight α), and a small distance from the rule (weight ξ).
@@ -190,7 +190,7 @@ predict(
 
 # %% [markdown]
 # **Exercise 7.3 (15 min, ●●●).** Derive the best policy on paper, then write it. Use that without
-# the KL it is softmax(Q / α) (lesson 4 shows why). The check wants probabilities.
+# the KL it is softmax(Q / α) (lesson 4 shows why). The check expects probabilities.
 #
 # <details><summary>First step</summary>
 #
@@ -217,7 +217,7 @@ check.regularised_policy(regularised_policy)
 # SAC with $Q + \xi\log\tilde\pi$ in place of Q, and α + ξ in place of α. Its best policy is
 # therefore a softmax: $\pi^*(a) \propto \exp\frac{Q(a) + \xi\log\tilde\pi(a)}{\alpha+\xi}$. The
 # price of an action, times ξ, is subtracted from its value. ξ stands in the denominator, too: the
-# larger ξ, the less a difference in Q counts. With all Q equal and α = ξ this is
+# larger ξ, the less a difference in Q counts. With the same Q for each action and α = ξ this is
 # $\sqrt{\tilde\pi}$, divided by its sum.
 #
 # </details>
@@ -250,8 +250,8 @@ bc.show(
 )
 
 # %% [markdown]
-# When does the rule win? Its action has a **head start** of $\xi \log \frac{8p}{1-p}$ in Q over
-# every other action: the difference of two prices, times ξ.
+# When does the rule's action become the most probable one? It has a **head start** of
+# $\xi \log \frac{8p}{1-p}$ in Q over each other action: the difference of two prices, times ξ.
 #
 # > **Predict.** With p = 0.9 and the paper's first ξ = 2, how large is that head start? Compare it
 # > with the most that one second on the road can pay, which is 1.5/1.6 + 0.05/1.6, about 1.
@@ -283,20 +283,22 @@ bc.show(charts.lines(strengths, probability, title, "ξ (α = 0.01)", "probabili
 
 # %% [markdown]
 # **Explain.** At ξ = 2 the head start is larger than the discounted rewards of the best drive that
-# this road allows, so a higher speed never outweighs the rule. An accident would (it pays
-# {{ DEFAULT.reward.accident }}), but the rule has none on the held-out roads. So at first the best
-# policy is close to π̃, whatever the speeds earn. At ξ = 0.002 the head start is under 0.01: the
-# rule decides where the values of two actions are almost equal. In training ξ falls from the first
-# to the second.
+# this road allows, so a higher speed does not outweigh the rule. An accident would (it pays
+# {{ DEFAULT.reward.accident }}), but the rule has none on the held-out roads. So while ξ is near 2,
+# the best policy is close to π̃, whatever a higher speed earns. At ξ = 0.002 the head start is
+# below 0.01: the rule decides where the values of two actions are almost equal. In the study ξ
+# falls from 2 to far below 0.002.
 # <!-- claim: second_pays(15) / (1 - 0.8) < 2 * math.log(8 * 0.9 / 0.1) < -DEFAULT.reward.accident
 #   and accidents('rule') == 0 -->
 # <!-- claim: 0.002 * math.log(8 * 0.9 / 0.1) < 0.01 -->
+# <!-- claim: all(SETTINGS.xi_multiplier * run.curves['alpha'][-1] < 0.0002
+#   for run in shipped_runs('soft')) -->
 
 # %% [markdown]
-# ## Round 4: where the pull enters
+# ## Round 4: where does the KL enter the losses?
 #
 # The objective of Round 3 was for one state. A learner maximises a sum over time, so the KL stands
-# inside the return: each second pays $r + \alpha\mathcal{H} - \xi D_\mathrm{KL}$. This changes two
+# inside this sum: each second pays $r + \alpha\mathcal{H} - \xi D_\mathrm{KL}$. This changes two
 # losses.
 #
 # **The actor's**: minus the soft value, now with the KL in it.
@@ -321,9 +323,9 @@ check.constrained_loss(constrained_loss)
 # write it out, and it is easy to get wrong.
 #
 # **Exercise 7.5 (20 min, ●●●).** Derive the target, then write it. Begin on paper: which seconds
-# does $Q(s,a)$ count, if a has been taken already? Which of their entropies and KLs follow from a
-# choice of the policy, and in which state was it made? Then put the whole target into code: the
-# smaller of two critics, the entropy, the KL, the end of an episode.
+# does $Q(s,a)$ count, if a has been taken already? In which states does the policy choose after
+# that, and so pay a KL and earn an entropy? Then put the whole target into code: the smaller of two
+# critics, the entropy, the KL, the end of an episode.
 
 
 # %%
@@ -340,19 +342,20 @@ check.constrained_target(constrained_target)
 # %% [markdown]
 # <details><summary>The derivation in five lines</summary>
 #
-# $Q(s,a)$ is what follows *after* a was taken in s. The policy made no choice between the two, so
-# neither the entropy nor the KL of s is in it. From s' on the policy chooses, and each second pays
-# $r + \alpha\mathcal{H} - \xi D_\mathrm{KL}$: so $V(s') = \sum_a \pi\,Q(s',a) + \alpha\mathcal{H} -
-# \xi D_\mathrm{KL}$, all in s', and $y = r + \gamma\,(1 - \text{terminated})\,V(s')$. After an
-# accident there is no s' in which to choose: its KL is not charged.
+# $Q(s,a)$ is what follows *after* a was taken in s. There a is given and not chosen by the policy,
+# so Q contains neither the entropy nor the KL of s. From s' on the policy chooses, and each second
+# pays $r + \alpha\mathcal{H} - \xi D_\mathrm{KL}$. So $V(s') = \sum_a \pi\,Q(s',a) +
+# \alpha\mathcal{H} - \xi D_\mathrm{KL}$, with π, H and the KL of s', and $y = r + \gamma\,(1 -
+# \text{terminated})\,V(s')$. After an accident the policy does not choose again, so the KL of s' is
+# not charged.
 #
 # </details>
 #
 # What does the KL in the target change?
 #
-# > **Predict.** An agent follows trap 1 for ever and gets a reward of 0.15625 each second. In each
-# > of those seconds the rule would do something else. With γ = 0.8, what is following worth to the
-# > critic without the KL, and with it, at ξ = 2: more or less than a crash, which pays −10?
+# > **Predict.** An agent follows trap 1 to the end and gets a reward of 0.15625 each second. In
+# > each of those seconds the rule would do something else. With γ = 0.8, what is following worth to
+# > the critic without the KL, and with it, at ξ = 2: more or less than a crash, which pays −10?
 # <!-- claim: not (idle().rule_actions == idle().actions).any() -->
 
 # %%
@@ -381,7 +384,7 @@ for xi in (0.0, 0.02, 0.2, 2.0):
 # With the KL and ξ = 2 it is worth less than a crash, since each second of it differs from what the
 # rule would do. On a way out on which the agent is sure of the rule's actions, the KL costs
 # {{ -2 * math.log(RULE_P) | .2f }} a second. So the KL does more than pull towards the rule's next
-# action: through the critic it raises the cost of every future in which the rule would have acted
+# action: through the critic it raises the cost of futures in which the rule would have acted
 # differently.
 # <!-- claim: (0.15625 - 2 * math.log(8 / 0.1)) / (1 - 0.8) < DEFAULT.reward.accident < 0.15625 -->
 
@@ -396,14 +399,14 @@ source("bootcourse.learn.sac", "soft_value", "actor_loss")
 source("bootcourse.learn.textbook", "TextbookSAC.critic_target", "TextbookSAC.actor_loss")
 
 # %% [markdown] tags=["instructor"] minutes=8
-# In the paper the KL stands inside the discounted sum (its Equation 15). Many
-# implementations subtract it in the actor's loss only: `settings_for("soft", kl_in_target=False)`
-# does that. A good project for two students: ten seeds each, success against episodes.
+# In the paper the KL stands inside the discounted sum (its Equation 15). One can also leave it out
+# of the critics' target: `settings_for("soft", kl_in_target=False)` has it in the actor's loss
+# alone. A good project for two students: ten seeds of each, success against episodes.
 
 # %% [markdown]
-# ## Round 5: how the pull fades
+# ## Round 5: how fast does the pull fade?
 #
-# An agent with ξ = 2 for ever stays close to the rule, also where something else would be better.
+# If ξ stayed at 2, the agent would stay close to the rule, also where something else is better.
 # The paper couples the pull to the temperature: $\xi = {{ SETTINGS.xi_multiplier }}\,\alpha$. It
 # starts at α = {{ SETTINGS.alpha_init }}, so ξ =
 # {{ SETTINGS.xi_multiplier * SETTINGS.alpha_init }}, and α falls: with a target entropy of
@@ -462,15 +465,18 @@ title = f"ξ is a tenth of its start after {tenth} updates"
 bc.show(charts.lines(updates, named, title, "update", "ξ = 200 α", logarithmic="y"))
 
 # %% [markdown]
-# **See.** At first ξ falls as fast as Adam can, then more slowly. The slope of the temperature's
+# **See.** At first ξ falls at full speed, then more slowly. The slope of the temperature's
 # loss, $\alpha (\mathcal{H} - \eta)$, shrinks as α falls and as the policy becomes surer. Adam
 # divides each slope by an average over about the last thousand, which were larger, so its steps
 # become smaller than the learning rate. From α alone, with an entropy that stays the same, a tenth
 # would take {{ cooling_updates(0.1) | , }} updates, and not the
-# {{ math.log(10) / SETTINGS.alpha_lr | ,.0f }} of full speed. The falling entropy adds to that.
-# Counted in episodes, the pull fades early: the agents above have driven a few hundred, while the
-# demonstrations (lesson 8) fade over {{ SETTINGS.beta_episodes | , }}.
+# {{ math.log(10) / SETTINGS.alpha_lr | ,.0f }} of full speed. The falling entropy slows it further.
+# Counted in episodes, the pull fades early: for the {{ len(tenth_of_xi('soft')) }} agents of the
+# study that ship with this course, ξ is a tenth of its start after {{ tenth_of_xi('soft').min() }}
+# to {{ tenth_of_xi('soft').max() }} episodes. The demonstrations (lesson 8) fade over
+# {{ SETTINGS.beta_episodes | , }}.
 # <!-- claim: cooling_updates(0.1) > 1.5 * math.log(10) / SETTINGS.alpha_lr -->
+# <!-- claim: tenth_of_xi('soft').max() < SETTINGS.beta_episodes / 2 -->
 
 # %%
 alike = np.array(notes["alike"]).T
@@ -488,14 +494,15 @@ for words, driver in [*rows, ("the rule", bc.rule_policy(bc.DEFAULT))]:
     print(f"{words:17}{100 * r.success.value:11.1f}{r.returns.value:9.1f}{100 * accidents:14.1f}")
 
 # %% [markdown]
-# **See.** These agents had no demonstrations. Of the study's {{ len(of('sac')) }} plain SAC agents
-# {{ escaped('sac') }} escapes (lesson 5), so we think that the soft constraint led these out.
-# Compare the table with your prediction, seed by seed. Two seeds prove little; lesson 9 has
-# {{ len(of('soft')) }}.
+# **See.** (Yours will differ.) Compare the table with your prediction, seed by seed. These agents
+# had no demonstrations. Where one of them gets out, we think that the soft constraint led it out:
+# of the study's {{ len(of('sac')) }} plain SAC agents {{ escaped('sac') }} escapes (lesson 5), of
+# its {{ len(of('soft')) }} agents with the soft constraint alone {{ escaped('soft') }} do (lesson
+# 9).
 # <!-- claim: escaped('sac') == 1 < len(of('sac')) / 2 < escaped('soft') -->
 #
 # **Explain.** An agent that does as the rule in most seconds can still leave the road in one of the
-# others: being close to a rule is not the same as driving well. While ξ fades, the rewards of the
+# others: to be close to a rule is not the same as to drive well. While ξ fades, the rewards of the
 # road count more and more, also where the rule would do something else. (The paper's table gives
 # the soft constraint alone a success of
 # {{ 100 * PRINTED['soft']['success'].mean | .0f }} %. On our road, with the KL in the target,
@@ -524,8 +531,8 @@ bc.panels.policy_panel(drive, xi=round(float(xi[0, -1]), 3), alpha=round(result.
 # 2. The KL from π̃ is what a policy pays for actions that the rule would not take.
 # 3. The best compromise is softmax((Q + ξ log π̃) / (α + ξ)): the rule has a head start of ξ log
 #    (8p / (1 − p)) in Q.
-# 4. The KL belongs in the actor's loss and in the critic's target; there it lowers the value of
-#    staying in the trap.
+# 4. The KL belongs in the actor's loss and in the critics' target. In the target it lowers the
+#    value of staying in the trap.
 # 5. With ξ = {{ SETTINGS.xi_multiplier }} α the pull fades as fast as α does, within a few thousand
 #    updates.
 #
@@ -543,8 +550,8 @@ compare_predictions(
 # - p and ξ both say how much the rule counts. Which of them can you change without changing the
 #   policy that has a KL of 0?
 # - Where the rule is wrong, which p would you want? Could p depend on the state?
-# - An agent with ξ = 2 for ever converges to something. What, and what does its critic believe
-#   about the road ahead of the traps?
+# - Suppose that ξ stays at 2 until the agent has converged. What is its policy then, and what does
+#   its critic expect on the road ahead of the traps?
 #
 # **Read on**: the KL as a price on leaving a teacher: Huang et al., *Efficient Deep Reinforcement
 # Learning with Imitative Expert Priors for Autonomous Driving* (arXiv 2103.10690). Why a softmax
@@ -554,10 +561,10 @@ compare_predictions(
 # %% [markdown] tags=["instructor"]
 # *Answers to the three questions.* **p and ξ:** p moves π̃ itself, the policy that has a KL of 0; ξ
 # leaves it where it is and changes how much the distance costs. So ξ. (They are not independent: a
-# larger p raises the head start, too.) **Where the rule is wrong:** a small p, nearly even, so that
-# the price of every action is about the same. p could depend on the state, for instance on how
-# often drives that followed the rule from such states ended in an accident; then π̃ is surest where
-# the rule has proved itself. **ξ = 2 for ever:** the agent converges to the best policy of the
-# objective *with* the KL, softmax((Q + ξ log π̃) / (α + ξ)). It stays near π̃ on the free road as
-# well, where the rule is slow. Its critic counts each second's KL as a cost: it believes that the
-# free road is worth little more than what a drive by the rule earns there.
+# larger p raises the head start, too.) **Where the rule is wrong:** a small p, with which π̃ is
+# nearly even and the prices of the nine actions are about the same. p could depend on the state,
+# for instance on how often drives that followed the rule from such states ended in an accident;
+# then π̃ is surest where the rule has proved itself. **If ξ stays at 2:** the agent converges to
+# the best policy of the objective *with* the KL, softmax((Q + ξ log π̃) / (α + ξ)). It stays near
+# π̃ on the free road as well, where the rule is slow. Its critic counts each second's KL as a cost,
+# so it expects little more on the free road than what a drive by the rule earns there.
