@@ -21,6 +21,7 @@ CLAIMED = (
     "05_the_barrier",
     "06_demonstrations",
     "07_soft_constraint",
+    "08_learning_from_demonstrations",
     "10_imitation",
     "11_offline_learning",
     "12_exploration",

@@ -16,8 +16,8 @@
 # **What you will be able to do**
 # - mix a teacher's drives into a learner's batches, pay them a bonus, and let their share fall to
 #   0;
-# - work out how large a bonus c must be for the demonstrated way out to look better than staying
-#   behind, and what c = {{ SETTINGS.bonus }} does to a critic;
+# - work out from which bonus c on the demonstrated way out is worth more than staying behind, and
+#   see what c = {{ SETTINGS.bonus }} does to a critic;
 # - write the large-margin loss and two Q-filters, and say when each of them is off;
 # - train the paper's whole method, made of the parts that you wrote, and watch it escape.
 #
@@ -65,18 +65,20 @@ bc.panels.bonus_panel()
 
 # %% [markdown]
 # The last round trains with the parts that you wrote in lessons 4 and 7. The next cell looks for
-# them: it runs the files in the folder `answers`, which hold your own code. No other cell does
-# that.
+# them: it runs the files in the folder `answers`, which hold your own code. No other cell of this
+# lesson does that.
+# <!-- claim: len(re.findall('\nown_code.load()', code_of('08_learning_from_demonstrations'))) == 1
+#   -->
 
 # %%
 own_code.load()
 
 # %% [markdown]
-# ## Round 1: two memories, one batch
+# ## Round 1: how do demonstrations get into a batch?
 #
-# A learner keeps what it drove in a **replay memory**: a long table, one row for each decision,
-# with the state, the action, the reward and the next state. For each update it draws a **batch** of
-# {{ SETTINGS.batch }} rows. Now there is a second table, with the rule's drives in it.
+# A learner keeps what it drove in its replay buffer: a long table, one row for each decision, with
+# the state, the action, the reward and the next state. For each update it draws a batch of
+# {{ SETTINGS.batch }} rows (lesson 4). Now there is a second table, with the rule's drives in it.
 
 # %%
 demonstrations = bc.collect(200)
@@ -100,12 +102,12 @@ for episode in (0, 250, 500, 999, 2000):
 bc.show(figures.fading(bc.settings_for("bootstrapped")))
 
 # %% [markdown]
-# **Explain.** Mixing in these rows does not push the actor towards the rule's actions. The rows
-# teach the critic what the rule's actions led to. If the critic then gives these actions a low
-# value, the actor does not take them. Round 2 computes which value they have.
+# **Explain.** These rows do not push the actor towards the rule's actions. They teach the critic
+# what the rule's actions led to. If the critic then gives these actions a low value, the actor
+# learns to avoid them. Round 2 computes which value they have.
 
 # %% [markdown]
-# ## Round 2: the bonus
+# ## Round 2: how large must the bonus be?
 #
 # The paper raises that value. Each demonstrated action is paid a bonus:
 #
@@ -116,8 +118,8 @@ bc.show(figures.fading(bc.settings_for("bootstrapped")))
 # **Exercise 8.1 (20 min, ●●●).** Write the mixed batch. `round(beta * size)` rows are drawn from
 # the table of demonstrations, with the same chance for each row; the others come from your own
 # replay buffer, `own.sample(n, rng)`. Each demonstration's reward, in the column `REWARD`, is
-# raised by the bonus. Return the rows, and a mark for each: 1 if it is a demonstration. The table
-# will be used again for the next batch, and ten thousand times after that.
+# raised by the bonus. Return the rows, and a mark for each: 1 if it is a demonstration, else 0. The
+# same table is used again for the next batch, and for ten thousand batches after that.
 
 # %%
 REWARD = -4  # the column of a row that holds the reward
@@ -199,7 +201,7 @@ bc.show(charts.lines(np.arange(60), named, title, "second of the drive", "critic
 # <!-- claim: SETTINGS.bonus == 2 and max(map(second_pays, np.arange(0, 25, 0.1))) < 1 -->
 
 # %% [markdown]
-# ## Round 3: a margin instead of a bonus
+# ## Round 3: what does a margin change?
 #
 # There is another way to make a critic prefer the expert's action: a loss. In each demonstrated
 # state, the Q of the expert's action should be larger than the Q of each other action by a
@@ -244,7 +246,7 @@ def large_margin_loss(q, expert_action):
 check.large_margin_loss(large_margin_loss)
 
 # %% [markdown]
-# ## Round 4: when not to listen
+# ## Round 4: when is the margin loss off?
 #
 # The rule's action is not the best one in each state. A **Q-filter** switches the margin loss off
 # in states where the critic gives another action a higher value. The paper's condition for *on* is
@@ -298,9 +300,10 @@ check.q_filter(q_filter)
 
 # %% [markdown]
 # **Exercise 8.5 (15 min, ●●●).** Put the margin into the critics' loss, as the paper prints it: for
-# each of the two critics the margin loss of every row (margin 1), switched by the printed filter of
-# the *same* critic, and only for demonstrations. The mean runs over the whole batch, and the two
-# critics' means are added. The filter only switches: it must not be a way to change Q.
+# each of the two critics the margin loss (margin 1) of the rows that are demonstrations, switched
+# by the printed filter of the *same* critic. The mean runs over the whole batch, other rows count
+# as 0, and the two critics' means are added. The filter is a switch: the gradient must not go
+# through it.
 
 
 # %%
@@ -340,13 +343,13 @@ for seed in range(4):
 
 # %% [markdown]
 # **Explain.** Before training, the printed filter is on in those few states in which the random
-# initial weights happen to give the expert's action the largest Q. In all other states the margin
-# loss is off. The paper finds that the margin teaches less than the bonus, and a filter that is off
-# so often may be a reason.
+# initial weights happen to give the expert's action the largest Q. Elsewhere the margin loss is
+# off. The paper finds that the margin teaches less than the bonus, and a filter that is off so
+# often may be a reason.
 #
-# But it is not enough to explain our study. There neither method works on its own: none of the ten
-# agents with the margin and none of the ten with the bonus escapes, that is, ends ahead of trap 1
-# on at least {{ 100 * ESCAPES | .0f }} % of the {{ roads() | , }} held-out roads, after training.
+# But this does not explain our study. There neither method works on its own: none of the ten agents
+# with the margin and none of the ten with the bonus escapes, that is, ends ahead of trap 1 on at
+# least {{ 100 * ESCAPES | .0f }} % of the {{ roads() | , }} held-out roads, after training.
 # Together with the soft constraint, {{ escaped('margin_soft') }} of ten escape with the margin,
 # with the same printed filter, and {{ escaped('bootstrapped') }} of ten with the bonus. The soft
 # constraint alone reaches {{ escaped('soft') }} of ten. With ten agents each, {{
@@ -357,7 +360,6 @@ for seed in range(4):
 # <!-- claim: stats.fisher_exact([[escaped('bootstrapped'), 10 - escaped('bootstrapped')], [10,
 #   0]]).pvalue > 0.05 -->
 # <!-- claim: settings_for('margin_soft').paper_q_filter -->
-# <!-- claim: 2 * math.comb(10, 8) * math.comb(10, 10) / math.comb(20, 18) > 0.05 -->
 
 # %% [markdown] tags=["instructor"] minutes=8
 # `settings_for("margin")` and `settings_for("margin", paper_q_filter=False)` train the two. Let the
@@ -369,12 +371,13 @@ for seed in range(4):
 # <!-- claim: settings_for('margin_soft').paper_q_filter -->
 
 # %% [markdown]
-# ## Round 5: what c = 2 does to a critic
+# ## Round 5: what does c = 2 do to a critic?
 #
 # Four learners with demonstrations, side by side: two with c = {{ SETTINGS.bonus }}, two with c =
-# 0. None has the soft constraint. After each 200 updates we read from their critics, in the first
-# 20 seconds of the rule's drives, the mean Q of the demonstrated action and of the best of the
-# other eight.
+# 0. They learn without the soft constraint. After each 200 updates we read from their critics, in
+# the first 20 seconds of the rule's drives, the mean Q of the demonstrated action and of the best
+# of the other eight.
+# <!-- claim: settings_for('demos').xi_multiplier == 0 and settings_for('demos').xi_fixed < 0 -->
 #
 # > **Predict.** With c = 2, how far will the demonstrated action lead its best rival: by about 10,
 # > by about 2, or not at all? Which of the four learners escape?
@@ -429,12 +432,12 @@ for i, agent in enumerate(result.agents):
     print(f"{row}{r.returns.value:9.1f}{100 * accidents:14.1f}{training.beta[i]:6.2f}")
 
 # %% [markdown]
-# **Explain.** (Your numbers will differ.) Compare the first two columns. With c =
-# {{ SETTINGS.bonus }} the demonstrated action does not lead its best rival, and at the end its Q is
-# well below {{ SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f }}. We explain it like this. The
-# demonstrations tell the critic what the rule's action is worth. In the states of the way out they
-# hold hardly any example of the other eight, so the network has to generalise, and it gives them
-# about the same high value. The actor then takes a rival that it has not tried. If that ends in an
+# **Explain.** (Yours will differ.) Compare the first two columns, and compare the first one with
+# {{ SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f }}. In our runs with c = {{ SETTINGS.bonus }} the
+# demonstrated action ended less than 1 above its best rival or below it. We explain it like this.
+# The demonstrations tell the critic what the rule's action is worth. In the states of the way out
+# they hold hardly any example of the other eight, so the network has to generalise, and it gives
+# them about the same value. The actor then takes a rival that it has not tried. If that ends in an
 # accident, the agent is paid {{ DEFAULT.reward.accident | .0f }}, and the critic corrects the value
 # of that one action.
 #
@@ -448,35 +451,35 @@ for i, agent in enumerate(result.agents):
 # <!-- claim: len(demonstrated_q()) == 5 and demonstrated_q().max() < 2 -->
 #
 # The paper's method has a second ingredient, the soft constraint of lesson 7: it keeps the actor
-# near actions that the demonstrations hold. Offline learners make the critic pessimistic about the
-# other actions instead (lesson 11).
+# near actions that the demonstrations hold. The offline learner of lesson 11 instead lowers the
+# critic's values of the other actions.
 
 # %% tags=["nbval-ignore-output"]
 source("bootcourse.learn.bootstrap", "augmented_reward", "large_margin_loss", "q_filter")
 
 # %% [markdown]
-# You have now seen all parts of `bootcourse/learn/textbook.py`. Its loop, from reset to update, has
+# You have now seen the parts of `bootcourse/learn/textbook.py`. Its loop, from reset to update, has
 # β and the demonstrations in its last five lines.
 
 # %% tags=["nbval-ignore-output"]
 source("bootcourse.learn.textbook", "train")
 
 # %% [markdown]
-# ## Round 6: the whole method, in your code
+# ## Round 6: does the whole method escape, in your code?
 #
 # The paper's method is SAC (lesson 4), with the KL in the actor's loss and in the critics' target
 # (lesson 7), and with mixed batches and a bonus (this lesson); the margin is its alternative to the
-# bonus. If you did the exercises of these three lessons, you have written all of it. First: do your
-# parts, one by one, make the same update as ours? Each is put into our learner alone; losses and
-# gradients on one batch are compared. The buffer and the mixed batch, which draw at random, go
-# through their checks again.
+# bonus. If you did the exercises of these three lessons, you have written each of these parts.
+# First: do they make the same update as ours? One part at a time is put into our learner, and the
+# losses and gradients on one batch are compared. The buffer and the mixed batch, which draw at
+# random, go through their checks again.
 
 # %%
 own_code.compare()
 
 # %% [markdown]
 # If something differs, the cell names the part. Mend it in its lesson, and run `own_code.load()`
-# here again. Then train three agents: two with the bonus, one with the margin. All have the KL.
+# here again. Then train three agents, two with the bonus and one with the margin, each with the KL.
 #
 # > **Predict.** Of plain SAC's ten agents in the study {{ escaped('sac') }} escapes. How many of
 # > these three end ahead of trap 1 on most of 200 roads, after 2,500 updates?
@@ -505,27 +508,31 @@ ours = bc.record(
 bc.recording([shipped.beginning(drive, 60) for drive in (yours, *ours)], height=480)
 
 # %% [markdown]
-# **See.** The upper line of the table says whose code these agents learned with. On the left is the
-# first of them; on the right is an agent of our study, which had many times as many updates and
-# learned to use the free road. Both are on the same road. (Your agent may do something else.)
+# **See.** The line above the table says whose code these agents learned with. In the replay, the
+# first of them is on the left. On the right is an agent of our study, which had many times as many
+# updates. Both drives are on the same road. (Yours will differ.)
 #
 # **Try.** Plant a mistake in one part: copy it into a new cell, change a sign, and call
-# `own_code.use` with it. The comparison names it at once; how long would you have needed from the
-# curves alone? Lesson 13 hunts such mistakes.
+# `own_code.use` with it. Which part does the comparison name? How long would you have needed to
+# find it from the curves? Lesson 13 hunts such mistakes.
 
 # %% [markdown]
 # ## What you now know
 #
 # 1. β is the demonstrations' share of each batch; it falls in a straight line to 0.
-# 2. At γ = 0.8 the rule's way out is worth less than staying behind; a bonus of 0.06 reverses that.
+# 2. At γ = 0.8 the rule's way out is worth less than staying behind, on the 20 roads of Round 2. A
+#    bonus of 0.06 reverses that.
 # 3. c = {{ SETTINGS.bonus }} raises a demonstrated drive's discounted return by c / (1 − γ) =
-#    {{ SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f }}. In round 5 the critic's values rise by less,
-#    and the values of actions that were not demonstrated rise, too.
+#    {{ SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f }}. In our runs of Round 5 the critics' values
+#    rose by less, and the values of actions that were not demonstrated rose, too.
 # 4. The large-margin loss moves the Q of the expert's action and of its best rival, and is 0 from a
 #    lead of {{ settings_for('margin').margin | .0f }} on.
-# 5. The printed Q-filter is on only where the expert's action has the largest Q already; the margin
-#    with this filter, and without the soft constraint, frees none of ten agents.
+# 5. The printed Q-filter is on where the expert's action has the largest Q already, and off
+#    elsewhere. With the margin and this filter, and without the soft constraint, none of the
+#    study's ten agents escapes.
 # <!-- claim: escaped('margin') == 0 and len(of('margin')) == 10 -->
+# <!-- claim: bootstrap.paper_q_filter(torch.tensor([[1, 2, 3]] * 3), torch.arange(3)).tolist()
+#   == [0, 0, 1] -->
 #
 # %%
 lead = expert[:2, -1] - rival[:2, -1]
@@ -551,12 +558,13 @@ compare_predictions(
 
 # %% [markdown] tags=["instructor"]
 # *Answers to the three questions.* **c for γ = 0.95:** the rule's way has to be worth more than
-# staying behind, at every second; the first table of round 2 prints the smallest such c for γ =
-# 0.95. A little more than that is enough; c / (1 − γ) should stay below what an accident costs, or
-# the critic is ready to pay an accident for imitation: with γ = 0.95, c below 0.5. **The last
-# seconds:** on the free road the rule keeps its moderate speed and is paid c for it, so the critic
-# values the rule's speed above a higher one by up to c / (1 − γ), far more than speed can earn
-# there. A bonus for the way out alone (until trap 1 is passed) would not. **When it is unlearned:**
+# staying behind, at each second; the first output of Round 2 has the smallest such c for γ = 0.95.
+# A little more than that is enough. And c / (1 − γ) should stay below what an accident costs, or a
+# demonstrated drive that crashes may be worth more than one without bonus and accident: with γ =
+# 0.95, c below 0.5. **The last seconds:** on the free road the rule keeps its moderate speed and is
+# paid c for it, so the critic values the rule's speed above a higher one by up to c / (1 − γ), more
+# than a higher speed can earn there. A bonus for the way out alone (until trap 1 is passed) would
+# not have this effect. **When it is unlearned:**
 # the mean Q of the demonstrated actions on the way out, as in round 5, against the updates, with a
 # line where β reaches 0; beside it the discounted return that these drives really earn. Where the
 # two meet, it is unlearned.
