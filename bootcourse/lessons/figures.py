@@ -40,7 +40,7 @@ PICTURES, STEP, ROW = 8, 5.4, 0.85  # in a strip; from one to the next (m); a st
 
 def reward_curve(traps: float = 10.0, best: float = 15.0) -> Figure:
     """r_v against speed (m/s), with the traps' speed and the best one marked."""
-    title = "Most of the money lies between 12.5 and 15 m/s"
+    title = "The speed term is small up to 12.5 m/s and largest at 15 m/s"
     figure, ax = one_axes(3.2, title, "speed along the road (m/s)", "speed term $r_v$ (no unit)")
     speeds = np.linspace(0, 20, 801)
     ax.plot(speeds, [speed_reward(v) for v in speeds], color=INK, linewidth=2)

@@ -32,8 +32,8 @@ from bootcourse.road import formulas, observation
 # %% [markdown]
 # ## Look first
 #
-# You drive the car that is labelled **ego**, at {{ DEFAULT.ego.speed }} m/s. Two dark red cars hold
-# you: **trap 1** ahead in your lane, **trap 2** beside it in the next. Both drive
+# You drive the car that is labelled **ego**, at {{ DEFAULT.ego.speed }} m/s. Two dark red cars box
+# you in: **trap 1** is ahead in your lane, **trap 2** is in the next lane. Both drive
 # {{ DEFAULT.traps.speed }} m/s, too. The left lane is free. Everything else (grey) is traffic that
 # drives up to {{ DEFAULT.traffic.desired_speed }} m/s.
 
@@ -48,6 +48,12 @@ bc.show(bc.top_view(idle, time=0, distances=True))
 
 # %%
 predict("1.1", "Your plan: how many seconds of what?")
+
+# %% [markdown]
+# > **Predict.** A controller knows a way out of this trap. What does it do in the first second?
+
+# %%
+predict("1.2", "What does the controller do in the first second?", ["accelerate", "steer", "brake"])
 
 # %% [markdown]
 # ## Round 1: drive it
@@ -65,10 +71,10 @@ bc.panels.drive_panel(seed=ROAD)
 # They need not succeed here.
 
 # %% [markdown]
-# The nine buttons are the nine **actions**: {{ -DEFAULT.ego.acceleration }}, 0 or
-# +{{ DEFAULT.ego.acceleration }} m/s², times −π/{{ math.pi / DEFAULT.ego.steering }}, 0 or
-# +π/{{ math.pi / DEFAULT.ego.steering }} rad of steering. Each is held for one second. A program
-# knows them by their numbers, 0 to {{ N_ACTIONS - 1 }}.
+# The nine buttons are the nine **actions**. Each combines an acceleration of
+# {{ -DEFAULT.ego.acceleration }}, 0 or +{{ DEFAULT.ego.acceleration }} m/s² with a steering angle
+# of −π/{{ math.pi / DEFAULT.ego.steering }}, 0 or +π/{{ math.pi / DEFAULT.ego.steering }} rad, and
+# is held for one second. A program knows them by their numbers, 0 to {{ N_ACTIONS - 1 }}.
 # <!-- claim: N_ACTIONS == 9 -->
 
 # %%
@@ -100,8 +106,8 @@ def decode(actions):
 check.decode(decode)
 
 # %% [markdown]
-# Without a panel, a plan is a list of actions in words, with the number of seconds. After your
-# plan, the car keeps going straight.
+# You can also write a plan: a list of actions in words, each with its number of seconds. When the
+# plan ends, the car keeps its speed and its direction.
 
 # %%
 my_plan = [("keep left", 2), ("keep right", 2)]  # change it, and run the cell again
@@ -110,19 +116,15 @@ mine = bc.record(bc.plan_policy(my_plan), [ROAD], label="you")[0]
 bc.show(bc.top_view_over_time(mine, times=[0, 1, 2, 3]))
 
 # %% [markdown]
-# **See.** "Go left now" is a natural first idea. On this road it ends in trap 2, which starts
+# **See.** "Go left now" is a natural first idea. On this road you hit trap 2, which starts
 # {{ idle().states[0, TRAP_2, X] | .2f }} m ahead of you from centre to centre: less than a car's
-# length. On road 7 trap 2 starts further ahead, and the same plan ends behind it, at the same
-# 10 m/s. (Try `ROAD = 7`.)
+# length.
 # <!-- claim: idle().states[0, TRAP_2, X] < DEFAULT.car.length -->
-# <!-- claim: idle().states[0, TRAP_2, X] < idle(7).states[0, TRAP_2, X] -->
 # <!-- claim: record(plan_policy([('keep left', 2), ('keep right', 2)]), [ROAD])[0].accident ==
 #   Accident.COLLISION -->
-# <!-- claim: record(plan_policy([('keep left', 2), ('keep right', 2)]), [7])[0].states[-1, EGO,
-#   SPEED] == 10 -->
 #
-# There are three ways to end badly. Each ends the episode at once and pays
-# {{ DEFAULT.reward.accident }}.
+# A drive of at most {{ DEFAULT.clock.decisions / DEFAULT.clock.decision_rate }} s is an
+# **episode**. Three kinds of accident end it at once, and each pays {{ DEFAULT.reward.accident }}.
 # <!-- claim: len(KINDS) == 3 -->
 
 # %%
@@ -141,15 +143,9 @@ table(["plan", "ends with", "after"], rows)
 # %% [markdown]
 # The paper reports one "collision rate" that includes the other two kinds. We keep the three apart:
 # a driver that stops on the motorway and one that hits a car have learned different things.
-
-# %% [markdown]
-# > **Predict.** A way out exists. Does its first second accelerate, steer, or brake?
-
-# %%
-predict("1.2", "What does the first second of a way out do?", ["accelerate", "steer", "brake"])
-
-# %% [markdown]
-# Here is a way out. A controller found it that you will meet in lesson 3.
+#
+# Here is the controller's way out of this road. We call the controller the **rule**; lesson 3 takes
+# it apart.
 
 # %%
 escape = bc.record(bc.rule_policy(bc.DEFAULT), [ROAD], label="rule")[0]
@@ -183,6 +179,12 @@ predict("1.3", "Where can you change lane behind trap 2 without braking?", choic
 #   without_braking()[0][~without_braking()[1]].mean() -->
 # <!-- claim: not record(plan_policy([ACTION_NAMES[a] for a in NO_BRAKING]), [ROAD])[0].success -->
 #
+# You can see the beginning: set `ROAD = 7` in the second code cell, where trap 2 starts further
+# ahead, and drive the plan above again. It ends behind trap 2, at the same 10 m/s.
+# <!-- claim: idle().states[0, TRAP_2, X] < idle(7).states[0, TRAP_2, X] -->
+# <!-- claim: record(plan_policy([('keep left', 2), ('keep right', 2)]), [7])[0].states[-1, EGO,
+#   SPEED] == 10 -->
+#
 # Falling back takes patience. The direct way takes precision: a driver that tries actions at random
 # would have to draw eight turns of the wheel in the right order.
 #
@@ -200,13 +202,13 @@ predict("1.3", "Where can you change lane behind trap 2 without braking?", choic
 bc.show(figures.agent_loop(observation="26 numbers", action="one of nine", reward="one number"))
 
 # %% [markdown]
-# How the agent chooses is its **policy**: a function that gives each action a probability. At first
+# The agent chooses by its **policy**: a function that gives each action a probability. At first
 # the nine are about equally probable, and the agent drives at random. To *learn* means: the agent
 # remembers what it tried and what that paid, and changes the numbers inside its policy a little,
 # many times, so that actions with better consequences become more probable. It is not told what a
 # lane is. Learning from rewards in this way is *reinforcement learning*.
 #
-# Below four agents learn, for about 20 seconds. Two learn alone (*plain SAC*). Two get help from
+# Below, four agents learn for about 20 seconds. Two learn alone (*plain SAC*). Two get help from
 # the rule that you have just seen (*bootstrapped SAC*): they see some of its drives, and pay a
 # little for actions that the rule would hardly take.
 #
@@ -226,9 +228,10 @@ live = figures.LiveCurves(every=2)
 learned = training.run(progress=False, callback=live, stop=lambda: training.updates >= 1500)
 
 # %% [markdown]
-# Each thin line is one agent. *Success* is the share of its drives that end ahead of trap 1.
-# *Return* is what a drive earns in total; a crash in the first seconds earns about
-# {{ DEFAULT.reward.accident }}. Now the first agent with help, before and after its training:
+# Each thin line is one agent. *Success* is the share of its episodes that end ahead of trap 1. The
+# **return** is the sum of an episode's rewards; an episode that ends in a crash in the first
+# seconds returns about {{ DEFAULT.reward.accident }}. Now the first agent with help, before and
+# after its training:
 
 # %% tags=["nbval-ignore-output"]
 before = bc.record(beginner, [ROAD], label="bootstrapped")[0]
@@ -237,16 +240,17 @@ bc.show(bc.top_view_over_time(before, title="Before: its first drive"))
 bc.show(bc.top_view_over_time(after, title=f"After {training.updates:,} updates"))
 
 # %% [markdown]
-# **See.** Yours will differ from the picture that was saved here, and from your neighbour's. Look
-# at your own curves: which lines have left {{ DEFAULT.reward.accident }}? Which agents have
-# success? An agent whose return has risen without success has learned to stay alive behind the
-# traps.
+# **See.** Your curves will differ from those that were saved here, and from your neighbour's. Which
+# lines have left {{ DEFAULT.reward.accident }}? Which agents have success? An agent whose return
+# has risen without success has learned to stay alive behind the traps.
 #
-# What holds beyond one short training is measured with more agents. In our study {{ len(of('sac'))
-# }} agents of each kind drove {{ of('sac').curves['success'].shape[1] | , }} roads to learn. Then
-# {{ escaped('sac') }} of the {{ len(of('sac')) }} that learned alone escaped, and {{
-# escaped('bootstrapped') }} of the {{ len(of('bootstrapped')) }} with help. The rest of this lesson
-# explains what they see and what they are paid for. The rest of the course explains the difference.
+# One short training of two agents says little. In our study {{ len(of('sac')) }} agents of each
+# kind learned, each on {{ of('sac').curves['success'].shape[1] | , }} roads. Then each drove
+# {{ roads() | , }} other roads. We say that an agent *escapes* if it succeeds on at least
+# {{ 100 * ESCAPES | .0f }} % of these. Of the agents that learned alone, {{ escaped('sac') }} of
+# {{ len(of('sac')) }} escapes; of those with help, {{ escaped('bootstrapped') }} of {{
+# len(of('bootstrapped')) }} escape. The rest of this lesson explains what they see and what they
+# are paid for. The rest of the course explains the difference.
 
 # %% [markdown] tags=["instructor"] minutes=10
 # Draw the loop on the board while the curves grow, and let somebody read the live curve aloud. Most
@@ -260,16 +264,21 @@ bc.show(bc.top_view_over_time(after, title=f"After {training.updates:,} updates"
 # about itself, then five about each of the four nearest cars within {{ DEFAULT.sight.distance }} m.
 # A missing car is five zeros. Each number is divided by a fixed scale, so that it is of order one.
 # Multiply by the scale, and you have metres and metres per second.
+#
+# `presence` is 1 for a car that is there. `x` is the ego's place along the road and `y` its place
+# across: y is 0 in the middle of the left lane and grows to the *right*. `v_lon` and `v_lat` are
+# its speeds along and across the road, and `d_e` is how far it is off the middle of its lane. `dx`,
+# `dy`, `dv_lon` and `dv_lat` are places and speeds of another car, measured from the ego.
 # <!-- claim: sum(not name.startswith('car') for name in observation.names(DEFAULT)) == 6 -->
 # <!-- claim: sum(name.startswith('car 1') for name in observation.names(DEFAULT)) == 5 -->
 # <!-- claim: DEFAULT.sight.neighbours == 4 -->
 #
-# > **Predict.** `car 1` is the nearest car, and `dy` says how far it is to the side. Which car is
-# > it, and which sign has its `dy`, if y grows to the *right*?
+# > **Predict.** `car 1` is the nearest car. Which car is that, and is its `dy` positive, negative
+# > or zero?
 
 # %%
 choices = ["trap 1, and dy is 0", "trap 2, and dy is positive", "trap 2, and dy is negative"]
-predict("1.5", "Which car is `car 1`, and which sign has its dy?", choices)
+predict("1.5", "Which car is `car 1`, and what is its dy?", choices)
 
 # %%
 env = gym.make("bootcourse:Trap-v0")
@@ -285,14 +294,17 @@ table(["number", "observed", "scale", "in m, m/s"], rows, below="(the first 16 o
 # **See.** The nearest is trap 2, and its `dy` is
 # {{ idle().states[0, TRAP_2, Y] - idle().states[0, EGO, Y] }} m: one lane to the left.
 #
-# In a *Markov decision process* (MDP), what comes next and what it pays depends on the present
-# **state** and the action alone. The road is such a process. Its state holds the place, speed and
+# In a *Markov decision process* (MDP), the next **state** and the reward depend on the present
+# state and the action alone. The road is such a process. Its state holds the place, speed and
 # heading of all {{ DEFAULT.vehicles }} cars, the lane that each of them wants, how long ago it last
-# considered a lane change, and the number of the second. The observation is *not* the state. It
-# leaves out the cars beyond the four nearest, the lanes that they want, and the seconds that are
-# left. Two moments with the same observation can therefore go on differently: such a world is a
-# *partially observed* MDP. The learners of this course, like the paper's, treat the observation as
-# if it were the state. The rule of lesson 3 reads the true places and speeds of the cars.
+# considered a lane change, and the number of the second.
+# <!-- claim: DEFAULT.vehicles == 9 -->
+#
+# The observation is *not* the state. It leaves out the cars beyond the four nearest, the lanes that
+# the cars want, and the seconds that are left. Two moments with the same observation can therefore
+# go on differently: such a world is a *partially observed* MDP. The learners of this course, like
+# the paper's, treat the observation as if it were the state. The rule of lesson 3 reads the true
+# places and speeds of the cars.
 # <!-- claim: DEFAULT.vehicles - 1 > DEFAULT.sight.neighbours == 4 -->
 # <!-- claim: not any('lane' in name or 'time' in name for name in observation.names(DEFAULT)) -->
 
@@ -312,7 +324,7 @@ table(["number", "observed", "scale", "in m, m/s"], rows, below="(the first 16 o
 # - $r_v$ pays for speed, see below;
 # - $r_y = \exp(-{{ -math.log(centring_reward(1.0)) }}\, d_e^2)$ pays for the middle of the lane
 #   ($d_e$ metres off it);
-# - $r_\theta = -|\sin\theta|$ charges for steering.
+# - $r_\theta = -|\sin\theta|$ charges for steering by an angle $\theta$.
 
 # %%
 bc.show(figures.reward_curve())
@@ -329,9 +341,9 @@ bc.show(figures.reward_curve())
 #   / 25 * 15 - 19 / 5, 12.6: 8 / 25 * 12.6 - 19 / 5, 12.5: 2 / 75 * 12.5 - 2 / 15, 5.1: 2 / 75 *
 #   5.1 - 2 / 15, 5: 0}.items()) -->
 #
-# The second and third line are straight lines through (5, 0), (12.5, 0.2) and (15, 1). Look at what
-# they mean: a car that goes from 10 to 12.5 m/s earns a little more, one that goes from 12.5 to 15
-# m/s earns five times as much.
+# The two cases in the middle are straight lines through (5, 0), (12.5, 0.2) and (15, 1): a car that
+# goes from 10 to 12.5 m/s earns a little more, one that goes from 12.5 to 15 m/s earns five times
+# as much.
 # <!-- claim: math.isclose(speed_reward(15), 5 * speed_reward(12.5)) -->
 #
 # **Exercise 1.2 (6 min, ●○○).** Write the whole reward of one second. The three terms are in
@@ -358,16 +370,14 @@ check.reward(reward)
 
 # %% [markdown]
 # > **Predict.** You do nothing at all for 150 s: 10 m/s, centred, no steering. What do you earn
-# > in one second? In 150? Pen and paper, before you write the function.
+# > in one second? In 150? Use pen and paper, before you write the function.
 
 # %%
 predict("1.6", "What does doing nothing earn in 150 s?", unit="")
 
 # %% [markdown]
-# The sum of an episode's rewards is its **return**.
-#
-# **Exercise 1.3 (6 min, ●○○).** What does doing nothing earn, behind traps of some speed, in some
-# seconds?
+# **Exercise 1.3 (6 min, ●○○).** Write the return of doing nothing: a car drives for some seconds at
+# the speed of the traps, in the middle of its lane.
 
 
 # %%
@@ -379,7 +389,7 @@ def idle_return(speed, seconds):
 check.idle_return(idle_return)
 
 # %% [markdown]
-# Now let the road say it.
+# And this is what doing nothing earned on road {{ ROAD }}:
 
 # %%
 # NBVAL_CHECK_OUTPUT
@@ -410,11 +420,12 @@ print(f"return {idle.rewards.sum():.4f}, distance {idle.distance:.0f} m, success
 # %% [markdown]
 # ## Round 5: why it is a trap
 #
-# > **Predict.** Compare the rule's escape with doing nothing, second by second. Until when is its
-# > sum of rewards the smaller one?
+# > **Predict.** Add up the rewards of the rule's escape, second by second, and those of doing
+# > nothing. For how long is the escape's sum the smaller one?
 
 # %%
-predict("1.7", "Until when has the escape earned less?", ["10 s", "30 s", "60 s", "100 s"])
+choices = ["about 10 s", "about 35 s", "about 60 s", "about 100 s"]
+predict("1.7", "For how long has the escape earned less than doing nothing?", choices)
 
 # %%
 bc.show(bc.traces([idle, escape]))
@@ -445,30 +456,29 @@ rows = [
     ["ends ahead of trap 1", f"{100 * episodes.success.mean():.1f} % of the drives"],
     ["survives 150 s", f"{100 * np.mean(episodes.accident == 0):.1f} % of the drives"],
     ["mean return", f"{episodes.returns.mean():.2f}"],
-    [
-        f"the rule reaches the free lane (road {ROAD})",
-        f"after {np.flatnonzero(lanes == 0)[0]} decisions",
-    ],
 ]
-table(["", "random driver, 1,000 roads"], rows)
+first = np.flatnonzero(lanes == 0)[0]
+below = f"The rule, on road {ROAD}, reaches the free lane after {first} decisions."
+table(["", "random driver, 1,000 roads"], rows, below)
 
 # %% [markdown]
-# **Explain.** A learner begins with random tries and improves in small steps. These 1,000 random
-# drives end in an accident, one and all, and about one in two hundred is ahead of trap 1 when it
-# does. How much risk may a try have, so that it still pays on average?
+# **Explain.** A learner begins with random tries and improves in small steps. Each of these 1,000
+# random drives ends in an accident, and about one in two hundred is ahead of trap 1 by then. How
+# risky may a try be, so that it still pays on average?
 # <!-- claim: drive_episodes(random_policy(np.random.default_rng(0)), held_out_seeds(1,
 #   1000)).accident.all() -->
 # <!-- claim: 0.003 < drive_episodes(random_policy(np.random.default_rng(0)), held_out_seeds(1,
 #   1000)).success.mean() < 0.007 -->
 #
-# **Exercise 1.4 (8 min, ●●○).** To stay returns `stay`. A try ends in an accident with probability
-# q and then returns `crash`; otherwise it returns `escape`, which is more than `crash`. What is the
-# largest q at which the average try returns at least as much as to stay?
+# **Exercise 1.4 (8 min, ●●○).** A driver that stays behind the traps earns the return `stay`. A try
+# to escape ends in an accident with probability q, and then returns `crash`; otherwise it returns
+# `escape`, which is more than `crash`. What is the largest q at which a try returns, on average, at
+# least as much as staying?
 
 
 # %%
 def bearable_risk(stay, escape, crash):
-    """The largest q, a probability from 0 to 1; three returns, crash < escape."""
+    """The largest q from 0 to 1, and 0 if even a safe escape returns less than `stay`."""
     # solution: the exercise's own
 
 
@@ -477,12 +487,12 @@ check.bearable_risk(bearable_risk)
 # %% [markdown]
 # <details><summary>What this means on the road</summary>
 #
-# Staying returns {{ idle().rewards.sum() | .1f }}, the rule's escape on road {{ ROAD }} {{
-# by_rule().rewards.sum() | .1f }}, and a crash in the first seconds about −9. Such a try pays if it
-# crashes in fewer than {{ 100 * (by_rule().rewards.sum() - idle().rewards.sum()) /
+# Staying returns {{ idle().rewards.sum() | .1f }}, the rule's escape on road {{ ROAD }} returns {{
+# by_rule().rewards.sum() | .1f }}, and a crash in the first seconds about −9. With these numbers a
+# try pays if it crashes in fewer than {{ 100 * (by_rule().rewards.sum() - idle().rewards.sum()) /
 # (by_rule().rewards.sum() + 9) | .0f }} % of the cases. The random drives crash in 100 %. So for a
-# learner that judges by what it has tried, to stay is the better choice, and it is right about its
-# own tries. The escape needs several right decisions in a row, and it pays later. The rest of this
+# learner that judges by its own tries, staying is the better choice, and about these tries it is
+# right. The escape needs several right decisions in a row, and it pays later. The rest of this
 # course is about that problem.
 # <!-- claim: drive_episodes(random_policy(np.random.default_rng(0)), held_out_seeds(1,
 #   1000)).accident.all() -->
@@ -499,19 +509,19 @@ check.bearable_risk(bearable_risk)
 # %% [markdown]
 # ## Round 6: success, and what goes wrong
 #
-# > **Predict.** A driver overtakes trap 1, drives on for a minute and then hits a car. Is that a
-# > success, an accident, or both?
+# > **Predict.** A driver overtakes trap 1, drives on for a minute and then hits a car. What does
+# > the paper count: a success, an accident, or both?
 
 # %%
 choices = ["a success", "an accident", "both", "neither"]
 predict("1.9", "It overtakes trap 1 and crashes a minute later. What is that?", choices)
 
 # %% [markdown]
-# **Success** has a definition: the ego is ahead of trap 1 when its episode ends. A crash after
-# overtaking still counts as success, and is counted as an accident as well.
+# **Success** means: the ego is ahead of trap 1 when its episode ends. A crash after overtaking
+# counts as a success, and as an accident as well.
 #
-# **Exercise 1.5 (5 min, ●○○).** Summarise some episodes: the share that succeeds, and the share
-# that ends in each kind of accident.
+# **Exercise 1.5 (5 min, ●○○).** Summarise some episodes: the share that are a success, and the
+# share that end in each kind of accident.
 
 
 # %%
@@ -547,26 +557,32 @@ table(["of 100 episodes", "success", *kinds], rows)
 # %% [markdown]
 # ## SAC on one page
 #
-# The agents that you watched learn by *soft actor-critic* (SAC). Lesson 4 builds it from nothing.
+# The agents that you watched learn by *soft actor-critic* (SAC). Lesson 4 builds it part by part.
 # If you skip that lesson, this page is enough to follow the others.
 
 # %%
 bc.show(figures.sac_diagram())
 
 # %% [markdown]
-# The *replay buffer* keeps what happened: a row for each second, with the observation s, the
-# action a, the reward r and the next observation s′. After some seconds a *batch* of rows is drawn
-# from it, and three things learn from these rows:
+# The diagram says *state* for what the agent observes. The *replay buffer* keeps what happened: a
+# row for each second, with the observation s, the action a, the reward r and the next observation
+# s′. After some seconds a *batch* of rows is drawn from it. The critics, the actor and the
+# temperature learn from these rows:
 #
-# - The *critic* is a network that guesses, for each of the nine actions, the sum of the rewards
-#   from here on. Later rewards count less. The guess is called Q. Two critics learn the same task
-#   and the smaller guess counts, since a guess that is too high by chance would mislead the agent.
-# - The *actor* is a network that holds the policy. It raises the probability of actions with a
+# - A *critic* is a network that estimates, for each of the nine actions, the sum of the rewards
+#   from here on, where later rewards count less. The estimate is called Q. There are two critics,
+#   and the smaller estimate counts, since one that is too high by chance would mislead the agent.
+# - A critic learns by comparing one second with the next. Its *target* y is the reward of the
+#   second plus V(s′), what is expected from then on. V(s′) comes from the *target critics*, copies
+#   that follow the critics slowly: at each update they move a small share τ of the way. So the
+#   target stays nearly still while the critics learn.
+# - The *actor* is a network that holds the policy, π. It raises the probability of actions with a
 #   large Q.
 # - The *temperature* α keeps the actor from choosing too early. The *entropy* of a policy says
 #   how undecided it is: 0 if it is sure of one action, large if the nine actions are about equally
 #   probable. SAC adds α times the entropy to what it maximises. Large α: the agent tries a lot.
-#   Small α: it repeats what worked. SAC adjusts α by itself.
+#   Small α: it repeats what worked. Entropy is measured in *nats*, so α is the worth of a nat. SAC
+#   adjusts α by itself.
 #
 # *Bootstrapped* SAC adds two kinds of help, and both fade: some rows of each batch come from drives
 # of the rule (lesson 8), and a weight ξ makes actions costly that the rule would hardly take
@@ -590,7 +606,7 @@ bc.show(figures.sac_diagram())
 # <!-- claim: 50 < -DEFAULT.reward.accident / second_pays(DEFAULT.traps.speed) < 70 -->
 #
 # **Three questions to think about**
-# - Would the trap still be one if trap 2 drove 0.5 m/s faster than you?
+# - Would it still be a trap if trap 2 drove 0.5 m/s faster than you?
 # - Which reward would you change so that a learner leaves at once? What else would it do then?
 # - The observation holds nothing of the past. Which two situations on this road give the same
 #   observation, but call for different actions?
@@ -612,7 +628,7 @@ compare_predictions(
         "1.4": "see your own curves; in our longer study most of those with help",
         "1.5": "trap 2, and dy is negative",
         "1.6": idle.rewards.sum(),
-        "1.7": f"it is ahead for good after {found} s",
+        "1.7": f"for {found} s",
         "1.8": "about 1 in 200",
         "1.9": "both",
     },
