@@ -41,7 +41,7 @@ from bootcourse.road.state import EGO, LANE, SPEED
 # ## Look first
 #
 # A *rule controller* is a driver that somebody wrote by hand. This one does not use the reward.
-# Watch it leave.
+# Watch how it gets out.
 
 # %%
 ROAD = 10
@@ -49,16 +49,16 @@ drive = bc.record(bc.rule_policy(bc.DEFAULT), [ROAD], label="rule")[0]
 bc.show(bc.top_view_over_time(drive, times=[0, 3, 5, 7, 9, 12]))
 
 # %% [markdown]
-# It also says *why* it does what it does, once a second.
+# Once a second it decides, and gives the reason. The lane is the one that it wants to be in: 2 is
+# the right lane, 0 the left one.
 
 # %%
 rows = []
 for second in range(16):
     reason = bc.rule.SENTENCES[bc.rule.Reason(drive.rule_reasons[second])]
-    speed, lane = drive.rule_speeds[second], drive.rule_lanes[second]
     doing = bc.policies.in_words(drive.actions[second : second + 1])[0][0]
-    rows.append([f"{second} s", reason, f"{speed:.2f} m/s", f"{lane}", doing])
-table(["time", "reason", "wants", "in lane", "does"], rows)
+    rows.append([f"{second} s", reason, f"{drive.rule_lanes[second]}", doing])
+table(["time", "reason", "lane", "does"], rows)
 
 # %%
 bc.show(figures.reasons_over_time(drive, "First the rule gets out, then it follows the traffic"))
@@ -67,8 +67,8 @@ bc.show(figures.reasons_over_time(drive, "First the rule gets out, then it follo
 # ## Round 1: how fast?
 #
 # The rule picks its **target speed** from five speeds between {{ DEFAULT.rule.v_min }} and
-# {{ DEFAULT.rule.v_max }} m/s: the fastest that is *slower* than the car ahead in its lane and the
-# car ahead in the lane that it wants.
+# {{ DEFAULT.rule.v_max }} m/s. It takes the fastest one that is *slower* than two cars: the one
+# ahead in its own lane, and the one ahead in the lane that it wants.
 #
 # $$ v_\text{target} = \max\{ v_i : v_i < \min(v_\text{current}, v_\text{new}) \}, \qquad v_i =
 # {{ DEFAULT.rule.v_min }} + \tfrac{i-1}{4}\,(15 - 6) $$
@@ -108,21 +108,21 @@ for where, v in (("behind the traps", 10.0), ("nobody ahead", np.inf), ("behind 
 table(["", "m/s"], rows)
 
 # %% [markdown]
-# **Explain.** It wants {{ by_rule().rule_speeds[0] }} m/s (and gets
-# {{ by_rule().states[6, EGO, SPEED] }}, since each second of braking takes
-# {{ DEFAULT.ego.acceleration }} m/s off {{ DEFAULT.ego.speed }}): slower than both, so the gap
-# grows. It also means that behind traffic at 12.5 m/s it drives 10.5. Keep that in
-# mind.
+# **Explain.** Behind the traps the rule wants {{ by_rule().rule_speeds[0] }} m/s. It gets
+# {{ by_rule().states[6, EGO, SPEED] }} m/s, since each second of braking takes
+# {{ DEFAULT.ego.acceleration }} m/s off {{ DEFAULT.ego.speed }}. Either is slower than both traps,
+# so the gap grows. Behind traffic at 12.5 m/s the same formula gives 10.5 m/s: Round 5 comes back
+# to that.
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Somebody will ask why not one speed just below the traps'. Five speeds are easy to explain and
-# to defend, and good enough to escape: that is how rules are made. Come back to it in Round 4.
+# to defend, and good enough to escape: that is how rules are made. Come back to it in Round 5.
 
 # %% [markdown]
 # ## Round 2: when to change lane?
 #
-# Falling back, when is the gap behind trap 2 long enough? The **safety distance** asks how far
-# you close in during $t_\text{safe}$ seconds:
+# The car falls back. When is the gap to trap 2 long enough to change lane? The **safety distance**
+# is how far you close in on the slower car during $t_\text{safe}$ seconds:
 #
 # $$ d_s = (v_e - \min\{v_\text{current}, v_\text{new}\})\, t_\text{safe} $$
 #
@@ -134,9 +134,9 @@ choices = ["positive", "zero", "negative"]
 predict("3.2", "What is d_s when you are slower than both cars?", choices)
 
 # %% [markdown]
-# Two numbers here are our choice (§): the paper leaves $t_\text{safe}$ open, where we take {{
-# DEFAULT.rule.t_safe }} s, and the *floor* is ours. We let $d_s$ not fall below {{
-# DEFAULT.rule.floor | g }} m.
+# Two numbers here are our choice; this course marks such a choice with §. The paper leaves
+# $t_\text{safe}$ open: we take {{ DEFAULT.rule.t_safe }} s. And we set a *floor*: $d_s$ is at least
+# {{ DEFAULT.rule.floor | g }} m.
 #
 # **Exercise 3.2 (5 min, ●○○).** Write the distance with its floor.
 
@@ -157,7 +157,10 @@ check.safety_distance(safety_distance)
 # changes lane when $d_s - \Delta x_\text{current} > 0$. Put the first into the second: $\Delta
 # x_\text{current}$ drops out, and what is left is
 #
-# $$ (v_e - v_\text{min})\, t_\text{safe} > \Delta x_\text{new}. $$
+# $$ (v_e - \min\{v_\text{current}, v_\text{new}\})\, t_\text{safe} > \Delta x_\text{new}. $$
+#
+# Here $\Delta x_\text{current}$ and $\Delta x_\text{new}$ are the distances to the cars ahead in
+# your own lane and in the new one.
 #
 # > **Predict.** You drive 8.25 m/s, the traps 10 m/s, and trap 2 is 12 m ahead. Is the printed
 # > condition true? Can it become true while you are slower than the traps?
@@ -193,12 +196,12 @@ table(["", "the test", "change lane?"], rows)
 # <!-- claim: (by_rule().rule_distances[by_rule().rule_reasons == Reason.CHANGE] ==
 #   DEFAULT.rule.floor).all() -->
 #
-# There is one more condition. The paper has a flag for the car behind in the new lane, which must
-# not be cut off, and sets it to true: in its scene that lane is empty behind you. We compute it
-# (§): the gap behind must be longer than the distance that the *other* car closes in during
-# $t_\text{safe}$, with the same floor.
+# There is one more condition. You must not cut off the car behind you in the new lane. The paper
+# has a flag for that and sets it to true, since in its scene that lane is empty behind you. We
+# compute it (§): the gap behind must be longer than the distance by which the *other* car closes in
+# on you during $t_\text{safe}$, and longer than the same floor.
 #
-# **Exercise 3.3 (6 min, ●●○).** Decide whether there is room.
+# **Exercise 3.3 (6 min, ●●○).** Decide whether there is room, ahead and behind.
 
 
 # %%
@@ -214,7 +217,7 @@ def room_to_change(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor)
 check.room_to_change(room_to_change)
 
 # %% [markdown]
-# This is the library's whole decision: a speed, a lane, and the reason.
+# This is the library's whole decision: a speed, a lane, the safety distance, and the reason.
 
 # %% tags=["nbval-ignore-output"]
 source("bootcourse.rule", "decide_rule")
@@ -227,17 +230,16 @@ source("bootcourse.rule", "decide_rule")
 # %% [markdown]
 # ## Round 3: how to get there with nine actions
 #
-# The rule gives a speed and a lane. The paper cites another controller that brings the car there;
-# we need one for nine actions. The first idea: compute the smooth steering angle that the traffic
-# cars use, and take the nearest of left, straight and right.
+# The rule gives a speed and a lane. The paper cites another controller that brings the car there.
+# We need one for nine actions. The first idea: compute the steering angle that a traffic car would
+# use, and take the nearest of left, straight and right.
 #
-# > **Predict.** The smooth controller has a time constant, 0.6 s for the traffic. Which drives
-# > better with three steering angles, a quicker one (0.4 s) or a slower one (1 s)?
+# > **Predict.** The traffic's controller has a time constant of {{ DEFAULT.traffic.tau_heading }}
+# > s: in about that time it corrects its heading. With three steering angles, does a quicker one
+# > (0.4 s) or a slower one (1 s) get the car out of the trap?
 
 # %%
-predict(
-    "3.4", "Which time constant drives better?", ["0.4 s", "1 s", "both escape", "neither escapes"]
-)
+predict("3.4", "Which time constant gets the car out?", ["0.4 s", "1 s", "both", "neither"])
 
 # %%
 rows = []
@@ -247,13 +249,15 @@ headings = ["escapes", "leaves the road", "collides"]
 table(["time constant", *headings], rows, below="(200 roads each)")
 
 # %% [markdown]
-# **See.** Neither of the two in the question escapes: 0.4 s leaves the road, and 1 s does not get
-# ahead of trap 1. The values from 0.5 to 0.7 s escape on each of these 200 roads, and 0.8 s
-# collides on about half. So the first idea works, in a narrow range that you have to find by
-# trying. The second idea does without a time constant: **look ahead**. Try the 27 sequences of
-# left, straight and right for the next three seconds on the car's own equations of motion. Each
-# second costs (distance from the lane)² + {{ HEADING_COST }} (heading)², and leaving the road costs
-# a million. Then do the *first step* of the cheapest sequence, and begin again.
+# **See.** Neither of the two in the question escapes: with 0.4 s the car leaves the road, and with
+# 1 s it does not get ahead of trap 1. With 0.5 to 0.7 s it escapes on each of these 200 roads, and
+# with 0.8 s it collides on about half. So the first idea works, in a narrow range that you have to
+# find by trying.
+#
+# The second idea does without a time constant: **look ahead**. Try the 27 sequences of left,
+# straight and right for the next three seconds on the car's own equations of motion. Each second
+# costs (distance from the lane)² + {{ HEADING_COST }} (heading)², and leaving the road costs a
+# million. Then do the *first step* of the cheapest sequence, and begin again.
 # <!-- claim: all(tracking.in_short(tracking.nearest_action(t))[0] == '100.0%' for t in (0.5, 0.6,
 #   0.7)) and 3 ** 3 == 27 -->
 
@@ -262,7 +266,7 @@ source("bootcourse.lessons.tracking", "plan_costs")
 
 # %% [markdown]
 # **Exercise 3.4 (5 min, ●●○).** For one road, `costs[first, second, third]` holds the cost of each
-# sequence (0 left, 1 straight, 2 right). Which step comes now?
+# sequence (0 left, 1 straight, 2 right). Which step do you do now?
 # <!-- claim: [ACTION_NAMES.index(f'brake {steering}') for steering in ('left', 'straight',
 #   'right')] == [0, 1, 2] -->
 
@@ -276,21 +280,23 @@ def best_first_step(costs):
 check.best_first_step(best_first_step)
 
 # %% [markdown]
-# > **Predict.** How far must the controller look ahead: one second, two, or three? What goes wrong
-# > with one?
+# > **Predict.** How far must the controller look ahead to escape on each of 200 roads: one second,
+# > two, or three? What goes wrong with less?
 
 # %%
-predict("3.5", "How far must it look ahead to escape?", ["1 s", "2 s", "3 s"])
+predict("3.5", "How far must it look ahead to escape on each road?", ["1 s", "2 s", "3 s"])
 
 # %%
 rows = [[f"{n} s ahead", *tracking.in_short(tracking.looks_ahead(n))] for n in (1, 2, 3)]
 table(["", *headings], rows, below="(200 roads each)")
 
 # %% [markdown]
-# **Explain.** A lane change turns the car and turns it back. A search over one second includes the
-# turn and its cost, but not the new lane to which it leads. Two seconds are enough on these 200
-# roads; the library searches three. To search for a plan, do its first step and search again is
-# called *model predictive control*.
+# **Explain.** With one second the car escapes on most roads, but it collides on some: it swings
+# from side to side in its lane, further when it drives faster, until it touches a car that it
+# passes. We explain it like this. A turn of the wheel moves the car sideways mostly in the second
+# *after* it. A search over one second does not include that second, so it turns back too late. Two
+# seconds are enough on these 200 roads; the library searches three. Searching for a plan, doing its
+# first step and searching again is called *model predictive control*.
 
 # %% [markdown] tags=["instructor"] minutes=6
 # Ask what the learner will have instead of a model of the car and a search:
@@ -301,11 +307,12 @@ table(["", *headings], rows, below="(200 roads each)")
 # ## Round 4: a way out without braking
 #
 # The rule falls back before it changes lane. On roads where trap 2 starts far enough ahead there is
-# a quicker way without braking: one exact sequence of turns that ends behind trap 2 and goes
-# on to the left lane.
+# a quicker way, without braking: an exact sequence of turns takes the car behind trap 2 and on to
+# the left lane.
 #
-# > **Predict.** Trap 2 starts {{ DEFAULT.traps.d2[0] }} to {{ DEFAULT.traps.d2[1] }} m ahead, and a
-# > car is {{ DEFAULT.car.length | g }} m long. From which D2 on can such a plan work?
+# > **Predict.** Trap 2 starts D2 = {{ DEFAULT.traps.d2[0] }} to {{ DEFAULT.traps.d2[1] }} m ahead,
+# > from centre to centre, and a car is {{ DEFAULT.car.length | g }} m long. From which D2 on can
+# > such a plan work?
 
 # %%
 predict("3.6", "From which D2 on can a plan without braking work?", unit="m")
@@ -331,7 +338,8 @@ tried = bc.record(bc.plan_policy(a_try), [7], label="you")[0]
 bc.show(bc.top_view_over_time(tried, times=[0, 2, 4, 6, 8]))
 
 # %% [markdown]
-# How far does your plan carry? Here it drives 400 roads. (Without a plan of yours, the kit's own.)
+# On which roads does your plan work? Here it drives 400 roads. (If you have no plan yet, the kit's
+# own drives.)
 
 # %%
 bc.show(figures.escape_against_d2(direct_plan()))
@@ -341,29 +349,30 @@ bc.show(figures.escape_against_d2(direct_plan()))
 #
 # Our plan gets out on each of {{ roads() | , }} held-out roads with D2 ≥ 4.85 m, and on {{ 100 *
 # without_braking()[1][without_braking()[0] < 4.85].mean() | .0f }} % of the roads below. That is {{
-# 100 * without_braking()[1].mean() | .0f }} % of the roads together. Below, the right front corner
-# of your car does not get past the tail of trap 2, and there you have to fall back first. A longer
-# plan may do with less; we have not proved that none does.
+# 100 * without_braking()[1].mean() | .0f }} % of the roads together. Where trap 2 starts closer,
+# the right front corner of your car hits its tail, and you have to fall back first. A longer plan
+# may do with a smaller D2; we have not proved the contrary.
 # <!-- claim: without_braking()[1][without_braking()[0] >= 4.85].all() -->
 # <!-- claim: without_braking()[1][without_braking()[0] < 4.85].mean() < 0.1 -->
 #
-# So for most roads there is a way out that costs nothing at first. Lesson 5 asks why plain SAC does
-# not find it. The plan above takes eight turns of the wheel in a row. An agent that picks each at
-# random from nine actions hits exactly these eight with a probability of 9⁻⁸, one in 43 million.
+# So on most roads there is a way out that costs hardly anything at first. Lesson 5 asks why plain
+# SAC does not find it. The plan begins with eight turns of the wheel. An agent that picks each of
+# its actions at random from nine hits exactly these eight with a probability of 9⁻⁸, one in 43
+# million.
 # <!-- claim: 43e6 < 9 ** 8 < 43.1e6 -->
 #
 # </details>
 
 # %% [markdown] tags=["instructor"] minutes=4
-# Groups that drive the panel find it in ten minutes or so, once they see that the middle lane is
-# passed through and not entered. Let one group write the search: sequences of eight turns with the
-# speed kept, tested on road 7, are 6,561.
+# The idea is that the car passes through the middle lane without settling in it. Let one group
+# write the search: there are 6,561 sequences of eight turns with the speed kept. Test them on road
+# 7.
 # <!-- claim: 3 ** 8 == 6561 -->
 
 # %% [markdown]
 # ## Round 5: how well does it drive?
 #
-# Now the rule drives 1,000 roads on which nothing was chosen or trained. Each number comes with its
+# Now the rule drives 1,000 roads on which nothing was chosen or trained. Each mean comes with its
 # 95 % interval.
 #
 # > **Predict.** The rule falls back at 8.25 m/s, then drives on. Doing nothing earns 23.4 and
@@ -391,8 +400,8 @@ bc.show(charts.histogram(episodes.returns, "return of an episode", title))
 
 # %% [markdown]
 # **See.** On each of these 1,000 roads the rule escapes, without an accident. But its mean
-# return is less than half of what a free road pays. (The small tower on the right holds the
-# few roads on which no other car drives in the left lane.)
+# return is less than half of what a free road pays. (On most roads of the small tower on the right
+# the left lane is free of traffic.)
 # <!-- claim: of('rule').episodes('success').all() and accidents('rule') == 0 -->
 # <!-- claim: of('rule').scores('returns').max() < 150 * second_pays(15) / 2 -->
 
@@ -408,20 +417,20 @@ bc.show(bc.traces([drive], title=title))
 # it drives 10.5. It wants to be slower than a car ahead even if that car is 150 m away. And once it
 # is in the left lane it stays there, even if another lane is faster. So a learner that starts from
 # this rule has a lot to gain: the rule shows *a* way out, not the best one. Such a teacher is
-# called
-# **sub-optimal**.
+# called **sub-optimal**.
 # <!-- claim: DEFAULT.rule.n == 5 -->
 # <!-- claim: 150 < DEFAULT.sight.distance -->
 
 # %% [markdown]
 # ## Round 6: an unsure rule
 #
-# Later a learner is pulled towards the rule. For that the rule must give probabilities, not one
-# action. So we make it unsure: it takes its own action with probability $p$ and each
-# of the other eight with $(1-p)/8$. Call this $\tilde\pi$, the **stochastic rule**.
+# In lesson 7 a learner is pulled towards the rule. For that the rule must give a probability to
+# each action, as a policy does. So we make it unsure: it takes its own action with probability $p$
+# and each of the other eight with probability $(1-p)/8$. This is the **stochastic rule**,
+# $\tilde\pi$.
 # <!-- claim: N_ACTIONS - 1 == 8 -->
 #
-# **Exercise 3.6 (5 min, ●○○).** Write it for many states at once.
+# **Exercise 3.6 (5 min, ●○○).** Write the stochastic rule for many states at once.
 
 
 # %%
@@ -441,9 +450,8 @@ shown = {f"p = {p:g}": bc.rule.stochastic_rule(np.array(3), p=p) for p in (0.5, 
 bc.show(charts.action_bars(shown, "The stochastic rule where the rule keeps left, for two p"))
 
 # %% [markdown]
-# > **Predict.** Let the stochastic rule drive: in each second it does something else with
-# > probability 0.1. In what share of the episodes does it drive all 150 s without an accident:
-# > nearly all, half, or hardly any?
+# > **Predict.** Let the stochastic rule drive with p = 0.9: in each second it does something else
+# > with probability 0.1. In what share of the episodes does it drive 150 s without an accident?
 
 # %%
 choices = ["nearly all", "about half", "hardly any"]
@@ -460,14 +468,15 @@ rows.append(["escapes", f"{100 * unsure.success.mean():.1f} %"])
 table(["1,000 roads, p = 0.9", ""], rows)
 
 # %% [markdown]
-# **Explain.** A wrong action for one second is a lot on this road: full steering for a second
-# turns the car towards the edge. The paper says that it collects its demonstrations with
+# **Explain.** One wrong second matters on this road: full steering turns the car towards the edge.
+# The paper says that it collects its demonstrations with
 # $\tilde\pi$ *and* that each of them escapes. On our road, at one decision a second, about half of
 # these drives end ahead of trap 1, so the two statements do not fit together here. In this course
 # the rule itself drives the demonstrations, and $\tilde\pi$ is what the learner is compared with.
-# You can have it the other way, too.
+# (To have $\tilde\pi$ drive them, set `stochastic_demonstrations=True` in the settings of an
+# agent.)
 #
-# What if only p changes?
+# The next table changes p and nothing else.
 
 # %%
 rows = []
@@ -487,19 +496,19 @@ table(["p", "without an accident (500 roads)"], rows)
 #    roads without an accident, and earns on average less than half of what a free road pays.
 # <!-- claim: of('rule').episodes('success').all() and accidents('rule') == 0 and
 #   of('rule').scores('returns').max() < 150 * second_pays(15) / 2 -->
-# 4. It is sub-optimal by design: it has five speeds, keeps as slow behind a far car as behind a
-#    near one, and stays in the left lane.
-# 5. The stochastic rule gives each action a probability. Learners are compared with it; as a driver
-#    with p = 0.9 it has an accident in most episodes.
+# 4. It is sub-optimal by design: it has five speeds, drives as slowly behind a car far ahead as
+#    behind a near one, and stays in the left lane.
+# 5. The stochastic rule gives each action a probability. Learners are compared with it. If it
+# drives    itself, with p = 0.9, it has an accident in most episodes.
 #
 # **Three questions to think about**
 # - Which one number in the rule would you change to earn more? What could go wrong then?
 # - The rule reads the true state of the cars, the learner 26 numbers. Can a learner imitate it
 #   perfectly?
-# - The traps react to the car ahead of them. What should the rule look at if they
-#   reacted to cars beside them, too?
+# - The traps react to the car ahead of them. What should the rule look at if they reacted to cars
+#   beside them, too?
 #
-# **Read on**: the next lessons let an agent learn alone, and then with this rule at its side. The
+# **Read on**: in the next lessons an agent learns alone, and then with the help of this rule. The
 # idea of a safety distance that grows with speed is old: Gipps, *A behavioural car-following
 # model* (1981).
 
@@ -510,7 +519,7 @@ compare_predictions(
         "3.1": drive.rule_speeds[0],
         "3.2": "negative",
         "3.3": "false as long as you are slower",
-        "3.4": "neither escapes",
+        "3.4": "neither",
         "3.5": "2 s",
         "3.6": "about 4.85 m, for the plan that we found",
         "3.7": round(result.distance.value),
