@@ -178,7 +178,7 @@ def judge_slopes(exercise: Exercise, answers: list[Plain], cases: list[tuple]) -
         theirs = outcomes(exercise, mistake.answer)
         if not all_same(theirs, rights, exercise.tolerance) and all_same(answers, theirs, exercise.tolerance):
             return wrong(exercise, mistake.says)
-    but = "Your loss has the right value, but"
+    but = f"Your `{exercise.name}` has the right value, but"
     for place, name in enumerate(exercise.slopes, 1):
         pairs = [(a.data[place], right.data[place]) for a, right in zip(answers, rights, strict=True)]
         fails = [case for case, pair in enumerate(pairs) if not same(*pair, exercise.tolerance)]
@@ -189,7 +189,7 @@ def judge_slopes(exercise: Exercise, answers: list[Plain], cases: list[tuple]) -
             why = "use torch's functions" if "numpy" in mine.data else " ".join(mine.data.split()).rstrip(".")
             return wrong(exercise, f"{but} no gradient can pass through it: {why}.")
         if not any(right.data.any() for _, right in pairs):
-            what = f"a gradient flows into `{name}`, which this loss must not change: use `{name}.detach()`."
+            what = f"a gradient flows into `{name}`, which must not change: use `{name}.detach()`."
             return wrong(exercise, f"{but} {what}")
         if not any(mine.data.any() for mine, _ in pairs):
             what = f"no gradient reaches `{name}`: look for `.detach()`, `.item()`, `float()` or NumPy."

@@ -127,6 +127,11 @@ constrained_target = Exercise(
         Mistake(target_with(lambda log_pi, q, kl, alpha, xi: soft(log_pi, q.mean(0), alpha) - xi * kl),
             "You take the mean of the two critics: here it is the smaller of the two, for each action.",
             "Two estimates are averaged."),
+        Mistake(target_with(lambda log_pi, q, kl, alpha, xi:
+            torch.minimum(soft(log_pi, q[0], alpha), soft(log_pi, q[1], alpha)) - xi * kl),
+            "You take the smaller of two values of the state. Take the smaller Q of *each action*, then the mean "
+            "under π.",
+            "The order of minimum and mean does not matter."),
         Mistake(lambda r, ended, log_pi, q, kl, alpha, xi, gamma:
             r + gamma * (1 - ended) * soft(log_pi, q.amin(0), alpha) - xi * kl,
             "Your KL stands outside the value of s': it is charged after an accident, too, and is not discounted. It "

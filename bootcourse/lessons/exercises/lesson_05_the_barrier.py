@@ -90,14 +90,16 @@ luck = Exercise(
 )  # fmt: skip
 
 
-def walk(chances, gamma, step, taught, best=np.max, restart=True, ends=False, one_step=False, after=False):
+def walk(
+    chances, gamma, step, taught, best=np.max, restart=True, ends=False, one_step=False, after=False, own_last=False
+):
     """Q-learning in the chain, with one thing done differently: what students do."""
     q, s = np.zeros((chain.STATES, 2)), 0
     for t, chance in enumerate(chances):
         if restart and t % chain.EPISODE == 0:
             s = 0
         a = int(q[s].argmax()) if chance < 0 else chance
-        seen = [(s, a)] if after else [(s, a), *taught]
+        seen = [(s, a)] if after else [*taught, (s, a)] if own_last else [(s, a), *taught]
         for state, action in seen:
             last = ends and t % chain.EPISODE == chain.EPISODE - 1 and (state, action) == (s, a)
             target = chain.REWARD[state, action] + (0 if last else gamma) * best(q[chain.NEXT[state, action]])
@@ -152,6 +154,9 @@ learn_chain = Exercise(
             "The target is the new value."),
         Mistake(lambda *case: walk(*case, after=True),
             "You replay the demonstration at the end. Replay it after *each* decision: the next choice depends on it.",
+            "The order of the updates does not matter."),
+        Mistake(lambda *case: walk(*case, own_last=True),
+            "You replay the demonstration before your own decision is learned. First your own, then `taught`.",
             "The order of the updates does not matter."),
         Mistake(lambda chances, gamma, step, taught: walk(chances, gamma, step, ()),
             "You do not replay the demonstration `taught`.",

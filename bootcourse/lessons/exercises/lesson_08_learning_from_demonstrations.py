@@ -228,6 +228,10 @@ margin_loss = Exercise(
         Mistake(lambda q_pair, action, theirs: (margins(q_pair, action)[0] * theirs).mean(),
             "You train the first critic only. The second has a loss of its own: add it.",
             "The second critic is a copy."),
+        Mistake(lambda q_pair, action, theirs:
+            (margins(q_pair, action, False) * bootstrap.paper_q_filter(q_pair[0], action) * theirs).mean(-1).sum(),
+            "You switch both losses by the first critic's filter. Each critic's loss is switched by its own.",
+            "A filter belongs to the state."),
         Mistake(lambda q_pair, action, theirs: (margins(q_pair.detach(), action) * theirs).mean(-1).sum(),
             "Your loss has the right value but no gradient, so it cannot move Q: leave out `.detach()`, `.item()` and "
             "NumPy.",
