@@ -41,9 +41,9 @@ from bootcourse.lessons import (
 # %% [markdown]
 # ## Look first
 #
-# Thirty identical drivers go round a ring with one lane. One of them begins slower than the others.
-# Overtaking is not possible, and each driver follows the same formula. Each line in the picture is
-# one car.
+# Thirty drivers go round a ring with one lane. Overtaking is not possible, and each driver follows
+# the same formula. One of them begins slower than the others. Each line in the picture is one car.
+# On the left the cars are 20 m apart on average, on the right 30 m.
 
 # %%
 rings = {f"{spacing} m apart": traffic.ring(spacing) for spacing in (20, 30)}
@@ -51,8 +51,8 @@ title = "One slow driver starts a jam at 20 m; at 30 m the disturbance dies out"
 bc.show(figures_traffic.space_time(rings, dt=0.5, title=title))
 
 # %% [markdown]
-# > **Predict.** At 20 m the cars have room for four car lengths each. Why do they stop? And why
-# > does the band of standing cars move *backwards* while the cars drive forwards?
+# > **Predict.** At 20 m each car has room for four car lengths. Why do cars stop? And why does the
+# > band of standing cars move *backwards* while the cars drive forwards?
 
 # %%
 predict("2.1", "Why does the jam move backwards?")
@@ -69,13 +69,14 @@ predict("2.1", "Why does the jam move backwards?")
 # %% [markdown]
 # ## Round 1: the gap that a driver wants
 #
-# The other cars follow the **Intelligent Driver Model** (IDM). It begins with the gap that
-# a driver wants at speed $v$ while it closes in at $\Delta v$ on the car ahead:
+# The other cars follow the **Intelligent Driver Model** (IDM). It begins with the gap that a driver
+# wants. The driver's speed is $v$, and $\Delta v$ is how much faster it is than the car ahead:
 #
 # $$ s^*(v, \Delta v) = s_0 + T v + \frac{v\, \Delta v}{2 \sqrt{a_{\max} b}} $$
 #
-# $s_0$ is kept even at a standstill. $T$ is a **time gap**: drive faster, and you want to be as
-# many seconds behind, so more metres. The last term asks for more room while you close in.
+# $s_0$ is the gap at a standstill. $T$ is a **time gap**: the driver wants to be $T$ seconds behind
+# the car ahead, which is more metres at a higher speed. The last term asks for more room while it
+# closes in; $a_{\max}$ is its strongest acceleration and $b$ the braking that it finds comfortable.
 #
 # > **Predict.** $s_0$ = 10 m, $T$ = 1.5 s, $a_{\max} = b$ = 0.5 m/s². What gap do you want at 10
 # > m/s behind a car at 10 m/s? Behind one at 8 m/s?
@@ -84,7 +85,7 @@ predict("2.1", "Why does the jam move backwards?")
 predict("2.2", "The gap that you want behind the car at 8 m/s?", unit="m")
 
 # %% [markdown]
-# **Exercise 2.1 (4 min, ●○○).** Write $s^*$.
+# **Exercise 2.1 (4 min, ●○○).** Write the gap $s^*$ that a driver wants.
 
 
 # %%
@@ -114,7 +115,9 @@ check.desired_gap(desired_gap)
 # %% [markdown]
 # ## Round 2: how hard to brake
 #
-# The acceleration weighs two wishes: the speed that the driver would like, and the gap.
+# The acceleration weighs two wishes: to drive at the desired speed, and to keep the gap. $s$ is the
+# gap that there is. The exponent $\delta$ (here {{ DEFAULT.traffic.delta | g }}) says how late the
+# acceleration fades as the driver nears its desired speed: the larger $\delta$, the later.
 #
 # $$ a = a_{\max} \left[ 1 - \left( \frac{v}{v_\text{desired}} \right)^{\delta} - \left(
 # \frac{s^*}{s} \right)^2 \right] $$
@@ -137,16 +140,16 @@ bc.show(figures_traffic.following(10.0, closing=(-2, 0, 2), title=title))
 # %% [markdown]
 # <details><summary>Answer</summary>
 #
-# It brakes at $a_{\max}$: the bracket is 1 − 1 − 1. So the gap at which a driver is content is
+# It brakes at $a_{\max}$: the bracket is 1 − 1 − 1. So the gap at which a driver holds its speed is
 # longer than $s^*$. In the picture it is where a line crosses zero.
 # <!-- claim: formulas.idm_acceleration(12.5, 12.5, 25.0, 25.0, 0.5, 4.0) == -0.5 -->
 #
 # </details>
 #
-# A simulation repeats one step. From the present speeds and the present gap follows the
-# acceleration, which is at least −{{ DEFAULT.traffic.braking_limit | g }} m/s² here: no car brakes
-# harder. For dt seconds both cars move with their present speeds, then the speed changes by a · dt.
-# It does not fall below 0.
+# A simulation repeats one step. It computes the acceleration a from the present speeds and the
+# present gap. Here a is at least −{{ DEFAULT.traffic.braking_limit | g }} m/s²: no car brakes
+# harder. For dt seconds both cars move at their present speeds. Then the driver's speed changes by
+# a · dt, but it does not fall below 0.
 # <!-- claim: traffic.follow(10.0, 10.0, 0.1) == -DEFAULT.traffic.braking_limit -->
 #
 # **Exercise 2.2 (20 min, ●●●).** Simulate a driver behind a car whose speeds are given. You need
@@ -166,8 +169,8 @@ def drive_behind(leader, v, gap, dt, v_desired, s0, time_gap, a_max, b, delta, l
 check.drive_behind(drive_behind)
 
 # %% [markdown]
-# Here are eight of the library's drivers in a row, 25 m apart. Their leader drives 10 m/s, brakes
-# to 4 m/s for 20 s, and drives on. Each driver follows the one ahead.
+# Here eight of the library's drivers follow each other, 25 m apart. Their leader drives 10 m/s,
+# then 4 m/s for 20 s, then 10 m/s again. The picture shows the leader and three of the eight.
 
 # %%
 leader = np.repeat([10.0, 4.0, 10.0], [60, 40, 140])
@@ -208,18 +211,18 @@ for v in (1.0, 6.0, 9.5, 12.0):
 table(["speed", "wants s*", "settles at"], rows)
 
 # %% [markdown]
-# **See.** Read the table from right to left. Cars that settle about 20 m apart drive 6 m/s, cars
-# that settle about 30 m apart 9.5 m/s. These are the two rings: four car lengths of distance make a
-# slow road.
+# **See.** Read the table from right to left. Cars that settle about 20 m apart drive 6 m/s, and
+# cars that settle about 30 m apart drive 9.5 m/s. That is how fast the two rings are without a
+# disturbance.
 #
-# And the jam? As you saw, a driver who comes too close brakes below the speed of the car ahead,
-# opens the gap, and accelerates again at $a_{\max}$ = {{ DEFAULT.traffic.a_max }} m/s², which is
-# slow. The driver behind has to brake a little harder. At 20 m that wave grows from car to car, at
-# 30 m it shrinks. Cars leave the jam at its front and arrive at its back, so the *jam* moves
-# backwards.
+# Where does the jam come from? As you saw, a driver that comes too close brakes below the speed of
+# the car ahead, opens the gap, and accelerates again. It does so slowly, by at most $a_{\max}$ =
+# {{ DEFAULT.traffic.a_max }} m/s², so the driver behind has to brake a little harder. In the ring
+# with 20 m that wave grows from car to car, in the ring with 30 m it shrinks. Cars leave the jam at
+# its front and join it at its back, so the *jam* moves backwards.
 #
-# What does that mean for your road? The scenario sets the mean distance at which the traffic ahead
-# of the traps starts.
+# Is there a jam on your road? In the scenario you can set the mean distance at which the traffic
+# ahead of the traps starts.
 
 # %%
 rows = []
@@ -231,8 +234,8 @@ for headway in (20.0, 30.0, 40.0):
 table(["mean distance", "slowest car, mean of 50 roads", "slowest of all"], rows)
 
 # %% [markdown]
-# **See.** With three lanes and six cars there is room to spread: the traffic slows a little, and in
-# these 150 drives it does not stop. The default is the thinnest of the three.
+# **See.** With three lanes and six cars there is room: the traffic slows down a little, and in
+# these 150 drives it does not stop. The scenario's own distance is the largest of the three.
 # <!-- claim: DEFAULT.road.lanes == 3 -->
 # <!-- claim: DEFAULT.traffic.cars == 6 -->
 # <!-- claim: DEFAULT.traffic.headway == max(20.0, 30.0, 40.0) -->
@@ -245,22 +248,23 @@ table(["mean distance", "slowest car, mean of 50 roads", "slowest of all"], rows
 # %% [markdown]
 # ## Round 3: when to change lane
 #
-# **MOBIL** asks one question with the numbers that you have: if I change, who accelerates more,
-# and who less?
+# **MOBIL** decides about a lane change with the accelerations of IDM: if I change, who can
+# accelerate more, and who less?
 #
 # $$ \Delta a_\text{ego} + p\, (\Delta a_\text{rear} + \Delta a_\text{front}) > a_\text{threshold}
 # $$
 #
-# The first term is the driver's own gain, the others are what the neighbours gain (mostly lose),
-# times a **politeness** $p$. Whoever it is, the change must not make the new follower brake
-# harder than a limit: that comes first.
+# The first term is the driver's own gain. The other two are the gains of two neighbours (mostly
+# they lose), times a **politeness** $p$. Before that comes safety: a change must not make the new
+# follower brake harder than a limit, whatever the gains are.
 #
-# The paper speaks of "trailing and leading vehicles in the target lane". A leading car does not
-# feel who drives behind it, so its gain is zero in IDM. The two that do feel it are the **new
-# follower**, in the lane that you change to, and the **old follower**, whom you leave behind.
-# That is how MOBIL was published, and how `bootcourse.road.traffic.worth_changing` does it.
+# Which neighbours? The paper names the "trailing and leading vehicles in the target lane". But in
+# IDM a leading car does not react to the car behind it, so its gain is zero. Two cars do react: the
+# **new follower**, behind you in the lane that you change to, and the **old follower**, which you
+# leave behind. MOBIL was published with these two, and `bootcourse.road.traffic.worth_changing`
+# uses them, too. (At exactly the threshold the library changes lane; the formula does not.)
 #
-# **Exercise 2.4 (7 min, ●●○).** Decide.
+# **Exercise 2.4 (7 min, ●●○).** Decide whether the driver changes lane.
 
 
 # %%
@@ -281,8 +285,8 @@ check.worth_changing(worth_changing)
 # You drive 11.5 m/s, 40 m behind a car at 11 m/s. The lane to the left is free ahead; a car comes
 # up in it at 12.5 m/s.
 #
-# > **Predict.** How much longer must the gap to that car be for a driver with p = 1 than for an
-# > egoist with p = 0?
+# > **Predict.** How long must the gap to that car be before a driver with p = 1 changes lane,
+# > compared with an egoist, p = 0?
 
 # %%
 predict("2.4", "The polite driver's gap over the egoist's?", ["the same", "twice", "four times"])
@@ -299,9 +303,9 @@ def new_follower(gap):
 bc.show(figures_traffic.changing(own_gain, new_follower, politeness=(0, 0.5, 1)))
 
 # %% [markdown]
-# **See.** The egoist changes as soon as the limit on the new follower's braking allows it. A driver
-# with p = 1 waits for a gap almost four times as long: it counts the new follower's braking as its
-# own loss.
+# **See.** A driver changes lane where its line is above the threshold, outside the red area. The
+# egoist changes as soon as the limit on the new follower's braking allows it. A driver with p = 1
+# waits for a gap almost four times as long: it counts the new follower's braking as its own loss.
 #
 # > **Predict.** Does polite traffic (p = 1) change lane more often or less often than rude traffic
 # > (p = 0)?
@@ -322,11 +326,11 @@ table(["politeness", "lane changes a road (100 roads)"], rows)
 
 # %% [markdown]
 # **Explain.** The number after ± is the standard error of the mean. Traffic with $p$ = 1 changes
-# lane more often than the other two, by about three errors. Between $p$ = 0 and 0.5 the difference
-# is smaller than the errors: these 100 roads do not tell which of the two changes more. We explain
-# the result for $p$ = 1 like this. The same $p$ weighs two things: what the new follower loses, and
-# what the *old* follower gains. On this road the other lanes are nearly empty, so often the new
-# follower loses nothing, while the old one gains. A polite driver gets out of the way.
+# lane more often than the other two, by more than the errors explain. Between $p$ = 0 and 0.5 the
+# difference is smaller than the errors: these 100 roads do not tell which of the two changes more.
+# We explain the result for $p$ = 1 like this. The same $p$ weighs two things: what the new follower
+# loses, and what the *old* follower gains. On this road the other lanes are nearly empty, so often
+# the new follower loses nothing, while the old one gains. A polite driver gets out of the way.
 #
 # These numbers are part of the scenario, and you can change them. The panel refuses numbers that do
 # not fit together, and says why.
@@ -355,10 +359,10 @@ bc.panels.scenario_panel()
 # %% [markdown]
 # ## Round 4: two steps a second
 #
-# To change lane, a traffic car turns towards a heading and back. Its controller turns at a rate
-# that is proportional to the error: (wanted heading − heading) / τ, with a **time constant** τ. Our
-# simulation runs at {{ DEFAULT.clock.simulation_rate }} Hz, as the paper's: the wheels are held for
-# dt = {{ DEFAULT.clock.dt }} s.
+# To change lane, a traffic car turns towards a heading and back. It turns at a rate that is
+# proportional to the error: (wanted heading − heading) / τ, where τ is a **time constant**. Our
+# simulation makes {{ DEFAULT.clock.simulation_rate }} steps a second, as the paper's does: the rate
+# is held for a whole step of dt = {{ DEFAULT.clock.dt }} s.
 #
 # > **Predict.** highway-env's own τ is 0.2 s: quick and precise at its usual 15 Hz. What happens
 # > at 2 Hz to a heading error of 1°?
@@ -368,12 +372,12 @@ choices = ["it settles in one step", "it swings and settles", "it swings and gro
 predict("2.7", "What happens to the heading error at 2 Hz?", choices)
 
 # %% [markdown]
-# **Exercise 2.5 (6 min, ●●○).** Follow the error, step by step.
+# **Exercise 2.5 (6 min, ●●○).** Write the heading error after each step of dt.
 
 
 # %%
 def heading_errors(error, tau, dt, steps):
-    """The heading error at the start and after each step: (steps + 1,), in the unit of error."""
+    """The heading error at the start and after each step: (steps + 1,). tau and dt in s."""
     # solution: the exercise's own
 
 
@@ -384,8 +388,8 @@ bc.show(figures_traffic.swinging(taus=(0.2, 0.3, 0.6), dt=bc.DEFAULT.clock.dt))
 
 # %% [markdown]
 # **Explain.** Each step multiplies the error by $1 - dt/\tau$. Between 0 and 1 it settles;
-# between −1 and 0 it swings and settles; below −1, that is for **gain × dt above 2**, it swings
-# and grows. The differential equation is stable for every τ. The *simulation* of it is not.
+# between −1 and 0 it swings and settles; below −1, that is for **dt / τ above 2**, it swings and
+# grows. The differential equation is stable for every τ. The *simulation* of it is not.
 # <!-- claim: 0 < 1 - 0.5 / 0.6 < 1 and -1 < 1 - 0.5 / 0.3 < 0 and 1 - 0.5 / 0.2 < -1 and 0.5 / 0.3
 #   < 2 < 0.5 / 0.2 -->
 
@@ -406,47 +410,48 @@ def broken(tau_heading, tau_lateral, rate=2, roads=100):
 
 
 # %%
-tried = {"highway-env's, 2 Hz": (0.2, 0.6, 2), "highway-env's, 10 Hz": (0.2, 0.6, 10)}
+tried = {"highway-env's, 2 Hz": (0.2, 0.6, 2), "highway-env's, 15 Hz": (0.2, 0.6, 15)}
 tried["ours, 2 Hz"] = (t.tau_heading, t.tau_lateral, 2)
 rows = []
 for name, numbers in tried.items():
     factor = 1 - 1 / numbers[2] / numbers[0]
     rows.append([name, f"{factor:.2f}", *(f"{share:.0%}" for share in broken(*numbers))])
-table(["gains", "factor of a step", "roads where a car leaves the road", "where cars crash"], rows)
+headings = ["factor of a step", "roads where a car leaves the road", "where cars crash"]
+table(["time constants", *headings], rows)
 
 # %% [markdown]
-# **See.** With highway-env's gains at 2 Hz, traffic cars leave the road although you do nothing to
-# disturb them. An agent that trains there learns to drive among cars that swerve off the road, and
-# its table of results does not show that. So we set slower gains for our own cars, and tested them
-# as above. Before you believe a simulator, look at each of its cars, and not just at the one that
-# you train.
+# **See.** With highway-env's time constants at 2 Hz, traffic cars leave the road although you do
+# nothing to disturb them. An agent that trains there learns to drive among cars that swerve off the
+# road, and its table of results does not show that. So we gave our own cars longer time constants,
+# and tested them as above. Before you believe a simulator, look at each of its cars, and not just
+# at the one that you train.
 
 # %%
 source("bootcourse.road.formulas", "lane_keeping_steering")
 
 # %% [markdown] tags=["instructor"] minutes=8
-# Ask where else a gain meets a time step: a learning rate times a curvature above 2 diverges in
-# the same way, with the same alternating signs. That picture is worth drawing on the board.
+# Ask where else a rate meets a time step: gradient descent with a learning rate times a curvature
+# above 2 diverges in the same way, with the same alternating signs. Draw that on the board.
 # <!-- claim: abs(1 - 1.99) < abs(1 - 2) == 1 < abs(1 - 2.01) -->
 
 # %% [markdown]
 # ## What you now know
 #
 # 1. IDM brakes for the closing speed as well as for the gap, and settles at more than $s^*$.
-# 2. Density decides the speed; above a density, a disturbance becomes a jam that travels
-#    backwards.
-# 3. MOBIL changes lane when it is safe and the gains, the others' weighed by politeness, exceed a
-#    threshold.
-# 4. On this road traffic with full politeness (p = 1) changes lane more often than egoists.
-# 5. A simulated controller is unstable if gain × time step exceeds 2, even where its differential
-#    equation is stable.
+# 2. The closer the cars, the slower they drive. If they are close enough, a disturbance grows into
+#    a jam that travels backwards.
+# 3. MOBIL changes lane when that is safe, and when the driver's own gain plus p times the gains of
+#    its new and its old follower exceeds a threshold.
+# 4. On this road traffic with full politeness (p = 1) changed lane more often than egoists.
+# 5. The simulated steering is unstable if dt / τ exceeds 2, even though its differential equation
+#    is stable.
 # <!-- claim: abs(1 - 1.99) < abs(1 - 2) == 1 < abs(1 - 2.01) -->
 #
 # **Three questions to think about**
 # - The traps are IDM cars, too, with a desired speed of 10 m/s. What would trap 1 do if you
-#   stopped behind it? In front of it?
+#   stopped behind it? And if you stopped in front of it?
 # - The traffic cars react to your car as to any other. How could a learner take advantage of that?
-# - Does a traffic jam ahead of the traps make the trap easier or harder to leave?
+# - Does a traffic jam ahead of the traps make it easier or harder to get out?
 #
 # **Read on**: Treiber, Hennecke and Helbing, *Congested traffic states in empirical observations
 # and microscopic simulations* (2000), for IDM; Kesting, Treiber and Helbing, *General
