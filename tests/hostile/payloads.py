@@ -19,6 +19,7 @@ from bootcourse.replay3d import export, recording, replay
 from bootcourse.scenario import DEFAULT, Clock
 from tests.browser import open_browser
 
+PATIENCE = 90  # seconds; a busy machine draws late
 FIRED = "http://fired.invalid/"  # asked for by a payload that became part of a page
 PAYLOAD = f"\"'></script><img src={FIRED} onerror=alert(1)><script>alert(2)</script>@PLOTS@{{0.__class__}}$"
 
@@ -43,12 +44,12 @@ class Watched:
 
     def show(self, address: str, number: int | None) -> list[str]:
         """Open an address, wait until frame `number` shows the label as text (None: do not), and tell what ran."""
-        self.page.goto(address)
+        self.page.goto(address, timeout=1000 * PATIENCE)
         if number is not None:
-            wait = time.monotonic() + 90
+            wait = time.monotonic() + PATIENCE
             while len(self.page.frames) <= number and time.monotonic() < wait:
                 self.page.wait_for_timeout(200)
-            heading = self.page.frames[number].wait_for_selector(".bc h4", state="attached", timeout=90_000)
+            heading = self.page.frames[number].wait_for_selector(".bc h4", state="attached", timeout=1000 * PATIENCE)
             assert f"<img src={FIRED}" in heading.text_content(), "the label is not shown"
         self.page.wait_for_timeout(1500)
         return self.ran
