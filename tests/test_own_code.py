@@ -163,6 +163,19 @@ def test_the_solutions_make_the_library_s_update_of_a_baseline(method):
         assert torch.allclose(right, mine, atol=1e-5)
 
 
+def test_the_solutions_make_the_library_s_update_of_ppo_and_begin_as_the_clone():
+    small = {"hidden": (8,), "envs_per_agent": 4, "horizon": 8, "batch": 16, "epochs": 1, "buffer_size": 16}
+    small |= {"demonstration_episodes": 2, "cloning_updates": 5}
+    settings = with_seeds(settings_for("ppo_cloned", **small), 2)
+    own_code._own.update(solutions())
+    mine, library = own_code.training(settings), Training(settings)
+    assert mine.learner.own.keys() == {"advantages", "clipped_loss"}
+    for training in (mine, library):
+        training.run(progress=False, stop=lambda training=training: training.updates >= 2)
+    for ours, theirs in zip(mine.learner.actor, library.learner.actor, strict=True):
+        assert torch.allclose(ours, theirs, atol=1e-6)
+
+
 def test_a_later_part_replaces_the_earlier_ones_where_there_is_a_constraint():
     sac, soft = [settings_for("sac")], [settings_for("soft")]
     target = {"constrained_target": None, "critic_target": None}

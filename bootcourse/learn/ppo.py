@@ -148,12 +148,19 @@ class PPOLearner(BCLearner):
         """Compute the advantages and returns of the stored decisions."""
         taken = decode_transitions(replay.table, replay.observation_size, replay.ended)
         values, next_values = (self._values(states) for states in (taken.states, taken.next_states))
-        gamma, lam = self.gamma, self.settings[0].gae_lambda  # gamma (agents, 1)
-        found = advantages(taken.rewards, values, next_values, taken.terminated, replay.ended, gamma, lam)
+        found = self.advantages(taken.rewards, values, next_values, taken.terminated, replay.ended)
         log_pi = self._log_pi(_agents_first(taken.states)).gather(-1, _agents_first(taken.actions)[..., None])[..., 0]
         columns = (taken.states, taken.actions, None, found, found + values)
         replay.columns = Minibatch(*(log_pi if column is None else _agents_first(column) for column in columns))
         replay.drawn = 0
+
+    def advantages(self, *columns: Tensor) -> Tensor:
+        """The advantages of decisions, all (horizon, agents, roads); columns as of `advantages`, without γ and λ."""
+        return advantages(*columns, self.gamma, self.settings[0].gae_lambda)
+
+    def clipped_loss(self, ratio: Tensor, advantage: Tensor) -> Tensor:
+        """Each agent's clipped objective: (agents, batch) -> (agents,)."""
+        return clipped_loss(ratio, advantage, self.settings[0].clip)
 
     def losses(self, batch: Minibatch) -> dict[str, Tensor]:
         """The clipped objective with its entropy bonus, and the values' squared error: each (agents,)."""
@@ -164,7 +171,7 @@ class PPOLearner(BCLearner):
         entropy, shared = sac.entropy(log_pi).mean(-1), self.settings[0]
         values = mlp(self.value, batch.states)[..., 0]
         return {
-            "actor_loss": clipped_loss(ratio, advantage, shared.clip) - shared.entropy_weight * entropy,
+            "actor_loss": self.clipped_loss(ratio, advantage) - shared.entropy_weight * entropy,
             "value_loss": sac.critic_loss(values, batch.returns) / 2,
             "entropy": entropy,
         }

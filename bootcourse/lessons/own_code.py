@@ -22,10 +22,10 @@ from bootcourse.lessons import answer_files
 from bootcourse.lessons.answer_files import PARTS
 from bootcourse.lessons.exercises import registry
 from bootcourse.lessons.judge import judge
-from bootcourse.lessons.own_learner import BUFFER, OwnReplay, own_learner, parts_of
+from bootcourse.lessons.own_learner import BUFFER, OwnReplay, own_learner, part, parts_of
 from bootcourse.lessons.verdict import Verdict
 
-BASELINES = PARTS[-3:]  # they are parts of GAIL and CQL
+APART = PARTS[-6:]  # they are parts of GAIL, CQL and PPO, and of a reward
 NONE = "No part is yours yet: agents train with the library's own."
 TOLERANCE = 1e-3  # relative difference of a loss or a gradient; rounding gives about 1e-6
 _own: dict[str, Callable] = {}  # the student's parts in this kernel
@@ -72,13 +72,22 @@ def training(settings: Sequence[Settings], episodes: int = 1000, **more) -> Trai
     own = {name: _own[name] for name in names if name in _own}
     size = made.env.single_observation_space.shape[0]
     if own:
-        made.learner = own_learner(own, settings, size, int(made.env.single_action_space.n))
+        begun, made.learner = made.learner, own_learner(own, settings, size, int(made.env.single_action_space.n))
+        with torch.no_grad():  # a learner may begin as a clone
+            for name, tensors in made.learner.tensors().items():
+                torch._foreach_copy_(tensors, begun.tensors()[name])
     if any(name in own for name in BUFFER):
         rows = made.replay.table[: made.replay.demonstrations] if made.replay.demonstrations else None
         made.replay = OwnReplay(own, settings, size, rows)
         made.learner.bonus.zero_()  # it is in the batch's rewards
     print(f"Training with {whose(names)}.".replace("`", ""))
     return made
+
+
+def yours_or_ours(name: str) -> Callable:
+    """The student's part, or the exercise's solution, for what is no learner's; prints whose it is."""
+    print(f"Training with {whose([name])}.".replace("`", ""))
+    return part(_own, name)
 
 
 # Do they make the same update? -----------------------------------------------------------------------
@@ -93,7 +102,7 @@ LOSSES = {
 def compare() -> Verdict:
     """Whether each of the student's parts makes the same update as the library's, on one batch; if not, which differs.
 
-    Losses and gradients are compared. The buffer's parts, which draw at random, and those of `BASELINES` go through
+    Losses and gradients are compared. The buffer's parts, which draw at random, and those of `APART` go through
     their checks again.
     """
     mine = [name for name in PARTS if name in _own]
@@ -108,7 +117,7 @@ def compare() -> Verdict:
 
 def difference(name: str) -> str:
     """What differs if this one part is the student's and all others are ours; "" if nothing does."""
-    if name in (*BUFFER, *BASELINES):
+    if name in (*BUFFER, *APART):
         verdict = judge(registry()[name], _own[name])
         return "" if verdict.passed else f"{name}: {verdict.sentence}"
     try:

@@ -17,6 +17,7 @@ from bootcourse.learn.cql import CQLLearner
 from bootcourse.learn.gail import GAILLearner
 from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.networks import mlp
+from bootcourse.learn.ppo import PPOLearner
 from bootcourse.learn.replay_buffer import Batch, decode_transitions
 from bootcourse.learn.settings import Settings
 from bootcourse.lessons.exercises import registry
@@ -40,6 +41,8 @@ def parts_of(settings: Sequence[Settings], own: Parts) -> list[str]:
     method = settings[0].method
     if method in ("cql", "gail"):
         return ["offline_loss"] if method == "cql" else ["discriminator_loss", "imitation_reward"]
+    if METHODS[method].on_policy:
+        return ["advantages", "clipped_loss"]
     names = ["soft_value", "critic_target", "critic_loss", "actor_loss", "temperature_loss", "ReplayBuffer"]
     if any(s.xi_multiplier > 0 or s.xi_fixed > 0 for s in settings):
         names.append("soft_constraint")
@@ -147,10 +150,28 @@ class OwnGAIL(GAILLearner):
         return torch.stack([part(self.own, "imitation_reward")(row) for row in own_logits])
 
 
+class OwnPPO(PPOLearner):
+    """PPO whose advantages and clipped objective are functions of one agent."""
+
+    def __init__(self, own: Parts, *arguments):
+        self.own = own
+        super().__init__(*arguments)
+
+    def advantages(self, *columns: Tensor) -> Tensor:
+        compute, lam = part(self.own, "advantages"), self.settings[0].gae_lambda
+        each = [compute(*(column[:, i] for column in columns), float(self.gamma[i]), lam) for i in range(self.agents)]
+        return torch.stack(each, dim=1)
+
+    def clipped_loss(self, ratio: Tensor, advantage: Tensor) -> Tensor:
+        loss, clip = part(self.own, "clipped_loss"), self.settings[0].clip
+        return torch.stack([loss(*rows, clip) for rows in zip(ratio, advantage, strict=True)])
+
+
 LEARNERS = {
     SACLearner: OwnSAC,
     CQLLearner: OwnCQL,
     GAILLearner: OwnGAIL,
+    PPOLearner: OwnPPO,
 }  # the library's learner -> the one that is made of parts
 
 

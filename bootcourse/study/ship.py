@@ -282,6 +282,10 @@ KEPT = {  # what no study makes: the command that does, and the behaviours that 
         "python -m bootcourse.lessons.teacher_reference --out assets/teachers.npz",
         ("road", "rule", "sac", "bootstrapped"),
     ),
+    "ppo.npz": (
+        "python -m bootcourse.lessons.ppo_reference --out assets/ppo.npz",
+        ("road", "rule", "demonstrations", "ppo", "ppo_cloned"),
+    ),
     "checks.md": ("python -m bootcourse.study.checks --out assets/checks.md", ("sac", "cql", "gail")),
     "readme/*": ("python -m bootcourse.plots.readme_picture", ("road", "rule")),
 }

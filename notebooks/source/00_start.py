@@ -180,6 +180,7 @@ table(headings, rows)
 # | 12 · [Exploration](12_exploration.ipynb) | | ● | ● |
 # | 13 · [The bug hunt](13_bug_hunt.ipynb) | | ● | ● |
 # | 14 · [Your teacher](14_your_teacher.ipynb) | | ● | |
+# | 15 · [The second trap](15_the_second_trap.ipynb) | | | ● |
 #
 # Each lesson opens on its own, says what it builds on, and runs in a minute or two. In its
 # exercises you write some lines, and a check says what is wrong with them in plain words;

@@ -22,7 +22,17 @@ from bootcourse.learn import bootstrap, sac
 from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.settings import settings_for
 from bootcourse.learn.teachers import toward
-from bootcourse.lessons import bugs, chain, example_teachers, shipped, teacher_reference, tracking, traffic
+from bootcourse.lessons import (
+    bugs,
+    chain,
+    example_teachers,
+    ppo_reference,
+    second_trap,
+    shipped,
+    teacher_reference,
+    tracking,
+    traffic,
+)
 from bootcourse.lessons.chain import leaving
 from bootcourse.lessons.exercises import registry
 from bootcourse.lessons.exercises.lesson_14_your_teacher import OUT, drive_out
@@ -332,6 +342,38 @@ def teacher_tests() -> dict:
     pairs = [(name, score) for name in names for score in ("success", "returns")]
     p = [stats.mannwhitneyu(students(name)[score], students("alone")[score]).pvalue for name, score in pairs]
     return dict(zip(pairs, teacher_reference.holm(p), strict=True))
+
+
+def ppo(kind: str) -> dict:
+    """What ships of lesson 15's agents of a kind: "alone", "concave", "shaped" or "cloned"."""
+    return ppo_reference.reference()[kind]
+
+
+def ppo_agents() -> int:
+    """How many agents of each kind ship."""
+    return len(ppo("alone")["success"])
+
+
+def ppo_escapes(kind: str) -> int:
+    """How many of them escape."""
+    return int((ppo(kind)["success"] >= ESCAPES).sum())
+
+
+@cache
+def ppo_drive(kind: str = "alone", road: int = ROAD):
+    """The first of these agents on one road."""
+    return record(ppo_reference.agent_of(kind).as_policy(), [road])[0]
+
+
+def ppo_speeds(kind: str = "alone") -> np.ndarray:
+    """Its speed (m/s) after each decision, (decisions,)."""
+    return ppo_drive(kind).states[2::2, EGO, SPEED]
+
+
+def ppo_gap(kind: str = "alone") -> np.ndarray:
+    """How far (m) it is ahead of trap 1 then, (decisions,)."""
+    cars = ppo_drive(kind).states[2::2]
+    return cars[:, EGO, X] - cars[:, TRAP_1, X]
 
 
 @cache
