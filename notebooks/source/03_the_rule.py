@@ -499,7 +499,7 @@ table(["p", "without an accident (500 roads)"], rows)
 # 4. It is sub-optimal by design: it has five speeds, drives as slowly behind a car far ahead as
 #    behind a near one, and stays in the left lane.
 # 5. The stochastic rule gives each action a probability. Learners are compared with it. If it
-# drives    itself, with p = 0.9, it has an accident in most episodes.
+#    drives itself, with p = 0.9, it has an accident in most episodes.
 #
 # **Three questions to think about**
 # - Which one number in the rule would you change to earn more? What could go wrong then?
