@@ -35,7 +35,7 @@ from bootcourse.lessons import (
 )
 from bootcourse.lessons.chain import leaving
 from bootcourse.lessons.exercises import registry
-from bootcourse.lessons.exercises.lesson_14_your_teacher import OUT, drive_out
+from bootcourse.lessons.exercises.driven_out import OUT, drive_out
 from bootcourse.lessons.own_learner import parts_of
 from bootcourse.policies import idle_policy, plan_policy, random_policy, rule_policy
 from bootcourse.road import formulas, observation
