@@ -170,6 +170,7 @@ def with_no_grad(log_pi, q, log_rule, alpha, xi):
 
 FLAT = "the mean of a change of log π under π is 0"
 equivalent("fixed_loss", "alpha * log_pi  ->  alpha * log_pi.detach()", FLAT)
+equivalent("fixed_value", "alpha * log_pi  ->  alpha * log_pi.detach()", FLAT)
 equivalent("fixed_loss", "log_pi - log_rule  ->  log_pi.detach() - log_rule", FLAT)
 
 
