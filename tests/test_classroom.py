@@ -180,6 +180,40 @@ def test_a_process_that_dies_is_started_anew(judge):
     assert judge.ask(NAME, RIGHT, 10)["kind"] == "passed"
 
 
+# Other systems --------------------------------------------------------------------------------------
+
+
+@pytest.mark.skipif(not Path("/bin/sh").exists(), reason="there it is so without a wrapper")
+def test_without_fork_namespaces_and_landlock_answers_are_judged_in_processes_of_their_own(tmp_path, monkeypatch):
+    as_elsewhere = (
+        "from bootcourse.classroom import judging, sandbox; from bootcourse.lessons import worker; "
+        "sandbox.shut_in = lambda folder: []; worker.FORKS = False; judging.main()"
+    )
+    python = tmp_path / "python"
+    python.write_text(f"#!/bin/sh\nexec {sys.executable} -c '{as_elsewhere}' \"$3\"\n")
+    python.chmod(0o755)
+    monkeypatch.setattr(sys, "executable", str(python))
+    judge = Judge()
+    assert judge.ask(NAME, RIGHT, 10)["kind"] == "passed" and judge.holds == []
+    assert "was stopped after 0.5 s" in judge.ask(NAME, body(NAME, "while True:\n    pass"), 0.5)["sentence"]
+    assert judge.ask(NAME, ONE_TRY, 10)["kind"] == "wrong"
+    judge.close()
+
+
+def test_files_with_the_line_ends_of_windows_are_read_as_others(judge, folder):
+    windows = {name: path.read_text().replace("\n", "\r\n") for name, path in (
+        (path.name, path) for path in (folder / "answers/decode.py", folder / "answers/predictions.json"))}  # fmt: skip
+    for name, text in windows.items():
+        (folder / "answers" / name).write_bytes(text.encode())
+    stub, mine = body("decode", "...").replace("\n", "\r\n"), RIGHT.replace("\n", "\r\n")
+    saved = json.dumps(notebook(cell(mine), cell(stub)), indent=1).replace("\n", "\r\n")
+    (folder / "05_the_barrier.ipynb").write_bytes(saved.encode())
+    read = from_folder(folder)
+    assert set(read.written) == {NAME, "decode"} and read.problems == () and read.predictions["5.1"]["answer"] == "none"
+    assert judge.ask(NAME, read.answers[NAME], 10)["kind"] == "passed"
+    assert judge.ask(NAME, mine.replace("return 1", "retrun 1"), 10)["sentence"].startswith("line 2, `retrun 1")
+
+
 # Grading --------------------------------------------------------------------------------------------
 
 
