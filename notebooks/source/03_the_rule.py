@@ -338,7 +338,7 @@ tried = bc.record(bc.plan_policy(a_try), [7], label="you")[0]
 bc.show(bc.top_view_over_time(tried, times=[0, 2, 4, 6, 8]))
 
 # %% [markdown]
-# On which roads does your plan work? Here it drives 400 roads. (If you have no plan yet, the kit's
+# On which roads does your plan work? Here it drives 400 roads. (Until you have a plan, the kit's
 # own drives.)
 
 # %%
