@@ -200,7 +200,7 @@ def test_what_a_study_has_not_computed_stays_as_it_ships(study, shipped, tmp_pat
 def test_every_module_that_a_shipped_file_s_command_names_exists():
     commands = {entry["command"] for entry in json.loads((assets.FOLDER / "manifest.json").read_text())["files"]}
     modules = {command.split()[2] for command in commands if command.startswith("python -m")}
-    assert len(modules) == 4 and all(importlib.util.find_spec(module) for module in modules)
+    assert len(modules) == 5 and all(importlib.util.find_spec(module) for module in modules)
 
 
 def test_the_files_are_checked_without_the_study_s_code():
