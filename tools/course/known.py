@@ -48,6 +48,7 @@ from bootcourse.storage.assets import FOLDER
 from bootcourse.study import clocks as study_clocks
 from bootcourse.study import report
 from bootcourse.study.checks import CHECKS
+from bootcourse.study.clocks import pattern
 from bootcourse.study.paper import EPISODES, PRINTED, paper_interval
 from bootcourse.study.planner import Search, discounted_values, plan_episodes
 from bootcourse.study.results import KINDS, Results
