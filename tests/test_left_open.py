@@ -8,10 +8,12 @@ import pytest
 
 from bootcourse import rule
 from bootcourse.learn.settings import Settings
+from bootcourse.lessons.shipped import shipped_experiment, shipped_results
 from bootcourse.methods import METHODS
 from bootcourse.road.formulas import bicycle_step, speed_reward, steering_reward, weighted_reward
 from bootcourse.scenario import CALIBRATED, DEFAULT
-from bootcourse.statistics import rate
+from bootcourse.statistics import ESCAPES, rate
+from bootcourse.study.clocks import cells
 from bootcourse.study.paper import EPISODES, PRINTED, earned_at
 from bootcourse.study.plan import EXPERIMENTS
 from tools.course.left_open import KINDS, PARTS, gaps
@@ -27,6 +29,18 @@ def test_a_gap_says_what_is_printed_what_follows_what_the_kit_does_and_where(gap
     assert tuple(gap.parts) == PARTS and all(gap.parts.values())
     assert gap.code and all(exists(name) for name in gap.code)
     assert gap.lessons
+
+
+def test_the_counts_of_agents_that_escape_are_those_of_the_shipped_study():
+    def escaping(results, *methods):
+        return [int((results.of(m).scores("success") >= ESCAPES).sum()) for m in methods]
+
+    clocks, both = shipped_experiment("clocks"), ("sac", "soft", "demos", "bootstrapped")
+    actor_only = shipped_experiment("ablations")["KL in the actor only"]
+    assert escaping(shipped_results(), "soft", "demos") == [8, 0] and escaping(actor_only, "soft") == [9]
+    assert escaping(cells(clocks)["2", "π̃"], *both) == [0, 5, 10, 10]  # the settings' comment has all four
+    assert "8 of 10 with the KL in both losses, 9 of 10" in GAPS["open-kl-target"].parts["What follows."]
+    assert "5 of 10 and 10 of 10" in GAPS["open-network"].parts["What follows."]
 
 
 def test_no_gap_is_twice():

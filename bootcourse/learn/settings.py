@@ -147,7 +147,8 @@ SHARED = tuple(f.name for f in fields(PPOSettings) if f.metadata.get("shared"))
 
 
 # Named settings. The defaults are quick: a quarter of an update for each decision. Those of "paper" make eight times as
-# many updates, on one road per agent. The paper prints neither number; `bootcourse study clocks` compares such choices.
+# many updates, on one road per agent. The paper prints neither number. With these the order of its Table 4 comes out:
+# of ten agents each, 0 (SAC), 5 (soft), 10 (demos) and 10 (bootstrapped) escape (`bootcourse study clocks`).
 SETTINGS = {
     "quick": {},
     "paper": {"envs_per_agent": 1, "updates": 2, "stochastic_demonstrations": True},  # §

@@ -507,7 +507,7 @@ for words, driver in [*rows, ("the rule", bc.rule_policy(bc.DEFAULT))]:
 # the soft constraint alone a success of
 # {{ 100 * PRINTED['soft']['success'].mean | .0f }} %. On our road, with the KL in the target,
 # {{ escaped('soft') }} of the study's {{ len(of('soft')) }} agents escape. When two results differ,
-# report both.)
+# report both, and look for the cause: lesson 9, round 6.)
 # <!-- claim: PRINTED['soft']['success'].mean == 0 -->
 # <!-- claim: escaped('soft') > 0 -->
 #

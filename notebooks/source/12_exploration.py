@@ -324,7 +324,9 @@ table([*headings, "best 100 in a row, %", "after training, % of all held-out roa
 #
 # A map of drives after training does not show this. These four agents did find the way out. The
 # question is why they did not keep it. Lesson 9, round 5, shows when four of the ten agents with
-# demonstrations alone lose it: as the demonstrations run out.
+# demonstrations alone lose it: as the demonstrations run out. And round 6 shows agents that keep
+# it: with two updates for each decision instead of a quarter, all ten do.
+# <!-- claim: escapers(clocks()['2', 'π̃'], 'demos') == len(clocks()['2', 'π̃'].of('demos')) == 10 -->
 
 # %% [markdown] tags=["instructor"] minutes=7
 # Stop at the map and ask what it does not show before they see the table: these are drives after

@@ -153,6 +153,12 @@ def escapers(results: Results, method: str) -> int:
     return int((results.of(method).scores("success") >= ESCAPES).sum())
 
 
+def kl_moved(method: str) -> float:
+    """Fisher's p of the agents that escape with the KL in both losses against those with it in the actor's alone."""
+    counts = [escaped(method), escapers(ablations()["KL in the actor only"], method)]
+    return float(stats.fisher_exact([[won, 10 - won] for won in counts]).pvalue)
+
+
 def accidents(method: str) -> float:
     """The share of a method's held-out episodes that end in an accident of any kind."""
     return sum(float(of(method).episodes(kind).mean()) for kind in KINDS)
