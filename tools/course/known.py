@@ -153,9 +153,9 @@ def escapers(results: Results, method: str) -> int:
     return int((results.of(method).scores("success") >= ESCAPES).sum())
 
 
-def kl_moved(method: str) -> float:
-    """Fisher's p of the agents that escape with the KL in both losses against those with it in the actor's alone."""
-    counts = [escaped(method), escapers(ablations()["KL in the actor only"], method)]
+def p_changed(change: str, method: str) -> float:
+    """Fisher's p of a method's agents that escape in the study against those with one choice changed."""
+    counts = [escaped(method), escapers(ablations()[change], method)]
     return float(stats.fisher_exact([[won, 10 - won] for won in counts]).pvalue)
 
 
