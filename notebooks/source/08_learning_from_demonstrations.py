@@ -356,8 +356,7 @@ for seed in range(4):
 # escaped('bootstrapped') }} and 10 cannot be told apart.
 #
 # "On its own" holds for this study, which makes a quarter of an update for each decision. With two
-# updates, and demonstrations by π̃, all ten agents with the bonus alone escape. Lesson 9, round 6,
-# shows why: the two helps fade by different clocks.
+# updates, and demonstrations by π̃, all ten agents with the bonus alone escape: lesson 9, round 6.
 # <!-- claim: escapers(clocks()['2', 'π̃'], 'demos') == len(clocks()['2', 'π̃'].of('demos')) == 10 -->
 # <!-- claim: {len(of(m)) for m in ('margin', 'demos', 'margin_soft', 'bootstrapped', 'soft')}
 #   == {10} -->

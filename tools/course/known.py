@@ -148,6 +148,18 @@ def clocks() -> dict[tuple[str, str], Results]:
     return study_clocks.cells(shipped.shipped_experiment("clocks"))
 
 
+def clocks_run_down(updates: str) -> float:
+    """The episode in which the soft agents' ξ is down to a tenth, the median of ten."""
+    return study_clocks.faded(clocks()[updates, "π̃"].of("soft").curves["xi"])
+
+
+def clocks_out(updates: str) -> float:
+    """The first 50 episodes in a row, by their end, in which a soft agent is ahead in most: the median of ten."""
+    success = clocks()[updates, "π̃"].of("soft").curves["success"]
+    most = np.array([np.convolve(curve, np.ones(50) / 50, "valid") > 0.5 for curve in success])
+    return float(np.median(np.where(most.any(1), most.argmax(1) + 50, success.shape[1])))
+
+
 def escapers(results: Results, method: str) -> int:
     """How many of a method's agents in these results escape."""
     return int((results.of(method).scores("success") >= ESCAPES).sum())
