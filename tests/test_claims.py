@@ -22,6 +22,7 @@ CLAIMED = (
     "06_demonstrations",
     "07_soft_constraint",
     "08_learning_from_demonstrations",
+    "09_ablation",
     "10_imitation",
     "11_offline_learning",
     "12_exploration",

@@ -134,9 +134,9 @@ table(["", "agents that escape (95 %)", theirs, "p, if one agent drove them"], r
 #
 # **Explain.** If they do differ, what could be the reason? The first suspect is the KL. In our
 # learner it is part of the critic's target, too, and that makes staying in the trap expensive
-# (lesson 7, round 4). Other implementations subtract it in the actor's loss only. So ten more
-# agents of both methods with the KL were trained in this way (`kl_in_target=False`), with all else
-# as in the study:
+# (lesson 7, round 4). One can also subtract it in the actor's loss alone. So ten more agents of both
+# methods with the KL were trained in this way (`kl_in_target=False`), with the study's settings
+# otherwise:
 
 # %%
 ablations = shipped.shipped_experiment("ablations")
@@ -632,7 +632,7 @@ print("In the study, ξ is a tenth of its start at the episodes", *sorted(cold))
 # {{ clocks()['2', 'π̃'].curves['success'].shape[1] | , }} episodes. The table's first column is the
 # number of updates for each decision: a quarter on four roads, as in the study, or two on one road.
 # The second column is who drove the demonstrations: the rule μ, as in the study, or the stochastic
-# rule π̃, as the paper writes.
+# rule π̃, as the paper writes. (The study trains for 2,000 episodes, so its counts differ.)
 # <!-- claim: {len(each.of(m)) for each in clocks().values() for m in each.methods} == {10} -->
 
 # %%
