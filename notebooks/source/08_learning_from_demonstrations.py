@@ -354,16 +354,16 @@ for seed in range(4):
 # with the same printed filter, and {{ escaped('bootstrapped') }} of ten with the bonus. The soft
 # constraint alone reaches {{ escaped('soft') }} of ten. With ten agents each, {{
 # escaped('bootstrapped') }} and 10 cannot be told apart.
-#
-# "On its own" holds for this study, which makes a quarter of an update for each decision. With two
-# updates, and demonstrations by π̃, all ten agents with the bonus alone escape: lesson 9, round 6.
-# <!-- claim: escapers(clocks()['2', 'π̃'], 'demos') == len(clocks()['2', 'π̃'].of('demos')) == 10 -->
 # <!-- claim: {len(of(m)) for m in ('margin', 'demos', 'margin_soft', 'bootstrapped', 'soft')}
 #   == {10} -->
 # <!-- claim: escaped('margin') == 0 and escaped('demos') == 0 and escaped('margin_soft') == 10 -->
 # <!-- claim: stats.fisher_exact([[escaped('bootstrapped'), 10 - escaped('bootstrapped')], [10,
 #   0]]).pvalue > 0.05 -->
 # <!-- claim: settings_for('margin_soft').paper_q_filter -->
+#
+# "On its own" holds for this study, which makes a quarter of an update for each decision. With two
+# updates, and demonstrations by π̃, all ten agents with the bonus alone escape: lesson 9, round 6.
+# <!-- claim: escapers(clocks()['2', 'π̃'], 'demos') == len(clocks()['2', 'π̃'].of('demos')) == 10 -->
 
 # %% [markdown] tags=["instructor"] minutes=8
 # `settings_for("margin")` and `settings_for("margin", paper_q_filter=False)` train the two. Let the
