@@ -8,6 +8,7 @@ both executed, and notebooks/instructor/NAME.md.
 --claims writes nothing: it prints the sentences about all cases (never, only, because ...) that have no claim.
 """
 
+import argparse
 import sys
 from pathlib import Path
 
@@ -20,16 +21,21 @@ from tools.course.source import sources
 
 
 def main(arguments: list[str]) -> int:
-    names = [a for a in arguments if not a.startswith("--")]
-    if "--check" in arguments:
-        found = [f"{path.stem}: {problem}" for path in sources(names) for problem in problems(path)]
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("names", nargs="*", metavar="NAME", help="such as 09_ablation; without one, every lesson")
+    only = parser.add_mutually_exclusive_group()
+    for flag in ("--prose", "--check", "--claims"):
+        only.add_argument(flag, action="store_true")
+    asked = parser.parse_args(arguments)
+    if asked.check:
+        found = [f"{path.stem}: {problem}" for path in sources(asked.names) for problem in problems(path)]
         print("\n".join(found) or "Nothing is wrong.")
         return bool(found)
-    if "--claims" in arguments:
-        print(*(f"{path.stem}: {sentence}" for path in sources(names) for sentence in unclaimed(path)), sep="\n")
+    if asked.claims:
+        print(*(f"{path.stem}: {sentence}" for path in sources(asked.names) for sentence in unclaimed(path)), sep="\n")
         return 0
-    for path in sources(names):
-        if not ("--prose" in arguments and refresh_prose(path)):
+    for path in sources(asked.names):
+        if not (asked.prose and refresh_prose(path)):
             print(*make(path), sep="\n")
     return 0
 

@@ -159,10 +159,11 @@ An agent of ours scores "so" if it lies in the paper's interval, or close to its
 reproduced*: neither. The rules were fixed before the study was run.
 """
 
-CLOCKS = """ξ = 200 α fades with the updates, β with the episodes. The paper prints neither how many updates follow a
-decision nor who drove its demonstrations. Each row is one choice of both, with one road per agent (four where a
-decision has 1/4 of an update). The last column is the probability that a table with *one* trained agent per method and
-20 test episodes each reads as the paper's: successes 0, 0, 20 and 20. Its interval is over training seeds (Jeffreys).
+CLOCKS = """ξ = 200 α fades with the updates, β with the episodes. The paper does not print how many updates follow a
+decision; its text says that π̃ drove the demonstrations. Each row is one choice of both, with one road per agent (four
+where a decision has 1/4 of an update). The last column is the probability that a table with *one* trained agent per
+method and 20 test episodes each reads as the paper's: successes 0, 0, 20 and 20. Its interval is over training seeds
+(Jeffreys).
 """
 
 LONGER_VIEW = """The paper's method with two updates per decision, a bonus of 0.5 instead of 2, batches of 128 instead

@@ -145,7 +145,7 @@ predict("6.4", "Share of 'keep straight'", unit="%")
 batch = replay_buffer.decode_transitions(by_rule, cloning.SIZE, torch.zeros(len(by_rule)))
 shares = np.bincount(batch.actions.numpy(), minlength=9) / len(by_rule)
 most = int(shares.argmax())
-title = f"{shares[most]:.0%} of the rule's decisions are '{bc.ACTION_NAMES[most]}'"
+title = f"{100 * shares[most]:.0f} % of the rule's decisions are '{bc.ACTION_NAMES[most]}'"
 bc.show(charts.action_bars({"rule": shares}, title, "share of the decisions"))
 # %% [markdown]
 # **See.** Each of the nine actions occurs. The rule needs {{ way_out()[0] | .0f }} s to get from

@@ -242,7 +242,7 @@ print(f"largest difference of a probability: {(logits.softmax(-1) - best).abs().
 
 # %%
 alone = (q / alpha).softmax(-1)[0].tolist()
-title = "Q would accelerate, the rule keeps left: the compromise doubts"
+title = "Q would accelerate, the rule keeps left; the compromise is undecided"
 bc.show(
     charts.action_bars(
         {"Q alone": alone, "rule": log_rule.exp()[0].tolist(), "both": best[0].tolist()}, title

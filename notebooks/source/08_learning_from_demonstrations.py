@@ -180,7 +180,7 @@ named = {
     "idle: stays behind": each.trapped[:60],
 }
 title = "The discounted return from each second on, with and without a bonus"
-bc.show(charts.lines(np.arange(60), named, title, "second of the drive", "critic's target"))
+bc.show(charts.lines(np.arange(60), named, title, "second of the drive", "discounted return"))
 
 # %% [markdown]
 # **Explain.** If each second from now on is demonstrated, c = {{ SETTINGS.bonus }} adds
@@ -420,7 +420,7 @@ print(f"{result.seconds:.0f} s; episodes of each: {training.curves.finished.toli
 
 # %%
 expert, rival = np.array(noted["expert"]).T, np.array(noted["rival"]).T
-named = {"demonstrated, c = 2": expert[:2], "its best rival, c = 2": rival[:2]}
+named = {"demonstrated, c = 2": expert[:2], "best rival, c = 2": rival[:2]}
 named |= {"demonstrated, c = 0": expert[2:]}
 looks = [charts.Style("#D55E00"), charts.Style("#0072B2", "--"), charts.Style("#5F6B77", ":")]
 title, label = "What two bonuses do to the critics", "mean Q(s,a) on the way out"

@@ -13,7 +13,7 @@ LESSON = re.compile(r" Lesson (\d+)\.$")
 # Bold that labels a paragraph in a lesson's form (notebooks/source/README.md), with no full stop of its own.
 LABELS = "Time, It builds on, You need, Read on, What you will be able to do, What you now know".split(", ")
 # Bold that stresses something, or names a button, and introduces no word.
-STRESSED = "drive, gain × dt above 2, keep as demonstration, lane, less, longer, never negative, our, speed, η = …"
+STRESSED = "drive, dt / τ above 2, keep as demonstration, lane, less, longer, never negative, our, speed, η = …"
 STRESSED = STRESSED.split(", ")
 
 
