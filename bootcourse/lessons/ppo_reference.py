@@ -28,7 +28,7 @@ from bootcourse.lessons.second_trap import Repaid, left_of, shaped_pay
 from bootcourse.lessons.teacher_reference import alike
 from bootcourse.storage.assets import FOLDER
 
-SEEDS, EVERY = 3, 50_000  # agents of each kind; decisions between two points of a curve
+SEEDS, EVERY = 10, 50_000  # agents of each kind; decisions between two points of a curve
 ROADS = held_out_seeds(14, 200)  # that every agent is tested on
 QUICK = {"hidden": (32, 32), "actor_lr": 2e-3, "critic_lr": 2e-3, "epochs": 3}  # in place of the settings of `ppo`
 FILE = FOLDER / "ppo.npz"

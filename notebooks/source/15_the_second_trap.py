@@ -44,8 +44,7 @@ from bootcourse.road.state import EGO, SPEED
 # so here is a learner that drives hundreds of roads at once: PPO, *proximal policy optimisation*.
 # {{ ppo_agents() }} agents were trained with it, alone, without a rule and demonstrations. They
 # ship with the course, and were tested on {{ len(ppo_reference.ROADS) }} roads that are new to
-# them. (That is a small number of agents, see lesson 9. What follows is about differences that are
-# much larger than those between them.)
+# them.
 
 # %%
 groups = ppo_reference.reference()
