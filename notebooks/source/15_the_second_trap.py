@@ -170,7 +170,7 @@ table(["", "mean speed, m/s", "mean r_v", "r_v at the mean speed", "gap"], rows)
 # %% [markdown]
 # ## Round 2: PPO in two formulas
 #
-# PPO has an actor π and a critic V(s), which says what a state is worth. It drives all roads for {{
+# PPO has an actor π and a critic V(s), which says what a state is worth. It drives its roads for {{
 # settings_for('ppo').horizon }} seconds, learns from these decisions, and deletes them.
 #
 # **How good was a decision?** Better or worse than V expected. The surprise of one second is
@@ -183,7 +183,7 @@ table(["", "mean speed, m/s", "mean r_v", "r_v at the mean speed", "gap"], rows)
 #
 # With λ = 0 it trusts V after one second; with λ = 1 it trusts what happened. This is called GAE,
 # *generalised advantage estimation*. Two endings need care. After an accident nothing follows: V is
-# 0 there. If only the time is over, the last state still has its value. In both cases the next row
+# 0 there. If the time is over, the last state still has its value. In both cases the next row
 # belongs to another episode, and the sum stops.
 #
 # **Exercise 15.2 (15 min, ●●●).** Write it, in torch. Can you do it in one loop, from the last row
@@ -288,7 +288,7 @@ bc.show(bc.traces(your_drive, title="Your agent", what=("speed", "distance")))
 # %% [markdown] tags=["instructor"] minutes=8
 # The two endings are where most answers fail. Draw two rows, one that ends in an accident and one
 # that runs out of time, and fill in δ and the sum for both. Who thinks that clipping is a limit on
-# the policy? It is none: it takes the payment away, and other rows of the batch can push further.
+# the policy? It takes the payment away, and other rows of the batch can push the policy further.
 
 # %% [markdown]
 # ## Round 3: change the reward
@@ -302,9 +302,9 @@ bc.show(bc.traces(your_drive, title="Your agent", what=("speed", "distance")))
 #
 # $$ F = \gamma\, \Phi(s') - \Phi(s) $$
 #
-# Add up a whole drive, discounted: all terms but the first and the last cancel. Whatever the car
-# does in between, the sum is $\gamma^T \Phi(s_T) - \Phi(s_0)$. So a detour earns nothing, and the
-# best policy stays the best (Ng, Harada and Russell 1999). After an accident Φ is 0: the agent
+# Add up a whole drive, discounted: the terms between the first and the last cancel. Whatever the
+# car does in between, the sum is $\gamma^T \Phi(s_T) - \Phi(s_0)$. So a detour earns nothing, and
+# the best policy stays the best (Ng, Harada and Russell 1999). After an accident Φ is 0: the agent
 # gives back what it was lent. Our potential is {{ second_trap.PER_LANE | g }} for each lane that
 # the car has come to the left.
 #
@@ -365,9 +365,9 @@ table(["PPO, paid", "each agent's escapes, %, sorted", "the road's return", "acc
 #
 # **Explain.** The critic learns the potential, too. Once V is lower by Φ, each δ is what it was
 # without F, and so are the advantages. A potential works like another start of V: it changes what
-# is tried at first. We think that this was not enough here because the first tries to the left
-# crash. The way out takes several right actions in a row, and a wish to be on the left is none of
-# them. This is said of one potential and one time of training: another may do better. Can you write
+# is tried at first. We think that this was not enough here: the first tries to the left crash. The
+# way out takes several right actions in a row. A wish to be on the left is not one of them. This is
+# said of one potential and one time of training: another may do better. Can you write
 # one that pays for falling back first?
 
 # %% [markdown] tags=["instructor"] minutes=6
@@ -437,7 +437,7 @@ bc.show(bc.traces(list(fast.values()), title=title, what=("speed", "distance", "
 # <!-- claim: not drive_episodes(rule_policy(DEFAULT), ppo_reference.ROADS).accident.any() and
 #   (ppo('cloned')['alike'] < 0.5).all() -->
 #
-# **Explain.** What was the rule for? It was no model of good driving: it earns {{
+# **Explain.** What was the rule for? It was not a model of good driving: it earns {{
 # of('rule').scores('returns')[0] | .0f }}, about half of what its pupils earn, and they contradict
 # it in most of their decisions. It put the learner on the other side of the barrier.
 # From there on the reward was enough: speed pays more on a free road than behind trap 1, and PPO
@@ -445,8 +445,8 @@ bc.show(bc.traces(list(fast.values()), title=title, what=("speed", "distance", "
 # demonstrations of lessons 7 to 9 do the same for a learner that needs help for longer.
 
 # %% [markdown] tags=["instructor"] minutes=6
-# Ask which of the course's figures would have looked the same for the second trap: every one that
-# shows returns. Then ask for one sentence for an abstract about PPO alone that is true, and does
+# Ask which of the course's figures would have looked the same for the second trap: those that
+# show returns. Then ask for one sentence for an abstract about PPO alone that is true, and does
 # not mislead.
 
 # %% [markdown]
