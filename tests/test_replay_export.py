@@ -67,7 +67,7 @@ def test_a_whole_episode_of_ten_cars_is_one_file_under_3_mb_that_names_no_server
     rollout, path = whole_episode
     assert rollout.states.shape[1] == 10 and path.stat().st_size < 3e6
     page = path.read_text()
-    assert page.count("</html>") == 1 and "<title>bootstrapped on road 1</title>" in page
+    assert page.count("</html>") == 1 and "<title>bootstrapped SAC on road 1</title>" in page
     assert '<script src="' not in page and '<link rel="stylesheet" href="http' not in page
 
 

@@ -6,7 +6,15 @@ import numpy as np
 import torch
 
 import bootcourse as bc
-from tests.answers import right, wrong
+from tests.answers import equivalent, right, wrong
+
+PAIR = "(torch.empty_like(delta), torch.zeros_like(delta[0]))"
+equivalent(
+    "advantages", f"{PAIR}  ->  (delta, torch.zeros_like(delta[0]))", "each surprise is read before it is replaced"
+)
+equivalent("advantages", "delta[0]  ->  delta[-1]", "only its shape")
+PAID = "torch.minimum(ratio * advantage, ratio.clamp(1 - clip, 1 + clip) * advantage)"
+equivalent("clipped_loss", f"{PAID}.mean(-1)  ->  {PAID}.mean(0)", "one agent's batch has one axis")
 
 # advantages -------------------------------------------------------------------------------------------
 
