@@ -25,7 +25,7 @@ from bootcourse.learn.settings import Settings, settings_for
 from bootcourse.learn.teachers import course_rule
 from bootcourse.learn.training import MOST_EPISODES, Training
 from bootcourse.lessons.second_trap import Repaid, left_of, shaped_pay
-from bootcourse.lessons.teacher_reference import alike
+from bootcourse.lessons.teacher_reference import alike, grouped
 from bootcourse.storage.assets import FOLDER
 
 SEEDS, EVERY = 10, 50_000  # agents of each kind; decisions between two points of a curve
@@ -119,12 +119,8 @@ def main(arguments: list[str] | None = None) -> int:
 @cache
 def reference(path: Path = FILE) -> dict[str, dict[str, np.ndarray]]:
     """{kind: what `main` kept of its agents, each (agents, ...)}. Raises BootcourseError if the file is damaged."""
-    found = {kind: {} for kind in KINDS}
-    for name, values in read_arrays(path).items():
-        kind, _, what = name.partition("/")
-        if what:
-            found.setdefault(kind, {})[what] = values
-    if not all(found.values()):
+    found = grouped(path)
+    if not KINDS.keys() <= found.keys():
         raise BootcourseError(f"{path} does not hold the agents of all kinds: make it again with `{COMMAND}`.")
     return found
 

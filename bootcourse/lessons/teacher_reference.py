@@ -126,13 +126,19 @@ def main(arguments: list[str] | None = None) -> int:
 
 def reference(path: Path = FILE) -> dict[str, dict[str, np.ndarray]]:
     """{teacher or "alone": what `main` kept of its ten students}. Raises BootcourseError if the file is damaged."""
-    arrays, found = read_arrays(path), {}
-    for name, values in arrays.items():
+    found = grouped(path)
+    if set(found) != {job.name for job in teacher_jobs(1)}:
+        raise BootcourseError(f"{path} does not hold the students of all teachers: make it again with `{COMMAND}`.")
+    return found
+
+
+def grouped(path: Path) -> dict[str, dict[str, np.ndarray]]:
+    """The arrays GROUP/NAME of a file: {group: {name: array}}."""
+    found = {}
+    for name, values in read_arrays(path).items():
         group, _, what = name.partition("/")
         if what:
             found.setdefault(group, {})[what] = values
-    if set(found) != {job.name for job in teacher_jobs(1)}:
-        raise BootcourseError(f"{path} does not hold the students of all teachers: make it again with `{COMMAND}`.")
     return found
 
 

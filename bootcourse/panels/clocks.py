@@ -14,7 +14,7 @@ from bootcourse.methods import display_name, style
 from bootcourse.panels.panel import Panel
 from bootcourse.plots.svg import QUIET, SvgAxes, drawing, printed, text
 from bootcourse.plots.training_curves import WINDOW, draw_band
-from bootcourse.statistics import ESCAPES, iqm, rolling_means
+from bootcourse.statistics import iqm, rolling_means
 from bootcourse.storage.assets import FOLDER
 from bootcourse.study.clocks import cells, faded
 from bootcourse.study.plan import VARIED
@@ -62,12 +62,11 @@ class ClocksPanel(Panel):
 def told(results: Results, updates: str) -> str:
     """What the curves say: when ξ is down to a tenth, when β is 0, and who escapes after that."""
     xi, beta = faded(results.of("soft").curves["xi"]), results.of("demos").agents[0]["beta_episodes"]
-    escaping = {m: int((results.of(m).scores("success") >= ESCAPES).sum()) for m in ("soft", "demos")}
-    agents = len(results.of("soft"))
+    soft, demos, agents = results.escapers("soft"), results.escapers("demos"), len(results.of("soft"))
     return (
         f"{updates} updates per decision: ξ is down to a tenth after {xi:.0f} episodes, β is 0 after {beta:,}. "
-        f"In the end {escaping['soft']} of {agents} agents escape with the soft constraint alone, {escaping['demos']} "
-        "with demonstrations alone."
+        f"In the end {soft} of {agents} agents escape with the soft constraint alone, {demos} with "
+        "demonstrations alone."
     )
 
 

@@ -17,6 +17,7 @@ from bootcourse.files import check_arrays, decoding, parse, read_arrays, read_js
 from bootcourse.learn.curves import NAMES
 from bootcourse.learn.settings import stored_settings
 from bootcourse.road.state import Accident
+from bootcourse.statistics import ESCAPES
 from bootcourse.study.plan import EXPERIMENTS, STUDIES, folder
 from bootcourse.study.planner import Staying
 
@@ -56,6 +57,10 @@ class Results:
     def scores(self, measure: str) -> np.ndarray:
         """Each agent's mean of one of `MEASURES` over its held-out episodes, (agents,)."""
         return self.episodes(measure).mean(axis=1)
+
+    def escapers(self, method: str) -> int:
+        """How many agents of a method escape."""
+        return int((self.of(method).scores("success") >= ESCAPES).sum())
 
     def episodes(self, measure: str) -> np.ndarray:
         """One of `MEASURES` in every held-out episode, (agents, episodes); an event is 1 where it happened, else 0."""

@@ -45,8 +45,7 @@ def k_of_n(hits: np.ndarray) -> str:
 
 def escaped(results: Results, method: str) -> str:
     """ "7 of 10": how many agents of a method escape."""
-    success = results.of(method).scores("success")
-    return f"{int((success >= ESCAPES).sum())} of {len(success)}"
+    return f"{results.escapers(method)} of {len(results.of(method))}"
 
 
 def score(results: Results, method: str, measure: str) -> Estimate:

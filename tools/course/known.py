@@ -160,9 +160,7 @@ def clocks_out(updates: str) -> float:
     return float(np.median(np.where(most.any(1), most.argmax(1) + 50, success.shape[1])))
 
 
-def escapers(results: Results, method: str) -> int:
-    """How many of a method's agents in these results escape."""
-    return int((results.of(method).scores("success") >= ESCAPES).sum())
+escapers = Results.escapers  # (results, method): how many of a method's agents in these results escape
 
 
 def p_changed(change: str, method: str) -> float:
@@ -364,7 +362,7 @@ def teacher_tests() -> dict:
 
 
 def ppo(kind: str) -> dict:
-    """What ships of lesson 15's agents of a kind: "alone", "concave", "shaped" or "cloned"."""
+    """What ships of lesson 15's agents of a kind: "alone", "shaped" or "cloned"."""
     return ppo_reference.reference()[kind]
 
 
