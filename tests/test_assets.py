@@ -158,6 +158,28 @@ def test_a_smaller_study_replaces_a_larger_one_only_if_told_to_and_the_other_run
     assert {"soft-0", "sac-1"} <= {path.name for path in find_runs(shipped / "runs")}
 
 
+def test_the_agents_of_a_method_that_a_study_has_not_computed_stay(study, shipped, tmp_path):
+    before, later = load_results(shipped / "study-default.npz"), tmp_path / "later"
+    later.mkdir()
+    (later / "study.json").write_text("{}")
+    for method in ("soft", "demos"):  # one that ships, and a new one
+        agents = with_seeds(settings_for(method, learning_starts=16, hidden=(8,), buffer_size=2000, batch=8), 3)
+        assert run_job(Job(f"default/{method}", tuple(agents), DEFAULT, 2, 3), later) == ""
+    ship.build(later, shipped)
+    after = load_results(shipped / "study-default.npz")
+    assert [(agent["method"], agent["seed"]) for agent in after.agents] == [
+        *(("demos", seed) for seed in range(3)),
+        *(("sac", seed) for seed in range(2)),
+        *(("soft", seed) for seed in range(3)),
+    ]
+    for kind in ("tested", "curves"):
+        for name, values in getattr(after.of("sac"), kind).items():
+            np.testing.assert_array_equal(values, getattr(before.of("sac"), kind)[name])
+    entries = {entry["file"]: entry for entry in json.loads((shipped / "manifest.json").read_text())["files"]}
+    assert {"sac", "soft", "demos"} <= entries["study-default.npz"]["behaviour"].keys()
+    assert assets.verify(shipped) == [] and older(shipped) == []
+
+
 def test_files_that_a_killed_build_had_moved_aside_are_put_back(shipped, bootcourse, monkeypatch):
     monkeypatch.setattr(assets, "FOLDER", shipped)
     assets.unfinished(shipped).mkdir()

@@ -51,6 +51,11 @@ class Results:
         return self.pick(sorted(mine, key=lambda i: self.agents[i]["seed"]))
 
     @property
+    def sizes(self) -> tuple[int, int]:
+        """(held-out episodes, training episodes) of each agent."""
+        return self.tested["returns"].shape[1], self.curves["return"].shape[1]
+
+    @property
     def methods(self) -> list[str]:
         return list(dict.fromkeys(agent["method"] for agent in self.agents))
 

@@ -19,16 +19,16 @@ from bootcourse.files import provenance, sha256, write_arrays, write_bytes, writ
 from bootcourse.methods import METHODS
 from bootcourse.policies import rule_policy
 from bootcourse.scenario import DEFAULT
-from bootcourse.statistics import ESCAPES
 from bootcourse.storage.assets import FOLDER, FORMAT, LIMIT, MANIFEST, put_back, read_manifest, unfinished
 from bootcourse.storage.runs import load_run
 from bootcourse.storage.sealed import is_file_with, write_sealed
 from bootcourse.storage.work import locked
+from bootcourse.study.card import model_card
 from bootcourse.study.fingerprint import alike, fingerprints, key
 from bootcourse.study.jobs import HELD_OUT, read_job
 from bootcourse.study.plan import EXPERIMENTS
 from bootcourse.study.report import write_report
-from bootcourse.study.results import KINDS, Results, in_assets, in_study, load_jobs, load_results, save_results
+from bootcourse.study.results import Results, in_assets, in_study, join, load_jobs, load_results, save_results
 
 CURVES = ("success", "return", "speed", "distance", "accident", "entropy")  # the others are in runs/
 VARIED_CURVES = ("success", "return", "xi")  # of the experiments
@@ -54,16 +54,34 @@ class Shipment:
         """Has the study finished any job of this part?"""
         return any((self.study / "jobs" / part).rglob("job.json"))
 
+    def ships(self, path: Path) -> Results | None:
+        """The results that ship in a file; None if it is absent or not as the manifest lists it."""
+        entry = self.entries.get(path.relative_to(self.new).as_posix())
+        return load_results(path) if entry and is_file_with(path, entry["sha256"]) else None
+
+    def completed(self, results: Results, path: Path, behaviour: dict[str, list[float]]) -> tuple[Results, dict]:
+        """(results, behaviour) with the shipped agents of the methods that the study has not computed.
+
+        Results with other numbers of episodes are not joined: `check_size` judges them.
+        """
+        ships = self.ships(path)
+        if ships is None or ships.sizes != results.sizes or not (missing := set(ships.methods) - set(results.methods)):
+            return results, behaviour
+        kept = [ships.of(method) for method in missing]
+        names = results.curves.keys() & ships.curves.keys()
+        joined = join([replace(part, curves={name: part.curves[name] for name in names}) for part in (results, *kept)])
+        order = sorted(range(len(joined)), key=lambda i: (joined.agents[i]["method"], joined.agents[i]["seed"]))
+        entry = self.entries[path.relative_to(self.new).as_posix()]
+        former = {name: self.behaviours[name][made] for name, made in entry["behaviour"].items()}
+        return joined.pick(order), agreed([behaviour, former])
+
     def check_size(self, results: Results, path: Path) -> None:
         """Raise BootcourseError if `path` holds more agents or episodes than the results that would replace it."""
-        entry = self.entries.get(path.relative_to(self.new).as_posix())
-        if self.replace_larger or entry is None or not is_file_with(path, entry["sha256"]):
+        ships = self.ships(path)
+        if self.replace_larger or ships is None:
             return
-        ships = load_results(path)
         sizes = [(f"agents of {method}", len(ships.of(method)), len(results.of(method))) for method in ships.methods]
-        for kind, name in (("tested", "held-out episodes"), ("curves", "training episodes")):
-            before, after = (next(iter(getattr(each, kind).values())).shape[1] for each in (ships, results))
-            sizes.append((name, before, after))
+        sizes += zip(("held-out episodes", "training episodes"), ships.sizes, results.sizes, strict=True)
         smaller = [f"{after} {name} instead of {before}" for name, before, after in sizes if after < before]
         if smaller:
             raise BootcourseError(
@@ -142,17 +160,22 @@ def _fill(shipment: Shipment, folder: Path) -> None:
 
 
 def jobs_made(study: Path, part: str) -> tuple[dict[str, list[float]], dict]:
-    """(behaviour, versions) of the jobs of a part. A fingerprint on which they differ is [], never current."""
+    """(behaviour, versions) of the jobs of a part."""
     jobs = [read_job(path.parent) for path in sorted((study / "jobs" / part).rglob("job.json"))]
     if not jobs:
         raise BootcourseError(f"{study} has no finished jobs in jobs/{part}: compute them first.")
-    behaviour = {}
-    for job in jobs:
-        for name, values in job.get("behaviour", {"unrecorded behaviour": []}).items():
-            if not alike(name, behaviour.setdefault(name, values), values):
-                behaviour[name] = []
     versions = {name: value for name, value in jobs[0]["provenance"].items() if name != "seconds"}
-    return behaviour, versions
+    return agreed([job.get("behaviour", {"unrecorded behaviour": []}) for job in jobs]), versions
+
+
+def agreed(behaviours: Sequence[dict[str, list[float]]]) -> dict[str, list[float]]:
+    """The fingerprints of several results together; one on which they differ is [], never current."""
+    found: dict[str, list[float]] = {}
+    for behaviour in behaviours:
+        for name, values in behaviour.items():
+            if not alike(name, found.setdefault(name, values), values):
+                found[name] = []
+    return found
 
 
 COMMANDS = {
@@ -177,7 +200,7 @@ def add_results(to: Shipment) -> None:
                 )
             continue
         behaviour, versions = jobs_made(to.study, part)
-        results = load_jobs(to.study, part)
+        results, behaviour = to.completed(load_jobs(to.study, part), path, behaviour)
         to.check_size(results, path)
         save_results(lighter(results, CURVES[:2] if part == "sweep" else CURVES), path, versions)
         to.add(path, how, behaviour, versions)
@@ -303,49 +326,8 @@ def add_kept(to: Shipment, now: Path) -> None:
 
 
 def add_card(to: Shipment) -> None:
-    """The model card, with the numbers of the shipped study."""
-    from bootcourse.study.tables import HEADINGS, bracketed, k_of_n, markdown, score
-
-    results = load_results(to.new / "study-default.npz")
-    rows = []
-    for method in results.methods:
-        mine = results.of(method)
-        accidents = [f"{100 * mine.episodes(kind).mean():.1f}" for kind in KINDS]
-        escape = k_of_n(mine.scores("success") >= ESCAPES)
-        rows.append([method, escape, bracketed(score(results, method, "returns")), *accidents])
-    table = markdown(["method", "agents that escape", *(HEADINGS[name] for name in ("returns", *KINDS))], rows)
-    agent = results.agents[0]
-    text = CARD.format(
-        table=table,
-        tests=results.tested["returns"].shape[1],
-        escapes=f"{100 * ESCAPES:g}",
-        hidden=" x ".join(map(str, agent["hidden"])),
-        runs=RUNS,
-    )
-    write_bytes(to.new / "MODEL_CARD.md", text.encode())
+    """The model card."""
+    write_bytes(to.new / "MODEL_CARD.md", model_card(load_results(to.new / "study-default.npz"), RUNS).encode())
     entry = to.entries["study-default.npz"]
     behaviour = {name: to.behaviours[name][made] for name, made in entry["behaviour"].items()}
     to.add(to.new / "MODEL_CARD.md", STUDY, behaviour | fingerprints("statistics"), entry["versions"])
-
-
-CARD = """# Model card
-
-**What they are.** The agents in `runs/`: a folder for each of the first {runs} seeds of each method, trained on the
-default scenario of this course by `bootcourse study`. Each is an actor and two critics with hidden layers of
-{hidden} neurons; it reads 26 numbers and chooses one of 9 actions, once a second. The weights are those at the
-end of training: none was selected.
-
-**What they are for.** Lessons: to be driven, replayed, compared and taken apart. **What they are not for:**
-anything on a road. They have seen one straight road, one kind of trap and eight other cars that are models
-themselves, and some of them crash often.
-
-**How well they drive.** {tests} held-out episodes each, by their most probable action. An agent escapes if at least
-{escapes} % of them end ahead of trap 1. Returns are interquartile means over agents with a 95 % interval. Accident
-rates are means over the agents' episodes: an interquartile mean would leave out the agents that crash most.
-
-{table}
-**Data.** Their own driving in simulation, and for some methods 200 simulated episodes of a rule
-controller. No person and no real car is in it.
-
-**Known faults.** Success counts a crash after overtaking, as the paper does: read it beside the accidents.
-"""
