@@ -24,7 +24,8 @@ class Method:
     settings: dict = field(default_factory=dict)  # those that differ from `bootstrapped`, whose values are the defaults
     learner: str | type = SAC  # the class, or "module:class", which is imported only for training (torch is slow)
     unused: dict[str, str] = field(default_factory=dict)  # {setting without effect: reason}
-    on_policy: bool = False  # learns from its own last decisions alone; its settings are `PPOSettings`
+    kind: str = "Settings"  # the class of its settings, one of `bootcourse.learn.settings.KINDS`
+    on_policy: bool = False  # learns from its own last decisions alone
 
     def learner_class(self) -> type:
         """The learner's class, imported."""
@@ -50,6 +51,7 @@ _PPO = {
     "critic_lr": 7e-4,
     "buffer_size": 2048,
 }
+_ON_POLICY = {"kind": "PPOSettings", "on_policy": True}
 
 METHODS = {
     "sac": Method("plain SAC", Style("#0072B2"), {"xi_multiplier": 0.0, "beta_start": 0.0}),
@@ -80,13 +82,13 @@ METHODS = {
         _BASELINE | {"beta_start": 0.5, "batch": 128},
         "bootcourse.learn.gail:GAILLearner",
     ),
-    "ppo": Method("PPO", Style("#44AA99", ":"), _PPO, "bootcourse.learn.ppo:PPOLearner", on_policy=True),
+    "ppo": Method("PPO", Style("#44AA99", ":"), _PPO, "bootcourse.learn.ppo:PPOLearner", **_ON_POLICY),
     "ppo_cloned": Method(
         "PPO after cloning",
         Style("#44AA99", width=2.0),
         _PPO | {"cloning_updates": 400, "stochastic_demonstrations": True},
         "bootcourse.learn.ppo:PPOLearner",
-        on_policy=True,
+        **_ON_POLICY,
     ),
 }
 ABLATION = ("sac", "soft", "demos", "bootstrapped", "margin", "margin_soft")  # the paper's method and its parts

@@ -1,8 +1,14 @@
 """The registry of methods: a method of one's own takes one learner and one entry, and is then like any other."""
 
+import inspect
+import json
+
 import numpy as np
 import pytest
+import torch
+from typer.testing import CliRunner
 
+from bootcourse.cli import app
 from bootcourse.colours import Style
 from bootcourse.episodes.evaluate import evaluate
 from bootcourse.errors import BootcourseError
@@ -13,6 +19,7 @@ from bootcourse.learn.training import Training
 from bootcourse.methods import METHODS, Method, display_name, style
 from bootcourse.panels import train_panel
 from bootcourse.plots.training_curves import training_curves
+from bootcourse.scenario import IDLE
 from bootcourse.storage.runs import load_checkpoint, load_run, save_checkpoint, save_runs
 
 SMALL = {"hidden": (8,), "demonstration_episodes": 2, "learning_starts": 16}
@@ -23,6 +30,26 @@ class WithoutEntropy(SACLearner):
 
     def soft_value(self, log_pi, q, alpha, constraint):
         return sac.soft_value(log_pi, q, 0 * alpha, constraint)
+
+
+class Follower(SACLearner):
+    """Its agents do what the teacher does, whatever they have learned."""
+
+    needs_teacher = True
+
+    def driving_policy(self, states, rule_actions):
+        return torch.nn.functional.one_hot(rule_actions, 9).float()
+
+
+class LateFollower(SACLearner):
+    """It idles for the first three decisions of each episode of training, and follows the teacher from then on."""
+
+    def acting_policy(self, states, rule_actions, decided):
+        return torch.nn.functional.one_hot(torch.where(decided < 3, IDLE, rule_actions), 9).float()
+
+
+def always_faster(cars, scenario):
+    return 7
 
 
 @pytest.fixture
@@ -57,6 +84,55 @@ def test_its_learner_is_the_one_that_trains(toy):
             training.step()
     first, second = (training.learner.critics[0].detach().numpy() for training in (mine, usual))
     assert not np.array_equal(first, second)
+
+
+def test_a_learner_decides_with_the_teacher_s_actions_and_the_age_of_each_episode(monkeypatch):
+    monkeypatch.setitem(METHODS, "toy", Method("toy", Style("#117733"), {"xi_multiplier": 0.0}, LateFollower))
+    training, done = Training(with_seeds(settings_for("toy", **SMALL), 2), 3, teacher=always_faster), False
+    decisions = 0
+    while not done:
+        before = training.curves.running[1].copy()
+        training.step()
+        decisions += 1
+        n = training.replay.observation_size
+        last = training.replay.first[:, None] + (training.replay.next - 4 + np.arange(4)) % training.replay.buffer_size
+        taken = training.replay.table[torch.from_numpy(last.ravel()), 2 * n].numpy()
+        np.testing.assert_array_equal(taken, np.where(before < 3, IDLE, 7))
+        done = training.curves.finished.sum() > 2
+    assert decisions > 5
+
+
+@pytest.fixture
+def follower(monkeypatch, tmp_path):
+    """A run of a method that drives with its teacher, which was `always_faster`."""
+    monkeypatch.setitem(METHODS, "follower", Method("follower", Style("#117733"), {"xi_multiplier": 0.0}, Follower))
+    result = Training([settings_for("follower", **SMALL)], 3, teacher=always_faster).run(progress=False)
+    return save_runs(result, tmp_path)[0]
+
+
+def test_an_agent_that_drives_with_its_teacher_asks_it_in_every_state(follower):
+    drive = load_run(follower, always_faster).agent.as_policy()
+    assert drive(np.zeros((2, 26)), np.zeros((2, 9, 10))).actions.tolist() == [7, 7]
+
+
+def test_such_an_agent_is_not_loaded_with_another_teacher_and_does_not_drive_without_one(follower):
+    with pytest.raises(
+        BootcourseError, match=r"drives with the teacher 'always_faster \w+', not 'rule': give the same"
+    ):
+        load_run(follower)
+    agent = load_run(follower, always_faster).agent
+    with pytest.raises(BootcourseError, match="drives with its teacher"):
+        agent.taught_by(None).as_policy()
+    with pytest.raises(BootcourseError, match="give them"):
+        agent.probabilities(np.zeros((2, 26)))
+
+
+def test_the_command_line_takes_the_teacher_of_such_a_run(follower, tmp_path):
+    (tmp_path / "mine.py").write_text(inspect.getsource(always_faster))
+    evaluate_it = ["evaluate", str(follower), "--episodes", "3", "--json"]
+    assert CliRunner().invoke(app, evaluate_it).exit_code == 1
+    found = CliRunner().invoke(app, [*evaluate_it, "--teacher", f"{tmp_path / 'mine.py'}:always_faster"])
+    assert json.loads(found.output)["follower-0"]["collision"]["value"] == 1.0, found.output
 
 
 def test_a_label_that_names_no_method_keeps_its_words():

@@ -32,12 +32,13 @@ def evaluate(
     seed: int = typer.Option(1, min=0, help="The block of held-out roads."),
     scenario: str = typer.Option("", help="default or calibrated; by default the scenario that a run trained on."),
     sample: bool = typer.Option(False, "--sample", help="Draw an agent's actions instead of taking the most probable."),
+    teacher: str = typer.Option("", help="The rule of your own that a run drives with: FILE.py:FUNCTION."),
     as_json: bool = typer.Option(False, "--json", help="Print JSON."),
 ) -> None:
     """Drive held-out episodes and print success, return, speed, distance and accidents with 95 % intervals."""
     from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds, over_seeds, summarise
 
-    seeds, drivers = held_out_seeds(seed, episodes), drivers_of(who, scenario, sample, seed)
+    seeds, drivers = held_out_seeds(seed, episodes), drivers_of(who, scenario, sample, seed, teacher)
     found = {each.label: summarise(drive_episodes(each.policy, seeds, each.road)) for each in drivers}
     means = {name: over_seeds([found[label] for label in labels]) for name, labels in alike(drivers).items()}
     if as_json:
@@ -76,10 +77,11 @@ def alike(drivers: list[Driver]) -> dict[str, list[str]]:
     }
 
 
-def drivers_of(who: str, scenario: str, sample: bool, seed: int) -> list[Driver]:
+def drivers_of(who: str, scenario: str, sample: bool, seed: int, teacher: str) -> list[Driver]:
     """A built-in driver, or the agent of each run in a folder.
 
-    Raises BootcourseError for a name that is neither, and for an agent that sees another number of cars.
+    Raises BootcourseError for a name that is neither, for an agent that sees another number of cars, and for one that
+    drives with another teacher.
     """
     import numpy as np
 
@@ -96,11 +98,13 @@ def drivers_of(who: str, scenario: str, sample: bool, seed: int) -> list[Driver]
         return [Driver(who, built_in[who], road)]
     if not Path(who).exists():
         raise BootcourseError(f"Driver {did_you_mean(who, BUILT_IN)}, or give a folder that `bootcourse train` wrote.")
+    from bootcourse.cli.training import teacher_from
+    from bootcourse.learn.teachers import teacher_of
     from bootcourse.storage.runs import find_runs, load_run
 
-    found = []
+    found, rule = [], teacher_from(teacher)
     for path in find_runs(Path(who)):
-        run = load_run(path)
+        run = load_run(path, rule)
         rng = np.random.default_rng(seed) if sample else None
         road = named(scenario) if scenario else run.scenario
         if road.observation_size != run.scenario.observation_size:
@@ -109,7 +113,8 @@ def drivers_of(who: str, scenario: str, sample: bool, seed: int) -> list[Driver]
                 f"{road.sight.neighbours}: leave out --scenario."
             )
         settings = replace(run.agent.settings, seed=0)
-        found.append(Driver(path.name, run.agent.as_policy(rng, with_q=True), road, settings))
+        agent = run.agent.taught_by(teacher_of(rule, road))
+        found.append(Driver(path.name, agent.as_policy(rng, with_q=True), road, settings))
     return found
 
 
@@ -128,6 +133,7 @@ def drive(
     seed: int = typer.Option(0, min=0, help="The road."),
     scenario: str = typer.Option("", help="default or calibrated; by default the scenario that a run trained on."),
     png: Path | None = typer.Option(None, help="Also draw the top view and the traces to this picture."),
+    teacher: str = typer.Option("", help="The rule of your own that a run drives with: FILE.py:FUNCTION."),
 ) -> None:
     """Record one drive for figures and replays."""
     from bootcourse.episodes.record import record
@@ -137,7 +143,7 @@ def drive(
         raise BootcourseError(f"{out} exists already: choose another name.")
     if png is not None:
         check_replaceable(png, ".png")
-    label, policy, road, _ = drivers_of(who, scenario, False, seed)[0]
+    label, policy, road, _ = drivers_of(who, scenario, False, seed, teacher)[0]
     label = label.rsplit("-", 1)[0] if label not in BUILT_IN else label
     rollout = record(policy, [seed], road, label)[0]
     print(rollout.save(out))

@@ -1,15 +1,16 @@
 """A trained agent: its networks and its policy."""
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 import torch
 from torch import Tensor
 
 from bootcourse.errors import BootcourseError
-from bootcourse.learn import sac
-from bootcourse.learn.networks import mlp
 from bootcourse.learn.settings import Settings
+from bootcourse.methods import METHODS
 from bootcourse.policies import Policy, PolicyOutput
 
 
@@ -21,29 +22,55 @@ class Agent:
     actor: list[Tensor]  # weights and biases, [(1, inputs, outputs), (1, 1, outputs), ...]
     critics: list[Tensor]  # those of the two critics, [(2, inputs, outputs), (2, 1, outputs), ...]
     alpha: float  # the entropy coefficient at the end of the training
+    teach: Callable[[np.ndarray], np.ndarray] | None = None  # μ, for a method that drives with it: see `taught_by`
+
+    @property
+    def needs_teacher(self) -> bool:
+        """Whether the agent needs its teacher to drive."""
+        return METHODS[self.settings.method].learner_class().needs_teacher
+
+    @cached_property
+    def learner(self):
+        """The method's learner, a `SACLearner`, with this agent's networks: it knows how they decide."""
+        kind = METHODS[self.settings.method].learner_class()
+        learner = kind([self.settings], self.actor[0].shape[1], self.actor[-1].shape[-1])
+        learner.actor, learner.critics, learner.target_critics = self.actor, self.critics, self.critics
+        return learner
+
+    def taught_by(self, teach: Callable[[np.ndarray], np.ndarray]) -> "Agent":
+        """The agent with a teacher (see `teachers.teacher_of`): cars (roads, vehicles, 10) -> μ(s) (roads,)."""
+        return replace(self, teach=teach)
 
     @torch.no_grad()
-    def probabilities(self, observations: np.ndarray) -> np.ndarray:
-        """π(a|s): (batch, observation) -> (batch, 9). Raises BootcourseError for observations of another size."""
+    def probabilities(self, observations: np.ndarray, rule_actions: np.ndarray | None = None) -> np.ndarray:
+        """π(a|s): (batch, observation) -> (batch, 9). rule_actions μ(s), (batch,), for a method that drives with them.
+
+        Raises BootcourseError for observations of another size, or if μ(s) is missing.
+        """
         size, given = self.actor[0].shape[1], np.shape(observations)[-1]
         if size != given:
             raise BootcourseError(f"This agent observes {size} numbers, not {given}: drive the scenario it trained on.")
-        return mlp(self.actor, torch.as_tensor(observations, dtype=torch.float32)[None])[0].softmax(-1).numpy()
+        if rule_actions is None and self.needs_teacher:
+            raise BootcourseError(f"Method '{self.settings.method}' decides with its teacher's actions: give them.")
+        states = torch.as_tensor(observations, dtype=torch.float32)[None]
+        rule_actions = np.zeros(len(observations)) if rule_actions is None else rule_actions
+        return self.learner.driving_policy(states, torch.as_tensor(rule_actions, dtype=torch.int64)[None])[0].numpy()
 
     @torch.no_grad()
     def q_values(self, observations: np.ndarray) -> np.ndarray:
         """The smaller of the two critics' Q(s,a): (batch, observation) -> (batch, 9)."""
-        states = torch.as_tensor(observations, dtype=torch.float32)[None]
-        return sac.min_q(mlp(self.critics, states.repeat(2, 1, 1))).numpy()
+        return self.learner.q_values(torch.as_tensor(observations, dtype=torch.float32)[None])[0].numpy()
 
     def as_policy(self, rng: np.random.Generator | None = None, with_q: bool = False) -> Policy:
         """The agent as a policy: its most probable action or, with an rng, an action drawn from π.
 
-        with_q: whether the policy's outputs contain Q.
+        with_q: whether the policy's outputs contain Q. Raises BootcourseError if the agent lacks its teacher.
         """
+        if self.needs_teacher and self.teach is None:
+            raise BootcourseError(f"Method '{self.settings.method}' drives with its teacher: give it by `taught_by`.")
 
         def drive(observations, cars):
-            pi = self.probabilities(observations)
+            pi = self.probabilities(observations, self.teach(cars) if self.needs_teacher else None)
             actions = pi.argmax(-1) if rng is None else sample_actions(pi, rng.random(len(pi)))
             return PolicyOutput(actions, pi, self.q_values(observations) if with_q else None)
 

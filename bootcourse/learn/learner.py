@@ -4,11 +4,13 @@ Read `textbook.py` first: it is the same for one agent, in plain torch. Here eve
 so that one batched matrix product computes all agents. `batch` is a `Batch`, with fields (agents, batch, ...).
 
 Your own method overrides the parts that differ: `losses` as a whole, or `critic_target`,
-`critic_loss` (or its parts), `actor_loss`, `temperature_loss`, `kl`, `soft_value`. See bc.py, cql.py, gail.py.
+`critic_loss` (or its parts), `actor_loss`, `temperature_loss`, `kl`, `soft_value`; and how agents decide:
+`acting_policy` while they train, `driving_policy` in general. See bc.py, cql.py, gail.py.
 """
 
 from collections.abc import Sequence
 
+import numpy as np
 import torch
 from torch import Tensor
 
@@ -17,7 +19,7 @@ from bootcourse.learn import bootstrap, sac
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.networks import init_mlp, mlp
 from bootcourse.learn.replay_buffer import Batch, ReplayBuffer
-from bootcourse.learn.settings import SHARED, Settings
+from bootcourse.learn.settings import Settings, shared_fields
 from bootcourse.methods import METHODS
 from bootcourse.scenario import N_ACTIONS
 
@@ -28,14 +30,16 @@ PER_AGENT += ("paper_q_filter", "cql_weight")  # settings that the losses need, 
 class SACLearner:
     """Actors, twin critics and temperatures of several agents, and their update.
 
-    settings: one for each agent; the fields in `settings.SHARED` must be equal. Each name in `PER_AGENT` is an
+    settings: one for each agent; the settings that are `shared` must be equal. Each name in `PER_AGENT` is an
     attribute (agents, 1); `alpha` and `xi` (agents, 1) are those of the present update. Raises BootcourseError for
     agents whose shared settings differ.
     """
 
+    needs_teacher = False  # whether `driving_policy` depends on μ(s)
+
     def __init__(self, settings: Sequence[Settings], observation_size: int, n_actions: int = N_ACTIONS):
         self.settings = list(settings)
-        for name in SHARED:
+        for name in shared_fields(type(settings[0])):
             if len({getattr(s, name, None) for s in settings}) > 1:
                 raise BootcourseError(f"Agents that train side by side need the same {name}: train these apart.")
         shared, self.agents = self.settings[0], len(self.settings)
@@ -168,6 +172,24 @@ class SACLearner:
     def probabilities(self, states: Tensor) -> Tensor:
         """π(a|s): (agents, batch, observation) -> (agents, batch, actions)."""
         return mlp(self.actor, states).softmax(-1)
+
+    def driving_policy(self, states: Tensor, rule_actions: Tensor) -> Tensor:
+        """The distribution from which a trained agent's actions come: (agents, batch, actions).
+
+        states (agents, batch, observation); rule_actions μ(s), (agents, batch) int64. A method that uses the latter
+        sets `needs_teacher`: its agents compute μ(s) while they drive.
+        """
+        return self.probabilities(states)
+
+    def acting_policy(self, states: Tensor, rule_actions: Tensor, decided: Tensor) -> Tensor:
+        """The distribution from which a training draws the next actions: (agents, roads, actions).
+
+        As of `driving_policy`; decided (agents, roads): how many decisions each road's episode has lasted.
+        """
+        return self.driving_policy(states, rule_actions)
+
+    def note_episodes(self, ended: np.ndarray, returns: np.ndarray) -> None:
+        """Called after each decision: which episodes it ended (agents, roads), and the sums of rewards so far."""
 
     @torch.no_grad()
     def q_values(self, states: Tensor) -> Tensor:

@@ -128,9 +128,17 @@ class PPOSettings(Settings):
         return self.cloning_updates > 0
 
 
+KINDS = {kind.__name__: kind for kind in (Settings, PPOSettings)}
+
+
 def settings_class(method: str) -> type[Settings]:
     """The class of a method's settings; `Settings`, which refuses it, for an unknown method."""
-    return PPOSettings if method in METHODS and METHODS[method].on_policy else Settings
+    return KINDS[METHODS[method].kind] if method in METHODS else Settings
+
+
+def shared_fields(kind: type[Settings]) -> tuple[str, ...]:
+    """The settings that must be equal for all agents that train side by side."""
+    return tuple(f.name for f in fields(kind) if f.metadata.get("shared"))
 
 
 def _check_range(settings: Settings, low: float, high: float, *names: str, whole: bool = False) -> None:
@@ -141,9 +149,6 @@ def _check_range(settings: Settings, low: float, high: float, *names: str, whole
             limits = [f"of {low:g} or more"] * (low > -math.inf) + [f"at most {high:,.12g}"] * (high < math.inf)
             wanted = " ".join(["whole number" if whole else "finite number", ", ".join(limits)]).strip()
             raise BootcourseError(f"{name} = {value!r}: give a {wanted}.")
-
-
-SHARED = tuple(f.name for f in fields(PPOSettings) if f.metadata.get("shared"))
 
 
 # Named settings. The defaults are quick: a quarter of an update for each decision. Those of "paper" make eight times as

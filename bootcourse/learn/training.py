@@ -148,7 +148,9 @@ class Training:
         """One decision in every environment, and the updates that follow it."""
         shape = (self.n_agents, self.envs_per_agent)
         states = torch.from_numpy(self.states).float().view(*shape, -1)
-        policy = self.learner.probabilities(states).double().numpy()  # (agents, envs_per_agent, 9)
+        rule_actions = torch.as_tensor(self.rule_actions, dtype=torch.int64).view(shape)
+        decided = torch.as_tensor(self.curves.running[1]).view(shape)  # decisions of the running episodes
+        policy = self.learner.acting_policy(states, rule_actions, decided).double().numpy()  # (*shape, 9)
         uniforms = np.stack([rng.random(self.envs_per_agent) for rng in self.act_rngs])
         actions = sample_actions(policy, uniforms).ravel()
         entropies = -(policy * np.log(np.maximum(policy, 1e-30))).sum(-1).ravel()
@@ -162,6 +164,7 @@ class Training:
             self.states, reached, actions, rewards, terminated, self.rule_actions, reached_rule_actions
         )
         self.replay.add(rows.view(*shape, -1), done.reshape(shape))
+        self.learner.note_episodes(done.reshape(shape), (self.curves.running[0] + rewards).reshape(shape))
         self.curves.note(rewards, entropies, done, infos, self._coefficients())
         self.states, self.rule_actions = next_states, next_rule_actions
         self.decisions += len(actions)
@@ -230,7 +233,7 @@ class Training:
 
     def agent(self, i: int) -> Agent:
         """A snapshot of agent i."""
-        return self.learner.agent(i)
+        return self.learner.agent(i).taught_by(self._teach)
 
     def _coefficients(self) -> dict[str, np.ndarray]:
         """α, ξ and β of each agent now, for the curves: {name: (agents,)}."""

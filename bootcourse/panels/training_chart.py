@@ -8,7 +8,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from bootcourse.learn.settings import SHARED, Settings, settings_for
+from bootcourse.learn.settings import Settings, settings_for, shared_fields
 from bootcourse.methods import display_name, style
 from bootcourse.plots.svg import INK, QUIET, SvgAxes, drawing, line, number, span, text
 from bootcourse.plots.training_curves import MEASURES, WINDOW, draw_training, finished, window_of
@@ -34,7 +34,7 @@ def label_of(settings: Settings) -> str:
     """The method's name, and the settings in which it differs from what the method usually has."""
     usual, symbols = settings_for(settings.method), {"rule_p": "p", "gamma": "γ", "xi_multiplier": "ξ/α", "bonus": "c"}
     symbols |= {"beta_start": "β"}
-    own = [f.name for f in fields(Settings) if f.name not in ("method", "seed", *SHARED)]
+    own = [f.name for f in fields(settings) if f.name not in ("method", "seed", *shared_fields(type(settings)))]
     changed = [each for each in own if getattr(settings, each) != getattr(usual, each)]
     told = [f"{symbols.get(each, each)} = {getattr(settings, each):g}" for each in changed]
     return ", ".join([display_name(settings.method), *told])

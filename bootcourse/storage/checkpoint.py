@@ -4,6 +4,7 @@ A training that is resumed from it gives the same results as an uninterrupted on
 """
 
 import json
+from dataclasses import replace
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -104,10 +105,11 @@ def _restore(training: Training, arrays: dict[str, np.ndarray]) -> None:
     layers = len(learner.actor)
     for name, agents in _snapshots(training).items():
         for i in numbers.snapshots[name]:
-            like = [*training.agent(i).actor, *training.agent(i).critics]
+            present = training.agent(i)
+            like = [*present.actor, *present.critics]
             *parts, alpha = (arrays[f"{name}.{i}.{k}"] for k in range(2 * layers + 1))
             parts = [_like(part, each).clone() for part, each in zip(parts, like, strict=True)]
-            agents[i] = Agent(training.settings[i], parts[:layers], parts[layers:], float(alpha))
+            agents[i] = replace(present, actor=parts[:layers], critics=parts[layers:], alpha=float(alpha))
     training.states, training.rule_actions = env.observe(), training.taught()
 
 

@@ -39,7 +39,7 @@ from bootcourse.files import (
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.curves import NAMES
 from bootcourse.learn.settings import Settings, stored_settings
-from bootcourse.learn.teachers import Rule, course_rule, teacher_name
+from bootcourse.learn.teachers import Rule, course_rule, teacher_name, teacher_of
 from bootcourse.learn.training import Result, Training
 from bootcourse.scenario import N_ACTIONS, Scenario
 from bootcourse.storage.checkpoint import DamagedCheckpoint, restored, state_of
@@ -153,8 +153,11 @@ def _save_run(path: Path, agent: Agent, curves: dict[str, np.ndarray], result: R
         raise
 
 
-def load_run(path: Path) -> Run:
-    """Read and check a run. Raises BootcourseError, with the file and the remedy, if it is missing or damaged."""
+def load_run(path: Path, teacher: Rule = course_rule) -> Run:
+    """Read and check a run. teacher: the one that it trained with, for a method whose agents drive with it.
+
+    Raises BootcourseError, with the file and the remedy, if a file is missing or damaged, or for another teacher.
+    """
     path = Path(path)
     if not (path / "provenance.json").is_file():
         raise BootcourseError(f"{path} is not a run: train one with `bootcourse train --out {path}`.")
@@ -166,9 +169,9 @@ def load_run(path: Path) -> Run:
             f"{path / 'provenance.json'} is damaged: it does not fit its own hash. Train this run again."
         )
     with decoding(path / "provenance.json", TRAIN_AGAIN):
-        digests = convert(made, Provenance).sha256
+        stored = convert(made, Provenance)
     for name in HASHED:
-        if digests.get(name) != sha256(path / name):
+        if stored.sha256.get(name) != sha256(path / name):
             raise BootcourseError(f"{path / name} is damaged: its hash has changed. Train this run again.")
     config = read_json(path / "config.json", Config, TRAIN_AGAIN)
     with decoding(path / "config.json", TRAIN_AGAIN):
@@ -184,7 +187,12 @@ def load_run(path: Path) -> Run:
     actor, critics = (
         [torch.from_numpy(weights[name]) for name in shapes if name.startswith(part)] for part in ("actor", "critics")
     )
-    return Run(Agent(settings, actor, critics, config.alpha), curves, scenario, made)
+    agent = Agent(settings, actor, critics, config.alpha, teacher_of(teacher, scenario))
+    if agent.needs_teacher and stored.teacher != teacher_name(teacher):
+        raise BootcourseError(
+            f"{path} drives with the teacher '{stored.teacher}', not '{teacher_name(teacher)}': give the same teacher."
+        )
+    return Run(agent, curves, scenario, made)
 
 
 def _shapes(settings: Settings, scenario: Scenario) -> dict[str, tuple[int, int, int]]:

@@ -33,11 +33,13 @@ IN_THE_LOOP, UPDATES = 8, 60  # updates between decisions; all updates
 LEARNED, COMPUTED = 1e-3, 1e-6  # how far a fingerprint may move: a method's (float32 networks); another's
 
 
-def drives(scenario: Scenario) -> tuple[list[np.ndarray], np.ndarray]:
-    """Random actions on some roads: the columns that describe what happened, and what was seen (n, observation)."""
+def drives(scenario: Scenario) -> tuple[list[np.ndarray], np.ndarray, np.ndarray]:
+    """Random actions on some roads: the columns that describe what happened, what was seen (n, observation), and the
+    cars (n, vehicles, 10).
+    """
     env, rng = TrapVectorEnv(ROADS, scenario), np.random.default_rng(0)
     env.reset(seed=0)
-    seen, happened, decided = [], [], []
+    seen, cars, happened, decided = [], [], [], []
     for _ in range(DECISIONS):
         steering = rng.choice(3, size=ROADS, p=(0.05, 0.9, 0.05))  # more of it and no car stays on the road
         observations, rewards, terminated, truncated, infos = env.step(3 * rng.integers(3, size=ROADS) + steering)
@@ -45,17 +47,18 @@ def drives(scenario: Scenario) -> tuple[list[np.ndarray], np.ndarray]:
         happened.append([rewards, terminated, truncated, *(ended[name] for name in ("accident", "distance", "speed"))])
         decided.append(list(vars(rule(env.cars, scenario)).values()))
         seen.append(observations)
-    return [np.hstack(happened), np.hstack(decided)], np.concatenate(seen)
+        cars.append(env.cars.copy())
+    return [np.hstack(happened), np.hstack(decided)], np.concatenate(seen), np.concatenate(cars)
 
 
 def _road(scenario: Scenario) -> Iterable[float]:
-    (happened, _), seen = drives(scenario)
+    (happened, _), seen, _ = drives(scenario)
     seen = seen.astype(np.float64)
     return [*happened.mean(1), *happened.std(1), *seen.mean(0), *seen.std(0)]
 
 
 def _rule() -> Iterable[float]:
-    (_, decided), _ = drives(DEFAULT)
+    (_, decided), *_ = drives(DEFAULT)
     decided = np.where(np.isfinite(decided), decided, 0.0)
     driven = drive_episodes(rule_policy(DEFAULT), range(20))
     return [*decided.mean(1), *decided.std(1), *(values.mean() for values in vars(driven).values())]
@@ -105,9 +108,9 @@ def _method(method: str) -> Iterable[float]:
     while training.updates < UPDATES:
         training.update()
     numbers = [np.nanmean(values) for values in training.curves.values.values()]
-    _, seen = drives(DEFAULT)
+    _, seen, cars = drives(DEFAULT)
     for agent in (training.agent(0), training.agent(1)):
-        driven = agent.as_policy(with_q=True)(seen, None)
+        driven = agent.as_policy(with_q=True)(seen, cars)
         greedy = np.take_along_axis(driven.policy, driven.actions[:, None], 1)
         numbers += [*driven.policy.mean(0), *driven.q_values.mean(0), greedy.mean(), np.log(agent.alpha)]
     return numbers
