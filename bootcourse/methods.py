@@ -26,6 +26,7 @@ class Method:
     unused: dict[str, str] = field(default_factory=dict)  # {setting without effect: reason}
     kind: str = "Settings"  # the class of its settings, one of `bootcourse.learn.settings.KINDS`
     on_policy: bool = False  # learns from its own last decisions alone
+    taught: bool = False  # its agents ask the teacher while they train, apart from demonstrations and the KL
 
     def learner_class(self) -> type:
         """The learner's class, imported."""
@@ -38,6 +39,9 @@ class Method:
 # The baselines learn from demonstrations without the soft constraint and the bonus. Their share of demonstrations is
 # constant: 1 for offline methods, 0.5 for GAIL, whose discriminator compares the two halves of a batch.
 _BASELINE = {"xi_multiplier": 0.0, "bonus": 0.0, "beta_episodes": 10**9}
+
+# What came after the paper, with a replay buffer and a teacher. They look further ahead than the paper's γ = 0.8.
+_LATER = {"gamma": 0.97, "xi_multiplier": 0.0, "bonus": 0.0, "batch": 128}
 
 # PPO drives a few hundred roads at once and looks further ahead.
 _PPO = {
@@ -90,10 +94,36 @@ METHODS = {
         "bootcourse.learn.ppo:PPOLearner",
         **_ON_POLICY,
     ),
+    "jsrl": Method(
+        "jump-start RL",
+        Style("#AA4499", marker="v"),
+        _LATER | {"beta_start": 0.0},
+        "bootcourse.learn.jsrl:JSRLLearner",
+        kind="JSRLSettings",
+        taught=True,
+    ),
+    "rlpd": Method(
+        "RLPD",
+        Style("#AA4499", "--", marker="D"),
+        _LATER | {"beta_start": 0.5, "beta_episodes": 10**9, "envs_per_agent": 2, "updates": 4},
+        "bootcourse.learn.rlpd:RLPDLearner",
+        kind="RLPDSettings",
+    ),
+    "ibrl": Method(
+        "IBRL", Style("#AA4499", "-.", marker="P"), _LATER, "bootcourse.learn.ibrl:IBRLLearner", taught=True
+    ),
+    "pex": Method(
+        "policy expansion",
+        Style("#AA4499", ":", marker="X"),
+        _LATER,
+        "bootcourse.learn.ibrl:PEXLearner",
+        kind="PEXSettings",
+        taught=True,
+    ),
 }
 ABLATION = ("sac", "soft", "demos", "bootstrapped", "margin", "margin_soft")  # the paper's method and its parts
 BASELINES = ("bc", "cql", "cql_sac", "gail")
-AFTER = ("ppo", "ppo_cloned")  # learners that the paper does not have
+AFTER = ("ppo", "ppo_cloned", "jsrl", "rlpd", "ibrl", "pex")  # learners that the paper does not have
 DRIVERS = {  # name and style of the drivers that are not trained
     "rule": ("rule controller", Style("#009E73", width=1.0)),
     "planner": ("planner", Style("#000000", (0, (8, 4)))),

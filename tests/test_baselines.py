@@ -202,7 +202,9 @@ def test_methods_whose_updates_differ_are_not_trained_side_by_side():
         learner_for([settings_for("sac"), settings_for("bc")], 26)
 
 
-@pytest.mark.parametrize(("method", "share"), [("bc", 1.0), ("cql", 1.0), ("cql_sac", 1.0), ("gail", 0.5)])
+@pytest.mark.parametrize(
+    ("method", "share"), [("bc", 1.0), ("cql", 1.0), ("cql_sac", 1.0), ("gail", 0.5), ("rlpd", 0.5)]
+)
 def test_the_demonstrations_share_of_a_batch_stays_where_it_starts(method, share):
     training = Training([settings_for(method, demonstration_episodes=2, learning_starts=16)], 10)
     for finished in (0, 5000):

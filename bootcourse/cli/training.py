@@ -17,6 +17,7 @@ from pathlib import Path
 import typer
 
 from bootcourse.errors import BootcourseError
+from bootcourse.methods import METHODS
 
 INTERRUPTED = 130  # exit status
 UNFINISHED, CHECKPOINT, SAVING, COMPLETE = "unfinished", "checkpoint.npz", "saving", "complete"  # see above
@@ -24,10 +25,7 @@ SECONDS_BETWEEN = 20.0  # of checkpoints
 
 
 def train(
-    method: str = typer.Option(
-        "bootstrapped",
-        help="sac, soft, demos, bootstrapped, margin, margin_soft, bc, cql, cql_sac, gail, ppo or ppo_cloned.",
-    ),
+    method: str = typer.Option("bootstrapped", help=", ".join(METHODS) + "."),
     seeds: int = typer.Option(4, min=1, max=64, help="How many agents, side by side, each with its own seed."),
     first_seed: int = typer.Option(0, min=0, help="The first training seed."),
     episodes: int = typer.Option(1000, min=1, help="Training episodes of each agent."),

@@ -5,7 +5,7 @@ so that one batched matrix product computes all agents. `batch` is a `Batch`, wi
 
 Your own method overrides the parts that differ: `losses` as a whole, or `critic_target`,
 `critic_loss` (or its parts), `actor_loss`, `temperature_loss`, `kl`, `soft_value`; and how agents decide:
-`acting_policy` while they train, `driving_policy` in general. See bc.py, cql.py, gail.py.
+`acting_policy` while they train, `driving_policy` in general. See bc.py, cql.py, gail.py, jsrl.py, rlpd.py, ibrl.py.
 """
 
 from collections.abc import Sequence
@@ -46,8 +46,8 @@ class SACLearner:
         generators = [torch.Generator().manual_seed(s.seed) for s in settings]
         sizes = (observation_size, *shared.hidden, n_actions)
         self.actor = init_mlp(sizes, generators)
-        pair = [init_mlp(sizes, generators) for _ in range(2)]
-        self.critics = [torch.cat(two) for two in zip(*pair, strict=True)]  # (2 x agents, ...), first critics first
+        each = [init_mlp(sizes, generators) for _ in range(shared.n_critics)]
+        self.critics = [torch.cat(parts) for parts in zip(*each, strict=True)]  # (2 x agents, ...), first critics first
         self.target_critics = [parameter.clone() for parameter in self.critics]
         self.log_alpha = torch.tensor([s.alpha_init for s in settings]).log()  # (agents,)
         groups = [
@@ -100,7 +100,7 @@ class SACLearner:
         entropy = sac.entropy(log_pi)  # (agents, batch)
         return {
             "critic_loss": self.critic_loss(q_pair, target, log_pi.detach(), batch),
-            "actor_loss": self.actor_loss(log_pi, sac.min_q(q_pair), kl),
+            "actor_loss": self.actor_loss(log_pi, self.one_q(q_pair), kl),
             "temperature_loss": self.temperature_loss(entropy),
             "entropy": entropy.detach().mean(-1),
             "kl": kl.detach().mean(-1),
@@ -111,7 +111,7 @@ class SACLearner:
     def critic_target(self, batch: Batch) -> Tensor:
         """y = r + c + γ (V(s') - ξ KL(s')), Equations 6, 15 and 20: (agents, batch). Call it without gradients."""
         next_log_pi = sac.log_policy(mlp(self.actor, batch.next_states))  # (agents, batch, 9)
-        next_q = sac.min_q(self.q_pair(self.target_critics, batch.next_states))  # (agents, batch, 9)
+        next_q = self.target_q(batch.next_states)  # (agents, batch, 9)
         next_kl = self.kl(next_log_pi, batch.next_rule_actions)  # (agents, batch)
         next_value = self.soft_value(next_log_pi, next_q, self.alpha, self.kl_in_target * self.xi * next_kl)
         reward = bootstrap.augmented_reward(batch.rewards, batch.is_demonstration, self.bonus)
@@ -130,8 +130,9 @@ class SACLearner:
         return loss
 
     def squared_error(self, q_pair: Tensor, actions: Tensor, target: Tensor) -> Tensor:
-        """Both critics' mean (Q(s,a) - y)², summed: (2, agents, batch, 9), (agents, batch) twice -> (agents,)."""
-        q_taken = q_pair.gather(-1, actions.expand(2, -1, -1).unsqueeze(-1)).squeeze(-1)  # (2, agents, batch)
+        """The critics' mean (Q(s,a) - y)², summed: (2, agents, batch, 9), (agents, batch) twice -> (agents,)."""
+        actions = actions.expand(len(q_pair), -1, -1)
+        q_taken = q_pair.gather(-1, actions.unsqueeze(-1)).squeeze(-1)  # (2, agents, batch)
         return sac.critic_loss(q_taken, target).sum(0)
 
     def conservative_loss(self, q_pair: Tensor, actions: Tensor) -> Tensor:
@@ -163,10 +164,18 @@ class SACLearner:
 
     soft_value = staticmethod(sac.soft_value)  # of the next state, in the critic's target
 
+    one_q = staticmethod(sac.min_q)  # the value that the actor maximises: (2, ..., batch, 9) -> (..., batch, 9)
+    critic_network = staticmethod(mlp)
+
     def q_pair(self, critics: list[Tensor], states: Tensor) -> Tensor:
         """Q(s,a) of both critics: (agents, batch, observation) -> (2, agents, batch, actions)."""
-        q = mlp(critics, states.repeat(2, 1, 1))
-        return q.view(2, self.agents, *q.shape[1:])
+        n = self.settings[0].n_critics
+        q = self.critic_network(critics, states.repeat(n, 1, 1))
+        return q.view(n, self.agents, *q.shape[1:])
+
+    def target_q(self, states: Tensor) -> Tensor:
+        """The target critics' Q(s,a): (agents, batch, observation) -> (agents, batch, actions)."""
+        return sac.min_q(self.q_pair(self.target_critics, states))
 
     @torch.no_grad()
     def probabilities(self, states: Tensor) -> Tensor:
@@ -194,12 +203,12 @@ class SACLearner:
     @torch.no_grad()
     def q_values(self, states: Tensor) -> Tensor:
         """The smaller of the two critics' Q(s,a): (agents, batch, observation) -> (agents, batch, actions)."""
-        return sac.min_q(self.q_pair(self.critics, states))
+        return self.one_q(self.q_pair(self.critics, states))
 
     def agent(self, i: int) -> Agent:
         """A snapshot of agent i: it stays as it is when the learner goes on."""
         actor = [parameter.detach()[i : i + 1].clone() for parameter in self.actor]
-        critics = [parameter.detach()[[i, self.agents + i]].clone() for parameter in self.critics]
+        critics = [parameter.detach()[i :: self.agents].clone() for parameter in self.critics]
         return Agent(self.settings[i], actor, critics, float(self.log_alpha[i].detach().exp()))
 
     def tensors(self) -> dict[str, list[Tensor]]:

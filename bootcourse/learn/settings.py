@@ -102,6 +102,11 @@ class Settings:
         """Whether the agent's batches contain demonstrations."""
         return self.beta_start > 0
 
+    @property
+    def n_critics(self) -> int:
+        """How many critics the agent has."""
+        return 2
+
 
 @dataclass(frozen=True)
 class PPOSettings(Settings):
@@ -128,7 +133,52 @@ class PPOSettings(Settings):
         return self.cloning_updates > 0
 
 
-KINDS = {kind.__name__: kind for kind in (Settings, PPOSettings)}
+@dataclass(frozen=True)
+class JSRLSettings(Settings):
+    """The settings of jump-start RL. The paper's: 10 stages, a moving average of 5 evaluations, a tolerance of 5 %."""
+
+    guide_decisions: int = shared(150)  # § h at first: the teacher drives the whole episode
+    stages: int = shared(10)  # † in how many equal steps h shrinks to 0
+    window: int = shared(20)  # § episodes in the moving average of returns
+    tolerance: float = shared(0.05)  # † how far this average may lie below the best so far, as a share of the best
+
+    def __post_init__(self):
+        super().__post_init__()
+        _check_range(self, 0, math.inf, "guide_decisions", whole=True)
+        _check_range(self, 1, math.inf, "stages", "window", whole=True)
+        _check_range(self, 0.0, math.inf, "tolerance")
+
+
+@dataclass(frozen=True)
+class RLPDSettings(Settings):
+    """The settings of RLPD. The paper has 10 critics, and 20 updates for each decision."""
+
+    critics: int = shared(5)  # § in the ensemble
+    target_critics: int = shared(2)  # † of them, drawn for each update, whose smallest value is in the target
+
+    def __post_init__(self):
+        super().__post_init__()
+        _check_range(self, 1, math.inf, "critics", whole=True)
+        _check_range(self, 1, self.critics, "target_critics", whole=True)
+
+    @property
+    def n_critics(self) -> int:
+        """How many critics the agent has."""
+        return self.critics
+
+
+@dataclass(frozen=True)
+class PEXSettings(Settings):
+    """The settings of policy expansion."""
+
+    choice_temperature: float = 0.1  # § of the softmax over the values of the rule's action and the agent's own
+
+    def __post_init__(self):
+        super().__post_init__()
+        _check_range(self, 1e-12, math.inf, "choice_temperature")
+
+
+KINDS = {kind.__name__: kind for kind in (Settings, PPOSettings, JSRLSettings, RLPDSettings, PEXSettings)}
 
 
 def settings_class(method: str) -> type[Settings]:
@@ -170,7 +220,7 @@ def settings_for(method: str, setting: str = "quick", **changes) -> Settings:
     if setting not in SETTINGS:
         raise BootcourseError(f"Setting {did_you_mean(setting, SETTINGS)}.")
     kind = settings_class(method)
-    if setting != "quick" and kind is not Settings:
+    if setting != "quick" and METHODS[method].on_policy:
         raise BootcourseError(f"Method '{method}' has no setting '{setting}': leave it out.")
     known = [f.name for f in fields(kind)]
     for name in changes:

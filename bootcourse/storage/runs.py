@@ -199,7 +199,8 @@ def _shapes(settings: Settings, scenario: Scenario) -> dict[str, tuple[int, int,
     """The shapes of an agent's weights and biases (see networks.py), by their names in the file."""
     layers = list(pairwise((scenario.observation_size, *settings.hidden, N_ACTIONS)))
     rows = [(inputs, outputs) for n_in, outputs in layers for inputs in (n_in, 1)]
-    return {f"{part}.{i}": (n, *row) for part, n in (("actor", 1), ("critics", 2)) for i, row in enumerate(rows)}
+    parts = (("actor", 1), ("critics", settings.n_critics))
+    return {f"{part}.{i}": (n, *row) for part, n in parts for i, row in enumerate(rows)}
 
 
 def find_runs(folder: Path) -> list[Path]:

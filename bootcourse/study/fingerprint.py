@@ -145,7 +145,9 @@ def fingerprints(*names: str) -> dict[str, list[float]]:
 def behind(settings: Iterable[Settings], scenario: Scenario) -> tuple[str, ...]:
     """The behaviours that agents trained and tested with these settings depend on."""
     road = "calibrated road" if scenario.name == CALIBRATED.name else "road"
-    taught = any(s.needs_demonstrations or s.xi_multiplier or s.xi_fixed > 0 for s in settings)
+    taught = any(
+        s.needs_demonstrations or s.xi_multiplier or s.xi_fixed > 0 or METHODS[s.method].taught for s in settings
+    )
     drawn = any(s.stochastic_demonstrations for s in settings)
     methods = dict.fromkeys(s.method for s in settings)
     return (road, *["rule"] * taught, *["demonstrations"] * drawn, *methods)
