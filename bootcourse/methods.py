@@ -26,7 +26,9 @@ class Method:
     unused: dict[str, str] = field(default_factory=dict)  # {setting without effect: reason}
     kind: str = "Settings"  # the class of its settings, one of `bootcourse.learn.settings.KINDS`
     on_policy: bool = False  # learns from its own last decisions alone
-    taught: bool = False  # its agents ask the teacher while they train, apart from demonstrations and the KL
+    taught: bool = (
+        False  # its agents ask the teacher while they train, apart from demonstrations and the KL of weight ξ
+    )
 
     def learner_class(self) -> type:
         """The learner's class, imported."""
@@ -54,6 +56,7 @@ _PPO = {
     "actor_lr": 7e-4,
     "critic_lr": 7e-4,
     "buffer_size": 2048,
+    "kl_weight": 0.0,
 }
 _ON_POLICY = {"kind": "PPOSettings", "on_policy": True}
 
@@ -94,6 +97,15 @@ METHODS = {
         "bootcourse.learn.ppo:PPOLearner",
         **_ON_POLICY,
     ),
+    "ppo_kl": Method(
+        "PPO with a fading KL",
+        Style("#44AA99", "-."),
+        _PPO | {"kl_weight": 1.0},
+        "bootcourse.learn.kickstart:KickstartLearner",
+        unused={"xi_multiplier": "has another weight of its KL, kl_weight, which fades"},
+        taught=True,
+        **_ON_POLICY,
+    ),
     "jsrl": Method(
         "jump-start RL",
         Style("#AA4499", marker="v"),
@@ -123,7 +135,7 @@ METHODS = {
 }
 ABLATION = ("sac", "soft", "demos", "bootstrapped", "margin", "margin_soft")  # the paper's method and its parts
 BASELINES = ("bc", "cql", "cql_sac", "gail")
-AFTER = ("ppo", "ppo_cloned", "jsrl", "rlpd", "ibrl", "pex")  # learners that the paper does not have
+AFTER = ("ppo", "ppo_cloned", "ppo_kl", "jsrl", "rlpd", "ibrl", "pex")  # learners that the paper does not have
 DRIVERS = {  # name and style of the drivers that are not trained
     "rule": ("rule controller", Style("#009E73", width=1.0)),
     "planner": ("planner", Style("#000000", (0, (8, 4)))),

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import torch
 
+from bootcourse.episodes.evaluate import evaluate
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.ppo import Minibatch, RolloutBuffer, advantages, clipped_loss
 from bootcourse.learn.settings import PPOSettings, Settings, settings_for, with_seeds
@@ -11,6 +12,11 @@ from bootcourse.learn.training import Training
 from bootcourse.storage.runs import load_checkpoint, load_run, save_checkpoint, save_runs
 
 SMALL = {"hidden": (8,), "envs_per_agent": 4, "horizon": 8, "batch": 16, "epochs": 2, "buffer_size": 16}
+KINDS = {  # the methods that learn by PPO, with what makes them quick and their help change in a few episodes
+    "ppo": {},
+    "ppo_cloned": {"demonstration_episodes": 2, "cloning_updates": 5},
+    "ppo_kl": {"kl_episodes": 20},
+}
 GAMMA = torch.tensor(0.5)
 
 
@@ -60,7 +66,7 @@ def test_the_objective_is_clipped_where_a_step_would_go_too_far(ratio, advantage
 def test_an_epoch_draws_every_decision_of_an_agent_once():
     buffer = RolloutBuffer(agents=2, roads=4, horizon=8, observation_size=1)
     numbers = torch.arange(64).view(2, 32)
-    buffer.columns = Minibatch(*([numbers] * 5))
+    buffer.columns = Minibatch(*([numbers] * len(Minibatch._fields)))
     generators = [np.random.default_rng(seed) for seed in (0, 1)]
     for _ in range(2):
         drawn = torch.cat([buffer.sample(16, np.zeros(2), generators).actions for _ in range(2)], dim=1)
@@ -95,14 +101,18 @@ def test_a_clone_begins_with_the_teacher_s_actions():
     assert agreement[0] > 1.5 * agreement[1]
 
 
-def test_a_run_keeps_the_settings_that_only_ppo_has(tmp_path):
-    result = Training([settings_for("ppo", clip=0.3, **SMALL)], episodes=2).run(progress=False)
-    settings = load_run(save_runs(result, tmp_path)[0]).agent.settings
-    assert type(settings) is PPOSettings and settings.clip == 0.3 and type(settings_for("sac")) is Settings
+@pytest.mark.parametrize("method", KINDS)
+def test_a_trained_agent_is_saved_with_the_settings_that_only_ppo_has_and_evaluated(method, tmp_path):
+    result = Training([settings_for(method, clip=0.3, **SMALL | KINDS[method])], episodes=2).run(progress=False)
+    agent = load_run(save_runs(result, tmp_path)[0]).agent
+    assert type(agent.settings) is PPOSettings and agent.settings.clip == 0.3
+    assert type(settings_for("sac")) is Settings
+    assert evaluate(agent.as_policy(), 5) == evaluate(result.agents[0].as_policy(), 5)
 
 
-def test_a_resumed_training_ends_as_an_uninterrupted_one(tmp_path):
-    settings = with_seeds(settings_for("ppo", **SMALL), 2)
+@pytest.mark.parametrize("method", KINDS)
+def test_a_resumed_training_ends_as_an_uninterrupted_one(method, tmp_path):
+    settings = with_seeds(settings_for(method, **SMALL | KINDS[method]), 2)
     whole, first = Training(settings, episodes=30), Training(settings, episodes=30)
     for _ in range(11):  # in the middle of a round
         first.step()
@@ -118,7 +128,13 @@ def test_a_resumed_training_ends_as_an_uninterrupted_one(tmp_path):
 
 @pytest.mark.parametrize(
     "changes, sentence",
-    [({"clip": 1.5}, "clip = 1.5"), ({"horizon": 0}, "horizon = 0"), ({"cloning_updates": 2.5}, "cloning_updates")],
+    [
+        ({"clip": 1.5}, "clip = 1.5"),
+        ({"horizon": 0}, "horizon = 0"),
+        ({"cloning_updates": 2.5}, "cloning_updates"),
+        ({"kl_weight": 1.0}, "defined by doing without"),
+        ({"kl_episodes": -1}, "kl_episodes = -1"),
+    ],
 )
 def test_a_setting_that_makes_no_sense_is_refused(changes, sentence):
     with pytest.raises(BootcourseError, match=sentence):

@@ -17,6 +17,7 @@ from torch import Tensor
 from bootcourse.errors import BootcourseError
 from bootcourse.learn import bootstrap, sac
 from bootcourse.learn.agent import Agent
+from bootcourse.learn.curves import Curves
 from bootcourse.learn.networks import init_mlp, mlp
 from bootcourse.learn.replay_buffer import Batch, ReplayBuffer
 from bootcourse.learn.settings import Settings, shared_fields
@@ -36,6 +37,7 @@ class SACLearner:
     """
 
     needs_teacher = False  # whether `driving_policy` depends on μ(s)
+    curves: Curves | None = None  # of the training, which sets it
 
     def __init__(self, settings: Sequence[Settings], observation_size: int, n_actions: int = N_ACTIONS):
         self.settings = list(settings)

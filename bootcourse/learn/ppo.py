@@ -51,6 +51,7 @@ class Minibatch(NamedTuple):
     log_pi: Tensor  # (agents, batch) log π_old(a|s)
     advantages: Tensor  # (agents, batch)
     returns: Tensor  # (agents, batch) what V(s) should be
+    rule_actions: Tensor  # (agents, batch) int64, μ(s)
 
 
 class RolloutBuffer:
@@ -150,7 +151,7 @@ class PPOLearner(BCLearner):
         values, next_values = (self._values(states) for states in (taken.states, taken.next_states))
         found = self.advantages(taken.rewards, values, next_values, taken.terminated, replay.ended)
         log_pi = self._log_pi(_agents_first(taken.states)).gather(-1, _agents_first(taken.actions)[..., None])[..., 0]
-        columns = (taken.states, taken.actions, None, found, found + values)
+        columns = (taken.states, taken.actions, None, found, found + values, taken.rule_actions)
         replay.columns = Minibatch(*(log_pi if column is None else _agents_first(column) for column in columns))
         replay.drawn = 0
 
@@ -165,16 +166,19 @@ class PPOLearner(BCLearner):
     def losses(self, batch: Minibatch) -> dict[str, Tensor]:
         """The clipped objective with its entropy bonus, and the values' squared error: each (agents,)."""
         log_pi = self._log_pi(batch.states)  # (agents, batch, 9)
-        ratio = (log_pi.gather(-1, batch.actions[..., None])[..., 0] - batch.log_pi).exp()
-        advantage = batch.advantages - batch.advantages.mean(-1, keepdim=True)
-        advantage = advantage / (batch.advantages.std(-1, keepdim=True) + 1e-8)
-        entropy, shared = sac.entropy(log_pi).mean(-1), self.settings[0]
+        policy_loss, entropy = self.policy_loss(log_pi, batch), sac.entropy(log_pi).mean(-1)
         values = mlp(self.value, batch.states)[..., 0]
         return {
-            "actor_loss": self.clipped_loss(ratio, advantage) - shared.entropy_weight * entropy,
+            "actor_loss": policy_loss - self.settings[0].entropy_weight * entropy,
             "value_loss": sac.critic_loss(values, batch.returns) / 2,
             "entropy": entropy,
         }
+
+    def policy_loss(self, log_pi: Tensor, batch: Minibatch) -> Tensor:
+        """The clipped objective, with advantages of mean 0 and deviation 1: log_pi (agents, batch, 9) -> (agents,)."""
+        ratio = (log_pi.gather(-1, batch.actions[..., None])[..., 0] - batch.log_pi).exp()
+        advantage = batch.advantages - batch.advantages.mean(-1, keepdim=True)
+        return self.clipped_loss(ratio, advantage / (batch.advantages.std(-1, keepdim=True) + 1e-8))
 
     def update(self, batch: Minibatch) -> dict[str, Tensor]:
         """One gradient step of all agents on a minibatch, each network's gradient clipped to a norm of 0.5."""

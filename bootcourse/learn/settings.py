@@ -119,13 +119,15 @@ class PPOSettings(Settings):
     entropy_weight: float = shared(0.01)  # of the entropy bonus
     cloning_updates: int = shared(0)  # before the first drive: clone the teacher; 0 for PPO alone
     label_smoothing: float = shared(0.1)  # of the cloned actions
+    kl_weight: float = shared(0.0)  # λ of the KL to π̃ at first (kickstarting, arXiv 1803.03835); 0: no KL
+    kl_episodes: int = shared(0)  # episodes until λ is 0; 0: λ falls with the success, as QDagger's (arXiv 2206.01626)
 
     def __post_init__(self):
         super().__post_init__()
         _check_range(self, 1, math.inf, "horizon", "epochs", whole=True)
-        _check_range(self, 0, math.inf, "cloning_updates", whole=True)
+        _check_range(self, 0, math.inf, "cloning_updates", "kl_episodes", whole=True)
         _check_range(self, 0.0, 1.0, "clip", "gae_lambda", "label_smoothing")
-        _check_range(self, 0.0, math.inf, "entropy_weight")
+        _check_range(self, 0.0, math.inf, "entropy_weight", "kl_weight")
 
     @property
     def needs_demonstrations(self) -> bool:

@@ -88,7 +88,7 @@ class Training:
         self._teach = teacher_of(teacher, scenario)
         rows = self._demonstration_rows(demonstrations)
         self.replay = self.learner.make_buffer(size, rows)
-        self.curves = Curves(self.n_agents, self.envs_per_agent, self.episodes)
+        self.curves = self.learner.curves = Curves(self.n_agents, self.envs_per_agent, self.episodes)
         streams = [np.random.SeedSequence([s.seed]).spawn(2) for s in settings]
         self.act_rngs = [np.random.default_rng(act) for act, _ in streams]
         self.sample_rngs = [np.random.default_rng(sample) for _, sample in streams]
