@@ -20,7 +20,7 @@ import nbformat
 from bootcourse.classroom.answers import names_in, pieces, with_needs
 from bootcourse.classroom.submission import FORMAT, fingerprint
 from bootcourse.lessons.exercises import registry
-from tests.answers import RIGHT, WRONG
+from tests.answers import IMPORTS, RIGHT, WRONG
 
 ATTACKS = {
     "exits": "import os\nos._exit(0)",
@@ -41,14 +41,12 @@ def sources(name: str, functions: list) -> list[str]:
     """The texts of test answers, each with what it needs and under the exercise's name."""
     found = []
     for function in functions:
-        statements = pieces(Path(inspect.getsourcefile(function)).read_text(encoding="utf-8"))
-        made = [names_in(text) for text in statements]
-        place = next((i for i, names in enumerate(made) if function.__name__ in names), None)
-        if place is None or not re.search(r"^def ", statements[place], re.M):
+        text = re.search(r"^def .*", inspect.getsource(function), re.M | re.S)
+        if text is None or "solution(" in text[0]:
             continue
-        bare = statements[place][re.search(r"^def ", statements[place], re.M).start() :]
-        statements[place] = bare.replace(f"def {function.__name__}(", f"def {name}(", 1)
-        found.append(with_needs(place, statements, made))
+        statements = pieces(IMPORTS) + pieces(inspect.getsource(sys.modules[function.__module__]))
+        statements.append(text[0].rstrip().replace(f"def {function.__name__}(", f"def {name}(", 1))
+        found.append(with_needs(len(statements) - 1, statements, [names_in(text) for text in statements]))
     return found
 
 
@@ -93,7 +91,7 @@ def make(folder: Path, students: int, exercises: list[str], attacks: dict[str, s
         else:
             (folder / f"student-{number:02}").mkdir()
             (folder / f"student-{number:02}" / "all.ipynb").write_text(notebook(answers))
-    first = {name: min(right, key=len) for name, (right, _) in texts.items()}
+    first = {name: min(right, key=lambda text: ("import" in text, len(text))) for name, (right, _) in texts.items()}
     (folder / "empty").mkdir()
     (folder / "damaged.json").write_text(submission(first, "Damaged")[:200])
     (folder / "nested.json").write_text("[" * 100_000)

@@ -4,22 +4,36 @@ One file a lesson, named like its exercises' file. `@right("name")` marks an ans
 `@wrong("name", "words")` one that must not; the words must then stand in the check's sentence. Without
 words any sentence will do. A wrong answer that answers as a known mistake of the exercise does belongs
 here only if it is written in another style (a loop, other rounding): the mistakes are tested themselves.
+
+Short answers stand in a table, `right_lines` or `wrong_lines`: the exercise's name, then for each answer what it is,
+a colon, and its statements, the last of which is what it returns. Its arguments have the exercise's names; `solution`
+is the exercise's own. The words, after " # ", come last.
+
+    wrong_lines('''share_of_the_future
+        per cent: 100 * solution(gamma, seconds)
+        the past: past = gamma**seconds; 1 - past  # the words
+    ''')
 """
 
+import ast
 import contextlib
 import importlib
 import io
+import linecache
 import pickle
 import pkgutil
+import re
 import sys
+import textwrap
 import warnings
 from collections import defaultdict
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from unittest import mock
 
 import cloudpickle
 
 from bootcourse.lessons import guard, worker
+from bootcourse.lessons.exercises import registry
 
 RIGHT: dict[str, list[Callable]] = defaultdict(list)
 EQUIVALENT: dict[str, dict[str, str]] = defaultdict(dict)
@@ -40,6 +54,55 @@ def wrong(exercise: str, words: str = ""):
         return function
 
     return note
+
+
+IMPORTS = """
+import math
+import statistics
+import numpy as np
+import torch
+from scipy import optimize, stats
+from torch.nn import functional
+import bootcourse as bc
+from bootcourse.learn.bootstrap import kl_to_rule
+from bootcourse.lessons.example_teachers import watchful
+"""  # for the tables
+
+
+def right_lines(table: str) -> None:
+    for exercise, function, _ in answers_of(table, sys._getframe(1).f_globals):
+        right(exercise)(function)
+
+
+def wrong_lines(table: str) -> None:
+    for exercise, function, words in answers_of(table, sys._getframe(1).f_globals):
+        wrong(exercise, words)(function)
+
+
+def answers_of(table: str, module: dict) -> Iterator[tuple[str, Callable, str]]:
+    """(exercise, function, words) of a table. module: the names that its answers may use besides the imports'."""
+    exercise, rows = table.split("\n", 1)
+    known = registry()[exercise]
+    space = {"solution": getattr(known.solution, "py_func", known.solution)}
+    exec(IMPORTS, space)
+    for row in re.split(r"\n(?=\S)", textwrap.dedent(rows).strip()):
+        row, _, words = row.partition(" # ")
+        head, _, rest = row.partition("\n")
+        name, _, first = head.partition(":")
+        lines = [first.strip()] * bool(first.strip()) + textwrap.dedent(rest).strip().splitlines()
+        yield exercise, function_of(re.sub(r"\W", "_", name), known.arguments, lines, module | space), words.strip()
+
+
+def function_of(name: str, arguments: list[str], lines: list[str], space: dict) -> Callable:
+    """The function of these statements, which returns its last one's value. `inspect` finds its text."""
+    last = ast.parse("\n".join(lines)).body[-1]
+    line = lines[last.lineno - 1]
+    lines[last.lineno - 1] = f"{line[: last.col_offset]}return {line[last.col_offset :]}"
+    text = f"def {name}({', '.join(arguments)}):\n" + textwrap.indent("\n".join(lines), "    ") + "\n"
+    file = f"<{name}, a right or wrong answer, {len(linecache.cache)}>"
+    linecache.cache[file] = len(text), None, text.splitlines(keepends=True), file
+    exec(compile(text, file, "exec"), space)
+    return space[name]
 
 
 def equivalent(exercise: str, change: str, why: str) -> None:

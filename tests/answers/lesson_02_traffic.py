@@ -4,9 +4,7 @@ import math
 
 import numpy as np
 
-from tests.answers import right, wrong
-
-# desired_gap ----------------------------------------------------------------------------------------
+from tests.answers import right, right_lines, wrong, wrong_lines
 
 
 @right("desired_gap")
@@ -14,57 +12,21 @@ def three_terms(v, dv, s0, time_gap, a_max, b):
     return s0 + v * time_gap + v * dv / (2 * math.sqrt(a_max * b))
 
 
-@right("desired_gap")
-def factored_out(v, dv, s0, time_gap, a_max, b):
-    return s0 + v * (time_gap + 0.5 * dv * (a_max * b) ** -0.5)
+right_lines("""desired_gap
+    factored out: s0 + v * (time_gap + 0.5 * dv * (a_max * b) ** -0.5)
+    as a sum: sum([s0, time_gap * v, v * dv / (math.sqrt(4 * a_max * b))])
+    with numpy: np.dot([1, v, v * dv], [s0, time_gap, 0.5 / np.sqrt(a_max * b)])
+""")
 
-
-@right("desired_gap")
-def as_a_sum(v, dv, s0, time_gap, a_max, b):
-    return sum([s0, time_gap * v, v * dv / (math.sqrt(4 * a_max * b))])
-
-
-@right("desired_gap")
-def with_numpy(v, dv, s0, time_gap, a_max, b):
-    return np.dot([1, v, v * dv], [s0, time_gap, 0.5 / np.sqrt(a_max * b)])
-
-
-@wrong("desired_gap", "as some versions of IDM do")
-def never_negative(v, dv, s0, time_gap, a_max, b):
-    return s0 + max(0.0, v * time_gap + v * dv / (2 * math.sqrt(a_max * b)))
-
-
-@wrong("desired_gap", "parentheses")
-def python_reads_from_left_to_right(v, dv, s0, time_gap, a_max, b):
-    return s0 + v * time_gap + v * dv / 2 * math.sqrt(a_max * b)
-
-
-@wrong("desired_gap")
-def of_the_scenario(v, dv, s0, time_gap, a_max, b):
-    return 10.0 + 1.5 * v + v * dv / (2 * 0.5)
-
-
-@wrong("desired_gap")
-def closing_in_only(v, dv, s0, time_gap, a_max, b):
-    return s0 + v * time_gap + max(0.0, v * dv) / (2 * math.sqrt(a_max * b))
-
-
-@wrong("desired_gap")
-def the_size_of_the_difference(v, dv, s0, time_gap, a_max, b):
-    return s0 + v * time_gap + v * abs(dv) / (2 * math.sqrt(a_max * b))
-
-
-@wrong("desired_gap")
-def the_mean_of_both(v, dv, s0, time_gap, a_max, b):
-    return s0 + v * time_gap + v * dv / (a_max + b)
-
-
-@wrong("desired_gap")
-def the_leader_s_speed(v, dv, s0, time_gap, a_max, b):
-    return s0 + (v - dv) * time_gap + v * dv / (2 * math.sqrt(a_max * b))
-
-
-# drive_behind ---------------------------------------------------------------------------------------
+wrong_lines("""desired_gap
+    never negative: s0 + max(0.0, v * time_gap + v * dv / (2 * math.sqrt(a_max * b)))  # as some versions of IDM do
+    python reads from left to right: s0 + v * time_gap + v * dv / 2 * math.sqrt(a_max * b)  # parentheses
+    of the scenario: 10.0 + 1.5 * v + v * dv / (2 * 0.5)
+    closing in only: s0 + v * time_gap + max(0.0, v * dv) / (2 * math.sqrt(a_max * b))
+    the size of the difference: s0 + v * time_gap + v * abs(dv) / (2 * math.sqrt(a_max * b))
+    the mean of both: s0 + v * time_gap + v * dv / (a_max + b)
+    the leader's speed: s0 + (v - dv) * time_gap + v * dv / (2 * math.sqrt(a_max * b))
+""")
 
 
 def acceleration(v, dv, gap, v_desired, s0, time_gap, a_max, b, delta):
@@ -187,160 +149,68 @@ def never_brakes(leader, v, gap, dt, *driver):
     return into_an_array(leader, v, gap, dt, *driver[:-1], 0.0)
 
 
-# equilibrium_gap ------------------------------------------------------------------------------------
+right_lines("""equilibrium_gap
+    solved: (s0 + time_gap * v) * (1 - (v / v_desired) ** delta) ** -0.5
+    with numpy's functions: np.polyval([time_gap, s0], v) / np.sqrt(1 - np.power(v / v_desired, delta))
+    by bisection: low, high = 0.01, 1e6
+        for _ in range(100):
+            middle = (low + high) / 2
+            if 1 - (v / v_desired) ** delta - ((s0 + time_gap * v) / middle) ** 2 < 0:
+                low = middle
+            else:
+                high = middle
+        low
+""")
 
+wrong_lines("""equilibrium_gap
+    a power goes first: (s0 + time_gap * v) / math.sqrt(1 - v / v_desired**delta)
+    delta is four: (s0 + time_gap * v) / math.sqrt(1 - (v / v_desired) ** 4)
+    at a standstill: s0
+    less the car: solution(v, v_desired, s0, time_gap, delta) - 5
+    at the desired speed: (s0 + time_gap * v_desired) / math.sqrt(1 - (v / v_desired) ** delta)
+    both roots: np.array([1, -1]) * solution(v, v_desired, s0, time_gap, delta)  # a number
+    only the time gap is stretched: s0 + time_gap * v / math.sqrt(1 - (v / v_desired) ** delta)
+    without power: (s0 + time_gap * v) / math.sqrt(1 - v / v_desired)
+""")
 
-@right("equilibrium_gap")
-def solved(v, v_desired, s0, time_gap, delta):
-    return (s0 + time_gap * v) * (1 - (v / v_desired) ** delta) ** -0.5
+right_lines("""worth_changing
+    one expression: others = follower_after - follower_before + old_follower_gain
+        follower_after >= -limit and own_gain + politeness * others > threshold
+    with steps: total = own_gain
+        total += politeness * old_follower_gain
+        total -= politeness * (follower_before - follower_after)
+        is_safe = not follower_after < -limit
+        1 if is_safe and total > threshold else 0
+    unsafe is worth nothing:
+        gains = np.array([own_gain, follower_after - follower_before, old_follower_gain]) @ [1, politeness, politeness]
+        np.where(follower_after + limit >= 0, gains, -np.inf) > threshold
+""")
 
+wrong_lines("""worth_changing
+    the default's numbers: others = follower_after - follower_before + old_follower_gain
+        follower_after >= -2.0 and own_gain + politeness * others > 0.2
+    safety turned: others = follower_after - follower_before + old_follower_gain
+        follower_after < -limit and own_gain + politeness * others > threshold
+    safe or worth it: others = follower_after - follower_before + old_follower_gain
+        follower_after >= -limit or own_gain + politeness * others > threshold
+    politeness for everything: total = own_gain + follower_after - follower_before + old_follower_gain
+        follower_after >= -limit and politeness * total > threshold
+    any change is limited: others = follower_after - follower_before + old_follower_gain
+        -limit <= follower_after <= limit and own_gain + politeness * others > threshold  # accelerates
+    the loss is limited: loss = follower_after - follower_before
+        loss >= -limit and own_gain + politeness * (loss + old_follower_gain) > threshold
+    weighed against the rest: others = follower_after - follower_before + old_follower_gain
+        follower_after >= -limit and (1 - politeness) * own_gain + politeness * others > threshold
+    the gain itself: own_gain + politeness * (follower_after - follower_before + old_follower_gain)
+""")
 
-@right("equilibrium_gap")
-def by_bisection(v, v_desired, s0, time_gap, delta):
-    low, high = 0.01, 1e6
-    for _ in range(100):
-        middle = (low + high) / 2
-        if 1 - (v / v_desired) ** delta - ((s0 + time_gap * v) / middle) ** 2 < 0:
-            low = middle
-        else:
-            high = middle
-    return low
-
-
-@right("equilibrium_gap")
-def with_numpy_s_functions(v, v_desired, s0, time_gap, delta):
-    return np.polyval([time_gap, s0], v) / np.sqrt(1 - np.power(v / v_desired, delta))
-
-
-@wrong("equilibrium_gap")
-def a_power_goes_first(v, v_desired, s0, time_gap, delta):
-    return (s0 + time_gap * v) / math.sqrt(1 - v / v_desired**delta)
-
-
-@wrong("equilibrium_gap")
-def delta_is_four(v, v_desired, s0, time_gap, delta):
-    return (s0 + time_gap * v) / math.sqrt(1 - (v / v_desired) ** 4)
-
-
-@wrong("equilibrium_gap")
-def at_a_standstill(v, v_desired, s0, time_gap, delta):
-    return s0
-
-
-@wrong("equilibrium_gap")
-def less_the_car(v, v_desired, s0, time_gap, delta):
-    return solved(v, v_desired, s0, time_gap, delta) - 5
-
-
-@wrong("equilibrium_gap")
-def at_the_desired_speed(v, v_desired, s0, time_gap, delta):
-    return (s0 + time_gap * v_desired) / math.sqrt(1 - (v / v_desired) ** delta)
-
-
-@wrong("equilibrium_gap", "a number")
-def both_roots(v, v_desired, s0, time_gap, delta):
-    return np.array([1, -1]) * solved(v, v_desired, s0, time_gap, delta)
-
-
-@wrong("equilibrium_gap")
-def only_the_time_gap_is_stretched(v, v_desired, s0, time_gap, delta):
-    return s0 + time_gap * v / math.sqrt(1 - (v / v_desired) ** delta)
-
-
-@wrong("equilibrium_gap")
-def without_power(v, v_desired, s0, time_gap, delta):
-    return (s0 + time_gap * v) / math.sqrt(1 - v / v_desired)
-
-
-# worth_changing -------------------------------------------------------------------------------------
-
-
-@right("worth_changing")
-def one_expression(own_gain, follower_before, follower_after, old_follower_gain, politeness, threshold, limit):
-    others = follower_after - follower_before + old_follower_gain
-    return follower_after >= -limit and own_gain + politeness * others > threshold
-
-
-@right("worth_changing")
-def with_steps(own_gain, follower_before, follower_after, old_follower_gain, politeness, threshold, limit):
-    total = own_gain
-    total += politeness * old_follower_gain
-    total -= politeness * (follower_before - follower_after)
-    is_safe = not follower_after < -limit
-    return 1 if is_safe and total > threshold else 0
-
-
-@right("worth_changing")
-def unsafe_is_worth_nothing(own_gain, follower_before, follower_after, old_follower_gain, politeness, threshold, limit):
-    gains = np.array([own_gain, follower_after - follower_before, old_follower_gain]) @ [1, politeness, politeness]
-    return np.where(follower_after + limit >= 0, gains, -np.inf) > threshold
-
-
-@wrong("worth_changing")
-def the_default_s_numbers(own_gain, follower_before, follower_after, old_follower_gain, politeness, threshold, limit):
-    others = follower_after - follower_before + old_follower_gain
-    return follower_after >= -2.0 and own_gain + politeness * others > 0.2
-
-
-@wrong("worth_changing")
-def safety_turned(own_gain, follower_before, follower_after, old_follower_gain, politeness, threshold, limit):
-    others = follower_after - follower_before + old_follower_gain
-    return follower_after < -limit and own_gain + politeness * others > threshold
-
-
-@wrong("worth_changing")
-def safe_or_worth_it(own_gain, follower_before, follower_after, old_follower_gain, politeness, threshold, limit):
-    others = follower_after - follower_before + old_follower_gain
-    return follower_after >= -limit or own_gain + politeness * others > threshold
-
-
-@wrong("worth_changing")
-def politeness_for_everything(
-    own_gain, follower_before, follower_after, old_follower_gain, politeness, threshold, limit
-):
-    total = own_gain + follower_after - follower_before + old_follower_gain
-    return follower_after >= -limit and politeness * total > threshold
-
-
-@wrong("worth_changing", "accelerates")
-def any_change_is_limited(own_gain, follower_before, follower_after, old_follower_gain, politeness, threshold, limit):
-    others = follower_after - follower_before + old_follower_gain
-    return -limit <= follower_after <= limit and own_gain + politeness * others > threshold
-
-
-@wrong("worth_changing")
-def the_loss_is_limited(own_gain, follower_before, follower_after, old_follower_gain, politeness, threshold, limit):
-    loss = follower_after - follower_before
-    return loss >= -limit and own_gain + politeness * (loss + old_follower_gain) > threshold
-
-
-@wrong("worth_changing")
-def weighed_against_the_rest(
-    own_gain, follower_before, follower_after, old_follower_gain, politeness, threshold, limit
-):
-    others = follower_after - follower_before + old_follower_gain
-    return follower_after >= -limit and (1 - politeness) * own_gain + politeness * others > threshold
-
-
-@wrong("worth_changing")
-def the_gain_itself(own_gain, follower_before, follower_after, old_follower_gain, politeness, threshold, limit):
-    return own_gain + politeness * (follower_after - follower_before + old_follower_gain)
-
-
-# heading_errors -------------------------------------------------------------------------------------
-
-
-@right("heading_errors")
-def in_a_loop(error, tau, dt, steps):
-    errors = [error]
-    for _ in range(steps):
-        errors.append(errors[-1] - dt * errors[-1] / tau)
-    return errors
-
-
-@right("heading_errors")
-def by_a_product(error, tau, dt, steps):
-    return np.cumprod([error] + steps * [1 - dt / tau])
+right_lines("""heading_errors
+    by a product: np.cumprod([error] + steps * [1 - dt / tau])
+    in a loop: errors = [error]
+        for _ in range(steps):
+            errors.append(errors[-1] - dt * errors[-1] / tau)
+        errors
+""")
 
 
 @right("heading_errors")
@@ -349,41 +219,13 @@ def by_recursion(error, tau, dt, steps):
     return np.array([error, *rest])
 
 
-@wrong("heading_errors", "a NumPy array")
-def the_last_one(error, tau, dt, steps):
-    return error * (1 - dt / tau) ** steps
-
-
-@wrong("heading_errors")
-def turned_once(error, tau, dt, steps):
-    return np.full(steps + 1, error - dt / tau * error)
-
-
-@wrong("heading_errors")
-def the_first_step_is_free(error, tau, dt, steps):
-    return error * (1 - dt / tau) ** np.maximum(np.arange(steps + 1) - 1, 0)
-
-
-@wrong("heading_errors")
-def backwards_in_time(error, tau, dt, steps):
-    return error / (1 + dt / tau) ** np.arange(steps + 1)
-
-
-@wrong("heading_errors")
-def at_two_hertz(error, tau, dt, steps):
-    return error * (1 - 0.5 / tau) ** np.arange(steps + 1)
-
-
-@wrong("heading_errors", "shape")
-def without_the_start(error, tau, dt, steps):
-    return error * (1 - dt / tau) ** np.arange(1, steps + 2)[:steps]
-
-
-@wrong("heading_errors")
-def one_step_ahead(error, tau, dt, steps):
-    return error * (1 - dt / tau) ** np.arange(1, steps + 2)
-
-
-@wrong("heading_errors")
-def stops_at_zero(error, tau, dt, steps):
-    return error * max(0.0, 1 - dt / tau) ** np.arange(steps + 1)
+wrong_lines("""heading_errors
+    the last one: error * (1 - dt / tau) ** steps  # a NumPy array
+    turned once: np.full(steps + 1, error - dt / tau * error)
+    the first step is free: error * (1 - dt / tau) ** np.maximum(np.arange(steps + 1) - 1, 0)
+    backwards in time: error / (1 + dt / tau) ** np.arange(steps + 1)
+    at two hertz: error * (1 - 0.5 / tau) ** np.arange(steps + 1)
+    without the start: error * (1 - dt / tau) ** np.arange(1, steps + 2)[:steps]  # shape
+    one step ahead: error * (1 - dt / tau) ** np.arange(1, steps + 2)
+    stops at zero: error * max(0.0, 1 - dt / tau) ** np.arange(steps + 1)
+""")

@@ -4,7 +4,7 @@ import collections
 
 import torch
 
-from tests.answers import equivalent, right, wrong
+from tests.answers import equivalent, right, right_lines, wrong, wrong_lines
 
 ONE = "α is one number"
 equivalent("soft_value", "alpha.unsqueeze(-1) * log_pi  ->  alpha * log_pi", ONE)
@@ -16,105 +16,49 @@ MEAN = "state_entropy.detach().mean"
 equivalent("temperature_loss", f"{MEAN}(-1)  ->  {MEAN}(0)", "the batch is the only axis")
 
 
-@right("critic_target")
-def with_a_mask(reward, terminated, next_value, gamma):
-    alive = 1 - terminated
-    return reward + gamma * alive * next_value
+right_lines("""critic_target
+    with a mask: alive = 1 - terminated; reward + gamma * alive * next_value
+    with where: torch.where(terminated.bool(), reward, reward + gamma * next_value)
+    one by one: targets = []
+        for r, t, v in zip(reward, terminated, next_value, strict=True):
+            targets.append(r if t else r + gamma * v)
+        torch.stack(targets)
+""")
 
+wrong_lines("""critic_target
+    subtracted: reward - gamma * (1 - terminated) * next_value
+    reward only: reward
+    in place: reward += gamma * (1 - terminated) * next_value; reward  # changes its argument `reward`
+    a column: (reward + gamma * (1 - terminated) * next_value)[:, None]  # shape
+""")
 
-@right("critic_target")
-def with_where(reward, terminated, next_value, gamma):
-    return torch.where(terminated.bool(), reward, reward + gamma * next_value)
+right_lines("""entropy
+    with torch's own: torch.distributions.Categorical(logits=log_pi).entropy()
+    with special entr: torch.special.entr(log_pi.exp()).sum(dim=1)
+""")
 
+wrong_lines("""entropy
+    one for all: torch.distributions.Categorical(logits=log_pi).entropy().mean()  # mean over the batch
+    of the logarithm: -(log_pi * torch.log(-log_pi + 1e-12)).sum(-1)
+    each action's: -log_pi * log_pi.exp()  # shape
+""")
 
-@right("critic_target")
-def one_by_one(reward, terminated, next_value, gamma):
-    targets = []
-    for r, t, v in zip(reward, terminated, next_value, strict=True):
-        targets.append(r if t else r + gamma * v)
-    return torch.stack(targets)
+right_lines("""soft_value
+    value and entropy: pi = log_pi.exp(); (pi * q).sum(-1) + alpha * torch.special.entr(pi).sum(-1)
+    as a product: torch.einsum("ba,ba->b", torch.exp(log_pi), q - alpha * log_pi)
+""")
 
+wrong_lines("""soft_value
+    a drawn action: drawn = torch.multinomial(log_pi.exp(), 1); (q - alpha * log_pi).gather(1, drawn)[:, 0]
+    log sum exp: (alpha + 1e-6) * torch.logsumexp(q / (alpha + 1e-6), -1)
+""")
 
-@wrong("critic_target")
-def subtracted(reward, terminated, next_value, gamma):
-    return reward - gamma * (1 - terminated) * next_value
-
-
-@wrong("critic_target")
-def reward_only(reward, terminated, next_value, gamma):
-    return reward
-
-
-@wrong("critic_target", "changes its argument `reward`")
-def in_place(reward, terminated, next_value, gamma):
-    reward += gamma * (1 - terminated) * next_value
-    return reward
-
-
-@wrong("critic_target", "shape")
-def a_column(reward, terminated, next_value, gamma):
-    return (reward + gamma * (1 - terminated) * next_value)[:, None]
-
-
-# entropy --------------------------------------------------------------------------------------------
-
-
-@right("entropy")
-def with_torch_s_own(log_pi):
-    return torch.distributions.Categorical(logits=log_pi).entropy()
-
-
-@right("entropy")
-def with_special_entr(log_pi):
-    return torch.special.entr(log_pi.exp()).sum(dim=1)
-
-
-@wrong("entropy", "mean over the batch")
-def one_for_all(log_pi):
-    return torch.distributions.Categorical(logits=log_pi).entropy().mean()
-
-
-@wrong("entropy")
-def of_the_logarithm(log_pi):
-    return -(log_pi * torch.log(-log_pi + 1e-12)).sum(-1)
-
-
-@wrong("entropy", "shape")
-def each_action_s(log_pi):
-    return -log_pi * log_pi.exp()
-
-
-# soft_value -----------------------------------------------------------------------------------------
-
-
-@right("soft_value")
-def value_and_entropy(log_pi, q, alpha):
-    pi = log_pi.exp()
-    return (pi * q).sum(-1) + alpha * torch.special.entr(pi).sum(-1)
-
-
-@right("soft_value")
-def as_a_product(log_pi, q, alpha):
-    return torch.einsum("ba,ba->b", torch.exp(log_pi), q - alpha * log_pi)
-
-
-@wrong("soft_value")
-def a_drawn_action(log_pi, q, alpha):
-    drawn = torch.multinomial(log_pi.exp(), 1)
-    return (q - alpha * log_pi).gather(1, drawn)[:, 0]
-
-
-@wrong("soft_value")
-def log_sum_exp(log_pi, q, alpha):
-    return (alpha + 1e-6) * torch.logsumexp(q / (alpha + 1e-6), -1)
-
-
-# actor_loss -----------------------------------------------------------------------------------------
-
-
-@right("actor_loss")
-def mean_cost(log_pi, q, alpha):
-    return (log_pi.exp() * (alpha * log_pi - q.detach())).sum(-1).mean()
+right_lines("""actor_loss
+    mean cost: (log_pi.exp() * (alpha * log_pi - q.detach())).sum(-1).mean()
+    log pi detached in the bracket: -(log_pi.exp() * (q.detach() - alpha * log_pi.detach())).sum(-1).mean()
+    with a categorical: pi = torch.distributions.Categorical(logits=log_pi)
+        -((pi.probs * q.detach()).sum(-1) + alpha * pi.entropy()).mean()
+""")
 
 
 @right("actor_loss")
@@ -126,59 +70,25 @@ def without_a_graph(log_pi, q, alpha):
     return -torch.mean((pi * worth).sum(-1) + alpha * entropy)
 
 
-@right("actor_loss")
-def log_pi_detached_in_the_bracket(log_pi, q, alpha):  # its slope, -α, is the same for all actions: no logit feels it
-    return -(log_pi.exp() * (q.detach() - alpha * log_pi.detach())).sum(-1).mean()
+wrong_lines("""actor_loss
+    weights detached: (log_pi.exp().detach() * (alpha * log_pi - q.detach())).sum(-1).mean()
+    summed over the batch: (log_pi.exp() * (alpha * log_pi - q.detach())).sum() * 2
+""")
 
+right_lines("""temperature_loss
+    two means: gap = torch.mean(state_entropy.detach() - target_entropy); torch.exp(log_alpha) * gap
+    gap as a number: gap = state_entropy.mean().item() - target_entropy.item(); gap * log_alpha.exp()
+""")
 
-@right("actor_loss")
-def with_a_categorical(log_pi, q, alpha):
-    pi = torch.distributions.Categorical(logits=log_pi)
-    return -((pi.probs * q.detach()).sum(-1) + alpha * pi.entropy()).mean()
+wrong_lines("""temperature_loss
+    plus target: log_alpha.exp() * (state_entropy.detach() + target_entropy).mean()  # add the target
+    squared: log_alpha.exp() * (state_entropy.detach().mean() - target_entropy) ** 2
+""")
 
-
-@wrong("actor_loss")
-def weights_detached(log_pi, q, alpha):
-    return (log_pi.exp().detach() * (alpha * log_pi - q.detach())).sum(-1).mean()
-
-
-@wrong("actor_loss")
-def summed_over_the_batch(log_pi, q, alpha):
-    return (log_pi.exp() * (alpha * log_pi - q.detach())).sum() * 2
-
-
-# temperature_loss -----------------------------------------------------------------------------------
-
-
-@right("temperature_loss")
-def two_means(log_alpha, state_entropy, target_entropy):
-    gap = torch.mean(state_entropy.detach() - target_entropy)
-    return torch.exp(log_alpha) * gap
-
-
-@right("temperature_loss")
-def gap_as_a_number(log_alpha, state_entropy, target_entropy):
-    gap = state_entropy.mean().item() - target_entropy.item()
-    return gap * log_alpha.exp()
-
-
-@wrong("temperature_loss", "add the target")
-def plus_target(log_alpha, state_entropy, target_entropy):
-    return log_alpha.exp() * (state_entropy.detach() + target_entropy).mean()
-
-
-@wrong("temperature_loss")
-def squared(log_alpha, state_entropy, target_entropy):
-    return log_alpha.exp() * (state_entropy.detach().mean() - target_entropy) ** 2
-
-
-# critic_loss ----------------------------------------------------------------------------------------
-
-
-@right("critic_loss")
-def one_critic_after_the_other(q_pair, action, target):
-    rows, y = torch.arange(len(action)), target.detach()
-    return sum(torch.nn.functional.mse_loss(q[rows, action], y) for q in q_pair)
+right_lines("""critic_loss
+    one critic after the other: rows, y = torch.arange(len(action)), target.detach()
+        sum(torch.nn.functional.mse_loss(q[rows, action], y) for q in q_pair)
+""")
 
 
 @right("critic_loss")
@@ -189,28 +99,13 @@ def with_a_one_hot_mask(q_pair, action, target):
     return (((q_pair * taken).sum(-1) - y) ** 2).mean(dim=1).sum()
 
 
-@wrong("critic_loss", "mean over the two critics")
-def mean_of_both(q_pair, action, target):
-    rows = torch.arange(len(action))
-    return sum(((q[rows, action] - target.detach()) ** 2).mean() for q in q_pair) / 2
-
-
-@wrong("critic_loss")
-def summed_over_states(q_pair, action, target):
-    return sum(((q.gather(1, action[:, None])[:, 0] - target.detach()) ** 2).sum() for q in q_pair)
-
-
-@wrong("critic_loss")
-def absolute(q_pair, action, target):
-    return sum((q.gather(1, action[:, None])[:, 0] - target.detach()).abs().mean() for q in q_pair)
-
-
-@wrong("critic_loss")
-def a_broadcast(q_pair, action, target):
-    return sum(((q.gather(1, action[:, None]) - target.detach()) ** 2).mean() for q in q_pair)
-
-
-# ReplayBuffer ---------------------------------------------------------------------------------------
+wrong_lines("""critic_loss
+    mean of both: rows = torch.arange(len(action))
+        sum(((q[rows, action] - target.detach()) ** 2).mean() for q in q_pair) / 2  # mean over the two critics
+    summed over states: sum(((q.gather(1, action[:, None])[:, 0] - target.detach()) ** 2).sum() for q in q_pair)
+    absolute: sum((q.gather(1, action[:, None])[:, 0] - target.detach()).abs().mean() for q in q_pair)
+    a broadcast: sum(((q.gather(1, action[:, None]) - target.detach()) ** 2).mean() for q in q_pair)
+""")
 
 
 @right("ReplayBuffer")

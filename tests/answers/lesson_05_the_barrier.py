@@ -1,58 +1,32 @@
 """Answers to the exercises of the lesson on the barrier."""
 
 import numpy as np
-from scipy import stats
 
 from bootcourse.lessons import chain
-from tests.answers import equivalent, right, wrong
+from tests.answers import equivalent, right, right_lines, wrong, wrong_lines
 
-# share_of_the_future --------------------------------------------------------------------------------
+right_lines("""share_of_the_future
+    added up: weights = gamma ** np.arange(10_000); weights[seconds:].sum() / weights.sum()
+    less the past: past = (1 - gamma**seconds) / (1 - gamma); (1 / (1 - gamma) - past) * (1 - gamma)
+""")
 
+wrong_lines("""share_of_the_future
+    product: gamma * seconds
+""")
 
-@right("share_of_the_future")
-def added_up(gamma, seconds):
-    weights = gamma ** np.arange(10_000)
-    return weights[seconds:].sum() / weights.sum()
+right_lines("""luck
+    binomial: 1 - stats.binom.pmf(0, tries, (good / 9) ** decisions)
+    not all fail: fails = 1.0
+        for _ in range(tries):
+            fails *= 1 - (good / 9) ** decisions
+        1 - fails
+""")
 
+wrong_lines("""luck
+    capped: min(1.0, tries * (good / 9) ** decisions)
+    of eight: 1 - (1 - (good / 8) ** decisions) ** tries
+""")
 
-@right("share_of_the_future")
-def less_the_past(gamma, seconds):
-    past = (1 - gamma**seconds) / (1 - gamma)
-    return (1 / (1 - gamma) - past) * (1 - gamma)
-
-
-@wrong("share_of_the_future")
-def product(gamma, seconds):
-    return gamma * seconds
-
-
-# luck -----------------------------------------------------------------------------------------------
-
-
-@right("luck")
-def not_all_fail(good, decisions, tries):
-    fails = 1.0
-    for _ in range(tries):
-        fails *= 1 - (good / 9) ** decisions
-    return 1 - fails
-
-
-@right("luck")
-def binomial(good, decisions, tries):
-    return 1 - stats.binom.pmf(0, tries, (good / 9) ** decisions)
-
-
-@wrong("luck")
-def capped(good, decisions, tries):
-    return min(1.0, tries * (good / 9) ** decisions)
-
-
-@wrong("luck")
-def of_eight(good, decisions, tries):
-    return 1 - (1 - (good / 8) ** decisions) ** tries
-
-
-# learn_chain ----------------------------------------------------------------------------------------
 
 for _start in (-1, 1):
     _before, _after = (f"(np.zeros((STATES, 2)), {s})" for s in (0, _start))
@@ -64,16 +38,16 @@ equivalent(
 )
 
 
-@right("learn_chain")
-def with_lists(chances, gamma, step, taught):
-    q, s = [[0.0, 0.0] for _ in range(5)], 0
-    for t, chance in enumerate(list(chances)):
-        s = 0 if t % 20 == 0 else s
-        a = chance if chance >= 0 else int(q[s][1] > q[s][0])
-        for x, u in ((s, a),) + tuple(taught):
-            q[x][u] = (1 - step) * q[x][u] + step * (chain.REWARD[x, u] + gamma * max(q[chain.NEXT[x, u]]))
-        s = chain.NEXT[s, a]
-    return np.array(q)
+right_lines("""learn_chain
+    with lists: q, s = [[0.0, 0.0] for _ in range(5)], 0
+        for t, chance in enumerate(list(chances)):
+            s = 0 if t % 20 == 0 else s
+            a = chance if chance >= 0 else int(q[s][1] > q[s][0])
+            for x, u in ((s, a),) + tuple(taught):
+                q[x][u] = (1 - step) * q[x][u] + step * (chain.REWARD[x, u] + gamma * max(q[chain.NEXT[x, u]]))
+            s = chain.NEXT[s, a]
+        np.array(q)
+""")
 
 
 @right("learn_chain")
@@ -131,34 +105,17 @@ for _slip in ({"first": 19}, {"ties": 1}, {"ahead": 1}, {"sarsa": True}, {"own":
     wrong("learn_chain")(chain_learner(**_slip))
 
 
-@wrong("learn_chain")
-def with_a_step_of_a_half(chances, gamma, step, taught):
-    return chain.learn_chain(chances, gamma, 0.5, taught)
+wrong_lines("""learn_chain
+    with a step of a half: chain.learn_chain(chances, gamma, 0.5, taught)
+    with the paper's discount: chain.learn_chain(chances, 0.8, step, taught)
+    the values of the states: chain.learn_chain(chances, gamma, step, taught).max(axis=1)
+""")
 
+right_lines("""lowest_rate
+    scipy's: stats.binomtest(agents, agents).proportion_ci(0.95, method="exact").low
+    with logarithms: np.exp(np.log(0.025) / agents)
+""")
 
-@wrong("learn_chain")
-def with_the_paper_s_discount(chances, gamma, step, taught):
-    return chain.learn_chain(chances, 0.8, step, taught)
-
-
-@wrong("learn_chain")
-def the_values_of_the_states(chances, gamma, step, taught):
-    return chain.learn_chain(chances, gamma, step, taught).max(axis=1)
-
-
-# lowest_rate ----------------------------------------------------------------------------------------
-
-
-@right("lowest_rate")
-def scipy_s(agents):
-    return stats.binomtest(agents, agents).proportion_ci(0.95, method="exact").low
-
-
-@right("lowest_rate")
-def with_logarithms(agents):
-    return np.exp(np.log(0.025) / agents)
-
-
-@wrong("lowest_rate")
-def bayes(agents):
-    return (agents + 1) / (agents + 2)
+wrong_lines("""lowest_rate
+    bayes: (agents + 1) / (agents + 2)
+""")

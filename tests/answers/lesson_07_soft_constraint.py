@@ -1,11 +1,8 @@
 """Answers to the exercises of the lesson on the soft constraint."""
 
-import math
-
 import torch
 
-from bootcourse.learn.bootstrap import kl_to_rule
-from tests.answers import equivalent, right, wrong
+from tests.answers import equivalent, right, right_lines, wrong, wrong_lines
 
 SAME = "its slope in log π is the same for all actions, so no logit feels it"
 equivalent("soft_constraint", "log_pi - log_rule  ->  log_pi.detach() - log_rule", SAME)
@@ -23,9 +20,15 @@ def pi_tilde(rule_action, p, others=None):
     return probabilities
 
 
-@right("soft_constraint")
-def the_library_s(log_pi, rule_action, p):
-    return kl_to_rule(log_pi, rule_action, torch.tensor(p))
+right_lines("""soft_constraint
+    the library's: kl_to_rule(log_pi, rule_action, torch.tensor(p))
+    torch's own: rule = pi_tilde(rule_action, p).log()
+        torch.nn.functional.kl_div(rule, log_pi, reduction="none", log_target=True).sum(-1)
+    minus entropy minus cross: pi = log_pi.exp()
+        of_rule = pi.gather(1, rule_action[:, None])[:, 0]
+        cross = of_rule * math.log(p) + (1 - of_rule) * math.log((1 - p) / 8)
+        (pi * log_pi).sum(-1) - cross
+""")
 
 
 @right("soft_constraint")
@@ -34,251 +37,100 @@ def with_probabilities(log_pi, rule_action, p):
     return (pi * torch.log(pi / pi_tilde(rule_action, p))).sum(dim=1)
 
 
-@right("soft_constraint")
-def torch_s_own(log_pi, rule_action, p):
-    rule = pi_tilde(rule_action, p).log()
-    return torch.nn.functional.kl_div(rule, log_pi, reduction="none", log_target=True).sum(-1)
-
-
-@right("soft_constraint")
-def minus_entropy_minus_cross(log_pi, rule_action, p):
-    pi = log_pi.exp()
-    of_rule = pi.gather(1, rule_action[:, None])[:, 0]
-    cross = of_rule * math.log(p) + (1 - of_rule) * math.log((1 - p) / 8)
-    return (pi * log_pi).sum(-1) - cross
-
-
 @wrong("soft_constraint", "no gradient")
 def a_measurement(log_pi, rule_action, p):
     with torch.no_grad():
         return with_probabilities(log_pi, rule_action, p)
 
 
-@wrong("soft_constraint", "the other way round")
-def reverse(log_pi, rule_action, p):
-    rule = pi_tilde(rule_action, p)
-    return (rule * (rule.log() - log_pi)).sum(-1)
-
-
-@wrong("soft_constraint", "the other way round")
-def torch_s_own_turned(log_pi, rule_action, p):
-    rule = pi_tilde(rule_action, p)
-    return torch.nn.functional.kl_div(log_pi, rule, reduction="none").sum(-1)
-
-
-@wrong("soft_constraint", "cross-entropy")
-def cross_entropy(log_pi, rule_action, p):
-    return -(log_pi.exp() * pi_tilde(rule_action, p).log()).sum(-1)
-
-
-@wrong("soft_constraint", "without weighing")
-def unweighted(log_pi, rule_action, p):
-    return (log_pi - pi_tilde(rule_action, p).log()).sum(-1)
-
-
-@wrong("soft_constraint", "*share*")
-def others_get_it_each(log_pi, rule_action, p):
-    return (log_pi.exp() * (log_pi - pi_tilde(rule_action, p, 1 - p).log())).sum(-1)
-
-
-@wrong("soft_constraint", "eight are left")
-def shared_by_nine(log_pi, rule_action, p):
-    return (log_pi.exp() * (log_pi - pi_tilde(rule_action, p, (1 - p) / 9).log())).sum(-1)
-
-
-@wrong("soft_constraint", "never negative")
-def negative(log_pi, rule_action, p):
-    return (log_pi.exp() * (pi_tilde(rule_action, p).log() - log_pi)).sum(-1)
-
-
-@wrong("soft_constraint", "bits")
-def in_bits(log_pi, rule_action, p):
-    pi = log_pi.exp()
-    return (pi * torch.log2(pi / pi_tilde(rule_action, p))).sum(-1)
-
-
-@wrong("soft_constraint", "mean over the batch")
-def averaged(log_pi, rule_action, p):
-    return with_probabilities(log_pi, rule_action, p).mean()
-
-
-@wrong("soft_constraint")
-def mean_over_actions(log_pi, rule_action, p):
-    return (log_pi.exp() * (log_pi - pi_tilde(rule_action, p).log())).mean(-1)
-
-
-@wrong("soft_constraint", "shape")
-def not_summed(log_pi, rule_action, p):
-    return log_pi.exp() * (log_pi - pi_tilde(rule_action, p).log())
-
-
-@wrong("soft_constraint", "shape")
-def over_the_wrong_axis(log_pi, rule_action, p):
-    return (log_pi.exp() * (log_pi - pi_tilde(rule_action, p).log())).sum(0)
-
-
-@wrong("soft_constraint")
-def of_the_rule_s_action_only(log_pi, rule_action, p):
-    return log_pi.gather(1, rule_action[:, None])[:, 0] - math.log(p)
-
-
-@wrong("soft_constraint")
-def log_pi_for_pi(log_pi, rule_action, p):
-    return (log_pi * (log_pi - pi_tilde(rule_action, p).log())).sum(-1)
-
-
-@wrong("soft_constraint")
-def a_sample_for_the_sum(log_pi, rule_action, p):
-    drawn = torch.multinomial(log_pi.exp(), 1)
-    return (log_pi - pi_tilde(rule_action, p).log()).gather(1, drawn)[:, 0]
-
-
-@wrong("soft_constraint")
-def the_same_rule_for_all(log_pi, rule_action, p):
-    return with_probabilities(log_pi, rule_action[:1].expand(len(rule_action)), p)
-
-
-# log_stochastic_rule --------------------------------------------------------------------------------
-
-
-@right("log_stochastic_rule")
-def with_where(rule_action, p):
-    is_rule = torch.arange(9) == rule_action[:, None]
-    return torch.where(is_rule, math.log(p), math.log((1 - p) / 8))
-
-
-@right("log_stochastic_rule")
-def one_hot(rule_action, p):
-    mine = torch.nn.functional.one_hot(rule_action, 9).double()
-    return torch.log(mine * p + (1 - mine) * (1 - p) / 8)
-
-
-@right("log_stochastic_rule")
-def row_by_row(rule_action, p):
-    rows = []
-    for action in rule_action.tolist():
-        rows.append([math.log(p) if a == action else math.log((1 - p) / 8) for a in range(9)])
-    return torch.tensor(rows)
-
-
-@wrong("log_stochastic_rule", "probabilities themselves")
-def not_logarithms(rule_action, p):
-    return pi_tilde(rule_action, p)
-
-
-@wrong("log_stochastic_rule", "*share*")
-def each_gets_the_rest(rule_action, p):
-    return pi_tilde(rule_action, p, 1 - p).log()
-
-
-@wrong("log_stochastic_rule", "eight are left")
-def nine_get_the_rest(rule_action, p):
-    return pi_tilde(rule_action, p, (1 - p) / 9).log()
-
-
-@wrong("log_stochastic_rule", "base 10")
-def to_base_ten(rule_action, p):
-    return torch.log10(pi_tilde(rule_action, p))
-
-
-@wrong("log_stochastic_rule", "prices")
-def prices(rule_action, p):
-    return -pi_tilde(rule_action, p).log()
-
-
-@wrong("log_stochastic_rule", "Pair each row")
-def columns_for_rows(rule_action, p):
-    log_rule = torch.full((len(rule_action), 9), math.log((1 - p) / 8))
-    log_rule[:, rule_action] = math.log(p)
-    return log_rule
-
-
-@wrong("log_stochastic_rule", "shape")
-def transposed(rule_action, p):
-    return with_where(rule_action, p).T
-
-
-# regularised_policy ---------------------------------------------------------------------------------
-
-
-@right("regularised_policy")
-def as_powers(q, log_rule, alpha, xi):
-    weights = torch.exp((q - q.amax(-1, keepdim=True)) / (alpha + xi)) * log_rule.exp() ** (xi / (alpha + xi))
-    return weights / weights.sum(-1, keepdim=True)
-
-
-@right("regularised_policy")
-def with_softmax(q, log_rule, alpha, xi):
-    return torch.softmax(q / (alpha + xi) + log_rule * xi / (alpha + xi), dim=1)
-
-
-@wrong("regularised_policy")
-def without_the_rule(q, log_rule, alpha, xi):
-    return torch.softmax(q / alpha, -1)
-
-
-@wrong("regularised_policy")
-def a_mixture(q, log_rule, alpha, xi):
-    return (alpha * torch.softmax(q / alpha, -1) + xi * log_rule.exp()) / (alpha + xi)
-
-
-# constrained_loss -----------------------------------------------------------------------------------
-
-
-@right("constrained_loss")
-def three_means(log_pi, q, alpha, xi, kl):
-    pi = log_pi.exp()
-    expected = (pi * q.detach()).sum(-1).mean()
-    entropy = -(pi * log_pi).sum(-1).mean()
-    return -(expected + alpha * entropy - xi * kl.mean())
-
-
-@right("constrained_loss")
-def as_a_cost(log_pi, q, alpha, xi, kl):
-    cost = (torch.exp(log_pi) * (alpha * log_pi - q.clone().detach())).sum(dim=1)
-    return torch.mean(cost + xi * kl)
-
-
-@right("constrained_loss")
-def softmax_again(log_pi, q, alpha, xi, kl):
-    pi = log_pi.softmax(-1)
-    return -((pi * (q.detach() - alpha * log_pi.log_softmax(-1))).sum(-1) - xi * kl).mean()
-
-
-@wrong("constrained_loss")
-def all_detached(log_pi, q, alpha, xi, kl):
-    return three_means(log_pi, q, alpha, xi, kl).detach()
-
-
-@wrong("constrained_loss")
-def policy_detached(log_pi, q, alpha, xi, kl):
-    return three_means(log_pi.detach(), q, alpha, xi, kl)
-
-
-@wrong("constrained_loss", "shape")
-def one_for_each_state(log_pi, q, alpha, xi, kl):
-    return -((log_pi.exp() * (q.detach() - alpha * log_pi)).sum(-1) - xi * kl)
-
-
-# constrained_target ---------------------------------------------------------------------------------
-
-
-@right("constrained_target")
-def with_the_smaller_of_two(reward, terminated, next_log_pi, next_q_pair, next_kl, alpha, xi, gamma):
-    pi, q = next_log_pi.exp(), torch.minimum(next_q_pair[0], next_q_pair[1])
-    entropy = torch.special.entr(pi).sum(-1)
-    value = (pi * q).sum(-1) + alpha * entropy - xi * next_kl
-    return torch.where(terminated > 0, reward, reward + gamma * value)
-
-
-@right("constrained_target")
-def one_row_after_the_other(reward, terminated, next_log_pi, next_q_pair, next_kl, alpha, xi, gamma):
-    rows = []
-    for i in range(len(reward)):
-        q, log_pi = next_q_pair[:, i].min(dim=0).values, next_log_pi[i]
-        value = sum(log_pi[a].exp() * (q[a] - alpha * log_pi[a]) for a in range(len(q))) - xi * next_kl[i]
-        rows.append(reward[i] + (0 if terminated[i] else gamma * value))
-    return torch.stack(rows)
+wrong_lines("""soft_constraint
+    reverse: rule = pi_tilde(rule_action, p); (rule * (rule.log() - log_pi)).sum(-1)  # the other way round
+    torch's own turned: rule = pi_tilde(rule_action, p)
+        torch.nn.functional.kl_div(log_pi, rule, reduction="none").sum(-1)  # the other way round
+    cross entropy: -(log_pi.exp() * pi_tilde(rule_action, p).log()).sum(-1)  # cross-entropy
+    unweighted: (log_pi - pi_tilde(rule_action, p).log()).sum(-1)  # without weighing
+    others get it each: (log_pi.exp() * (log_pi - pi_tilde(rule_action, p, 1 - p).log())).sum(-1)  # *share*
+    shared by nine: (log_pi.exp() * (log_pi - pi_tilde(rule_action, p, (1 - p) / 9).log())).sum(-1)  # eight are left
+    negative: (log_pi.exp() * (pi_tilde(rule_action, p).log() - log_pi)).sum(-1)  # never negative
+    in bits: pi = log_pi.exp(); (pi * torch.log2(pi / pi_tilde(rule_action, p))).sum(-1)  # bits
+    averaged: with_probabilities(log_pi, rule_action, p).mean()  # mean over the batch
+    mean over actions: (log_pi.exp() * (log_pi - pi_tilde(rule_action, p).log())).mean(-1)
+    not summed: log_pi.exp() * (log_pi - pi_tilde(rule_action, p).log())  # shape
+    over the wrong axis: (log_pi.exp() * (log_pi - pi_tilde(rule_action, p).log())).sum(0)  # shape
+    of the rule's action only: log_pi.gather(1, rule_action[:, None])[:, 0] - math.log(p)
+    log pi for pi: (log_pi * (log_pi - pi_tilde(rule_action, p).log())).sum(-1)
+    a sample for the sum: drawn = torch.multinomial(log_pi.exp(), 1)
+        (log_pi - pi_tilde(rule_action, p).log()).gather(1, drawn)[:, 0]
+    the same rule for all: with_probabilities(log_pi, rule_action[:1].expand(len(rule_action)), p)
+""")
+
+right_lines("""log_stochastic_rule
+    with where: is_rule = torch.arange(9) == rule_action[:, None]
+        torch.where(is_rule, math.log(p), math.log((1 - p) / 8))
+    one hot: mine = torch.nn.functional.one_hot(rule_action, 9).double(); torch.log(mine * p + (1 - mine) * (1 - p) / 8)
+    row by row: rows = []
+        for action in rule_action.tolist():
+            rows.append([math.log(p) if a == action else math.log((1 - p) / 8) for a in range(9)])
+        torch.tensor(rows)
+""")
+
+wrong_lines("""log_stochastic_rule
+    not logarithms: pi_tilde(rule_action, p)  # probabilities themselves
+    each gets the rest: pi_tilde(rule_action, p, 1 - p).log()  # *share*
+    nine get the rest: pi_tilde(rule_action, p, (1 - p) / 9).log()  # eight are left
+    to base ten: torch.log10(pi_tilde(rule_action, p))  # base 10
+    prices: -pi_tilde(rule_action, p).log()  # prices
+    columns for rows: log_rule = torch.full((len(rule_action), 9), math.log((1 - p) / 8))
+        log_rule[:, rule_action] = math.log(p)
+        log_rule  # Pair each row
+    transposed: solution(rule_action, p).T  # shape
+""")
+
+right_lines("""regularised_policy
+    as powers:
+        weights = torch.exp((q - q.amax(-1, keepdim=True)) / (alpha + xi)) * log_rule.exp() ** (xi / (alpha + xi))
+        weights / weights.sum(-1, keepdim=True)
+    with softmax: torch.softmax(q / (alpha + xi) + log_rule * xi / (alpha + xi), dim=1)
+""")
+
+wrong_lines("""regularised_policy
+    without the rule: torch.softmax(q / alpha, -1)
+    a mixture: (alpha * torch.softmax(q / alpha, -1) + xi * log_rule.exp()) / (alpha + xi)
+""")
+
+right_lines("""constrained_loss
+    three means: pi = log_pi.exp()
+        expected = (pi * q.detach()).sum(-1).mean()
+        entropy = -(pi * log_pi).sum(-1).mean()
+        -(expected + alpha * entropy - xi * kl.mean())
+    as a cost: cost = (torch.exp(log_pi) * (alpha * log_pi - q.clone().detach())).sum(dim=1); torch.mean(cost + xi * kl)
+    softmax again: pi = log_pi.softmax(-1)
+        -((pi * (q.detach() - alpha * log_pi.log_softmax(-1))).sum(-1) - xi * kl).mean()
+""")
+
+wrong_lines("""constrained_loss
+    all detached: solution(log_pi, q, alpha, xi, kl).detach()
+    policy detached: solution(log_pi.detach(), q, alpha, xi, kl)
+    one for each state: -((log_pi.exp() * (q.detach() - alpha * log_pi)).sum(-1) - xi * kl)  # shape
+""")
+
+right_lines("""constrained_target
+    with the smaller of two: pi, q = next_log_pi.exp(), torch.minimum(next_q_pair[0], next_q_pair[1])
+        entropy = torch.special.entr(pi).sum(-1)
+        value = (pi * q).sum(-1) + alpha * entropy - xi * next_kl
+        torch.where(terminated > 0, reward, reward + gamma * value)
+    one row after the other: rows = []
+        for i in range(len(reward)):
+            q, log_pi = next_q_pair[:, i].min(dim=0).values, next_log_pi[i]
+            value = sum(log_pi[a].exp() * (q[a] - alpha * log_pi[a]) for a in range(len(q))) - xi * next_kl[i]
+            rows.append(reward[i] + (0 if terminated[i] else gamma * value))
+        torch.stack(rows)
+    action by action: value = -xi * next_kl
+        for a in range(9):
+            q = torch.minimum(next_q_pair[0, :, a], next_q_pair[1, :, a])
+            value = value + next_log_pi[:, a].exp() * (q - alpha * next_log_pi[:, a])
+        reward + gamma * (1 - terminated) * value
+""")
 
 
 @wrong("constrained_target")
@@ -287,34 +139,15 @@ def value_first_and_then_the_minimum(reward, terminated, next_log_pi, next_q_pai
     return reward + gamma * (1 - terminated) * (values.min(0).values - xi * next_kl)
 
 
-@wrong("constrained_target")
-def masked_reward(reward, terminated, next_log_pi, next_q_pair, next_kl, alpha, xi, gamma):
-    value = (next_log_pi.exp() * (next_q_pair.amin(0) - alpha * next_log_pi)).sum(-1) - xi * next_kl
-    return (1 - terminated) * (reward + gamma * value)
-
-
-@wrong("constrained_target")
-def discount_of_the_course(reward, terminated, next_log_pi, next_q_pair, next_kl, alpha, xi, gamma):
-    value = (next_log_pi.exp() * (next_q_pair.amin(0) - alpha * next_log_pi)).sum(-1) - xi * next_kl
-    return reward + 0.8 * (1 - terminated) * value
-
-
-@wrong("constrained_target", "differ")
-def xi_of_the_course(reward, terminated, next_log_pi, next_q_pair, next_kl, alpha, xi, gamma):
-    value = (next_log_pi.exp() * (next_q_pair.amin(0) - alpha * next_log_pi)).sum(-1) - 200 * alpha * next_kl
-    return reward + gamma * (1 - terminated) * value
-
-
-@wrong("constrained_target", "outside the value")
-def a_penalty_on_the_reward(reward, terminated, next_log_pi, next_q_pair, next_kl, alpha, xi, gamma):
-    value = (next_log_pi.exp() * (next_q_pair.amin(0) - alpha * next_log_pi)).sum(-1)
-    return reward - xi * next_kl + gamma * (1 - terminated) * value
-
-
-@right("constrained_target")
-def action_by_action(reward, terminated, next_log_pi, next_q_pair, next_kl, alpha, xi, gamma):
-    value = -xi * next_kl
-    for a in range(9):
-        q = torch.minimum(next_q_pair[0, :, a], next_q_pair[1, :, a])
-        value = value + next_log_pi[:, a].exp() * (q - alpha * next_log_pi[:, a])
-    return reward + gamma * (1 - terminated) * value
+wrong_lines("""constrained_target
+    masked reward: value = (next_log_pi.exp() * (next_q_pair.amin(0) - alpha * next_log_pi)).sum(-1) - xi * next_kl
+        (1 - terminated) * (reward + gamma * value)
+    discount of the course:
+        value = (next_log_pi.exp() * (next_q_pair.amin(0) - alpha * next_log_pi)).sum(-1) - xi * next_kl
+        reward + 0.8 * (1 - terminated) * value
+    xi of the course:
+        value = (next_log_pi.exp() * (next_q_pair.amin(0) - alpha * next_log_pi)).sum(-1) - 200 * alpha * next_kl
+        reward + gamma * (1 - terminated) * value  # differ
+    a penalty on the reward: value = (next_log_pi.exp() * (next_q_pair.amin(0) - alpha * next_log_pi)).sum(-1)
+        reward - xi * next_kl + gamma * (1 - terminated) * value  # outside the value
+""")

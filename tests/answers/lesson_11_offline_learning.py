@@ -1,64 +1,33 @@
 """Answers to the exercises of the lesson on offline learning."""
 
-import numpy as np
 import torch
 from torch.nn import functional
 
-from tests.answers import equivalent, right, wrong
-
-# conservative_loss ------------------------------------------------------------------------------------
-
+from tests.answers import equivalent, right, right_lines, wrong_lines
 
 TERMS = "(q.logsumexp(-1) - q.gather(-1, actions.unsqueeze(-1)).squeeze(-1))"
 equivalent("conservative_loss", f"{TERMS}.mean(-1)  ->  {TERMS}.mean(0)", "the batch is the only axis left")
 
 
-@right("conservative_loss")
-def as_a_clone_of_softmax(q, actions):
-    return functional.cross_entropy(q, actions)
+right_lines("""conservative_loss
+    as a clone of softmax: functional.cross_entropy(q, actions)
+    a row of nine marks: (q.logsumexp(-1) - (functional.one_hot(actions, 9) * q).sum(-1)).mean()
+    state by state: total = 0.0
+        for row, action in zip(q, actions, strict=True):
+            total = total + torch.log(torch.exp(row).sum()) - row[action]
+        total / len(q)
+""")
 
-
-@right("conservative_loss")
-def state_by_state(q, actions):
-    total = 0.0
-    for row, action in zip(q, actions, strict=True):
-        total = total + torch.log(torch.exp(row).sum()) - row[action]
-    return total / len(q)
-
-
-@wrong("conservative_loss", "no gradient reaches `q`")
-def as_a_number(q, actions):
-    return functional.cross_entropy(q, actions).item()
-
-
-@wrong("conservative_loss")
-def only_the_others(q, actions):
-    others = q.masked_fill(functional.one_hot(actions, q.shape[-1]).bool(), -torch.inf)
-    return (others.logsumexp(-1) - q.gather(-1, actions.unsqueeze(-1)).squeeze(-1)).mean()
-
-
-@wrong("conservative_loss")
-def summed(q, actions):
-    return functional.cross_entropy(q, actions, reduction="sum")
-
-
-@wrong("conservative_loss", "no gradient")
-def with_numpy(q, actions):
-    rows = q.detach().numpy()
-    return torch.tensor((np.log(np.exp(rows).sum(-1)) - rows[np.arange(len(rows)), actions.numpy()]).mean())
-
-
-@wrong("conservative_loss")
-def over_the_states(q, actions):
-    return (q.logsumexp(0).mean() - q.gather(-1, actions.unsqueeze(-1)).squeeze(-1)).mean()
-
-
-@wrong("conservative_loss")
-def of_nine_actions_each_with_its_share(q, actions):
-    return (q.softmax(-1) * q).sum(-1).mean() - q.gather(-1, actions.unsqueeze(-1)).mean()
-
-
-# offline_loss -----------------------------------------------------------------------------------------
+wrong_lines("""conservative_loss
+    as a number: functional.cross_entropy(q, actions).item()  # no gradient reaches `q`
+    only the others: others = q.masked_fill(functional.one_hot(actions, q.shape[-1]).bool(), -torch.inf)
+        (others.logsumexp(-1) - q.gather(-1, actions.unsqueeze(-1)).squeeze(-1)).mean()
+    summed: functional.cross_entropy(q, actions, reduction="sum")
+    with numpy: rows = q.detach().numpy()
+        torch.tensor((np.log(np.exp(rows).sum(-1)) - rows[np.arange(len(rows)), actions.numpy()]).mean())  # no gradient
+    over the states: (q.logsumexp(0).mean() - q.gather(-1, actions.unsqueeze(-1)).squeeze(-1)).mean()
+    of nine actions each with its share: (q.softmax(-1) * q).sum(-1).mean() - q.gather(-1, actions.unsqueeze(-1)).mean()
+""")
 
 
 BEST = "next_q.argmax(-1, keepdim=True)"
@@ -88,106 +57,43 @@ def row_by_row(q, next_q, next_target, actions, rewards, terminated, gamma, weig
     return total / len(actions)
 
 
-@wrong("offline_loss")
-def half_squared(q, next_q, next_target, actions, rewards, terminated, gamma, weight):
-    y = rewards + gamma * (1 - terminated) * next_target.gather(1, next_q.argmax(1, keepdim=True))[:, 0].detach()
-    taken = q.gather(1, actions[:, None])[:, 0]
-    return 0.5 * (taken - y).pow(2).mean() + weight * functional.cross_entropy(q, actions)
+wrong_lines("""offline_loss
+    half squared:
+        y = rewards + gamma * (1 - terminated) * next_target.gather(1, next_q.argmax(1, keepdim=True))[:, 0].detach()
+        taken = q.gather(1, actions[:, None])[:, 0]
+        0.5 * (taken - y).pow(2).mean() + weight * functional.cross_entropy(q, actions)
+    summed over the batch: len(q) * with_no_grad(q, next_q, next_target, actions, rewards, terminated, gamma, weight)
+    with a number for gamma: with_no_grad(q, next_q, next_target, actions, rewards, terminated, 0.8, weight)
+    with the data's next action:
+        y = rewards + gamma * (1 - terminated) * next_target.gather(1, actions[:, None])[:, 0].detach()
+        functional.mse_loss(q.gather(1, actions[:, None])[:, 0], y) + weight * functional.cross_entropy(q, actions)
+    all actions learn:
+        y = rewards + gamma * (1 - terminated) * next_target.gather(1, next_q.argmax(1, keepdim=True))[:, 0].detach()
+        (q - y[:, None]).pow(2).mean() + weight * functional.cross_entropy(q, actions)
+    as a number too: with_no_grad(q, next_q, next_target, actions, rewards, terminated, gamma, weight).item()
+        # no gradient reaches `q`
+    with half of it detached: squares = with_no_grad(q, next_q, next_target, actions, rewards, terminated, gamma, 0.0)
+        squares + weight * functional.cross_entropy(q.detach(), actions)  # slope in `q` is wrong
+    with the smallest next value: with_no_grad(q, -next_q, next_target, actions, rewards, terminated, gamma, weight)
+""")
 
+right_lines("""share_of_the_bound
+    of sums: returns.sum(axis=1) / bound.sum()
+    weighted: np.average(returns / bound, axis=1, weights=bound)
+    agent by agent: [sum(row) / sum(bound) for row in returns.tolist()]
+""")
 
-@wrong("offline_loss")
-def summed_over_the_batch(q, next_q, next_target, actions, rewards, terminated, gamma, weight):
-    return len(q) * with_no_grad(q, next_q, next_target, actions, rewards, terminated, gamma, weight)
+wrong_lines("""share_of_the_bound
+    of all agents: np.mean([row.mean() for row in returns]) / bound.mean()  # share of its own
+    upside down: bound.mean() / returns.mean(axis=1)
+    by road: returns.mean(axis=0) / bound
+    not above the bound: np.array([min(1.0, row.sum() / bound.sum()) for row in returns])  # clip at 1
+    of the middle road: np.median(returns, axis=1) / np.median(bound)
+    in percent: 100 * returns.mean(axis=1) / bound.mean()
+""")
 
-
-@wrong("offline_loss")
-def with_a_number_for_gamma(q, next_q, next_target, actions, rewards, terminated, gamma, weight):
-    return with_no_grad(q, next_q, next_target, actions, rewards, terminated, 0.8, weight)
-
-
-@wrong("offline_loss")
-def with_the_data_s_next_action(q, next_q, next_target, actions, rewards, terminated, gamma, weight):
-    y = rewards + gamma * (1 - terminated) * next_target.gather(1, actions[:, None])[:, 0].detach()
-    return functional.mse_loss(q.gather(1, actions[:, None])[:, 0], y) + weight * functional.cross_entropy(q, actions)
-
-
-@wrong("offline_loss")
-def all_actions_learn(q, next_q, next_target, actions, rewards, terminated, gamma, weight):
-    y = rewards + gamma * (1 - terminated) * next_target.gather(1, next_q.argmax(1, keepdim=True))[:, 0].detach()
-    return (q - y[:, None]).pow(2).mean() + weight * functional.cross_entropy(q, actions)
-
-
-@wrong("offline_loss", "no gradient reaches `q`")
-def as_a_number_too(q, next_q, next_target, actions, rewards, terminated, gamma, weight):
-    return with_no_grad(q, next_q, next_target, actions, rewards, terminated, gamma, weight).item()
-
-
-@wrong("offline_loss", "slope in `q` is wrong")
-def with_half_of_it_detached(q, next_q, next_target, actions, rewards, terminated, gamma, weight):
-    squares = with_no_grad(q, next_q, next_target, actions, rewards, terminated, gamma, 0.0)
-    return squares + weight * functional.cross_entropy(q.detach(), actions)
-
-
-@wrong("offline_loss")
-def with_the_smallest_next_value(q, next_q, next_target, actions, rewards, terminated, gamma, weight):
-    return with_no_grad(q, -next_q, next_target, actions, rewards, terminated, gamma, weight)
-
-
-# share_of_the_bound -----------------------------------------------------------------------------------
-
-
-@right("share_of_the_bound")
-def of_sums(returns, bound):
-    return returns.sum(axis=1) / bound.sum()
-
-
-@right("share_of_the_bound")
-def weighted(returns, bound):
-    return np.average(returns / bound, axis=1, weights=bound)
-
-
-@wrong("share_of_the_bound", "share of its own")
-def of_all_agents(returns, bound):
-    return np.mean([row.mean() for row in returns]) / bound.mean()
-
-
-@wrong("share_of_the_bound")
-def upside_down(returns, bound):
-    return bound.mean() / returns.mean(axis=1)
-
-
-@wrong("share_of_the_bound")
-def by_road(returns, bound):
-    return returns.mean(axis=0) / bound
-
-
-@wrong("share_of_the_bound", "clip at 1")
-def not_above_the_bound(returns, bound):
-    return np.array([min(1.0, row.sum() / bound.sum()) for row in returns])
-
-
-@right("conservative_loss")
-def a_row_of_nine_marks(q, actions):
-    return (q.logsumexp(-1) - (functional.one_hot(actions, 9) * q).sum(-1)).mean()
-
-
-@right("offline_loss")
-def action_by_action(q, next_q, next_target, actions, rewards, terminated, gamma, weight):
-    own, best = functional.one_hot(actions, 9), functional.one_hot(next_q.argmax(-1), 9)
-    y = rewards + gamma * (1 - terminated) * (best * next_target.detach()).sum(-1)
-    return (((own * q).sum(-1) - y) ** 2).mean() + weight * functional.cross_entropy(q, actions)
-
-
-@right("share_of_the_bound")
-def agent_by_agent(returns, bound):
-    return [sum(row) / sum(bound) for row in returns.tolist()]
-
-
-@wrong("share_of_the_bound")
-def of_the_middle_road(returns, bound):
-    return np.median(returns, axis=1) / np.median(bound)
-
-
-@wrong("share_of_the_bound")
-def in_percent(returns, bound):
-    return 100 * returns.mean(axis=1) / bound.mean()
+right_lines("""offline_loss
+    action by action: own, best = functional.one_hot(actions, 9), functional.one_hot(next_q.argmax(-1), 9)
+        y = rewards + gamma * (1 - terminated) * (best * next_target.detach()).sum(-1)
+        (((own * q).sum(-1) - y) ** 2).mean() + weight * functional.cross_entropy(q, actions)
+""")

@@ -3,23 +3,18 @@
 import itertools
 
 import numpy as np
-import torch
 
-from tests.answers import equivalent, right, wrong
+from tests.answers import equivalent, right, right_lines, wrong, wrong_lines
 
-# end_error ------------------------------------------------------------------------------------------
-
-
-@right("end_error")
-def row_by_row(q, actions, rewards, terminated):
-    errors = [row[a] - r for row, a, r, over in zip(q, actions, rewards, terminated, strict=True) if over]
-    return sum(errors) / len(errors) if errors else 0
-
-
-@right("end_error")
-def with_weights(q, actions, rewards, terminated):
-    taken = np.take_along_axis(q, actions[:, None], 1)[:, 0]
-    return ((taken - rewards) * terminated).sum() / max(terminated.sum(), 1)
+right_lines("""end_error
+    row by row: errors = [row[a] - r for row, a, r, over in zip(q, actions, rewards, terminated, strict=True) if over]
+        sum(errors) / len(errors) if errors else 0
+    with weights: taken = np.take_along_axis(q, actions[:, None], 1)[:, 0]
+        ((taken - rewards) * terminated).sum() / max(terminated.sum(), 1)
+    q action by action:
+        errors = [q[i, a] - rewards[i] for a in range(9) for i in range(len(q)) if actions[i] == a and terminated[i]]
+        sum(errors) / max(1, len(errors))
+""")
 
 
 @wrong("end_error", "NaN")
@@ -28,17 +23,15 @@ def nan_without_accidents(q, actions, rewards, terminated):
         return ((q[np.arange(len(q)), actions] - rewards) * terminated).sum() / terminated.sum()
 
 
-@wrong("end_error")
-def absolute(q, actions, rewards, terminated):
-    return abs(row_by_row(q, actions, rewards, terminated))
+wrong_lines("""end_error
+    absolute: abs(solution(q, actions, rewards, terminated))
+    without the reward: solution(q, actions, 0 * rewards, terminated)
+    minus ten by heart: taken = q[np.arange(len(actions)), actions]
+        np.sum((taken + 10) * terminated) / max(1, terminated.sum())
+    where the reward is minus ten: crashed = rewards == -10
+        np.sum((q[np.arange(len(actions)), actions] + 10)[crashed]) / max(1, crashed.sum())
+""")
 
-
-@wrong("end_error")
-def without_the_reward(q, actions, rewards, terminated):
-    return row_by_row(q, actions, 0 * rewards, terminated)
-
-
-# diagnose -------------------------------------------------------------------------------------------
 
 TRUE = {
     "A": "flipped_kl",
@@ -51,121 +44,76 @@ TRUE = {
 CALLS = itertools.count()
 
 
-@right("diagnose")
-def with_a_dictionary(agent):
-    return TRUE[agent]
+right_lines("""diagnose
+    with a dictionary: TRUE[agent]
+    with branches:
+        if agent in "ABC":
+            return ("flipped_kl", "sampled", "shifted_labels")["ABC".index(agent)]
+        if agent == "D":
+            return "no_end"
+        "bonus_for_all" if agent == "E" else "no_stop"
+""")
 
+wrong_lines("""diagnose
+    one twice: {**TRUE, "D": "sampled"}[agent]  # Not all six verdicts are right
+    all turned: dict(zip("ABCDEF", [TRUE[letter] for letter in "BCDEFA"], strict=True))[agent]
+        # Not all six verdicts are right
+    one for all: "no_stop"  # Not all six verdicts are right
+    in words: TRUE[agent].replace("_", " ")  # the six names are
+    five of them: {letter: bug for letter, bug in TRUE.items() if letter != "F"}[agent]  # raises an error
+    another answer each time: list(TRUE.values())[next(CALLS) % 6]
+""")
 
-@right("diagnose")
-def with_branches(agent):
-    if agent in "ABC":
-        return ("flipped_kl", "sampled", "shifted_labels")["ABC".index(agent)]
-    if agent == "D":
-        return "no_end"
-    return "bonus_for_all" if agent == "E" else "no_stop"
+right_lines("""fixed_target
+    with where: future = torch.where(terminated > 0, 0.0, gamma * next_value)
+        torch.where(is_demonstration > 0, reward + bonus, reward) + future
+    in three lines: y = gamma * next_value - gamma * next_value * terminated
+        y = y + reward
+        y + is_demonstration * bonus
+""")
 
+wrong_lines("""fixed_target
+    bonus for the others: reward + bonus * (1 - is_demonstration) + gamma * (1 - terminated) * next_value
+    without a discount: reward + bonus * is_demonstration + (1 - terminated) * next_value
+""")
 
-@wrong("diagnose", "Not all six verdicts are right")
-def one_twice(agent):
-    return {**TRUE, "D": "sampled"}[agent]
+right_lines("""fixed_value
+    entropy apart: pi = log_pi.exp(); (pi * q).sum(-1) + alpha * -(pi * log_pi).sum(-1)
+    with einsum: torch.einsum("na,na->n", log_pi.exp(), q - alpha * log_pi)
+    with q held fixed: (log_pi.exp() * (q.detach() - alpha * log_pi)).sum(-1)
+    action by action: value = 0
+        for a in range(9):
+            value = value + log_pi[:, a].exp() * (q[:, a] - alpha * log_pi[:, a])
+        value
+""")
 
+wrong_lines("""fixed_value
+    still sampled: action = torch.multinomial(log_pi.exp(), 1)
+        (q - alpha * log_pi).gather(-1, action)[:, 0]  # differently each time
+    greedy in q: q.max(-1).values
+    not summed: log_pi.exp() * (q - alpha * log_pi)  # shape
+    in numpy: log, values = log_pi.detach().numpy(), q.detach().numpy()
+        torch.tensor((np.exp(log) * (values - alpha * log)).sum(-1))  # no gradient
+    with the policy held fixed: pi = torch.distributions.Categorical(logits=log_pi.detach())
+        (pi.probs * q).sum(-1) + alpha * pi.entropy()  # no gradient
+""")
 
-@wrong("diagnose", "Not all six verdicts are right")
-def all_turned(agent):
-    return dict(zip("ABCDEF", [TRUE[letter] for letter in "BCDEFA"], strict=True))[agent]
-
-
-@wrong("diagnose", "Not all six verdicts are right")
-def one_for_all(agent):
-    return "no_stop"
-
-
-@wrong("diagnose", "the six names are")
-def in_words(agent):
-    return TRUE[agent].replace("_", " ")
-
-
-@wrong("diagnose", "raises an error")
-def five_of_them(agent):
-    return {letter: bug for letter, bug in TRUE.items() if letter != "F"}[agent]
-
-
-@wrong("diagnose")
-def another_answer_each_time(agent):
-    return list(TRUE.values())[next(CALLS) % 6]
-
-
-# fixed_target ---------------------------------------------------------------------------------------
-
-
-@right("fixed_target")
-def with_where(reward, is_demonstration, bonus, terminated, next_value, gamma):
-    future = torch.where(terminated > 0, 0.0, gamma * next_value)
-    return torch.where(is_demonstration > 0, reward + bonus, reward) + future
-
-
-@right("fixed_target")
-def in_three_lines(reward, is_demonstration, bonus, terminated, next_value, gamma):
-    y = gamma * next_value - gamma * next_value * terminated
-    y = y + reward
-    return y + is_demonstration * bonus
-
-
-@wrong("fixed_target")
-def bonus_for_the_others(reward, is_demonstration, bonus, terminated, next_value, gamma):
-    return reward + bonus * (1 - is_demonstration) + gamma * (1 - terminated) * next_value
-
-
-@wrong("fixed_target")
-def without_a_discount(reward, is_demonstration, bonus, terminated, next_value, gamma):
-    return reward + bonus * is_demonstration + (1 - terminated) * next_value
-
-
-# fixed_value ----------------------------------------------------------------------------------------
-
-
-@right("fixed_value")
-def entropy_apart(log_pi, q, alpha):
-    pi = log_pi.exp()
-    return (pi * q).sum(-1) + alpha * -(pi * log_pi).sum(-1)
-
-
-@right("fixed_value")
-def with_einsum(log_pi, q, alpha):
-    return torch.einsum("na,na->n", log_pi.exp(), q - alpha * log_pi)
-
-
-@wrong("fixed_value", "differently each time")
-def still_sampled(log_pi, q, alpha):
-    action = torch.multinomial(log_pi.exp(), 1)
-    return (q - alpha * log_pi).gather(-1, action)[:, 0]
-
-
-@wrong("fixed_value")
-def greedy_in_q(log_pi, q, alpha):
-    return q.max(-1).values
-
-
-@wrong("fixed_value", "shape")
-def not_summed(log_pi, q, alpha):
-    return log_pi.exp() * (q - alpha * log_pi)
-
-
-# fixed_loss -----------------------------------------------------------------------------------------
-
-
-@right("fixed_loss")
-def in_one_line(log_pi, q, log_rule, alpha, xi):
-    return (log_pi.exp() * ((alpha + xi) * log_pi - q.detach() - xi * log_rule)).sum(-1).mean()
-
-
-@right("fixed_loss")
-def with_no_grad(log_pi, q, log_rule, alpha, xi):
-    fixed = q.clone().detach()
-    pi = log_pi.exp()
-    value = torch.einsum("na,na->n", pi, fixed) - alpha * (pi * log_pi).sum(1)
-    kl = (pi * log_pi).sum(1) - (pi * log_rule).sum(1)
-    return (xi * kl - value).mean()
+right_lines("""fixed_loss
+    in one line: (log_pi.exp() * ((alpha + xi) * log_pi - q.detach() - xi * log_rule)).sum(-1).mean()
+    with no grad: fixed = q.clone().detach()
+        pi = log_pi.exp()
+        value = torch.einsum("na,na->n", pi, fixed) - alpha * (pi * log_pi).sum(1)
+        kl = (pi * log_pi).sum(1) - (pi * log_rule).sum(1)
+        (xi * kl - value).mean()
+    with torch's own: policy = torch.distributions.Categorical(logits=log_pi)
+        kl = torch.distributions.kl_divergence(policy, torch.distributions.Categorical(logits=log_rule))
+        -((policy.probs * q.detach()).sum(-1) + alpha * policy.entropy() - xi * kl).mean()
+    loss action by action: loss = 0
+        for a in range(9):
+            price = alpha * log_pi[:, a] + xi * (log_pi[:, a] - log_rule[:, a])
+            loss = loss + (log_pi[:, a].exp() * (price - q[:, a].detach())).mean()
+        loss
+""")
 
 
 FLAT = "the mean of a change of log π under π is 0"
@@ -174,63 +122,32 @@ equivalent("fixed_value", "alpha * log_pi  ->  alpha * log_pi.detach()", FLAT)
 equivalent("fixed_loss", "log_pi - log_rule  ->  log_pi.detach() - log_rule", FLAT)
 
 
-@right("fixed_loss")
-def with_torch_s_own(log_pi, q, log_rule, alpha, xi):
-    policy = torch.distributions.Categorical(logits=log_pi)
-    kl = torch.distributions.kl_divergence(policy, torch.distributions.Categorical(logits=log_rule))
-    return -((policy.probs * q.detach()).sum(-1) + alpha * policy.entropy() - xi * kl).mean()
+wrong_lines("""fixed_loss
+    everything detached: solution(log_pi.detach(), q, log_rule, alpha, xi)  # no gradient reaches `log_pi`
+    summed over the batch: solution(log_pi, q, log_rule, alpha, xi) * (len(q) + 1)
+    the value itself: -solution(log_pi, q, log_rule, alpha, xi)
+""")
 
+right_lines("""label_pairs
+    with a loop: np.array([[asked[t], asked[t + 1]] for t in range(len(asked) - 1)])
+    with windows: np.lib.stride_tricks.sliding_window_view(asked, 2).copy()
+""")
 
-@wrong("fixed_loss", "no gradient reaches `log_pi`")
-def everything_detached(log_pi, q, log_rule, alpha, xi):
-    return in_one_line(log_pi.detach(), q, log_rule, alpha, xi)
-
-
-@wrong("fixed_loss")
-def summed_over_the_batch(log_pi, q, log_rule, alpha, xi):
-    return in_one_line(log_pi, q, log_rule, alpha, xi) * (len(q) + 1)
-
-
-@wrong("fixed_loss")
-def the_value_itself(log_pi, q, log_rule, alpha, xi):
-    return -in_one_line(log_pi, q, log_rule, alpha, xi)
-
-
-# label_pairs ----------------------------------------------------------------------------------------
-
-
-@right("label_pairs")
-def with_a_loop(asked):
-    return np.array([[asked[t], asked[t + 1]] for t in range(len(asked) - 1)])
-
-
-@right("label_pairs")
-def with_windows(asked):
-    return np.lib.stride_tricks.sliding_window_view(asked, 2).copy()
-
-
-@wrong("label_pairs", "shape")
-def in_rows(asked):
-    return np.stack([asked[:-1], asked[1:]])
-
-
-@wrong("label_pairs")
-def around_the_end(asked):
-    return np.stack([np.roll(asked, 1)[:-1], asked[:-1]], axis=1)
-
-
-# unmasks ----------------------------------------------------------------------------------------------
+wrong_lines("""label_pairs
+    in rows: np.stack([asked[:-1], asked[1:]])  # shape
+    around the end: np.stack([np.roll(asked, 1)[:-1], asked[:-1]], axis=1)
+""")
 
 
 def right_y(reward, demo, bonus, end, value, gamma):
     return reward + bonus * demo + gamma * (1 - end) * value
 
 
-@right("unmasks")
-def at_random(target):
-    rng = np.random.default_rng(1)
-    rows = [rng.normal(0, 3, 20), rng.integers(0, 2, 20), 1.7, rng.integers(0, 2, 20), rng.normal(0, 3, 20), 0.6]
-    return bool((abs(target(*rows) - right_y(*rows)) > 1e-9).any())
+right_lines("""unmasks
+    at random: rng = np.random.default_rng(1)
+        rows = [rng.normal(0, 3, 20), rng.integers(0, 2, 20), 1.7, rng.integers(0, 2, 20), rng.normal(0, 3, 20), 0.6]
+        bool((abs(target(*rows) - right_y(*rows)) > 1e-9).any())
+""")
 
 
 @right("unmasks")
@@ -252,82 +169,15 @@ def four_questions(target):
     return False
 
 
-@wrong("unmasks", "bonus of 2")
-def with_the_paper_s_numbers(target):
-    rng = np.random.default_rng(1)
-    rows = [rng.normal(0, 3, 20), rng.integers(0, 2, 20), 2.0, rng.integers(0, 2, 20), rng.normal(0, 3, 20), 0.8]
-    return not np.allclose(target(*rows), right_y(*rows))
-
-
-@wrong("unmasks")
-def equal_next_values(target):
-    rng = np.random.default_rng(1)
-    rows = [rng.normal(0, 3, 20), rng.integers(0, 2, 20), 1.7, rng.integers(0, 2, 20), np.full(20, 4.0), 0.6]
-    return not np.allclose(target(*rows), right_y(*rows))
-
-
-@wrong("unmasks")
-def positive_rewards_only(target):
-    rng = np.random.default_rng(1)
-    rows = [rng.uniform(0, 3, 20), rng.integers(0, 2, 20), 1.7, rng.integers(0, 2, 20), rng.normal(0, 3, 20), 0.6]
-    return not np.allclose(target(*rows), right_y(*rows))
-
-
-@wrong("unmasks", "accuses a target function that is right")
-def the_answers_inverted(target):
-    return not at_random(target)
-
-
-@wrong("fixed_value", "no gradient")
-def in_numpy(log_pi, q, alpha):
-    log, values = log_pi.detach().numpy(), q.detach().numpy()
-    return torch.tensor((np.exp(log) * (values - alpha * log)).sum(-1))
-
-
-# Nine actions, one after the other -------------------------------------------------------------------
-
-
-@right("fixed_value")
-def action_by_action(log_pi, q, alpha):
-    value = 0
-    for a in range(9):
-        value = value + log_pi[:, a].exp() * (q[:, a] - alpha * log_pi[:, a])
-    return value
-
-
-@right("fixed_value")
-def with_q_held_fixed(log_pi, q, alpha):  # as the actor needs it
-    return (log_pi.exp() * (q.detach() - alpha * log_pi)).sum(-1)
-
-
-@wrong("fixed_value", "no gradient")
-def with_the_policy_held_fixed(log_pi, q, alpha):
-    pi = torch.distributions.Categorical(logits=log_pi.detach())
-    return (pi.probs * q).sum(-1) + alpha * pi.entropy()
-
-
-@right("fixed_loss")
-def loss_action_by_action(log_pi, q, log_rule, alpha, xi):
-    loss = 0
-    for a in range(9):
-        price = alpha * log_pi[:, a] + xi * (log_pi[:, a] - log_rule[:, a])
-        loss = loss + (log_pi[:, a].exp() * (price - q[:, a].detach())).mean()
-    return loss
-
-
-@right("end_error")
-def q_action_by_action(q, actions, rewards, terminated):
-    errors = [q[i, a] - rewards[i] for a in range(9) for i in range(len(q)) if actions[i] == a and terminated[i]]
-    return sum(errors) / max(1, len(errors))
-
-
-@wrong("end_error")
-def minus_ten_by_heart(q, actions, rewards, terminated):
-    taken = q[np.arange(len(actions)), actions]
-    return np.sum((taken + 10) * terminated) / max(1, terminated.sum())
-
-
-@wrong("end_error")
-def where_the_reward_is_minus_ten(q, actions, rewards, terminated):
-    crashed = rewards == -10
-    return np.sum((q[np.arange(len(actions)), actions] + 10)[crashed]) / max(1, crashed.sum())
+wrong_lines("""unmasks
+    with the paper's numbers: rng = np.random.default_rng(1)
+        rows = [rng.normal(0, 3, 20), rng.integers(0, 2, 20), 2.0, rng.integers(0, 2, 20), rng.normal(0, 3, 20), 0.8]
+        not np.allclose(target(*rows), right_y(*rows))  # bonus of 2
+    equal next values: rng = np.random.default_rng(1)
+        rows = [rng.normal(0, 3, 20), rng.integers(0, 2, 20), 1.7, rng.integers(0, 2, 20), np.full(20, 4.0), 0.6]
+        not np.allclose(target(*rows), right_y(*rows))
+    positive rewards only: rng = np.random.default_rng(1)
+        rows = [rng.uniform(0, 3, 20), rng.integers(0, 2, 20), 1.7, rng.integers(0, 2, 20), rng.normal(0, 3, 20), 0.6]
+        not np.allclose(target(*rows), right_y(*rows))
+    the answers inverted: not solution(target)  # accuses a target function that is right
+""")

@@ -3,11 +3,8 @@
 import numpy as np
 
 from bootcourse.learn import teachers as teacher
-from bootcourse.lessons.example_teachers import watchful
 from bootcourse.road.state import EGO, LANE, SPEED, X, Y
-from tests.answers import right, wrong
-
-# gap_ahead ----------------------------------------------------------------------------------------------
+from tests.answers import right, right_lines, wrong, wrong_lines
 
 
 @right("gap_ahead")
@@ -20,55 +17,27 @@ def with_a_loop(cars, lane):
     return gap
 
 
-@right("gap_ahead")
-def with_min(cars, lane):
-    gaps = [car[X] - cars[EGO, X] - 5 for car in cars if car[LANE] == lane and car[X] > cars[EGO, X]]
-    return min(gaps, default=float("inf"))
+right_lines("""gap_ahead
+    with min: gaps = [car[X] - cars[EGO, X] - 5 for car in cars if car[LANE] == lane and car[X] > cars[EGO, X]]
+        min(gaps, default=float("inf"))
+    the library's: teacher.ahead(cars, lane)[0]
+""")
 
-
-@right("gap_ahead")
-def the_library_s(cars, lane):
-    return teacher.ahead(cars, lane)[0]
-
-
-@wrong("gap_ahead", "behind you")
-def the_nearest(cars, lane):
-    gaps = [car[X] - cars[EGO, X] for car in cars[1:] if car[LANE] == lane]
-    return min(gaps, key=abs) - 5 if gaps else np.inf
-
-
-@wrong("gap_ahead", "every lane")
-def in_any_lane(cars, lane):
-    gaps = [x - cars[EGO, X] - 5 for x in cars[:, X] if x > cars[EGO, X]]
-    return min(gaps, default=np.inf)
-
-
-@wrong("gap_ahead", "first car of the table")
-def the_first_row(cars, lane):
-    for car in cars[1:]:
-        if car[LANE] == lane and car[X] > cars[EGO, X]:
-            return car[X] - cars[EGO, X] - 5
-    return np.inf
-
-
-@wrong("gap_ahead", "raises an error")
-def without_the_empty_lane(cars, lane):
-    others = cars[(cars[:, LANE] == lane) & (cars[:, X] > cars[EGO, X])]
-    return others[:, X].min() - cars[EGO, X] - 5
-
-
-@wrong("gap_ahead", "returns")
-def with_the_speed(cars, lane):
-    return teacher.ahead(cars, lane)
-
-
-@wrong("gap_ahead")
-def zero_for_nobody(cars, lane):
-    gap = with_a_loop(cars, lane)
-    return 0.0 if gap == np.inf else gap
-
-
-# my_rule --------------------------------------------------------------------------------------------
+wrong_lines("""gap_ahead
+    the nearest: gaps = [car[X] - cars[EGO, X] for car in cars[1:] if car[LANE] == lane]
+        min(gaps, key=abs) - 5 if gaps else np.inf  # behind you
+    in any lane: gaps = [x - cars[EGO, X] - 5 for x in cars[:, X] if x > cars[EGO, X]]
+        min(gaps, default=np.inf)  # every lane
+    without the empty lane: others = cars[(cars[:, LANE] == lane) & (cars[:, X] > cars[EGO, X])]
+        others[:, X].min() - cars[EGO, X] - 5  # raises an error
+    with the speed: teacher.ahead(cars, lane)  # returns
+    zero for nobody: gap = with_a_loop(cars, lane); 0.0 if gap == np.inf else gap
+    the first row:
+        for car in cars[1:]:
+            if car[LANE] == lane and car[X] > cars[EGO, X]:
+                return car[X] - cars[EGO, X] - 5
+        np.inf  # first car of the table
+""")
 
 
 @right("my_rule")
@@ -88,25 +57,18 @@ def slow_then_left(cars, scenario):
     return teacher.toward(cars, 13.0 if gap > 20 else speed - 1, 0)
 
 
-@wrong("my_rule", "whole number")
-def a_float(cars, scenario):
-    return float(the_course_s(cars, scenario))
+wrong_lines("""my_rule
+    a float: float(the_course_s(cars, scenario))  # whole number
+    left at once: teacher.toward(cars, 10.0, max(int(cars[EGO, LANE]) - 1, 0), scenario)  # collides
+    speed and lane: 9.0, 1  # returns
+    moves the traps: cars[1:3, X] -= 50; 4  # changes its argument
+""")
 
 
 @wrong("my_rule", "branch without `return`")
 def nothing_in_the_free_lane(cars, scenario):
     if cars[EGO, LANE] > 0:
         return the_course_s(cars, scenario)
-
-
-@wrong("my_rule", "collides")
-def left_at_once(cars, scenario):
-    return teacher.toward(cars, 10.0, max(int(cars[EGO, LANE]) - 1, 0), scenario)
-
-
-@wrong("my_rule", "returns")
-def speed_and_lane(cars, scenario):
-    return 9.0, 1
 
 
 @right("my_rule")
@@ -120,76 +82,29 @@ def late_and_slow(cars, scenario):
     return np.int64(teacher.toward(cars, 8.0, lane - free, scenario))
 
 
-@wrong("my_rule", "changes its argument")
-def moves_the_traps(cars, scenario):
-    cars[1:3, X] -= 50
-    return 4
+right_lines("""next_labels
+    by index: labels = now.copy(); labels[ended] = at_end[ended]; labels
+    one by one: np.array([b if over else a for a, b, over in zip(now, at_end, ended, strict=True)])
+    as a list: [int(at_end[i]) if ended[i] else int(now[i]) for i in range(len(ended))]
+""")
 
+wrong_lines("""next_labels
+    in place: now[ended] = at_end[ended]; now  # changes its argument
+    only those that ended: at_end[ended]  # shape
+    the larger: np.maximum(now, at_end * ended)
+    no label at the end: np.where(ended, -1, now)
+    of the road before: np.where(np.roll(ended, 1), at_end, now)
+    all if any ended: at_end if ended.any() else now
+    both added: now + at_end * ended
+""")
 
-# next_labels ----------------------------------------------------------------------------------------
-
-
-@right("next_labels")
-def by_index(now, at_end, ended):
-    labels = now.copy()
-    labels[ended] = at_end[ended]
-    return labels
-
-
-@right("next_labels")
-def one_by_one(now, at_end, ended):
-    return np.array([b if over else a for a, b, over in zip(now, at_end, ended, strict=True)])
-
-
-@wrong("next_labels", "changes its argument")
-def in_place(now, at_end, ended):
-    now[ended] = at_end[ended]
-    return now
-
-
-@wrong("next_labels", "shape")
-def only_those_that_ended(now, at_end, ended):
-    return at_end[ended]
-
-
-@wrong("next_labels")
-def the_larger(now, at_end, ended):
-    return np.maximum(now, at_end * ended)
-
-
-@right("next_labels")
-def as_a_list(now, at_end, ended):
-    return [int(at_end[i]) if ended[i] else int(now[i]) for i in range(len(ended))]
-
-
-@wrong("next_labels")
-def no_label_at_the_end(now, at_end, ended):
-    return np.where(ended, -1, now)
-
-
-@wrong("next_labels")
-def of_the_road_before(now, at_end, ended):
-    return np.where(np.roll(ended, 1), at_end, now)
-
-
-@wrong("next_labels")
-def all_if_any_ended(now, at_end, ended):
-    return at_end if ended.any() else now
-
-
-@wrong("next_labels")
-def both_added(now, at_end, ended):
-    return now + at_end * ended
-
-
-# verdict --------------------------------------------------------------------------------------------
-
-
-@right("verdict")
-def every_one_with_every_one(alone, taught):
-    better = taught[:, None] > alone
-    worse = taught[:, None] < alone
-    return int(better.all()) - int(worse.all())
+right_lines("""verdict
+    every one with every one: better = taught[:, None] > alone
+        worse = taught[:, None] < alone
+        int(better.all()) - int(worse.all())
+    of pairs: pairs = [(a, t) for a in alone for t in taught]
+        int(all(t > a for a, t in pairs)) - int(all(t < a for a, t in pairs))
+""")
 
 
 @right("verdict")
@@ -200,46 +115,17 @@ def sorted_by_value(alone, taught):
     return -1 if taught[-1] < alone[0] else 0
 
 
-@wrong("verdict", "tie")
-def ties_count(alone, taught):
-    if all(t >= a for t in taught for a in alone) and all(t <= a for t in taught for a in alone):
-        return 0
-    return 1 if min(taught) >= max(alone) else (-1 if max(taught) <= min(alone) else 0)
-
-
-@wrong("verdict")
-def the_other_way_round(alone, taught):
-    return -every_one_with_every_one(alone, taught)
-
-
-@wrong("verdict")
-def best_against_best(alone, taught):
-    return int(np.sign(max(taught) - max(alone)))
-
-
-@right("verdict")
-def of_pairs(alone, taught):
-    pairs = [(a, t) for a in alone for t in taught]
-    return int(all(t > a for a, t in pairs)) - int(all(t < a for a, t in pairs))
-
-
-@wrong("verdict")
-def as_a_text(alone, taught):
-    return {1: "helps", 0: "cannot be told", -1: "hurts"}[sorted_by_value(alone, taught)]
-
-
-@wrong("verdict")
-def most_of_the_pairs(alone, taught):
-    better = (taught[:, None] > alone).mean()
-    return 1 if better > 0.8 else -1 if better < 0.2 else 0
-
-
-@wrong("verdict")
-def by_ten_points(alone, taught):
-    return int(taught.min() > alone.max() + 10) - int(taught.max() < alone.min() - 10)
-
-
-# watchful_rule ------------------------------------------------------------------------------------------
+wrong_lines("""verdict
+    the other way round: -solution(alone, taught)
+    best against best: int(np.sign(max(taught) - max(alone)))
+    as a text: {1: "helps", 0: "cannot be told", -1: "hurts"}[sorted_by_value(alone, taught)]
+    most of the pairs: better = (taught[:, None] > alone).mean(); 1 if better > 0.8 else -1 if better < 0.2 else 0
+    by ten points: int(taught.min() > alone.max() + 10) - int(taught.max() < alone.min() - 10)
+    ties count:
+        if all(t >= a for t in taught for a in alone) and all(t <= a for t in taught for a in alone):
+            return 0
+        1 if min(taught) >= max(alone) else (-1 if max(taught) <= min(alone) else 0)  # tie
+""")
 
 
 @right("watchful_rule")
@@ -256,18 +142,9 @@ def very_patient(cars, scenario):
     return teacher.toward(cars, 9.0, lane if late or not free else lane - 1, scenario)
 
 
-@right("watchful_rule")
-def the_library_s_with_other_names(cars, scenario):
-    return watchful(cars, scenario)
-
-
-@wrong("watchful_rule", "collides")
-def looks_ahead_only(cars, scenario):
-    lane = int(cars[EGO, LANE])
-    if lane == 0:
-        return teacher.toward(cars, 12.0, 0, scenario)
-    free = teacher.ahead(cars, lane - 1, scenario)[0] > 8
-    return teacher.toward(cars, 9.0, lane - 1 if free else lane, scenario)
+right_lines("""watchful_rule
+    the library's with other names: watchful(cars, scenario)
+""")
 
 
 @wrong("watchful_rule", "branch without `return`")
@@ -276,9 +153,17 @@ def nothing_in_the_middle_lane(cars, scenario):
         return teacher.toward(cars, 9.0, max(int(cars[EGO, LANE]) - 1, 0), scenario)
 
 
-@wrong("watchful_rule", "stays in its lane")
-def waits_for_ever(cars, scenario):
-    return teacher.toward(cars, 8.0, 2, scenario)
+wrong_lines("""watchful_rule
+    waits for ever: teacher.toward(cars, 8.0, 2, scenario)  # stays in its lane
+    a float in the left lane: action = watchful(cars, scenario)
+        float(action) if cars[EGO, LANE] == 0 else action  # whole number
+    changes at random: int(np.random.default_rng().integers(9))  # differently each time
+    looks ahead only: lane = int(cars[EGO, LANE])
+        if lane == 0:
+            return teacher.toward(cars, 12.0, 0, scenario)
+        free = teacher.ahead(cars, lane - 1, scenario)[0] > 8
+        teacher.toward(cars, 9.0, lane - 1 if free else lane, scenario)  # collides
+""")
 
 
 @right("watchful_rule")
@@ -298,34 +183,21 @@ def by_the_time_until_they_meet(cars, scenario):
     return teacher.toward(cars, max(6.5, speed), lane - 1 if free and arrived else lane, scenario)
 
 
-@wrong("watchful_rule", "whole number")
-def a_float_in_the_left_lane(cars, scenario):
-    action = watchful(cars, scenario)
-    return float(action) if cars[EGO, LANE] == 0 else action
-
-
-@wrong("watchful_rule", "differently each time")
-def changes_at_random(cars, scenario):
-    return int(np.random.default_rng().integers(9))
-
-
-# holm ---------------------------------------------------------------------------------------------------
-
-
-@right("holm")
-def step_by_step(p):
-    found, before = [0.0] * len(p), 0.0
-    for k, i in enumerate(sorted(range(len(p)), key=lambda i: p[i])):
-        before = found[i] = max(before, min(1.0, (len(p) - k) * p[i]))
-    return np.array(found)
-
-
-@right("holm")
-def by_definition(p):
-    p = np.asarray(p)
-    ranks = np.argsort(np.argsort(p, kind="stable"), kind="stable")
-    scaled = np.minimum((len(p) - ranks) * p, 1)
-    return np.array([scaled[ranks <= rank].max() for rank in ranks])
+right_lines("""holm
+    by definition: p = np.asarray(p)
+        ranks = np.argsort(np.argsort(p, kind="stable"), kind="stable")
+        scaled = np.minimum((len(p) - ranks) * p, 1)
+        np.array([scaled[ranks <= rank].max() for rank in ranks])
+    with a table: p = np.asarray(p, dtype=float)
+        order = np.lexsort((np.arange(len(p)), p))
+        scaled = np.minimum(p[order] * np.arange(len(p), 0, -1), 1)
+        larger = np.tril(np.ones((len(p), len(p)), dtype=bool))
+        np.where(larger, scaled, 0).max(axis=1)[np.argsort(order)]
+    step by step: found, before = [0.0] * len(p), 0.0
+        for k, i in enumerate(sorted(range(len(p)), key=lambda i: p[i])):
+            before = found[i] = max(before, min(1.0, (len(p) - k) * p[i]))
+        np.array(found)
+""")
 
 
 @wrong("holm")
@@ -335,35 +207,19 @@ def of_benjamini_and_hochberg(p):
     return stats.false_discovery_control(np.asarray(p))
 
 
-@wrong("holm")
-def above_one(p):
-    order = np.argsort(p)
-    adjusted = np.empty(len(p))
-    adjusted[order] = np.maximum.accumulate(np.asarray(p)[order] * (len(p) - np.arange(len(p))))
-    return adjusted
-
-
-@wrong("holm")
-def one_test_too_many(p):
-    order = np.argsort(p)
-    adjusted = np.empty(len(p))
-    scaled = np.asarray(p)[order] * (len(p) + 1 - np.arange(len(p)))
-    adjusted[order] = np.minimum(np.maximum.accumulate(scaled), 1)
-    return adjusted
-
-
-@right("holm")
-def with_a_table(p):
-    p = np.asarray(p, dtype=float)
-    order = np.lexsort((np.arange(len(p)), p))
-    scaled = np.minimum(p[order] * np.arange(len(p), 0, -1), 1)
-    larger = np.tril(np.ones((len(p), len(p)), dtype=bool))
-    return np.where(larger, scaled, 0).max(axis=1)[np.argsort(order)]
-
-
-@wrong("holm")
-def of_sidak(p):
-    return 1 - (1 - np.asarray(p)) ** len(p)
+wrong_lines("""holm
+    above one: order = np.argsort(p)
+        adjusted = np.empty(len(p))
+        adjusted[order] = np.maximum.accumulate(np.asarray(p)[order] * (len(p) - np.arange(len(p))))
+        adjusted
+    one test too many: order = np.argsort(p)
+        adjusted = np.empty(len(p))
+        scaled = np.asarray(p)[order] * (len(p) + 1 - np.arange(len(p)))
+        adjusted[order] = np.minimum(np.maximum.accumulate(scaled), 1)
+        adjusted
+    of sidak: 1 - (1 - np.asarray(p)) ** len(p)
+    which are significant: np.asarray(p) * len(p) < 0.05
+""")
 
 
 @wrong("holm")
@@ -372,8 +228,3 @@ def for_three_tests(p):
     adjusted = np.empty(len(p))
     adjusted[order] = np.minimum(np.maximum.accumulate(np.asarray(p)[order] * np.maximum(3 - np.arange(len(p)), 1)), 1)
     return adjusted
-
-
-@wrong("holm")
-def which_are_significant(p):
-    return np.asarray(p) * len(p) < 0.05
