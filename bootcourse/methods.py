@@ -100,9 +100,17 @@ METHODS = {
     "ppo_kl": Method(
         "PPO with a fading KL",
         Style("#44AA99", "-."),
-        _PPO | {"kl_weight": 1.0},
+        _PPO | {"kl_weight": 1.0, "rule_p": 0.9},
         "bootcourse.learn.kickstart:KickstartLearner",
         unused={"xi_multiplier": "has another weight of its KL, kl_weight, which fades"},
+        taught=True,
+        **_ON_POLICY,
+    ),
+    "ppo_residual": Method(
+        "residual PPO",
+        Style("#44AA99", "--"),
+        _PPO | {"rule_p": 0.9},
+        "bootcourse.learn.residual:ResidualLearner",
         taught=True,
         **_ON_POLICY,
     ),
@@ -135,7 +143,16 @@ METHODS = {
 }
 ABLATION = ("sac", "soft", "demos", "bootstrapped", "margin", "margin_soft")  # the paper's method and its parts
 BASELINES = ("bc", "cql", "cql_sac", "gail")
-AFTER = ("ppo", "ppo_cloned", "ppo_kl", "jsrl", "rlpd", "ibrl", "pex")  # learners that the paper does not have
+AFTER = (
+    "ppo",
+    "ppo_cloned",
+    "ppo_kl",
+    "ppo_residual",
+    "jsrl",
+    "rlpd",
+    "ibrl",
+    "pex",
+)  # learners that the paper does not have
 DRIVERS = {  # name and style of the drivers that are not trained
     "rule": ("rule controller", Style("#009E73", width=1.0)),
     "planner": ("planner", Style("#000000", (0, (8, 4)))),

@@ -16,6 +16,7 @@ KINDS = {  # the methods that learn by PPO, with what makes them quick and their
     "ppo": {},
     "ppo_cloned": {"demonstration_episodes": 2, "cloning_updates": 5},
     "ppo_kl": {"kl_episodes": 20},
+    "ppo_residual": {},
 }
 GAMMA = torch.tensor(0.5)
 

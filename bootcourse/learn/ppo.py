@@ -150,7 +150,8 @@ class PPOLearner(BCLearner):
         taken = decode_transitions(replay.table, replay.observation_size, replay.ended)
         values, next_values = (self._values(states) for states in (taken.states, taken.next_states))
         found = self.advantages(taken.rewards, values, next_values, taken.terminated, replay.ended)
-        log_pi = self._log_pi(_agents_first(taken.states)).gather(-1, _agents_first(taken.actions)[..., None])[..., 0]
+        states, actions, rule_actions = map(_agents_first, (taken.states, taken.actions, taken.rule_actions))
+        log_pi = self.log_pi(states, rule_actions).gather(-1, actions[..., None])[..., 0]
         columns = (taken.states, taken.actions, None, found, found + values, taken.rule_actions)
         replay.columns = Minibatch(*(log_pi if column is None else _agents_first(column) for column in columns))
         replay.drawn = 0
@@ -165,7 +166,7 @@ class PPOLearner(BCLearner):
 
     def losses(self, batch: Minibatch) -> dict[str, Tensor]:
         """The clipped objective with its entropy bonus, and the values' squared error: each (agents,)."""
-        log_pi = self._log_pi(batch.states)  # (agents, batch, 9)
+        log_pi = self.log_pi(batch.states, batch.rule_actions)  # (agents, batch, 9)
         policy_loss, entropy = self.policy_loss(log_pi, batch), sac.entropy(log_pi).mean(-1)
         values = mlp(self.value, batch.states)[..., 0]
         return {
@@ -196,7 +197,8 @@ class PPOLearner(BCLearner):
         """The actor's and the critics' tensors, and the values'."""
         return super().tensors() | {"value": self.value}
 
-    def _log_pi(self, states: Tensor) -> Tensor:
+    def log_pi(self, states: Tensor, rule_actions: Tensor) -> Tensor:
+        """log π(a|s): (agents, batch, actions). A policy without the teacher does not use μ(s), (agents, batch)."""
         return sac.log_policy(mlp(self.actor, states))
 
     def _values(self, states: Tensor) -> Tensor:

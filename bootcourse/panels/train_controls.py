@@ -15,7 +15,7 @@ def without(method: str) -> dict[str, str]:
     reasons = {}
     if own.get("xi_multiplier") == 0:
         reasons["xi_multiplier"] = f"Without use: {called} has no soft constraint."
-        if not own.get("kl_weight"):
+        if "rule_p" not in own:  # a method that uses π̃ in another way names its p
             reasons["rule_p"] = f"Without use: {called} has no KL to the stochastic rule."
     if own.get("bonus") == 0:
         reasons["bonus"] = f"Without use: {called} adds no bonus to demonstrations."
