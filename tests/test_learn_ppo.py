@@ -13,7 +13,7 @@ from bootcourse.storage.runs import load_checkpoint, load_run, save_checkpoint, 
 
 SMALL = {"hidden": (8,), "envs_per_agent": 4, "horizon": 8, "batch": 16, "epochs": 2, "buffer_size": 16}
 KINDS = {  # the methods that learn by PPO, with what makes them quick and their help change in a few episodes
-    "ppo": {},
+    "ppo": {"anneal_decisions": 200},
     "ppo_cloned": {"demonstration_episodes": 2, "cloning_updates": 5},
     "ppo_kl": {"kl_episodes": 20},
     "ppo_residual": {},
@@ -80,6 +80,15 @@ def test_a_training_updates_in_rounds_after_a_number_of_decisions():
         training.step()
         assert training.updates == (decision // 8) * 2 * 2  # epochs x minibatches
     assert set(training.losses) == {"actor_loss", "value_loss", "entropy"}
+
+
+def test_both_learning_rates_fall_to_0_if_they_are_told_to():
+    training = Training([settings_for("ppo", anneal_decisions=64, critic_lr=2e-3, actor_lr=1e-3, **SMALL)], episodes=50)
+    seen = []
+    for _ in range(3 * 8):  # a round is 8 decisions on 4 roads
+        training.step()
+        seen.append([group["lr"] for group in training.learner.optimiser.param_groups])
+    assert seen[7::8] == [[1e-3, 2e-3], [5e-4, 1e-3], [0.0, 0.0]]
 
 
 def test_an_agent_learns_the_same_alone_and_beside_others():

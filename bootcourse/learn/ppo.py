@@ -142,7 +142,15 @@ class PPOLearner(BCLearner):
             return 0
         self.prepare(replay)
         decided = replay.order.shape[1]
+        self.anneal(decisions - decided)
         return self.settings[0].epochs * -(-decided // self.settings[0].batch)
+
+    def anneal(self, decisions: int) -> None:
+        """Set both learning rates, which fall linearly to 0 if `anneal_decisions` is set; decisions: of each agent."""
+        shared = self.settings[0]
+        share = max(1 - decisions / shared.anneal_decisions, 0.0) if shared.anneal_decisions else 1.0
+        for group, rate in zip(self.optimiser.param_groups, (shared.actor_lr, shared.critic_lr), strict=True):
+            group["lr"] = rate * share
 
     @torch.no_grad()
     def prepare(self, replay: RolloutBuffer) -> None:

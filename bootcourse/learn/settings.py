@@ -117,6 +117,7 @@ class PPOSettings(Settings):
     clip: float = shared(0.2)  # ε: how far the ratio of new to old probabilities counts
     gae_lambda: float = shared(0.95)  # λ of the advantages
     entropy_weight: float = shared(0.01)  # of the entropy bonus
+    anneal_decisions: int = shared(0)  # of each agent, until both learning rates have fallen to 0; 0: they stay
     cloning_updates: int = shared(0)  # before the first drive: clone the teacher; 0 for PPO alone
     label_smoothing: float = shared(0.1)  # of the cloned actions
     kl_weight: float = shared(0.0)  # λ of the KL to π̃ at first (kickstarting, arXiv 1803.03835); 0: no KL
@@ -125,7 +126,7 @@ class PPOSettings(Settings):
     def __post_init__(self):
         super().__post_init__()
         _check_range(self, 1, math.inf, "horizon", "epochs", whole=True)
-        _check_range(self, 0, math.inf, "cloning_updates", "kl_episodes", whole=True)
+        _check_range(self, 0, math.inf, "cloning_updates", "kl_episodes", "anneal_decisions", whole=True)
         _check_range(self, 0.0, 1.0, "clip", "gae_lambda", "label_smoothing")
         _check_range(self, 0.0, math.inf, "entropy_weight", "kl_weight")
 

@@ -33,7 +33,7 @@ from bootcourse.learn.agent import sample_actions
 from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.replay_buffer import encode_transitions
 from bootcourse.learn.settings import Settings, settings_for, with_seeds
-from bootcourse.learn.training import Training
+from bootcourse.learn.training import MOST_EPISODES, Training
 from bootcourse.policies import PolicyOutput
 
 MakeEnv = Callable[[], gym.Env]
@@ -111,7 +111,8 @@ def train(
     callback: Callable[[Training], None] | None = None,
 ) -> SACLearner:
     """Train agents for `decisions` decisions each. callback: see `Training.run`."""
-    training = Training(settings, decisions, demonstrations=demonstrations, make_env=several(make_env), first_seed=SEED)
+    most = min(decisions, MOST_EPISODES)
+    training = Training(settings, most, demonstrations=demonstrations, make_env=several(make_env), first_seed=SEED)
     training.run(progress, callback, stop=lambda: training.decisions >= decisions * len(settings))
     return training.learner
 
