@@ -16,6 +16,7 @@ from bootcourse.learn.rlpd import normalised_mlp, smallest_of
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
 from bootcourse.storage.runs import load_checkpoint, load_run, save_checkpoint, save_runs
+from bootcourse.study.checks import cartpole, several
 from tests.test_baselines import a_batch
 
 METHODS = ("jsrl", "rlpd", "ibrl", "pex")
@@ -250,3 +251,9 @@ def test_an_agent_learns_the_same_alone_as_beside_another(method):
 def test_a_setting_out_of_range_is_refused(method, wrong):
     with pytest.raises(BootcourseError, match=next(iter(wrong))):
         settings_for(method, **wrong)
+
+
+@pytest.mark.parametrize("method", ["jsrl", "ibrl", "pex"])
+def test_a_method_that_asks_the_teacher_is_not_trained_where_there_is_none(method):
+    with pytest.raises(BootcourseError, match="asks a teacher"):
+        Training([settings_for(method, beta_start=0.0)], 2, make_env=several(cartpole))

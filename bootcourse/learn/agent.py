@@ -20,7 +20,7 @@ class Agent:
 
     settings: Settings
     actor: list[Tensor]  # weights and biases, [(1, inputs, outputs), (1, 1, outputs), ...]
-    critics: list[Tensor]  # those of the two critics, [(2, inputs, outputs), (2, 1, outputs), ...]
+    critics: list[Tensor]  # those of the critics, mostly two, [(2, inputs, outputs), (2, 1, outputs), ...]
     alpha: float  # the entropy coefficient at the end of the training
     teach: Callable[[np.ndarray], np.ndarray] | None = None  # μ, for a method that drives with it: see `taught_by`
 
@@ -58,7 +58,7 @@ class Agent:
 
     @torch.no_grad()
     def q_values(self, observations: np.ndarray) -> np.ndarray:
-        """The smaller of the two critics' Q(s,a): (batch, observation) -> (batch, 9)."""
+        """Q(s,a), the smaller of two critics' or what the method has instead: (batch, observation) -> (batch, 9)."""
         return self.learner.q_values(torch.as_tensor(observations, dtype=torch.float32)[None])[0].numpy()
 
     def as_policy(self, rng: np.random.Generator | None = None, with_q: bool = False) -> Policy:

@@ -8,7 +8,7 @@ the two is drawn from the softmax of their values. An agent needs its teacher to
 Only a and μ(s) enter the choice, and π has nine actions, so its distribution is a sum that we write out instead of
 drawing from it. Where we differ: the papers' imitators are trained networks, ours is the rule; the learner is discrete
 SAC, without entropy in the critics' target; PEX bootstraps as it acts, as IBRL's soft variant does, where its paper
-learns values by IQL.
+learns values by IQL. A trained agent takes the most probable action of this distribution.
 """
 
 from collections.abc import Sequence

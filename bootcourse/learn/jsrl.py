@@ -4,9 +4,9 @@ Their Algorithm 1 with discrete SAC as the learner. The teacher takes the agent 
 and the agent learns what to do from there on. h begins with the whole episode. As soon as the combined driver's return
 is about as good as the best before, h shrinks by a step, until the agent drives alone. A trained agent drives alone.
 
-Where our curriculum differs: the paper drives episodes for evaluation only, without exploration, and averages several
-such evaluations. We judge h by the training episodes themselves that began with it, in which the agent's actions are
-drawn. The paper's main experiments learn from the teacher's data, too, before the first episode; here nothing precedes.
+Where our curriculum differs: the paper judges h by a moving average over evaluations, which are episodes of their own.
+We judge it by the training episodes that began with it, in which the agent's actions are drawn from π. Our mean begins
+again after each step, and the agent learns from nothing but these episodes, the teacher's part of them included.
 """
 
 from collections.abc import Sequence

@@ -138,12 +138,12 @@ class PPOSettings(Settings):
 
 @dataclass(frozen=True)
 class JSRLSettings(Settings):
-    """The settings of jump-start RL. The paper's: 10 stages, a moving average of 5 evaluations, a tolerance of 5 %."""
+    """The settings of jump-start RL."""
 
     guide_decisions: int = shared(150)  # § h at first: the teacher drives the whole episode
-    stages: int = shared(10)  # † in how many equal steps h shrinks to 0
+    stages: int = shared(10)  # § in how many equal steps h shrinks to 0
     window: int = shared(20)  # § episodes in the moving average of returns
-    tolerance: float = shared(0.05)  # † how far this average may lie below the best so far, as a share of the best
+    tolerance: float = shared(0.05)  # § β: how far this average may lie below the best so far, as a share of the best
 
     def __post_init__(self):
         super().__post_init__()
@@ -154,10 +154,10 @@ class JSRLSettings(Settings):
 
 @dataclass(frozen=True)
 class RLPDSettings(Settings):
-    """The settings of RLPD. The paper has 10 critics, and 20 updates for each decision."""
+    """The settings of RLPD, whose authors have 10 critics and make 20 updates for each decision."""
 
     critics: int = shared(5)  # § in the ensemble
-    target_critics: int = shared(2)  # † of them, drawn for each update, whose smallest value is in the target
+    target_critics: int = shared(2)  # ‡ of them, drawn for each update, smallest value in the target; the authors' code
 
     def __post_init__(self):
         super().__post_init__()

@@ -32,6 +32,7 @@ from bootcourse.learn.learner import learner_for
 from bootcourse.learn.replay_buffer import encode_transitions
 from bootcourse.learn.settings import Settings
 from bootcourse.learn.teachers import Rule, course_rule, teacher_name, teacher_of
+from bootcourse.methods import METHODS
 from bootcourse.policies import stochastic_policy
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, Scenario
@@ -83,6 +84,10 @@ class Training:
         n_envs = self.n_agents * self.envs_per_agent
         self.env = TrapVectorEnv(n_envs, scenario) if make_env is None else make_env(n_envs)
         self.on_the_trap = hasattr(self.env, "cars")
+        if not self.on_the_trap and any(METHODS[s.method].taught for s in settings):
+            raise BootcourseError(
+                f"Method '{settings[0].method}' asks a teacher, which drives only on the trap's roads."
+            )
         size, n_actions = self.env.single_observation_space.shape[0], int(self.env.single_action_space.n)
         self.learner = learner_for(self.settings, size, n_actions)
         self._teach = teacher_of(teacher, scenario)
