@@ -20,11 +20,10 @@ CALM = {  # nothing that moves, asks or hides cells while a test looks
     "@jupyterlab/docmanager-extension:plugin": {"autosave": False},
     "@jupyterlab/notebook-extension:tracker": {"windowingMode": "none"},
 }
-DARK = {"@jupyterlab/apputils-extension:themes": {"theme": "JupyterLab Dark"}}
 
 
 @contextlib.contextmanager
-def running_lab(folder: Path, dark: bool = False):
+def running_lab(folder: Path):
     """JupyterLab on `folder`, on 127.0.0.1 with a token. Yields its address and token."""
     token, port = secrets.token_hex(8), _free_port()
     places = {"JUPYTER_CONFIG_DIR": "config", "JUPYTER_DATA_DIR": "data", "JUPYTER_RUNTIME_DIR": "runtime"}
@@ -32,7 +31,7 @@ def running_lab(folder: Path, dark: bool = False):
     places |= {"IPYTHONDIR": "ipython"}
     own = folder / ".lab"
     environment = os.environ | {name: str(own / place) for name, place in places.items()}
-    for name, settings in (CALM | (DARK if dark else {})).items():
+    for name, settings in CALM.items():
         path = own / "lab-settings" / f"{name.replace(':', '/')}.jupyterlab-settings"
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(json.dumps(settings))
@@ -91,12 +90,12 @@ class Notebook:
 
 
 @contextlib.contextmanager
-def open_notebook(folder: Path, *cells: str, width: int = 1366, height: int = 900, dark: bool = False):
+def open_notebook(folder: Path, *cells: str, width: int = 1366, height: int = 900):
     """A notebook of these code cells in a real JupyterLab. Yields a `Notebook`, its kernel ready."""
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in cells])
     notebook.metadata["kernelspec"] = {"display_name": "Python 3", "language": "python", "name": "python3"}
     nbformat.write(notebook, folder / "lesson.ipynb")
-    with running_lab(folder, dark) as (address, token), open_browser(width, height) as new_page:
+    with running_lab(folder) as (address, token), open_browser(width, height) as new_page:
         shown = new_page()
         shown.page.goto(f"{address}/doc/tree/lesson.ipynb?token={token}&reset")
         shown.page.wait_for_function("() => window.jupyterapp", timeout=60_000)

@@ -5,6 +5,8 @@ Import `raise_in_callbacks` and write `pytestmark = pytest.mark.usefixtures("rai
 """
 
 import re
+import threading
+import time
 
 import ipywidgets as widgets
 import pytest
@@ -42,3 +44,15 @@ def words(widget: widgets.Widget) -> str:
     """All that is written in a panel, without the tags."""
     html = " ".join(each.value for each in inside(widget, widgets.HTML))
     return re.sub(r"\s+", " ", re.sub(r"<style>.*?</style>|<[^>]*>", " ", html, flags=re.DOTALL))
+
+
+def threads() -> list[threading.Thread]:
+    """Those that panels have started."""
+    return [thread for thread in threading.enumerate() if thread.name.startswith("bootcourse")]
+
+
+def wait_for(holds, seconds: float = 20.0) -> None:
+    until = time.monotonic() + seconds
+    while not holds():
+        assert time.monotonic() < until, "it never came"
+        time.sleep(0.02)

@@ -15,7 +15,6 @@ from bootcourse.learn.replay_buffer import Batch
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
 from bootcourse.methods import ABLATION, AFTER, BASELINES, METHODS
-from bootcourse.storage.runs import load_checkpoint, load_run, save_checkpoint, save_runs
 
 
 def a_batch(agents: int = 2, batch: int = 6, demonstrations: int = 3, seed: int = 0) -> Batch:
@@ -95,19 +94,6 @@ def test_the_gradient_penalty_can_itself_be_differentiated():
     network = [p.requires_grad_() for p in init_mlp((4, 8, 1), [torch.Generator().manual_seed(0)])]
     gail.gradient_penalty(network, torch.randn(1, 3, 4)).sum().backward()
     assert network[0].grad.abs().sum() > 0
-
-
-@pytest.mark.parametrize("method", BASELINES)
-def test_an_agent_learns_the_same_alone_as_beside_others(method):
-    together, alone = learner(method, 2), learner_for([settings_for(method, seed=1)], 26)
-    for seed in range(3):
-        batch = a_batch(seed=seed)
-        if method in ("bc", "cql", "cql_sac"):
-            batch = batch._replace(is_demonstration=torch.ones(2, 6))
-        together.update(batch)
-        alone.update(Batch(*(column[1:] for column in batch)))
-    for both, one in zip(together.actor, alone.actor, strict=True):
-        torch.testing.assert_close(both[1:], one, rtol=1e-4, atol=1e-6)
 
 
 def test_cloning_makes_the_demonstrator_s_actions_more_probable_and_leaves_the_critics_at_zero():
@@ -215,32 +201,6 @@ def test_the_demonstrations_share_of_a_batch_stays_where_it_starts(method, share
                 training.step()
             batch = training.replay.sample(64, training.beta, training.sample_rngs)
         assert batch.is_demonstration.mean().item() == share
-
-
-@pytest.mark.parametrize("method", BASELINES)
-def test_a_baseline_trains_is_saved_and_drives_like_any_other_method(method, tmp_path):
-    result = Training(with_seeds(settings_for(method, demonstration_episodes=3, learning_starts=16), 2), 4).run(
-        progress=False
-    )
-    assert all(np.isfinite(values).all() for values in result.curves.values())
-    back = load_run(save_runs(result, tmp_path)[1])
-    observations = np.random.default_rng(0).normal(size=(5, 26))
-    np.testing.assert_array_equal(back.agent.probabilities(observations), result.agents[1].probabilities(observations))
-    assert back.agent.settings.method == method and back.agent.as_policy(with_q=True)(
-        observations, None
-    ).q_values.shape == (5, 9)
-
-
-@pytest.mark.parametrize("method", BASELINES)
-def test_a_baseline_that_was_killed_goes_on_as_if_it_never_was(method, tmp_path):
-    training = Training(with_seeds(settings_for(method, demonstration_episodes=3, learning_starts=16), 2), 6)
-    for _ in range(25):
-        training.step()
-    save_checkpoint(training, tmp_path / "checkpoint.npz")
-    uninterrupted = training.run(progress=False)
-    continued = load_checkpoint(tmp_path / "checkpoint.npz").run(progress=False)
-    for before, after in zip(uninterrupted.agents, continued.agents, strict=True):
-        assert same([*before.actor, *before.critics], [*after.actor, *after.critics])
 
 
 def test_a_baseline_is_not_given_what_its_name_says_it_lacks():

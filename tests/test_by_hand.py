@@ -58,12 +58,6 @@ def test_an_action_that_is_none_is_refused_and_changes_nothing(nonsense):
     assert drive.time == 0.0
 
 
-@pytest.mark.parametrize("nonsense", [-1, 1.5, "one", True])
-def test_a_road_that_cannot_be_is_refused(nonsense):
-    with pytest.raises(BootcourseError, match="seed"):
-        InteractiveEpisode(nonsense)
-
-
 def test_between_two_steps_cars_are_between_and_headings_turn_the_short_way():
     states = np.zeros((2, 1, 10))
     states[:, 0, 0], states[:, 0, 2] = (0, 10), (3.1, -3.1)

@@ -74,6 +74,7 @@ def test_only_agents_that_differ_in_nothing_but_their_seed_are_averaged():
     assert alike([Driver("rule", None, DEFAULT)] * 2) == {}
 
 
+NEW = ["--out", "new"]
 REFUSED = {
     "a mistyped method": (["train", "--method", "bootstraped", "--out", "new"], "did you mean 'bootstrapped'"),
     "a mistyped setting": (["train", "--setting", "papr", "--out", "new"], "did you mean 'paper'"),
@@ -84,6 +85,11 @@ REFUSED = {
     "a seed that is too large": (["train", "--first-seed", str(2**63), "--out", "new"], "from 0 to 8,000,000"),
     "a name that is too long": (["train", "--out", "x" * 300], "File name too long"),
     "a mistyped driver": (["evaluate", "rul"], "did you mean 'rule'"),
+    "a mistyped method of a study": (["study", "--only", "sac,bootstraped", *NEW], "did you mean 'bootstrapped'"),
+    "a mistyped study": (["study", "calibrate", *NEW], "did you mean 'calibrated'"),
+    "a mistyped backend": (["study", "--backend", "dusk", *NEW], "did you mean 'dask'"),
+    "a scheduler for this machine": (["study", "--scheduler", "tcp://a:1", *NEW], "needs --backend dask"),
+    "an experiment of some methods": (["study", "clocks", "--only", "sac", *NEW], "leave out --only"),
     "a folder without runs": (["evaluate", "full"], "holds no run"),
     "a held-out block that does not exist": (["evaluate", "rule", "--seed", "5000"], "seed = 5000"),
     "a rollout that exists": (["drive", "rule", "--out", "full/file.txt"], "exists already"),

@@ -10,6 +10,7 @@ import pytest
 from bootcourse.cli.driving import drive
 from bootcourse.errors import BootcourseError
 from bootcourse.files import MEMBERS, UNPACKED, check_replaceable, read_arrays, read_bytes, read_json, sha256
+from bootcourse.storage.sealed import read_sealed, write_sealed
 
 
 def refusal(read, *given) -> str:
@@ -112,3 +113,18 @@ def test_a_picture_replaces_a_picture_and_nothing_else(tmp_path):
     assert "does not end in .png or .svg" in refusal(check_replaceable, tmp_path / "thesis.tex", ".png", ".svg")
     for name in ("old.png", "new.png"):
         assert check_replaceable(tmp_path / name, ".png") == tmp_path / name
+
+
+def test_a_flipped_bit_of_a_sealed_file_is_noticed(tmp_path):
+    path, content = tmp_path / "sealed.json", {"format": "a format", "made": {"seed": 3, "seconds": 1.5}, "by": "ä"}
+    write_sealed(path, content)
+    whole = path.read_bytes()
+    for place in range(len(whole)):
+        for bit in range(8):
+            flipped = bytearray(whole)
+            flipped[place] ^= 1 << bit
+            path.write_bytes(flipped)
+            try:
+                assert read_sealed(path, "a format") == content  # one space became another
+            except BootcourseError as error:
+                assert "sealed.json" in str(error)

@@ -4,20 +4,12 @@ import numpy as np
 import pytest
 import torch
 
-from bootcourse.episodes.evaluate import evaluate
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.ppo import Minibatch, RolloutBuffer, advantages, clipped_loss
-from bootcourse.learn.settings import PPOSettings, Settings, settings_for, with_seeds
+from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
-from bootcourse.storage.runs import load_checkpoint, load_run, save_checkpoint, save_runs
 
 SMALL = {"hidden": (8,), "envs_per_agent": 4, "horizon": 8, "batch": 16, "epochs": 2, "buffer_size": 16}
-KINDS = {  # the methods that learn by PPO, with what makes them quick and their help change in a few episodes
-    "ppo": {"anneal_decisions": 200},
-    "ppo_cloned": {"demonstration_episodes": 2, "cloning_updates": 5},
-    "ppo_kl": {"kl_episodes": 20},
-    "ppo_residual": {},
-}
 GAMMA = torch.tensor(0.5)
 
 
@@ -109,31 +101,6 @@ def test_a_clone_begins_with_the_teacher_s_actions():
         pi = training.learner.probabilities(torch.from_numpy(training.states).float()[None])[0].numpy()
         agreement.append(pi[np.arange(len(pi)), training.taught()].mean())
     assert agreement[0] > 1.5 * agreement[1]
-
-
-@pytest.mark.parametrize("method", KINDS)
-def test_a_trained_agent_is_saved_with_the_settings_that_only_ppo_has_and_evaluated(method, tmp_path):
-    result = Training([settings_for(method, clip=0.3, **SMALL | KINDS[method])], episodes=2).run(progress=False)
-    agent = load_run(save_runs(result, tmp_path)[0]).agent
-    assert type(agent.settings) is PPOSettings and agent.settings.clip == 0.3
-    assert type(settings_for("sac")) is Settings
-    assert evaluate(agent.as_policy(), 5) == evaluate(result.agents[0].as_policy(), 5)
-
-
-@pytest.mark.parametrize("method", KINDS)
-def test_a_resumed_training_ends_as_an_uninterrupted_one(method, tmp_path):
-    settings = with_seeds(settings_for(method, **SMALL | KINDS[method]), 2)
-    whole, first = Training(settings, episodes=30), Training(settings, episodes=30)
-    for _ in range(11):  # in the middle of a round
-        first.step()
-    save_checkpoint(first, tmp_path / "checkpoint.npz")
-    resumed = load_checkpoint(tmp_path / "checkpoint.npz")
-    for _ in range(11):
-        whole.step()
-    for training in (whole, resumed):
-        training.run(progress=False)
-    for a, b in zip(whole.agent(1).actor, resumed.agent(1).actor, strict=True):
-        assert torch.equal(a, b)
 
 
 @pytest.mark.parametrize(

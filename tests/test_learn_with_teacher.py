@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 import torch
 
-from bootcourse.episodes.evaluate import evaluate
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.ibrl import advantage, expanded_policy
 from bootcourse.learn.jsrl import guide_decisions, holds
@@ -15,12 +14,8 @@ from bootcourse.learn.networks import init_mlp
 from bootcourse.learn.rlpd import normalised_mlp, smallest_of
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
-from bootcourse.storage.runs import load_checkpoint, load_run, save_checkpoint, save_runs
 from bootcourse.study.checks import cartpole, several
 from tests.test_baselines import a_batch
-
-METHODS = ("jsrl", "rlpd", "ibrl", "pex")
-SMALL = {"hidden": (8,), "demonstration_episodes": 2, "learning_starts": 16, "batch": 16}
 
 
 def learner(method: str, seeds: int = 2, **changes) -> SACLearner:
@@ -193,48 +188,6 @@ def test_an_agent_chooses_by_the_target_critics_as_it_did_in_training():
     for i in range(2):
         found = one.agent(i).probabilities(batch.states[i].numpy(), batch.rule_actions[i].numpy())
         torch.testing.assert_close(torch.from_numpy(found), one.driving_policy(batch.states, batch.rule_actions)[i])
-
-
-# All of them
-
-
-@pytest.mark.parametrize("method", METHODS)
-def test_it_trains_is_saved_and_drives_like_any_other_method(method, tmp_path):
-    result = Training(with_seeds(settings_for(method, **SMALL), 2), 4).run(progress=False)
-    assert all(np.isfinite(values).all() for values in result.curves.values())
-    back = load_run(save_runs(result, tmp_path)[1]).agent
-    observations, taught = np.random.default_rng(0).normal(size=(5, 26)), np.arange(5)
-    np.testing.assert_array_equal(
-        back.probabilities(observations, taught), result.agents[1].probabilities(observations, taught)
-    )
-    np.testing.assert_array_equal(back.q_values(observations), result.agents[1].q_values(observations))
-    assert evaluate(back.as_policy(), 3).episodes == 3
-
-
-@pytest.mark.parametrize("method", METHODS)
-def test_after_a_stop_it_goes_on_to_the_same_agents(method, tmp_path):
-    changes = {"guide_decisions": 4, "stages": 2, "window": 2} if method == "jsrl" else {}
-    training = Training(with_seeds(settings_for(method, **SMALL, **changes), 2), 8)
-    for _ in range(60):
-        training.step()
-    save_checkpoint(training, tmp_path / "checkpoint.npz")
-    uninterrupted = training.run(progress=False)
-    continued = load_checkpoint(tmp_path / "checkpoint.npz").run(progress=False)
-    np.testing.assert_array_equal(uninterrupted.curves["return"], continued.curves["return"])
-    for before, after in zip(uninterrupted.agents, continued.agents, strict=True):
-        for one, other in zip([*before.actor, *before.critics], [*after.actor, *after.critics], strict=True):
-            assert torch.equal(one, other)
-
-
-@pytest.mark.parametrize("method", METHODS)
-def test_an_agent_learns_the_same_alone_as_beside_another(method):
-    together, alone = learner(method, 2), learner_for([settings_for(method, seed=1, hidden=(8,))], 26)
-    for seed in range(3):
-        batch = a_batch(seed=seed)
-        together.update(batch)
-        alone.update(type(batch)(*(column[1:] for column in batch)))
-    for both, one in zip(together.actor, alone.actor, strict=True):
-        torch.testing.assert_close(both[1:], one, rtol=1e-4, atol=1e-6)
 
 
 @pytest.mark.parametrize(

@@ -142,6 +142,7 @@ def test_every_panel_that_is_closed_leaves_no_widget_behind(make, escape):
     before = set(widgets.widget._instances)
     panel = getattr(panels, make)(*[escape] * (make == "policy_panel"))
     assert len(widgets.widget._instances) > len(before) + 10
+    assert all(button.tooltip for button in inside(panel, widgets.Button)), "a button that does not say what it does"
     panel.close()
     assert set(widgets.widget._instances) == before
 

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from bootcourse import one_per_cell
 from bootcourse.learn.settings import Settings
 from bootcourse.learn.training import Training
 from bootcourse.panels.sweep import sweep_panel
@@ -136,14 +135,6 @@ def test_a_file_that_is_damaged_is_one_sentence(tmp_path, file):
 def test_a_reader_without_a_kernel_sees_the_maps(panel):
     bundle = panel._repr_mimebundle_()
     assert "data:image/svg+xml" in bundle["text/html"] and bundle["text/plain"] == str(panel.happened)
-
-
-def test_running_the_cell_again_replaces_the_panel(file, monkeypatch):
-    monkeypatch.setattr(one_per_cell, "this_cell", lambda: "cell 1")
-    first, second = sweep_panel(file), sweep_panel(file)
-    assert first.closed and not second.closed and second in one_per_cell.running()
-    second.close()
-    assert second not in one_per_cell.running()
 
 
 def test_the_drawing_keeps_its_size(panel):

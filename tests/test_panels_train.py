@@ -28,7 +28,7 @@ from bootcourse.plots.svg import ticks
 from bootcourse.policies import rule_policy
 from bootcourse.scenario import DEFAULT
 from bootcourse.storage.runs import find_runs, load_run
-from tests.panels import from_page, inside, raise_in_callbacks, words  # noqa: F401
+from tests.panels import from_page, raise_in_callbacks, threads, wait_for, words  # noqa: F401
 
 pytestmark = pytest.mark.usefixtures("raise_in_callbacks")
 SMALL = {"hidden": (16, 16), "demonstration_episodes": 2, "learning_starts": 8}
@@ -52,17 +52,6 @@ def trained(panel):
     panel.train.click()
     assert panel.background.wait(60) and not panel.training
     return panel
-
-
-def wait_for(holds, seconds=20.0):
-    until = time.monotonic() + seconds
-    while not holds():
-        assert time.monotonic() < until, "it never came"
-        time.sleep(0.02)
-
-
-def threads():
-    return [thread for thread in threading.enumerate() if thread.name.startswith("bootcourse")]
 
 
 def curves(agents=2, episodes=20):
@@ -291,14 +280,6 @@ def test_close_while_it_prepares_ends_the_thread():
     assert not threads()
 
 
-def test_running_the_cell_again_replaces_the_panel_and_ends_its_training(monkeypatch):
-    monkeypatch.setattr(one_per_cell, "this_cell", lambda: "cell 1")
-    first = endless()
-    first.train.click()
-    second = small()
-    assert first.closed and not second.closed and not threads()
-
-
 def test_an_interrupt_of_the_kernel_leaves_the_training_alone():
     panel = endless()
     panel.train.click()
@@ -489,11 +470,6 @@ def test_what_a_method_lacks_cannot_be_set_and_says_why(method):
         assert control.slider.disabled == control.field.disabled == (setting in without(method))
         assert without(method).get(setting, control.sentence) in unescape(words(control))
     assert panel.settings().method == method
-
-
-def test_every_button_and_field_says_what_it_does():
-    panel = small()
-    assert all(button.tooltip for button in inside(panel, type(panel.train)))
 
 
 @pytest.mark.parametrize(

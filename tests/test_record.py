@@ -141,6 +141,7 @@ NAN_REWARDS = np.full(10, np.nan)
         ({"rewards": None}, "incomplete"),
         ({"rewards": np.array(["a"] * 10)}, "rewards"),
         ({"policy": np.full((10, 9), np.inf)}, "policy hold NaN, infinity"),
+        ({"actions": np.zeros(0, np.int64)}, "no decisions"),
         ({"actions": np.full(10, 9)}, "outside 0..8"),
         ({"actions": np.full(10, 4.5)}, "actions"),
         ({"states": np.zeros((3, 9, 10))}, "simulation steps"),

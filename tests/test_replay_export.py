@@ -215,54 +215,38 @@ def test_the_command_writes_what_is_asked_for(rule_drive, tmp_path, capsys, monk
     assert str(out["html"]) in capsys.readouterr().out
 
 
-def broken_files(folder: Path, drive) -> dict:
-    """Files that cannot be replayed: name -> (paths, keyword arguments, words of the refusal)."""
-    good = drive.save(folder / "good.npz")
-    arrays = dict(np.load(good))
-    (folder / "cut.npz").write_bytes(good.read_bytes()[:2000])
-    (folder / "text.npz").write_text("not a rollout")
-    np.savez(folder / "nan.npz", **{**arrays, "states": np.where(arrays["states"] == 0, np.nan, arrays["states"])})
-    old = str(arrays["header"]).replace("bootcourse rollout 1", "bootcourse rollout 0")
-    np.savez(folder / "old.npz", **{**arrays, "header": np.array(old)})
-    np.savez(folder / "empty.npz", **{k: v[:0] if v.ndim else v for k, v in arrays.items()})
-    np.savez(folder / "pickle.npz", **{**arrays, "states": np.array([{"a": 1}], dtype=object)})
-    other = record(rule_policy(CALIBRATED), [1], CALIBRATED, "rule")[0].save(folder / "other.npz")
-    seed = record(rule_policy(SHORT), [2], SHORT, "rule")[0].save(folder / "seed.npz")
+@pytest.fixture(scope="module")
+def files(rule_drive, tmp_path_factory):
+    """A drive, what cannot be replayed with it, and a file where a folder is wanted."""
+    folder = tmp_path_factory.mktemp("files")
+    rule_drive.save(folder / "good.npz")
+    (folder / "cut.npz").write_bytes((folder / "good.npz").read_bytes()[:2000])
+    record(rule_policy(CALIBRATED), [1], CALIBRATED, "rule")[0].save(folder / "other.npz")
+    record(rule_policy(SHORT), [2], SHORT, "rule")[0].save(folder / "seed.npz")
     (folder / "file").write_text("a file where a folder is wanted")
-    html = {"export": folder / "out.html"}
-    return {
-        "no file": ([folder / "none.npz"], html, "none.npz"),
-        "cut short": ([folder / "cut.npz"], html, "cut.npz is damaged"),
-        "not a rollout": ([folder / "text.npz"], html, "text.npz"),
-        "NaN": ([folder / "nan.npz"], html, "NaN"),
-        "older format": ([folder / "old.npz"], html, "rollout 0"),
-        "no steps": ([folder / "empty.npz"], html, "no decisions"),
-        "a pickle": ([folder / "pickle.npz"], html, "damaged"),
-        "another scenario": ([good, other], html, "one scenario"),
-        "another seed": ([good, seed], html, "same seed"),
-        "no files": ([], html, "at least one"),
-        "a path that cannot be written": ([good], {"export": folder / "file" / "out.html"}, "Cannot write"),
-        "a wrong ending": ([good], {"export": folder / "out.txt"}, ".html"),
-        "a gif that is not one": ([good], {"gif": folder / "out.mp4"}, ".gif"),
-    }
+    return folder
 
 
-CASES = (
-    "no file, cut short, not a rollout, NaN, older format, no steps, a pickle, another scenario, another seed, "
-    "no files, a path that cannot be written, a wrong ending, a gif that is not one"
-).split(", ")
+REFUSED = {  # what is wrong: (the files, where to, words of the refusal); test_record.py has all damages of a file
+    "no file": (["none"], {"export": "out.html"}, "none.npz"),
+    "cut short": (["cut"], {"export": "out.html"}, "cut.npz is damaged"),
+    "another scenario": (["good", "other"], {"export": "out.html"}, "one scenario"),
+    "another seed": (["good", "seed"], {"export": "out.html"}, "same seed"),
+    "no files": ([], {"export": "out.html"}, "at least one"),
+    "a path that cannot be written": (["good"], {"export": "file/out.html"}, "Cannot write"),
+    "a wrong ending": (["good"], {"export": "out.txt"}, ".html"),
+    "a gif that is not one": (["good"], {"gif": "out.mp4"}, ".gif"),
+}
 
 
-@pytest.mark.parametrize("case", CASES)
-def test_bad_input_gets_one_sentence_and_nothing_half_written(case, rule_drive, tmp_path):
-    cases = broken_files(tmp_path, rule_drive)
-    assert list(cases) == CASES
-    files, wanted, words = cases[case]
-    before = sorted(tmp_path.rglob("*"))
+@pytest.mark.parametrize("what", REFUSED)
+def test_bad_input_gets_one_sentence_and_nothing_half_written(what, files):
+    names, wanted, words = REFUSED[what]
+    before = sorted(files.rglob("*"))
     with pytest.raises(BootcourseError) as refusal:
-        replay_command(files, **wanted)
+        replay_command([files / f"{name}.npz" for name in names], **{kind: files / out for kind, out in wanted.items()})
     assert words in str(refusal.value) and "\n" not in str(refusal.value)
-    assert sorted(tmp_path.rglob("*")) == before
+    assert sorted(files.rglob("*")) == before
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGINT to send")
@@ -274,8 +258,3 @@ def test_on_the_command_line_it_prints_its_address_and_ctrl_c_ends_it(rule_drive
     assert line.startswith("Replay at http://127.0.0.1:")
     process.send_signal(signal.SIGINT)
     assert process.wait(timeout=15) == 0
-
-
-def test_what_does_not_show_a_replay_does_not_import_viser():
-    code = "import sys, bootcourse.policies, bootcourse.episodes.record; assert 'viser' not in sys.modules"
-    assert subprocess.run([sys.executable, "-c", code], cwd=ROOT).returncode == 0

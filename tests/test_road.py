@@ -298,18 +298,6 @@ def test_gymnasiums_own_vector_wrapper_counts_idle_returns():
     assert infos["episode"]["l"].tolist() == [150] * 4
 
 
-def test_a_thousand_idle_roads_all_earn_the_same():
-    env = make_vec(1000, autoreset_mode=AutoresetMode.DISABLED)
-    env.reset(seed=100)
-    returns = np.zeros(1000)
-    for _ in range(150):
-        _, rewards, *_, infos = env.step(np.full(1000, IDLE))
-        returns += rewards
-    assert returns == pytest.approx(np.full(1000, 23.4375), abs=1e-9)
-    assert infos["distance"] == pytest.approx(np.full(1000, 1500.0), abs=1e-9)
-    assert not infos["is_success"].any()
-
-
 @pytest.mark.parametrize(
     ("mistake", "words"),
     [

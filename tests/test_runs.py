@@ -9,7 +9,7 @@ import pytest
 from safetensors.torch import load_file, save_file
 
 from bootcourse.errors import BootcourseError
-from bootcourse.files import sha256, write_bytes, write_json
+from bootcourse.files import sha256, write_json
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
 from bootcourse.scenario import DEFAULT, Sight
@@ -188,19 +188,6 @@ def test_a_damaged_checkpoint_is_refused(tmp_path):
     path.write_bytes(path.read_bytes()[:5000])
     with pytest.raises(BootcourseError, match="is damaged or cut short.*begin again"):
         load_checkpoint(path)
-
-
-def test_a_full_disk_leaves_the_old_file_whole(tmp_path, monkeypatch):
-    path = tmp_path / "file.json"
-    write_bytes(path, b"old")
-
-    def full(*args):
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr("os.fsync", full)
-    with pytest.raises(BootcourseError, match="No space left on device"):
-        write_bytes(path, b"new")
-    assert path.read_bytes() == b"old" and list(tmp_path.iterdir()) == [path]
 
 
 def test_a_run_that_cannot_be_written_leaves_nothing_behind(result, tmp_path, monkeypatch):

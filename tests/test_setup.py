@@ -1,5 +1,6 @@
 """The set-up: the lock, the doctor, and a command line that says what it wants."""
 
+import io
 import json
 import os
 import re
@@ -117,13 +118,6 @@ def test_make_lab_opens_the_first_lesson():
 # The doctor
 
 
-@pytest.fixture
-def healthy(monkeypatch):
-    """A doctor with one check that finds nothing wrong, so that a test can add its own."""
-    monkeypatch.setattr(doctor, "CHECKS", (doctor.python,))
-    return monkeypatch
-
-
 def test_the_doctor_finds_nothing_that_stops_the_lessons_here(bootcourse):
     answer = bootcourse("doctor")
     assert answer.status == 0 and "STOP" not in answer.out, answer.out
@@ -131,79 +125,73 @@ def test_the_doctor_finds_nothing_that_stops_the_lessons_here(bootcourse):
     assert len(answer.out.splitlines()) < 40, "it fits on one screen"
 
 
-def test_the_doctor_names_a_package_whose_version_differs_but_the_lessons_go_on(healthy, capsys):
+@pytest.mark.parametrize(
+    ("package", "version", "status", "said"),
+    [
+        ("gymnasium", "0.0.1", 0, r"note  gymnasium is 0\.0\.1, and the lessons were made with \d(.|\n)*make lab"),
+        ("numba", None, 1, "STOP  not installed: numba\n        -> Run `make lab`"),
+        ("nbval", None, 0, "note  not installed, and only the tests need it: nbval"),
+    ],
+    ids=["another version is noted", "what the lessons need stops", "what only the tests need is noted"],
+)
+def test_the_doctor_says_what_is_wrong_with_a_package(package, version, status, said, monkeypatch, capsys):
     real = doctor.installed_version
-    healthy.setattr(doctor, "installed_version", lambda name: "0.0.1" if name == "gymnasium" else real(name))
-    healthy.setattr(doctor, "CHECKS", (doctor.packages,))
-    assert doctor.main() == 0
-    printed = capsys.readouterr().out
-    assert re.search(r"note  gymnasium is 0\.0\.1, and the lessons were made with \d", printed)
-    assert "make lab" in printed
+    monkeypatch.setattr(doctor, "installed_version", lambda name: version if name == package else real(name))
+    monkeypatch.setattr(doctor, "CHECKS", (doctor.packages,))
+    assert doctor.main() == status and re.search(said, capsys.readouterr().out)
 
 
-def test_the_doctor_stops_at_a_missing_package_that_the_lessons_need(healthy, capsys):
-    real = doctor.installed_version
-    healthy.setattr(doctor, "installed_version", lambda name: None if name == "numba" else real(name))
-    healthy.setattr(doctor, "CHECKS", (doctor.packages,))
-    assert doctor.main() == 1
-    assert "STOP  not installed: numba\n        -> Run `make lab`" in capsys.readouterr().out
+def refuses(error: Exception):
+    """A function that only raises this."""
 
-
-def test_the_doctor_only_notes_a_missing_package_that_the_tests_need(healthy, capsys):
-    real = doctor.installed_version
-    healthy.setattr(doctor, "installed_version", lambda name: None if name == "nbval" else real(name))
-    healthy.setattr(doctor, "CHECKS", (doctor.packages,))
-    assert doctor.main() == 0
-    assert "note  not installed, and only the tests need it: nbval" in capsys.readouterr().out
-
-
-def test_the_doctor_stops_when_no_local_port_can_be_opened(healthy, capsys):
     def refuse(*arguments, **options):
-        raise PermissionError(13, "Permission denied")
+        raise error
 
-    healthy.setattr(socket, "create_server", refuse)
-    healthy.setattr(doctor, "CHECKS", (doctor.port,))
-    assert doctor.main() == 1
-    assert "no page can be served on 127.0.0.1" in capsys.readouterr().out
+    return refuse
 
 
-def test_the_doctor_stops_when_a_package_cannot_be_imported(healthy, capsys):
-    healthy.setitem(sys.modules, "torch", None)
-    healthy.setattr(doctor, "CHECKS", (doctor.torch_build,))
+FULL = refuses(OSError(28, "No space left on device"))
+AMISS = {
+    "no local port can be opened": (
+        doctor.port, (socket, "create_server", refuses(PermissionError(13, "Permission denied"))),
+        1, "no page can be served on 127.0.0.1",
+    ),
+    "there is no browser": (doctor.browser, (shutil, "which", lambda name: None), 0, "note  no Chromium"),
+    "the cache is full": (
+        doctor.cache, (doctor.tempfile, "TemporaryFile", FULL),
+        1, "cannot hold the compiled road: No space left on device",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("what", AMISS)
+def test_the_doctor_finds_that(what, monkeypatch, capsys):
+    check, change, status, said = AMISS[what]
+    monkeypatch.setattr(*change)
+    monkeypatch.setattr(doctor, "CHECKS", (check,))
+    assert doctor.main() == status and said in capsys.readouterr().out
+
+
+def test_the_doctor_stops_when_a_package_cannot_be_imported(monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "torch", None)
+    monkeypatch.setattr(doctor, "CHECKS", (doctor.torch_build,))
     assert doctor.main() == 1
     assert "STOP  torch_build: torch is not installed" in capsys.readouterr().out
-
-
-def test_the_doctor_only_notes_that_there_is_no_browser(healthy, capsys):
-    healthy.setattr(doctor.shutil, "which", lambda name: None)
-    healthy.setattr(doctor, "CHECKS", (doctor.browser,))
-    assert doctor.main() == 0
-    assert "note  no Chromium" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(
     ("missing", "said"),
     [("notebooks", "STOP  the lessons are not in"), ("assets", "STOP  the results that the lessons")],
 )
-def test_the_doctor_stops_without_the_lessons_or_their_results(missing, said, healthy, capsys, tmp_path):
-    healthy.setattr(doctor, "CHECKS", (doctor.lessons,))
+def test_the_doctor_stops_without_the_lessons_or_their_results(missing, said, monkeypatch, capsys, tmp_path):
+    monkeypatch.setattr(doctor, "CHECKS", (doctor.lessons,))
     if missing == "notebooks":
-        healthy.setattr(doctor, "ROOT", tmp_path)
+        monkeypatch.setattr(doctor, "ROOT", tmp_path)
     else:
-        healthy.setattr(assets, "FOLDER", tmp_path)
+        monkeypatch.setattr(assets, "FOLDER", tmp_path)
     assert doctor.main() == 1
     printed = capsys.readouterr().out
     assert said in printed and "whole copy of the course's repository" in printed and "cannot start" in printed
-
-
-def test_the_doctor_stops_when_the_cache_is_full(healthy, capsys):
-    def full(**options):
-        raise OSError(28, "No space left on device")
-
-    healthy.setattr(doctor.tempfile, "TemporaryFile", full)
-    healthy.setattr(doctor, "CHECKS", (doctor.cache,))
-    assert doctor.main() == 1
-    assert "cannot hold the compiled road: No space left on device" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(
@@ -241,11 +229,12 @@ def test_help_lists_the_commands(bootcourse):
 
 
 @pytest.mark.parametrize("command", ["", "study", "sweep", "train"])
-def test_help_can_be_printed_in_windows_usual_encoding(command):
-    arguments = [sys.executable, "-m", "bootcourse", *command.split(), "--help"]
-    answer = subprocess.run(arguments, env=os.environ | {"PYTHONIOENCODING": "cp1252"}, capture_output=True)
-    assert answer.returncode == 0, answer.stderr
-    assert command != "sweep" or b"settings of p, xi and c" in answer.stdout
+def test_help_can_be_printed_in_windows_usual_encoding(command, bootcourse, monkeypatch):
+    printed = io.TextIOWrapper(io.BytesIO(), encoding="cp1252")
+    monkeypatch.setattr(sys, "stdout", printed)
+    assert bootcourse(*command.split(), "--help").status == 0
+    printed.flush()
+    assert (b"settings of p, xi and c" if command == "sweep" else b"--help") in printed.buffer.getvalue()
 
 
 def test_a_mistyped_command_is_told_the_nearest_one(bootcourse):

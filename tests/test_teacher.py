@@ -27,7 +27,7 @@ from bootcourse.rule import rule
 from bootcourse.scenario import DEFAULT
 from bootcourse.storage.runs import load_checkpoint, load_run, save_checkpoint, save_runs
 
-TWO = with_seeds(settings_for("bootstrapped", hidden=(8,), buffer_size=2000), 2)
+TWO = with_seeds(settings_for("bootstrapped", hidden=(8,), buffer_size=2000, demonstration_episodes=20), 2)
 
 
 def one_road(cars, scenario):
@@ -58,7 +58,7 @@ def test_every_label_is_the_teacher_s_in_the_memory_and_in_the_demonstrations():
     used = [slice(first, first + training.replay.size) for first in training.replay.first]
     labels = [training.replay.table[: training.replay.demonstrations, -2:]]
     labels += [training.replay.table[rows, -2:] for rows in used]
-    assert training.replay.demonstrations == 200 * 150 and all((part == 4).all() for part in labels)
+    assert training.replay.demonstrations == 20 * 150 and all((part == 4).all() for part in labels)
 
 
 def test_a_method_without_demonstrations_is_only_labelled():
