@@ -5,6 +5,7 @@ Import `raise_in_callbacks` and write `pytestmark = pytest.mark.usefixtures("rai
 """
 
 import re
+import statistics
 import threading
 import time
 
@@ -56,3 +57,13 @@ def wait_for(holds, seconds: float = 20.0) -> None:
     while not holds():
         assert time.monotonic() < until, "it never came"
         time.sleep(0.02)
+
+
+def seconds_of_a_drag(slider: widgets.Widget, values) -> float:
+    """The median time that a panel takes for a step of its slider."""
+    took = []
+    for value in values:
+        began = time.perf_counter()
+        from_page(slider, value=value)
+        took.append(time.perf_counter() - began)
+    return statistics.median(took)
