@@ -21,7 +21,7 @@ study              the paper's experiments and ours: jobs, tables, planner, chec
 one_per_cell       a notebook cell that runs again replaces what it showed
 replay3d           drives in 3D: in a notebook, in a browser, as one file
 panels             widgets for notebooks: drive, train, look into one decision
-lessons            exercises, their checks, and what only lessons need
+lessons            exercises, their checks, the leaderboard, and what only lessons need
 classroom          a class: handing out lessons, collecting answers, grading them
 doctor             what is wrong with an installation, and what to do about it
 cli                the command line
@@ -71,6 +71,7 @@ NAMES = {  # name -> where it is defined
     "shipped_results": "bootcourse.lessons.shipped",
     "shipped_agents": "bootcourse.lessons.shipped",
     "shipped_drive": "bootcourse.lessons.shipped",
+    "board": "bootcourse.lessons.board",
     # to look at it
     "show": "bootcourse.plots.figure",
     "top_view": "bootcourse.plots.top_view",

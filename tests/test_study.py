@@ -22,7 +22,7 @@ from bootcourse.scenario import DEFAULT
 from bootcourse.storage.runs import load_run
 from bootcourse.storage.work import locked
 from bootcourse.study import jobs as jobs_module
-from bootcourse.study.jobs import BoundJob, Job, asked, finished, run_job
+from bootcourse.study.jobs import BoundJob, Job, asked, finished, read_job, run_job
 from bootcourse.study.plan import EXPERIMENTS, methods_named, study_jobs, sweep_jobs
 from bootcourse.study.planner import Search
 from bootcourse.study.results import join, load_jobs, load_results, save_results
@@ -190,6 +190,8 @@ def test_results_of_several_cells_join_and_read_back(study, tmp_path):
     save_results(results, tmp_path / "all.npz", {"made": "here"})
     back = load_results(tmp_path / "all.npz")
     assert back.agents == results.agents
+    took = [read_job(study / f"jobs/default/{name}-0-1")["provenance"]["seconds"] for name in ("sac", "soft")]
+    np.testing.assert_allclose(back.seconds, np.repeat(took, 2) / 2)
     np.testing.assert_array_equal(back.scores("returns"), results.scores("returns"))
     kinds = [results.episodes(kind) for kind in ("collision", "road_departure", "stoppage")]
     np.testing.assert_array_equal(sum(kinds), results.tested["accident"] > 0)

@@ -27,18 +27,27 @@ ACROSS = 4  # columns of `evaluate`'s table side by side in a terminal
 
 
 def evaluate(
-    who: str = typer.Argument(..., help="rule, idle, or a folder that `bootcourse train` wrote."),
+    who: list[str] = typer.Argument(..., help="rule, idle, or a folder that `bootcourse train` wrote."),
     episodes: int = typer.Option(1000, min=1, help="Held-out episodes."),
     seed: int = typer.Option(1, min=0, help="The block of held-out roads."),
     scenario: str = typer.Option("", help="default or calibrated; by default the scenario that a run trained on."),
     sample: bool = typer.Option(False, "--sample", help="Draw an agent's actions instead of taking the most probable."),
     teacher: str = typer.Option("", help="The rule of your own that a run drives with: FILE.py:FUNCTION."),
     as_json: bool = typer.Option(False, "--json", help="Print JSON."),
+    board: bool = typer.Option(False, "--board", help="Print the leaderboard with them; here WHO may be several."),
+    keep: Path | None = typer.Option(None, help="With --board: a file, such as mine.json, that keeps their rows."),
 ) -> None:
     """Drive held-out episodes and print success, return, speed, distance and accidents with 95 % intervals."""
     from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds, over_seeds, summarise
 
-    seeds, drivers = held_out_seeds(seed, episodes), drivers_of(who, scenario, sample, seed, teacher)
+    if board:
+        if (episodes, seed, scenario, sample, as_json) != (1000, 1, "", False, False):
+            raise BootcourseError("--board has its own roads and form: with it, give only --keep and --teacher.")
+        print_board(who, keep, teacher)
+        return
+    if len(who) > 1 or keep is not None:
+        raise BootcourseError("Several drivers, and --keep, are for the leaderboard: add --board.")
+    seeds, drivers = held_out_seeds(seed, episodes), drivers_of(who[0], scenario, sample, seed, teacher)
     found = {each.label: summarise(drive_episodes(each.policy, seeds, each.road)) for each in drivers}
     means = {name: over_seeds([found[label] for label in labels]) for name, labels in alike(drivers).items()}
     if as_json:
@@ -52,6 +61,23 @@ def evaluate(
     labels = list(columns)
     for first in range(0, len(labels), ACROSS):
         print_table({label: columns[label] for label in labels[first : first + ACROSS]})
+
+
+def print_board(who: list[str], keep: Path | None, teacher: str) -> None:
+    """Print the leaderboard, where the built-in drivers stand, with other drivers' rows."""
+    from bootcourse.cli.training import teacher_from
+    from bootcourse.lessons.board import board
+
+    own = [one for one in who if one not in BUILT_IN]
+    for one in own:
+        check_driver(one)
+    print(board(*own, keep=keep, teacher=teacher_from(teacher)))
+
+
+def check_driver(who: str) -> None:
+    """Raise BootcourseError for what is neither a built-in driver nor there."""
+    if who not in BUILT_IN and not Path(who).exists():
+        raise BootcourseError(f"Driver {did_you_mean(who, BUILT_IN)}, or give a folder that `bootcourse train` wrote.")
 
 
 class Driver(NamedTuple):
@@ -88,6 +114,7 @@ def drivers_of(who: str, scenario: str, sample: bool, seed: int, teacher: str) -
     from bootcourse.policies import idle_policy, random_policy, rule_policy
     from bootcourse.scenario import DEFAULT, named
 
+    check_driver(who)
     if who in BUILT_IN:
         road = named(scenario) if scenario else DEFAULT
         built_in = {
@@ -96,8 +123,6 @@ def drivers_of(who: str, scenario: str, sample: bool, seed: int, teacher: str) -
             "random": random_policy(np.random.default_rng(seed)),
         }
         return [Driver(who, built_in[who], road)]
-    if not Path(who).exists():
-        raise BootcourseError(f"Driver {did_you_mean(who, BUILT_IN)}, or give a folder that `bootcourse train` wrote.")
     from bootcourse.cli.training import teacher_from
     from bootcourse.learn.teachers import teacher_of
     from bootcourse.storage.runs import find_runs, load_run

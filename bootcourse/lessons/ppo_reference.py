@@ -27,9 +27,11 @@ from bootcourse.learn.training import MOST_EPISODES, Training
 from bootcourse.lessons.second_trap import Repaid, left_of, shaped_pay
 from bootcourse.lessons.teacher_reference import alike, grouped
 from bootcourse.storage.assets import FOLDER
+from bootcourse.study.jobs import HELD_OUT
 
 SEEDS, EVERY = 10, 50_000  # agents of each kind; decisions between two points of a curve
 ROADS = held_out_seeds(14, 200)  # that every agent is tested on
+STUDY_ROADS = held_out_seeds(HELD_OUT, 1000)  # those of the study, for the leaderboard
 QUICK = {"hidden": (32, 32), "actor_lr": 2e-3, "critic_lr": 2e-3, "epochs": 3}  # in place of the settings of `ppo`
 FILE = FOLDER / "ppo.npz"
 COMMAND = "python -m bootcourse.lessons.ppo_reference --out assets/ppo.npz"
@@ -86,13 +88,21 @@ def tested(agent: Agent) -> dict[str, np.ndarray]:
     return {name: np.array(value) for name, value in found.items()}
 
 
+def compared(agent: Agent) -> dict[str, np.ndarray]:
+    """What an agent does on every one of `STUDY_ROADS`: "study success", "study returns", "study accident" (roads,)."""
+    drives = drive_episodes(agent.as_policy(), STUDY_ROADS)
+    found = {"success": drives.success.astype(np.int8), "accident": drives.accident.astype(np.int8)}
+    found["returns"] = drives.returns.astype(np.float32)
+    return {f"study {name}": values for name, values in found.items()}
+
+
 def made(kind: str, seed: int) -> dict[str, np.ndarray]:
     """Train and test one agent."""
     its = KINDS[kind]
     trained = train(Training([settings_of(kind, seed)], MOST_EPISODES, make_env=its.make_env), its.decisions)
     curves = {"at": trained.at, "curve": trained.returns, "escapes": trained.escapes}
     weights = {f"actor {i}": tensor[0].numpy() for i, tensor in enumerate(trained.agent.actor)}
-    return tested(trained.agent) | curves | weights
+    return tested(trained.agent) | compared(trained.agent) | curves | weights
 
 
 def main(arguments: list[str] | None = None) -> int:

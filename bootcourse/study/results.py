@@ -5,11 +5,12 @@ Read from the jobs of a study's folder, or from what ships.
 
 import json
 from collections.abc import Iterable, Sequence
-from dataclasses import asdict, dataclass, field, fields
+from dataclasses import asdict, dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from msgspec import Struct
 
 from bootcourse.episodes.evaluate import Episodes
 from bootcourse.errors import BootcourseError
@@ -18,6 +19,7 @@ from bootcourse.learn.curves import NAMES
 from bootcourse.learn.settings import stored_settings
 from bootcourse.road.state import Accident
 from bootcourse.statistics import ESCAPES
+from bootcourse.study.jobs import Provenance
 from bootcourse.study.plan import EXPERIMENTS, STUDIES, folder
 from bootcourse.study.planner import Staying
 
@@ -34,6 +36,11 @@ class Results:
     stopped: np.ndarray  # (agents,) the decision at which the loss was not a number, or -1
     tested: dict[str, np.ndarray]  # success, returns, speed, distance, accident: (agents, held-out episodes)
     curves: dict[str, np.ndarray]  # success, return, entropy ...: (agents, training episodes)
+    seconds: np.ndarray | None = None  # (agents,) of one core, training and test; NaN where no file tells
+
+    def __post_init__(self):
+        if self.seconds is None:
+            object.__setattr__(self, "seconds", np.full(len(self.agents), np.nan))
 
     def __len__(self) -> int:
         return len(self.agents)
@@ -43,7 +50,7 @@ class Results:
         which = list(which)
         tested = {name: values[which] for name, values in self.tested.items()}
         curves = {name: values[which] for name, values in self.curves.items()}
-        return Results([self.agents[i] for i in which], self.stopped[which], tested, curves)
+        return Results([self.agents[i] for i in which], self.stopped[which], tested, curves, self.seconds[which])
 
     def of(self, method: str) -> "Results":
         """The agents of a method, by seed."""
@@ -83,7 +90,8 @@ def join(parts: Sequence[Results]) -> Results:
     except ValueError:
         raise BootcourseError("These results have different numbers of episodes: they cannot be joined.") from None
     agents = [agent for part in parts for agent in part.agents]
-    return Results(agents, np.concatenate([part.stopped for part in parts]), tested, curves)
+    stopped, seconds = (np.concatenate([getattr(part, name) for part in parts]) for name in ("stopped", "seconds"))
+    return Results(agents, stopped, tested, curves, seconds)
 
 
 def save_results(results: Results, path: Path, provenance: dict) -> None:
@@ -94,6 +102,7 @@ def save_results(results: Results, path: Path, provenance: dict) -> None:
             "agents": np.array(json.dumps(results.agents)),
             "provenance": np.array(json.dumps(provenance)),
             "stopped": results.stopped,
+            "seconds": results.seconds,
             **{f"tested.{name}": values for name, values in results.tested.items()},
             **{f"curves.{name}": values for name, values in results.curves.items()},
         },
@@ -112,8 +121,9 @@ def load_results(path: Path) -> Results:
         tests, episodes = arrays["tested.returns"].shape[1], arrays["curves.return"].shape[1]
     tested = {f"tested.{f.name}": (len(agents), tests) for f in fields(Episodes)}
     curves = {f"curves.{name}": (len(agents), episodes) for name in NAMES if f"curves.{name}" in arrays}
-    check_arrays(arrays, {"stopped": (len(agents),), **tested, **curves}, path, RUN_AGAIN)
-    return Results(agents, arrays["stopped"], _named(arrays, tested), _named(arrays, curves))
+    each = {name: (len(agents),) for name in ("stopped", "seconds") if name in arrays}
+    check_arrays(arrays, each | tested | curves, path, RUN_AGAIN)
+    return Results(agents, arrays["stopped"], _named(arrays, tested), _named(arrays, curves), arrays.get("seconds"))
 
 
 def _named(arrays: dict[str, np.ndarray], names: Iterable[str]) -> dict[str, np.ndarray]:
@@ -122,12 +132,25 @@ def _named(arrays: dict[str, np.ndarray], names: Iterable[str]) -> dict[str, np.
     return {name: values.astype(np.float32) if values.dtype == np.float16 else values for name, values in found.items()}
 
 
+class JobFile(Struct):
+    """The entry of job.json that is read here; `jobs.read_job` checks the whole file."""
+
+    provenance: Provenance
+
+
+def load_job(folder: Path) -> Results:
+    """The agents of a finished job, with its seconds shared among them. Raises BootcourseError naming the file."""
+    found = load_results(folder / "results.npz")
+    seconds = read_json(folder / "job.json", JobFile, RUN_AGAIN).provenance.seconds
+    return replace(found, seconds=np.full(len(found), seconds / len(found)))
+
+
 def load_jobs(root: Path, part: str) -> Results:
     """All agents of the finished jobs in root/jobs/part, such as "default" or "sweep".
 
     A study that was begun with fewer seeds leaves jobs that the larger ones hold again: each agent counts once.
     """
-    found = join([load_results(path) for path in sorted((Path(root) / "jobs" / part).glob("*/results.npz"))])
+    found = join([load_job(path.parent) for path in sorted((Path(root) / "jobs" / part).glob("*/results.npz"))])
     once = {json.dumps(agent, sort_keys=True): i for i, agent in enumerate(found.agents)}
     return found.pick(sorted(once.values()))
 

@@ -28,10 +28,10 @@ from bootcourse.study.fingerprint import alike, fingerprints, key
 from bootcourse.study.jobs import HELD_OUT, read_job
 from bootcourse.study.plan import EXPERIMENTS
 from bootcourse.study.report import write_report
-from bootcourse.study.results import Results, in_assets, in_study, join, load_jobs, load_results, save_results
+from bootcourse.study.results import Results, in_assets, in_study, join, load_job, load_jobs, load_results, save_results
 
 CURVES = ("success", "return", "speed", "distance", "accident", "entropy")  # the others are in runs/
-VARIED_CURVES = ("success", "return", "xi")  # of the experiments
+VARIED_CURVES = ("success", "return", "xi", "decisions")  # of the experiments
 RUNS = 5  # training seeds whose weights ship; curves and scores ship of all
 BUILD = "bootcourse assets build --study DIR"
 STUDY = f"bootcourse study --out DIR && {BUILD}"
@@ -221,7 +221,7 @@ def add_experiments(to: Shipment) -> None:
         for job in sorted(to.study.glob(f"jobs/{name}/*/results.npz")):
             behaviour, versions = jobs_made(to.study, f"{name}/{job.parent.name}")
             path = to.new / name / f"{job.parent.name}.npz"
-            results = load_results(job)
+            results = load_job(job.parent)
             to.check_size(results, path)
             save_results(lighter(results, VARIED_CURVES), path, versions)
             to.add(path, how, behaviour, versions)

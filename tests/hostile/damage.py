@@ -29,8 +29,10 @@ from bootcourse.errors import BootcourseError
 from bootcourse.files import provenance, read_arrays, sha256, write_json
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
+from bootcourse.lessons.board import Row, keep_rows, ranked, read_rows
 from bootcourse.policies import rule_policy
 from bootcourse.scenario import DEFAULT
+from bootcourse.statistics import Estimate
 from bootcourse.storage.assets import FOLDER, MANIFEST, read_manifest
 from bootcourse.storage.checkpoint import state_of
 from bootcourse.storage.runs import HASHED, load_checkpoint, load_run, save_checkpoint, save_runs
@@ -72,6 +74,8 @@ def kinds(folder: Path) -> list[Kind]:
     job = {"format": JOB, "asked": {}, "behaviour": {"road": [1.0, 2.0]}, "provenance": provenance(seconds=1.5)}
     write_sealed(folder / "job" / "job.json", job | {"sha256": {}})
 
+    keep_rows(folder / "board.json", [], [Row("rule", "mine", 1, Estimate(51.0, 50.0, 52.0), 1, 1.0, 0.0)])
+
     def of_run(path: Path):
         return load_run(path.parent)
 
@@ -88,6 +92,7 @@ def kinds(folder: Path) -> list[Kind]:
         Kind("run: provenance.json", run / "provenance.json", of_run, resealed=_seal),
         Kind("results", folder / "results.npz", load_results, lambda r: [r.scores("success"), r.scores("collision")]),
         Kind("manifest", folder / MANIFEST, lambda path: read_manifest(path.parent), resealed=_seal),
+        Kind("board", folder / "board.json", read_rows, lambda rows: str(ranked(rows, 140.6)), _seal),
         Kind("job", folder / "job" / "job.json", lambda path: read_job(path.parent), resealed=_seal),
     ]  # fmt: skip
 
