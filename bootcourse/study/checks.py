@@ -1,10 +1,12 @@
 """Independent checks: `python -m bootcourse.study.checks` trains our learners on tasks with published results.
 
-The training loop and the learners of the road (`Training`, `SACLearner`, `CQLLearner`, `GAILLearner`)
-train here on other gymnasium environments, several seeds side by side. There is no teacher: ξ = 0, and
-the rule's actions in the buffer are 0. The target entropy is a share of log |A|, not the paper's -1, a
+The training loop and the learners of the road (`Training`, `SACLearner`, `CQLLearner`, `GAILLearner`,
+`PPOLearner`) train here on other gymnasium environments, several seeds side by side. There is no teacher:
+ξ = 0, and the rule's actions in the buffer are 0. The target entropy is a share of log |A|, not the paper's -1, a
 formula for continuous actions. SAC's τ is 0.05 and γ = 0.99. CQL's weight is 10, as in the check that it
-is compared with. The budget of environment steps is at most the published one.
+is compared with. The budget of environment steps is at most the published one. PPO has CleanRL's γ, λ, ε
+and entropy weight, and learning rates that fall to 0; CleanRL's figures are of training episodes, whose
+actions are drawn.
 
 CartPole's observations are scaled to order one, as on the road; with raw ones it stays near 300.
 Acrobot's are raw, and it gets one update for each step of its four environments instead of one for all
@@ -158,6 +160,20 @@ def sac_check(make_env: MakeEnv, decisions: int, updates: int = 1):
     return measure
 
 
+PPO = {"envs_per_agent": 8, "horizon": 128, "epochs": 10, "batch": 256, "actor_lr": 1e-3, "critic_lr": 1e-3}
+
+
+def ppo_check(make_env: MakeEnv, decisions: int):
+    """PPO, for `decisions` decisions of each agent, at the end of which its learning rates are 0."""
+
+    def measure(seeds: int, progress: bool) -> Outcome:
+        n_actions = int(make_env().action_space.n)
+        settings = with_seeds(usual("ppo", n_actions, anneal_decisions=decisions, **PPO), seeds)
+        return Outcome(scores(train(settings, make_env, decisions, progress=progress), make_env))
+
+    return measure
+
+
 def cql_check(seeds: int, progress: bool) -> Outcome:
     """CQL on 20,000 transitions, half by a half-trained policy, half at random; 5,000 updates."""
     half_trained = train([usual("sac", 2, seed=10**6, tau=0.05)], cartpole, 10_000)
@@ -194,6 +210,7 @@ class Check:
 
 
 SLM = "[SLM Lab, benchmarks](https://github.com/kengz/SLM-Lab/blob/master/docs/BENCHMARKS.md)"
+CLEANRL = "[CleanRL, ppo.md](https://github.com/vwxyzjn/cleanrl/blob/master/docs/rl-algorithms/ppo.md)"
 CHECKS = {
     "sac-cartpole": Check(
         "discrete SAC", "CartPole-v1", 406.09, "200,000 frames, 4 seeds", "100,000 frames", SLM,
@@ -212,6 +229,14 @@ CHECKS = {
         "GAIL, 60 demonstrations", "CartPole of fixed length", 500.0, "200,000 frames", "100,000 frames",
         "[imitation, tutorial 3](https://github.com/HumanCompatibleAI/imitation/blob/master/docs/tutorials/3_train_gail.ipynb)",
         gail_check,
+    ),
+    "ppo-cartpole": Check(
+        "PPO", "CartPole-v1", 490.04, "500,000 frames, 3 seeds", "200,000 frames", CLEANRL,
+        ppo_check(cartpole, 200_000),
+    ),
+    "ppo-acrobot": Check(
+        "PPO", "Acrobot-v1", -86.36, "500,000 frames, 3 seeds", "200,000 frames", CLEANRL,
+        ppo_check(acrobot, 200_000),
     ),
 }  # fmt: skip
 PAGE = """# Independent checks
@@ -248,15 +273,15 @@ def table(outcomes: dict[str, Outcome], seconds: dict[str, float]) -> str:
 
 
 def run(names: Sequence[str], seeds: int, progress: bool) -> tuple[dict[str, Outcome], dict[str, float]]:
-    """Run some checks: their outcomes and the seconds that each took. Raises BootcourseError for an unknown name."""
+    """Run some checks: outcomes, and seconds of the processor for each. Raises BootcourseError for an unknown name."""
     outcomes, seconds = {}, {}
     for name in names:
         if name not in CHECKS:
             raise BootcourseError(f"Check {did_you_mean(name, CHECKS)}.")
     for name in names:
-        began = time.perf_counter()
+        began = time.process_time()
         outcomes[name] = CHECKS[name].measure(seeds, progress)
-        seconds[name] = time.perf_counter() - began
+        seconds[name] = time.process_time() - began
     return outcomes, seconds
 
 

@@ -309,7 +309,7 @@ KEPT = {  # what no study makes: the command that does, and the behaviours that 
         "python -m bootcourse.lessons.ppo_reference --out assets/ppo.npz",
         ("road", "rule", "demonstrations", "ppo", "ppo_cloned"),
     ),
-    "checks.md": ("python -m bootcourse.study.checks --out assets/checks.md", ("sac", "cql", "gail")),
+    "checks.md": ("python -m bootcourse.study.checks --out assets/checks.md", ("sac", "cql", "gail", "ppo")),
     "readme/*": ("python -m bootcourse.plots.readme_picture", ("road", "rule")),
 }
 
