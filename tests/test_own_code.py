@@ -242,7 +242,7 @@ def test_the_whole_method_made_of_solutions_escapes_as_the_library_s_does():
     own_code._own.update(solutions())
     made = own_code.training(with_seeds(settings_for("bootstrapped"), 4), episodes=20_000)
     assert isinstance(made.learner, OwnSAC) and isinstance(made.replay, OwnReplay)
-    agents = made.run(progress=False, stop=lambda: made.updates >= 2000).agents
+    agents = made.run(progress=False, stop=lambda: made.updates >= 1500).agents
     assert sum(evaluate(agent.as_policy(), 60).success.value >= 0.95 for agent in agents) >= 3
 
 
