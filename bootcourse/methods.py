@@ -117,7 +117,7 @@ METHODS = {
     "jsrl": Method(
         "jump-start RL",
         Style("#AA4499", marker="v"),
-        _LATER | {"beta_start": 0.0},
+        _LATER | {"beta_start": 0.0, "target_entropy": 0.3},  # keeps α up while h shrinks
         "bootcourse.learn.jsrl:JSRLLearner",
         kind="JSRLSettings",
         taught=True,

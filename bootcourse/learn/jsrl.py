@@ -1,8 +1,8 @@
 """Jump-start RL (Uchendu et al., arXiv 2204.02372): the teacher drives the first h decisions of each training episode.
 
 Their Algorithm 1 with discrete SAC as the learner. The teacher takes the agent to places that it would not reach alone,
-and the agent learns what to do from there on. h begins with the whole episode. As soon as the combined driver's return
-is about as good as the best before, h shrinks by a step, until the agent drives alone. A trained agent drives alone.
+and the agent learns what to do from there on. As soon as the combined driver's return is about as good as the best
+before, h shrinks by a step, until the agent drives alone. A trained agent drives alone.
 
 Where our curriculum differs: the paper judges h by a moving average over evaluations, which are episodes of their own.
 We judge it by the training episodes that began with it, in which the agent's actions are drawn from π. Our mean begins

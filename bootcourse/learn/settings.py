@@ -140,7 +140,7 @@ class PPOSettings(Settings):
 class JSRLSettings(Settings):
     """The settings of jump-start RL."""
 
-    guide_decisions: int = shared(150)  # § h at first: the teacher drives the whole episode
+    guide_decisions: int = shared(60)  # § h at first: the rule is ahead of trap 1 after a median of 58 s
     stages: int = shared(10)  # § in how many equal steps h shrinks to 0
     window: int = shared(20)  # § episodes in the moving average of returns
     tolerance: float = shared(0.05)  # § β: how far this average may lie below the best so far, as a share of the best
