@@ -195,6 +195,7 @@ def test_results_of_several_cells_join_and_read_back(study, tmp_path):
     np.testing.assert_array_equal(back.scores("returns"), results.scores("returns"))
     kinds = [results.episodes(kind) for kind in ("collision", "road_departure", "stoppage")]
     np.testing.assert_array_equal(sum(kinds), results.tested["accident"] > 0)
+    np.testing.assert_array_equal(results.episodes("accident"), sum(kinds))
 
 
 def test_an_agent_that_two_cells_hold_counts_once(study, tmp_path):

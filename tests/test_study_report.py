@@ -10,6 +10,7 @@ from bootcourse.files import write_json
 from bootcourse.learn.settings import settings_for
 from bootcourse.plots.figure import png
 from bootcourse.scenario import SCENARIOS
+from bootcourse.statistics import Estimate
 from bootcourse.study import figures as training_figures
 from bootcourse.study import tables
 from bootcourse.study.fidelity import VERDICTS, fidelity, judge
@@ -149,3 +150,10 @@ def test_the_report_holds_every_table_and_figure(tmp_path):
     assert text.count("**reproduced**") + text.count("**partly**") + text.count("**not reproduced**") == 34
     for column in COLUMNS.values():
         assert f"| {column} |" in text
+
+
+def test_an_interval_is_printed_with_the_decimals_that_its_length_leaves_meaningful():
+    assert tables.bracketed(Estimate(0.62, 0.3912, 0.834), 100) == "62 [39, 83]"
+    assert tables.bracketed(Estimate(127.31, 125.04, 128.92)) == "127.3 [125.0, 128.9]"
+    assert tables.bracketed(Estimate(1.2345, 1.2, 1.27)) == "1.23 [1.20, 1.27]"
+    assert tables.bracketed(Estimate(44.875, np.nan, np.nan)) == "44.88"

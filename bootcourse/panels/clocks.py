@@ -116,8 +116,8 @@ def clocks_panel(updates: str = "", demonstrations: str = "", study: Path | str 
     """
     measured = cells((in_study(Path(study)) if study else in_assets(FOLDER)).experiments["clocks"])
     if not measured:
-        where = study or FOLDER
-        raise BootcourseError(f"{where} has no finished jobs of `bootcourse study clocks --out {where}`: run it first.")
+        run = f"run `bootcourse study clocks --out {study or 'DIR'}`" + ("" if study else ", then give study=DIR")
+        raise BootcourseError(f"{study or FOLDER} holds no results of the experiment clocks: {run}.")
     first = next(iter(measured))
     chosen = (updates or first[0], demonstrations or first[1])
     if chosen not in measured:

@@ -75,9 +75,13 @@ class Results:
         return int((self.of(method).scores("success") >= ESCAPES).sum())
 
     def episodes(self, measure: str) -> np.ndarray:
-        """One of `MEASURES` in every held-out episode, (agents, episodes); an event is 1 where it happened, else 0."""
-        values = self.tested["accident"] == KINDS[measure] if measure in KINDS else self.tested[measure]
-        return values.astype(np.float64)
+        """A measure in every held-out episode, (agents, episodes); an event is 1 where it happened, else 0.
+
+        measure: one of `MEASURES`, or "accident" for one of any kind.
+        """
+        accident = self.tested["accident"]
+        events = {"accident": accident != Accident.NONE} | {name: accident == kind for name, kind in KINDS.items()}
+        return (events[measure] if measure in events else self.tested[measure]).astype(np.float64)
 
 
 def join(parts: Sequence[Results]) -> Results:

@@ -26,15 +26,12 @@ def number(value: float) -> str:
 
 
 def bracketed(estimate: Estimate, scale: float = 1) -> str:
-    """ "value [low, high]"; one seed has no interval."""
-    value, low, high = (number(scale * part) for part in estimate)
-    return value if low == "?" else f"{value} [{low}, {high}]"
-
-
-def per_cent(estimate: Estimate) -> str:
-    """ "62 [39, 83]": a share of few agents, in whole per cent."""
-    value, low, high = (f"{100 * part:.0f}" for part in estimate)
-    return f"{value} [{low}, {high}]"
+    """ "62 [39, 83]": with the decimals that the interval's length leaves meaningful; one seed has no interval."""
+    value, low, high = (scale * part for part in estimate)
+    if np.isnan(low):
+        return number(value)
+    decimals = 0 if high - low >= 10 else 1 if high - low >= 1 else 2
+    return f"{value:.{decimals}f} [{low:.{decimals}f}, {high:.{decimals}f}]"
 
 
 def k_of_n(hits: np.ndarray) -> str:
@@ -96,7 +93,7 @@ def improvement_rows(results: Results, method: str = "bootstrapped", measure: st
     rows = []
     for other in results.methods:
         if other != method and len(results.of(other)) > 1:
-            rows.append([display_name(other), per_cent(improvement(mine, results.of(other).scores(measure)))])
+            rows.append([display_name(other), bracketed(improvement(mine, results.of(other).scores(measure)), 100)])
     return [f"P({display_name(method)} > ...) on {HEADINGS[measure]}", "% [95 %]"], rows
 
 

@@ -23,7 +23,7 @@
 # %%
 import bootcourse as bc
 from bootcourse.lessons import compare_predictions, predict, shipped, table
-from bootcourse.study import report, results, tables
+from bootcourse.study import report, tables
 
 # %% [markdown]
 # ## Look first
@@ -113,24 +113,19 @@ predict(
 
 
 # %%
-def rounded(estimate, scale=1):
-    value, low, high = (f"{scale * number:.0f}" for number in estimate)
-    return f"{value} [{low}, {high}]"
-
-
 study = bc.shipped_results()
 rows = []
 for method in ("sac", "bootstrapped"):
     mine = study.of(method)
     success = mine.scores("success")
-    accidents = 100 * sum(mine.episodes(kind).mean() for kind in results.KINDS)
-    share = rounded(bc.statistics.escapes(success), 100)
-    returns = rounded(tables.score(study, method, "returns"))
+    accidents = 100 * mine.episodes("accident").mean()
+    share = tables.bracketed(bc.statistics.escapes(success), 100)
+    returns = tables.bracketed(tables.score(study, method, "returns"))
     count = f"{(success >= bc.statistics.ESCAPES).sum()} of {len(mine)}: {share} %"
     rows.append([bc.display_name(method), count, returns, f"{accidents:.0f} %"])
 rule = report.rule_results(bc.DEFAULT, 200)
-accidents = 100 * sum(rule.episodes(kind).mean() for kind in results.KINDS)
-returns = rounded(tables.score(rule, "rule", "returns"))
+accidents = 100 * rule.episodes("accident").mean()
+returns = tables.bracketed(tables.score(rule, "rule", "returns"))
 same = "it always drives the same way"
 rows.append([bc.display_name("rule"), same, returns, f"{accidents:.0f} %"])
 headings = ["", "agents that escape", "return", "drives that end in an accident"]

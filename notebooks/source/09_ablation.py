@@ -437,7 +437,7 @@ pairs = (("demos", "margin"), ("bootstrapped", "margin_soft"))
 rows = []
 for method in (*pairs[0], *pairs[1], "soft"):
     mine = study.of(method)
-    crashed = 100 * sum(mine.episodes(kind).mean() for kind in results.KINDS)
+    crashed = 100 * mine.episodes("accident").mean()
     won = tables.k_of_n(mine.scores("success") >= bc.statistics.ESCAPES)
     earned = f"{mine.scores('returns').mean():.1f}"
     row = [bc.display_name(method), won, earned, f"{crashed:.1f}"]
@@ -445,7 +445,7 @@ for method in (*pairs[0], *pairs[1], "soft"):
 words = []
 for first, second in (*pairs, ("soft", "margin_soft")):
     x, y = (study.of(m).scores("returns") for m in (second, first))
-    chance = tables.per_cent(bc.statistics.improvement(x, y))
+    chance = tables.bracketed(bc.statistics.improvement(x, y), 100)
     words.append(f"{bc.display_name(second)} above {bc.display_name(first)}: {chance} %")
 headings = ["", "agents that escape", "return, mean", "accidents of any kind, %"]
 table(headings, rows, below="On the return: " + "; ".join(words) + ".")
@@ -561,7 +561,7 @@ rows = []
 for end, agents_of in ends.items():
     for method in ("demos", "bootstrapped"):
         mine = agents_of.of(method)
-        crashed = 100 * sum(mine.episodes(kind).mean() for kind in results.KINDS)
+        crashed = 100 * mine.episodes("accident").mean()
         earned = f"{mine.scores('returns').mean():.1f}"
         escaping = tables.escaped(agents_of, method)
         rows.append([end, bc.display_name(method), escaping, earned, f"{crashed:.1f}"])
@@ -586,7 +586,7 @@ table(headings, rows)
 # have few accidents. We think that both have one cause: the bonus c stays in the batches, so these
 # agents stay nearer to what the rule does.
 # <!-- claim: escapers(ablations()['β for ever'], 'bootstrapped') == 10 and
-#   sum(ablations()['β for ever'].of('bootstrapped').episodes(k).mean() for k in KINDS) < 0.2 *
+#   ablations()['β for ever'].of('bootstrapped').episodes('accident').mean() < 0.2 *
 #   accidents('bootstrapped') -->
 
 # %% [markdown]
