@@ -12,16 +12,16 @@ from bootcourse.storage.runs import Run, find_runs, load_run
 from bootcourse.study.results import Results, in_assets, load_results
 
 
-def shipped_results(scenario: str = "default") -> Results:
-    """The study's results: every method's agents on a scenario, "default" or "calibrated".
+def shipped_results(study: str = "default") -> Results:
+    """A study's results, every method's agents: "default", "calibrated" (faster traps) or "paper" (more updates).
 
     `.of(method).scores("success")` is (agents,), their share of held-out roads with success.
     Raises BootcourseError if that part does not ship.
     """
     files = {path.stem.removeprefix("study-"): path for path in sorted(FOLDER.glob("study-*.npz"))}
-    if scenario not in files:
-        raise BootcourseError(f"No results of the scenario '{scenario}' ship: there are {', '.join(files) or 'none'}.")
-    return load_results(files[scenario])
+    if study not in files:
+        raise BootcourseError(f"No results of the study '{study}' ship: there are {', '.join(files) or 'none'}.")
+    return load_results(files[study])
 
 
 def shipped_runs(method: str) -> list[Run]:

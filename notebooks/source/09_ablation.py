@@ -433,22 +433,26 @@ predict(
 )
 
 # %%
-pairs = (("demos", "margin"), ("bootstrapped", "margin_soft"))
-rows = []
-for method in (*pairs[0], *pairs[1], "soft"):
-    mine = study.of(method)
-    crashed = 100 * mine.episodes("accident").mean()
-    won = tables.k_of_n(mine.scores("success") >= bc.statistics.ESCAPES)
-    earned = f"{mine.scores('returns').mean():.1f}"
-    row = [bc.display_name(method), won, earned, f"{crashed:.1f}"]
-    rows.append(row)
-words = []
-for first, second in (*pairs, ("soft", "margin_soft")):
-    x, y = (study.of(m).scores("returns") for m in (second, first))
-    chance = tables.bracketed(bc.statistics.improvement(x, y), 100)
-    words.append(f"{bc.display_name(second)} above {bc.display_name(first)}: {chance} %")
-headings = ["", "agents that escape", "return, mean", "accidents of any kind, %"]
-table(headings, rows, below="On the return: " + "; ".join(words) + ".")
+pairs = (("demos", "margin"), ("bootstrapped", "margin_soft"), ("soft", "margin_soft"))
+
+
+def bonus_or_margin(study):
+    """A table of the paper's first ablation, of one study."""
+    rows, words = [], []
+    for method in dict.fromkeys(method for pair in pairs for method in pair):
+        mine = study.of(method)
+        won = tables.k_of_n(mine.scores("success") >= bc.statistics.ESCAPES)
+        earned, crashed = mine.scores("returns").mean(), 100 * mine.episodes("accident").mean()
+        rows.append([bc.display_name(method), won, f"{earned:.1f}", f"{crashed:.1f}"])
+    for first, second in pairs:
+        x, y = (study.of(m).scores("returns") for m in (second, first))
+        chance = tables.bracketed(bc.statistics.improvement(x, y), 100)
+        words.append(f"{bc.display_name(second)} above {bc.display_name(first)}: {chance} %")
+    headings = ["", "agents that escape", "return, mean", "accidents of any kind, %"]
+    return table(headings, rows, below="On the return: " + "; ".join(words) + ".")
+
+
+bonus_or_margin(study)
 
 # %% [markdown]
 # **See.** Without the soft constraint no agent escapes, with the bonus or with the margin. With it
