@@ -39,7 +39,7 @@ class Method:
 
 
 # The baselines learn from demonstrations without the soft constraint and the bonus. Their share of demonstrations is
-# constant: 1 for offline methods, 0.5 for GAIL, whose discriminator compares the two halves of a batch.
+# constant: 1 for offline methods, 0.5 for GAIL, whose discriminator compares the two halves of a batch, and for DAgger.
 _BASELINE = {"xi_multiplier": 0.0, "bonus": 0.0, "beta_episodes": 10**9}
 
 # What came after the paper, with a replay buffer and a teacher. They look further ahead than the paper's γ = 0.8.
@@ -114,6 +114,14 @@ METHODS = {
         taught=True,
         **_ON_POLICY,
     ),
+    "dagger": Method(
+        "DAgger",
+        Style("#332288", "--", marker="o"),
+        _BASELINE | {"beta_start": 0.5},
+        "bootcourse.learn.bc:DAggerLearner",
+        unused={"gamma": "has no critic and so no discount factor"},
+        taught=True,
+    ),
     "jsrl": Method(
         "jump-start RL",
         Style("#AA4499", marker="v"),
@@ -143,16 +151,7 @@ METHODS = {
 }
 ABLATION = ("sac", "soft", "demos", "bootstrapped", "margin", "margin_soft")  # the paper's method and its parts
 BASELINES = ("bc", "cql", "cql_sac", "gail")
-AFTER = (
-    "ppo",
-    "ppo_cloned",
-    "ppo_kl",
-    "ppo_residual",
-    "jsrl",
-    "rlpd",
-    "ibrl",
-    "pex",
-)  # learners that the paper does not have
+AFTER = ("ppo", "ppo_cloned", "ppo_kl", "ppo_residual", "dagger", "jsrl", "rlpd", "ibrl", "pex")  # not in the paper
 DRIVERS = {  # name and style of the drivers that are not trained
     "rule": ("rule controller", Style("#009E73", width=1.0)),
     "planner": ("planner", Style("#000000", (0, (8, 4)))),

@@ -105,6 +105,19 @@ def test_cloning_makes_the_demonstrator_s_actions_more_probable_and_leaves_the_c
     assert not cloner.q_values(batch.states).any()
 
 
+def test_a_clone_learns_what_was_done_and_dagger_what_the_teacher_would_have_done():
+    batch = a_batch()._replace(actions=torch.full((2, 6), 7), rule_actions=torch.full((2, 6), 1))
+    for method, learned, other in (("bc", 7, 1), ("dagger", 1, 7)):
+        cloner = learner(method)
+        pi = cloner.probabilities(batch.states)
+        by_hand = -pi[..., learned].log().mean(1)
+        torch.testing.assert_close(cloner.losses(batch)["actor_loss"].detach(), by_hand)
+        for _ in range(20):
+            cloner.update(batch)
+        after = cloner.probabilities(batch.states)
+        assert (after[..., learned] / after[..., other] > pi[..., learned] / pi[..., other]).all()
+
+
 def test_cloning_ignores_every_reward():
     first, second = learner("bc"), learner("bc")
     first.update(a_batch())
@@ -189,7 +202,7 @@ def test_methods_whose_updates_differ_are_not_trained_side_by_side():
 
 
 @pytest.mark.parametrize(
-    ("method", "share"), [("bc", 1.0), ("cql", 1.0), ("cql_sac", 1.0), ("gail", 0.5), ("rlpd", 0.5)]
+    ("method", "share"), [("bc", 1.0), ("cql", 1.0), ("cql_sac", 1.0), ("gail", 0.5), ("dagger", 0.5), ("rlpd", 0.5)]
 )
 def test_the_demonstrations_share_of_a_batch_stays_where_it_starts(method, share):
     training = Training([settings_for(method, demonstration_episodes=2, learning_starts=16)], 10)

@@ -6,6 +6,7 @@ import pytest
 from bootcourse.episodes.evaluate import drive_episodes
 from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError
+from bootcourse.learn.teachers import teacher_name, teacher_policy
 from bootcourse.policies import idle_policy, rule_policy
 from bootcourse.road.state import CRASHED, EGO, HEADING, LANE, SPEED, X, Y
 from bootcourse.road.vector_env import TrapVectorEnv
@@ -20,6 +21,7 @@ from bootcourse.study.planner import (
     is_staying_optimal,
     plan,
     plan_episodes,
+    planner_rule,
     select,
 )
 
@@ -164,6 +166,16 @@ def test_a_follower_idles_after_its_plan_ends():
     drive = follow(plan_episodes(SEEDS[:1], Scenario("short", clock=Clock(decisions=2)), Search(beam=3)))
     taken = [int(drive(np.zeros((1, 26)), None).actions[0]) for _ in range(4)]
     assert taken[2:] == [IDLE, IDLE]
+
+
+def test_the_planner_as_a_teacher_escapes_and_earns_nearly_what_a_plan_of_the_whole_drive_does(plans):
+    drive = record(teacher_policy(planner_rule(Search(beam=10, decisions=15))), SEEDS[:1])[0]
+    assert drive.success and not drive.accident and drive.rewards.sum() > 0.95 * plans[0].value
+
+
+def test_planners_that_search_differently_are_different_teachers():
+    names = [teacher_name(planner_rule(search)) for search in (None, Search(beam=5, decisions=15))]
+    assert names[0].startswith("planner, beam 30, 15 decisions") and names[0] != names[1]
 
 
 @pytest.mark.parametrize("change", [{"beam": 0}, {"gamma": 0.0}, {"gamma": 1.5}, {"decisions": 0}])

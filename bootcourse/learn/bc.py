@@ -1,4 +1,8 @@
-"""Behaviour cloning: an actor learns the demonstrator's actions by supervised learning, without rewards."""
+"""Behaviour cloning and DAgger: an actor learns the teacher's actions by supervised learning, without rewards.
+
+A clone learns what the demonstrator did in its own states. With DAgger (Ross, Gordon & Bagnell, arXiv 1011.0686) the
+actor drives, and the teacher says what it would have done in the states that the actor reaches.
+"""
 
 from collections.abc import Sequence
 
@@ -32,4 +36,19 @@ class BCLearner(SACLearner):
     def losses(self, batch: Batch) -> dict[str, Tensor]:
         """The cross-entropy, and the policy's entropy for the curves: each (agents,)."""
         log_pi = sac.log_policy(mlp(self.actor, batch.states))  # (agents, batch, 9)
-        return {"actor_loss": cloning_loss(log_pi, batch.actions), "entropy": sac.entropy(log_pi).mean(-1)}
+        return {"actor_loss": cloning_loss(log_pi, self.labels(batch)), "entropy": sac.entropy(log_pi).mean(-1)}
+
+    def labels(self, batch: Batch) -> Tensor:
+        """The actions to learn: those that were done, (agents, batch)."""
+        return batch.actions
+
+
+class DAggerLearner(BCLearner):
+    """Half of a batch are the teacher's drives, half the actor's own; all are labelled with the teacher's action μ(s).
+
+    The paper lets the teacher drive a share of the first episodes, too; here its demonstrations stand for them.
+    """
+
+    def labels(self, batch: Batch) -> Tensor:
+        """The actions to learn: the teacher's, whoever drove, (agents, batch)."""
+        return batch.rule_actions

@@ -17,6 +17,7 @@ from gymnasium.vector import AutoresetMode
 
 from bootcourse.episodes.driving import steps
 from bootcourse.errors import BootcourseError
+from bootcourse.learn.teachers import Rule
 from bootcourse.policies import PlanPolicy, Policy, idle_policy, rule_policy
 from bootcourse.road import twin
 from bootcourse.road.constants import constants
@@ -164,6 +165,20 @@ def follow(plans: Sequence[Plan]) -> PlanPolicy:
     for road, each in enumerate(plans):
         table[: len(each.actions), road] = each.actions
     return PlanPolicy(table)
+
+
+def planner_rule(search: Search | None = None) -> Rule:
+    """The planner as a teacher: it plans anew at each decision, 15 ahead with a beam of 30, and takes the first action.
+
+    Ten milliseconds for each decision. On an empty road beyond its horizon it sees no other cars: see `future_worth`.
+    """
+    search = search or Search(beam=30, decisions=15)
+
+    def planned(cars: np.ndarray, scenario: Scenario) -> int:
+        return int(plan(cars, scenario, search).actions[0])
+
+    planned.__qualname__ = f"planner, beam {search.beam}, {search.decisions or 'all'} decisions"  # see `teacher_name`
+    return planned
 
 
 def empty_road_return(scenario: Scenario = DEFAULT) -> float:
