@@ -38,7 +38,7 @@ def shipped_agents(method: str) -> list[Agent]:
 
 
 def shipped_experiment(name: str) -> dict[str, Results]:
-    """The agents of an experiment, "sensitivity", "clocks", "ablations" or "longer-view": {what was changed: results}.
+    """The agents of an experiment, such as "sensitivity" or "clocks": {what was changed: results}.
 
     Raises BootcourseError if it does not ship.
     """

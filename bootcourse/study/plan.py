@@ -6,7 +6,7 @@ from itertools import product
 
 from bootcourse.errors import BootcourseError, did_you_mean
 from bootcourse.learn.settings import SETTINGS, Settings, settings_for, with_seeds
-from bootcourse.methods import ABLATION, BASELINES
+from bootcourse.methods import ABLATION, AFTER, BASELINES, METHODS
 from bootcourse.scenario import CALIBRATED, DEFAULT, Scenario
 from bootcourse.study.jobs import BoundJob, Job, StayingJob
 
@@ -74,6 +74,7 @@ class Variation:
     changes: dict = field(default_factory=dict)  # of the settings
     scenario: Scenario = DEFAULT
     methods: tuple[str, ...] = VARIED
+    episodes: int = 0  # of training; 0: the experiment's number
 
 
 def _sensitivity() -> dict[str, Variation]:
@@ -139,6 +140,13 @@ def _longer_view() -> dict[str, Variation]:
     return {f"γ = {gamma}": Variation(saner | {"gamma": gamma}, methods=both) for gamma in (0.95, 0.97)}
 
 
+def _beyond() -> dict[str, Variation]:
+    """Learners that came after the paper, each with its own settings. PPO drives hundreds of roads at once."""
+    return {
+        method: Variation(methods=(method,), episodes=20_000 if METHODS[method].on_policy else 0) for method in AFTER
+    }
+
+
 @dataclass(frozen=True)
 class Experiment:
     """Variations that are run with the same seeds and number of episodes."""
@@ -152,8 +160,8 @@ class Experiment:
         jobs = []
         for variation, its in self.variations.items():
             agents = [a for m in its.methods for a in with_seeds(settings_for(m, **its.changes), seeds or self.seeds)]
-            where = f"{name}/{folder(variation)}"
-            jobs.append(Job(where, tuple(agents), its.scenario, episodes or self.episodes, tests, runs=False))
+            where, trained = f"{name}/{folder(variation)}", episodes or its.episodes or self.episodes
+            jobs.append(Job(where, tuple(agents), its.scenario, trained, tests, runs=False))
         return sorted(jobs, key=lambda job: -sum(job.settings[0].hidden) * job.settings[0].updates)  # the longest first
 
 
@@ -162,6 +170,7 @@ EXPERIMENTS = {
     "clocks": Experiment(_clocks(), seeds=10, episodes=1200),
     "ablations": Experiment(_ablations(), seeds=10, episodes=2000),
     "longer-view": Experiment(_longer_view(), seeds=10, episodes=1500),
+    "beyond": Experiment(_beyond(), seeds=10, episodes=1500),
 }
 
 

@@ -129,7 +129,9 @@ def experiments_part(experiments: dict[str, dict[str, Results]]) -> list[str]:
     if varied := experiments.get("ablations"):
         text += ["## One choice of the method changed\n", tables.variations_table(varied)]
     if varied := experiments.get("longer-view"):
-        text += ["## Saner numbers\n", LONGER_VIEW, tables.variations_table(varied)]
+        text += ["## A longer view\n", LONGER_VIEW, tables.variations_table(varied)]
+    if varied := experiments.get("beyond"):
+        text += ["## Learners that came after the paper\n", tables.variations_table(varied)]
     return text
 
 
