@@ -677,6 +677,28 @@ bc.panels.clocks_panel("2", "π̃")
 # <!-- claim: escapers(clocks()['2', 'π̃'], 'soft') == 5 and pattern(clocks()['2', 'π̃']).low > 0.05
 #   > pattern(clocks()['1/4', 'μ']).value -->
 #
+# And the paper's first ablation, the bonus against the margin (round 4)? Here it is with the same
+# two choices:
+
+# %%
+bonus_or_margin(bc.shipped_results("paper"))
+
+# %% [markdown]
+# **See.** Now the bonus is ahead, as the paper reports. Without the soft constraint
+# {{ escaped('demos', 'paper') }} of ten agents escape with the bonus and
+# {{ escaped('margin', 'paper') }} with the margin; with the constraint it is
+# {{ escaped('bootstrapped', 'paper') }} and {{ escaped('margin_soft', 'paper') }}. Ten agents show
+# the first difference (Fisher's p is below 0.01), and not the second
+# ({{ fisher(escaped('bootstrapped', 'paper'), escaped('margin_soft', 'paper')) | .2f }}). With the
+# study's choices the order was another one: which way to use demonstrations is better depends on
+# them, too.
+# <!-- claim: fisher(escaped('demos', 'paper'), escaped('margin', 'paper')) < 0.01 and
+#   fisher(escaped('bootstrapped', 'paper'), escaped('margin_soft', 'paper')) > 0.05 -->
+# <!-- claim: escaped('bootstrapped', 'paper') > escaped('margin_soft', 'paper') and
+#   escaped('bootstrapped') < escaped('margin_soft') -->
+# <!-- claim: {len(shipped_results('paper').of(m)) for m in ('demos', 'margin', 'bootstrapped',
+#   'margin_soft')} == {10} -->
+#
 # **Explain.** So the paper's table and ours need not contradict each other. What is shown: there is
 # a reading of the paper's open numbers with which its table is an ordinary outcome, if one agent
 # stands behind each row. What is not shown: that the authors took this reading. Their agents earn

@@ -163,10 +163,14 @@ def clocks_out(updates: str) -> float:
 escapers = Results.escapers  # (results, method): how many of a method's agents in these results escape
 
 
+def fisher(first: int, second: int) -> float:
+    """Fisher's p of two numbers of agents that escape, of ten each."""
+    return float(stats.fisher_exact([[won, 10 - won] for won in (first, second)]).pvalue)
+
+
 def p_changed(change: str, method: str) -> float:
     """Fisher's p of a method's agents that escape in the study against those with one choice changed."""
-    counts = [escaped(method), escapers(ablations()[change], method)]
-    return float(stats.fisher_exact([[won, 10 - won] for won in counts]).pvalue)
+    return fisher(escaped(method), escapers(ablations()[change], method))
 
 
 def accidents(method: str) -> float:
