@@ -10,6 +10,7 @@ by 3e-7 at most, and the others not at all; the planted bugs in tests/test_finge
 import hashlib
 import json
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 from functools import cache, partial
 from pathlib import Path
 
@@ -99,16 +100,19 @@ SIZES = {"returns": 30.0, "speed": 11.0, "distance": 1600.0}  # of the invented 
 def _method(method: str) -> Iterable[float]:
     """Two agents' curves, policies, values and temperatures after a short training with the method's own settings.
 
-    Most updates come after the last decision, and on-policy methods drive few roads: rounding could let an agent take
-    another action, and everything after it would differ.
+    Most updates come after the last decision, and on-policy methods clone shortly and drive few roads: rounding could
+    let an agent take another action, and everything after it would differ.
     """
-    few = {"envs_per_agent": 8, "batch": 64} if METHODS[method].on_policy else {}
-    training = Training(with_seeds(settings_for(method, **few), 2))
+    settings, numbers = settings_for(method), []
+    if METHODS[method].on_policy:
+        numbers = [settings.envs_per_agent, settings.batch, settings.cloning_updates]
+        settings = replace(settings, envs_per_agent=8, batch=64, cloning_updates=min(settings.cloning_updates, 20))
+    training = Training(with_seeds(settings, 2))
     while training.updates < IN_THE_LOOP:
         training.step()
     while training.updates < UPDATES:
         training.update()
-    numbers = [np.nanmean(values) for values in training.curves.values.values()]
+    numbers += [np.nanmean(values) for values in training.curves.values.values()]
     _, seen, cars = drives(DEFAULT)
     for agent in (training.agent(0), training.agent(1)):
         driven = agent.as_policy(with_q=True)(seen, cars)
