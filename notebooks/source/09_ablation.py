@@ -460,7 +460,8 @@ bonus_or_margin(study)
 # {{ escaped('bootstrapped') }} of ten with the bonus, and the agents with the margin have fewer
 # accidents ({{ 100 * accidents('margin_soft') | .0f }} % of drives against
 # {{ 100 * accidents('bootstrapped') | .0f }} %). So our study does not confirm the paper's order.
-# It does not show the opposite order either: the interval of the return holds 50 %.
+# It does not show the opposite order either: the interval of the return holds 50 %. (Round 6 asks
+# again, with more updates.)
 # <!-- claim: escaped('demos') == escaped('margin') == 0 and escaped('margin_soft') >
 #   escaped('bootstrapped') and accidents('margin_soft') < accidents('bootstrapped') -->
 # <!-- claim: all((lambda p: p.low <= 0.5 <= p.high)(improvement(of('margin_soft').scores(
