@@ -57,7 +57,7 @@ def test_a_row_is_what_one_computes_by_hand():
     assert found.returns.value == 25 and 10 <= found.returns.low < 25 < found.returns.high <= 40
     assert (found.decisions, found.seconds) == ((300 + 200 + 200 + 50) / 4, 25)
     cells = replace_interval(found).cells(best=100)
-    assert cells == ["plain SAC", "quick", "2 of 4", "62.5", "25.0 [12, 38]", "25", "37.5", "0", "25"]
+    assert cells == ["plain SAC", "quick", "2 of 4", "62.5", "25 [12, 38]", "25", "37.5", "0", "25"]
 
 
 def replace_interval(found: Row) -> Row:
@@ -67,7 +67,7 @@ def replace_interval(found: Row) -> Row:
 def test_a_single_driver_has_the_interval_of_its_roads_and_no_cost():
     found = row_of(results("rule", [[1.0, 2.0, 3.0]], [[1, 1, 1]], [[0, 0, 0]]), "rule", "not trained")
     assert found.returns.high - 2 == pytest.approx(4.302653 / np.sqrt(3), abs=1e-5)  # Student's t with 2 degrees
-    assert found.cells(4)[2:] == ["1 of 1", "100.0", "2.0 [0, 4]", "50", "0.0", "–", "–"]
+    assert found.cells(4)[2:] == ["1 of 1", "100.0", "2.0 [-0.5, 4.5]", "50", "0.0", "–", "–"]
 
 
 def test_without_lengths_of_episodes_the_decisions_are_distance_over_speed():

@@ -36,7 +36,7 @@ from bootcourse.storage.sealed import read_sealed, write_sealed
 from bootcourse.study.jobs import HELD_OUT
 from bootcourse.study.plan import EXPERIMENTS, STUDIES
 from bootcourse.study.results import Results, StudyResults, in_assets
-from bootcourse.study.tables import markdown, score
+from bootcourse.study.tables import bracketed, markdown, score
 
 ROADS = held_out_seeds(HELD_OUT, 1000)
 ASIDE = ("sensitivity", "clocks", "ablations")
@@ -82,9 +82,14 @@ class Row(Struct, frozen=True, forbid_unknown_fields=True):
         thousands = None if self.decisions is None else round(self.decisions, -3)
         costs = [None if cost is None else f"{cost:,.0f}" for cost in (thousands, self.seconds)]
         escapers = None if self.escapers is None else f"{self.escapers} of {self.agents}"
-        value, low, high = self.returns
-        returned, of_best = f"{value:.1f} [{round(low)}, {round(high)}]", f"{100 * value / best:.0f}"
-        found = [escapers, shares[0], returned, of_best, shares[1], *costs]
+        found = [
+            escapers,
+            shares[0],
+            bracketed(self.returns),
+            f"{100 * self.returns.value / best:.0f}",
+            shares[1],
+            *costs,
+        ]
         return [_short(self.method), _short(self.setting), *("–" if cell is None else cell for cell in found)]
 
 
