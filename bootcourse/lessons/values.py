@@ -124,6 +124,8 @@ def same(answer: Plain, right: Plain, tolerance: float = 0.0, nan_too: bool = Fa
     if right.kind in SEVERAL:
         return all(same(a, r, tolerance, nan_too) for a, r in zip(answer.data, right.data, strict=True))
     if right.kind in NUMERIC:
+        if tolerance == 0:  # np.allclose takes more than twice as long
+            return np.array_equal(answer.data, right.data, equal_nan=nan_too)
         return np.allclose(answer.data, right.data, rtol=tolerance, atol=tolerance / 100, equal_nan=nan_too)
     return answer.data == right.data
 

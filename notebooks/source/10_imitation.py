@@ -415,6 +415,18 @@ table(headings, rows)
 # of the first three methods would look like a failure if its training had been stopped early
 # enough.
 #
+# Would GAIL gain from more updates? Ten more of its agents were trained with the setting of lesson
+# 9, round 6: eight times as many updates for each decision, demonstrations by π̃, and
+# {{ shipped_results('paper').curves['success'].shape[1] | , }} episodes.
+# {{ escaped('gail', 'paper') }} of them escape, where {{ escaped('gail') }} did. Ten agents cannot
+# tell these two numbers apart (Fisher's p is {{ fisher(escaped('gail'), escaped('gail', 'paper'))
+# | .2f }}), so no gain shows.
+# <!-- claim: len(shipped_results('paper').of('gail')) == 10 and escaped('gail', 'paper') <=
+#   escaped('gail') and fisher(escaped('gail'), escaped('gail', 'paper')) > 0.3 -->
+# <!-- claim: settings_for('gail', 'paper').updates / settings_for('gail',
+#   'paper').envs_per_agent == 8 * settings_for('gail').updates /
+#   settings_for('gail').envs_per_agent -->
+#
 # **Explain.** How would a reader notice? The row itself does not show it. So test your learners
 # where others have published what can be reached: `python -m bootcourse.study.checks` trains the
 # very classes of this course on CartPole and Acrobot, with at most the published number of steps.

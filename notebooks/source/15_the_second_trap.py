@@ -495,3 +495,8 @@ compare_predictions(
 # *High-Dimensional Continuous Control Using Generalized Advantage Estimation* (arXiv 1506.02438).
 # Ng, Harada and Russell (1999), *Policy Invariance under Reward Transformations*. A teacher that
 # rolls in and shrinks: Uchendu et al., *Jump-Start Reinforcement Learning* (arXiv 2204.02372).
+#
+# **Try on**: `bc.board()` shows the methods of the course on the same {{ roads() | , }} roads, by
+# return, and `bc.board("runs/mine")` puts your own agents among them. The kit has more learners
+# with a teacher than this lesson: `ppo_kl`, `ppo_residual`, `jsrl`, `rlpd`, `ibrl`, `pex` and
+# `dagger` are names for `bc.settings_for`.
