@@ -79,9 +79,11 @@ class Results:
 
         measure: one of `MEASURES`, or "accident" for one of any kind.
         """
-        accident = self.tested["accident"]
-        events = {"accident": accident != Accident.NONE} | {name: accident == kind for name, kind in KINDS.items()}
-        return (events[measure] if measure in events else self.tested[measure]).astype(np.float64)
+        if measure == "accident":
+            values = self.tested["accident"] != Accident.NONE
+        else:
+            values = self.tested["accident"] == KINDS[measure] if measure in KINDS else self.tested[measure]
+        return values.astype(np.float64)
 
 
 def join(parts: Sequence[Results]) -> Results:
