@@ -50,5 +50,5 @@ class DAggerLearner(BCLearner):
     """
 
     def labels(self, batch: Batch) -> Tensor:
-        """The actions to learn: the teacher's, whoever drove, (agents, batch)."""
+        """The actions to learn: the teacher's, also in states where the actor drove, (agents, batch)."""
         return batch.rule_actions

@@ -162,15 +162,14 @@ def ranked(rows: Sequence[Row], best: float) -> Board:
 def row_of(results: Results, method: str, setting: str, **more) -> Row:
     """The row of one method's agents. more: fields that the scores do not tell."""
     mine = results.of(method)
-    success = mine.scores("success")
     return Row(
         display_name(method),
         setting,
         agents=len(mine),
         returns=score(mine, method, "returns"),
-        escapers=int((success >= ESCAPES).sum()),
-        success=float(success.mean()),
-        accidents=float((mine.tested["accident"] > 0).mean()),
+        escapers=results.escapers(method),
+        success=float(mine.episodes("success").mean()),
+        accidents=float(mine.episodes("accident").mean()),
         **more,
     )
 

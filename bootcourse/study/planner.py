@@ -170,7 +170,7 @@ def follow(plans: Sequence[Plan]) -> PlanPolicy:
 def planner_rule(search: Search | None = None) -> Rule:
     """The planner as a teacher: it plans anew at each decision, 15 ahead with a beam of 30, and takes the first action.
 
-    Ten milliseconds for each decision. On an empty road beyond its horizon it sees no other cars: see `future_worth`.
+    A decision takes about ten milliseconds. Beyond its horizon it assumes an empty road: see `future_worth`.
     """
     search = search or Search(beam=30, decisions=15)
 

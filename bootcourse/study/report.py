@@ -40,7 +40,7 @@ def write_report(found: StudyResults, folder: Path) -> Path:
         raise BootcourseError("No job of this study is finished: run `bootcourse study --out DIR` first.")
     text, findings = [HEAD], {}
     for name, results in found.results.items():
-        rule = rule_results(STUDIES[name].scenario, results.tested["returns"].shape[1])
+        rule = rule_results(STUDIES[name].scenario, results.sizes[0])
         everyone = join([Results(results.agents, results.stopped, results.tested, {}), rule])
         findings[name] = fidelity(everyone)
         text += [f"## Study: {name}\n", *study_part(found, name, rule, everyone, folder)]

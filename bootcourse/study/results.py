@@ -175,7 +175,7 @@ def in_study(root: Path) -> StudyResults:
     """What the finished jobs of a study's folder hold."""
     root = Path(root)
     results = {name: load_jobs(root, name) for name in STUDIES if list(root.glob(f"jobs/{name}/*/results.npz"))}
-    bounds = {name: _bound(root, name, found.tested["returns"].shape[1]) for name, found in results.items()}
+    bounds = {name: _bound(root, name, found.sizes[0]) for name, found in results.items()}
     staying = {name: root / f"jobs/staying-{name}/gamma-0.8/staying.json" for name in results}
     return StudyResults(
         results,

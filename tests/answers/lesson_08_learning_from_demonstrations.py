@@ -91,7 +91,7 @@ wrong_lines("""large_margin_loss
 """)
 
 right_lines("""paper_q_filter
-    nobody is better: 1.0 - (q > of_expert(q, expert_action)[:, None]).any(dim=1).double()
+    no action is valued higher: 1.0 - (q > of_expert(q, expert_action)[:, None]).any(dim=1).double()
     level with the best: torch.where(of_expert(q, expert_action) == q.max(dim=1).values, 1.0, 0.0)
 """)
 

@@ -31,7 +31,7 @@ wrong_lines("""gap_ahead
     without the empty lane: others = cars[(cars[:, LANE] == lane) & (cars[:, X] > cars[EGO, X])]
         others[:, X].min() - cars[EGO, X] - 5  # raises an error
     with the speed: teacher.ahead(cars, lane)  # returns
-    zero for nobody: gap = with_a_loop(cars, lane); 0.0 if gap == np.inf else gap
+    zero where no car is ahead: gap = with_a_loop(cars, lane); 0.0 if gap == np.inf else gap
     the first row:
         for car in cars[1:]:
             if car[LANE] == lane and car[X] > cars[EGO, X]:

@@ -24,7 +24,7 @@ def sweep_data() -> dict:
     """Every setting of p, ξ and c that was run, and what each of its agents did."""
     sweep, paper = load_sweep(), settings_for("bootstrapped")
     found = [nearest_setting(sweep, *setting) for setting in settings_run(sweep)]
-    rule = rule_results(DEFAULT, shipped_results().tested["returns"].shape[1])
+    rule = rule_results(DEFAULT, shipped_results().sizes[0])
     returns = sweep.scores("returns")
     return {
         "p": sorted({each.p for each in found}),
