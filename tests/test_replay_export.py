@@ -154,7 +154,7 @@ def test_a_recording_plays_inside_a_saved_page_and_marks_the_accident(crash, tmp
             return inside.evaluate(NODES, ["/drive0/car0/ring"])["/drive0/car0/ring"]
 
         go_to(inside, Timeline(crash).duration)
-        assert until(lambda: "collision" in inside.inner_text("#bc-numbers")), inside.inner_text("#bc-numbers")
+        assert until(lambda: "collision" in inside.inner_text("#bc-numbers")), inside.inner_html("#bc-hud")
         assert until(ring)
         go_to(inside, 0.5)
         assert until(lambda: not ring()), "wound back, nothing has happened yet"

@@ -52,7 +52,9 @@ border-radius:4px;margin:2px 4px 2px 0;padding:1px 7px;cursor:pointer;opacity:.8
     next = [numbers, cursor];
   };
   var hud = document.getElementById("bc-hud"), cameras = @CAMERAS@;
-  if (window.innerWidth < 480) hud.open = false;
+  requestAnimationFrame(function () {  // before that, the width of a frame inside a page may still be 0
+    if (window.innerWidth < 480) hud.open = false;
+  });
   hud.addEventListener("wheel", function (e) { e.stopPropagation(); });
   Object.keys(cameras).forEach(function (name) {
     var button = document.createElement("button"), p = cameras[name];
