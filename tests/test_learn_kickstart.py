@@ -47,9 +47,9 @@ def test_lambda_can_fall_with_the_episodes_instead():
 
 
 def test_the_actor_loss_is_ppo_s_plus_lambda_times_the_kl():
-    """Where all nine actions are equally likely, the KL to π̃ with p = 0.9 is -ln 9 - (ln 0.9 + 8 ln 0.0125) / 9."""
-    kl = -math.log(9) - (math.log(0.9) + 8 * math.log(0.1 / 8)) / 9
-    assert kl == pytest.approx(1.7096, abs=1e-4)
+    """Where all nine actions are equally likely, the KL from π̃ with p = 0.9 is ln 9 + 0.9 ln 0.9 + 0.1 ln 0.0125."""
+    kl = math.log(9) + 0.9 * math.log(0.9) + 0.1 * math.log(0.1 / 8)
+    assert kl == pytest.approx(1.6642, abs=1e-4)
     plain, kickstarted = (learner_for([settings_for(method, hidden=(8,))], 3) for method in ("ppo", "ppo_kl"))
     for learner in (plain, kickstarted):
         with torch.no_grad():
@@ -65,7 +65,8 @@ def test_the_kl_alone_leads_the_policy_to_the_stochastic_rule():
     assert type(learner) is KickstartLearner
     batch = a_minibatch(64)
     batch = batch._replace(advantages=torch.zeros_like(batch.advantages))
-    for _ in range(300):
+    for _ in range(600):
         learner.update(batch)
-    pi = learner.probabilities(batch.states).gather(-1, batch.rule_actions[..., None])
-    assert torch.allclose(pi, torch.tensor(0.8), atol=0.05)
+    pi = learner.probabilities(batch.states).gather(-1, batch.rule_actions[..., None])[..., 0]
+    clear = batch.states[..., 0].abs() > 0.2  # the rule's action changes at 0, where a small network has to be smooth
+    assert clear.sum() > 40 and torch.allclose(pi[clear], torch.tensor(0.8), atol=0.05)

@@ -26,6 +26,15 @@ def kl_to_rule(log_pi: Tensor, rule_actions: Tensor, p: Tensor) -> Tensor:
     return (log_pi.exp() * (log_pi - log_stochastic_rule(rule_actions, p, log_pi.shape[-1]))).sum(-1)
 
 
+def kl_from_rule(log_pi: Tensor, rule_actions: Tensor, p: Tensor) -> Tensor:
+    """D_KL(π̃(·|s) ‖ π(·|s)) in nats, the other direction: log_pi (..., batch, 9) -> (..., batch).
+
+    It is large where the policy does not take the rule's action. Distillation minimises it (arXiv 1803.03835).
+    """
+    log_rule = log_stochastic_rule(rule_actions, p, log_pi.shape[-1])
+    return (log_rule.exp() * (log_rule - log_pi)).sum(-1)
+
+
 def regularised_policy(q: Tensor, log_rule: Tensor, alpha: float, xi: float) -> Tensor:
     """The policy that maximises Σ π Q + α H - ξ KL: softmax((Q + ξ log π̃) / (α + ξ)), (..., actions)."""
     return ((q + xi * log_rule) / (alpha + xi)).softmax(-1)

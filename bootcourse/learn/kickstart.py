@@ -1,15 +1,15 @@
 """PPO with a KL to the stochastic rule that fades as the agent succeeds: kickstarting (arXiv 1803.03835).
 
-The loss is PPO's plus λ KL(π ‖ π̃). λ falls with the agent's success, as in QDagger (arXiv 2206.01626), or with its
-episodes. Both papers take the KL in the other direction, KL(teacher ‖ π). Here it is the soft constraint of
-Equation 15, with λ in place of ξ. There are no demonstrations, and the rule is not needed to drive.
+The loss is PPO's plus λ KL(π̃ ‖ π). λ falls with the agent's success, as in QDagger (arXiv 2206.01626), or with its
+episodes. The soft constraint of Equation 15 is the other direction, KL(π ‖ π̃). There are no demonstrations, and the
+rule is not needed to drive.
 """
 
 import numpy as np
 import torch
 from torch import Tensor
 
-from bootcourse.learn.bootstrap import demonstration_share
+from bootcourse.learn.bootstrap import demonstration_share, kl_from_rule
 from bootcourse.learn.ppo import Minibatch, PPOLearner
 
 
@@ -37,5 +37,6 @@ class KickstartLearner(PPOLearner):
         self.xi = torch.from_numpy(weight).float()[:, None]
 
     def policy_loss(self, log_pi: Tensor, batch: Minibatch) -> Tensor:
-        """The clipped objective plus λ KL(π ‖ π̃): log_pi (agents, batch, 9) -> (agents,)."""
-        return super().policy_loss(log_pi, batch) + self.xi[:, 0] * self.kl(log_pi, batch.rule_actions).mean(-1)
+        """The clipped objective plus λ KL(π̃ ‖ π): log_pi (agents, batch, 9) -> (agents,)."""
+        kl = kl_from_rule(log_pi, batch.rule_actions, self.rule_p[:, 0])
+        return super().policy_loss(log_pi, batch) + self.xi[:, 0] * kl.mean(-1)
