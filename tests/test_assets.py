@@ -18,7 +18,7 @@ from bootcourse.storage.sealed import write_sealed
 from bootcourse.study import ship
 from bootcourse.study.fingerprint import older
 from bootcourse.study.jobs import Job, read_job, run_job
-from bootcourse.study.results import load_results
+from bootcourse.study.results import in_assets, load_results
 
 
 @pytest.fixture(scope="module")
@@ -26,15 +26,16 @@ def study(tmp_path_factory):
     """The smallest study that assets can be built from."""
     root = tmp_path_factory.mktemp("study")
     (root / "study.json").write_text("{}")
-    for name, scenario, method in (
-        ("default/sac", DEFAULT, "sac"),
-        ("default/soft", DEFAULT, "soft"),
-        ("calibrated/sac", CALIBRATED, "sac"),
-        ("sweep/00", DEFAULT, "sac"),
-        ("sensitivity/as-it-is", DEFAULT, "sac"),
+    for name, scenario, method, teacher in (
+        ("default/sac", DEFAULT, "sac", "rule"),
+        ("default/soft", DEFAULT, "soft", "rule"),
+        ("calibrated/sac", CALIBRATED, "sac", "rule"),
+        ("sweep/00", DEFAULT, "sac", "rule"),
+        ("sensitivity/as-it-is", DEFAULT, "sac", "rule"),
+        ("teachers/late-soft", DEFAULT, "soft", "late"),
     ):
         agents = with_seeds(settings_for(method, learning_starts=16, hidden=(8,), buffer_size=2000), 2)
-        assert run_job(Job(name, tuple(agents), scenario, 2, 3), root) == ""
+        assert run_job(Job(name, tuple(agents), scenario, 2, 3, teacher=teacher), root) == ""
     return root
 
 
@@ -60,10 +61,13 @@ def test_everything_that_ships_is_listed_and_right(built):
     behaviour = {entry["file"]: set(entry["behaviour"]) for entry in manifest["files"]}
     assert behaviour["study-default.npz"] == {"road", "rule", "sac", "soft"}
     assert behaviour["runs/sac-1/curves.npz"] == {"road", "sac"} and set(manifest["behaviours"]["sac"]) != set()
+    assert behaviour["teachers/late-soft.npz"] == {"road", "rule", "teachers", "soft"}
 
 
 def test_what_ships_reads_back(built):
     assert load_results(built / "study-default.npz").methods == ["sac", "soft"]
+    taught = in_assets(built).experiments["teachers"]["late, soft"]
+    assert [agent["teacher"] for agent in taught.agents] == ["late", "late"] and taught.sizes == (3, 2)
     assert [load_run(path).agent.settings.method for path in find_runs(built / "runs")] == [
         "sac",
         "sac",

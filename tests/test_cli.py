@@ -89,7 +89,7 @@ REFUSED = {
     "a mistyped study": (["study", "calibrate", *NEW], "did you mean 'calibrated'"),
     "a mistyped backend": (["study", "--backend", "dusk", *NEW], "did you mean 'dask'"),
     "a scheduler for this machine": (["study", "--scheduler", "tcp://a:1", *NEW], "needs --backend dask"),
-    "an experiment of some methods": (["study", "clocks", "--only", "sac", *NEW], "leave out --only"),
+    "a method that an experiment has not": (["study", "teachers", "--only", "sac", *NEW], "'sac' is unknown"),
     "a folder without runs": (["evaluate", "full"], "holds no run"),
     "a held-out block that does not exist": (["evaluate", "rule", "--seed", "5000"], "seed = 5000"),
     "a rollout that exists": (["drive", "rule", "--out", "full/file.txt"], "exists already"),

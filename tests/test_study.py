@@ -27,6 +27,7 @@ from bootcourse.study.plan import EXPERIMENTS, methods_named, study_jobs, sweep_
 from bootcourse.study.planner import Search
 from bootcourse.study.results import join, load_jobs, load_results, save_results
 from bootcourse.study.runner import run_jobs
+from bootcourse.study.teachers import TEACHERS
 
 TINY = {"learning_starts": 16, "hidden": (8,), "buffer_size": 2000}
 
@@ -232,3 +233,16 @@ def test_the_sweep_runs_every_combination_once():
     settings = [s for each in sweep_jobs(4, 10, 5) for s in each.settings]
     places = {(s.rule_p if s.xi_multiplier else 0, s.xi_multiplier, s.bonus, s.seed) for s in settings}
     assert len(places) == len(settings) == 4 * (3 * 3 * 3 + 3)
+
+
+def test_an_experiment_may_be_run_in_part_by_the_names_of_its_methods_teachers_and_cells():
+    def chosen(name: str, only: str) -> set[str]:
+        return set(EXPERIMENTS[name].only(only).variations)
+
+    everyone = chosen("teachers", "")
+    assert chosen("teachers", "planner") == {"planner, dagger", "planner, ppo_cloned", "planner, rlpd"}
+    assert chosen("teachers", "dagger") == {f"{teacher}, dagger" for teacher in TEACHERS}
+    assert chosen("teachers", "late-soft, planner-dagger") == {"late, soft", "planner, dagger"} < everyone
+    assert chosen("sensitivity", "gamma-0.9") == {"γ = 0.9"}
+    with pytest.raises(BootcourseError, match="Part 'planer' is unknown: did you mean 'planner'"):
+        chosen("teachers", "planer")

@@ -16,13 +16,16 @@ from bootcourse.errors import BootcourseError, did_you_mean
 
 def study(
     name: str = typer.Argument(
-        "default", help="default, calibrated or paper; sensitivity, clocks, ablations or longer-view."
+        "default",
+        help="default, calibrated or paper; sensitivity, clocks, ablations, longer-view, beyond or teachers.",
     ),
     out: Path = typer.Option(..., help="The study's folder: new, or that of a study to continue; all may share one."),
     seeds: int = typer.Option(0, min=0, help="Training seeds of each method; 0: the study's own number."),
     episodes: int = typer.Option(0, min=0, help="Training episodes of each agent; 0: the study's own number."),
-    tests: int = typer.Option(1000, min=1, help="Held-out episodes that each agent is tested on."),
-    only: str = typer.Option("", help="Only these methods, such as sac,bootstrapped; planner is the bound."),
+    tests: int = typer.Option(0, min=0, help="Held-out episodes of each agent's test; 0: the study's own number."),
+    only: str = typer.Option(
+        "", help="Only these methods, such as sac,bootstrapped; planner is the bound. Of teachers: methods or teachers."
+    ),
     backend: str = typer.Option("loky", help="loky (this machine), dask or ray."),
     scheduler: str = typer.Option("", help="The address of a dask or ray cluster that you have."),
     workers: int = typer.Option(0, min=0, help="Jobs at once; 0: one for each core."),
@@ -31,21 +34,19 @@ def study(
     """Train and test every method with many seeds; write tables, figures and the fidelity report.
 
     default, calibrated and paper: all methods. sensitivity, clocks and ablations: the paper's ablation, varied.
-    longer-view: its method with other numbers.
+    longer-view: its method with other numbers. beyond: what came after the paper. teachers: what a teacher is worth.
     """
     from bootcourse.study import plan
     from bootcourse.study.report import write_report
     from bootcourse.study.results import in_study
 
-    methods = plan.methods_named(only)
     if name not in plan.STUDIES and name not in plan.EXPERIMENTS:
         raise BootcourseError(f"Study {did_you_mean(name, (*plan.STUDIES, *plan.EXPERIMENTS))}.")
     if name in plan.STUDIES:
-        wanted = plan.study_jobs(name, methods, seeds or plan.SEEDS, tests, episodes)
-    elif only:
-        raise BootcourseError(f"The study '{name}' has its own methods: leave out --only.")
+        methods = plan.methods_named(only)
+        wanted = plan.study_jobs(name, methods, seeds or plan.SEEDS, tests or plan.TESTS, episodes)
     else:
-        wanted = plan.EXPERIMENTS[name].jobs(name, seeds, episodes, tests)
+        wanted = plan.EXPERIMENTS[name].only(only).jobs(name, seeds, episodes, tests)
 
     def report(problems: list[str]) -> None:
         found = in_study(out)

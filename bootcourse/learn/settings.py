@@ -103,6 +103,11 @@ class Settings:
         return self.beta_start > 0
 
     @property
+    def asks_teacher(self) -> bool:
+        """Whether the agent uses the teacher's actions in the states that it reaches itself, or in its batches."""
+        return self.xi_multiplier > 0 or self.xi_fixed > 0 or METHODS[self.method].taught
+
+    @property
     def n_critics(self) -> int:
         """How many critics the agent has."""
         return 2

@@ -53,6 +53,12 @@ def all_roads(many: Callable[[np.ndarray, Scenario], np.ndarray]):
     return many
 
 
+def slow(my_rule: Rule) -> Rule:
+    """Mark a rule that takes milliseconds: a training asks it only if its method uses the answers (`asks_teacher`)."""
+    my_rule.is_slow = True
+    return my_rule
+
+
 @all_roads
 def course_rule(cars: np.ndarray, scenario: Scenario) -> np.ndarray:
     """The course's rule controller μ (Algorithm 1) as a teacher: the default."""

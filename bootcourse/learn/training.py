@@ -91,6 +91,8 @@ class Training:
         size, n_actions = self.env.single_observation_space.shape[0], int(self.env.single_action_space.n)
         self.learner = learner_for(self.settings, size, n_actions)
         self._teach = teacher_of(teacher, scenario)
+        needed = any(s.asks_teacher for s in settings) or not getattr(teacher, "is_slow", False)
+        self.asks = self.on_the_trap and needed
         rows = self._demonstration_rows(demonstrations)
         self.replay = self.learner.make_buffer(size, rows)
         self.curves = self.learner.curves = Curves(self.n_agents, self.envs_per_agent, self.episodes)
@@ -146,8 +148,8 @@ class Training:
         return len(self.finished_agents) == self.n_agents
 
     def taught(self) -> np.ndarray:
-        """The teacher's actions in the present states, (envs,); zeros off the trap."""
-        return self._teach(self.env.cars) if self.on_the_trap else np.zeros(self.env.num_envs, dtype=np.int64)
+        """The teacher's actions in the present states, (envs,); zeros where it is not asked."""
+        return self._teach(self.env.cars) if self.asks else np.zeros(self.env.num_envs, dtype=np.int64)
 
     def step(self) -> None:
         """One decision in every environment, and the updates that follow it."""
@@ -162,7 +164,7 @@ class Training:
         next_states, rewards, terminated, truncated, infos = self.env.step(actions)
         done, next_rule_actions = terminated | truncated, self.taught()
         reached_rule_actions = next_rule_actions.copy()
-        if done.any() and self.on_the_trap:  # these roads are already reset: μ(s') is of the old episode's last state
+        if done.any() and self.asks:  # these roads are already reset: μ(s') is of the old episode's last state
             reached_rule_actions[done] = self._teach(self.env.final_cars[done])
         reached = reached_observations(next_states, infos)
         rows = encode_transitions(

@@ -4,7 +4,7 @@
     board("runs/mine", my_rule)    # and the agents in a folder, and a rule controller of your own
 
 Everyone drives the 1,000 roads of block 1 of the default scenario, on which no agent of the kit trains. Experiments
-that vary the paper's method to learn about it (`ASIDE`) stay out: their tables stand in the report.
+that vary the paper's method or the teacher to learn about them (`ASIDE`) stay out: their tables stand in the report.
 """
 
 import textwrap
@@ -39,7 +39,7 @@ from bootcourse.study.results import Results, StudyResults, in_assets
 from bootcourse.study.tables import bracketed, markdown, score
 
 ROADS = held_out_seeds(HELD_OUT, 1000)
-ASIDE = ("sensitivity", "clocks", "ablations")
+ASIDE = ("sensitivity", "clocks", "ablations", "teachers")
 LONGEST = 48  # letters of a name that a table shows
 MOST = 1e6  # of a return
 FORMAT = "bootcourse board 1"

@@ -28,6 +28,7 @@ from bootcourse.scenario import CALIBRATED, DEFAULT, Scenario
 from bootcourse.statistics import escapes, improvement
 from bootcourse.storage.assets import read_manifest
 from bootcourse.study.planner import Search, is_staying_optimal, plan_episodes
+from bootcourse.study.teachers import PLANNER, RULE, TEACHERS
 
 ROADS, DECISIONS = 32, 80  # driven by random actions
 IN_THE_LOOP, UPDATES = 8, 60  # updates between decisions; all updates
@@ -74,6 +75,13 @@ def _planner() -> Iterable[float]:
     plans = plan_episodes(range(3), DEFAULT, Search(beam=20))
     staying = is_staying_optimal(range(2), DEFAULT, beam=10)
     return [*(each.value for each in plans), *np.hstack(list(vars(staying).values()))]
+
+
+def _teachers() -> Iterable[float]:
+    """What the study's teachers would do, the planner left out."""
+    _, _, cars = drives(DEFAULT)
+    answers = [its.rule(cars, DEFAULT) for name, its in TEACHERS.items() if name != PLANNER]
+    return [*np.mean(answers, axis=1), *np.std(answers, axis=1)]
 
 
 def _statistics() -> Iterable[float]:
@@ -127,6 +135,7 @@ BEHAVIOURS: dict[str, Callable[[], Iterable[float]]] = {
     "rule": _rule,
     "demonstrations": _demonstrations,
     "planner": _planner,
+    "teachers": _teachers,
     "statistics": _statistics,
     **{method: partial(_method, method) for method in METHODS},
 }
@@ -147,15 +156,14 @@ def fingerprints(*names: str) -> dict[str, list[float]]:
     return {name: _of_this_process(name) for name in names}
 
 
-def behind(settings: Iterable[Settings], scenario: Scenario) -> tuple[str, ...]:
-    """The behaviours that agents trained and tested with these settings depend on."""
+def behind(settings: Iterable[Settings], scenario: Scenario, teacher: str = RULE) -> tuple[str, ...]:
+    """The behaviours that agents trained and tested with these settings and this teacher depend on."""
     road = "calibrated road" if scenario.name == CALIBRATED.name else "road"
-    taught = any(
-        s.needs_demonstrations or s.xi_multiplier or s.xi_fixed > 0 or METHODS[s.method].taught for s in settings
-    )
+    taught = any(s.needs_demonstrations or s.asks_teacher for s in settings)
     drawn = any(s.stochastic_demonstrations for s in settings)
+    other = {RULE: [], PLANNER: ["planner"]}.get(teacher, ["teachers"])
     methods = dict.fromkeys(s.method for s in settings)
-    return (road, *["rule"] * taught, *["demonstrations"] * drawn, *methods)
+    return (road, *["rule"] * taught, *other, *["demonstrations"] * drawn, *methods)
 
 
 def alike(name: str, one: list[float], other: list[float]) -> bool:

@@ -31,9 +31,11 @@ from bootcourse.storage.sealed import is_file_with, read_sealed, write_sealed
 from bootcourse.storage.work import Checkpoints
 from bootcourse.study.fingerprint import behind, fingerprints
 from bootcourse.study.planner import Search, is_staying_optimal, plan_episodes
+from bootcourse.study.teachers import RULE, teacher_named
 
 FORMAT = "bootcourse job 2"
 FORMER_FORMAT = "bootcourse job 1"  # its job.json has no hash of its own
+FORMER = {"teacher": RULE}  # what a job.json of an earlier version does not say
 CHECKPOINT = "checkpoint.npz"
 HELD_OUT = 1  # the block of held-out roads that every method of every study is tested on
 SECONDS_BETWEEN = 60.0  # of checkpoints
@@ -73,10 +75,14 @@ class Job:
     episodes: int  # of training
     tests: int = 1000  # held-out episodes
     runs: bool = True  # keep each agent's weights too; needs agents that differ in method or seed
+    teacher: str = RULE  # a name of `teachers.TEACHERS`
+
+    def __post_init__(self):
+        teacher_named(self.teacher)
 
     @property
     def behaviours(self) -> tuple[str, ...]:
-        return behind(self.settings, self.scenario)
+        return behind(self.settings, self.scenario, self.teacher)
 
     def compute(self, folder: Path) -> float:
         """Train, or continue a training, and test. Returns the seconds of earlier attempts. Raises Interrupted."""
@@ -93,9 +99,10 @@ class Job:
         return earlier
 
     def _training(self, folder: Path) -> Training:
+        teacher = teacher_named(self.teacher)
         if not (folder / CHECKPOINT).exists():
-            return Training(self.settings, self.episodes, self.scenario)
-        training = load_checkpoint(folder / CHECKPOINT)
+            return Training(self.settings, self.episodes, self.scenario, teacher)
+        training = load_checkpoint(folder / CHECKPOINT, teacher)
         wanted = ([*self.settings], self.episodes, self.scenario)
         if (training.settings, training.episodes, training.scenario) != wanted:
             raise OtherQuestion(f"{folder} was begun with other settings: choose another folder, or delete this one.")
@@ -106,7 +113,7 @@ class Job:
         episodes = [drive_episodes(agent.as_policy(), seeds, self.scenario) for agent in result.agents]
         tested = {name: np.stack([getattr(each, name) for each in episodes]) for name in vars(episodes[0])}
         return {
-            "agents": np.array(json.dumps([asdict(agent.settings) for agent in result.agents])),
+            "agents": np.array(json.dumps([asdict(a.settings) | {"teacher": self.teacher} for a in result.agents])),
             "stopped": np.array([getattr(result, "stopped", {}).get(i, -1) for i in range(len(result.agents))]),
             **{f"tested.{name}": _small(values) for name, values in tested.items()},
             **{f"curves.{name}": values.astype(np.float32) for name, values in result.curves.items()},
@@ -175,8 +182,8 @@ def finished(job: AnyJob, root: Path) -> bool:
     folder = root / "jobs" / job.name
     if not folder.exists():
         return False
-    made = read_job(folder)
-    different = [name for name, value in asked(job).items() if made["asked"].get(name) != value]
+    made = FORMER | read_job(folder)["asked"]
+    different = [name for name, value in asked(job).items() if made.get(name) != value]
     if different:
         raise OtherQuestion(
             f"{folder} was computed with other {', '.join(different)}: choose another folder for this study."

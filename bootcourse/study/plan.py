@@ -9,8 +9,10 @@ from bootcourse.learn.settings import SETTINGS, Settings, settings_for, with_see
 from bootcourse.methods import ABLATION, AFTER, BASELINES, METHODS
 from bootcourse.scenario import CALIBRATED, DEFAULT, Scenario
 from bootcourse.study.jobs import BoundJob, Job, StayingJob
+from bootcourse.study.teachers import PLANNER as PLANS
+from bootcourse.study.teachers import RULE, TEACHERS, teacher_named
 
-SEEDS = 10  # of training, in a study of all methods
+SEEDS, TESTS = 10, 1000  # of training, in a study of all methods; held-out episodes of each agent
 GROUP = 10  # seeds that train side by side: with 5, each costs a third more
 PLANNER, ROADS = "planner", 50  # held-out roads that one job of the planner searches
 VARIED = ("sac", "soft", "demos", "bootstrapped")  # the paper's ablation
@@ -75,6 +77,10 @@ class Variation:
     scenario: Scenario = DEFAULT
     methods: tuple[str, ...] = VARIED
     episodes: int = 0  # of training; 0: the experiment's number
+    teacher: str = RULE  # a name of `teachers.TEACHERS`
+
+    def __post_init__(self):
+        teacher_named(self.teacher)
 
 
 def _sensitivity() -> dict[str, Variation]:
@@ -147,6 +153,29 @@ def _beyond() -> dict[str, Variation]:
     }
 
 
+# Of each method in the experiment `teachers`: changes and training episodes. The minutes of one core are those of ten
+# agents side by side, by the speed of their first 20 s. The planner takes 12.5 ms for a decision. Demonstrations by it
+# add 6 minutes (2 where it takes the part of μ in π̃, whose drives end early), its labels of DAgger's 80 episodes 25.
+# Labels for the 1,500 episodes of a method with a KL would take eight hours, so those two cells are left out.
+TAUGHT = {
+    "dagger": ({"updates": 6}, 80),  # 1 minute
+    "ppo_cloned": ({}, 10_000),  # 5 minutes
+    "bootstrapped": ({}, 1500),  # 7 minutes
+    "soft": ({}, 1500),  # 8 minutes
+    "rlpd": ({}, 150),  # 15 minutes
+}
+
+
+def _teachers() -> dict[str, Variation]:
+    """Five ways to use a teacher, with teachers from bad to perfect, a cell each."""
+    return {
+        f"{teacher}, {method}": Variation(changes, methods=(method,), episodes=episodes, teacher=teacher)
+        for method, (changes, episodes) in TAUGHT.items()
+        for teacher in TEACHERS
+        if teacher != PLANS or method not in ("bootstrapped", "soft")
+    }
+
+
 @dataclass(frozen=True)
 class Experiment:
     """Variations that are run with the same seeds and number of episodes."""
@@ -154,14 +183,32 @@ class Experiment:
     variations: dict[str, Variation]  # by name
     seeds: int
     episodes: int  # of training
+    tests: int = TESTS  # held-out episodes
 
-    def jobs(self, name: str, seeds: int = 0, episodes: int = 0, tests: int = 1000) -> list[Job]:
+    def only(self, words: str) -> "Experiment":
+        """The variations that are named by their folder, by their teacher, or by their method if they have one.
+
+        words: such as "planner-dagger" or "ppo_cloned, soft"; "" for all. Raises BootcourseError for an unknown name.
+        """
+        taught = len({its.teacher for its in self.variations.values()}) > 1
+        names = {
+            variation: {folder(variation), *its.methods[: len(its.methods) == 1], *[its.teacher] * taught}
+            for variation, its in self.variations.items()
+        }
+        wanted, known = {word.strip() for word in words.split(",")} - {""}, sorted(set().union(*names.values()))
+        for word in sorted(wanted - set(known)):
+            raise BootcourseError(f"Part {did_you_mean(word, known)}.")
+        kept = {variation: self.variations[variation] for variation in names if not wanted or wanted & names[variation]}
+        return replace(self, variations=kept)
+
+    def jobs(self, name: str, seeds: int = 0, episodes: int = 0, tests: int = 0) -> list[Job]:
         """One job for each variation, its agents side by side. 0: the experiment's own number."""
         jobs = []
         for variation, its in self.variations.items():
             agents = [a for m in its.methods for a in with_seeds(settings_for(m, **its.changes), seeds or self.seeds)]
             where, trained = f"{name}/{folder(variation)}", episodes or its.episodes or self.episodes
-            jobs.append(Job(where, tuple(agents), its.scenario, trained, tests, runs=False))
+            tested = tests or self.tests
+            jobs.append(Job(where, tuple(agents), its.scenario, trained, tested, runs=False, teacher=its.teacher))
         return sorted(jobs, key=lambda job: -sum(job.settings[0].hidden) * job.settings[0].updates)  # the longest first
 
 
@@ -171,6 +218,7 @@ EXPERIMENTS = {
     "ablations": Experiment(_ablations(), seeds=10, episodes=2000),
     "longer-view": Experiment(_longer_view(), seeds=10, episodes=1500),
     "beyond": Experiment(_beyond(), seeds=10, episodes=1500),
+    "teachers": Experiment(_teachers(), seeds=10, episodes=1500, tests=200),
 }
 
 

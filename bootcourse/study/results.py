@@ -22,6 +22,7 @@ from bootcourse.statistics import ESCAPES
 from bootcourse.study.jobs import Provenance
 from bootcourse.study.plan import EXPERIMENTS, STUDIES, folder
 from bootcourse.study.planner import Staying
+from bootcourse.study.teachers import RULE
 
 MEASURES = ("success", "returns", "speed", "distance", "collision", "road_departure", "stoppage")
 RUN_AGAIN = "run the study again, or restore it from a copy"
@@ -32,7 +33,7 @@ KINDS = {"collision": Accident.COLLISION, "road_departure": Accident.ROAD_DEPART
 class Results:
     """Some agents. The arrays of every dictionary have the agents first, in the order of `agents`."""
 
-    agents: list[dict]  # each agent's settings
+    agents: list[dict]  # each agent's settings, and the name of its teacher
     stopped: np.ndarray  # (agents,) the decision at which the loss was not a number, or -1
     tested: dict[str, np.ndarray]  # success, returns, speed, distance, accident: (agents, held-out episodes)
     curves: dict[str, np.ndarray]  # success, return, entropy ...: (agents, training episodes)
@@ -60,7 +61,7 @@ class Results:
     @property
     def sizes(self) -> tuple[int, int]:
         """(held-out episodes, training episodes) of each agent."""
-        return self.tested["returns"].shape[1], self.curves["return"].shape[1]
+        return self.tested["returns"].shape[1], next(iter(self.curves.values())).shape[1]
 
     @property
     def methods(self) -> list[str]:
@@ -118,13 +119,15 @@ def save_results(results: Results, path: Path, provenance: dict) -> None:
 def load_results(path: Path) -> Results:
     """Read a job's `results.npz` or what `save_results` wrote. Raises BootcourseError naming the file."""
     arrays = read_arrays(path, RUN_AGAIN)
-    if not {"agents", "stopped", "tested.returns", "curves.return"} <= arrays.keys():
+    drawn = [values for name, values in arrays.items() if name.startswith("curves.")]
+    if not ({"agents", "stopped", "tested.returns"} <= arrays.keys() and drawn):
         raise BootcourseError(f"{path} does not hold a study's results: {RUN_AGAIN}.")
     arrays.pop("provenance", None)
     with decoding(path, RUN_AGAIN):
         stored = parse(str(arrays.pop("agents")), list[dict[str, Any]], path, RUN_AGAIN)
-        agents = [asdict(stored_settings(agent)) for agent in stored]
-        tests, episodes = arrays["tested.returns"].shape[1], arrays["curves.return"].shape[1]
+        teachers = [agent.pop("teacher", RULE) for agent in stored]  # files of earlier versions do not say
+        agents = [asdict(stored_settings(a)) | {"teacher": name} for a, name in zip(stored, teachers, strict=True)]
+        tests, episodes = arrays["tested.returns"].shape[1], drawn[0].shape[1]
     tested = {f"tested.{f.name}": (len(agents), tests) for f in fields(Episodes)}
     curves = {f"curves.{name}": (len(agents), episodes) for name in NAMES if f"curves.{name}" in arrays}
     each = {name: (len(agents),) for name in ("stopped", "seconds") if name in arrays}

@@ -32,6 +32,7 @@ from bootcourse.study.results import Results, in_assets, in_study, join, load_jo
 
 CURVES = ("success", "return", "speed", "distance", "accident", "entropy")  # the others are in runs/
 VARIED_CURVES = ("success", "return", "xi", "decisions")  # of the experiments
+FEWER = {"teachers": ("success", "decisions")}  # of those with many agents, for their size
 RUNS = 5  # training seeds whose weights ship; curves and scores ship of all
 BUILD = "bootcourse assets build --study DIR"
 STUDY = f"bootcourse study --out DIR && {BUILD}"
@@ -223,7 +224,7 @@ def add_experiments(to: Shipment) -> None:
             path = to.new / name / f"{job.parent.name}.npz"
             results = load_job(job.parent)
             to.check_size(results, path)
-            save_results(lighter(results, VARIED_CURVES), path, versions)
+            save_results(lighter(results, FEWER.get(name, VARIED_CURVES)), path, versions)
             to.add(path, how, behaviour, versions)
 
 
