@@ -42,7 +42,7 @@ class JSRLLearner(SACLearner):
         shared, self.n_actions = self.settings[0], n_actions
         self.stage = torch.zeros(self.agents, dtype=torch.int64)
         self.guided = torch.full((self.agents, shared.envs_per_agent), shared.guide_decisions)  # h of each episode
-        self.returns = torch.zeros(self.agents, shared.window, dtype=torch.float64)  # the last ones with the present h
+        self.returns = torch.zeros(self.agents, shared.window, dtype=torch.float64)  # the last ones, oldest first
         self.counted = torch.zeros(self.agents, dtype=torch.int64)  # episodes with the present h
         self.best = torch.full((self.agents,), -torch.inf, dtype=torch.float64)  # highest mean of `window` returns
 
@@ -66,15 +66,19 @@ class JSRLLearner(SACLearner):
     def judge(self, agent: int, total: float) -> None:
         """Count an episode's return, and take the next step if the mean of the last `window` holds."""
         shared = self.settings[0]
-        self.returns[agent, self.counted[agent] % shared.window] = total
+        self.returns[agent] = self.returns[agent].roll(-1)
+        self.returns[agent, -1] = total
         self.counted[agent] += 1
         if self.counted[agent] < shared.window:
             return
-        mean = float(self.returns[agent].mean())
-        if self.stage[agent] < shared.stages and holds(mean, float(self.best[agent]), shared.tolerance):
+        if self.stage[agent] < shared.stages and self.shrinks(agent):
             self.stage[agent] += 1
             self.counted[agent] = 0
-        self.best[agent] = max(mean, float(self.best[agent]))
+        self.best[agent] = torch.maximum(self.returns[agent].mean(), self.best[agent])
+
+    def shrinks(self, agent: int) -> bool:
+        """Whether the mean of the agent's last `window` returns holds."""
+        return holds(float(self.returns[agent].mean()), float(self.best[agent]), self.settings[0].tolerance)
 
     def tensors(self) -> dict[str, list[Tensor]]:
         """SAC's tensors and the curricula."""

@@ -33,6 +33,7 @@ from bootcourse.statistics import ESCAPES, Estimate, mean
 from bootcourse.storage.assets import FOLDER
 from bootcourse.storage.runs import find_runs, load_run
 from bootcourse.storage.sealed import read_sealed, write_sealed
+from bootcourse.study.beyond import lengths
 from bootcourse.study.jobs import HELD_OUT
 from bootcourse.study.plan import EXPERIMENTS, STUDIES
 from bootcourse.study.results import Results, StudyResults, in_assets
@@ -232,10 +233,8 @@ def costs(results: Results) -> dict[str, float | None]:
 
 def decisions_of(curves: dict[str, np.ndarray]) -> np.ndarray:
     """The decisions of each agent's training, (agents,); NaN if no curve tells. curves: each (agents, episodes)."""
-    lengths = curves.get("decisions")
-    if lengths is None and {"distance", "speed"} <= curves.keys():  # in our studies within 1 % of their sum
-        lengths = curves["distance"] / curves["speed"] * DEFAULT.clock.decision_rate
-    return np.array([np.nan]) if lengths is None else np.nansum(lengths, axis=1, dtype=float)
+    found = lengths(curves)
+    return np.array([np.nan]) if found is None else np.nansum(found, axis=1, dtype=float)
 
 
 def known(values: Sequence[float] | np.ndarray) -> float | None:

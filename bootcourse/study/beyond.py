@@ -1,0 +1,62 @@
+"""The learners that came after the paper: what each reached, and after how many decisions (experiment `beyond`)."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from bootcourse.methods import display_name
+from bootcourse.scenario import DEFAULT
+from bootcourse.study.results import Results
+from bootcourse.study.tables import bracketed, escaped, score
+
+SHARE, WINDOW = 0.95, 50  # an agent has learned the way out when this share of so many episodes in a row ended ahead
+
+
+def lengths(curves: dict[str, np.ndarray]) -> np.ndarray | None:
+    """Decisions of each training episode, (agents, episodes); None if no curve tells.
+
+    Files of earlier versions hold the distance and the mean speed instead. Their quotient is within 1 % of the sum.
+    """
+    if "decisions" in curves:
+        return curves["decisions"]
+    known = {"distance", "speed"} <= curves.keys()
+    return curves["distance"] / curves["speed"] * DEFAULT.clock.decision_rate if known else None
+
+
+def decisions_until(success: np.ndarray, decisions: np.ndarray, share: float = SHARE, window: int = WINDOW):
+    """Decisions until at least `share` of the last `window` episodes ended ahead, (agents,); inf if they never did.
+
+    success, decisions: (agents, episodes), 1 or 0 and the episode's length; NaN for episodes that were not driven.
+    """
+    recent = np.apply_along_axis(np.convolve, 1, np.nan_to_num(success, nan=-window), np.ones(window), "valid")
+    reached = recent >= share * window - 1e-9  # (agents, episodes - window + 1)
+    spent = np.cumsum(np.nan_to_num(decisions), axis=1, dtype=float)[:, window - 1 :]
+    first = np.take_along_axis(spent, reached.argmax(axis=1)[:, None], axis=1)[:, 0]
+    return np.where(reached.any(axis=1), first, np.inf)
+
+
+def spent(results: Results) -> np.ndarray:
+    """Decisions of each agent until it had learned the way out, (agents,); inf if it did not. See `decisions_until`."""
+    return decisions_until(results.curves["success"], lengths(results.curves))
+
+
+def thousands(decisions: np.ndarray) -> str:
+    """ "120 (34 to 200), 9 of 10": the median and the extremes of those that got there, in thousands, and how many."""
+    there = decisions[np.isfinite(decisions)] / 1000
+    if not len(there):
+        return f"none of {len(decisions)}"
+    middle = f"{np.median(there):,.0f} ({there.min():,.0f} to {there.max():,.0f})"
+    return middle if len(there) == len(decisions) else f"{middle}, {len(there)} of {len(decisions)}"
+
+
+def learner_rows(parts: Sequence[Results]) -> tuple[list[str], list[list[str]]]:
+    """(headings, rows): what the agents of each method reached, and at which cost; a row for each method of a part."""
+    rows = []
+    for results in parts:
+        for method in results.methods:
+            its = results.of(method)
+            rates = [f"{100 * its.episodes(measure).mean():.1f}" for measure in ("success", "accident")]
+            cells = [rates[0], bracketed(score(its, method, "returns")), rates[1], thousands(spent(its))]
+            rows.append([display_name(method), escaped(its, method), *cells])
+    learned = f"thousand decisions until {100 * SHARE:g} % of {WINDOW} episodes are ahead"
+    return ["", "agents that escape", "drives that do, %", "return [95 %]", "accidents, %", learned], rows
