@@ -114,6 +114,14 @@ METHODS = {
         taught=True,
         **_ON_POLICY,
     ),
+    "ppo_safe": Method(
+        "safe PPO",
+        Style("#44AA99", width=2.0, marker="o"),
+        _PPO | {"cloning_updates": 400, "stochastic_demonstrations": True} | {"accident_cost": 50.0},
+        "bootcourse.learn.safe:SafeLearner",
+        kind="SafeSettings",
+        on_policy=True,
+    ),
     "dagger": Method(
         "DAgger",
         Style("#332288", "--", marker="o"),
@@ -151,7 +159,18 @@ METHODS = {
 }
 ABLATION = ("sac", "soft", "demos", "bootstrapped", "margin", "margin_soft")  # the paper's method and its parts
 BASELINES = ("bc", "cql", "cql_sac", "gail")
-AFTER = ("ppo", "ppo_cloned", "ppo_kl", "ppo_residual", "dagger", "jsrl", "rlpd", "ibrl", "pex")  # not in the paper
+AFTER = (
+    "ppo",
+    "ppo_cloned",
+    "ppo_kl",
+    "ppo_residual",
+    "ppo_safe",
+    "dagger",
+    "jsrl",
+    "rlpd",
+    "ibrl",
+    "pex",
+)  # not in the paper
 DRIVERS = {  # name and style of the drivers that are not trained
     "rule": ("rule controller", Style("#009E73", width=1.0)),
     "planner": ("planner", Style("#000000", (0, (8, 4)))),

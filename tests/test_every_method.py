@@ -15,7 +15,11 @@ from tests.test_baselines import a_batch
 QUICK = {"hidden": (8,), "demonstration_episodes": 2, "learning_starts": 16, "batch": 16, "guide_decisions": 4,
          "stages": 2, "window": 2, "horizon": 8, "epochs": 2, "cloning_updates": 5}  # fmt: skip
 
-FADING = {"ppo": {"anneal_decisions": 200}, "ppo_kl": {"kl_episodes": 20}}  # what changes in a few episodes
+FADING = {  # what changes in a few episodes
+    "ppo": {"anneal_decisions": 200},
+    "ppo_kl": {"kl_episodes": 20},
+    "ppo_safe": {"mask_episodes": 1, "risk_limit": 0.3, "multiplier_step": 1.0, "risk_decisions": 4},
+}
 
 
 def on_policy(method: str) -> bool:

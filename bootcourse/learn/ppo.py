@@ -18,7 +18,7 @@ from torch import Tensor
 from bootcourse.learn import sac
 from bootcourse.learn.bc import BCLearner
 from bootcourse.learn.networks import init_mlp, mlp
-from bootcourse.learn.replay_buffer import decode_transitions
+from bootcourse.learn.replay_buffer import Batch, decode_transitions
 from bootcourse.learn.settings import PPOSettings
 from bootcourse.scenario import N_ACTIONS
 
@@ -85,7 +85,7 @@ class RolloutBuffer:
         chosen = torch.from_numpy(self.order[:, self.drawn : self.drawn + batch])  # (agents, batch)
         self.drawn += batch
         agents = torch.arange(len(self.order))[:, None]
-        return Minibatch(*(column[agents, chosen] for column in self.columns))
+        return type(self.columns)(*(column[agents, chosen] for column in self.columns))
 
     def state(self) -> dict[str, np.ndarray]:
         """What a checkpoint keeps: the decisions of an unfinished round."""
@@ -110,9 +110,10 @@ class PPOLearner(BCLearner):
         self.value = init_mlp((observation_size, *shared.hidden, 1), generators)
         with torch.no_grad():
             self.actor[-2] *= 0.01  # begin with nearly equal probabilities
+        self.trained = [(self.actor, shared.actor_lr), (self.value, shared.critic_lr)]  # networks and learning rates
         for parameter in self.value:
             parameter.requires_grad_()
-        groups = [{"params": self.actor, "lr": shared.actor_lr}, {"params": self.value, "lr": shared.critic_lr}]
+        groups = [{"params": network, "lr": rate} for network, rate in self.trained]
         self.optimiser = torch.optim.Adam(groups, fused=True)
 
     def make_buffer(self, observation_size: int, demonstrations: Tensor | None) -> RolloutBuffer:
@@ -149,20 +150,24 @@ class PPOLearner(BCLearner):
         """Set both learning rates, which fall linearly to 0 if `anneal_decisions` is set; decisions: of each agent."""
         shared = self.settings[0]
         share = max(1 - decisions / shared.anneal_decisions, 0.0) if shared.anneal_decisions else 1.0
-        for group, rate in zip(self.optimiser.param_groups, (shared.actor_lr, shared.critic_lr), strict=True):
+        for group, (_, rate) in zip(self.optimiser.param_groups, self.trained, strict=True):
             group["lr"] = rate * share
 
     @torch.no_grad()
     def prepare(self, replay: RolloutBuffer) -> None:
         """Compute the advantages and returns of the stored decisions."""
         taken = decode_transitions(replay.table, replay.observation_size, replay.ended)
-        values, next_values = (self._values(states) for states in (taken.states, taken.next_states))
-        found = self.advantages(taken.rewards, values, next_values, taken.terminated, replay.ended)
-        states, actions, rule_actions = map(_agents_first, (taken.states, taken.actions, taken.rule_actions))
+        values, next_values = (self._values(self.value, states) for states in (taken.states, taken.next_states))
+        found = self.advantages(self.rewards(taken), values, next_values, taken.terminated, replay.ended)
+        states, actions, rule_actions = map(agents_first, (taken.states, taken.actions, taken.rule_actions))
         log_pi = self.log_pi(states, rule_actions).gather(-1, actions[..., None])[..., 0]
         columns = (taken.states, taken.actions, None, found, found + values, taken.rule_actions)
-        replay.columns = Minibatch(*(log_pi if column is None else _agents_first(column) for column in columns))
+        replay.columns = Minibatch(*(log_pi if column is None else agents_first(column) for column in columns))
         replay.drawn = 0
+
+    def rewards(self, taken: Batch) -> Tensor:
+        """What the learner maximises: the road's rewards, (horizon, agents, roads)."""
+        return taken.rewards
 
     def advantages(self, *columns: Tensor) -> Tensor:
         """The advantages of decisions, all (horizon, agents, roads); columns as of `advantages`, without γ and λ."""
@@ -194,7 +199,7 @@ class PPOLearner(BCLearner):
         terms = self.losses(batch)
         self.optimiser.zero_grad()
         sum(loss for name, loss in terms.items() if name.endswith("loss")).sum().backward()
-        for network in (self.actor, self.value):
+        for network, _ in self.trained:
             norm = sum(p.grad.square().flatten(1).sum(1) for p in network).sqrt()  # (agents,)
             for parameter in network:
                 parameter.grad *= (0.5 / (norm + 1e-6)).clamp(max=1.0)[:, None, None]
@@ -209,13 +214,13 @@ class PPOLearner(BCLearner):
         """log π(a|s): (agents, batch, actions). A policy without the teacher does not use μ(s), (agents, batch)."""
         return sac.log_policy(mlp(self.actor, states))
 
-    def _values(self, states: Tensor) -> Tensor:
-        """V(s): (horizon, agents, roads, observation) -> (horizon, agents, roads)."""
+    def _values(self, network: list[Tensor], states: Tensor) -> Tensor:
+        """V(s) of a network: (horizon, agents, roads, observation) -> (horizon, agents, roads)."""
         horizon, agents, roads, _ = states.shape
-        values = mlp(self.value, _agents_first(states))[..., 0]
+        values = mlp(network, agents_first(states))[..., 0]
         return values.view(agents, horizon, roads).transpose(0, 1)
 
 
-def _agents_first(column: Tensor) -> Tensor:
+def agents_first(column: Tensor) -> Tensor:
     """(horizon, agents, roads, ...) -> (agents, horizon x roads, ...)."""
     return column.transpose(0, 1).flatten(1, 2)

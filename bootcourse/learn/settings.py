@@ -142,6 +142,28 @@ class PPOSettings(Settings):
 
 
 @dataclass(frozen=True)
+class SafeSettings(PPOSettings):
+    """The settings of PPO for which accidents cost more. All are our choice §; each is off by default."""
+
+    accident_cost: float = 0.0  # taken off the reward of an accident, beside the road's -10, while the agent learns
+    accident_budget: float = 0.002  # d: the share of training episodes that may end in an accident
+    multiplier_step: float = 0.0  # K_I: how fast λ follows J_C - d, in reward per round of updates; 0: no λ
+    risk_limit: float = 1.0  # ε: actions of a larger predicted risk are not taken while driving; 1: no mask
+    risk_decisions: int = shared(10)  # k: the risk is that of an accident within so many decisions
+    mask_episodes: int = shared(0)  # training episodes after which the mask is on in training, too; 0: never
+    shield: bool = shared(False)  # that of shield.py: written by hand, for comparison
+
+    def __post_init__(self):
+        super().__post_init__()
+        _check_range(self, 0.0, math.inf, "accident_cost", "multiplier_step")
+        _check_range(self, 0.0, 1.0, "accident_budget", "risk_limit")
+        _check_range(self, 1, self.horizon, "risk_decisions", whole=True)
+        _check_range(self, 0, math.inf, "mask_episodes", whole=True)
+        if not isinstance(self.shield, bool):
+            raise BootcourseError(f"shield = {self.shield!r}: give True or False.")
+
+
+@dataclass(frozen=True)
 class JSRLSettings(Settings):
     """The settings of jump-start RL."""
 
@@ -186,7 +208,7 @@ class PEXSettings(Settings):
         _check_range(self, 1e-12, math.inf, "choice_temperature")
 
 
-KINDS = {kind.__name__: kind for kind in (Settings, PPOSettings, JSRLSettings, RLPDSettings, PEXSettings)}
+KINDS = {kind.__name__: kind for kind in (Settings, PPOSettings, SafeSettings, JSRLSettings, RLPDSettings, PEXSettings)}
 
 
 def settings_class(method: str) -> type[Settings]:
