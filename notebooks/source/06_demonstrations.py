@@ -50,7 +50,7 @@ from bootcourse.lessons import (
 unsure = bc.stochastic_rule_policy(bc.DEFAULT, np.random.default_rng(0))
 driven = {"the rule": bc.record(bc.rule_policy(bc.DEFAULT), range(60), label="rule")}
 driven["the stochastic rule"] = bc.record(unsure, range(60), label="stochastic rule")
-title = "The rule drives along a narrow path, the unsure rule strays from it"
+title = "The rule drives along a narrow path, the stochastic rule strays from it"
 bc.show(figures.where_they_were(driven, seconds=30, title=title))
 
 # %% [markdown]
@@ -69,7 +69,7 @@ predict("6.1", "From whose drives do you learn?", ["the rule's", "the stochastic
 #
 # A **demonstration** is somebody's drive, kept as **transitions**. A transition is one decision:
 # what the driver saw, what it did, what it was paid, what it saw next, and whether an accident
-# ended the drive there. A drive has one observation more than it has actions.
+# ended the drive there (**terminated**). A drive has one observation more than it has actions.
 #
 # > **Predict.** One drive ends after 150 s because the time is up. Another ends after 20 s in a
 # > collision. In which of the two does the last transition count as terminated?
@@ -151,8 +151,8 @@ bc.show(charts.action_bars({"rule": shares}, title, "share of the decisions"))
 # **See.** Each of the nine actions occurs. The rule needs {{ way_out()[0] | .0f }} s to get from
 # behind the traps into the free lane, and {{ way_out()[1] | .0f }} s to be ahead of trap 1 (medians
 # of the 60 drives in the figure at the top). So the way to the free lane is
-# {{ 100 * way_out()[0] / 150 | .0f }} % of a demonstration, and a loss that averages over the
-# decisions gives it a weight of as much.
+# {{ 100 * way_out()[0] / 150 | .0f }} % of a demonstration, and that is its weight in a loss that
+# averages over the decisions.
 #
 # What is a demonstration worth, and from which second on? The paper's learners discount: a reward
 # $t$ seconds later counts $\gamma^t$, with γ = {{ SETTINGS.gamma }}. From second t on a drive is
@@ -165,7 +165,7 @@ bc.show(charts.action_bars({"rule": shares}, title, "share of the decisions"))
 
 # %%
 def return_to_go(rewards, gamma):
-    """G_t of each second, the last one's is its reward: rewards (T,), gamma in [0, 1] -> (T,)."""
+    """G_t of each second; the last one is the last reward. (T,), gamma in [0, 1] -> (T,)."""
     # solution: the exercise's own
 
 
@@ -193,8 +193,8 @@ table(["γ", "doing nothing", "the rule"], rows, below=below)
 # %% [markdown]
 # **Explain.** A learner with γ = {{ SETTINGS.gamma }} looks about five seconds ahead
 # (1 / (1 − γ) = {{ 1 / (1 - SETTINGS.gamma) | .0f }}), and in its first five seconds the rule
-# brakes. In discounted reward this escape is worth less at its start than doing nothing, so a
-# learner that goes by the reward would rather do nothing. Lesson 8 pays a bonus for the
+# brakes. In discounted reward this escape is worth less at its start than doing nothing: of the
+# two, a learner that goes by the reward prefers doing nothing. Lesson 8 pays a bonus for the
 # demonstrated actions. Here we leave the reward out and copy the actions.
 # <!-- claim: round(1 / (1 - SETTINGS.gamma)) == 5 -->
 # <!-- claim: by_rule().states[10, EGO, SPEED] < by_rule().states[0, EGO, SPEED] -->
@@ -261,7 +261,7 @@ def shown(measured):
     rows = [
         [name, *(f"{100 * share:.0f} %" for share in three)] for name, three in measured.items()
     ]
-    return table(["", "agrees with its data", "escapes", "has an accident"], rows)
+    return table(["", "agreement", "escapes", "has an accident"], rows)
 
 
 measured = {"clones of the rule": cloning.measure(rule_clones, by_rule)}
@@ -326,7 +326,7 @@ predict(
 
 # %%
 def strangeness(driver, seconds, roads=40):
-    """Median distance from what a driver sees (at last) to the nearest demonstrated state."""
+    """Median distance from what a driver sees, or saw last, to the nearest demonstrated state."""
     drives, known = bc.record(driver, range(roads)), by_rule[:, : bc.DEFAULT.observation_size]
     found = []
     for t in seconds:
@@ -415,13 +415,13 @@ shown({f"{name} (mean of 4)": values.mean(axis=0) for name, values in measured.i
 # **Explain.** The stochastic rule gave less than half as many rows, and most of its drives end in
 # an accident. In our runs its clones escaped more often and had fewer accidents than the clones of
 # the rule, while they agreed less with their data. (Yours will differ.) A likely reason: these data
-# **cover** more states, and they show how to return to the path. To disturb the teacher on purpose
-# is a method of its own, DART.
+# **cover** more states, and they show how to return to the path. The method DART disturbs the
+# teacher on purpose.
 #
-# How much coverage matters depends on the budget. The ten clones of the study learned from drives
-# of the rule alone, with far more updates: {{ escaped('bc') }} of 10 escape, and they have an
-# accident in {{ 100 * accidents('bc') | .1f }} % of their drives on {{ roads() | , }} held-out
-# roads. Try `cloning.clone(by_rule, updates=12_000)`, about half a minute, and measure it.
+# How much coverage matters depends on the number of updates. The ten clones of the study learned
+# from drives of the rule alone, with far more updates: {{ escaped('bc') }} of 10 escape, and they
+# have an accident in {{ 100 * accidents('bc') | .1f }} % of their drives on {{ roads() | , }}
+# held-out roads. Try `cloning.clone(by_rule, updates=12_000)`, about half a minute, and measure it.
 # <!-- claim: len(of('bc')) == 10 and escaped('bc') == 10 and accidents('bc') < 0.01 -->
 #
 # ## Round 6: what if the rule labels the clone's own states?
@@ -493,7 +493,8 @@ shown({f"after {20 * i} drives of its own": three for i, three in enumerate(roun
 # %% [markdown]
 # ## What you now know
 #
-# 1. A demonstration is a list of transitions; where time ran out, nothing has ended.
+# 1. A demonstration is a list of transitions. An accident terminates the last one, the end
+#    of the time does not.
 # 2. Look into the data first: the way to the free lane takes {{ way_out()[0] | .0f }} of 150 s.
 # 3. With γ = 0.8 the rule's escape on road 10 is worth *less* at its start than doing nothing.
 # <!-- claim: discounted(by_rule(), 0.8) < discounted(idle(), 0.8) -->

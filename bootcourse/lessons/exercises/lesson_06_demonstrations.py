@@ -270,6 +270,16 @@ def taught(rows, train, drive, rounds, relabel=True, keep=True, latest=True):
     return drivers
 
 
+def forgetful(rows, train, drive, rounds):
+    """DAgger that adds each round's rows to the rule's own, and not to those before."""
+    drivers = [train(rows)]
+    for _ in range(rounds):
+        own = drive(drivers[-1]).clone()
+        own[:, cloning.ACTION] = own[:, cloning.RULE_ACTION]
+        drivers.append(train(torch.cat([rows, own])))
+    return drivers
+
+
 def one_row(label):
     row = torch.zeros(1, cloning.RULE_ACTION + 2)
     row[0, [0, cloning.ACTION, cloning.RULE_ACTION]] = torch.tensor([1.0, label, label])
@@ -291,6 +301,9 @@ dagger = Exercise(
         Mistake(lambda *given: taught(*given, keep=False),
             "You train on the newest drives alone. Keep all rows so far: DAgger means data *aggregation*.",
             "Old data are of an old policy, and so are out of date."),
+        Mistake(forgetful,
+            "You add each round's rows to the rule's own, and lose those of the rounds before. Keep all rows so far.",
+            "`torch.cat` changes its first argument."),
         Mistake(lambda *given: taught(*given, latest=False),
             "You always let the first clone drive. The states that matter are those of the newest one.",
             "A clone's states do not change much."),
