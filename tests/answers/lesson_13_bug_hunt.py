@@ -151,6 +151,13 @@ right_lines("""unmasks
 
 
 @right("unmasks")
+def with_names_and_lists(target):
+    reward, demo, end, value = [1.0, -10.0, 0.5, -3.0], [0, 0, 1, 1], [0, 1, 0, 1], [4.0, 2.0, 7.0, -1.0]
+    y = target(reward=reward, demo=demo, bonus=3.0, end=end, next_value=value, gamma=0.5)
+    return [round(float(each), 6) for each in y] != [3.0, -10.0, 7.0, 0.0]
+
+
+@right("unmasks")
 def four_questions(target):
     """One transition after the other, each with a partner, so that a mean over the batch shows."""
     for demo in (0.0, 1.0):

@@ -327,7 +327,7 @@ holm = Exercise(
             "You multiply the *largest* p by m. Holm begins with the smallest.",
             "The weakest result needs the strongest correction."),
         Mistake(lambda p: np.asarray(p) * 1.0,
-            "These are the p-values themselves. Of twenty of them one is below 0.05 by luck.",
+            "These are the p-values themselves. Of twenty, one on average is below 0.05 by luck.",
             "A p-value knows how many tests were made."),
     ),
     hints=(

@@ -32,8 +32,13 @@ RIGHT_TARGETS = tuple(TARGETS)[:3]
 
 
 def is_unmasked(answer, name):
-    """What the student's probe says of one target function."""
-    return answer(TARGETS[name])
+    """What the student's probe says of one target function, called as the lesson says, by names or not."""
+
+    def target(reward, demo, bonus, end, next_value, gamma):
+        reward, demo, end, next_value = map(np.asarray, (reward, demo, end, next_value))
+        return TARGETS[name](reward, demo, bonus, end, next_value, gamma)
+
+    return answer(target)
 
 
 def unmasks_solution(target):
