@@ -129,7 +129,7 @@ for method in methods:
     effective = [f"{np.exp(nats[:, a:b].mean()):.2f}" for a, b in spans]
     rows.append([bc.display_name(method), *effective])
 episodes = study.curves["entropy"].shape[1]
-table(["effective actions", "first 100", "200-300", "900-1000", f"last of {episodes}"], rows)
+table(["effective actions", "first 100", "200-300", "900-1000", f"last 100 of {episodes}"], rows)
 
 # %% [markdown]
 # **See.** Read the first two columns. In episodes 200 to 300 plain SAC and demonstrations alone are
@@ -156,11 +156,11 @@ table(["effective actions", "first 100", "200-300", "900-1000", f"last of {episo
 # <!-- claim: all(np.exp(of(m).curves['entropy'][:, :25].mean(1)).min() > 8 for m in ('sac', 'soft',
 #   'demos', 'bootstrapped')) -->
 #
-# Why do all of them end nearly certain? The **temperature** α is the price of a nat. SAC adjusts α
-# to hold the entropy at a target η, and the paper's target is {{ SETTINGS.target_entropy }}. That
-# formula is for continuous actions. With nine actions the entropy is at least 0, and so above
-# {{ SETTINGS.target_entropy }} in each state. Each update therefore lowers α (lesson 4). Here it is
-# in the shipped agents:
+# Why do all of them end nearly certain? The **temperature** α is what a nat of entropy earns. SAC
+# adjusts α to hold the entropy at a target η, and the paper's target is
+# {{ SETTINGS.target_entropy }}. That formula is for continuous actions. With nine actions the
+# entropy is at least 0, and so above {{ SETTINGS.target_entropy }} in each state. Each update
+# therefore lowers α (lesson 4). Here it is in the shipped agents:
 # <!-- claim: SETTINGS.target_entropy < 0 -->
 
 # %%
@@ -322,17 +322,17 @@ table([*headings, "best 100 in a row, %", "after training, % of all held-out roa
 # <!-- claim: np.sort(ended_ahead('sac'))[3] < 20 and (of('sac').scores('success')[:5] >=
 #   ESCAPES).sum() == 1 and of('sac').scores('success')[ended_ahead('sac').argmax()] >= ESCAPES -->
 #
-# A map of drives after training does not show this. These four agents did find the way out. The
-# question is why they did not keep it. Lesson 9, round 5, shows when four of the ten agents with
-# demonstrations alone lose it: as the demonstrations run out. And round 6 shows agents that keep
-# it: with two updates for each decision instead of a quarter, all ten do.
+# A map of drives after training does not show this. Why did they not keep it? Lesson 9, round 5,
+# shows when four of the ten agents with demonstrations alone lose it: as the demonstrations run
+# out. And round 6 shows agents that keep it: with two updates for each decision instead of a
+# quarter, and demonstrations by the stochastic rule, all ten do.
 # <!-- claim: escapers(clocks()['2', 'π̃'], 'demos') == len(clocks()['2', 'π̃'].of('demos')) == 10 -->
 
 # %% [markdown] tags=["instructor"] minutes=7
 # Stop at the map and ask what it does not show before they see the table: these are drives after
 # training, and a colour is a mean over lanes and drives. The training curves record whether an
 # episode ended ahead, but not the places in between. How would they find these out? (Train with
-# `Training.run` and a callback that calls `visits` on a few drives now and then, as lesson 7 does.)
+# `Training.run` and a callback, as in lesson 7, that calls `visits` on a few drives now and then.)
 
 # %% [markdown]
 # ## Round 4: undecided drivers and the places they see
@@ -396,7 +396,8 @@ predict("12.6", "A trapped agent tries something else with a chance", choices)
 
 # %% [markdown]
 # **Exercise 12.5 (5 min, ●●○).** The chance that in a drive at least one action that is drawn is
-# not the likeliest one. The policy is given at each second of the drive.
+# not the likeliest one. You get the policy at each second of a drive with the likeliest actions:
+# until it tries something else, the agent drives like that.
 
 
 # %%
@@ -465,7 +466,7 @@ compare_predictions(
     {
         "12.1": "1.7",
         "12.2": "both are nearly certain",
-        "12.3": "see the table below the map",
+        "12.3": "it differs: see each row's darkest field in the map",
         "12.4": f"{np.sum(np.array(was_ahead) & np.concatenate(trapped))} of {np.sum(trapped)}",
         "12.5": "the rule",
         "12.6": "it differs widely between agents",
