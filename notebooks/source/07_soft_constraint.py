@@ -34,8 +34,9 @@ from bootcourse.lessons import charts, check, compare_predictions, own_code, pre
 #
 # An agent that has learned nothing yet drives, and you see what the rule would do. Each row is
 # one of the nine actions. The first bar is the agent's own probability, π. The second is the
-# rule's, π̃ ("pi tilde"), which is nearly sure of one action. The third is a compromise of the two.
-# Move the numbers and watch the third.
+# rule's, π̃ ("pi tilde"), which is nearly sure of one action. The third, *optimum*, is a compromise
+# between the agent and the rule. (The fourth belongs to Round 2.) Move the numbers and watch the
+# third.
 
 # %%
 ROAD = 10
@@ -44,8 +45,8 @@ first_drive = bc.record(newborn.as_policy(with_q=True), [ROAD], label="soft")[0]
 bc.panels.policy_panel(first_drive)
 
 # %% [markdown]
-# > **Predict.** Set ξ ("xi") to 0. Which of the three columns of bars changes, and what does it
-# > look like then? Do it, and put ξ back to 2.
+# > **Predict.** Set ξ ("xi") to 0. Which column of bars changes, and what does it look like then?
+# > Do it, and put ξ back to 2.
 
 # %%
 predict(
@@ -165,9 +166,9 @@ check.soft_constraint(soft_constraint)
 source("bootcourse.learn.bootstrap", "log_stochastic_rule", "kl_to_rule")
 
 # %% [markdown] tags=["instructor"] minutes=10
-# Let one half of the room minimise KL(π‖π̃) over policies with two actions, the other half the
-# reverse. "Mode seeking" and "mass covering" come up by themselves. With a rule that is a point
-# mass plus noise, both have the same minimum; what differs is the gradient far away from it.
+# Let one half of the room minimise KL(π‖π̃) over the policies of two actions, the other half the
+# reverse. Both find π̃: what differs is the gradient far away from it. ("Mode seeking" and "mass
+# covering" describe families of policies that do not contain π̃.)
 
 # %% [markdown]
 # ## Round 3: which compromise is best?
@@ -242,7 +243,7 @@ print(f"largest difference of a probability: {(logits.softmax(-1) - best).abs().
 
 # %%
 alone = (q / alpha).softmax(-1)[0].tolist()
-title = "Q would accelerate, the rule keeps left; the compromise is undecided"
+title = "Q would accelerate, the rule keeps left; the compromise gives both a share"
 bc.show(
     charts.action_bars(
         {"Q alone": alone, "rule": log_rule.exp()[0].tolist(), "both": best[0].tolist()}, title
@@ -266,9 +267,7 @@ for xi in (2.0, 0.2, 0.02, 0.002):
 best_second = bc.formulas.weighted_reward(
     bc.formulas.speed_reward(15.0), bc.formulas.centring_reward(0.0), 0.0, 1.5, 0.05, 0.05
 )
-print(
-    f"the best second pays {best_second:.2f}; γ = 0.8 sees about {1 / (1 - 0.8):.0f} of them ahead"
-)
+print(f"the best second pays {best_second:.2f}; γ = 0.8 counts about {1 / (1 - 0.8):.0f} of them")
 
 # %%
 strengths = np.geomspace(0.002, 5, 100)
@@ -278,7 +277,7 @@ probability = {
     "accelerate straight": np.array([pi[7] for pi in policies]),
 }
 tie = float((q[0, 7] - q[0, rule_says.item()]) / step)
-title = f"Where Q leads by 0.6, the rule takes over at ξ = {tie:.2f}"
+title = f"Against a lead of 0.6 in Q, the rule takes over at ξ = {tie:.2f}"
 bc.show(charts.lines(strengths, probability, title, "ξ (α = 0.01)", "probability", logarithmic="x"))
 
 # %% [markdown]
@@ -501,13 +500,12 @@ for words, driver in [*rows, ("the rule", bc.rule_policy(bc.DEFAULT))]:
 # 9).
 # <!-- claim: escaped('sac') == 1 < len(of('sac')) / 2 < escaped('soft') -->
 #
-# **Explain.** An agent that does as the rule in most seconds can still leave the road in one of the
-# others: to be close to a rule is not the same as to drive well. While ξ fades, the rewards of the
-# road count more and more, also where the rule would do something else. (The paper's table gives
-# the soft constraint alone a success of
-# {{ 100 * PRINTED['soft']['success'].mean | .0f }} %. On our road, with the KL in the target,
-# {{ escaped('soft') }} of the study's {{ len(of('soft')) }} agents escape. When two results differ,
-# report both, and look for the cause: lesson 9, round 6.)
+# **Explain.** An agent that does as the rule does in most seconds can still leave the road in one
+# of the others: to be close to a rule is not the same as to drive well. While ξ fades, the rewards
+# of the road count more and more, also where the rule would do something else. (The paper's table
+# gives the soft constraint alone a success of {{ 100 * PRINTED['soft']['success'].mean | .0f }} %.
+# On our road, with the KL in the target, {{ escaped('soft') }} of the study's {{ len(of('soft')) }}
+# agents escape. When two results differ, report both, and look for the cause: lesson 9, round 6.)
 # <!-- claim: PRINTED['soft']['success'].mean == 0 -->
 # <!-- claim: escaped('soft') > 0 -->
 #
