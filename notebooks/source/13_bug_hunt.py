@@ -148,7 +148,7 @@ bc.show(
 # needs a healthy agent beside it. Ask which agent leaves the grey lines, and in which direction.
 # <!-- claim: (hunt().probe('healthy', 'end')[:, -1] > DEFAULT.reward.accident + 1).all() -->
 #
-# > **Predict.** The road pays at most about 1 a second, and γ = 0.8 sees about 5 seconds ahead.
+# > **Predict.** The road pays at most about 1 a second, and γ = 0.8 counts about 5 seconds.
 # > The value that a critic gives to a state is what it *promises*. What is the most that a correct
 # > critic may promise? And the most if c = 2 is added in *every* second?
 
@@ -200,8 +200,8 @@ table(["one road, from the start", "Q promised", "the road paid"], rows)
 # - **late**: the same with what the rule does *one second later*;
 # - **rarest**: the logarithm of the smallest of the nine probabilities.
 #
-# Two more witnesses are in the file, if you need them: `hunt.probes("kl")`, and the temperature,
-# `hunt.curves("alpha")`.
+# Two more kinds of curves are in the file, if you need them: `hunt.probes("kl")`, and the
+# temperature, `hunt.curves("alpha")`.
 
 # %%
 probes = hunt.probes("entropy")
@@ -241,8 +241,8 @@ predict("13.4", "With the flipped KL the policy treats such an action so:", choi
 # **Explain.** Read the table and the last picture with that question. The stochastic rule gives
 # one in eighty to each action that the rule does not take. With the right KL the policy may drop
 # such an action: dropping it costs little. The flipped KL grows without bound when the probability
-# of one of the nine goes to zero. So both policies have nearly the same favourite, and quite
-# different rare actions.
+# of one of the nine goes to zero. So the two policies agree
+# with the rule about as often, and differ in what they do with rare actions.
 # <!-- claim: math.isclose((1 - RULE_P) / (N_ACTIONS - 1), 1 / 80) -->
 
 # %% [markdown]
@@ -303,7 +303,7 @@ check.diagnose(diagnose)
 # target = reward + bonus + gamma * next_value
 # ```
 #
-# **Exercise 13.3 (4 min, ●○○).** Two of the six bugs are in that line. Write it right.
+# **Exercise 13.3 (4 min, ●○○).** Two of the six bugs are in that line. Write it without them.
 
 
 # %%
@@ -330,7 +330,7 @@ print(f"an accident: {-10:.0f}; an accident for ever, γ = 0.8: {-10 / (1 - gamm
 #   'ABCDEF') -->
 #
 # Next the value of a state. SAC for continuous actions draws one action instead of summing over
-# them. This learner does the same with its nine actions:
+# them. The buggy learner does the same with its nine actions:
 #
 # ```python
 # action = torch.multinomial(log_pi.exp(), 1)
@@ -377,8 +377,8 @@ check.fixed_value(fixed_value)
 # loss = -((pi * (q - alpha * log_pi)).sum(-1) - xi * kl).mean()
 # ```
 #
-# **Exercise 13.5 (6 min, ●●○).** Write it right. The check looks at where your loss sends a
-# gradient.
+# **Exercise 13.5 (6 min, ●●○).** Write it without them. The check looks at where your loss sends
+# a gradient.
 
 
 # %%
@@ -396,9 +396,9 @@ check.fixed_loss(fixed_loss)
 # millisecond, from outside, with a few transitions whose right y you work out by hand.
 #
 # **Exercise 13.6 (20 min, ●●●).** Write that test. You are given a function
-# `target(reward, demo, bonus, end, next_value, gamma)`, of which you do not see the code: arrays of
-# shape (batch,), and two floats. Say whether it is wrong. The check gives it three functions that
-# are right and twelve that are wrong, each in another way.
+# `target(reward, demo, bonus, end, next_value, gamma)`, of which you do not see the code. It takes
+# NumPy arrays of shape (batch,), and two floats: bonus and gamma. Say whether it is wrong. The
+# check gives it three functions that are right and twelve that are wrong, each in another way.
 # <!-- claim: (lambda e: len(e.TARGETS) - len(e.RIGHT_TARGETS) == 12 and len(e.RIGHT_TARGETS) ==
 #   3)(__import__('bootcourse.lessons.exercises.target_probe', fromlist=['x'])) -->
 
