@@ -42,7 +42,7 @@ from bootcourse.road.state import EGO, SPEED
 #
 # The learner of the paper trains for minutes. The compiled road could drive much more in that time,
 # so here is a learner that drives hundreds of roads at once: PPO, *proximal policy optimisation*.
-# {{ ppo_agents() }} agents were trained with it, alone, without a rule and demonstrations. They
+# {{ ppo_agents() }} agents were trained with it, alone, without a rule or demonstrations. They
 # ship with the course, and were tested on {{ len(ppo_reference.ROADS) }} roads that are new to
 # them.
 
@@ -123,9 +123,10 @@ title = "The line between 5 and 15 m/s lies above the reward"
 bc.show(charts.lines(v, named, title, "mean speed (m/s)", "speed reward of a second"))
 
 # %% [markdown]
-# The reward is flat up to 12.5 m/s and steep from there to 15 m/s: it is **convex** between 5 and
-# 15 m/s. The mean of a convex function is at least the function of the mean (Jensen's inequality).
-# So a driver with a given mean speed earns more the more the speed varies.
+# The reward rises slowly up to 12.5 m/s and steeply from there to 15 m/s: it is **convex** between
+# 5 and 15 m/s. The mean of a convex function is at least the function of the mean (Jensen's
+# inequality). So at a given mean speed, a speed that changes between 5 and 15 m/s earns at least as
+# much as a steady one.
 # <!-- claim: (lambda r: all(r[i - 1] + r[i + 1] >= 2 * r[i] - 1e-12 for i in range(1, len(r) -
 #   1)))([speed_reward(v) for v in np.linspace(5, 15, 401)]) -->
 #
@@ -155,10 +156,10 @@ table(["", "mean speed, m/s", "mean r_v", "r_v at the mean speed", "gap"], rows)
 
 # %% [markdown]
 # **Explain.** The agent is slower on average than the car that keeps straight, and its speed pays
-# more than twice as much. The gap is what it lives on. Nothing is wrong with the agent. The
-# reward's authors wanted a car that likes 15 m/s, and wrote one that pays for *being* fast at times
-# as well. A reward that is earned in a way that nobody meant is called **reward hacking**, and here
-# is its cost: the agent sits in a second trap. Its return says "as good as the rule".
+# more than twice as much. The gap makes the difference. Nothing is wrong with the agent. The reward
+# is meant for a car that drives 15 m/s, and it also pays one that is fast at times and slow at
+# others. To earn a reward in a way that was not meant is called **reward hacking**, and here is its
+# cost: the agent sits in a second trap. Its return says "as good as the rule".
 # <!-- claim: ppo_speeds().mean() < DEFAULT.traps.speed and np.mean([speed_reward(v) for v in
 #   ppo_speeds()]) > 2 * speed_reward(DEFAULT.traps.speed) -->
 
@@ -173,7 +174,8 @@ table(["", "mean speed, m/s", "mean r_v", "r_v at the mean speed", "gap"], rows)
 # PPO has an actor π and a critic V(s), which says what a state is worth. It drives its roads for {{
 # settings_for('ppo').horizon }} seconds, learns from these decisions, and deletes them.
 #
-# **How good was a decision?** Better or worse than V expected. The surprise of one second is
+# **How good was a decision?** It was good if more came than V expected. The surprise of one second
+# is
 #
 # $$ \delta_t = r_t + \gamma V(s_{t+1}) - V(s_t) $$
 #
@@ -249,8 +251,8 @@ for ratio, advantage in ((1.5, 2.0), (0.5, 2.0), (1.5, -2.0), (0.5, -2.0)):
 
 # %% [markdown]
 # The rest of PPO is known from SAC: V learns the returns by squared error, a little entropy is paid
-# for, and Adam does the rest. Train one agent, with your two functions if they passed. **Yours will
-# differ.** The result depends on your processor.
+# for, and Adam takes the steps. Train one agent, with your two functions if they passed. **Yours
+# will differ.** The result depends on your processor.
 
 # %% tags=["nbval-ignore-output"]
 MOST = 100_000  # episodes; the number of decisions ends each training
@@ -276,13 +278,17 @@ your_drive = bc.record(mine.agent.as_policy(), [ROAD], label="ppo")[0]
 bc.show(bc.traces(your_drive, title="Your agent", what=("speed", "distance")))
 
 # %% [markdown]
-# **See.** The return of the agents that ship rises above what keeping straight earns, and goes on
-# rising. Each of them was ahead of trap 1 in some episodes while it learned: at one time in {{ 100
-# * ppo('alone')['escapes'].max(1).min() | .1f }} to {{ 100 * ppo('alone')['escapes'].max(1).max() |
-# .1f }} % of its last 300. At the end none of them was, in any of its last 300. So PPO met
-# the way out, and then learned something else.
+# **See.** After 500,000 decisions the median agent that ships earns in training about what keeping
+# straight earns. After {{ ppo_reference.KINDS['alone'].decisions | , }} the ten earn {{
+# ppo('alone')['curve'][:, -1].min() | .0f }} to {{ ppo('alone')['curve'][:, -1].max() | .0f }}.
+# Each of them was ahead of trap 1 in some episodes while it learned: at one time in {{ 100 *
+# ppo('alone')['escapes'].max(1).min() | .1f }} to {{ 100 * ppo('alone')['escapes'].max(1).max() |
+# .1f }} % of its last 300. At the end none of them was, in any of its last 300. So PPO met the way
+# out, and then learned something else.
 # <!-- claim: (ppo('alone')['escapes'].max(1) > 0).all() and
 #   (ppo('alone')['escapes'][:, -1] == 0).all() -->
+# <!-- claim: abs(np.median(ppo('alone')['curve'][:, 9]) / idle().rewards.sum() - 1) < 0.1 and
+#   round(ppo('alone')['at'][0][9], -4) == 500_000 and len(ppo('alone')['curve']) == 10 -->
 # <!-- claim: (ppo('alone')['curve'][:, -1] > idle().rewards.sum()).all() -->
 
 # %% [markdown] tags=["instructor"] minutes=8
@@ -366,12 +372,12 @@ table(["PPO, paid", "each agent's escapes, %, sorted", "the road's return", "acc
 # **Explain.** The critic learns the potential, too. Once V is lower by Φ, each δ is what it was
 # without F, and so are the advantages. A potential works like another start of V: it changes what
 # is tried at first. We think that this was not enough here: the first tries to the left crash. The
-# way out takes several right actions in a row. A wish to be on the left is not one of them. This is
-# said of one potential and one time of training: another may do better. Can you write
-# one that pays for falling back first?
+# way out takes several right actions in a row, and this potential pays for the last of them. We
+# tried one potential and one length of training: another may do better. Can you write one that pays
+# for falling back first?
 
 # %% [markdown] tags=["instructor"] minutes=6
-# A good quarrel: is a potential not a teacher, too? Somebody who knows the way out wrote it. Let
+# Let them argue: is a potential not a teacher, too? Somebody who knows the way out wrote it. Let
 # them compare what each had to know: the rule a sequence of actions, the potential a direction. For
 # the fast: a potential for which the detour pays more (forget the mask, or γ), trained for a
 # minute.
@@ -437,12 +443,12 @@ bc.show(bc.traces(list(fast.values()), title=title, what=("speed", "distance", "
 # <!-- claim: not drive_episodes(rule_policy(DEFAULT), ppo_reference.ROADS).accident.any() and
 #   (ppo('cloned')['alike'] < 0.5).all() -->
 #
-# **Explain.** What was the rule for? It was not a model of good driving: it earns {{
-# of('rule').scores('returns')[0] | .0f }}, about half of what its pupils earn, and they contradict
-# it in most of their decisions. It put the learner on the other side of the barrier.
-# From there on the reward was enough: speed pays more on a free road than behind trap 1, and PPO
-# found out how. That is the paper's idea in its shortest form. The soft constraint and the
-# demonstrations of lessons 7 to 9 do the same for a learner that needs help for longer.
+# **Explain.** What was the rule for? It was not a model of good driving: it earns about half of
+# what the cloned agents earn, and in most of their decisions they do something else. It put the
+# learner on the other side of the barrier. From there on the reward was enough: speed pays more on
+# a free road than behind trap 1, and PPO found out how. That is the paper's idea in its shortest
+# form. The soft constraint and the demonstrations of lessons 7 to 9 do the same for a learner that
+# needs help for longer.
 
 # %% [markdown] tags=["instructor"] minutes=6
 # Ask which of the course's figures would have looked the same for the second trap: those that
@@ -454,10 +460,12 @@ bc.show(bc.traces(list(fast.values()), title=title, what=("speed", "distance", "
 #
 # 1. A return is one number. Agents with the rule's return can be in a trap: look at success, and at
 #    a drive.
-# 2. Where a reward is convex, changing pays more than the mean. Jensen's gap says how much.
+# 2. Where a reward is convex, a changing speed can earn more than a steady one. Jensen's gap says
+#    how much.
 # 3. GAE adds up surprises, and stops at the end of an episode. PPO's loss stops paying when an
 #    action has become likely enough.
-# 4. A potential pays for the way and leaves the best policy as it is. After an accident it is 0.
+# 4. A shaping reward pays for a change of the potential, and leaves the best policy as it is.
+#    After an accident the potential is 0.
 # 5. Two seconds of cloning were enough for a fast learner: the rule opened the way, and its advice
 #    was dropped afterwards.
 #
@@ -496,7 +504,7 @@ compare_predictions(
 # Ng, Harada and Russell (1999), *Policy Invariance under Reward Transformations*. A teacher that
 # rolls in and shrinks: Uchendu et al., *Jump-Start Reinforcement Learning* (arXiv 2204.02372).
 #
-# **Try on**: `bc.board()` shows the methods of the course on the same {{ roads() | , }} roads, by
+# **Try**: `bc.board()` shows the methods of the course on the same {{ roads() | , }} roads, by
 # return, and `bc.board("runs/mine")` puts your own agents among them. The kit has more learners
 # with a teacher than this lesson: `ppo_kl`, `ppo_residual`, `jsrl`, `rlpd`, `ibrl`, `pex` and
 # `dagger` are names for `bc.settings_for`.
