@@ -19,6 +19,7 @@ def test_episodes_that_were_not_driven_are_no_successes():
     success, decisions = np.array([[1, 1, NAN, NAN], [NAN, NAN, NAN, NAN]]), np.array([[7, 8, NAN, NAN], 4 * [NAN]])
     assert decisions_until(success, decisions, share=0.5, window=3).tolist() == [np.inf, np.inf]
     assert decisions_until(success, decisions, share=1.0, window=2).tolist() == [15, np.inf]
+    assert decisions_until(success, decisions, share=0.5, window=5).tolist() == [np.inf, np.inf]
 
 
 def test_a_length_is_recorded_or_follows_from_distance_and_speed_or_is_not_known():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from bootcourse.statistics import band, escapes, improvement, interval, iqm, rolling_means
+from bootcourse.statistics import band, escapes, improvement, interval, iqm, median, rolling_means
 
 
 def test_the_interquartile_mean_of_ten_scores_is_the_mean_of_the_middle_six():
@@ -32,6 +32,13 @@ def test_the_interval_holds_the_true_mean_about_as_often_as_it_says():
 def test_one_seed_has_no_interval_and_equal_seeds_have_one_of_length_0():
     assert np.isnan(interval(np.array([5.0])).low)
     assert interval(np.full(10, 5.0)) == (5.0, 5.0, 5.0)
+
+
+def test_the_median_of_ten_lies_between_the_second_and_the_ninth_and_may_be_infinite():
+    assert median(np.arange(10.0)) == (4.5, 1.0, 8.0)
+    assert median([1.0, 2.0, 3.0, 4.0, 5.0, *[np.inf] * 5]) == (np.inf, 2.0, np.inf)
+    coverage = 1 - 2 * stats.binom.cdf([1, 2], 10, 0.5)  # from the second to the ninth, the third to the eighth
+    assert coverage[0] > 0.95 > coverage[1] and np.isnan(median(np.arange(5.0)).low)
 
 
 def test_ten_agents_of_ten_that_escape_prove_only_that_most_do():

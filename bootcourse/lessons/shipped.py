@@ -1,6 +1,7 @@
 """What ships with the course, loaded for a lesson: the study's results, its trained agents and recorded drives."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
@@ -10,6 +11,7 @@ from bootcourse.learn.agent import Agent
 from bootcourse.storage.assets import FOLDER
 from bootcourse.storage.runs import Run, find_runs, load_run
 from bootcourse.study.results import Results, in_assets, load_results
+from bootcourse.study.teacher_worth import Cells, taught
 
 
 def shipped_results(study: str = "default") -> Results:
@@ -47,6 +49,15 @@ def shipped_experiment(name: str) -> dict[str, Results]:
         there = ", ".join(key for key, its in experiments.items() if its)
         raise BootcourseError(f"No results of the experiment '{name}' ship: there are {there or 'none'}.")
     return experiments[name]
+
+
+def shipped_teachers(study: Path | str = "") -> Cells:
+    """What agents of several methods learned from teachers from bad to perfect: {(teacher, method): results}.
+
+    study: a folder in which `bootcourse study teachers` has finished jobs; by default what ships. Raises
+    BootcourseError if there are no such results.
+    """
+    return taught(study)
 
 
 def shipped_bound(scenario: str = "default") -> np.ndarray:

@@ -99,15 +99,10 @@ def _map(ps, xis, values, colours, chosen, left: float, top: float) -> list[str]
                 continue
             here = (x + 1, y + 1, across - 2, tall - 2)
             if (p, xi) not in values:
-                parts += [rect(*here, "none", f'stroke="{QUIET}" stroke-dasharray="2 3"')]
-                parts += [text(x + across / 2, y + tall / 2 + 4, "not run", "middle", QUIET, 10)]
+                parts += empty_cell(*here, "not run")
                 continue
             share = (values[p, xi] - low) / (high - low) if high > low else 0.0
-            parts.append(rect(*here, _between(*colours, share), 'rx="2"'))
-            ink = "white" if share > 0.45 else "black"
-            parts.append(text(x + across / 2, y + tall / 2 + 4, _short(values[p, xi]), "middle", ink, 12, bold=True))
-            if xi == 0:
-                parts.append(text(x + across / 2, y + tall / 2 + 19, "any p", "middle", ink, 10))
+            parts += cell(*here, between(*colours, share), short(values[p, xi]), "any p" * (xi == 0), share > 0.45)
             if chosen[1] == xi and (xi == 0 or chosen[0] == p):
                 frame = rect(*here, "none", f'rx="2" stroke="{INK}" stroke-width="3"')
                 frame += rect(*here, "none", f'rx="2" stroke="{ALARM}" stroke-width="1"')
@@ -118,10 +113,26 @@ def _map(ps, xis, values, colours, chosen, left: float, top: float) -> list[str]
     return [*parts, frame]
 
 
-def _between(pale: str, dark: str, share: float) -> str:
+def cell(x: float, y: float, width: float, height: float, fill: str, words: str, below: str, dark: bool) -> list[str]:
+    """A cell of a heat map (pixels) with its value, and smaller words below it; dark: is the fill dark?"""
+    middle, ink = x + width / 2, "white" if dark else "black"
+    value = text(middle, y + height / 2 + 4, words, "middle", ink, 12, bold=True)
+    more = [text(middle, y + height / 2 + 19, below, "middle", ink, 10)] if below else []
+    return [rect(x, y, width, height, fill, 'rx="2"'), value, *more]
+
+
+def empty_cell(x: float, y: float, width: float, height: float, words: str) -> list[str]:
+    """A cell without a value."""
+    frame = rect(x, y, width, height, "none", f'stroke="{QUIET}" stroke-dasharray="2 3"')
+    return [frame, text(x + width / 2, y + height / 2 + 4, words, "middle", QUIET, 10)]
+
+
+def between(pale: str, dark: str, share: float) -> str:
+    """The colour at a share (0 to 1) of the way from one colour to another, "#rrggbb"."""
     mixed = (round(a + share * (b - a)) for a, b in zip(rgb(pale), rgb(dark), strict=True))
     return "#" + "".join(f"{part:02X}" for part in mixed)
 
 
-def _short(value: float) -> str:
+def short(value: float) -> str:
+    """A number with a decimal at most."""
     return number(round(value, 1)) if abs(value) < 100 else f"{value:.0f}"

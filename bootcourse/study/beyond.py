@@ -28,6 +28,8 @@ def decisions_until(success: np.ndarray, decisions: np.ndarray, share: float = S
 
     success, decisions: (agents, episodes), 1 or 0 and the episode's length; NaN for episodes that were not driven.
     """
+    if success.shape[1] < window:
+        return np.full(len(success), np.inf)
     recent = np.apply_along_axis(np.convolve, 1, np.nan_to_num(success, nan=-window), np.ones(window), "valid")
     reached = recent >= share * window - 1e-9  # (agents, episodes - window + 1)
     spent = np.cumsum(np.nan_to_num(decisions), axis=1, dtype=float)[:, window - 1 :]

@@ -12,7 +12,7 @@ from bootcourse.plots.figure import save
 from bootcourse.policies import rule_policy
 from bootcourse.scenario import Scenario
 from bootcourse.statistics import Estimate, mean
-from bootcourse.study import clocks, tables
+from bootcourse.study import clocks, tables, teacher_worth
 from bootcourse.study import figures as training_figures
 from bootcourse.study.fidelity import CLOSE, VERDICTS, fidelity
 from bootcourse.study.jobs import HELD_OUT
@@ -132,6 +132,9 @@ def experiments_part(experiments: dict[str, dict[str, Results]]) -> list[str]:
         text += ["## A longer view\n", LONGER_VIEW, tables.variations_table(varied)]
     if varied := experiments.get("beyond"):
         text += ["## Learners that came after the paper\n", tables.variations_table(varied)]
+    if varied := experiments.get("teachers"):
+        worth = tables.markdown(*teacher_worth.worth_rows(teacher_worth.cells(varied)))
+        text += ["## What a teacher is worth\n", TEACHERS, worth]
     return text
 
 
@@ -166,6 +169,11 @@ decision; its text says that π̃ drove the demonstrations. Each row is one choi
 where a decision has 1/4 of an update). The last column is the probability that a table with *one* trained agent per
 method and 20 test episodes each reads as the paper's: successes 0, 0, 20 and 20. Its interval is over training seeds
 (Jeffreys).
+"""
+
+TEACHERS = """Teachers from bad to perfect, and methods that learn from them. Return: interquartile mean over agents,
+accidents: mean, decisions: median, each with its 95 % interval over training seeds. In brackets behind the decisions:
+how many agents reached it in their training.
 """
 
 LONGER_VIEW = """The paper's method with two updates per decision, a bonus of 0.5 instead of 2, batches of 128 instead
