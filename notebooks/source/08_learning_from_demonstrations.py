@@ -16,8 +16,8 @@
 # **What you will be able to do**
 # - mix a teacher's drives into a learner's batches, pay them a bonus, and let their share fall to
 #   0;
-# - work out from which bonus c on the demonstrated way out is worth more than staying behind, and
-#   see what c = {{ SETTINGS.bonus }} does to a critic;
+# - find the smallest bonus c with which the demonstrated way out is worth more than staying behind,
+#   and see what c = {{ SETTINGS.bonus }} does to a critic;
 # - write the large-margin loss and two Q-filters, and say when each of them is off;
 # - train the paper's whole method, made of the parts that you wrote, and watch it escape.
 #
@@ -57,8 +57,9 @@ predict(
 
 # %% [markdown]
 # The thick line shows, for each second of the rule's drive, the discounted return from there on if
-# each second is paid c. The dashed line is the same without a bonus. The line in another colour is
-# a drive that stays behind trap 1 to the end. Move c, and set it to 0.
+# each second is paid c. The dashed line is the same without a bonus, the thin one with β c in place
+# of c (Round 1 explains β). The line in another colour is a drive that stays behind trap 1 to the
+# end. Move c, and set it to 0.
 
 # %%
 bc.panels.bonus_panel()
@@ -183,12 +184,12 @@ title = "The discounted return from each second on, with and without a bonus"
 bc.show(charts.lines(np.arange(60), named, title, "second of the drive", "discounted return"))
 
 # %% [markdown]
-# **Explain.** If each second from now on is demonstrated, c = {{ SETTINGS.bonus }} adds
-# {{ SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f }} to the return: as much as an accident costs. The
+# **Explain.** If each second from now on is demonstrated, c = {{ SETTINGS.bonus }} adds {{
+# SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f }} to the return: as much as an accident costs. The
 # rule's own rewards differ by tenths, so the bonus decides which action looks best. The critic's
-# values need not rise by as much: its target takes the next state's value under the learner's *own*
-# policy, and in the learner's own rows the same actions are paid no bonus. Round 5 measures how
-# high they get. When β is 0, no row of a batch is paid the bonus, and the critic has to unlearn
+# values need not rise by that much: its target takes the next state's value under the learner's
+# *own* policy, and in the learner's own rows the same actions are paid no bonus. Round 5 measures
+# how high they get. When β is 0, no row of a batch is paid the bonus, and the critic has to unlearn
 # what the bonus added.
 # <!-- claim: round(SETTINGS.bonus / (1 - SETTINGS.gamma)) == 10 -->
 # <!-- claim: math.isclose(SETTINGS.bonus / (1 - SETTINGS.gamma), -DEFAULT.reward.accident) -->
@@ -278,7 +279,8 @@ check.paper_q_filter(paper_q_filter)
 
 # %% [markdown]
 # An action's Q is at most the largest Q, so ≥ means = here. The printed filter is on only where the
-# expert's action has the largest Q already. The usual filter (Nair et al.) compares with the value
+# expert's action has the largest Q already. All that the loss can do there is raise a lead that is
+# smaller than the margin. The usual filter (Nair et al.) compares with the value
 # of the *policy*, $\sum_a \pi(a|s) Q(s,a)$: it is on where the expert's action has a higher Q than
 # the policy has on average.
 # <!-- claim: bootstrap.paper_q_filter(torch.tensor([[1, 2, 3]] * 3), torch.arange(3)).tolist()
@@ -323,7 +325,7 @@ print(f"J_E = {bc.bootstrap.large_margin_loss(qs, who).item():.2f}", end="; ")
 print(f"printed filter {bc.bootstrap.paper_q_filter(qs, who).item():.0f}", end=", ")
 print(f"usual filter for an even policy {bc.bootstrap.q_filter(qs, who, even).item():.0f}")
 title = "The expert brakes, with the second largest Q of nine"
-bc.show(charts.action_bars({"Q": q, "rule: Q + l": margin}, title, "value"))
+bc.show(charts.action_bars({"Q": q, "Q + l": margin}, title, "value"))
 
 # %% [markdown]
 # How often are the filters on at the beginning of training? Ask the critics of four learners
@@ -384,7 +386,7 @@ for seed in range(4):
 # <!-- claim: settings_for('demos').xi_multiplier == 0 and settings_for('demos').xi_fixed < 0 -->
 #
 # > **Predict.** With c = 2, how far will the demonstrated action lead its best rival: by about 10,
-# > by about 2, or not at all? Which of the four learners escape?
+# > by about 2, or by less than 1? Which of the four learners escape?
 
 # %%
 predict(
@@ -489,7 +491,7 @@ own_code.compare()
 # > these three end ahead of trap 1 on most of 200 roads, after 2,500 updates?
 
 # %%
-predict("8.8", "Agents of the three that escape on most of 200 roads", ["0", "1", "2", "3"])
+predict("8.8", "Agents of the three that end ahead on most of 200 roads", ["0", "1", "2", "3"])
 
 # %%
 agents = bc.with_seeds(bc.settings_for("bootstrapped"), 2) + [bc.settings_for("margin_soft")]
