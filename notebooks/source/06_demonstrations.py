@@ -69,7 +69,7 @@ predict("6.1", "From whose drives do you learn?", ["the rule's", "the stochastic
 #
 # A **demonstration** is somebody's drive, kept as **transitions**. A transition is one decision:
 # what the driver saw, what it did, what it was paid, what it saw next, and whether an accident
-# ended the drive there (**terminated**). A drive has one observation more than it has actions.
+# ended the drive there (*terminated*). A drive has one observation more than it has actions.
 #
 # > **Predict.** One drive ends after 150 s because the time is up. Another ends after 20 s in a
 # > collision. In which of the two does the last transition count as terminated?

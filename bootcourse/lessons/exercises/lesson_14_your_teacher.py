@@ -99,7 +99,8 @@ my_rule = Exercise(
     mistakes=(
         Mistake(always(4),
             "Your rule drives safely but does not get out: on every road it is still behind trap 1 at the end. Fall "
-            "back first: trap 2 has to be ahead of you before there is room on the left.",
+            "back first: trap 2 has to be ahead of you before there is room on the left. Finish a lane change that has "
+            "begun.",
             "A gap will open if the ego waits long enough."),
         Mistake(always(7),
             "Your rule hits a car on every road. Look at the gap ahead before it accelerates or changes lane.",
