@@ -161,7 +161,7 @@ def _beyond() -> dict[str, Variation]:
 # Labels for the 1,500 episodes of a method with a KL would take eight hours, so those two cells are left out.
 TAUGHT = {
     "dagger": ({"updates": 6}, 80),  # 1 minute
-    "ppo_cloned": ({}, 10_000),  # 5 minutes
+    "ppo_cloned": ({}, 6000),  # 3 minutes
     "bootstrapped": ({}, 1500),  # 7 minutes
     "soft": ({}, 1500),  # 8 minutes
     "rlpd": ({}, 150),  # 15 minutes
