@@ -9,7 +9,7 @@ import torch
 
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.learner import learner_for
-from bootcourse.learn.risk import accident_within, allowed, masked, resolved, risk_loss
+from bootcourse.learn.risk import accident_within, masked, resolved, risk_loss
 from bootcourse.learn.safe import SafeMinibatch, accident_rate, multiplier_step
 from bootcourse.learn.settings import settings_for
 from bootcourse.learn.shield import needed_braking
@@ -54,10 +54,11 @@ def test_an_accident_costs_the_learner_more_and_the_curves_show_the_road_s_rewar
 
 
 def test_accidents_of_any_kind_are_counted_in_the_last_episodes_of_each_agent():
-    accident = np.array([[1.0, 0, 0, 3, np.nan], [0, 0, 2, 0, 0], [np.nan] * 5])
-    found = accident_rate(accident, np.array([4, 5, 0]), window=4)
+    accident = np.array([[1.0, 0, 0, 3, np.nan], [0, 0, 2, 0, 0], [1, np.nan, np.nan, np.nan, np.nan]])
+    found = accident_rate(accident, np.array([4, 5, 1]), least=2, window=4)
     np.testing.assert_allclose(found, [2 / 4, 1 / 4, np.nan])
-    assert accident_rate(accident[:, :4], np.array([4, 9, 0]), window=2)[1] == 1 / 2  # more episodes than recorded
+    more_than_are_recorded = accident_rate(accident[:2, :4], np.array([4, 9]), least=1, window=2)
+    assert more_than_are_recorded.tolist() == [1 / 2, 1 / 2]
 
 
 def test_the_multiplier_rises_above_the_budget_and_falls_to_zero_below_it():
@@ -121,16 +122,15 @@ def test_the_risk_s_loss_is_the_cross_entropy_of_what_is_known():
     ],
 )
 def test_the_mask_leaves_the_policy_its_safe_actions(risk, expected):
-    found = masked(torch.tensor([0.6, 0.3, 0.1]), allowed(torch.tensor(risk), torch.tensor(0.1)))
+    found = masked(torch.tensor([0.6, 0.3, 0.1]), torch.tensor(risk), torch.tensor(0.1))
     assert found.tolist() == pytest.approx(expected)
 
 
 def test_a_classifier_learns_which_action_ends_in_an_accident():
     learner = learner_for([settings_for("ppo_safe", hidden=(8,), critic_lr=0.02, risk_limit=0.3)], 3)
     actions, zeros, states = torch.arange(180)[None] % 9, torch.zeros(1, 180), torch.ones(1, 180, 3)
-    soon, may = (actions == ACCELERATE).float(), torch.ones(1, 180, 9, dtype=torch.bool)
-    uniform = zeros - math.log(9)
-    batch = SafeMinibatch(states, actions, uniform, zeros, zeros, actions, zeros, soon, zeros + 1, may)
+    soon, uniform = (actions == ACCELERATE).float(), zeros - math.log(9)
+    batch = SafeMinibatch(states, actions, uniform, zeros, zeros, actions, zeros, soon, zeros + 1)
     for _ in range(200):
         learner.update(batch)
     with torch.no_grad():
@@ -140,26 +140,6 @@ def test_a_classifier_learns_which_action_ends_in_an_accident():
     pi = learner.driving_policy(state, torch.zeros(1, 1, dtype=torch.int64))[0, 0]
     assert pi[ACCELERATE] == 0 and pi[BRAKE].item() == pytest.approx(1 / 8)
     assert learner.acting_policy(state, None, None)[0, 0, ACCELERATE].item() == pytest.approx(1 / 9)  # in training
-
-
-def test_the_mask_is_on_in_training_after_some_episodes_and_its_old_probabilities_are_those_it_drove_with():
-    training = trained(1, mask_episodes=2, risk_limit=0.3)
-    learner, replay = training.learner, training.replay
-    with torch.no_grad():
-        torch._foreach_zero_([*learner.actor, *learner.critics])
-        learner.critics[-1][:, :, ACCELERATE] = 9.0  # both classifiers are sure
-        learner.critics[-1][:, :, :ACCELERATE] = learner.critics[-1][:, :, 8:] = -9.0
-    training.update = lambda: None
-    for masking in (False, True):
-        while training.replay.filled < 16:
-            training.step()
-        took = (replay.columns.actions == ACCELERATE).any().item()
-        assert took is not masking
-        found = replay.columns.log_pi.unique().tolist()
-        assert found == pytest.approx([-math.log(8 if masking else 9)] * len(found), rel=1e-4)
-        training.curves.finished[:] = 2
-        learner.prepare(replay)
-        replay.filled = 0
 
 
 def seen(speed: float, dx: float, dy: float, other: float) -> torch.Tensor:
@@ -203,7 +183,6 @@ def test_an_agent_with_the_shield_does_not_drive_into_the_car_ahead():
     [
         ({"risk_limit": 1.1}, "risk_limit = 1.1"),
         ({"accident_cost": -1.0}, "accident_cost = -1.0"),
-        ({"mask_episodes": -1}, "mask_episodes = -1"),
         ({"risk_decisions": 33}, "risk_decisions = 33: give a whole number of 1 or more, at most 32"),
         ({"shield": 1}, "shield = 1: give True or False"),
     ],

@@ -38,15 +38,11 @@ def risk_loss(logits: Tensor, label: Tensor, known: Tensor) -> Tensor:
     return (loss * known).sum(-1) / known.sum(-1).clamp(min=1)
 
 
-def allowed(risk: Tensor, limit: Tensor) -> Tensor:
-    """Which actions have a risk of at most ε; where there is none, the least risky ones: (..., actions) bool.
+def masked(pi: Tensor, risk: Tensor, limit: Tensor) -> Tensor:
+    """π among the actions whose risk is at most ε; where there is none, among the least risky ones: (..., actions).
 
-    limit broadcasts against risk (..., actions).
+    pi, risk (..., actions); limit broadcasts against them.
     """
-    return risk <= torch.maximum(limit, risk.amin(-1, keepdim=True))
-
-
-def masked(pi: Tensor, allowed: Tensor) -> Tensor:
-    """π among the actions that are allowed: (..., actions) each."""
+    allowed = risk <= torch.maximum(limit, risk.amin(-1, keepdim=True))
     left = pi.clamp(min=torch.finfo(pi.dtype).tiny) * allowed  # what is left has a sum, too, where π is 0
     return left / left.sum(-1, keepdim=True)

@@ -150,7 +150,6 @@ class SafeSettings(PPOSettings):
     multiplier_step: float = 0.0  # K_I: how fast λ follows J_C - d, in reward per round of updates; 0: no λ
     risk_limit: float = 1.0  # ε: actions of a larger predicted risk are not taken while driving; 1: no mask
     risk_decisions: int = shared(10)  # k: the risk is that of an accident within so many decisions
-    mask_episodes: int = shared(0)  # training episodes after which the mask is on in training, too; 0: never
     shield: bool = shared(False)  # that of shield.py: written by hand, for comparison
 
     def __post_init__(self):
@@ -158,7 +157,6 @@ class SafeSettings(PPOSettings):
         _check_range(self, 0.0, math.inf, "accident_cost", "multiplier_step")
         _check_range(self, 0.0, 1.0, "accident_budget", "risk_limit")
         _check_range(self, 1, self.horizon, "risk_decisions", whole=True)
-        _check_range(self, 0, math.inf, "mask_episodes", whole=True)
         if not isinstance(self.shield, bool):
             raise BootcourseError(f"shield = {self.shield!r}: give True or False.")
 
