@@ -30,8 +30,8 @@ from bootcourse.study import report, tables
 #
 # Both drives below are on the same road. Two slow cars, dark red, hold the driver: **trap 1** ahead
 # of it, **trap 2** beside it. The drivers are **agents**: programs that have learned from their own
-# tries. Both have driven the same number of episodes. A rule that somebody wrote by hand helped the
-# *bootstrapped* agent while it learned. Press play, and turn the road with the mouse.
+# tries. Both have had the same number of training drives. A rule that somebody wrote by hand helped
+# the *bootstrapped* agent while it learned. Press play, and turn the road with the mouse.
 # <!-- claim: len({run.curves['success'].shape for method in ('sac', 'bootstrapped') for run in
 #   shipped_runs(method)}) == 1 -->
 
@@ -60,8 +60,8 @@ table(["", *names], rows, below=f"In the end: {'; '.join(ends)}.")
 # %% [markdown]
 # The **return** is what a drive has earned: each second pays a little for speed, up to
 # {{ max(np.arange(0, 25, 0.5), key=speed_reward) }} m/s. The bootstrapped agent above falls back
-# first, which costs speed, and one clumsy move on the way would end in a crash. Each second behind
-# the slow cars pays a little. That makes the place a trap for an agent that learns by trying.
+# first, which costs speed, and a wrong move on the way can end in a crash. Staying behind the slow
+# cars pays a little each second. That makes the place a trap for an agent that learns by trying.
 # <!-- claim: shipped_drive('escape').states[6, EGO, SPEED] < DEFAULT.ego.speed -->
 # <!-- claim: idle().rewards.min() > 0 and idle().accident == Accident.NONE -->
 
@@ -91,7 +91,7 @@ bc.panels.drive_panel(seed=10)
 # One drive proves little. We trained {{ len(of('sac')) }} agents of each kind. Agents of one kind
 # differ only in their **seed**, the number from which all chance in their training is drawn. After
 # training each agent drove the same {{ roads() | , }} roads, which were not used in training. Both
-# kinds learn by SAC, *soft actor-critic*. One drive **escapes** if it ends ahead of trap 1. An
+# kinds learn by SAC, *soft actor-critic*. A drive **escapes** if it ends ahead of trap 1. An
 # *agent* escapes if at least {{ 100 * ESCAPES | .0f }} % of its drives after training do. This is
 # the meaning of the word in the whole course.
 # <!-- claim: len(of('sac')) == len(of('bootstrapped')) -->
@@ -126,14 +126,14 @@ for method in ("sac", "bootstrapped"):
 rule = report.rule_results(bc.DEFAULT, 200)
 accidents = 100 * rule.episodes("accident").mean()
 returns = tables.bracketed(tables.score(rule, "rule", "returns"))
-same = "it always drives the same way"
-rows.append([bc.display_name("rule"), same, returns, f"{accidents:.0f} %"])
+not_trained = f"not trained: {100 * rule.scores('success')[0]:.0f} % of its drives escape"
+rows.append([bc.display_name("rule"), not_trained, returns, f"{accidents:.0f} %"])
 headings = ["", "agents that escape", "return", "drives that end in an accident"]
 table(headings, rows)
 
 # %% [markdown]
 # **See.** The brackets hold the 95 % *interval*: the range in which the true value may well lie,
-# given how few agents (for the rule: drives) we have measured. The return is that of a typical
+# given how few agents (for the rule: 200 drives) we have measured. The return is that of a typical
 # agent: the mean over the middle half of the agents. The share of accidents is the mean over all
 # drives of all agents. Read the table with three questions; the course is about them. Why do most
 # agents of plain SAC miss a way out that a rule of a few lines finds on each of the {{ roads() | ,
@@ -149,10 +149,10 @@ table(headings, rows)
 # A road is drawn from its seed, so road 10 is the same road everywhere. The rule drives it in the
 # same way, and the results that ship with the course, as in the table above, are read from files.
 # Numbers of this kind stand in the text. A training that *you* run is another matter. Processors
-# round the last digit of a sum in different ways. In some thousand updates such a difference grows,
-# and your agents become other agents than ours, with the same seed. So where a lesson trains, it
-# says *yours will differ*, and draws its conclusions from results of more agents, which ship with
-# the course.
+# round the last digit of a sum in different ways. Training changes an agent some thousand times,
+# and with each change such a difference can grow: with the same seed, your agents become other
+# agents than ours. So where a lesson trains, it says that yours will differ, and draws its
+# conclusions from results of more agents, which ship with the course.
 #
 # ## Choose a route
 #
@@ -177,7 +177,7 @@ table(headings, rows)
 # | 14 · [Your teacher](14_your_teacher.ipynb) | | ● | |
 # | 15 · [The second trap](15_the_second_trap.ipynb) | | | ● |
 #
-# Each lesson opens on its own, says what it builds on, and runs in a minute or two. In its
+# Each lesson opens on its own, says what it builds on, and runs in about a minute. In its
 # exercises you write some lines, and a check says what is wrong with them in plain words;
 # `check.hint("name")` gives a hint, and `check.solution("name")` shows a right answer. The dots say
 # how hard an exercise is, from ●○○ to ●●●.
