@@ -66,7 +66,7 @@ predict("1.2", "What does the controller do in the first second?", ["accelerate"
 bc.panels.drive_panel(seed=ROAD)
 
 # %% [markdown] tags=["instructor"] minutes=8
-# Let them crash. Expect them to steer left at once and hit trap 2, and then to accelerate. Collect
+# Let them crash. Expect them to steer left at once and hit trap 2; next they accelerate. Collect
 # on the board what ended each attempt and after how many seconds, and ask who still has a plan.
 # They need not succeed here.
 
@@ -144,7 +144,7 @@ table(["plan", "ends with", "after"], rows)
 # The paper reports one "collision rate" that includes the other two kinds. We keep the three apart:
 # a driver that stops on the motorway and one that hits a car have learned different things.
 #
-# Here is the controller's way out of this road. We call the controller the **rule**; lesson 3 takes
+# Here is the controller's way out on this road. We call the controller the **rule**; lesson 3 takes
 # it apart.
 
 # %%
@@ -157,7 +157,7 @@ table(
 
 # %% [markdown]
 # **Explain.** This way out leads *backwards*. The car falls behind both traps, changes left behind
-# trap 2, changes left again, and is free. That costs speed now for speed later.
+# trap 2, changes left again, and is free. It gives up speed now to gain speed later.
 #
 # > **Predict.** Trap 2 starts {{ DEFAULT.traps.d2[0] }} to {{ DEFAULT.traps.d2[1] }} m ahead, one
 # > lane to your left. Could you also change lane behind it *without* braking? On every road?
@@ -205,8 +205,9 @@ bc.show(figures.agent_loop(observation="26 numbers", action="one of nine", rewar
 # The agent chooses by its **policy**: a function that gives each action a probability. At first
 # the nine are about equally probable, and the agent drives at random. To *learn* means: the agent
 # remembers what it tried and what that paid, and changes the numbers inside its policy a little,
-# many times, so that actions with better consequences become more probable. It is not told what a
-# lane is. Learning from rewards in this way is *reinforcement learning*.
+# many times, so that actions with better consequences become more probable. Each such change is an
+# **update**. The agent is not told what a lane is. Learning from rewards in this way is
+# *reinforcement learning*.
 #
 # Below, four agents learn for about 20 seconds. Two learn alone (*plain SAC*). Two get help from
 # the rule that you have just seen (*bootstrapped SAC*): they see some of its drives, and pay a
@@ -230,8 +231,7 @@ learned = training.run(progress=False, callback=live, stop=lambda: training.upda
 # %% [markdown]
 # Each thin line is one agent. *Success* is the share of its episodes that end ahead of trap 1. The
 # **return** is the sum of an episode's rewards; an episode that ends in a crash in the first
-# seconds returns about {{ DEFAULT.reward.accident }}. Now the first agent with help, before and
-# after its training:
+# seconds returns about −9.5. Now the first agent with help, before and after its training:
 
 # %% tags=["nbval-ignore-output"]
 before = bc.record(beginner, [ROAD], label="bootstrapped")[0]
@@ -241,7 +241,7 @@ bc.show(bc.top_view_over_time(after, title=f"After {training.updates:,} updates"
 
 # %% [markdown]
 # **See.** Your curves will differ from those that were saved here, and from your neighbour's. Which
-# lines have left {{ DEFAULT.reward.accident }}? Which agents have success? An agent whose return
+# lines have risen from −9.5? Which agents have success? An agent whose return
 # has risen without success has learned to stay alive behind the traps.
 #
 # One short training of two agents says little. In our study {{ len(of('sac')) }} agents of each
@@ -341,9 +341,8 @@ bc.show(figures.reward_curve())
 #   / 25 * 15 - 19 / 5, 12.6: 8 / 25 * 12.6 - 19 / 5, 12.5: 2 / 75 * 12.5 - 2 / 15, 5.1: 2 / 75 *
 #   5.1 - 2 / 15, 5: 0}.items()) -->
 #
-# The two cases in the middle are straight lines through (5, 0), (12.5, 0.2) and (15, 1): a car that
-# goes from 10 to 12.5 m/s earns a little more, one that goes from 12.5 to 15 m/s earns five times
-# as much.
+# The two cases in the middle are straight lines through (5, 0), (12.5, 0.2) and (15, 1): from 10 to
+# 12.5 m/s the speed term grows a little, from 12.5 to 15 m/s it becomes five times as large.
 # <!-- claim: math.isclose(speed_reward(15), 5 * speed_reward(12.5)) -->
 #
 # **Exercise 1.2 (6 min, ●○○).** Write the whole reward of one second. The three terms are in
@@ -376,8 +375,8 @@ check.reward(reward)
 predict("1.6", "What does doing nothing earn in 150 s?", unit="")
 
 # %% [markdown]
-# **Exercise 1.3 (6 min, ●○○).** Write the return of doing nothing: a car drives for some seconds at
-# the speed of the traps, in the middle of its lane.
+# **Exercise 1.3 (6 min, ●○○).** Write the return of doing nothing: a car drives straight for some
+# seconds at one speed, in the middle of its lane.
 
 
 # %%
@@ -488,10 +487,10 @@ check.bearable_risk(bearable_risk)
 # <details><summary>What this means on the road</summary>
 #
 # Staying returns {{ idle().rewards.sum() | .1f }}, the rule's escape on road {{ ROAD }} returns {{
-# by_rule().rewards.sum() | .1f }}, and a crash in the first seconds about −9. With these numbers a
-# try pays if it crashes in fewer than {{ 100 * (by_rule().rewards.sum() - idle().rewards.sum()) /
-# (by_rule().rewards.sum() + 9) | .0f }} % of the cases. The random drives crash in 100 %. So for a
-# learner that judges by its own tries, staying is the better choice, and about these tries it is
+# by_rule().rewards.sum() | .1f }}, and a crash in the first seconds about −9.5. With these numbers
+# a try pays if it crashes in fewer than {{ 100 * (by_rule().rewards.sum() - idle().rewards.sum()) /
+# (by_rule().rewards.sum() + 9.5) | .0f }} % of the cases. The random drives crash in 100 %. So for
+# a learner that judges by its own tries, staying is the better choice, and about these tries it is
 # right. The escape needs several right decisions in a row, and it pays later. The rest of this
 # course is about that problem.
 # <!-- claim: drive_episodes(random_policy(np.random.default_rng(0)), held_out_seeds(1,
@@ -599,8 +598,8 @@ bc.show(figures.sac_diagram())
 # 3. Doing nothing for the whole episode earns {{ idle().rewards.sum() }} over
 #    {{ idle().distance }} m, and ends behind trap 1.
 # <!-- claim: not idle().success -->
-# 4. The way out leads left behind trap 2. Where trap 2 starts far enough ahead, exact steering is
-#    enough; elsewhere the car has to fall back first.
+# 4. The rule falls back and changes lane behind trap 2. Where trap 2 starts far enough ahead, exact
+#    steering leads there without braking. (Lesson 5 shows a third way, between the traps.)
 # 5. The escape pays late, and one accident costs what about a minute of doing nothing earns. A try
 #    pays on average if it crashes seldom enough, and random tries crash.
 # <!-- claim: 50 < -DEFAULT.reward.accident / second_pays(DEFAULT.traps.speed) < 70 -->
@@ -612,7 +611,7 @@ bc.show(figures.sac_diagram())
 #   observation, but call for different actions?
 #
 # **Read on**: the next lesson is about the other cars, and [the one after it](03_the_rule.ipynb)
-# explains the controller that found the way out. On the evening route, go to [lesson
+# explains the controller that finds a way out. On the evening route, go to [lesson
 # 5](05_the_barrier.ipynb). highway-env, the simulator under this road: Leurent, *An Environment for
 # Autonomous Driving Decision-Making* (2018). MDPs from the beginning: Sutton and Barto,
 # *Reinforcement Learning* (2nd edition, 2018), chapter 3.
