@@ -59,10 +59,11 @@ def following(v: float, closing: Sequence[float], title: str, traffic: Traffic =
         values = [idm_acceleration(v, traffic.desired_speed, s, s_star, traffic.a_max, traffic.delta) for s in gaps]
         words = f"closing in at {dv:g} m/s" if dv > 0 else (f"falling back at {-dv:g} m/s" if dv < 0 else "same speed")
         named[f"{words}, s* = {s_star:.0f} m"] = np.maximum(values, -traffic.braking_limit)
-        told.append(f"{words}: zero at a gap of {np.interp(0, values, gaps):.0f} m")
+        zero = f"zero at a gap of {np.interp(0, values, gaps):.0f} m" if min(values) < 0 else "above zero at each gap"
+        told.append(f"{words}: {zero}")
     x_label, y_label = "gap to the car ahead, centre to centre (m)", "acceleration (m/s²)"
     told.append(f"no driver brakes harder than {traffic.braking_limit:g} m/s²")
-    alt = f"Three curves that rise with the gap from hard braking. {'; '.join(told)}."
+    alt = f"Three curves that rise with the gap. {'; '.join(told)}."
     limits = (-1.05 * traffic.braking_limit, 0.6)
     return lines(gaps, named, title, x_label, y_label, marks={"": 0.0}, limits=limits, looks=LOOKS, alt=alt)
 

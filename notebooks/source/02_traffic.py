@@ -51,8 +51,8 @@ title = "One slow driver starts a jam at 20 m; at 30 m the disturbance dies out"
 bc.show(figures_traffic.space_time(rings, dt=0.5, title=title))
 
 # %% [markdown]
-# > **Predict.** At 20 m each car has room for four car lengths. Why do cars stop? And why does the
-# > band of standing cars move *backwards* while the cars drive forwards?
+# > **Predict.** At 20 m each car has four car lengths of road, its own included. Why do cars stop?
+# > And why does the band of standing cars move *backwards* while the cars drive forwards?
 
 # %%
 predict("2.1", "Why does the jam move backwards?")
@@ -75,8 +75,8 @@ predict("2.1", "Why does the jam move backwards?")
 # $$ s^*(v, \Delta v) = s_0 + T v + \frac{v\, \Delta v}{2 \sqrt{a_{\max} b}} $$
 #
 # $s_0$ is the gap at a standstill. $T$ is a **time gap**: the driver wants to be $T$ seconds behind
-# the car ahead, which is more metres at a higher speed. The last term asks for more room while it
-# closes in; $a_{\max}$ is its strongest acceleration and $b$ the braking that it finds comfortable.
+# the car ahead, which is more metres at a higher speed. The last term asks for more room while the
+# driver closes in; $a_{\max}$ is the strongest acceleration, and $b$ a comfortable braking.
 #
 # > **Predict.** $s_0$ = 10 m, $T$ = 1.5 s, $a_{\max} = b$ = 0.5 m/s². What gap do you want at 10
 # > m/s behind a car at 10 m/s? Behind one at 8 m/s?
@@ -122,8 +122,8 @@ check.desired_gap(desired_gap)
 # $$ a = a_{\max} \left[ 1 - \left( \frac{v}{v_\text{desired}} \right)^{\delta} - \left(
 # \frac{s^*}{s} \right)^2 \right] $$
 #
-# > **Predict.** A driver at exactly its desired speed, at exactly its desired gap. Does it
-# > accelerate, hold its speed, or brake?
+# > **Predict.** A driver is at exactly its desired speed, and its gap is exactly the $s^*$ that it
+# > wants. Does it accelerate, hold its speed, or brake?
 
 # %%
 predict(
@@ -189,8 +189,8 @@ bc.show(charts.lines(seconds, rows, title, "time (s)", "speed (m/s)", looks=figu
 # driver to driver the lowest speed falls.
 # <!-- claim: (np.diff([4.0, *lowest_speeds()]) < 0).all() -->
 #
-# **Exercise 2.3 (6 min, ●●○).** Which gap does a driver settle at, behind a car at its own speed?
-# Set $a = 0$ and $\Delta v = 0$, and solve for $s$.
+# **Exercise 2.3 (6 min, ●●○).** Which gap does a driver settle at, behind a car that drives $v$ all
+# the time? Set $a = 0$ and $\Delta v = 0$, and solve for $s$.
 
 
 # %%
@@ -221,8 +221,8 @@ table(["speed", "wants s*", "settles at"], rows)
 # with 20 m that wave grows from car to car, in the ring with 30 m it shrinks. Cars leave the jam at
 # its front and join it at its back, so the *jam* moves backwards.
 #
-# Is there a jam on your road? In the scenario you can set the mean distance at which the traffic
-# ahead of the traps starts.
+# Is there a jam on your road? In the scenario you can set how far apart, on average, the cars ahead
+# of the traps start.
 
 # %%
 rows = []
@@ -241,9 +241,9 @@ table(["mean distance", "slowest car, mean of 50 roads", "slowest of all"], rows
 # <!-- claim: DEFAULT.traffic.headway == max(20.0, 30.0, 40.0) -->
 
 # %% [markdown] tags=["instructor"] minutes=8
-# Ask for a ring of 25 m: does the jam live or die? It depends on how hard the first car is
-# disturbed, so `v[0] = 5.0` and `v[0] = 1.0` end differently. Small disturbances die where large
-# ones live: the ring has two stable states there.
+# Ask for a ring of 25 m: does the jam stay or dissolve? It depends on how slowly the first car
+# begins: in `bootcourse.lessons.traffic.ring`, `v[0] = 5.0` and `v[0] = 1.0` end differently. The
+# ring has two stable states there.
 
 # %% [markdown]
 # ## Round 3: when to change lane
@@ -254,9 +254,9 @@ table(["mean distance", "slowest car, mean of 50 roads", "slowest of all"], rows
 # $$ \Delta a_\text{ego} + p\, (\Delta a_\text{rear} + \Delta a_\text{front}) > a_\text{threshold}
 # $$
 #
-# The first term is the driver's own gain. The other two are the gains of two neighbours (mostly
-# they lose), times a **politeness** $p$. Before that comes safety: a change must not make the new
-# follower brake harder than a limit, whatever the gains are.
+# The first term is the driver's own gain. The other two are the gains of two neighbours (a loss is
+# a negative gain), times a **politeness** $p$. Before that comes safety: a change must not make the
+# new follower brake harder than a limit, whatever the gains are.
 #
 # Which neighbours? The paper names the "trailing and leading vehicles in the target lane". But in
 # IDM a leading car does not react to the car behind it, so its gain is zero. Two cars do react: the
@@ -307,7 +307,7 @@ bc.show(figures_traffic.changing(own_gain, new_follower, politeness=(0, 0.5, 1))
 # egoist changes as soon as the limit on the new follower's braking allows it. A driver with p = 1
 # waits for a gap almost four times as long: it counts the new follower's braking as its own loss.
 #
-# > **Predict.** Does polite traffic (p = 1) change lane more often or less often than rude traffic
+# > **Predict.** Does polite traffic (p = 1) change lane more often or less often than egoists
 # > (p = 0)?
 
 # %%
@@ -332,8 +332,8 @@ table(["politeness", "lane changes a road (100 roads)"], rows)
 # loses, and what the *old* follower gains. On this road the other lanes are nearly empty, so often
 # the new follower loses nothing, while the old one gains. A polite driver gets out of the way.
 #
-# These numbers are part of the scenario, and you can change them. The panel refuses numbers that do
-# not fit together, and says why.
+# The traffic's numbers belong to the scenario, and you can change them. The panel refuses numbers
+# that do not fit together, and says why.
 #
 # > **Predict.** Under *Road and clock* you can shorten the road. At about which length will it be
 # > refused, and why there?
@@ -348,7 +348,7 @@ bc.panels.scenario_panel()
 # <details><summary>Answer</summary>
 #
 # The road must be at least {{ 150 * DEFAULT.ego.max_speed | g }} m long. The ego's maximum speed is
-# {{ DEFAULT.ego.max_speed | g }} m/s, so a car could drive that far in the 150 s of an episode, and
+# {{ DEFAULT.ego.max_speed | g }} m/s, so it could drive that far in the 150 s of an episode, and
 # it must not reach the end of the road. Traffic starts further ahead, but drives more slowly.
 # <!-- claim: accepts_road(150 * DEFAULT.ego.max_speed) -->
 # <!-- claim: not accepts_road(150 * DEFAULT.ego.max_speed - 1) -->
@@ -387,9 +387,9 @@ check.heading_errors(heading_errors)
 bc.show(figures_traffic.swinging(taus=(0.2, 0.3, 0.6), dt=bc.DEFAULT.clock.dt))
 
 # %% [markdown]
-# **Explain.** Each step multiplies the error by $1 - dt/\tau$. Between 0 and 1 it settles;
-# between −1 and 0 it swings and settles; below −1, that is for **dt / τ above 2**, it swings and
-# grows. The differential equation is stable for every τ. The *simulation* of it is not.
+# **Explain.** Each step multiplies the error by $1 - dt/\tau$. With a factor between 0 and 1 the
+# error settles; between −1 and 0 it swings and settles; below −1, that is for **dt / τ above 2**,
+# it swings and grows. The differential equation is stable for every τ, the *simulation* is not.
 # <!-- claim: 0 < 1 - 0.5 / 0.6 < 1 and -1 < 1 - 0.5 / 0.3 < 0 and 1 - 0.5 / 0.2 < -1 and 0.5 / 0.3
 #   < 2 < 0.5 / 0.2 -->
 
@@ -424,7 +424,7 @@ table(["time constants", *headings], rows)
 # nothing to disturb them. An agent that trains there learns to drive among cars that swerve off the
 # road, and its table of results does not show that. So we gave our own cars longer time constants,
 # and tested them as above. Before you believe a simulator, look at each of its cars, and not just
-# at the one that you train.
+# at the one that you train. This is the controller of the traffic cars:
 
 # %%
 source("bootcourse.road.formulas", "lane_keeping_steering")
@@ -438,11 +438,11 @@ source("bootcourse.road.formulas", "lane_keeping_steering")
 # ## What you now know
 #
 # 1. IDM brakes for the closing speed as well as for the gap, and settles at more than $s^*$.
-# 2. The closer the cars, the slower they drive. If they are close enough, a disturbance grows into
-#    a jam that travels backwards.
+# 2. The closer together cars settle, the slower they drive. If they are close enough, a disturbance
+#    can grow into a jam that travels backwards.
 # 3. MOBIL changes lane when that is safe, and when the driver's own gain plus p times the gains of
 #    its new and its old follower exceeds a threshold.
-# 4. On this road traffic with full politeness (p = 1) changed lane more often than egoists.
+# 4. On 100 roads traffic with full politeness (p = 1) changed lane more often than egoists.
 # 5. The simulated steering is unstable if dt / τ exceeds 2, even though its differential equation
 #    is stable.
 # <!-- claim: abs(1 - 1.99) < abs(1 - 2) == 1 < abs(1 - 2.01) -->
