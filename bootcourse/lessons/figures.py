@@ -147,7 +147,7 @@ def escape_against_d2(plan: Sequence | None, roads: int = 400) -> Figure:
     figure, ax = one_axes(2.4, title, "D2: trap 2 starts so far ahead (m, centre to centre)", "")
     spread = np.random.default_rng(0).uniform(-0.25, 0.25, roads)
     ax.scatter(d2, out + spread, s=7, c=np.where(out, style("rule").colour, ALARM), linewidths=0)
-    ax.set_yticks([0, 1], ["stays behind", "gets out"])
+    ax.set_yticks([0, 1], ["does not", "gets out"])
     ax.set_position((0.13, *ax.get_position().bounds[1:2], 0.845, ax.get_position().height))
     ax.set_ylim(-0.5, 1.5)
     alt = f"The plan gets out on {out.mean():.0%} of {roads} roads."

@@ -68,7 +68,8 @@ bc.show(figures.reasons_over_time(drive, "First the rule gets out, then it follo
 #
 # The rule picks its **target speed** from five speeds between {{ DEFAULT.rule.v_min }} and
 # {{ DEFAULT.rule.v_max }} m/s. It takes the fastest one that is *slower* than two cars: the one
-# ahead in its own lane, and the one ahead in the lane that it wants.
+# ahead in its own lane ($v_\text{current}$), and the one ahead in the lane that it wants
+# ($v_\text{new}$).
 #
 # $$ v_\text{target} = \max\{ v_i : v_i < \min(v_\text{current}, v_\text{new}) \}, \qquad v_i =
 # {{ DEFAULT.rule.v_min }} + \tfrac{i-1}{4}\,(15 - 6) $$
@@ -176,7 +177,7 @@ printed = d_s_printed - dx_current
 
 d_s = bc.rule.safety_distance(v_ego, v_traps, v_traps, numbers.t_safe, numbers.floor)
 gap = dx_new - bc.DEFAULT.car.length  # from bumper to bumper
-rows = [["printed", f"d_s − x_current = {printed:.2f} m > 0?", "yes" if printed > 0 else "no"]]
+rows = [["printed", f"d_s − Δx_current = {printed:.2f} m > 0?", "yes" if printed > 0 else "no"]]
 rows.append(["ours", f"gap {gap:.2f} m > d_s = {d_s:.2f} m?", "yes" if gap > d_s else "no"])
 bc.show(figures.when_to_change(drive))
 table(["", "the test", "change lane?"], rows)
@@ -338,8 +339,8 @@ tried = bc.record(bc.plan_policy(a_try), [7], label="you")[0]
 bc.show(bc.top_view_over_time(tried, times=[0, 2, 4, 6, 8]))
 
 # %% [markdown]
-# On which roads does your plan work? Here it drives 400 roads. (Until you have a plan, the kit's
-# own drives.)
+# On which roads does your plan work? Here it drives 400 roads. (Until you have written one, ours
+# drives.)
 
 # %%
 bc.show(figures.escape_against_d2(direct_plan()))
@@ -347,11 +348,11 @@ bc.show(figures.escape_against_d2(direct_plan()))
 # %% [markdown]
 # <details><summary>What we found</summary>
 #
-# Our plan gets out on each of {{ roads() | , }} held-out roads with D2 ≥ 4.85 m, and on {{ 100 *
-# without_braking()[1][without_braking()[0] < 4.85].mean() | .0f }} % of the roads below. That is {{
+# We drove our plan on {{ roads() | , }} roads. It gets out on each with D2 ≥ 4.85 m, and on {{ 100
+# * without_braking()[1][without_braking()[0] < 4.85].mean() | .0f }} % of those below. That is {{
 # 100 * without_braking()[1].mean() | .0f }} % of the roads together. Where trap 2 starts closer,
-# the right front corner of your car hits its tail, and you have to fall back first. A longer plan
-# may do with a smaller D2; we have not proved the contrary.
+# the front of your car hits its tail. There you can fall back first, as the rule does. Other ways
+# without braking may exist there, too: lesson 5 shows one between the two traps.
 # <!-- claim: without_braking()[1][without_braking()[0] >= 4.85].all() -->
 # <!-- claim: without_braking()[1][without_braking()[0] < 4.85].mean() < 0.1 -->
 #
@@ -375,7 +376,7 @@ bc.show(figures.escape_against_d2(direct_plan()))
 # Now the rule drives 1,000 roads on which nothing was chosen or trained. Each mean comes with its
 # 95 % interval.
 #
-# > **Predict.** The rule falls back at 8.25 m/s, then drives on. Doing nothing earns 23.4 and
+# > **Predict.** The rule falls back at 8 m/s, then drives on. Doing nothing earns 23.4 and
 # > covers 1500 m in 150 s. How far does the rule get?
 
 # %%
@@ -400,8 +401,8 @@ bc.show(charts.histogram(episodes.returns, "return of an episode", title))
 
 # %% [markdown]
 # **See.** On each of these 1,000 roads the rule escapes, without an accident. But its mean
-# return is less than half of what a free road pays. (On most roads of the small tower on the right
-# the left lane is free of traffic.)
+# return is less than half of what a free road pays. (The small bar on the right: on most of these
+# roads no traffic starts in the left lane.)
 # <!-- claim: of('rule').episodes('success').all() and accidents('rule') == 0 -->
 # <!-- claim: of('rule').scores('returns').max() < 150 * second_pays(15) / 2 -->
 
