@@ -41,10 +41,10 @@ from bootcourse.study import checks
 # %% [markdown]
 # ## Look first
 #
-# Before the road, a smaller world. A pole stands on a cart. Each fiftieth of a second you push
-# the cart to the left or to the right: two actions. Each push pays 1 while the pole stands. The
-# episode ends when the pole leans more than 12 degrees, when the cart leaves its track, or after
-# 500 pushes. This is **CartPole**, a common first test for a learner.
+# Before the road, a smaller world. A pole stands on a cart. Fifty times a second you push the cart
+# to the left or to the right: two actions. Each push pays 1 while the pole stands. The episode
+# ends when the pole leans more than 12 degrees, when the cart leaves its track, or after 500
+# pushes. This is **CartPole**, a common first test for a learner.
 # <!-- claim: gym.make('CartPole-v1').unwrapped.tau == 1 / 50 -->
 # <!-- claim: (lambda env: (env.reset(seed=0), env.step(0))[1][1])(gym.make('CartPole-v1')) == 1 -->
 # <!-- claim: math.degrees(gym.make('CartPole-v1').unwrapped.theta_threshold_radians) == 12 -->
@@ -95,9 +95,9 @@ bc.show(charts.lines(grid, {"sac": np.array(lasted)}, title, label, "pushes in a
 # **See.** Compare the first episodes with the last ones, and the three learners with each other.
 # (Yours will differ from those of another machine.)
 #
-# The line above the bar names six parts of a learner and says whose they are: so far **ours**. In
-# this lesson you write all six. A part that passes its check replaces ours from there on, so that
-# the agents at the end of this lesson learn with your code. Your part is kept in the folder
+# The line *Training with …* names six parts of a learner and says whose they are: so far **ours**.
+# In this lesson you write all six. A part that passes its check replaces ours from there on, so
+# that the agents at the end of this lesson learn with your code. Your part is kept in the folder
 # `answers`, beside the notebooks, for the lessons that build on it.
 # <!-- claim: len(parts_of([settings_for('sac')], {})) == 6 -->
 # <!-- claim: all(f'check.{part}({part})' in code_of('04_discrete_sac')
@@ -179,8 +179,8 @@ def soft_value(log_pi, q, alpha):
 check.soft_value(soft_value)
 
 # %% [markdown]
-# > **Predict.** Two actions, worth 1 and 3. A policy that is sure of the better one, and an even
-# > one. At which α are they worth the same? (The entropy of the even one is 0.693.)
+# > **Predict.** Two actions have Q = 1 and Q = 3. One policy is sure of the better action, another
+# > is even. At which α have both the same V? (The entropy of the even one is 0.693.)
 
 # %%
 predict("4.3", "The α at which both are worth the same", ["0.5", "0.693", "1", "1.44", "2"])
@@ -432,8 +432,9 @@ predict("4.7", "Batches in which a row appears", ["fewer than 1", "1", "about 16
 # %% [markdown]
 # **Exercise 4.7 (20 min, ●●●).** Write the buffer. It keeps the last `size` rows; a row is a
 # tensor. When it is full, each new row replaces the oldest one. `sample` draws rows with the
-# generator `rng`, each row with the same chance. Your agents call `add` after each decision and
-# `sample` at each update, thousands of times: do not copy the whole table.
+# generator `rng`, each row with the same chance at each draw, so that a row may come twice. Your
+# agents call `add` after each decision and `sample` at each update, thousands of times: do not
+# copy the whole table.
 
 
 # %%
@@ -503,7 +504,7 @@ state_entropy = torch.stack([each["entropy"] for each in noted]).T.numpy()
 smooth = state_entropy[:, : len(noted) // 50 * 50].reshape(len(agents), -1, 50).mean(-1)
 named = {"sac: η = 0.21": smooth[:3], "η = −1": smooth[3:]}
 updates, marks = np.arange(smooth.shape[1]) * 50, {"target 0.21": TARGET, "0": 0.0}
-title = "Their entropy"
+title = "The entropy of the six agents"
 bc.show(charts.lines(updates, named, title, "update", "entropy (nats)", marks=marks))
 
 # %%
@@ -525,8 +526,8 @@ bc.show(figures.cartpole_strip(drives, "The worst and the best of the six, from 
 # %% [markdown]
 # **See.** With η = {{ SETTINGS.target_entropy }}, α falls from update to update, as Round 4 says it
 # must. The scores say less: look at how far apart the seeds of *one* kind are before you conclude
-# anything about the two kinds. If your own parts are named above the bar, these agents learned with
-# your code.
+# anything about the two kinds. If the line *Training with …* names your parts, these agents learned
+# with your code.
 # <!-- claim: 0 - SETTINGS.target_entropy > 0 -->
 #
 # **Explain.** This experiment is too short to show what a low temperature costs. Look at the figure
@@ -535,7 +536,7 @@ bc.show(figures.cartpole_strip(drives, "The worst and the best of the six, from 
 #
 # Two things are known about a policy that has become sure. An action with a small probability is
 # seldom tried. And the slope of a softmax is proportional to π, so a small probability changes
-# slowly. Is that why plain SAC stays in the trap? Not alone: on the road,
+# slowly. Is that why plain SAC stays in the trap? That alone does not explain it: on the road,
 # {{ len(varied()['target entropy 0.3'].of('sac')) }} plain SAC agents were trained with η = 0.3 and
 # {{ len(varied()['target entropy 1'].of('sac')) }} with η = 1, and
 # {{ escaped_with('target entropy 0.3', 'sac') + escaped_with('target entropy 1', 'sac') }} of the
@@ -553,7 +554,7 @@ own_code.compare()
 # %% [markdown]
 # **Try.** Plant a mistake: copy your `critic_target` into a new cell, leave out `(1 - terminated)`,
 # and call `own_code.use(critic_target)`. From then on agents train with it, without a check. Run
-# the last cell and the training again. What does the comparison say, and do the agents still learn?
+# the training and the cell above again. Do the agents still learn? What does the comparison say?
 # (`own_code.load()` brings back the part that passed.)
 
 # %% [markdown]

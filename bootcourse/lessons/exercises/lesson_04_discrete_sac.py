@@ -197,6 +197,10 @@ critic_loss = Exercise(
         Mistake(lambda q_pair, action, target: (q_pair - target.detach().unsqueeze(-1)).square().mean(1).sum(),
             "You compare all actions with the target. Only the action that was taken led to this reward.",
             "The target belongs to the state."),
+        Mistake(lambda q_pair, action, target: (q_pair[:, :, action] - target.detach()).square().mean((1, 2)).sum(),
+            "`q_pair[:, :, action]` takes these actions in *every* state. Each state has one action: use `gather`, or "
+            "give the number of the state as well, `q_pair[:, torch.arange(len(action)), action]`.",
+            "A list of columns is used row by row."),
         Mistake(lambda q_pair, action, target: (q_pair.amax(-1) - target.detach()).square().mean(-1).sum(),
             "You compare the largest Q with the target. The reward came from the action that was *taken*.",
             "The agent always takes the best action."),
