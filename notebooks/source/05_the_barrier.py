@@ -45,8 +45,8 @@ from bootcourse.study import planner, report, tables
 # out the future before it decides. At each second it extends the drives that it has kept by each of
 # the nine actions, and keeps the best 50 of the new drives. It computes what the other cars will
 # do, while an agent gets {{ DEFAULT.observation_size }} numbers about the present. So the planner's
-# return is a reference and not a competitor. The search can miss the best drive: what it finds is
-# possible, and something better may exist.
+# return says what is possible on this road, and not what an agent can reach. The search can miss
+# the best drive: something better may exist.
 # <!-- claim: DEFAULT.clock.decision_rate == 1 and N_ACTIONS == 9 -->
 
 # %%
@@ -61,7 +61,7 @@ bc.show(bc.traces([idle, by_rule, planned]))
 rows = []
 for drive in (idle, by_rule, planned):
     passed = bc.overtaken(drive)
-    when = "not in 150 s" if passed is None else f"after {passed:.0f} s"
+    when = "not in 150 s" if passed is None else f"after {passed:g} s"
     rows.append([bc.display_name(drive.label), f"{drive.rewards.sum():.1f}", when])
 table(["", "return", "ahead of trap 1"], rows)
 
@@ -69,9 +69,9 @@ table(["", "return", "ahead of trap 1"], rows)
 bc.show(bc.top_view_over_time(planned, times=[0, 2, 4, 6, 8, 12]))
 
 # %% [markdown]
-# **See.** On this road the planner's car does not fall back. It changes lane between the two traps
-# with little room on either side, since it knows where both will be. The rule takes longer and
-# keeps larger gaps. Both earn more than the car that stays in the trap.
+# **See.** On this road the planner's car does not fall back. It accelerates and changes lane
+# between the two traps, with little room ahead and behind, since it knows where both will be. The
+# rule takes longer and keeps larger gaps. Both earn more than the car that stays in the trap.
 # <!-- claim: planned(50, 1.0) > by_rule().rewards.sum() > idle().rewards.sum() -->
 
 # %% [markdown]
@@ -131,7 +131,7 @@ print(f"{100 * ended / driven:.0f} % of all ended in an accident.")
 # <!-- claim: escaped('sac') == 1 and len(of('sac')) == 10 -->
 #
 # Compare the returns with {{ idle().rewards.sum() | .1f }}, the return of doing nothing (lesson 1).
-# Why do most agents not leave? There are two explanations, and each calls for another cure.
+# Why do most agents not leave? Here are two explanations, and each calls for a cure of its own.
 #
 # - **Discount.** For an agent with γ = 0.8, a reward in 20 s hardly counts. Perhaps leaving does
 #   not *pay* for it, and to stay is the best that it can do.
@@ -192,7 +192,7 @@ check.share_of_the_future(share_of_the_future)
 predict(
     "5.3",
     "At γ = 0.8, which is worth more than doing nothing?",
-    ["no way out", "the best way out alone", "the best way out, and the rule's"],
+    ["no way out", "the best way out, not the rule's", "the best way out, and the rule's"],
 )
 
 # %%
@@ -210,9 +210,10 @@ table(headings, rows, below="Discounted sums from the start, means of four roads
 # yet answer the question for a learner, which sees 26 numbers and not the future.
 #
 # Trained agents answer it. In lesson 9's study some agents learned to escape, with γ = 0.8 and with
-# the rule's help, and they see the same 26 numbers. On 200 held-out roads, the
-# {{ len(discounted_scores('soft')) }} agents with the soft constraint alone that come with this
-# course earn {{ discounted_scores('soft').min() | .2f }} to
+# the rule's help, and they see the same 26 numbers. Take the
+# {{ len(discounted_scores('soft')) }} that come with this course and had one kind of help, the soft
+# constraint of Round 5. On 200 **held-out** roads, which were not used in training, they earn
+# {{ discounted_scores('soft').min() | .2f }} to
 # {{ discounted_scores('soft').max() | .2f }} in discounted reward. Doing nothing earns
 # {{ discounted(idle(), 0.8) | .2f }}. So leaving can pay at γ = 0.8, and the discount alone does
 # not explain why an agent stays.
@@ -264,10 +265,10 @@ print(f"{100 * np.mean(tried.accident > 0):.1f} % in an accident")
 # **See.** With 2 of 9 right, eight times in a row, one attempt works with a probability of
 # {{ 1e6 * (2 / 9) ** 8 | .0f }} in a million: about {{ (9 / 2) ** 8 / 1000 | .0f }} thousand
 # attempts for one success. On the road it is likelier: {{ by_chance().success.sum() }} of
-# {{ len(by_chance().success) | , }} random drives end ahead. But all of them end in an accident
-# later, each with a return below zero, which is less than doing nothing earns. So even the lucky
-# drives do not show that leaving pays. And a learner does not act at random for long. What does its
-# critic expect in the first second?
+# {{ len(by_chance().success) | , }} random drives end ahead. But each of these ends in an accident,
+# with a return below zero, which is less than doing nothing earns. So even the lucky drives do not
+# show that leaving pays. And a learner does not act at random for long. What does its critic expect
+# in the first second?
 # <!-- claim: (by_chance().accident[by_chance().success] > 0).all() -->
 # <!-- claim: by_chance().returns[by_chance().success].max() < 0 < idle().rewards.sum() -->
 
@@ -306,7 +307,7 @@ table(["", "action", "Q", "π"], rows, below=below)
 #
 # The road has too many parts to show what holds a learner back. Here is a world that keeps the
 # detour and leaves out the rest: a **chain** of five states. You start in the trap, and after 20
-# decisions the time is up.
+# decisions the time is up. The table says what each action does in each state, and what it pays:
 #
 # | | state 0, the trap | state 1 | state 2 | state 3 | state 4, the free road |
 # |---|---|---|---|---|---|
@@ -412,7 +413,7 @@ table(["", "learn to leave"], rows)
 # More exploration helps here (C, D). One visit is not enough: of the thirty learners of kind C
 # {{ free_road_seen(0.5, 0.8) }} have been on the free road, and {{ leaving(0.5, 0.8) }} learn to
 # leave. Each passage moves the value of the free road one state further back, so it takes several.
-# On the chain a wrong attempt costs a few seconds. On the road nearly all of the 5,000 random
+# On the chain a wrong attempt costs a few decisions. On the road nearly all of the 5,000 random
 # drives of Round 3 end in an accident, so D is no recipe there.
 # <!-- claim: 0 < leaving(0.5, 0.8) < free_road_seen(0.5, 0.8) and leaving(1.0, 0.8) == 30 -->
 # <!-- claim: (by_chance().accident > 0).mean() > 0.99 -->
@@ -437,6 +438,8 @@ table(["", "learn to leave"], rows)
 # {{ bound().mean() | .0f }}. The paper's method uses the rule twice. A **soft constraint** makes
 # the agent pay for differing from the rule (lesson 7). **Demonstrations**, drives of the rule with
 # a bonus on them, are mixed into what the agent learns from (lesson 8). Both fade during training.
+# The picture shows β, the share of each batch that is demonstrations; ξ is the weight of the soft
+# constraint:
 # <!-- claim: of('rule').scores('success').min() == 1 -->
 
 # %%
@@ -611,7 +614,7 @@ compare_predictions(
     {
         "5.1": f"{escaped_alone[:SEEDS].sum()} here, {alone_of_ten} in the study",
         "5.2": round(100 * 0.8**5, 1),
-        "5.3": "the best way out alone",
+        "5.3": "the best way out, not the rule's",
         "5.4": round((9 / 2) ** 8),
         "5.5": round(0.16**0.25, 2),
         "5.6": "D and E",

@@ -91,8 +91,9 @@ luck = Exercise(
 
 
 def walk(
-    chances, gamma, step, taught, best=np.max, restart=True, ends=False, one_step=False, after=False, own_last=False
-):
+    chances, gamma, step, taught, best=np.max, restart=True, ends=False, one_step=False, after=False, own_last=False,
+    lost=False,
+):  # fmt: skip
     """Q-learning in the chain, with one thing done differently: what students do."""
     q, s = np.zeros((chain.STATES, 2)), 0
     for t, chance in enumerate(chances):
@@ -104,7 +105,7 @@ def walk(
             last = ends and t % chain.EPISODE == chain.EPISODE - 1 and (state, action) == (s, a)
             target = chain.REWARD[state, action] + (0 if last else gamma) * best(q[chain.NEXT[state, action]])
             q[state, action] = target if one_step else q[state, action] + step * (target - q[state, action])
-        s = chain.NEXT[s, a]
+        s = chain.NEXT[seen[-1] if lost else (s, a)]
     for state, action in taught if after else ():
         target = chain.REWARD[state, action] + gamma * best(q[chain.NEXT[state, action]])
         q[state, action] += step * (target - q[state, action])
@@ -158,6 +159,10 @@ learn_chain = Exercise(
         Mistake(lambda *case: walk(*case, own_last=True),
             "You replay the demonstration before your own decision is learned. First your own, then `taught`.",
             "The order of the updates does not matter."),
+        Mistake(lambda *case: walk(*case, lost=True),
+            "Your walk goes on from where the demonstration ends. It goes on from your *own* decision: use other names "
+            "than s and a for what is replayed.",
+            "A loop has names of its own."),
         Mistake(lambda chances, gamma, step, taught: walk(chances, gamma, step, ()),
             "You do not replay the demonstration `taught`.",
             "A learner learns from its own decisions."),
