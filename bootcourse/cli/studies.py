@@ -17,7 +17,7 @@ from bootcourse.errors import BootcourseError, did_you_mean
 def study(
     name: str = typer.Argument(
         "default",
-        help="default, calibrated or paper; sensitivity, clocks, ablations, longer-view, beyond or teachers.",
+        help="default, calibrated or paper; sensitivity, clocks, ablations, longer-view, beyond, teachers or safe.",
     ),
     out: Path = typer.Option(..., help="The study's folder: new, or that of a study to continue; all may share one."),
     seeds: int = typer.Option(0, min=0, help="Training seeds of each method; 0: the study's own number."),
@@ -35,6 +35,7 @@ def study(
 
     default, calibrated and paper: all methods. sensitivity, clocks and ablations: the paper's ablation, varied.
     longer-view: its method with other numbers. beyond: what came after the paper. teachers: what a teacher is worth.
+    safe: what prevents accidents.
     """
     from bootcourse.study import plan
     from bootcourse.study.report import write_report

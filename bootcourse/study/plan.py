@@ -178,6 +178,25 @@ def _teachers() -> dict[str, Variation]:
     }
 
 
+# Of the experiment `safe`: what is switched on beside PPO after cloning. Ten agents take about 12 minutes of one core,
+# 15 with a mask, by the speed of one agent: an hour and a half for all.
+SAFER = {
+    "plain": {},
+    "accident cost": {"accident_cost": 50.0},
+    "multiplier": {"multiplier_step": 3.0},
+    "learned mask": {"risk_limit": 0.1},
+    "shield by hand": {"shield": True},
+    "accident cost and multiplier": {"accident_cost": 50.0, "multiplier_step": 3.0},
+    "accident cost and shield by hand": {"accident_cost": 50.0, "shield": True},
+}
+
+
+def _safe() -> dict[str, Variation]:
+    """What may make PPO after cloning safe: each alone, and two together."""
+    off = {"accident_cost": 0.0, "multiplier_step": 0.0, "risk_limit": 1.0, "shield": False}
+    return {name: Variation(off | changes, methods=("ppo_safe",)) for name, changes in SAFER.items()}
+
+
 @dataclass(frozen=True)
 class Experiment:
     """Variations that are run with the same seeds and number of episodes."""
@@ -221,6 +240,7 @@ EXPERIMENTS = {
     "longer-view": Experiment(_longer_view(), seeds=10, episodes=1500),
     "beyond": Experiment(_beyond(), seeds=10, episodes=1500),
     "teachers": Experiment(_teachers(), seeds=10, episodes=1500, tests=200),
+    "safe": Experiment(_safe(), seeds=10, episodes=20_000),
 }
 
 

@@ -15,6 +15,7 @@ from bootcourse.statistics import Estimate, mean
 from bootcourse.study import clocks, tables, teacher_worth
 from bootcourse.study import figures as training_figures
 from bootcourse.study.fidelity import CLOSE, VERDICTS, fidelity
+from bootcourse.study.frontier import safe_and_fast
 from bootcourse.study.jobs import HELD_OUT
 from bootcourse.study.paper import COLUMNS, PRINTED, ROWS, TABLES, arithmetic
 from bootcourse.study.plan import STUDIES
@@ -48,6 +49,7 @@ def write_report(found: StudyResults, folder: Path) -> Path:
     text += [tables.fidelity_table(findings), "### What each row's own numbers say\n"]
     text += ["\n".join(f"- **{ROWS[method]}.** {arithmetic(method)}" for method in PRINTED) + "\n"]
     text += experiments_part(found.experiments)
+    text += safe_part(found, folder)
     path = folder / "report.md"
     write_bytes(path, "\n".join(text).encode())
     return path
@@ -138,6 +140,17 @@ def experiments_part(experiments: dict[str, dict[str, Results]]) -> list[str]:
     return text
 
 
+def safe_part(found: StudyResults, folder: Path) -> list[str]:
+    """The experiment on safety: its figure and its table, if it and the planner's bound were computed."""
+    varied, bound = found.experiments.get("safe"), found.bound.get("default")
+    if not varied or bound is None:
+        return []
+    figure = safe_and_fast(varied, float(np.mean(bound)))
+    save(figure, folder / "figures" / "safe.png")
+    shown = f"![{figure.alt}](figures/safe.png)\n"
+    return ["## Fast and safe\n", SAFE, shown, tables.variations_table(varied)]
+
+
 def close() -> str:
     return ", ".join(f"{COLUMNS[column].split(',')[0]} within {within:g}" for column, within in CLOSE.items())
 
@@ -174,6 +187,10 @@ method and 20 test episodes each reads as the paper's: successes 0, 0, 20 and 20
 TEACHERS = """Teachers from bad to perfect, and methods that learn from them. Return: interquartile mean over agents,
 accidents: mean, decisions: median, each with its 95 % interval over training seeds. In brackets behind the decisions:
 how many agents reached it in their training.
+"""
+
+SAFE = """PPO after cloning, with one or two things more against accidents. The shield is written by hand and knows what
+no learner is told; everything else is learned from the agents' own accidents.
 """
 
 LONGER_VIEW = """The paper's method with two updates per decision, a bonus of 0.5 instead of 2, batches of 128 instead

@@ -32,7 +32,7 @@ from bootcourse.study.results import Results, in_assets, in_study, join, load_jo
 
 CURVES = ("success", "return", "speed", "distance", "accident", "entropy")  # the others are in runs/
 VARIED_CURVES = ("success", "return", "xi", "decisions")  # of the experiments
-FEWER = {"teachers": ("success", "decisions")}  # of those with many agents, for their size
+FEWER = dict.fromkeys(("teachers", "safe"), ("success", "decisions"))  # of those with many agents, for their size
 RUNS = 5  # training seeds whose weights ship; curves and scores ship of all
 BUILD = "bootcourse assets build --study DIR"
 STUDY = f"bootcourse study --out DIR && {BUILD}"

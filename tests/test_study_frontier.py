@@ -1,0 +1,64 @@
+"""Fast and safe: which kinds of agents no other beats, and the figure that shows it, from invented results."""
+
+import numpy as np
+import pytest
+
+from bootcourse.study.frontier import frontier, safe_and_fast, scored
+from bootcourse.study.plan import EXPERIMENTS
+from bootcourse.study.report import safe_part
+from bootcourse.study.results import Results, StudyResults
+from tests.test_figures import overlaps, words_of
+
+
+def agents(accidents, returns) -> Results:
+    """Agents with these shares of accidents, of different kinds, and these returns, in 200 drives each."""
+    happened = np.arange(200) < 200 * np.array(accidents)[:, None]
+    kinds = happened * (1 + np.arange(200) % 3)
+    tested = {"accident": kinds, "returns": np.repeat(np.array(returns, dtype=float)[:, None], 200, axis=1)}
+    tested["success"] = np.ones_like(kinds)
+    settings = [{"method": "ppo_safe", "seed": seed} for seed in range(len(accidents))]
+    return Results(settings, np.full(len(settings), -1), tested, {})
+
+
+VARIED = {
+    "plain": agents([0.01, 0.02, 0.03], [134.0, 135.0, 136.0]),
+    "slow": agents([0.0, 0.0, 0.01], [120.0, 121.0, 122.0]),
+    "worse": agents([0.02, 0.03, 0.03], [130.0, 131.0, 132.0]),
+    "best": agents([0.0, 0.0, 0.0], [133.0, 134.0, 135.0]),
+}
+
+
+def test_all_agents_and_all_kinds_of_accidents_count():
+    accidents, returns = scored(VARIED["plain"])
+    assert accidents.value == pytest.approx(2.0) and 1.0 <= accidents.low < 2.0 < accidents.high <= 3.0
+    assert returns.value == pytest.approx(135.0) and returns.low < 135 < returns.high
+
+
+def test_the_frontier_is_what_nothing_beats_in_both_from_safest_to_fastest():
+    assert frontier(VARIED) == ["best", "plain"]
+    assert frontier({"one": VARIED["plain"], "other": VARIED["plain"]}) == ["one", "other"]
+
+
+def test_the_figure_names_the_frontier_in_its_title_and_everyone_in_its_words():
+    figure = safe_and_fast(VARIED, bound=140.6)
+    assert figure.alt.startswith("Nothing here is both safer and faster than best, plain")
+    assert all(f"{name} (3 agents)" in figure.alt for name in VARIED) and "140.6" in figure.alt
+    assert {*VARIED, "planner\n140.6"} <= set(words_of(figure)) and overlaps(figure) == []
+
+
+def test_the_report_has_it_once_the_experiment_and_the_planner_s_bound_are_there(tmp_path):
+    found = StudyResults({}, {"default": np.array([140.0, 141.0])}, {}, {"safe": VARIED})
+    text = "\n".join(safe_part(found, tmp_path))
+    assert "140.5" in text and "| slow |" in text and (tmp_path / "figures" / "safe.png").exists()
+    assert safe_part(StudyResults({}, {}, {}, {"safe": VARIED}), tmp_path) == []
+    assert safe_part(StudyResults({}, {"default": np.array([140.0])}, {}, {"safe": {}}), tmp_path) == []
+
+
+def test_a_variation_switches_on_what_it_is_named_for():
+    changes = {name: its.changes for name, its in EXPERIMENTS["safe"].variations.items()}
+    plain = {"accident_cost": 0.0, "multiplier_step": 0.0, "risk_limit": 1.0, "shield": False}
+    assert changes["plain"] == plain
+    alone = {"accident cost": "accident_cost", "multiplier": "multiplier_step", "learned mask": "risk_limit",
+             "shield by hand": "shield"}  # fmt: skip
+    for name, setting in alone.items():
+        assert {key for key in plain if changes[name][key] != plain[key]} == {setting}
