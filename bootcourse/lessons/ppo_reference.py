@@ -24,7 +24,7 @@ from bootcourse.learn.agent import Agent
 from bootcourse.learn.settings import Settings, settings_for
 from bootcourse.learn.teachers import course_rule
 from bootcourse.learn.training import MOST_EPISODES, Training
-from bootcourse.lessons.second_trap import Repaid, left_of, shaped_pay
+from bootcourse.lessons.second_trap import Repaid, concave_pay, left_of, shaped_pay
 from bootcourse.lessons.teacher_reference import alike, grouped
 from bootcourse.storage.assets import FOLDER
 from bootcourse.study.jobs import HELD_OUT
@@ -49,6 +49,7 @@ GAMMA = settings_for("ppo").gamma
 KINDS = {
     "alone": Kind("ppo", 800_000),
     "shaped": Kind("ppo", 500_000, partial(Repaid, pay=shaped_pay(left_of, GAMMA))),
+    "concave": Kind("ppo", 800_000, partial(Repaid, pay=concave_pay)),
     "cloned": Kind("ppo_cloned", 300_000),
 }
 

@@ -18,7 +18,7 @@ from bootcourse.storage.sealed import is_file_with, read_sealed
 FOLDER = Path(__file__).resolve().parent.parent.parent / "assets"
 MANIFEST = "manifest.json"
 FORMAT = "bootcourse assets 1"
-LIMIT = 25_000_000  # bytes in total
+LIMIT = 30_000_000  # bytes in total
 
 
 class Entry(TypedDict):

@@ -149,10 +149,12 @@ def _longer_view() -> dict[str, Variation]:
 def _beyond() -> dict[str, Variation]:
     """Learners that came after the paper, each with its own settings.
 
-    PPO drives hundreds of roads at once. RLPD makes eight times as many updates for a decision as the others.
+    PPO drives hundreds of roads at once. RLPD makes eight times as many updates for a decision as the others. DAgger is
+    in the experiment `teachers`.
     """
     episodes = {"rlpd": 250} | {method: 20_000 for method in AFTER if METHODS[method].on_policy}
-    return {method: Variation(methods=(method,), episodes=episodes.get(method, 0)) for method in AFTER}
+    methods = [method for method in AFTER if method not in ("dagger", "ppo_safe")]
+    return {method: Variation(methods=(method,), episodes=episodes.get(method, 0)) for method in methods}
 
 
 # Of each method in the experiment `teachers`: changes and training episodes. The minutes of one core are those of ten

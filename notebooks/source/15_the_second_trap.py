@@ -299,9 +299,40 @@ bc.show(bc.traces(your_drive, title="Your agent", what=("speed", "distance")))
 # %% [markdown]
 # ## Round 3: change the reward
 #
-# The reward pays for the second trap. Somebody could write another one, concave in the speed, and
-# would have to find out what *that* one pays for. There is a way to change the reward and to leave
-# what is best as it is.
+# The reward pays for the second trap, so change it: from 5 to 15 m/s let the speed pay
+# √((v − 5) / 10) instead of r_v. That is **concave**, with the same ends, and a steady speed earns
+# the most. At 15 m/s a second still pays more than at 10 m/s, so leaving is still worth it.
+# <!-- claim: [float(second_trap.concave_speed_reward(np.float64(v))) for v in (5, 15)] == [0, 1]
+#   and second_trap.concave_speed_reward(np.float64(10)) < 0.8 -->
+#
+# > **Predict.** PPO alone trains with this reward. What does it do?
+
+# %%
+choices = ["it leaves", "it drives steadily behind trap 1", "it falls back and sprints as before"]
+predict("15.4", "With the concave reward", choices)
+
+# %%
+concave = bc.record(ppo_reference.agent_of("concave").as_policy(), [ROAD], label="ppo")[0]
+speeds = {
+    name: each.states[:: bc.DEFAULT.clock.steps][1:, EGO, SPEED]
+    for name, each in (("the road's reward", drive), ("the concave one", concave))
+}
+title = "Paid by the concave reward, PPO drives steadily, and stays"
+seconds = np.arange(1, 1 + len(speeds["the road's reward"]))
+bc.show(charts.lines(seconds, speeds, title, "time (s)", "speed (m/s)"))
+
+# %% [markdown]
+# **See.** The sprints are gone. None of the {{ ppo_agents() }} agents that ship escapes; they
+# were trained for {{ ppo_reference.KINDS['concave'].decisions | , }} decisions. On the road's terms
+# they earn {{ ppo('concave')['returns'].mean() | .0f }} on average, about what a car earns that
+# keeps straight. They are back in the first trap.
+# <!-- claim: ppo_escapes('concave') == 0 and abs(ppo('concave')['returns'].mean() /
+#   idle().rewards.sum() - 1) < 0.15 -->
+# <!-- claim: ppo_speeds('concave')[20:].std() < 0.2 * ppo_speeds()[20:].std() -->
+#
+# **Explain.** A reward says what is best, and not how it is found. The way out still leads through
+# seconds that pay less, and trials that crash (lesson 5). There is also a way to change the reward
+# and to leave what is best as it is.
 #
 # A **potential** Φ(s) is a number for each state that says how promising it looks. The shaping
 # reward pays for its change:
@@ -341,7 +372,7 @@ for name, policy in (("the rule", bc.rule_policy(bc.DEFAULT)), ("nobody", bc.pol
 # > {{ ppo_agents() }} agents escape?
 
 # %%
-predict("15.4", "With the potential escape", ["none", "some of them", "all of them"])
+predict("15.5", "With the potential escape", ["none", "some of them", "all of them"])
 
 # %% tags=["nbval-ignore-output"]
 pay = second_trap.shaped_pay(second_trap.left_of, gamma, own_code.yours_or_ours("shaping_reward"))
@@ -354,7 +385,8 @@ found = bc.evaluate(shaped.agent.as_policy(), 100)
 print(f"Yours is ahead on {100 * found.success.value:.0f} %, return {found.returns.value:.1f}")
 
 # %%
-names, rows = {"alone": "the road's reward", "shaped": "the potential, too"}, []
+names = {"alone": "the road's reward", "concave": "concave", "shaped": "the potential, too"}
+rows = []
 for kind, name in names.items():
     group = groups[kind]
     each = ", ".join(f"{100 * s:.0f}" for s in np.sort(group["success"]))
@@ -397,7 +429,7 @@ table(["PPO, paid", "each agent's escapes, %, sorted", "the road's return", "acc
 
 # %%
 choices = ["in less than half", "in about three quarters", "in nearly all"]
-predict("15.5", "It does as the rule would", choices)
+predict("15.6", "It does as the rule would", choices)
 
 # %% tags=["nbval-ignore-output"]
 training = own_code.training([ppo_reference.settings_of("cloned")], MOST)
@@ -471,8 +503,7 @@ bc.show(bc.traces(list(fast.values()), title=title, what=("speed", "distance", "
 #
 # **Three questions to think about**
 # - Which number, printed beside the return during training, would have shown the second trap?
-# - With a reward that is concave in the speed, changing speeds would not pay. What would PPO alone
-#   probably do then, and is that better?
+# - With the concave reward the agents stay in the first trap. Is that better than the second?
 # - Could cloning a *bad* driver have worked as well? Which of the four teachers of lesson 14?
 
 # %%
@@ -484,17 +515,18 @@ compare_predictions(
         "15.1": "they fall back and then drive fast",
         "15.2": "almost four times as much",
         "15.3": "yes, it makes the action rarer",
-        "15.4": f"{escaping} of {len(groups['shaped']['success'])}",
-        "15.5": f"in {alike:.0f} % of its decisions",
+        "15.4": "it drives steadily behind trap 1",
+        "15.5": f"{escaping} of {len(groups['shaped']['success'])}",
+        "15.6": f"in {alike:.0f} % of its decisions",
     },
 )
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Answers to the three questions. (1) The share of episodes that end ahead of trap 1, or the
 # distance to it at the end; the largest speed beside the mean speed would show the sprints. (2)
-# Keep a steady speed behind trap 1, which is the first trap: it would earn what the idle driver
-# earns. The return would then at least show that something is missing. A concave reward also pays
-# less for leaving: the step from 10 to 15 m/s is worth less. (3) One that leads past the traps: the
+# In one respect: their return is that of the idle driver, so it shows that something is missing,
+# where the return of the second trap looks like the rule's. For the road both are the same: the
+# agents stay behind trap 1. (3) One that leads past the traps: the
 # racer. It crashes later, but PPO goes on learning from the reward and can drop that part. `timid`
 # and `reckless` do not lead past them.
 

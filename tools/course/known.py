@@ -45,8 +45,8 @@ from bootcourse.rule import HEADING_COST, Reason, stochastic_rule, target_speed
 from bootcourse.scenario import ACTION_NAMES, CALIBRATED, DEFAULT, N_ACTIONS, RULE_P
 from bootcourse.statistics import ESCAPES, escapes, improvement, interval, iqm, rate
 from bootcourse.storage.assets import FOLDER
+from bootcourse.study import beyond, report
 from bootcourse.study import clocks as study_clocks
-from bootcourse.study import report
 from bootcourse.study.checks import CHECKS
 from bootcourse.study.clocks import pattern
 from bootcourse.study.paper import EPISODES, PRINTED, paper_interval
@@ -146,6 +146,22 @@ def ablations() -> dict[str, Results]:
 def clocks() -> dict[tuple[str, str], Results]:
     """The four methods' ten agents each, by (updates per decision, who drives the demonstrations): ("2", "π̃")."""
     return study_clocks.cells(shipped.shipped_experiment("clocks"))
+
+
+@cache
+def later(method: str) -> Results:
+    """The ten agents of a method that came after the paper."""
+    return shipped.shipped_experiment("beyond")[method]
+
+
+def first_episodes(method: str, episodes: int = 50) -> float:
+    """How many decisions these agents' first episodes take altogether, the mean over agents."""
+    return float(later(method).curves["decisions"][:, :episodes].sum(axis=1, dtype=float).mean())
+
+
+def learned(method: str) -> np.ndarray:
+    """The decisions until each agent gets out in 95 % of 50 episodes, inf if it does not, see `study.beyond`."""
+    return beyond.spent(later(method))
 
 
 def clocks_run_down(updates: str) -> float:
