@@ -166,6 +166,11 @@ def test_the_shield_needs_no_braking_for_a_faster_car_or_one_in_another_lane_and
     assert behind[[0, 1, 3, 4, 6, 7]].max() == 0 and behind[[2, 5, 8]].min() == math.inf  # to the right is no road
 
 
+def test_a_standing_car_needs_no_braking():
+    assert needed_braking(seen(0.0, 20.0, 0.0, 0.0))[[BRAKE, KEEP]].tolist() == [0.0, 0.0]
+    assert needed_braking(seen(0.0, 20.0, 0.0, 0.0)).isfinite().all()
+
+
 def test_an_agent_with_the_shield_does_not_drive_into_the_car_ahead():
     agent = trained(**OFF).agent(0)
     with torch.no_grad():

@@ -27,7 +27,7 @@ def needed_braking(states: Tensor) -> Tensor:
     action = torch.arange(N_ACTIONS)
     acceleration, steering = (action // 3 - 1) * ego.acceleration, (action % 3 - 1) * ego.steering  # (9,)
     v, v_lat = states[..., 3, None] * V_LON_SCALE, states[..., 4, None] * V_LAT_SCALE  # (..., 1)
-    turn = v**2 * math.tan(ego.steering) / car.length  # (..., 1) m/s²
+    turn = (v**2 * math.tan(ego.steering) / car.length).clamp(min=1e-6)  # (..., 1) m/s²; of a standing car 0
     sideways = v_lat + turn * torch.sign(steering)  # (..., 9) m/s after the action
     after = (v_lat + sideways) / 2  # (..., 9) m to the right after one second, and
     later = after + sideways * (sideways.abs() / turn).clamp(min=1) / 2  # after steering back
