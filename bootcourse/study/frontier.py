@@ -45,15 +45,15 @@ def safe_and_fast(varied: Mapping[str, Results], bound: float) -> Figure:
     where = "accidents of any kind (% of held-out drives)"
     figure, ax = one_axes(height, title, where, "return", width=0.75)
     told = []
-    for name, results in varied.items():
-        accidents, returns = scored(results)
+    for place, name in enumerate(sorted(varied, key=lambda name: scored(varied[name])[0].value)):
+        accidents, returns = scored(varied[name])
         ahead = name in best
         colour, fill = (colours.colour, colours.colour) if ahead else (QUIET, "white")
         ax.plot([accidents.low, accidents.high], [returns.value] * 2, color=colour, linewidth=1.2, zorder=2)
         ax.plot([accidents.value] * 2, [returns.low, returns.high], color=colour, linewidth=1.2, zorder=2)
         ax.plot(accidents.value, returns.value, "o", ms=6, mfc=fill, mec=colour, zorder=3)
-        ax.annotate(name, (accidents.value, returns.value), xytext=(6, 5), textcoords="offset points", fontsize=SMALL,
-                    color=INK if ahead else QUIET)  # fmt: skip
+        ax.annotate(name, (accidents.value, returns.value), xytext=(6, -12 if place % 2 else 5), fontsize=SMALL,
+                    textcoords="offset points", color=INK if ahead else QUIET)  # fmt: skip
         told.append(f"{name} ({count[name]} agents): {bracketed(accidents)} %, return {bracketed(returns)}")
     name, line = DRIVERS["planner"]
     ax.axhline(bound, color=line.colour, linewidth=line.width, linestyle=line.line)
