@@ -16,12 +16,13 @@ from scipy import stats
 
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
+from bootcourse.episodes.words import overtaken
 from bootcourse.errors import BootcourseError
 from bootcourse.files import read_arrays
 from bootcourse.learn import bootstrap, sac
 from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.settings import settings_for
-from bootcourse.learn.teachers import toward
+from bootcourse.learn.teachers import teacher_policy, toward
 from bootcourse.lessons import (
     bugs,
     chain,
@@ -37,7 +38,8 @@ from bootcourse.lessons.chain import leaving
 from bootcourse.lessons.exercises import registry
 from bootcourse.lessons.exercises.driven_out import OUT, drive_out
 from bootcourse.lessons.own_learner import parts_of
-from bootcourse.policies import idle_policy, plan_policy, random_policy, rule_policy
+from bootcourse.methods import METHODS
+from bootcourse.policies import idle_policy, plan_policy, random_policy, rule_policy, stochastic_rule_policy
 from bootcourse.road import formulas, observation
 from bootcourse.road.formulas import centring_reward, speed_reward
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, Accident, X, Y
@@ -52,6 +54,7 @@ from bootcourse.study.clocks import pattern
 from bootcourse.study.paper import EPISODES, PRINTED, paper_interval
 from bootcourse.study.planner import Search, discounted_values, plan_episodes
 from bootcourse.study.results import KINDS, Results
+from bootcourse.study.teachers import LATE, TEACHERS
 from tools.course.reference import lessons
 from tools.course.source import NOTEBOOKS, read
 
@@ -148,6 +151,9 @@ def clocks() -> dict[tuple[str, str], Results]:
     return study_clocks.cells(shipped.shipped_experiment("clocks"))
 
 
+LATER = ("ppo_cloned", "ppo_kl", "rlpd", "ibrl", "pex", "jsrl")  # the methods that lesson 16 compares with the paper's
+
+
 @cache
 def later(method: str) -> Results:
     """The ten agents of a method that came after the paper."""
@@ -162,6 +168,55 @@ def first_episodes(method: str, episodes: int = 50) -> float:
 def learned(method: str) -> np.ndarray:
     """The decisions until each agent gets out in 95 % of 50 episodes, inf if it does not, see `study.beyond`."""
     return beyond.spent(later(method))
+
+
+@cache
+def taught(teacher: str, method: str = "ppo_cloned") -> Results:
+    """The ten agents of a method that a teacher of the experiment `teachers` taught."""
+    return shipped.shipped_teachers()[teacher, method]
+
+
+def taught_cost(teacher: str) -> np.ndarray:
+    """`learned` of the PPO agents that began as clones of a teacher."""
+    return beyond.spent(taught(teacher))
+
+
+@cache
+def teacher_drives(teacher: str):
+    """Such a teacher's own drives on 200 of the study's held-out roads."""
+    return drive_episodes(teacher_policy(TEACHERS[teacher].rule), held_out_seeds(1, 200))
+
+
+def teachers_success(teacher: str) -> float:
+    """The share of them that end ahead."""
+    return float(teacher_drives(teacher).success.mean())
+
+
+def teachers_accidents(teacher: str) -> float:
+    """The share of them that end in an accident."""
+    return float((teacher_drives(teacher).accident > 0).mean())
+
+
+@cache
+def rules_overtaking() -> np.ndarray:
+    """When the rule is ahead of trap 1, in seconds on each of 100 held-out roads; inf where it is not."""
+    drives = record(rule_policy(DEFAULT), held_out_seeds(1, 100))
+    return np.array([overtaken(drive) or np.inf for drive in drives])
+
+
+def accident_percent(results: Results) -> float:
+    """The share of all held-out episodes of these agents that end in an accident, in %."""
+    return 100 * float(results.episodes("accident").mean())
+
+
+def driven(method: str) -> float:
+    """The decisions of such an agent's whole training, the mean over agents."""
+    return float(np.nansum(later(method).curves["decisions"], axis=1, dtype=float).mean())
+
+
+def papers_cost() -> np.ndarray:
+    """`learned` of the bootstrapped agents with the paper's setting."""
+    return beyond.spent(shipped_results("paper").of("bootstrapped"))
 
 
 def clocks_run_down(updates: str) -> float:
