@@ -140,7 +140,7 @@ def test_a_part_of_one_s_own_replaces_the_library_s_and_a_line_says_so(capsys):
     assert "our soft_value, your critic_target, our critic_loss" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize("method", ["sac", "soft", "margin_soft", "cql", "gail"])
+@pytest.mark.parametrize("method", ["sac", "soft", "margin_soft", "cql", "gail", "rlpd", "ibrl"])
 @pytest.mark.parametrize("left_out", [(), tuple(LATER)], ids=["with the later parts", "without"])
 def test_the_solutions_make_the_library_s_update(method, left_out):
     agents, batch = with_seeds(settings_for(method, hidden=(8,), alpha_init=0.3), 2), own_code.batch_with_everything(2)
@@ -163,6 +163,17 @@ def test_the_solutions_make_the_library_s_update_of_ppo_and_begin_as_the_clone()
         training.run(progress=False, stop=lambda training=training: training.updates >= 2)
     for ours, theirs in zip(mine.learner.actor, library.learner.actor, strict=True):
         assert torch.allclose(ours, theirs, atol=1e-6)
+
+
+def test_the_solution_shrinks_the_guide_of_jump_start_rl_as_the_library_does():
+    small = {"hidden": (8,), "guide_decisions": 12, "stages": 4, "window": 2, "tolerance": 0.5}
+    settings = with_seeds(settings_for("jsrl", **small), 2)
+    own_code._own.update(solutions())
+    mine, library = own_code.training(settings, 12), Training(settings, 12)
+    for training in (mine, library):
+        training.run(progress=False)
+    assert mine.learner.stage.tolist() == library.learner.stage.tolist() and mine.learner.stage.max() > 0
+    assert torch.equal(mine.learner.returns, library.learner.returns)
 
 
 def test_a_later_part_replaces_the_earlier_ones_where_there_is_a_constraint():

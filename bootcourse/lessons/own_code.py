@@ -25,7 +25,7 @@ from bootcourse.lessons.judge import judge
 from bootcourse.lessons.own_learner import BUFFER, OwnReplay, own_learner, part, parts_of
 from bootcourse.lessons.verdict import Verdict
 
-APART = PARTS[-6:]  # they are parts of GAIL, CQL and PPO, and of a reward
+APART = PARTS[-9:]  # they are parts of other learners than SAC, and of a reward
 NONE = "No part is yours yet: agents train with the library's own."
 TOLERANCE = 1e-3  # relative difference of a loss or a gradient; rounding gives about 1e-6
 _own: dict[str, Callable] = {}  # the student's parts in this kernel

@@ -15,10 +15,13 @@ from bootcourse.errors import BootcourseError
 from bootcourse.learn import bootstrap, sac
 from bootcourse.learn.cql import CQLLearner
 from bootcourse.learn.gail import GAILLearner
+from bootcourse.learn.ibrl import IBRLLearner
+from bootcourse.learn.jsrl import JSRLLearner
 from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.networks import mlp
 from bootcourse.learn.ppo import PPOLearner
 from bootcourse.learn.replay_buffer import Batch, decode_transitions
+from bootcourse.learn.rlpd import RLPDLearner
 from bootcourse.learn.settings import Settings
 from bootcourse.lessons.exercises import registry
 from bootcourse.methods import METHODS
@@ -26,6 +29,13 @@ from bootcourse.methods import METHODS
 Parts = Mapping[str, Callable]  # {name of the exercise: the student's function}
 LATER = {"constrained_target": ("soft_value", "critic_target"), "constrained_loss": ("actor_loss",)}  # replaces these
 BUFFER = ("ReplayBuffer", "mixed_batch")
+ALONE = {  # the parts of a method that shares none with SAC's exercises
+    "cql": ["offline_loss"],
+    "gail": ["discriminator_loss", "imitation_reward"],
+    "rlpd": ["smallest_of"],
+    "ibrl": ["better_of_two"],
+    "jsrl": ["guide_shrinks"],
+}
 
 
 def part(own: Parts, name: str) -> Callable:
@@ -39,8 +49,8 @@ def parts_of(settings: Sequence[Settings], own: Parts) -> list[str]:
     A part of a later lesson replaces those in `LATER` as soon as it is given.
     """
     method = settings[0].method
-    if method in ("cql", "gail"):
-        return ["offline_loss"] if method == "cql" else ["discriminator_loss", "imitation_reward"]
+    if method in ALONE:
+        return ALONE[method]
     if METHODS[method].on_policy:
         return ["advantages", "clipped_loss"]
     names = ["soft_value", "critic_target", "critic_loss", "actor_loss", "temperature_loss", "ReplayBuffer"]
@@ -167,11 +177,52 @@ class OwnPPO(PPOLearner):
         return torch.stack([loss(*rows, clip) for rows in zip(ratio, advantage, strict=True)])
 
 
+class OwnRLPD(RLPDLearner):
+    """RLPD whose target takes the smallest of the chosen critics by a function of one agent."""
+
+    def __init__(self, own: Parts, *arguments):
+        self.own = own
+        super().__init__(*arguments)
+
+    def target_q(self, states: Tensor) -> Tensor:
+        q, chosen = self.q_pair(self.target_critics, states), self.drawn_critics()
+        smallest = part(self.own, "smallest_of")
+        return torch.stack([smallest(q[:, i], chosen[i]) for i in range(self.agents)])
+
+
+class OwnIBRL(IBRLLearner):
+    """IBRL whose choice between the rule's action and the agent's own is a function of one agent."""
+
+    def __init__(self, own: Parts, *arguments):
+        self.own = own
+        super().__init__(*arguments)
+
+    def choice(self, states: Tensor, rule_actions: Tensor) -> tuple[Tensor, Tensor]:
+        q, pi = self.target_q(states), mlp(self.actor, states).softmax(-1)
+        better = part(self.own, "better_of_two")
+        return torch.stack([better(*rows) for rows in zip(pi, q, rule_actions, strict=True)]), q
+
+
+class OwnJSRL(JSRLLearner):
+    """Jump-start RL whose guide shrinks by a function of one agent's returns."""
+
+    def __init__(self, own: Parts, *arguments):
+        self.own = own
+        super().__init__(*arguments)
+
+    def shrinks(self, agent: int) -> bool:
+        returns, best, shared = self.returns[agent].tolist(), float(self.best[agent]), self.settings[0]
+        return bool(part(self.own, "guide_shrinks")(returns, best, shared.window, shared.tolerance))
+
+
 LEARNERS = {
     SACLearner: OwnSAC,
     CQLLearner: OwnCQL,
     GAILLearner: OwnGAIL,
     PPOLearner: OwnPPO,
+    RLPDLearner: OwnRLPD,
+    IBRLLearner: OwnIBRL,
+    JSRLLearner: OwnJSRL,
 }  # the library's learner -> the one that is made of parts
 
 

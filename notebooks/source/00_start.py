@@ -176,6 +176,7 @@ table(headings, rows)
 # | 13 · [The bug hunt](13_bug_hunt.ipynb) | | ● | ● |
 # | 14 · [Your teacher](14_your_teacher.ipynb) | | ● | |
 # | 15 · [The second trap](15_the_second_trap.ipynb) | | | ● |
+# | 16 · [Beyond the paper](16_beyond_the_paper.ipynb) | | | ● |
 #
 # Each lesson opens on its own, says what it builds on, and runs in about a minute. In its
 # exercises you write some lines, and a check says what is wrong with them in plain words;

@@ -1,0 +1,72 @@
+"""Answers to the exercises of the lesson on later learners."""
+
+import numpy as np
+import torch
+
+from tests.answers import right, right_lines, wrong_lines
+
+right_lines("""smallest_of
+    one after the other: torch.stack([q[int(i)] for i in chosen]).min(0).values
+    indexed: torch.index_select(q, 0, chosen).min(dim=0)[0]
+    the others left out: q[[int(i) for i in chosen]].amin(dim=0)
+""")
+
+right_lines("""guide_shrinks
+    step by step: last = returns[-window:]; bool(len(last) == window and sum(last) / window + tolerance * abs(best) >= best)
+    never worse than the best: mean = np.mean(returns[-window:] or [0.0]); top = max(mean, best); bool(len(returns) >= window and mean >= top - tolerance * abs(top))
+""")  # noqa: E501
+
+wrong_lines("""smallest_of
+    one number: q[chosen].min()
+    the smallest of each state: q[chosen].amin(0).amin(-1)  # shape
+    two at a time: torch.minimum(q[chosen[0]], q[chosen[-1]])
+    the best chosen critic: q[chosen[q[chosen].mean((1, 2)).argmin()]]
+    a copy of itself: q  # shape
+""")
+
+wrong_lines("""better_of_two
+    the soft choice: w = torch.sigmoid(q - q.gather(-1, rule_actions[:, None])); t = pi * w; t.scatter_add(-1, rule_actions[:, None], (pi - t).sum(-1, keepdim=True))
+    the values: torch.maximum(q, q.gather(-1, rule_actions[:, None]))
+    the rule's probability replaced: t = pi * (q > q.gather(-1, rule_actions[:, None])); t.scatter(-1, rule_actions[:, None], pi.gather(-1, rule_actions[:, None]))
+    the rule's value at another place: t = pi * (q > q[:, :1]); t.scatter_add(-1, rule_actions[:, None], 1 - t.sum(-1, keepdim=True))
+""")  # noqa: E501
+
+wrong_lines("""guide_shrinks
+    no tolerance: bool(len(returns) >= window and np.mean(returns[-window:]) >= best)
+    a median: bool(len(returns) >= window and np.median(returns[-window:]) >= best - tolerance * abs(best))
+    the last one alone: bool(len(returns) >= window and returns[-1] >= best - tolerance * abs(best))
+    one too many: bool(len(returns) > window and np.mean(returns[-window:]) >= best - tolerance * abs(best))
+    the mean's share: m = np.mean(returns[-window:] or [0.0]); bool(len(returns) >= window and m >= best - tolerance * abs(m))
+""")  # noqa: E501
+
+
+@right("better_of_two")
+def action_by_action(pi, q, rule_actions):
+    found = torch.zeros_like(pi)
+    for i in range(len(pi)):
+        rule = int(rule_actions[i])
+        for a in range(pi.shape[1]):
+            found[i, a if q[i, a] > q[i, rule] else rule] += pi[i, a]
+    return found
+
+
+@right("better_of_two")
+def with_where(pi, q, rule_actions):
+    at_rule = torch.nn.functional.one_hot(rule_actions, pi.shape[1])
+    kept = torch.where(q > (at_rule * q).sum(-1, keepdim=True), pi, torch.zeros_like(pi))
+    return kept + at_rule * (1 - kept.sum(-1, keepdim=True))
+
+
+@right("better_of_two")
+def in_numpy_s_order(pi, q, rule_actions):
+    rows = torch.arange(len(pi))
+    found = pi * (q > q[rows, rule_actions, None])
+    found[rows, rule_actions] = 1 - found.sum(-1)
+    return found
+
+
+@right("guide_shrinks")
+def in_sentences(returns, best, window, tolerance):
+    if len(returns) < window:
+        return False
+    return float(np.mean(np.array(returns)[-window:])) >= best - abs(tolerance * best)
