@@ -537,6 +537,5 @@ compare_predictions(
 # rolls in and shrinks: Uchendu et al., *Jump-Start Reinforcement Learning* (arXiv 2204.02372).
 #
 # **Try**: `bc.board()` shows the methods of the course on the same {{ roads() | , }} roads, by
-# return, and `bc.board("runs/mine")` puts your own agents among them. The kit has more learners
-# with a teacher than this lesson: `ppo_kl`, `ppo_residual`, `jsrl`, `rlpd`, `ibrl`, `pex` and
-# `dagger` are names for `bc.settings_for`.
+# return, and `bc.board("runs/mine")` puts your own agents among them. Next:
+# [beyond the paper](16_beyond_the_paper.ipynb), the learners that came after it.

@@ -3,7 +3,14 @@
 import numpy as np
 import torch
 
-from tests.answers import right, right_lines, wrong_lines
+from tests.answers import equivalent, right, right_lines, wrong_lines
+
+BETTER = "pi * (q {} q.gather(-1, rule_actions[:, None]))"
+equivalent(
+    "better_of_two",
+    f"{BETTER.format('>')}  ->  {BETTER.format('>=')}",
+    "of two actions with the same value, either is the better one",
+)
 
 right_lines("""smallest_of
     one after the other: torch.stack([q[int(i)] for i in chosen]).min(0).values

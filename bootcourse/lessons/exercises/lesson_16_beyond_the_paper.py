@@ -147,6 +147,7 @@ def curriculum_cases(rng):
     """Too few returns, just as good, a little worse, one bad, better, negative ones, the first; then 40 at random."""
     yield [50.0, 50.0], 50.0, 3, 0.05
     yield [50.0, 50.0, 50.0], 50.0, 3, 0.05
+    yield [49.0, 50.0, 51.0], 50.0, 3, 0.0
     yield [48.0, 48.0, 48.0], 50.0, 3, 0.05
     yield [47.0, 47.0, 47.0], 50.0, 3, 0.05
     yield [52.0, 0.0, 53.0], 50.0, 3, 0.05
@@ -165,7 +166,7 @@ def curriculum_cases(rng):
 def shrinks(returns, best, window, tolerance):
     """Are there enough returns, and does the mean of the last ones hold?"""
     enough = len(returns) >= window
-    return bool(enough and np.mean(returns[-window:]) >= best - tolerance * abs(best))
+    return enough and np.mean(returns[-window:]) >= best - tolerance * abs(best)
 
 
 guide_shrinks = Exercise(
