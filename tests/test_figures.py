@@ -198,6 +198,14 @@ def test_traces_of_nothing_are_refused(escape, arguments, sentence):
         traces(*(escape if argument == "escape" else argument for argument in arguments))
 
 
+def test_each_line_of_a_title_is_a_sentence_of_the_alt_text_and_a_wrapped_one_is_one_sentence(escape, idle):
+    two = traces([idle, escape], what=("speed",))
+    assert two._suptitle.get_text().count("\n") == 1 and " after 150 s. Rule controller: ahead" in two.alt
+    long = "One sentence that is so long that it has no place in a single line of the title of a figure"
+    wrapped = traces(escape, long, what=("speed",))
+    assert wrapped._suptitle.get_text().count("\n") == 1 and wrapped.alt.startswith(f"{long}. Over ")
+
+
 # Training curves
 
 

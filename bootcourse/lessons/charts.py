@@ -150,8 +150,8 @@ def many(
     every line ends.
     """
     own = [name for name in named if name != reference]
-    rows, title = math.ceil(len(own) / columns), wrapped(title)
-    head = 0.82 + 0.2 * title.count("\n")
+    rows, below_title = math.ceil(len(own) / columns), 0.36 + 0.2 * wrapped(title).count("\n")
+    head = 0.46 + below_title
     total = head + rows * HEIGHT + (rows - 1) * GAP + FOOT
     width = (WIDTH - LEFT - 0.15 - 0.25 * (columns - 1)) / columns
     figure = new_figure(total)
@@ -179,7 +179,7 @@ def many(
             ax.set_xlabel(x_label, fontsize=SMALL, color=QUIET)
     grey = f"; grey: {reference}" if reference is not None else ""
     words = f"{y_label}, a line for each seed{grey}"
-    figure.text(0.012, 1 - (0.36 + 0.2 * title.count("\n")) / total, words, fontsize=TEXT, color=QUIET, va="top")
+    figure.text(0.012, 1 - below_title / total, words, fontsize=TEXT, color=QUIET, va="top")
     return finish(figure, title, f"Small panels of {y_label} against {x_label}. {_ends(named)}")
 
 

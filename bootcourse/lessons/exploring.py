@@ -62,8 +62,7 @@ def map_of_places(
     rows: {name: (bins,)}, NaN for no decisions; words: {name: what is written into each field}; edges (bins + 1,) m
     relative to trap 1; label says what is shown.
     """
-    values, title = np.array(list(rows.values())), wrapped(title)
-    head = 0.62 + 0.2 * title.count("\n")
+    values, head = np.array(list(rows.values())), 0.62 + 0.2 * wrapped(title).count("\n")
     height = head + 0.21 * len(values) + 0.55
     figure = new_figure(height)
     ax = figure.add_axes((0.25, 0.5 / height, 0.73, 0.21 * len(values) / height))

@@ -48,11 +48,11 @@ def new_figure(height: float = 4.0, width: float = WIDTH, **more) -> Figure:
 
 
 def finish(figure: Figure, title: str, alt: str) -> Figure:
-    """Write the title at the top left and attach the alt text."""
-    title = wrapped(title)
+    """Write the title at the top left and attach the alt text. Each line of the title is a sentence."""
     top = 1 - 0.1 / figure.get_figheight()
-    figure.suptitle(title, x=0.012, y=top, ha="left", va="top", fontsize=TITLE, fontweight="bold", color=INK)
-    figure.alt = f"{title}{'' if title.endswith(('.', '!', '?')) else '.'} {alt}".replace("\n", " ")
+    figure.suptitle(wrapped(title), x=0.012, y=top, ha="left", va="top", fontsize=TITLE, fontweight="bold", color=INK)
+    sentences = [line if line.endswith((".", "!", "?")) else f"{line}." for line in title.splitlines()]
+    figure.alt = " ".join([*sentences, *alt.splitlines()])
     return figure
 
 

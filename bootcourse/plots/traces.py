@@ -69,9 +69,9 @@ def traces(
     if not panels:
         raise BootcourseError(f"There is nothing to draw: name one or more of {', '.join(PANELS)}.")
     names, looks = _names(drives), styles([drive.label for drive in drives])
-    title = wrapped(title or _title(drives, names))
+    title = title or _title(drives, names)
     heights = [PANELS[panel][1] for panel, _ in panels]
-    head = HEAD + LINE * len(title.splitlines())
+    head = HEAD + LINE * len(wrapped(title).splitlines())
     total = head + sum(heights) + GAP * (len(heights) - 1) + FOOT
     figure, top = new_figure(total), total - head
     for k, ((panel, i), height) in enumerate(zip(panels, heights, strict=True)):

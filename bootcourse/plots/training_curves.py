@@ -95,8 +95,8 @@ def training_curves(
         raise BootcourseError("There are no curves to draw: give {method: result.curves}.")
     window, episodes = window_of(list(curves.values())), max(map(finished, curves.values()))
     looks = dict(zip(curves, styles(list(curves)), strict=True))
-    constants, paper, title, rows = constants or {}, paper or {}, wrapped(title), -(-len(measures) // 2)
-    head, row = 0.5 + 0.2 * len(title.splitlines()), 2.7  # inches
+    constants, paper, rows = constants or {}, paper or {}, -(-len(measures) // 2)
+    head, row = 0.5 + 0.2 * len(wrapped(title).splitlines()), 2.7  # inches
     total = head + rows * row
     figure = new_figure(total, 9.0)
     ends: dict[str, dict[str, float]] = {}
