@@ -76,8 +76,8 @@ def exploration(results: Results, methods: Sequence[str] = ("sac", "soft", "demo
         its["effective"] = np.exp(its["entropy"].astype(np.float64))
     last = {method: its["effective"][:, -max(1, its["effective"].shape[1] // 10) :] for method, its in curves.items()}
     title = (
-        f"At the end SAC chooses among {last['sac'].mean():.1f} actions, "
-        f"bootstrapped SAC among {last['bootstrapped'].mean():.1f}"
+        f"In the last tenth of training plain SAC has {last['sac'].mean():.2f} effective actions on average, "
+        f"bootstrapped SAC {last['bootstrapped'].mean():.2f}"
     )
     return training_curves(curves, title, measures=("entropy", "effective"))
 

@@ -460,7 +460,7 @@ fast = {
     m: bc.record(ppo_reference.agent_of(k).as_policy(), [ROAD], label=m)[0]
     for m, k in kinds.items()
 }
-title = "After cloning PPO passes, and does not come back"
+title = "PPO alone stays behind trap 1; after cloning it passes trap 1 and stays ahead"
 bc.show(bc.traces(list(fast.values()), title=title, what=("speed", "distance", "return")))
 
 # %% [markdown]
