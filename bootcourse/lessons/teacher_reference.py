@@ -1,6 +1,6 @@
-"""Ten students of each of the last lesson's teachers and ten agents that learn alone: trained, tested, kept in a file.
+"""Ten students of each of lesson 14's teachers and ten agents that learn alone: trained, tested, kept in a file.
 
-    python -m bootcourse.lessons.teacher_reference --out assets/teachers.npz    # some minutes
+    python -m bootcourse.lessons.teacher_reference --out assets/students.npz    # some minutes
 
 One training depends on the processor's rounding; the lesson's text rests on this file.
 """
@@ -29,8 +29,8 @@ from bootcourse.storage.assets import FOLDER
 
 SEEDS, UPDATES, EVERY = 10, 3500, 250  # students of each teacher; updates of each; updates between two notes
 ROADS = held_out_seeds(13, 200)  # that every student is tested on
-FILE = FOLDER / "teachers.npz"
-COMMAND = "python -m bootcourse.lessons.teacher_reference --out assets/teachers.npz"
+FILE = FOLDER / "students.npz"
+COMMAND = "python -m bootcourse.lessons.teacher_reference --out assets/students.npz"
 
 
 class TeacherJob(NamedTuple):
@@ -110,7 +110,7 @@ def holm(p: Sequence[float]) -> np.ndarray:
 
 def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog=COMMAND.split(" --")[0], description=__doc__.split("\n")[0])
-    parser.add_argument("--out", type=Path, default=FILE, help="the file to write (default: assets/teachers.npz)")
+    parser.add_argument("--out", type=Path, default=FILE, help="the file to write (default: assets/students.npz)")
     parser.add_argument("--updates", type=int, default=UPDATES, help=f"of each agent (default: {UPDATES})")
     options = parser.parse_args(arguments)
     arrays = {}

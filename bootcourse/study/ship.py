@@ -302,8 +302,8 @@ def add_rollouts(to: Shipment) -> None:
 
 KEPT = {  # what no study makes: the command that does, and the behaviours that it depends on
     "bug_hunt.npz": ("python -m bootcourse.lessons.bugs --out assets/bug_hunt.npz", ("road", "rule", "bootstrapped")),
-    "teachers.npz": (
-        "python -m bootcourse.lessons.teacher_reference --out assets/teachers.npz",
+    "students.npz": (
+        "python -m bootcourse.lessons.teacher_reference --out assets/students.npz",
         ("road", "rule", "sac", "bootstrapped"),
     ),
     "ppo.npz": (
