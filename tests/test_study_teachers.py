@@ -169,6 +169,20 @@ def test_a_job_of_a_version_without_teachers_counts_as_the_rule_s(tmp_path):
         finished(job("timid", "sac"), tmp_path)
 
 
+def test_a_job_of_a_version_without_some_setting_had_its_default(tmp_path):
+    (tmp_path / "study.json").write_text("{}")
+    folder = tmp_path / "jobs" / NAME
+    assert run_job(job("rule", "sac"), tmp_path) == ""
+    made = read_job(folder)
+    for settings in made["asked"]["settings"]:
+        del settings["gamma"]
+    write_sealed(folder / "job.json", made)
+    assert finished(job("rule", "sac"), tmp_path)
+    other = [replace(settings, gamma=0.9) for settings in job("rule", "sac").settings]
+    with pytest.raises(OtherQuestion, match="other settings"):
+        finished(replace(job("rule", "sac"), settings=tuple(other)), tmp_path)
+
+
 def without_teachers(folder) -> None:
     """Write a job's files as earlier versions did, which knew no teacher."""
     arrays, made = read_arrays(folder / "results.npz"), read_job(folder)

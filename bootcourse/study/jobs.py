@@ -22,7 +22,7 @@ from msgspec import Meta, Struct, convert
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.errors import BootcourseError
 from bootcourse.files import decoding, provenance, sha256, write_arrays, write_json
-from bootcourse.learn.settings import Settings
+from bootcourse.learn.settings import Settings, stored_settings
 from bootcourse.learn.training import Result, Training
 from bootcourse.scenario import Scenario
 from bootcourse.storage.checkpoint import DamagedCheckpoint
@@ -165,7 +165,12 @@ AnyJob = Job | BoundJob | StayingJob
 
 def asked(job: AnyJob) -> dict:
     """All fields that determine the job's result, as JSON reads them back."""
-    return json.loads(json.dumps({name: value for name, value in asdict(job).items() if name not in ("name", "runs")}))
+    return as_read({name: value for name, value in asdict(job).items() if name not in ("name", "runs")})
+
+
+def as_read(value):
+    """A value as JSON reads it back."""
+    return json.loads(json.dumps(value))
 
 
 def _small(values: np.ndarray) -> np.ndarray:
@@ -183,6 +188,8 @@ def finished(job: AnyJob, root: Path) -> bool:
     if not folder.exists():
         return False
     made = FORMER | read_job(folder)["asked"]
+    with decoding(folder / "job.json"):  # settings of later versions have their defaults
+        made["settings"] = as_read([asdict(stored_settings(stored)) for stored in made.get("settings", [])])
     different = [name for name, value in asked(job).items() if made.get(name) != value]
     if different:
         raise OtherQuestion(
