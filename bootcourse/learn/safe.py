@@ -5,6 +5,8 @@ budget: PPO-Lagrangian, with the integral control of λ in Stooke et al. (arXiv 
 accidents and falls, to 0 at least, while there are fewer. A second value function V_C predicts accidents; the advantage
 is A - λ A_C.
 
+A share of the training episodes may begin shortly before an accident: restarts.py.
+
 The mask of risk.py, or the shield of shield.py, limits π's choice where the trained agent drives; neither changes the
 training. The risk's classifiers are in the place of the critics, which PPO does not have, so an agent keeps them in its
 files.

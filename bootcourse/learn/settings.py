@@ -108,6 +108,11 @@ class Settings:
         return self.xi_multiplier > 0 or self.xi_fixed > 0 or METHODS[self.method].taught
 
     @property
+    def restarts(self) -> bool:
+        """Whether some of the agent's training episodes begin before an accident."""
+        return False
+
+    @property
     def n_critics(self) -> int:
         """How many critics the agent has."""
         return 2
@@ -151,14 +156,23 @@ class SafeSettings(PPOSettings):
     risk_limit: float = 1.0  # ε: actions of a larger predicted risk are not taken while driving; 1: no mask
     risk_decisions: int = shared(10)  # k: the risk is that of an accident within so many decisions
     shield: bool = shared(False)  # that of shield.py: written by hand, for comparison
+    restart_share: float = 0.0  # of the training episodes, at first: they begin before an accident (restarts.py)
+    restart_episodes: int = 0  # until that share is 0; 0: it stays
 
     def __post_init__(self):
         super().__post_init__()
         _check_range(self, 0.0, math.inf, "accident_cost", "multiplier_step")
         _check_range(self, 0.0, 1.0, "accident_budget", "risk_limit")
+        _check_range(self, 0.0, 0.9, "restart_share")  # with 1 no episode would be an ordinary one again
+        _check_range(self, 0, math.inf, "restart_episodes", whole=True)
         _check_range(self, 1, self.horizon, "risk_decisions", whole=True)
         if not isinstance(self.shield, bool):
             raise BootcourseError(f"shield = {self.shield!r}: give True or False.")
+
+    @property
+    def restarts(self) -> bool:
+        """Whether some of the agent's training episodes begin before an accident."""
+        return self.restart_share > 0
 
 
 @dataclass(frozen=True)

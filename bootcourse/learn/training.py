@@ -30,6 +30,7 @@ from bootcourse.learn.curves import Curves
 from bootcourse.learn.demonstrations import collect, demonstration_rows
 from bootcourse.learn.learner import learner_for
 from bootcourse.learn.replay_buffer import encode_transitions
+from bootcourse.learn.restarts import Restarts
 from bootcourse.learn.settings import Settings
 from bootcourse.learn.teachers import Rule, course_rule, teacher_name, teacher_of
 from bootcourse.methods import METHODS
@@ -102,6 +103,9 @@ class Training:
         first = whole(first_seed, "first_seed")
         seeds = [first + s.seed * 1000 + env for s in settings for env in range(self.envs_per_agent)]
         self.states, _ = self.env.reset(seed=seeds)
+        if any(s.restarts for s in settings) and not self.on_the_trap:
+            raise BootcourseError("Only the trap's roads can restart before an accident: give restart_share=0.")
+        self.restarts = Restarts(settings, self.env) if any(s.restarts for s in settings) else None
         self.rule_actions = self.taught()  # μ(s), (envs,)
         self.decisions, self.updates, self.seconds = 0, 0, 0.0
         self.losses: dict[str, Tensor] = {}  # of the last update, each (agents,)
@@ -173,6 +177,8 @@ class Training:
         self.replay.add(rows.view(*shape, -1), done.reshape(shape))
         self.learner.note_episodes(done.reshape(shape), (self.curves.running[0] + rewards).reshape(shape))
         self.curves.note(rewards, entropies, done, infos, self._coefficients())
+        if self.restarts and self.restarts.begin(self.env, self.curves, done, terminated, self.act_rngs):
+            next_states, next_rule_actions = self.env.observe(), self.taught()
         self.states, self.rule_actions = next_states, next_rule_actions
         self.decisions += len(actions)
         for _ in range(self.learner.updates_due(self.replay, self.decisions // self.n_agents)):

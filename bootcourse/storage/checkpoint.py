@@ -44,15 +44,13 @@ def state_of(training: Training) -> dict[str, np.ndarray]:
     """The state of a training as named arrays. Raises BootcourseError off the trap, where roads cannot be saved."""
     if not training.on_the_trap:
         raise BootcourseError("Only a training on the trap can be saved and resumed: let this one run to its end.")
-    learner, replay, env, curves = training.learner, training.replay, training.env, training.curves
+    learner, replay, env = training.learner, training.replay, training.env
     arrays = {f"learner.{name}": tensor.detach().numpy() for name, tensor in _tensors(learner).items()}
     for i, parameter in enumerate(_parameters(learner)):
         for name, values in learner.optimiser.state.get(parameter, {}).items():
             arrays[f"optimiser.{i}.{name}"] = values.detach().numpy()
     arrays |= {f"replay.{name}": values for name, values in replay.state().items()}
-    arrays |= {"env.cars": env.cars, "env.decisions": env.decisions}
-    arrays |= {f"curves.{name}": values for name, values in curves.values.items()}
-    arrays |= {"curves.finished": curves.finished, "curves.running": curves.running}
+    arrays |= _driven(training)
     for name, agents in _snapshots(training).items():
         for i, agent in agents.items():
             parts = [*agent.actor, *agent.critics, torch.tensor(agent.alpha, dtype=torch.float64)]
@@ -81,7 +79,7 @@ def restored(settings: list[Settings], episodes: int, scenario: Scenario, teache
 
 
 def _restore(training: Training, arrays: dict[str, np.ndarray]) -> None:
-    learner, replay, env, curves = training.learner, training.replay, training.env, training.curves
+    learner, replay, env = training.learner, training.replay, training.env
     numbers = convert(json.loads(str(arrays["numbers"])), Numbers)
     with torch.no_grad():
         for name, tensor in _tensors(learner).items():
@@ -92,10 +90,7 @@ def _restore(training: Training, arrays: dict[str, np.ndarray]) -> None:
             like = parameter if name != "step" else torch.zeros(())
             learner.optimiser.state[parameter][name] = _like(values, like).clone()
     replay.restore({name.partition(".")[2]: each for name, each in arrays.items() if name.startswith("replay.")})
-    stored = {"env.cars": env.cars, "env.decisions": env.decisions}
-    stored |= {"curves.finished": curves.finished, "curves.running": curves.running}
-    stored |= {f"curves.{name}": values for name, values in curves.values.items()}
-    for name, values in stored.items():
+    for name, values in _driven(training).items():
         values[:] = _like(arrays[name], values)
     rngs = [*training.act_rngs, *training.sample_rngs, *env._generators]
     for rng, state in zip(rngs, numbers.rngs, strict=True):
@@ -111,6 +106,18 @@ def _restore(training: Training, arrays: dict[str, np.ndarray]) -> None:
             parts = [_like(part, each).clone() for part, each in zip(parts, like, strict=True)]
             agents[i] = replace(present, actor=parts[:layers], critics=parts[layers:], alpha=float(alpha))
     training.states, training.rule_actions = env.observe(), training.taught()
+
+
+def _driven(training: Training) -> dict[str, np.ndarray]:
+    """The arrays of the roads, the curves and, where a training has them, the restarts."""
+    env, curves, restarts = training.env, training.curves, training.restarts
+    arrays = {"env.cars": env.cars, "env.decisions": env.decisions}
+    arrays |= {f"curves.{name}": values for name, values in curves.values.items()}
+    arrays |= {"curves.finished": curves.finished, "curves.running": curves.running}
+    if restarts:
+        arrays |= {"curves.restarted": curves.restarted, "curves.unrecorded": curves.unrecorded}
+        arrays |= {f"restarts.{name}": values for name, values in restarts.arrays().items()}
+    return arrays
 
 
 def _snapshots(training: Training) -> dict[str, dict[int, Agent]]:

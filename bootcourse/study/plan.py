@@ -180,8 +180,10 @@ def _teachers() -> dict[str, Variation]:
     }
 
 
+RESTARTS = {"restart_share": 0.25, "restart_episodes": 10_000}  # in the first half of the training
+
 # Of the experiment `safe`: what is switched on beside PPO after cloning. Ten agents take about 12 minutes of one core,
-# 15 with a mask, by the speed of one agent: an hour and a half for all.
+# 13 with restarts and 15 with a mask, by the speed of one or two agents: two hours for all.
 SAFER = {
     "plain": {},
     "accident cost": {"accident_cost": 50.0},
@@ -190,12 +192,15 @@ SAFER = {
     "shield by hand": {"shield": True},
     "accident cost and multiplier": {"accident_cost": 50.0, "multiplier_step": 3.0},
     "accident cost and shield by hand": {"accident_cost": 50.0, "shield": True},
+    "restarts": RESTARTS,
+    "accident cost and restarts": {"accident_cost": 50.0} | RESTARTS,
+    "γ = 0.995": {"gamma": 0.995},
 }
 
 
 def _safe() -> dict[str, Variation]:
     """What may make PPO after cloning safe: each alone, and two together."""
-    off = {"accident_cost": 0.0, "multiplier_step": 0.0, "risk_limit": 1.0, "shield": False}
+    off = {"accident_cost": 0.0, "multiplier_step": 0.0, "risk_limit": 1.0, "shield": False, "restart_share": 0.0}
     return {name: Variation(off | changes, methods=("ppo_safe",)) for name, changes in SAFER.items()}
 
 

@@ -190,7 +190,8 @@ how many agents reached it in their training.
 """
 
 SAFE = """PPO after cloning, with one or two things more against accidents. The shield is written by hand and knows what
-no learner is told; everything else is learned from the agents' own accidents.
+no learner is told; everything else is learned from the agents' own accidents. Restarts: some training episodes begin
+shortly before an accident, fewer and fewer of them.
 """
 
 LONGER_VIEW = """The paper's method with two updates per decision, a bonus of 0.5 instead of 2, batches of 128 instead
