@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 import torch
 
-from bootcourse.learn import bc, bootstrap, gail, sac, training
+from bootcourse.learn import bc, bootstrap, gail, restarts, sac, safe, training
 from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.replay_buffer import ReplayBuffer
+from bootcourse.learn.risk import accident_within, masked
 from bootcourse.methods import METHODS
 from bootcourse.road import vector_env
 from bootcourse.road.constants import constants
@@ -165,3 +166,35 @@ def test_a_file_of_another_behaviour_is_named_even_if_rounding_could_move_ten_ti
     (sentence,) = older(folder)
     changed = sentence.removeprefix(f"{file} is older than the code's ").split(": ")[0].split(", ")
     assert name in changed
+
+
+def a_reward_for_accidents(learner, taken):
+    return taken.rewards + learner.accident_cost * taken.terminated
+
+
+def a_price_that_falls(multiplier, rate, budget, step, original=safe.multiplier_step):
+    return original(multiplier, budget, rate, step)
+
+
+SAFE = {  # what is wrong: where, name, the wrong one
+    "an accident that pays": (safe.SafeLearner, "rewards", a_reward_for_accidents),
+    "λ that falls with accidents": (safe, "multiplier_step", a_price_that_falls),
+    "risky actions alone": (safe, "masked", lambda pi, risk, limit: masked(pi, -risk, -limit)),
+    "a shield that asks for braking": (safe, "needed_braking", negative(safe.needed_braking)),
+    "the risk of no accident": (safe, "accident_within", lambda *rows: 1 - accident_within(*rows)),
+    "no restarts": (restarts, "demonstration_share", lambda episode, share, episodes: 0 * share),
+    "restarts just before the accident": (restarts, "FARTHEST", restarts.NEAREST),
+}
+
+
+@pytest.fixture(scope="module")
+def safe_ppo():
+    return fingerprint("ppo_safe")
+
+
+@pytest.mark.parametrize("what", SAFE)
+def test_the_fingerprint_of_safe_ppo_tells_what_is_off_by_default(what, safe_ppo, monkeypatch):
+    place, attribute, wrong = SAFE[what]
+    monkeypatch.setattr(fingerprints, "LEARNED", 10 * LEARNED)
+    monkeypatch.setattr(place, attribute, wrong)
+    assert not alike("ppo_safe", fingerprint("ppo_safe"), safe_ppo)

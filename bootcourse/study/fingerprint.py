@@ -32,6 +32,15 @@ from bootcourse.study.teachers import PLANNER, RULE, TEACHERS
 
 ROADS, DECISIONS = 32, 80  # driven by random actions
 IN_THE_LOOP, UPDATES = 8, 60  # updates between decisions; all updates
+SECOND_ROUND = 17  # updates between decisions of an on-policy method that drives two rounds, not one
+# What is off by default and switched on in trainings of its own. λ and V_C act from the second round on, and where
+# accidents cost nothing else. The limit of the risk is one that some actions keep, and others do not.
+SWITCHED_ON = {
+    "ppo_safe": (
+        {"accident_cost": 0.0, "multiplier_step": 30.0},
+        {"risk_limit": 0.85, "shield": True, "restart_share": 0.5},
+    )
+}
 LEARNED, COMPUTED = 1e-3, 1e-6  # how far a fingerprint may move: a method's (float32 networks); another's
 
 
@@ -106,17 +115,23 @@ SIZES = {"returns": 30.0, "speed": 11.0, "distance": 1600.0}  # of the invented 
 
 
 def _method(method: str) -> Iterable[float]:
-    """Two agents' curves, policies, values and temperatures after a short training with the method's own settings.
+    """What the method's own settings make of two agents, and what those in `SWITCHED_ON` do."""
+    changed = ({}, *SWITCHED_ON.get(method, ()))
+    return [number for changes in changed for number in _trained(settings_for(method, **changes))]
+
+
+def _trained(settings: Settings) -> list[float]:
+    """Two agents' curves, policies, values and temperatures after a short training.
 
     Most updates come after the last decision, and on-policy methods clone shortly and drive few roads: rounding could
     let an agent take another action, and everything after it would differ.
     """
-    settings, numbers = settings_for(method), []
-    if METHODS[method].on_policy:
+    numbers, in_the_loop = [], SECOND_ROUND if getattr(settings, "multiplier_step", 0) else IN_THE_LOOP
+    if METHODS[settings.method].on_policy:
         numbers = [settings.envs_per_agent, settings.batch, settings.cloning_updates]
         settings = replace(settings, envs_per_agent=8, batch=64, cloning_updates=min(settings.cloning_updates, 20))
     training = Training(with_seeds(settings, 2))
-    while training.updates < IN_THE_LOOP:
+    while training.updates < in_the_loop:
         training.step()
     while training.updates < UPDATES:
         training.update()
