@@ -26,7 +26,7 @@ from bootcourse.learn.teachers import Rule, course_rule, teacher_of, teacher_pol
 from bootcourse.learn.training import Result
 from bootcourse.lessons.ppo_reference import KINDS, reference
 from bootcourse.markup import html, joined
-from bootcourse.methods import DRIVERS, display_name
+from bootcourse.methods import DRIVERS, METHODS, display_name
 from bootcourse.policies import Policy, idle_policy, random_policy, rule_policy
 from bootcourse.scenario import DEFAULT, Scenario
 from bootcourse.statistics import ESCAPES, Estimate, mean
@@ -37,7 +37,7 @@ from bootcourse.study.beyond import lengths
 from bootcourse.study.jobs import HELD_OUT
 from bootcourse.study.plan import EXPERIMENTS, STUDIES
 from bootcourse.study.results import Results, StudyResults, in_assets
-from bootcourse.study.tables import bracketed, markdown, score
+from bootcourse.study.tables import bracketed, score
 
 ROADS = held_out_seeds(HELD_OUT, 1000)
 ASIDE = ("sensitivity", "clocks", "ablations", "teachers")
@@ -46,7 +46,8 @@ MOST = 1e6  # of a return
 FORMAT = "bootcourse board 1"
 HEADINGS = ("method", "setting", "escape", "drives %", "return [95 %]", "best %", "accidents %", "decisions", "seconds")
 BELOW = (
-    f"{len(ROADS):,} roads that no agent of the kit trained on. escape: the agents that escape on at least "
+    f"{len(ROADS):,} roads that no agent of the kit trained on. setting: quick, paper, the name of an experiment, or "
+    "lesson 15, whose networks are small. escape: the agents that escape on at least "
     f"{100 * ESCAPES:g} % of them; drives: the share of all drives that escape. return: the interquartile mean over "
     "agents, of a single driver the mean over roads; best: its share of the planner's. decisions, seconds of one core: "
     "what the training of one agent took, – where it was not recorded; a method with demonstrations also had 200 "
@@ -122,12 +123,6 @@ class Board:
         yours = ["> yours"] if any(row.own for row in self.rows) else []
         return "\n".join([*lines, "", *yours, textwrap.fill(BELOW, 116)])
 
-    def markdown(self) -> str:
-        """The table in Markdown; your rows are bold."""
-        cells = [[str(html("{}", cell)) for cell in cells] for cells in self.table()]
-        rows = [[f"**{c[0]}** (yours)", *c[1:]] if row.own else c for row, c in zip(self.rows, cells, strict=True)]
-        return f"{markdown(HEADINGS, rows)}\n{BELOW}\n"
-
     def _repr_html_(self) -> str:
         head = joined(html('<th scope="col">{}</th>', heading) for heading in HEADINGS)
         lines = []
@@ -198,19 +193,19 @@ def shipped_rows() -> tuple[Row, ...]:
 
 def study_rows(found: StudyResults) -> list[Row]:
     """The rows of the studies on the default scenario, and of every experiment there that is not `ASIDE`."""
-    parts = {}
+    parts = []  # (setting, results)
     for name, results in found.results.items():
         if name == "default":
-            parts["quick"] = timed(results)
+            parts.append(("quick", timed(results)))
         elif STUDIES[name].scenario == DEFAULT:
-            parts[name] = results
+            parts.append((name, results))
     for name, varied in found.experiments.items():
         for variation, results in varied.items():
             if name not in ASIDE and EXPERIMENTS[name].variations[variation].scenario == DEFAULT:
-                parts[f"{name}: {variation}"] = results
+                parts.append((name if variation in METHODS else f"{name}: {variation}", results))
     return [
         row_of(results, method, words, **costs(results.of(method)))
-        for words, results in parts.items()
+        for words, results in parts
         for method in results.methods
     ]
 
@@ -249,8 +244,8 @@ def second_trap_rows() -> list[Row]:
         method, agents = KINDS[kind].method, len(kept["at"])
         tested = {name: kept[f"study {name}"] for name in ("success", "returns", "accident")}
         results = Results([{"method": method, "seed": i} for i in range(agents)], np.full(agents, -1), tested, {})
-        setting = "lesson 15" if KINDS[kind].make_env is None else f"lesson 15, {kind}"
-        rows.append(row_of(results, method, setting, decisions=float(kept["at"][:, -1].mean())))
+        mine = row_of(results, method, "lesson 15", decisions=float(kept["at"][:, -1].mean()))
+        rows.append(changed(mine, method=mine.method + KINDS[kind].paid))
     return rows
 
 

@@ -43,13 +43,14 @@ class Kind(NamedTuple):
     method: str
     decisions: int
     make_env: Callable | None = None  # of roads that pay otherwise
+    paid: str = ""  # how these pay, behind the method's name
 
 
 GAMMA = settings_for("ppo").gamma
 KINDS = {
     "alone": Kind("ppo", 800_000),
-    "shaped": Kind("ppo", 500_000, partial(Repaid, pay=shaped_pay(left_of, GAMMA))),
-    "concave": Kind("ppo", 800_000, partial(Repaid, pay=concave_pay)),
+    "shaped": Kind("ppo", 500_000, partial(Repaid, pay=shaped_pay(left_of, GAMMA)), ", shaping reward"),
+    "concave": Kind("ppo", 800_000, partial(Repaid, pay=concave_pay), ", concave reward"),
     "cloned": Kind("ppo_cloned", 300_000),
 }
 
