@@ -498,6 +498,12 @@ table(headings, rows)
 #
 # So the return of a teacher alone is a poor measure of its use. Ask as well: does it lead to a
 # place that the learner does not find alone, and does the learner stop following it afterwards?
+#
+# **Try**: run `bc.panels.teachers_panel()` in a cell of your own. It shows what seven teachers, the
+# planner among them, are worth to two other learners (round 5 of
+# [lesson 16](16_beyond_the_paper.ipynb)).
+# <!-- claim: len({teacher for teacher, _ in shipped.shipped_teachers()}) == 7 and
+#   len({method for _, method in shipped.shipped_teachers()}) == 2 -->
 
 # %% [markdown] tags=["instructor"] minutes=10
 # Let each group name one experiment that could change a verdict: more updates (the racer's return),
