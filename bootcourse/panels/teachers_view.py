@@ -10,6 +10,7 @@ from bootcourse.study.teacher_worth import QUANTITIES, Cells, in_words, reached
 from bootcourse.study.teachers import TEACHERS
 
 LEFT, TOP, ACROSS, DOWN = 172, 58, 150, 46  # pixels: of the first cell, and from one cell to the next
+WORDS = 560  # pixels that the longest line above or below the map takes
 
 
 def surface(found: Cells, name: str) -> tuple[str, str]:
@@ -41,9 +42,11 @@ def surface(found: Cells, name: str) -> tuple[str, str]:
             parts += cell(*here, between(*its.colours, share), value, below, share > 0.45)
     seeds = sorted({len(results) for results in found.values()})
     agents = f"{seeds[0]}" if len(seeds) == 1 else f"{seeds[0]} to {seeds[-1]}"
-    more = "; of how many agents it is reached" if name == "decisions" else ""
-    foot = f"In brackets: 95 % intervals over seeds, {agents} agents a cell{more}. Rows: teachers from bad to perfect."
+    foot = [f"In brackets: 95 % intervals over seeds, {agents} agents a cell."]
+    foot += ["Behind them: how many agents reached it."] * (name == "decisions")
+    foot += ["Rows: teachers from bad to perfect."]
     bottom = TOP + len(teachers) * DOWN
-    parts.append(text(4, bottom + 20, foot, fill=QUIET, size=11))
+    parts += [text(4, bottom + 20 + 16 * i, line, fill=QUIET, size=11) for i, line in enumerate(foot)]
     alt = f"{its.label[0].upper()}{its.label[1:]}, with 95 % intervals. {'; '.join(told)}."
-    return drawing(LEFT + len(methods) * ACROSS + 4, bottom + 30, parts, alt), alt
+    width = max(WORDS, LEFT + len(methods) * ACROSS + 4)
+    return drawing(width, bottom + 14 + 16 * len(foot), parts, alt), alt
