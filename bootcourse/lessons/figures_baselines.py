@@ -111,9 +111,9 @@ def still_going(results: Results, methods: Sequence[str] = ("bc", "cql", "gail")
     for method in methods:
         tested, label = results.of(method).tested, SHORT.get(method, method)
         going = 100 * ((tested["distance"] / tested["speed"])[..., None] >= seconds - 0.25).mean(axis=1)
-        named[f"{label}: each agent" if method == single else f"{label}: all"] = (
+        named[f"{label}: each agent" if method == single else f"{label}: mean"] = (
             going if method == single else going.mean(axis=0)
         )
         ended.append(f"{100 - going[:, -1].mean():.1f} % of {label}'s")
     title = f"Drives that end before their time: {', '.join(ended)}"
-    return lines(seconds, named, title, "second of the drive", "test drives that still go on, %")
+    return lines(seconds, named, title, "second of the drive", "test drives that still go on, %", limits=(0, 101))

@@ -195,7 +195,10 @@ def judge_slopes(exercise: Exercise, answers: list[Plain], cases: list[tuple]) -
             what = f"no gradient reaches `{name}`: look for `.detach()`, `.item()`, `float()` or NumPy."
             return wrong(exercise, f"{but} {what}")
         details = (*given(exercise, cases[fails[0]]), f"your slope = {numbers(mine)}", f"right = {numbers(right)}")
-        return wrong(exercise, f"{but} its slope in `{name}` is wrong: look for a part that is detached.", details)
+        what = "is wrong: look for a part that is detached."
+        if has_nan(mine):
+            what = "is not a number (NaN): is something infinite, perhaps in a branch that `torch.where` drops?"
+        return wrong(exercise, f"{but} its slope in `{name}` {what}", details)
     return None
 
 

@@ -25,6 +25,8 @@ wrong_lines("""discriminator_loss
     safe by clamping: d = torch.sigmoid(rule_logits), torch.sigmoid(own_logits)
         -d[0].clamp(min=1e-6).log().mean() - (1 - d[1]).clamp(min=1e-6).log().mean()
     as a number: float(solution(rule_logits, own_logits))  # no gradient
+    large ones by where: a, b = (torch.where(x > 50, x, (1 + x.exp()).log()) for x in (-rule_logits, own_logits))
+        a.mean() + b.mean()  # not a number
 """)
 
 right_lines("""imitation_reward

@@ -112,8 +112,8 @@ imitation_reward = Exercise(
             "exactly 1. -log (1 - σ(x)) is log (1 + e^x), which is called softplus.",
             "A formula that is right can be computed as it is printed."),
         Mistake(lambda own_logits: torch.log(1 + torch.exp(own_logits)),
-            "This is right on paper, but in float32 e^x is infinite from x = 89 on, and so is your reward. `softplus` "
-            "computes log (1 + e^x) safely.",
+            "This is right on paper, but in float32 e^x is infinite (and σ(-x) is 0) from x = 89 on, so your reward is "
+            "infinite there. `softplus` computes log (1 + e^x) safely.",
             "Only σ(x) = 1 has to be avoided."),
     ),
     hints=(
