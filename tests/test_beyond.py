@@ -33,7 +33,7 @@ def test_the_table_counts_agents_and_says_how_many_learned_the_way_out():
     tested["accident"] = np.array([[0, 3], [0, 0]])
     curves = {"success": np.stack([np.ones(60), np.zeros(60)]), "decisions": np.full((2, 60), 100.0)}
     agents = [{"method": "rlpd", "seed": seed} for seed in (0, 1)]
-    headings, rows = learner_rows([Results(agents, np.full(2, -1), tested, curves)])
+    headings, rows = learner_rows({"RLPD": Results(agents, np.full(2, -1), tested, curves)})
     assert len(headings) == len(rows[0]) and rows[0][:3] == ["RLPD", "1 of 2", "50.0"]
     assert rows[0][4:] == ["25.0", "5 (5 to 5), 1 of 2"]
     assert thousands(np.array([np.inf, np.inf])) == "none of 2"

@@ -109,8 +109,7 @@ class SafeLearner(PPOLearner):
         if self.constrained:
             roads = self.settings[0].envs_per_agent
             rate = accident_rate(self.curves.values["accident"], self.curves.finished, roads)
-            rate = torch.from_numpy(rate).float()[:, None]
-            self.multiplier = multiplier_step(self.multiplier, rate, self.accident_budget, self.multiplier_step)
+            self.multiplier = self.next_multiplier(torch.from_numpy(rate).float()[:, None])
             costs, next_costs = (self._values(self.cost_value, states) for states in (taken.states, taken.next_states))
             found = self.advantages(accident, costs, next_costs, accident, replay.ended)
             cost_returns = found + costs
@@ -118,6 +117,10 @@ class SafeLearner(PPOLearner):
         k = self.settings[0].risk_decisions
         labels = accident_within(accident, replay.ended, k), resolved(accident, k)
         replay.columns = SafeMinibatch(*columns, *map(agents_first, (cost_returns, *labels)))
+
+    def next_multiplier(self, rate: Tensor) -> Tensor:
+        """λ after a round of decisions, with the present accident rates J_C: (agents, 1) -> (agents, 1)."""
+        return multiplier_step(self.multiplier, rate, self.accident_budget, self.multiplier_step)
 
     def losses(self, batch: SafeMinibatch) -> dict[str, Tensor]:
         """PPO's, the cost values' squared error and the risk's cross-entropy: each (agents,)."""

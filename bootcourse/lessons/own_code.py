@@ -25,7 +25,7 @@ from bootcourse.lessons.judge import judge
 from bootcourse.lessons.own_learner import BUFFER, OwnReplay, own_learner, part, parts_of
 from bootcourse.lessons.verdict import Verdict
 
-APART = PARTS[-9:]  # they are parts of other learners than SAC, and of a reward
+APART = PARTS[-10:]  # they are parts of other learners than SAC, and of a reward
 NONE = "No part is yours yet: agents train with the library's own."
 TOLERANCE = 1e-3  # relative difference of a loss or a gradient; rounding gives about 1e-6
 _own: dict[str, Callable] = {}  # the student's parts in this kernel
@@ -73,6 +73,7 @@ def training(settings: Sequence[Settings], episodes: int = 1000, **more) -> Trai
     size = made.env.single_observation_space.shape[0]
     if own:
         begun, made.learner = made.learner, own_learner(own, settings, size, int(made.env.single_action_space.n))
+        made.learner.curves = made.curves
         with torch.no_grad():  # a learner may begin as a clone
             for name, tensors in made.learner.tensors().items():
                 torch._foreach_copy_(tensors, begun.tensors()[name])

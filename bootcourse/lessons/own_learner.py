@@ -22,6 +22,7 @@ from bootcourse.learn.networks import mlp
 from bootcourse.learn.ppo import PPOLearner
 from bootcourse.learn.replay_buffer import Batch, decode_transitions
 from bootcourse.learn.rlpd import RLPDLearner
+from bootcourse.learn.safe import SafeLearner
 from bootcourse.learn.settings import Settings
 from bootcourse.lessons.exercises import registry
 from bootcourse.methods import METHODS
@@ -35,6 +36,7 @@ ALONE = {  # the parts of a method that shares none with SAC's exercises
     "rlpd": ["smallest_of"],
     "ibrl": ["better_of_two"],
     "jsrl": ["guide_shrinks"],
+    "ppo_safe": ["multiplier_step"],
 }
 
 
@@ -215,6 +217,19 @@ class OwnJSRL(JSRLLearner):
         return bool(part(self.own, "guide_shrinks")(returns, best, shared.window, shared.tolerance))
 
 
+class OwnSafe(SafeLearner):
+    """PPO with a price of accidents that is changed by a function of one agent."""
+
+    def __init__(self, own: Parts, *arguments):
+        self.own = own
+        super().__init__(*arguments)
+
+    def next_multiplier(self, rate: Tensor) -> Tensor:
+        columns = (self.multiplier, rate, self.accident_budget, self.multiplier_step)  # (agents, 1) each
+        step = part(self.own, "multiplier_step")
+        return torch.tensor([[float(step(*row))] for row in torch.cat(columns, dim=1).tolist()])
+
+
 LEARNERS = {
     SACLearner: OwnSAC,
     CQLLearner: OwnCQL,
@@ -223,6 +238,7 @@ LEARNERS = {
     RLPDLearner: OwnRLPD,
     IBRLLearner: OwnIBRL,
     JSRLLearner: OwnJSRL,
+    SafeLearner: OwnSafe,
 }  # the library's learner -> the one that is made of parts
 
 

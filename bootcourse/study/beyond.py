@@ -1,10 +1,9 @@
 """The learners that came after the paper: what each reached, and after how many decisions (experiment `beyond`)."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 
 import numpy as np
 
-from bootcourse.methods import display_name
 from bootcourse.scenario import DEFAULT
 from bootcourse.study.results import Results
 from bootcourse.study.tables import bracketed, escaped, score
@@ -51,14 +50,13 @@ def thousands(decisions: np.ndarray) -> str:
     return middle if len(there) == len(decisions) else f"{middle}, {len(there)} of {len(decisions)}"
 
 
-def learner_rows(parts: Sequence[Results]) -> tuple[list[str], list[list[str]]]:
-    """(headings, rows): what the agents of each method reached, and at which cost; a row for each method of a part."""
+def learner_rows(named: Mapping[str, Results]) -> tuple[list[str], list[list[str]]]:
+    """(headings, rows): what some agents reached, and at which cost. named: {what they are: results of one method}."""
     rows = []
-    for results in parts:
-        for method in results.methods:
-            its = results.of(method)
-            rates = [f"{100 * its.episodes(measure).mean():.1f}" for measure in ("success", "accident")]
-            cells = [rates[0], bracketed(score(its, method, "returns")), rates[1], thousands(spent(its))]
-            rows.append([display_name(method), escaped(its, method), *cells])
+    for name, results in named.items():
+        method = results.methods[0]
+        rates = [f"{100 * results.episodes(measure).mean():.1f}" for measure in ("success", "accident")]
+        cells = [rates[0], bracketed(score(results, method, "returns")), rates[1], thousands(spent(results))]
+        rows.append([name, escaped(results, method), *cells])
     learned = f"thousand decisions until {100 * SHARE:g} % of {WINDOW} episodes are ahead"
     return ["", "agents that escape", "drives that do, %", "return [95 %]", "accidents, %", learned], rows

@@ -8,12 +8,14 @@ import numpy as np
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.errors import BootcourseError
 from bootcourse.files import write_bytes
+from bootcourse.methods import display_name
 from bootcourse.plots.figure import save
 from bootcourse.policies import rule_policy
 from bootcourse.scenario import Scenario
 from bootcourse.statistics import Estimate, mean
 from bootcourse.study import clocks, tables, teacher_worth
 from bootcourse.study import figures as training_figures
+from bootcourse.study.beyond import learner_rows
 from bootcourse.study.fidelity import CLOSE, VERDICTS, fidelity
 from bootcourse.study.frontier import safe_and_fast
 from bootcourse.study.jobs import HELD_OUT
@@ -131,9 +133,10 @@ def experiments_part(experiments: dict[str, dict[str, Results]]) -> list[str]:
     if varied := experiments.get("ablations"):
         text += ["## One choice of the method changed\n", tables.variations_table(varied)]
     if varied := experiments.get("longer-view"):
-        text += ["## A longer view\n", LONGER_VIEW, tables.variations_table(varied)]
+        text += ["## A longer view\n", LONGER_VIEW, tables.markdown(*learner_rows(varied))]
     if varied := experiments.get("beyond"):
-        text += ["## Learners that came after the paper\n", tables.variations_table(varied)]
+        named = {display_name(its.methods[0]): its for its in varied.values()}
+        text += ["## Learners that came after the paper\n", tables.markdown(*learner_rows(named))]
     if varied := experiments.get("teachers"):
         worth = tables.markdown(*teacher_worth.worth_rows(teacher_worth.cells(varied)))
         text += ["## What a teacher is worth\n", TEACHERS, worth]
@@ -148,7 +151,7 @@ def safe_part(found: StudyResults, folder: Path) -> list[str]:
     figure = safe_and_fast(varied, float(np.mean(bound)))
     save(figure, folder / "figures" / "safe.png")
     shown = f"![{figure.alt}](figures/safe.png)\n"
-    return ["## Fast and safe\n", SAFE, shown, tables.variations_table(varied)]
+    return ["## Fast and safe\n", SAFE, shown, tables.markdown(*learner_rows(varied))]
 
 
 def close() -> str:
@@ -195,5 +198,5 @@ shortly before an accident, fewer and fewer of them.
 """
 
 LONGER_VIEW = """The paper's method with two updates per decision, a bonus of 0.5 instead of 2, batches of 128 instead
-of 64, and a γ of 0.95 or 0.97 instead of 0.8.
+of 64, and a γ of 0.95 instead of 0.8.
 """

@@ -23,6 +23,20 @@ right_lines("""guide_shrinks
     never worse than the best: mean = np.mean(returns[-window:] or [0.0]); top = max(mean, best); bool(len(returns) >= window and mean >= top - tolerance * abs(top))
 """)  # noqa: E501
 
+right_lines("""multiplier_step
+    clipped: float(np.clip(multiplier + (0.0 if np.isnan(rate) else step * (rate - budget)), 0.0, None))
+    the excess first: excess = rate - budget; multiplier if excess != excess else max(multiplier + excess * step, 0)
+    nan_to_num: max(0.0, multiplier + step * float(np.nan_to_num(rate - budget)))
+""")
+
+wrong_lines("""multiplier_step
+    in one direction: multiplier if np.isnan(rate) or rate <= budget else multiplier + step * (rate - budget)
+    times instead of plus: multiplier if np.isnan(rate) else max(0.0, multiplier * (1 + step * (rate - budget)))
+    nan as no accident: max(0.0, multiplier + step * (float(np.nan_to_num(rate)) - budget))
+    a step of fixed size: multiplier if np.isnan(rate) else max(0.0, multiplier + step * float(np.sign(rate - budget)))
+    relative: multiplier if np.isnan(rate) else max(0.0, multiplier + step * (rate / max(budget, 1e-9) - 1))
+""")
+
 wrong_lines("""smallest_of
     one number: q[chosen].min()
     the smallest of each state: q[chosen].amin(0).amin(-1)  # shape

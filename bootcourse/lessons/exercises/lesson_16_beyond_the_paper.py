@@ -1,4 +1,4 @@
-"""Exercises of the lesson on later learners: what RLPD, IBRL and jump-start RL take from a teacher."""
+"""Exercises of the lesson on later learners: what RLPD, IBRL and jump-start RL take from a teacher; a safe driver."""
 
 import numpy as np
 import torch
@@ -217,4 +217,67 @@ guide_shrinks = Exercise(
     ),
     minutes=6, difficulty=2,
     equation="R(h) ≥ R_best - β |R_best|, the moving average of arXiv 2204.02372, Algorithm 1",
+)  # fmt: skip
+
+
+def price_cases(rng):
+    """Too many accidents, few, none at a price of 0, no rate yet, no step, just on budget; then 30 at random."""
+    yield 1.0, 0.03, 0.01, 10.0
+    yield 1.0, 0.0, 0.01, 10.0
+    yield 0.0, 0.0, 0.01, 10.0
+    yield 0.05, 0.0, 0.1, 2.0
+    yield 0.7, float("nan"), 0.01, 10.0
+    yield 2.0, 0.5, 0.01, 0.0
+    yield 3.0, 0.25, 0.25, 4.0
+    for _ in range(30):
+        rate = float(rng.choice([rng.random(), 0.0, np.nan], p=[0.7, 0.2, 0.1]))
+        yield float(rng.exponential(1.0)), rate, float(rng.random()), float(rng.exponential(3.0))
+
+
+def next_price(multiplier, rate, budget, step):
+    """λ after one round: up with the accidents beyond the budget, down to 0 at least without them."""
+    return multiplier if np.isnan(rate) else max(0.0, multiplier + step * (rate - budget))
+
+
+multiplier_step = Exercise(
+    "multiplier_step(multiplier, rate, budget, step)",
+    solution=next_price, cases=price_cases,
+    worked=(
+        ((1.0, 0.5, 0.25, 2.0), 1.5),  # a quarter too much, twice
+        ((1.0, 0.25, 0.5, 2.0), 0.5),
+        ((0.25, 0.0, 0.5, 2.0), 0.0),  # it would be -0.75
+        ((0.5, float("nan"), 0.25, 2.0), 0.5),  # no rate yet
+    ),
+    mistakes=(
+        Mistake(lambda multiplier, rate, budget, step: multiplier if np.isnan(rate)
+                    else multiplier + step * (rate - budget),
+            "Your λ becomes negative: an accident would be rewarded. It stays 0 at least.",
+            "Few accidents call for a negative price."),
+        Mistake(lambda multiplier, rate, budget, step: max(0.0, multiplier + step * (rate - budget)),
+            "With a rate of nan your λ becomes nan or 0. As long as there is no rate, λ stays.",
+            "Every round has a rate."),
+        Mistake(lambda multiplier, rate, budget, step: multiplier if np.isnan(rate)
+                    else max(0.0, multiplier - step * (rate - budget)),
+            "This is the other way round: your price falls while there are too many accidents.",
+            "A step goes downhill."),
+        Mistake(lambda multiplier, rate, budget, step: multiplier if np.isnan(rate)
+                    else multiplier + max(0.0, step * (rate - budget)),
+            "Your λ never falls. The bound of 0 is for λ, not for its step.",
+            "The step is what must not be negative."),
+        Mistake(lambda multiplier, rate, budget, step: multiplier if np.isnan(rate)
+                    else max(0.0, step * (rate - budget)),
+            "You forget the λ there was: it would jump back to 0 as soon as the budget is kept. Add the step to it.",
+            "The price is a share of the excess."),
+        Mistake(lambda multiplier, rate, budget, step: multiplier if np.isnan(rate)
+                    else max(0.0, multiplier + step * rate),
+            "You leave out the budget: your λ rises as long as there are any accidents.",
+            "No accident is acceptable."),
+    ),
+    hints=(
+        "Three cases: there is no rate yet; too many accidents; fewer than the budget allows.",
+        "The two cases with a rate are one formula: λ + η (rate - budget), and 0 if that is negative.",
+        "`multiplier if np.isnan(rate) else max(0.0, multiplier + step * (rate - budget))`",
+    ),
+    minutes=5, difficulty=2,
+    equation="λ ← max(0, λ + η (J_C - d)), the integral control of arXiv 2007.03964",
 )  # fmt: skip
