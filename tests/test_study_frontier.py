@@ -17,7 +17,8 @@ def agents(accidents, returns) -> Results:
     tested = {"accident": kinds, "returns": np.repeat(np.array(returns, dtype=float)[:, None], 200, axis=1)}
     tested["success"] = np.ones_like(kinds)
     settings = [{"method": "ppo_safe", "seed": seed} for seed in range(len(accidents))]
-    return Results(settings, np.full(len(settings), -1), tested, {})
+    curves = {"success": np.ones((len(settings), 60)), "decisions": np.full((len(settings), 60), 100.0)}
+    return Results(settings, np.full(len(settings), -1), tested, curves)
 
 
 VARIED = {
@@ -39,11 +40,14 @@ def test_the_frontier_is_what_nothing_beats_in_both_from_safest_to_fastest():
     assert frontier({"one": VARIED["plain"], "other": VARIED["plain"]}) == ["one", "other"]
 
 
-def test_the_figure_names_the_frontier_in_its_title_and_everyone_in_its_words():
+def test_the_figure_says_what_the_frontier_is_and_names_everyone_in_its_words():
     figure = safe_and_fast(VARIED, bound=140.6)
-    assert figure.alt.startswith("Nothing here is both safer and faster than best, plain")
+    assert figure.alt.startswith("The 2 filled dots are the frontier")
     assert all(f"{name} (3 agents)" in figure.alt for name in VARIED) and "140.6" in figure.alt
-    assert {*VARIED, "planner\n140.6"} <= set(words_of(figure)) and overlaps(figure) == []
+    assert "On the frontier: best, plain." in figure.alt
+    alone = safe_and_fast({name: VARIED[name] for name in ("plain", "worse")}, bound=140.6)
+    assert alone.alt.startswith("Nothing here is both safer and faster than plain.")
+    assert {*VARIED, "planner 140.6"} <= set(words_of(figure)) and overlaps(figure) == []
 
 
 def test_the_report_has_it_once_the_experiment_and_the_planner_s_bound_are_there(tmp_path):

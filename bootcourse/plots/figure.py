@@ -88,13 +88,15 @@ def one_axes(height: float, title: str, x_label: str, y_label: str, width: float
     return figure, ax
 
 
-def label_ends(ax, ends: list[tuple[float, str, str]], size: float = TEXT, wrap: int = 20, gap: float = 0.015) -> None:
+def label_ends(
+    ax, ends: list[tuple[float, str, str]], size: float = TEXT, wrap: int = 20, gap: float = 0.015
+) -> np.ndarray:
     """Direct labels: write each (y, text, colour) to the right of the axes, moved apart where they meet.
 
-    The axes must have their final limits and position.
+    The axes must have their final limits and position. Returns where the labels are, in shares of the axes' height.
     """
     if not ends:
-        return
+        return np.zeros(0)
     figure = ax.get_figure(root=True)
     pixels = ax.get_window_extent().height
     rows = [textwrap.fill(text, wrap) for _, text, _ in ends]
@@ -114,6 +116,7 @@ def label_ends(ax, ends: list[tuple[float, str, str]], size: float = TEXT, wrap:
             ha="left",
             linespacing=1.1,
         )
+    return places
 
 
 def _apart(wanted: np.ndarray, heights: np.ndarray) -> np.ndarray:

@@ -5,9 +5,9 @@ from collections.abc import Mapping
 import numpy as np
 from matplotlib.figure import Figure
 
-from bootcourse.colours import INK, QUIET
+from bootcourse.colours import GRID, INK, QUIET
 from bootcourse.methods import DRIVERS, style
-from bootcourse.plots.figure import SMALL, TEXT, finish, one_axes, wrapped
+from bootcourse.plots.figure import SMALL, finish, label_ends, one_axes, wrapped
 from bootcourse.statistics import Estimate, interval
 from bootcourse.study.results import Results
 from bootcourse.study.tables import bracketed
@@ -39,25 +39,28 @@ def safe_and_fast(varied: Mapping[str, Results], bound: float) -> Figure:
     varied: {what the agents have: their results}; bound: the planner's mean return.
     """
     best, colours = frontier(varied), style("ppo_safe")
-    count = {name: len(results) for name, results in varied.items()}
-    title = f"Nothing here is both safer and faster than {', '.join(best)}"
+    title = f"Nothing here is both safer and faster than {best[0]}"
+    if len(best) > 1:
+        title = f"The {len(best)} filled dots are the frontier: nothing here is both safer and faster"
     height = 3.8 + 0.2 * len(wrapped(title).splitlines())
     where = "accidents of any kind (% of held-out drives)"
-    figure, ax = one_axes(height, title, where, "return", width=0.75)
-    told = []
-    for place, name in enumerate(sorted(varied, key=lambda name: scored(varied[name])[0].value)):
-        accidents, returns = scored(varied[name])
+    figure, ax = one_axes(height, title, where, "return", width=0.68)
+    points, told = [], []
+    for name, (accidents, returns) in sorted(((n, scored(its)) for n, its in varied.items()), key=lambda one: one[1]):
         ahead = name in best
         colour, fill = (colours.colour, colours.colour) if ahead else (QUIET, "white")
         ax.plot([accidents.low, accidents.high], [returns.value] * 2, color=colour, linewidth=1.2, zorder=2)
         ax.plot([accidents.value] * 2, [returns.low, returns.high], color=colour, linewidth=1.2, zorder=2)
         ax.plot(accidents.value, returns.value, "o", ms=6, mfc=fill, mec=colour, zorder=3)
-        ax.annotate(name, (accidents.value, returns.value), xytext=(6, -12 if place % 2 else 5), fontsize=SMALL,
-                    textcoords="offset points", color=INK if ahead else QUIET)  # fmt: skip
-        told.append(f"{name} ({count[name]} agents): {bracketed(accidents)} %, return {bracketed(returns)}")
+        points.append((accidents.value, returns.value, name, INK if ahead else QUIET))
+        told.append(f"{name} ({len(varied[name])} agents): {bracketed(accidents)} %, return {bracketed(returns)}")
     name, line = DRIVERS["planner"]
     ax.axhline(bound, color=line.colour, linewidth=line.width, linestyle=line.line)
-    ax.annotate(f"{name}\n{bound:.1f}", (1.02, bound), xycoords=("axes fraction", "data"), va="center", fontsize=TEXT)
     ax.set_xlim(left=0)
+    places = label_ends(ax, [*(point[1:] for point in points), (bound, f"{name} {bound:.1f}", INK)], SMALL, wrap=24)
+    for (x, y, *_), place in zip(points, places, strict=False):
+        thin = {"arrowstyle": "-", "color": GRID, "linewidth": 0.9, "shrinkA": 0, "shrinkB": 4}
+        ax.annotate("", (x, y), xytext=(1.01, place), textcoords="axes fraction", arrowprops=thin, zorder=1)
     words = "Accidents and return, means over agents with 95 % intervals over training seeds"
-    return finish(figure, title, f"{words}: {'; '.join(told)}. A line marks the planner's return, {bound:.1f}.")
+    ends = f"On the frontier: {', '.join(best)}. A line marks the planner's return, {bound:.1f}."
+    return finish(figure, title, f"{words}: {'; '.join(told)}. {ends}")

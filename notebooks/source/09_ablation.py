@@ -217,10 +217,10 @@ table(["agents that escape", *map(bc.display_name, methods)], rows)
 # %% [markdown]
 # **See.** Read it column by column. *Plain SAC*: no agent escapes, in any row. *Both helps*: one to
 # three of three escape in every row. *The soft constraint alone*: two or three of three escape,
-# except behind traps at 11 m/s and with more updates for each decision. (A likely reason for the
-# second: ξ falls with every update, so the constraint fades before the way out is learned; lesson
-# 7.) *Demonstrations alone* is the column that moves, from none of three to all three; over all
-# rows a little less than half of its agents escape.
+# except behind traps at 11 m/s and with more updates for each decision. (Is it that ξ falls with
+# every update, and so is gone before the way out is learned? Round 6 tests that with ten agents.)
+# *Demonstrations alone* is the column that moves, from none of three to all three; over all rows a
+# little less than half of its agents escape.
 # <!-- claim: not any(escaped_with(c, 'sac') for c in varied()) -->
 # <!-- claim: min(escaped_with(c, 'bootstrapped') for c in varied()) == 1 -->
 # <!-- claim: [c for c in varied() if escaped_with(c, 'soft') < 2] == ['traps at 11 m/s', '1 update

@@ -270,11 +270,12 @@ bc.show(charts.lines(np.arange(20, 121), named, title, "episode", "share"))
 predict("16.4", "Accidents of the safest method", unit="of 1,000 drives")
 
 # %%
-parts = [bc.shipped_results("paper").of("bootstrapped"), *later.values()]
-table(*beyond.learner_rows(parts))
+named = {"bootstrapped SAC": bc.shipped_results("paper").of("bootstrapped")}
+named["the same, γ = 0.95"] = shipped.shipped_experiment("longer-view")["γ = 0.95"]
+named |= {bc.display_name(method): part for method, part in later.items()}
+table(*beyond.learner_rows(named))
 
 # %%
-named = {bc.display_name(part.methods[0]): part for part in parts}
 bc.show(frontier.safe_and_fast(named, shipped.shipped_bound().mean()))
 
 # %% [markdown]
@@ -320,7 +321,59 @@ bc.show(frontier.safe_and_fast(named, shipped.shipped_bound().mean()))
 # code it is, how long somebody looked for its settings.
 
 # %% [markdown]
-# ## Round 5: what is the teacher worth?
+# ## Round 5: what makes it safer?
+#
+# A crash costs 10 points in training, and what the rest of the drive would have earned. Three
+# remedies that learn from the agents' own crashes, each for PPO after cloning:
+# - a **price**: in training, a crash costs {{ settings_for('ppo_safe').accident_cost | .0f }} points
+#   more;
+# - a **budget**: the price λ sets itself, so that a share d of the episodes may crash (d is
+#   {{ 100 * settings_for('ppo_safe').accident_budget | g }} %);
+# - a **mask**: two more networks predict whether there will be a crash in the next
+#   {{ settings_for('ppo_safe').risk_decisions }} s. The trained agent does not take actions whose
+#   predicted risk is above 10 %.
+#
+# The budget makes λ the *Lagrange multiplier* of a constraint. After each round of decisions it
+# takes a step η in proportion to how far the rate of crashes is from d. A price is never negative,
+# or a crash would be a reward.
+#
+# **Exercise 16.4 (5 min, ●●○).** Write this step.
+
+
+# %%
+def multiplier_step(multiplier, rate, budget, step):
+    """λ after a round, a number of at least 0. rate: the share of the last episodes that crashed.
+
+    As long as too few episodes have ended, rate is nan, and λ stays as it is.
+    """
+    # solution: the exercise's own
+
+
+check.multiplier_step(multiplier_step)
+
+# %% [markdown]
+# > **Predict.** λ is 0 at first. What will its curve look like while the agent learns?
+
+# %%
+choices = ["it rises, and then stays", "it rises, and falls again", "it rises to the end"]
+predict("16.5", "The price of a crash", choices)
+
+# %% tags=["nbval-ignore-output"]
+settings = bc.settings_for("ppo_safe", accident_cost=0.0, multiplier_step=3.0)
+training = own_code.training([settings], 5000)
+priced = training.run(progress=False)
+print(f"{training.decisions:,} decisions, {priced.seconds:.0f} s")
+
+# %%
+window = np.ones(500) / 500
+crashed = np.convolve(priced.curves["accident"][0] > 0, window, "valid")
+price = priced.curves["xi"][0, 499:]
+named_curves = {"crashes, share of 500 episodes": crashed, "λ, of its largest": price / price.max()}
+title = "How often it crashes in training, and what a crash costs"
+bc.show(charts.lines(np.arange(500, 5001), named_curves, title, "episode", "share"))
+
+# %% [markdown]
+# ## Round 6: what is the teacher worth?
 #
 # Until now the teacher was the rule. Here are seven teachers, from bad to perfect. Two are the rule
 # with a half or a quarter of its decisions at random. One is the rule for a road with left and
@@ -334,7 +387,7 @@ bc.show(frontier.safe_and_fast(named, shipped.shipped_bound().mean()))
 
 # %%
 choices = ["none", "one or two", "about half", "all ten"]
-predict("16.5", "Of ten clones of that teacher escape", choices)
+predict("16.7", "Of ten clones of that teacher escape", choices)
 
 # %% [markdown]
 # > **Predict.** And the planner, which earns almost three times as much as the rule? What do those
@@ -343,7 +396,7 @@ predict("16.5", "Of ten clones of that teacher escape", choices)
 
 # %%
 choices = ["more", "about as much", "less"]
-predict("16.6", "Who began as a clone of the planner earns", choices)
+predict("16.8", "Who began as a clone of the planner earns", choices)
 
 # %%
 worth = {place: its for place, its in shipped.shipped_teachers().items() if "ppo" in place[1]}
@@ -404,8 +457,8 @@ table(*teacher_worth.worth_rows(worth))
 #   How would you compare them fairly?
 
 # %%
-spent = {bc.display_name(p.methods[0]): np.median(beyond.spent(p)) for p in parts}
-crashes = min(1000 * p.episodes("accident").mean() for p in parts)
+spent = {name: np.median(beyond.spent(its)) for name, its in named.items()}
+crashes = min(1000 * its.episodes("accident").mean() for its in named.values())
 first = np.nansum(later["rlpd"].curves["decisions"][:, :50], axis=1).mean() / 50
 compare_predictions(
     "16",
@@ -414,8 +467,10 @@ compare_predictions(
         "16.2": round(float(first), 1),
         "16.3": max(shares, key=lambda part: shares[part].mean()),
         "16.4": round(float(crashes)),
-        "16.5": f"{worth['random-25', 'ppo_cloned'].escapers('ppo_cloned')} of ten",
-        "16.6": "less",
+        "16.5": "",
+        "16.6": "",
+        "16.7": f"{worth['random-25', 'ppo_cloned'].escapers('ppo_cloned')} of ten",
+        "16.8": "less",
     },
 )
 
