@@ -160,6 +160,23 @@ def later(method: str) -> Results:
     return shipped.shipped_experiment("beyond")[method]
 
 
+@cache
+def longer() -> Results:
+    """The ten agents of the paper's method with a longer view, a smaller bonus and larger batches."""
+    return shipped.shipped_experiment("longer-view")["γ = 0.95"]
+
+
+@cache
+def safer() -> dict[str, Results]:
+    """The ten agents of PPO after cloning with something more against accidents, by what it is."""
+    return shipped.shipped_experiment("safe")
+
+
+def crashed(results: Results) -> float:
+    """How many of 1,000 of these agents' held-out drives end in an accident."""
+    return 1000 * float(results.episodes("accident").mean())
+
+
 def first_episodes(method: str, episodes: int = 50) -> float:
     """How many decisions these agents' first episodes take altogether, the mean over agents."""
     return float(later(method).curves["decisions"][:, :episodes].sum(axis=1, dtype=float).mean())
