@@ -148,6 +148,8 @@ def safe_part(found: StudyResults, folder: Path) -> list[str]:
     varied, bound = found.experiments.get("safe"), found.bound.get("default")
     if not varied or bound is None:
         return []
+    if plain := found.experiments.get("beyond", {}).get("ppo_cloned"):
+        varied = {"nothing more": plain} | varied
     figure = safe_and_fast(varied, float(np.mean(bound)))
     save(figure, folder / "figures" / "safe.png")
     shown = f"![{figure.alt}](figures/safe.png)\n"
