@@ -18,7 +18,7 @@
 # - compare learners by what they reach, what it costs, and how often they crash;
 # - say what a teacher is worth to a learner, and on what evidence.
 #
-# **Time** 60 minutes, about one of them the machine's. **It builds on** demonstrations (lesson 8),
+# **Time** 75 minutes, about one of them the machine's. **It builds on** demonstrations (lesson 8),
 # the ablation (9) and PPO (15).
 
 # %%
