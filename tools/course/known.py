@@ -172,6 +172,12 @@ def safer() -> dict[str, Results]:
     return shipped.shipped_experiment("safe")
 
 
+def p_safer(kind: str) -> float:
+    """The p of a rank test: the accidents of such agents against those of PPO after cloning with nothing more."""
+    accidents = [its.scores("accident") for its in (safer()[kind], later("ppo_cloned"))]
+    return float(stats.mannwhitneyu(*accidents).pvalue)
+
+
 def crashed(results: Results) -> float:
     """How many of 1,000 of these agents' held-out drives end in an accident."""
     return 1000 * float(results.episodes("accident").mean())
