@@ -37,7 +37,6 @@ from bootcourse.lessons import (
     shipped,
     table,
 )
-from bootcourse.road.state import CRASHED, SPEED
 from bootcourse.study import beyond, frontier, teacher_worth
 
 # %% [markdown]
@@ -291,6 +290,14 @@ bc.show(frontier.safe_and_fast(named, shipped.shipped_bound().mean()))
 # later ones: half of its agents know the way out after {{ np.median(papers_cost()) | ,.0f }}
 # decisions. It crashes in
 # {{ accident_percent(shipped_results('paper').of('bootstrapped')) | .1f }} % of its drives.
+# <!-- claim: escapers(later('ibrl'), 'ibrl') == escapers(later('jsrl'), 'jsrl') -->
+# <!-- claim: {escapers(later(m), m) for m in ('ppo_cloned', 'ppo_kl', 'pex')} == {10} and
+#   escaped('bootstrapped', 'paper') == 10 -->
+# <!-- claim: max(LATER, key=lambda m: iqm(later(m).scores('returns'))) == 'ppo_cloned' and
+#   iqm(later('ppo_cloned').scores('returns')) >
+#   iqm(shipped_results('paper').of('bootstrapped').scores('returns')) -->
+# <!-- claim: min(LATER, key=lambda m: later(m).episodes('accident').mean()) == 'ppo_cloned' -->
+# <!-- claim: all(np.median(papers_cost()) < np.median(learned(m)) for m in LATER) -->
 #
 # How much is the idea, and how much its numbers? The second row is the paper's method with
 # γ = 0.95, a bonus c of {{ longer().agents[0]['bonus'] | g }} instead of
@@ -300,16 +307,8 @@ bc.show(frontier.safe_and_fast(named, shipped.shipped_bound().mean()))
 # the later methods but PPO after cloning.
 # <!-- claim: len(longer()) == longer().escapers('bootstrapped') == 10 and
 #   longer().agents[0]['gamma'] == 0.95 -->
-# <!-- claim: [m for m in LATER if iqm(later(m).scores('returns')) > iqm(longer().scores('returns'))]
-#   == ['ppo_cloned'] -->
-# <!-- claim: escapers(later('ibrl'), 'ibrl') == escapers(later('jsrl'), 'jsrl') -->
-# <!-- claim: {escapers(later(m), m) for m in ('ppo_cloned', 'ppo_kl', 'pex')} == {10} and
-#   escaped('bootstrapped', 'paper') == 10 -->
-# <!-- claim: max(LATER, key=lambda m: iqm(later(m).scores('returns'))) == 'ppo_cloned' and
-#   iqm(later('ppo_cloned').scores('returns')) >
-#   iqm(shipped_results('paper').of('bootstrapped').scores('returns')) -->
-# <!-- claim: min(LATER, key=lambda m: later(m).episodes('accident').mean()) == 'ppo_cloned' -->
-# <!-- claim: all(np.median(papers_cost()) < np.median(learned(m)) for m in LATER) -->
+# <!-- claim: [m for m in LATER if iqm(later(m).scores('returns')) >
+#   iqm(longer().scores('returns'))] == ['ppo_cloned'] -->
 #
 # **Explain.** Before you blame a method, look at its agents that fail. One IBRL agent ends
 # {{ 100 * later('ibrl').curves['success'][7, -100:].mean() | .0f }} % of its last 100 training
@@ -352,8 +351,8 @@ crashes = [drive for drive in drives if drive.accident]
 kinds = dict.fromkeys(choices, 0)
 for drive in crashes:
     before, end = drive.states[[-1 - 3 * drive.scenario.clock.steps, -1]]
-    hit = np.flatnonzero(end[1:, CRASHED])[:1] + 1
-    slower = (before - end)[hit, SPEED] > 0.5
+    hit = np.flatnonzero(end[1:, bc.state.CRASHED])[:1] + 1
+    slower = (before - end)[hit, bc.state.SPEED] > 0.5
     kinds[choices[0 if not len(hit) else 1 if slower[0] else 2]] += 1
 table(["crashes", f"of {len(crashes)}, in {len(drives)} drives"], list(kinds.items()))
 
