@@ -362,10 +362,10 @@ end = drive.times[-1]
 bc.show(bc.top_view_over_time(drive, times=[end - 12, end - 8, end - 4, end]))
 
 # %% [markdown]
-# **See.** In most of its crashes it drives into a car that keeps its speed, and it does not even
-# brake. Beside that car drives another one: these two close the road like the traps at the start.
-# We think that it is rare enough: few of the decisions that PPO learns from are made behind such a
-# pair.
+# **See.** In most of these crashes it drives into a car that keeps its speed. In the one shown it
+# does not even brake. Beside that car drives another one: the two close the road, as the traps did
+# at the start. We think that such pairs are too rare, so that PPO makes few of its decisions behind
+# one.
 #
 # Three remedies learn from the agents' own crashes:
 # - an **accident cost**: in training, a crash costs {{ settings_for('ppo_safe').accident_cost | .0f
@@ -401,7 +401,7 @@ predict("16.6", "While the agent learns, λ", shapes)
 
 # %% tags=["nbval-ignore-output"]
 settings = bc.settings_for("ppo_safe", accident_cost=0.0, multiplier_step=3.0)
-training = own_code.training([settings], 5000)
+training = own_code.training([settings], 4000)
 priced = training.run(progress=False)
 print(f"{training.decisions:,} decisions, {priced.seconds:.0f} s")
 
@@ -409,14 +409,15 @@ print(f"{training.decisions:,} decisions, {priced.seconds:.0f} s")
 window = np.ones(500) / 500
 crashed = np.convolve(priced.curves["accident"][0] > 0, window, "valid")
 price = priced.curves["xi"][0, 499:]
-named_curves = {"crashes, share of 500 episodes": crashed, "λ, of its largest": price / price.max()}
+named_curves = {"crashes, share of 500 episodes": crashed}
+named_curves[f"λ, of its largest, {price.max():.0f}"] = price / price.max()
 title = "How often it crashes in training, and what a crash costs"
-bc.show(charts.lines(np.arange(500, 5001), named_curves, title, "episode", "share"))
+bc.show(charts.lines(np.arange(500, 4001), named_curves, title, "episode", "share"))
 
 # %% [markdown]
-# **See.** (Yours will differ.) λ rises as long as more crash than the budget allows. As they become
-# rarer it rises more slowly; it would fall if fewer than {{ 100 *
-# settings_for('ppo_safe').accident_budget | g }} % crashed.
+# **See.** (Yours will differ.) The first episodes to end are crashes, since a crash is short. λ
+# rises as long as more crash than the budget allows. As they become rarer it rises more slowly; it
+# would fall if fewer than {{ 100 * settings_for('ppo_safe').accident_budget | g }} % crashed.
 #
 # Now ten agents of each remedy. One of them is not learned: the **shield** is a formula, written by
 # hand, that leaves out each action after which the car would have to brake harder than it can if
