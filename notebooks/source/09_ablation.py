@@ -659,8 +659,9 @@ bc.panels.clocks_panel("2", "π̃")
 # The prediction holds in one half only. The demonstrations gain from more updates, as it says.
 # Driven by μ, they get {{ escapers(clocks()['1/4', 'μ'], 'demos') }} of ten agents out with a
 # quarter of an update, and {{ escapers(clocks()['1', 'μ'], 'demos') }} with one; driven by π̃,
-# {{ escapers(clocks()['1/4', 'π̃'], 'demos') }} with a quarter, and ten with two. But the soft
-# constraint hardly loses: with a quarter, one and two updates it gets
+# {{ escapers(clocks()['1/4', 'π̃'], 'demos') }} with a quarter, and ten with two. (With two and μ it
+# is {{ escapers(clocks()['2', 'μ'], 'demos') }} of {{ len(clocks()['2', 'μ'].of('demos')) }}: too
+# few to tell.) But the soft constraint hardly loses: with a quarter, one and two updates it gets
 # {{ escapers(clocks()['1/4', 'π̃'], 'soft') }}, {{ escapers(clocks()['1', 'μ'], 'soft') }} and
 # {{ escapers(clocks()['2', 'π̃'], 'soft') }} of ten out, although its ξ is a tenth after
 # {{ clocks_run_down('1/4') | .0f }} episodes with a quarter, and after
