@@ -131,6 +131,20 @@ def test_a_training_that_is_stopped_loses_nothing_and_resumes(how, bootcourse, t
     assert [path.name for path in out.iterdir()] == ["sac-0"]
 
 
+def test_a_training_that_is_stopped_before_its_first_decision_says_how_to_go_on(bootcourse, tmp_path, monkeypatch):
+    from bootcourse.learn.training import Training
+
+    def stopped(*arguments):
+        raise KeyboardInterrupt
+
+    arguments = ("train", "--method", "sac", "--seeds", 1, "--episodes", 1, "--out", tmp_path / "runs", "--quiet")
+    with monkeypatch.context() as patched:
+        patched.setattr(Training, "run", stopped)
+        answer = bootcourse(*arguments)
+    assert answer.status == 130 and "To continue, run" in answer.err
+    assert bootcourse(*arguments, "--resume").status == 0
+
+
 def test_a_second_training_in_a_folder_is_refused(bootcourse, tmp_path):
     out = tmp_path / "runs"
     arguments = ("train", "--method", "sac", "--seeds", 1, "--episodes", 1, "--out", out, "--quiet")

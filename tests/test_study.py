@@ -224,7 +224,7 @@ def test_a_study_s_plan_has_every_method_with_every_seed_once():
 
 @pytest.mark.parametrize("name", EXPERIMENTS)
 def test_every_variation_of_an_experiment_differs_from_the_others_in_its_question(name):
-    jobs = EXPERIMENTS[name].jobs(name, 2, 10, 5)
+    jobs = EXPERIMENTS[name].jobs(name, seeds=2, tests=5)
     questions = {json.dumps(asked(each), sort_keys=True) for each in jobs}
     assert len(questions) == len(EXPERIMENTS[name].variations) == len({each.name for each in jobs})
 

@@ -61,7 +61,13 @@ def train(
                 training = load_checkpoint(work / CHECKPOINT, rule)
             except DamagedCheckpoint as error:
                 raise BootcourseError(f"{error} Delete {work}, and start again without --resume.") from None
-        raise typer.Exit(finish_training(training, out, progress=not quiet))
+        try:
+            status = finish_training(training, out, progress=not quiet)
+        except KeyboardInterrupt:  # before the first decision, or after the last: the checkpoint is there
+            status = INTERRUPTED
+        if status == INTERRUPTED:
+            print(f"Interrupted. To continue, run `bootcourse train --out {out} --resume`.", file=sys.stderr)
+        raise typer.Exit(status)
 
 
 def check_folder(out: Path, resume: bool) -> None:
@@ -117,7 +123,6 @@ def finish_training(training, out: Path, progress: bool) -> int:
         result = training.run(progress, Checkpoints(work / CHECKPOINT, SECONDS_BETWEEN))
         if result.interrupted:
             save_checkpoint(training, work / CHECKPOINT)
-            print(f"Interrupted. To continue, run `bootcourse train --out {out} --resume`.", file=sys.stderr)
             return INTERRUPTED
         shutil.rmtree(work / SAVING, ignore_errors=True)
         save_runs(result, work / SAVING)
