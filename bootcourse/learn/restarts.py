@@ -5,8 +5,8 @@ failure. Here each accident leaves one state in its agent's pool, from 5 to 40 d
 of decisions are all of it, because the road is deterministic. What is learned from other starts is not what the start
 asks for, so the share falls to 0.
 
-Curves and the accident rate J_C tell of ordinary episodes alone, and these are the ones that `Training` counts; see
-`Curves` for the decisions of the others.
+Restarted episodes are not in the curves, do not count as episodes of the training, and are no part of the accident
+rate J_C. `Curves` says where their decisions are counted.
 """
 
 from collections.abc import Sequence

@@ -67,8 +67,8 @@ predict("16.1", "The fewest decisions until it gets out", learners)
 
 # %% [markdown] tags=["instructor"] minutes=6
 # Ask for a reason with each vote: a learner can be quick by taking much from the teacher, or by
-# making many updates for each decision. The table of round 4 counts decisions; ask what somebody
-# would count who pays for computing time.
+# making many updates for each decision. The table of round 4 counts decisions; ask what a
+# person who pays for computing time would count.
 
 # %% [markdown]
 # ## Round 1: half of each batch, to the end
@@ -143,8 +143,8 @@ bc.show(charts.lines(at, named, title, "episode", "mean of 20 episodes of ten ag
 #
 # The target takes the same choice in the next state, so a state is worth at least about what the
 # rule makes of it. Our π has nine actions, so nothing has to be drawn: the choice has a
-# *distribution*. An action that is better than μ(s) keeps its probability; whoever draws another
-# takes μ(s) instead.
+# *distribution*. An action that is better than μ(s) keeps its probability; if another is
+# drawn, μ(s) is taken instead.
 #
 # **Exercise 16.2 (12 min, ●●●).** Write this distribution.
 
@@ -337,7 +337,7 @@ bc.show(frontier.safe_and_fast(named, shipped.shipped_bound().mean()))
 # Each group defends one row as the one to use: with a slow car and a safe test track, with a fleet
 # whose accidents are in the papers, with a simulator and one night, with drives on a disk and
 # nothing to drive. Then ask which column is missing: what it costs to ask the teacher, how much
-# code it is, how long somebody looked for its settings.
+# code it is, how long its settings were searched for.
 
 # %% [markdown]
 # ## Round 5: what makes it safer?
@@ -566,7 +566,7 @@ table(*teacher_worth.worth_rows(worth))
 # - Your teacher is a person who can drive for one hour. Which of these methods do you choose?
 # - IBRL's critic decides between the rule's action and the agent's own. What happens if the critic
 #   is wrong about the rule's action?
-# - Somebody looked for good settings of each of these learners, for some longer than for others.
+# - The settings of some of these learners were searched for longer than those of others.
 #   How would you compare them fairly?
 
 # %%

@@ -180,7 +180,7 @@ def p_safer(kind: str) -> float:
 
 def crashed(results: Results) -> float:
     """How many of 1,000 of these agents' held-out drives end in an accident."""
-    return 1000 * float(results.episodes("accident").mean())
+    return 10 * accident_percent(results)
 
 
 def first_episodes(method: str, episodes: int = 50) -> float:

@@ -112,8 +112,8 @@ better_of_two = Exercise(
             "What is worse is left out."),
         Mistake(lambda pi, q, rule_actions: (lambda kept: kept / kept.sum(-1, keepdim=True).clamp_min(1e-12))(
                     pi * above(q, rule_actions) + one_hot(rule_actions, pi) * pi),
-            "You share what is left over among all actions that remain. Who draws a worse action takes the rule's "
-            "instead: all of it goes to μ(s).",
+            "You share what is left over among all actions that remain. If a worse action is drawn, the rule's is "
+            "taken instead: all of it goes to μ(s).",
             "A distribution is normalised at the end."),
         Mistake(lambda pi, q, rule_actions: better(pi, -q, rule_actions),
             "You keep the own actions that are valued *below* the rule's.",
