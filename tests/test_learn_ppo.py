@@ -56,14 +56,23 @@ def test_the_objective_is_clipped_where_a_step_would_go_too_far(ratio, advantage
     assert found.item() == pytest.approx(loss) and bool(ratio.grad.abs() > 0) is slope
 
 
-def test_an_epoch_draws_every_decision_of_an_agent_once():
+@pytest.mark.parametrize("batch, minibatches", [(16, 2), (20, 2), (31, 2), (40, 1)])
+def test_an_epoch_draws_every_decision_of_an_agent_once(batch, minibatches):
     buffer = RolloutBuffer(agents=2, roads=4, horizon=8, observation_size=1)
     numbers = torch.arange(64).view(2, 32)
     buffer.columns = Minibatch(*([numbers] * len(Minibatch._fields)))
     generators = [np.random.default_rng(seed) for seed in (0, 1)]
     for _ in range(2):
-        drawn = torch.cat([buffer.sample(16, np.zeros(2), generators).actions for _ in range(2)], dim=1)
+        drawn = torch.cat([buffer.sample(batch, np.zeros(2), generators).actions for _ in range(minibatches)], dim=1)
         assert torch.equal(drawn.sort(dim=1).values, numbers) and not torch.equal(drawn, numbers)
+
+
+@pytest.mark.parametrize("batch", [31, 20, 40])
+def test_a_minibatch_of_what_is_left_trains_as_well(batch):
+    training = Training(with_seeds(settings_for("ppo", **SMALL | {"batch": batch, "buffer_size": 40}), 2), 4)
+    while training.updates < 4:
+        training.step()
+    assert not training.stopped and all(loss.isfinite().all() for loss in training.losses.values())
 
 
 def test_a_training_updates_in_rounds_after_a_number_of_decisions():

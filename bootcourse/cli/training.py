@@ -33,6 +33,7 @@ def train(
     scenario: str = typer.Option("default", help="default or calibrated."),
     setting: str = typer.Option("quick", help="quick or paper: a quarter of an update per decision, or two."),
     teacher: str = typer.Option("", help="A rule of your own as the teacher: FILE.py:FUNCTION."),
+    device: str = typer.Option("cpu", help="Where the networks learn: cpu, or cuda if torch finds a GPU."),
     resume: bool = typer.Option(False, "--resume", help="Resume a training that was interrupted or killed."),
     quiet: bool = typer.Option(False, "--quiet", help="No progress bar."),
 ) -> None:
@@ -51,14 +52,14 @@ def train(
             print(f"{out} is finished: there is nothing to resume.")
         return
     check_folder(out, resume)
-    training = None if resume else Training(settings, episodes, road, rule)
+    training = None if resume else Training(settings, episodes, road, rule, device=device)
     with locked(work, "training"):
         check_folder(out, resume)  # another training may have ended before this one had the lock
         if training is not None:
             save_checkpoint(training, work / CHECKPOINT)  # raises now, not at the end, if the disk is full
         elif not (work / COMPLETE).exists():
             try:
-                training = load_checkpoint(work / CHECKPOINT, rule)
+                training = load_checkpoint(work / CHECKPOINT, rule, device)
             except DamagedCheckpoint as error:
                 raise BootcourseError(f"{error} Delete {work}, and start again without --resume.") from None
         try:

@@ -68,7 +68,7 @@ class IBRLLearner(SACLearner):
 
     def agent(self, i: int) -> Agent:
         """A snapshot of agent i, whose critics are the target critics, by which it chooses."""
-        critics = [parameter.detach()[i :: self.agents].clone() for parameter in self.target_critics]
+        critics = [parameter.detach()[i :: self.agents].clone().cpu() for parameter in self.target_critics]
         return replace(super().agent(i), critics=critics)
 
 

@@ -34,7 +34,7 @@ class KickstartLearner(PPOLearner):
             weight = demonstration_share(self.curves.finished, shared.kl_weight, shared.kl_episodes)
         else:
             weight = kl_weight_at(self.curves.recent("success"), shared.kl_weight)
-        self.xi = torch.from_numpy(weight).float()[:, None]
+        self.xi = torch.from_numpy(weight).float()[:, None].to(self.device)
 
     def policy_loss(self, log_pi: Tensor, batch: Minibatch) -> Tensor:
         """The clipped objective plus λ KL(π̃ ‖ π): log_pi (agents, batch, 9) -> (agents,)."""

@@ -38,6 +38,7 @@ class SACLearner:
 
     needs_teacher = False  # whether `driving_policy` depends on μ(s)
     curves: Curves | None = None  # of the training, which sets it
+    device = torch.device("cpu")  # of all tensors: see `to`
 
     def __init__(self, settings: Sequence[Settings], observation_size: int, n_actions: int = N_ACTIONS):
         self.settings = list(settings)
@@ -65,6 +66,15 @@ class SACLearner:
             setattr(self, name, torch.tensor([[float(getattr(s, name))] for s in settings]))
         self.note_temperature()
 
+    def to(self, device: torch.device) -> None:
+        """Move all tensors to a device, before the first update. The agents of `agent` are on the CPU all the same."""
+        self.device = device
+        for value in vars(self).values():
+            for tensor in value if isinstance(value, list) else [value]:
+                if isinstance(tensor, Tensor):
+                    moved = tensor.detach().to(device).requires_grad_(tensor.requires_grad)
+                    torch.utils.swap_tensors(tensor, moved)  # the optimiser knows the tensor itself
+
     def note_temperature(self) -> None:
         """Set `alpha` and `xi` (Equation 15), each (agents, 1), from the present `log_alpha`."""
         self.alpha = self.log_alpha.detach().exp()[:, None]
@@ -72,7 +82,7 @@ class SACLearner:
 
     def make_buffer(self, observation_size: int, demonstrations: Tensor | None) -> ReplayBuffer:
         """The buffer that a training fills and samples; demonstrations: rows (transitions, row), or None."""
-        return ReplayBuffer(self.agents, self.settings[0].buffer_size, observation_size, demonstrations)
+        return ReplayBuffer(self.agents, self.settings[0].buffer_size, observation_size, demonstrations, self.device)
 
     def updates_due(self, replay: ReplayBuffer, decisions: int) -> int:
         """How many updates follow a decision on every road; decisions: of each agent so far."""
@@ -209,8 +219,8 @@ class SACLearner:
 
     def agent(self, i: int) -> Agent:
         """A snapshot of agent i: it stays as it is when the learner goes on."""
-        actor = [parameter.detach()[i : i + 1].clone() for parameter in self.actor]
-        critics = [parameter.detach()[i :: self.agents].clone() for parameter in self.critics]
+        actor = [parameter.detach()[i : i + 1].clone().cpu() for parameter in self.actor]
+        critics = [parameter.detach()[i :: self.agents].clone().cpu() for parameter in self.critics]
         return Agent(self.settings[i], actor, critics, float(self.log_alpha[i].detach().exp()))
 
     def tensors(self) -> dict[str, list[Tensor]]:

@@ -60,9 +60,11 @@ class RolloutBuffer:
     table: rows of `encode_transitions`, (horizon, agents, roads, row); ended (horizon, agents, roads).
     """
 
-    def __init__(self, agents: int, roads: int, horizon: int, observation_size: int):
-        self.table = torch.zeros(horizon, agents, roads, 2 * observation_size + 5)
-        self.ended = torch.zeros(horizon, agents, roads)
+    def __init__(
+        self, agents: int, roads: int, horizon: int, observation_size: int, device: torch.device | None = None
+    ):
+        self.table = torch.zeros(horizon, agents, roads, 2 * observation_size + 5, device=device)
+        self.ended = torch.zeros(horizon, agents, roads, device=device)
         self.observation_size, self.filled, self.drawn = observation_size, 0, 0
         self.columns: Minibatch | None = None  # all decisions, each (agents, horizon x roads, ...)
         self.order = np.zeros((agents, horizon * roads), dtype=np.int64)  # in which this epoch draws them
@@ -78,9 +80,12 @@ class RolloutBuffer:
         return self.filled == len(self.table)
 
     def sample(self, batch: int, beta: np.ndarray, generators: list[np.random.Generator]) -> Minibatch:
-        """The next minibatch; each epoch shuffles anew. beta, the share of demonstrations, has no effect."""
+        """The next minibatch; each epoch shuffles anew. beta, the share of demonstrations, has no effect.
+
+        The last minibatch of an epoch is smaller if `batch` does not divide the number of decisions.
+        """
         size = self.order.shape[1]
-        if self.drawn % size == 0:
+        if self.drawn == 0 or self.drawn >= size:
             self.drawn, self.order = 0, np.stack([generator.permutation(size) for generator in generators])
         chosen = torch.from_numpy(self.order[:, self.drawn : self.drawn + batch])  # (agents, batch)
         self.drawn += batch
@@ -89,8 +94,8 @@ class RolloutBuffer:
 
     def state(self) -> dict[str, np.ndarray]:
         """What a checkpoint keeps: the decisions of an unfinished round."""
-        rows = self.table[: self.filled].numpy()
-        return {"own": rows, "ended": self.ended[: self.filled].numpy(), "demonstrations": rows[:0, 0, 0]}
+        rows = self.table[: self.filled].cpu().numpy()
+        return {"own": rows, "ended": self.ended[: self.filled].cpu().numpy(), "demonstrations": rows[:0, 0, 0]}
 
     def restore(self, state: dict[str, np.ndarray]) -> None:
         """Set a new buffer to a state. Raises RuntimeError if it does not fit."""
@@ -120,8 +125,8 @@ class PPOLearner(BCLearner):
         """An empty rollout buffer. With demonstrations, the actors are cloned from them first."""
         shared = self.settings[0]
         if demonstrations is not None:
-            self.clone(demonstrations, observation_size)
-        return RolloutBuffer(self.agents, shared.envs_per_agent, shared.horizon, observation_size)
+            self.clone(demonstrations.to(self.device), observation_size)
+        return RolloutBuffer(self.agents, shared.envs_per_agent, shared.horizon, observation_size, self.device)
 
     def clone(self, rows: Tensor, observation_size: int) -> None:
         """Behaviour cloning of the teacher's actions μ(s) in the demonstrations' states, with smoothed labels."""
@@ -192,7 +197,8 @@ class PPOLearner(BCLearner):
         """The clipped objective, with advantages of mean 0 and deviation 1: log_pi (agents, batch, 9) -> (agents,)."""
         ratio = (log_pi.gather(-1, batch.actions[..., None])[..., 0] - batch.log_pi).exp()
         advantage = batch.advantages - batch.advantages.mean(-1, keepdim=True)
-        return self.clipped_loss(ratio, advantage / (batch.advantages.std(-1, keepdim=True) + 1e-8))
+        deviation = batch.advantages.std(-1, keepdim=True, correction=min(1, advantage.shape[-1] - 1))  # of one, 0
+        return self.clipped_loss(ratio, advantage / (deviation + 1e-8))
 
     def update(self, batch: Minibatch) -> dict[str, Tensor]:
         """One gradient step of all agents on a minibatch, each network's gradient clipped to a norm of 0.5."""

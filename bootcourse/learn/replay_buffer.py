@@ -31,13 +31,20 @@ class Batch(NamedTuple):
 class ReplayBuffer:
     """The last `buffer_size` transitions of each agent, and demonstrations that all agents share.
 
-    demonstrations: rows made by `encode_transitions`, (n, row), or None.
+    demonstrations: rows made by `encode_transitions`, (n, row), or None. device: where the table is.
     """
 
-    def __init__(self, agents: int, buffer_size: int, observation_size: int, demonstrations: Tensor | None = None):
+    def __init__(
+        self,
+        agents: int,
+        buffer_size: int,
+        observation_size: int,
+        demonstrations: Tensor | None = None,
+        device: torch.device | None = None,
+    ):
         self.agents, self.buffer_size, self.observation_size = agents, buffer_size, observation_size
         self.demonstrations = 0 if demonstrations is None else len(demonstrations)
-        self.table = torch.zeros(self.demonstrations + agents * buffer_size, 2 * observation_size + 5)
+        self.table = torch.zeros(self.demonstrations + agents * buffer_size, 2 * observation_size + 5, device=device)
         if demonstrations is not None:
             self.table[: self.demonstrations] = demonstrations
         self.first = self.demonstrations + np.arange(agents) * buffer_size  # each agent's first row
@@ -48,7 +55,7 @@ class ReplayBuffer:
         """Store rows made by `encode_transitions`, (agents, roads, row). Where episodes ended makes no difference."""
         roads = rows.shape[1]
         where = self.first[:, None] + (self.next + np.arange(roads)) % self.buffer_size
-        self.table[torch.from_numpy(where.ravel())] = rows.reshape(self.agents * roads, -1)
+        self._write(where, rows.reshape(self.agents * roads, -1))
         self.next = (self.next + roads) % self.buffer_size
         self.size = min(self.size + roads, self.buffer_size)
 
@@ -64,20 +71,28 @@ class ReplayBuffer:
         is_demonstration = np.arange(batch) < share[:, None]
         own = self.first[:, None] + (draws * self.size).astype(np.int64)
         rows = np.where(is_demonstration, (draws * self.demonstrations).astype(np.int64), own)
-        picked = self.table.index_select(0, torch.from_numpy(rows.ravel())).view(self.agents, batch, -1)
-        return decode_transitions(picked, self.observation_size, torch.from_numpy(is_demonstration).float())
+        picked = self._read(rows).view(self.agents, batch, -1)
+        demonstrated = torch.from_numpy(is_demonstration).float().to(self.table.device)
+        return decode_transitions(picked, self.observation_size, demonstrated)
+
+    def _read(self, rows: np.ndarray) -> Tensor:
+        """The rows of these numbers, of any shape: (numbers, row)."""
+        return self.table.index_select(0, torch.from_numpy(rows.ravel()).to(self.table.device))
+
+    def _write(self, rows: np.ndarray, values: Tensor) -> None:
+        """Set the rows of these numbers; values (numbers, row)."""
+        self.table[torch.from_numpy(rows.ravel()).to(self.table.device)] = values.to(self.table.device)
 
     def state(self) -> dict[str, np.ndarray]:
         """What a checkpoint keeps: all filled rows, and the place of the next."""
-        filled = torch.from_numpy((self.first[:, None] + np.arange(self.size)).ravel())
-        own, demonstrations = self.table[filled].numpy(), self.table[: self.demonstrations].numpy()
+        own, demonstrations = self._read(self.first[:, None] + np.arange(self.size)), self.table[: self.demonstrations]
+        own, demonstrations = own.cpu().numpy(), demonstrations.cpu().numpy()
         return {"own": own, "demonstrations": demonstrations, "place": np.array([self.size, self.next])}
 
     def restore(self, state: dict[str, np.ndarray]) -> None:
         """Set a new buffer to a state. Raises ValueError or RuntimeError if it does not fit."""
         self.size, self.next = (int(number) for number in state["place"])
-        filled = torch.from_numpy((self.first[:, None] + np.arange(self.size)).ravel())
-        self.table[filled] = torch.from_numpy(state["own"])
+        self._write(self.first[:, None] + np.arange(self.size), torch.from_numpy(state["own"]))
 
 
 def encode_transitions(states, next_states, actions, rewards, terminated, rule_actions, next_rule_actions) -> Tensor:
@@ -89,7 +104,7 @@ def encode_transitions(states, next_states, actions, rewards, terminated, rule_a
 def decode_transitions(rows: Tensor, observation_size: int, is_demonstration: Tensor) -> Batch:
     """The `Batch` of rows made by `encode_transitions`, (..., row); is_demonstration (...)."""
     n = observation_size
-    actions, rule_actions, next_rule_actions = rows[..., [2 * n, 2 * n + 3, 2 * n + 4]].long().unbind(-1)
+    actions, _, _, rule_actions, next_rule_actions = rows[..., 2 * n :].long().unbind(-1)
     return Batch(
         rows[..., :n],
         rows[..., n : 2 * n],

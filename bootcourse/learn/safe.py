@@ -109,7 +109,7 @@ class SafeLearner(PPOLearner):
         if self.constrained:
             roads = self.settings[0].envs_per_agent
             rate = accident_rate(self.curves.values["accident"], self.curves.finished, roads)
-            self.multiplier = self.next_multiplier(torch.from_numpy(rate).float()[:, None])
+            self.multiplier = self.next_multiplier(torch.from_numpy(rate).float()[:, None].to(self.device))
             costs, next_costs = (self._values(self.cost_value, states) for states in (taken.states, taken.next_states))
             found = self.advantages(accident, costs, next_costs, accident, replay.ended)
             cost_returns = found + costs

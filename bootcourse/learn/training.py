@@ -63,8 +63,9 @@ class Training:
     teacher: the rule of the demonstrations and the KL, the course's or your own (teachers.py).
     demonstrations: recorded drives, or rows (transitions, row), instead of the teacher's.
     make_env: makes a vector environment of n copies with same-step autoreset, by default the trap. Other
-    environments have no teacher: its actions are 0 in the replay buffer. first_seed: of the copies.
-    Raises BootcourseError for settings that cannot train side by side, and for demonstrations that do not fit.
+    environments have no teacher: its actions are 0 in the replay buffer. first_seed: of the copies. device: where the
+    networks learn, as torch names it, such as "cuda"; the roads stay on the CPU. Raises BootcourseError for settings
+    that cannot train side by side, for demonstrations that do not fit, and for a device that torch does not find.
     """
 
     def __init__(
@@ -76,6 +77,7 @@ class Training:
         demonstrations: Sequence[Rollout] | Tensor | None = None,
         make_env: Callable[[int], VectorEnv] | None = None,
         first_seed: int = FIRST_SEED,
+        device: str = "cpu",
     ):
         if not settings:
             raise BootcourseError("There are no agents: give the settings of at least one.")
@@ -91,6 +93,8 @@ class Training:
             )
         size, n_actions = self.env.single_observation_space.shape[0], int(self.env.single_action_space.n)
         self.learner = learner_for(self.settings, size, n_actions)
+        if device != "cpu":
+            self.learner.to(device_named(device))
         self._teach = teacher_of(teacher, scenario)
         needed = any(s.asks_teacher for s in settings) or not getattr(teacher, "is_slow", False)
         self.asks = self.on_the_trap and needed
@@ -161,7 +165,8 @@ class Training:
         states = torch.from_numpy(self.states).float().view(*shape, -1)
         rule_actions = torch.as_tensor(self.rule_actions, dtype=torch.int64).view(shape)
         decided = torch.as_tensor(self.curves.running[1]).view(shape)  # decisions of the running episodes
-        policy = self.learner.acting_policy(states, rule_actions, decided).double().numpy()  # (*shape, 9)
+        known = (column.to(self.learner.device) for column in (states, rule_actions, decided))
+        policy = self.learner.acting_policy(*known).double().cpu().numpy()  # (*shape, 9)
         uniforms = np.stack([rng.random(self.envs_per_agent) for rng in self.act_rngs])
         actions = sample_actions(policy, uniforms).ravel()
         entropies = -(policy * np.log(np.maximum(policy, 1e-30))).sum(-1).ravel()
@@ -192,7 +197,7 @@ class Training:
         snapshots = {} if self.updates % SNAPSHOT_EVERY else {i: self.agent(i) for i in range(self.n_agents)}
         self.losses = self.learner.update(self.replay.sample(self.settings[0].batch, self.beta, self.sample_rngs))
         losses = [loss for name, loss in self.losses.items() if name.endswith("loss")]
-        finite = torch.stack(losses).isfinite().all(0)
+        finite = torch.stack(losses).isfinite().all(0).cpu()
         self.updates += 1
         self.last_finite |= {i: agent for i, agent in snapshots.items() if finite[i] or i not in self.last_finite}
         if finite.all():
@@ -251,12 +256,21 @@ class Training:
     def _coefficients(self) -> dict[str, np.ndarray]:
         """α, ξ and β of each agent now, for the curves: {name: (agents,)}."""
         self.learner.note_temperature()
-        return {"alpha": self.learner.alpha[:, 0].numpy(), "xi": self.learner.xi[:, 0].numpy(), "beta": self.beta}
+        alpha, xi = (tensor[:, 0].cpu().numpy() for tensor in (self.learner.alpha, self.learner.xi))
+        return {"alpha": alpha, "xi": xi, "beta": self.beta}
 
 
 def _success(curves: Curves) -> str:
     rates = curves.recent("success")
     return "success " + " ".join("-" if np.isnan(rate) else f"{100 * rate:.0f}%" for rate in rates[:10])
+
+
+def device_named(name: str) -> torch.device:
+    """torch's device of that name. Raises BootcourseError if torch does not find it."""
+    try:
+        return torch.zeros(1, device=name).device
+    except (RuntimeError, AssertionError, TypeError):  # an unknown name; a CUDA that this torch was built without
+        raise BootcourseError(f'device = {name!r}: torch does not find it here. Give "cpu".') from None
 
 
 @contextmanager

@@ -16,7 +16,7 @@ from bootcourse.errors import BootcourseError
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.settings import Settings
 from bootcourse.learn.teachers import Rule
-from bootcourse.learn.training import Training
+from bootcourse.learn.training import Training, device_named
 from bootcourse.scenario import Scenario
 
 ADAM = ("step", "exp_avg", "exp_avg_sq")  # the optimiser's state of each parameter
@@ -45,10 +45,10 @@ def state_of(training: Training) -> dict[str, np.ndarray]:
     if not training.on_the_trap:
         raise BootcourseError("Only a training on the trap can be saved and resumed: let this one run to its end.")
     learner, replay, env = training.learner, training.replay, training.env
-    arrays = {f"learner.{name}": tensor.detach().numpy() for name, tensor in _tensors(learner).items()}
+    arrays = {f"learner.{name}": tensor.detach().cpu().numpy() for name, tensor in _tensors(learner).items()}
     for i, parameter in enumerate(_parameters(learner)):
         for name, values in learner.optimiser.state.get(parameter, {}).items():
-            arrays[f"optimiser.{i}.{name}"] = values.detach().numpy()
+            arrays[f"optimiser.{i}.{name}"] = values.detach().cpu().numpy()
     arrays |= {f"replay.{name}": values for name, values in replay.state().items()}
     arrays |= _driven(training)
     for name, agents in _snapshots(training).items():
@@ -67,11 +67,14 @@ def state_of(training: Training) -> dict[str, np.ndarray]:
     return arrays | {"numbers": np.array(json.dumps(asdict(numbers)))}
 
 
-def restored(settings: list[Settings], episodes: int, scenario: Scenario, teacher: Rule, arrays: dict) -> Training:
+def restored(
+    settings: list[Settings], episodes: int, scenario: Scenario, teacher: Rule, arrays: dict, device: str = "cpu"
+) -> Training:
     """The training with these arguments and the state in `arrays`. Raises DamagedCheckpoint if they do not fit."""
+    device_named(device)
     try:
         rows = torch.from_numpy(arrays["replay.demonstrations"])
-        training = Training(settings, episodes, scenario, teacher, rows if len(rows) else None)
+        training = Training(settings, episodes, scenario, teacher, rows if len(rows) else None, device=device)
         _restore(training, arrays)
     except (KeyError, ValueError, TypeError, AttributeError, IndexError, RuntimeError, MsgspecError) as error:
         raise DamagedCheckpoint(f"the state does not fit the settings: {error}") from None
@@ -88,7 +91,7 @@ def _restore(training: Training, arrays: dict[str, np.ndarray]) -> None:
         state = {name: arrays[f"optimiser.{i}.{name}"] for name in ADAM if f"optimiser.{i}.{name}" in arrays}
         for name, values in state.items():
             like = parameter if name != "step" else torch.zeros(())
-            learner.optimiser.state[parameter][name] = _like(values, like).clone()
+            learner.optimiser.state[parameter][name] = _like(values, like).clone().to(parameter.device)
     replay.restore({name.partition(".")[2]: each for name, each in arrays.items() if name.startswith("replay.")})
     for name, values in _driven(training).items():
         values[:] = _like(arrays[name], values)

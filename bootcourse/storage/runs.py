@@ -232,8 +232,8 @@ def save_checkpoint(training: Training, path: Path) -> None:
     write_arrays(path, {**state_of(training), "config": np.array(json.dumps(config))}, compress=False)
 
 
-def load_checkpoint(path: Path, teacher: Rule = course_rule) -> Training:
-    """The training that `save_checkpoint` wrote, to be continued with the same teacher.
+def load_checkpoint(path: Path, teacher: Rule = course_rule, device: str = "cpu") -> Training:
+    """The training that `save_checkpoint` wrote, to be continued with the same teacher, on any device.
 
     Raises DamagedCheckpoint if the file cannot be read, BootcourseError for another teacher.
     """
@@ -244,7 +244,7 @@ def load_checkpoint(path: Path, teacher: Rule = course_rule) -> Training:
             settings = [stored_settings(stored) for stored in config.settings]
             scenario = Scenario.from_json(json.dumps(config.scenario))
             if teacher_name(teacher) == config.teacher:
-                return restored(settings, config.episodes, scenario, teacher, arrays)
+                return restored(settings, config.episodes, scenario, teacher, arrays, device)
     except BootcourseError as error:
         raise DamagedCheckpoint(str(error)) from None
     raise BootcourseError(
