@@ -39,7 +39,7 @@ def test_xi_that_halves_every_30_episodes_is_down_to_a_tenth_after_100():
 
 def test_the_panel_says_when_each_clock_has_run_down_and_who_escapes(panel):
     assert "1/4 updates per decision: ξ is down to a tenth after 100 episodes, β is 0 after 100." in panel.alt
-    assert "1 of 2 agents escape with the soft constraint alone, 1 with demonstrations alone" in panel.alt
+    assert "1 of 2 agents escape with the soft constraint alone, 1 of 2 with demonstrations alone" in panel.alt
 
 
 def test_another_choice_draws_its_own_curves_and_one_that_was_not_computed_says_so(panel):

@@ -62,11 +62,10 @@ class ClocksPanel(Panel):
 def told(results: Results, updates: str) -> str:
     """What the curves say: when ξ is down to a tenth, when β is 0, and who escapes after that."""
     xi, beta = faded(results.of("soft").curves["xi"]), results.of("demos").agents[0]["beta_episodes"]
-    soft, demos, agents = results.escapers("soft"), results.escapers("demos"), len(results.of("soft"))
+    soft, demos = (f"{results.escapers(method)} of {len(results.of(method))}" for method in ("soft", "demos"))
     return (
         f"{updates} updates per decision: ξ is down to a tenth after {xi:.0f} episodes, β is 0 after {beta:,}. "
-        f"In the end {soft} of {agents} agents escape with the soft constraint alone, {demos} with "
-        "demonstrations alone."
+        f"In the end {soft} agents escape with the soft constraint alone, {demos} with demonstrations alone."
     )
 
 
@@ -93,9 +92,9 @@ def clocks(results: Results, alt: str) -> str:
     _label(success, ends)
     first, second = alt.split(". ", 1)
     head = [text(4, 20, f"{first}.", size=14, bold=True), text(4, 42, second, fill=QUIET, size=13)]
-    foot = text(
-        4, HEIGHT - 6, f"Interquartile means over {len(xi)} agents, with their 95 % intervals.", fill=QUIET, size=11
-    )
+    agents = " or ".join(map(str, sorted({len(results.of(method)) for method in VARIED})))
+    foot = f"Interquartile means over {agents} agents of each method, with their 95 % intervals."
+    foot = text(4, HEIGHT - 6, foot, fill=QUIET, size=11)
     return drawing(WIDTH, HEIGHT, [*head, *fading.parts, *success.parts, foot], alt)
 
 
