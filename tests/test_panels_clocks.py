@@ -19,7 +19,11 @@ pytestmark = pytest.mark.usefixtures("raise_in_callbacks")
 
 def measured(half_life: float) -> Results:
     """Two agents per method, of which one escapes; ξ halves every `half_life` episodes."""
-    agents = [{"method": method, "seed": seed, "beta_episodes": 100} for method in VARIED for seed in (0, 1)]
+    agents = [
+        {"method": method, "seed": seed, "beta_episodes": 100, "xi_multiplier": 200.0}
+        for method in VARIED
+        for seed in (0, 1)
+    ]
     xi = np.tile(2.0 * 0.5 ** (np.arange(200) / half_life), (len(agents), 1))
     success = np.tile(np.array([[0.0], [1.0]]), (len(VARIED), 200))
     tested = dict.fromkeys(("success", "returns", "speed", "distance"), success)
@@ -55,7 +59,7 @@ def test_its_picture_names_every_line(panel):
     image, kind, _ = panel.picture()
     drawn = image.decode()
     assert kind == "image/svg+xml" and all(
-        name in drawn for name in (">ξ<", ">β<", "plain SAC", "soft constraint only")
+        name in drawn for name in ("ξ = 200α", ">β<", "plain SAC", "soft constraint only")
     )
 
 

@@ -72,11 +72,12 @@ def told(results: Results, updates: str) -> str:
 def clocks(results: Results, alt: str) -> str:
     """The drawing: what is left of ξ and β above, the success of each method below."""
     episodes = np.arange(results.curves["success"].shape[1])
-    xi, schedule = results.of("soft").curves["xi"], results.of("demos").agents[0]["beta_episodes"]
+    soft, schedule = results.of("soft"), results.of("demos").agents[0]["beta_episodes"]
+    xi, of_alpha = soft.curves["xi"], f"ξ = {soft.agents[0]['xi_multiplier']:g}α"
     fading = SvgAxes(*FADING, (0, len(episodes)), (0, 100))
-    fading.frame("% of their start that is left of ξ and β")
+    fading.frame("% of their start that is left of ξ, α and β")
     beta = np.maximum(0, 1 - episodes / schedule)
-    for method, share, name in (("soft", iqm(xi / xi[:, :1], axis=0), "ξ"), ("demos", beta, "β")):
+    for method, share, name in (("soft", iqm(xi / xi[:, :1], axis=0), of_alpha), ("demos", beta, "β")):
         look, half = style(method), int((share <= 0.5).argmax())
         fading.line(episodes, 100 * share, look.colour, 2, look.line)
         fading.words(half + 0.01 * len(episodes), 56, name, look.colour, size=10)
