@@ -197,10 +197,11 @@ SAFER = {
 
 
 def _safe() -> dict[str, Variation]:
-    """What may make PPO after cloning safe: each alone, two together, and one for twice as long."""
+    """What may make PPO after cloning safe: each alone, two together, and some for twice as long."""
     off = {"accident_cost": 0.0, "multiplier_step": 0.0, "risk_limit": 1.0, "shield": False, "restart_share": 0.0}
     found = {name: Variation(off | changes, methods=("ppo_safe",)) for name, changes in SAFER.items()}
-    return found | {"accident cost, twice as long": replace(found["accident cost"], episodes=40_000)}
+    longer = ("accident cost", "accident cost and shield by hand")
+    return found | {f"{name}, twice as long": replace(found[name], episodes=40_000) for name in longer}
 
 
 @dataclass(frozen=True)
