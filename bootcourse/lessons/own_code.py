@@ -81,7 +81,7 @@ def training(settings: Sequence[Settings], episodes: int = 1000, **more) -> Trai
         rows = made.replay.table[: made.replay.demonstrations] if made.replay.demonstrations else None
         made.replay = OwnReplay(own, settings, size, rows)
         made.learner.bonus.zero_()  # it is in the batch's rewards
-    print(f"Training with {whose(names)}.".replace("`", ""))
+    print(f"Training with {whose(names) or 'no part that an exercise writes'}.".replace("`", ""))
     return made
 
 

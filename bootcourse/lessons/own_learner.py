@@ -52,7 +52,8 @@ def parts_of(settings: Sequence[Settings], own: Parts) -> list[str]:
     """
     method = settings[0].method
     if method in ALONE:
-        return ALONE[method]
+        unpriced = method == "ppo_safe" and not any(s.multiplier_step for s in settings)
+        return [] if unpriced else ALONE[method]
     if METHODS[method].on_policy:
         return ["advantages", "clipped_loss"]
     names = ["soft_value", "critic_target", "critic_loss", "actor_loss", "temperature_loss", "ReplayBuffer"]
