@@ -1,4 +1,4 @@
-"""An agent whose loss is not a number stops alone: its step is named, its last good weights stay."""
+"""An agent with a non-finite loss is frozen at its last finite snapshot; the others go on, the decision is named."""
 
 import numpy as np
 import pytest

@@ -81,7 +81,7 @@ def _told(x: Sequence[float], named: Mapping[str, np.ndarray]) -> str:
     told = []
     for label, values in named.items():
         first, last = (", ".join(f"{v:.3g}" for v in np.atleast_2d(values)[:, i]) for i in (0, -1))
-        told.append(f"{label}: {first} at {x[0]:.3g}, {last} at {x[-1]:.3g}.")
+        told.append(f"{display_name(label)}: {first} at {x[0]:.3g}, {last} at {x[-1]:.3g}.")
     return " ".join(told)
 
 
@@ -93,7 +93,7 @@ def action_bars(named: Mapping[str, Sequence[float]], title: str, y_label: str =
     shades = _shades(list(named))
     for row, (label, values) in enumerate(named.items()):
         at = places + (row - (len(named) - 1) / 2) * width
-        drawn = ax.bar(at, values, width=0.92 * width, color=shades[row], label=label)
+        drawn = ax.bar(at, values, width=0.92 * width, color=shades[row], label=display_name(label))
         ax.bar_label(drawn, [_short(v) for v in values], fontsize=SMALL - 1, color=QUIET, padding=1.5)
     ax.axhline(0, color=QUIET, linewidth=0.8)
     plain_axes(ax, y_label)
@@ -101,7 +101,7 @@ def action_bars(named: Mapping[str, Sequence[float]], title: str, y_label: str =
     ax.set_xticks(places, [action.replace(" ", "\n") for action in ACTION_NAMES], fontsize=SMALL)
     ax.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=len(named), frameon=False, fontsize=TEXT)
     listed = (
-        f"{label}: {', '.join(f'{a} {v:.2f}' for a, v in zip(ACTION_NAMES, values, strict=True))}"
+        f"{display_name(label)}: {', '.join(f'{a} {v:.2f}' for a, v in zip(ACTION_NAMES, values, strict=True))}"
         for label, values in named.items()
     )
     return finish(figure, title, f"Bars of the {y_label} of the nine actions. {'; '.join(listed)}.")

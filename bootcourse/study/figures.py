@@ -88,7 +88,7 @@ def final_scores(results: Results, methods: Sequence[str], column: str = "return
     height = 1.1 + 0.36 * len(methods)
     figure = new_figure(height)
     ax = figure.add_axes((0.27, 0.55 / height, 0.68, 0.9 * 0.36 * len(methods) / height))
-    scale, words = 100 if column in RATES else 1, []
+    scale, words, label = 100 if column in RATES else 1, [], (COLUMNS | {"returns": "return"}).get(column, column)
     for row, method in enumerate(methods):
         scores, its = results.of(method).scores(column) * scale, style(method)
         middle = interval(scores)
@@ -101,11 +101,11 @@ def final_scores(results: Results, methods: Sequence[str], column: str = "return
     plain_axes(ax, "", grid="x")
     ax.set_yticks(range(len(methods)), [display_name(method) for method in methods])
     ax.set_ylim(len(methods) - 0.5, -0.5)
-    ax.set_xlabel(COLUMNS.get(column, column), fontsize=SMALL, color=QUIET)
+    ax.set_xlabel(label, fontsize=SMALL, color=QUIET)
     ax.spines["bottom"].set_color(GRID)
     middles = {method: interval(results.of(method).scores(column)) for method in methods}
-    best = max(middle.value for middle in middles.values())
-    ahead = [display_name(m) for m, middle in middles.items() if middle.value == best or middle.high >= best]
+    best = max(middles.values(), key=lambda middle: middle.value)
+    ahead = [display_name(m) for m, middle in middles.items() if middle.high >= best.low]
     within = ", as far as the intervals tell" * (len(ahead) > 1)
-    title = f"Highest {COLUMNS.get(column, column).split(',')[0]}{within}: {', '.join(ahead)}"
+    title = f"Highest {label.split(',')[0]}{within}: {', '.join(ahead)}"
     return finish(figure, title, "Interquartile means over agents with 95 % intervals: " + "; ".join(words) + ".")

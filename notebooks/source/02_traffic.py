@@ -42,8 +42,8 @@ from bootcourse.lessons import (
 # ## Look first
 #
 # Thirty drivers go round a ring with one lane. Overtaking is not possible, and each driver follows
-# the same formula. One of them begins slower than the others. Each line in the picture is one car.
-# On the left the cars are 20 m apart on average, on the right 30 m.
+# the same formula. One of them begins slower than the others. Each line in the picture is one car;
+# half of the cars are drawn. On the left the cars are 20 m apart on average, on the right 30 m.
 
 # %%
 rings = {f"{spacing} m apart": traffic.ring(spacing) for spacing in (20, 30)}

@@ -495,14 +495,14 @@ print(f"{len(noted):,} updates of {len(agents)} agents")
 # %%
 alpha = torch.stack([each["alpha"] for each in noted[::50]]).T.numpy()
 updates = np.arange(len(noted))[::50]
-named = {"sac: η = 0.21": alpha[:3], "η = −1": alpha[3:]}
+named = {"sac, η = 0.21": alpha[:3], "η = −1": alpha[3:]}
 title = "The temperature of six agents"
 bc.show(charts.lines(updates, named, title, "update", "temperature α", logarithmic="y"))
 
 # %%
 state_entropy = torch.stack([each["entropy"] for each in noted]).T.numpy()
 smooth = state_entropy[:, : len(noted) // 50 * 50].reshape(len(agents), -1, 50).mean(-1)
-named = {"sac: η = 0.21": smooth[:3], "η = −1": smooth[3:]}
+named = {"sac, η = 0.21": smooth[:3], "η = −1": smooth[3:]}
 updates, marks = np.arange(smooth.shape[1]) * 50, {"target 0.21": TARGET, "0": 0.0}
 title = "The entropy of the six agents"
 bc.show(charts.lines(updates, named, title, "update", "entropy (nats)", marks=marks))

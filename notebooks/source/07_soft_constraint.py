@@ -27,7 +27,7 @@ import math
 import bootcourse as bc
 import numpy as np
 import torch
-from bootcourse.lessons import charts, check, compare_predictions, own_code, predict, source
+from bootcourse.lessons import charts, check, compare_predictions, own_code, predict, source, table
 
 # %% [markdown]
 # ## Look first
@@ -459,7 +459,7 @@ updates, xi = np.array(notes["updates"]), np.array(notes["xi"]).T
 its = bc.settings_for("soft")
 fastest = its.alpha_init * 200 * np.exp(-its.alpha_lr * updates)
 tenth = updates[np.argmax(xi[0] <= xi[0, 0] / 10)]
-named = {"soft: measured": xi[:2], "as fast as Adam can": fastest}
+named = {"soft, measured": xi[:2], "as fast as Adam can": fastest}
 title = f"ξ is a tenth of its start after {tenth} updates"
 bc.show(charts.lines(updates, named, title, "update", "ξ = 200 α", logarithmic="y"))
 
@@ -480,17 +480,19 @@ bc.show(charts.lines(updates, named, title, "update", "ξ = 200 α", logarithmic
 # %%
 alike = np.array(notes["alike"]).T
 title = "How often the agent's likeliest action is the rule's"
-named = {"soft: ξ fades": alike[:2], "ξ stays at 2": alike[2:]}
+named = {"soft, ξ fades": alike[:2], "ξ stays at 2": alike[2:]}
 bc.show(charts.lines(updates, named, title, "update", "likeliest action is the rule's (%)"))
 
 # %%
-rows = [(f"ξ {'fades' if i < 2 else 'stays'}", agent) for i, agent in enumerate(result.agents)]
-rows = [(f"{words}, seed {agent.settings.seed}", agent.as_policy()) for words, agent in rows]
-print("                  success %   return   accidents %")
-for words, driver in [*rows, ("the rule", bc.rule_policy(bc.DEFAULT))]:
+named = [(f"ξ {'fades' if i < 2 else 'stays'}", agent) for i, agent in enumerate(result.agents)]
+named = [(f"{words}, seed {agent.settings.seed}", agent.as_policy()) for words, agent in named]
+rows = []
+for words, driver in [*named, ("the rule", bc.rule_policy(bc.DEFAULT))]:
     r = bc.evaluate(driver, 200, seed=7)
     accidents = r.collision.value + r.road_departure.value + r.stoppage.value
-    print(f"{words:17}{100 * r.success.value:11.1f}{r.returns.value:9.1f}{100 * accidents:14.1f}")
+    numbers = (100 * r.success.value, r.returns.value, 100 * accidents)
+    rows.append([words, *(f"{number:.1f}" for number in numbers)])
+table(["", "success, %", "return", "accidents, %"], rows)
 
 # %% [markdown]
 # **See.** (Yours will differ.) Compare the table with your prediction, seed by seed. These agents

@@ -37,6 +37,7 @@ from bootcourse.lessons import (
     predict,
     shipped,
     source,
+    table,
 )
 from bootcourse.panels.bonus_numbers import bonus_numbers
 
@@ -178,7 +179,7 @@ each = bonus_numbers(drive, idle, bc.settings_for("bootstrapped", bonus=0.05))
 named = {
     "rule, c = 0.05": each.augmented[:60],
     "rule, no bonus": each.plain[:60],
-    "idle: stays behind": each.trapped[:60],
+    "idle, stays behind": each.trapped[:60],
 }
 title = "The discounted return from each second on, with and without a bonus"
 bc.show(charts.lines(np.arange(60), named, title, "second of the drive", "discounted return"))
@@ -424,18 +425,20 @@ print(f"{result.seconds:.0f} s; episodes of each: {training.curves.finished.toli
 expert, rival = np.array(noted["expert"]).T, np.array(noted["rival"]).T
 named = {"demonstrated, c = 2": expert[:2], "best rival, c = 2": rival[:2]}
 named |= {"demonstrated, c = 0": expert[2:]}
-looks = [charts.Style("#D55E00"), charts.Style("#0072B2", "--"), charts.Style("#5F6B77", ":")]
+looks = [charts.Style("#E69F00"), charts.Style("#1F2933", "--"), charts.Style("#5F6B77", ":")]
 title, label = "What two bonuses do to the critics", "mean Q(s,a) on the way out"
 bc.show(charts.lines(noted["update"], named, title, "update", label, looks=looks))
 
 # %%
-print("               Q demonstrated   Q best rival   success %   return   accidents %   β")
+rows = []
 for i, agent in enumerate(result.agents):
     r = bc.evaluate(agent.as_policy(), 200, seed=8)
     accidents = r.collision.value + r.road_departure.value + r.stoppage.value
+    numbers = [f"{each:.2f}" for each in (expert[i, -1], rival[i, -1])]
+    numbers += [f"{100 * r.success.value:.1f}", f"{r.returns.value:.1f}", f"{100 * accidents:.1f}"]
     words = f"c = {agent.settings.bonus:g}, seed {agent.settings.seed}"
-    row = f"{words:13}{expert[i, -1]:16.2f}{rival[i, -1]:15.2f}{100 * r.success.value:12.1f}"
-    print(f"{row}{r.returns.value:9.1f}{100 * accidents:14.1f}{training.beta[i]:6.2f}")
+    rows.append([words, *numbers, f"{training.beta[i]:.2f}"])
+table(["", "Q demonstrated", "Q best rival", "success, %", "return", "accidents, %", "β"], rows)
 
 # %% [markdown]
 # **Explain.** (Yours will differ.) Compare the first two columns, and compare the first one with
@@ -497,14 +500,15 @@ predict("8.8", "Agents of the three that end ahead on most of 200 roads", ["0", 
 agents = bc.with_seeds(bc.settings_for("bootstrapped"), 2) + [bc.settings_for("margin_soft")]
 whole = own_code.training(agents, episodes=20_000)
 result = whole.run(stop=lambda: whole.updates >= 2500)
-print("                          success %   return   accidents %")
-escaping = []
+rows, escaping = [], []
 for agent in result.agents:
     r = bc.evaluate(agent.as_policy(), 200, seed=8)
     accidents = r.collision.value + r.road_departure.value + r.stoppage.value
-    words = f"{agent.settings.method}, seed {agent.settings.seed}"
-    print(f"{words:25}{100 * r.success.value:10.1f}{r.returns.value:9.1f}{100 * accidents:14.1f}")
+    words = bc.display_name(f"{agent.settings.method}, seed {agent.settings.seed}")
+    numbers = (100 * r.success.value, r.returns.value, 100 * accidents)
+    rows.append([words, *(f"{number:.1f}" for number in numbers)])
     escaping.append(r.success.value > 0.5)
+table(["", "success, %", "return", "accidents, %"], rows)
 
 # %%
 yours = bc.record(result.agents[0].as_policy(), [10], label="bootstrapped, trained here")[0]

@@ -109,9 +109,12 @@ predict("14.2", "The students of the reckless teacher earn", choices)
 # %%
 # NBVAL_CHECK_OUTPUT
 cars = drives["racer"].states[0]  # as the road begins
-print("car     x (m)   y (m)   speed (m/s)   lane")
-for name, car in zip(["ego", "trap 1", "trap 2", "traffic", "traffic"], cars, strict=False):
-    print(f"{name:8}{car[X]:6.1f}{car[Y]:8.1f}{car[SPEED]:14.1f}{car[LANE]:7.0f}")
+names, columns = ["ego", "trap 1", "trap 2", "traffic", "traffic"], [X, Y, SPEED]
+rows = [
+    [name, *(f"{car[column]:.1f}" for column in columns), f"{car[LANE]:.0f}"]
+    for name, car in zip(names, cars, strict=False)
+]
+table(["car", "x (m)", "y (m)", "speed (m/s)", "lane"], rows)
 
 # %% [markdown]
 # > **Predict.** From bumper to bumper, how far is trap 2 ahead of you on this road? A car is 5 m
@@ -500,10 +503,9 @@ table(headings, rows)
 # place that the learner does not find alone, and does the learner stop following it afterwards?
 #
 # **Try**: run `bc.panels.teachers_panel()` in a cell of your own. It shows what seven teachers, the
-# planner among them, are worth to two other learners (round 5 of
+# planner among them, are worth to several learners (round 6 of
 # [lesson 16](16_beyond_the_paper.ipynb)).
-# <!-- claim: len({teacher for teacher, _ in shipped.shipped_teachers()}) == 7 and
-#   len({method for _, method in shipped.shipped_teachers()}) == 2 -->
+# <!-- claim: len({teacher for teacher, _ in shipped.shipped_teachers()}) == 7 -->
 
 # %% [markdown] tags=["instructor"] minutes=10
 # Let each group name one experiment that could change a verdict: more updates (the racer's return),

@@ -102,8 +102,8 @@ bc.show(bc.traces(drive, title=title, what=("speed", "distance", "reward")))
 #
 # ## Round 1: what pays for it
 #
-# Whoever stays behind trap 1 to the end cannot drive faster than it *on average*, apart from the
-# first few metres. Such a driver can choose one thing: how the speed is spread around the mean.
+# A driver that stays behind trap 1 to the end cannot be faster than trap 1 *on average*, apart from
+# the first few metres. Such a driver can choose one thing: how the speed is spread around the mean.
 # <!-- claim: ppo_drive().states[-1, EGO, X] < ppo_drive().states[-1, TRAP_1, X] and
 #   ppo_speeds().mean() < DEFAULT.traps.speed + 20 / DEFAULT.clock.decisions -->
 #

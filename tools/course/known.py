@@ -151,7 +151,7 @@ def clocks() -> dict[tuple[str, str], Results]:
     return study_clocks.cells(shipped.shipped_experiment("clocks"))
 
 
-LATER = ("ppo_cloned", "ppo_kl", "rlpd", "ibrl", "pex", "jsrl")  # the methods that lesson 16 compares with the paper's
+LATER = ("ppo", "ppo_cloned", "ppo_kl", "ppo_residual", "rlpd", "ibrl", "pex", "jsrl")  # those of lesson 16
 
 
 @cache

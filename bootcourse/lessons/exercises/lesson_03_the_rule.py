@@ -119,7 +119,7 @@ safety_distance = Exercise(
         "`max(floor, ...)` around closing speed times time.",
     ),
     minutes=5, difficulty=1,
-    equation="d_s = max(floor, (v_e - min(v_current, v_new)) t_safe), Section III-D, its sign corrected",
+    equation="d_s = max(floor, (v_e - min(v_current, v_new)) t_safe), Section III-D as we read it; the floor is §",
 )  # fmt: skip
 
 
@@ -200,7 +200,7 @@ room_to_change = Exercise(
         "Behind: `max(floor, (v_rear - v_ego) * t_safe)`, because there the other car closes in on you.",
         "`dx_front - length > d_s and dx_rear - length > max(floor, (v_rear - v_ego) * t_safe)`",
     ),
-    minutes=6, difficulty=2, equation="Algorithm 1, line 2, its sign corrected, and O_dec, Section III-D",
+    minutes=6, difficulty=2, equation="Algorithm 1, line 2, as we read it, and O_dec, Section III-D",
 )  # fmt: skip
 
 
