@@ -26,6 +26,7 @@ class Method:
     unused: dict[str, str] = field(default_factory=dict)  # {setting without effect: reason}
     kind: str = "Settings"  # the class of its settings, one of `bootcourse.learn.settings.KINDS`
     on_policy: bool = False  # learns from its own last decisions alone
+    episodes: int = 1000  # of training of each agent, by default
     taught: bool = (
         False  # its agents ask the teacher while they train, apart from demonstrations and the KL of weight ξ
     )
@@ -45,7 +46,8 @@ _BASELINE = {"xi_multiplier": 0.0, "bonus": 0.0, "beta_episodes": 10**9}
 # What came after the paper, with a replay buffer and a teacher. They look further ahead than the paper's γ = 0.8.
 _LATER = {"gamma": 0.97, "xi_multiplier": 0.0, "bonus": 0.0, "batch": 128}
 
-# PPO drives a few hundred roads at once and looks further ahead.
+# PPO drives a few hundred roads at once and looks further ahead. Its first update comes
+# after 32 decisions on all 512 roads, when it has driven more than 1,000 episodes.
 _PPO = {
     "gamma": 0.99,
     "xi_multiplier": 0.0,
@@ -58,7 +60,7 @@ _PPO = {
     "buffer_size": 2048,
     "kl_weight": 0.0,
 }
-_ON_POLICY = {"kind": "PPOSettings", "on_policy": True}
+_ON_POLICY = {"kind": "PPOSettings", "on_policy": True, "episodes": 20_000}
 
 METHODS = {
     "sac": Method("plain SAC", Style("#0072B2"), {"xi_multiplier": 0.0, "beta_start": 0.0}),
@@ -119,8 +121,7 @@ METHODS = {
         Style("#44AA99", width=2.0, marker="o"),
         _PPO | {"cloning_updates": 400, "stochastic_demonstrations": True} | {"accident_cost": 50.0},
         "bootcourse.learn.safe:SafeLearner",
-        kind="SafeSettings",
-        on_policy=True,
+        **_ON_POLICY | {"kind": "SafeSettings"},
     ),
     "dagger": Method(
         "DAgger",

@@ -15,6 +15,7 @@ from bootcourse.cli.driving import Driver, alike
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.settings import settings_for
 from bootcourse.learn.training import Training
+from bootcourse.methods import METHODS
 from bootcourse.scenario import DEFAULT
 from bootcourse.storage.work import locked
 
@@ -46,6 +47,17 @@ def test_train_then_evaluate_then_drive(bootcourse, tmp_path):
     assert driven.status == 0, driven.err
     rollout = Rollout.load(tmp_path / "drive.npz")
     assert (rollout.label, rollout.seed) == ("sac", 4) and rollout.q_values is not None
+
+
+@pytest.mark.parametrize("method", ["ppo_kl", "soft"])
+def test_a_training_takes_the_method_s_own_number_of_episodes_or_the_given_one(
+    method, bootcourse, tmp_path, monkeypatch
+):
+    keep = []
+    monkeypatch.setattr(Training, "run", lambda training, *_: keep.append(training.episodes) or training.result(True))
+    for folder, given in (("own", ()), ("given", ("--episodes", 7))):
+        bootcourse("train", "--method", method, "--seeds", 1, "--out", tmp_path / folder, "--quiet", *given)
+    assert keep == [METHODS[method].episodes, 7]
 
 
 def test_a_rule_of_one_s_own_teaches_and_only_it_goes_on(bootcourse, tmp_path, monkeypatch):

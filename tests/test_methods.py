@@ -135,6 +135,12 @@ def test_the_command_line_takes_the_teacher_of_such_a_run(follower, tmp_path):
     assert json.loads(found.output)["follower-0"]["collision"]["value"] == 1.0, found.output
 
 
+@pytest.mark.parametrize("method", [name for name, its in METHODS.items() if its.on_policy])
+def test_an_on_policy_method_s_own_episodes_are_more_than_one_round_of_decisions_can_hold(method):
+    its = settings_for(method)
+    assert METHODS[method].episodes > its.envs_per_agent * its.horizon
+
+
 def test_a_label_that_names_no_method_keeps_its_words():
     assert display_name("you, road 3") == "you, road 3" and display_name("sac, seed 3") == "plain SAC, seed 3"
     assert style("you") == style("idle") != style("sac")

@@ -461,6 +461,25 @@ def test_an_untouched_discount_is_the_chosen_method_s_and_a_chosen_one_stays():
     assert panel.settings().gamma == 0.5
 
 
+def test_a_method_with_its_own_number_of_episodes_sets_it_when_it_is_chosen():
+    panel = small(episodes=3)
+
+    def chosen(method):
+        from_page(panel.method, index=list(METHODS).index(method))
+        return panel.episodes.value, panel.episodes.slider.value
+
+    assert chosen("sac") == (3, 50)  # the slider begins at 50
+    assert chosen("ppo") == chosen("ppo_kl") == (METHODS["ppo"].episodes,) * 2 == (20_000,) * 2
+    from_page(panel.episodes.field, value=15_000)
+    assert chosen("ppo_safe") == (15_000, 15_000)
+    assert chosen("soft") == (1000, 1000)
+
+
+@pytest.mark.parametrize(("method", "episodes"), [("soft", 1000), ("ppo_cloned", 20_000)])
+def test_a_panel_opens_with_the_method_s_own_number_of_episodes_or_with_the_given_one(method, episodes):
+    assert train_panel(method).episodes.value == episodes and train_panel(method, episodes=7).episodes.value == 7
+
+
 @pytest.mark.parametrize("method", METHODS)
 def test_what_a_method_lacks_cannot_be_set_and_says_why(method):
     panel = small(xi_multiplier=100.0)

@@ -28,7 +28,7 @@ def train(
     method: str = typer.Option("bootstrapped", help=", ".join(METHODS) + "."),
     seeds: int = typer.Option(4, min=1, max=64, help="How many agents, side by side, each with its own seed."),
     first_seed: int = typer.Option(0, min=0, help="The first training seed."),
-    episodes: int = typer.Option(1000, min=1, help="Training episodes of each agent."),
+    episodes: int = typer.Option(0, min=0, help="Training episodes of each agent; 0: the method's own number."),
     out: Path = typer.Option(..., help="A new folder for the runs."),
     scenario: str = typer.Option("default", help="default or calibrated."),
     setting: str = typer.Option("quick", help="quick or paper: a quarter of an update per decision, or two."),
@@ -46,7 +46,7 @@ def train(
     from bootcourse.storage.work import locked
 
     settings, road = with_seeds(settings_for(method, setting), seeds, first_seed), named(scenario)
-    rule, work = teacher_from(teacher), out / UNFINISHED
+    rule, work, episodes = teacher_from(teacher), out / UNFINISHED, episodes or METHODS[method].episodes
     if resume and is_finished(out):
         with locked(work, "training"):  # removes what is left of it, if it was killed in its last moment
             print(f"{out} is finished: there is nothing to resume.")

@@ -61,9 +61,11 @@ class TrainPanel(Panel):
             [widgets.HBox([label, self.method], layout={"align_items": "center"}), about], layout={"width": "420px"}
         )
         self.numbers, self._usual_gamma = numbers_for(changes), Settings().gamma
+        episodes, self._usual_episodes = episodes or METHODS[method].episodes, METHODS[method].episodes
         self.seeds = Number("seeds", seeds, 1, 10, 1, "Agents that learn side by side, each with its own seed.",
                             check=whole_number("seeds", 1, SEEDS))  # fmt: skip
-        self.episodes = Number("episodes", episodes, 50, 3000, 50, "Drives of each agent: 150 s, or until an accident.",
+        self.episodes = Number("episodes", episodes, 50, EPISODES, 50,
+                               "Drives of each agent: 150 s, or until an accident.",
                                check=whole_number("episodes", 1, EPISODES))  # fmt: skip
         grid = widgets.GridBox(
             [chooser, *self.numbers.values(), self.seeds, self.episodes],
@@ -121,6 +123,8 @@ class TrainPanel(Panel):
         if gamma.value == self._usual_gamma:  # untouched: it is the method's
             gamma.value = own
         self._usual_gamma = own
+        if self._usual_episodes != METHODS[self.method.value].episodes:  # 1,000 are too few for one update of PPO
+            self.episodes.value = self._usual_episodes = METHODS[self.method.value].episodes
         for setting, control in self.numbers.items():
             control.lock(reasons.get(setting, ""))
 
@@ -279,13 +283,14 @@ def _duration(seconds: float) -> str:
 def train_panel(
     method: str = "bootstrapped",
     seeds: int = 4,
-    episodes: int = 1000,
+    episodes: int = 0,
     scenario: Scenario = DEFAULT,
     drives: Sequence[Rollout] | None = None,
     **changes,
 ) -> TrainPanel:
     """Choose, train for real, watch the curves grow, stop, compare, save.
 
+    episodes: of each agent; 0: the method's own number, as after each choice of a method that has another one.
     drives: demonstrations to learn from instead of the rule's, if there is at least one when Train is pressed.
     changes: values of any settings (see `bootcourse.learn.settings.Settings`); a setting that has a control starts
     there. Raises BootcourseError for a method or a setting that does not exist, and for a value out of range.

@@ -151,7 +151,7 @@ def _beyond() -> dict[str, Variation]:
     PPO drives hundreds of roads at once. RLPD makes eight times as many updates for a decision as the others. DAgger is
     in the experiment `teachers`.
     """
-    episodes = {"rlpd": 250} | {method: 20_000 for method in AFTER if METHODS[method].on_policy}
+    episodes = {"rlpd": 250} | {method: METHODS[method].episodes for method in AFTER if METHODS[method].on_policy}
     methods = [method for method in AFTER if method not in ("dagger", "ppo_safe")]
     return {method: Variation(methods=(method,), episodes=episodes.get(method, 0)) for method in methods}
 
