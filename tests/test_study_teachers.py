@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from bootcourse.cli.training import teacher_from
 from bootcourse.episodes.evaluate import drive_episodes
 from bootcourse.errors import BootcourseError
 from bootcourse.files import read_arrays, sha256, write_arrays
@@ -15,6 +16,7 @@ from bootcourse.learn.training import Training
 from bootcourse.road.state import ACCELERATION, EGO, HEADING, LANE, SPEED, TRAP_1, X, Y
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT
+from bootcourse.storage.runs import save_checkpoint
 from bootcourse.storage.sealed import write_sealed
 from bootcourse.study import jobs as jobs_module
 from bootcourse.study.fingerprint import behind
@@ -216,3 +218,30 @@ def test_a_result_depends_on_the_behaviour_of_its_teacher():
     assert behind(agents, DEFAULT) == ("road", "rule", "soft")
     assert behind(agents, DEFAULT, "late") == ("road", "rule", "teachers", "soft")
     assert behind(agents, DEFAULT, "planner") == ("road", "rule", "planner", "soft")
+
+
+@pytest.mark.parametrize("name", TEACHERS)
+def test_the_command_line_takes_a_teacher_by_its_name(name):
+    assert teacher_from(name) is TEACHERS[name].rule
+
+
+def test_the_command_line_names_all_teachers_for_an_unknown_one():
+    with pytest.raises(BootcourseError, match="did you mean 'planner'.*random-50.*late.*FILE.py:FUNCTION"):
+        teacher_from("planer")
+
+
+def test_a_training_goes_on_with_its_named_teacher_alone_and_so_do_its_agents(bootcourse, tmp_path):
+    out, settings = tmp_path / "runs", settings_for("ibrl", **TINY)
+    save_checkpoint(Training([settings], 1, teacher=teacher_from("late")), out / "unfinished" / "checkpoint.npz")
+    go_on = ("train", "--method", "ibrl", "--out", out, "--quiet", "--resume", "--teacher")
+    refused = bootcourse(*go_on, "mirrored")
+    assert refused.status == 2 and "began with the teacher 'late " in refused.err and "not 'mirrored " in refused.err
+    assert bootcourse(*go_on, "late").status == 0
+    evaluate = ("evaluate", out, "--episodes", 2, "--teacher")
+    refused = bootcourse(*evaluate, "random-25")
+    assert refused.status == 2 and "drives with the teacher 'late " in refused.err
+    assert bootcourse(*evaluate, "late").status == 0
+
+
+def test_every_named_teacher_has_its_own_name_in_a_run_s_files():
+    assert len({teacher_name(its.rule) for its in TEACHERS.values()}) == len(TEACHERS)

@@ -32,7 +32,7 @@ def evaluate(
     seed: int = typer.Option(1, min=0, help="The block of held-out roads."),
     scenario: str = typer.Option("", help="default or calibrated; by default the scenario that a run trained on."),
     sample: bool = typer.Option(False, "--sample", help="Draw an agent's actions instead of taking the most probable."),
-    teacher: str = typer.Option("", help="The rule of your own that a run drives with: FILE.py:FUNCTION."),
+    teacher: str = typer.Option("", help="The teacher that a run drives with: planner …, or FILE.py:FUNCTION."),
     as_json: bool = typer.Option(False, "--json", help="Print JSON."),
     board: bool = typer.Option(False, "--board", help="Print the leaderboard with them; here WHO may be several."),
     keep: Path | None = typer.Option(None, help="With --board: a file, such as mine.json, that keeps their rows."),
@@ -158,7 +158,7 @@ def drive(
     seed: int = typer.Option(0, min=0, help="The road."),
     scenario: str = typer.Option("", help="default or calibrated; by default the scenario that a run trained on."),
     png: Path | None = typer.Option(None, help="Also draw the top view and the traces to this picture."),
-    teacher: str = typer.Option("", help="The rule of your own that a run drives with: FILE.py:FUNCTION."),
+    teacher: str = typer.Option("", help="The teacher that a run drives with: planner …, or FILE.py:FUNCTION."),
 ) -> None:
     """Record one drive for figures and replays."""
     from bootcourse.episodes.record import record

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import typer
 
-from bootcourse.errors import BootcourseError
+from bootcourse.errors import BootcourseError, did_you_mean
 from bootcourse.methods import METHODS
 
 INTERRUPTED = 130  # exit status
@@ -32,7 +32,9 @@ def train(
     out: Path = typer.Option(..., help="A new folder for the runs."),
     scenario: str = typer.Option("default", help="default or calibrated."),
     setting: str = typer.Option("quick", help="quick or paper: a quarter of an update per decision, or two."),
-    teacher: str = typer.Option("", help="A rule of your own as the teacher: FILE.py:FUNCTION."),
+    teacher: str = typer.Option(
+        "", help="Who teaches: planner, late and others, or a rule of your own: FILE.py:FUNCTION."
+    ),
     device: str = typer.Option("cpu", help="Where the networks learn: cpu, or cuda if torch finds a GPU."),
     resume: bool = typer.Option(False, "--resume", help="Resume a training that was interrupted or killed."),
     quiet: bool = typer.Option(False, "--quiet", help="No progress bar."),
@@ -95,12 +97,17 @@ def is_finished(out: Path) -> bool:
 
 
 def teacher_from(place: str):
-    """The rule "FILE.py:FUNCTION"; the course's for "". Raises BootcourseError if it does not exist."""
-    from bootcourse.learn.teachers import course_rule
+    """The rule "FILE.py:FUNCTION", or the teacher of a name, such as "planner"; the course's rule for "".
 
-    if not place:
-        return course_rule
-    file, _, function = place.rpartition(":")
+    Raises BootcourseError if it is not there or does not load.
+    """
+    from bootcourse.study.teachers import RULE, TEACHERS, teacher_named
+
+    file, colon, function = place.rpartition(":")
+    if not place or place in TEACHERS:
+        return teacher_named(place or RULE)
+    if not colon:
+        raise BootcourseError(f"Teacher {did_you_mean(place, TEACHERS)}, or give a rule of your own, FILE.py:FUNCTION.")
     if not Path(file).is_file():
         raise BootcourseError(f"--teacher {place}: give a file and a function in it, such as my_rule.py:my_rule.")
     spec = importlib.util.spec_from_file_location(Path(file).stem, file)
