@@ -1,8 +1,19 @@
 """What the later learners cost: decisions until the way out is learned, by hand."""
 
 import numpy as np
+import pytest
 
-from bootcourse.study.beyond import decisions_until, learner_rows, lengths, thousands
+from bootcourse.study import beyond
+from bootcourse.study.beyond import (
+    after_seconds,
+    at_budget,
+    budget_rows,
+    decisions_until,
+    learner_rows,
+    lengths,
+    thousands,
+    within,
+)
 from bootcourse.study.results import Results
 
 NAN = np.nan
@@ -37,3 +48,60 @@ def test_the_table_counts_agents_and_says_how_many_learned_the_way_out():
     assert len(headings) == len(rows[0]) and rows[0][:3] == ["RLPD", "1 of 2", "50.0"]
     assert rows[0][4:] == ["25.0", "5 (5 to 5), 1 of 2"]
     assert thousands(np.array([np.inf, np.inf])) == "none of 2"
+
+
+@pytest.fixture
+def two_episodes(monkeypatch):
+    """A mean is over the last 2 episodes."""
+    monkeypatch.setattr(beyond, "WINDOW", 2)
+
+
+LEARNING = {
+    "decisions": np.array([[10, 20, 30, 40], [10, 10, 10, NAN], [60, 40, 40, 40]]),  # ended at 10, 30, 60, 100 ...
+    "return": np.array([[1, 3, 5, 7], [2, 4, 6, NAN], [8, 8, 8, 8.0]]),
+}
+
+
+def test_the_return_at_a_budget_is_the_mean_of_the_last_episodes_that_ended_within_it(two_episodes):
+    found = at_budget(LEARNING, 60)  # the third agent has ended one episode
+    assert found[0] == (3 + 5) / 2 and np.isnan(found[1:]).all()
+    assert at_budget(LEARNING, 59)[0] == (1 + 3) / 2
+    assert at_budget(LEARNING, 30).tolist()[:2] == [2, 5]  # the second agent's whole training
+    assert at_budget(LEARNING, np.array([100, 29, 100])).tolist() == [6, 3, 8]
+
+
+def test_an_agent_whose_training_was_shorter_or_that_recorded_no_return_has_no_number_at_a_budget(two_episodes):
+    assert np.isnan(at_budget(LEARNING, 31)[1]) and np.isnan(at_budget(LEARNING, 101)[0])
+    assert np.isnan(at_budget({"decisions": LEARNING["decisions"]}, 30)).tolist() == [True] * 3
+    assert np.isnan(at_budget(LEARNING, NAN)).all()
+
+
+def test_seconds_are_shared_equally_among_the_decisions_of_a_training(two_episodes):
+    took = np.array([10.0, 4.0, NAN])  # for 100, 30 and 180 decisions: 6 s are 60, 45 and an unknown number of them
+    found = after_seconds(LEARNING, 6, took)
+    assert found[0] == 4 and np.isnan(found[1:]).all()
+    assert np.isnan(after_seconds(LEARNING, 6, np.zeros(3))).all()
+    assert np.isnan(after_seconds({"return": LEARNING["return"]}, 6, took)).all()
+
+
+def test_the_estimate_at_a_budget_is_over_the_agents_that_trained_as_long():
+    found = within(np.array([1.0, NAN, 3.0]))
+    assert found[:2] == (2, 2.0) and found.limits == (1, 3) and found.words(3) == "2.0 [1.0, 3.0], 2 of 3"
+    assert within(np.array([4.0])).words(1) == "4.00" and within(np.array([NAN])) is None
+
+
+def test_the_table_at_equal_budgets_begins_with_the_highest_return_and_leaves_out_what_is_not_known():
+    def agents(method, returns, length, seconds):
+        curves = {"return": np.full((2, 60), returns), "decisions": np.full((2, 60), length)}
+        pair = [{"method": method, "seed": seed} for seed in (0, 1)]
+        return Results(pair, np.full(2, -1), {}, curves, np.full(2, seconds))
+
+    silent = Results([{"method": "ppo", "seed": 0}], np.array([-1]), {}, {"success": np.ones((1, 60))})
+    parts = [("short", agents("rlpd", 90.0, 100.0, 30.0)), ("a", agents("sac", 20.0, 2000.0, 90.0))]
+    parts += [("b", agents("ibrl", 30.0, 2000.0, NAN)), ("c", silent)]
+    headings, rows = budget_rows(parts)
+    assert headings[2:] == ["100,000 decisions", "1,000,000 decisions", "20 s of one core", "60 s of one core"]
+    assert rows == [
+        ["IBRL", "b", "30.00 [30.00, 30.00]", "–", "–", "–"],
+        ["plain SAC", "a", "20.00 [20.00, 20.00]", "–", "–", "–"],
+    ]

@@ -15,8 +15,8 @@ from bootcourse.study import figures as training_figures
 from bootcourse.study import tables
 from bootcourse.study.fidelity import VERDICTS, fidelity, judge
 from bootcourse.study.paper import COLUMNS, PRINTED, TABLES, arithmetic, earned_at, paper_interval, possible
-from bootcourse.study.report import rule_results, write_report
-from bootcourse.study.results import Results, in_study, save_results
+from bootcourse.study.report import budget_part, rule_results, write_report
+from bootcourse.study.results import Results, StudyResults, in_study, save_results
 
 METHODS = ("bc", "cql", "gail", "sac", "soft", "demos", "bootstrapped", "margin", "margin_soft")
 
@@ -157,3 +157,17 @@ def test_an_interval_is_printed_with_the_decimals_that_its_length_leaves_meaning
     assert tables.bracketed(Estimate(127.31, 125.04, 128.92)) == "127.3 [125.0, 128.9]"
     assert tables.bracketed(Estimate(1.2345, 1.2, 1.27)) == "1.23 [1.20, 1.27]"
     assert tables.bracketed(Estimate(44.875, np.nan, np.nan)) == "44.88"
+
+
+def test_the_report_compares_all_methods_at_an_equal_budget_beside_the_planner_s_bound():
+    results = invented(("sac", "soft"), episodes=300)
+    for name, value in {"distance": 5000.0, "speed": 10.0}.items():  # 500 decisions: 150,000 in all
+        results.curves[name][:] = value
+    results.curves["return"][:] = np.repeat([10.0, 20.0], 10)[:, None]
+    heading, table, bound, below = budget_part(StudyResults({"default": results}, {"default": np.full(20, 140.0)}))
+    assert heading == "## All methods at an equal budget\n" and "training returns, with drawn actions" in below
+    rows = table.splitlines()[2:]
+    assert rows[0].startswith("| soft constraint only | quick | 20.00 [20.00, 20.00] | – |")
+    assert rows[1].startswith("| plain SAC | quick | 10.00 [10.00, 10.00] | – |")
+    assert bound == "The planner's bound: 140.00 [140.00, 140.00].\n"
+    assert budget_part(StudyResults({"default": invented(("sac",), episodes=20)})) == []

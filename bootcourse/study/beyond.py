@@ -1,14 +1,20 @@
-"""The learners that came after the paper: what each reached, and after how many decisions (experiment `beyond`)."""
+"""What the learners that came after the paper reached, and every method at an equal budget of decisions or seconds."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
+from bootcourse.methods import METHODS, display_name
 from bootcourse.scenario import DEFAULT
-from bootcourse.study.results import Results
+from bootcourse.statistics import interval
+from bootcourse.study.plan import EXPERIMENTS, STUDIES
+from bootcourse.study.results import Results, StudyResults
 from bootcourse.study.tables import bracketed, escaped, score
 
 SHARE, WINDOW = 0.95, 50  # an agent has learned the way out when this share of so many episodes in a row ended ahead
+DECISIONS, SECONDS = (100_000, 1_000_000), (20, 60)  # § equal budgets; seconds of one core
+ASIDE = ("sensitivity", "clocks", "ablations", "teachers")  # they vary the method or the teacher to learn about them
 
 
 def lengths(curves: dict[str, np.ndarray]) -> np.ndarray | None:
@@ -60,3 +66,81 @@ def learner_rows(named: Mapping[str, Results]) -> tuple[list[str], list[list[str
         rows.append([name, escaped(results, method), *cells])
     learned = f"thousand decisions until {100 * SHARE:g} % of {WINDOW} episodes are ahead"
     return ["", "agents that escape", "drives that do, %", "return [95 %]", "accidents, %", learned], rows
+
+
+def at_budget(curves: dict[str, np.ndarray], decisions: float | np.ndarray) -> np.ndarray:
+    """Mean training return of the last `WINDOW` episodes that ended within so many decisions, (agents,).
+
+    curves: each (agents, episodes), NaN for episodes that were not driven. decisions: of each agent, or (agents,). NaN
+    for an agent whose whole training was shorter, or that ended fewer episodes, and where a curve is missing.
+    """
+    episodes, returns = lengths(curves), curves.get("return")
+    if episodes is None or returns is None:
+        return np.full(len(next(iter(curves.values()), [0])), np.nan)
+    found, totals = np.full(len(returns), np.nan), np.nansum(episodes, axis=1, dtype=float)
+    for i, budget in enumerate(np.broadcast_to(decisions, len(returns))):
+        ended = np.searchsorted(np.cumsum(episodes[i], dtype=float), budget, side="right")
+        if totals[i] >= budget and ended >= WINDOW:
+            found[i] = returns[i, ended - WINDOW : ended].mean(dtype=float)
+    return found
+
+
+def after_seconds(curves: dict[str, np.ndarray], seconds: float, took: np.ndarray) -> np.ndarray:
+    """`at_budget` for seconds of one core, as if every decision took equally long. took: (agents,), of the training."""
+    episodes, took = lengths(curves), np.where(took > 0, took, np.nan)
+    return at_budget(curves, np.nan if episodes is None else seconds / took * np.nansum(episodes, axis=1, dtype=float))
+
+
+class Within(NamedTuple):
+    """What agents of a method earned within a budget."""
+
+    agents: int  # that trained as long
+    returns: float  # interquartile mean over them
+    limits: tuple[float, float] | None  # its 95 % interval; one agent has none
+
+    def words(self, agents: int) -> str:
+        """ "24 [18, 26], 9 of 10". agents: of the method."""
+        there = "" if self.agents == agents else f", {self.agents} of {agents}"
+        return bracketed((self.returns, *(self.limits or (np.nan, np.nan)))) + there
+
+
+def within(returns: np.ndarray) -> Within | None:
+    """Of agents' returns at a budget (agents,), NaN where they did not get there; None if none did."""
+    there = returns[np.isfinite(returns)]
+    if not len(there):
+        return None
+    value, *limits = interval(there)
+    return Within(len(there), value, tuple(limits) if len(there) > 1 else None)
+
+
+def entries(found: StudyResults) -> list[tuple[str, Results]]:
+    """(setting, results) of the studies on the default scenario and of each experiment there that is not `ASIDE`."""
+    parts = [
+        ("quick" if name == "default" else name, results)
+        for name, results in found.results.items()
+        if STUDIES[name].scenario == DEFAULT
+    ]
+    for name, varied in found.experiments.items():
+        for variation, results in varied.items():
+            if name not in ASIDE and EXPERIMENTS[name].variations[variation].scenario == DEFAULT:
+                parts.append((name if variation in METHODS else f"{name}: {variation}", results))
+    return parts
+
+
+def budget_rows(parts: Sequence[tuple[str, Results]]) -> tuple[list[str], list[list[str]]]:
+    """(headings, rows): every method at each of `DECISIONS` and `SECONDS`, the highest at the first budget on top.
+
+    parts: `entries`. Methods of which no file tells the training returns are left out.
+    """
+    rows = []
+    for setting, results in parts:
+        for method in results.methods:
+            mine = results.of(method)
+            found = [within(at_budget(mine.curves, budget)) for budget in DECISIONS]
+            found += [within(after_seconds(mine.curves, budget, mine.seconds)) for budget in SECONDS]
+            if any(found):
+                cells = [one.words(len(mine)) if one else "–" for one in found]
+                rows.append((found[0].returns if found[0] else -np.inf, [display_name(method), setting, *cells]))
+    rows.sort(key=lambda row: -row[0])
+    headings = [f"{budget:,} decisions" for budget in DECISIONS] + [f"{budget} s of one core" for budget in SECONDS]
+    return ["method", "setting", *headings], [cells for _, cells in rows]

@@ -15,7 +15,7 @@ from bootcourse.scenario import Scenario
 from bootcourse.statistics import Estimate, mean
 from bootcourse.study import clocks, tables, teacher_worth
 from bootcourse.study import figures as training_figures
-from bootcourse.study.beyond import learner_rows
+from bootcourse.study.beyond import WINDOW, budget_rows, entries, learner_rows
 from bootcourse.study.fidelity import CLOSE, VERDICTS, fidelity
 from bootcourse.study.frontier import safe_and_fast
 from bootcourse.study.jobs import HELD_OUT
@@ -51,7 +51,7 @@ def write_report(found: StudyResults, folder: Path) -> Path:
     text += [tables.fidelity_table(findings), "### What each row's own numbers say\n"]
     text += ["\n".join(f"- **{ROWS[method]}.** {arithmetic(method)}" for method in PRINTED) + "\n"]
     text += experiments_part(found.experiments)
-    text += safe_part(found, folder)
+    text += [*budget_part(found), *safe_part(found, folder)]
     path = folder / "report.md"
     write_bytes(path, "\n".join(text).encode())
     return path
@@ -143,6 +143,16 @@ def experiments_part(experiments: dict[str, dict[str, Results]]) -> list[str]:
     return text
 
 
+def budget_part(found: StudyResults) -> list[str]:
+    """Every method at the same decisions and at the same seconds, and the planner's bound if it was computed."""
+    headings, rows = budget_rows(entries(found))
+    if not rows:
+        return []
+    bound = found.bound.get("default")
+    best = [] if bound is None else [f"The planner's bound: {tables.bracketed(mean(bound))}.\n"]
+    return ["## All methods at an equal budget\n", tables.markdown(headings, rows), *best, BUDGET]
+
+
 def safe_part(found: StudyResults, folder: Path) -> list[str]:
     """The experiment on safety: its figure and its table, if it and the planner's bound were computed."""
     varied, bound = found.experiments.get("safe"), found.bound.get("default")
@@ -197,6 +207,18 @@ how many agents reached it in their training.
 SAFE = """PPO after cloning, with one or two things more against accidents. The shield is written by hand and knows what
 no learner is told; everything else is learned from the agents' own accidents. Restarts: some training episodes begin
 shortly before an accident, fewer and fewer of them.
+"""
+
+BUDGET = f"""These are training returns, with drawn actions: the mean of an agent's last {WINDOW} episodes that ended
+within the budget, then the interquartile mean over agents with its 95 % interval. The returns of the other tables are
+those of most probable actions after the whole training. –: the training ended before, or no file tells its seconds.
+"9 of 10": the training of one agent ended before. It has a fixed number of episodes and is short where an agent crashes
+early, so the mean of the others can be too high. Decisions of the teacher in demonstrations are not counted, and
+neither are those of episodes that had not ended: of PPO, which drives 512 roads at once, up to 76,800, and the first to
+end are those with an early accident. The teacher drives the beginning of jump-start RL's training episodes.
+
+Seconds are counted as if every decision of a training took equally long. They are wall time of training and test, on a
+machine with other work, which makes them up to twice as long: small differences in these columns mean nothing.
 """
 
 LONGER_VIEW = """The paper's method with two updates per decision, a bonus of 0.5 instead of 2, batches of 128 instead
