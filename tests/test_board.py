@@ -12,6 +12,7 @@ from bootcourse.lessons.board import Row, driven, entered, ranked, read_rows, ro
 from bootcourse.scenario import DEFAULT, Sight
 from bootcourse.statistics import Estimate
 from bootcourse.storage.assets import FOLDER
+from bootcourse.study.beyond import Within
 from bootcourse.study.results import Results, StudyResults, in_assets
 from tests.hostile.payloads import PAYLOAD
 
@@ -57,7 +58,7 @@ def test_a_row_is_what_one_computes_by_hand():
     assert found.returns.value == 25 and 10 <= found.returns.low < 25 < found.returns.high <= 40
     assert (found.decisions, found.seconds) == ((300 + 200 + 200 + 50) / 4, 25)
     cells = replace_interval(found).cells(best=100)
-    assert cells == ["plain SAC", "quick", "2 of 4", "62.5", "25 [12, 38]", "25", "37.5", "0", "25"]
+    assert cells == ["plain SAC", "quick", "2 of 4", "62.5", "25 [12, 38]", "25", "37.5", "188", "25", "–", "–"]
 
 
 def replace_interval(found: Row) -> Row:
@@ -67,12 +68,31 @@ def replace_interval(found: Row) -> Row:
 def test_a_single_driver_has_the_interval_of_its_roads_and_no_cost():
     found = row_of(results("rule", [[1.0, 2.0, 3.0]], [[1, 1, 1]], [[0, 0, 0]]), "rule", "not trained")
     assert found.returns.high - 2 == pytest.approx(4.302653 / np.sqrt(3), abs=1e-5)  # Student's t with 2 degrees
-    assert found.cells(4)[2:] == ["1 of 1", "100.0", "2.0 [-0.5, 4.5]", "50", "0.0", "–", "–"]
+    assert found.cells(4)[2:] == ["1 of 1", "100.0", "2.0 [-0.5, 4.5]", "50", "0.0", "–", "–", "–", "–"]
 
 
 def test_without_lengths_of_episodes_the_decisions_are_distance_over_speed():
     found = results("sac", [[1.0, 1.0]], [[0, 0]], [[0, 0]], distance=[[1500, 600]], speed=[[10, 12]])
-    assert module.costs(found) == {"decisions": 200, "seconds": None}
+    nothing = {"at_decisions": None, "at_seconds": None}
+    assert module.costs(found) == {"decisions": 200, "seconds": None} | nothing
+
+
+@pytest.mark.parametrize("decisions, words", [(12, "12"), (999, "999"), (1499, "1,000"), (1_603_400, "1,603,000")])
+def test_decisions_are_rounded_to_thousands_from_a_thousand_on(decisions, words):
+    assert row("sac", 1.0, decisions=decisions).cells(1.0)[7] == words
+
+
+def test_a_row_says_what_was_earned_at_an_equal_budget_and_by_how_many_agents():
+    long, short = np.full(150, 1000.0), np.full(150, 600.0)  # 150,000 and 90,000 decisions
+    earned = np.arange(150.0)  # the 100,000th decision ends episode 99: 50 to 99 are the last 50
+    two = results(
+        "sac", [[1.0]] * 2, [[0]] * 2, [[0]] * 2, np.array([30.0, 40.0]),
+        decisions=np.stack([long, short]), **{"return": np.stack([earned, earned])},
+    )  # fmt: skip
+    found = row_of(two, "sac", "quick", **module.costs(two))
+    assert found.at_decisions == (1, 74.5, None)
+    assert found.at_seconds.returns == pytest.approx(((50 + 99) / 2 + (25 + 74) / 2) / 2)  # 100 and 75 episodes
+    assert replace_interval(found).cells(100)[-2:] == ["74.50, 1 of 2", "62"]
 
 
 def test_the_highest_return_stands_first_and_equal_ones_by_name():
@@ -99,16 +119,16 @@ def test_a_name_from_somebody_else_s_file_is_only_text():
     assert "\x1b" not in repr(drawn) and repr(drawn).splitlines()[1].startswith("> ")
 
 
-def test_the_board_takes_every_experiment_on_its_road_but_those_that_vary_the_paper_s_method():
+def test_the_board_takes_dagger_and_every_experiment_on_its_road_that_does_not_vary_the_paper_s_method():
     one = results("sac", [[1.0, 1.0]], [[0, 0]], [[0, 0]])
     found = StudyResults(
         {"default": one, "calibrated": one, "paper": one},
         experiments={
             "longer-view": {"γ = 0.95": one}, "sensitivity": {"γ = 0.9": one}, "clocks": {},
-            "beyond": {"ppo": one, "rlpd": one},
+            "beyond": {"ppo": one, "rlpd": one}, "teachers": {"rule, dagger": one, "late, dagger": one},
         },
     )  # fmt: skip
-    settings = ["quick", "paper", "longer-view: γ = 0.95", "beyond", "beyond"]
+    settings = ["quick", "paper", "longer-view: γ = 0.95", "beyond", "beyond", "teachers, 2 roads"]
     assert [row.setting for row in study_rows(found)] == settings
 
 
@@ -124,6 +144,11 @@ def test_everything_that_ships_has_its_row(monkeypatch):
         assert its.decisions > 100_000 and its.seconds > 10
     for method in ships.results["paper"].methods:
         assert rows[bc.display_name(method), "paper"].agents == 10
+    for method in ("ibrl", "ppo_cloned"):
+        its = rows[bc.display_name(method), "beyond"]
+        assert its.at_decisions.agents == its.at_seconds.agents == 10
+    assert rows["RLPD", "beyond"].decisions < 100_000 and rows["RLPD", "beyond"].at_decisions is None
+    assert rows["DAgger", "teachers, 200 roads"].decisions > 1000
     assert rows["planner", "best drives found"].returns.value == pytest.approx(ships.bound["default"].mean())
     assert rows["PPO after cloning", "lesson 15"].decisions == pytest.approx(300_000, rel=0.01)
     assert {method for method, setting in rows if setting == "lesson 15"} == {
@@ -202,6 +227,29 @@ def test_rows_are_kept_in_a_file_and_shown_with_later_ones(few_roads, tmp_path):
     assert {row.method for row in both.rows if row.own} == {"alone", "left"}
     assert bc.board(path).rows == both.rows and set(first.rows) < set(both.rows)
     assert len(bc.board(alone, keep=path).rows) == len(both.rows), "a row is replaced by its newer self"
+
+
+def test_a_kept_row_keeps_what_was_earned_at_an_equal_budget(tmp_path):
+    first = row("a", 1.0, at_decisions=Within(1, 70.0, None), at_seconds=Within(1, 60.0, None), own=True)
+    module.keep_rows(tmp_path / "mine.json", [], [first])
+    assert read_rows(tmp_path / "mine.json") == [first]
+
+
+@pytest.mark.parametrize("its", [Within(2, 1.0, (0.0, 2.0)), Within(1, 1e9, None), Within(1, 1.0, (2.0, 0.0))])
+def test_a_row_whose_numbers_at_an_equal_budget_contradict_each_other_is_refused(its):
+    with pytest.raises(ValueError, match="the numbers of 'a' contradict each other"):
+        row("a", 1.0, at_decisions=its)
+
+
+def test_what_was_earned_on_another_road_is_not_shown_at_an_equal_budget(few_roads):
+    trained = bc.Training([bc.settings_for("bc")], 1, replace(DEFAULT, name="mine")).run(progress=False)
+    curves = {"decisions": np.full((1, 120), 1000.0), "return": np.ones((1, 120))}
+    (there,), (here,) = (
+        module.agents_rows([module.Entrant("bc-0", trained.agents[0], scenario, "rule", curves, 30.0)], "mine")
+        for scenario in (trained.scenario, DEFAULT)
+    )
+    assert there.at_decisions is None and there.at_seconds is None and there.decisions == 120_000
+    assert here.at_decisions == here.at_seconds == (1, 1.0, None)
 
 
 def test_a_file_that_is_not_a_board_s_is_refused_and_stays(few_roads, tmp_path):

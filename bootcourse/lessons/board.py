@@ -3,8 +3,9 @@
     board()                        # what ships
     board("runs/mine", my_rule)    # and the agents in a folder, and a rule controller of your own
 
-Everyone drives the 1,000 roads of block 1 of the default scenario, on which no agent of the kit trains. Experiments
-that vary the paper's method or the teacher to learn about them (`ASIDE`) stay out: their tables stand in the report.
+Everyone drives the 1,000 roads of block 1 of the default scenario, on which no agent of the kit trains. The last
+two columns compare at an equal budget (study/beyond.py). Experiments that vary the paper's method or the teacher to
+learn about them (`ASIDE` there) stay out, but for DAgger: their tables stand in the report.
 """
 
 import textwrap
@@ -12,93 +13,59 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
-from typing import Annotated, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-from msgspec import Meta, Struct, convert, to_builtins
 from msgspec.structs import replace as changed
 
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.errors import BootcourseError
-from bootcourse.files import decoding, read_json
+from bootcourse.files import read_json
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.teachers import Rule, course_rule, teacher_of, teacher_policy
 from bootcourse.learn.training import Result
+from bootcourse.lessons.board_row import HEADINGS, Row, keep_rows, kept_rows, read_rows
 from bootcourse.lessons.ppo_reference import KINDS, reference
 from bootcourse.markup import html, joined
-from bootcourse.methods import DRIVERS, METHODS, display_name
+from bootcourse.methods import DRIVERS, display_name
 from bootcourse.policies import Policy, idle_policy, random_policy, rule_policy
 from bootcourse.scenario import DEFAULT, Scenario
-from bootcourse.statistics import ESCAPES, Estimate, mean
+from bootcourse.statistics import ESCAPES, mean
 from bootcourse.storage.assets import FOLDER
 from bootcourse.storage.runs import find_runs, load_run
-from bootcourse.storage.sealed import read_sealed, write_sealed
-from bootcourse.study.beyond import lengths
+from bootcourse.study.beyond import (
+    DECISIONS,
+    SECONDS,
+    WINDOW,
+    Within,
+    after_seconds,
+    at_budget,
+    entries,
+    lengths,
+    within,
+)
 from bootcourse.study.jobs import HELD_OUT
-from bootcourse.study.plan import EXPERIMENTS, STUDIES
 from bootcourse.study.results import Results, StudyResults, in_assets
-from bootcourse.study.tables import bracketed, score
+from bootcourse.study.tables import score
 
 ROADS = held_out_seeds(HELD_OUT, 1000)
-ASIDE = ("sensitivity", "clocks", "ablations", "teachers")
-LONGEST = 48  # letters of a name that a table shows
-MOST = 1e6  # of a return
-FORMAT = "bootcourse board 1"
-HEADINGS = ("method", "setting", "escape", "drives %", "return [95 %]", "best %", "accidents %", "decisions", "seconds")
 BELOW = (
     f"{len(ROADS):,} roads that no agent of the kit trained on. setting: quick, paper, the name of an experiment, or "
     "lesson 15, whose networks are small. escape: the agents that escape on at least "
     f"{100 * ESCAPES:g} % of them; drives: the share of all drives that escape. return: the interquartile mean over "
-    "agents, of a single driver the mean over roads; best: its share of the planner's. decisions, seconds of one core: "
-    "what the training of one agent took, – where it was not recorded; a method with demonstrations also had 200 "
-    "drives of its teacher, about 30,000 decisions."
+    "agents, of a single driver the mean over roads; best: its share of the planner's. decisions: of one agent's whole "
+    "training; a method with demonstrations also had 200 drives of its teacher, about 30,000 decisions. seconds of one "
+    "core: wall time of training and test in our studies, of training alone for your own; other work on the machine "
+    "makes it up to twice as long. The planner has no training and takes about 12.5 ms for a decision."
 )
-
-Share = Annotated[float, Meta(ge=0, le=1)]
-Cost = Annotated[float, Meta(ge=0)]
-Name = Annotated[str, Meta(max_length=1000)]
-
-
-class Row(Struct, frozen=True, forbid_unknown_fields=True):
-    """One line of the board. None: not known."""
-
-    method: Name
-    setting: Name
-    agents: Annotated[int, Meta(ge=1)]
-    returns: Estimate
-    escapers: Annotated[int, Meta(ge=0)] | None = None  # agents that escape
-    success: Share | None = None  # of all drives
-    accidents: Share | None = None  # of all drives
-    decisions: Cost | None = None  # of training, per agent
-    seconds: Cost | None = None  # of training, per agent, on one core
-    own: bool = False  # entered by the user
-
-    def __post_init__(self):
-        value, low, high = self.returns
-        if not -MOST <= low <= high <= MOST or not abs(value) <= MOST or (self.escapers or 0) > self.agents:
-            raise ValueError(f"the numbers of {self.method!r:.40} contradict each other")
-
-    def cells(self, best: float) -> list[str]:
-        """In words, in the order of `HEADINGS`. best: the planner's return."""
-        shares = [None if share is None else f"{100 * share:.1f}" for share in (self.success, self.accidents)]
-        thousands = None if self.decisions is None else round(self.decisions, -3)
-        costs = [None if cost is None else f"{cost:,.0f}" for cost in (thousands, self.seconds)]
-        escapers = None if self.escapers is None else f"{self.escapers} of {self.agents}"
-        found = [
-            escapers,
-            shares[0],
-            bracketed(self.returns),
-            f"{100 * self.returns.value / best:.0f}",
-            shares[1],
-            *costs,
-        ]
-        return [_short(self.method), _short(self.setting), *("–" if cell is None else cell for cell in found)]
-
-
-def _short(name: str) -> str:
-    """A name on one line, its middle left out if it is long, without control characters, which a terminal obeys."""
-    name = "".join(letter if letter.isprintable() else "?" for letter in name)
-    return name if len(name) <= LONGEST else f"{name[: LONGEST // 2]}…{name[1 - LONGEST // 2 :]}"
+EQUAL = (
+    f"The last two columns are at an equal budget: {DECISIONS[0]:,} decisions, or {SECONDS[0]} seconds of one core as "
+    f"if every decision took equally long. They show the return in training, with drawn actions: of the last {WINDOW} "
+    "episodes that ended by then, the interquartile mean over the agents that trained as long. 9 of 10: one did not. "
+    "A training has a fixed number of episodes and is short where an agent crashes early, so the mean of the others "
+    "can be too high. Decisions of episodes that had not ended are not counted, of PPO's 512 roads up to 76,800, "
+    "and the first to end are those with an early accident. –: not recorded, or the training ended before."
+)
 
 
 @dataclass(frozen=True, repr=False)
@@ -121,7 +88,7 @@ class Board:
             sides = [cell.ljust if column < 2 else cell.rjust for column, cell in enumerate(cells)]
             lines.append(mark + "  ".join(side(width) for side, width in zip(sides, widths, strict=True)).rstrip())
         yours = ["> yours"] if any(row.own for row in self.rows) else []
-        return "\n".join([*lines, "", *yours, textwrap.fill(BELOW, 116)])
+        return "\n".join([*lines, "", *yours, textwrap.fill(BELOW, 116), "", textwrap.fill(EQUAL, 116)])
 
     def _repr_html_(self) -> str:
         head = joined(html('<th scope="col">{}</th>', heading) for heading in HEADINGS)
@@ -130,7 +97,8 @@ class Board:
             first = html("<td><strong>{}</strong> (yours)</td>", name) if row.own else html("<td>{}</td>", name)
             lines.append(html("<tr>{}{}</tr>", first, joined(html("<td>{}</td>", cell) for cell in cells)))
         table = html("<table><thead><tr>{}</tr></thead><tbody>{}</tbody></table>", head, joined(lines))
-        return str(html('<div style="overflow-x: auto" tabindex="0">{}</div><p>{}</p>', table, BELOW))
+        below = joined(html("<p>{}</p>", text) for text in (BELOW, EQUAL))
+        return str(html('<div style="overflow-x: auto" tabindex="0">{}</div>{}', table, below))
 
 
 def board(*own: str | Path | Result | Rule, keep: str | Path | None = None, teacher: Rule = course_rule) -> Board:
@@ -192,20 +160,13 @@ def shipped_rows() -> tuple[Row, ...]:
 
 
 def study_rows(found: StudyResults) -> list[Row]:
-    """The rows of the studies on the default scenario, and of every experiment there that is not `ASIDE`."""
-    parts = []  # (setting, results)
-    for name, results in found.results.items():
-        if name == "default":
-            parts.append(("quick", timed(results)))
-        elif STUDIES[name].scenario == DEFAULT:
-            parts.append((name, results))
-    for name, varied in found.experiments.items():
-        for variation, results in varied.items():
-            if name not in ASIDE and EXPERIMENTS[name].variations[variation].scenario == DEFAULT:
-                parts.append((name if variation in METHODS else f"{name}: {variation}", results))
+    """The rows of the studies on the default scenario, of every experiment there that is not `ASIDE`, and of DAgger."""
+    parts = [(setting, timed(its) if setting == "quick" else its) for setting, its in entries(found)]
+    if dagger := found.experiments.get("teachers", {}).get("rule, dagger"):
+        parts.append((f"teachers, {dagger.tested['returns'].shape[1]} roads", dagger))
     return [
-        row_of(results, method, words, **costs(results.of(method)))
-        for words, results in parts
+        row_of(results, method, setting, **costs(results.of(method)))
+        for setting, results in parts
         for method in results.methods
     ]
 
@@ -221,9 +182,27 @@ def timed(results: Results) -> Results:
     return replace(results, seconds=seconds)
 
 
-def costs(results: Results) -> dict[str, float | None]:
-    """{decisions, seconds}: the means over the agents of what their training took, None where no file tells."""
-    return {"decisions": known(decisions_of(results.curves)), "seconds": known(results.seconds)}
+Cost = dict[str, float | Within | None]
+
+
+def costs(results: Results) -> Cost:
+    """What the training of some agents cost, and what they earned at an equal budget, as `in_row` puts it."""
+    return in_row(of_agents(results.curves, results.seconds))
+
+
+def of_agents(curves: dict[str, np.ndarray], seconds: np.ndarray) -> dict[str, np.ndarray]:
+    """Numbers of each agent, (agents,), NaN where no file tells. curves: each (agents, episodes)."""
+    return {
+        "decisions": decisions_of(curves),
+        "seconds": seconds,
+        "at_decisions": at_budget(curves, DECISIONS[0]),
+        "at_seconds": after_seconds(curves, SECONDS[0], seconds),
+    }
+
+
+def in_row(found: dict[str, np.ndarray]) -> Cost:
+    """The fields of a row: mean decisions and seconds, and the returns at each budget; None if not known."""
+    return {name: within(its) if name.startswith("at_") else known(its) for name, its in found.items()}
 
 
 def decisions_of(curves: dict[str, np.ndarray]) -> np.ndarray:
@@ -259,7 +238,7 @@ class Entrant(NamedTuple):
     agent: Agent
     scenario: Scenario  # that it was trained on
     teacher: str  # see `teachers.teacher_name`
-    decisions: float
+    curves: dict[str, np.ndarray]  # of its training, each (1, episodes)
     seconds: float
 
 
@@ -278,11 +257,11 @@ def entered(one: str | Path | Result | Rule, teacher: Rule = course_rule) -> lis
 
 def of_training(result: Result) -> list[Entrant]:
     """The agents of a training."""
-    seconds = result.seconds / len(result.agents)
-    return [
-        Entrant(f"{agent.settings.method}-{agent.settings.seed}", agent, result.scenario, result.teacher, its, seconds)
-        for agent, its in zip(result.agents, decisions_of(result.curves), strict=True)
-    ]
+    found, seconds = [], result.seconds / len(result.agents)
+    for i, agent in enumerate(result.agents):
+        name, curves = f"{agent.settings.method}-{agent.settings.seed}", {n: v[[i]] for n, v in result.curves.items()}
+        found.append(Entrant(name, agent, result.scenario, result.teacher, curves, seconds))
+    return found
 
 
 def of_folder(folder: Path, teacher: Rule) -> list[Entrant]:
@@ -291,9 +270,9 @@ def of_folder(folder: Path, teacher: Rule) -> list[Entrant]:
     for path in find_runs(folder):
         run = load_run(path, teacher)
         agent, made = run.agent.taught_by(teacher_of(teacher, DEFAULT)), run.provenance
-        (decisions,) = decisions_of({name: values[None] for name, values in run.curves.items()})
+        curves = {name: values[None] for name, values in run.curves.items()}
         seconds = made["seconds"] / made["agents"]
-        found.append(Entrant(path.name, agent, run.scenario, made.get("teacher", "rule"), decisions, seconds))
+        found.append(Entrant(path.name, agent, run.scenario, made.get("teacher", "rule"), curves, seconds))
     return found
 
 
@@ -315,37 +294,9 @@ def agents_rows(entrants: Sequence[Entrant], where: str) -> list[Row]:
         words += [f"trained on {scenario.name}"] if scenario != DEFAULT else []
         words += [f"taught by {teacher.partition(' ')[0]}"] if teacher != "rule" else []
         results = driven(settings.method, [one.agent.as_policy() for one in group])
-        took = {name: known([getattr(one, name) for one in group]) for name in ("decisions", "seconds")}
+        each = [of_agents(one.curves, np.array([one.seconds])) for one in group]
+        took = in_row({name: np.concatenate([its[name] for its in each]) for name in each[0]})
+        if scenario != DEFAULT:  # its returns are those of another road
+            took |= {"at_decisions": None, "at_seconds": None}
         rows.append(row_of(results, settings.method, ", ".join(words), own=True, **took))
-    return rows
-
-
-# Kept in a file -------------------------------------------------------------------------------------
-
-
-class Kept(Struct, forbid_unknown_fields=True):
-    """What the file of `keep` holds, beside its seal."""
-
-    format: str
-    rows: list[Row]
-
-
-def kept_rows(path: Path) -> list[Row]:
-    """The rows in a file to which others will be added; none if it is not there. Raises BootcourseError as above."""
-    if path.suffix != ".json":
-        raise BootcourseError(f"{path} does not end in .json: give the file that ending.")
-    return read_rows(path) if path.exists() else []
-
-
-def read_rows(path: Path) -> list[Row]:
-    """The rows that `keep` wrote. Raises BootcourseError if the file is missing or damaged."""
-    content = read_sealed(path, FORMAT)
-    with decoding(path):
-        return [changed(row, own=True) for row in convert(content, Kept).rows]
-
-
-def keep_rows(path: Path, before: Sequence[Row], mine: Sequence[Row]) -> list[Row]:
-    """Write both to a file; of two rows with the same method and setting, mine. Returns what the file holds."""
-    rows = list({(row.method, row.setting): row for row in (*before, *mine)}.values())
-    write_sealed(path, {"format": FORMAT, "rows": to_builtins(rows)})
     return rows
