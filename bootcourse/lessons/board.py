@@ -64,7 +64,8 @@ EQUAL = (
     "episodes that ended by then, the interquartile mean over the agents that trained as long. 9 of 10: one did not. "
     "A training has a fixed number of episodes and is short where an agent crashes early, so the mean of the others "
     "can be too high. Decisions of episodes that had not ended are not counted, of PPO's 512 roads up to 76,800, "
-    "and the first to end are those with an early accident. –: not recorded, or the training ended before."
+    "and the first to end are those with an early accident. The teacher drives the beginning of "
+    "jump-start RL's episodes. –: not recorded, or the training ended before."
 )
 
 
