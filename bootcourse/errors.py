@@ -1,6 +1,8 @@
-"""The exception for user mistakes, suggestions for misspelt words, and the check of a whole number."""
+"""The exceptions for user mistakes, suggestions for misspelt words, and the check of a whole number."""
 
 import operator
+from collections.abc import Callable
+from contextlib import contextmanager
 
 
 class BootcourseError(ValueError):
@@ -8,6 +10,41 @@ class BootcourseError(ValueError):
 
     The command line prints the sentence and exits with status 2; a notebook shows it as the error's last line.
     """
+
+
+class RuleFailed(BootcourseError):
+    """A user's rule raised an exception, which is the `__cause__`, or returned what is no action.
+
+    name: the rule's; how: "raised ..." or "returned ..."; road: the index, among those that the rule was asked about,
+    of the road where it failed; None for a rule that answers for all roads in one call.
+    """
+
+    def __init__(self, name: str, how: str, road: int | None):
+        super().__init__(name, how, road)
+        self.name, self.how, self.road = name, how, road
+        self.where = "in a call for all roads" if road is None else f"on road {road}"
+
+    def __str__(self) -> str:
+        return f"Your rule '{self.name}' failed {self.where}: it {self.how}."
+
+
+@contextmanager
+def naming(place: Callable[[int], str]):
+    """A `RuleFailed` of the block says where: place(road) is "on the road with seed 7, at decision 12" or the like.
+
+    Decisions count from 0: at decision k the ego has made k decisions.
+    """
+    try:
+        yield
+    except RuleFailed as error:
+        if error.road is not None:
+            error.where = place(error.road)
+        raise
+
+
+def described(error: Exception) -> str:
+    """An exception's type and message in one line, without a full stop."""
+    return f"{type(error).__name__}: {' '.join(str(error).split())}".rstrip(".: ")
 
 
 def did_you_mean(word: str, choices) -> str:

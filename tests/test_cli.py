@@ -75,6 +75,50 @@ def test_a_rule_of_one_s_own_teaches_and_only_it_goes_on(bootcourse, tmp_path, m
     assert wrong.status == 2 and "no function 'leads'" in wrong.err
 
 
+TEACHERS = """
+def nine(cars, scenario):
+    return 9
+
+def no_lane(cars, scenario):
+    return {}["lane"]
+
+def takes_one(cars):
+    return 4
+"""
+FIRST_ROAD = "failed on the road with seed 17179869184, at decision 0: it"
+
+
+@pytest.mark.parametrize(
+    ("teacher", "sentence"),
+    [
+        ("t.py:nine", f"Your rule 'nine' {FIRST_ROAD} returned 9, but an action is a whole number"),
+        ("t.py:no_lane", f"Your rule 'no_lane' {FIRST_ROAD} raised KeyError: 'lane'."),
+        ("t.py:takes_one", f"Your rule 'takes_one' {FIRST_ROAD} raised TypeError: takes_one() takes 1"),
+        ("bad.py:nine", "bad.py cannot be loaded: SyntaxError: '(' was never closed (bad.py, line 1)."),
+        ("lacks.py:nine", "lacks.py cannot be loaded: ModuleNotFoundError: No module named 'absent'."),
+        ("t.txt:nine", "--teacher t.txt:nine: give a file and a function in it"),
+    ],
+)
+def test_what_is_wrong_with_a_teacher_is_one_sentence(teacher, sentence, bootcourse, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    files = {"t.py": TEACHERS, "t.txt": TEACHERS, "bad.py": "nine = (", "lacks.py": "import absent"}
+    for name, text in files.items():
+        Path(name).write_text(text)
+    answer = bootcourse("train", "--seeds", 1, "--episodes", 2, "--out", "new", "--quiet", "--teacher", teacher)
+    assert answer.status == 2 and answer.err.startswith(sentence) and len(answer.err.splitlines()) == 1, answer.err
+    assert not Path("new").exists()
+
+
+@pytest.mark.parametrize(
+    "arguments", [("evaluate", "idle"), ("evaluate", "rule", "--board"), ("drive", "random", "--out", "drive.npz")]
+)
+def test_a_driver_without_a_teacher_is_given_none(arguments, bootcourse, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    answer = bootcourse(*arguments, "--teacher", "t.py:nine")
+    assert answer.status == 2 and answer.out == "" and list(tmp_path.iterdir()) == []
+    assert answer.err == "--teacher t.py:nine: rule, idle, random drive without a teacher: leave it out.\n"
+
+
 def test_only_agents_that_differ_in_nothing_but_their_seed_are_averaged():
     def driver(label, **settings):
         return Driver(label, None, DEFAULT, settings_for(**settings))

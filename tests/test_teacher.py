@@ -1,14 +1,19 @@
 """A teacher of your own: it drives, demonstrates and labels in place of the course's rule."""
 
+import copy
 import math
+import traceback
 from dataclasses import replace
 
 import numpy as np
 import pytest
 import torch
 
-from bootcourse.errors import BootcourseError
-from bootcourse.learn.demonstrations import collect
+from bootcourse.episodes.evaluate import evaluate, held_out_seeds
+from bootcourse.episodes.record import record
+from bootcourse.errors import BootcourseError, RuleFailed
+from bootcourse.learn import training as learn_training
+from bootcourse.learn.demonstrations import FIRST_SEED, collect, demonstration_rows
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.teachers import (
     ahead,
@@ -21,10 +26,11 @@ from bootcourse.learn.teachers import (
 )
 from bootcourse.learn.training import Training
 from bootcourse.lessons.example_teachers import examine
+from bootcourse.policies import idle_policy
 from bootcourse.road.state import EGO, LANE, TRAP_1, X
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.rule import rule
-from bootcourse.scenario import DEFAULT
+from bootcourse.scenario import DEFAULT, IDLE
 from bootcourse.storage.runs import load_checkpoint, load_run, save_checkpoint, save_runs
 
 TWO = with_seeds(settings_for("bootstrapped", hidden=(8,), buffer_size=2000, demonstration_episodes=20), 2)
@@ -97,6 +103,88 @@ def test_what_is_no_action_is_named(answer):
     env.reset(seed=0)
     with pytest.raises(BootcourseError, match="an action is a whole number from 0 to 8"):
         teacher_of(lambda cars, scenario: answer)(env.cars)
+
+
+def after(calls: int, then):
+    """A rule that keeps straight for so many calls, and then does something else."""
+    left = iter(range(calls))
+
+    def follows_first(cars, scenario):
+        return then() if next(left, None) is None else 4
+
+    return follows_first
+
+
+def no_lane():
+    return {}["lane"]
+
+
+RAISED = "it raised KeyError: 'lane'."
+
+
+def test_a_rule_that_fails_while_it_drives_names_the_road_and_the_decision():
+    first = held_out_seeds(1, 4)[0]
+    with pytest.raises(RuleFailed) as failed:
+        evaluate(teacher_policy(after(4 * 12 + 2, no_lane)), 4)  # it is asked about four roads at a time
+    where = f"on the road with seed {first + 2}, at decision 12"
+    assert str(failed.value) == f"Your rule 'follows_first' failed {where}: {RAISED}"
+    with pytest.raises(RuleFailed, match="with seed 7, at decision 3: it returned 9, but an action is a whole number"):
+        record(teacher_policy(after(3, lambda: 9)), [7])
+
+
+def test_the_rule_s_own_exception_and_its_line_stay_behind_the_sentence():
+    with pytest.raises(RuleFailed) as failed:
+        record(teacher_policy(after(0, no_lane)), [7])
+    cause = failed.value.__cause__
+    assert type(cause) is KeyError
+    assert "follows_first" in [frame.name for frame in traceback.extract_tb(cause.__traceback__)]
+
+
+def test_a_rule_that_fails_while_it_demonstrates_names_the_road_and_the_decision():
+    with pytest.raises(RuleFailed, match=f"with seed {FIRST_SEED + 1}, at decision 5: it raised"):
+        collect(2, teacher=after(2 * (1 + 5) + 1, no_lane))  # it is asked about decision 0 twice
+    with pytest.raises(RuleFailed, match=f"with seed {FIRST_SEED + 1}, at decision 0: it raised"):
+        collect(2, policy=idle_policy, teacher=after(1, no_lane))
+    with pytest.raises(RuleFailed, match="with seed 7, at decision 9: it raised"):
+        demonstration_rows(record(idle_policy, [7]), after(9, no_lane))
+
+
+@pytest.mark.parametrize(
+    ("calls", "where"),
+    [
+        (0, "on road 0 of agent 0 in training, at decision 0"),
+        (8 * 12 + 6, "on road 2 of agent 1 in training, at decision 12"),
+        (8 * 150 + 5, "on road 1 of agent 1 in training, at decision 0"),  # of its second episode
+        (8 * 151 + 5, "on road 1 of agent 1 in training, at an episode's end"),
+    ],
+)
+def test_a_rule_that_fails_while_it_teaches_names_the_agent_and_its_road(calls, where, monkeypatch):
+    two = with_seeds(settings_for("soft", hidden=(8,), buffer_size=2000), 2)
+    monkeypatch.setattr(Training, "update", lambda training: None)
+    monkeypatch.setattr(learn_training, "sample_actions", lambda policy, uniforms: np.full(uniforms.shape, IDLE))
+    with pytest.raises(RuleFailed, match=f"failed {where}: {RAISED}"):
+        Training(two, 20, teacher=after(calls, no_lane)).run(progress=False)
+
+
+def test_a_rule_for_all_roads_that_raises_names_no_road():
+    with pytest.raises(RuleFailed, match="failed in a call for all roads: it raised KeyError"):
+        collect(2, teacher=all_roads(lambda cars, scenario: no_lane()))
+
+
+def test_an_interrupt_and_an_exception_of_the_library_s_own_rules_pass():
+    def interrupted(cars, scenario):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        record(teacher_policy(interrupted), [7])
+    with pytest.raises(IndexError):
+        teacher_of(course_rule)(np.zeros((2, 0, 10)))
+
+
+def test_what_a_rule_failed_of_survives_the_way_from_another_process():
+    with pytest.raises(RuleFailed) as failed:
+        record(teacher_policy(after(0, lambda: 9)), [7])
+    assert str(copy.copy(failed.value)) == str(failed.value)  # rebuilt from what a process would send
 
 
 def test_a_rule_that_writes_into_its_cars_changes_no_road():

@@ -71,6 +71,8 @@ def print_board(who: list[str], keep: Path | None, teacher: str) -> None:
     own = [one for one in who if one not in BUILT_IN]
     for one in own:
         check_driver(one)
+    if teacher and not own:
+        refuse_teacher(teacher)
     print(board(*own, keep=keep, teacher=teacher_from(teacher)))
 
 
@@ -78,6 +80,11 @@ def check_driver(who: str) -> None:
     """Raise BootcourseError for what is neither a built-in driver nor there."""
     if who not in BUILT_IN and not Path(who).exists():
         raise BootcourseError(f"Driver {did_you_mean(who, BUILT_IN)}, or give a folder that `bootcourse train` wrote.")
+
+
+def refuse_teacher(teacher: str) -> None:
+    """Raise BootcourseError, because a built-in driver has no use for a teacher."""
+    raise BootcourseError(f"--teacher {teacher}: {', '.join(BUILT_IN)} drive without a teacher: leave it out.")
 
 
 class Driver(NamedTuple):
@@ -106,8 +113,8 @@ def alike(drivers: list[Driver]) -> dict[str, list[str]]:
 def drivers_of(who: str, scenario: str, sample: bool, seed: int, teacher: str) -> list[Driver]:
     """A built-in driver, or the agent of each run in a folder.
 
-    Raises BootcourseError for a name that is neither, for an agent that sees another number of cars, and for one that
-    drives with another teacher.
+    Raises BootcourseError for a name that is neither, for an agent that sees another number of cars, for one that
+    drives with another teacher, and for a teacher with a built-in driver.
     """
     import numpy as np
 
@@ -116,6 +123,8 @@ def drivers_of(who: str, scenario: str, sample: bool, seed: int, teacher: str) -
 
     check_driver(who)
     if who in BUILT_IN:
+        if teacher:
+            refuse_teacher(teacher)
         road = named(scenario) if scenario else DEFAULT
         built_in = {
             "rule": rule_policy(road),

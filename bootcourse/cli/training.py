@@ -16,7 +16,7 @@ from pathlib import Path
 
 import typer
 
-from bootcourse.errors import BootcourseError, did_you_mean
+from bootcourse.errors import BootcourseError, described, did_you_mean
 from bootcourse.methods import METHODS
 
 INTERRUPTED = 130  # exit status
@@ -108,11 +108,14 @@ def teacher_from(place: str):
         return teacher_named(place or RULE)
     if not colon:
         raise BootcourseError(f"Teacher {did_you_mean(place, TEACHERS)}, or give a rule of your own, FILE.py:FUNCTION.")
-    if not Path(file).is_file():
+    if not Path(file).is_file() or Path(file).suffix != ".py":
         raise BootcourseError(f"--teacher {place}: give a file and a function in it, such as my_rule.py:my_rule.")
     spec = importlib.util.spec_from_file_location(Path(file).stem, file)
     module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
+    try:
+        spec.loader.exec_module(module)
+    except Exception as error:  # whatever the user's file does
+        raise BootcourseError(f"{file} cannot be loaded: {described(error)}.") from error
     if not callable(getattr(module, function, None)):
         raise BootcourseError(f"{file} has no function '{function}': write it there, or give another name.")
     return getattr(module, function)

@@ -3,12 +3,13 @@
 The environment is a gymnasium `VectorEnv`, such as `TrapVectorEnv`; only the trap has a true state, `cars`.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
 from gymnasium.vector import VectorEnv
 
+from bootcourse.errors import naming
 from bootcourse.policies import Policy, PolicyOutput
 
 
@@ -30,7 +31,7 @@ class Step(NamedTuple):
 def steps(policy: Policy, env: VectorEnv, seeds: Sequence[int] | int) -> Iterator[Step]:
     """Drive one episode on each road of `env`, reset with `seeds`; yields each decision until all are over.
 
-    A policy with a method `reset(roads)` is reset first.
+    A policy with a method `reset(roads)` is reset first. A rule's RuleFailed names the road's seed and the decision.
     """
     if hasattr(policy, "reset"):
         policy.reset(env.num_envs)
@@ -38,7 +39,8 @@ def steps(policy: Policy, env: VectorEnv, seeds: Sequence[int] | int) -> Iterato
     running = np.ones(env.num_envs, dtype=bool)
     while running.any():
         cars = env.cars.copy() if hasattr(env, "cars") else None
-        output = policy(observations, cars)
+        with naming(place(seeds, getattr(env, "decisions", None))):
+            output = policy(observations, cars)
         seen, rewards, terminated, truncated, infos = env.step(output.actions)
         reached = reached_observations(seen, infos)
         yield Step(
@@ -47,6 +49,16 @@ def steps(policy: Policy, env: VectorEnv, seeds: Sequence[int] | int) -> Iterato
         )  # fmt: skip
         running = running & ~(terminated | truncated)
         observations = seen
+
+
+def place(seeds: Sequence[int] | int, decisions: np.ndarray) -> Callable[[int], str]:
+    """For `errors.naming`: a road's seed, and how many decisions were made on it, (roads,)."""
+
+    def words(road: int) -> str:
+        seed = seeds[road] if np.iterable(seeds) else seeds + road
+        return f"on the road with seed {seed}, at decision {decisions[road]}"
+
+    return words
 
 
 def reached_observations(observations: np.ndarray, infos: dict) -> np.ndarray:

@@ -7,7 +7,7 @@ from gymnasium.vector import AutoresetMode
 
 from bootcourse.episodes.driving import steps
 from bootcourse.episodes.rollout import Rollout
-from bootcourse.errors import whole
+from bootcourse.errors import naming, whole
 from bootcourse.files import provenance
 from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.road.vector_env import TrapVectorEnv
@@ -111,7 +111,8 @@ def record_on_highway_env(policy: Policy, seed: int, env, label: str = "driver")
     recorder, over = EpisodeRecorder(road.cars(), observation), False
     while not over:
         cars = road.cars()[None]
-        output = policy(observation[None], cars)
+        with naming(lambda _: f"on the road with seed {seed}, at decision {len(recorder.rewards)}"):
+            output = policy(observation[None], cars)
         recorder.add_decision(output, rule(cars, scenario))
         observation, reward, terminated, truncated, info = env.step(int(output.actions[0]))
         recorder.add_outcome(road.trace, observation, reward, list(info["rewards"].values()))

@@ -7,9 +7,9 @@ import torch
 from gymnasium.vector import AutoresetMode
 from torch import Tensor
 
-from bootcourse.episodes.driving import steps
+from bootcourse.episodes.driving import place, steps
 from bootcourse.episodes.rollout import Rollout
-from bootcourse.errors import BootcourseError
+from bootcourse.errors import BootcourseError, naming
 from bootcourse.learn.replay_buffer import encode_transitions
 from bootcourse.learn.teachers import Rule, course_rule, teacher_of
 from bootcourse.policies import Policy, PolicyOutput
@@ -36,8 +36,11 @@ def collect(
         return PolicyOutput(teach(cars) if mu is None else mu)  # mu was computed after the last step
 
     for step in steps(policy or follow_teacher, env, FIRST_SEED):
-        mu = teach(step.cars) if mu is None else mu
-        next_mu = teach(step.next_cars)
+        if mu is None:
+            with naming(place(FIRST_SEED, np.zeros(episodes, dtype=np.int64))):
+                mu = teach(step.cars)
+        with naming(place(FIRST_SEED, env.decisions)):
+            next_mu = teach(step.next_cars)
         seen = step.observations, step.next_observations
         each = encode_transitions(*seen, step.output.actions, step.rewards, step.terminated, mu, next_mu)
         rows.append(each[step.running])
@@ -61,7 +64,8 @@ def demonstration_rows(rollouts: Sequence[Rollout], teacher: Rule = course_rule)
 def _rows(rollout: Rollout, teacher: Rule) -> Tensor:
     decisions, per_decision = len(rollout.actions), rollout.scenario.clock.steps
     at = np.minimum(np.arange(decisions + 1) * per_decision, len(rollout.states) - 1)
-    mu = teacher_of(teacher, rollout.scenario)(np.ascontiguousarray(rollout.states[at]))
+    with naming(lambda decision: f"on the road with seed {rollout.seed}, at decision {decision}"):
+        mu = teacher_of(teacher, rollout.scenario)(np.ascontiguousarray(rollout.states[at]))
     terminated = np.zeros(decisions)
     terminated[-1] = rollout.accident != 0
     seen = rollout.observations

@@ -23,7 +23,7 @@ from torch import Tensor
 
 from bootcourse.episodes.driving import reached_observations
 from bootcourse.episodes.rollout import Rollout
-from bootcourse.errors import BootcourseError, whole
+from bootcourse.errors import BootcourseError, naming, whole
 from bootcourse.learn.agent import Agent, sample_actions
 from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.curves import Curves
@@ -157,7 +157,13 @@ class Training:
 
     def taught(self) -> np.ndarray:
         """The teacher's actions in the present states, (envs,); zeros where it is not asked."""
-        return self._teach(self.env.cars) if self.asks else np.zeros(self.env.num_envs, dtype=np.int64)
+        if not self.asks:
+            return np.zeros(self.env.num_envs, dtype=np.int64)
+        with naming(lambda road: f"on {self._road(road)}, at decision {self.env.decisions[road]}"):
+            return self._teach(self.env.cars)
+
+    def _road(self, road: int) -> str:
+        return f"road {road % self.envs_per_agent} of agent {road // self.envs_per_agent} in training"
 
     def step(self) -> None:
         """One decision in every environment, and the updates that follow it."""
@@ -174,7 +180,8 @@ class Training:
         done, next_rule_actions = terminated | truncated, self.taught()
         reached_rule_actions = next_rule_actions.copy()
         if done.any() and self.asks:  # these roads are already reset: μ(s') is of the old episode's last state
-            reached_rule_actions[done] = self._teach(self.env.final_cars[done])
+            with naming(lambda i: f"on {self._road(np.flatnonzero(done)[i])}, at an episode's end"):
+                reached_rule_actions[done] = self._teach(self.env.final_cars[done])
         reached = reached_observations(next_states, infos)
         rows = encode_transitions(
             self.states, reached, actions, rewards, terminated, self.rule_actions, reached_rule_actions

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from pathlib import Path
 from types import FunctionType, ModuleType
 
-from bootcourse.errors import BootcourseError
+from bootcourse.errors import BootcourseError, described
 from bootcourse.files import write_bytes
 from bootcourse.lessons.order import names_used
 
@@ -90,6 +90,5 @@ def read(name: str) -> Callable:
         exec(compile(path.read_text(encoding="utf-8"), str(path), "exec"), vars(module))
         return getattr(module, name)
     except Exception as error:  # whatever the student's file does
-        what = f"{type(error).__name__}: {' '.join(str(error).split())}".rstrip(".")
         remedy = "Write it again in its lesson, or delete the file."
-        raise BootcourseError(f"{path} does not run ({what}). {remedy}") from None
+        raise BootcourseError(f"{path} does not run ({described(error)}). {remedy}") from None

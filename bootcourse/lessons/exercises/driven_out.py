@@ -3,8 +3,7 @@
 import numpy as np
 from gymnasium.vector import AutoresetMode
 
-from bootcourse.errors import BootcourseError
-from bootcourse.learn.teachers import checked_action
+from bootcourse.learn.teachers import is_action
 from bootcourse.lessons.values import NUMERIC, plain
 from bootcourse.road.state import EGO, TRAP_1, X
 from bootcourse.road.vector_env import TrapVectorEnv
@@ -47,12 +46,9 @@ def no_action(action, again):
         return NOTHING
     if plain(action).kind not in NUMERIC or plain(action).shape != ():
         return "as it is"
-    try:
-        if checked_action(action) != again:
-            return NOT_SAME
-    except BootcourseError:
+    if not is_action(action):
         return OUTSIDE if isinstance(action, (int, np.integer)) and not isinstance(action, bool) else NOT_WHOLE
-    return None
+    return NOT_SAME if action != again else None
 
 
 def explain_rule(cases, answers):
