@@ -42,7 +42,7 @@ def safe_and_fast(varied: Mapping[str, Results], bound: float) -> Figure:
     title = f"Nothing here is both safer and faster than {best[0]}"
     if len(best) > 1:
         title = f"The {len(best)} filled dots are the frontier: nothing here is both safer and faster"
-    height = 3.8 + 0.2 * len(wrapped(title).splitlines())
+    height = max(3.8, 0.42 * len(varied)) + 0.2 * len(wrapped(title).splitlines())  # room for the labels
     where = "accidents of any kind (% of held-out drives)"
     figure, ax = one_axes(height, title, where, "return", width=0.68)
     points, told = [], []

@@ -172,6 +172,10 @@ def safer() -> dict[str, Results]:
     return shipped.shipped_experiment("safe")
 
 
+BEST = "accident cost and shield by hand, twice as long"  # of `safer`
+ALONE = ("accident cost", "multiplier", "restarts", "shield by hand", "γ = 0.995")  # of `safer`, but for the mask
+
+
 def p_safer(kind: str) -> float:
     """The p of a rank test: the accidents of such agents against those of PPO after cloning with nothing more."""
     accidents = [its.scores("accident") for its in (safer()[kind], later("ppo_cloned"))]
