@@ -480,9 +480,9 @@ bc.show(frontier.safe_and_fast(safer, shipped.shipped_bound().mean()))
 # {{ crashed(safer()['accident cost and restarts']) | .1f }}). The shield does: with it the same ten
 # agents that the cost trained crash in
 # {{ crashed(safer()['accident cost and shield by hand']) | .1f }} of 1,000 drives, and it takes a
-# little of their return. What helps most is twice the training: with it
-# {{ crashed(safer()['accident cost, twice as long']) | .1f }} of 1,000 drives end in a crash, and
-# the return is the highest of all rows,
+# little of their return. Twice the training helps as much, and takes no
+# return: {{ crashed(safer()['accident cost, twice as long']) | .1f }} of 1,000 drives end in a crash,
+# and the return is the highest of all rows,
 # {{ iqm(safer()['accident cost, twice as long'].scores('returns')) | .1f }}. With the shield in
 # front of these agents {{ crashed(safer()[BEST]) | .1f }} are left, and the return is
 # {{ iqm(safer()[BEST].scores('returns')) | .1f }}.
