@@ -476,16 +476,15 @@ bc.show(frontier.safe_and_fast(safer, shipped.shipped_bound().mean()))
 #   p_safer('learned mask') and crashed(safer()['learned mask']) > crashed(later('ppo_cloned')) -->
 #
 # Beside the accident cost, the multiplier and the restarts bring no fewer crashes than the cost
-# alone ({{ crashed(safer()['accident cost and multiplier']) | .1f }} and
-# {{ crashed(safer()['accident cost and restarts']) | .1f }}). The shield does: with it the same ten
-# agents that the cost trained crash in
-# {{ crashed(safer()['accident cost and shield by hand']) | .1f }} of 1,000 drives, and it takes a
-# little of their return. Twice the training helps as much, and takes no
-# return: {{ crashed(safer()['accident cost, twice as long']) | .1f }} of 1,000 drives end in a crash,
-# and the return is the highest of all rows,
-# {{ iqm(safer()['accident cost, twice as long'].scores('returns')) | .1f }}. With the shield in
-# front of these agents {{ crashed(safer()[BEST]) | .1f }} are left, and the return is
-# {{ iqm(safer()[BEST].scores('returns')) | .1f }}.
+# alone ({{ crashed(safer()['accident cost and multiplier']) | .1f }} and {{
+# crashed(safer()['accident cost and restarts']) | .1f }}). The shield does: with it the same ten
+# agents that the cost trained crash in {{ crashed(safer()['accident cost and shield by hand']) |
+# .1f }} of 1,000 drives, and it takes a little of their return. Twice the training helps as much,
+# and takes no return: {{ crashed(safer()['accident cost, twice as long']) | .1f }} of 1,000 drives
+# end in a crash, and the return is the highest of all rows, {{ iqm(safer()['accident cost, twice as
+# long'].scores('returns')) | .1f }}. With the shield in front of these agents {{
+# crashed(safer()[BEST]) | .1f }} are left, and the return is {{
+# iqm(safer()[BEST].scores('returns')) | .1f }}.
 # <!-- claim: p_safer('accident cost') > 0.05 > 5 * p_safer('accident cost and shield by hand') >
 #   5 * p_safer('accident cost, twice as long') -->
 # <!-- claim: min(safer(), key=lambda n: crashed(safer()[n])) == BEST and p_safer(BEST) < 0.01 -->
