@@ -1,8 +1,9 @@
 """PPO with a KL to the stochastic rule that fades as the agent succeeds: kickstarting (arXiv 1803.03835).
 
-The loss is PPO's plus λ KL(π̃ ‖ π). λ falls with the agent's success, as in QDagger (arXiv 2206.01626), or with its
-episodes. The soft constraint of Equation 15 is the other direction, KL(π ‖ π̃). There are no demonstrations, and the
-rule is not needed to drive.
+The loss is PPO's plus λ KL(π̃ ‖ π). λ falls with the agent's success or with its episodes. QDagger (arXiv 2206.01626)
+takes max(1 - G/G_T, 0) instead, from the returns of agent and teacher; we take the share of episodes in which the ego
+overtakes, and a start λ₀. The soft constraint of Equation 15 is the other direction, KL(π ‖ π̃). There are no
+demonstrations, and the rule is not needed to drive.
 """
 
 import numpy as np
@@ -14,7 +15,7 @@ from bootcourse.learn.ppo import Minibatch, PPOLearner
 
 
 def kl_weight_at(success: np.ndarray, start: float) -> np.ndarray:
-    """λ = λ₀ max(1 - success, 0), as in QDagger: (agents,) -> (agents,).
+    """λ = λ₀ max(1 - success, 0): (agents,) -> (agents,).
 
     success: share of the last episodes in which the ego overtook, 0 to 1; NaN, before the first episode, counts as 0.
     """

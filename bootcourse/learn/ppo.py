@@ -2,7 +2,9 @@
 
 On-policy: a few hundred roads are driven for `horizon` decisions, the policy takes `epochs` passes over them in
 minibatches, and the decisions are thrown away. Advantages: GAE (arXiv 1506.02438). An episode that ran out of time is
-bootstrapped with the value of its last state; an accident is worth nothing afterwards.
+bootstrapped with the value of its last state; an accident is worth nothing afterwards. Where we differ from the paper:
+the advantages of each minibatch are given mean 0 and deviation 1, and each network's gradient is clipped to a norm of
+0.5. Both are common in implementations; the clipped value loss that some of them have is left out.
 
 Many agents side by side, as in learner.py: the first axis of every parameter is the agents.
 """

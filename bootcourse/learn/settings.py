@@ -131,7 +131,7 @@ class PPOSettings(Settings):
     cloning_updates: int = shared(0)  # before the first drive: clone the teacher; 0 for PPO alone
     label_smoothing: float = shared(0.1)  # of the cloned actions
     kl_weight: float = shared(0.0)  # λ of the KL to π̃ at first (kickstarting, arXiv 1803.03835); 0: no KL
-    kl_episodes: int = shared(0)  # episodes until λ is 0; 0: λ falls with the success, as QDagger's (arXiv 2206.01626)
+    kl_episodes: int = shared(0)  # episodes until λ is 0; 0: λ falls as the success rises (kickstart.py)
 
     def __post_init__(self):
         super().__post_init__()
