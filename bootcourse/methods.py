@@ -43,7 +43,7 @@ class Method:
 # constant: 1 for offline methods, 0.5 for GAIL, whose discriminator compares the two halves of a batch, and for DAgger.
 _BASELINE = {"xi_multiplier": 0.0, "bonus": 0.0, "beta_episodes": 10**9}
 
-# What came after the paper, with a replay buffer and a teacher. They look further ahead than the paper's γ = 0.8.
+# Methods that the paper does not train, with a replay buffer and a teacher. Their γ is larger than the paper's, 0.8.
 _LATER = {"gamma": 0.97, "xi_multiplier": 0.0, "bonus": 0.0, "batch": 128}
 
 # PPO drives a few hundred roads at once and looks further ahead. Its first update comes
@@ -171,7 +171,7 @@ AFTER = (
     "rlpd",
     "ibrl",
     "pex",
-)  # not in the paper
+)  # the paper trains none of them
 DRIVERS = {  # name and style of the drivers that are not trained
     "rule": ("rule controller", Style("#009E73", width=1.0)),
     "planner": ("planner", Style("#000000", (0, (8, 4)))),

@@ -1,4 +1,4 @@
-"""What the later learners cost: decisions until the way out is learned, by hand."""
+"""What the learners beyond the paper cost: decisions until the way out is learned, by hand."""
 
 import numpy as np
 import pytest

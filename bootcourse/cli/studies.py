@@ -34,8 +34,8 @@ def study(
     """Train and test every method with many seeds; write tables, figures and the fidelity report.
 
     default, calibrated and paper: all methods. sensitivity, clocks and ablations: the paper's ablation, varied.
-    longer-view: its method with other numbers. beyond: what came after the paper. teachers: what a teacher is worth.
-    safe: what prevents accidents.
+    longer-view: its method with other numbers. beyond: methods that the paper does not train. teachers: what a teacher
+    is worth. safe: what prevents accidents.
     """
     from bootcourse.study import plan
     from bootcourse.study.report import write_report

@@ -146,7 +146,7 @@ def _longer_view() -> dict[str, Variation]:
 
 
 def _beyond() -> dict[str, Variation]:
-    """Learners that came after the paper, each with its own settings.
+    """Learners that the paper does not train, each with its own settings.
 
     PPO drives hundreds of roads at once. RLPD makes eight times as many updates for a decision as the others. DAgger is
     in the experiment `teachers`.

@@ -219,7 +219,7 @@ check.advantages(advantages)
 # $$ L = -\,\mathrm{mean}\big[\min(r A,\ \mathrm{clip}(r, 1 - ε, 1 + ε)\, A)\big] $$
 #
 # > **Predict.** An action turned out badly, A = −2, but has become likelier, r = 1.5. It is outside
-# > of the limits 0.8 and 1.2. Does this decision still change the policy?
+# > the limits 0.8 and 1.2. Does this decision still change the policy?
 
 # %%
 choices = ["yes, it makes the action rarer", "yes, likelier", "no, it is clipped"]
@@ -538,4 +538,4 @@ compare_predictions(
 #
 # **Try**: `bc.board()` shows the methods of the course on the same {{ roads() | , }} roads, by
 # return, and `bc.board("runs/mine")` puts your own agents among them. Next:
-# [beyond the paper](16_beyond_the_paper.ipynb), the learners that came after it.
+# [beyond the paper](16_beyond_the_paper.ipynb), the learners that it does not train.

@@ -1,4 +1,4 @@
-"""Answers to the exercises of the lesson on later learners."""
+"""Answers to the exercises of the lesson beyond the paper."""
 
 import numpy as np
 import torch

@@ -156,7 +156,7 @@ LATER = ("ppo", "ppo_cloned", "ppo_kl", "ppo_residual", "rlpd", "ibrl", "pex", "
 
 @cache
 def later(method: str) -> Results:
-    """The ten agents of a method that came after the paper."""
+    """The ten agents of a method that the paper does not train."""
     return shipped.shipped_experiment("beyond")[method]
 
 

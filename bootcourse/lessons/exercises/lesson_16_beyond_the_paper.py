@@ -1,4 +1,4 @@
-"""Exercises of the lesson on later learners: what RLPD, IBRL and jump-start RL take from a teacher; a safe driver."""
+"""Exercises of the lesson beyond the paper: what RLPD, IBRL and jump-start RL take from a teacher; a safe driver."""
 
 import numpy as np
 import torch
