@@ -53,8 +53,8 @@ def did_you_mean(word: str, choices) -> str:
 
     choices = [str(choice) for choice in choices]
     close = difflib.get_close_matches(str(word), choices, n=1, cutoff=0.4)
-    hint = f"did you mean '{close[0]}'? " if close else ""
-    return f"'{word}' is unknown: {hint}choose from {', '.join(choices)}"
+    hint = f"did you mean '{close[0]}'? Choose" if close else "choose"
+    return f"'{word}' is unknown: {hint} from {', '.join(choices)}"
 
 
 def whole(value, called: str, high: int = 2**63 - 1, low: int = 0) -> int:

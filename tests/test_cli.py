@@ -142,6 +142,11 @@ REFUSED = {
     "a name that is too long": (["train", "--out", "x" * 300], "File name too long"),
     "a mistyped driver": (["evaluate", "rul"], "did you mean 'rule'"),
     "a mistyped method of a study": (["study", "--only", "sac,bootstraped", *NEW], "did you mean 'bootstrapped'"),
+    "a method of another study": (
+        ["study", "--only", "ppo", *NEW],
+        "Method 'ppo' is not in this study: run `bootcourse study beyond --only ppo`.",
+    ),
+    "a method of no study": (["study", "--only", "pso", *NEW], "did you mean 'soft'? Choose from"),
     "a mistyped study": (["study", "calibrate", *NEW], "did you mean 'calibrated'"),
     "a mistyped backend": (["study", "--backend", "dusk", *NEW], "did you mean 'dask'"),
     "a scheduler for this machine": (["study", "--scheduler", "tcp://a:1", *NEW], "needs --backend dask"),

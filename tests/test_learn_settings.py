@@ -108,3 +108,10 @@ def test_a_training_needs_an_agent_and_an_episode():
         Training([], 10)
     with pytest.raises(BootcourseError, match="episodes = 0: give a whole number from 1"):
         Training([settings_for("sac")], 0)
+
+
+def test_a_setting_of_another_method_names_the_methods_that_have_it():
+    with pytest.raises(BootcourseError, match=r"^Method 'ppo' has no accident_cost: 'ppo_safe' has it\.$"):
+        settings_for("ppo", accident_cost=1)
+    with pytest.raises(BootcourseError, match=r"^Method 'sac' has no clip: 'ppo', 'ppo_cloned', .* have it\.$"):
+        settings_for("sac", clip=0.1)

@@ -83,9 +83,9 @@ def test_the_panel_shows_every_cell_its_interval_and_what_was_not_run(panel, fou
 
 def test_not_reached_is_shown_with_how_many_reached_it(panel):
     from_page(panel.quantity, index=3)
-    assert "rule, half at random, RLPD: not reached [12, –] 3 of 10" in panel.alt
-    assert "rule, half at random, soft constraint only: not reached 0 of 10" in panel.alt
-    assert "planner, RLPD: 11.70 [11.70, 11.70] 10 of 10" in panel.alt
+    assert "rule, half at random, RLPD: not reached [12, –], reached by 3 of 10" in panel.alt
+    assert "rule, half at random, soft constraint only: not reached, reached by 0 of 10" in panel.alt
+    assert "planner, RLPD: 11.70 [11.70, 11.70], reached by 10 of 10" in panel.alt
 
 
 @pytest.mark.parametrize("name", QUANTITIES)

@@ -27,7 +27,7 @@ ACROSS = 4  # columns of `evaluate`'s table side by side in a terminal
 
 
 def evaluate(
-    who: list[str] = typer.Argument(..., help="rule, idle, or a folder that `bootcourse train` wrote."),
+    who: list[str] = typer.Argument(..., help="rule, idle, random, or a folder that `bootcourse train` wrote."),
     episodes: int = typer.Option(1000, min=1, help="Held-out episodes."),
     seed: int = typer.Option(1, min=0, help="The block of held-out roads."),
     scenario: str = typer.Option("", help="default or calibrated; by default the scenario that a run trained on."),

@@ -24,18 +24,20 @@ def study(
     episodes: int = typer.Option(0, min=0, help="Training episodes of each agent; 0: the study's own number."),
     tests: int = typer.Option(0, min=0, help="Held-out episodes of each agent's test; 0: the study's own number."),
     only: str = typer.Option(
-        "", help="Only these methods, such as sac,bootstrapped; planner is the bound. Of teachers: methods or teachers."
+        "",
+        help="Only these methods, such as sac,bootstrapped; planner is the bound. "
+        "Of an experiment: a method, a teacher, or a part such as learned-mask.",
     ),
     backend: str = typer.Option("loky", help="loky (this machine), dask or ray."),
     scheduler: str = typer.Option("", help="The address of a dask or ray cluster that you have."),
     workers: int = typer.Option(0, min=0, help="Jobs at once; 0: one for each core."),
     recompute: bool = typer.Option(False, "--recompute", help="Compute damaged jobs again."),
 ) -> None:
-    """Train and test every method with many seeds; write tables, figures and the fidelity report.
+    """Train and test methods with many seeds; write tables, figures and the fidelity report.
 
-    default, calibrated and paper: all methods. sensitivity, clocks and ablations: the paper's ablation, varied.
-    longer-view: its method with other numbers. beyond: methods that the paper does not train. teachers: what a teacher
-    is worth. safe: what prevents accidents.
+    default, calibrated and paper: the paper's methods and baselines. sensitivity, clocks and ablations: the paper's
+    ablation, varied. longer-view: its method with other numbers. beyond: methods that the paper does not train.
+    teachers: what a teacher is worth. safe: what prevents accidents.
     """
     from bootcourse.study import plan
     from bootcourse.study.report import write_report

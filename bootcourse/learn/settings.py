@@ -267,6 +267,9 @@ def settings_for(method: str, setting: str = "quick", **changes) -> Settings:
     known = [f.name for f in fields(kind)]
     for name in changes:
         if name not in known:
+            if owners := [f"'{other}'" for other in METHODS if name in {f.name for f in fields(settings_class(other))}]:
+                has = "has it" if len(owners) == 1 else "have it"
+                raise BootcourseError(f"Method '{method}' has no {name}: {', '.join(owners)} {has}.")
             raise BootcourseError(f"Setting {did_you_mean(name, known)}.")
     return kind(method=method, **(METHODS[method].settings | SETTINGS[setting] | changes))
 

@@ -34,7 +34,8 @@ def surface(found: Cells, name: str) -> tuple[str, str]:
                 continue
             value, interval = in_words(estimates[teacher, method])
             below = interval if name != "decisions" else f"{interval} {reached(found[teacher, method])}".strip()
-            told.append(f"{TEACHERS[teacher].words}, {display_name(method)}: {value} {below}".strip())
+            by = f", reached by {reached(found[teacher, method])}" if name == "decisions" else ""
+            told.append(f"{TEACHERS[teacher].words}, {display_name(method)}: {value} {interval}".strip() + by)
             if np.isinf(estimates[teacher, method].value):
                 parts += cell(*here, "#E3E7EB", value, below, dark=False)
                 continue

@@ -1,4 +1,4 @@
-"""What learners that are not in the paper's tables reached, and every method at an equal budget of decisions or seconds."""
+"""What the learners beyond the paper reached, and every method at an equal budget of decisions or seconds."""
 
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple

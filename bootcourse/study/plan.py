@@ -46,6 +46,11 @@ def methods_named(only: str) -> list[str]:
     names = [name.strip() for name in only.split(",") if name.strip()] or everything
     for name in names:
         if name not in everything:
+            for experiment, its in EXPERIMENTS.items():
+                if (name,) in {variation.methods for variation in its.variations.values()}:
+                    raise BootcourseError(
+                        f"Method '{name}' is not in this study: run `bootcourse study {experiment} --only {name}`."
+                    )
             raise BootcourseError(f"Method {did_you_mean(name, everything)}.")
     return [name for name in everything if name in names]
 

@@ -40,7 +40,8 @@ def run_jobs(
         raise BootcourseError("--scheduler needs --backend dask or --backend ray: loky uses this machine's cores.")
     with locked(root):
         waiting = to_do(jobs, root, recompute)
-        print(f"{len(jobs)} jobs in {root}: {len(jobs) - len(waiting)} done already, {len(waiting)} to compute.")
+        done, listed = len(jobs) - len(waiting), f"{len(jobs)} job{'s' * (len(jobs) != 1)}"
+        print(f"{listed} in {root}: {done} done already, {len(waiting)} to compute.")
         problems = []
         if waiting:
             write_json(root / "study.json", {"jobs": [job.name for job in jobs]})
