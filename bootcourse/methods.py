@@ -43,11 +43,11 @@ class Method:
 # constant: 1 for offline methods, 0.5 for GAIL, whose discriminator compares the two halves of a batch, and for DAgger.
 _BASELINE = {"xi_multiplier": 0.0, "bonus": 0.0, "beta_episodes": 10**9}
 
-# Methods that the paper does not train, with a replay buffer and a teacher. Their γ is larger than the paper's, 0.8.
+# Methods that the paper does not train, with a replay buffer and a teacher. Their γ (§) is above the paper's 0.8.
 _LATER = {"gamma": 0.97, "xi_multiplier": 0.0, "bonus": 0.0, "batch": 128}
 
 # PPO drives a few hundred roads at once and looks further ahead. Its first update comes
-# after 32 decisions on all 512 roads, when it has driven more than 1,000 episodes.
+# after 32 decisions on all 512 roads, when it has driven more than 1,000 episodes. All numbers are our choice §.
 _PPO = {
     "gamma": 0.99,
     "xi_multiplier": 0.0,

@@ -60,6 +60,12 @@ def test_a_training_takes_the_method_s_own_number_of_episodes_or_the_given_one(
     assert keep == [METHODS[method].episodes, 7]
 
 
+def test_a_training_that_is_too_short_for_an_update_says_so(bootcourse, tmp_path):
+    arguments = ("train", "--method", "sac", "--seeds", 1, "--episodes", 1, "--out", tmp_path / "runs", "--quiet")
+    done = bootcourse(*arguments)
+    assert done.status == 0 and "No update was made" in done.err
+
+
 def test_a_rule_of_one_s_own_teaches_and_only_it_goes_on(bootcourse, tmp_path, monkeypatch):
     (tmp_path / "mine.py").write_text("def follows(cars, scenario):\n    return 4\n")
     arguments = ("train", "--method", "soft", "--seeds", 1, "--episodes", 3, "--out", tmp_path / "runs", "--quiet")

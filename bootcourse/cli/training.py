@@ -135,6 +135,8 @@ def finish_training(training, out: Path, progress: bool) -> int:
         if result.interrupted:
             save_checkpoint(training, work / CHECKPOINT)
             return INTERRUPTED
+        if not training.updates:
+            print("No update was made: the agents drive as at first. Train for more --episodes.", file=sys.stderr)
         shutil.rmtree(work / SAVING, ignore_errors=True)
         save_runs(result, work / SAVING)
         os.rename(work / SAVING, work / COMPLETE)

@@ -136,7 +136,7 @@ def experiments_part(experiments: dict[str, dict[str, Results]]) -> list[str]:
         text += ["## A longer view\n", LONGER_VIEW, tables.markdown(*learner_rows(varied))]
     if varied := experiments.get("beyond"):
         named = {display_name(its.methods[0]): its for its in varied.values()}
-        text += ["## Learners that came after the paper\n", tables.markdown(*learner_rows(named))]
+        text += ["## Other learners with a teacher\n", tables.markdown(*learner_rows(named))]
     if varied := experiments.get("teachers"):
         worth = tables.markdown(*teacher_worth.worth_rows(teacher_worth.cells(varied)))
         text += ["## What a teacher is worth\n", TEACHERS, worth]
