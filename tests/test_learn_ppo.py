@@ -128,5 +128,5 @@ def test_a_setting_that_makes_no_sense_is_refused(changes, sentence):
 
 
 def test_a_setting_of_ppo_is_none_of_sac():
-    with pytest.raises(BootcourseError, match="Setting 'clip'"):
+    with pytest.raises(BootcourseError, match="Method 'sac' has no clip"):
         settings_for("sac", clip=0.3)
