@@ -633,8 +633,8 @@ print("In the study, ξ is a tenth of its start at the episodes", *sorted(cold))
 # <!-- claim: (in_training('bootstrapped', 200, 400) > 0.5).mean() > 0.5 -->
 #
 # This reading predicts something, so it was tested, with agents that trained for {{ clocks()['2',
-# 'π̃'].curves['success'].shape[1] | , }} episodes: ten of each method, and fewer in the rows that
-# take longest. The table's first column is the number of updates for each decision: a quarter on
+# 'π̃'].curves['success'].shape[1] | , }} episodes: ten of each method, and fewer where the table
+# says so. The table's first column is the number of updates for each decision: a quarter on
 # four roads, as in the study, or more on one road. The second column is who drove the
 # demonstrations: the rule μ, as in the study, or the stochastic rule π̃, as the paper writes. (The
 # study trains for 2,000 episodes, so its counts differ.)
@@ -692,9 +692,9 @@ bc.panels.clocks_panel("2", "π̃")
 # <!-- claim: sum(max(np.convolve(curve, np.ones(50) / 50, 'valid')) > 0.9 for curve in clocks()[
 #   '4', 'μ'].of('soft').curves['success']) == 2 -->
 #
-# With two updates one row still differs: the paper's soft constraint has 0 %, and half of ours
-# escape. But the row of one agent shows about 0 or about 100 %, as luck has it. The last column
-# asks for that luck.
+# With two updates and π̃ one method still differs: the paper's soft constraint has 0 %, and half of
+# our agents escape with it. But a rate that comes from one agent is mostly about 0 or about 100 %,
+# as luck has it. The last column asks for that luck.
 # Draw one of our agents for each row and drive 20 test roads with it: how often do the four rates
 # read exactly as the paper's, 0, 0, 100 and 100 %? With two updates and π̃ in
 # {{ 100 * pattern(clocks()['2', 'π̃']).value | .0f }} % of such tables (95 % interval over seeds:
