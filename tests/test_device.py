@@ -14,6 +14,7 @@ from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
 from bootcourse.methods import METHODS
+from bootcourse.storage.checkpoint import DamagedCheckpoint
 from bootcourse.storage.runs import load_checkpoint, save_checkpoint
 
 ELSEWHERE = "meta"
@@ -120,6 +121,13 @@ def test_a_training_goes_on_on_another_device(method, pretended, tmp_path):
 def test_a_device_that_torch_does_not_find_is_named(name):
     with pytest.raises(BootcourseError, match=f"'{name}'.*Give \"cpu\""):
         Training([settings_for("sac")], device=name)
+
+
+def test_a_checkpoint_is_not_damaged_because_a_device_is_missing(tmp_path):
+    save_checkpoint(small_training("sac"), tmp_path / "checkpoint.npz")
+    with pytest.raises(BootcourseError, match="^device = 'cuda:99'") as refused:
+        load_checkpoint(tmp_path / "checkpoint.npz", device="cuda:99")
+    assert not isinstance(refused.value, DamagedCheckpoint)
 
 
 @pytest.mark.skipif(not torch.cuda.is_available(), reason="there is no CUDA device")

@@ -159,6 +159,14 @@ def test_an_interval_is_printed_with_the_decimals_that_its_length_leaves_meaning
     assert tables.bracketed(Estimate(44.875, np.nan, np.nan)) == "44.88"
 
 
+def test_of_single_agents_which_have_no_interval_the_title_names_the_highest():
+    results = invented(("sac", "soft"), seeds=1)
+    results.tested["returns"][:] = [[10.0], [20.0]]
+    assert training_figures.final_scores(results, ("sac", "soft")).alt.startswith(
+        "Highest return: soft constraint only."
+    )
+
+
 def test_the_report_compares_all_methods_at_an_equal_budget_beside_the_planner_s_bound():
     results = invented(("sac", "soft"), episodes=300)
     for name, value in {"distance": 5000.0, "speed": 10.0}.items():  # 500 decisions: 150,000 in all

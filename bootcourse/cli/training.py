@@ -101,13 +101,18 @@ def teacher_from(place: str):
 
     Raises BootcourseError if it is not there or does not load.
     """
-    from bootcourse.study.teachers import RULE, TEACHERS, teacher_named
+    from bootcourse.learn.teachers import course_rule
 
+    if not place:
+        return course_rule
     file, colon, function = place.rpartition(":")
-    if not place or place in TEACHERS:
-        return teacher_named(place or RULE)
     if not colon:
-        raise BootcourseError(f"Teacher {did_you_mean(place, TEACHERS)}, or give a rule of your own, FILE.py:FUNCTION.")
+        from bootcourse.study.teachers import TEACHERS  # slow: it loads the planner
+
+        if place not in TEACHERS:
+            own = "or give a rule of your own, FILE.py:FUNCTION"
+            raise BootcourseError(f"Teacher {did_you_mean(place, TEACHERS)}, {own}.")
+        return TEACHERS[place].rule
     if not Path(file).is_file() or Path(file).suffix != ".py":
         raise BootcourseError(f"--teacher {place}: give a file and a function in it, such as my_rule.py:my_rule.")
     spec = importlib.util.spec_from_file_location(Path(file).stem, file)

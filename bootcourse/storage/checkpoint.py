@@ -16,7 +16,7 @@ from bootcourse.errors import BootcourseError
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.settings import Settings
 from bootcourse.learn.teachers import Rule
-from bootcourse.learn.training import Training, device_named
+from bootcourse.learn.training import Training
 from bootcourse.scenario import Scenario
 
 ADAM = ("step", "exp_avg", "exp_avg_sq")  # the optimiser's state of each parameter
@@ -71,7 +71,6 @@ def restored(
     settings: list[Settings], episodes: int, scenario: Scenario, teacher: Rule, arrays: dict, device: str = "cpu"
 ) -> Training:
     """The training with these arguments and the state in `arrays`. Raises DamagedCheckpoint if they do not fit."""
-    device_named(device)
     try:
         rows = torch.from_numpy(arrays["replay.demonstrations"])
         training = Training(settings, episodes, scenario, teacher, rows if len(rows) else None, device=device)

@@ -40,7 +40,7 @@ from bootcourse.learn.agent import Agent
 from bootcourse.learn.curves import NAMES
 from bootcourse.learn.settings import Settings, stored_settings
 from bootcourse.learn.teachers import Rule, course_rule, teacher_name, teacher_of
-from bootcourse.learn.training import Result, Training
+from bootcourse.learn.training import Result, Training, device_named
 from bootcourse.scenario import N_ACTIONS, Scenario
 from bootcourse.storage.checkpoint import DamagedCheckpoint, restored, state_of
 from bootcourse.storage.sealed import seal, write_sealed
@@ -235,8 +235,10 @@ def save_checkpoint(training: Training, path: Path) -> None:
 def load_checkpoint(path: Path, teacher: Rule = course_rule, device: str = "cpu") -> Training:
     """The training that `save_checkpoint` wrote, to be continued with the same teacher, on any device.
 
-    Raises DamagedCheckpoint if the file cannot be read, BootcourseError for another teacher.
+    Raises DamagedCheckpoint if the file cannot be read, BootcourseError for another teacher, or for a device that
+    torch does not find.
     """
+    device_named(device)
     try:
         arrays = read_arrays(path, BEGIN_AGAIN)
         with decoding(path, BEGIN_AGAIN):

@@ -89,9 +89,10 @@ def final_scores(results: Results, methods: Sequence[str], column: str = "return
     figure = new_figure(height)
     ax = figure.add_axes((0.27, 0.55 / height, 0.68, 0.9 * 0.36 * len(methods) / height))
     scale, words, label = 100 if column in RATES else 1, [], (COLUMNS | {"returns": "return"}).get(column, column)
+    middles = {}
     for row, method in enumerate(methods):
         scores, its = results.of(method).scores(column) * scale, style(method)
-        middle = interval(scores)
+        middles[method] = middle = interval(scores)
         ax.plot(scores, np.full(len(scores), row) + np.linspace(-0.3, 0.3, len(scores)), "o", color=its.colour, ms=4)
         ax.plot([middle.low, middle.high], [row, row], "-", color=its.colour, linewidth=6, alpha=0.3, zorder=1)
         ax.plot(middle.value, row, "|", color=its.colour, ms=14, mew=2.5)
@@ -103,9 +104,8 @@ def final_scores(results: Results, methods: Sequence[str], column: str = "return
     ax.set_ylim(len(methods) - 0.5, -0.5)
     ax.set_xlabel(label, fontsize=SMALL, color=QUIET)
     ax.spines["bottom"].set_color(GRID)
-    middles = {method: interval(results.of(method).scores(column)) for method in methods}
     best = max(middles.values(), key=lambda middle: middle.value)
-    ahead = [display_name(m) for m, middle in middles.items() if middle.high >= best.low]
+    ahead = [display_name(m) for m, middle in middles.items() if middle is best or middle.high >= best.low]
     within = ", as far as the intervals tell" * (len(ahead) > 1)
     title = f"Highest {label.split(',')[0]}{within}: {', '.join(ahead)}"
     return finish(figure, title, "Interquartile means over agents with 95 % intervals: " + "; ".join(words) + ".")

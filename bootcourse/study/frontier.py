@@ -23,7 +23,7 @@ def scored(results: Results) -> tuple[Estimate, Estimate]:
 
 def frontier(varied: Mapping[str, Results]) -> list[str]:
     """The names that no other beats, with fewer accidents and as much return or the reverse, from safest to fastest."""
-    middles = {name: (its[0].value, its[1].value) for name, its in ((n, scored(r)) for n, r in varied.items())}
+    middles = {name: (its.scores("accident").mean(), its.scores("returns").mean()) for name, its in varied.items()}
 
     def beaten(name: str) -> bool:
         accidents, returns = middles[name]

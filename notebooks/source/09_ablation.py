@@ -677,13 +677,13 @@ bc.panels.clocks_panel("2", "π̃")
 # <!-- claim: clocks_out('2') < clocks_out('1/4') -->
 #
 # With four updates only three agents of each kind were trained. None of the three with the soft
-# constraint alone escapes. Two of them had found the way out: of 50 training episodes in a row
-# more than 90 % ended ahead, and later they lost it again (choose 4 in the panel). With
-# demonstrations alone {{ escapers(clocks()['4', 'μ'], 'demos') }} of three escape, whoever drove
-# them, and with both helps {{ escapers(clocks()['4', 'μ'], 'bootstrapped') }} (μ) and
-# {{ escapers(clocks()['4', 'π̃'], 'bootstrapped') }} (π̃). So the half that fails with two updates
-# may hold with four. But three agents are few: if half of all such agents escape, none of three
-# does in one case in eight.
+# constraint alone escapes. Two of them had found the way out: of 50 training episodes in a row more
+# than 90 % ended ahead, and later they lost it again (choose 4 in the panel). With demonstrations
+# alone {{ escapers(clocks()['4', 'μ'], 'demos') }} of three escape if μ drove them, and as many if
+# π̃ did. With both helps it is {{ escapers(clocks()['4', 'μ'], 'bootstrapped') }} (μ) and {{
+# escapers(clocks()['4', 'π̃'], 'bootstrapped') }} (π̃). So the half that fails with two updates may
+# hold with four. But three agents are few: if half of all such agents escape, none of three does in
+# one case in eight.
 # <!-- claim: [escapers(clocks()['4', 'μ'], m) for m in ('sac', 'soft')] == [0, 0] and
 #   escapers(clocks()['4', 'μ'], 'demos') == escapers(clocks()['4', 'π̃'], 'demos') and 0.5**3 == 1/8
 #   -->

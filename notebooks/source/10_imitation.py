@@ -452,7 +452,7 @@ table(headings, rows)
 # A score that is not reached says where to look before you believe a table. It need not be a bug:
 # with scaled observations, or with fewer updates, about half of our Acrobot agents did not reach
 # the goal in time. Next to a badly trained baseline a new method looks good, so make such checks
-# for the baselines, too. Who published the scores, and with which budget:
+# for the baselines, too. This table says who published each score, and with which budget:
 
 # %%
 rows = [

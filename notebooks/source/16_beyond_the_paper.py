@@ -204,8 +204,8 @@ bc.show(bc.traces([drives[0]], title="One drive of your agent", what=("speed", "
 #   METHODS['pex'].learner_class().needs_teacher -->
 
 # %% [markdown] tags=["instructor"] minutes=8
-# Who has seen that IBRL's early episodes end in crashes, too? Q is wrong at first: it rates some
-# actions above the rule's that are worse. Ask what would make the first hour safer (a
+# Ask who has seen that IBRL's early episodes end in crashes, too. Q is wrong at first: it puts some
+# actions above the rule's although they are worse. Ask what would make the first hour safer (a
 # pessimistic Q: the smaller of two, an ensemble; a margin that an own action must exceed).
 
 # %% [markdown]
