@@ -143,8 +143,8 @@ def drivers_of(who: str, scenario: str, sample: bool, seed: int, teacher: str) -
         road = named(scenario) if scenario else run.scenario
         if road.observation_size != run.scenario.observation_size:
             raise BootcourseError(
-                f"{path} sees {run.scenario.sight.neighbours} neighbours, and {road.name} shows "
-                f"{road.sight.neighbours}: leave out --scenario."
+                f"{path} sees {run.scenario.observation_size} numbers, and {road.name} shows "
+                f"{road.observation_size}: leave out --scenario."
             )
         settings = replace(run.agent.settings, seed=0)
         agent = run.agent.taught_by(teacher_of(rule, road))

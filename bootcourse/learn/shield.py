@@ -18,7 +18,7 @@ SIDE = 0.3  # m § beyond their width
 
 
 def needed_braking(states: Tensor) -> Tensor:
-    """How hard the ego must brake after each action, in m/s²: (..., 26) -> (..., 9).
+    """How hard the ego must brake after each action, in m/s²: (..., observation) -> (..., 9).
 
     Each action lasts one second; then the ego steers back. A car is in the way if that path comes within its width. The
     number is infinite if the path hits a car beside the ego, or leaves the road.
@@ -35,7 +35,7 @@ def needed_braking(states: Tensor) -> Tensor:
     y = states[..., 2, None] * Y_SCALE
     off = (y + left < -road.lane_width / 2) | (y + right > (road.lanes - 0.5) * road.lane_width)  # (..., 9)
 
-    cars = states[..., 6:].unflatten(-1, (-1, 5))[..., None, :, :]  # (..., 1, cars, 5)
+    cars = states[..., 6 : DEFAULT.sight.numbers].unflatten(-1, (-1, 5))[..., None, :, :]  # (..., 1, cars, 5)
     presence, dx, dy, dv, dv_lat = cars.unbind(-1)
     dx, dy, dv = dx * DX_SCALE, dy * Y_SCALE, dv * DV_SCALE  # (..., 1, cars)
     near = car.width + SIDE

@@ -190,7 +190,7 @@ class Training:
         self.learner.note_episodes(done.reshape(shape), (self.curves.running[0] + rewards).reshape(shape))
         self.curves.note(rewards, entropies, done, infos, self._coefficients())
         if self.restarts and self.restarts.begin(self.env, self.curves, done, terminated, self.act_rngs):
-            next_states, next_rule_actions = self.env.observe(), self.taught()
+            next_states, next_rule_actions = self.env.observe(done), self.taught()
         self.states, self.rule_actions = next_states, next_rule_actions
         self.decisions += len(actions)
         for _ in range(self.learner.updates_due(self.replay, self.decisions // self.n_agents)):

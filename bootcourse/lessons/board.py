@@ -285,7 +285,7 @@ def agents_rows(entrants: Sequence[Entrant], where: str) -> list[Row]:
         if seen != DEFAULT.observation_size:
             raise BootcourseError(
                 f"{where}: {one.name} sees {seen} numbers, and the board's road shows {DEFAULT.observation_size}: "
-                "train it on a scenario with as many neighbours as the default has."
+                "train it on a scenario with the default's Sight."
             )
         groups.setdefault((replace(one.agent.settings, seed=0), one.scenario, one.teacher), []).append(one)
     methods = [settings.method for settings, *_ in groups]

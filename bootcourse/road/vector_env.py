@@ -65,7 +65,7 @@ class TrapVectorEnv(VectorEnv):
         self.placed = np.zeros(n, dtype=bool)  # roads that were reset
         self._uniforms = twin.uniforms_needed(vehicles)
         self._generators = [seeding.np_random()[0] for _ in range(n)]
-        self._observations = np.zeros((n, scenario.observation_size), dtype=np.float32)
+        self.seen = np.zeros((scenario.sight.memory, n, scenario.sight.numbers), dtype=np.float32)  # newest first
         self._rewards, self._terms = np.zeros(n), np.zeros((n, 3))
         self._accidents = np.zeros(n, dtype=np.int64)
 
@@ -92,8 +92,7 @@ class TrapVectorEnv(VectorEnv):
                     self._generators[i] = seeding.np_random(seeds[i])[0]
         self._start(mask)
         self._rewards[mask], self._terms[mask], self._accidents[mask] = 0.0, 0.0, 0
-        observe_all(self.cars, self.constants, self._observations)
-        return self._observations.copy(), self._infos(mask)
+        return self.observe(mask), self._infos(mask)
 
     def step(self, actions):
         """One decision on every road, actions (num_envs,).
@@ -117,20 +116,23 @@ class TrapVectorEnv(VectorEnv):
         terminated = self._accidents != 0
         truncated = ~terminated & (self.decisions >= self.scenario.clock.decisions)
         rewards = self._rewards.copy()
-        observe_all(self.cars, self.constants, self._observations)
-        infos = self._infos(~self.asleep)
+        self.seen[1:] = self.seen[:-1]
+        observations, infos = self.observe(), self._infos(~self.asleep)
         done = terminated | truncated
         if self.metadata["autoreset_mode"] is AutoresetMode.DISABLED:
             self.asleep |= done
         elif done.any():
             self.final_cars = self.cars.copy()
-            infos = self._restart(done, infos)
-        return self._observations.copy(), rewards, terminated, truncated, infos
+            infos = self._restart(done, observations, infos)
+            observations = self.observe(done)
+        return observations, rewards, terminated, truncated, infos
 
-    def observe(self) -> np.ndarray:
-        """The present observations, (num_envs, 26)."""
-        observe_all(self.cars, self.constants, self._observations)
-        return self._observations.copy()
+    def observe(self, began: np.ndarray | None = None) -> np.ndarray:
+        """The present observations, (num_envs, 26); began (num_envs,) bool: roads that remember only the present."""
+        observe_all(self.cars, self.constants, self.seen[0])
+        if began is not None:
+            self.seen[1:, began] = self.seen[0, began]
+        return np.hstack(self.seen)
 
     def _start(self, mask: np.ndarray) -> None:
         for i in np.flatnonzero(mask):
@@ -138,15 +140,14 @@ class TrapVectorEnv(VectorEnv):
         self.decisions[mask] = 0
         self.asleep[mask], self.placed[mask] = False, True
 
-    def _restart(self, done: np.ndarray, infos: dict) -> dict:
+    def _restart(self, done: np.ndarray, observations: np.ndarray, infos: dict) -> dict:
         final_obs = np.full(self.num_envs, None, dtype=object)
         for i in np.flatnonzero(done):
-            final_obs[i] = self._observations[i].copy()
+            final_obs[i] = observations[i]
         final_info = {name: value for name, value in infos.items() if not name.startswith("_")}
         final_info |= {f"_{name}": done.copy() for name in final_info}
         self._start(done)
         self._terms[done], self._accidents[done] = 0.0, 0
-        observe_all(self.cars, self.constants, self._observations)
         infos = self._infos(np.ones(self.num_envs, dtype=bool))
         return infos | {
             "final_obs": final_obs,

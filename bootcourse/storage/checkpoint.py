@@ -116,6 +116,8 @@ def _driven(training: Training) -> dict[str, np.ndarray]:
     arrays = {"env.cars": env.cars, "env.decisions": env.decisions}
     arrays |= {f"curves.{name}": values for name, values in curves.values.items()}
     arrays |= {"curves.finished": curves.finished, "curves.running": curves.running}
+    if len(env.seen) > 1:
+        arrays["env.seen"] = env.seen
     if restarts:
         arrays |= {"curves.restarted": curves.restarted, "curves.unrecorded": curves.unrecorded}
         arrays |= {f"restarts.{name}": values for name, values in restarts.arrays().items()}

@@ -188,8 +188,9 @@ def finished(job: AnyJob, root: Path) -> bool:
     if not folder.exists():
         return False
     made = FORMER | read_job(folder)["asked"]
-    with decoding(folder / "job.json"):  # settings of later versions have their defaults
+    with decoding(folder / "job.json"):  # what later versions added has its default
         made["settings"] = as_read([asdict(stored_settings(stored)) for stored in made.get("settings", [])])
+        made["scenario"] = as_read(asdict(Scenario.from_json(json.dumps(made["scenario"]))))
     different = [name for name, value in asked(job).items() if made.get(name) != value]
     if different:
         raise OtherQuestion(

@@ -7,7 +7,7 @@ from itertools import product
 from bootcourse.errors import BootcourseError, did_you_mean
 from bootcourse.learn.settings import SETTINGS, Settings, settings_for, with_seeds
 from bootcourse.methods import ABLATION, AFTER, BASELINES, METHODS
-from bootcourse.scenario import CALIBRATED, DEFAULT, Scenario
+from bootcourse.scenario import CALIBRATED, DEFAULT, Scenario, Sight
 from bootcourse.study.jobs import BoundJob, Job, StayingJob
 from bootcourse.study.teachers import PLANNER as PLANS
 from bootcourse.study.teachers import RULE, TEACHERS, teacher_named
@@ -205,7 +205,12 @@ def _safe() -> dict[str, Variation]:
     """What may make PPO after cloning safe: each alone, two together, and some for twice as long."""
     off = {"accident_cost": 0.0, "multiplier_step": 0.0, "risk_limit": 1.0, "shield": False, "restart_share": 0.0}
     found = {name: Variation(off | changes, methods=("ppo_safe",)) for name, changes in SAFER.items()}
-    longer = ("accident cost", "accident cost and shield by hand")
+    remembers = replace(DEFAULT, name="memory", sight=Sight(memory=3))
+    found["memory"] = Variation(off, remembers, ("ppo_safe",))
+    found["accident cost, shield by hand and memory"] = replace(
+        found["accident cost and shield by hand"], scenario=remembers
+    )
+    longer = ("accident cost", "accident cost and shield by hand", "accident cost, shield by hand and memory")
     return found | {f"{name}, twice as long": replace(found[name], episodes=40_000) for name in longer}
 
 
