@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from bootcourse.classroom import grading, pages, tables
+from bootcourse.classroom import grading, pages, report
 from bootcourse.classroom.answers import answers_in, errors_in, unfinished, verdicts_in
 from bootcourse.classroom.collect import collect
 from bootcourse.classroom.grading import Graded, Graduate, Verdicts, identical, judge_all, key, other_versions
@@ -329,5 +329,5 @@ def test_lessons_are_read_as_numbers():
 
 
 def test_the_table_of_an_empty_class_has_its_heading():
-    assert tables.wide([]) == [["id", "name", "points"]]
+    assert report.wide([]) == [["id", "name", "points"]]
     assert Graded(NAME, "todo", 0.0).passed is False

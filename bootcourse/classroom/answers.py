@@ -14,6 +14,7 @@ from bootcourse.lessons.order import names_made, names_used
 
 BUILT_IN = frozenset(vars(builtins))
 COMMAND = re.compile(r"^\s*[%!].*$", re.M)  # %time, !pip: no Python
+NO_PYTHON = (SyntaxError, ValueError, RecursionError, MemoryError)  # what a text raises that cannot be parsed
 
 
 def code_cells(notebook: dict) -> list[dict]:
@@ -46,7 +47,7 @@ def pieces(text: str) -> list[str]:
     """The top-level statements of a cell; of a cell that is not Python, its text without the check."""
     try:
         nodes = ast.parse(text).body
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
+    except NO_PYTHON:
         return [re.sub(r"^check\..*$", "", text, flags=re.M)]
     lines = text.splitlines()
     first = [min(part.lineno for part in (node, *getattr(node, "decorator_list", ()))) for node in nodes]
@@ -69,7 +70,7 @@ def with_needs(answer: int, statements: list[str], made: list[set[str]]) -> str:
     while todo:
         try:
             used = names_used(statements[todo.pop()]) - BUILT_IN
-        except (SyntaxError, ValueError, RecursionError, MemoryError):
+        except NO_PYTHON:
             continue
         for name in used:
             makers = [place for place, names in enumerate(made) if name in names]
@@ -77,11 +78,7 @@ def with_needs(answer: int, statements: list[str], made: list[set[str]]) -> str:
             if before and before[-1] not in taken:
                 taken.add(before[-1])
                 todo.append(before[-1])
-    return (
-        "\n\n".join(statements[place] for place in sorted(taken - {answer}))
-        + "\n\n" * (len(taken) > 1)
-        + (statements[answer] + "\n")
-    )
+    return "\n\n".join(statements[place] for place in [*sorted(taken - {answer}), answer]) + "\n"
 
 
 def verdicts_in(notebook: dict) -> dict[str, str]:
@@ -115,7 +112,7 @@ def unfinished(text: str) -> bool:
     """Does a `...` still stand where an answer should? (A text that is not Python is no stub.)"""
     try:
         tree = ast.parse(text)
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
+    except NO_PYTHON:
         return False
     found = [node.value for node in ast.walk(tree) if isinstance(node, ast.Expr)]
     return any(isinstance(value, ast.Constant) and value.value is ... for value in found)

@@ -5,10 +5,10 @@ Two students with the same text get the same verdict from one judging.
 
 import hashlib
 import json
-import queue
 import threading
 from collections import defaultdict
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -16,8 +16,10 @@ from tqdm import tqdm
 
 from bootcourse.classroom.judging import Judge
 from bootcourse.classroom.submission import Submission, fingerprint
-from bootcourse.errors import BootcourseError
+from bootcourse.episodes.evaluate import drive_episodes
 from bootcourse.lessons.exercises import registry
+from bootcourse.policies import rule_policy
+from bootcourse.scenario import DEFAULT
 
 TROUBLE = ("raises an error", "was stopped after", "crash", "memory", "ended Python")
 LONGER = 3  # times an exercise's own limit: here the imports count, too, and all cores are busy
@@ -90,57 +92,28 @@ def judge_all(
         for one in submissions for name, text in one.answers.items() if name in wanted
     }  # fmt: skip
     todo = {k: pair for k, pair in todo.items() if k not in verdicts.known}
-    jobs, holds, stop, errors = queue.SimpleQueue(), set(), threading.Event(), []
-    for item in todo.items():
-        jobs.put(item)
-    bar = tqdm(total=len(todo), desc="answers", unit="", disable=not (progress and todo))
-    if todo:
-        compile_the_road()
-    arguments = (jobs, verdicts, holds, stop, errors, bar)
-    threads = [threading.Thread(target=work, args=arguments) for _ in range(min(workers, len(todo)))]
-    for thread in threads:
-        thread.start()
-    try:
-        while any(thread.is_alive() for thread in threads):
-            for thread in threads:
-                thread.join(0.1)
-    finally:  # also after Ctrl-C: each judge finishes its answer
-        stop.set()
-        for thread in threads:
-            thread.join()
-        bar.close()
-    if errors:
-        raise errors[0]
-    return sorted(set.intersection(*map(set, holds))) if holds else []
+    if not todo:
+        return []
+    drive_episodes(rule_policy(DEFAULT), [0])  # compiles the road, of which each judging process gets a copy
+    judges = [Judge() for _ in range(min(workers, len(todo)))]
 
-
-def compile_the_road() -> None:
-    """Once, here: the judging processes begin with a copy of what is compiled."""
-    from bootcourse.episodes.evaluate import drive_episodes
-    from bootcourse.policies import rule_policy
-    from bootcourse.scenario import DEFAULT
-
-    drive_episodes(rule_policy(DEFAULT), [0])
-
-
-def work(
-    jobs: queue.SimpleQueue, verdicts: Verdicts, holds: set, stop: threading.Event, errors: list, bar: tqdm
-) -> None:
-    """Judge until nothing is left, or one of the threads has an error."""
-    judge = Judge()
-    try:
-        while not stop.is_set():
-            place, (name, text) = jobs.get_nowait()
+    def judged(place: str, name: str, text: str) -> set[str]:
+        judge = judges.pop()  # there is one for each thread
+        try:
             verdicts.add(place, judge.ask(name, text, LONGER * registry()[name].seconds))
-            holds.add(tuple(judge.holds))
-            bar.update()
-    except queue.Empty:
-        return
-    except BootcourseError as error:
-        errors.append(error)
-        stop.set()
-    finally:
-        judge.close()
+        finally:
+            judges.append(judge)
+        return set(judge.holds)
+
+    pool = ThreadPoolExecutor(len(judges))
+    try:
+        asked = [pool.submit(judged, place, *pair) for place, pair in todo.items()]
+        done = tqdm(as_completed(asked), total=len(asked), desc="answers", unit="", disable=not progress)
+        return sorted(set.intersection(*(each.result() for each in done)))
+    finally:  # also after Ctrl-C: each judge finishes its answer
+        pool.shutdown(cancel_futures=True)
+        for judge in judges:
+            judge.close()
 
 
 def graded(submission: Submission, points: dict[str, float], verdicts: Verdicts) -> Graduate:

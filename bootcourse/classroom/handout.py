@@ -8,7 +8,6 @@ import io
 import json
 import re
 import zipfile
-from collections.abc import Iterator
 from datetime import UTC, date, datetime
 from pathlib import Path
 
@@ -23,7 +22,7 @@ KIT = Path(bootcourse.__file__).resolve().parent.parent
 FORMAT = "bootcourse handout 1"
 COPIED = ("bootcourse", "assets", "tools/install.sh", "pyproject.toml", "LICENSE")
 TARGETS = ("lab", "doctor", "clean")  # of the Makefile; the others need what is not handed out
-README = """# {title}
+README = """# Lessons to work in
 
 {deadline}**To begin**, open a terminal in this folder and type `make lab` (Python 3.11 or newer; it takes a few minutes
 the first time). On Windows, in PowerShell:
@@ -55,10 +54,11 @@ def write(folder: Path, lessons: set[int] | None, deadline: str, solutions: bool
     """
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
         raise BootcourseError(f"{folder} exists already: choose another folder, or bring it up to date with --update.")
-    parts = dict(content(lessons, checked(deadline), solutions))
+    parts = content(lessons, checked(deadline), solutions)
     for name, data in parts.items():
         write_bytes(folder / name, data)
-    return [f"{folder}: {len(notebooks(parts))} lessons.", zipped(folder, parts)]
+    lessons = [name for name in parts if name.endswith(".ipynb")]
+    return [f"{folder}: {len(lessons)} lessons.", zipped(folder, parts)]
 
 
 def update(folder: Path, lessons: set[int] | None, deadline: str, solutions: bool | None) -> list[str]:
@@ -72,7 +72,7 @@ def update(folder: Path, lessons: set[int] | None, deadline: str, solutions: boo
     old = read_json(folder / HANDOUT, dict)
     lessons = lessons or set(old["lessons"])
     solutions = old["solutions"] if solutions is None else solutions
-    parts, said = dict(content(lessons, checked(deadline) or old["deadline"], solutions)), []
+    parts, said = content(lessons, checked(deadline) or old["deadline"], solutions), []
     for name, data in parts.items():
         said += place(folder / name, name, data, old)
     return [*said, zipped(folder, parts)]
@@ -100,8 +100,8 @@ def place(path: Path, name: str, data: bytes, old: dict) -> list[str]:
     return [f"{name}: replaced; the one that was here is {path.name}.yours."]
 
 
-def content(lessons: set[int] | None, deadline: str, solutions: bool) -> Iterator[tuple[str, bytes]]:
-    """(name, data) of every file of a handout. Raises BootcourseError where the notebooks are not installed."""
+def content(lessons: set[int] | None, deadline: str, solutions: bool) -> dict[str, bytes]:
+    """{name: data} of every file of a handout. Raises BootcourseError where the notebooks are not installed."""
     files, cells, titles = {}, {}, []
     for path in sorted((KIT / "notebooks").glob("[0-9][0-9]_*.ipynb")):
         if lessons is None or int(path.name[:2]) in lessons:
@@ -113,27 +113,22 @@ def content(lessons: set[int] | None, deadline: str, solutions: bool) -> Iterato
             titles.append(f"- [{title_of(notebook)}]({name})")
     if not files:
         raise BootcourseError(f"{KIT}/notebooks has none of these lessons: install the course as its README says.")
-    files |= {str(path.relative_to(KIT).as_posix()): read_bytes(path) for path in kit_files()}
+    kit = sorted(path for name in COPIED for path in [KIT / name, *(KIT / name).rglob("*")] if path.is_file())
+    kit = [path for path in kit if not {"__pycache__", ".ipynb_checkpoints"} & set(path.parts)]
+    files |= {path.relative_to(KIT).as_posix(): read_bytes(path) for path in kit}
     lock = read_bytes(KIT / "student.lock")  # no test and book packages; under the name that its Makefile knows
     files["environment.lock"] = lock.replace(b"student.lock", b"environment.lock")
     files["Makefile"] = makefile((KIT / "Makefile").read_text(encoding="utf-8")).encode()
-    files["README.md"] = readme(titles, deadline, solutions).encode()
-    yield from files.items()
+    files["README.md"] = README.format(
+        deadline=f"**Deadline:** {deadline}\n\n" if deadline else "",
+        lessons="\n".join(titles),
+        solutions='`check.solution("NAME")` shows a solution.' if solutions else "solutions are closed.",
+    ).encode()
     told = {"format": FORMAT, "version": bootcourse.__version__, "exercises": fingerprint(), "deadline": deadline}
     told |= {"made": datetime.now(UTC).isoformat(timespec="seconds"), "solutions": solutions, "cells": cells}
     told |= {"lessons": sorted(int(Path(name).name[:2]) for name in cells)}
     told |= {"files": {name: hashed(data) for name, data in files.items()}}
-    yield HANDOUT, (json.dumps(told, indent=1, sort_keys=True) + "\n").encode()
-
-
-def kit_files() -> list[Path]:
-    """The files of the kit that lessons need."""
-    found = [path for name in COPIED for path in [KIT / name, *(KIT / name).rglob("*")] if path.is_file()]
-    return sorted(path for path in found if not {"__pycache__", ".ipynb_checkpoints"} & set(path.parts))
-
-
-def notebooks(parts: dict[str, bytes]) -> list[str]:
-    return [name for name in parts if name.endswith(".ipynb")]
+    return files | {HANDOUT: (json.dumps(told, indent=1, sort_keys=True) + "\n").encode()}
 
 
 def dumped(notebook: dict) -> bytes:
@@ -155,14 +150,6 @@ def checked(deadline: str) -> str:
         return deadline and date.fromisoformat(deadline).isoformat()
     except ValueError:
         raise BootcourseError(f"--deadline {deadline}: give a date, such as 2030-05-31.") from None
-
-
-def readme(titles: list[str], deadline: str, solutions: bool) -> str:
-    opened = '`check.solution("NAME")` shows a solution.' if solutions else "solutions are closed."
-    return README.format(
-        title="Lessons to work in", deadline=f"**Deadline:** {deadline}\n\n" if deadline else "",
-        lessons="\n".join(titles), solutions=opened,
-    )  # fmt: skip
 
 
 def makefile(text: str) -> str:

@@ -5,7 +5,6 @@ it stands in that cell's place. All other cells are the new version's.
 """
 
 import hashlib
-from collections.abc import Collection
 from dataclasses import dataclass
 
 from bootcourse.classroom.answers import joined
@@ -44,31 +43,24 @@ def merge(mine: dict, base: dict[str, str], new: dict) -> Merged:
     ids = [str(cell.get("id", place)) for place, cell in enumerate(mine["cells"])]
     by_id = {ids[place]: mine["cells"][place] for place in own}
     ran = {digest(cell): cell for place, cell in enumerate(mine["cells"]) if place not in own}
-    cells, fresh = [], [str(cell["id"]) for cell in new["cells"]]
-    for name, cell in zip(fresh, new["cells"], strict=True):
+    cells, fresh = [], {str(cell["id"]): cell for cell in new["cells"]}
+    changed = [name for name, cell in fresh.items() if base.get(name, digest(cell)) != digest(cell)]
+    for name, cell in fresh.items():
         if name in by_id:
             cells.append(by_id[name])
-        elif not (deleted(name, base, ids) and base[name] == digest(cell)):
+        elif name in ids or base.get(name) != digest(cell):  # else the student has deleted it
             cells.append(cell | outputs(ran.get(digest(cell), {}), cell))
     for place in sorted(own):  # what the student added stands behind what stood before it
         if ids[place] not in fresh:
             cells.insert(after(mine["cells"], place, cells), mine["cells"][place])
-    both = [by_id[name] for name, cell in zip(fresh, new["cells"], strict=True)
-            if name in by_id and base.get(name) not in (None, digest(cell))]  # fmt: skip
+    both = [by_id[name] for name in changed if name in by_id]
     return Merged(
         new | {"cells": cells},
         kept=len(own),
         new=sum(name not in base for name in fresh),
-        changed=sum(
-            base.get(name, digest(cell)) != digest(cell) for name, cell in zip(fresh, new["cells"], strict=True)
-        ),
+        changed=len(changed),
         both=tuple(joined(cell.get("source")).strip().partition("\n")[0][:80] for cell in both),
     )
-
-
-def deleted(name: str, base: dict[str, str], ids: Collection[str]) -> bool:
-    """Was the cell handed out, and is it gone?"""
-    return name in base and name not in ids
 
 
 def outputs(old: dict, cell: dict) -> dict:

@@ -6,8 +6,8 @@ from html import escape
 from itertools import groupby
 
 from bootcourse.classroom.grading import Graduate, did_not_run, identical, other_versions
-from bootcourse.classroom.histogram import histograms
 from bootcourse.lessons.exercises import registry
+from bootcourse.lessons.predictions import worded
 from bootcourse.lessons.verdict import COLOURS, MARKS, marked
 
 STYLE = """body {font: 16px/1.5 system-ui, sans-serif; max-width: 900px; margin: 2em auto; padding: 0 1em;
@@ -22,6 +22,7 @@ pre {white-space: pre-wrap; overflow-wrap: anywhere; margin: 4px 0} small {color
 @media (prefers-color-scheme: dark) {body {background: #14181D; color: #E3E7EB} th, td {border-color: #38424D}
   .of {background: #38424D} small {color: #9AA5B1}}"""
 WORDS = {"missing": "not handed in", "todo": "not written"}
+MOST = 12  # answers to a prediction that get a bar of their own
 
 
 def page(title: str, *parts: str) -> str:
@@ -135,6 +136,30 @@ def to_look_at(graduates: Sequence[Graduate], link: dict[str, str]) -> str:
     empty = [link[one.submission.student] for one in graduates if not one.submission.written]
     items += [f"{', '.join(empty)}: no answer written."] * bool(empty)
     return bullets("To look at", items)
+
+
+def histograms(classes: Sequence[dict[str, dict]]) -> str:
+    """One histogram for each prediction; nothing if nobody made one. classes: each student's predictions."""
+    answers, asked = defaultdict(Counter), {}
+    for own in classes:
+        for number, one in own.items():
+            answers[number][worded(one["answer"], one.get("unit"))] += 1
+            asked.setdefault(number, one["question"])
+    if not answers:
+        return ""
+    order = sorted(answers, key=lambda number: tuple(map(int, number.split("."))))
+    return "<h2>Predictions</h2>" + "".join(histogram(number, asked[number], answers[number]) for number in order)
+
+
+def histogram(number: str, question: str, answers: Counter) -> str:
+    """Bars, the most frequent answer first; those that stand alone at the end are counted together."""
+    total, rows = sum(answers.values()), []
+    for answer, count in answers.most_common(MOST):
+        rows.append(f"<tr><td>{bar(count, total)}</td><td>{count}</td><td>{escape(answer[:200])}</td></tr>")
+    rest = sum(count for _, count in answers.most_common()[MOST:])
+    rows += [f"<tr><td></td><td>{rest}</td><td><small>other answers</small></td></tr>"] * bool(rest)
+    head = f"<p><strong>{number}</strong> {escape(question)}</p>"
+    return f'{head}<table class="short">{"".join(rows)}</table>'
 
 
 def file_names(graduates: Sequence[Graduate]) -> dict[str, str]:

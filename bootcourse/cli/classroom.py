@@ -6,7 +6,7 @@ from pathlib import Path
 
 import typer
 
-INTERRUPTED = 130  # exit status
+from bootcourse.cli.training import INTERRUPTED
 
 
 def submit(
