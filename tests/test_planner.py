@@ -14,7 +14,6 @@ from bootcourse.scenario import DEFAULT, IDLE, Clock, Scenario, Traffic
 from bootcourse.study.planner import (
     Search,
     discounted_values,
-    empty_road_return,
     expand,
     follow,
     future_worth,
@@ -46,6 +45,11 @@ def test_a_plan_s_replay_earns_exactly_what_the_search_said(plans):
         np.testing.assert_array_equal(rollout.rewards, each.rewards)
         assert each.value == pytest.approx(rollout.rewards.sum(), abs=1e-9)
         assert rollout.success == each.success and len(each.actions) == DEFAULT.clock.decisions
+
+
+def empty_road_return(scenario=DEFAULT) -> float:
+    """An upper bound on every return: that of an episode with no other car on the road."""
+    return float(np.interp(scenario.ego.speed, *future_worth(scenario, scenario.clock.decisions, 1.0)[-1]))
 
 
 def test_an_evaluation_of_the_plans_gives_their_returns(plans):

@@ -150,25 +150,16 @@ def usual(method: str, n_actions: int, **changes) -> Settings:
     return settings_for(method, gamma=0.99, target_entropy=0.3 * math.log(n_actions), **changes)
 
 
-def sac_check(make_env: MakeEnv, decisions: int, updates: int = 1):
-    """Discrete SAC, for `decisions` decisions of each agent, with `updates` for every four of them."""
+SAC = {"tau": 0.05}
+PPO = {"envs_per_agent": 8, "horizon": 128, "epochs": 10, "batch": 256, "actor_lr": 1e-3, "critic_lr": 1e-3,
+       "anneal_decisions": 200_000}  # fmt: skip
+
+
+def online_check(method: str, make_env: MakeEnv, decisions: int, **changes):
+    """A learner that drives itself, for `decisions` decisions of each agent. changes: of its settings."""
 
     def measure(seeds: int, progress: bool) -> Outcome:
-        settings = with_seeds(usual("sac", int(make_env().action_space.n), tau=0.05, updates=updates), seeds)
-        return Outcome(scores(train(settings, make_env, decisions, progress=progress), make_env))
-
-    return measure
-
-
-PPO = {"envs_per_agent": 8, "horizon": 128, "epochs": 10, "batch": 256, "actor_lr": 1e-3, "critic_lr": 1e-3}
-
-
-def ppo_check(make_env: MakeEnv, decisions: int):
-    """PPO, for `decisions` decisions of each agent, at the end of which its learning rates are 0."""
-
-    def measure(seeds: int, progress: bool) -> Outcome:
-        n_actions = int(make_env().action_space.n)
-        settings = with_seeds(usual("ppo", n_actions, anneal_decisions=decisions, **PPO), seeds)
+        settings = with_seeds(usual(method, int(make_env().action_space.n), **changes), seeds)
         return Outcome(scores(train(settings, make_env, decisions, progress=progress), make_env))
 
     return measure
@@ -176,7 +167,7 @@ def ppo_check(make_env: MakeEnv, decisions: int):
 
 def cql_check(seeds: int, progress: bool) -> Outcome:
     """CQL on 20,000 transitions, half by a half-trained policy, half at random; 5,000 updates."""
-    half_trained = train([usual("sac", 2, seed=10**6, tau=0.05)], cartpole, 10_000)
+    half_trained = train([usual("sac", 2, seed=10**6, **SAC)], cartpole, 10_000)
     rng = np.random.default_rng(0)
     parts = [
         collect(actor_of(half_trained, 0, rng), cartpole, 300),
@@ -214,11 +205,11 @@ CLEANRL = "[CleanRL, ppo.md](https://github.com/vwxyzjn/cleanrl/blob/master/docs
 CHECKS = {
     "sac-cartpole": Check(
         "discrete SAC", "CartPole-v1", 406.09, "200,000 frames, 4 seeds", "100,000 frames", SLM,
-        sac_check(cartpole, 100_000),
+        online_check("sac", cartpole, 100_000, **SAC),
     ),
     "sac-acrobot": Check(
         "discrete SAC", "Acrobot-v1", -92.60, "300,000 frames, 4 seeds", "100,000 frames", SLM,
-        sac_check(acrobot, 100_000, updates=4),
+        online_check("sac", acrobot, 100_000, **SAC, updates=4),
     ),
     "cql-cartpole": Check(
         "CQL, offline", "CartPole-v1", 170.0, "20,000 transitions, 5,000 updates", "the same",
@@ -232,11 +223,11 @@ CHECKS = {
     ),
     "ppo-cartpole": Check(
         "PPO", "CartPole-v1", 490.04, "500,000 frames, 3 seeds", "200,000 frames", CLEANRL,
-        ppo_check(cartpole, 200_000),
+        online_check("ppo", cartpole, 200_000, **PPO),
     ),
     "ppo-acrobot": Check(
         "PPO", "Acrobot-v1", -86.36, "500,000 frames, 3 seeds", "200,000 frames", CLEANRL,
-        ppo_check(acrobot, 200_000),
+        online_check("ppo", acrobot, 200_000, **PPO),
     ),
 }  # fmt: skip
 PAGE = """# Independent checks
@@ -255,21 +246,19 @@ def reached(outcome: Outcome, check: Check) -> bool:
 
 def table(outcomes: dict[str, Outcome], seconds: dict[str, float]) -> str:
     """The checks as a markdown table."""
-    lines = [
-        "| learner | task | published | its budget | ours, mean [worst, best] | our budget | reached | source |",
-        "|---|---|---|---|---|---|---|---|",
-    ]
+    from bootcourse.study.tables import markdown
+
+    rows = []
     for name, outcome in outcomes.items():
         check, values = CHECKS[name], outcome.scores
         ours = f"{values.mean():.1f} [{values.min():.1f}, {values.max():.1f}], {len(values)} seeds"
-        note = f" ({outcome.note})" if outcome.note else ""
+        ours += f" ({outcome.note})" if outcome.note else ""
         budget = f"{check.our_budget}, {seconds[name]:.0f} s"
         verdict = "yes" if reached(outcome, check) else "**no**"
-        lines.append(
-            f"| {check.learner} | {check.task} | {check.published:g} | {check.their_budget} | {ours}{note} "
-            f"| {budget} | {verdict} | {check.source} |"
-        )
-    return "\n".join(lines) + "\n"
+        published = f"{check.published:g}", check.their_budget
+        rows.append([check.learner, check.task, *published, ours, budget, verdict, check.source])
+    headings = ["learner", "task", "published", "its budget", "ours, mean [worst, best]", "our budget", "reached"]
+    return markdown([*headings, "source"], rows)
 
 
 def run(names: Sequence[str], seeds: int, progress: bool) -> tuple[dict[str, Outcome], dict[str, float]]:

@@ -38,11 +38,6 @@ def mean_over(scores: np.ndarray, axis: int = -1) -> np.ndarray:
     return np.mean(scores, axis=axis)
 
 
-def scores_of(results: Results, method: str, column: str) -> np.ndarray:
-    """Each agent's score in the paper's units (rates in percent), (agents,)."""
-    return results.of(method).scores(column) * (100 if column in RATES else 1)
-
-
 def estimate(results: Results, method: str, column: str, statistic=mean_over) -> Estimate:
     """A statistic in the paper's units with its interval over agents; of a single driver, the mean of its episodes."""
     scale, mine = (100 if column in RATES else 1), results.of(method)
@@ -57,7 +52,8 @@ def judge(results: Results, method: str, column: str) -> FidelityRow:
     paper = paper_interval(method, column)
     if method not in results.methods:
         return FidelityRow(method, column, paper, None, "cannot be compared", "This study has not run this method.")
-    ours, scores = estimate(results, method, column), scores_of(results, method, column)
+    ours = estimate(results, method, column)
+    scores = results.of(method).scores(column) * (100 if column in RATES else 1)  # in the paper's units
     if not possible(method, column):
         average, sd = PRINTED[method][column]
         reason = f"{average:g} ± {sd:g} % is impossible for a rate, so it is not known what was measured."

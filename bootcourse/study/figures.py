@@ -42,31 +42,28 @@ def training_panels(results: Results, methods: Sequence[str], title: str, rule: 
     return training_curves(of_methods(results, methods), title, {"rule": levels}, printed, tuple(TRAINING))
 
 
-def _escapes(results: Results, short: dict[str, str], rule: Results | None) -> Figure:
-    """Training panels of these methods, whose title counts the agents that escape: {method: its name in the title}."""
+def _escapes(results: Results, methods: Sequence[str], short: dict[str, str], rule: Results | None) -> Figure:
+    """Training panels of these methods. short: {method: its name in the title, which counts who escapes}."""
     counts = ", ".join(f"{escaped(results, method)} {name}" for method, name in short.items())
-    return training_panels(results, tuple(short), f"Agents that escape: {counts}", rule)
+    return training_panels(results, methods, f"Agents that escape: {counts}", rule)
 
 
 def margin_against_bonus(results: Results, rule: Results | None = None) -> Figure:
     """The paper's first training figure (Figure 4): demonstrations by a bonus, or by a large margin."""
     methods = ("margin", "margin_soft", "demos", "bootstrapped")
-    bonus, margin = (escaped(results, method) for method in ("demos", "margin"))
-    return training_panels(
-        results, methods, f"Agents that escape: {bonus} with the bonus, {margin} with the margin", rule
-    )
+    return _escapes(results, methods, {"demos": "with the bonus", "margin": "with the margin"}, rule)
 
 
 def ablation(results: Results, rule: Results | None = None) -> Figure:
     """The paper's second training figure (Figure 5): each ingredient alone, and both."""
     short = {"sac": "plain", "soft": "soft constraint", "demos": "demonstrations", "bootstrapped": "both"}
-    return _escapes(results, short, rule)
+    return _escapes(results, tuple(short), short, rule)
 
 
 def baselines(results: Results, rule: Results | None = None) -> Figure:
     """The paper's third training figure (Figure 6): the method against others."""
     short = {"bc": "BC", "cql": "CQL", "gail": "GAIL", "sac": "SAC", "bootstrapped": "bootstrapped"}
-    return _escapes(results, short, rule)
+    return _escapes(results, tuple(short), short, rule)
 
 
 def exploration(results: Results, methods: Sequence[str] = ("sac", "soft", "demos", "bootstrapped")) -> Figure:

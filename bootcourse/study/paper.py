@@ -3,11 +3,12 @@
 import math
 from typing import NamedTuple
 
+import numpy as np
 from scipy import stats
 
 from bootcourse.road.formulas import centring_reward, speed_reward, weighted_reward
 from bootcourse.scenario import DEFAULT
-from bootcourse.statistics import Estimate
+from bootcourse.statistics import Estimate, rate
 
 EPISODES = 20  # tested by the paper, inferred: one collision in 20 episodes is its "5 ± 22.36 %"
 
@@ -49,13 +50,9 @@ PRINTED = {
     method: {column: Printed(*pair) for column, pair in zip(COLUMNS, row, strict=True)}
     for method, row in _PRINTED.items()
 }
+INTEGRATED = "Comparison results for different methods of integrating suboptimal demonstrations"
 TABLES = {
-    "Comparison results for different methods of integrating suboptimal demonstrations": (
-        "sac",
-        "soft",
-        "demos",
-        "bootstrapped",
-    ),
+    INTEGRATED: ("sac", "soft", "demos", "bootstrapped"),
     "Testing comparison with baseline methods": ("cql", "gail", "sac", "rule", "bootstrapped"),
 }
 
@@ -67,9 +64,7 @@ def paper_interval(method: str, column: str) -> Estimate:
     """
     mean, sd = PRINTED[method][column]
     if column in RATES:
-        test = stats.binomtest(round(mean / 100 * EPISODES), EPISODES)
-        low, high = test.proportion_ci(0.95, method="exact")
-        return Estimate(mean, 100 * float(low), 100 * float(high))
+        return Estimate(*(100 * part for part in rate(np.arange(EPISODES) < round(mean / 100 * EPISODES))))
     half = float(stats.t.ppf(0.975, EPISODES - 1)) * sd / math.sqrt(EPISODES)
     return Estimate(mean, mean - half, mean + half)
 
@@ -95,17 +90,12 @@ def arithmetic(method: str) -> str:
     row = PRINTED[method]
     speed, distance, returns = row["speed"].mean, row["distance"].mean, row["returns"].mean
     seconds = distance / speed
-    words = [f"{distance:g} m at {speed:g} m/s take {seconds:.1f} s of 150."]
+    words = f"{distance:g} m at {speed:g} m/s take {seconds:.1f} s of 150."
     if seconds < 145:
-        words.append(
-            "So some episodes ended early, while its collision rate is 0: road departures or stops must hide there."
-        )
-    words.append(
-        f"A car that holds {speed:g} m/s for 150 s earns {earned_at(speed):.2f} in the middle of its lane and "
-        f"{earned_at(speed, centred=False):.2f} between lanes; printed are {returns:g}."
-    )
-    impossible = [column for column in COLUMNS if not possible(method, column)]
-    for column in impossible:
-        mean, sd = row[column]
-        words.append(f"A rate of {mean:g} % in {EPISODES} episodes cannot have a deviation of {sd:g} (at most 22.36).")
-    return " ".join(words)
+        words += " So some episodes ended early, while its collision rate is 0:"
+        words += " road departures or stops must hide there."
+    words += f" A car that holds {speed:g} m/s for 150 s earns {earned_at(speed):.2f} in the middle of its lane and "
+    words += f"{earned_at(speed, centred=False):.2f} between lanes; printed are {returns:g}."
+    for mean, sd in (row[column] for column in COLUMNS if not possible(method, column)):
+        words += f" A rate of {mean:g} % in {EPISODES} episodes cannot have a deviation of {sd:g} (at most 22.36)."
+    return words

@@ -181,11 +181,6 @@ def planner_rule(search: Search | None = None) -> Rule:
     return planned
 
 
-def empty_road_return(scenario: Scenario = DEFAULT) -> float:
-    """An upper bound on every return: that of an episode with no other car on the road."""
-    return float(np.interp(scenario.ego.speed, *future_worth(scenario, scenario.clock.decisions, 1.0)[-1]))
-
-
 @dataclass(frozen=True)
 class Staying:
     """Discounted values from the start of an episode, Σ γ^t r_t, each over the same roads."""

@@ -50,8 +50,7 @@ def write_report(found: StudyResults, folder: Path) -> Path:
     text += ["## Fidelity: every number of the paper's two tables\n", FIDELITY.format(close=close()), counted(findings)]
     text += [tables.fidelity_table(findings), "### What each row's own numbers say\n"]
     text += ["\n".join(f"- **{ROWS[method]}.** {arithmetic(method)}" for method in PRINTED) + "\n"]
-    text += experiments_part(found.experiments)
-    text += [*budget_part(found), *safe_part(found, folder)]
+    text += [*experiments_part(found.experiments), *budget_part(found), *safe_part(found, folder)]
     path = folder / "report.md"
     write_bytes(path, "\n".join(text).encode())
     return path
@@ -76,14 +75,12 @@ def study_part(found: StudyResults, name: str, rule: Results, everyone: Results,
 
 def pictures(folder: Path, name: str, results: Results, rule: Results) -> list[str]:
     """Draw the figures whose methods are there; returns the Markdown that shows them."""
-    figures = {}
-    for title, (draw, needed) in FIGURES.items():
-        if set(needed) <= set(results.methods):
-            figures[title] = draw(results, rule)
-    if {"sac", "bootstrapped"} <= set(results.methods):
+    there = set(results.methods)
+    figures = {title: draw(results, rule) for title, (draw, needed) in FIGURES.items() if set(needed) <= there}
+    if {"sac", "bootstrapped"} <= there:
         figures["exploration"] = training_figures.exploration(results)
-    figures["returns"] = training_figures.final_scores(results, results.methods, "returns")
-    figures["success"] = training_figures.final_scores(results, results.methods, "success")
+    for column in ("returns", "success"):
+        figures[column] = training_figures.final_scores(results, results.methods, column)
     for title, figure in figures.items():
         save(figure, folder / "figures" / f"{name}-{title}.png")
     return [f"![{figure.alt}](figures/{name}-{title}.png)\n" for title, figure in figures.items()]
@@ -113,12 +110,8 @@ def stopped(results: Results) -> str:
     agents = [(results.agents[i], decision) for i, decision in enumerate(results.stopped) if decision >= 0]
     if not agents:
         return "No agent had to be stopped.\n"
-    sentences = [f"{agent['method']}, seed {agent['seed']}, at decision {decision}" for agent, decision in agents]
-    return (
-        "Stopped because their loss was not a number, and tested with the weights from before: "
-        + "; ".join(sentences)
-        + ".\n"
-    )
+    named = "; ".join(f"{agent['method']}, seed {agent['seed']}, at decision {decision}" for agent, decision in agents)
+    return f"Stopped because their loss was not a number, and tested with the weights from before: {named}.\n"
 
 
 def experiments_part(experiments: dict[str, dict[str, Results]]) -> list[str]:

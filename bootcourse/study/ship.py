@@ -55,9 +55,25 @@ class Shipment:
         """Has the study finished any job of this part?"""
         return any((self.study / "jobs" / part).rglob("job.json"))
 
+    def name_of(self, path: Path) -> str:
+        """A file's name in the manifest."""
+        return path.relative_to(self.new).as_posix()
+
+    def behaviour_of(self, name: str) -> dict[str, list[float]]:
+        """The fingerprints of the code that made a file that is listed, by name."""
+        return {each: self.behaviours[each][made] for each, made in self.entries[name]["behaviour"].items()}
+
+    def made(self, part: str) -> tuple[dict[str, list[float]], dict]:
+        """(behaviour, versions) of the study's jobs of a part. Raises BootcourseError if there are none."""
+        jobs = [read_job(path.parent) for path in sorted((self.study / "jobs" / part).rglob("job.json"))]
+        if not jobs:
+            raise BootcourseError(f"{self.study} has no finished jobs in jobs/{part}: compute them first.")
+        versions = {name: value for name, value in jobs[0]["provenance"].items() if name != "seconds"}
+        return agreed([job.get("behaviour", {"unrecorded behaviour": []}) for job in jobs]), versions
+
     def ships(self, path: Path) -> Results | None:
         """The results that ship in a file; None if it is absent or not as the manifest lists it."""
-        entry = self.entries.get(path.relative_to(self.new).as_posix())
+        entry = self.entries.get(self.name_of(path))
         return load_results(path) if entry and is_file_with(path, entry["sha256"]) else None
 
     def completed(self, results: Results, path: Path, behaviour: dict[str, list[float]]) -> tuple[Results, dict]:
@@ -72,9 +88,7 @@ class Shipment:
         names = results.curves.keys() & ships.curves.keys()
         joined = join([replace(part, curves={name: part.curves[name] for name in names}) for part in (results, *kept)])
         order = sorted(range(len(joined)), key=lambda i: (joined.agents[i]["method"], joined.agents[i]["seed"]))
-        entry = self.entries[path.relative_to(self.new).as_posix()]
-        former = {name: self.behaviours[name][made] for name, made in entry["behaviour"].items()}
-        return joined.pick(order), agreed([behaviour, former])
+        return joined.pick(order), agreed([behaviour, self.behaviour_of(self.name_of(path))])
 
     def check_size(self, results: Results, path: Path) -> None:
         """Raise BootcourseError if `path` holds more agents or episodes than the results that would replace it."""
@@ -94,20 +108,18 @@ class Shipment:
         """Remove the files that are made again."""
         for path in [path for path in self.new.glob(pattern) if path.is_file()]:
             path.unlink()
-            self.entries.pop(path.relative_to(self.new).as_posix(), None)
+            self.entries.pop(self.name_of(path), None)
 
     def add(self, path: Path, how: str, behaviour: dict[str, list[float]], versions: dict) -> None:
         """List a file that was just made. behaviour: the fingerprints of the code that made it, by name."""
-        name = path.relative_to(self.new).as_posix()
+        name, made = self.name_of(path), {each: self.known(each, values) for each, values in behaviour.items()}
         entry = {"file": name, "sha256": sha256(path), "bytes": path.stat().st_size}
-        made = {each: self.known(each, values) for each, values in behaviour.items()}
         self.entries[name] = entry | {"command": how, "behaviour": made, "versions": versions}
 
     def known(self, name: str, values: list[float]) -> str:
         """The key of a fingerprint in the manifest. One that is there already stands for all that are alike."""
         listed = self.behaviours.setdefault(name, {})
-        alike_ones = [made for made, its in listed.items() if alike(name, values, its)]
-        made = alike_ones[0] if alike_ones else key(values)
+        made = next((made for made, its in listed.items() if alike(name, values, its)), key(values))
         listed.setdefault(made, values)
         return made
 
@@ -160,15 +172,6 @@ def _fill(shipment: Shipment, folder: Path) -> None:
         )
 
 
-def jobs_made(study: Path, part: str) -> tuple[dict[str, list[float]], dict]:
-    """(behaviour, versions) of the jobs of a part."""
-    jobs = [read_job(path.parent) for path in sorted((study / "jobs" / part).rglob("job.json"))]
-    if not jobs:
-        raise BootcourseError(f"{study} has no finished jobs in jobs/{part}: compute them first.")
-    versions = {name: value for name, value in jobs[0]["provenance"].items() if name != "seconds"}
-    return agreed([job.get("behaviour", {"unrecorded behaviour": []}) for job in jobs]), versions
-
-
 def agreed(behaviours: Sequence[dict[str, list[float]]]) -> dict[str, list[float]]:
     """The fingerprints of several results together; one on which they differ is [], never current."""
     found: dict[str, list[float]] = {}
@@ -196,11 +199,10 @@ def add_results(to: Shipment) -> None:
             if part == "default" and not path.exists():
                 raise BootcourseError(f"{to.study} has no finished jobs in jobs/default: compute them first.")
             if to.study.exists():
-                print(
-                    f"{path.name} {'stays as it is' if path.exists() else 'is left out'}: {to.study} has no such jobs."
-                )
+                what = "stays as it is" if path.exists() else "is left out"
+                print(f"{path.name} {what}: {to.study} has no such jobs.")
             continue
-        behaviour, versions = jobs_made(to.study, part)
+        behaviour, versions = to.made(part)
         results, behaviour = to.completed(load_jobs(to.study, part), path, behaviour)
         to.check_size(results, path)
         save_results(lighter(results, CURVES[:2] if part == "sweep" else CURVES), path, versions)
@@ -208,11 +210,11 @@ def add_results(to: Shipment) -> None:
         if part in found.bound:
             best = to.new / f"bound-{part}.npz"
             write_arrays(best, {"returns": found.bound[part].astype(np.float32)})
-            to.add(best, how, *jobs_made(to.study, f"bound-{part}"))
+            to.add(best, how, *to.made(f"bound-{part}"))
         if part in found.staying:
             answer = to.new / f"staying-{part}.json"
             write_json(answer, found.staying[part])
-            to.add(answer, how, *jobs_made(to.study, f"staying-{part}"))
+            to.add(answer, how, *to.made(f"staying-{part}"))
 
 
 def add_experiments(to: Shipment) -> None:
@@ -220,7 +222,7 @@ def add_experiments(to: Shipment) -> None:
     for name in EXPERIMENTS:
         how = f"bootcourse study {name} --out DIR && {BUILD}"
         for job in sorted(to.study.glob(f"jobs/{name}/*/results.npz")):
-            behaviour, versions = jobs_made(to.study, f"{name}/{job.parent.name}")
+            behaviour, versions = to.made(f"{name}/{job.parent.name}")
             path = to.new / name / f"{job.parent.name}.npz"
             results = load_job(job.parent)
             to.check_size(results, path)
@@ -252,7 +254,7 @@ def add_runs(to: Shipment) -> None:
             continue
         to.clear(f"runs/{run.name}/*")
         shutil.copytree(run, to.new / "runs" / run.name, dirs_exist_ok=True)
-        behaviour, versions = jobs_made(to.study, f"default/{run.parent.parent.name}")
+        behaviour, versions = to.made(f"default/{run.parent.parent.name}")
         for path in sorted((to.new / "runs" / run.name).iterdir()):
             to.add(path, STUDY, only(behaviour, method), versions)
 
@@ -285,16 +287,16 @@ def add_rollouts(to: Shipment) -> None:
     roads = held_out_seeds(HELD_OUT, success.shape[1])
     drives = {"rule": record(rule_policy(DEFAULT), [roads[0]], DEFAULT, "rule")[0]}
     for name, (method, fits) in wanted.items():
-        mine = [i for i, agent in enumerate(results.agents) if agent["method"] == method]
-        found = [(i, road) for i in mine for road in np.flatnonzero(fits[i])]
+        mine = np.array([agent["method"] == method for agent in results.agents])
+        found = [(int(agent), int(road)) for agent, road in np.argwhere(fits & mine[:, None])]
         if not found:
             print(f"No agent of '{method}' drove a rollout for {name}: none is made.")
             continue
         agent, road = max(found, key=lambda place: results.tested["returns"][place])
         run = next(to.study.glob(f"jobs/default/*/runs/{method}-{results.agents[agent]['seed']}"))
         driver = load_run(run).agent.as_policy(with_q=True)
-        drives[name] = record(driver, [roads[int(road)]], DEFAULT, method)[0]
-    behaviour, _ = jobs_made(to.study, "default")
+        drives[name] = record(driver, [roads[road]], DEFAULT, method)[0]
+    behaviour, _ = to.made("default")
     for name, rollout in drives.items():
         path = rollout.save(to.new / "rollouts" / f"{name}.npz")
         to.add(path, STUDY, fingerprints("road", "rule") | only(behaviour, rollout.label), provenance())
@@ -329,6 +331,5 @@ def add_kept(to: Shipment, now: Path) -> None:
 def add_card(to: Shipment) -> None:
     """The model card."""
     write_bytes(to.new / "MODEL_CARD.md", model_card(load_results(to.new / "study-default.npz"), RUNS).encode())
-    entry = to.entries["study-default.npz"]
-    behaviour = {name: to.behaviours[name][made] for name, made in entry["behaviour"].items()}
-    to.add(to.new / "MODEL_CARD.md", STUDY, behaviour | fingerprints("statistics"), entry["versions"])
+    behaviour, versions = to.behaviour_of("study-default.npz"), to.entries["study-default.npz"]["versions"]
+    to.add(to.new / "MODEL_CARD.md", STUDY, behaviour | fingerprints("statistics"), versions)

@@ -12,10 +12,11 @@ import numpy as np
 from bootcourse.errors import BootcourseError
 from bootcourse.scenario import check_p
 from bootcourse.statistics import Estimate, interval
+from bootcourse.storage.assets import FOLDER
 from bootcourse.study.fidelity import mean_over
 from bootcourse.study.results import Results, load_results
 
-SHIPPED = Path(__file__).resolve().parents[2] / "assets" / "sweep.npz"
+SHIPPED = FOLDER / "sweep.npz"
 
 
 @dataclass(frozen=True)
@@ -35,7 +36,7 @@ class SweepResult:
     @property
     def accidents(self) -> float:
         """Share of episodes that ended in an accident of any kind."""
-        return float((self.results.tested["accident"] > 0).mean())
+        return float(self.results.scores("accident").mean())
 
     def __str__(self) -> str:
         setting = f"p = {self.p:g}, ξ = {self.xi_multiplier:g} α, c = {self.c:g}"
