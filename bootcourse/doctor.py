@@ -19,6 +19,7 @@ from typing import NamedTuple
 
 ROOT = Path(__file__).resolve().parent.parent
 LOCK = ROOT / "environment.lock"
+STUDENT_LOCK = ROOT / "student.lock"  # its part that the lessons need; a handout has no other
 OLDEST = (3, 11)
 SET_UP = "Run `make lab` in the course's folder (on Windows, the install line of README.md)."
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "chrome")
@@ -52,7 +53,7 @@ def packages() -> Iterator[Finding]:
     installed = {name: installed_version(name) for name in locked}
     missing = [name for name in locked if installed[name] is None]
     different = [name for name in locked if installed[name] not in (None, locked[name])]
-    lessons_need = needed("bootcourse") or set(missing)
+    lessons_need = locked_versions(STUDENT_LOCK.read_text()) if STUDENT_LOCK.exists() else locked
     stopping = [name for name in missing if name in lessons_need]
     others = [name for name in missing if name not in lessons_need]
     if installed_version("bootcourse") is None:
@@ -73,38 +74,12 @@ def listed(names: list[str]) -> str:
 
 def locked_versions(lock: str) -> dict[str, str]:
     """{name: version} of the lock's lines whose markers (`; sys_platform == 'linux'`) fit this machine."""
-    Marker = packaging().markers.Marker
+    try:
+        from packaging.markers import Marker
+    except ModuleNotFoundError:  # pip has a copy
+        from pip._vendor.packaging.markers import Marker
     lines = re.findall(r"^([\w.-]+)==([^\s;]+)(?: ; ([^\\\n]+?))?(?: \\)?$", lock, flags=re.MULTILINE)
     return {name: version for name, version, marker in lines if not marker or Marker(marker).evaluate()}
-
-
-def needed(name: str, extras: tuple[str, ...] = ("",), found: set | None = None) -> set[str]:
-    """The names of all direct and indirect requirements of an installed package."""
-    found = set() if found is None else found
-    try:
-        requirements = importlib.metadata.requires(name) or []
-    except importlib.metadata.PackageNotFoundError:
-        return found
-    for requirement in map(packaging().requirements.Requirement, requirements):
-        marker = requirement.marker
-        child = re.sub(r"[-_.]+", "-", requirement.name).lower()
-        if child not in found and (not marker or any(marker.evaluate({"extra": extra}) for extra in extras)):
-            found.add(child)
-            needed(child, ("", *requirement.extras), found)
-    return found
-
-
-def packaging():
-    """The package `packaging`, which parses requirements: installed, or else pip's copy."""
-    try:
-        import packaging.markers
-        import packaging.requirements
-    except ModuleNotFoundError:
-        import pip._vendor.packaging.markers
-        import pip._vendor.packaging.requirements
-
-        return pip._vendor.packaging
-    return packaging
 
 
 def installed_version(name: str) -> str | None:

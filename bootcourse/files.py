@@ -13,9 +13,9 @@ import json
 import math
 import os
 import platform
+import secrets
 import shutil
 import stat
-import tempfile
 import zipfile
 from pathlib import Path
 from typing import Any, TypeVar
@@ -42,14 +42,11 @@ def write_bytes(path: Path, data: bytes) -> None:
     temporary = None
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.NamedTemporaryFile(
-            dir=path.parent, prefix=f".{path.name}.", suffix=TEMPORARY, delete=False
-        ) as file:
+        with open(path.with_name(f".{path.name}.{secrets.token_hex(4)}{TEMPORARY}"), "xb") as file:
             temporary = Path(file.name)
             file.write(data)
             file.flush()
             os.fsync(file.fileno())
-        temporary.chmod(0o666 & ~_umask())
         temporary.replace(path)
     except (OSError, ValueError) as error:  # ValueError: a null character in the name
         reason = getattr(error, "strerror", None) or error
@@ -57,12 +54,6 @@ def write_bytes(path: Path, data: bytes) -> None:
     finally:  # also after an interrupt; after the renaming there is no temporary file
         if temporary is not None:
             temporary.unlink(missing_ok=True)
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
 
 
 def remove_temporary(folder: Path) -> None:

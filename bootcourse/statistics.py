@@ -7,6 +7,7 @@ scipy because rliable, the authors' library, has had no release since 2024.
 """
 
 import warnings
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -48,7 +49,7 @@ def iqm(scores: np.ndarray, axis: int = -1) -> np.ndarray:
     return stats.trim_mean(scores, 0.25, axis=axis)
 
 
-def interval(scores: np.ndarray, statistic=iqm, seed: int = 0) -> Estimate:
+def interval(scores: Sequence[float] | np.ndarray, statistic=iqm, seed: int = 0) -> Estimate:
     """A statistic of scores (seeds,) with its 95 % percentile bootstrap interval over seeds.
 
     One seed has no interval: NaN. Equal scores have an interval of length 0, which is too short: for rates of agents

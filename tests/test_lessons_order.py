@@ -7,7 +7,7 @@ import pytest
 from IPython.core.interactiveshell import InteractiveShell
 
 from bootcourse.lessons import order
-from tools.course.order import of_order
+from tools.course.problems import of_order
 from tools.course.source import Cell
 
 CELLS = [

@@ -3,7 +3,6 @@
 `handout.json` says which files and cells were handed out, so that an update knows what a student has changed.
 """
 
-import hashlib
 import io
 import json
 import re
@@ -12,7 +11,7 @@ from datetime import UTC, date, datetime
 from pathlib import Path
 
 import bootcourse
-from bootcourse.classroom.merge import merge, texts
+from bootcourse.classroom.merge import hashed, merge, texts
 from bootcourse.classroom.submission import fingerprint
 from bootcourse.errors import BootcourseError
 from bootcourse.files import read_bytes, read_json, write_bytes
@@ -133,10 +132,6 @@ def content(lessons: set[int] | None, deadline: str, solutions: bool) -> dict[st
 
 def dumped(notebook: dict) -> bytes:
     return (json.dumps(notebook, indent=1, ensure_ascii=False) + "\n").encode("utf-8", "replace")
-
-
-def hashed(data: bytes) -> str:
-    return hashlib.sha256(data).hexdigest()[:16]
 
 
 def title_of(notebook: dict) -> str:

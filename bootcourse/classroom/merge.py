@@ -28,7 +28,11 @@ class Merged:
 
 def digest(cell: dict) -> str:
     """The same for cells of the same text."""
-    return hashlib.sha256(joined(cell.get("source")).encode("utf-8", "replace")).hexdigest()[:16]
+    return hashed(joined(cell.get("source")).encode("utf-8", "replace"))
+
+
+def hashed(data: bytes) -> str:
+    return hashlib.sha256(data).hexdigest()[:16]
 
 
 def texts(notebook: dict) -> dict[str, str]:

@@ -50,14 +50,14 @@ def evaluate(
     seeds, drivers = held_out_seeds(seed, episodes), drivers_of(who[0], scenario, sample, seed, teacher)
     found = {each.label: summarise(drive_episodes(each.policy, seeds, each.road)) for each in drivers}
     means = {name: over_seeds([found[label] for label in labels]) for name, labels in alike(drivers).items()}
+    columns = {label: vars(each) for label, each in found.items()} | means
     if as_json:
-        everything = {label: each.to_dict() for label, each in found.items()}
-        for name, estimates in means.items():
-            everything[name] = {measure: estimate._asdict() for measure, estimate in estimates.items()}
-        print(json.dumps(everything, indent=2))
+        told = {label: {name: each[name]._asdict() for name in MEASURES} for label, each in columns.items()}
+        for label in found:
+            told[label] = {"episodes": episodes} | told[label]
+        print(json.dumps(told, indent=2))
         return
     print(f"{episodes} held-out episodes, block {seed}: value [95 % interval]; a mean is over training seeds")
-    columns = {label: {name: getattr(each, name) for name in MEASURES} for label, each in found.items()} | means
     labels = list(columns)
     for first in range(0, len(labels), ACROSS):
         print_table({label: columns[label] for label in labels[first : first + ACROSS]})
@@ -125,12 +125,8 @@ def drivers_of(who: str, scenario: str, sample: bool, seed: int, teacher: str) -
     if who in BUILT_IN:
         if teacher:
             refuse_teacher(teacher)
-        road = named(scenario) if scenario else DEFAULT
-        built_in = {
-            "rule": rule_policy(road),
-            "idle": idle_policy,
-            "random": random_policy(np.random.default_rng(seed)),
-        }
+        road, rng = named(scenario) if scenario else DEFAULT, np.random.default_rng(seed)
+        built_in = {"rule": rule_policy(road), "idle": idle_policy, "random": random_policy(rng)}
         return [Driver(who, built_in[who], road)]
     from bootcourse.cli.training import teacher_from
     from bootcourse.learn.teachers import teacher_of

@@ -49,7 +49,7 @@ def train(
 
     settings, road = with_seeds(settings_for(method, setting), seeds, first_seed), named(scenario)
     rule, work, episodes = teacher_from(teacher), out / UNFINISHED, episodes or METHODS[method].episodes
-    if resume and is_finished(out):
+    if resume and not is_unfinished(out) and any(out.glob("*/provenance.json")):
         with locked(work, "training"):  # removes what is left of it, if it was killed in its last moment
             print(f"{out} is finished: there is nothing to resume.")
         return
@@ -89,11 +89,6 @@ def check_folder(out: Path, resume: bool) -> None:
 def is_unfinished(out: Path) -> bool:
     """Does the folder hold a training that can be resumed?"""
     return any((out / UNFINISHED / name).exists() for name in (CHECKPOINT, COMPLETE))
-
-
-def is_finished(out: Path) -> bool:
-    """Does the folder hold runs, and no unfinished training?"""
-    return not is_unfinished(out) and any(out.glob("*/provenance.json"))
 
 
 def teacher_from(place: str):

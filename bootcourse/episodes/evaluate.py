@@ -1,11 +1,10 @@
 """Evaluation of a policy on held-out roads, with 95 % intervals."""
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 
 import numpy as np
 from gymnasium.vector import AutoresetMode
-from scipy import stats
 
 from bootcourse.episodes.driving import steps
 from bootcourse.errors import whole
@@ -13,7 +12,7 @@ from bootcourse.policies import Policy
 from bootcourse.road.state import Accident
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, Scenario
-from bootcourse.statistics import Estimate, mean, rate
+from bootcourse.statistics import Estimate, interval, mean, rate
 
 BLOCK = 1_000_000  # held-out roads of evaluation seed s are s x BLOCK, s x BLOCK + 1, ...
 MAX_SEED = 2**32 // BLOCK - 1  # training roads have seeds above 2**32, so held-out roads differ from them
@@ -42,13 +41,6 @@ class Evaluation:
     collision: Estimate  # rate
     road_departure: Estimate  # rate
     stoppage: Estimate  # rate
-
-    def to_dict(self) -> dict:
-        """As plain dictionaries and numbers, for JSON."""
-        return {
-            name: value._asdict() if isinstance(value, Estimate) else value
-            for name, value in ((name, getattr(self, name)) for name in asdict(self))
-        }
 
 
 def held_out_seeds(seed: int, episodes: int) -> range:
@@ -99,8 +91,5 @@ def summarise(episodes: Episodes) -> Evaluation:
 
 def over_seeds(reports: Sequence[Evaluation]) -> dict[str, Estimate]:
     """The mean over training seeds of each column, with a percentile bootstrap interval over seeds."""
-    names = [name for name in asdict(reports[0]) if name != "episodes"]
-    values = np.array([[getattr(report, name).value for name in names] for report in reports])
-    spread = stats.bootstrap((values,), np.mean, axis=0, method="percentile", rng=np.random.default_rng(0))
-    low, high = spread.confidence_interval
-    return {name: Estimate(*map(float, column)) for name, *column in zip(names, values.mean(0), low, high, strict=True)}
+    names = [name for name in vars(reports[0]) if name != "episodes"]
+    return {name: interval([getattr(report, name).value for report in reports], np.mean) for name in names}

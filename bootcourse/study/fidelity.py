@@ -34,11 +34,7 @@ class FidelityRow(NamedTuple):
     reason: str
 
 
-def mean_over(scores: np.ndarray, axis: int = -1) -> np.ndarray:
-    return np.mean(scores, axis=axis)
-
-
-def estimate(results: Results, method: str, column: str, statistic=mean_over) -> Estimate:
+def estimate(results: Results, method: str, column: str, statistic=np.mean) -> Estimate:
     """A statistic in the paper's units with its interval over agents; of a single driver, the mean of its episodes."""
     scale, mine = (100 if column in RATES else 1), results.of(method)
     if len(mine) > 1:

@@ -13,7 +13,6 @@ from bootcourse.errors import BootcourseError
 from bootcourse.scenario import check_p
 from bootcourse.statistics import Estimate, interval
 from bootcourse.storage.assets import FOLDER
-from bootcourse.study.fidelity import mean_over
 from bootcourse.study.results import Results, load_results
 
 SHIPPED = FOLDER / "sweep.npz"
@@ -31,7 +30,7 @@ class SweepResult:
 
     def mean(self, measure: str) -> Estimate:
         """Mean over the seeds with its 95 % interval: success, returns, speed, distance, collision, ..."""
-        return interval(self.results.scores(measure), mean_over)
+        return interval(self.results.scores(measure), np.mean)
 
     @property
     def accidents(self) -> float:

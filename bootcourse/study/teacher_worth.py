@@ -16,7 +16,6 @@ from bootcourse.methods import display_name
 from bootcourse.statistics import ESCAPES, Estimate, escapes, interval, median
 from bootcourse.storage.assets import FOLDER
 from bootcourse.study.beyond import SHARE, WINDOW, spent
-from bootcourse.study.fidelity import mean_over
 from bootcourse.study.plan import TAUGHT
 from bootcourse.study.results import Results, in_assets, in_study
 from bootcourse.study.tables import bracketed, k_of_n
@@ -65,7 +64,7 @@ QUANTITIES = {
     "accidents": Quantity(
         "accidents (% of drives)",
         lambda results: 100 * results.scores("accident"),
-        lambda rates: interval(rates, mean_over),
+        lambda rates: interval(rates, np.mean),
         ("#FBF1EE", "#7A1F1F"),
     ),
     "decisions": Quantity(

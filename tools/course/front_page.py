@@ -38,7 +38,7 @@ def sweep_data() -> dict:
                 "c": each.c,
                 "success": _rounded(each.results.scores("success"), 3),
                 "returns": _rounded(each.results.scores("returns"), 1),
-                "accidents": _rounded((each.results.tested["accident"] > 0).mean(axis=1), 3),
+                "accidents": _rounded(each.results.scores("accident"), 3),
             }
             for each in found
         ],
@@ -58,15 +58,15 @@ def drive_data(name: str = "escape") -> dict:
     colours[TRAP_1] = colours[TRAP_2] = TRAP
     colours[EGO] = style(drive.label).colour
     return {
-        "states": [[_rounded(car, 2) for car in step] for step in cars],
+        "states": _rounded(cars, 2),
         "speeds": _rounded(drive.states[:, EGO, SPEED], 1),
-        "policy": [_rounded(pi, 3) for pi in drive.policy],
+        "policy": _rounded(drive.policy, 3),
         "rule": drive.rule_actions.tolist(),
         "actions": list(ACTION_NAMES),
         "colours": colours,
         "colour": colours[EGO],
         "steps": scenario.clock.steps,
-        "dt": 1 / (scenario.clock.decision_rate * scenario.clock.steps),
+        "dt": scenario.clock.dt,
         "pace": PACE,
         "lanes": scenario.road.lanes,
         "lane": scenario.road.lane_width,
@@ -75,8 +75,8 @@ def drive_data(name: str = "escape") -> dict:
     }
 
 
-def _rounded(values: np.ndarray, digits: int) -> list[float]:
-    return [round(float(value), digits) for value in values]
+def _rounded(values: np.ndarray, digits: int) -> list:
+    return np.round(values.astype(np.float64), digits).tolist()
 
 
 def fill(folder: Path) -> None:

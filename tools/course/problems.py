@@ -1,4 +1,4 @@
-"""What is wrong with a lesson, as sentences: its numbers, exercises, references to code, pictures, freshness.
+"""What is wrong with a lesson, as sentences: its numbers, exercises, order, references to code, pictures, freshness.
 
 That no link is dead is for the book's build to find.
 """
@@ -8,18 +8,19 @@ import inspect
 import pkgutil
 import re
 import textwrap
+from collections.abc import Iterator
 from pathlib import Path
 
 import nbformat
 
 from bootcourse.lessons.exercises import registry
 from tools.course.claims import filled
-from tools.course.order import of_order
 from tools.course.products import IMPORTS_CHECK, out_of_date, solved_file, student_file
 from tools.course.source import Cell, arguments_of, body, function_in
 
 LONGEST_CELL = 25  # lines
 MOST_IMPORTS = 5  # lines, at the top
+CHANGES = {"append", "extend", "insert", "pop", "remove", "update"}  # methods
 SHORTEST_ALT = 40  # letters: what a reader should see does not fit into fewer
 
 
@@ -123,6 +124,40 @@ def of_predictions(cells: list[Cell], lesson: str) -> list[str]:
     found = [f"The prediction {n} does not begin with {chapter}." for n in asked if n.partition(".")[0] != chapter]
     found += [f"There are two predictions {number}." for number in sorted(set(asked)) if asked.count(number) > 1]
     return found + [f"No compare_predictions answers {number}." for number in asked if f'"{number}":' not in compared]
+
+
+# Order ----------------------------------------------------------------------------------------------
+
+
+def of_order(cells: list[Cell]) -> list[str]:
+    """May a cell run twice? Not if it changes what another cell made: the second time it would change it again."""
+    found = []
+    for cell in (cell for cell in cells if cell.is_code):
+        nodes = list(outside_functions(ast.parse(cell.solved)))
+        grown = [
+            node.target for node in nodes if isinstance(node, ast.AugAssign) and not isinstance(node.op, ast.BitOr)
+        ]
+        grown += [node.func.value for node in nodes if isinstance(node, ast.Call) and changes(node)]
+        names = [node for node in nodes if isinstance(node, ast.Name) and node not in grown]
+        own = {node.id for node in names if isinstance(node.ctx, ast.Store)}
+        found += [
+            f"A cell changes `{name}`, which another cell made: run twice, it does so twice. Make it in the same cell."
+            for name in sorted({node.id for node in grown if isinstance(node, ast.Name)} - own)
+        ]
+    return found
+
+
+def outside_functions(tree: ast.AST) -> Iterator[ast.AST]:
+    """Every node that runs when the cell does: what is inside a function waits for its call."""
+    for node in ast.iter_child_nodes(tree):
+        if not isinstance(node, ast.FunctionDef | ast.Lambda):
+            yield node
+            yield from outside_functions(node)
+
+
+def changes(call: ast.Call) -> bool:
+    """`rows.append(1)` or `learner.update(batch)`; `settings.update(a=1)` does the same each time."""
+    return isinstance(call.func, ast.Attribute) and call.func.attr in CHANGES and not call.keywords
 
 
 # References -----------------------------------------------------------------------------------------
