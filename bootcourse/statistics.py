@@ -55,11 +55,7 @@ def interval(scores: Sequence[float] | np.ndarray, statistic=iqm, seed: int = 0)
     One seed has no interval: NaN. Equal scores have an interval of length 0, which is too short: for rates of agents
     use `escapes`, whose interval is exact.
     """
-    scores = np.asarray(scores, dtype=np.float64)
-    value = float(statistic(scores, axis=-1))
-    if len(scores) < 2:
-        return Estimate(value, float("nan"), float("nan"))
-    return Estimate(value, *_percentile((scores,), statistic, seed))
+    return _bootstrap((scores,), statistic, seed)
 
 
 def median(values: np.ndarray) -> Estimate:
@@ -78,17 +74,12 @@ def improvement(x: np.ndarray, y: np.ndarray, seed: int = 0) -> Estimate:
 
     It is the Mann-Whitney statistic U / (m n), with a percentile bootstrap interval over the seeds of both.
     """
-    x, y = np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
-    value = float(_wins(x, y))
-    if len(x) < 2 or len(y) < 2:
-        return Estimate(value, float("nan"), float("nan"))
-    return Estimate(value, *_percentile((x, y), _wins, seed))
+    return _bootstrap((x, y), _wins, seed)
 
 
 def difference(x: np.ndarray, y: np.ndarray, seed: int = 0) -> Estimate:
-    """IQM of x (m,) less IQM of y (n,), two seeds or more each, with a percentile bootstrap interval over both."""
-    x, y = np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
-    return Estimate(float(_less(x, y)), *_percentile((x, y), _less, seed))
+    """IQM of x (m,) less IQM of y (n,), with a percentile bootstrap interval over the seeds of both."""
+    return _bootstrap((x, y), _less, seed)
 
 
 def _less(x: np.ndarray, y: np.ndarray, axis: int = -1) -> np.ndarray:
@@ -101,13 +92,18 @@ def _wins(x: np.ndarray, y: np.ndarray, axis: int = -1) -> np.ndarray:
     return ((x > y) + 0.5 * (x == y)).mean(axis=(-2, -1))
 
 
-def _percentile(samples: tuple, statistic, seed: int) -> tuple[float, float]:
+def _bootstrap(samples: Sequence, statistic, seed: int) -> Estimate:
+    """A statistic of some samples, each (seeds,), with its interval over them; a single seed allows none: NaN."""
+    samples = [np.asarray(sample, dtype=np.float64) for sample in samples]
+    value = float(statistic(*samples, axis=-1))
+    if min(map(len, samples)) < 2:
+        return Estimate(value, float("nan"), float("nan"))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", stats.DegenerateDataWarning)
         found = stats.bootstrap(
             samples, statistic, method="percentile", n_resamples=RESAMPLES, batch=1000, rng=np.random.default_rng(seed)
         )
-    return float(found.confidence_interval.low), float(found.confidence_interval.high)
+    return Estimate(value, *map(float, found.confidence_interval))
 
 
 def escapes(success: np.ndarray) -> Estimate:

@@ -136,7 +136,7 @@ def report_of(results: Results, root) -> None:
     folder = root / "jobs/default/all"
     save_results(results, folder / "results.npz", {})
     versions = dict.fromkeys(("bootcourse", "python", "torch", "numpy", "numba"), "1") | {"seconds": 60}
-    write_json(folder / "job.json", {"provenance": versions, "behaviour": {}})
+    write_json(folder / "job.json", {"asked": {}, "sha256": {}, "provenance": versions})
     write_report(in_study(root), root)
 
 

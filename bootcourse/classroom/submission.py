@@ -106,8 +106,8 @@ def deadline_of(folder: Path) -> str:
     return ""
 
 
-def submit(folder: Path, name: str, out: Path | None = None) -> Path:
-    """Write the student's submission. Returns its file. Raises BootcourseError for an empty name or folder."""
+def submit(folder: Path, name: str, out: Path | None = None) -> tuple[Path, Submission]:
+    """Write a submission. Returns its file and what it holds. Raises BootcourseError for an empty name or folder."""
     if not name.strip():
         raise BootcourseError("The name is empty: give your name or student number, as in --name 'Ada Lovelace'.")
     made = from_folder(folder, " ".join(name.split())[:100])
@@ -116,4 +116,4 @@ def submit(folder: Path, name: str, out: Path | None = None) -> Path:
     told.pop("student")
     path = out or folder / f"submission-{re.sub(r'[^A-Za-z0-9]+', '-', name).strip('-').lower() or 'mine'}.json"
     write_json(path, told)
-    return path
+    return path, made

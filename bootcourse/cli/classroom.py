@@ -15,10 +15,9 @@ def submit(
     out: Path | None = typer.Option(None, help="The file to write; by default submission-NAME.json in the folder."),
 ) -> None:
     """Put your answers and predictions into one file to hand in. Nothing is run."""
-    from bootcourse.classroom.submission import from_folder
     from bootcourse.classroom.submission import submit as write
 
-    path, made = write(folder, name, out), from_folder(folder)
+    path, made = write(folder, name, out)
     print(path)
     print(f"{len(made.written)} answers, {len(made.predictions)} predictions. Hand in this file.")
     for problem in made.problems:

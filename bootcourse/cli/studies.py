@@ -124,11 +124,9 @@ def assets(
 
     if what not in ("verify", "build", "report"):
         raise BootcourseError(f"Action {did_you_mean(what, ('verify', 'build', 'report'))}.")
+    if what == "build" and study is None:
+        raise BootcourseError("build needs --study DIR, a folder that `bootcourse study` and `bootcourse sweep` wrote.")
     if what != "verify":
-        if what == "build" and study is None:
-            raise BootcourseError(
-                "build needs --study DIR, a folder that `bootcourse study` and `bootcourse sweep` wrote."
-            )
         from bootcourse.study.ship import build
 
         build(study if what == "build" else None, assets.FOLDER, replace_larger)

@@ -65,10 +65,9 @@ def verify(folder: Path = FOLDER) -> list[str]:
     problems = []
     for entry in entries:
         path = folder / entry["file"]
-        if not path.is_file():
-            problems.append(f"{path} is missing: restore it from a copy, or make it again: {entry['command']}")
-        elif not is_file_with(path, entry["sha256"]):
-            problems.append(f"{path} is damaged: restore it from a copy, or make it again: {entry['command']}")
+        if not is_file_with(path, entry["sha256"]):
+            what = "damaged" if path.is_file() else "missing"
+            problems.append(f"{path} is {what}: restore it from a copy, or make it again: {entry['command']}")
     listed = {MANIFEST, *(entry["file"] for entry in entries)}
     for path in sorted(folder.rglob("*")):
         if path.is_file() and path.relative_to(folder).as_posix() not in listed:

@@ -31,6 +31,7 @@ from gymnasium.vector import AutoresetMode, SyncVectorEnv
 
 from bootcourse.episodes.driving import steps
 from bootcourse.errors import BootcourseError, did_you_mean
+from bootcourse.files import write_bytes
 from bootcourse.learn.agent import sample_actions
 from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.replay_buffer import encode_transitions
@@ -289,8 +290,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     text = table(outcomes, seconds)
     print(text)
     if options.out:
-        from bootcourse.files import write_bytes
-
         write_bytes(options.out, (PAGE + text).encode())
     return 0 if all(reached(outcome, CHECKS[name]) for name, outcome in outcomes.items()) else 1
 

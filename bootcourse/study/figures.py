@@ -27,7 +27,8 @@ def of_methods(results: Results, methods: Sequence[str]) -> dict[str, dict[str, 
         if method in results.methods:
             curves = results.of(method).curves
             whole = np.logical_and.reduce([np.isfinite(values).all(axis=1) for values in curves.values()])
-            found |= {method: {name: values[whole] for name, values in curves.items()}} if whole.any() else {}
+            if whole.any():
+                found[method] = {name: values[whole] for name, values in curves.items()}
     return found
 
 

@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from msgspec import Struct
 
 from bootcourse.episodes.evaluate import Episodes
 from bootcourse.errors import BootcourseError
@@ -19,7 +18,7 @@ from bootcourse.learn.curves import NAMES
 from bootcourse.learn.settings import stored_settings
 from bootcourse.road.state import Accident
 from bootcourse.statistics import ESCAPES
-from bootcourse.study.jobs import Provenance
+from bootcourse.study.jobs import Made
 from bootcourse.study.plan import EXPERIMENTS, STUDIES, folder
 from bootcourse.study.planner import Staying
 from bootcourse.study.teachers import RULE
@@ -141,16 +140,10 @@ def _named(arrays: dict[str, np.ndarray], names: Iterable[str]) -> dict[str, np.
     return {name: values.astype(np.float32) if values.dtype == np.float16 else values for name, values in found.items()}
 
 
-class JobFile(Struct):
-    """The entry of job.json that is read here; `jobs.read_job` checks the whole file."""
-
-    provenance: Provenance
-
-
 def load_job(folder: Path) -> Results:
     """The agents of a finished job, with its seconds shared among them. Raises BootcourseError naming the file."""
     found = load_results(folder / "results.npz")
-    seconds = read_json(folder / "job.json", JobFile, RUN_AGAIN).provenance.seconds
+    seconds = read_json(folder / "job.json", Made, RUN_AGAIN).provenance.seconds
     return replace(found, seconds=np.full(len(found), seconds / len(found)))
 
 

@@ -14,6 +14,7 @@ from bootcourse.scenario import check_p
 from bootcourse.statistics import Estimate, interval
 from bootcourse.storage.assets import FOLDER
 from bootcourse.study.results import Results, load_results
+from bootcourse.study.tables import bracketed, markdown
 
 SHIPPED = FOLDER / "sweep.npz"
 
@@ -92,8 +93,6 @@ def _place(p: float, xi_multiplier: float, c: float) -> tuple[float, float, floa
 
 def sweep_table(sweep: Results) -> str:
     """Every setting that was run, a row each, as Markdown."""
-    from bootcourse.study.tables import bracketed, markdown
-
     rows = []
     for p, xi, c in sorted(settings_run(sweep), key=lambda setting: (setting[1], setting[0], setting[2])):
         happened = nearest_setting(sweep, p, xi, c)

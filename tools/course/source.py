@@ -105,20 +105,11 @@ def own_solution(name: str, function: str) -> str:
 
 def without_solution(text: str) -> str:
     """The stub: `...` in place of each solution."""
-    kept, inside = [], False
-    for line in text.splitlines():
-        mark = line.strip()
-        if mark in (BEGIN, END) and inside != (mark == END):
-            raise ValueError(f"`{BEGIN}` and `{END}` do not come in pairs in the cell that begins with {text[:60]!r}")
-        if mark == BEGIN:
-            kept.append(line.replace(BEGIN, "..."))
-        if mark in (BEGIN, END):
-            inside = not inside
-        elif not inside:
-            kept.append(line)
-    if inside:
-        raise ValueError(f"`{BEGIN}` has no `{END}` in the cell that begins with {text[:60]!r}")
-    return "\n".join(kept)
+    marks = [line.strip() for line in text.splitlines() if line.strip() in (BEGIN, END)]
+    if marks != [BEGIN, END] * (len(marks) // 2):
+        what = f"`{BEGIN}` has no `{END}`" if marks[-1] == BEGIN else f"`{BEGIN}` and `{END}` do not come in pairs"
+        raise ValueError(f"{what} in the cell that begins with {text[:60]!r}")
+    return re.sub(rf"^( *){BEGIN} *$.*?^ *{END} *$", r"\1...", text, flags=re.M | re.S)
 
 
 def without_marks(text: str) -> str:
