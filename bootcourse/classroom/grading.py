@@ -138,11 +138,11 @@ def did_not_run(graduate: Graduate) -> list[str]:
     return [g.exercise for g in graduate.grades if g.kind == "wrong" and any(words in g.sentence for words in TROUBLE)]
 
 
-def identical(submissions: Sequence[Submission], least: int = 3) -> list[list[str]]:
-    """The groups of students whose written answers, at least so many, are the same in all but spaces."""
+def identical(submissions: Sequence[Submission]) -> list[list[str]]:
+    """The groups of students whose written answers, three or more, are the same in all but spaces."""
     groups = defaultdict(list)
     for one in submissions:
-        if len(one.written) >= least:
+        if len(one.written) >= 3:
             bare = sorted((name, "".join(text.split())) for name, text in one.written.items())
             groups[tuple(bare)].append(one.student)
     return [students for students in groups.values() if len(students) > 1]

@@ -111,12 +111,11 @@ def train(
     decisions: int,
     demonstrations: torch.Tensor | None = None,
     progress: bool = False,
-    callback: Callable[[Training], None] | None = None,
 ) -> SACLearner:
-    """Train agents for `decisions` decisions each. callback: see `Training.run`."""
+    """Train agents for `decisions` decisions each."""
     most = min(decisions, MOST_EPISODES)
     training = Training(settings, most, demonstrations=demonstrations, make_env=several(make_env), first_seed=SEED)
-    training.run(progress, callback, stop=lambda: training.decisions >= decisions * len(settings))
+    training.run(progress, stop=lambda: training.decisions >= decisions * len(settings))
     return training.learner
 
 

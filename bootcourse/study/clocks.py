@@ -29,9 +29,9 @@ def cells(varied: dict[str, Results]) -> dict[tuple[str, str], Results]:
     return found
 
 
-def faded(xi: np.ndarray, part: float = 0.1) -> float:
-    """The episode after which ξ is down to a part of its start, the median over agents: curves (agents, episodes)."""
-    return float(np.median((xi <= part * xi[:, :1]).argmax(axis=1)))
+def faded(xi: np.ndarray) -> float:
+    """The episode after which ξ is down to a tenth of its start, the median over agents: curves (agents, episodes)."""
+    return float(np.median((xi <= 0.1 * xi[:, :1]).argmax(axis=1)))
 
 
 def as_printed(success: np.ndarray, method: str) -> np.ndarray:

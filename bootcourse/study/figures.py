@@ -67,9 +67,9 @@ def baselines(results: Results, rule: Results | None = None) -> Figure:
     return _escapes(results, tuple(short), short, rule)
 
 
-def exploration(results: Results, methods: Sequence[str] = ("sac", "soft", "demos", "bootstrapped")) -> Figure:
+def exploration(results: Results) -> Figure:
     """The paper's Figure 7: entropy, and e to the power of it, the effective actions (Equations 21 and 22)."""
-    curves = of_methods(results, methods)
+    curves = of_methods(results, ("sac", "soft", "demos", "bootstrapped"))
     for its in curves.values():
         its["effective"] = np.exp(its["entropy"].astype(np.float64))
     last = {method: its["effective"][:, -max(1, its["effective"].shape[1] // 10) :] for method, its in curves.items()}

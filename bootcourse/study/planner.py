@@ -56,17 +56,12 @@ class Plan:
     success: bool  # is the ego ahead of trap 1 at the end?
 
 
-def plan_episodes(
-    seeds: Sequence[int], scenario: Scenario = DEFAULT, search: Search | None = None, progress: bool = False
-) -> list[Plan]:
+def plan_episodes(seeds: Sequence[int], scenario: Scenario = DEFAULT, search: Search | None = None) -> list[Plan]:
     """The best drive found on the road of each seed; about a second each on a free core."""
-    from tqdm.auto import tqdm
-
     seeds = list(seeds)
     env = TrapVectorEnv(len(seeds), scenario, AutoresetMode.DISABLED)
     env.reset(seed=seeds)
-    roads = tqdm(zip(seeds, env.cars, strict=True), total=len(seeds), unit="road", disable=not progress)
-    return [plan(cars, scenario, search, seed) for seed, cars in roads]
+    return [plan(cars, scenario, search, seed) for seed, cars in zip(seeds, env.cars, strict=True)]
 
 
 def plan(cars: np.ndarray, scenario: Scenario = DEFAULT, search: Search | None = None, seed: int = -1) -> Plan:
@@ -195,7 +190,7 @@ class Staying:
 
 
 def is_staying_optimal(
-    seeds: Sequence[int], scenario: Scenario = DEFAULT, gamma: float = 0.8, beam: int = 200, progress: bool = False
+    seeds: Sequence[int], scenario: Scenario = DEFAULT, gamma: float = 0.8, beam: int = 200
 ) -> Staying:
     """Is staying behind the trap optimal at this γ, as far as the search can tell?
 
@@ -208,8 +203,7 @@ def is_staying_optimal(
     seeds = list(seeds)
     decisions = min(scenario.clock.decisions, math.ceil(math.log(1e-6) / math.log(gamma)))
     best, kept = (
-        plan_episodes(seeds, scenario, Search(beam, gamma, keep_lane, decisions), progress)
-        for keep_lane in (False, True)
+        plan_episodes(seeds, scenario, Search(beam, gamma, keep_lane, decisions)) for keep_lane in (False, True)
     )
     best_values, kept_values = (np.array([each.value for each in plans]) for plans in (best, kept))
     return Staying(

@@ -50,9 +50,9 @@ def sweep_data() -> dict:
     }
 
 
-def drive_data(name: str = "escape") -> dict:
-    """One of the drives that ship: the cars at every simulation step, the policy and the rule at every decision."""
-    drive = shipped_drive(name)
+def drive_data() -> dict:
+    """The escape that ships: the cars at every simulation step, the policy and the rule at every decision."""
+    drive = shipped_drive("escape")
     scenario, cars = drive.scenario, drive.states[:, :, [X, Y, HEADING]]
     colours = [TRAFFIC] * scenario.vehicles
     colours[TRAP_1] = colours[TRAP_2] = TRAP
