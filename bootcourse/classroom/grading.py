@@ -88,10 +88,10 @@ def judge_all(
     Raises BootcourseError if no process starts.
     """
     todo = {
-        key(name, text): (name, text)
-        for one in submissions for name, text in one.answers.items() if name in wanted
+        place: (name, text)
+        for one in submissions for name, text in one.answers.items()
+        if name in wanted and (place := key(name, text)) not in verdicts.known
     }  # fmt: skip
-    todo = {k: pair for k, pair in todo.items() if k not in verdicts.known}
     if not todo:
         return []
     drive_episodes(rule_policy(DEFAULT), [0])  # compiles the road, of which each judging process gets a copy
@@ -101,9 +101,9 @@ def judge_all(
         judge = judges.pop()  # there is one for each thread
         try:
             verdicts.add(place, judge.ask(name, text, LONGER * registry()[name].seconds))
+            return set(judge.holds)
         finally:
             judges.append(judge)
-        return set(judge.holds)
 
     pool = ThreadPoolExecutor(len(judges))
     try:
