@@ -1,6 +1,7 @@
 """Recording, saving and loading drives, and what happens when a file or a disk is damaged."""
 
 import errno
+import io
 import json
 import os
 from dataclasses import fields, replace
@@ -220,19 +221,12 @@ def test_a_full_disk_leaves_the_old_file_whole(rollout, saved, monkeypatch):
 
 
 def test_a_disk_that_fills_while_writing_leaves_the_old_file_whole(rollout, saved, monkeypatch):
-    real = files.tempfile.NamedTemporaryFile
-
-    def small(**options):
-        file = real(**options)
-
-        def write(data):
-            file.file.write(data[: len(data) // 2])
+    class Small(io.FileIO):
+        def write(self, data):
+            super().write(data[: len(data) // 2])
             raise OSError(errno.ENOSPC, "No space left on device")
 
-        file.write = write
-        return file
-
-    monkeypatch.setattr(files.tempfile, "NamedTemporaryFile", small)
+    monkeypatch.setattr(files, "open", Small, raising=False)
     with pytest.raises(BootcourseError, match="Free some space"):
         rollout.save(saved[0])
     assert_old_file_is_whole(saved)
@@ -254,10 +248,10 @@ def test_a_read_only_folder_is_one_sentence_and_leaves_the_old_file_whole(rollou
     try:
         if os.access(path.parent, os.W_OK):  # the superuser writes anywhere: let the system call refuse
 
-            def refuse(**options):
+            def refuse(*arguments):
                 raise PermissionError(errno.EACCES, "Permission denied")
 
-            monkeypatch.setattr(files.tempfile, "NamedTemporaryFile", refuse)
+            monkeypatch.setattr(files, "open", refuse, raising=False)
         with pytest.raises(BootcourseError, match="Permission denied"):
             rollout.save(path)
     finally:
