@@ -23,7 +23,7 @@ from typing import Any, TypeVar
 import msgspec
 import numpy as np
 
-from bootcourse.errors import BootcourseError
+from bootcourse.errors import BootcourseError, RuleFailed
 
 TEMPORARY = ".tmp"  # at the end of every temporary name
 LARGEST_JSON = 2**25  # bytes; the manifest of the assets has 0.1 MB
@@ -112,7 +112,7 @@ def decoding(path: Path, remedy: str = COPY):
     try:
         yield
     except BootcourseError as error:
-        if str(path) in str(error):
+        if isinstance(error, RuleFailed) or str(path) in str(error):  # a rule's failure says nothing of the file
             raise
         raise BootcourseError(f"{path}: {error}") from None
     except msgspec.ValidationError as error:

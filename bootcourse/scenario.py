@@ -331,7 +331,8 @@ def _build(cls, data: dict):
         raise TypeError(f"{cls.__name__} is {data!r}")
     known = {f.name: f for f in fields(cls)}
     data = {name: value for name, value in data.items() if name not in FORMER_FIELDS.get(cls.__name__, ())}
-    unknown, missing = sorted(set(data) - set(known)), sorted(set(known) - set(data) - LATER_FIELDS.get(cls.__name__, set()))
+    optional = LATER_FIELDS.get(cls.__name__, set())
+    unknown, missing = sorted(set(data) - set(known)), sorted(set(known) - set(data) - optional)
     _check(not unknown, f"{cls.__name__} has no field {', '.join(unknown)}: it was written by another version.")
     _check(not missing, f"{cls.__name__} has no {', '.join(missing)}: it was written by another version.")
     values = {}

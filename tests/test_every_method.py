@@ -1,5 +1,7 @@
 """What holds for each method of the registry: it is read back as it was saved, and goes on after a stop."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import torch
@@ -9,6 +11,7 @@ from bootcourse.learn.learner import learner_for
 from bootcourse.learn.settings import Settings, settings_for, with_seeds
 from bootcourse.learn.training import Training
 from bootcourse.methods import ABLATION, METHODS
+from bootcourse.scenario import DEFAULT, Sight
 from bootcourse.storage.runs import load_checkpoint, load_run, save_checkpoint, save_runs
 from tests.test_baselines import a_batch
 
@@ -47,9 +50,12 @@ def test_a_trained_agent_is_read_back_as_it_was_saved_and_drives(method, tmp_pat
     assert evaluate(back.as_policy(), 3) == evaluate(agent.as_policy(), 3)
 
 
-@pytest.mark.parametrize("method", METHODS)
-def test_a_training_that_was_stopped_goes_on_as_if_it_never_was(method, tmp_path):
-    whole = Training(two_quick(method), 30)
+@pytest.mark.parametrize(
+    ("method", "scenario"),
+    [*((method, DEFAULT) for method in METHODS), ("ppo_safe", replace(DEFAULT, sight=Sight(memory=3)))],
+)
+def test_a_training_that_was_stopped_goes_on_as_if_it_never_was(method, scenario, tmp_path):
+    whole = Training(two_quick(method), 30, scenario)
     for _ in range(45):  # of PPO: in the middle of a round
         whole.step()
     save_checkpoint(whole, tmp_path / "checkpoint.npz")

@@ -12,6 +12,7 @@ from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
 from bootcourse.methods import METHODS
 from bootcourse.road.vector_env import TrapVectorEnv
+from bootcourse.scenario import DEFAULT, Sight
 from bootcourse.storage.checkpoint import DamagedCheckpoint, restored, state_of
 from bootcourse.study.checks import cartpole, several
 from tests.test_learn_safe import SMALL
@@ -71,7 +72,7 @@ def test_a_state_of_the_pool_is_the_road_5_to_40_decisions_before_and_the_same_a
 
 
 def test_a_restarted_road_stands_as_in_the_pool_and_the_agent_sees_it():
-    training, moved = Training(wanting(2, share=0.9), 200), 0
+    training, moved = Training(wanting(2, share=0.9), 200, replace(DEFAULT, sight=Sight(memory=2))), 0
     while moved < 20:
         before = training.curves.running[1].copy()
         training.step()
@@ -80,6 +81,7 @@ def test_a_restarted_road_stands_as_in_the_pool_and_the_agent_sees_it():
             agent = road // ROADS
             same = (training.restarts.pool[agent] == training.env.cars[road]).all((1, 2))
             assert training.env.decisions[road] in training.restarts.decisions[agent, same]
+            assert np.ptp(training.states[road].reshape(2, -1), axis=0).max() == 0, "it remembers no other road"
             moved += 1
         np.testing.assert_array_equal(training.states, training.env.observe())
         np.testing.assert_array_equal(training.rule_actions, training.taught())

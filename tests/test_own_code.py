@@ -128,6 +128,12 @@ def test_without_a_part_of_one_s_own_the_library_trains(capsys):
     assert capsys.readouterr().out.startswith("Training with our soft_value, our critic_target")
 
 
+def test_a_part_of_one_s_own_trains_on_the_cpu_alone():
+    own_code.use(cell(RIGHT)["critic_target"])
+    with pytest.raises(BootcourseError, match=r"^Your own code trains on the CPU: leave out device='cuda'\.$"):
+        own_code.training([settings_for("sac")], device="cuda")
+
+
 def test_a_part_of_one_s_own_replaces_the_library_s_and_a_line_says_so(capsys):
     own_code.use(cell(RIGHT)["critic_target"])
     made = own_code.training(with_seeds(settings_for("sac", learning_starts=16, batch=16, hidden=(8,)), 2))

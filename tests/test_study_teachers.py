@@ -159,7 +159,7 @@ def test_a_job_trains_with_its_teacher_and_its_rows_say_so(tmp_path):
         finished(job("rule"), tmp_path)
 
 
-def test_a_job_of_a_version_without_teachers_counts_as_the_rule_s(tmp_path):
+def test_a_job_of_a_version_without_teachers_and_memory_counts_as_the_rule_s_without_one(tmp_path):
     (tmp_path / "study.json").write_text("{}")
     folder = tmp_path / "jobs" / NAME
     assert run_job(job("rule", "sac"), tmp_path) == ""
@@ -186,11 +186,12 @@ def test_a_job_of_a_version_without_some_setting_had_its_default(tmp_path):
 
 
 def without_teachers(folder) -> None:
-    """Write a job's files as earlier versions did, which knew no teacher."""
+    """Write a job's files as earlier versions did, which knew no teacher and no memory."""
     arrays, made = read_arrays(folder / "results.npz"), read_job(folder)
     agents = json.loads(str(arrays["agents"]))
     for entry in (*agents, made["asked"]):
         del entry["teacher"]
+    del made["asked"]["scenario"]["sight"]["memory"]
     write_arrays(folder / "results.npz", arrays | {"agents": np.array(json.dumps(agents))})
     made["sha256"]["results.npz"] = sha256(folder / "results.npz")
     write_sealed(folder / "job.json", made)

@@ -171,6 +171,34 @@ def test_a_rule_for_all_roads_that_raises_names_no_road():
         collect(2, teacher=all_roads(lambda cars, scenario: no_lane()))
 
 
+@pytest.mark.parametrize(
+    ("actions", "sentence"),
+    [
+        ([4, 9], "failed on road 1: it returned 9, but an action is a whole number from 0 to 8"),
+        ([4.0, 4.0], r"failed in a call for all roads: it returned actions of shape \(2,\) and type float64"),
+        ([4], r"it returned actions of shape \(1,\) and type int64, but 2 roads need a whole number each"),
+        (["left", "left"], "but 2 roads need a whole number each"),
+    ],
+)
+def test_a_rule_for_all_roads_is_held_to_the_actions(actions, sentence):
+    with pytest.raises(RuleFailed, match=sentence):
+        teacher_of(all_roads(lambda cars, scenario: actions))(np.zeros((2, 9, 10)))
+
+
+def test_a_rule_that_fails_when_a_training_is_resumed_does_not_call_the_checkpoint_damaged(tmp_path):
+    broken = []
+
+    def rule_that_breaks(cars, scenario):
+        return 4 if not broken else no_lane()
+
+    training = Training([settings_for("soft", hidden=(8,), buffer_size=2000)], 12, teacher=rule_that_breaks)
+    training.step()
+    save_checkpoint(training, tmp_path / "checkpoint.npz")
+    broken.append(True)
+    with pytest.raises(RuleFailed, match=f"on road 0 of agent 0 in training, at decision 0: {RAISED}"):
+        load_checkpoint(tmp_path / "checkpoint.npz", teacher=rule_that_breaks)
+
+
 def test_an_interrupt_and_an_exception_of_the_library_s_own_rules_pass():
     def interrupted(cars, scenario):
         raise KeyboardInterrupt

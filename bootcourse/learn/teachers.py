@@ -25,6 +25,7 @@ from bootcourse.rule import rule, track
 from bootcourse.scenario import DEFAULT, N_ACTIONS, Scenario
 
 Rule = Callable[[np.ndarray, Scenario], int]  # one road's cars (vehicles, 10) -> an action, 0..8
+AN_ACTION_IS = f"an action is a whole number from 0 to {N_ACTIONS - 1}"
 Teacher = Callable[[np.ndarray], np.ndarray]  # cars (roads, vehicles, 10) -> actions (roads,)
 
 
@@ -69,7 +70,6 @@ def teacher_of(my_rule: Rule, scenario: Scenario = DEFAULT) -> Teacher:
     """The rule as a function of many roads.
 
     It raises RuleFailed, a BootcourseError, if your rule raises an exception or returns no action in 0..8.
-    Actions for all roads at once are checked where they drive, by `TrapVectorEnv.step`.
     """
     name = getattr(my_rule, "__name__", type(my_rule).__name__)
     ours = str(getattr(my_rule, "__module__", "")).startswith("bootcourse.")  # its exception is a bug: it passes
@@ -84,13 +84,18 @@ def teacher_of(my_rule: Rule, scenario: Scenario = DEFAULT) -> Teacher:
 
     def teach(cars: np.ndarray) -> np.ndarray:
         if getattr(my_rule, "answers_for_all_roads", False):
-            return np.asarray(answer(cars, None))
+            actions = np.asarray(answer(cars, None))
+            if actions.shape != (len(cars),) or actions.dtype.kind not in "iu":
+                found = f"actions of shape {actions.shape} and type {actions.dtype}"
+                raise RuleFailed(name, f"returned {found}, but {len(cars)} roads need a whole number each", None)
+            for road in np.flatnonzero((actions < 0) | (actions >= N_ACTIONS))[:1]:
+                raise RuleFailed(name, f"returned {actions[road]}, but {AN_ACTION_IS}", int(road))
+            return actions
         actions = np.empty(len(cars), dtype=np.int64)
         for road, its in enumerate(cars):
             action = answer(its.copy(), road)
             if not is_action(action):
-                whole = f"an action is a whole number from 0 to {N_ACTIONS - 1}"
-                raise RuleFailed(name, f"returned {action!r:.80}, but {whole}", road)
+                raise RuleFailed(name, f"returned {action!r:.80}, but {AN_ACTION_IS}", road)
             actions[road] = action
         return actions
 

@@ -67,9 +67,15 @@ def whose(names: Sequence[str]) -> str:
 
 
 def training(settings: Sequence[Settings], episodes: int = 1000, **more) -> Training:
-    """A `Training` of these settings with the student's parts; prints whose they are. more: as for `Training`."""
-    made, names = Training(settings, episodes, **more), parts_of(settings, _own)
+    """A `Training` of these settings with the student's parts; prints whose they are. more: as for `Training`.
+
+    Raises BootcourseError for parts of the student on another device than the CPU.
+    """
+    names = parts_of(settings, _own) if settings else []
     own = {name: _own[name] for name in names if name in _own}
+    if own and more.get("device", "cpu") != "cpu":
+        raise BootcourseError(f"Your own code trains on the CPU: leave out device={more['device']!r}.")
+    made = Training(settings, episodes, **more)
     size = made.env.single_observation_space.shape[0]
     if own:
         begun, made.learner = made.learner, own_learner(own, settings, size, int(made.env.single_action_space.n))

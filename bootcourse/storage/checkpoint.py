@@ -12,7 +12,7 @@ import torch
 from msgspec import Meta, MsgspecError, Struct, convert
 from msgspec.structs import asdict
 
-from bootcourse.errors import BootcourseError
+from bootcourse.errors import BootcourseError, RuleFailed
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.settings import Settings
 from bootcourse.learn.teachers import Rule
@@ -70,11 +70,16 @@ def state_of(training: Training) -> dict[str, np.ndarray]:
 def restored(
     settings: list[Settings], episodes: int, scenario: Scenario, teacher: Rule, arrays: dict, device: str = "cpu"
 ) -> Training:
-    """The training with these arguments and the state in `arrays`. Raises DamagedCheckpoint if they do not fit."""
+    """The training with these arguments and the state in `arrays`.
+
+    Raises DamagedCheckpoint if they do not fit, RuleFailed if the teacher fails in that state.
+    """
     try:
         rows = torch.from_numpy(arrays["replay.demonstrations"])
         training = Training(settings, episodes, scenario, teacher, rows if len(rows) else None, device=device)
         _restore(training, arrays)
+    except RuleFailed:
+        raise
     except (KeyError, ValueError, TypeError, AttributeError, IndexError, RuntimeError, MsgspecError) as error:
         raise DamagedCheckpoint(f"the state does not fit the settings: {error}") from None
     return training

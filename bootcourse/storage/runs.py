@@ -21,7 +21,7 @@ import torch
 from msgspec import Meta, Struct, convert
 from safetensors.torch import save
 
-from bootcourse.errors import BootcourseError
+from bootcourse.errors import BootcourseError, RuleFailed
 from bootcourse.files import (
     TEMPORARY,
     check_arrays,
@@ -235,8 +235,8 @@ def save_checkpoint(training: Training, path: Path) -> None:
 def load_checkpoint(path: Path, teacher: Rule = course_rule, device: str = "cpu") -> Training:
     """The training that `save_checkpoint` wrote, to be continued with the same teacher, on any device.
 
-    Raises DamagedCheckpoint if the file cannot be read, BootcourseError for another teacher, or for a device that
-    torch does not find.
+    Raises DamagedCheckpoint if the file cannot be read, BootcourseError for another teacher, for a device that torch
+    does not find, and, as RuleFailed, for a teacher that fails.
     """
     device_named(device)
     try:
@@ -247,6 +247,8 @@ def load_checkpoint(path: Path, teacher: Rule = course_rule, device: str = "cpu"
             scenario = Scenario.from_json(json.dumps(config.scenario))
             if teacher_name(teacher) == config.teacher:
                 return restored(settings, config.episodes, scenario, teacher, arrays, device)
+    except RuleFailed:
+        raise
     except BootcourseError as error:
         raise DamagedCheckpoint(str(error)) from None
     raise BootcourseError(
