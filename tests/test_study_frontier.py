@@ -77,3 +77,5 @@ def test_a_variation_switches_on_what_it_is_named_for():
              "shield by hand": "shield", "restarts": "restart_share"}  # fmt: skip
     for name, setting in alone.items():
         assert {key for key in plain if changes[name][key] != plain[key]} == {setting}
+    remembers = EXPERIMENTS["safe"].variations["memory"]
+    assert remembers.changes == plain and remembers.scenario.sight.memory == 3
