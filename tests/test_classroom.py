@@ -103,6 +103,14 @@ def test_submit_puts_answers_predictions_and_versions_into_one_file(bootcourse, 
     assert (read.student, read.exercises) == ("submission-ada-b-lovelace", fingerprint())
 
 
+def test_what_the_course_has_solved_is_nobody_s_answer(bootcourse, tmp_path):
+    (tmp_path / "solved").mkdir()
+    (tmp_path / "solved/05_the_barrier.ipynb").write_text(json.dumps(notebook(cell(RIGHT))))
+    (tmp_path / "05_the_barrier.ipynb").write_text(json.dumps(notebook(cell(body("decode", "...")))))
+    answer = bootcourse("submit", tmp_path, "--name", "Ada")
+    assert answer.out.endswith("0 answers, 0 predictions. No exercise is answered yet.\n")
+
+
 def folder_with(folder: Path, file: str) -> Path:
     (folder / "class").mkdir()
     return (folder / file).rename(folder / "class" / file).parent

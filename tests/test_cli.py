@@ -103,6 +103,7 @@ FIRST_ROAD = "failed on the road with seed 17179869184, at decision 0: it"
         ("bad.py:nine", "bad.py cannot be loaded: SyntaxError: '(' was never closed (bad.py, line 1)."),
         ("lacks.py:nine", "lacks.py cannot be loaded: ModuleNotFoundError: No module named 'absent'."),
         ("t.txt:nine", "--teacher t.txt:nine: give a file and a function in it"),
+        ("absent.py:nine", "--teacher absent.py:nine: there is no file absent.py."),
     ],
 )
 def test_what_is_wrong_with_a_teacher_is_one_sentence(teacher, sentence, bootcourse, tmp_path, monkeypatch):
@@ -157,9 +158,17 @@ REFUSED = {
     "a mistyped backend": (["study", "--backend", "dusk", *NEW], "did you mean 'dask'"),
     "a scheduler for this machine": (["study", "--scheduler", "tcp://a:1", *NEW], "needs --backend dask"),
     "a method that an experiment has not": (["study", "teachers", "--only", "sac", *NEW], "'sac' is unknown"),
-    "a folder without runs": (["evaluate", "full"], "holds no run"),
+    "a folder without runs": (["evaluate", "full"], "holds no run: train one"),
+    "a folder that is not there": (["evaluate", "runs/nope"], "There is no folder runs/nope: give one that"),
+    "the folder above the runs": (["evaluate", "deep"], "deep holds no run itself: name a folder in it, such as deep/"),
+    "several drivers without the board": (["evaluate", "rule", "idle"], "Several drivers need --board."),
+    "a file of the board without it": (["evaluate", "rule", "--keep", "a.json"], "--keep needs --board."),
+    "a study among runs": (["study", "--out", "deep/runs"], "deep/runs holds runs of `bootcourse train`: choose"),
+    "a lesson that is not there": (["handout", "new", "--lessons", "4-99"], "there is no lesson 99, the last is 16."),
+    "no rollout": (["replay", "full/file.txt", "--text"], "file.txt is not a rollout: record one with"),
     "a held-out block that does not exist": (["evaluate", "rule", "--seed", "5000"], "seed = 5000"),
     "a rollout that exists": (["drive", "rule", "--out", "full/file.txt"], "exists already"),
+    "a rollout with another ending": (["drive", "rule", "--out", "new"], "new does not end in .npz"),
 }
 
 
@@ -168,6 +177,9 @@ def test_bad_input_gets_one_sentence_and_status_2(case, bootcourse, tmp_path, mo
     monkeypatch.chdir(tmp_path)
     (tmp_path / "full").mkdir()
     (tmp_path / "full" / "file.txt").write_text("mine")
+    (tmp_path / "deep" / "runs" / "sac-0").mkdir(parents=True)
+    for name in ("config.json", "provenance.json"):
+        (tmp_path / "deep" / "runs" / "sac-0" / name).write_text("{}")
     arguments, sentence = REFUSED[case]
     answer = bootcourse(*arguments)
     assert answer.status == 2 and sentence in answer.err and len(answer.err.splitlines()) == 1, answer.err

@@ -32,9 +32,10 @@ def read_points(path: Path | None, lessons: set[int] | None = None) -> dict[str,
 
 
 def read_lessons(text: str) -> set[int] | None:
-    """ "4-8" or "1,5,7" as numbers; "" is None, all lessons. Raises BootcourseError for anything else."""
+    """ "4-8" or "1,5,7" as numbers; "" is None, all lessons. Raises BootcourseError for what is no lesson."""
     if not text:
         return None
+    last = max(int(exercise.lesson[:2]) for exercise in registry().values())
     try:
         ends = [part.split("-") for part in text.split(",")]
         found = {number for part in ends for number in range(int(part[0]), int(part[-1]) + 1) if len(part) <= 2}
@@ -42,4 +43,6 @@ def read_lessons(text: str) -> set[int] | None:
         found = set()
     if not found:
         raise BootcourseError(f"--lessons {text}: give numbers of lessons, such as 4-8 or 1,5,7.")
+    if max(found) > last:
+        raise BootcourseError(f"--lessons {text}: there is no lesson {max(found)}, the last is {last}.")
     return found

@@ -20,6 +20,7 @@ FORMAT = "bootcourse submission 1"
 
 ASK = "ask for it again"  # the remedy for a damaged file
 LONGEST = 50_000  # characters of an answer
+SOLVED = "solved"  # the folder, beside the lessons, with the course's own answers
 
 
 @dataclass(frozen=True)
@@ -93,9 +94,16 @@ def from_folder(folder: Path, name: str = "") -> Submission:
 
 
 def notebooks_in(folder: Path) -> list[Path]:
-    """The notebooks of a folder and of those in it, in the order of their names; hidden ones and links are left out."""
+    """The notebooks of a folder and of those in it, in the order of their names.
+
+    Hidden ones, links, and those that the course has solved are left out.
+    """
+
+    def left_out(path: Path) -> bool:
+        return any(part.startswith(".") or part == SOLVED for part in path.relative_to(folder).parts)
+
     found = [path for path in Path(folder).rglob("*.ipynb") if path.is_file() and not path.is_symlink()]
-    return sorted(path for path in found if not any(part.startswith(".") for part in path.relative_to(folder).parts))
+    return sorted(path for path in found if not left_out(path))
 
 
 def deadline_of(folder: Path) -> str:

@@ -2,6 +2,7 @@
 
 import os
 import sys
+from datetime import date
 from pathlib import Path
 
 import typer
@@ -19,7 +20,8 @@ def submit(
 
     path, made = write(folder, name, out)
     print(path)
-    print(f"{len(made.written)} answers, {len(made.predictions)} predictions. Hand in this file.")
+    held = f"{len(made.written)} answers, {len(made.predictions)} predictions."
+    print(f"{held} {'Hand in this file.' if made.written else 'No exercise is answered yet.'}")
     for problem in made.problems:
         print(problem)
 
@@ -65,3 +67,5 @@ def handout(
     else:
         said = handout.write(folder, chosen, deadline, bool(solutions))
     print(*said, sep="\n")
+    if deadline and deadline < date.today().isoformat():
+        print(f"The deadline {deadline} has passed: every submission will be marked as late.")

@@ -46,7 +46,7 @@ def evaluate(
         print_board(who, keep, teacher)
         return
     if len(who) > 1 or keep is not None:
-        raise BootcourseError("Several drivers, and --keep, are for the leaderboard: add --board.")
+        raise BootcourseError(f"{'Several drivers need' if len(who) > 1 else '--keep needs'} --board.")
     seeds, drivers = held_out_seeds(seed, episodes), drivers_of(who[0], scenario, sample, seed, teacher)
     found = {each.label: summarise(drive_episodes(each.policy, seeds, each.road)) for each in drivers}
     means = {name: over_seeds([found[label] for label in labels]) for name, labels in alike(drivers).items()}
@@ -78,6 +78,8 @@ def print_board(who: list[str], keep: Path | None, teacher: str) -> None:
 
 def check_driver(who: str) -> None:
     """Raise BootcourseError for what is neither a built-in driver nor there."""
+    if Path(who).name != who and not Path(who).exists():
+        raise BootcourseError(f"There is no folder {who}: give one that `bootcourse train` wrote.")
     if who not in BUILT_IN and not Path(who).exists():
         raise BootcourseError(f"Driver {did_you_mean(who, BUILT_IN)}, or give a folder that `bootcourse train` wrote.")
 
@@ -173,7 +175,11 @@ def drive(
         raise BootcourseError(f"{out} exists already: choose another name.")
     if png is not None:
         check_replaceable(png, ".png")
-    label, policy, road, _ = drivers_of(who, scenario, False, seed, teacher)[0]
+    check_replaceable(out, ".npz")
+    found = drivers_of(who, scenario, False, seed, teacher)
+    if len(found) > 1:
+        raise BootcourseError(f"{who} holds {len(found)} runs: name one, such as {Path(who) / found[0].label}.")
+    label, policy, road, _ = found[0]
     label = label.rsplit("-", 1)[0] if label not in BUILT_IN else label
     rollout = record(policy, [seed], road, label)[0]
     print(rollout.save(out))

@@ -33,7 +33,9 @@ def train(
     scenario: str = typer.Option("default", help="default or calibrated."),
     setting: str = typer.Option("quick", help="quick or paper: a quarter of an update per decision, or two."),
     teacher: str = typer.Option(
-        "", help="Who teaches: planner, late and others, or a rule of your own: FILE.py:FUNCTION."
+        "",
+        help="Who teaches: random-50, random-25, mirrored, timid, late, rule or planner, or a rule of your own: "
+        "FILE.py:FUNCTION.",
     ),
     device: str = typer.Option("cpu", help="Where the networks learn: cpu, or cuda if torch finds a GPU."),
     resume: bool = typer.Option(False, "--resume", help="Resume a training that was interrupted or killed."),
@@ -108,8 +110,10 @@ def teacher_from(place: str):
             own = "or give a rule of your own, FILE.py:FUNCTION"
             raise BootcourseError(f"Teacher {did_you_mean(place, TEACHERS)}, {own}.")
         return TEACHERS[place].rule
-    if not Path(file).is_file() or Path(file).suffix != ".py":
+    if Path(file).suffix != ".py":
         raise BootcourseError(f"--teacher {place}: give a file and a function in it, such as my_rule.py:my_rule.")
+    if not Path(file).is_file():
+        raise BootcourseError(f"--teacher {place}: there is no file {file}.")
     spec = importlib.util.spec_from_file_location(Path(file).stem, file)
     module = importlib.util.module_from_spec(spec)
     try:

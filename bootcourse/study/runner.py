@@ -31,13 +31,15 @@ def run_jobs(
     backend: one of `BACKENDS`; loky uses this machine's cores. scheduler: the address of a dask scheduler or a ray
     cluster; without one, dask and ray start their own on this machine. workers: processes, by default one for each
     core. recompute: compute damaged jobs again. after: called with what went wrong, while the folder is still locked.
-    Raises BootcourseError, before anything is computed, for a mistyped argument, a folder in use, and a damaged job
-    without `recompute`.
+    Raises BootcourseError, before anything is computed, for a mistyped argument, a folder in use or with the runs of a
+    training, and a damaged job without `recompute`.
     """
     if backend not in BACKENDS:
         raise BootcourseError(f"Backend {did_you_mean(backend, BACKENDS)}.")
     if scheduler and backend == "loky":
         raise BootcourseError("--scheduler needs --backend dask or --backend ray: loky uses this machine's cores.")
+    if any(root.glob("*/provenance.json")):
+        raise BootcourseError(f"{root} holds runs of `bootcourse train`: choose another folder for a study.")
     with locked(root):
         waiting = to_do(jobs, root, recompute)
         done, listed = len(jobs) - len(waiting), f"{len(jobs)} job{'s' * (len(jobs) != 1)}"
