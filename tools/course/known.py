@@ -42,7 +42,7 @@ from bootcourse.methods import METHODS
 from bootcourse.policies import idle_policy, plan_policy, random_policy, rule_policy, stochastic_rule_policy
 from bootcourse.road import formulas, observation
 from bootcourse.road.formulas import centring_reward, speed_reward
-from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, Accident, X, Y
+from bootcourse.road.state import CRASHED, EGO, LANE, SPEED, TRAP_1, TRAP_2, Accident, X, Y
 from bootcourse.rule import HEADING_COST, Reason, stochastic_rule, target_speed
 from bootcourse.scenario import ACTION_NAMES, CALIBRATED, DEFAULT, N_ACTIONS, RULE_P
 from bootcourse.statistics import ESCAPES, escapes, improvement, interval, iqm, rate
@@ -173,7 +173,8 @@ def safer() -> dict[str, Results]:
 
 
 BEST = "accident cost and shield by hand, twice as long"  # of `safer`
-ALONE = ("accident cost", "multiplier", "restarts", "shield by hand", "γ = 0.995")  # of `safer`, but for the mask
+REMEMBERS = "accident cost, shield by hand and memory, twice as long"
+ALONE = ("accident cost", "multiplier", "restarts", "shield by hand", "γ = 0.995", "memory")  # of `safer`, but for the mask
 
 
 def p_safer(kind: str) -> float:
@@ -185,6 +186,37 @@ def p_safer(kind: str) -> float:
 def crashed(results: Results) -> float:
     """How many of 1,000 of these agents' held-out drives end in an accident."""
     return 10 * accident_percent(results)
+
+
+def with_and_without() -> list[Results]:
+    """The agents of `safer`, and those with nothing more."""
+    return [later("ppo_cloned"), *safer().values()]
+
+
+def crashes_on_roads() -> np.ndarray:
+    """How many of these agents crash on each of the held-out roads, (1000,)."""
+    return np.concatenate([its.tested["accident"] > 0 for its in with_and_without()]).sum(axis=0)
+
+
+def worst_roads(n: int) -> np.ndarray:
+    """The n roads on which most of them crash."""
+    return np.argsort(-crashes_on_roads(), kind="stable")[:n]
+
+
+def half_of_the_crashes() -> int:
+    """On how many roads half of the crashes happen, at least."""
+    crashes = np.sort(crashes_on_roads())[::-1]
+    return int(np.searchsorted(np.cumsum(crashes), crashes.sum() / 2)) + 1
+
+
+@cache
+def three_abreast(road: int) -> bool:
+    """Whether lesson 15's agent crashes on this road beside three slower cars, one in each lane, 5 m apart at most."""
+    agent = ppo_reference.agent_of("cloned").as_policy()
+    end = record(agent, [held_out_seeds(1, 1000)[road]])[0].states[-1]
+    three = end[1:][np.argsort(abs(end[1:, X] - end[EGO, X]))[:3]]
+    slower = three[:, SPEED].max() < end[EGO, SPEED] - 2
+    return bool(set(three[:, LANE]) == {0, 1, 2} and np.ptp(three[:, X]) < 5 and slower and end[EGO, CRASHED])
 
 
 def first_episodes(method: str, episodes: int = 50) -> float:
