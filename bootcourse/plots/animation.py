@@ -5,7 +5,7 @@ and come again. Between two simulation steps every car moves in a straight line.
 """
 
 import io
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -49,15 +49,11 @@ def frame(rollouts: Sequence[Rollout], time: float) -> Figure:
         draw_moment(ax, rollout, now, -VIEW / 2, VIEW / 2, origin=middle)
         over = rollout.accident and now == rollout.times[-1]
         write = {"y": (bottom + row + 0.1) / total, "va": "baseline"}
-        driver = sentence(display_name(rollout.label))
-        figure.text(
-            side / WIDTH, s=driver, fontsize=10.5, fontweight="bold", color=style(rollout.label).colour, **write
-        )
+        bold, driver = {"fontsize": 10.5, "fontweight": "bold"} | write, sentence(display_name(rollout.label))
+        figure.text(side / WIDTH, s=driver, color=style(rollout.label).colour, **bold)
         figure.text(0.37, s=doing(rollout, now), fontsize=9, color=ALARM if over else INK, **write)
         figure.text(0.76, s=f"{cars[EGO, SPEED]:.1f} m/s", fontsize=9, color=QUIET, ha="right", **write)
-        figure.text(
-            1 - side / WIDTH, s=f"{now:.0f} s", fontsize=10.5, fontweight="bold", color=INK, ha="right", **write
-        )
+        figure.text(1 - side / WIDTH, s=f"{now:.0f} s", color=INK, ha="right", **bold)
     figure.alt = alt(rollouts)
     return figure
 
@@ -79,11 +75,10 @@ def frame_times(rollouts: Sequence[Rollout], until: float | None = None) -> list
     return list(np.arange(0.0, min(until, end) + 1e-9, SPEED_UP * FRAME))
 
 
-def _pictures(rollouts: Sequence[Rollout], times: Sequence[float]) -> Iterator[Image.Image]:
-    for time in times:
-        canvas = FigureCanvasAgg(as_written(frame(rollouts, time)))
-        canvas.draw()
-        yield Image.fromarray(np.asarray(canvas.buffer_rgba())[..., :3])
+def _picture(rollouts: Sequence[Rollout], time: float) -> Image.Image:
+    canvas = FigureCanvasAgg(as_written(frame(rollouts, time)))
+    canvas.draw()
+    return Image.fromarray(np.asarray(canvas.buffer_rgba())[..., :3])
 
 
 def _palette(pictures: list[Image.Image]) -> Image.Image:
@@ -108,21 +103,12 @@ def animate(rollouts: Rollout | Sequence[Rollout], path: Path, until: float | No
     drives = [rollouts] if isinstance(rollouts, Rollout) else list(rollouts)
     if not drives:
         raise BootcourseError("There is no drive to animate: give a rollout, or a list of them.")
-    pictures = list(_pictures(drives, frame_times(drives, until)))
+    pictures = [_picture(drives, time) for time in frame_times(drives, until)]
     palette = _palette(pictures)
     frames = [picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture in pictures]
     durations = [round(1000 * FRAME)] * (len(frames) - 1) + [round(1000 * REST)]
     buffer = io.BytesIO()
-    frames[0].save(
-        buffer,
-        "GIF",
-        save_all=True,
-        append_images=frames[1:],
-        duration=durations,
-        loop=0,
-        disposal=1,
-        optimize=False,
-        comment=alt(drives).encode(),
-    )
+    how = {"save_all": True, "duration": durations, "loop": 0, "disposal": 1, "optimize": False}
+    frames[0].save(buffer, "GIF", append_images=frames[1:], comment=alt(drives).encode(), **how)
     write_bytes(path, buffer.getvalue())
     return Path(path)

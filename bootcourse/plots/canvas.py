@@ -1,22 +1,12 @@
 """What the road and training curves are drawn on: matplotlib axes in a figure, `svg.SvgAxes` in a panel.
 
-Both take the numbers of their axes (metres, episodes), widths and sizes in points, and draw in the order of the calls.
-A gap in a line is a NaN.
+Both have `line`, `fill` and `words`, take the numbers of their axes (metres, episodes), widths and sizes in points, and
+draw in the order of the calls. A gap in a line is a NaN.
 """
-
-from typing import Protocol
 
 from matplotlib.axes import Axes
 
-
-class Canvas(Protocol):
-    """What both can draw."""
-
-    def line(self, xs, ys, colour: str, width: float = 1, dash="-", opacity: float = 1.0) -> None: ...
-
-    def fill(self, xs, ys, colour: str, opacity: float = 1.0, edge: str = "none", gid: str = "") -> None: ...
-
-    def words(self, x: float, y: float, words: str, colour: str, anchor: str = "start", size: float = 7.5) -> None: ...
+from bootcourse.plots.svg import SvgAxes
 
 
 class MplAxes:
@@ -35,3 +25,6 @@ class MplAxes:
     def words(self, x: float, y: float, words: str, colour: str, anchor: str = "start", size: float = 7.5) -> None:
         align = {"start": "left", "middle": "center", "end": "right"}[anchor]
         self.ax.text(x, y, words, color=colour, ha=align, va="center", fontsize=size, clip_on=True, zorder=2)
+
+
+Canvas = MplAxes | SvgAxes

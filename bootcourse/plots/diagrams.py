@@ -20,10 +20,6 @@ class Diagram:
         size = f'viewBox="0 0 {width} {height}" width="{width}" height="{height}"'
         self.svg = f'<svg xmlns="http://www.w3.org/2000/svg" {size} {look}>{"".join(parts)}</svg>'
 
-    def html_image(self) -> tuple[str, bytes, int]:
-        """Kind, content and width in pixels, for an <img>."""
-        return "image/svg+xml", self.svg.encode(), self.width
-
     def _repr_mimebundle_(self, include=None, exclude=None) -> dict[str, str]:
         return Picture(self)._repr_mimebundle_()
 

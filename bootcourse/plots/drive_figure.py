@@ -3,6 +3,7 @@
 import io
 from pathlib import Path
 
+import numpy as np
 from PIL import Image, PngImagePlugin
 
 from bootcourse.episodes.rollout import Rollout
@@ -20,11 +21,7 @@ def save_drive(rollout: Rollout, path: Path) -> Path:
     check_replaceable(path, ".png")
     figures = [top_view_over_time(rollout), traces(rollout, title="The same drive over time")]
     pages = [Image.open(io.BytesIO(png(figure))).convert("RGB") for figure in figures]
-    whole = Image.new("RGB", (max(page.width for page in pages), sum(page.height for page in pages)), "white")
-    top = 0
-    for page in pages:
-        whole.paste(page, (0, top))
-        top += page.height
+    whole = Image.fromarray(np.concatenate(pages))
     description, buffer = PngImagePlugin.PngInfo(), io.BytesIO()
     description.add_text("Description", " ".join(figure.alt for figure in figures))
     whole.save(buffer, "PNG", pnginfo=description, dpi=(DPI, DPI), optimize=True)

@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from scipy.optimize import isotonic_regression
 
 from bootcourse.colours import GRID, INK, QUIET, Style
 from bootcourse.files import check_replaceable, write_bytes
@@ -105,34 +106,21 @@ def label_ends(
     wanted = np.clip([(y - low) / (high - low) for y, _, _ in ends], 0, 1)
     places = _apart(wanted, heights)
     for place, text, (_, _, colour) in zip(places, rows, ends, strict=True):
-        ax.text(
-            1 + gap,
-            place,
-            text,
-            transform=ax.transAxes,
-            color=colour,
-            fontsize=size,
-            va="center",
-            ha="left",
-            linespacing=1.1,
-        )
+        look = {"color": colour, "fontsize": size, "va": "center", "ha": "left", "linespacing": 1.1}
+        ax.text(1 + gap, place, text, transform=ax.transAxes, **look)
     return places
 
 
 def _apart(wanted: np.ndarray, heights: np.ndarray) -> np.ndarray:
-    """Places as near to the wanted ones as labels of these heights allow, all in the same order."""
+    """Places as near to the wanted ones as labels of these heights allow, in the same order, the lowest at 0 or above.
+
+    A label lower than 0 would touch the last number of the x axis.
+    """
     order = np.argsort(wanted, kind="stable")
-    places = wanted.astype(float).copy()
-    for _ in range(200):
-        moved = False
-        for below, above in zip(order[:-1], order[1:], strict=True):
-            missing = (heights[below] + heights[above]) / 2 - (places[above] - places[below])
-            if missing > 1e-6:
-                places[below] -= missing / 2
-                places[above] += missing / 2
-                moved = True
-        if not moved:
-            break
+    sizes = heights[order]
+    stacked = np.append(0, np.cumsum((sizes[:-1] + sizes[1:]) / 2))  # the labels one on the other, from 0 on
+    places = np.empty(len(wanted))
+    places[order] = stacked + np.maximum(isotonic_regression(wanted[order] - stacked).x, 0)
     return places
 
 
@@ -187,7 +175,7 @@ class Picture:
         if isinstance(self.figure, Figure):
             kind, data, width = "image/png", png(self.figure), round(self.figure.get_figwidth() * DPI)
         else:
-            kind, data, width = self.figure.html_image()
+            kind, data, width = "image/svg+xml", self.figure.svg.encode(), self.figure.width
         img = '<img src="data:{};base64,{}" class="bc-figure" width="{}" style="{}" alt="{}">'
         img = html(img, kind, base64.b64encode(data).decode(), width, READABLE, self.figure.alt)
         return {"text/html": f"{DARK}{img}", "text/plain": self.figure.alt}

@@ -25,11 +25,6 @@ ROAD = 3  # our choice: the rule passes after 22 s there, so the clip is short
 FOLDER = Path(__file__).resolve().parents[2] / "assets" / "readme"
 
 
-def readme_animation(top: Rollout, bottom: Rollout, path: Path) -> Path:
-    """Two drives below each other as a GIF; returns its path. `readme_still` is the same as one picture."""
-    return animate([top, bottom], path)
-
-
 def readme_still(top: Rollout, bottom: Rollout, path: Path) -> Path:
     """The moment that says it all: the lower car crosses into another lane, behind the traps. Returns the path."""
     crossed = np.flatnonzero(np.diff(bottom.states[:, EGO, LANE]))
@@ -51,7 +46,7 @@ def main(arguments: list[str] | None = None) -> int:
         else:
             top = record(idle_policy, [ROAD], DEFAULT, "idle")[0]
             bottom = record(rule_policy(DEFAULT), [ROAD], DEFAULT, "rule")[0]
-        print(readme_animation(top, bottom, options.out / "trap.gif"))
+        print(animate([top, bottom], options.out / "trap.gif"))
         print(readme_still(top, bottom, options.out / "trap.png"))
     except BootcourseError as error:
         print(error, file=sys.stderr)

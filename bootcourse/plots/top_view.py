@@ -66,7 +66,7 @@ def top_view(rollout: Rollout, time: float = 0.0, distances: bool = False, title
     _metres(ax)
     ax.set_ylabel("lane", fontsize=SMALL, color=QUIET)
     ax.set_yticks(np.arange(scenario.road.lanes) * scenario.road.lane_width, range(scenario.road.lanes))
-    _name_ego(ax, rollout, cars, left)
+    _name_ego(ax, rollout, cars)
     if distances:
         _measure(ax, cars, scenario)
     words = sentence(f"{display_name(rollout.label)}, at {time:g} s: {doing(rollout, time)}")
@@ -103,7 +103,7 @@ def top_view_over_time(rollout: Rollout, times: Sequence[float] | None = None, t
         _metres(ax, last=i == len(times) - 1)
         cars = cars_at(rollout, time)
         if i == 0:
-            _name_ego(ax, rollout, cars, left)
+            _name_ego(ax, rollout, cars)
         over = rollout.accident and time > rollout.times[-1] - 1e-9
         lines = (
             (0.2, f"{time:.3g} s", {"fontsize": 10.5, "fontweight": "bold", "color": INK}),
@@ -158,11 +158,10 @@ def _metres(ax, last: bool = True) -> None:
         ax.set_xlabel("distance ahead of the ego (m)", fontsize=TEXT, color=INK)
 
 
-def _name_ego(ax, rollout: Rollout, cars: np.ndarray, left: float) -> None:
+def _name_ego(ax, rollout: Rollout, cars: np.ndarray) -> None:
     back = -rollout.scenario.car.length / 2 - 0.8
-    ax.text(
-        back, cars[EGO, Y], "ego", ha="right", va="center", fontsize=SMALL, color=style(rollout.label).colour, zorder=7
-    )
+    look = {"fontsize": SMALL, "color": style(rollout.label).colour, "zorder": 7}
+    ax.text(back, cars[EGO, Y], "ego", ha="right", va="center", **look)
 
 
 def _measure(ax, cars: np.ndarray, scenario: Scenario) -> None:
@@ -170,12 +169,10 @@ def _measure(ax, cars: np.ndarray, scenario: Scenario) -> None:
     bottom = (scenario.road.lanes - 0.5) * scenario.road.lane_width
     for i, (text, trap) in enumerate((("D1", TRAP_1), ("D2", TRAP_2))):
         x, y = cars[trap, X] - cars[EGO, X], bottom + 1.9 + 2.6 * i
-        ax.vlines(
-            [0, x], [cars[EGO, Y], cars[trap, Y]], y + 0.7, color=INK, linewidth=0.6, linestyle=(0, (3, 2)), zorder=5
-        )
-        ax.annotate(
-            "", (x, y), (0, y), arrowprops={"arrowstyle": "<|-|>", "color": INK, "lw": 0.9, "shrinkA": 0, "shrinkB": 0}
-        )
+        dashed = {"color": INK, "linewidth": 0.6, "linestyle": (0, (3, 2)), "zorder": 5}
+        ax.vlines([0, x], [cars[EGO, Y], cars[trap, Y]], y + 0.7, **dashed)
+        arrow = {"arrowstyle": "<|-|>", "color": INK, "lw": 0.9, "shrinkA": 0, "shrinkB": 0}
+        ax.annotate("", (x, y), (0, y), arrowprops=arrow)
         ax.text(max(x, 0) + 0.9, y, f"{text} = {x:.2f} m", fontsize=TEXT, color=INK, va="center")
 
 

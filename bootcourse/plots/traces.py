@@ -5,17 +5,14 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
-from matplotlib.ticker import FuncFormatter, MaxNLocator
+from matplotlib.ticker import MaxNLocator
 
-from bootcourse.colours import ALARM, TRAP
+from bootcourse.colours import ALARM, GRID, INK, QUIET, TRAP
 from bootcourse.episodes.rollout import Rollout, series
 from bootcourse.episodes.words import ACCIDENTS, outcome, overtaken, sentence
 from bootcourse.errors import BootcourseError, did_you_mean
 from bootcourse.methods import display_name
 from bootcourse.plots.figure import (
-    GRID,
-    INK,
-    QUIET,
     SMALL,
     TEXT,
     WIDTH,
@@ -27,6 +24,7 @@ from bootcourse.plots.figure import (
     styles,
     wrapped,
 )
+from bootcourse.plots.svg import number
 from bootcourse.road.state import SPEED, TRAP_1, Accident
 
 # What can be drawn: the label above the panel, and the panel's height in inches.
@@ -39,6 +37,7 @@ PANELS = {
     "action": ("actions", 0.56),
 }
 LEFT, RIGHT, HEAD, LINE, FOOT, GAP = 0.75, 1.3, 0.36, 0.2, 0.5, 0.34  # inches; LINE for each line of the title
+HALO = [withStroke(linewidth=2.5, foreground="white")]  # around words on a line
 FARTHEST = 100.0  # m; beyond it the overtaking would become a dot at the bottom
 
 
@@ -126,24 +125,15 @@ def _draw_panel(ax, panel: str, drives: list[Rollout], looks: list, until: float
     for drive, look in zip(drives, looks, strict=True):
         seconds, values = series(drive, panel)
         seen = seconds <= until
-        width = 1.1 if panel == "reward" else 1.8
-        ax.plot(
-            seconds[seen],
-            values[seen],
-            color=look.colour,
-            linestyle=look.line,
-            linewidth=width,
-            drawstyle="steps-pre" if panel == "reward" else "default",
-            zorder=in_front(drive.label),
-            gid=f"{panel} of {drive.label}",
-        )
+        how = {"color": look.colour, "linestyle": look.line, "zorder": in_front(drive.label)}
+        how |= {"linewidth": 1.1, "drawstyle": "steps-pre"} if panel == "reward" else {"linewidth": 1.8}
+        ax.plot(seconds[seen], values[seen], gid=f"{panel} of {drive.label}", **how)
         if drive.accident and seconds[-1] <= until:
             _cross(ax, seconds[-1], values[-1], ACCIDENTS[Accident(drive.accident)] if panel == "speed" else "")
     if panel == "speed":
         longest = max(drives, key=lambda drive: drive.times[-1])
-        ax.plot(
-            longest.times, longest.states[:, TRAP_1, SPEED], color=TRAP, linewidth=1, linestyle=(0, (4, 3)), zorder=4
-        )
+        traps = longest.states[:, TRAP_1, SPEED]
+        ax.plot(longest.times, traps, color=TRAP, linewidth=1, linestyle=(0, (4, 3)), zorder=4)
         ax.margins(y=0.15)
     elif panel == "distance":
         low, high = ax.get_ylim()
@@ -151,27 +141,22 @@ def _draw_panel(ax, panel: str, drives: list[Rollout], looks: list, until: float
             ax.yaxis.label.set_text(f"{PANELS[panel][0]}, drawn up to {FARTHEST:g} m")
         ax.set_ylim(low, min(max(high, -low / 3), FARTHEST))
         ax.axhline(0, color=QUIET, linewidth=1, zorder=2)
-        ax.text(until * 0.006, 0, "overtaken", fontsize=SMALL, color=QUIET, va="bottom", zorder=2.2)
+        ax.text(until * 0.006, 0, "overtaken", fontsize=SMALL, color=QUIET, va="bottom", zorder=4, path_effects=HALO)
     elif panel == "lane":
         lanes = drives[0].scenario.road.lanes
         ax.set_ylim(lanes - 0.5, -0.5)
         ax.set_yticks(range(lanes))
     if panel != "lane":
         ax.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
-    ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}".replace("-", "−")))
+    ax.yaxis.set_major_formatter(lambda value, _: number(value))
 
 
 def _cross(ax, x: float, y: float, words: str) -> None:
-    ax.plot(
-        x, y, marker="X", markersize=8, color=ALARM, markeredgecolor="white", zorder=5, clip_on=False, gid="accident"
-    )
-    if not words:
-        return
+    look = {"color": ALARM, "zorder": 5}
+    ax.plot(x, y, "X", markersize=8, markeredgecolor="white", clip_on=False, gid="accident", **look)
     side, align = (-7, "right") if x > 0.75 * ax.get_xlim()[1] else (7, "left")
-    text = ax.annotate(
-        words, (x, y), (side, 5), textcoords="offset points", ha=align, fontsize=SMALL, color=ALARM, zorder=5
-    )
-    text.set_path_effects([withStroke(linewidth=2.5, foreground="white")])
+    look |= {"ha": align, "fontsize": SMALL, "path_effects": HALO}
+    ax.annotate(words, (x, y), (side, 5), textcoords="offset points", **look)
 
 
 def _write_names(ax, panel: str, drives: list[Rollout], names: list[str], looks: list, until: float) -> None:
@@ -194,8 +179,6 @@ def _draw_actions(ax, drive: Rollout, colour: str, until: float) -> None:
     ax.set(ylim=(-2.3, 2.3))
     ax.set_yticks([1.7, 0.6, -0.6, -1.7], ["accelerate", "brake", "left", "right"])
     ax.tick_params(axis="y", labelsize=6.5)
-    for base, text in (
-        (1.15, f"±{ego.acceleration:g} m/s²"),
-        (-1.15, f"±{np.degrees(ego.steering):.1f}° of steering"),
-    ):
+    much = f"±{ego.acceleration:g} m/s²", f"±{np.degrees(ego.steering):.1f}° of steering"
+    for base, text in zip((1.15, -1.15), much, strict=True):
         ax.text(1.015, base, text, transform=ax.get_yaxis_transform(), fontsize=SMALL, color=QUIET, va="center")

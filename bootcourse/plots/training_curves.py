@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, MaxNLocator
+from matplotlib.ticker import MaxNLocator
 
 from bootcourse.colours import Style
 from bootcourse.episodes.words import sentence
@@ -13,6 +13,7 @@ from bootcourse.errors import BootcourseError
 from bootcourse.methods import display_name, style
 from bootcourse.plots.canvas import Canvas, MplAxes
 from bootcourse.plots.figure import QUIET, SMALL, finish, in_front, label_ends, new_figure, plain_axes, styles, wrapped
+from bootcourse.plots.svg import number
 from bootcourse.statistics import band, iqm, rolling_means
 
 WINDOW = 50  # episodes in a rolling mean
@@ -107,7 +108,7 @@ def training_curves(
         ax.set_xlim(0, max(episodes, 1))
         ax.set_xlabel("training episode", fontsize=SMALL, color=QUIET)
         ax.xaxis.set_major_locator(MaxNLocator(5, integer=True))
-        ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}".replace("-", "−")))
+        ax.yaxis.set_major_formatter(lambda value, _: number(value))
         ends[measure] = _draw(ax, measure, curves, looks, window, constants, paper)
     each = "each episode" if window == 1 else f"over the last {window} episodes"
     words = f"Thin: agents. Thick: their interquartile mean with its 95 % interval. All {each}."
