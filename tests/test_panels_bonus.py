@@ -13,6 +13,7 @@ from bootcourse.learn.settings import Settings, settings_for
 from bootcourse.panels import bonus_panel
 from bootcourse.panels.bonus_numbers import bonus_numbers, targets
 from bootcourse.panels.number import Number
+from bootcourse.plots.svg import printed
 from bootcourse.policies import idle_policy, plan_policy
 from bootcourse.scenario import CALIBRATED, DEFAULT
 from tests.panels import from_page, inside, raise_in_callbacks, seconds_of_a_drag, words  # noqa: F401
@@ -74,7 +75,7 @@ def test_a_demonstration_that_ends_in_an_accident_is_worth_nothing_afterwards():
     assert crash.accident
     panel = bonus_panel(crash)
     seen = panel.seen
-    assert "less towards the accident" in panel.alt
+    assert "less towards the accident" in panel.svg.alt
     assert seen.plain[-1] == pytest.approx(crash.rewards[-1])
     assert seen.weight[-1] == 1.0 and len(seen.trapped) == len(crash.actions)
 
@@ -143,7 +144,7 @@ def test_settings_of_another_kind_and_drives_of_two_scenarios_are_refused(panel)
 
 def test_the_picture_says_what_the_numbers_say(panel):
     panel.moment.value = 2.0
-    picture, kind, alt = panel.picture()
-    assert kind == "image/svg+xml" and "var(" not in picture.decode()
-    assert "staying behind 0.78: it leads from c = 0.0" in alt
-    assert "A bonus of 2 adds 10 to the target" in picture.decode()
+    picture = printed(panel.picture()).decode()
+    assert "var(" not in picture
+    assert "staying behind 0.78: it leads from c = 0.0" in panel.picture().alt
+    assert "A bonus of 2 adds 10 to the target" in picture

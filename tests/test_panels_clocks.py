@@ -42,8 +42,8 @@ def test_xi_that_halves_every_30_episodes_is_down_to_a_tenth_after_100():
 
 
 def test_the_panel_says_when_each_clock_has_run_down_and_who_escapes(panel):
-    assert "1/4 updates per decision: ξ is down to a tenth after 100 episodes, β is 0 after 100." in panel.alt
-    assert "1 of 2 agents escape with the soft constraint alone, 1 of 2 with demonstrations alone" in panel.alt
+    assert "1/4 updates per decision: ξ is down to a tenth after 100 episodes, β is 0 after 100." in panel.svg.alt
+    assert "1 of 2 agents escape with the soft constraint alone, 1 of 2 with demonstrations alone" in panel.svg.alt
 
 
 def test_another_choice_draws_its_own_curves_and_one_that_was_not_computed_says_so(panel):
@@ -51,16 +51,13 @@ def test_another_choice_draws_its_own_curves_and_one_that_was_not_computed_says_
     panel.updates.value = "2"
     assert "2 updates per decision with demonstrations by μ were not computed" in words(panel) and panel.svg == before
     panel.driver.value = "π̃"
-    assert panel.chosen == ("2", "π̃") and "after 10 episodes" in panel.alt and "not computed" not in words(panel)
+    assert panel.chosen == ("2", "π̃") and "after 10 episodes" in panel.svg.alt and "not computed" not in words(panel)
     assert panel.view.value == panel.svg != before
 
 
 def test_its_picture_names_every_line(panel):
-    image, kind, _ = panel.picture()
-    drawn = image.decode()
-    assert kind == "image/svg+xml" and all(
-        name in drawn for name in ("ξ = 200α", ">β<", "plain SAC", "soft constraint only")
-    )
+    drawn = panel.picture()
+    assert all(name in drawn for name in ("ξ = 200α", ">β<", "plain SAC", "soft constraint only"))
 
 
 def kept(root, half_life=30):
@@ -80,7 +77,7 @@ def kept(root, half_life=30):
 def test_a_study_s_folder_is_what_the_panel_shows(tmp_path):
     kept(tmp_path)
     panel = clocks_panel(study=tmp_path)
-    assert panel.chosen == ("2", "μ") and "1 of 2 agents escape" in panel.alt
+    assert panel.chosen == ("2", "μ") and "1 of 2 agents escape" in panel.svg.alt
     with pytest.raises(BootcourseError, match="'4 μ' is unknown"):
         clocks_panel("4", "μ", study=tmp_path)
 

@@ -17,6 +17,7 @@ from bootcourse.learn.settings import settings_for
 from bootcourse.panels import policy_panel
 from bootcourse.panels.number import Number
 from bootcourse.panels.policy_numbers import policy_numbers
+from bootcourse.plots.svg import printed
 from bootcourse.policies import idle_policy, random_policy, rule_policy
 from bootcourse.rule import rule
 from bootcourse.scenario import DEFAULT, N_ACTIONS, Clock, Road
@@ -97,7 +98,7 @@ def test_the_panel_shows_policy_rule_and_optimum_of_the_moment(agents_drive):
         cars = agents_drive.states[k * DEFAULT.clock.steps][None]
         assert panel.seen.policy is not None and np.array_equal(panel.seen.policy, agents_drive.policy[k])
         assert panel.seen.rule.argmax() == agents_drive.rule_actions[k] == rule(cars, DEFAULT).actions[0]
-        assert f"{k} s into the drive of the bootstrapped SAC" in panel.alt
+        assert f"{k} s into the drive of the bootstrapped SAC" in panel.svg.alt
     assert panel.says.value == ""
 
 
@@ -157,7 +158,7 @@ def test_a_drive_of_one_decision_and_one_of_another_clock_are_shown():
     fast = replace(DEFAULT, clock=Clock(decisions=7, decision_rate=2, simulation_rate=4), road=Road(lanes=6))
     panel = policy_panel(record(idle_policy, [0], fast, "idle")[0])
     from_page(panel.moment.slider, value=3.0)
-    assert "3 s into" in panel.alt
+    assert "3 s into" in panel.svg.alt
     ElementTree.fromstring(panel.svg)
 
 
@@ -178,6 +179,6 @@ def test_a_call_without_a_drive_says_what_to_give(wrong):
 
 def test_the_picture_names_the_settings_and_the_reason(agents_drive):
     panel = policy_panel(agents_drive, p=0.8, xi=1.5)
-    picture = panel.picture()[0].decode()
+    picture = printed(panel.picture()).decode()
     assert "the rule, p = 0.8" in picture and "ξ = 1.5, α = 0.01" in picture and "The rule: " in picture
     assert "var(" not in picture

@@ -99,7 +99,7 @@ def test_the_view_is_the_road_that_the_scenario_begins(panel):
     cars = start_of(DEFAULT, 0)
     assert 14.8 <= cars[TRAP_1, X] - cars[EGO, X] <= 16.44
     assert 4.06 <= cars[TRAP_2, X] - cars[EGO, X] <= 7.43
-    assert f"trap 1 is {cars[TRAP_1, X] - cars[EGO, X]:.1f} m ahead" in panel.alt
+    assert f"trap 1 is {cars[TRAP_1, X] - cars[EGO, X]:.1f} m ahead" in panel.svg.alt
     before = panel.svg
     from_page(panel.road.slider, value=5.0)
     assert panel.svg != before

@@ -122,7 +122,7 @@ def test_the_python_that_it_offers_trains_the_very_settings(panel, monkeypatch):
 
 def test_a_file_that_is_missing_is_one_sentence(tmp_path):
     panel = sweep_panel(tmp_path / "none.npz")
-    assert "is not there" in words(panel) and panel.happened is None and panel.picture()[2]
+    assert "is not there" in words(panel) and panel.happened is None and panel.picture().alt
 
 
 def test_a_file_that_is_damaged_is_one_sentence(tmp_path, file):

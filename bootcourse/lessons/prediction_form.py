@@ -8,7 +8,7 @@ import ipywidgets as widgets
 from bootcourse.lessons.predictions import Question, commit, committed, predictions
 from bootcourse.lessons.verdict import marked
 from bootcourse.markup import Markup, html, joined
-from bootcourse.panels.panel import Panel, button
+from bootcourse.panels.panel import Panel
 
 STYLE = """<style>
 .bc-panel .widget-radio-box {height: auto}
@@ -36,8 +36,8 @@ class PredictionForm(Panel):
     def __init__(self, question: Question):
         self.question = question
         self.field = self._field()
-        self.button = button("Commit", "check", "Keep this answer, with the time. It cannot be changed.", "primary")
-        self.button.on_click(lambda _: self.commit())
+        help = "Keep this answer, with the time. It cannot be changed."
+        self.button = self.make_button("Commit", "check", help, self.commit, "primary")
         keys = html('<img src="data:," alt="" style="display:none" onerror="{}">', KEYS)
         text = widgets.HTML(Markup(STYLE) + html("<div>{}</div>{}", marked(question.text), keys))
         super().__init__(f"Prediction {question.number}", text, self.field, self.button)
@@ -58,9 +58,8 @@ class PredictionForm(Panel):
         return widgets.Text(placeholder="your answer", tooltip=name, layout={"width": "auto", "max_width": "640px"})
 
     def commit(self) -> None:
-        """Keep the answer, or say why it is not accepted."""
-        with self.saying_what_is_wrong():
-            self._lock(commit(self.question, self.field.value))
+        """Keep the answer. Raises BootcourseError if it is not accepted."""
+        self._lock(commit(self.question, self.field.value))
 
     def _lock(self, kept: dict) -> None:
         if not self.question.choices:

@@ -15,10 +15,10 @@ from bootcourse.learn.settings import Settings
 from bootcourse.methods import style
 from bootcourse.panels.arguments import an_instance, one_drive, whole_number
 from bootcourse.panels.bonus_numbers import bonus_numbers
-from bootcourse.panels.bonus_view import alt_text, bonus
+from bootcourse.panels.bonus_view import bonus
 from bootcourse.panels.number import Number
 from bootcourse.panels.panel import Panel, beside
-from bootcourse.plots.svg import QUIET, printed
+from bootcourse.plots.svg import QUIET
 from bootcourse.policies import idle_policy, rule_policy
 from bootcourse.scenario import DEFAULT
 
@@ -68,12 +68,7 @@ class BonusPanel(Panel):
         k = int(self.moment.value * rate + 1e-9)
         own, other = style(self.demonstration.label), style(self.trapped.label)
         other = Style(QUIET) if other.colour == own.colour else other
-        self.alt = alt_text(self.seen, k, rate, settings.bonus)
-        self.svg = bonus(self.seen, k, rate, settings, int(self.episode.value), own, other)
-        self.view.value = self.svg
-
-    def picture(self) -> tuple[bytes, str, str]:
-        return printed(self.svg), "image/svg+xml", self.alt
+        self.svg = self.view.value = bonus(self.seen, k, rate, settings, int(self.episode.value), own, other)
 
 
 def check_finite_worth(settings: Settings) -> None:

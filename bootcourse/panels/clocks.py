@@ -12,7 +12,7 @@ import numpy as np
 from bootcourse.errors import BootcourseError, did_you_mean
 from bootcourse.methods import display_name, style
 from bootcourse.panels.panel import Panel
-from bootcourse.plots.svg import QUIET, SvgAxes, drawing, printed, text
+from bootcourse.plots.svg import QUIET, SvgAxes, drawing, text
 from bootcourse.plots.training_curves import WINDOW, draw_band
 from bootcourse.statistics import iqm, rolling_means
 from bootcourse.storage.assets import FOLDER
@@ -51,12 +51,7 @@ class ClocksPanel(Panel):
             return
         self.say()
         self.chosen, results = pair, self.measured[pair]
-        self.alt = told(results, pair[0])
-        self.svg = clocks(results, self.alt)
-        self.view.value = self.svg
-
-    def picture(self) -> tuple[bytes, str, str]:
-        return printed(self.svg), "image/svg+xml", self.alt
+        self.svg = self.view.value = clocks(results, told(results, pair[0]))
 
 
 def told(results: Results, updates: str) -> str:

@@ -20,12 +20,12 @@ from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError, whole
 from bootcourse.panels.arguments import LAST_ROAD, check_road
-from bootcourse.panels.cockpit import alt_text, cockpit
+from bootcourse.panels.cockpit import cockpit
 from bootcourse.panels.number import Number
 from bootcourse.panels.pad import Pad
-from bootcourse.panels.panel import Panel, button
+from bootcourse.panels.panel import Panel
 from bootcourse.panels.ticker import Ticker
-from bootcourse.plots.svg import printed
+from bootcourse.plots.svg import Drawing
 from bootcourse.policies import Policy, rule_policy
 from bootcourse.scenario import ACTION_NAMES, DEFAULT, IDLE, Scenario
 
@@ -63,28 +63,25 @@ class DrivePanel(Panel):
             options=[STEPS, REAL], tooltips=["A decision for each press", "A decision for each tick of the clock"]
         )
         self.mode.style.button_width = "118px"
-        self.go = button("Start", "play", "Start or pause the clock (real time)", "primary", WIDE)
-        self.again = button("Drive again", "refresh", "The same road, from its start", width=WIDE)
+        make = self.make_button
+        self.go = make("Start", "play", "Start or pause the clock (real time)", self._go, "primary", WIDE)
+        self.again = make("Drive again", "refresh", "The same road, from its start", self._again, width=WIDE)
         self.pace = Number("pace", 1.0, 0.2, 3.0, 0.1, "How long a decision takes in real time.", "s", check_pace)
         self.road = Number("road", seed, 0, 99, 1, "The seed of the road. Another one begins a new drive.",
                            check=check_road)  # fmt: skip
         self.road.lock(fixed)
-        self.keep = button(
-            "Keep as demonstration", "graduation-cap", "Save this drive as a demonstration for an agent", width="214px"
-        )
-        self.save = button("Save", "save", "Write this drive to the file, to draw or to replay it", width=WIDE)
+        help = "Save this drive as a demonstration for an agent"
+        self.keep = make("Keep as demonstration", "graduation-cap", help, self._keep, width="214px")
+        help = "Write this drive to the file, to draw or to replay it"
+        self.save = make("Save", "save", help, self._save, width=WIDE)
         self.path = widgets.Text(_path(seed), tooltip="Where Save writes", layout={"width": "230px"})
         mode = widgets.HBox([self.mode, self.go, self.again])
         store = widgets.HBox([self.keep, self.save, self.path])
         row = {"flex_flow": "row wrap", "grid_gap": "6px 28px"}
         controls = widgets.VBox([mode, self.pace, self.road, store], layout={"grid_gap": "4px"})
         super().__init__("Drive it yourself", self.view, widgets.HBox([self.pad, controls], layout=row))
-        for pressed, does in (
-            (self.go, self._go), (self.again, self._again), (self.keep, self._keep), (self.save, self._save),
-        ):  # fmt: skip
-            pressed.on_click(lambda _, does=does: self._set_off(does))
-        self.mode.observe(lambda change: self._set_off(self._new_mode), "value")
-        self.road.observe(lambda change: self._set_off(self._again), "value")
+        self.mode.observe(lambda change: self.handle(self._new_mode), "value")
+        self.road.observe(lambda change: self.handle(self._again), "value")
         self._new_mode()
         self._draw()
 
@@ -113,15 +110,9 @@ class DrivePanel(Panel):
             self.ticker.stop()
         super().close()
 
-    def picture(self) -> tuple[bytes, str, str]:
+    def picture(self) -> Drawing:
         with self._lock:
-            svg = cockpit(self.drive, self.ghost, self.shown)
-            return printed(svg), "image/svg+xml", alt_text(self.drive, self.ghost, self.shown)
-
-    def _set_off(self, does: Callable[[], None]) -> None:
-        with self.saying_what_is_wrong():
-            self.say()
-            does()
+            return cockpit(self.drive, self.ghost, self.shown)
 
     def _choose(self, action: int | None) -> None:
         """What the clock's next decision is; None: keep straight, and mark no button."""

@@ -1,5 +1,6 @@
 """A number to drag or to type, with a symbol, a unit and a sentence of help. It refuses what the library refuses."""
 
+import contextlib
 import math
 from collections.abc import Callable
 
@@ -10,8 +11,39 @@ from bootcourse.errors import BootcourseError
 from bootcourse.markup import html
 
 
-class Number(widgets.VBox):
-    """A slider and a field. `value` is always accepted by `check`; a refused number changes nothing but the sentence.
+class Entry(widgets.VBox):
+    """A slider and a field for the same number, under a symbol; below them a sentence.
+
+    widths: of the symbol, the slider, the field and the whole, pixels.
+    """
+
+    def __init__(self, symbol: str, unit: str, help: str, slider, field: widgets.FloatText, widths, **traits):
+        self.slider, self.field, self.help = slider, field, widgets.HTML()
+        self.sentence, self._busy = help, False
+        slider.tooltip, field.tooltip = f"{symbol}: {help}", f"{symbol}, typed: {help}"
+        label = widgets.HTML(html("<b>{}</b>{}", symbol, f" ({unit})" if unit else ""))
+        row = widgets.HBox([label, slider, field], layout={"align_items": "center"})
+        super().__init__([row, self.help], **traits)
+        for part, width in zip((label, slider, field, self), widths, strict=True):
+            part.layout.width = f"{width}px"
+        self._tell()
+
+    @contextlib.contextmanager
+    def _showing(self):
+        """What the block writes into the controls is not an entry."""
+        self._busy = True
+        try:
+            yield
+        finally:
+            self._busy = False
+
+    def _tell(self, words: str = "", wrong: bool = False) -> None:
+        page = '<div class="bc-quiet bc-wrong" role="alert">{}</div>' if wrong else '<div class="bc-quiet">{}</div>'
+        self.help.value = html(page, words or self.sentence)
+
+
+class Number(Entry):
+    """`value` is always accepted by `check`; a refused number changes nothing but the sentence.
 
     check: the library's validation, raises BootcourseError. low, high, step: of the slider; a typed
     number may lie beyond them if `check` accepts it. logarithmic: low and high are powers of ten.
@@ -31,24 +63,13 @@ class Number(widgets.VBox):
         check: Callable[[float], object] = lambda value: None,
         logarithmic: bool = False,
     ):
-        self.check, self.symbol, self.sentence, self._busy = check, symbol, help, False
-        self._why_locked = ""
+        self.check, self.symbol, self.purpose = check, symbol, help
         self.refused: float | None = None  # the number entered last, if it was refused,
         self.wrong = ""  # and why it was
-        label = widgets.HTML(html("<b>{}</b>{}", symbol, f" ({unit})" if unit else ""))
-        label.layout.width = "92px"
         make = widgets.FloatLogSlider if logarithmic else widgets.FloatSlider
-        self.slider = make(value=value, min=low, max=high, step=step, readout=False, tooltip=f"{symbol}: {help}")
-        self.slider.layout.width = "210px"
-        self.field = widgets.FloatText(value=value, step=step, tooltip=f"{symbol}, typed: {help}")
-        self.field.layout.width = "88px"
-        self.help = widgets.HTML()
-        super().__init__(
-            [widgets.HBox([label, self.slider, self.field], layout={"align_items": "center"}), self.help],
-            value=float(value),
-        )
-        self.layout.width = "420px"
-        self._tell()
+        slider = make(value=value, min=low, max=high, step=step, readout=False)
+        field = widgets.FloatText(value=value, step=step)
+        super().__init__(symbol, unit, help, slider, field, (92, 210, 88, 420), value=float(value))
         self.slider.observe(lambda change: self._enter(change["new"]), "value")
         self.field.observe(lambda change: self._enter(change["new"]), "value")
         self.observe(lambda change: self._show(), "value")
@@ -61,7 +82,7 @@ class Number(widgets.VBox):
             self._refuse(value)
         except BootcourseError as error:
             self.refused, self.wrong = value, str(error)
-            self._tell(self.wrong)
+            self._tell(self.wrong, wrong=True)
         else:
             self.value = value
             self._show()
@@ -90,22 +111,15 @@ class Number(widgets.VBox):
         """Show the value in both controls; a value beyond the slider's range puts it at its end."""
         self.refused, self.wrong = None, ""
         self._tell()
-        self._busy = True
-        try:
+        with self._showing():
             low, high = self.slider.min, self.slider.max
             if isinstance(self.slider, widgets.FloatLogSlider):
                 low, high = self.slider.base**low, self.slider.base**high
             self.slider.value = min(max(self.value, low), high)
             self.field.value = self.value
-        finally:
-            self._busy = False
 
     def lock(self, why: str = "") -> None:
         """Switch it off and say why; without a reason, switch it on again."""
         self.slider.disabled = self.field.disabled = bool(why)
-        self._why_locked = why
+        self.sentence = why or self.purpose
         self._tell()
-
-    def _tell(self, wrong: str = "") -> None:
-        page = '<div class="bc-quiet bc-wrong" role="alert">{}</div>' if wrong else '<div class="bc-quiet">{}</div>'
-        self.help.value = html(page, wrong or self._why_locked or self.sentence)

@@ -6,6 +6,7 @@ sentence appears in the panel.
 
 import base64
 import contextlib
+from collections.abc import Callable
 
 import ipywidgets as widgets
 
@@ -13,6 +14,7 @@ from bootcourse import one_per_cell
 from bootcourse.colours import ALARM
 from bootcourse.errors import BootcourseError
 from bootcourse.markup import Markup, html
+from bootcourse.plots.svg import Drawing, printed
 
 STYLE = """<style>
 .bc-panel {border: 1px solid var(--jp-border-color2, #E3E7EB); border-radius: 6px; padding: 10px 14px 12px;
@@ -30,8 +32,10 @@ STYLE = """<style>
 class Panel(widgets.VBox):
     """A titled column. When its notebook cell runs again, the panel is closed.
 
-    title: a sentence; parts: widgets from top to bottom. Subclasses define `picture`.
+    title: a sentence; parts: widgets from top to bottom. `svg`: the drawing that it shows.
     """
+
+    svg: Drawing
 
     closed = False  # of the class: `close` may be called on a panel whose __init__ raised an error
 
@@ -59,9 +63,23 @@ class Panel(widgets.VBox):
         except BootcourseError as error:
             self.say(str(error), wrong=True)
 
-    def picture(self) -> tuple[bytes, str, str]:
-        """(image, its type such as "image/svg+xml", alt text), for readers without a kernel."""
-        raise NotImplementedError
+    def handle(self, does: Callable[[], None]) -> None:
+        """Do what a control asks for: in place of the last message, show why it cannot be done."""
+        with self.saying_what_is_wrong():
+            self.say()
+            does()
+
+    def make_button(
+        self, label: str, icon: str, help: str, does: Callable[[], None], kind: str = "", width: str = "104px"
+    ) -> widgets.Button:
+        """A button with its icon and a sentence of help; kind: "" or "primary"."""
+        made = widgets.Button(description=label, icon=icon, tooltip=help, button_style=kind, layout={"width": width})
+        made.on_click(lambda _: self.handle(does))
+        return made
+
+    def picture(self) -> Drawing:
+        """What readers without a kernel see."""
+        return self.svg
 
     def close(self) -> None:
         """Stop whatever runs, and remove the panel and its parts. Closing twice does nothing."""
@@ -75,15 +93,10 @@ class Panel(widgets.VBox):
         super().close()
 
     def _repr_mimebundle_(self, **kwargs) -> dict:
-        image, kind, alt = self.picture()
-        data = base64.b64encode(image).decode()
-        img = html('<img src="data:{};base64,{}" alt="{}" style="max-width:100%">', kind, data, alt)
-        return super()._repr_mimebundle_(**kwargs) | {"text/html": str(img), "text/plain": alt}
-
-
-def button(label: str, icon: str, help: str, kind: str = "", width: str = "104px") -> widgets.Button:
-    """A button with its icon and a sentence of help; kind: "" or "primary"."""
-    return widgets.Button(description=label, icon=icon, tooltip=help, button_style=kind, layout={"width": width})
+        picture = self.picture()
+        data = base64.b64encode(printed(picture)).decode()
+        img = html('<img src="data:image/svg+xml;base64,{}" alt="{}" style="max-width:100%">', data, picture.alt)
+        return super()._repr_mimebundle_(**kwargs) | {"text/html": str(img), "text/plain": picture.alt}
 
 
 def beside(*parts: widgets.Widget) -> widgets.Box:

@@ -16,7 +16,7 @@ from bootcourse.panels.panel import Panel, beside
 from bootcourse.panels.policy_numbers import check_weights, policy_numbers
 from bootcourse.panels.policy_view import COLUMNS, GREEN, HEIGHT, ROAD, WIDTH, marks, policy_chart
 from bootcourse.plots.road import road_svg
-from bootcourse.plots.svg import QUIET, drawing, printed, text
+from bootcourse.plots.svg import QUIET, drawing, text
 from bootcourse.road.state import EGO, SPEED
 from bootcourse.rule import SENTENCES, Reason, rule
 from bootcourse.scenario import ACTION_NAMES, check_p
@@ -68,15 +68,13 @@ class PolicyPanel(Panel):
         self.seen = policy_numbers(
             policy, q, int(self.decisions.actions[k]), self.p.value, self.xi.value, self.alpha.value
         )
-        self.alt = self._alt(k)
         settings = (self.p.value, self.xi.value, self.alpha.value)
         own, head = style(self.rollout.label).colour, self._head(k)
         view, _ = road_svg(self.starts[k], self.rollout.scenario, own, WIDTH, self._scale())
         parts = [*view, *head, *policy_chart(self.seen, *settings, display_name(self.rollout.label), own)]
         parts += marks(int(self.rollout.actions[k]), int(self.decisions.actions[k]), own)
         inner = ['<g transform="translate(8 0)">', *parts, "</g>"]
-        self.svg = drawing(WIDTH + 16, HEIGHT, inner, self.alt)
-        self.view.value = self.svg
+        self.svg = self.view.value = drawing(WIDTH + 16, HEIGHT, inner, self._alt(k))
 
     def _scale(self) -> float:
         return ROAD / (self.rollout.scenario.road.lanes * self.rollout.scenario.road.lane_width)
@@ -109,9 +107,6 @@ class PolicyPanel(Panel):
                 f"{seen.optimum[best]:.2f} to {ACTION_NAMES[best]}."
             )
         return " ".join(told)
-
-    def picture(self) -> tuple[bytes, str, str]:
-        return printed(self.svg), "image/svg+xml", self.alt
 
 
 def policy_panel(rollout: Rollout, p: float | None = None, xi: float = 2.0, alpha: float | None = None) -> PolicyPanel:

@@ -11,8 +11,7 @@ from bootcourse.panels.arguments import LAST_ROAD, an_instance, check_road
 from bootcourse.panels.number import Number
 from bootcourse.panels.panel import Panel, beside
 from bootcourse.panels.scenario_fields import FIELDS, GROUPS, Field, as_code, changed
-from bootcourse.panels.scenario_view import alt_text, start_of, top_view
-from bootcourse.plots.svg import printed
+from bootcourse.panels.scenario_view import start_of, top_view
 from bootcourse.scenario import DEFAULT, Scenario
 
 
@@ -82,9 +81,7 @@ class ScenarioPanel(Panel):
 
     def update(self, change=None) -> None:
         """Draw the road that the present numbers make."""
-        cars = start_of(self.scenario, int(self.road.value))
-        self.svg, self.alt = top_view(self.scenario, cars), alt_text(self.scenario, cars)
-        self.view.value = self.svg
+        self.svg = self.view.value = top_view(self.scenario, start_of(self.scenario, int(self.road.value)))
         page = '<div class="bc-quiet">In Python: <code style="user-select: all">{}</code></div>'
         self.code.value = html(page, as_code(self.scenario, self.start))
         self._tell()
@@ -97,9 +94,6 @@ class ScenarioPanel(Panel):
             f"Does not fit yet: {names}. {refused[0].wrong} The road above is the last that fits." if refused else ""
         )
         self.say(words, wrong=True)
-
-    def picture(self) -> tuple[bytes, str, str]:
-        return printed(self.svg), "image/svg+xml", self.alt
 
 
 def scenario_panel(scenario: Scenario = DEFAULT, seed: int = 0) -> ScenarioPanel:

@@ -12,34 +12,24 @@ import ipywidgets as widgets
 
 from bootcourse.errors import BootcourseError
 from bootcourse.markup import html
+from bootcourse.panels.number import Entry
 from bootcourse.panels.panel import Panel
 from bootcourse.panels.sweep_view import choices, rerun, view
-from bootcourse.plots.svg import printed
+from bootcourse.plots.svg import Drawing, drawing, text
 from bootcourse.study.results import Results
 from bootcourse.study.sweep import SHIPPED, SweepResult, load_sweep, nearest_setting
 
 
-class Snap(widgets.VBox):
+class Snap(Entry):
     """A slider over the values that were run, and a field that snaps to the nearest of them.
 
     snap: gives the nearest value that was run; raises BootcourseError for a value that no training can have.
     """
 
     def __init__(self, symbol: str, unit: str, help: str, values: Sequence[float], snap: Callable[[float], float]):
-        self.snap, self.sentence, self._busy = snap, help, False
-        label = widgets.HTML(html("<b>{}</b>{}", symbol, f" ({unit})" if unit else ""))
-        label.layout.width = "64px"
-        options = [(f"{value:g}", value) for value in values]
-        self.slider = widgets.SelectionSlider(
-            options=options, value=values[len(values) // 2], readout=False, tooltip=f"{symbol}: {help}"
-        )
-        self.slider.layout.width = "140px"
-        self.field = widgets.FloatText(value=self.slider.value, tooltip=f"{symbol}, typed: {help}")
-        self.field.layout.width = "76px"
-        self.help = widgets.HTML()
-        super().__init__([widgets.HBox([label, self.slider, self.field], layout={"align_items": "center"}), self.help])
-        self.layout.width = "310px"
-        self._tell()
+        self.snap, options = snap, [(f"{value:g}", value) for value in values]
+        slider = widgets.SelectionSlider(options=options, value=values[len(values) // 2], readout=False)
+        super().__init__(symbol, unit, help, slider, widgets.FloatText(value=slider.value), (64, 140, 76, 310))
         self.slider.observe(lambda change: self._show(), "value")
         self.field.observe(lambda change: self._typed(change["new"]), "value")
 
@@ -53,22 +43,16 @@ class Snap(widgets.VBox):
         try:
             self.slider.value = self.snap(value)
         except BootcourseError as error:
-            self._tell(str(error), "bc-wrong")
+            self._tell(str(error), wrong=True)
             return
         self._show()
         if value != self.slider.value:
             self._tell(f"{value:g} was not run: this is the nearest that was.")
 
     def _show(self) -> None:
-        self._busy = True
-        try:
+        with self._showing():
             self.field.value = self.slider.value
-        finally:
-            self._busy = False
         self._tell()
-
-    def _tell(self, words: str = "", kind: str = "") -> None:
-        self.help.value = html('<div class="bc-quiet {}">{}</div>', kind, words or self.sentence)
 
 
 class SweepPanel(Panel):
@@ -76,7 +60,7 @@ class SweepPanel(Panel):
 
     def __init__(self, path: Path):
         self.happened: SweepResult | None = None
-        self._views: dict[tuple, str] = {}
+        self._views: dict[tuple, Drawing] = {}
         try:
             self.sweep: Results | None = load_sweep(path)
             ps, xis, cs = choices(self.sweep)
@@ -84,6 +68,8 @@ class SweepPanel(Panel):
             self.sweep = None
             super().__init__("The sweep over p, ξ and c")
             self.say(str(error), wrong=True)
+            words = "The sweep could not be read."
+            self.svg = drawing(600, 40, [text(10, 25, words)], words)
             return
         sweep = self.sweep
         self.p = Snap("p", "", "Probability that the stochastic rule gives to the rule's action.", ps,
@@ -99,32 +85,20 @@ class SweepPanel(Panel):
             control.slider.observe(lambda change: self._draw(), "value")
         self._draw()
 
-    def picture(self) -> tuple[bytes, str, str]:
-        if self.happened is None:
-            from bootcourse.plots.svg import drawing, text
-
-            words = "The sweep could not be read."
-            return printed(drawing(600, 40, [text(10, 25, words)], words)), "image/svg+xml", words
-        return printed(self._view()), "image/svg+xml", str(self.happened)
-
     def _draw(self) -> None:
         asked = (self.p.value, self.xi.value, self.c.value)
         self.happened = nearest_setting(self.sweep, *asked)
         missing = "" if self.happened.exact else "This setting was not run. The nearest that was: "
         self.sentence.value = html('<div class="bc-says" role="status">{}</div>', f"{missing}{self.happened}")
-        self.chart.value = self._view()
+        key = (self.happened.p, self.happened.xi_multiplier, self.happened.c)
+        if key not in self._views:
+            self._views[key] = view(self.sweep, self.happened)
+        self.svg = self.chart.value = self._views[key]
         page = (
             '<div class="bc-quiet">To train these agents again:</div>'
             '<pre style="margin:2px 0 0;font-size:12px;line-height:1.4;user-select:all;overflow-x:auto">{}</pre>'
         )
         self.code.value = html(page, rerun(self.happened))
-
-    def _view(self) -> str:
-        happened = self.happened
-        key = (happened.p, happened.xi_multiplier, happened.c)
-        if key not in self._views:
-            self._views[key] = view(self.sweep, happened)
-        return self._views[key]
 
 
 def sweep_panel(path: Path = SHIPPED) -> SweepPanel:

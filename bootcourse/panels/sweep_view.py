@@ -9,7 +9,7 @@ import numpy as np
 
 from bootcourse.colours import ALARM, rgb
 from bootcourse.methods import style
-from bootcourse.plots.svg import INK, QUIET, SvgAxes, drawing, number, rect, span, text
+from bootcourse.plots.svg import INK, QUIET, Drawing, SvgAxes, drawing, number, rect, span, text
 from bootcourse.plots.training_curves import MEASURES, WINDOW, draw_band, draw_training
 from bootcourse.statistics import rolling_means
 from bootcourse.study.results import Results
@@ -48,7 +48,7 @@ def rerun(happened: SweepResult) -> str:
     )
 
 
-def view(sweep: Results, happened: SweepResult) -> str:
+def view(sweep: Results, happened: SweepResult) -> Drawing:
     """Both drawings, one below the other."""
     return drawing(WIDTH, HEIGHT, curves(happened, 30) + heat_maps(sweep, happened, 238), str(happened))
 

@@ -12,12 +12,11 @@ import ipywidgets as widgets
 from bootcourse.errors import BootcourseError, did_you_mean
 from bootcourse.panels.panel import Panel
 from bootcourse.panels.teachers_view import surface
-from bootcourse.plots.svg import printed
 from bootcourse.study.teacher_worth import QUANTITIES, Cells, taught
 
 
 class TeachersPanel(Panel):
-    """`quantity` is the control, `svg` what the panel shows and `alt` the same in words."""
+    """`quantity` is the control, `svg` what the panel shows."""
 
     def __init__(self, found: Cells, quantity: str):
         self.found = found
@@ -31,11 +30,7 @@ class TeachersPanel(Panel):
 
     def update(self, change=None) -> None:
         """Draw the chosen quantity."""
-        self.svg, self.alt = surface(self.found, self.quantity.value)
-        self.view.value = self.svg
-
-    def picture(self) -> tuple[bytes, str, str]:
-        return printed(self.svg), "image/svg+xml", self.alt
+        self.svg = self.view.value = surface(self.found, self.quantity.value)
 
 
 def teachers_panel(quantity: str = "escape", study: Path | str = "") -> TeachersPanel:

@@ -4,7 +4,7 @@ import numpy as np
 
 from bootcourse.methods import display_name
 from bootcourse.panels.sweep_view import between, cell, empty_cell
-from bootcourse.plots.svg import QUIET, drawing, text
+from bootcourse.plots.svg import QUIET, Drawing, drawing, text
 from bootcourse.study.plan import TAUGHT
 from bootcourse.study.teacher_worth import QUANTITIES, Cells, in_words, reached
 from bootcourse.study.teachers import TEACHERS
@@ -13,8 +13,8 @@ LEFT, TOP, ACROSS, DOWN = 172, 58, 150, 46  # pixels: of the first cell, and fro
 WORDS = 560  # pixels that the longest line above or below the map takes
 
 
-def surface(found: Cells, name: str) -> tuple[str, str]:
-    """(the drawing of a quantity, the same in words): a row for each teacher that was run, a column for each method."""
+def surface(found: Cells, name: str) -> Drawing:
+    """The drawing of a quantity: a row for each teacher that was run, a column for each method."""
     its = QUANTITIES[name]
     estimates = {place: its.estimate(its.of_agents(results)) for place, results in found.items()}
     level = np.log if its.logarithmic else float
@@ -50,4 +50,4 @@ def surface(found: Cells, name: str) -> tuple[str, str]:
     parts += [text(4, bottom + 20 + 16 * i, line, fill=QUIET, size=11) for i, line in enumerate(foot)]
     alt = f"{its.label[0].upper()}{its.label[1:]}, with 95 % intervals. {'; '.join(told)}."
     width = max(WORDS, LEFT + len(methods) * ACROSS + 4)
-    return drawing(width, bottom + 14 + 16 * len(foot), parts, alt), alt
+    return drawing(width, bottom + 14 + 16 * len(foot), parts, alt)

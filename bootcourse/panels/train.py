@@ -9,7 +9,7 @@ The training runs in `background.py`, the drawing is `training_chart.py`; this f
 import os
 import threading
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import ipywidgets as widgets
@@ -26,10 +26,10 @@ from bootcourse.methods import METHODS, display_name
 from bootcourse.panels.arguments import whole_number
 from bootcourse.panels.background import Background
 from bootcourse.panels.number import Number
-from bootcourse.panels.panel import Panel, button
+from bootcourse.panels.panel import Panel
 from bootcourse.panels.train_controls import CONTROLLED, numbers_for, without
-from bootcourse.panels.training_chart import EARLIER, Drawn, alt_text, label_of, training_chart
-from bootcourse.plots.svg import printed
+from bootcourse.panels.training_chart import Drawn, label_of, training_chart
+from bootcourse.plots.svg import Drawing
 from bootcourse.scenario import DEFAULT, Scenario
 from bootcourse.storage.runs import save_runs
 
@@ -71,20 +71,17 @@ class TrainPanel(Panel):
             [chooser, *self.numbers.values(), self.seeds, self.episodes],
             layout={"grid_template_columns": "repeat(auto-fit, minmax(420px, 1fr))", "grid_gap": "2px 24px"},
         )
-        self.train = button("Train", "play", "Train for real, in the background", "primary")
-        self.stop = button("Stop", "stop", "Stop, and keep what was learned")
-        self.watch = button("Watch", "eye", "Replay in 3D how the best agent drives a road that it was not trained on")
-        self.save = button("Save", "save", "Write a run's folder for each agent")
+        self.train = self.make_button("Train", "play", "Train for real, in the background", self._train, "primary")
+        self.stop = self.make_button("Stop", "stop", "Stop, and keep what was learned", self._stop)
+        help = "Replay in 3D how the best agent drives a road that it was not trained on"
+        self.watch = self.make_button("Watch", "eye", help, self._watch)
+        self.save = self.make_button("Save", "save", "Write a run's folder for each agent", self._save)
         self.path = widgets.Text("", placeholder="folder", tooltip="Where Save writes", layout={"width": "320px"})
         buttons = widgets.HBox([self.train, self.stop, self.watch, self.save, self.path])
         self.progress, self.chart, self.stage = widgets.HTML(), widgets.HTML(), widgets.HTML()
         super().__init__("Train while you watch", grid, buttons, self.progress, self.chart, self.stage)
         self.says.layout.min_height = "22px"  # messages stand above the curves, and the curves stay where they are
         self.children = (*self.children[:4], self.says, *self.children[4:-1])
-        for pressed, press in (
-            (self.train, self._train), (self.stop, self._stop), (self.watch, self._watch), (self.save, self._save),
-        ):  # fmt: skip
-            pressed.on_click(lambda _, press=press: self._press(press))
         self.method.observe(lambda change: self._choose(), "value")
         self._choose()
         self._show_progress("Ready.", 0.0)
@@ -109,14 +106,12 @@ class TrainPanel(Panel):
             self._close_replay()
         super().close()
 
-    def picture(self) -> tuple[bytes, str, str]:
-        drawn = self._all_drawn()
-        return printed(training_chart(drawn)), "image/svg+xml", alt_text(drawn)
+    def picture(self) -> Drawing:
+        return training_chart(self.drawn)
 
-    def _press(self, press) -> None:
-        with self._lock, self.saying_what_is_wrong():
-            self.say()
-            press()
+    def handle(self, does: Callable[[], None]) -> None:
+        with self._lock:
+            super().handle(does)
 
     def _choose(self) -> None:
         reasons, gamma, own = without(self.method.value), self.numbers["gamma"], settings_for(self.method.value).gamma
@@ -243,23 +238,16 @@ class TrainPanel(Panel):
         bar = html('<progress max="1" value="{:.4f}" style="width:300px;vertical-align:middle"></progress>', share)
         self.progress.value = html('<div class="bc-quiet" role="status">{}&ensp;{}</div>', bar, words)
 
-    def _all_drawn(self, now: Drawn | None = None) -> list[Drawn]:
-        """The present training's curves over those of the last EARLIER that are over."""
-        return self.drawn[-EARLIER - 1 :] if now is None else [*self.drawn[-EARLIER:], now]
-
-    def _draw(self, now: Drawn | None = None) -> None:
-        self.chart.value = training_chart(self._all_drawn(now))
+    def _draw(self, *now: Drawn) -> None:
+        """Draw the trainings that are over, and the present one's curves over them."""
+        self.chart.value = training_chart([*self.drawn, *now])
 
 
 def _replay(rollout: Rollout):
     """A replay that the panel closes, not the notebook cell."""
-    from bootcourse.replay3d import scene
-    from bootcourse.replay3d.stage import Options
-    from bootcourse.replay3d.viewer import Replay
+    from bootcourse.replay3d import scene, stage, viewer
 
-    timelines, options = scene.timelines_of([rollout]), Options()
-    options.check(len(timelines))
-    return Replay(timelines, options, height=560)
+    return viewer.Replay(scene.timelines_of(rollout), stage.Options(), height=560)
 
 
 def _driven(training: Training) -> tuple[int, int]:

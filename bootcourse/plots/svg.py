@@ -26,16 +26,23 @@ THEME = {  # what follows JupyterLab's theme, light or dark; outside it, it has 
 }
 
 
-def drawing(width: float, height: float, parts: Sequence[str], alt: str) -> str:
-    """A whole SVG; alt is what a screen reader says."""
-    themed, alt = "".join(parts), html("{}", alt)
+class Drawing(str):
+    """A whole SVG. `alt` is what a screen reader says."""
+
+    alt: str
+
+
+def drawing(width: float, height: float, parts: Sequence[str], alt: str) -> Drawing:
+    themed, escaped = "".join(parts), html("{}", alt)
     for colour, variable in THEME.items():
         themed = themed.replace(f'"{colour}"', f'"var({variable}, {colour})"')
-    return (
+    drawn = Drawing(
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:g} {height:g}" width="{width:g}" '
-        f'height="{height:g}" role="img" aria-label="{alt}" font-family="{FONT}" font-size="12">'
-        f"<title>{alt}</title>{themed}</svg>"
+        f'height="{height:g}" role="img" aria-label="{escaped}" font-family="{FONT}" font-size="12">'
+        f"<title>{escaped}</title>{themed}</svg>"
     )
+    drawn.alt = alt
+    return drawn
 
 
 def printed(svg: str) -> bytes:
