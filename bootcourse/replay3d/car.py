@@ -9,8 +9,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from bootcourse.colours import TRAFFIC, TRAP
+from bootcourse.road.state import EGO
+from bootcourse.road.state import TRAFFIC as FIRST_OF_TRAFFIC
+
 DARK, LIGHT = "#20242B", "#EDF1F5"  # glass, tyres and grille; head lamps and hubs
-LAMP_OFF, LAMP_BRAKE, LAMP_POWER = "#6B1414", "#FF2020", "#2BE070"  # of the bar at the rear
+LAMPS = {"off": "#6B1414", "brake": "#FF2020", "power": "#2BE070"}  # of the bar at the rear
 
 # One cross-section of the body per row: x, then half widths at sill, waist and shoulder, then their heights (m).
 BODY = np.array(
@@ -61,15 +65,9 @@ def box(low, high) -> Mesh:
     return loft(np.array([[[x, y0, z0], [x, y1, z0], [x, y1, z1], [x, y0, z1]] for x in (x0, x1)]))
 
 
-def quad(x0: float, x1: float, y0: float, y1: float, z: float = 0.0) -> Mesh:
-    """A flat rectangle that faces up."""
-    corners = np.array([[x0, y0, z], [x1, y0, z], [x1, y1, z], [x0, y1, z]], dtype=float)
-    return Mesh(corners, np.array([[0, 1, 2], [0, 2, 3]]))
-
-
-def quads(x0, x1, y0, y1, z: float) -> Mesh:
-    """Many flat rectangles at once; x0, x1, y0, y1: (n,) or scalars."""
-    x0, x1, y0, y1 = np.broadcast_arrays(x0, x1, y0, y1)
+def quads(x0, x1, y0, y1, z: float = 0.0) -> Mesh:
+    """Flat rectangles that face up; x0, x1, y0, y1: (n,) or scalars."""
+    x0, x1, y0, y1 = np.broadcast_arrays(*map(np.atleast_1d, (x0, x1, y0, y1)))
     n = len(x0)
     corners = np.stack([x0, y0, x1, y0, x1, y1, x0, y1], axis=1).reshape(n * 4, 2)
     vertices = np.column_stack([corners, np.full(n * 4, z)])
@@ -83,8 +81,9 @@ def disc(radius_x: float, radius_y: float, sides: int, z: float = 0.0) -> Mesh:
     return Mesh(rim, np.array([[0, j, j + 1] for j in range(1, sides - 1)]))
 
 
-def ring(inner: float, outer: float, sides: int, z: float = 0.0) -> Mesh:
-    """A flat ring that faces up."""
+def ring(z: float = 0.0) -> Mesh:
+    """A flat ring around a car, which faces up."""
+    inner, outer, sides = 3.1, 3.7, 40
     angles = np.arange(sides) * 2 * np.pi / sides
     circle = np.column_stack([np.cos(angles), np.sin(angles)])
     vertices = np.column_stack([np.concatenate([inner * circle, outer * circle]), np.full(2 * sides, z)])
@@ -104,12 +103,10 @@ def _body() -> Mesh:
 
 
 def _cabin() -> Mesh:
-    sections = []
-    for (x_foot, w_foot), (x_roof, w_roof) in zip(CABIN_FOOT, CABIN_ROOF, strict=True):
-        sections.append(
-            [[x_foot, -w_foot, FOOT_Z], [x_foot, w_foot, FOOT_Z], [x_roof, w_roof, ROOF_Z], [x_roof, -w_roof, ROOF_Z]]
-        )
-    return loft(np.array(sections))
+    ends = zip(CABIN_FOOT, CABIN_ROOF, strict=True)
+    return loft(
+        np.array([[[x, -w, FOOT_Z], [x, w, FOOT_Z], [u, v, ROOF_Z], [u, -v, ROOF_Z]] for (x, w), (u, v) in ends])
+    )
 
 
 def _roof() -> Mesh:
@@ -130,22 +127,25 @@ def _wheels(radius: float, y_inner: float, y_outer: float) -> Mesh:
     return join(*wheels)
 
 
+CRUMB = quads(-0.55, 0.55, -0.09, 0.09)  # a small dash of the path driven
+
+
+def paint(car: int, own: str) -> str:
+    """The colour of a car; own: of the ego."""
+    return own if car == EGO else TRAP if car < FIRST_OF_TRAFFIC else TRAFFIC
+
+
 @lru_cache(maxsize=8)
 def car_parts(length: float = 5.0, width: float = 2.0) -> dict[str, Mesh]:
     """The parts of a car of that size: paint, dark, light, lamps, shadow."""
     outer = WHEEL_Y + WHEEL_WIDTH / 2
+    tyres, hubs = _wheels(WHEEL_RADIUS, WHEEL_Y - WHEEL_WIDTH / 2, outer), _wheels(0.2, WHEEL_Y, outer + 0.01)
+    grille = box((2.36, -0.55, 0.34), (2.505, 0.55, 0.46))
+    right, left = box((2.30, -0.80, 0.50), (2.48, -0.48, 0.62)), box((2.30, 0.48, 0.50), (2.48, 0.80, 0.62))
     parts = {
         "paint": join(_body(), _roof()),
-        "dark": join(
-            _cabin(),
-            _wheels(WHEEL_RADIUS, WHEEL_Y - WHEEL_WIDTH / 2, outer),
-            box((2.36, -0.55, 0.34), (2.505, 0.55, 0.46)),
-        ),
-        "light": join(
-            _wheels(0.2, WHEEL_Y, outer + 0.01),
-            box((2.30, -0.80, 0.50), (2.48, -0.48, 0.62)),
-            box((2.30, 0.48, 0.50), (2.48, 0.80, 0.62)),
-        ),
+        "dark": join(_cabin(), tyres, grille),
+        "light": join(hubs, right, left),
         "lamps": join(box((-2.54, -0.80, 0.64), (-2.30, 0.80, 0.78)), box((-1.24, -0.30, 1.38), (-1.10, 0.30, 1.45))),
         "shadow": disc(2.85, 1.25, 20, 0.085),
     }

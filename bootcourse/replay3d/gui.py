@@ -25,7 +25,6 @@ class ReplayControls:
         self.timelines = stage.timelines
         self._shown = None
         gui = server.gui
-        gui.configure_theme(dark_mode=stage.options.dark, show_logo=False, show_share_button=False)
         gui.main_panel.dock_right()
         gui.main_panel.set_width(PANEL_WIDTH)
         gui.add_html(hud.STYLE)
@@ -108,8 +107,6 @@ class ReplayControls:
 
         if getattr(self.stage.options, name) == value:
             return
-        if name == "dark":
-            self.server.gui.configure_theme(dark_mode=value, show_logo=False, show_share_button=False)
         self.restage(change, rebuild)
 
     def refresh(self, t: float) -> None:

@@ -11,24 +11,23 @@ from typing import NamedTuple
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from bootcourse.colours import ALARM, TRAFFIC, TRAP, rgb
+from bootcourse.colours import ALARM, rgb
 from bootcourse.files import check_replaceable, write_bytes
 from bootcourse.methods import display_name, style
 from bootcourse.replay3d import hud, scene
 from bootcourse.replay3d.camera import CHASE, FIELD_OF_VIEW, Pose, pose
-from bootcourse.replay3d.car import DARK, LAMP_BRAKE, LAMP_OFF, LAMP_POWER, LIGHT, car_parts, quad, ring
+from bootcourse.replay3d.car import CRUMB, DARK, LAMPS, LIGHT, car_parts, paint, quads, ring
 from bootcourse.replay3d.road import DASH, LINE, PERIOD, SHOULDER, Theme, divider_ys, edges, theme
 from bootcourse.replay3d.stage import Options
 from bootcourse.replay3d.timeline import Timeline
 from bootcourse.road.state import EGO, LANE, Accident
-from bootcourse.road.state import TRAFFIC as FIRST_OF_TRAFFIC
 
 SIZE, GIF_SIZE = (1280, 720), (640, 360)  # pixels
 GIF_RATE, GIF_SECONDS, GIF_COLOURS = 10, 12.0, 160
 SMOOTH = 2  # a picture is painted this many times larger and then reduced, which smooths its edges
 NEAR_PLANE, VISIBLE, FOG = 0.6, 380.0, (120.0, 380.0)  # m
+AROUND = ring()
 SUN = np.array([-0.42, -0.35, 0.84])
-LAMPS = {"off": LAMP_OFF, "brake": LAMP_BRAKE, "power": LAMP_POWER}
 
 
 class Lens:
@@ -69,6 +68,12 @@ def clip_near(seen: np.ndarray) -> np.ndarray:
     return np.array(kept).reshape(-1, 3)
 
 
+def turn(yaw: float) -> np.ndarray:
+    """What (n, 3) points are multiplied with to turn them about z."""
+    cos, sin = np.cos(yaw), np.sin(yaw)
+    return np.array([[cos, sin, 0], [-sin, cos, 0], [0, 0, 1]])
+
+
 class Painter:
     """Paints polygons onto one picture; later ones cover earlier ones."""
 
@@ -83,7 +88,7 @@ class Painter:
         seen = clip_near(self.lens.see(corners))
         if len(seen) < 3:
             return
-        fog = np.clip((seen[:, 2].mean() - FOG[0]) / (FOG[1] - FOG[0]), 0, 1)
+        fog = np.interp(seen[:, 2].mean(), FOG, (0, 1))
         tint = (1 - fog) * np.array(colour) + fog * self.horizon
         pixels = self.lens.project(seen)
         self.draw.polygon([tuple(p) for p in pixels], fill=(*(int(c) for c in tint), int(255 * opacity)))
@@ -93,7 +98,7 @@ class Painter:
         seen = self.lens.see(corners.reshape(-1, 3)).reshape(corners.shape)
         whole = (seen[:, :, 2] >= NEAR_PLANE).all(axis=1)
         seen, colours = seen[whole], colours[whole]
-        fog = np.clip((seen[:, :, 2].mean(axis=1) - FOG[0]) / (FOG[1] - FOG[0]), 0, 1)[:, None]
+        fog = np.interp(seen[:, :, 2].mean(axis=1), FOG, (0, 1))[:, None]
         tints = ((1 - fog) * np.clip(colours, 0, 255) + fog * self.horizon).astype(int)
         pixels = self.lens.project(seen.reshape(-1, 3)).reshape(-1, 6)
         alpha = int(255 * opacity)
@@ -102,9 +107,7 @@ class Painter:
 
     def flat(self, mesh, place, yaw: float, colour, opacity: float = 1.0) -> None:
         """A flat convex mark on the road, painted as one polygon."""
-        cos, sin = np.cos(yaw), np.sin(yaw)
-        turn = np.array([[cos, sin, 0], [-sin, cos, 0], [0, 0, 1]])
-        self.polygon(mesh.vertices @ turn + np.array(place), colour, opacity)
+        self.polygon(mesh.vertices @ turn(yaw) + np.array(place), colour, opacity)
 
     def text(self, place, text: str, size: float, colour: str | None = None) -> None:
         """A label above a point (x, y, z)."""
@@ -130,7 +133,7 @@ def _backdrop(lens: Lens, colours: Theme) -> np.ndarray:
     sky = np.clip(slope / 0.25, 0, 1)[:, None]
     above = sky * np.array(rgb(colours.sky)) + (1 - sky) * np.array(rgb(colours.horizon))
     away = lens.eye[2] / np.maximum(-slope, 1e-6)
-    fog = np.clip((away - FOG[0]) / (FOG[1] - FOG[0]), 0, 1)[:, None]
+    fog = np.interp(away, FOG, (0, 1))[:, None]
     below = fog * np.array(rgb(colours.horizon)) + (1 - fog) * np.array(rgb(colours.ground))
     column = np.where(slope[:, None] >= 0, above, below)
     return np.repeat(column[:, None, :], lens.width, axis=1).round().astype(np.uint8)
@@ -177,26 +180,26 @@ def _paint_road(painter: Painter, road, view: scene.DriveView) -> None:
     stripes += [(y - LINE / 2, y + LINE / 2, painter.colours.line) for y in (left, right)]
     for low, high, colour in stripes:
         for x0, x1 in zip(xs[:-1], xs[1:], strict=True):
-            painter.polygon(quad(x0, x1, low, high).vertices + [0, view.offset, 0], rgb(colour))
+            painter.polygon(quads(x0, x1, low, high).vertices + [0, view.offset, 0], rgb(colour))
     phase = -(view.anchor % PERIOD)
     for x in np.arange(-60 + phase, VISIBLE, PERIOD):
         for y in divider_ys(road):
-            dash = quad(x, x + DASH, y - LINE / 2, y + LINE / 2)
+            dash = quads(x, x + DASH, y - LINE / 2, y + LINE / 2)
             painter.polygon(dash.vertices + [0, view.offset, 0], rgb(painter.colours.line))
 
 
 def _paint_marks(painter: Painter, shot: Shot, k: int, view: scene.DriveView, rule: bool) -> None:
     if rule and view.rule is not None and not view.ended:
         marks, half = view.rule, 0.42 * shot.timelines[k].rollout.scenario.road.lane_width
-        strip = quad(view.x[EGO] - 4, view.x[EGO] + 45, -half, half)
+        strip = quads(view.x[EGO] - 4, view.x[EGO] + 45, -half, half)
         painter.polygon(strip.vertices + [0, view.offset + marks.lane_y, 0], rgb(style("rule").colour), 0.35)
-        gap = quad(marks.gap_x, marks.gap_x + marks.gap, -0.7 * half, 0.7 * half)
+        gap = quads(marks.gap_x, marks.gap_x + marks.gap, -0.7 * half, 0.7 * half)
         painter.polygon(gap.vertices + [0, view.offset + marks.gap_y, 0], rgb("#F2A900"), 0.7)
     if shot.options.path:
-        colour, dash = rgb(style(shot.timelines[k].rollout.label).colour), quad(-0.55, 0.55, -0.09, 0.09)
+        colour = rgb(style(shot.timelines[k].rollout.label).colour)
         for x, y, z, yaw in view.crumbs:
             if z > 0:
-                painter.flat(dash, (x - view.anchor, y + view.offset, z), yaw, colour, 0.8)
+                painter.flat(CRUMB, (x - view.anchor, y + view.offset, z), yaw, colour, 0.8)
 
 
 def _paint_cars(painter: Painter, shot: Shot, views: list, solid: list[int]) -> None:
@@ -214,11 +217,10 @@ def _paint_cars(painter: Painter, shot: Shot, views: list, solid: list[int]) -> 
             continue
         view, own = views[k], style(shot.timelines[k].rollout.label).colour
         opacity = 1.0 if k in solid else 0.5
-        paint = own if car == EGO else TRAP if car < FIRST_OF_TRAFFIC else TRAFFIC
         if view.marked[car]:
-            _paint_ring(painter, place)
+            painter.triangles(AROUND.vertices[AROUND.faces] + place, np.tile(rgb(ALARM), (len(AROUND.faces), 1)))
         painter.flat(parts["shadow"], place, view.yaw[car], (0, 0, 0), 0.3 * opacity)
-        tints = {"dark": DARK, "paint": paint, "lamps": LAMPS[view.lamps[car]], "light": LIGHT}
+        tints = {"dark": DARK, "paint": paint(car, own), "lamps": LAMPS[view.lamps[car]], "light": LIGHT}
         _paint_car(painter, parts, place, view.yaw[car], tints, opacity)
     scale = painter.lens.height / 50
     for k, view in enumerate(views):
@@ -228,16 +230,9 @@ def _paint_cars(painter: Painter, shot: Shot, views: list, solid: list[int]) -> 
                 painter.text(place, text, scale, ALARM if car == EGO else None)
 
 
-def _paint_ring(painter: Painter, place) -> None:
-    circle = ring(3.1, 3.7, 40, 0.0)
-    painter.triangles(circle.vertices[circle.faces] + place, np.tile(rgb(ALARM), (len(circle.faces), 1)))
-
-
 def _paint_car(painter: Painter, parts: dict, place, yaw: float, tints: dict, opacity: float) -> None:
     """All parts as one mesh, so that its faces are sorted together."""
-    cos, sin = np.cos(yaw), np.sin(yaw)
-    turn = np.array([[cos, sin, 0], [-sin, cos, 0], [0, 0, 1]])
-    triangles = np.concatenate([parts[name].vertices[parts[name].faces] for name in tints]) @ turn + place
+    triangles = np.concatenate([parts[name].vertices[parts[name].faces] for name in tints]) @ turn(yaw) + place
     colours = np.concatenate([np.tile(rgb(tint), (len(parts[name].faces), 1)) for name, tint in tints.items()])
     glow = np.concatenate([np.full(len(parts[name].faces), name in ("lamps", "light")) for name in tints])
     # Lamps and hubs lie on the body; they are sorted as if a little nearer, so that they are painted after it.

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from viser import _messages
 
+from bootcourse.episodes.rollout import Rollout
 from bootcourse.episodes.words import outcome, sentence, transcripts
 from bootcourse.files import check_replaceable, write_bytes
 from bootcourse.markup import Markup, html
@@ -87,7 +88,6 @@ def to_html(rollouts, options: Options | None = None) -> str:
     recorder = server.start()
     try:
         stage = Stage(recorder, timelines, options)
-        recorder.gui.configure_theme(dark_mode=options.dark, show_logo=False, show_share_button=False)
         recording = recorder.get_scene_serializer()
         stage.unsettle()
         frames = int(round(duration * rate))
@@ -176,13 +176,10 @@ def recording(
     options = Options(layout=layout, follow=follow, dark=dark, rule=rule)
     poster = png_bytes(rollouts, options=options, size=(960, 540))
     drives = [timeline.rollout for timeline in scene.timelines_of(rollouts)]
-    return Recording(to_html(rollouts, options), poster, height, alt(rollouts), transcripts(drives))
+    return Recording(to_html(rollouts, options), poster, height, alt(drives), transcripts(drives))
 
 
-def alt(rollouts) -> str:
+def alt(drives: list[Rollout]) -> str:
     """A sentence for readers who cannot see the replay: how each drive ends."""
-    told = (
-        f"{display_name(timeline.rollout.label)}: {outcome(timeline.rollout)}"
-        for timeline in scene.timelines_of(rollouts)
-    )
+    told = (f"{display_name(drive.label)}: {outcome(drive)}" for drive in drives)
     return f"One moment of a replay in 3D. {sentence('; '.join(told))}."

@@ -78,22 +78,14 @@ class DriveView:
 def timelines_of(rollouts) -> list[Timeline]:
     """One rollout, or several, ready to be shown together. Raises BootcourseError if they cannot be."""
     rollouts = [rollouts] if isinstance(rollouts, Rollout) else list(rollouts)
+    if not rollouts:
+        raise BootcourseError("There is no rollout to replay: give at least one.")
+    if len(rollouts) > 8:
+        raise BootcourseError(f"{len(rollouts)} drives are too many to compare: choose at most 8.")
+    first = rollouts[0]
     for rollout in rollouts:
         if not isinstance(rollout, Rollout):
             raise BootcourseError(f"Cannot replay {type(rollout).__name__}: give a Rollout, or a list of them.")
-    timelines = [Timeline(rollout) for rollout in rollouts]
-    _check_comparison(timelines)
-    return timelines
-
-
-def _check_comparison(timelines: list[Timeline]) -> None:
-    if not timelines:
-        raise BootcourseError("There is no rollout to replay: give at least one.")
-    if len(timelines) > 8:
-        raise BootcourseError(f"{len(timelines)} drives are too many to compare: choose at most 8.")
-    first = timelines[0].rollout
-    for timeline in timelines:
-        rollout = timeline.rollout
         if len(rollout.states) < 2 or not np.isfinite(rollout.states).all():
             raise BootcourseError(f"The states of '{rollout.label}' are empty or not finite: record this drive again.")
         if rollout.scenario != first.scenario:
@@ -106,6 +98,7 @@ def _check_comparison(timelines: list[Timeline]) -> None:
                 f"'{rollout.label}' drove road {rollout.seed}, '{first.label}' road {first.seed}: "
                 "compare drives of the same seed."
             )
+    return [Timeline(rollout) for rollout in rollouts]
 
 
 def offsets(count: int, lanes: int, lane_width: float, layout: str) -> list[float]:

@@ -9,18 +9,16 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from bootcourse.colours import ALARM, TRAFFIC, TRAP, rgb
+from bootcourse.colours import ALARM, rgb
 from bootcourse.errors import BootcourseError
 from bootcourse.methods import style
 from bootcourse.replay3d import scene
 from bootcourse.replay3d.camera import CHASE, FIELD_OF_VIEW, pose
-from bootcourse.replay3d.car import DARK, LAMP_BRAKE, LAMP_OFF, LAMP_POWER, LIGHT, car_parts, quad, ring
+from bootcourse.replay3d.car import CRUMB, DARK, LAMPS, LIGHT, Mesh, car_parts, paint, quads, ring
 from bootcourse.replay3d.road import AHEAD, BEHIND, SHOULDER, edges, ground, road_parts, signs, theme
 from bootcourse.replay3d.timeline import Timeline
 from bootcourse.road.state import EGO, TRAP_1, TRAP_2, X
-from bootcourse.road.state import TRAFFIC as FIRST_OF_TRAFFIC
 
-LAMPS = {"off": rgb(LAMP_OFF), "brake": rgb(LAMP_BRAKE), "power": rgb(LAMP_POWER)}
 GHOST = 0.45  # opacity of the egos that are not followed
 GRAIN = 1024.0  # positions are rounded to 1/1024 m, which is exact in binary
 
@@ -113,6 +111,7 @@ class Stage:
 
     def _surroundings(self) -> None:
         colours, api = theme(self.options.dark), self.server.scene
+        self.server.gui.configure_theme(dark_mode=self.options.dark, show_logo=False, show_share_button=False)
         self._lights(api)
         api.configure_fog(150.0, 420.0, color=_linear(colours.horizon))
         api.set_background_image(_sky(colours.sky, colours.horizon), format="png")
@@ -176,19 +175,18 @@ class Stage:
 
     def _car(self, drive: Drive, name: str, size, car: int, own: str, opacity: float | None) -> None:
         api, parts = self.server.scene, car_parts(size.length, size.width)
-        paint = own if car == EGO else TRAP if car < FIRST_OF_TRAFFIC else TRAFFIC
         drive.cars[car] = api.add_frame(name, show_axes=False)
-        for part, tint in (("paint", paint), ("dark", DARK), ("light", LIGHT)):
+        for part, tint in (("paint", paint(car, own)), ("dark", DARK), ("light", LIGHT)):
             _mesh(api, f"{name}/{part}", parts[part], tint, opacity=opacity, flat=True)
-        drive.lamps[car] = _mesh(api, f"{name}/lamps", parts["lamps"], LAMP_OFF, opacity=opacity)
+        drive.lamps[car] = _mesh(api, f"{name}/lamps", parts["lamps"], LAMPS["off"], opacity=opacity)
         _mesh(api, f"{name}/shadow", parts["shadow"], "#000000", opacity=0.28 if opacity is None else 0.12)
-        drive.rings[car] = _mesh(api, f"{name}/ring", ring(3.1, 3.7, 40, 0.11), ALARM, visible=False)
+        drive.rings[car] = _mesh(api, f"{name}/ring", ring(0.11), ALARM, visible=False)
 
     def _rule(self, drive: Drive, base: str, lane_width: float) -> None:
         api, green = self.server.scene, style("rule").colour
-        strip = quad(-4.0, 45.0, -0.42 * lane_width, 0.42 * lane_width)
+        strip = quads(-4.0, 45.0, -0.42 * lane_width, 0.42 * lane_width)
         drive.lane = _mesh(api, f"{base}/rule_lane", strip, green, opacity=0.3, visible=False)
-        unit = quad(0.0, 1.0, -0.3 * lane_width, 0.3 * lane_width)
+        unit = quads(0.0, 1.0, -0.3 * lane_width, 0.3 * lane_width)
         drive.gap = _mesh(api, f"{base}/rule_gap", unit, "#F2A900", opacity=0.6, visible=False)
         drive.gap_label = api.add_label(
             f"{base}/rule_gap_label", "", anchor="bottom-center", font_screen_scale=0.8, visible=False
@@ -201,7 +199,7 @@ class Stage:
         for car, frame in drive.cars.items():
             frame.position = tidy(view.x[car], view.y[car], 0.0)
             frame.wxyz = tuple(round(q * 65536) / 65536 for q in scene.quaternion(view.yaw[car]))
-            drive.lamps[car].color = LAMPS[view.lamps[car]]
+            drive.lamps[car].color = rgb(LAMPS[view.lamps[car]])
             drive.rings[car].visible = bool(view.marked[car])
         self._move_marks(drive, view)
 
@@ -243,14 +241,13 @@ def _mesh(api, name: str, mesh, colour: str, opacity: float | None = None, flat:
     )  # fmt: skip
 
 
-def _crumb_mesh(crumbs: np.ndarray):
+def _crumb_mesh(crumbs: np.ndarray) -> Mesh:
     """A small dash for every crumb, in the direction in which the car drove."""
-    dash = quad(-0.55, 0.55, -0.09, 0.09)
     cos, sin = np.cos(crumbs[:, 3])[:, None], np.sin(crumbs[:, 3])[:, None]
-    x, y = dash.vertices[:, 0][None], dash.vertices[:, 1][None]
+    x, y = CRUMB.vertices[:, 0][None], CRUMB.vertices[:, 1][None]
     corners = np.stack([x * cos - y * sin, x * sin + y * cos, np.zeros_like(x * cos)], axis=2) + crumbs[:, None, :3]
-    faces = (np.arange(len(crumbs))[:, None, None] * 4 + dash.faces[None]).reshape(-1, 3)
-    return type(dash)(corners.reshape(-1, 3).astype(np.float32), faces)
+    faces = (np.arange(len(crumbs))[:, None, None] * 4 + CRUMB.faces[None]).reshape(-1, 3)
+    return Mesh(corners.reshape(-1, 3).astype(np.float32), faces)
 
 
 def _linear(colour: str) -> tuple[int, int, int]:
