@@ -32,12 +32,10 @@ class Background:
     """
 
     def __init__(
-        self,
-        make: Callable[[], Training],
-        look: Callable[[Training], None] = lambda training: None,
+        self, make: Callable[[], Training], look: Callable[[Training], None] = lambda training: None,
         ended: Callable[["Background"], None] = lambda background: None,
         say: Callable[[str], None] = lambda sentence: None,
-    ):
+    ):  # fmt: skip
         self.make, self.look, self.ended, self.say = make, look, ended, say
         self.training: Training | None = None
         self.result: Result | None = None
@@ -130,10 +128,9 @@ class Background:
         try:
             yield
         except Exception as error:
-            sentence = f"{what}: {type(error).__name__}: {error}"
-            if isinstance(error, BootcourseError):
-                sentence = str(error)
-            else:
+            sentence = str(error)
+            if not isinstance(error, BootcourseError):
+                sentence = f"{what}: {type(error).__name__}: {error}"
                 self.traceback += traceback.format_exc()
             self.error = f"{self.error} {sentence}".strip()
             self.say(self.error)

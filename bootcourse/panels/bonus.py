@@ -16,7 +16,7 @@ from bootcourse.methods import style
 from bootcourse.panels.arguments import an_instance, one_drive, whole_number
 from bootcourse.panels.bonus_numbers import bonus_numbers
 from bootcourse.panels.bonus_view import bonus
-from bootcourse.panels.number import Number
+from bootcourse.panels.number import Number, moment
 from bootcourse.panels.panel import Panel, beside
 from bootcourse.plots.svg import QUIET
 from bootcourse.policies import idle_policy, rule_policy
@@ -29,36 +29,23 @@ class BonusPanel(Panel):
     def __init__(self, demonstration: Rollout, trapped: Rollout, settings: Settings):
         self.demonstration, self.trapped, self.settings = demonstration, trapped, settings
         rate = demonstration.scenario.clock.decision_rate
-        self.last = (min(len(demonstration.actions), len(trapped.actions)) - 1) / rate
-        self.c = Number(
-            "c", settings.bonus, 0, 5, 0.05, "Bonus on every reward of a demonstration.",
-            check=lambda c: replace(settings, bonus=c),
-        )  # fmt: skip
-        self.gamma = Number(
-            "γ", settings.gamma, 0, 0.98, 0.01, "Discount: how far the critic sees, 1/(1 − γ) decisions.",
-            check=self._check_gamma,
-        )  # fmt: skip
-        self.moment = Number(
-            "t", 0, 0, max(self.last, 1 / rate), 1 / rate, "The time at which the two drives are compared.", "s",
-            self._check_moment,
-        )  # fmt: skip
-        self.episode = Number(
-            "episode", 0, 0, 1.5 * settings.beta_episodes, max(1, settings.beta_episodes // 100),
-            "Episodes trained: β, the demonstrations' share, fades.", check=whole_number("episode", 0, 10**9),
-        )  # fmt: skip
+        decisions = min(len(demonstration.actions), len(trapped.actions))
+        self.c = Number("c", settings.bonus, 0, 5, 0.05, "Bonus on every reward of a demonstration.",
+                        check=lambda c: replace(settings, bonus=c))  # fmt: skip
+        help = "Discount: how far the critic sees, 1/(1 − γ) decisions."
+        self.gamma = Number("γ", settings.gamma, 0, 0.98, 0.01, help,
+                            check=lambda gamma: check_finite_worth(replace(settings, gamma=gamma)))  # fmt: skip
+        help = "The time at which the two drives are compared."
+        self.moment = moment(decisions, rate, help, "both drives have their")
+        most, help = settings.beta_episodes, "Episodes trained: β, the demonstrations' share, fades."
+        self.episode = Number("episode", 0, 0, 1.5 * most, max(1, most // 100), help,
+                              check=whole_number("episode", 0, 10**9))  # fmt: skip
         self.view = widgets.HTML()
         numbers = (self.c, self.gamma, self.moment, self.episode)
         super().__init__("What the bonus makes of a demonstration", beside(*numbers), self.view)
         for number in numbers:
             number.observe(self.update, "value")
         self.update()
-
-    def _check_gamma(self, gamma: float) -> None:
-        check_finite_worth(replace(self.settings, gamma=gamma))
-
-    def _check_moment(self, t: float) -> None:
-        if not 0 <= t <= self.last:
-            raise BootcourseError(f"t = {t:g} s: both drives have their decisions from 0 to {self.last:g} s.")
 
     def update(self, change=None) -> None:
         """Compute and draw."""

@@ -90,8 +90,8 @@ def _terms(drive: InteractiveEpisode, decisions: int, top: float) -> list[str]:
     shares = [0.0 if crashed else w * r / sum(weights) for w, r in zip(weights, terms, strict=True)]
     reward = drive.rewards[decisions - 1] if decisions else 0.0
     parts = [text(left - 136, top, "reward of the last decision", fill=QUIET, size=11)]
-    rows = [*((label, share) for (label, _), share in zip(TERMS, shares, strict=True)), ("accident", 0.0)]
-    rows[-1] = ("accident", reward) if crashed else ("sum", reward)
+    labels = [*(label for label, _ in TERMS), "accident" if crashed else "sum"]
+    rows = zip(labels, [*shares, reward], strict=True)
     for i, (label, value) in enumerate(rows):
         y, last = top + 12 + i * 21 + (5 if i == 3 else 0), i == 3
         length = min(max(value, -0.13), 1.0) * BAR

@@ -52,17 +52,9 @@ class Number(Entry):
     value = traitlets.Float()
 
     def __init__(
-        self,
-        symbol: str,
-        value: float,
-        low: float,
-        high: float,
-        step: float,
-        help: str,
-        unit: str = "",
-        check: Callable[[float], object] = lambda value: None,
-        logarithmic: bool = False,
-    ):
+        self, symbol: str, value: float, low: float, high: float, step: float, help: str, unit: str = "",
+        check: Callable[[float], object] = lambda value: None, logarithmic: bool = False,
+    ):  # fmt: skip
         self.check, self.symbol, self.purpose = check, symbol, help
         self.refused: float | None = None  # the number entered last, if it was refused,
         self.wrong = ""  # and why it was
@@ -72,7 +64,7 @@ class Number(Entry):
         super().__init__(symbol, unit, help, slider, field, (92, 210, 88, 420), value=float(value))
         self.slider.observe(lambda change: self._enter(change["new"]), "value")
         self.field.observe(lambda change: self._enter(change["new"]), "value")
-        self.observe(lambda change: self._show(), "value")
+        self.observe(lambda change: self.show(), "value")
 
     def _enter(self, value: float) -> None:
         if self._busy:
@@ -85,16 +77,12 @@ class Number(Entry):
             self._tell(self.wrong, wrong=True)
         else:
             self.value = value
-            self._show()
+            self.show()
 
     def retry(self) -> None:
         """Enter a refused number again, after another number has changed."""
         if self.refused is not None:
             self._enter(self.refused)
-
-    def clear(self) -> None:
-        """Show the value again in place of a refused number."""
-        self._show()
 
     def _refuse(self, value: float) -> None:
         """Raise BootcourseError unless the value is finite and `check` accepts it."""
@@ -107,8 +95,8 @@ class Number(Entry):
         self._refuse(proposal["value"])
         return proposal["value"]
 
-    def _show(self) -> None:
-        """Show the value in both controls; a value beyond the slider's range puts it at its end."""
+    def show(self) -> None:
+        """Show the value, in place of a refused number; one beyond the slider's range puts it at its end."""
         self.refused, self.wrong = None, ""
         self._tell()
         with self._showing():
@@ -123,3 +111,14 @@ class Number(Entry):
         self.slider.disabled = self.field.disabled = bool(why)
         self.sentence = why or self.purpose
         self._tell()
+
+
+def moment(decisions: int, rate: float, help: str, drive: str) -> Number:
+    """A time in a drive of so many decisions, at `rate` a second; drive: who has them, in words."""
+    last = (decisions - 1) / rate
+
+    def check(t: float) -> None:
+        if not 0 <= t <= last:
+            raise BootcourseError(f"t = {t:g} s: {drive} decisions from 0 to {last:g} s.")
+
+    return Number("t", 0, 0, max(last, 1 / rate), 1 / rate, help, "s", check)

@@ -84,8 +84,4 @@ class Pad(widgets.VBox):
     def mark(self, action: int | None) -> None:
         """Frame the button of the action that comes next; None: no button."""
         for i, button in enumerate(self.buttons):
-            wanted = ("bc-next" in button._dom_classes, i == action)
-            if wanted == (True, False):
-                button.remove_class("bc-next")
-            elif wanted == (False, True):
-                button.add_class("bc-next")
+            (button.add_class if i == action else button.remove_class)("bc-next")

@@ -7,11 +7,10 @@ import ipywidgets as widgets
 import numpy as np
 
 from bootcourse.episodes.rollout import Rollout
-from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import Settings
 from bootcourse.methods import display_name, style
 from bootcourse.panels.arguments import a_number, one_drive
-from bootcourse.panels.number import Number
+from bootcourse.panels.number import Number, moment
 from bootcourse.panels.panel import Panel, beside
 from bootcourse.panels.policy_numbers import check_weights, policy_numbers
 from bootcourse.panels.policy_view import COLUMNS, GREEN, HEIGHT, ROAD, WIDTH, marks, policy_chart
@@ -37,18 +36,12 @@ class PolicyPanel(Panel):
         starts = rollout.states[:: self.clock.steps][: len(rollout.actions)]  # (T, vehicles, 10), at each decision
         self.starts, self.decisions = starts, rule(np.ascontiguousarray(starts), rollout.scenario)
         rate = self.clock.decision_rate
-        self.last = (len(rollout.actions) - 1) / rate
-        self.moment = Number(
-            "t", 0, 0, max(self.last, 1 / rate), 1 / rate, "The time of the decision.", "s", self._check_moment
-        )
+        self.moment = moment(len(rollout.actions), rate, "The time of the decision.", "this drive has its")
         self.p = Number("p", p, 0.12, 0.99, 0.01, "Probability that π̃ gives to the rule's own action.", check=check_p)
-        self.xi = Number(
-            "ξ", xi, 0, 5, 0.05, "Weight of the KL, which pulls π to the rule.", check=lambda v: check_weights(v, 1)
-        )
-        self.alpha = Number(
-            "α", alpha, -4, 0, 0.05, "Weight of the entropy: how random π may stay.",
-            check=lambda v: check_weights(0, v), logarithmic=True,
-        )  # fmt: skip
+        self.xi = Number("ξ", xi, 0, 5, 0.05, "Weight of the KL, which pulls π to the rule.",
+                         check=lambda xi: check_weights(xi, 1))  # fmt: skip
+        self.alpha = Number("α", alpha, -4, 0, 0.05, "Weight of the entropy: how random π may stay.",
+                            check=lambda alpha: check_weights(0, alpha), logarithmic=True)  # fmt: skip
         self.view = widgets.HTML()
         numbers = (self.moment, self.p, self.xi, self.alpha)
         super().__init__("What the rule's pull does to each action", beside(*numbers), self.view)
@@ -56,10 +49,6 @@ class PolicyPanel(Panel):
             number.observe(self.update, "value")
         self.update()
         self.say(missing(rollout))
-
-    def _check_moment(self, t: float) -> None:
-        if not 0 <= t <= self.last:
-            raise BootcourseError(f"t = {t:g} s: this drive has its decisions from 0 to {self.last:g} s.")
 
     def update(self, change=None) -> None:
         """Compute and draw the present moment."""

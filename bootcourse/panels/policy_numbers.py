@@ -9,11 +9,12 @@ from dataclasses import dataclass
 
 import numpy as np
 import torch
+from scipy.special import xlogy
 
 from bootcourse.errors import BootcourseError
 from bootcourse.learn import bootstrap
 from bootcourse.rule import stochastic_rule
-from bootcourse.scenario import N_ACTIONS, check_p
+from bootcourse.scenario import check_p
 
 
 @dataclass(frozen=True)
@@ -52,9 +53,7 @@ def policy_numbers(
     price = -log_rule[0].numpy()
     shares = worth = optimum = None
     if policy is not None:
-        shares = np.zeros(N_ACTIONS)
-        likely = policy > 0
-        shares[likely] = policy[likely] * (np.log(policy[likely]) + price[likely])
+        shares = xlogy(policy, policy) + policy * price
     if q is not None:
         worth = q - xi * price
         values = torch.from_numpy(np.asarray(q, dtype=np.float64))

@@ -74,7 +74,7 @@ class ScenarioPanel(Panel):
         try:
             for field, number in self.numbers.items():
                 number.value = field.of(self.start)
-                number.clear()
+                number.show()
         finally:
             self._retrying = False
         self.update()

@@ -47,16 +47,7 @@ GROUPS = {
         Field("traffic", "lead", "lead", "m", 6, 120, 1, "From trap 1 to the first car."),
         Field("traffic", "headway", "headway", "m", 12, 120, 1, "Mean distance between one car and the next."),
         Field("traffic", "time_gap", "T", "s", 0, 4, 0.1, "Time gap that a car keeps to the one ahead."),
-        Field(
-            "traffic",
-            "politeness",
-            "politeness",
-            "",
-            0,
-            1,
-            0.05,
-            "Weight of the other cars' gain in a lane change.",
-        ),
+        Field("traffic", "politeness", "politeness", "", 0, 1, 0.05, "Weight of other cars' gain in a lane change."),
     ),
     "Rule": (
         Field("rule", "t_safe", "t safe", "s", 0.1, 4, 0.1, "Safety time of a lane change."),

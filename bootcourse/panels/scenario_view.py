@@ -33,10 +33,8 @@ def top_view(scenario: Scenario, cars: np.ndarray) -> str:
     small = min(FAR / road_width, (1 - BEHIND) * WIDTH / reach)
     whole, height = road_svg(cars, scenario, OTHER.colour, WIDTH, small, behind=BEHIND, names=False)
     top = bottom + 66
-    parts += [
-        text(0, top - 8, f"all {scenario.vehicles} cars", bold=True),
-        f'<g transform="translate(0 {top})">{"".join(whole)}</g>',
-    ]
+    parts.append(text(0, top - 8, f"all {scenario.vehicles} cars", bold=True))
+    parts.append(f'<g transform="translate(0 {top})">{"".join(whole)}</g>')
     parts += _metres(small, top + height)
     for i, words in enumerate(consequences(scenario)):
         parts.append(text(0, top + FAR + 42 + 19 * i, words))
@@ -45,10 +43,8 @@ def top_view(scenario: Scenario, cars: np.ndarray) -> str:
 
 def _distances(scenario: Scenario, cars: np.ndarray, scale: float, y: float) -> list[str]:
     """D1 and D2 under the road: from where to where they may lie, and where they do on this road."""
-    parts, ego = [], BEHIND * WIDTH
-    for row, (name, low_high, trap) in enumerate(
-        (("D2", scenario.traps.d2, TRAP_2), ("D1", scenario.traps.d1, TRAP_1))
-    ):
+    parts, ego, traps = [], BEHIND * WIDTH, scenario.traps
+    for row, (name, low_high, trap) in enumerate((("D2", traps.d2, TRAP_2), ("D1", traps.d1, TRAP_1))):
         level, away = y + 12 + 16 * row, float(cars[trap, X] - cars[EGO, X])
         low, high = (ego + distance * scale for distance in low_high)
         parts.append(line(ego, level, ego + away * scale, level, QUIET, 1.5))

@@ -80,9 +80,7 @@ def _rounded(value: float) -> str:
 def _head(trainings: Sequence[Drawn], window: int) -> list[str]:
     """Who is drawn, four in a row; how the curves were smoothed."""
     if not window:
-        words = (
-            "Nothing has been trained yet: press Train." if not trainings else "The first episodes are on their way."
-        )
+        words = "The first episodes are on their way." if trainings else "Nothing has been trained yet: press Train."
         return [text(WIDTH / 2, 20, words, "middle", QUIET, 13)]
     parts = []
     for i, each in enumerate(trainings):
@@ -93,9 +91,8 @@ def _head(trainings: Sequence[Drawn], window: int) -> list[str]:
         parts.append(text(x + 28, y, _short(each.label), fill=INK if last else QUIET, bold=last))
     each = "each episode" if window == 1 else f"means of the last {window} episodes"
     if len(trainings) <= COLUMNS:
-        parts.append(
-            text(12, 32, f"Thin: one seed. Thick: their interquartile mean. All are {each}.", fill=QUIET, size=11)
-        )
+        words = f"Thin: one seed. Thick: their interquartile mean. All are {each}."
+        parts.append(text(12, 32, words, fill=QUIET, size=11))
     return parts
 
 

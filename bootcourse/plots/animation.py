@@ -84,9 +84,7 @@ def _picture(rollouts: Sequence[Rollout], time: float) -> Image.Image:
 def _palette(pictures: list[Image.Image]) -> Image.Image:
     """One palette for all frames, so that what stands still keeps its colour and is stored once."""
     some = [pictures[i] for i in np.unique(np.linspace(0, len(pictures) - 1, 6).astype(int))]
-    sheet = Image.new("RGB", (some[0].width, some[0].height * len(some)))
-    for i, picture in enumerate(some):
-        sheet.paste(picture, (0, i * picture.height))
+    sheet = Image.fromarray(np.concatenate([np.asarray(picture) for picture in some]))
     palette = sheet.quantize(COLOURS, Image.Quantize.MEDIANCUT)
     colours = np.array(palette.getpalette()).reshape(-1, 3)
     colours[colours.min(1) > 247] = 255  # the paper stays white

@@ -29,12 +29,10 @@ def styles(labels: list[str]) -> list[Style]:
     chosen, taken = [], {}
     for label in labels:
         own = style(label)
-        others = [line for line in ("-", "--", "-.", ":") if line != own.line]
-        lines = [own.line, *others]
+        lines = [*dict.fromkeys((own.line, "-", "--", "-.", ":"))]
         used = taken.setdefault(own.colour, {})
-        if label not in used:
-            used[label] = lines[len(used) % len(lines)]
-        chosen.append(own._replace(line=used[label]))
+        line = used.setdefault(label, lines[len(used) % len(lines)])
+        chosen.append(own._replace(line=line))
     return chosen
 
 
@@ -43,9 +41,9 @@ def in_front(label: str) -> float:
     return 3.0 if style(label) == style("bootstrapped") else 2.5
 
 
-def new_figure(height: float = 4.0, width: float = WIDTH, **more) -> Figure:
+def new_figure(height: float = 4.0, width: float = WIDTH) -> Figure:
     """An empty figure; inches."""
-    return Figure(figsize=(width, height), dpi=DPI, facecolor="white", **more)
+    return Figure(figsize=(width, height), dpi=DPI, facecolor="white")
 
 
 def finish(figure: Figure, title: str, alt: str) -> Figure:

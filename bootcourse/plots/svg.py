@@ -55,9 +55,8 @@ def text(
     x: float, y: float, words: str, anchor: str = "start", fill: str = INK, size: float = 12, bold: bool = False
 ) -> str:
     """Words whose base line is at y; anchor: "start", "middle" or "end"."""
-    weight = 650 if bold else 400
     page = '<text x="{:.1f}" y="{:.1f}" text-anchor="{}" fill="{}" font-size="{:g}" font-weight="{}">{}</text>'
-    return str(html(page, x, y, anchor, fill, size, weight, words))
+    return str(html(page, x, y, anchor, fill, size, 650 if bold else 400, words))
 
 
 def rect(x: float, y: float, width: float, height: float, fill: str, more: str = "") -> str:
@@ -99,7 +98,7 @@ class SvgAxes:
 
     def line(self, xs, ys, colour: str, width: float = 1, dash="-", opacity: float = 1.0) -> None:
         across, down = self.at(np.asarray(xs, float), np.clip(ys, *sorted(self.y)))
-        dashes = DASHES.get(dash, "9 5") if isinstance(dash, str) else "9 5"
+        dashes = DASHES.get(dash, "9 5")
         more = f' stroke-dasharray="{dashes}"' if dashes else ""
         d = "".join(_path(across[run], down[run]) for run in _runs(np.isfinite(across + down)))
         look = f'stroke="{colour}" stroke-width="{POINT * width:g}" opacity="{opacity:g}"{more}'

@@ -29,7 +29,8 @@ class ReplayControls:
         gui.main_panel.set_width(PANEL_WIDTH)
         gui.add_html(hud.STYLE)
         self._playback(gui)
-        self._cameras(gui)
+        cameras = gui.add_button_group("Camera", CAMERAS)
+        cameras.on_click(lambda event: event.client and point(event.client.camera, event.target.value, stage.span))
         self.table = gui.add_html("") if len(self.timelines) > 1 else None
         self.card = gui.add_html("")
         gui.add_html(str(hud.plots(self.timelines)))
@@ -80,10 +81,6 @@ class ReplayControls:
         later = [t for t in accidents if t - 1.0 > self.player.t + 1e-6]
         self.player.pause()
         self.player.seek((later or accidents)[0] - 1.0 if self.player.t < accidents[-1] - 1.5 else accidents[-1])
-
-    def _cameras(self, gui) -> None:
-        cameras = gui.add_button_group("Camera", CAMERAS)
-        cameras.on_click(lambda event: event.client and point(event.client.camera, event.target.value, self.stage.span))
 
     def _switches(self, gui) -> None:
         options = self.stage.options

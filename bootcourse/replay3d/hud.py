@@ -4,6 +4,7 @@ It is HTML and CSS without scripts, and takes its text colour from the page.
 """
 
 import numpy as np
+from scipy.special import rel_entr
 
 from bootcourse.colours import ALARM
 from bootcourse.episodes.rollout import series
@@ -48,8 +49,7 @@ def cursor(part: float) -> Markup:
 
 def kl(policy: np.ndarray, rule_policy: np.ndarray) -> float:
     """KL(π ‖ π̃) in nats: the soft constraint's charge for probability on actions that the rule would not take."""
-    likely = policy > 0
-    return float(np.sum(policy[likely] * np.log(policy[likely] / rule_policy[likely])))
+    return float(rel_entr(policy, rule_policy).sum())
 
 
 def status(timeline: Timeline, t: float) -> tuple[str, str]:

@@ -17,7 +17,7 @@ from bootcourse.methods import display_name, style
 from bootcourse.replay3d import hud, scene
 from bootcourse.replay3d.camera import CHASE, FIELD_OF_VIEW, Pose, pose
 from bootcourse.replay3d.car import CRUMB, DARK, LAMPS, LIGHT, car_parts, paint, quads, ring
-from bootcourse.replay3d.road import DASH, LINE, PERIOD, SHOULDER, Theme, divider_ys, edges, theme
+from bootcourse.replay3d.road import DASH, LINE, PERIOD, SHOULDER, THEMES, Theme, divider_ys, edges
 from bootcourse.replay3d.stage import Options
 from bootcourse.replay3d.timeline import Timeline
 from bootcourse.road.state import EGO, LANE, Accident
@@ -161,7 +161,7 @@ def picture(shot: Shot) -> Image.Image:
     road = shot.timelines[0].rollout.scenario.road
     span = scene.span(road, len(shot.timelines), shot.options.layout)
     size = (shot.size[0] * SMOOTH, shot.size[1] * SMOOTH)
-    painter = Painter(Lens(pose(shot.camera, span), size), theme(shot.options.dark))
+    painter = Painter(Lens(pose(shot.camera, span), size), THEMES[shot.options.dark])
     views = scene.view(shot.timelines, shot.t, shot.options.layout, shot.options.follow)
     solid = [k for k in range(len(views)) if shot.options.layout == scene.ROADS or k == shot.options.follow]
     for k in solid:

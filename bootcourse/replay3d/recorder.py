@@ -74,10 +74,7 @@ border-radius:4px;margin:2px 4px 2px 0;padding:1px 7px;cursor:pointer;opacity:.8
 
 def rate_for(cars: int, duration: float) -> int:
     """Frames a second that keep the file small."""
-    for rate in RATES:
-        if cars * duration * rate <= CAR_FRAMES:
-            return rate
-    return RATES[-1]
+    return next((rate for rate in RATES if cars * duration * rate <= CAR_FRAMES), RATES[-1])
 
 
 def to_html(rollouts, options: Options | None = None) -> str:

@@ -30,12 +30,10 @@ class Theme(NamedTuple):
     post: str
 
 
-LIGHT = Theme("#9CC4E6", "#E6EEF2", "#CFD8BE", "#6F747C", "#FFFFFF", "#FFFFFF")
-DARK = Theme("#0B1220", "#26344A", "#2C3A35", "#474D57", "#E2E5E9", "#9BA2AB")
-
-
-def theme(dark: bool) -> Theme:
-    return DARK if dark else LIGHT
+THEMES = {  # dark?
+    False: Theme("#9CC4E6", "#E6EEF2", "#CFD8BE", "#6F747C", "#FFFFFF", "#FFFFFF"),
+    True: Theme("#0B1220", "#26344A", "#2C3A35", "#474D57", "#E2E5E9", "#9BA2AB"),
+}
 
 
 def edges(road: Road) -> tuple[float, float]:

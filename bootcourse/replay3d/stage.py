@@ -15,7 +15,7 @@ from bootcourse.methods import style
 from bootcourse.replay3d import scene
 from bootcourse.replay3d.camera import CHASE, FIELD_OF_VIEW, pose
 from bootcourse.replay3d.car import CRUMB, DARK, LAMPS, LIGHT, Mesh, car_parts, paint, quads, ring
-from bootcourse.replay3d.road import AHEAD, BEHIND, SHOULDER, edges, ground, road_parts, signs, theme
+from bootcourse.replay3d.road import AHEAD, BEHIND, SHOULDER, THEMES, edges, ground, road_parts, signs
 from bootcourse.replay3d.timeline import Timeline
 from bootcourse.road.state import EGO, TRAP_1, TRAP_2, X
 
@@ -110,7 +110,7 @@ class Stage:
     # --- building ---
 
     def _surroundings(self) -> None:
-        colours, api = theme(self.options.dark), self.server.scene
+        colours, api = THEMES[self.options.dark], self.server.scene
         self.server.gui.configure_theme(dark_mode=self.options.dark, show_logo=False, show_share_button=False)
         self._lights(api)
         api.configure_fog(150.0, 420.0, color=_linear(colours.horizon))
@@ -133,7 +133,7 @@ class Stage:
 
     def _drive(self, k: int) -> Drive:
         timeline, options, api = self.timelines[k], self.options, self.server.scene
-        rollout, colours = timeline.rollout, theme(options.dark)
+        rollout, colours = timeline.rollout, THEMES[options.dark]
         own = style(rollout.label).colour
         ghost = options.layout == scene.GHOSTS and k != options.follow
         base = f"/drive{k}"

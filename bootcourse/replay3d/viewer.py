@@ -1,5 +1,6 @@
 """A live replay: rollouts on a server on this machine, shown in a notebook's cell or in a browser."""
 
+import contextlib
 import os
 import threading
 import time
@@ -17,7 +18,7 @@ from bootcourse.replay3d.timeline import Timeline
 HUD_RATE = 10.0  # Hz, of real time, at most: how often the numbers in the panel change
 
 
-class Replay:
+class Replay(contextlib.AbstractContextManager):
     """A replay on a server. A notebook shows it as the cell's output; `close()` ends it."""
 
     def __init__(self, timelines: list[Timeline], options: Options, port: int = 0, height: int = 640):
@@ -54,9 +55,6 @@ class Replay:
         one_per_cell.forget(self)
         self.player.stop()
         self.server.stop()
-
-    def __enter__(self) -> "Replay":
-        return self
 
     def __exit__(self, *_) -> None:
         self.close()
