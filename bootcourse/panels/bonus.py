@@ -43,9 +43,7 @@ class BonusPanel(Panel):
         self.view = widgets.HTML()
         numbers = (self.c, self.gamma, self.moment, self.episode)
         super().__init__("What the bonus makes of a demonstration", beside(*numbers), self.view)
-        for number in numbers:
-            number.observe(self.update, "value")
-        self.update()
+        self.update_with(*numbers)
 
     def update(self, change=None) -> None:
         """Compute and draw."""

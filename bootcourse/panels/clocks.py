@@ -39,9 +39,7 @@ class ClocksPanel(Panel):
         )
         self.view = widgets.HTML()
         super().__init__("Two clocks: which help lasts?", self.updates, self.driver, self.view)
-        for control in (self.updates, self.driver):
-            control.observe(self.update, "value")
-        self.update()
+        self.update_with(self.updates, self.driver)
 
     def update(self, change=None) -> None:
         """Draw the choice; say so if it was not computed."""

@@ -77,6 +77,12 @@ class Panel(widgets.VBox):
         made.on_click(lambda _: self.handle(does))
         return made
 
+    def update_with(self, *controls: widgets.Widget) -> None:
+        """Call the panel's `update` now, and whenever the value of one of these controls changes."""
+        for control in controls:
+            control.observe(self.update, "value")
+        self.update()
+
     def picture(self) -> Drawing:
         """What readers without a kernel see."""
         return self.svg

@@ -45,28 +45,22 @@ class PolicyPanel(Panel):
         self.view = widgets.HTML()
         numbers = (self.moment, self.p, self.xi, self.alpha)
         super().__init__("What the rule's pull does to each action", beside(*numbers), self.view)
-        for number in numbers:
-            number.observe(self.update, "value")
-        self.update()
+        self.update_with(*numbers)
         self.say(missing(rollout))
 
     def update(self, change=None) -> None:
         """Compute and draw the present moment."""
         k = int(self.moment.value * self.clock.decision_rate + 1e-9)
         policy, q = (None if a is None else a[k] for a in (self.rollout.policy, self.rollout.q_values))
-        self.seen = policy_numbers(
-            policy, q, int(self.decisions.actions[k]), self.p.value, self.xi.value, self.alpha.value
-        )
-        settings = (self.p.value, self.xi.value, self.alpha.value)
-        own, head = style(self.rollout.label).colour, self._head(k)
-        view, _ = road_svg(self.starts[k], self.rollout.scenario, own, WIDTH, self._scale())
-        parts = [*view, *head, *policy_chart(self.seen, *settings, display_name(self.rollout.label), own)]
-        parts += marks(int(self.rollout.actions[k]), int(self.decisions.actions[k]), own)
+        settings, by_rule = (self.p.value, self.xi.value, self.alpha.value), int(self.decisions.actions[k])
+        self.seen = policy_numbers(policy, q, by_rule, *settings)
+        own, scenario = style(self.rollout.label).colour, self.rollout.scenario
+        scale = ROAD / (scenario.road.lanes * scenario.road.lane_width)
+        parts, _ = road_svg(self.starts[k], scenario, own, WIDTH, scale)
+        parts += self._head(k) + policy_chart(self.seen, *settings, display_name(self.rollout.label), own)
+        parts += marks(int(self.rollout.actions[k]), by_rule, own)
         inner = ['<g transform="translate(8 0)">', *parts, "</g>"]
         self.svg = self.view.value = drawing(WIDTH + 16, HEIGHT, inner, self._alt(k))
-
-    def _scale(self) -> float:
-        return ROAD / (self.rollout.scenario.road.lanes * self.rollout.scenario.road.lane_width)
 
     def _head(self, k: int) -> list[str]:
         """When it is, how fast the car is, why the rule does what it does."""
@@ -83,10 +77,9 @@ class PolicyPanel(Panel):
 
     def _alt(self, k: int) -> str:
         seen, rollout = self.seen, self.rollout
+        says, driven = ACTION_NAMES[self.decisions.actions[k]], ACTION_NAMES[rollout.actions[k]]
         told = [f"{k / self.clock.decision_rate:g} s into the drive of the {display_name(rollout.label)}."]
-        told.append(
-            f"The rule says {ACTION_NAMES[self.decisions.actions[k]]}; {ACTION_NAMES[rollout.actions[k]]} is driven."
-        )
+        told.append(f"The rule says {says}; {driven} is driven.")
         if seen.kl is not None:
             told.append(f"The KL from the rule with p = {self.p.value:g} is {seen.kl:.2f} nats.")
         if seen.optimum is not None:

@@ -38,9 +38,8 @@ class ScenarioPanel(Panel):
         for number in self.numbers.values():
             number.observe(self._moved, "value")
             number.help.observe(self._tell, "value")
-        self.road.observe(self.update, "value")
         self._choose()
-        self.update()
+        self.update_with(self.road)
 
     def _number(self, field: Field) -> Number:
         return Number(

@@ -33,8 +33,7 @@ class TeachersPanel(Panel):
         )
         self.view = widgets.HTML()
         super().__init__("What is a teacher worth?", self.quantity, self.view)
-        self.quantity.observe(self.update, "value")
-        self.update()
+        self.update_with(self.quantity)
 
     def update(self, change=None) -> None:
         """Draw the chosen quantity."""
