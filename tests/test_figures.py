@@ -337,6 +337,14 @@ def test_labels_that_meet_are_moved_apart_and_keep_their_order():
     assert heights["four"] < heights["one"] < heights["two"] < heights["three"]
 
 
+def test_labels_at_the_bottom_rise_instead_of_touching_the_numbers_of_the_x_axis():
+    figure = new_figure()
+    ax = figure.add_axes((0.1, 0.1, 0.7, 0.8))
+    plain_axes(ax, "height (m)")
+    places = label_ends(ax, [(0.0, "one", "k"), (0.0, "two", "k"), (0.0, "three", "k")])
+    assert places[0] == 0 and overlaps(finish(figure, "Labels", "Labels that meet.")) == []
+
+
 def test_two_drivers_of_one_colour_get_two_lines():
     first, second, third = styles(["you", "idle", "you"])
     assert first.colour == second.colour and first.line != second.line and first == third
