@@ -125,8 +125,3 @@ def test_a_clone_begins_with_the_teacher_s_actions():
 def test_a_setting_that_makes_no_sense_is_refused(changes, sentence):
     with pytest.raises(BootcourseError, match=sentence):
         settings_for("ppo", **changes)
-
-
-def test_a_setting_of_ppo_is_none_of_sac():
-    with pytest.raises(BootcourseError, match="Method 'sac' has no clip"):
-        settings_for("sac", clip=0.3)

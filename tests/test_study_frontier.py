@@ -2,10 +2,7 @@
 
 import numpy as np
 import pytest
-import torch
 
-from bootcourse.learn.settings import settings_for
-from bootcourse.learn.training import Training
 from bootcourse.study.frontier import frontier, safe_and_fast, scored
 from bootcourse.study.plan import EXPERIMENTS
 from bootcourse.study.report import safe_part
@@ -59,15 +56,6 @@ def test_the_report_has_it_once_the_experiment_and_the_planner_s_bound_are_there
     assert "140.5" in text and "| slow |" in text and (tmp_path / "figures" / "safe.png").exists()
     assert safe_part(StudyResults({}, {}, {}, {"safe": VARIED}), tmp_path) == []
     assert safe_part(StudyResults({}, {"default": np.array([140.0])}, {}, {"safe": {}}), tmp_path) == []
-
-
-def test_safe_ppo_with_nothing_switched_on_is_ppo_after_cloning():
-    small = {"hidden": (8,), "envs_per_agent": 4, "horizon": 16, "batch": 32, "cloning_updates": 5}
-    off = EXPERIMENTS["safe"].variations["accident cost"].changes | {"accident_cost": 0.0}
-    made = [Training([settings_for(m, seed=3, **small, **(off if m == "ppo_safe" else {}))], 60)
-            for m in ("ppo_cloned", "ppo_safe")]  # fmt: skip
-    weights = [training.run(progress=False).agents[0].actor for training in made]
-    assert made[0].updates > 4 and all(torch.equal(*pair) for pair in zip(*weights, strict=True))
 
 
 def test_a_variation_switches_on_what_it_is_named_for():

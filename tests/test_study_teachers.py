@@ -242,7 +242,3 @@ def test_a_training_goes_on_with_its_named_teacher_alone_and_so_do_its_agents(bo
     refused = bootcourse(*evaluate, "random-25")
     assert refused.status == 2 and "drives with the teacher 'late " in refused.err
     assert bootcourse(*evaluate, "late").status == 0
-
-
-def test_every_named_teacher_has_its_own_name_in_a_run_s_files():
-    assert len({teacher_name(its.rule) for its in TEACHERS.values()}) == len(TEACHERS)
