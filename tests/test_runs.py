@@ -159,19 +159,6 @@ def test_a_folder_without_a_run_says_how_to_train_one(tmp_path):
         find_runs(tmp_path / "nowhere")
 
 
-def test_a_training_that_was_killed_goes_on_as_if_it_never_was(tmp_path):
-    training = small_training()
-    for _ in range(60):
-        training.step()
-    save_checkpoint(training, tmp_path / "checkpoint.npz")
-    uninterrupted = training.run(progress=False)
-    continued = load_checkpoint(tmp_path / "checkpoint.npz").run(progress=False)
-    for name, values in uninterrupted.curves.items():
-        np.testing.assert_array_equal(values, continued.curves[name], err_msg=name)
-    for before, after in zip(uninterrupted.agents[1].actor, continued.agents[1].actor, strict=True):
-        np.testing.assert_array_equal(before, after)
-
-
 def test_a_finished_agent_is_kept_as_it_was_after_its_last_episode(tmp_path):
     training = small_training("sac", episodes=3)
     while not training.finished_agents:
