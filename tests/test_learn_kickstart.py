@@ -11,8 +11,7 @@ from bootcourse.learn.learner import learner_for
 from bootcourse.learn.ppo import Minibatch
 from bootcourse.learn.settings import settings_for
 from bootcourse.learn.training import Training
-
-SMALL = {"hidden": (8,), "envs_per_agent": 4, "horizon": 8, "batch": 16, "epochs": 2, "buffer_size": 16}
+from tests.test_learn_ppo import SMALL
 
 
 def a_minibatch(decisions: int = 16) -> Minibatch:

@@ -11,8 +11,8 @@ from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
 from bootcourse.policies import rule_policy
 from bootcourse.scenario import DEFAULT
+from tests.test_learn_ppo import SMALL
 
-SMALL = {"hidden": (8,), "envs_per_agent": 4, "horizon": 8, "batch": 16, "epochs": 2, "buffer_size": 16}
 ACTIONS = torch.arange(9)
 
 

@@ -210,16 +210,3 @@ def test_roads_that_cannot_be_set_are_refused():
     settings = [replace(wanting()[0], cloning_updates=0)]
     with pytest.raises(BootcourseError, match="give restart_share=0"):
         Training(settings, 5, make_env=several(cartpole))
-
-
-@pytest.mark.parametrize(
-    "changes, sentence",
-    [
-        ({"restart_share": 0.95}, "restart_share = 0.95: give a finite number of 0 or more, at most 0.9"),
-        ({"restart_share": -0.1}, "restart_share = -0.1"),
-        ({"restart_episodes": 2.5}, "restart_episodes = 2.5: give a whole number"),
-    ],
-)
-def test_a_setting_that_makes_no_sense_is_refused(changes, sentence):
-    with pytest.raises(BootcourseError, match=sentence):
-        settings_for("ppo_safe", **changes)

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 import torch
 
-from bootcourse.errors import BootcourseError
 from bootcourse.learn.learner import learner_for
 from bootcourse.learn.risk import accident_within, masked, resolved, risk_loss
 from bootcourse.learn.safe import SafeMinibatch, accident_rate, multiplier_step
@@ -181,17 +180,3 @@ def test_an_agent_with_the_shield_does_not_drive_into_the_car_ahead():
     shielded = replace(agent, settings=replace(agent.settings, shield=True))
     assert agent.as_policy()(states, None).actions.tolist() == [ACCELERATE, ACCELERATE]
     assert shielded.as_policy()(states, None).actions.tolist() == [ACCELERATE, BRAKE]
-
-
-@pytest.mark.parametrize(
-    "changes, sentence",
-    [
-        ({"risk_limit": 1.1}, "risk_limit = 1.1"),
-        ({"accident_cost": -1.0}, "accident_cost = -1.0"),
-        ({"risk_decisions": 33}, "risk_decisions = 33: give a whole number of 1 or more, at most 32"),
-        ({"shield": 1}, "shield = 1: give True or False"),
-    ],
-)
-def test_a_setting_that_makes_no_sense_is_refused(changes, sentence):
-    with pytest.raises(BootcourseError, match=sentence):
-        settings_for("ppo_safe", **changes)

@@ -54,13 +54,36 @@ def test_a_mistyped_setting_suggests_the_nearest():
         ({"hidden": 64}, "hidden = 64: give the layers' sizes"),
         ({"hidden": ()}, "hidden = (): give the layers' sizes"),
         ({"hidden": (64, 0)}, "hidden = (64, 0): give the layers' sizes"),
+        ({"method": "jsrl", "stages": 0}, "stages"),
+        ({"method": "jsrl", "tolerance": -0.1}, "tolerance"),
+        ({"method": "rlpd", "target_critics": 6}, "target_critics"),
+        ({"method": "rlpd", "bonus": 2.0}, "bonus"),
+        ({"method": "pex", "choice_temperature": 0.0}, "choice_temperature"),
+        ({"method": "ibrl", "choice_temperature": 0.1}, "choice_temperature"),
+        ({"method": "ppo", "clip": 1.5}, "clip = 1.5"),
+        ({"method": "ppo", "horizon": 0}, "horizon = 0"),
+        ({"method": "ppo", "cloning_updates": 2.5}, "cloning_updates"),
+        ({"method": "ppo", "kl_weight": 1.0}, "defined by doing without"),
+        ({"method": "ppo", "kl_episodes": -1}, "kl_episodes = -1"),
+        ({"method": "ppo_safe", "risk_limit": 1.1}, "risk_limit = 1.1"),
+        ({"method": "ppo_safe", "accident_cost": -1.0}, "accident_cost = -1.0"),
+        (
+            {"method": "ppo_safe", "risk_decisions": 33},
+            "risk_decisions = 33: give a whole number of 1 or more, at most 32",
+        ),
+        ({"method": "ppo_safe", "shield": 1}, "shield = 1: give True or False"),
+        (
+            {"method": "ppo_safe", "restart_share": 0.95},
+            "restart_share = 0.95: give a finite number of 0 or more, at most 0.9",
+        ),
+        ({"method": "ppo_safe", "restart_share": -0.1}, "restart_share = -0.1"),
+        ({"method": "ppo_safe", "restart_episodes": 2.5}, "restart_episodes = 2.5: give a whole number"),
     ],
 )
 def test_nonsense_is_refused_in_one_sentence(changes, sentence):
     with pytest.raises(BootcourseError) as refusal:
-        settings_for("bootstrapped", **changes)
-    assert sentence in str(refusal.value)
-    assert "\n" not in str(refusal.value)
+        settings_for(**{"method": "bootstrapped"} | changes)
+    assert sentence in str(refusal.value) and "\n" not in str(refusal.value)
 
 
 @pytest.mark.parametrize(

@@ -190,22 +190,6 @@ def test_an_agent_chooses_by_the_target_critics_as_it_did_in_training():
         torch.testing.assert_close(torch.from_numpy(found), one.driving_policy(batch.states, batch.rule_actions)[i])
 
 
-@pytest.mark.parametrize(
-    ("method", "wrong"),
-    [
-        ("jsrl", {"stages": 0}),
-        ("jsrl", {"tolerance": -0.1}),
-        ("rlpd", {"target_critics": 6}),
-        ("rlpd", {"bonus": 2.0}),
-        ("pex", {"choice_temperature": 0.0}),
-        ("ibrl", {"choice_temperature": 0.1}),
-    ],
-)
-def test_a_setting_out_of_range_is_refused(method, wrong):
-    with pytest.raises(BootcourseError, match=next(iter(wrong))):
-        settings_for(method, **wrong)
-
-
 @pytest.mark.parametrize("method", ["jsrl", "ibrl", "pex"])
 def test_a_method_that_asks_the_teacher_is_not_trained_where_there_is_none(method):
     with pytest.raises(BootcourseError, match="asks a teacher"):
