@@ -211,7 +211,3 @@ def test_what_is_no_number_is_refused_in_one_sentence(wrong):
 def test_an_object_of_another_class_is_refused_by_name():
     with pytest.raises(BootcourseError, match="scenario is an int: give a Scenario."):
         an_instance(3, Scenario, "scenario")
-
-
-def test_all_controls_of_a_panel_are_found_from_top_to_bottom():
-    assert [type(each) for each in inside(Plain(), Number)] == [Number]

@@ -6,9 +6,9 @@ import pytest
 from bootcourse.learn.settings import Settings
 from bootcourse.learn.training import Training
 from bootcourse.panels.sweep import sweep_panel
-from bootcourse.panels.sweep_view import choices, rerun, view
+from bootcourse.panels.sweep_view import choices, rerun
 from bootcourse.study.plan import sweep_settings
-from bootcourse.study.results import Results, load_results, save_results
+from bootcourse.study.results import Results, save_results
 from bootcourse.study.sweep import nearest_setting, settings_run
 from tests.panels import from_page, raise_in_callbacks, words  # noqa: F401
 
@@ -96,16 +96,12 @@ def test_every_cell_of_the_heat_maps_has_its_value_and_the_chosen_one_a_frame(pa
     assert panel.chart.value.count('stroke-width="3"') == 3 and "c = 0" in panel.chart.value
 
 
-def test_a_sweep_with_holes_names_them_and_shows_the_nearest():
-    some = invented(lambda s: (s.rule_p, s.xi_multiplier) != (0.99, 200.0))
-    assert ">not run<" in view(some, nearest_setting(some, 0.9, 200, 2))
-
-
-def test_a_sweep_with_holes_says_that_the_nearest_is_shown(tmp_path):
+def test_a_sweep_with_holes_names_them_and_says_that_the_nearest_is_shown(tmp_path):
     save_results(invented(lambda s: (s.rule_p, s.xi_multiplier) != (0.99, 200.0)), tmp_path / "some.npz", {})
     panel = sweep_panel(tmp_path / "some.npz")
     panel.p.slider.value, panel.xi.slider.value = 0.99, 200.0
     assert "This setting was not run" in words(panel) and not panel.happened.exact
+    assert ">not run<" in panel.chart.value
 
 
 def test_the_python_that_it_offers_trains_the_very_settings(panel, monkeypatch):
@@ -143,7 +139,3 @@ def test_the_drawing_keeps_its_size(panel):
         from_page(panel.xi.slider, index=index)
         sizes.add(panel.chart.value[: panel.chart.value.index("role")])
     assert len(sizes) == 1 and "nan" not in panel.chart.value
-
-
-def test_the_sweep_reads_back_as_it_was_written(file):
-    assert settings_run(load_results(file)) == settings_run(invented())
