@@ -77,7 +77,7 @@ ON_POLICY = {"horizon": 6, "batch": 16, "epochs": 2, "cloning_updates": 3}
 
 
 def small_training(method, device="cpu"):
-    """Two agents of a method that make some updates within 18 decisions."""
+    """Two agents of a method that make some updates within 12 decisions."""
     its = METHODS[method]
     changes = SMALL | (ON_POLICY if its.on_policy else {"learning_starts": 8, "batch": 16})
     if its.on_policy and not settings_for(method).needs_demonstrations:
@@ -87,7 +87,7 @@ def small_training(method, device="cpu"):
     return Training(with_seeds(settings_for(method, **changes), 2), 100, device=device)
 
 
-def after(training, decisions=18):
+def after(training, decisions=12):
     """The training, so many decisions on each road later."""
     for _ in range(decisions):
         training.step()
