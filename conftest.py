@@ -1,4 +1,4 @@
-"""For the notebooks that nbval runs: each must leave nothing behind (tests/leftovers.py)."""
+"""For the notebooks that nbval runs: each must leave nothing behind (tests/leftovers.py). And who runs which tests."""
 
 import pytest
 
@@ -6,6 +6,8 @@ from tests.leftovers import LeavesNothing, files, survey
 
 # tests/test_notebooks.py executes these, without the cells that the student's notebooks have, too.
 collect_ignore = ["notebooks/solved"]
+# These files use the numbers in the text of all lessons: one worker computes and keeps them.
+TOGETHER = {f"tests/test_{name}.py" for name in ("book", "claims", "course", "teaching")}
 
 
 def is_notebook_cell(item) -> bool:
@@ -25,3 +27,16 @@ def pytest_runtest_call(item):
     """Look around before the first cell of a notebook."""
     if is_notebook_cell(item) and not hasattr(item.parent, "before"):
         item.parent.before, item.parent.files = survey(item.parent.kernel), files()
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config, log):
+    """As --dist=loadfile: the tests of a file stay in one process, and those of the files above in the same."""
+    from xdist.scheduler import LoadFileScheduling
+
+    class ByFile(LoadFileScheduling):
+        def _split_scope(self, nodeid):
+            file = super()._split_scope(nodeid)
+            return "the lessons' text" if file in TOGETHER else file
+
+    return ByFile(config, log) if config.getvalue("dist") == "loadfile" else None
