@@ -65,10 +65,10 @@ def _wait_for(address: str, lab: subprocess.Popen, log: Path) -> None:
 
 
 class Notebook:
-    """A notebook open in JupyterLab. `.page` is playwright's."""
+    """A notebook open in JupyterLab. `.page` is playwright's, `.folder` is where the kernel works."""
 
-    def __init__(self, shown: Page):
-        self.shown, self.page = shown, shown.page
+    def __init__(self, shown: Page, folder: Path):
+        self.shown, self.page, self.folder = shown, shown.page, folder
 
     def run_all(self, timeout: float = 120.0) -> None:
         """Run every cell and wait until the kernel is idle. Fails if a cell raised."""
@@ -85,24 +85,28 @@ class Notebook:
             timeout=1000 * timeout,
         )
 
-    def screenshot(self, path: Path) -> bytes:
-        return self.page.screenshot(path=str(path))
-
 
 @contextlib.contextmanager
-def open_notebook(folder: Path, *cells: str, width: int = 1366, height: int = 900):
-    """A notebook of these code cells in a real JupyterLab. Yields a `Notebook`, its kernel ready."""
-    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in cells])
-    notebook.metadata["kernelspec"] = {"display_name": "Python 3", "language": "python", "name": "python3"}
-    nbformat.write(notebook, folder / "lesson.ipynb")
+def open_lab(folder: Path, width: int = 1366, height: int = 900):
+    """A real JupyterLab. Yields `open_notebook(*cells)`: a notebook of these code cells, its kernel ready."""
     with running_lab(folder) as (address, token), open_browser(width, height) as new_page:
-        shown = new_page()
-        shown.page.goto(f"{address}/doc/tree/lesson.ipynb?token={token}&reset")
-        shown.page.wait_for_function("() => window.jupyterapp", timeout=60_000)
-        shown.page.wait_for_selector(".jp-Notebook .jp-Cell", timeout=60_000)
-        shown.page.wait_for_function(
-            "() => { const w = jupyterapp.shell.currentWidget; "
-            "return w && w.sessionContext && w.sessionContext.session?.kernel?.status === 'idle'; }",
-            timeout=60_000,
-        )
-        yield Notebook(shown)
+
+        @contextlib.contextmanager
+        def open_notebook(*cells: str):
+            notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in cells])
+            notebook.metadata["kernelspec"] = {"display_name": "Python 3", "language": "python", "name": "python3"}
+            name = f"lesson-{len(list(folder.glob('*.ipynb')))}.ipynb"
+            nbformat.write(notebook, folder / name)
+            shown = new_page()
+            shown.page.goto(f"{address}/doc/tree/{name}?token={token}&reset")
+            shown.page.wait_for_function("() => window.jupyterapp", timeout=60_000)
+            shown.page.wait_for_selector(".jp-Notebook .jp-Cell", timeout=60_000)
+            shown.page.wait_for_function(
+                "() => { const w = jupyterapp.shell.currentWidget; "
+                "return w && w.sessionContext && w.sessionContext.session?.kernel?.status === 'idle'; }",
+                timeout=60_000,
+            )
+            yield Notebook(shown, folder)
+            shown.page.close()
+
+        yield open_notebook

@@ -14,6 +14,7 @@ import pytest
 from ipywidgets.widgets.widget import CallbackDispatcher
 
 from bootcourse import one_per_cell
+from tests.waiting import until
 
 
 @pytest.fixture
@@ -53,10 +54,7 @@ def threads() -> list[threading.Thread]:
 
 
 def wait_for(holds, seconds: float = 20.0) -> None:
-    until = time.monotonic() + seconds
-    while not holds():
-        assert time.monotonic() < until, "it never came"
-        time.sleep(0.02)
+    assert until(holds, seconds), "it never came"
 
 
 def seconds_of_a_drag(slider: widgets.Widget, values) -> float:

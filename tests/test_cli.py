@@ -18,6 +18,7 @@ from bootcourse.learn.training import Training
 from bootcourse.methods import METHODS
 from bootcourse.scenario import DEFAULT
 from bootcourse.storage.work import locked
+from tests.waiting import until
 
 COMMAND = [sys.executable, "-m", "bootcourse"]
 
@@ -196,7 +197,7 @@ def test_a_training_that_is_stopped_loses_nothing_and_resumes(bootcourse, tmp_pa
     out = tmp_path / "runs"
     command = [*COMMAND, "train", "--method", "sac", "--seeds", "1", "--episodes", "80", "--out", str(out), "--quiet"]
     process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
-    wait_for(out / "unfinished" / "checkpoint.npz")
+    assert until((out / "unfinished" / "checkpoint.npz").exists, 60)
     time.sleep(0.3)
     process.send_signal(signal.SIGINT)
     _, said = process.communicate(timeout=60)
@@ -244,10 +245,3 @@ def test_a_training_whose_checkpoint_is_damaged_says_what_to_do(bootcourse, tmp_
     assert "unfinished training" in bootcourse("evaluate", tmp_path / "runs").err
     shutil.rmtree(work)
     assert bootcourse(*arguments).status == 0
-
-
-def wait_for(path: Path, seconds: float = 60) -> None:
-    end = time.monotonic() + seconds
-    while not path.exists():
-        assert time.monotonic() < end, f"{path} did not appear"
-        time.sleep(0.05)

@@ -8,8 +8,6 @@ from bootcourse.errors import BootcourseError
 from bootcourse.lessons import compare_predictions, predict
 from bootcourse.lessons.prediction_form import PredictionForm
 from bootcourse.lessons.predictions import FILE, NOTHING, predictions
-from tests.browser import needs_browser
-from tests.jupyterlab import open_notebook
 from tests.panels import raise_in_callbacks, words  # noqa: F401
 
 CHOICES = ["it escapes", "it stays"]
@@ -121,23 +119,3 @@ def test_who_committed_to_nothing_is_told_so():
 def test_a_prediction_of_another_lesson_is_refused():
     with pytest.raises(BootcourseError, match="1.1 is no prediction of lesson 11"):
         compare_predictions("11", {"1.1": "yes"})
-
-
-@needs_browser
-def test_the_keyboard_commits_in_jupyterlab(folder):
-    cell = "from bootcourse.lessons import predict\npredict('5.1', 'Does <b>it</b> stay?', ['<i>yes</i>', 'no'])"
-    with open_notebook(folder, cell, width=900) as notebook:
-        notebook.run_all()
-        page = notebook.page
-        page.wait_for_function(
-            "() => document.querySelector('.bc-panel input') && !document.querySelector('.bc-panel img')"
-        )
-        page.locator(".bc-panel input[type=radio]").first.focus()
-        page.keyboard.press("ArrowDown")
-        page.keyboard.press("Tab")
-        page.keyboard.press("Enter")
-        page.wait_for_function("() => document.querySelector('.bc-panel').innerText.includes('You predict: no.')")
-        shown = page.locator(".bc-panel").inner_text()
-        assert "Does <b>it</b> stay?" in shown and "<i>yes</i>" in shown
-        page.locator(".bc-panel").screenshot(path=str(folder / "form.png"))
-    assert json.loads((folder / FILE).read_text())["5.1"]["answer"] == "no"

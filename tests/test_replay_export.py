@@ -22,12 +22,12 @@ from bootcourse.replay3d.recorder import to_html
 from bootcourse.replay3d.stage import Options
 from bootcourse.replay3d.timeline import Timeline
 from bootcourse.road.state import EGO, Accident
-from bootcourse.scenario import CALIBRATED, DEFAULT, Clock
+from bootcourse.scenario import CALIBRATED
 from tests.browser import ARTEFACTS, CARS, close_notice, is_blank, needs_browser, open_browser
+from tests.replays import SHORT, TEN_CARS, thinking
+from tests.waiting import until
 
 ROOT = Path(__file__).resolve().parent.parent
-SHORT = replace(DEFAULT, clock=Clock(decisions=20))
-TEN_CARS = replace(DEFAULT, traffic=replace(DEFAULT.traffic, cars=7))
 NODES = """names => Object.fromEntries(names.map(name => {
     const node = window.__viserMutable.nodeRefFromName[name];
     return [name, node ? node.visible : null];
@@ -37,12 +37,6 @@ NODES = """names => Object.fromEntries(names.map(name => {
 def replay_command(files, export=None, gif=None, png=None, text=False, port=0):
     """`bootcourse replay`, without a browser."""
     cli.replay(files, export, gif, png, text, port, browser=False)
-
-
-def thinking(rollout, label="bootstrapped"):
-    rng = np.random.default_rng(0)
-    policy = rng.dirichlet(np.ones(9), size=len(rollout.actions))
-    return replace(rollout, label=label, policy=policy, q_values=rng.normal(size=policy.shape))
 
 
 @pytest.fixture(scope="module")
@@ -81,14 +75,6 @@ def go_to(page, t: float) -> None:
         if abs(float(box.input_value()) - t) < 0.05:
             return
     raise AssertionError(f"the page stays at {box.input_value()} s instead of {t:g} s")
-
-
-def until(condition, seconds: float = 20.0) -> bool:
-    """Whether the condition comes true in time: a busy machine draws late."""
-    ends = time.monotonic() + seconds
-    while not (true := condition()) and time.monotonic() < ends:
-        time.sleep(0.2)
-    return true
 
 
 @needs_browser

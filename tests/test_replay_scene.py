@@ -21,15 +21,7 @@ from bootcourse.replay3d.timeline import Timeline
 from bootcourse.road.state import CRASHED, EGO, HEADING, TRAP_1, Accident, X, Y
 from bootcourse.rule import stochastic_rule
 from bootcourse.scenario import CALIBRATED, DEFAULT, Clock, Road
-
-SHORT = replace(DEFAULT, clock=Clock(decisions=20))
-
-
-def thinking(rollout, label="bootstrapped"):
-    """The same drive, with the probabilities and values of an agent that nobody has trained."""
-    rng = np.random.default_rng(0)
-    policy = rng.dirichlet(np.ones(9), size=len(rollout.actions))
-    return replace(rollout, label=label, policy=policy, q_values=rng.normal(size=policy.shape))
+from tests.replays import SHORT, thinking
 
 
 @pytest.fixture(scope="module")

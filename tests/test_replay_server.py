@@ -7,7 +7,6 @@ import sys
 import threading
 import time
 import urllib.request
-from dataclasses import replace
 from pathlib import Path
 
 import msgspec
@@ -26,10 +25,9 @@ from bootcourse.replay3d import replay, scene, server, viewer
 from bootcourse.replay3d.camera import BIRD, SIDE, point, pose
 from bootcourse.replay3d.player import SPEEDS
 from bootcourse.road.state import EGO
-from bootcourse.scenario import DEFAULT, Clock
 from tests.browser import ARTEFACTS, CARS, close_notice, is_blank, needs_browser, open_browser
-
-SHORT = replace(DEFAULT, clock=Clock(decisions=20))
+from tests.replays import SHORT
+from tests.waiting import until
 
 
 @pytest.fixture(scope="module")
@@ -51,13 +49,6 @@ def is_open(port: int, host: str = "127.0.0.1") -> bool:
         return probe.connect_ex((host, port)) == 0
 
 
-def wait_for(condition, seconds: float = 10.0) -> bool:
-    deadline = time.monotonic() + seconds
-    while not condition() and time.monotonic() < deadline:
-        time.sleep(0.02)
-    return bool(condition())
-
-
 def ask(port: int, message: dict) -> None:
     """Speak to the server as a viewer's page does."""
     with connect(f"ws://127.0.0.1:{port}", subprotocols=[f"viser-v{viser.__version__}"], max_size=None) as socket:
@@ -74,7 +65,7 @@ def test_it_starts_serves_stops_and_frees_its_port_ten_times_in_a_row(drives):
             port = live.port
         assert not is_open(port)
         live.close()  # closing twice does nothing
-    assert not one_per_cell.running() and wait_for(lambda: threading.active_count() <= threads + 1)
+    assert not one_per_cell.running() and until(lambda: threading.active_count() <= threads + 1)
 
 
 def test_it_says_nothing_of_its_own(drives, capfd):
@@ -178,7 +169,7 @@ def test_plain_viser_would_have_opened_one(monkeypatch):
         plain = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
         try:
             ask(plain.get_port(), {"type": "ShareUrlRequest"})
-            assert wait_for(lambda: len(NoTunnel.opened) == 1)
+            assert until(lambda: len(NoTunnel.opened) == 1)
         finally:
             plain.stop()
 
@@ -257,8 +248,8 @@ def test_in_a_browser_the_cars_are_where_they_were_and_move(drives):
     with replay(drives, rule=True) as live, open_browser() as new_page:
         page = new_page()
         page.page.goto(live.url)
-        assert wait_for(lambda: live.server.get_clients(), 20), "no viewer arrived"
-        assert wait_for(lambda: live.player.t > 0.3), "it did not start to play by itself"
+        assert until(lambda: live.server.get_clients(), 20), "no viewer arrived"
+        assert until(lambda: live.player.t > 0.3), "it did not start to play by itself"
         live.player.pause()
         live.player.seek(7.3)
         views = scene.view(live.timelines, 7.3)
@@ -268,13 +259,13 @@ def test_in_a_browser_the_cars_are_where_they_were_and_move(drives):
             placed = page.page.evaluate(CARS, list(expected))
             return max(abs(np.array(placed[name][:2]) - place).max() for name, place in expected.items())
 
-        assert wait_for(lambda: off() < 2e-3, 15), off()
+        assert until(lambda: off() < 2e-3, 15), off()
         first, second = live.server.get_clients()[0], new_page()
         second.page.goto(live.url)
-        assert wait_for(lambda: len(live.server.get_clients()) == 2, 20)
+        assert until(lambda: len(live.server.get_clients()) == 2, 20)
         point(first.camera, SIDE, live.stage.span)
         other = live.server.get_clients()[1].camera
-        assert wait_for(lambda: np.allclose(first.camera.position, pose(SIDE, live.stage.span).position, atol=0.1))
+        assert until(lambda: np.allclose(first.camera.position, pose(SIDE, live.stage.span).position, atol=0.1))
         assert not np.allclose(other.position, first.camera.position, atol=1.0), "a camera is each viewer's own"
         point(first.camera, BIRD, live.stage.span)
         close_notice(page.page)
@@ -289,19 +280,19 @@ def test_in_a_browser_the_buttons_and_the_slider_work(drives):
     with replay(drives[1]) as live, open_browser() as new_page:
         page = new_page().page
         page.goto(live.url)
-        assert wait_for(lambda: live.player.playing, 20)
+        assert until(lambda: live.player.playing, 20)
         page.get_by_role("button", name="Pause").click()
-        assert wait_for(lambda: not live.player.playing)
+        assert until(lambda: not live.player.playing)
         now = live.player.t
         page.get_by_role("button", name="▸", exact=True).click()
-        assert wait_for(lambda: live.player.t > now) and live.player.t % 0.5 == 0.0
+        assert until(lambda: live.player.t > now) and live.player.t % 0.5 == 0.0
         track = page.locator(".mantine-Slider-root").first.bounding_box()
         page.mouse.click(track["x"] + 0.5 * track["width"], track["y"] + track["height"] / 2)
-        assert wait_for(lambda: abs(live.player.t - 10.0) < 1.0), live.player.t
-        assert wait_for(lambda: f"{live.player.t:.1f}" in page.inner_text("body"))
+        assert until(lambda: abs(live.player.t - 10.0) < 1.0), live.player.t
+        assert until(lambda: f"{live.player.t:.1f}" in page.inner_text("body"))
         assert live.stage.options.rule is False
         page.get_by_label("What the rule wants").click()
-        assert wait_for(lambda: live.stage.options.rule and live.stage.drives[0].lane.visible)
+        assert until(lambda: live.stage.options.rule and live.stage.drives[0].lane.visible)
 
 
 def test_speeds_run_from_a_quarter_to_eight():

@@ -18,10 +18,9 @@ import numpy as np
 from bootcourse.episodes.record import record
 from bootcourse.policies import rule_policy
 from bootcourse.replay3d import replay
-from bootcourse.scenario import DEFAULT
 from tests.browser import missing, open_browser
+from tests.replays import TEN_CARS
 
-TEN_CARS = replace(DEFAULT, traffic=replace(DEFAULT.traffic, cars=7))
 VIEWER = """
 import sys, time, msgspec, viser
 from websockets.sync.client import connect

@@ -3,7 +3,6 @@
 import math
 import threading
 import time
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,9 +13,7 @@ from bootcourse.replay3d.player import Player
 from bootcourse.replay3d.timeline import Timeline, arc, between
 from bootcourse.road.formulas import bicycle_step
 from bootcourse.road.state import ACCELERATION, COLUMNS, EGO, HEADING, SPEED, STEERING, X, Y
-from bootcourse.scenario import DEFAULT, Clock
-
-SHORT = replace(DEFAULT, clock=Clock(decisions=20))
+from tests.replays import SHORT
 
 
 @pytest.fixture(scope="module")

@@ -1,13 +1,16 @@
-"""The panels where people meet them: in a real JupyterLab, in headless Chromium."""
+"""Replays, panels and predictions where people meet them: in a real JupyterLab, in headless Chromium."""
 
+import json
 import statistics
 
 import pytest
 
+from bootcourse.lessons.predictions import FILE
 from bootcourse.study.results import save_results
-from tests.browser import ARTEFACTS, needs_browser
-from tests.jupyterlab import open_notebook
+from tests.browser import ARTEFACTS, close_notice, is_blank, needs_browser
+from tests.jupyterlab import open_lab
 from tests.test_panels_sweep import invented
+from tests.waiting import until
 
 pytestmark = needs_browser
 CHANGED = """(number, act) => new Promise(done => {
@@ -29,9 +32,44 @@ drive = record(agent.as_policy(with_q=True), [1], label="bootstrapped")[0]
 
 
 @pytest.fixture(scope="module")
-def notebook(tmp_path_factory):
+def open_notebook(tmp_path_factory):
     folder = tmp_path_factory.mktemp("lab")
     save_results(invented(), folder / "sweep.npz", {})
+    with open_lab(folder) as open_notebook:
+        yield open_notebook
+
+
+# Replays
+
+
+DRIVE = """from bootcourse.policies import rule_policy
+from bootcourse.episodes.record import record
+from bootcourse.scenario import DEFAULT
+from bootcourse.replay3d import recording, replay
+drive = record(rule_policy(DEFAULT), [1], DEFAULT, "rule")[0]"""
+
+
+def test_a_live_replay_and_a_recording_play_in_their_cells(open_notebook):
+    with open_notebook(DRIVE, "shown = replay(drive)\nshown", "recording(drive)") as notebook:
+        notebook.page.set_viewport_size({"width": 800, "height": 600})  # WebGL is drawn by the processor here
+        notebook.run_all()
+        for number, name in ((2, "replay"), (3, "recording")):
+            element = notebook.page.wait_for_selector(f".jp-Cell:nth-of-type({number}) iframe", timeout=30_000)
+            element.scroll_into_view_if_needed()
+            frame = element.content_frame()
+            frame.wait_for_selector("canvas", timeout=30_000)
+            frame.wait_for_function("() => window.__viserMutable?.nodeRefFromName?.['/drive0/car0/paint']")
+            if name == "replay":
+                close_notice(frame)
+            path = ARTEFACTS / f"{name}-in-jupyterlab.png"
+            assert until(lambda element=element, path=path: not is_blank(element.screenshot(path=str(path)))), name
+
+
+# Panels
+
+
+@pytest.fixture(scope="module")
+def notebook(open_notebook):
     cells = (
         "from bootcourse.panels import drive_panel, sweep_panel, train_panel\nmine = drive_panel(seed=3)\nmine",
         "swept = sweep_panel('sweep.npz')\nswept",
@@ -39,8 +77,9 @@ def notebook(tmp_path_factory):
         THINKING + "weighed = policy_panel(drive)\nweighed",
         "from bootcourse.panels import bonus_panel\nbonus = bonus_panel()\nbonus",
         "from bootcourse.panels import scenario_panel\nworld = scenario_panel()\nworld",
+        "from bootcourse.lessons import predict\npredict('5.1', 'Does <b>it</b> stay?', ['<i>yes</i>', 'no'])",
     )
-    with open_notebook(folder, *cells, width=1366) as it:
+    with open_notebook(*cells) as it:
         it.page.set_default_timeout(20_000)
         it.run_all()
         it.page.wait_for_selector(".bc-drive[data-bc-keys]")
@@ -164,9 +203,19 @@ def test_a_training_grows_on_the_page_stops_and_is_watched(notebook):
     assert statistics.median(took) < 200, took  # another panel answers while it trains
 
 
+def test_the_keyboard_commits_a_prediction(notebook):
+    shown = panel(notebook, 6)
+    shown.locator("input[type=radio]").first.focus()
+    for key in ("ArrowDown", "Tab", "Enter"):
+        notebook.page.keyboard.press(key)
+    waits_for(notebook, 6, "You predict: no.")
+    assert "Does <b>it</b> stay?" in shown.inner_text() and "<i>yes</i>" in shown.inner_text()
+    assert json.loads((notebook.folder / FILE).read_text())["5.1"]["answer"] == "no"
+
+
 def test_the_panels_fit_their_column_and_the_console_has_no_error(notebook):
     widths = notebook.page.evaluate(
         "[...document.querySelectorAll('.bc-panel')].map(p => [p.scrollWidth, p.clientWidth])"
     )
-    assert len(widths) == 6 and all(scroll <= client for scroll, client in widths)
+    assert len(widths) == 7 and all(scroll <= client for scroll, client in widths)
     assert not [error for error in notebook.shown.errors if "WebGL" not in error]

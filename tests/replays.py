@@ -1,0 +1,17 @@
+"""Drives that tests of the replay share: short ones, ten cars, and an agent's thoughts."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from bootcourse.scenario import DEFAULT, Clock
+
+SHORT = replace(DEFAULT, clock=Clock(decisions=20))
+TEN_CARS = replace(DEFAULT, traffic=replace(DEFAULT.traffic, cars=7))
+
+
+def thinking(rollout, label="bootstrapped"):
+    """The same drive, with the probabilities and values of an agent that nobody has trained."""
+    rng = np.random.default_rng(0)
+    policy = rng.dirichlet(np.ones(9), size=len(rollout.actions))
+    return replace(rollout, label=label, policy=policy, q_values=rng.normal(size=policy.shape))
