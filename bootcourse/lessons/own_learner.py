@@ -69,18 +69,28 @@ def parts_of(settings: Sequence[Settings], own: Parts) -> list[str]:
     return names
 
 
-class OwnSAC(SACLearner):
-    """SAC with the paper's additions whose parts are functions of one agent; all other arguments as SACLearner's."""
+class Own:
+    """Comes before a method's learner: its parts are functions of one agent. All other arguments as the learner's."""
 
     def __init__(self, own: Parts, *arguments):
         self.own = own
         super().__init__(*arguments)
-        if "margin_loss" in own and (self.margin * (1 - self.paper_q_filter)).any():
-            raise BootcourseError("Your `margin_loss` has the printed Q-filter: leave paper_q_filter at True.")
+
+    def part(self, name: str) -> Callable:
+        return part(self.own, name)
 
     def each(self, compute: Callable[[int], Tensor]) -> Tensor:
         """The values of compute(i) for all agents i: (agents, ...)."""
         return torch.stack([compute(i) for i in range(self.agents)])
+
+
+class OwnSAC(Own, SACLearner):
+    """SAC with the paper's additions."""
+
+    def __init__(self, own: Parts, *arguments):
+        super().__init__(own, *arguments)
+        if "margin_loss" in own and (self.margin * (1 - self.paper_q_filter)).any():
+            raise BootcourseError("Your `margin_loss` has the printed Q-filter: leave paper_q_filter at True.")
 
     def critic_target(self, batch: Batch) -> Tensor:
         next_log_pi = sac.log_policy(mlp(self.actor, batch.next_states))  # (agents, batch, 9)
@@ -92,16 +102,15 @@ class OwnSAC(SACLearner):
         def target(i: int) -> Tensor:
             alpha, gamma = self.alpha[i, 0], float(self.gamma[i])
             if "constrained_target" in self.own:
-                whole = self.own["constrained_target"]
                 mine = reward[i], batch.terminated[i], next_log_pi[i], next_q[:, i], next_kl[i]
-                return whole(*mine, float(alpha), float(xi[i]), gamma)
-            value = part(self.own, "soft_value")(next_log_pi[i], sac.min_q(next_q[:, i]), alpha) - xi[i] * next_kl[i]
-            return part(self.own, "critic_target")(reward[i], batch.terminated[i], value, gamma)
+                return self.own["constrained_target"](*mine, float(alpha), float(xi[i]), gamma)
+            value = self.part("soft_value")(next_log_pi[i], sac.min_q(next_q[:, i]), alpha) - xi[i] * next_kl[i]
+            return self.part("critic_target")(reward[i], batch.terminated[i], value, gamma)
 
         return self.each(target)
 
     def squared_error(self, q_pair: Tensor, actions: Tensor, target: Tensor) -> Tensor:
-        loss = part(self.own, "critic_loss")
+        loss = self.part("critic_loss")
         return self.each(lambda i: loss(q_pair[:, i], actions[i], target[i]))
 
     def margin_loss(self, q_pair: Tensor, log_pi: Tensor, batch: Batch) -> Tensor:
@@ -114,12 +123,12 @@ class OwnSAC(SACLearner):
         def loss(i: int) -> Tensor:
             if "constrained_loss" in self.own:
                 return self.own["constrained_loss"](log_pi[i], q[i], float(self.alpha[i]), float(self.xi[i]), kl[i])
-            return part(self.own, "actor_loss")(log_pi[i], q[i], self.alpha[i, 0]) + self.xi[i, 0] * kl[i].mean()
+            return self.part("actor_loss")(log_pi[i], q[i], self.alpha[i, 0]) + self.xi[i, 0] * kl[i].mean()
 
         return self.each(loss)
 
     def temperature_loss(self, entropy: Tensor) -> Tensor:
-        loss = part(self.own, "temperature_loss")
+        loss = self.part("temperature_loss")
         return self.each(lambda i: loss(self.log_alpha[i], entropy[i], self.target_entropy[i, 0]))
 
     def kl(self, log_pi: Tensor, rule_actions: Tensor) -> Tensor:
@@ -129,15 +138,11 @@ class OwnSAC(SACLearner):
         return self.each(lambda i: kl(log_pi[i], rule_actions[i], float(self.rule_p[i])))
 
 
-class OwnCQL(CQLLearner):
-    """CQL whose critics' loss is a function of one critic of one agent."""
-
-    def __init__(self, own: Parts, *arguments):
-        self.own = own
-        super().__init__(*arguments)
+class OwnCQL(Own, CQLLearner):
+    """CQL: the student's loss is that of one critic."""
 
     def losses(self, batch: Batch) -> dict[str, Tensor]:
-        loss, q_pair = part(self.own, "offline_loss"), self.q_pair(self.critics, batch.states)  # (2, agents, batch, 9)
+        loss, q_pair = self.part("offline_loss"), self.q_pair(self.critics, batch.states)  # (2, agents, batch, 9)
         next_q = self.q_pair(self.critics, batch.next_states)[0].detach()
         next_target = sac.min_q(self.q_pair(self.target_critics, batch.next_states)).detach()
 
@@ -145,89 +150,64 @@ class OwnCQL(CQLLearner):
             rows = next_q[i], next_target[i], batch.actions[i], batch.rewards[i], batch.terminated[i]
             return sum(loss(q[i], *rows, float(self.gamma[i]), float(self.cql_weight[i])) for q in q_pair)
 
-        return {"critic_loss": torch.stack([of_agent(i) for i in range(self.agents)])}
+        return {"critic_loss": self.each(of_agent)}
 
 
-class OwnGAIL(GAILLearner):
-    """GAIL whose discriminator's loss and reward are functions of one agent."""
-
-    def __init__(self, own: Parts, *arguments):
-        self.own = own
-        super().__init__(*arguments)
+class OwnGAIL(Own, GAILLearner):
+    """GAIL: the discriminator's loss, and the reward."""
 
     def discriminator_loss(self, expert_logits: Tensor, own_logits: Tensor) -> Tensor:
-        loss = part(self.own, "discriminator_loss")
-        return torch.stack([loss(*rows) for rows in zip(expert_logits, own_logits, strict=True)])
+        loss = self.part("discriminator_loss")
+        return self.each(lambda i: loss(expert_logits[i], own_logits[i]))
 
     def imitation_reward(self, own_logits: Tensor) -> Tensor:
-        return torch.stack([part(self.own, "imitation_reward")(row) for row in own_logits])
+        return self.each(lambda i: self.part("imitation_reward")(own_logits[i]))
 
 
-class OwnPPO(PPOLearner):
-    """PPO whose advantages and clipped objective are functions of one agent."""
-
-    def __init__(self, own: Parts, *arguments):
-        self.own = own
-        super().__init__(*arguments)
+class OwnPPO(Own, PPOLearner):
+    """PPO: the advantages, and the clipped objective."""
 
     def advantages(self, *columns: Tensor) -> Tensor:
-        compute, lam = part(self.own, "advantages"), self.settings[0].gae_lambda
+        compute, lam = self.part("advantages"), self.settings[0].gae_lambda
         each = [compute(*(column[:, i] for column in columns), float(self.gamma[i]), lam) for i in range(self.agents)]
         return torch.stack(each, dim=1)
 
     def clipped_loss(self, ratio: Tensor, advantage: Tensor) -> Tensor:
-        loss, clip = part(self.own, "clipped_loss"), self.settings[0].clip
-        return torch.stack([loss(*rows, clip) for rows in zip(ratio, advantage, strict=True)])
+        loss, clip = self.part("clipped_loss"), self.settings[0].clip
+        return self.each(lambda i: loss(ratio[i], advantage[i], clip))
 
 
-class OwnRLPD(RLPDLearner):
-    """RLPD whose target takes the smallest of the chosen critics by a function of one agent."""
-
-    def __init__(self, own: Parts, *arguments):
-        self.own = own
-        super().__init__(*arguments)
+class OwnRLPD(Own, RLPDLearner):
+    """RLPD: the target's choice of the smallest of the chosen critics."""
 
     def target_q(self, states: Tensor) -> Tensor:
         q, chosen = self.q_pair(self.target_critics, states), self.drawn_critics()
-        smallest = part(self.own, "smallest_of")
-        return torch.stack([smallest(q[:, i], chosen[i]) for i in range(self.agents)])
+        return self.each(lambda i: self.part("smallest_of")(q[:, i], chosen[i]))
 
 
-class OwnIBRL(IBRLLearner):
-    """IBRL whose choice between the rule's action and the agent's own is a function of one agent."""
-
-    def __init__(self, own: Parts, *arguments):
-        self.own = own
-        super().__init__(*arguments)
+class OwnIBRL(Own, IBRLLearner):
+    """IBRL: the choice between the rule's action and the agent's own."""
 
     def choice(self, states: Tensor, rule_actions: Tensor) -> tuple[Tensor, Tensor]:
         q, pi = self.target_q(states), mlp(self.actor, states).softmax(-1)
-        better = part(self.own, "better_of_two")
-        return torch.stack([better(*rows) for rows in zip(pi, q, rule_actions, strict=True)]), q
+        better = self.part("better_of_two")
+        return self.each(lambda i: better(pi[i], q[i], rule_actions[i])), q
 
 
-class OwnJSRL(JSRLLearner):
-    """Jump-start RL whose guide shrinks by a function of one agent's returns."""
-
-    def __init__(self, own: Parts, *arguments):
-        self.own = own
-        super().__init__(*arguments)
+class OwnJSRL(Own, JSRLLearner):
+    """Jump-start RL: how the guide shrinks with one agent's returns."""
 
     def shrinks(self, agent: int) -> bool:
         returns, best, shared = self.returns[agent].tolist(), float(self.best[agent]), self.settings[0]
-        return bool(part(self.own, "guide_shrinks")(returns, best, shared.window, shared.tolerance))
+        return bool(self.part("guide_shrinks")(returns, best, shared.window, shared.tolerance))
 
 
-class OwnSafe(SafeLearner):
-    """PPO with a price of accidents that is changed by a function of one agent."""
-
-    def __init__(self, own: Parts, *arguments):
-        self.own = own
-        super().__init__(*arguments)
+class OwnSafe(Own, SafeLearner):
+    """PPO with a price of accidents: the price's next value."""
 
     def next_multiplier(self, rate: Tensor) -> Tensor:
         columns = (self.multiplier, rate, self.accident_budget, self.multiplier_step)  # (agents, 1) each
-        step = part(self.own, "multiplier_step")
+        step = self.part("multiplier_step")
         return torch.tensor([[float(step(*row))] for row in torch.cat(columns, dim=1).tolist()])
 
 
