@@ -98,5 +98,10 @@ class Exercise:
         return "●" * self.difficulty + "○" * (3 - self.difficulty)
 
     def all_arguments(self) -> list[tuple]:
-        """The arguments of every case, those of `worked` first; they are the same at each call."""
-        return [arguments for arguments, _ in self.worked] + list(self.cases(np.random.default_rng(0)))
+        """The arguments of every case, those of `worked` first; they are the same at each call.
+
+        A number that NumPy drew becomes Python's, as a student would write it.
+        """
+        drawn = self.cases(np.random.default_rng(0))
+        plainly = [tuple(one.item() if isinstance(one, np.generic) else one for one in case) for case in drawn]
+        return [arguments for arguments, _ in self.worked] + plainly

@@ -97,12 +97,12 @@ def batch_cases(rng):
         (64, 0.51, 1.0),
         (32, 0.6, 0.0),
     ):
-        yield numbered(0, 300, int(rng.integers(7, 14))), size, beta, bonus
+        yield numbered(0, 300, rng.integers(7, 14)), size, beta, bonus
     for width, beta in ((8, 0.5), (11, 0.4), (10, 0.25)):
         yield numbered(0, SMALL, width), 20, beta, 2.0
     for _ in range(16):
-        size, beta, bonus = int(rng.integers(12, 65)), float(rng.uniform(0.1, 0.9)), float(rng.uniform(0.1, 3))
-        yield numbered(0, 300, int(rng.integers(7, 14))), size, beta, bonus
+        size, beta, bonus = rng.integers(12, 65), rng.uniform(0.1, 0.9), rng.uniform(0.1, 3)
+        yield numbered(0, 300, rng.integers(7, 14)), size, beta, bonus
 
 
 def of_the_batches(cases, answers):

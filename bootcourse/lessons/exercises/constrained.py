@@ -75,7 +75,7 @@ def target_cases(rng):
         numbers = torch.tensor(rng.normal(0, 3, size)), torch.tensor(rng.random(size) < ended).double()
         q_pair, kl = torch.tensor(rng.normal(0, 3, (2, size, 9))), torch.tensor(rng.uniform(0, 4, size))
         alpha, xi = rng.uniform(0.05, 1) if alpha is None else alpha, rng.uniform(0.1, 2) if xi is None else xi
-        return *numbers, log_pi, q_pair, kl, float(alpha), float(xi), float(rng.uniform(0.5, 0.99))
+        return *numbers, log_pi, q_pair, kl, float(alpha), float(xi), rng.uniform(0.5, 0.99)
 
     yield case(4, ended=1.0)
     yield case(4, ended=0.0)
@@ -84,7 +84,7 @@ def target_cases(rng):
     yield case(1, ended=0.0)
     yield case(9)
     for _ in range(40):
-        yield case(int(rng.integers(2, 7)))
+        yield case(rng.integers(2, 7))
 
 
 def target_with(value):

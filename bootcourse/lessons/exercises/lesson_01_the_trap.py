@@ -84,7 +84,7 @@ def reward_cases(rng):
         yield 10.0, 0.8, theta, 0
     for _ in range(40):
         v, d, theta = rng.uniform(0, 17), rng.uniform(-2, 2), rng.uniform(-1, 1)
-        yield float(v), float(d), float(theta), int(rng.choice(4, p=[0.7, 0.1, 0.1, 0.1]))
+        yield float(v), float(d), float(theta), rng.choice(4, p=[0.7, 0.1, 0.1, 0.1])
 
 
 reward = Exercise(
@@ -139,7 +139,7 @@ def idle_cases(rng):
         for speed in (6.0, 10.0, 12.5):
             yield speed, seconds
     for _ in range(30):
-        yield float(rng.uniform(5.1, 12.5)), int(rng.integers(1, 151))
+        yield rng.uniform(5.1, 12.5), rng.integers(1, 151)
 
 
 idle_return = Exercise(
@@ -259,7 +259,7 @@ def outcomes_cases(rng):
     yield np.array([1500.0, 12.0]), np.array([1515.0, 27.0]), np.array([0, 2])
     yield np.array([700.0, 700.01, 699.99]), np.array([700.0, 700.0, 700.0]), np.array([1, 3, 1])
     for _ in range(30):
-        n = int(rng.integers(1, 12))
+        n = rng.integers(1, 12)
         yield rng.uniform(0, 2000, n), rng.uniform(15, 1515, n), rng.choice(4, n, p=[0.4, 0.3, 0.2, 0.1])
 
 

@@ -98,7 +98,7 @@ def behind_cases(rng):
     for _ in range(25):
         leader = np.maximum(rng.uniform(5, 14) + np.cumsum(rng.normal(0, 0.8, 8)), 0)
         driver = rng.uniform([9, 2, 0.8, 0.4, 0.4, 1.5, 2], [16, 11, 2, 2, 2, 5, 8]).tolist()
-        yield leader, float(rng.uniform(4, 12)), float(rng.uniform(25, 60)), float(rng.choice([0.25, 0.5])), *driver
+        yield leader, rng.uniform(4, 12), rng.uniform(25, 60), rng.choice([0.25, 0.5]), *driver
 
 
 drive_behind = Exercise(
@@ -229,7 +229,7 @@ def changing_cases(rng):
             float(before),
             float(after),
             float(old),
-            float(rng.choice([0.0, 0.3, 0.5, 1.0])),
+            rng.choice([0.0, 0.3, 0.5, 1.0]),
             threshold,
             limit,
         )
@@ -305,7 +305,7 @@ def heading_cases(rng):
         yield 1.0, tau, 0.5, 6
     yield 0.1, 0.6, 0.5, 0
     for _ in range(30):
-        yield *rng.uniform([-0.3, 0.15, 0.05], [0.3, 1.0, 0.5]).tolist(), int(rng.integers(1, 8))
+        yield *rng.uniform([-0.3, 0.15, 0.05], [0.3, 1.0, 0.5]).tolist(), rng.integers(1, 8)
 
 
 def step_by_step(error, factor, steps):

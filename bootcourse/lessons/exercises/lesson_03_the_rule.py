@@ -28,7 +28,7 @@ def speed_cases(rng):
     yield 16.0, 14.9, 6.0, 15.0, 2
     for _ in range(60):
         low = rng.uniform(3, 8)
-        yield *rng.uniform(4, 18, 2).tolist(), float(low), float(low + rng.uniform(3, 10)), int(rng.integers(2, 9))
+        yield *rng.uniform(4, 18, 2).tolist(), float(low), float(low + rng.uniform(3, 10)), rng.integers(2, 9)
 
 
 target_speed = Exercise(
@@ -306,7 +306,7 @@ def stochastic_cases(rng):
     yield np.array([3, 3, 8]), 1 / 9
     yield np.array([0]), 0.999
     for _ in range(40):
-        yield rng.integers(0, 9, int(rng.integers(1, 6))), float(rng.uniform(0.12, 0.99))
+        yield rng.integers(0, 9, rng.integers(1, 6)), rng.uniform(0.12, 0.99)
 
 
 stochastic_rule = Exercise(

@@ -59,7 +59,7 @@ entropy = Exercise(
 def value_cases(rng):
     """The policies above, with α = 0 and α = 1 first, and random values."""
     for number, log_pi in enumerate(policies(rng)):
-        alpha = (0.0, 1.0, 0.2)[number] if number < 3 else float(rng.uniform(0.01, 1))
+        alpha = (0.0, 1.0, 0.2)[number] if number < 3 else rng.uniform(0.01, 1)
         yield log_pi, torch.tensor(rng.normal(0, 3, tuple(log_pi.shape))), torch.tensor(alpha)
 
 
@@ -111,7 +111,7 @@ def cases(rng):
     for size, ended, gamma in ((4, 1.0, 0.8), (4, 0.0, 0.8), (1, 0.0, 0.9), (3, 0.5, 1.0), (3, 0.5, 0.0)):
         yield batch(size, ended, gamma)
     for _ in range(60):
-        yield batch(int(rng.integers(1, 7)), 0.4, float(rng.uniform(0.1, 0.99)))
+        yield batch(rng.integers(1, 7), 0.4, rng.uniform(0.1, 0.99))
 
 
 critic_target = Exercise(
@@ -170,7 +170,7 @@ def pair_cases(rng):
     q_pair, action, _ = case(3)
     yield q_pair, action, q_pair[0].gather(-1, action[:, None])[:, 0]
     for _ in range(30):
-        yield case(int(rng.integers(2, 8)))
+        yield case(rng.integers(2, 8))
 
 
 def errors(q_pair, action, target):
@@ -266,10 +266,10 @@ actor_loss = Exercise(
 def temperature_cases(rng):
     """Entropy on target, above, below, a negative target; then 30 at random."""
     pairs = [(0.5, 0.5), (2.0, 0.5), (0.1, 0.5), (0.3, -1.0)]
-    pairs += [(float(rng.uniform(0, 2.2)), float(rng.uniform(-1, 2))) for _ in range(30)]
+    pairs += [(rng.uniform(0, 2.2), rng.uniform(-1, 2)) for _ in range(30)]
     for middle, target in pairs:
-        state_entropy = torch.tensor(middle + 0.05 * rng.normal(0, 1, int(rng.integers(2, 6))))
-        yield torch.tensor(float(rng.uniform(-5, 0.5))), state_entropy, torch.tensor(target)
+        state_entropy = torch.tensor(middle + 0.05 * rng.normal(0, 1, rng.integers(2, 6)))
+        yield torch.tensor(rng.uniform(-5, 0.5)), state_entropy, torch.tensor(target)
 
 
 temperature_loss = Exercise(

@@ -14,7 +14,7 @@ def share_cases(rng):
     """Now (everything is still to come), far away, a γ near 1; then 40 at random."""
     yield from ((0.8, 0), (0.8, 50), (0.99, 1), (0.5, 1))
     for _ in range(40):
-        yield float(rng.uniform(0.5, 0.99)), int(rng.integers(1, 60))
+        yield rng.uniform(0.5, 0.99), rng.integers(1, 60)
 
 
 share_of_the_future = Exercise(
@@ -56,7 +56,7 @@ def luck_cases(rng):
     """One try, every action good, one decision; then 50 at random."""
     yield from ((3, 2, 1), (9, 20, 5), (1, 1, 9), (1, 8, 1000))
     for _ in range(50):
-        yield int(rng.integers(1, 9)), int(rng.integers(1, 8)), int(rng.integers(1, 300))
+        yield rng.integers(1, 9), rng.integers(1, 8), rng.integers(1, 300)
 
 
 luck = Exercise(
@@ -121,8 +121,8 @@ def chain_cases(rng):
     yield np.array([1, 1, 0] * 15), 0.8, 1.0, chain.WAY_OUT[3:]
     for k in range(30):
         taught = chain.WAY_OUT if k % 2 else ()
-        drawn = chain.chances(float(rng.uniform(0.2, 1)), int(rng.integers(5, 90)), int(rng.integers(1000)))
-        yield drawn, float(rng.uniform(0.5, 0.95)), float(rng.uniform(0.1, 0.9)), taught
+        drawn = chain.chances(rng.uniform(0.2, 1), rng.integers(5, 90), rng.integers(1000))
+        yield drawn, rng.uniform(0.5, 0.95), rng.uniform(0.1, 0.9), taught
 
 
 learn_chain = Exercise(

@@ -28,8 +28,8 @@ def transitions_cases(rng):
     """Each ending, a drive of one decision; then 30 at random."""
     endings = [0, 1, 2, 3, *rng.integers(0, 4, 30)]
     for k, accident in enumerate(endings):
-        decisions = 1 if k == 4 else int(rng.integers(2, 6))
-        size = int(rng.integers(2, 4))
+        decisions = 1 if k == 4 else rng.integers(2, 6)
+        size = rng.integers(2, 4)
         observations = rng.normal(size=(decisions + 1, size))
         yield observations, rng.integers(0, 9, decisions), rng.normal(size=decisions), int(accident)
 
@@ -94,7 +94,7 @@ def reward_cases(rng):
     yield np.array([2.0]), 0.8
     yield np.array([0.0, 0.0, 0.0, 10.0]), 0.8
     for _ in range(40):
-        yield rng.normal(size=int(rng.integers(2, 20))), float(rng.uniform(0.3, 0.99))
+        yield rng.normal(size=rng.integers(2, 20)), rng.uniform(0.3, 0.99)
 
 
 return_to_go = Exercise(
@@ -141,7 +141,7 @@ def agreement_cases(rng):
     yield np.eye(9)[[3, 5]], np.array([5, 3])
     yield np.full((1, 9), 0.05) + 0.55 * np.eye(9)[[2]], np.array([2])
     for _ in range(40):
-        n = int(rng.integers(2, 12))
+        n = rng.integers(2, 12)
         pi = rng.dirichlet(np.full(9, 0.5), n)
         yield pi, np.where(rng.random(n) < 0.6, pi.argmax(1), rng.integers(0, 9, n))
 
@@ -182,7 +182,7 @@ def cloning_cases(rng):
     yield torch.full((1, 9), -np.log(9)).double(), torch.tensor([3])
     yield torch.tensor(rng.normal(0, 8, (9, 9))).log_softmax(-1), torch.tensor(rng.integers(0, 9, 9))
     for _ in range(40):
-        n = int(rng.integers(2, 8))
+        n = rng.integers(2, 8)
         yield torch.tensor(rng.normal(0, 2, (n, 9))).log_softmax(-1), torch.tensor(rng.integers(0, 9, n))
 
 

@@ -26,7 +26,7 @@ def rule_cases(rng):
     yield torch.tensor([4]), 0.5
     yield torch.arange(9), 0.99
     for _ in range(40):
-        yield torch.tensor(rng.integers(0, 9, int(rng.integers(1, 6)))), float(rng.uniform(0.15, 0.99))
+        yield torch.tensor(rng.integers(0, 9, rng.integers(1, 6))), rng.uniform(0.15, 0.99)
 
 
 log_stochastic_rule = Exercise(
@@ -105,7 +105,7 @@ def cases(rng):
     sizes = [9, 1, *rng.integers(1, 5, 50)]
     for size in sizes:
         log_pi = torch.tensor(rng.normal(0, rng.uniform(0.5, 4), (size, 9))).log_softmax(-1)
-        yield log_pi, torch.tensor(rng.integers(0, 9, size)), float(rng.uniform(0.15, 0.99))
+        yield log_pi, torch.tensor(rng.integers(0, 9, size)), rng.uniform(0.15, 0.99)
 
 
 soft_constraint = Exercise(
@@ -165,14 +165,14 @@ def policy_cases(rng):
 
     def case(size, alpha, xi, scale=2.0):
         q = torch.tensor(rng.normal(0, scale, (size, 9)))
-        p = float(rng.uniform(0.2, 0.99))
+        p = rng.uniform(0.2, 0.99)
         return q, log_rule(torch.tensor(rng.integers(0, 9, size)), p, (1 - p) / 8).double(), alpha, xi
 
     yield case(3, 0.5, 0.0)
     yield case(2, 0.3, 0.7, scale=0.0)
     yield case(1, 0.01, 2.0)
     for _ in range(40):
-        yield case(int(rng.integers(1, 5)), float(rng.uniform(0.2, 2)), float(rng.uniform(0.05, 3)))
+        yield case(rng.integers(1, 5), rng.uniform(0.2, 2), rng.uniform(0.05, 3))
 
 
 regularised_policy = Exercise(

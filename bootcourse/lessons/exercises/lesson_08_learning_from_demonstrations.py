@@ -21,7 +21,7 @@ def q_cases(rng):
     yield torch.tensor([[0.3, -0.2, 0.1]]), torch.tensor([1])
     yield torch.tensor([[-5.0, -7.0, -6.0], [-5.0, -7.0, -6.0]]), torch.tensor([0, 1])
     for _ in range(40):
-        size = int(rng.integers(1, 6))
+        size = rng.integers(1, 6)
         yield torch.tensor(rng.normal(0, 1, (size, 9))), torch.tensor(rng.integers(0, 9, size))
 
 
@@ -128,7 +128,7 @@ def filter_cases(rng):
         yield torch.tensor([[9.0, 5.0, 1.0]], dtype=dtype), torch.tensor([1]), greedy.to(dtype)
         yield torch.tensor([[-3.0, -1.0, -2.0]], dtype=dtype), torch.tensor([1]), greedy.to(dtype)
     for _ in range(40):
-        size = int(rng.integers(1, 6))
+        size = rng.integers(1, 6)
         log_pi = torch.tensor(rng.normal(0, 2, (size, 9))).log_softmax(-1)
         yield torch.tensor(rng.normal(0, 1, (size, 9))), torch.tensor(rng.integers(0, 9, size)), log_pi
 
@@ -186,7 +186,7 @@ def margin_loss_solution(q_pair, action, is_demonstration):
 def margin_cases(rng):
     """No demonstration, all demonstrations, float32; then 40 at random. Experts lead by about 1, are level, behind."""
     for number in range(43):
-        size = int(rng.integers(2, 9))
+        size = rng.integers(2, 9)
         q_pair, action = torch.tensor(rng.normal(0, 1, (2, size, 9))), torch.tensor(rng.integers(0, 9, size))
         lead = torch.tensor(rng.choice([2.0, 1.05, 0.95, 0.4, 0.0, -0.02, -1.0], (2, size, 1)))
         best = q_pair.amax(-1, keepdim=True) + lead

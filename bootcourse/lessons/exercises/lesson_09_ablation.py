@@ -25,8 +25,8 @@ def count_cases(rng):
     """None and all of few and of many; then 40 at random."""
     yield from ((0, 10), (10, 10), (1, 10), (20, 20), (0, 1))
     for _ in range(40):
-        n = int(rng.integers(2, 60))
-        yield int(rng.integers(0, n + 1)), n
+        n = rng.integers(2, 60)
+        yield rng.integers(0, n + 1), n
 
 
 exact_interval = Exercise(
@@ -77,7 +77,7 @@ def score_cases(rng):
     yield (np.full(10, 23.4375),)
     yield (np.array([3.0, 1.0, 8.0]),)
     for _ in range(40):
-        yield (rng.exponential(20, int(rng.integers(2, 21))) - 10,)
+        yield (rng.exponential(20, rng.integers(2, 21)) - 10,)
 
 
 interquartile_mean = Exercise(
@@ -125,8 +125,8 @@ def draw_cases(rng):
     for scores in (np.array([0.0] * 8 + [1.0] * 2), np.full(5, 3.0)):
         yield scores, rng.integers(len(scores), size=(200, len(scores)))
     for _ in range(40):
-        scores = rng.exponential(30, int(rng.integers(3, 12))) - 10
-        yield scores, rng.integers(len(scores), size=(int(rng.integers(50, 300)), len(scores)))
+        scores = rng.exponential(30, rng.integers(3, 12)) - 10
+        yield scores, rng.integers(len(scores), size=(rng.integers(50, 300), len(scores)))
 
 
 bootstrap_interval = Exercise(
@@ -178,7 +178,7 @@ def rival_cases(rng):
     yield np.array([5.0, 6.0]), np.array([1.0, 2.0])
     yield np.array([1.0, 2.0]), np.array([5.0, 2.0])
     for _ in range(40):
-        m = int(rng.integers(2, 9))
+        m = rng.integers(2, 9)
         yield rng.integers(0, 9, m).astype(float), rng.integers(0, 7, m).astype(float)
     yield np.array([5.0]), np.array([6.0, 1.0, 5.0, 2.0])
     yield np.array([6.0, 1.0, 5.0]), np.array([4.0])

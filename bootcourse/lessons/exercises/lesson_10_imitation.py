@@ -78,7 +78,7 @@ def logit_cases(rng):
     yield (torch.tensor([60.0, -60.0, 1.0]).double(),)
     yield (torch.tensor([100.0, -100.0, 2.0]),)
     for _ in range(40):
-        yield (torch.tensor(rng.normal(0, 3, int(rng.integers(1, 8)))),)
+        yield (torch.tensor(rng.normal(0, 3, rng.integers(1, 8))),)
 
 
 imitation_reward = Exercise(
@@ -135,8 +135,8 @@ def rate_cases(rng):
     """One of 20, none, all, one of two; then 40 at random."""
     yield from ((1, 20), (0, 20), (20, 20), (1, 2))
     for _ in range(40):
-        n = int(rng.integers(3, 60))
-        yield int(rng.integers(1, n)), n
+        n = rng.integers(3, 60)
+        yield rng.integers(1, n), n
 
 
 deviation_of_a_rate = Exercise(

@@ -20,7 +20,7 @@ def offline_cases(rng):
     yield ahead, torch.tensor([2, 5])
     yield ahead, torch.tensor([5, 2])
     for _ in range(40):
-        n = int(rng.integers(2, 8))
+        n = rng.integers(2, 8)
         yield torch.tensor(rng.normal(0, 2, (n, 9))), torch.tensor(rng.integers(0, 9, n))
 
 
@@ -96,11 +96,11 @@ def without_stop(q, next_q, next_target, actions, rewards, terminated, gamma, we
 def critic_cases(rng):
     """No weight, no next value, both ends; critics that disagree on the best action; then 30 at random."""
     for case in range(34):
-        n = int(rng.integers(2, 7))
+        n = rng.integers(2, 7)
         q, next_q, next_target = (torch.tensor(rng.normal(0, 2, (n, 9))) for _ in range(3))
         terminated = torch.tensor((rng.random(n) < (0.0, 1.0, 0.5)[case % 3]).astype(float))
         actions, rewards = torch.tensor(rng.integers(0, 9, n)), torch.tensor(rng.normal(0, 2, n))
-        gamma, weight = float(rng.choice([0.5, 0.8, 0.99])), float((0.0, 1.0, 0.3, 5.0)[case % 4])
+        gamma, weight = rng.choice([0.5, 0.8, 0.99]), float((0.0, 1.0, 0.3, 5.0)[case % 4])
         yield q, next_q, next_target, actions, rewards, terminated, gamma, weight
 
 
@@ -169,7 +169,7 @@ def bound_cases(rng):
     yield np.array([[-10.0, -9.5, -9.0], [23.4, 23.4, 23.4]]), np.array([140.0, 141.0, 142.0])
     yield np.array([[20.0, 40.0], [10.0, 80.0]]), np.array([20.0, 160.0])
     for _ in range(40):
-        agents, episodes = int(rng.integers(2, 6)), int(rng.integers(2, 8))
+        agents, episodes = rng.integers(2, 6), rng.integers(2, 8)
         bound = rng.uniform(20, 150, episodes)
         yield bound * rng.uniform(-0.3, 1, (agents, episodes)), bound
 

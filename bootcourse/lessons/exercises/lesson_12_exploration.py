@@ -26,7 +26,7 @@ def policy_cases(rng):
     """Sure, even, halves; then 40 at random."""
     yield from ((SURE,), (EVEN,), (HALVES,))
     for _ in range(40):
-        yield (some_policies(rng, int(rng.integers(1, 8))),)
+        yield (some_policies(rng, rng.integers(1, 8)),)
 
 
 effective_actions = Exercise(
@@ -90,8 +90,8 @@ def place_cases(rng):
     yield np.array([-50.0, 5.0, 90.0]), np.array([3.0, 1.0, 4.0]), edges
     yield np.array([-15.0, 12.0]), np.array([0.5, 1.5]), edges
     for _ in range(40):
-        n = int(rng.integers(3, 60))
-        yield rng.normal(0, 25, n), rng.uniform(0, 2.2, n), np.sort(rng.uniform(-50, 50, int(rng.integers(3, 8))))
+        n = rng.integers(3, 60)
+        yield rng.normal(0, 25, n), rng.uniform(0, 2.2, n), np.sort(rng.uniform(-50, 50, rng.integers(3, 8)))
 
 
 where_explored = Exercise(
@@ -152,8 +152,8 @@ def cell_cases(rng):
     yield np.array([5.0, 15.0, 25.0]), np.array([0, 1, 2]), edges, 3
     yield np.array([0.0, 10.0]), np.array([2, 0]), edges, 3
     for _ in range(40):
-        n = int(rng.integers(1, 40))
-        edges = np.arange(-30.0, 31.0, float(rng.integers(5, 15)))
+        n = rng.integers(1, 40)
+        edges = np.arange(-30.0, 31.0, rng.integers(5, 15))
         yield rng.normal(0, 20, n), rng.integers(0, 3, n), edges, 3
 
 
@@ -201,7 +201,7 @@ def drive_cases(rng):
     """A drive of one decision, a sure one, an even one; then 40 at random."""
     yield from ((HALVES[:1],), (SURE,), (EVEN,), (np.concatenate([SURE, HALVES]),))
     for _ in range(40):
-        yield (some_policies(rng, int(rng.integers(2, 12))),)
+        yield (some_policies(rng, rng.integers(2, 12)),)
 
 
 ever_tries = Exercise(
@@ -252,8 +252,8 @@ def training_curves(rng):
     yield np.array([[1, 1, 0, 0, 0, 1, 0, 0]]), 2
     yield np.array([[0, 1, 1, 0]]), 4
     for _ in range(30):
-        agents, episodes = int(rng.integers(1, 4)), int(rng.integers(6, 20))
-        yield (rng.random((agents, episodes)) < rng.random((agents, 1))).astype(int), int(rng.integers(2, 6))
+        agents, episodes = rng.integers(1, 4), rng.integers(6, 20)
+        yield (rng.random((agents, episodes)) < rng.random((agents, 1))).astype(int), rng.integers(2, 6)
 
 
 def with_last(change):

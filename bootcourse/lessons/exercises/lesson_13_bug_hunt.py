@@ -29,7 +29,7 @@ def end_cases(rng):
     """No accident at all, only accidents, one row; then 40 at random, half of them on a road with other rewards."""
     shares = [0.0, 1.0, 1.0, *rng.uniform(0.2, 0.8, 40)]
     for number, share in enumerate(shares):
-        n = 1 if number == 2 else int(rng.integers(3, 9))
+        n = 1 if number == 2 else rng.integers(3, 9)
         terminated = (rng.random(n) < share).astype(float)
         rewards = rng.uniform(-10, 5, n) if number % 2 else np.where(terminated > 0, -10.0, rng.uniform(0, 1, n))
         yield rng.normal(-10, 6, (n, 9)), rng.integers(0, 9, n), rewards, terminated
@@ -141,12 +141,12 @@ def target_cases(rng):
     """Nothing special, all demonstrations, all terminated, no bonus; then 40 at random."""
     kinds = [(0, 0, 2.0), (1, 0, 2.0), (0, 1, 2.0), (1, 1, 0.0)]
     for number in range(44):
-        n = int(rng.integers(2, 6))
-        demos, ended, bonus = kinds[number] if number < 4 else (None, None, float(rng.uniform(0.5, 3)))
+        n = rng.integers(2, 6)
+        demos, ended, bonus = kinds[number] if number < 4 else (None, None, rng.uniform(0.5, 3))
         is_demonstration = torch.tensor(rng.integers(0, 2, n) if demos is None else np.full(n, demos)).double()
         terminated = torch.tensor(rng.integers(0, 2, n) if ended is None else np.full(n, ended)).double()
         reward, value = torch.tensor(rng.uniform(-10, 1, n)), torch.tensor(rng.uniform(1, 6, n))
-        yield reward, is_demonstration, bonus, terminated, value, float(rng.uniform(0.7, 0.99))
+        yield reward, is_demonstration, bonus, terminated, value, rng.uniform(0.7, 0.99)
 
 
 fixed_target = Exercise(
@@ -193,7 +193,7 @@ def fixed_value_solution(log_pi, q, alpha):
 def value_cases(rng):
     """α = 0, one state, an even policy, nine states; then 40 at random."""
     for number in range(44):
-        n, alpha = {0: (3, 0.0), 1: (1, 0.2), 3: (9, 0.3)}.get(number, (int(rng.integers(2, 6)), rng.uniform(0.01, 1)))
+        n, alpha = {0: (3, 0.0), 1: (1, 0.2), 3: (9, 0.3)}.get(number, (rng.integers(2, 6), rng.uniform(0.01, 1)))
         logits = torch.tensor(rng.normal(0, 0.0 if number == 2 else 2.0, (n, 9)))
         yield logits.log_softmax(-1), torch.tensor(rng.normal(0, 3, (n, 9))), float(alpha)
 

@@ -27,7 +27,7 @@ def ahead_cases(rng):
     yield road_of((50, 10, 2), (30, 12, 1)), 1
     for _ in range(40):
         cars = zip(rng.uniform(0, 150, 9), rng.uniform(8, 14, 9), rng.integers(0, 3, 9), strict=True)
-        yield road_of(*cars), int(rng.integers(0, 3))
+        yield road_of(*cars), rng.integers(0, 3)
 
 
 def gap_ahead_solution(cars, lane):
@@ -229,7 +229,7 @@ def verdict_cases(rng):
     yield np.array([0.0, 0.0, 90.0]), np.array([80.0, 100.0, 100.0])
     yield np.array([0.0, 10.0, 20.0]), np.array([5.0, 15.0, 25.0])
     for _ in range(60):
-        n, shift = int(rng.integers(3, 6)), rng.choice([-60, -20, 0, 20, 60])
+        n, shift = rng.integers(3, 6), rng.choice([-60, -20, 0, 20, 60])
         yield rng.uniform(0, 40, n).round(), rng.uniform(0, 40, n).round() + shift
 
 
@@ -289,7 +289,7 @@ def p_values(rng):
     yield (np.array([0.04, 0.01, 0.021, 0.9]),)
     yield (np.array([0.9, 0.6, 0.7]),)
     for _ in range(40):
-        yield (rng.uniform(0, 1, int(rng.integers(2, 9))) ** 3,)
+        yield (rng.uniform(0, 1, rng.integers(2, 9)) ** 3,)
 
 
 def sorted_holm(p):

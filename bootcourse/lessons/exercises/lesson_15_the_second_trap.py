@@ -25,12 +25,12 @@ def advantage_cases(rng):
     for lam in (0.0, 1.0):
         yield *three, zeros, ends, 0.9, lam
     for _ in range(30):
-        shape = int(rng.integers(2, 9)), int(rng.integers(1, 4))
+        shape = rng.integers(2, 9), rng.integers(1, 4)
         columns = (torch.tensor(rng.normal(0, 2, shape)) for _ in range(3))
         ended = rng.random(shape) < 0.3
         terminated = ended & (rng.random(shape) < 0.5)
         marks = (torch.tensor(each.astype(float)) for each in (terminated, ended))
-        yield *columns, *marks, float(rng.choice([0.5, 0.9, 0.99])), float(rng.uniform(0, 1))
+        yield *columns, *marks, rng.choice([0.5, 0.9, 0.99]), rng.uniform(0, 1)
 
 
 def gae(delta=None, carry=None, weight=None, backwards=True):
@@ -115,11 +115,11 @@ def clipped_cases(rng):
     yield rows(1.5, 0.5), bad, 0.2
     yield rows(1.5, 0.5), rows(3.0, -1.0), 0.6
     for _ in range(30):
-        n = int(rng.integers(2, 9))
+        n = rng.integers(2, 9)
         yield (
             torch.tensor(np.exp(rng.normal(0, 0.5, n))),
             torch.tensor(rng.normal(0, 2, n)),
-            float(rng.choice([0.1, 0.2, 0.3])),
+            rng.choice([0.1, 0.2, 0.3]),
         )
 
 
@@ -189,7 +189,7 @@ def speed_cases(rng):
     yield (np.array([15.0, 5.0, 5.0, 5.0]),)
     yield (np.array([14.0]),)
     for _ in range(40):
-        yield (rng.uniform(3, 15.5, int(rng.integers(2, 12))),)
+        yield (rng.uniform(3, 15.5, rng.integers(2, 12)),)
 
 
 def paid_at(middle):
@@ -243,9 +243,9 @@ def shaping_cases(rng):
     yield np.full(3, 4.0), np.full(3, 4.0), np.zeros(3), 0.99
     yield np.zeros(2), np.array([1.0, -1.0]), np.zeros(2), 0.5
     for _ in range(30):
-        n = int(rng.integers(1, 7))
+        n = rng.integers(1, 7)
         phi, next_phi = rng.normal(0, 3, (2, n))
-        yield phi, next_phi, (rng.random(n) < 0.3).astype(float), float(rng.choice([0.5, 0.9, 0.99]))
+        yield phi, next_phi, (rng.random(n) < 0.3).astype(float), rng.choice([0.5, 0.9, 0.99])
 
 
 shaping_reward = Exercise(

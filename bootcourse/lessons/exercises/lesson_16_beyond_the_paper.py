@@ -14,9 +14,9 @@ def ensemble_cases(rng):
         yield five, torch.tensor(chosen)
     yield torch.cat([five[:2] + 10, five[2:] - 10]), torch.tensor([0, 1])
     for _ in range(20):
-        critics = int(rng.integers(2, 8))
-        chosen = rng.choice(critics, int(rng.integers(1, critics + 1)), replace=False)
-        yield torch.tensor(rng.normal(0, 2, (critics, int(rng.integers(1, 6)), 9))), torch.tensor(chosen)
+        critics = rng.integers(2, 8)
+        chosen = rng.choice(critics, rng.integers(1, critics + 1), replace=False)
+        yield torch.tensor(rng.normal(0, 2, (critics, rng.integers(1, 6), 9))), torch.tensor(chosen)
 
 
 def smallest(q, chosen):
@@ -72,7 +72,7 @@ def two_cases(rng):
         yield even, q, torch.tensor([action])
     yield torch.tensor([[0.5, 0.5, 0, 0, 0, 0, 0, 0, 0]], dtype=torch.float64), q, torch.tensor([3])
     for _ in range(30):
-        n = int(rng.integers(1, 7))
+        n = rng.integers(1, 7)
         pi = torch.tensor(rng.normal(0, 2, (n, 9))).softmax(-1)
         yield pi, torch.tensor(rng.normal(0, 2, (n, 9))), torch.tensor(rng.integers(0, 9, n))
 
@@ -158,9 +158,9 @@ def curriculum_cases(rng):
     yield [-9.0, -9.0], -10.0, 2, 0.05
     yield [5.0, 7.0], -np.inf, 2, 0.1
     for _ in range(40):
-        window = int(rng.integers(1, 5))
-        returns = rng.normal(0, 10, int(rng.integers(0, 9))).tolist()
-        yield returns, float(rng.normal(0, 8)), window, float(rng.choice([0.0, 0.05, 0.3]))
+        window = rng.integers(1, 5)
+        returns = rng.normal(0, 10, rng.integers(0, 9)).tolist()
+        yield returns, rng.normal(0, 8), window, rng.choice([0.0, 0.05, 0.3])
 
 
 def shrinks(returns, best, window, tolerance):
@@ -230,8 +230,8 @@ def price_cases(rng):
     yield 2.0, 0.5, 0.01, 0.0
     yield 3.0, 0.25, 0.25, 4.0
     for _ in range(30):
-        rate = float(rng.choice([rng.random(), 0.0, np.nan], p=[0.7, 0.2, 0.1]))
-        yield float(rng.exponential(1.0)), rate, float(rng.random()), float(rng.exponential(3.0))
+        rate = rng.choice([rng.random(), 0.0, np.nan], p=[0.7, 0.2, 0.1])
+        yield rng.exponential(1.0), rate, rng.random(), rng.exponential(3.0)
 
 
 def next_price(multiplier, rate, budget, step):

@@ -100,8 +100,8 @@ def buffer_cases(rng):
     yield 6, 7, 8
     yield 5, 13, 8
     for _ in range(16):
-        size = int(rng.integers(3, 9))
-        yield size, int(rng.integers(3, 3 * size)), int(rng.integers(2, 33))
+        size = rng.integers(3, 9)
+        yield size, rng.integers(3, 3 * size), rng.integers(2, 33)
 
 
 def of_the_buffer(cases, answers):
