@@ -16,18 +16,12 @@ def columns(acceleration, steering):
     return np.stack([acceleration, steering], axis=-1).astype(float)
 
 
-def decode_cases(rng):
-    """All nine at once, each alone; then 20 at random."""
-    yield (np.arange(9),)
-    for action in range(9):
-        yield (np.array([action]),)
-    for _ in range(20):
-        yield (rng.integers(0, 9, rng.integers(1, 8)),)
-
-
 decode = Exercise(
     "decode(actions)",
-    solution=decode_solution, cases=decode_cases,
+    solution=decode_solution,
+    # all nine at once, each alone; then 20 at random
+    cases=lambda rng: [(np.arange(9),), *((np.array([action]),) for action in range(9)),
+                       *((rng.integers(0, 9, rng.integers(1, 8)),) for _ in range(20))],
     worked=(
         # "brake left" is the first, "keep straight" the middle one, "accelerate right" the last
         ((np.array([0, 4, 8]),), np.array([[-1, -np.pi / 50], [0, 0], [1, np.pi / 50]])),
@@ -78,13 +72,10 @@ def weighted_sum(v, d, theta):
 
 def reward_cases(rng):
     """Each accident, steering left and right, far more than an action does, off the centre; then 40 at random."""
-    for accident in range(4):
-        yield 12.0, 0.0, 0.0, accident
-    for theta in (-np.pi / 50, np.pi / 50, -1.2, 1.2):
-        yield 10.0, 0.8, theta, 0
+    yield from ((12.0, 0.0, 0.0, accident) for accident in range(4))
+    yield from ((10.0, 0.8, theta, 0) for theta in (-np.pi / 50, np.pi / 50, -1.2, 1.2))
     for _ in range(40):
-        v, d, theta = rng.uniform(0, 17), rng.uniform(-2, 2), rng.uniform(-1, 1)
-        yield float(v), float(d), float(theta), rng.choice(4, p=[0.7, 0.1, 0.1, 0.1])
+        yield *rng.uniform([0, -2, -1], [17, 2, 1]), rng.choice(4, p=[0.7, 0.1, 0.1, 0.1])
 
 
 reward = Exercise(
@@ -134,17 +125,11 @@ def idle_solution(speed, seconds):
     return seconds * (1.5 * r_v + 0.05 * r_y + 0.05 * r_theta) / 1.6
 
 
-def idle_cases(rng):
-    for seconds in (1, 150):
-        for speed in (6.0, 10.0, 12.5):
-            yield speed, seconds
-    for _ in range(30):
-        yield rng.uniform(5.1, 12.5), rng.integers(1, 151)
-
-
 idle_return = Exercise(
     "idle_return(speed, seconds)",
-    solution=idle_solution, cases=idle_cases,
+    solution=idle_solution,
+    cases=lambda rng: [*((speed, seconds) for seconds in (1, 150) for speed in (6.0, 10.0, 12.5)),
+                       *((rng.uniform(5.1, 12.5), rng.integers(1, 151)) for _ in range(30))],
     worked=(((10.0, 1), 0.15625), ((10.0, 150), 23.4375), ((12.5, 1), 0.21875)),
     mistakes=(
         Mistake(lambda speed, seconds: seconds * 1.5 * (2 / 75 * speed - 2 / 15) / 1.6,
@@ -185,21 +170,18 @@ def risk_solution(stay, escape, crash):
 
 def risk_cases(rng):
     """The rule's numbers, an escape that pays no more than to stay, a harmless crash, all edges; 40 at random."""
-    yield 23.4375, 51.0, -9.5
-    yield 23.4375, 20.0, -9.5
-    yield 23.4375, 23.4375, -9.5
-    yield -30.0, 51.0, -9.5
-    yield -9.5, 51.0, -9.5
+    yield from ((23.4375, escape, -9.5) for escape in (51.0, 20.0, 23.4375))
+    yield from ((stay, 51.0, -9.5) for stay in (-30.0, -9.5))
     yield 20.0, 20.5, -20.0  # hardly any risk is worth it
     yield 20.0, 100.0, 19.5  # almost any risk is worth it
     for _ in range(40):
         stay, gain = rng.uniform(-20, 40), rng.uniform(-10, 120)
-        yield float(stay), float(stay + gain), float(stay + min(gain - 1, rng.uniform(-60, 10)))
+        yield stay, stay + gain, stay + min(gain - 1, rng.uniform(-60, 10))
 
 
-def risk(stay, escape, crash, share):
-    """An answer that has the two special cases right and the share wrong."""
-    return 0.0 if escape <= stay else 1.0 if crash >= stay else share(stay, escape, crash)
+def risk(share):
+    """An answer that has the two special cases right, and another share(stay, escape, crash)."""
+    return lambda s, e, c: 0.0 if e <= s else 1.0 if c >= s else share(s, e, c)
 
 
 bearable_risk = Exercise(
@@ -212,14 +194,14 @@ bearable_risk = Exercise(
         ((-50.0, 10.0, -20.0), 1.0),  # even a crash is better than to stay
     ),
     mistakes=(
-        Mistake(lambda s, e, c: risk(s, e, c, lambda s, e, c: (s - c) / (e - c)),
+        Mistake(risk(lambda s, e, c: (s - c) / (e - c)),
             "This is the share of tries that must *succeed*. The risk is the share that crash: one minus that.",
             "The probability in the equation is that of success."),
-        Mistake(lambda s, e, c: risk(s, e, c, lambda s, e, c: (e - s) / abs(c)),
+        Mistake(risk(lambda s, e, c: (e - s) / abs(c)),
             "You compare the gain with the crash's own return. A crash costs what the try would have earned otherwise, "
             "escape - crash.",
             "A crash costs ten, whatever it interrupts."),
-        Mistake(lambda s, e, c: risk(s, e, c, lambda s, e, c: (e - s) / (s - c)),
+        Mistake(risk(lambda s, e, c: (e - s) / (s - c)),
             "You divide by what a crash loses against staying. That ratio is the *odds*, crashes for each success; the "
             "question asks for a probability.",
             "Odds and probability are the same."),
@@ -230,7 +212,7 @@ bearable_risk = Exercise(
         Mistake(lambda s, e, c: max(0.0, (e - s) / (e - c)),
             "If a crash pays as much as to stay or more, each risk is worth it: return 1.",
             "A crash is worse than to stay."),
-        Mistake(lambda s, e, c: risk(s, e, c, lambda s, e, c: e / (e - c)),
+        Mistake(risk(lambda s, e, c: e / (e - c)),
             "You compare with a return of 0. The alternative to a try is to stay, which pays `stay`.",
             "Staying pays nothing."),
     ),

@@ -8,23 +8,13 @@ from bootcourse.lessons import traffic
 from bootcourse.lessons.exercise import Exercise, Mistake
 from bootcourse.road import formulas
 
-
-def gap_cases(rng):
-    """Same speed, falling back, standing still; a_max and b apart; then 40 at random."""
-    yield 10.0, 0.0, 10.0, 1.5, 0.5, 0.5
-    yield 10.0, -2.0, 10.0, 1.5, 0.5, 0.5
-    yield 0.0, 0.0, 10.0, 1.5, 0.5, 0.5
-    yield 12.0, 3.0, 5.0, 1.0, 2.0, 1.0
-    for _ in range(40):
-        yield (
-            *rng.uniform([1, -4], [20, 6]).tolist(),
-            *rng.uniform([1, 0.5, 0.3, 0.3], [12, 2, 2, 2]).tolist(),
-        )
-
-
 desired_gap = Exercise(
     "desired_gap(v, dv, s0, time_gap, a_max, b)",
-    solution=formulas.desired_gap, cases=gap_cases,
+    solution=formulas.desired_gap,
+    # same speed, falling back, standing still; a_max and b apart; then 40 at random
+    cases=lambda rng: [(10.0, 0.0, 10.0, 1.5, 0.5, 0.5), (10.0, -2.0, 10.0, 1.5, 0.5, 0.5),
+                       (0.0, 0.0, 10.0, 1.5, 0.5, 0.5), (12.0, 3.0, 5.0, 1.0, 2.0, 1.0),
+                       *(rng.uniform([1, -4, 1, 0.5, 0.3, 0.3], [20, 6, 12, 2, 2, 2]) for _ in range(40))],
     worked=(
         ((10.0, 0.0, 10.0, 1.5, 0.5, 0.5), 25.0),  # 10 + 1.5 · 10
         ((10.0, 2.0, 10.0, 1.5, 0.5, 0.5), 45.0),  # and 10 · 2 / (2 · 0.5)
@@ -97,7 +87,7 @@ def behind_cases(rng):
     yield np.full(4, 12.0), 5.0, 200.0, 0.5, 12.5, 10.0, 1.5, 3.0, 0.5, 4.0, 1.0  # speeds up harder than `limit`
     for _ in range(25):
         leader = np.maximum(rng.uniform(5, 14) + np.cumsum(rng.normal(0, 0.8, 8)), 0)
-        driver = rng.uniform([9, 2, 0.8, 0.4, 0.4, 1.5, 2], [16, 11, 2, 2, 2, 5, 8]).tolist()
+        driver = rng.uniform([9, 2, 0.8, 0.4, 0.4, 1.5, 2], [16, 11, 2, 2, 2, 5, 8])
         yield leader, rng.uniform(4, 12), rng.uniform(25, 60), rng.choice([0.25, 0.5]), *driver
 
 
@@ -165,7 +155,7 @@ def equilibrium_cases(rng):
     yield 12.4, 12.5, 10.0, 1.5, 4.0
     for _ in range(40):
         wanted = rng.uniform(9, 16)
-        yield float(wanted * rng.uniform(0.2, 0.98)), float(wanted), *rng.uniform([1, 0.5, 1], [12, 2, 5]).tolist()
+        yield wanted * rng.uniform(0.2, 0.98), wanted, *rng.uniform([1, 0.5, 1], [12, 2, 5])
 
 
 equilibrium_gap = Exercise(
@@ -222,17 +212,11 @@ def changing_cases(rng):
     yield 0.25, 0.0, 0.0, 0.0, 0.5, 0.25, 2.0  # exactly at the threshold: not worth it
     yield 0.26, 0.0, 0.0, 0.0, 0.5, 0.25, 2.0
     for _ in range(120):
-        threshold, limit = rng.uniform([0.05, 0.5], [0.6, 4.0]).tolist()
-        own, before, after, old = rng.normal(0.4, 0.8), rng.normal(0, 0.6), rng.normal(-1, 1.2), rng.normal(0.1, 0.4)
-        yield (
-            float(own),
-            float(before),
-            float(after),
-            float(old),
-            rng.choice([0.0, 0.3, 0.5, 1.0]),
-            threshold,
-            limit,
+        limits, accelerations = (
+            rng.uniform([0.05, 0.5], [0.6, 4.0]),
+            rng.normal([0.4, 0, -1, 0.1], [0.8, 0.6, 1.2, 0.4]),
         )
+        yield *accelerations, rng.choice([0.0, 0.3, 0.5, 1.0]), *limits
 
 
 worth_changing = Exercise(
@@ -299,22 +283,16 @@ def heading_solution(error, tau, dt, steps):
     return error * (1 - dt / tau) ** np.arange(steps + 1)
 
 
-def heading_cases(rng):
-    """Settled in one step, a constant oscillation, growing ones, no step; then 30 at random."""
-    for tau in (0.5, 0.25, 0.2, 0.6):
-        yield 1.0, tau, 0.5, 6
-    yield 0.1, 0.6, 0.5, 0
-    for _ in range(30):
-        yield *rng.uniform([-0.3, 0.15, 0.05], [0.3, 1.0, 0.5]).tolist(), rng.integers(1, 8)
-
-
 def step_by_step(error, factor, steps):
     return error * float(factor) ** np.arange(steps + 1)
 
 
 heading_errors = Exercise(
     "heading_errors(error, tau, dt, steps)",
-    solution=heading_solution, cases=heading_cases,
+    solution=heading_solution,
+    # settled in one step, a constant oscillation, growing ones, no step; then 30 at random
+    cases=lambda rng: [*((1.0, tau, 0.5, 6) for tau in (0.5, 0.25, 0.2, 0.6)), (0.1, 0.6, 0.5, 0), *(
+                       (*rng.uniform([-0.3, 0.15, 0.05], [0.3, 1.0, 0.5]), rng.integers(1, 8)) for _ in range(30))],
     worked=(
         ((1.0, 0.5, 0.5, 2), np.array([1.0, 0.0, 0.0])),
         ((1.0, 0.2, 0.5, 2), np.array([1.0, -1.5, 2.25])),

@@ -6,6 +6,8 @@ from bootcourse import rule
 from bootcourse.lessons.exercise import Exercise, Mistake
 from bootcourse.lessons.plans import ROADS, direct_solution, drive_plan, what_happened
 
+INF = float("inf")
+
 
 def of_grid(low, high, n, allowed, choose=max):
     """The fastest of n speeds that is allowed."""
@@ -14,21 +16,13 @@ def of_grid(low, high, n, allowed, choose=max):
 
 def speed_cases(rng):
     """Traps on the grid, at its ends and off it, a free road, one lane free, all too slow; then 60 at random."""
-    inf = float("inf")
-    yield 10.0, 10.0, 6.0, 15.0, 5
-    yield 8.25, 8.25, 6.0, 15.0, 5
-    yield 8.25, 20.0, 6.0, 15.0, 5
-    yield 20.0, 8.25, 6.0, 15.0, 5
-    yield 6.0, 6.0, 6.0, 15.0, 5
-    yield 15.0, 15.0, 6.0, 15.0, 5
-    yield inf, inf, 6.0, 15.0, 5
-    yield 10.0, inf, 6.0, 15.0, 5
-    yield inf, 10.0, 6.0, 15.0, 5
-    yield 5.0, 20.0, 6.0, 15.0, 5
+    for v_current, v_new in ((10.0, 10.0), (8.25, 8.25), (8.25, 20.0), (20.0, 8.25), (6.0, 6.0), (15.0, 15.0),
+                             (INF, INF), (10.0, INF), (INF, 10.0), (5.0, 20.0)):  # fmt: skip
+        yield v_current, v_new, 6.0, 15.0, 5
     yield 16.0, 14.9, 6.0, 15.0, 2
     for _ in range(60):
         low = rng.uniform(3, 8)
-        yield *rng.uniform(4, 18, 2).tolist(), float(low), float(low + rng.uniform(3, 10)), rng.integers(2, 9)
+        yield *rng.uniform(4, 18, 2), low, low + rng.uniform(3, 10), rng.integers(2, 9)
 
 
 target_speed = Exercise(
@@ -37,7 +31,7 @@ target_speed = Exercise(
     worked=(
         ((10.0, 10.0, 6.0, 15.0, 5), 8.25),  # of 6, 8.25, 10.5, 12.75, 15
         ((8.25, 12.0, 6.0, 15.0, 5), 6.0),  # *slower* than 8.25
-        ((float("inf"), float("inf"), 6.0, 15.0, 5), 15.0),
+        ((INF, INF, 6.0, 15.0, 5), 15.0),
     ),
     mistakes=(
         Mistake(lambda a, b, low, high, n: of_grid(low, high, n, lambda v: v <= min(a, b)),
@@ -72,22 +66,13 @@ target_speed = Exercise(
 )  # fmt: skip
 
 
-def cases(rng):
-    """No car ahead, equal speeds, closing in on one of the two only; then 60 at random."""
-    inf = float("inf")
-    yield 12.0, inf, inf, 2.0, 3.0
-    yield 12.0, 10.0, inf, 2.0, 3.0
-    yield 12.0, inf, 9.0, 2.0, 3.0
-    yield 10.0, 10.0, 10.0, 2.0, 3.0
-    yield 15.0, 8.0, 14.0, 2.5, 4.0
-    yield 15.0, 14.0, 8.0, 2.5, 4.0
-    for _ in range(60):
-        yield (*rng.uniform(5, 20, 3).tolist(), rng.uniform(0.5, 4), rng.uniform(1, 8))
-
-
 safety_distance = Exercise(
     "safety_distance(v_ego, v_current, v_new, t_safe, floor)",
-    solution=rule.safety_distance, cases=cases,
+    solution=rule.safety_distance,
+    # no car ahead, equal speeds, closing in on one of the two only; then 60 at random
+    cases=lambda rng: [(12.0, INF, INF, 2.0, 3.0), (12.0, 10.0, INF, 2.0, 3.0), (12.0, INF, 9.0, 2.0, 3.0),
+                       (10.0, 10.0, 10.0, 2.0, 3.0), (15.0, 8.0, 14.0, 2.5, 4.0), (15.0, 14.0, 8.0, 2.5, 4.0),
+                       *(rng.uniform([5, 5, 5, 0.5, 1], [20, 20, 20, 4, 8]) for _ in range(60))],
     worked=(
         ((12.0, 10.0, 11.0, 2.0, 3.0), 4.0),  # (12 - 10) · 2
         ((8.25, 10.0, 10.0, 2.0, 3.0), 3.0),  # slower than both: -3.5 m, so the floor
@@ -131,23 +116,22 @@ def change_solution(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor
 
 def change_cases(rng):
     """No cars, trap 2 alongside, just enough and just too little room, a fast car behind; then 150 at random."""
-    inf = float("inf")
-    yield inf, inf, 5.0, 3.0, 8.25, 0.0, 1.5, 3.0
-    yield 6.0, inf, 5.0, 3.0, 8.25, 0.0, 1.5, 3.0
-    yield 9.0, inf, 5.0, 3.0, 8.25, 0.0, 1.5, 3.0
-    yield inf, 7.0, 5.0, 3.0, 8.25, 8.0, 1.5, 3.0
-    yield inf, 9.0, 5.0, 3.0, 8.0, 12.0, 1.5, 3.0  # 4 m behind, and it closes in 6 m
-    yield inf, 6.0, 5.0, 3.0, 12.0, 8.0, 1.5, 3.0  # it falls back, but is 1 m behind
-    yield 8.0, inf, 5.0, 3.0, 8.25, 0.0, 1.5, 3.0  # the gap is exactly the distance: no room
-    yield 8.1, inf, 5.0, 3.0, 8.25, 0.0, 1.5, 3.0
-    yield inf, 8.0, 5.0, 3.0, 8.25, 8.0, 1.5, 3.0
-    yield inf, 11.0, 5.0, 3.0, 8.0, 12.0, 1.5, 3.0  # behind, too
-    yield inf, 11.1, 5.0, 3.0, 8.0, 12.0, 1.5, 3.0
-    yield inf, 6.8, 5.0, 3.0, 8.0, 10.0, 1.0, 1.5  # 1.8 m behind: more than the floor, and it closes in 2 m
-    yield inf, 9.2, 5.0, 3.0, 8.0, 12.0, 1.0, 4.5  # 4.2 m behind: it closes in 4 m, less than the floor
+    yield INF, INF, 5.0, 3.0, 8.25, 0.0, 1.5, 3.0
+    yield 6.0, INF, 5.0, 3.0, 8.25, 0.0, 1.5, 3.0
+    yield 9.0, INF, 5.0, 3.0, 8.25, 0.0, 1.5, 3.0
+    yield INF, 7.0, 5.0, 3.0, 8.25, 8.0, 1.5, 3.0
+    yield INF, 9.0, 5.0, 3.0, 8.0, 12.0, 1.5, 3.0  # 4 m behind, and it closes in 6 m
+    yield INF, 6.0, 5.0, 3.0, 12.0, 8.0, 1.5, 3.0  # it falls back, but is 1 m behind
+    yield 8.0, INF, 5.0, 3.0, 8.25, 0.0, 1.5, 3.0  # the gap is exactly the distance: no room
+    yield 8.1, INF, 5.0, 3.0, 8.25, 0.0, 1.5, 3.0
+    yield INF, 8.0, 5.0, 3.0, 8.25, 8.0, 1.5, 3.0
+    yield INF, 11.0, 5.0, 3.0, 8.0, 12.0, 1.5, 3.0  # behind, too
+    yield INF, 11.1, 5.0, 3.0, 8.0, 12.0, 1.5, 3.0
+    yield INF, 6.8, 5.0, 3.0, 8.0, 10.0, 1.0, 1.5  # 1.8 m behind: more than the floor, and it closes in 2 m
+    yield INF, 9.2, 5.0, 3.0, 8.0, 12.0, 1.0, 4.5  # 4.2 m behind: it closes in 4 m, less than the floor
     for _ in range(150):
-        front, rear, d_s, v, v_rear = rng.uniform([4, 4, 3, 6, 6], [22, 22, 12, 15, 15]).tolist()
-        length, t_safe, floor = rng.uniform([3, 0.5, 1], [8, 3, 5]).tolist()
+        front, rear, d_s, v, v_rear = rng.uniform([4, 4, 3, 6, 6], [22, 22, 12, 15, 15])
+        length, t_safe, floor = rng.uniform([3, 0.5, 1], [8, 3, 5])
         yield front, rear, length, d_s, v, v_rear, t_safe, floor
 
 
@@ -155,8 +139,8 @@ room_to_change = Exercise(
     "room_to_change(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor)",
     solution=change_solution, cases=change_cases,
     worked=(
-        ((12.0, float("inf"), 5.0, 3.0, 8.25, 0.0, 1.5, 3.0), True),  # 7 m of gap, 3 m needed
-        ((7.0, float("inf"), 5.0, 3.0, 8.25, 0.0, 1.5, 3.0), False),  # 2 m
+        ((12.0, INF, 5.0, 3.0, 8.25, 0.0, 1.5, 3.0), True),  # 7 m of gap, 3 m needed
+        ((7.0, INF, 5.0, 3.0, 8.25, 0.0, 1.5, 3.0), False),  # 2 m
         ((30.0, 9.0, 5.0, 3.0, 8.0, 12.0, 1.5, 3.0), False),  # 4 m behind, closing in 6 m in 1.5 s
     ),
     mistakes=(
@@ -300,18 +284,12 @@ def table(actions, own, other):
     return np.where(np.arange(9) == np.asarray(actions)[..., None], own, other)
 
 
-def stochastic_cases(rng):
-    """Every action, p = 1/9, which is uniform; then 40 at random."""
-    yield np.arange(9), 0.9
-    yield np.array([3, 3, 8]), 1 / 9
-    yield np.array([0]), 0.999
-    for _ in range(40):
-        yield rng.integers(0, 9, rng.integers(1, 6)), rng.uniform(0.12, 0.99)
-
-
 stochastic_rule = Exercise(
     "stochastic_rule(rule_actions, p)",
-    solution=rule.stochastic_rule, cases=stochastic_cases,
+    solution=rule.stochastic_rule,
+    # every action, p = 1/9, which is uniform; then 40 at random
+    cases=lambda rng: [(np.arange(9), 0.9), (np.array([3, 3, 8]), 1 / 9), (np.array([0]), 0.999), *(
+                       (rng.integers(0, 9, rng.integers(1, 6)), rng.uniform(0.12, 0.99)) for _ in range(40))],
     worked=(
         ((np.array([3]), 0.9), np.array([[0.0125] * 3 + [0.9] + [0.0125] * 5])),
         ((np.array([0, 8]), 1 / 9), np.full((2, 9), 1 / 9)),

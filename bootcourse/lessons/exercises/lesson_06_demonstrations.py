@@ -31,7 +31,7 @@ def transitions_cases(rng):
         decisions = 1 if k == 4 else rng.integers(2, 6)
         size = rng.integers(2, 4)
         observations = rng.normal(size=(decisions + 1, size))
-        yield observations, rng.integers(0, 9, decisions), rng.normal(size=decisions), int(accident)
+        yield observations, rng.integers(0, 9, decisions), rng.normal(size=decisions), accident
 
 
 transitions = Exercise(
@@ -255,7 +255,7 @@ def dagger_cases(rng):
         rows[:, cloning.ACTION] = torch.tensor(rng.integers(0, 9, n)).float()
         rows[:, cloning.RULE_ACTION] = rows[:, cloning.ACTION]
         rows[:, 0] = torch.arange(1, n + 1)
-        yield rows, int(rounds)
+        yield rows, rounds
 
 
 def taught(rows, train, drive, rounds, relabel=True, keep=True, latest=True):

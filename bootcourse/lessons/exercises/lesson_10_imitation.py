@@ -180,7 +180,7 @@ def accident_rates(rng):
     """Nearly always, one in two, one in twenty, one in a thousand; then 40 at random."""
     yield from ((0.97,), (0.5,), (0.05,), (0.01,), (0.001,))
     for _ in range(40):
-        yield (float(np.exp(rng.uniform(np.log(0.002), np.log(0.6)))),)
+        yield (np.exp(rng.uniform(np.log(0.002), np.log(0.6))),)
 
 
 episodes_needed = Exercise(

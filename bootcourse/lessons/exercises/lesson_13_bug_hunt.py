@@ -195,7 +195,7 @@ def value_cases(rng):
     for number in range(44):
         n, alpha = {0: (3, 0.0), 1: (1, 0.2), 3: (9, 0.3)}.get(number, (rng.integers(2, 6), rng.uniform(0.01, 1)))
         logits = torch.tensor(rng.normal(0, 0.0 if number == 2 else 2.0, (n, 9)))
-        yield logits.log_softmax(-1), torch.tensor(rng.normal(0, 3, (n, 9))), float(alpha)
+        yield logits.log_softmax(-1), torch.tensor(rng.normal(0, 3, (n, 9))), alpha
 
 
 EVEN = torch.full((1, 9), -math.log(9))
