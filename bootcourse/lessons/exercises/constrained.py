@@ -77,11 +77,7 @@ def target_cases(rng):
         alpha, xi = rng.uniform(0.05, 1) if alpha is None else alpha, rng.uniform(0.1, 2) if xi is None else xi
         return *numbers, log_pi, q_pair, kl, float(alpha), float(xi), rng.uniform(0.5, 0.99)
 
-    yield case(4, ended=1.0)
-    yield case(4, ended=0.0)
-    yield case(3, xi=0.0)
-    yield case(3, alpha=0.0)
-    yield case(1, ended=0.0)
+    yield from (case(4, ended=1.0), case(4, ended=0.0), case(3, xi=0.0), case(3, alpha=0.0), case(1, ended=0.0))
     yield case(9)
     for _ in range(40):
         yield case(rng.integers(2, 7))

@@ -11,13 +11,13 @@ from bootcourse.lessons.exercises import replay_buffer
 LOG_2 = math.log(2)
 
 
-def policies(rng, actions=9):
+def policies(rng):
     """log π of a few states: even ones, nearly sure ones, one state, as many states as actions; then 40 at random."""
-    yield torch.full((2, actions), -math.log(actions)).double()
-    yield torch.tensor(rng.normal(0, 8, (3, actions))).log_softmax(-1)
-    yield torch.tensor(rng.normal(0, 1, (1, actions))).log_softmax(-1)
-    for size in (actions, *rng.integers(1, 6, 40)):
-        yield torch.tensor(rng.normal(0, rng.uniform(0.3, 3), (int(size), actions))).log_softmax(-1)
+    yield torch.full((2, 9), -math.log(9)).double()
+    yield torch.tensor(rng.normal(0, 8, (3, 9))).log_softmax(-1)
+    yield torch.tensor(rng.normal(0, 1, (1, 9))).log_softmax(-1)
+    for size in (9, *rng.integers(1, 6, 40)):
+        yield torch.tensor(rng.normal(0, rng.uniform(0.3, 3), (size, 9))).log_softmax(-1)
 
 
 entropy = Exercise(
@@ -108,10 +108,8 @@ def cases(rng):
         reward, value = torch.tensor(rng.normal(0, 3, (2, size)))
         return reward, torch.tensor(rng.random(size) < ended).double(), value, gamma
 
-    for size, ended, gamma in ((4, 1.0, 0.8), (4, 0.0, 0.8), (1, 0.0, 0.9), (3, 0.5, 1.0), (3, 0.5, 0.0)):
-        yield batch(size, ended, gamma)
-    for _ in range(60):
-        yield batch(rng.integers(1, 7), 0.4, rng.uniform(0.1, 0.99))
+    yield from (batch(4, 1.0, 0.8), batch(4, 0.0, 0.8), batch(1, 0.0, 0.9), batch(3, 0.5, 1.0), batch(3, 0.5, 0.0))
+    yield from (batch(rng.integers(1, 7), 0.4, rng.uniform(0.1, 0.99)) for _ in range(60))
 
 
 critic_target = Exercise(
@@ -164,9 +162,7 @@ def pair_cases(rng):
         q_pair = torch.tensor(rng.normal(0, 2, (2, size, actions)))
         return q_pair, torch.tensor(rng.integers(0, actions, size)), torch.tensor(rng.normal(0, 2, size))
 
-    yield case(1)
-    yield case(9)
-    yield case(4, 2)
+    yield from (case(1), case(9), case(4, 2))
     q_pair, action, _ = case(3)
     yield q_pair, action, q_pair[0].gather(-1, action[:, None])[:, 0]
     for _ in range(30):

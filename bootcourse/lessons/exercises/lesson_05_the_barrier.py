@@ -10,16 +10,12 @@ def share_of_the_future_solution(gamma, seconds):
     return gamma**seconds
 
 
-def share_cases(rng):
-    """Now (everything is still to come), far away, a γ near 1; then 40 at random."""
-    yield from ((0.8, 0), (0.8, 50), (0.99, 1), (0.5, 1))
-    for _ in range(40):
-        yield rng.uniform(0.5, 0.99), rng.integers(1, 60)
-
-
 share_of_the_future = Exercise(
     "share_of_the_future(gamma, seconds)",
-    solution=share_of_the_future_solution, cases=share_cases,
+    solution=share_of_the_future_solution,
+    # now (everything is still to come), far away, a γ near 1; then 40 at random
+    cases=lambda rng: [(0.8, 0), (0.8, 50), (0.99, 1), (0.5, 1),
+                       *((rng.uniform(0.5, 0.99), rng.integers(1, 60)) for _ in range(40))],
     worked=(((0.5, 2), 0.25), ((0.8, 0), 1.0)),  # of 1 + 1/2 + 1/4 + ... = 2, 1/4 + 1/8 + ... = 1/2 is left
     mistakes=(
         Mistake(lambda gamma, seconds: 1 - gamma**seconds,
@@ -52,16 +48,12 @@ def luck_solution(good, decisions, tries):
     return 1 - (1 - once) ** tries
 
 
-def luck_cases(rng):
-    """One try, every action good, one decision; then 50 at random."""
-    yield from ((3, 2, 1), (9, 20, 5), (1, 1, 9), (1, 8, 1000))
-    for _ in range(50):
-        yield rng.integers(1, 9), rng.integers(1, 8), rng.integers(1, 300)
-
-
 luck = Exercise(
     "luck(good, decisions, tries)",
-    solution=luck_solution, cases=luck_cases,
+    solution=luck_solution,
+    # one try, every action good, one decision; then 50 at random
+    cases=lambda rng: [(3, 2, 1), (9, 20, 5), (1, 1, 9), (1, 8, 1000),
+                       *((rng.integers(1, 9), rng.integers(1, 8), rng.integers(1, 300)) for _ in range(50))],
     worked=(((3, 2, 1), 1 / 9), ((3, 1, 2), 5 / 9)),  # (1/3)²; 1 - (2/3)²
     mistakes=(
         Mistake(lambda good, decisions, tries: tries * (good / 9) ** decisions,

@@ -26,11 +26,9 @@ def last(actions, value):
 
 def transitions_cases(rng):
     """Each ending, a drive of one decision; then 30 at random."""
-    endings = [0, 1, 2, 3, *rng.integers(0, 4, 30)]
-    for k, accident in enumerate(endings):
+    for k, accident in enumerate([0, 1, 2, 3, *rng.integers(0, 4, 30)]):
         decisions = 1 if k == 4 else rng.integers(2, 6)
-        size = rng.integers(2, 4)
-        observations = rng.normal(size=(decisions + 1, size))
+        observations = rng.normal(size=(decisions + 1, rng.integers(2, 4)))
         yield observations, rng.integers(0, 9, decisions), rng.normal(size=decisions), accident
 
 
@@ -87,19 +85,13 @@ def forwards(rewards, gamma):
     return togo
 
 
-def reward_cases(rng):
-    """γ of 0 and of 1, one reward, a late reward; then 40 at random."""
-    yield np.array([1.0, 2.0, 3.0]), 0.0
-    yield np.array([1.0, 2.0, 3.0]), 1.0
-    yield np.array([2.0]), 0.8
-    yield np.array([0.0, 0.0, 0.0, 10.0]), 0.8
-    for _ in range(40):
-        yield rng.normal(size=rng.integers(2, 20)), rng.uniform(0.3, 0.99)
-
-
 return_to_go = Exercise(
     "return_to_go(rewards, gamma)",
-    solution=return_to_go_solution, cases=reward_cases,
+    solution=return_to_go_solution,
+    # γ of 0 and of 1, one reward, a late reward; then 40 at random
+    cases=lambda rng: [(np.array([1.0, 2.0, 3.0]), 0.0), (np.array([1.0, 2.0, 3.0]), 1.0), (np.array([2.0]), 0.8),
+                       (np.array([0.0, 0.0, 0.0, 10.0]), 0.8),
+                       *((rng.normal(size=rng.integers(2, 20)), rng.uniform(0.3, 0.99)) for _ in range(40))],
     worked=(
         ((np.array([1.0, 1.0, 1.0]), 0.5), np.array([1.75, 1.5, 1.0])),
         ((np.array([0.0, 0.0, 10.0]), 0.8), np.array([6.4, 8.0, 10.0])),
@@ -258,25 +250,19 @@ def dagger_cases(rng):
         yield rows, rounds
 
 
-def taught(rows, train, drive, rounds, relabel=True, keep=True, latest=True):
-    """DAgger with one thing done differently."""
-    drivers = [train(rows)]
+def everything(first, rows, own):
+    return torch.cat([rows, own])
+
+
+def taught(rows, train, drive, rounds, relabel=True, keep=everything, latest=True):
+    """DAgger with one thing done differently. keep(first rows, rows so far, own rows): what is trained on next."""
+    first, drivers = rows, [train(rows)]
     for _ in range(rounds):
         own = drive(drivers[-1 if latest else 0]).clone()
         if relabel:
             own[:, cloning.ACTION] = own[:, cloning.RULE_ACTION]
-        rows = torch.cat([rows, own]) if keep else own
+        rows = keep(first, rows, own)
         drivers.append(train(rows))
-    return drivers
-
-
-def forgetful(rows, train, drive, rounds):
-    """DAgger that adds each round's rows to the rule's own, and not to those before."""
-    drivers = [train(rows)]
-    for _ in range(rounds):
-        own = drive(drivers[-1]).clone()
-        own[:, cloning.ACTION] = own[:, cloning.RULE_ACTION]
-        drivers.append(train(torch.cat([rows, own])))
     return drivers
 
 
@@ -298,10 +284,10 @@ dagger = Exercise(
             "You learn what the *clone* did in its own drives, errors included. Put the rule's action, column "
             "`RULE_ACTION`, where the clone's stands, column `ACTION`.",
             "More data of any kind help."),
-        Mistake(lambda *given: taught(*given, keep=False),
+        Mistake(lambda *given: taught(*given, keep=lambda first, rows, own: own),
             "You train on the newest drives alone. Keep all rows so far: DAgger means data *aggregation*.",
             "Old data are of an old policy, and so are out of date."),
-        Mistake(forgetful,
+        Mistake(lambda *given: taught(*given, keep=lambda first, rows, own: torch.cat([first, own])),
             "You add each round's rows to the rule's own, and lose those of the rounds before. Keep all rows so far.",
             "`torch.cat` changes its first argument."),
         Mistake(lambda *given: taught(*given, latest=False),

@@ -20,18 +20,13 @@ def log_stochastic_rule_solution(rule_action, p):
     return log_rule.scatter(-1, rule_action.unsqueeze(-1), math.log(p))
 
 
-def rule_cases(rng):
-    """The first and the last action, one state, nine states, p = 1/2; then 40 at random."""
-    yield torch.tensor([0, 8]), 0.9
-    yield torch.tensor([4]), 0.5
-    yield torch.arange(9), 0.99
-    for _ in range(40):
-        yield torch.tensor(rng.integers(0, 9, rng.integers(1, 6))), rng.uniform(0.15, 0.99)
-
-
 log_stochastic_rule = Exercise(
     "log_stochastic_rule(rule_action, p)",
-    solution=log_stochastic_rule_solution, cases=rule_cases,
+    solution=log_stochastic_rule_solution,
+    # the first and the last action, one state, nine states, p = 1/2; then 40 at random
+    cases=lambda rng: [(torch.tensor([0, 8]), 0.9), (torch.tensor([4]), 0.5), (torch.arange(9), 0.99), *(
+                       (torch.tensor(rng.integers(0, 9, rng.integers(1, 6))), rng.uniform(0.15, 0.99))
+                       for _ in range(40))],
     worked=(
         ((torch.tensor([3]), 0.9), torch.tensor([[math.log(0.0125)] * 3 + [math.log(0.9)] + [math.log(0.0125)] * 5])),
     ),
@@ -83,18 +78,9 @@ def solution(log_pi, rule_action, p):
     return (log_pi.exp() * (log_pi - log_rule)).sum(-1)
 
 
-def columns_for_all(log_pi, rule_action, p):
-    return (log_pi.exp() * (log_pi - one_column_for_all(rule_action, p))).sum(-1)
-
-
-def reverse(log_pi, rule_action, p):
-    rule = log_rule(rule_action, p, (1 - p) / 8)
-    return (rule.exp() * (rule - log_pi)).sum(-1)
-
-
-def sure(action, size=9):
+def sure(action):
     """log π of a policy that takes one action with probability 1 - 8 e⁻⁴⁰: (1, 9)."""
-    return torch.full((1, size), -40.0).double().scatter(-1, torch.tensor([[action]]), 0.0)
+    return torch.full((1, 9), -40.0).double().scatter(-1, torch.tensor([[action]]), 0.0)
 
 
 def cases(rng):
@@ -102,8 +88,7 @@ def cases(rng):
     three = torch.tensor([3])
     yield log_rule(three, 0.9, 0.0125).double(), three, 0.9
     yield torch.full((2, 9), -math.log(9)).double(), torch.tensor([0, 8]), 0.5
-    sizes = [9, 1, *rng.integers(1, 5, 50)]
-    for size in sizes:
+    for size in (9, 1, *rng.integers(1, 5, 50)):
         log_pi = torch.tensor(rng.normal(0, rng.uniform(0.5, 4), (size, 9))).log_softmax(-1)
         yield log_pi, torch.tensor(rng.integers(0, 9, size)), rng.uniform(0.15, 0.99)
 
@@ -116,7 +101,7 @@ soft_constraint = Exercise(
         ((sure(3), torch.tensor([3]), 0.9), torch.tensor([-math.log(0.9)])),  # in agreement: log 1 / 0.9
     ),
     mistakes=(
-        Mistake(reverse,
+        Mistake(lambda log_pi, rule_action, p: bootstrap.kl_from_rule(log_pi, rule_action, torch.tensor(p)),
             "Your KL is the other way round: it is large where the *rule* puts mass and the policy does not. The paper "
             "charges the policy for actions that the rule would not take.",
             "A divergence is a distance, so its order does not matter."),
@@ -142,7 +127,7 @@ soft_constraint = Exercise(
         Mistake(lambda log_pi, rule_action, p: solution(log_pi, rule_action, p).mean(),
             "You took the mean over the batch: return one number for each state; the loss takes the mean later.",
             "A loss term is a scalar."),
-        Mistake(columns_for_all,
+        Mistake(lambda log_pi, rule_action, p: (log_pi.exp() * (log_pi - one_column_for_all(rule_action, p))).sum(-1),
             "You wrote log p into the same columns of *every* row: `x[:, rule_action]` picks columns for all rows at "
             "once. Pair each row with its own column, as `scatter` or `x[torch.arange(len(x)), rule_action]` does.",
             "`x[:, rule_action] = ...` goes through the rows and the actions side by side."),
@@ -164,15 +149,11 @@ def policy_cases(rng):
     """ξ = 0 (without the rule), Q all equal, ξ far above α, one state; then 40 at random."""
 
     def case(size, alpha, xi, scale=2.0):
-        q = torch.tensor(rng.normal(0, scale, (size, 9)))
-        p = rng.uniform(0.2, 0.99)
+        q, p = torch.tensor(rng.normal(0, scale, (size, 9))), rng.uniform(0.2, 0.99)
         return q, log_rule(torch.tensor(rng.integers(0, 9, size)), p, (1 - p) / 8).double(), alpha, xi
 
-    yield case(3, 0.5, 0.0)
-    yield case(2, 0.3, 0.7, scale=0.0)
-    yield case(1, 0.01, 2.0)
-    for _ in range(40):
-        yield case(rng.integers(1, 5), rng.uniform(0.2, 2), rng.uniform(0.05, 3))
+    yield from (case(3, 0.5, 0.0), case(2, 0.3, 0.7, scale=0.0), case(1, 0.01, 2.0))
+    yield from (case(rng.integers(1, 5), rng.uniform(0.2, 2), rng.uniform(0.05, 3)) for _ in range(40))
 
 
 regularised_policy = Exercise(

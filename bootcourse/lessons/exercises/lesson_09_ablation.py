@@ -4,6 +4,7 @@ import numpy as np
 from scipy import stats
 
 from bootcourse.lessons.exercise import Exercise, Mistake
+from bootcourse.statistics import iqm
 
 
 def exact_interval_solution(k, n):
@@ -15,10 +16,6 @@ def exact_interval_solution(k, n):
 def of_one_end(k, n):
     low = stats.beta.ppf(0.05, k, n - k + 1) if k > 0 else 0.0
     return np.array([low, stats.beta.ppf(0.95, k + 1, n - k) if k < n else 1.0])
-
-
-def without_the_ends(k, n):
-    return np.array([stats.beta.ppf(0.025, k, n - k + 1), stats.beta.ppf(0.975, k + 1, n - k)])
 
 
 def count_cases(rng):
@@ -52,7 +49,7 @@ exact_interval = Exercise(
             "This is Wilson's interval: it is shorter, and holds the true rate in about 95 % of the cases. The exact "
             "one does so in at least 95 %.",
             "All good intervals of a rate agree."),
-        Mistake(without_the_ends,
+        Mistake(lambda k, n: np.array([stats.beta.ppf(0.025, k, n - k + 1), stats.beta.ppf(0.975, k + 1, n - k)]),
             "At k = 0 and at k = n one of your ends is not a number (NaN): a beta distribution has no parameter 0. "
             "There the low end is 0, and the high end is 1.",
             "The formula holds for every k."),
@@ -71,18 +68,13 @@ def interquartile_mean_solution(scores):
     return np.sort(scores)[cut : len(scores) - cut].mean()
 
 
-def score_cases(rng):
-    """Two extremes, all equal, three seeds; then 40 at random."""
-    yield (np.array([128.0, -10.0, 120.0, 125.0, 126.0, 127.0, -6.0, 129.0]),)
-    yield (np.full(10, 23.4375),)
-    yield (np.array([3.0, 1.0, 8.0]),)
-    for _ in range(40):
-        yield (rng.exponential(20, rng.integers(2, 21)) - 10,)
-
-
 interquartile_mean = Exercise(
     "interquartile_mean(scores)",
-    solution=interquartile_mean_solution, cases=score_cases,
+    solution=interquartile_mean_solution,
+    # two extremes, all equal, three seeds; then 40 at random
+    cases=lambda rng: [(np.array([128.0, -10.0, 120.0, 125.0, 126.0, 127.0, -6.0, 129.0]),), (np.full(10, 23.4375),),
+                       (np.array([3.0, 1.0, 8.0]),),
+                       *((rng.exponential(20, rng.integers(2, 21)) - 10,) for _ in range(40))],
     worked=(((np.array([9.0, 1.0, 2.0, 100.0]),), 5.5), ((np.array([4.0, 0.0, 2.0]),), 2.0)),
     mistakes=(
         Mistake(np.mean,
@@ -224,35 +216,19 @@ def difference_interval_solution(x, y, draws_x, draws_y):
     return np.array([iqm(x) - iqm(y), *np.percentile(differences, [2.5, 97.5])])
 
 
-def iqm_of_rows(scores):
-    cut = scores.shape[-1] // 4
-    return np.sort(scores, axis=-1)[..., cut : scores.shape[-1] - cut].mean(axis=-1)
+def of_differences(x, y, differences, ends=(2.5, 97.5)):
+    return np.array([iqm(x) - iqm(y), *np.percentile(differences, ends)])
 
 
-def of_differences(x, y, differences):
-    return np.array([iqm_of_rows(x) - iqm_of_rows(y), *np.percentile(differences, [2.5, 97.5])])
-
-
-def less_each_end(x, y, draws_x, draws_y):
-    """Low end less low end, high end less high end."""
-    ends = [np.percentile(iqm_of_rows(scores[draws]), [2.5, 97.5]) for scores, draws in ((x, draws_x), (y, draws_y))]
-    return np.array([iqm_of_rows(x) - iqm_of_rows(y), *(ends[0] - ends[1])])
-
-
-def widest(x, y, draws_x, draws_y):
-    """Low end less high end, high end less low end."""
-    ends = [np.percentile(iqm_of_rows(scores[draws]), [2.5, 97.5]) for scores, draws in ((x, draws_x), (y, draws_y))]
-    return np.array([iqm_of_rows(x) - iqm_of_rows(y), *(ends[0] - ends[1][::-1])])
-
-
-def of_one_end_each(x, y, draws_x, draws_y):
-    ends = np.percentile(iqm_of_rows(x[draws_x]) - iqm_of_rows(y[draws_y]), [5, 95])
-    return np.array([iqm_of_rows(x) - iqm_of_rows(y), *ends])
+def of_two_intervals(x, y, draws_x, draws_y, turn=1):
+    """The low end less the low end, the high end less the high end; with turn=-1 each less the other end."""
+    ends = [np.percentile(iqm(scores[draws]), [2.5, 97.5]) for scores, draws in ((x, draws_x), (y, draws_y))]
+    return np.array([iqm(x) - iqm(y), *(ends[0] - ends[1][::turn])])
 
 
 def group_cases(rng):
     """Equal groups, two clusters, three seeds, one resample; then 30 at random, of different sizes."""
-    sizes = [(5, 5), (10, 10), (3, 3), (4, 8), *((int(m), int(n)) for m, n in rng.integers(2, 12, (30, 2)))]
+    sizes = [(5, 5), (10, 10), (3, 3), (4, 8), *rng.integers(2, 12, (30, 2))]
     for k, (m, n) in enumerate(sizes):
         x = np.full(m, 100.0) if k == 0 else np.where(rng.random(m) < 0.7, rng.normal(120, 5, m), -10.0)
         y = np.full(n, 100.0) if k == 0 else np.where(rng.random(n) < 0.5, rng.normal(110, 5, n), -10.0)
@@ -273,11 +249,11 @@ difference_interval = Exercise(
         Mistake(lambda x, y, draws_x, draws_y: difference_interval_solution(y, x, draws_y, draws_x),
             "Your sign is turned: the first group less the second.",
             "The sign of a difference does not matter."),
-        Mistake(less_each_end,
+        Mistake(of_two_intervals,
             "You subtract the ends of two intervals. Subtract in each resample, and take the percentiles of these "
             "differences.",
             "The interval of a difference is the difference of the intervals."),
-        Mistake(widest,
+        Mistake(lambda *case: of_two_intervals(*case, turn=-1),
             "You take the worst case at both ends: that both groups are unlucky in opposite directions is rarer than "
             "5 %. Take the percentiles of the resampled differences.",
             "An interval has to allow for the worst case."),
@@ -289,7 +265,7 @@ difference_interval = Exercise(
                 draws_y].mean(-1)),
             "In the resamples you take the mean. Sort each resample and leave out its own quarters.",
             "Sorting once is enough."),
-        Mistake(of_one_end_each,
+        Mistake(lambda x, y, draws_x, draws_y: of_differences(x, y, iqm(x[draws_x]) - iqm(y[draws_y]), (5, 95)),
             "You leave 5 % at each end. Both ends together may miss in 5 % of the cases.",
             "95 % means the 95th percentile."),
     ),
