@@ -72,14 +72,8 @@ def mixed_many_times(answer, demonstrations, size, beta, bonus):
     apart = not equal or drawn_apart(torch.stack(drawn), len(demonstrations))
     again = [answer(own, demonstrations, size, beta, bonus, np.random.default_rng(1))[0] for _ in range(2)]
     fresh = differ(*(each[:, 0][each[:, 0] >= OWN] for each, _ in pairs[-2:]))
-    same = torch.equal(*again)
-    return (
-        np.array([*rows.shape, *marks.shape]),
-        float(theirs.sum()),
-        right,
-        *paid,
-        *map(float, (even, apart, fresh, same)),
-    )
+    judged = map(float, (even, apart, fresh, torch.equal(*again)))
+    return np.array([*rows.shape, *marks.shape]), float(theirs.sum()), right, *paid, *judged
 
 
 def differ(one, other):
@@ -89,15 +83,9 @@ def differ(one, other):
 
 def batch_cases(rng):
     """Half, none, all, shares that are no whole number from above and below, no bonus; small tables; 16 at random."""
-    for size, beta, bonus in (
-        (8, 0.5, 2.0),
-        (8, 0.0, 2.0),
-        (8, 1.0, 0.5),
-        (64, 0.59, 1.0),
-        (64, 0.51, 1.0),
-        (32, 0.6, 0.0),
-    ):
-        yield numbered(0, 300, rng.integers(7, 14)), size, beta, bonus
+    shares = (8, 0.5, 2.0), (8, 0.0, 2.0), (8, 1.0, 0.5), (64, 0.59, 1.0), (64, 0.51, 1.0), (32, 0.6, 0.0)
+    for share in shares:
+        yield numbered(0, 300, rng.integers(7, 14)), *share
     for width, beta in ((8, 0.5), (11, 0.4), (10, 0.25)):
         yield numbered(0, SMALL, width), 20, beta, 2.0
     for _ in range(16):

@@ -10,12 +10,7 @@ from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import N_ACTIONS
 
 OUT, BEHIND, OUTSIDE, NOT_SAME, NOT_WHOLE, NOTHING = 0, 4, 5, 6, 7, 8  # 1 to 3 are the accidents
-ENDINGS = {
-    1: "collides",
-    2: "leaves the road",
-    3: "stops on the road",
-    BEHIND: "is still behind trap 1 at the end",
-}
+ENDINGS = {1: "collides", 2: "leaves the road", 3: "stops on the road", BEHIND: "is still behind trap 1 at the end"}
 
 
 def drive_out(answer, cars, scenario):

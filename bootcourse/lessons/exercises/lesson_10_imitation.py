@@ -18,11 +18,7 @@ def judged_cases(rng):
     yield torch.tensor([60.0, -60.0]).double(), torch.tensor([-60.0, 60.0, 0.0]).double()
     yield torch.tensor([100.0, -100.0]), torch.tensor([-100.0, 100.0, 0.0])
     for _ in range(30):
-        yield tuple(torch.tensor(rng.normal(0, 3, int(n))) for n in rng.integers(1, 8, 2))
-
-
-def swapped(rule_logits, own_logits):
-    return gail.discriminator_loss(own_logits, rule_logits)
+        yield tuple(torch.tensor(rng.normal(0, 3, n)) for n in rng.integers(1, 8, 2))
 
 
 discriminator_loss = Exercise(
@@ -38,7 +34,7 @@ discriminator_loss = Exercise(
           torch.tensor([-1 / 8, -3 / 8]), torch.tensor([1 / 4]))),
     ),
     mistakes=(
-        Mistake(swapped,
+        Mistake(lambda rule_logits, own_logits: gail.discriminator_loss(own_logits, rule_logits),
             "You have taken the two batches for each other: this discriminator learns to give the *agent* a high D.",
             "D is the probability that it is the agent's own driving (in the paper that introduced GAIL it is)."),
         Mistake(lambda rule_logits, own_logits: -gail.discriminator_loss(rule_logits, own_logits),
@@ -71,19 +67,13 @@ discriminator_loss = Exercise(
 )  # fmt: skip
 
 
-def logit_cases(rng):
-    """D = 1/2, near 0 and 1, D = 1 in floating point, e^x infinite in float32; then 40 at random."""
-    yield (torch.zeros(1).double(),)
-    yield (torch.tensor([5.0, -5.0]).double(),)
-    yield (torch.tensor([60.0, -60.0, 1.0]).double(),)
-    yield (torch.tensor([100.0, -100.0, 2.0]),)
-    for _ in range(40):
-        yield (torch.tensor(rng.normal(0, 3, rng.integers(1, 8))),)
-
-
 imitation_reward = Exercise(
     "imitation_reward(own_logits)",
-    solution=gail.imitation_reward, cases=logit_cases,
+    solution=gail.imitation_reward,
+    # D = 1/2, near 0 and 1, D = 1 in floating point, e^x infinite in float32; then 40 at random
+    cases=lambda rng: [(torch.zeros(1).double(),), (torch.tensor([5.0, -5.0]).double(),),
+                       (torch.tensor([60.0, -60.0, 1.0]).double(),), (torch.tensor([100.0, -100.0, 2.0]),),
+                       *((torch.tensor(rng.normal(0, 3, rng.integers(1, 8))),) for _ in range(40))],
     worked=(
         ((torch.tensor([0.0]).double(),), torch.tensor([math.log(2)])),  # D = 1/2
         # D = 3/4 and 1/4
@@ -176,16 +166,12 @@ def episodes_needed_solution(rate):
     return int(np.ceil(np.log(0.05) / np.log(1 - rate)))
 
 
-def accident_rates(rng):
-    """Nearly always, one in two, one in twenty, one in a thousand; then 40 at random."""
-    yield from ((0.97,), (0.5,), (0.05,), (0.01,), (0.001,))
-    for _ in range(40):
-        yield (np.exp(rng.uniform(np.log(0.002), np.log(0.6))),)
-
-
 episodes_needed = Exercise(
     "episodes_needed(rate)",
-    solution=episodes_needed_solution, cases=accident_rates,
+    solution=episodes_needed_solution,
+    # nearly always, one in two, one in twenty, one in a thousand; then 40 at random
+    cases=lambda rng: [(0.97,), (0.5,), (0.05,), (0.01,), (0.001,),
+                       *((np.exp(rng.uniform(np.log(0.002), np.log(0.6))),) for _ in range(40))],
     worked=(((0.5,), 5), ((0.9,), 2)),  # 1/2^5 = 1/32 is under 1/20, 1/2^4 is not; 1/10^2 is, 1/10 is not
     mistakes=(
         Mistake(lambda rate: math.ceil(3 / rate),

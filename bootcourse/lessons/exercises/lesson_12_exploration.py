@@ -22,16 +22,11 @@ def effective_actions_solution(policy):
     return np.exp(-np.sum(policy * np.log(safe), axis=-1))
 
 
-def policy_cases(rng):
-    """Sure, even, halves; then 40 at random."""
-    yield from ((SURE,), (EVEN,), (HALVES,))
-    for _ in range(40):
-        yield (some_policies(rng, rng.integers(1, 8)),)
-
-
 effective_actions = Exercise(
     "effective_actions(policy)",
-    solution=effective_actions_solution, cases=policy_cases,
+    solution=effective_actions_solution,
+    # sure, even, halves; then 40 at random
+    cases=lambda rng: [(SURE,), (EVEN,), (HALVES,), *((some_policies(rng, rng.integers(1, 8)),) for _ in range(40))],
     worked=(((EVEN[:1],), np.array([9.0])), ((HALVES,), np.array([2.0, 4.0]))),
     mistakes=(
         Mistake(lambda policy: np.log(effective_actions_solution(policy)),
@@ -197,16 +192,12 @@ def ever_tries_solution(policy):
     return 1 - np.prod(policy.max(axis=-1))
 
 
-def drive_cases(rng):
-    """A drive of one decision, a sure one, an even one; then 40 at random."""
-    yield from ((HALVES[:1],), (SURE,), (EVEN,), (np.concatenate([SURE, HALVES]),))
-    for _ in range(40):
-        yield (some_policies(rng, rng.integers(2, 12)),)
-
-
 ever_tries = Exercise(
     "ever_tries(policy)",
-    solution=ever_tries_solution, cases=drive_cases,
+    solution=ever_tries_solution,
+    # a drive of one decision, a sure one, an even one; then 40 at random
+    cases=lambda rng: [(HALVES[:1],), (SURE,), (EVEN,), (np.concatenate([SURE, HALVES]),),
+                       *((some_policies(rng, rng.integers(2, 12)),) for _ in range(40))],
     worked=(((HALVES[:1],), 0.5), ((HALVES,), 0.875), ((SURE,), 0.0)),  # 1 - 1/2; 1 - 1/2 · 1/4
     mistakes=(
         Mistake(lambda policy: np.prod(policy.max(axis=-1)),

@@ -282,52 +282,37 @@ def holm_solution(p):
     return adjusted
 
 
-def p_values(rng):
-    """One test, equal ones, some that fall below their predecessor when scaled, large ones; then 40 at random."""
-    yield (np.array([0.03]),)
-    yield (np.array([0.02, 0.02, 0.02]),)
-    yield (np.array([0.04, 0.01, 0.021, 0.9]),)
-    yield (np.array([0.9, 0.6, 0.7]),)
-    for _ in range(40):
-        yield (rng.uniform(0, 1, rng.integers(2, 9)) ** 3,)
-
-
-def sorted_holm(p):
-    return np.sort(holm_solution(p))
-
-
-def not_monotone(p):
-    ranks = np.argsort(np.argsort(p))
-    return np.minimum(np.asarray(p) * (len(p) - ranks), 1)
-
-
-def from_the_largest(p):
-    ranks = np.argsort(np.argsort(-np.asarray(p)))
-    return np.minimum(np.asarray(p) * (len(p) - ranks), 1)
+def scaled(p, order):
+    """Each p times m, m - 1, ... in this order, whatever the others become."""
+    return np.minimum(p * (len(p) - np.argsort(np.argsort(order))), 1)
 
 
 holm = Exercise(
     "holm(p)",
-    solution=holm_solution, cases=p_values,
+    solution=holm_solution,
+    # one test, equal ones, some that fall below their predecessor when scaled, large ones; then 40 at random
+    cases=lambda rng: [(np.array([0.03]),), (np.array([0.02, 0.02, 0.02]),), (np.array([0.04, 0.01, 0.021, 0.9]),),
+                       (np.array([0.9, 0.6, 0.7]),),
+                       *((rng.uniform(0, 1, rng.integers(2, 9)) ** 3,) for _ in range(40))],
     worked=(
         ((np.array([0.01, 0.04]),), np.array([0.02, 0.04])),  # 2 · 0.01; 1 · 0.04
         ((np.array([0.03, 0.5, 0.02]),), np.array([0.06, 0.5, 0.06])),  # 3 · 0.02 = 0.06; 2 · 0.03 = 0.06; 0.5
     ),
     mistakes=(
-        Mistake(lambda p: np.minimum(np.asarray(p) * len(p), 1),
+        Mistake(lambda p: np.minimum(p * len(p), 1),
             "You multiply every p by the number of tests. That is Bonferroni's correction: it is right, too, but "
             "Holm's multiplies only the smallest by m, the next by m - 1, and finds more.",
             "All p-values are corrected alike."),
-        Mistake(sorted_holm,
+        Mistake(lambda p: np.sort(holm_solution(p)),
             "Your numbers are right, but sorted. Return them in the order of the tests.",
             "The order of the answer does not matter."),
-        Mistake(not_monotone,
+        Mistake(lambda p: scaled(p, p),
             "A larger p must not end below a smaller one: each adjusted p is at least as large as the one before it.",
             "Each p is corrected for itself."),
-        Mistake(from_the_largest,
+        Mistake(lambda p: scaled(p, -p),
             "You multiply the *largest* p by m. Holm begins with the smallest.",
             "The weakest result needs the strongest correction."),
-        Mistake(lambda p: np.asarray(p) * 1.0,
+        Mistake(lambda p: p,
             "These are the p-values themselves. Of twenty, one on average is below 0.05 by luck.",
             "A p-value knows how many tests were made."),
     ),

@@ -18,12 +18,9 @@ def advantage_cases(rng):
     three, zeros = torch.tensor(rng.normal(0, 2, (3, 3, 2))), torch.zeros(3, 2, dtype=torch.float64)
     ends = zeros.clone()
     ends[1, 0] = 1.0
-    yield *three, zeros, zeros, 0.9, 0.8
-    yield *three, ends, ends, 0.9, 0.8
-    yield *three, zeros, ends, 0.9, 0.8
+    yield from ((*three, *marks, 0.9, 0.8) for marks in ((zeros, zeros), (ends, ends), (zeros, ends)))
     yield *three[:, :1], zeros[:1], zeros[:1], 0.9, 0.8
-    for lam in (0.0, 1.0):
-        yield *three, zeros, ends, 0.9, lam
+    yield from ((*three, zeros, ends, 0.9, lam) for lam in (0.0, 1.0))
     for _ in range(30):
         shape = rng.integers(2, 9), rng.integers(1, 4)
         columns = (torch.tensor(rng.normal(0, 2, shape)) for _ in range(3))
@@ -109,18 +106,13 @@ advantages = Exercise(
 
 def clipped_cases(rng):
     """Inside the limits, above and below them with both signs, another ε; then 30 at random."""
-    ratio, good, bad = rows(0.9, 1.1), rows(2.0, 1.0), rows(-2.0, -1.0)
-    yield ratio, good, 0.2
-    yield rows(1.5, 0.5), good, 0.2
-    yield rows(1.5, 0.5), bad, 0.2
-    yield rows(1.5, 0.5), rows(3.0, -1.0), 0.6
+    good, changed = rows(2.0, 1.0), rows(1.5, 0.5)
+    yield from ((rows(0.9, 1.1), good, 0.2), (changed, good, 0.2), (changed, -good, 0.2))
+    yield changed, rows(3.0, -1.0), 0.6
     for _ in range(30):
         n = rng.integers(2, 9)
-        yield (
-            torch.tensor(np.exp(rng.normal(0, 0.5, n))),
-            torch.tensor(rng.normal(0, 2, n)),
-            rng.choice([0.1, 0.2, 0.3]),
-        )
+        ratio, advantage = torch.tensor(np.exp(rng.normal(0, 0.5, n))), torch.tensor(rng.normal(0, 2, n))
+        yield ratio, advantage, rng.choice([0.1, 0.2, 0.3])
 
 
 def products(ratio, advantage, clip):
@@ -180,25 +172,17 @@ clipped_loss = Exercise(
 )  # fmt: skip
 
 
-def speed_cases(rng):
-    """Steady, convex, linear below 12.5 m/s, concave over 15 m/s, unequal parts, one second; then 40 at random."""
-    yield (np.full(4, 10.0),)
-    yield (np.array([10.0, 15.0]),)
-    yield (np.array([6.0, 12.0, 9.0]),)
-    yield (np.array([14.0, 15.5]),)
-    yield (np.array([15.0, 5.0, 5.0, 5.0]),)
-    yield (np.array([14.0]),)
-    for _ in range(40):
-        yield (rng.uniform(3, 15.5, rng.integers(2, 12)),)
-
-
 def paid_at(middle):
     return lambda speeds: np.mean([speed_reward(v) for v in speeds]) - speed_reward(middle(speeds))
 
 
 jensen_gap = Exercise(
     "jensen_gap(speeds)",
-    solution=second_trap.jensen_gap, cases=speed_cases,
+    solution=second_trap.jensen_gap,
+    # steady, convex, linear below 12.5 m/s, concave over 15 m/s, unequal parts, one second; then 40 at random
+    cases=lambda rng: [(np.full(4, 10.0),), (np.array([10.0, 15.0]),), (np.array([6.0, 12.0, 9.0]),),
+                       (np.array([14.0, 15.5]),), (np.array([15.0, 5.0, 5.0, 5.0]),), (np.array([14.0]),),
+                       *((rng.uniform(3, 15.5, rng.integers(2, 12)),) for _ in range(40))],
     worked=(
         ((np.array([5.0, 15.0]),), np.float64((0 + 1) / 2 - 2 / 15)),  # r_v(10) = 2/15
         ((np.array([10.0, 12.5]),), np.float64(0.0)),  # linear between 5 and 12.5 m/s

@@ -148,14 +148,11 @@ def curriculum_cases(rng):
     yield [50.0, 50.0], 50.0, 3, 0.05
     yield [50.0, 50.0, 50.0], 50.0, 3, 0.05
     yield [49.0, 50.0, 51.0], 50.0, 3, 0.0
-    yield [48.0, 48.0, 48.0], 50.0, 3, 0.05
-    yield [47.0, 47.0, 47.0], 50.0, 3, 0.05
+    yield from (([mean, mean, mean], 50.0, 3, 0.05) for mean in (48.0, 47.0))
     yield [52.0, 0.0, 53.0], 50.0, 3, 0.05
     yield [0.0, 60.0, 60.0, 60.0], 50.0, 3, 0.0
     yield [90.0, 10.0, 10.0, 10.0], 25.0, 3, 0.05
-    yield [-10.2, -10.2], -10.0, 2, 0.05
-    yield [-12.0, -12.0], -10.0, 2, 0.05
-    yield [-9.0, -9.0], -10.0, 2, 0.05
+    yield from (([mean, mean], -10.0, 2, 0.05) for mean in (-10.2, -12.0, -9.0))
     yield [5.0, 7.0], -np.inf, 2, 0.1
     for _ in range(40):
         window = rng.integers(1, 5)
@@ -169,6 +166,19 @@ def shrinks(returns, best, window, tolerance):
     return enough and np.mean(returns[-window:]) >= best - tolerance * abs(best)
 
 
+def holds(mean, best, tolerance):
+    return mean >= best - tolerance * abs(best)
+
+
+def shrinks_with(holds=holds, judged=lambda returns, window: returns[-window:]):
+    """The solution with another comparison, or the mean of other returns."""
+
+    def answer(returns, best, window, tolerance):
+        return bool(len(returns) >= window and holds(np.mean(judged(returns, window)), best, tolerance))
+
+    return answer
+
+
 guide_shrinks = Exercise(
     "guide_shrinks(returns, best, window, tolerance)",
     solution=shrinks, cases=curriculum_cases,
@@ -180,33 +190,26 @@ guide_shrinks = Exercise(
         (([-10.5], -10.0, 1, 0.1), True),  # above -10 - 1
     ),
     mistakes=(
-        Mistake(lambda returns, best, window, tolerance: bool(np.mean(returns[-window:] or [-1e9])
-                    >= best - tolerance * abs(best)),
+        Mistake(lambda returns, best, window, tolerance: holds(np.mean(returns[-window:] or [-1e9]), best, tolerance),
             "You judge before there are enough returns: with fewer than `window` of them h stays.",
             "A mean of fewer returns is a mean, too."),
-        Mistake(lambda returns, best, window, tolerance: bool(len(returns) >= window
-                    and np.mean(returns) >= best - tolerance * abs(best)),
+        Mistake(shrinks_with(judged=lambda returns, window: returns),
             "You take the mean of all returns. The last `window` of them say how good the two are now.",
             "More returns, a better mean."),
-        Mistake(lambda returns, best, window, tolerance: bool(len(returns) >= window
-                    and np.mean(returns[-window:]) >= best * (1 - tolerance)),
+        Mistake(shrinks_with(lambda mean, best, tolerance: mean >= best * (1 - tolerance)),
             "With a negative best, best · (1 - tolerance) lies *above* the best. Use the size of the best: "
             "best - tolerance · |best|.",
             "5 % less is 0.95 times."),
-        Mistake(lambda returns, best, window, tolerance: bool(len(returns) >= window
-                    and np.mean(returns[-window:]) > best),
+        Mistake(shrinks_with(lambda mean, best, tolerance: mean > best),
             "You ask for a new best mean. It may lie below the best by the tolerance.",
             "The guide leaves when things get better."),
-        Mistake(lambda returns, best, window, tolerance: bool(len(returns) >= window
-                    and np.mean(returns[-window:]) >= best - tolerance),
+        Mistake(shrinks_with(lambda mean, best, tolerance: mean >= best - tolerance),
             "The tolerance is a share of the best, not a return: subtract tolerance · |best|.",
             "0.05 is 0.05 points."),
-        Mistake(lambda returns, best, window, tolerance: bool(len(returns) >= window
-                    and np.mean(returns[-window:]) < best - tolerance * abs(best)),
+        Mistake(shrinks_with(lambda *case: not holds(*case)),
             "This is the other way round: h would shrink where the return has fallen.",
             "A falling return means that the guide is in the way."),
-        Mistake(lambda returns, best, window, tolerance: bool(len(returns) >= window
-                    and np.mean(returns[:window]) >= best - tolerance * abs(best)),
+        Mistake(shrinks_with(judged=lambda returns, window: returns[:window]),
             "You take the first `window` returns. The last ones say how good the two are now.",
             "A window begins at the beginning."),
     ),
@@ -222,13 +225,8 @@ guide_shrinks = Exercise(
 
 def price_cases(rng):
     """Too many accidents, few, none at a price of 0, no rate yet, no step, just on budget; then 30 at random."""
-    yield 1.0, 0.03, 0.01, 10.0
-    yield 1.0, 0.0, 0.01, 10.0
-    yield 0.0, 0.0, 0.01, 10.0
-    yield 0.05, 0.0, 0.1, 2.0
-    yield 0.7, float("nan"), 0.01, 10.0
-    yield 2.0, 0.5, 0.01, 0.0
-    yield 3.0, 0.25, 0.25, 4.0
+    yield from ((1.0, 0.03, 0.01, 10.0), (1.0, 0.0, 0.01, 10.0), (0.0, 0.0, 0.01, 10.0), (0.05, 0.0, 0.1, 2.0))
+    yield from ((0.7, float("nan"), 0.01, 10.0), (2.0, 0.5, 0.01, 0.0), (3.0, 0.25, 0.25, 4.0))
     for _ in range(30):
         rate = rng.choice([rng.random(), 0.0, np.nan], p=[0.7, 0.2, 0.1])
         yield rng.exponential(1.0), rate, rng.random(), rng.exponential(3.0)

@@ -95,10 +95,7 @@ def copies_the_table(answer) -> bool:
 
 def buffer_cases(rng):
     """Half full, just full, one more than full, overwritten twice; then 16 at random."""
-    yield 6, 3, 8
-    yield 6, 6, 8
-    yield 6, 7, 8
-    yield 5, 13, 8
+    yield from ((6, 3, 8), (6, 6, 8), (6, 7, 8), (5, 13, 8))
     for _ in range(16):
         size = rng.integers(3, 9)
         yield size, rng.integers(3, 3 * size), rng.integers(2, 33)
@@ -128,12 +125,11 @@ def buffer_with(**methods):
     return type("ReplayBuffer", (ReplayBufferSolution,), methods)
 
 
-def add_to_the_end(self, row):
-    self.rows.append(row)
-
-
-def add_while_there_is_room(self, row):
-    self.rows += [row] * (len(self.rows) < self.size)
+def buffer_that_draws(numbers):
+    """A buffer whose batches are other rows: numbers(rows, batch, rng)."""
+    return buffer_with(
+        sample=lambda self, batch, rng: torch.stack([self.rows[i] for i in numbers(self.rows, batch, rng)])
+    )
 
 
 def add_in_front(self, row):
@@ -144,21 +140,9 @@ def add_by_copying(self, row):
     self.rows = [other.clone() for other in [*self.rows, row][-self.size :]]
 
 
-def draw_all_but_the_last(self, batch, rng):
-    return torch.stack([self.rows[i] for i in rng.integers(max(len(self.rows) - 1, 1), size=batch)])
-
-
-def draw_the_newest(self, batch, rng):
-    return torch.stack([self.rows[-1]] * batch)
-
-
 def draw_from_the_whole_table(self, batch, rng):
     table = [*self.rows, *[torch.zeros_like(self.rows[0])] * (self.size - len(self.rows))]
     return torch.stack([table[i] for i in rng.integers(self.size, size=batch)])
-
-
-def draw_without_rng(self, batch, rng):
-    return torch.stack([self.rows[i] for i in torch.randint(len(self.rows), (batch,))])
 
 
 ReplayBuffer = Exercise(
@@ -168,10 +152,10 @@ ReplayBuffer = Exercise(
         ((2, 3, 4), (np.array([4, 3]), "2 3", 1.0, 1.0, 1.0, 1.0, 1.0)),  # the oldest of three rows is gone
     ),
     mistakes=(
-        Mistake(buffer_with(add=add_to_the_end),
+        Mistake(buffer_with(add=lambda self, row: self.rows.append(row)),
             "Your buffer keeps every row. Once it holds `size` rows, the oldest one has to go for each new one.",
             "Memory is cheap. (Old policies' transitions also show states that the agent no longer meets.)"),
-        Mistake(buffer_with(add=add_while_there_is_room),
+        Mistake(buffer_with(add=lambda self, row: self.rows.extend([row] * (len(self.rows) < self.size))),
             "Your full buffer ignores new rows: the agent would learn from its first policy for ever.",
             "When the buffer is full, it is finished."),
         Mistake(buffer_with(add=add_in_front),
@@ -179,16 +163,16 @@ ReplayBuffer = Exercise(
             "Any row may go."),
         Mistake(buffer_with(add=add_by_copying), COPIES,
             "Speed does not matter here. (A buffer of this course holds up to 50,000 rows.)"),
-        Mistake(buffer_with(sample=draw_all_but_the_last),
+        Mistake(buffer_that_draws(lambda rows, batch, rng: rng.integers(max(len(rows) - 1, 1), size=batch)),
             "One row is never drawn: `rng.integers(n)` already stops at n - 1.",
             "The upper end is included, as in `random.randint`."),
-        Mistake(buffer_with(sample=draw_the_newest),
+        Mistake(buffer_that_draws(lambda rows, batch, rng: [-1] * batch),
             "You always give the newest row. Draw each row of the batch at random from all rows.",
             "The newest transition is the most useful one."),
         Mistake(buffer_with(sample=draw_from_the_whole_table),
             "You also draw places that nobody has written yet: draw among the rows that are filled.",
             "An empty row does no harm. (It is a state of zeros with a reward of 0.)"),
-        Mistake(buffer_with(sample=draw_without_rng),
+        Mistake(buffer_that_draws(lambda rows, batch, rng: torch.randint(len(rows), (batch,))),
             "Two equal generators give different batches: draw with `rng`, so that a training can be repeated.",
             "One source of random numbers is as good as another."),
     ),
