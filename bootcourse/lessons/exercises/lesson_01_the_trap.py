@@ -17,8 +17,7 @@ def columns(acceleration, steering):
 
 
 decode = Exercise(
-    "decode(actions)",
-    solution=decode_solution,
+    "decode(actions)", solution=decode_solution,
     # all nine at once, each alone; then 20 at random
     cases=lambda rng: [(np.arange(9),), *((np.array([action]),) for action in range(9)),
                        *((rng.integers(0, 9, rng.integers(1, 8)),) for _ in range(20))],
@@ -79,8 +78,7 @@ def reward_cases(rng):
 
 
 reward = Exercise(
-    "reward(v_lon, offset, theta, accident)",
-    solution=reward_solution, cases=reward_cases,
+    "reward(v_lon, offset, theta, accident)", solution=reward_solution, cases=reward_cases,
     worked=(
         ((10.0, 0.0, 0.0, 0), 0.15625),  # (1.5 · 2/15 + 0.05) / 1.6
         ((15.0, 0.0, 0.0, 0), 1.55 / 1.6),
@@ -126,8 +124,7 @@ def idle_solution(speed, seconds):
 
 
 idle_return = Exercise(
-    "idle_return(speed, seconds)",
-    solution=idle_solution,
+    "idle_return(speed, seconds)", solution=idle_solution,
     cases=lambda rng: [*((speed, seconds) for seconds in (1, 150) for speed in (6.0, 10.0, 12.5)),
                        *((rng.uniform(5.1, 12.5), rng.integers(1, 151)) for _ in range(30))],
     worked=(((10.0, 1), 0.15625), ((10.0, 150), 23.4375), ((12.5, 1), 0.21875)),
@@ -185,8 +182,7 @@ def risk(share):
 
 
 bearable_risk = Exercise(
-    "bearable_risk(stay, escape, crash)",
-    solution=risk_solution, cases=risk_cases,
+    "bearable_risk(stay, escape, crash)", solution=risk_solution, cases=risk_cases,
     worked=(
         ((20.0, 60.0, -20.0), 0.5),  # half of 60 and half of -20 are 20, what staying pays
         ((20.0, 100.0, -20.0), 2 / 3),
@@ -246,8 +242,7 @@ def outcomes_cases(rng):
 
 
 outcome_rates = Exercise(
-    "outcome_rates(x_ego, x_trap_1, accident)",
-    solution=outcomes_solution, cases=outcomes_cases,
+    "outcome_rates(x_ego, x_trap_1, accident)", solution=outcomes_solution, cases=outcomes_cases,
     worked=(
         # behind, ahead, ahead and crashed, off the road at once
         ((np.array([1500.0, 1700.0, 900.0, 20.0]), np.array([1515.0, 1515.0, 800.0, 35.0]), np.array([0, 0, 1, 2])),

@@ -9,8 +9,7 @@ from bootcourse.lessons.exercise import Exercise, Mistake
 from bootcourse.road import formulas
 
 desired_gap = Exercise(
-    "desired_gap(v, dv, s0, time_gap, a_max, b)",
-    solution=formulas.desired_gap,
+    "desired_gap(v, dv, s0, time_gap, a_max, b)", solution=formulas.desired_gap,
     # same speed, falling back, standing still; a_max and b apart; then 40 at random
     cases=lambda rng: [(10.0, 0.0, 10.0, 1.5, 0.5, 0.5), (10.0, -2.0, 10.0, 1.5, 0.5, 0.5),
                        (0.0, 0.0, 10.0, 1.5, 0.5, 0.5), (12.0, 3.0, 5.0, 1.0, 2.0, 1.0),
@@ -159,8 +158,7 @@ def equilibrium_cases(rng):
 
 
 equilibrium_gap = Exercise(
-    "equilibrium_gap(v, v_desired, s0, time_gap, delta)",
-    solution=equilibrium_solution, cases=equilibrium_cases,
+    "equilibrium_gap(v, v_desired, s0, time_gap, delta)", solution=equilibrium_solution, cases=equilibrium_cases,
     worked=(((0.0, 12.5, 10.0, 1.5, 4.0), 10.0), ((5.0, 10.0, 10.0, 1.5, 2.0), 17.5 / math.sqrt(0.75))),
     mistakes=(
         Mistake(lambda v, w, s0, T, d: s0 + T * v,
@@ -228,23 +226,21 @@ worth_changing = Exercise(
         ((5.0, 0.1, -2.5, 0.0, 0.0, 0.2, 2.0), False),  # not safe
     ),
     mistakes=(
-        Mistake(lambda own, before, after, old, p, th, limit: incentive(own, before, after, old, p) > th,
+        Mistake(lambda *case: changing_solution(*case[:-1], math.inf),
             "You change lane although the new follower has to brake harder than the limit. Safety comes first, "
             "whatever the gain.",
             "A large gain makes up for a risk; the politeness term is safety enough."),
-        Mistake(lambda own, before, after, old, p, th, limit: after >= -limit and own > th,
+        Mistake(lambda own, before, after, old, p, *rest: changing_solution(own, before, after, old, 0, *rest),
             "Your driver counts its own gain only. Add what the others gain or lose, times the politeness.",
             "If it is safe for the others, they do not matter."),
-        Mistake(lambda own, before, after, old, p, th, limit: after >= -limit and incentive(own, 0, after, old, p) > th,
+        Mistake(lambda own, before, *rest: changing_solution(own, 0, *rest),
             "You count all of the new follower's braking. Count only what the change adds: its acceleration after "
             "minus before.",
             "Its acceleration afterwards is its loss."),
-        Mistake(lambda own, before, after, old, p, th, limit:
-            after >= -limit and incentive(own, before, after, 0, p) > th,
+        Mistake(lambda own, before, after, old, *rest: changing_solution(own, before, after, 0, *rest),
             "You forgot the old follower: the car behind gains when you leave its lane.",
             "The car that stays behind is not affected."),
-        Mistake(lambda own, before, after, old, p, th, limit:
-            after >= -limit and incentive(own, before, after, old, p) > 0,
+        Mistake(lambda *case: changing_solution(*case[:5], 0, case[6]),
             "You left out the threshold: without it drivers change lanes back and forth for tiny gains.",
             "Any gain is a gain."),
         Mistake(lambda own, before, after, old, p, th, limit:
@@ -288,8 +284,7 @@ def step_by_step(error, factor, steps):
 
 
 heading_errors = Exercise(
-    "heading_errors(error, tau, dt, steps)",
-    solution=heading_solution,
+    "heading_errors(error, tau, dt, steps)", solution=heading_solution,
     # settled in one step, a constant oscillation, growing ones, no step; then 30 at random
     cases=lambda rng: [*((1.0, tau, 0.5, 6) for tau in (0.5, 0.25, 0.2, 0.6)), (0.1, 0.6, 0.5, 0), *(
                        (*rng.uniform([-0.3, 0.15, 0.05], [0.3, 1.0, 0.5]), rng.integers(1, 8)) for _ in range(30))],

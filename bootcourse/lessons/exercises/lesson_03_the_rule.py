@@ -26,8 +26,7 @@ def speed_cases(rng):
 
 
 target_speed = Exercise(
-    "target_speed(v_current, v_new, v_min, v_max, n)",
-    solution=rule.target_speed, cases=speed_cases,
+    "target_speed(v_current, v_new, v_min, v_max, n)", solution=rule.target_speed, cases=speed_cases,
     worked=(
         ((10.0, 10.0, 6.0, 15.0, 5), 8.25),  # of 6, 8.25, 10.5, 12.75, 15
         ((8.25, 12.0, 6.0, 15.0, 5), 6.0),  # *slower* than 8.25
@@ -67,8 +66,7 @@ target_speed = Exercise(
 
 
 safety_distance = Exercise(
-    "safety_distance(v_ego, v_current, v_new, t_safe, floor)",
-    solution=rule.safety_distance,
+    "safety_distance(v_ego, v_current, v_new, t_safe, floor)", solution=rule.safety_distance,
     # no car ahead, equal speeds, closing in on one of the two only; then 60 at random
     cases=lambda rng: [(12.0, INF, INF, 2.0, 3.0), (12.0, 10.0, INF, 2.0, 3.0), (12.0, INF, 9.0, 2.0, 3.0),
                        (10.0, 10.0, 10.0, 2.0, 3.0), (15.0, 8.0, 14.0, 2.5, 4.0), (15.0, 14.0, 8.0, 2.5, 4.0),
@@ -149,24 +147,20 @@ room_to_change = Exercise(
             "You change lane when the gap ahead is *shorter* than the safety distance, as the paper prints it. It has "
             "to be longer.",
             "A printed formula is right."),
-        Mistake(lambda front, rear, length, d_s, v, v_rear, t, floor:
-            front > d_s and rear > max(floor, (v_rear - v) * t),
+        Mistake(lambda front, rear, length, *rest: change_solution(front, rear, 0.0, *rest),
             "You measure from centre to centre. The gap is from bumper to bumper: subtract a car's length from each "
             "distance.",
             "The distance between two cars is the distance between their positions."),
-        Mistake(lambda front, rear, length, d_s, v, v_rear, t, floor:
-            front - length / 2 > d_s and rear - length / 2 > max(floor, (v_rear - v) * t),
+        Mistake(lambda front, rear, length, *rest: change_solution(front, rear, length / 2, *rest),
             "You subtract half a length. From bumper to bumper two halves go: half of your car and half of the other.",
             "Only the other car's length counts."),
-        Mistake(lambda front, rear, length, d_s, v, v_rear, t, floor: front - length > d_s,
+        Mistake(lambda front, rear, *rest: change_solution(front, INF, *rest),
             "You look ahead only. The car behind you in the new lane needs its distance, too.",
             "The driver behind has to take care."),
-        Mistake(lambda front, rear, length, d_s, v, v_rear, t, floor:
-            front - length > d_s and rear - length > max(floor, (v - v_rear) * t),
+        Mistake(lambda front, rear, length, d_s, v, u, *rest: change_solution(front, rear, length, d_s, u, v, *rest),
             "Behind you, the *other* car closes in: the distance that you need there grows with v_rear - v_ego.",
             "The same formula serves ahead and behind."),
-        Mistake(lambda front, rear, length, d_s, v, v_rear, t, floor:
-            front - length > d_s and rear - length > (v_rear - v) * t,
+        Mistake(lambda *case: change_solution(*case[:-1], -INF),
             "If the car behind is slower than you, your needed distance is negative, and you cut in right in front of "
             "it. Apply the floor there, too.",
             "The floor belongs to the formula for the car ahead."),
@@ -210,8 +204,7 @@ def one_good_plan(first, second, third):
 
 
 best_first_step = Exercise(
-    "best_first_step(costs)",
-    solution=first_solution, cases=first_cases,
+    "best_first_step(costs)", solution=first_solution, cases=first_cases,
     worked=(
         ((one_good_plan(2, 0, 1),), 2),  # right, left, straight
         ((one_good_plan(0, 2, 1),), 0),
@@ -252,8 +245,7 @@ def plan(*steps):
 
 
 direct_plan = Exercise(
-    "direct_plan()",
-    solution=direct_solution, run=drive_plan, explain=what_happened,
+    "direct_plan()", solution=direct_solution, run=drive_plan, explain=what_happened,
     cases=lambda rng: ((road,) for road in ROADS[1:] * 3),
     worked=(((ROADS[0],), np.array([0.0, 0.0, 1.0])),),
     mistakes=(
@@ -285,8 +277,7 @@ def table(actions, own, other):
 
 
 stochastic_rule = Exercise(
-    "stochastic_rule(rule_actions, p)",
-    solution=rule.stochastic_rule,
+    "stochastic_rule(rule_actions, p)", solution=rule.stochastic_rule,
     # every action, p = 1/9, which is uniform; then 40 at random
     cases=lambda rng: [(np.arange(9), 0.9), (np.array([3, 3, 8]), 1 / 9), (np.array([0]), 0.999), *(
                        (rng.integers(0, 9, rng.integers(1, 6)), rng.uniform(0.12, 0.99)) for _ in range(40))],

@@ -21,8 +21,7 @@ def policies(rng):
 
 
 entropy = Exercise(
-    "entropy(log_pi)",
-    solution=sac.entropy, cases=lambda rng: ((log_pi,) for log_pi in policies(rng)),
+    "entropy(log_pi)", solution=sac.entropy, cases=lambda rng: ((log_pi,) for log_pi in policies(rng)),
     worked=(
         ((torch.tensor([[0.5, 0.5], [0.75, 0.25]]).log(),), torch.tensor([LOG_2, 2 * LOG_2 - 0.75 * math.log(3)])),
     ),
@@ -65,8 +64,7 @@ def value_cases(rng):
 
 HALF = torch.full((1, 2), -LOG_2)
 soft_value = Exercise(
-    "soft_value(log_pi, q, alpha)",
-    solution=sac.soft_value, cases=value_cases,
+    "soft_value(log_pi, q, alpha)", solution=sac.soft_value, cases=value_cases,
     worked=(
         ((HALF, torch.tensor([[1.0, 3.0]]), torch.tensor(0.5)), torch.tensor([2 + 0.5 * LOG_2])),
         # sure of the second action: its Q and nothing else
@@ -113,8 +111,7 @@ def cases(rng):
 
 
 critic_target = Exercise(
-    "critic_target(reward, terminated, next_value, gamma)",
-    solution=sac.critic_target, cases=cases,
+    "critic_target(reward, terminated, next_value, gamma)", solution=sac.critic_target, cases=cases,
     worked=(
         # it goes on: 1 + 0.8 · 10; it ended: -10 and nothing after it
         ((torch.tensor([1.0, -10.0]), torch.tensor([0.0, 1.0]), torch.tensor([10.0, 10.0]), 0.8),
@@ -175,8 +172,7 @@ def errors(q_pair, action, target):
 
 
 critic_loss = Exercise(
-    "critic_loss(q_pair, action, target)",
-    solution=critic_loss_solution, cases=pair_cases, slopes=("q_pair", "target"),
+    "critic_loss(q_pair, action, target)", solution=critic_loss_solution, cases=pair_cases, slopes=("q_pair", "target"),
     worked=(
         # critic 1 is 1 too high for the first action, critic 2 is 2 too low; the second action was not taken
         ((torch.tensor([[[4.0, 9.0]], [[1.0, 9.0]]]), torch.tensor([0]), torch.tensor([3.0])),
@@ -227,8 +223,7 @@ def actor_loss_solution(log_pi, q, alpha):
 
 
 actor_loss = Exercise(
-    "actor_loss(log_pi, q, alpha)",
-    solution=actor_loss_solution, cases=value_cases, slopes=("log_pi", "q"),
+    "actor_loss(log_pi, q, alpha)", solution=actor_loss_solution, cases=value_cases, slopes=("log_pi", "q"),
     worked=(
         ((HALF, torch.tensor([[1.0, 3.0]]), torch.tensor(0.5)), torch.tensor(-(2 + 0.5 * LOG_2))),
     ),

@@ -11,8 +11,7 @@ def share_of_the_future_solution(gamma, seconds):
 
 
 share_of_the_future = Exercise(
-    "share_of_the_future(gamma, seconds)",
-    solution=share_of_the_future_solution,
+    "share_of_the_future(gamma, seconds)", solution=share_of_the_future_solution,
     # now (everything is still to come), far away, a γ near 1; then 40 at random
     cases=lambda rng: [(0.8, 0), (0.8, 50), (0.99, 1), (0.5, 1),
                        *((rng.uniform(0.5, 0.99), rng.integers(1, 60)) for _ in range(40))],
@@ -49,8 +48,7 @@ def luck_solution(good, decisions, tries):
 
 
 luck = Exercise(
-    "luck(good, decisions, tries)",
-    solution=luck_solution,
+    "luck(good, decisions, tries)", solution=luck_solution,
     # one try, every action good, one decision; then 50 at random
     cases=lambda rng: [(3, 2, 1), (9, 20, 5), (1, 1, 9), (1, 8, 1000),
                        *((rng.integers(1, 9), rng.integers(1, 8), rng.integers(1, 300)) for _ in range(50))],
@@ -118,8 +116,7 @@ def chain_cases(rng):
 
 
 learn_chain = Exercise(
-    "learn_chain(chances, gamma, step, taught)",
-    solution=chain.learn_chain, cases=chain_cases,
+    "learn_chain(chances, gamma, step, taught)", solution=chain.learn_chain, cases=chain_cases,
     worked=(
         ((np.array([0, 0]), 0.5, 0.5, ()), np.array([[0.14, 0], [0, 0], [0, 0], [0, 0], [0, 0]])),  # 0.08, then + 0.06
         ((np.array([0]), 0.8, 1.0, ((4, 1), (3, 1))), np.array([[0.16, 0], [0, 0], [0, 0], [0, 0.8], [0, 1.0]])),
@@ -175,8 +172,7 @@ def lowest_rate_solution(agents):
 
 
 lowest_rate = Exercise(
-    "lowest_rate(agents)",
-    solution=lowest_rate_solution, cases=lambda rng: ((int(n),) for n in range(1, 41)),
+    "lowest_rate(agents)", solution=lowest_rate_solution, cases=lambda rng: ((int(n),) for n in range(1, 41)),
     worked=(((1,), 0.025), ((2,), 0.158114)),
     mistakes=(
         Mistake(lambda agents: 0.05 ** (1 / agents),

@@ -33,8 +33,7 @@ def transitions_cases(rng):
 
 
 transitions = Exercise(
-    "transitions(observations, actions, rewards, accident)",
-    solution=transitions_solution, cases=transitions_cases,
+    "transitions(observations, actions, rewards, accident)", solution=transitions_solution, cases=transitions_cases,
     worked=(
         ((np.array([[1.0], [2.0], [3.0]]), np.array([4, 7]), np.array([0.5, -10.0]), 2),
          np.array([[1, 2, 4, 0.5, 0], [2, 3, 7, -10.0, 1]])),
@@ -86,8 +85,7 @@ def forwards(rewards, gamma):
 
 
 return_to_go = Exercise(
-    "return_to_go(rewards, gamma)",
-    solution=return_to_go_solution,
+    "return_to_go(rewards, gamma)", solution=return_to_go_solution,
     # γ of 0 and of 1, one reward, a late reward; then 40 at random
     cases=lambda rng: [(np.array([1.0, 2.0, 3.0]), 0.0), (np.array([1.0, 2.0, 3.0]), 1.0), (np.array([2.0]), 0.8),
                        (np.array([0.0, 0.0, 0.0, 10.0]), 0.8),
@@ -139,8 +137,7 @@ def agreement_cases(rng):
 
 
 agreement = Exercise(
-    "agreement(pi, actions)",
-    solution=agreement_solution, cases=agreement_cases,
+    "agreement(pi, actions)", solution=agreement_solution, cases=agreement_cases,
     worked=(
         ((np.array([[0.5, 0.3, 0.2], [0.1, 0.2, 0.7]]), np.array([0, 1])), 0.5),
         ((np.array([[0.4, 0.3, 0.3]]), np.array([0])), 1.0),
@@ -183,8 +180,7 @@ def chosen(log_pi, actions):
 
 
 cloning_loss = Exercise(
-    "cloning_loss(log_pi, expert_actions)",
-    solution=bc.cloning_loss, cases=cloning_cases, slopes=("log_pi",),
+    "cloning_loss(log_pi, expert_actions)", solution=bc.cloning_loss, cases=cloning_cases, slopes=("log_pi",),
     worked=(
         ((torch.tensor([[0.5] + [0.0625] * 8, [0.2] + [0.1] * 8]).log(), torch.tensor([0, 1])),
          torch.tensor((np.log(2) + np.log(10)) / 2)),
@@ -273,8 +269,7 @@ def one_row(label):
 
 
 dagger = Exercise(
-    "dagger(rows, train, drive, rounds)",
-    solution=cloning.dagger, cases=dagger_cases, run=collecting,
+    "dagger(rows, train, drive, rounds)", solution=cloning.dagger, cases=dagger_cases, run=collecting,
     worked=(
         ((one_row(4), 0), np.array([4 + 1 / 64])),  # one driver; the numbers stand for what it was trained on
         ((one_row(4), 1), np.array([4 + 1 / 64, 4 + 0 * 2 + 2 * 3 + 4 * 4 + 4 / 64])),  # labels 0, 2, 4 of own drives

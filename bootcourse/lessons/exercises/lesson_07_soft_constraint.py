@@ -21,8 +21,7 @@ def log_stochastic_rule_solution(rule_action, p):
 
 
 log_stochastic_rule = Exercise(
-    "log_stochastic_rule(rule_action, p)",
-    solution=log_stochastic_rule_solution,
+    "log_stochastic_rule(rule_action, p)", solution=log_stochastic_rule_solution,
     # the first and the last action, one state, nine states, p = 1/2; then 40 at random
     cases=lambda rng: [(torch.tensor([0, 8]), 0.9), (torch.tensor([4]), 0.5), (torch.arange(9), 0.99), *(
                        (torch.tensor(rng.integers(0, 9, rng.integers(1, 6))), rng.uniform(0.15, 0.99))
@@ -94,8 +93,7 @@ def cases(rng):
 
 
 soft_constraint = Exercise(
-    "soft_constraint(log_pi, rule_action, p)",
-    solution=solution, cases=cases, slopes=("log_pi",),
+    "soft_constraint(log_pi, rule_action, p)", solution=solution, cases=cases, slopes=("log_pi",),
     worked=(
         ((sure(5), torch.tensor([3]), 0.9), torch.tensor([math.log(80)])),  # log 1 / (0.1 / 8): 4.4 nats
         ((sure(3), torch.tensor([3]), 0.9), torch.tensor([-math.log(0.9)])),  # in agreement: log 1 / 0.9
@@ -157,8 +155,7 @@ def policy_cases(rng):
 
 
 regularised_policy = Exercise(
-    "regularised_policy(q, log_rule, alpha, xi)",
-    solution=bootstrap.regularised_policy, cases=policy_cases,
+    "regularised_policy(q, log_rule, alpha, xi)", solution=bootstrap.regularised_policy, cases=policy_cases,
     worked=(
         # two actions, Q equal: π̃ counts with ξ / (α + ξ) = 1/2, so with the roots of 0.8 and 0.2
         ((torch.zeros(1, 2), torch.tensor([[0.8, 0.2]]).log(), 1.0, 1.0), torch.tensor([[2 / 3, 1 / 3]])),

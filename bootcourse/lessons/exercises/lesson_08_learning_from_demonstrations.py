@@ -35,8 +35,7 @@ def others(q, expert_action):
 
 
 large_margin_loss = Exercise(
-    "large_margin_loss(q, expert_action)",
-    solution=bootstrap.large_margin_loss, cases=q_cases, slopes=("q",),
+    "large_margin_loss(q, expert_action)", solution=bootstrap.large_margin_loss, cases=q_cases, slopes=("q",),
     worked=(
         # the expert leads by 0.5: the loss is 0.5. It is behind by 2: 3. It leads by 2: 0.
         ((torch.tensor([[1.5, 1.0], [1.0, 3.0], [3.0, 1.0]]), torch.tensor([0, 0, 0])),
@@ -77,8 +76,7 @@ large_margin_loss = Exercise(
 )  # fmt: skip
 
 paper_q_filter = Exercise(
-    "paper_q_filter(q, expert_action)",
-    solution=bootstrap.paper_q_filter, cases=q_cases,
+    "paper_q_filter(q, expert_action)", solution=bootstrap.paper_q_filter, cases=q_cases,
     worked=(
         # ahead, behind, and level with the best
         ((torch.tensor([[1.5, 1.0], [1.0, 3.0], [2.0, 2.0]]), torch.tensor([0, 0, 0])), torch.tensor([1.0, 0.0, 1.0])),
@@ -134,8 +132,7 @@ def filter_cases(rng):
 
 
 q_filter = Exercise(
-    "q_filter(q, expert_action, log_pi)",
-    solution=bootstrap.q_filter, cases=filter_cases,
+    "q_filter(q, expert_action, log_pi)", solution=bootstrap.q_filter, cases=filter_cases,
     worked=(
         # π is worth 0.25 · 1 + 0.75 · 3 = 2.5, the expert's action 1; π is worth 1.5, the expert's action 3
         ((torch.tensor([[1.0, 3.0], [1.0, 3.0]]), torch.tensor([0, 1]),

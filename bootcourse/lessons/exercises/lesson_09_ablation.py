@@ -27,8 +27,7 @@ def count_cases(rng):
 
 
 exact_interval = Exercise(
-    "exact_interval(k, n)",
-    solution=exact_interval_solution, cases=count_cases,
+    "exact_interval(k, n)", solution=exact_interval_solution, cases=count_cases,
     worked=(((1, 1), np.array([0.025, 1.0])), ((0, 1), np.array([0.0, 0.975]))),  # rate ** 1 = 0.025
     mistakes=(
         Mistake(lambda k, n: k / n + 1.96 * np.array([-1, 1]) * np.sqrt(k / n * (1 - k / n) / n),
@@ -69,8 +68,7 @@ def interquartile_mean_solution(scores):
 
 
 interquartile_mean = Exercise(
-    "interquartile_mean(scores)",
-    solution=interquartile_mean_solution,
+    "interquartile_mean(scores)", solution=interquartile_mean_solution,
     # two extremes, all equal, three seeds; then 40 at random
     cases=lambda rng: [(np.array([128.0, -10.0, 120.0, 125.0, 126.0, 127.0, -6.0, 129.0]),), (np.full(10, 23.4375),),
                        (np.array([3.0, 1.0, 8.0]),),
@@ -122,8 +120,7 @@ def draw_cases(rng):
 
 
 bootstrap_interval = Exercise(
-    "bootstrap_interval(scores, draws)",
-    solution=bootstrap_interval_solution, cases=draw_cases,
+    "bootstrap_interval(scores, draws)", solution=bootstrap_interval_solution, cases=draw_cases,
     worked=(
         ((np.array([0.0, 8.0]), np.array([[0, 0], [0, 1], [1, 1]])), np.array([0.2, 7.8])),  # of the means 0, 4, 8
         ((np.array([2.0, 2.0]), np.array([[0, 1], [1, 1]])), np.array([2.0, 2.0])),
@@ -177,8 +174,7 @@ def rival_cases(rng):
 
 
 chance_of_improvement = Exercise(
-    "chance_of_improvement(x, y)",
-    solution=chance_of_improvement_solution, cases=rival_cases,
+    "chance_of_improvement(x, y)", solution=chance_of_improvement_solution, cases=rival_cases,
     worked=(((np.array([1.0, 3.0]), np.array([2.0, 2.0])), 0.5), ((np.array([2.0, 3.0]), np.array([2.0, 0.0])), 0.875)),
     mistakes=(
         Mistake(lambda x, y: np.mean(x[:, None] > y),
@@ -237,8 +233,7 @@ def group_cases(rng):
 
 
 difference_interval = Exercise(
-    "difference_interval(x, y, draws_x, draws_y)",
-    solution=difference_interval_solution, cases=group_cases,
+    "difference_interval(x, y, draws_x, draws_y)", solution=difference_interval_solution, cases=group_cases,
     worked=(
         ((np.array([0.0, 8.0]), np.array([1.0, 1.0]), np.array([[0, 0], [0, 1], [1, 1]]), np.array([[0, 1]] * 3)),
          np.array([3.0, -0.8, 6.8])),  # means 0, 4, 8, each less 1

@@ -68,8 +68,7 @@ discriminator_loss = Exercise(
 
 
 imitation_reward = Exercise(
-    "imitation_reward(own_logits)",
-    solution=gail.imitation_reward,
+    "imitation_reward(own_logits)", solution=gail.imitation_reward,
     # D = 1/2, near 0 and 1, D = 1 in floating point, e^x infinite in float32; then 40 at random
     cases=lambda rng: [(torch.zeros(1).double(),), (torch.tensor([5.0, -5.0]).double(),),
                        (torch.tensor([60.0, -60.0, 1.0]).double(),), (torch.tensor([100.0, -100.0, 2.0]),),
@@ -130,8 +129,7 @@ def rate_cases(rng):
 
 
 deviation_of_a_rate = Exercise(
-    "deviation_of_a_rate(k, n)",
-    solution=deviation_of_a_rate_solution, cases=rate_cases,
+    "deviation_of_a_rate(k, n)", solution=deviation_of_a_rate_solution, cases=rate_cases,
     worked=(((1, 2), 100 / math.sqrt(2)), ((2, 2), 0.0), ((1, 4), 50.0)),  # √((75² + 3 · 25²) / 3) = 50
     mistakes=(
         Mistake(lambda k, n: 100 * math.sqrt(k / n * (1 - k / n)),
@@ -167,8 +165,7 @@ def episodes_needed_solution(rate):
 
 
 episodes_needed = Exercise(
-    "episodes_needed(rate)",
-    solution=episodes_needed_solution,
+    "episodes_needed(rate)", solution=episodes_needed_solution,
     # nearly always, one in two, one in twenty, one in a thousand; then 40 at random
     cases=lambda rng: [(0.97,), (0.5,), (0.05,), (0.01,), (0.001,),
                        *((np.exp(rng.uniform(np.log(0.002), np.log(0.6))),) for _ in range(40))],

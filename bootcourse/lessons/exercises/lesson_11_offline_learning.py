@@ -25,8 +25,7 @@ def offline_cases(rng):
 
 
 conservative_loss = Exercise(
-    "conservative_loss(q, actions)",
-    solution=sac.conservative_loss, cases=offline_cases, slopes=("q",),
+    "conservative_loss(q, actions)", solution=sac.conservative_loss, cases=offline_cases, slopes=("q",),
     worked=(
         # e^Q is 8 for the data's action and 1 for the other eight, so log Σ is log 16; the data's Q is log 8
         ((math.log(8) * torch.eye(9).double()[[1]], torch.tensor([1])), torch.tensor(math.log(2))),
@@ -175,8 +174,7 @@ def bound_cases(rng):
 
 
 share_of_the_bound = Exercise(
-    "share_of_the_bound(returns, bound)",
-    solution=share_of_the_bound_solution, cases=bound_cases,
+    "share_of_the_bound(returns, bound)", solution=share_of_the_bound_solution, cases=bound_cases,
     worked=(
         ((np.array([[10.0, 30.0], [-5.0, -5.0]]), np.array([20.0, 100.0])), np.array([1 / 3, -1 / 12])),
         ((np.array([[70.0, 70.0, 70.0]]), np.array([140.0, 140.0, 140.0])), np.array([0.5])),

@@ -23,8 +23,7 @@ def effective_actions_solution(policy):
 
 
 effective_actions = Exercise(
-    "effective_actions(policy)",
-    solution=effective_actions_solution,
+    "effective_actions(policy)", solution=effective_actions_solution,
     # sure, even, halves; then 40 at random
     cases=lambda rng: [(SURE,), (EVEN,), (HALVES,), *((some_policies(rng, rng.integers(1, 8)),) for _ in range(40))],
     worked=(((EVEN[:1],), np.array([9.0])), ((HALVES,), np.array([2.0, 4.0]))),
@@ -90,8 +89,7 @@ def place_cases(rng):
 
 
 where_explored = Exercise(
-    "where_explored(place, entropy, edges)",
-    solution=where_explored_solution, cases=place_cases,
+    "where_explored(place, entropy, edges)", solution=where_explored_solution, cases=place_cases,
     worked=(
         ((np.array([1.0, 2.0, 12.0]), np.array([1.0, 1.0, 2.0]), np.array([0.0, 10.0, 20.0])), np.array([0.5, 0.5])),
         ((np.array([5.0, 99.0]), np.array([1.0, 3.0]), np.array([0.0, 10.0, 20.0])), np.array([0.25, 0.0])),
@@ -153,8 +151,7 @@ def cell_cases(rng):
 
 
 coverage = Exercise(
-    "coverage(place, lane, edges, lanes)",
-    solution=coverage_solution, cases=cell_cases,
+    "coverage(place, lane, edges, lanes)", solution=coverage_solution, cases=cell_cases,
     worked=(
         ((np.array([1.0, 2.0, 11.0]), np.array([0, 0, 1]), np.array([0.0, 10.0, 20.0]), 2), 0.5),
         ((np.array([1.0, 2.0]), np.array([0, 1]), np.array([0.0, 10.0, 20.0]), 2), 0.5),
@@ -193,8 +190,7 @@ def ever_tries_solution(policy):
 
 
 ever_tries = Exercise(
-    "ever_tries(policy)",
-    solution=ever_tries_solution,
+    "ever_tries(policy)", solution=ever_tries_solution,
     # a drive of one decision, a sure one, an even one; then 40 at random
     cases=lambda rng: [(HALVES[:1],), (SURE,), (EVEN,), (np.concatenate([SURE, HALVES]),),
                        *((some_policies(rng, rng.integers(2, 12)),) for _ in range(40))],
@@ -259,8 +255,7 @@ def with_last(change):
 
 
 forgetting = Exercise(
-    "forgetting(success, window)",
-    solution=forgetting_solution, cases=training_curves,
+    "forgetting(success, window)", solution=forgetting_solution, cases=training_curves,
     worked=(
         # the means of two in a row: 0, 1/2, 1, 1, 1/2, 0; the last of at least 1/2 ends with episode 6
         ((np.array([[0, 0, 1, 1, 1, 0, 0]]), 2), np.array([[1.0, 0.0, 6.0]])),

@@ -36,8 +36,7 @@ def end_cases(rng):
 
 
 end_error = Exercise(
-    "end_error(q, actions, rewards, terminated)",
-    solution=end_error_solution, cases=end_cases,
+    "end_error(q, actions, rewards, terminated)", solution=end_error_solution, cases=end_cases,
     worked=(
         # two accidents: Q(s, a) is -8 and -9, both should be -10; the third row goes on
         ((np.array([[-8.0] + [0] * 8, [5, -9] + [5] * 7, range(9)]), np.array([0, 1, 2]), np.array([-10.0, -10, 0.5]),
@@ -106,8 +105,7 @@ def renamed(**others):
 
 
 diagnose = Exercise(
-    "diagnose(agent)",
-    solution=diagnose_solution,
+    "diagnose(agent)", solution=diagnose_solution,
     cases=lambda rng: [(letter,) for _ in range(4) for letter in rng.permutation(list("ABCDEF")).tolist()],
     explain=explain_hunt,
     worked=((("A",), "flipped_kl"), (("F",), "no_stop")),
@@ -202,8 +200,7 @@ EVEN = torch.full((1, 9), -math.log(9))
 ONE_TO_NINE = torch.arange(1.0, 10.0)[None]
 
 fixed_value = Exercise(
-    "fixed_value(log_pi, q, alpha)",
-    solution=fixed_value_solution, cases=value_cases, slopes=("log_pi",),
+    "fixed_value(log_pi, q, alpha)", solution=fixed_value_solution, cases=value_cases, slopes=("log_pi",),
     worked=(
         # nine actions, all alike: (1 + 2 + ... + 9) / 9 + 0.5 log 9
         ((EVEN, ONE_TO_NINE, 0.5), torch.tensor([5 + 0.5 * math.log(9)])),
@@ -296,8 +293,7 @@ def label_pairs_solution(asked):
 
 
 label_pairs = Exercise(
-    "label_pairs(asked)",
-    solution=label_pairs_solution,
+    "label_pairs(asked)", solution=label_pairs_solution,
     cases=lambda rng: [(rng.integers(0, 9, int(n)),) for n in (2, 9, 10, *rng.integers(3, 12, 30))],
     worked=(((np.array([4, 1, 0, 7]),), np.array([[4, 1], [1, 0], [0, 7]])), ((np.array([2, 5]),), np.array([[2, 5]]))),
     mistakes=(

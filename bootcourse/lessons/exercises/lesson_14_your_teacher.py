@@ -47,8 +47,7 @@ def of_the_nearest(cars, lane):
 
 
 gap_ahead = Exercise(
-    "gap_ahead(cars, lane)",
-    solution=gap_ahead_solution, cases=ahead_cases,
+    "gap_ahead(cars, lane)", solution=gap_ahead_solution, cases=ahead_cases,
     worked=(
         ((road_of((50, 10, 2), (65, 10, 2), (56, 9, 1)), 2), 10.0),  # 15 m less a car's length
         ((road_of((50, 10, 2), (65, 10, 2), (56, 9, 1)), 1), 1.0),
@@ -182,8 +181,7 @@ def label_cases(rng):
 
 
 next_labels = Exercise(
-    "next_labels(now, at_end, ended)",
-    solution=next_labels_solution, cases=label_cases,
+    "next_labels(now, at_end, ended)", solution=next_labels_solution, cases=label_cases,
     worked=(
         ((np.array([4, 4, 0]), np.array([7, 1, 8]), np.array([False, True, False])), np.array([4, 1, 0])),
         ((np.array([2]), np.array([5]), np.array([True])), np.array([5])),
@@ -238,8 +236,7 @@ def by_middle(middle):
 
 
 verdict = Exercise(
-    "verdict(alone, taught)",
-    solution=verdict_solution, cases=verdict_cases,
+    "verdict(alone, taught)", solution=verdict_solution, cases=verdict_cases,
     worked=(
         ((np.array([0.0, 0.0, 3.0]), np.array([80.0, 95.0, 100.0])), 1),
         ((np.array([20.0, 23.0, 23.0]), np.array([5.0, -9.0, 14.0])), -1),
@@ -288,8 +285,7 @@ def scaled(p, order):
 
 
 holm = Exercise(
-    "holm(p)",
-    solution=holm_solution,
+    "holm(p)", solution=holm_solution,
     # one test, equal ones, some that fall below their predecessor when scaled, large ones; then 40 at random
     cases=lambda rng: [(np.array([0.03]),), (np.array([0.02, 0.02, 0.02]),), (np.array([0.04, 0.01, 0.021, 0.9]),),
                        (np.array([0.9, 0.6, 0.7]),),

@@ -121,8 +121,7 @@ def products(ratio, advantage, clip):
 
 
 clipped_loss = Exercise(
-    "clipped_loss(ratio, advantage, clip)",
-    solution=ppo.clipped_loss, cases=clipped_cases, slopes=("ratio",),
+    "clipped_loss(ratio, advantage, clip)", solution=ppo.clipped_loss, cases=clipped_cases, slopes=("ratio",),
     worked=(
         # min(1.5 · 2, 1.2 · 2) = 2.4, and no slope: the action is likely enough
         ((rows(1.5), rows(2.0), 0.2), (torch.tensor(-2.4), rows(0.0))),
@@ -177,8 +176,7 @@ def paid_at(middle):
 
 
 jensen_gap = Exercise(
-    "jensen_gap(speeds)",
-    solution=second_trap.jensen_gap,
+    "jensen_gap(speeds)", solution=second_trap.jensen_gap,
     # steady, convex, linear below 12.5 m/s, concave over 15 m/s, unequal parts, one second; then 40 at random
     cases=lambda rng: [(np.full(4, 10.0),), (np.array([10.0, 15.0]),), (np.array([6.0, 12.0, 9.0]),),
                        (np.array([14.0, 15.5]),), (np.array([15.0, 5.0, 5.0, 5.0]),), (np.array([14.0]),),
@@ -233,8 +231,7 @@ def shaping_cases(rng):
 
 
 shaping_reward = Exercise(
-    "shaping_reward(phi, next_phi, terminated, gamma)",
-    solution=second_trap.shaping_reward, cases=shaping_cases,
+    "shaping_reward(phi, next_phi, terminated, gamma)", solution=second_trap.shaping_reward, cases=shaping_cases,
     worked=(
         # 0.5 · 4 - 1; an accident ends the episode: 0 - 3
         ((np.array([1.0, 3.0]), np.array([4.0, 8.0]), np.array([0.0, 1.0]), 0.5), np.array([1.0, -3.0])),

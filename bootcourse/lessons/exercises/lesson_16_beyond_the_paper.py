@@ -26,8 +26,7 @@ def smallest(q, chosen):
 
 THREE = torch.tensor([[[1.0, 5.0]], [[2.0, 3.0]], [[0.0, 9.0]]])  # three critics, one state, two actions
 smallest_of = Exercise(
-    "smallest_of(q, chosen)",
-    solution=smallest, cases=ensemble_cases,
+    "smallest_of(q, chosen)", solution=smallest, cases=ensemble_cases,
     worked=(
         ((THREE, torch.tensor([0, 1])), torch.tensor([[1.0, 3.0]])),  # the third critic is not asked
         ((THREE, torch.tensor([2])), torch.tensor([[0.0, 9.0]])),
@@ -94,8 +93,7 @@ def above(q, rule_actions):
 
 PI, Q = torch.tensor([[0.5, 0.3, 0.2]]), torch.tensor([[1.0, 2.0, 3.0]])
 better_of_two = Exercise(
-    "better_of_two(pi, q, rule_actions)",
-    solution=better, cases=two_cases,
+    "better_of_two(pi, q, rule_actions)", solution=better, cases=two_cases,
     worked=(
         # the rule takes the second action: an own third is better and keeps 0.2; an own first gives way, 0.5 + 0.3
         ((PI, Q, torch.tensor([1])), torch.tensor([[0.0, 0.8, 0.2]])),
@@ -180,8 +178,7 @@ def shrinks_with(holds=holds, judged=lambda returns, window: returns[-window:]):
 
 
 guide_shrinks = Exercise(
-    "guide_shrinks(returns, best, window, tolerance)",
-    solution=shrinks, cases=curriculum_cases,
+    "guide_shrinks(returns, best, window, tolerance)", solution=shrinks, cases=curriculum_cases,
     worked=(
         (([40.0, 50.0, 60.0], 52.0, 2, 0.0), True),  # the last two: 55
         (([40.0, 50.0, 60.0], 52.0, 3, 0.05), True),  # 50 is above 52 - 2.6
@@ -238,8 +235,7 @@ def next_price(multiplier, rate, budget, step):
 
 
 multiplier_step = Exercise(
-    "multiplier_step(multiplier, rate, budget, step)",
-    solution=next_price, cases=price_cases,
+    "multiplier_step(multiplier, rate, budget, step)", solution=next_price, cases=price_cases,
     worked=(
         ((1.0, 0.5, 0.25, 2.0), 1.5),  # a quarter too much, twice
         ((1.0, 0.25, 0.5, 2.0), 0.5),

@@ -73,8 +73,7 @@ def one_row(demo, end, c=3.0, gamma=0.5):
 
 
 unmasks = Exercise(
-    "unmasks(target)",
-    solution=unmasks_solution, cases=lambda rng: [(name,) for name in TARGETS] * 2,
+    "unmasks(target)", solution=unmasks_solution, cases=lambda rng: [(name,) for name in TARGETS] * 2,
     run=is_unmasked, explain=explain_probe,
     worked=((("as it is printed",), False), (("no end",), True)),
     mistakes=(
