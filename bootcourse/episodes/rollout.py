@@ -97,6 +97,11 @@ class Rollout:
         return np.arange(len(self.states)) * self.scenario.clock.dt
 
     @property
+    def cars(self) -> np.ndarray:
+        """The cars' states at each decision, (T, vehicles, 10)."""
+        return self.states[:: self.scenario.clock.steps][: len(self.actions)]
+
+    @property
     def success(self) -> bool:
         """Whether the ego is ahead of trap 1 at the end, also if the episode ended in an accident."""
         return bool(self.states[-1, EGO, X] > self.states[-1, TRAP_1, X])

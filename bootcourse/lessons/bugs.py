@@ -157,16 +157,10 @@ class Probe:
         return float(q.gather(-1, own.actions[ended][:, None]).mean())
 
 
-def training_with(bug: str, episodes: int = 4000) -> Training:
-    """A training of the paper's method whose learner has the bug; "none" has none."""
-    training = Training(with_seeds(settings_for("bootstrapped"), SEEDS), episodes)
-    training.learner = LEARNERS[bug](training.settings, training.scenario.observation_size)
-    return training
-
-
 def trained(bug: str, updates: int = UPDATES) -> dict[str, np.ndarray]:
-    """What is kept of a training: curves, probes, and the weights of the first agent."""
-    training, probe = training_with(bug), Probe()
+    """Train the paper's method with a bug, "none" for none. Kept are curves, probes, and the first agent's weights."""
+    training, probe = Training(with_seeds(settings_for("bootstrapped"), SEEDS), 4000), Probe()
+    training.learner = LEARNERS[bug](training.settings, training.scenario.observation_size)
     result = training.run(progress=False, callback=probe, stop=lambda: training.updates >= updates)
     episodes = int(training.curves.finished.max())
     kept = {f"{bug}/{name}": result.curves[name][:, :episodes].astype(np.float16) for name in CURVES}

@@ -4,11 +4,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import torch
 from matplotlib.figure import Figure
+from scipy import special
 
 from bootcourse.episodes.rollout import Rollout
-from bootcourse.learn.sac import entropy, log_policy
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, finish, new_figure, wrapped
 from bootcourse.road.state import EGO, LANE, TRAP_1, X
 
@@ -24,14 +23,12 @@ class Visits:
     @property
     def entropy(self) -> np.ndarray:
         """H(π) of each decision in nats, (n,)."""
-        tiny = np.finfo(float).tiny
-        return entropy(log_policy(torch.as_tensor(np.log(np.maximum(self.policy, tiny))))).numpy()
+        return special.entr(self.policy.astype(float)).sum(axis=-1)
 
 
 def visits(drives: Sequence[Rollout]) -> Visits:
     """The decisions of all drives together."""
-    starts = [drive.states[:: drive.scenario.clock.steps][: len(drive.actions)] for drive in drives]
-    cars = np.concatenate(starts)
+    cars = np.concatenate([drive.cars for drive in drives])
     policy = [np.eye(9)[drive.actions] if drive.policy is None else drive.policy for drive in drives]
     return Visits(cars[:, EGO, X] - cars[:, TRAP_1, X], cars[:, EGO, LANE].astype(int), np.concatenate(policy))
 

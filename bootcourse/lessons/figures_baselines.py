@@ -52,7 +52,7 @@ def occupancy(drives: Sequence[Rollout], edges: Sequence[float], seconds: int = 
     """
     place, action = [], []
     for drive in drives:
-        cars = drive.states[:: drive.scenario.clock.steps][: len(drive.actions)][:seconds]
+        cars = drive.cars[:seconds]
         place.append(cars[:, EGO, X] - cars[:, TRAP_1, X])
         action.append(drive.actions[:seconds])
     place, action = np.concatenate(place), np.concatenate(action)

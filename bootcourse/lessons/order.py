@@ -7,6 +7,7 @@ import ast
 import json
 import os
 import symtable
+import traceback
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -20,18 +21,12 @@ def install(shell) -> None:
 
 def _explain(shell, kind, error, trace, tb_offset=None) -> None:
     """Show the sentence, or the usual traceback if no cell defines the name."""
-    sentence = first_run(error, _innermost(trace), code_cells(notebook_of(shell)))
+    raised_in = traceback.extract_tb(trace)[-1].filename
+    sentence = first_run(error, raised_in, code_cells(notebook_of(shell)))
     if sentence:
         shell._showtraceback(kind, error, [sentence])
     else:
         shell.showtraceback((kind, error, trace), running_compiled_code=True)
-
-
-def _innermost(trace) -> str:
-    """The name of the file or cell that raised the error."""
-    while trace.tb_next:
-        trace = trace.tb_next
-    return trace.tb_frame.f_code.co_filename
 
 
 def notebook_of(shell) -> Path | None:

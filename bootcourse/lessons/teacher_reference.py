@@ -24,7 +24,6 @@ from bootcourse.learn.settings import Settings, settings_for, with_seeds
 from bootcourse.learn.teachers import Rule, course_rule, teacher_of
 from bootcourse.learn.training import Training
 from bootcourse.lessons.example_teachers import careful, racer, reckless, timid
-from bootcourse.scenario import DEFAULT
 from bootcourse.storage.assets import FOLDER
 
 SEEDS, UPDATES, EVERY = 10, 3500, 250  # students of each teacher; updates of each; updates between two notes
@@ -90,8 +89,8 @@ def alike(agents: list[Agent], teacher: Rule, roads: int = 4) -> np.ndarray:
     shares, ask = [], teacher_of(teacher)
     for agent in agents:
         drives = record(agent.as_policy(), ROADS[:roads])
-        cars = np.concatenate([drive.states[:: DEFAULT.clock.steps][: len(drive.actions)] for drive in drives])
-        shares.append(np.mean(ask(cars) == np.concatenate([drive.actions for drive in drives])))
+        asked = ask(np.concatenate([drive.cars for drive in drives]))
+        shares.append(np.mean(asked == np.concatenate([drive.actions for drive in drives])))
     return np.array(shares)
 
 
@@ -103,8 +102,9 @@ def p_value(taught: np.ndarray, alone: np.ndarray) -> float:
 def holm(p: Sequence[float]) -> np.ndarray:
     """Holm's adjusted p-values (Holm 1979), in the order of p: (tests,) -> (tests,)."""
     order, m = np.argsort(p), len(p)
+    scaled = np.asarray(p)[order] * (m - np.arange(m))
     adjusted = np.empty(m)
-    adjusted[order] = np.minimum(np.maximum.accumulate(np.asarray(p)[order] * (m - np.arange(m))), 1)
+    adjusted[order] = np.minimum(np.maximum.accumulate(scaled), 1)
     return adjusted
 
 

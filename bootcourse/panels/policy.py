@@ -33,7 +33,7 @@ class PolicyPanel(Panel):
 
     def __init__(self, rollout: Rollout, p: float, xi: float, alpha: float):
         self.rollout, self.clock = rollout, rollout.scenario.clock
-        starts = rollout.states[:: self.clock.steps][: len(rollout.actions)]  # (T, vehicles, 10), at each decision
+        starts = rollout.cars  # (T, vehicles, 10)
         self.starts, self.decisions = starts, rule(np.ascontiguousarray(starts), rollout.scenario)
         rate = self.clock.decision_rate
         self.moment = moment(len(rollout.actions), rate, "The time of the decision.", "this drive has its")

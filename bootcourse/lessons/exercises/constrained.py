@@ -14,7 +14,7 @@ def constrained_loss_solution(log_pi, q, alpha, xi, kl):
 
 def loss_cases(rng):
     """No rule (ξ = 0), no entropy (α = 0), one state; then 30 at random."""
-    for size, alpha, xi in ((3, 0.2, 0.0), (3, 0.0, 1.0), (1, 0.1, 2.0), *((int(n), 0.1, 0.7) for n in range(1, 31))):
+    for size, alpha, xi in ((3, 0.2, 0.0), (3, 0.0, 1.0), (1, 0.1, 2.0), *((n, 0.1, 0.7) for n in range(1, 31))):
         log_pi = torch.tensor(rng.normal(0, 2, (size, 9))).log_softmax(-1)
         q, kl = torch.tensor(rng.normal(0, 3, (size, 9))), torch.tensor(rng.uniform(0, 4, size))
         yield log_pi, q, alpha, xi, kl
@@ -75,7 +75,7 @@ def target_cases(rng):
         numbers = torch.tensor(rng.normal(0, 3, size)), torch.tensor(rng.random(size) < ended).double()
         q_pair, kl = torch.tensor(rng.normal(0, 3, (2, size, 9))), torch.tensor(rng.uniform(0, 4, size))
         alpha, xi = rng.uniform(0.05, 1) if alpha is None else alpha, rng.uniform(0.1, 2) if xi is None else xi
-        return *numbers, log_pi, q_pair, kl, float(alpha), float(xi), rng.uniform(0.5, 0.99)
+        return *numbers, log_pi, q_pair, kl, alpha, xi, rng.uniform(0.5, 0.99)
 
     yield from (case(4, ended=1.0), case(4, ended=0.0), case(3, xi=0.0), case(3, alpha=0.0), case(1, ended=0.0))
     yield case(9)

@@ -172,7 +172,7 @@ def lowest_rate_solution(agents):
 
 
 lowest_rate = Exercise(
-    "lowest_rate(agents)", solution=lowest_rate_solution, cases=lambda rng: ((int(n),) for n in range(1, 41)),
+    "lowest_rate(agents)", solution=lowest_rate_solution, cases=lambda rng: ((n,) for n in range(1, 41)),
     worked=(((1,), 0.025), ((2,), 0.158114)),
     mistakes=(
         Mistake(lambda agents: 0.05 ** (1 / agents),

@@ -99,7 +99,7 @@ def critic_cases(rng):
         q, next_q, next_target = (torch.tensor(rng.normal(0, 2, (n, 9))) for _ in range(3))
         terminated = torch.tensor((rng.random(n) < (0.0, 1.0, 0.5)[case % 3]).astype(float))
         actions, rewards = torch.tensor(rng.integers(0, 9, n)), torch.tensor(rng.normal(0, 2, n))
-        gamma, weight = rng.choice([0.5, 0.8, 0.99]), float((0.0, 1.0, 0.3, 5.0)[case % 4])
+        gamma, weight = rng.choice([0.5, 0.8, 0.99]), (0.0, 1.0, 0.3, 5.0)[case % 4]
         yield q, next_q, next_target, actions, rewards, terminated, gamma, weight
 
 

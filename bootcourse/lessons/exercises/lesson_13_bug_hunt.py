@@ -247,7 +247,7 @@ def loss_of(log_pi, q, log_rule, alpha, xi, flipped=False):
 
 def loss_cases(rng):
     """No rule (ξ = 0), no entropy (α = 0), one state; then 40 at random."""
-    for size, alpha, xi in ((3, 0.2, 0.0), (3, 0.0, 1.0), (1, 0.1, 2.0), *((int(n), 0.1, 0.7) for n in range(1, 41))):
+    for size, alpha, xi in ((3, 0.2, 0.0), (3, 0.0, 1.0), (1, 0.1, 2.0), *((n, 0.1, 0.7) for n in range(1, 41))):
         log_pi = torch.tensor(rng.normal(0, 2, (min(size, 6), 9))).log_softmax(-1)
         rule = torch.full(log_pi.shape, 0.0125).double()
         rule[torch.arange(len(rule)), torch.tensor(rng.integers(0, 9, len(rule)))] = 0.9
@@ -294,7 +294,7 @@ def label_pairs_solution(asked):
 
 label_pairs = Exercise(
     "label_pairs(asked)", solution=label_pairs_solution,
-    cases=lambda rng: [(rng.integers(0, 9, int(n)),) for n in (2, 9, 10, *rng.integers(3, 12, 30))],
+    cases=lambda rng: [(rng.integers(0, 9, n),) for n in (2, 9, 10, *rng.integers(3, 12, 30))],
     worked=(((np.array([4, 1, 0, 7]),), np.array([[4, 1], [1, 0], [0, 7]])), ((np.array([2, 5]),), np.array([[2, 5]]))),
     mistakes=(
         Mistake(lambda asked: np.stack([asked[1:], np.append(asked[2:], asked[-1])], axis=-1),

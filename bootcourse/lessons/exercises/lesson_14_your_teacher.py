@@ -3,6 +3,7 @@
 import numpy as np
 
 from bootcourse.learn import teachers as teacher
+from bootcourse.lessons import teacher_reference
 from bootcourse.lessons.example_teachers import DENSE, careful, dense_road, watchful
 from bootcourse.lessons.exercise import Exercise, Mistake
 from bootcourse.lessons.exercises.driven_out import OUT, drive_out, explain_rule
@@ -176,7 +177,7 @@ def next_labels_solution(now, at_end, ended):
 
 def label_cases(rng):
     """No road ended, all ended, one road; then 30 at random."""
-    for n, share in ((4, 0.0), (4, 1.0), (1, 1.0), *((int(n), 0.4) for n in rng.integers(2, 9, 30))):
+    for n, share in ((4, 0.0), (4, 1.0), (1, 1.0), *((n, 0.4) for n in rng.integers(2, 9, 30))):
         yield rng.integers(0, 9, n), rng.integers(0, 9, n), rng.random(n) < share
 
 
@@ -271,21 +272,13 @@ verdict = Exercise(
 )  # fmt: skip
 
 
-def holm_solution(p):
-    order, m = np.argsort(p), len(p)
-    scaled = np.asarray(p)[order] * (m - np.arange(m))
-    adjusted = np.empty(m)
-    adjusted[order] = np.minimum(np.maximum.accumulate(scaled), 1)
-    return adjusted
-
-
 def scaled(p, order):
     """Each p times m, m - 1, ... in this order, whatever the others become."""
     return np.minimum(p * (len(p) - np.argsort(np.argsort(order))), 1)
 
 
 holm = Exercise(
-    "holm(p)", solution=holm_solution,
+    "holm(p)", solution=teacher_reference.holm,
     # one test, equal ones, some that fall below their predecessor when scaled, large ones; then 40 at random
     cases=lambda rng: [(np.array([0.03]),), (np.array([0.02, 0.02, 0.02]),), (np.array([0.04, 0.01, 0.021, 0.9]),),
                        (np.array([0.9, 0.6, 0.7]),),
@@ -299,7 +292,7 @@ holm = Exercise(
             "You multiply every p by the number of tests. That is Bonferroni's correction: it is right, too, but "
             "Holm's multiplies only the smallest by m, the next by m - 1, and finds more.",
             "All p-values are corrected alike."),
-        Mistake(lambda p: np.sort(holm_solution(p)),
+        Mistake(lambda p: np.sort(teacher_reference.holm(p)),
             "Your numbers are right, but sorted. Return them in the order of the tests.",
             "The order of the answer does not matter."),
         Mistake(lambda p: scaled(p, p),

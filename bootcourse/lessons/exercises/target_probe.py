@@ -62,12 +62,12 @@ def explain_probe(cases, answers):
     )
 
 
-def one_row(demo, end, c=3.0, gamma=0.5):
+def one_row(demo, end):
     """A probe that looks at one transition only."""
 
     def answer(target):
-        got = target(np.array([1.0]), np.array([demo]), c, np.array([end]), np.array([4.0]), gamma)
-        return not np.allclose(got, 1.0 + c * demo + gamma * (1 - end) * 4.0)
+        got = target(np.array([1.0]), np.array([demo]), 3.0, np.array([end]), np.array([4.0]), 0.5)
+        return not np.allclose(got, 1.0 + 3.0 * demo + 0.5 * (1 - end) * 4.0)
 
     return answer
 
