@@ -33,8 +33,7 @@ constrained_loss = Exercise(
             "Your value is right, but the gradient flows into Q, too: the actor's step would change the critic. Use "
             "`q.detach()`.",
             "The actor's step cannot change the critic. (Here one optimiser holds both networks.)"),
-        Mistake(lambda log_pi, q, alpha, xi, kl:
-            -((log_pi.exp() * (q.detach() - alpha * log_pi)).sum(-1) + xi * kl).mean(),
+        Mistake(lambda log_pi, q, alpha, xi, kl: constrained_loss_solution(log_pi, q, alpha, -xi, kl),
             "You reward the actor for leaving the rule: your loss falls as the KL grows. Subtract ξ times the KL from "
             "V.",
             "A penalty is added to V. (The minus of the loss turns it into a reward.)"),
@@ -47,8 +46,7 @@ constrained_loss = Exercise(
         Mistake(lambda log_pi, q, alpha, xi, kl: constrained_loss_solution(log_pi, q, alpha, 1.0, kl),
             "Your KL has no weight: multiply it by ξ.",
             "A KL in nats is already on the reward's scale."),
-        Mistake(lambda log_pi, q, alpha, xi, kl:
-            -((log_pi.exp() * (q.detach() + alpha * log_pi)).sum(-1) - xi * kl).mean(),
+        Mistake(lambda log_pi, q, alpha, xi, kl: constrained_loss_solution(log_pi, q, -alpha, xi, kl),
             "You penalise entropy: H is *minus* the sum of π log π, so α log π is subtracted from Q.",
             "Entropy is the sum of π log π."),
     ),
@@ -133,15 +131,13 @@ constrained_target = Exercise(
             "Your KL stands outside the value of s': it is charged after an accident, too, and is not discounted. It "
             "is part of V(s').",
             "The KL is subtracted from the reward of this second. (That KL is of s, before the action.)"),
-        Mistake(lambda r, ended, log_pi, q, kl, alpha, xi, gamma:
-            r + gamma * (soft(log_pi, q.amin(0), alpha) - xi * kl),
+        Mistake(lambda reward, terminated, *rest: constrained_target_solution(reward, 0 * terminated, *rest),
             "Your target adds a future after the accident. Where an episode ended, the target is the reward alone.",
             "The mask makes no difference on average. (It does: -10 plus a high V' is no warning.)"),
         Mistake(target_with(lambda log_pi, q, kl, alpha, xi: (log_pi.exp() * q.amin(0)).sum(-1) - xi * kl),
             "Your value has no entropy: add α H(π(·|s')).",
             "The KL replaces the entropy. (It contains one, with the weight ξ; α's comes on top.)"),
-        Mistake(target_with(lambda log_pi, q, kl, alpha, xi:
-            (log_pi.exp() * (q.amin(0) + alpha * log_pi)).sum(-1) - xi * kl),
+        Mistake(target_with(lambda log_pi, q, kl, alpha, xi: soft(log_pi, q.amin(0), -alpha) - xi * kl),
             "You penalise entropy: H is *minus* the sum of π log π, so α log π is subtracted from Q.",
             "Entropy is the sum of π log π."),
     ),

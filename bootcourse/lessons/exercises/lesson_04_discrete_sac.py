@@ -175,8 +175,7 @@ critic_loss = Exercise(
     "critic_loss(q_pair, action, target)", solution=critic_loss_solution, cases=pair_cases, slopes=("q_pair", "target"),
     worked=(
         # critic 1 is 1 too high for the first action, critic 2 is 2 too low; the second action was not taken
-        ((torch.tensor([[[4.0, 9.0]], [[1.0, 9.0]]]), torch.tensor([0]), torch.tensor([3.0])),
-         torch.tensor(5.0)),
+        ((torch.tensor([[[4.0, 9.0]], [[1.0, 9.0]]]), torch.tensor([0]), torch.tensor([3.0])), torch.tensor(5.0)),
     ),
     mistakes=(
         Mistake(lambda q_pair, action, target: errors(q_pair, action, target).square().mean(-1).sum(),

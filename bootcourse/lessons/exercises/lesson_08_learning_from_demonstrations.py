@@ -38,8 +38,7 @@ large_margin_loss = Exercise(
     "large_margin_loss(q, expert_action)", solution=bootstrap.large_margin_loss, cases=q_cases, slopes=("q",),
     worked=(
         # the expert leads by 0.5: the loss is 0.5. It is behind by 2: 3. It leads by 2: 0.
-        ((torch.tensor([[1.5, 1.0], [1.0, 3.0], [3.0, 1.0]]), torch.tensor([0, 0, 0])),
-         torch.tensor([0.5, 3.0, 0.0])),
+        ((torch.tensor([[1.5, 1.0], [1.0, 3.0], [3.0, 1.0]]), torch.tensor([0, 0, 0])), torch.tensor([0.5, 3.0, 0.0])),
     ),
     mistakes=(
         Mistake(lambda q, expert: (q + 1).amax(-1) - taken(q, expert),
@@ -52,8 +51,7 @@ large_margin_loss = Exercise(
             "Your loss goes below 0 where the expert leads by more than the margin: the maximum runs over *all* "
             "actions, the expert's included.",
             "The maximum is over the other actions."),
-        Mistake(lambda q, expert:
-            taken(q, expert) - (q + 1 - torch.nn.functional.one_hot(expert, q.shape[-1])).amax(-1),
+        Mistake(lambda q, expert: -bootstrap.large_margin_loss(q, expert),
             "Your sign is wrong: the loss grows with the expert's lead, so training would reduce the lead.",
             "The expert's value comes first, since it is the one that should be large."),
         Mistake(lambda q, expert: (q + 1 - torch.nn.functional.one_hot(expert, q.shape[-1])).sum(-1) - taken(q, expert),
@@ -214,8 +212,7 @@ margin_loss = Exercise(
         Mistake(lambda q_pair, action, theirs: (margins(q_pair, action, False) * theirs).mean(-1).sum(),
             "You left out the Q-filter: your loss also counts where the critic prefers another action.",
             "The filter is an option."),
-        Mistake(lambda q_pair, action, theirs:
-            (margins(q_pair, action) * theirs).sum() / theirs.sum().clamp(min=1),
+        Mistake(lambda q_pair, action, theirs: (margins(q_pair, action) * theirs).sum() / theirs.sum().clamp(min=1),
             "You divide by the number of demonstrations. Here it is the mean over the whole batch, so that the loss "
             "fades with β.",
             "A mean is over what counts."),
@@ -233,8 +230,7 @@ margin_loss = Exercise(
             "Your loss has the right value but no gradient, so it cannot move Q: leave out `.detach()`, `.item()` and "
             "NumPy.",
             "Detaching is always safe. (The filter needs no gradient, and has none.)"),
-        Mistake(lambda q_pair, action, theirs:
-            (margins(q_pair.amin(0, keepdim=True), action) * theirs).mean(-1).sum(),
+        Mistake(lambda q_pair, action, theirs: (margins(q_pair.amin(0, keepdim=True), action) * theirs).mean(-1).sum(),
             "You take the smaller of the two critics first. Each critic has its own margin, and its own filter.",
             "Twin critics act as one, their minimum."),
     ),

@@ -206,8 +206,7 @@ fixed_value = Exercise(
         ((EVEN, ONE_TO_NINE, 0.5), torch.tensor([5 + 0.5 * math.log(9)])),
     ),
     mistakes=(
-        Mistake(lambda log_pi, q, alpha:
-            (q - alpha * log_pi).gather(-1, log_pi.argmax(-1, keepdim=True)).squeeze(-1),
+        Mistake(lambda log_pi, q, alpha: (q - alpha * log_pi).gather(-1, log_pi.argmax(-1, keepdim=True)).squeeze(-1),
             "You use the most probable action only. All nine count, each with its probability π.",
             "The policy takes its most probable action, so the state has the value of that action."),
         Mistake(lambda log_pi, q, alpha: (q - alpha * log_pi).mean(-1),

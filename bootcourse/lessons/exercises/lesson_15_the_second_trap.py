@@ -30,19 +30,21 @@ def advantage_cases(rng):
         yield *columns, *marks, rng.choice([0.5, 0.9, 0.99]), rng.uniform(0, 1)
 
 
-def gae(delta=None, carry=None, weight=None, backwards=True):
+def gae(
+    delta=lambda r, v, n, terminated, ended, g: r + g * (1 - terminated) * n - v,
+    carry=lambda terminated, ended: 1 - ended,
+    weight=lambda gamma, lam: gamma * lam,
+    backwards=True,
+):
     """The solution with one piece replaced, for the known mistakes."""
 
     def answer(rewards, values, next_values, terminated, ended, gamma, lam):
-        if delta is None:
-            surprise = rewards + gamma * (1 - terminated) * next_values - values
-        else:
-            surprise = delta(rewards, values, next_values, terminated, ended, gamma)
+        surprise = delta(rewards, values, next_values, terminated, ended, gamma)
+        kept = carry(terminated, ended)
         found, following = torch.zeros_like(rewards), torch.zeros_like(rewards[0])
         steps = range(len(rewards))
         for t in reversed(steps) if backwards else steps:
-            kept = 1 - ended[t] if carry is None else carry(terminated[t])
-            found[t] = following = surprise[t] + (weight or (lambda g, each: g * each))(gamma, lam) * kept * following
+            found[t] = following = surprise[t] + weight(gamma, lam) * kept[t] * following
         return found
 
     return answer
@@ -57,14 +59,12 @@ advantages = Exercise(
         # nothing is expected, so δ = r: 4; 2 + 4/4; 1 + (2 + 4/4)/4, with γ λ = 1/4
         ((rows([1.0], [2.0], [4.0]), NONE, NONE, NONE, NONE, 0.5, 0.5), rows([1.75], [3.0], [4.0])),
         # an accident in the second decision: δ = 0 + 0 - 1; before it 0 + 10/2 - 1 = 4, and 4 - 1/4 with what follows
-        ((ZERO, ONE, TEN, rows([0.0], [1.0]), rows([0.0], [1.0]), 0.5, 0.5),
-         rows([3.75], [-1.0])),
+        ((ZERO, ONE, TEN, rows([0.0], [1.0]), rows([0.0], [1.0]), 0.5, 0.5), rows([3.75], [-1.0])),
         # out of time in the first: the last state has a value, and the next episode does not follow: 4, 4
-        ((ZERO, ONE, TEN, ZERO, rows([1.0], [0.0]), 0.5, 0.5),
-         rows([4.0], [4.0])),
+        ((ZERO, ONE, TEN, ZERO, rows([1.0], [0.0]), 0.5, 0.5), rows([4.0], [4.0])),
     ),
     mistakes=(
-        Mistake(gae(carry=lambda terminated: 1 - terminated),
+        Mistake(gae(carry=lambda terminated, ended: 1 - terminated),
             "Where an episode ran out of time, the next row belongs to another episode: its surprises are not caused "
             "by this decision. Stop the sum wherever `ended` is 1.",
             "Only an accident ends the sum."),
@@ -89,8 +89,7 @@ advantages = Exercise(
             "This is what a decision brought. An advantage is by how much that was *more than expected*: subtract "
             "V(s).",
             "The advantage is the return."),
-        Mistake(lambda rewards, values, next_values, terminated, ended, gamma, lam:
-                rewards + gamma * (1 - terminated) * next_values - values,
+        Mistake(gae(weight=lambda gamma, lam: 0.0),
             "These are the surprises δ. Each advantage also has the later ones, weighted with (γ λ)^k.",
             "One step is enough."),
     ),
