@@ -47,8 +47,7 @@ def teacher_value(found: Cells, quantity: str) -> Figure:
         ax.set(xlim=(low, high), ylim=(len(rows) - 0.5, -0.5))
         ax.set_yticks(range(len(rows)), [TEACHERS[row].words if column == 0 else "" for row in rows])
         ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
-    words = f"{its.label}. Dots: agents"
-    words += "; bar and line: their estimate and its 95 % interval"
+    words = f"{its.label}. Dots: agents; bar and line: their estimate and its 95 % interval"
     words += "; open dots at the right: not reached." * (quantity == "decisions") or "."
     figure.text(0.012, 0.12 / height, words[0].upper() + words[1:], fontsize=SMALL, color=QUIET)
     told = [f"{_named(place)}: {' '.join(in_words(each)).strip()}" for place, each in estimates.items()]

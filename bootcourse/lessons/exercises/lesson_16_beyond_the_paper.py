@@ -250,8 +250,7 @@ multiplier_step = Exercise(
         Mistake(lambda multiplier, rate, budget, step: max(0.0, multiplier + step * (rate - budget)),
             "With a rate of nan your λ becomes nan or 0. As long as there is no rate, λ stays.",
             "Every round has a rate."),
-        Mistake(lambda multiplier, rate, budget, step: multiplier if np.isnan(rate)
-                    else max(0.0, multiplier - step * (rate - budget)),
+        Mistake(lambda multiplier, rate, budget, step: next_price(multiplier, rate, budget, -step),
             "This is the other way round: your price falls while there are too many accidents.",
             "A step goes downhill."),
         Mistake(lambda multiplier, rate, budget, step: multiplier if np.isnan(rate)
@@ -262,8 +261,7 @@ multiplier_step = Exercise(
                     else max(0.0, step * (rate - budget)),
             "You forget the λ there was: it would jump back to 0 as soon as the budget is kept. Add the step to it.",
             "The price is a share of the excess."),
-        Mistake(lambda multiplier, rate, budget, step: multiplier if np.isnan(rate)
-                    else max(0.0, multiplier + step * rate),
+        Mistake(lambda multiplier, rate, budget, step: next_price(multiplier, rate, 0.0, step),
             "You leave out the budget: your λ rises as long as there are any accidents.",
             "No accident is acceptable."),
     ),
