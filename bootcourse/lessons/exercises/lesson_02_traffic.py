@@ -210,10 +210,8 @@ def changing_cases(rng):
     yield 0.25, 0.0, 0.0, 0.0, 0.5, 0.25, 2.0  # exactly at the threshold: not worth it
     yield 0.26, 0.0, 0.0, 0.0, 0.5, 0.25, 2.0
     for _ in range(120):
-        limits, accelerations = (
-            rng.uniform([0.05, 0.5], [0.6, 4.0]),
-            rng.normal([0.4, 0, -1, 0.1], [0.8, 0.6, 1.2, 0.4]),
-        )
+        limits = rng.uniform([0.05, 0.5], [0.6, 4.0])
+        accelerations = rng.normal([0.4, 0, -1, 0.1], [0.8, 0.6, 1.2, 0.4])
         yield *accelerations, rng.choice([0.0, 0.3, 0.5, 1.0]), *limits
 
 
