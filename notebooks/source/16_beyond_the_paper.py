@@ -477,10 +477,11 @@ bc.show(frontier.safe_and_fast(safer, shipped.shipped_bound().mean()))
 # difference: with the accident cost there are {{ crashed(safer()['accident cost']) | .1f }}, with
 # restarts {{ crashed(safer()['restarts']) | .1f }}, with the multiplier {{
 # crashed(safer()['multiplier']) | .1f }}, with γ = 0.995 {{ crashed(safer()['γ = 0.995']) | .1f }},
-# with a memory {{ crashed(safer()['memory']) | .1f }}, and with the shield {{ crashed(safer()['shield by hand']) | .1f }}. Each of these differences may
-# be luck: the smallest p of the six rank tests is {{ p_safer('shield by hand') | .2f }}. The
-# seventh, the learned mask, does harm: {{ crashed(safer()['learned mask']) | .0f }} (p is {{
-# p_safer('learned mask') | .2f }}).
+# with a memory {{ crashed(safer()['memory']) | .1f }}, and with the shield {{
+# crashed(safer()['shield by hand']) | .1f }}. Each of these differences may be luck: the smallest p
+# of the six rank tests is {{ p_safer('shield by hand') | .2f }}. The seventh, the learned mask,
+# does harm: {{ crashed(safer()['learned mask']) | .0f }} (p is {{ p_safer('learned mask') | .2f
+# }}).
 # <!-- claim: {its.escapers('ppo_safe') for its in safer().values()} == {len(its) for its in
 #   safer().values()} == {10} -->
 # <!-- claim: min(ALONE, key=p_safer) == 'shield by hand' and p_safer('shield by hand') > 0.05 >
@@ -530,17 +531,17 @@ table(["", f"crashes of the {sum(map(len, safer.values()))} agents"], rows)
 
 # %%
 agent, seeds = ppo_reference.agent_of("cloned").as_policy(), bc.held_out_seeds(1, 1000)
-drive = bc.record(agent, [seeds[worst_first[0]]])[0]
+drive = bc.record(agent, [seeds[worst_first[0]]], label="ppo_cloned")[0]
 end = drive.times[-1]
-bc.show(bc.top_view_over_time(drive, times=[end - 12, end - 8, end - 4, end]))
+bc.show(bc.top_view_over_time(drive, times=[end - 4, end - 2, end]))
 
 # %% [markdown]
-# **See.** Half of the crashes happen on {{ half_of_the_crashes() }} of the 1,000 roads. On the worst
-# road {{ crashes_on_roads().max() }} of the {{ sum(map(len, with_and_without())) }} agents crash.
-# The picture shows why: three slower cars drive side by side, one in each lane, and the agent of
-# lesson 15 keeps its 15 m/s until it hits the one in its own lane. The planner earns at least
-# {{ bound()[worst_roads(20)].min() | .0f }} on each of the 20 worst roads, so they can be driven
-# without an accident.
+# **See.** Half of the crashes happen on {{ half_of_the_crashes() }} of the 1,000 roads. On the
+# worst road {{ crashes_on_roads().max() }} of the {{ sum(map(len, with_and_without())) }} agents
+# crash. The picture shows why: three slower cars drive side by side, one in each lane, and the
+# agent of lesson 15 keeps its 15 m/s until it hits the one in its own lane. The planner earns at
+# least {{ bound()[worst_roads(20)].min() | .0f }} on each of the 20 worst roads, so they can be
+# driven without an accident.
 # <!-- claim: crashes_on_roads()[worst_roads(1)[0]] == crashes_on_roads().max() and
 #   three_abreast(worst_roads(1)[0]) -->
 #

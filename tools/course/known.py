@@ -174,7 +174,7 @@ def safer() -> dict[str, Results]:
 
 BEST = "accident cost and shield by hand, twice as long"  # of `safer`
 REMEMBERS = "accident cost, shield by hand and memory, twice as long"
-ALONE = ("accident cost", "multiplier", "restarts", "shield by hand", "γ = 0.995", "memory")  # of `safer`, but for the mask
+ALONE = ("accident cost", "multiplier", "restarts", "shield by hand", "γ = 0.995", "memory")  # but for the mask
 
 
 def p_safer(kind: str) -> float:
@@ -449,17 +449,6 @@ def checked(row: int, column: str) -> str:
     table = [line.strip("| ").split(" | ") for line in (FOLDER / "checks.md").read_text("utf-8").splitlines()]
     names, _, *rows = [cells for cells in table if len(cells) > 1 or cells[0].startswith("---")]
     return dict(zip(["ours" if name.startswith("ours") else name for name in names], rows[row], strict=True))[column]
-
-
-@cache
-def separated_by_luck(groups: int, agents: int) -> float:
-    """How often at least one group is wholly above or wholly below one shared control group if none differs.
-
-    All groups have as many agents. Drawn 100,000 times: right to about 0.003.
-    """
-    scores = np.random.default_rng(0).random((100_000, groups + 1, agents))
-    taught, alone = scores[:, 1:], scores[:, :1]
-    return float(((taught.min(-1) > alone.max(-1)) | (taught.max(-1) < alone.min(-1))).any(1).mean())
 
 
 @cache

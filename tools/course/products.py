@@ -20,6 +20,10 @@ WIDGET = "application/vnd.jupyter.widget-view+json"
 SOLVED_NOTE = (
     "*This notebook is solved: each exercise holds a right answer. The one to work in is [{0}](../{0}.ipynb).*"
 )
+PYTHON = {
+    "kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
+    "language_info": {"name": "python"},
+}
 STRICT = "check.strict()  # in this notebook every check must pass"
 IMPORTS_CHECK = re.compile(r"^from bootcourse\.lessons import (?:.*|\([^)]*)\bcheck\b", re.M)
 
@@ -70,9 +74,7 @@ def notebook(nodes: list[nbformat.NotebookNode]) -> nbformat.NotebookNode:
         times[cell.source] += 1
         text = f"{times[cell.source]} {cell.source}"
         cell.id = f"exercise-{exercise[1]}" if exercise else hashlib.sha256(text.encode()).hexdigest()[:12]
-    kernel = {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"}
-    metadata = {"kernelspec": kernel, "language_info": {"name": "python"}}
-    return nbformat.v4.new_notebook(cells=nodes, metadata=metadata)
+    return nbformat.v4.new_notebook(cells=nodes, metadata=PYTHON)
 
 
 def make(path: Path) -> list[Path]:
@@ -94,7 +96,7 @@ def execute(path: Path) -> dict[str, list]:
                 steps += ["check.strict()", cell.solved, "check.strict(False)"]
     if answers := list(path.parent.parent.glob("answers/*.py")):
         raise ValueError(f"Move {answers[0].parent} away: the notebooks would be made with these answers.")
-    ran = notebook([nbformat.v4.new_code_cell(step) for step in steps])
+    ran = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(step) for step in steps], metadata=PYTHON)
     NotebookClient(ran, timeout=300, resources={"metadata": {"path": path.parent.parent}}).execute()
     outputs = {STRICT: [[]]}
     for cell in ran.cells:
