@@ -29,7 +29,7 @@ LINGER = 2.0  # s for which the last frame stays before the replay starts again
 
 OVERLAY = """
 <style>
-#bc-hud {position:fixed;left:8px;top:8px;width:300px;max-height:calc(100% - 64px);overflow:auto;z-index:500;
+#bc-hud {position:fixed;right:8px;top:8px;width:300px;max-height:calc(100% - 64px);overflow:auto;z-index:500;
 border-radius:8px;color:@INK@;background:@PAPER@;box-shadow:0 1px 8px #0003;backdrop-filter:blur(6px)}
 #bc-hud summary {cursor:pointer;padding:5px 10px 1px;font:600 12px system-ui,sans-serif}
 #bc-hud button {font:11px system-ui,sans-serif;color:inherit;background:none;border:1px solid currentColor;
