@@ -29,7 +29,7 @@ class ReplayControls:
         gui.main_panel.set_width(PANEL_WIDTH)
         gui.add_html(hud.STYLE)
         self._playback(gui)
-        cameras = gui.add_button_group("Camera", CAMERAS)
+        cameras = gui.add_button_group("Camera", CAMERAS, hint="Where you look from; drag the road to look elsewhere")
         cameras.on_click(lambda event: event.client and point(event.client.camera, event.target.value, stage.span))
         self.table = gui.add_html("") if len(self.timelines) > 1 else None
         self.card = gui.add_html("")
@@ -45,7 +45,9 @@ class ReplayControls:
         marks = tuple((t, "⚠") for t in accidents) or None
         self.time = gui.add_slider("Time, s", 0.0, player.duration, 0.1, 0.0, marks=marks)
         self.play = gui.add_button(PLAY, hint="Key P")
-        steps = gui.add_button_group("Step", STEPS)
+        dt = self.timelines[0].dt
+        hint = f"To the start, {dt:g} s back (key J), {dt:g} s on (key K), to the end"
+        steps = gui.add_button_group("Step", STEPS, hint=hint)
         if accidents:
             jump = gui.add_button("Go to the accident", color="red")
             jump.on_click(lambda _: self._jump(accidents))
