@@ -10,9 +10,10 @@ python=${1:?"say which Python: sh tools/install.sh PYTHON [LOCK]"}
 lock=${2:-environment.lock}
 
 # The lock is complete, so pip has nothing to resolve (--no-deps) and takes only what the hashes allow.
-install() { "$python" -m pip --disable-pip-version-check install --no-deps "$@"; }
+install() { "$python" -m pip --disable-pip-version-check install --quiet --no-deps "$@"; }
 stop() { echo "$1"; exit 1; }
 
+echo "Now the packages of $lock are installed; this takes a few minutes."
 if [ "$(uname -s)" = Linux ]; then
     torch=$(mktemp)
     trap 'rm -f "$torch"' EXIT
@@ -23,7 +24,7 @@ if [ "$(uname -s)" = Linux ]; then
 fi
 install --require-hashes -r "$lock" \
     || stop "Some packages cannot be fetched: check the network and the free disk space, then run this again"
-install --quiet --no-build-isolation --editable .
+install --no-build-isolation --editable .
 
 # JupyterLab reads this file of its environment: no question about news at the first start.
 settings=$("$python" -c "import sys; print(sys.prefix)")/share/jupyter/lab/settings
