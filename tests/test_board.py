@@ -278,8 +278,8 @@ def test_the_command_of_the_readme_prints_the_board_with_the_run(bootcourse, tra
 REFUSED = {
     "a mistyped driver": (["rul", "--board"], "did you mean 'rule'"),
     "other roads": (["rule", "--board", "--seed", 3], "--board has its own roads"),
-    "several drivers without a board": (["rule", "idle"], "add --board"),
-    "a file without a board": (["rule", "--keep", "mine.json"], "add --board"),
+    "several drivers without a board": (["rule", "idle"], "Several drivers need --board."),
+    "a file without a board": (["rule", "--keep", "mine.json"], "--keep needs --board."),
     "a file of another kind": (["rule", "--board", "--keep", "mine.txt"], "does not end in .json"),
 }
 

@@ -162,8 +162,6 @@ REFUSED = {
     "a folder without runs": (["evaluate", "full"], "holds no run: train one"),
     "a folder that is not there": (["evaluate", "runs/nope"], "There is no folder runs/nope: give one that"),
     "the folder above the runs": (["evaluate", "deep"], "deep holds no run itself: name a folder in it, such as deep/"),
-    "several drivers without the board": (["evaluate", "rule", "idle"], "Several drivers need --board."),
-    "a file of the board without it": (["evaluate", "rule", "--keep", "a.json"], "--keep needs --board."),
     "a study among runs": (["study", "--out", "deep/runs"], "deep/runs holds runs of `bootcourse train`: choose"),
     "a lesson that is not there": (["handout", "new", "--lessons", "4-99"], "there is no lesson 99, the last is 16."),
     "no rollout": (["replay", "full/file.txt", "--text"], "file.txt is not a rollout: record one with"),
