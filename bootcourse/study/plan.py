@@ -187,7 +187,7 @@ def _teachers() -> dict[str, Variation]:
 RESTARTS = {"restart_share": 0.25, "restart_episodes": 10_000}  # in the first half of the training
 
 # Of the experiment `safe`: what is switched on beside PPO after cloning, whose own agents are in `beyond`. Ten agents
-# took 7 minutes of one core, and 14 for twice as long: an hour and a half for all.
+# took 7 minutes of one core, and 14 for twice as long: two hours for all.
 SAFER = {
     "accident cost": {"accident_cost": 50.0},
     "multiplier": {"multiplier_step": 3.0},
