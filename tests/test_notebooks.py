@@ -8,6 +8,7 @@ from pathlib import Path
 import nbformat
 import pytest
 
+from bootcourse import one_per_cell
 from bootcourse.lessons import check
 from tests.solved import cells_to_run, code_of
 from tools.course.source import NOTEBOOKS
@@ -59,6 +60,8 @@ def execute(cells: list[str]) -> None:
             exec(compile(cell, "a cell", "exec"), space)
     finally:
         check.strict(False)
+        for shown in one_per_cell.running():  # a prediction's form
+            shown.close()
 
 
 @pytest.mark.parametrize("path", SOLVED, ids=lambda path: path.stem)
