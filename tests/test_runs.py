@@ -159,6 +159,15 @@ def test_a_folder_without_a_run_says_how_to_train_one(tmp_path):
         find_runs(tmp_path / "nowhere")
 
 
+def test_the_runs_of_a_folder_are_found_beside_a_folder_with_others(tmp_path):
+    for place in ("mine/sac-0", "mine/older/sac-0"):
+        (tmp_path / place).mkdir(parents=True)
+        (tmp_path / place / "config.json").write_text("{}")
+    assert find_runs(tmp_path / "mine") == [tmp_path / "mine" / "sac-0"]
+    with pytest.raises(BootcourseError, match=r"holds no run itself: name a folder in it, such as .*mine\.$"):
+        find_runs(tmp_path)
+
+
 def test_a_finished_agent_is_kept_as_it_was_after_its_last_episode(tmp_path):
     training = small_training("sac", episodes=3)
     while not training.finished_agents:

@@ -214,12 +214,11 @@ def find_runs(folder: Path) -> list[Path]:
         raise BootcourseError(
             f"{folder} has an unfinished training: continue it with `bootcourse train --out {folder} --resume`."
         )
-    found = sorted(path.parent for path in folder.glob("[!.]*/config.json"))
+    if found := sorted(path.parent for path in folder.glob("[!.]*/config.json")):
+        return found
     if deeper := sorted(folder.glob("[!.]*/[!.]*/config.json")):
         raise BootcourseError(f"{folder} holds no run itself: name a folder in it, such as {deeper[0].parents[1]}.")
-    if not found:
-        raise BootcourseError(f"{folder} holds no run: train one with `bootcourse train --out {folder}`.")
-    return found
+    raise BootcourseError(f"{folder} holds no run: train one with `bootcourse train --out {folder}`.")
 
 
 def save_checkpoint(training: Training, path: Path) -> None:
