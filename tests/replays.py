@@ -11,7 +11,7 @@ TEN_CARS = replace(DEFAULT, traffic=replace(DEFAULT.traffic, cars=7))
 
 
 def thinking(rollout, label="bootstrapped"):
-    """The same drive, with the probabilities and values of an agent that nobody has trained."""
+    """The drive with random probabilities and values, as if an agent had driven it."""
     rng = np.random.default_rng(0)
     policy = rng.dirichlet(np.ones(9), size=len(rollout.actions))
     return replace(rollout, label=label, policy=policy, q_values=rng.normal(size=policy.shape))

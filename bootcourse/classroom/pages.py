@@ -139,7 +139,7 @@ def to_look_at(graduates: Sequence[Graduate], link: dict[str, str]) -> str:
 
 
 def histograms(classes: Sequence[dict[str, dict]]) -> str:
-    """One histogram for each prediction; nothing if nobody made one. classes: each student's predictions."""
+    """A histogram of each prediction's answers, or "" without any. classes: {number: prediction} of each student."""
     answers, asked = defaultdict(Counter), {}
     for own in classes:
         for number, one in own.items():
