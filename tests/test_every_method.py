@@ -21,7 +21,14 @@ QUICK = {"hidden": (8,), "demonstration_episodes": 2, "learning_starts": 16, "ba
 FADING = {  # what changes in a few episodes
     "ppo": {"anneal_decisions": 200},
     "ppo_kl": {"kl_episodes": 20},
-    "ppo_safe": {"risk_limit": 0.3, "multiplier_step": 1.0, "risk_decisions": 4, "restart_share": 0.5},
+    "ppo_safe": {
+        "risk_limit": 0.3,
+        "multiplier_step": 1.0,
+        "risk_decisions": 4,
+        "restart_share": 0.5,
+        "value_quantiles": 4,
+        "worst_share": 0.5,
+    },
 }
 
 

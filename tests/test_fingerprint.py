@@ -181,6 +181,7 @@ SAFE = {  # what is wrong: where, name, the wrong one
     "λ that falls with accidents": (safe, "multiplier_step", a_price_that_falls),
     "risky actions alone": (safe, "masked", lambda pi, risk, limit: masked(pi, -risk, -limit)),
     "a shield that asks for braking": (safe, "needed_braking", negative(safe.needed_braking)),
+    "a critic that looks at the best returns": (safe, "mean_of_the_worst", lambda found, share: found.amax(-1)),
     "the risk of no accident": (safe, "accident_within", lambda *rows: 1 - accident_within(*rows)),
     "no restarts": (restarts, "demonstration_share", lambda episode, share, episodes: 0 * share),
     "restarts just before the accident": (restarts, "FARTHEST", restarts.NEAREST),

@@ -8,6 +8,8 @@ import pytest
 import torch
 
 from bootcourse.learn.learner import learner_for
+from bootcourse.learn.networks import mlp
+from bootcourse.learn.quantiles import mean_of_the_worst, quantile_loss
 from bootcourse.learn.risk import accident_within, masked, resolved, risk_loss
 from bootcourse.learn.safe import SafeMinibatch, accident_rate, multiplier_step
 from bootcourse.learn.settings import settings_for
@@ -139,6 +141,35 @@ def test_a_classifier_learns_which_action_ends_in_an_accident():
     pi = learner.driving_policy(state, torch.zeros(1, 1, dtype=torch.int64))[0, 0]
     assert pi[ACCELERATE] == 0 and pi[BRAKE].item() == pytest.approx(1 / 8)
     assert learner.acting_policy(state, None, None)[0, 0, ACCELERATE].item() == pytest.approx(1 / 9)  # in training
+
+
+def test_the_quantiles_loss_weighs_too_high_and_too_low_by_the_quantile():
+    """Four quantiles, τ = 1/8, 3/8, 5/8, 7/8; a return of 2 is above the first two and below the last two."""
+    quantiles = torch.tensor([[0.0, 1.0, 3.0, 6.0]])
+    found = quantile_loss(quantiles, torch.tensor([2.0]))
+    assert found.item() == pytest.approx(2 * 1 / 8 + 1 * 3 / 8 + 1 * 3 / 8 + 4 * 1 / 8)
+
+
+def test_the_worst_share_of_the_quantiles_is_the_value():
+    quantiles = torch.tensor([[5.0, -4.0, 1.0, 2.0], [8.0, 8.0, 8.0, 0.0]])
+    assert mean_of_the_worst(quantiles, 1.0).tolist() == [1.0, 6.0]
+    assert mean_of_the_worst(quantiles, 0.5).tolist() == [-1.5, 4.0]
+    assert mean_of_the_worst(quantiles, 0.01).tolist() == [-4.0, 0.0]  # of one quantile at least
+
+
+def test_a_distributional_critic_learns_how_often_a_state_ends_badly():
+    """Returns are 10, or -10 in one drive of five: so are the quantiles, and the value is that of the worst quarter."""
+    settings = settings_for("ppo_safe", hidden=(8,), critic_lr=0.05, value_quantiles=20, worst_share=0.25, **OFF)
+    learner, (n, zeros) = learner_for([settings], 3), (200, torch.zeros(1, 200))
+    returns, actions = torch.where(torch.arange(n) % 5 == 0, -10.0, 10.0)[None], torch.zeros(1, n, dtype=torch.int64)
+    batch = SafeMinibatch(torch.ones(1, n, 3), actions, zeros, zeros, returns, actions, zeros, zeros, zeros)
+    for _ in range(1500):
+        learner.update(batch)
+    with torch.no_grad():
+        quantiles = mlp(learner.value, torch.ones(1, 1, 3))[0, 0].sort().values
+    assert quantiles[:3].max() < -9 and quantiles[5:].min() > 9
+    value = learner.state_value(quantiles[None])
+    assert value.item() == pytest.approx(quantiles[:5].mean().item()) and value.item() < -6
 
 
 def seen(speed: float, dx: float, dy: float, other: float) -> torch.Tensor:

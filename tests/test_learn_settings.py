@@ -78,6 +78,8 @@ def test_a_mistyped_setting_suggests_the_nearest():
         ),
         ({"method": "ppo_safe", "restart_share": -0.1}, "restart_share = -0.1"),
         ({"method": "ppo_safe", "restart_episodes": 2.5}, "restart_episodes = 2.5: give a whole number"),
+        ({"method": "ppo_safe", "value_quantiles": 0}, "value_quantiles = 0: give a whole number of 1 or more"),
+        ({"method": "ppo_safe", "worst_share": 0.0}, "worst_share = 0.0"),
     ],
 )
 def test_nonsense_is_refused_in_one_sentence(changes, sentence):

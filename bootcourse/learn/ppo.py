@@ -114,7 +114,7 @@ class PPOLearner(BCLearner):
     def __init__(self, settings: Sequence[PPOSettings], observation_size: int, n_actions: int = N_ACTIONS):
         super().__init__(settings, observation_size, n_actions)
         shared, generators = self.settings[0], [torch.Generator().manual_seed(s.seed + 2**32) for s in settings]
-        self.value = init_mlp((observation_size, *shared.hidden, 1), generators)
+        self.value = init_mlp((observation_size, *shared.hidden, shared.value_outputs), generators)
         with torch.no_grad():
             self.actor[-2] *= 0.01  # begin with nearly equal probabilities
         self.trained = [(self.actor, shared.actor_lr), (self.value, shared.critic_lr)]  # networks and learning rates
@@ -188,12 +188,19 @@ class PPOLearner(BCLearner):
         """The clipped objective with its entropy bonus, and the values' squared error: each (agents,)."""
         log_pi = self.log_pi(batch.states, batch.rule_actions)  # (agents, batch, 9)
         policy_loss, entropy = self.policy_loss(log_pi, batch), sac.entropy(log_pi).mean(-1)
-        values = mlp(self.value, batch.states)[..., 0]
         return {
             "actor_loss": policy_loss - self.settings[0].entropy_weight * entropy,
-            "value_loss": sac.critic_loss(values, batch.returns) / 2,
+            "value_loss": self.value_loss(mlp(self.value, batch.states), batch.returns),
             "entropy": entropy,
         }
+
+    def value_loss(self, outputs: Tensor, returns: Tensor) -> Tensor:
+        """Half the mean (V(s) - R)²: (agents, batch, 1), (agents, batch) -> (agents,)."""
+        return sac.critic_loss(outputs[..., 0], returns) / 2
+
+    def state_value(self, outputs: Tensor) -> Tensor:
+        """V(s), given the value network's outputs: (..., 1) -> (...)."""
+        return outputs[..., 0]
 
     def policy_loss(self, log_pi: Tensor, batch: Minibatch) -> Tensor:
         """The clipped objective, with advantages of mean 0 and deviation 1: log_pi (agents, batch, 9) -> (agents,)."""
@@ -225,7 +232,7 @@ class PPOLearner(BCLearner):
     def _values(self, network: list[Tensor], states: Tensor) -> Tensor:
         """V(s) of a network: (horizon, agents, roads, observation) -> (horizon, agents, roads)."""
         horizon, agents, roads, _ = states.shape
-        values = mlp(network, agents_first(states))[..., 0]
+        values = self.state_value(mlp(network, agents_first(states)))
         return values.view(agents, horizon, roads).transpose(0, 1)
 
 

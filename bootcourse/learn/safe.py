@@ -5,7 +5,8 @@ budget: PPO-Lagrangian, with the integral control of λ in Stooke et al. (arXiv 
 accidents and falls, to 0 at least, while there are fewer. A second value function V_C predicts accidents; the advantage
 is A - λ A_C.
 
-A share of the training episodes may begin shortly before an accident: restarts.py.
+A share of the training episodes may begin shortly before an accident: restarts.py. V may be a distributional critic
+that looks at the worst returns from a state: quantiles.py.
 
 The mask of risk.py, or the shield of shield.py, limits π's choice where the trained agent drives; neither changes the
 training. The risk's classifiers are in the place of the critics, which PPO does not have, so an agent keeps them in its
@@ -22,6 +23,7 @@ from torch import Tensor
 from bootcourse.learn import sac
 from bootcourse.learn.networks import init_mlp, mlp
 from bootcourse.learn.ppo import PPOLearner, RolloutBuffer, agents_first
+from bootcourse.learn.quantiles import mean_of_the_worst, quantile_loss
 from bootcourse.learn.replay_buffer import Batch, decode_transitions
 from bootcourse.learn.risk import accident_within, masked, resolved, risk_loss
 from bootcourse.learn.settings import SafeSettings
@@ -132,6 +134,14 @@ class SafeLearner(PPOLearner):
             taken = logits.gather(-1, batch.actions.expand(logits.shape[:-1])[..., None])[..., 0]
             terms["risk_loss"] = risk_loss(taken, batch.accident_soon, batch.known).sum(0)
         return terms
+
+    def value_loss(self, outputs: Tensor, returns: Tensor) -> Tensor:
+        """PPO's, or quantile regression if N > 1: (agents, batch, N), (agents, batch) -> (agents,)."""
+        return quantile_loss(outputs, returns) if outputs.shape[-1] > 1 else super().value_loss(outputs, returns)
+
+    def state_value(self, outputs: Tensor) -> Tensor:
+        """V(s), or V_C(s) of its one output: (..., N) -> (...)."""
+        return mean_of_the_worst(outputs, self.settings[0].worst_share)
 
     def acting_policy(self, states: Tensor, rule_actions: Tensor, decided: Tensor) -> Tensor:
         """π itself, whose decisions PPO learns from: (agents, roads, actions)."""

@@ -145,6 +145,11 @@ class PPOSettings(Settings):
         """Whether the agent begins as a clone of the teacher."""
         return self.cloning_updates > 0
 
+    @property
+    def value_outputs(self) -> int:
+        """How many numbers the value network gives for a state."""
+        return 1
+
 
 @dataclass(frozen=True)
 class SafeSettings(PPOSettings):
@@ -158,6 +163,8 @@ class SafeSettings(PPOSettings):
     shield: bool = shared(False)  # that of shield.py: written by hand, for comparison
     restart_share: float = 0.0  # of the training episodes, at first: they begin before an accident (restarts.py)
     restart_episodes: int = 0  # until that share is 0; 0: it stays
+    value_quantiles: int = shared(1)  # N: of the returns from a state (quantiles.py); 1: their mean alone
+    worst_share: float = shared(1.0)  # V(s) is the mean of so many of the quantiles, from the lowest on; 1: of all
 
     def __post_init__(self):
         super().__post_init__()
@@ -165,6 +172,8 @@ class SafeSettings(PPOSettings):
         _check_range(self, 0.0, 1.0, "accident_budget", "risk_limit")
         _check_range(self, 0.0, 0.9, "restart_share")  # with 1 no episode would be an ordinary one again
         _check_range(self, 0, math.inf, "restart_episodes", whole=True)
+        _check_range(self, 1, math.inf, "value_quantiles", whole=True)
+        _check_range(self, 1e-12, 1.0, "worst_share")
         _check_range(self, 1, self.horizon, "risk_decisions", whole=True)
         if not isinstance(self.shield, bool):
             raise BootcourseError(f"shield = {self.shield!r}: give True or False.")
@@ -173,6 +182,11 @@ class SafeSettings(PPOSettings):
     def restarts(self) -> bool:
         """Whether some of the agent's training episodes begin before an accident."""
         return self.restart_share > 0
+
+    @property
+    def value_outputs(self) -> int:
+        """How many quantiles the value network gives for a state."""
+        return self.value_quantiles
 
 
 @dataclass(frozen=True)

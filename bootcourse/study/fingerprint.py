@@ -34,11 +34,13 @@ ROADS, DECISIONS = 32, 80  # driven by random actions
 IN_THE_LOOP, UPDATES = 8, 60  # updates between decisions; all updates
 SECOND_ROUND = 17  # updates between decisions of an on-policy method that drives two rounds, not one
 # What is off by default and switched on in trainings of its own. λ and V_C act from the second round on, and where
-# accidents cost nothing else. The limit of the risk is one that some actions keep, and others do not.
+# accidents cost nothing else; quantiles have spread by then. The limit of the risk is one that some actions keep, and
+# others do not.
 SWITCHED_ON = {
     "ppo_safe": (
         {"accident_cost": 0.0, "multiplier_step": 30.0},
         {"risk_limit": 0.85, "shield": True, "restart_share": 0.5},
+        {"value_quantiles": 8, "worst_share": 0.125, "critic_lr": 0.02},
     )
 }
 LEARNED, COMPUTED = 1e-3, 1e-6  # how far a fingerprint may move: a method's (float32 networks); another's
@@ -126,7 +128,8 @@ def _trained(settings: Settings) -> list[float]:
     Most updates come after the last decision, and on-policy methods clone shortly and drive few roads: rounding could
     let an agent take another action, and everything after it would differ.
     """
-    numbers, in_the_loop = [], SECOND_ROUND if getattr(settings, "multiplier_step", 0) else IN_THE_LOOP
+    later = getattr(settings, "multiplier_step", 0) or getattr(settings, "value_quantiles", 1) > 1
+    numbers, in_the_loop = [], SECOND_ROUND if later else IN_THE_LOOP
     if METHODS[settings.method].on_policy:
         numbers = [settings.envs_per_agent, settings.batch, settings.cloning_updates]
         settings = replace(settings, envs_per_agent=8, batch=64, cloning_updates=min(settings.cloning_updates, 20))
