@@ -60,9 +60,11 @@ def test_the_report_has_it_once_the_experiment_and_the_planner_s_bound_are_there
 
 def test_a_variation_switches_on_what_it_is_named_for():
     changes = {name: its.changes for name, its in EXPERIMENTS["safe"].variations.items()}
-    plain = {"accident_cost": 0.0, "multiplier_step": 0.0, "risk_limit": 1.0, "shield": False, "restart_share": 0.0}
+    plain = {"accident_cost": 0.0, "multiplier_step": 0.0, "risk_limit": 1.0, "shield": False, "restart_share": 0.0,
+             "value_quantiles": 1}  # fmt: skip
     alone = {"accident cost": "accident_cost", "multiplier": "multiplier_step", "learned mask": "risk_limit",
-             "shield by hand": "shield", "restarts": "restart_share"}  # fmt: skip
+             "shield by hand": "shield", "restarts": "restart_share",
+             "distributional critic": "value_quantiles"}  # fmt: skip
     for name, setting in alone.items():
         assert {key for key in plain if changes[name][key] != plain[key]} == {setting}
     remembers = EXPERIMENTS["safe"].variations["memory"]
