@@ -125,7 +125,8 @@ def same(answer: Plain, right: Plain, tolerance: float = 0.0, nan_too: bool = Fa
         return all(same(a, r, tolerance, nan_too) for a, r in zip(answer.data, right.data, strict=True))
     if right.kind in NUMERIC:
         if tolerance == 0:  # np.allclose takes more than twice as long
-            return np.array_equal(answer.data, right.data, equal_nan=nan_too)
+            alike = nan_too and answer.data.tobytes() == right.data.tobytes()  # a fifth of the time of the next line
+            return alike or np.array_equal(answer.data, right.data, equal_nan=nan_too)
         return np.allclose(answer.data, right.data, rtol=tolerance, atol=tolerance / 100, equal_nan=nan_too)
     return answer.data == right.data
 
