@@ -1,7 +1,7 @@
 """The exceptions for user mistakes, suggestions for misspelt words, and the check of a whole number."""
 
 import operator
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from contextlib import contextmanager
 
 
@@ -55,6 +55,12 @@ def did_you_mean(word: str, choices) -> str:
     close = difflib.get_close_matches(str(word), choices, n=1, cutoff=0.4)
     hint = f"did you mean '{close[0]}'? Choose" if close else "choose"
     return f"'{word}' is unknown: {hint} from {', '.join(choices)}"
+
+
+def check_known(called: str, word: str, choices: Collection[str]) -> None:
+    """Raise BootcourseError, with the most similar choice, unless the word is one of them. called: what it names."""
+    if word not in choices:
+        raise BootcourseError(f"{called} {did_you_mean(word, choices)}.")
 
 
 def whole(value, called: str, high: int = 2**63 - 1, low: int = 0) -> int:

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bootcourse.errors import BootcourseError, did_you_mean
+from bootcourse.errors import BootcourseError, check_known
 from bootcourse.rule import rule, sample_stochastic_rule, stochastic_rule
 from bootcourse.scenario import ACTION_NAMES, IDLE, N_ACTIONS, RULE_P, Scenario
 
@@ -98,8 +98,7 @@ def plan_policy(plan: Sequence[str | tuple[str, int]]) -> PlanPolicy:
     actions = []
     for entry in plan:
         name, times = (entry, 1) if isinstance(entry, str) else entry
-        if name not in ACTION_NAMES:
-            raise BootcourseError(f"Action {did_you_mean(name, ACTION_NAMES)}.")
+        check_known("Action", name, ACTION_NAMES)
         actions += [ACTION_NAMES.index(name)] * times
     return PlanPolicy(actions)
 

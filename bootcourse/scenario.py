@@ -9,7 +9,7 @@ import math
 import sys
 from dataclasses import asdict, dataclass, field, fields, is_dataclass
 
-from bootcourse.errors import BootcourseError, did_you_mean
+from bootcourse.errors import BootcourseError, check_known
 
 N_ACTIONS = 9  # 3 accelerations x 3 steering angles † (Equation 8)
 ACTION_NAMES = tuple(f"{a} {s}" for a in ("brake", "keep", "accelerate") for s in ("left", "straight", "right"))
@@ -351,6 +351,5 @@ SCENARIOS = {scenario.name: scenario for scenario in (DEFAULT, CALIBRATED)}
 
 def named(name: str) -> Scenario:
     """The scenario of that name. Raises BootcourseError for an unknown name."""
-    if name not in SCENARIOS:
-        raise BootcourseError(f"Scenario {did_you_mean(name, SCENARIOS)}.")
+    check_known("Scenario", name, SCENARIOS)
     return SCENARIOS[name]

@@ -11,7 +11,7 @@ from pathlib import Path
 import typer
 
 from bootcourse.cli.training import INTERRUPTED
-from bootcourse.errors import BootcourseError, did_you_mean
+from bootcourse.errors import BootcourseError, check_known
 
 
 def study(
@@ -43,8 +43,7 @@ def study(
     from bootcourse.study.report import write_report
     from bootcourse.study.results import in_study
 
-    if name not in plan.STUDIES and name not in plan.EXPERIMENTS:
-        raise BootcourseError(f"Study {did_you_mean(name, (*plan.STUDIES, *plan.EXPERIMENTS))}.")
+    check_known("Study", name, (*plan.STUDIES, *plan.EXPERIMENTS))
     if name in plan.STUDIES:
         methods = plan.methods_named(only)
         wanted = plan.study_jobs(name, methods, seeds or plan.SEEDS, tests or plan.TESTS, episodes)
@@ -122,8 +121,7 @@ def assets(
     """Check the files that ship with the course, or make them again."""
     from bootcourse.storage import assets
 
-    if what not in ("verify", "build", "report"):
-        raise BootcourseError(f"Action {did_you_mean(what, ('verify', 'build', 'report'))}.")
+    check_known("Action", what, ("verify", "build", "report"))
     if what == "build" and study is None:
         raise BootcourseError("build needs --study DIR, a folder that `bootcourse study` and `bootcourse sweep` wrote.")
     if what != "verify":

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, fields, replace
 
 import numpy as np
 
-from bootcourse.errors import BootcourseError, did_you_mean, whole
+from bootcourse.errors import BootcourseError, check_known, did_you_mean, whole
 from bootcourse.methods import METHODS
 from bootcourse.scenario import check_p
 
@@ -64,8 +64,7 @@ class Settings:
         for name, value in vars(self).items():
             if isinstance(value, np.generic):  # a number of NumPy's
                 object.__setattr__(self, name, value.item())
-        if self.method not in METHODS:
-            raise BootcourseError(f"Method {did_you_mean(self.method, METHODS)}.")
+        check_known("Method", self.method, METHODS)
         check_p(self.rule_p, "rule_p")
         _check_range(self, 0.0, 1.0, "gamma", "beta_start", "tau")
         _check_range(self, 0.0, math.inf, "xi_multiplier", "margin", "actor_lr", "critic_lr", "alpha_lr")
@@ -271,10 +270,8 @@ def settings_for(method: str, setting: str = "quick", **changes) -> Settings:
 
     setting: a name of `SETTINGS`, "quick" or "paper". Raises BootcourseError for an unknown name or an invalid value.
     """
-    if method not in METHODS:
-        raise BootcourseError(f"Method {did_you_mean(method, METHODS)}.")
-    if setting not in SETTINGS:
-        raise BootcourseError(f"Setting {did_you_mean(setting, SETTINGS)}.")
+    check_known("Method", method, METHODS)
+    check_known("Setting", setting, SETTINGS)
     kind = settings_class(method)
     if setting != "quick" and METHODS[method].on_policy:
         raise BootcourseError(f"Method '{method}' has no setting '{setting}': leave it out.")

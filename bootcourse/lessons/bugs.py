@@ -19,7 +19,7 @@ import torch
 from torch import Tensor
 
 from bootcourse.episodes.record import record
-from bootcourse.errors import BootcourseError, did_you_mean
+from bootcourse.errors import BootcourseError, check_known
 from bootcourse.files import parse, provenance, read_arrays, write_arrays
 from bootcourse.learn import bootstrap, sac
 from bootcourse.learn.agent import Agent
@@ -206,8 +206,7 @@ class Hunt:
         self.provenance = parse(str(self._arrays["provenance"]), dict, path)
 
     def _of(self, name: str, what: str) -> np.ndarray:
-        if name not in self.names:
-            raise BootcourseError(f"The agent {did_you_mean(name, self.names)}.")
+        check_known("The agent", name, self.names)
         return self._arrays[f"{self._bug_of[name]}/{what}"]
 
     def curve(self, name: str, what: str) -> np.ndarray:

@@ -9,7 +9,7 @@ import functools
 from collections.abc import Callable
 from dataclasses import replace
 
-from bootcourse.errors import BootcourseError, did_you_mean
+from bootcourse.errors import BootcourseError, check_known, did_you_mean
 from bootcourse.lessons.answer_files import PARTS
 from bootcourse.lessons.edition import need_open_solutions, solutions_are_open
 from bootcourse.lessons.exercise import Exercise
@@ -51,8 +51,7 @@ def solution(name: str):
 
 
 def _find(name: str) -> Exercise:
-    if name not in registry():
-        raise BootcourseError(f"The exercise {did_you_mean(name, registry())}.")
+    check_known("The exercise", name, registry())
     return registry()[name]
 
 

@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
-from bootcourse.errors import BootcourseError, did_you_mean
+from bootcourse.errors import check_known
 from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, finish, new_figure, plain_axes
 from bootcourse.study.plan import TAUGHT
@@ -20,8 +20,7 @@ def teacher_value(found: Cells, quantity: str) -> Figure:
     found: what `shipped_teachers` returns; quantity: one of `QUANTITIES`. An agent that does not reach a number of
     decisions is an open dot at the right edge. Raises BootcourseError for another quantity.
     """
-    if quantity not in QUANTITIES:
-        raise BootcourseError(f"Quantity {did_you_mean(quantity, QUANTITIES)}.")
+    check_known("Quantity", quantity, QUANTITIES)
     its = QUANTITIES[quantity]
     values = {place: its.of_agents(results) for place, results in found.items()}
     estimates = {place: its.estimate(each) for place, each in values.items()}

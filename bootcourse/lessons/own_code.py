@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 
 import torch
 
-from bootcourse.errors import BootcourseError, did_you_mean
+from bootcourse.errors import BootcourseError, check_known
 from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.replay_buffer import Batch
 from bootcourse.learn.settings import Settings, settings_for
@@ -34,8 +34,7 @@ _own: dict[str, Callable] = {}  # the student's parts in this kernel
 def use(answer: Callable) -> None:
     """Train with this function or class from now on, in this notebook. Raises BootcourseError if it is no part."""
     name = getattr(answer, "__name__", repr(answer))
-    if name not in PARTS:
-        raise BootcourseError(f"The part {did_you_mean(name, PARTS)}.")
+    check_known("The part", name, PARTS)
     _own[name] = answer
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import ipywidgets as widgets
 import numpy as np
 
-from bootcourse.errors import BootcourseError, did_you_mean
+from bootcourse.errors import check_known
 from bootcourse.methods import display_name
 from bootcourse.panels.panel import Panel
 from bootcourse.panels.sweep_view import between, cell, empty_cell
@@ -85,6 +85,5 @@ def teachers_panel(quantity: str = "escape", study: Path | str = "") -> Teachers
     in which `bootcourse study teachers` has finished jobs; by default the results that ship. Raises BootcourseError for
     another quantity, and where there are no such results.
     """
-    if quantity not in QUANTITIES:
-        raise BootcourseError(f"Quantity {did_you_mean(quantity, QUANTITIES)}.")
+    check_known("Quantity", quantity, QUANTITIES)
     return TeachersPanel(taught(study), quantity)

@@ -10,7 +10,7 @@ from matplotlib.ticker import MaxNLocator
 from bootcourse.colours import ALARM, GRID, INK, QUIET, TRAP
 from bootcourse.episodes.rollout import Rollout, series
 from bootcourse.episodes.words import ACCIDENTS, outcome, overtaken, sentence
-from bootcourse.errors import BootcourseError, did_you_mean
+from bootcourse.errors import BootcourseError, check_known
 from bootcourse.methods import display_name
 from bootcourse.plots.figure import (
     SMALL,
@@ -56,8 +56,7 @@ def traces(
     if not drives:
         raise BootcourseError("There is no drive to draw: give a rollout, or a list of them.")
     for panel in what:
-        if panel not in PANELS:
-            raise BootcourseError(f"Panel {did_you_mean(panel, PANELS)}.")
+        check_known("Panel", panel, PANELS)
     end = max(drive.times[-1] for drive in drives)
     if until is not None and not until > 0:
         raise BootcourseError(f"until = {until}: give a number of seconds above 0.")

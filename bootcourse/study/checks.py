@@ -30,7 +30,7 @@ import torch
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
 
 from bootcourse.episodes.driving import steps
-from bootcourse.errors import BootcourseError, did_you_mean
+from bootcourse.errors import BootcourseError, check_known
 from bootcourse.files import write_bytes
 from bootcourse.learn.agent import sample_actions
 from bootcourse.learn.learner import SACLearner
@@ -265,8 +265,7 @@ def run(names: Sequence[str], seeds: int, progress: bool) -> tuple[dict[str, Out
     """Run some checks: outcomes, and seconds of the processor for each. Raises BootcourseError for an unknown name."""
     outcomes, seconds = {}, {}
     for name in names:
-        if name not in CHECKS:
-            raise BootcourseError(f"Check {did_you_mean(name, CHECKS)}.")
+        check_known("Check", name, CHECKS)
     for name in names:
         began = time.process_time()
         outcomes[name] = CHECKS[name].measure(seeds, progress)

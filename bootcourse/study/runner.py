@@ -8,7 +8,7 @@ from pathlib import Path
 
 import joblib
 
-from bootcourse.errors import BootcourseError, did_you_mean
+from bootcourse.errors import BootcourseError, check_known
 from bootcourse.files import write_json
 from bootcourse.storage.work import locked
 from bootcourse.study.jobs import OtherQuestion, aside, finished, run_job
@@ -34,8 +34,7 @@ def run_jobs(
     Raises BootcourseError, before anything is computed, for a mistyped argument, a folder in use or with the runs of a
     training, and a damaged job without `recompute`.
     """
-    if backend not in BACKENDS:
-        raise BootcourseError(f"Backend {did_you_mean(backend, BACKENDS)}.")
+    check_known("Backend", backend, BACKENDS)
     if scheduler and backend == "loky":
         raise BootcourseError("--scheduler needs --backend dask or --backend ray: loky uses this machine's cores.")
     if any(root.glob("*/provenance.json")):

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bootcourse.errors import BootcourseError, did_you_mean
+from bootcourse.errors import check_known
 from bootcourse.learn.teachers import Rule, all_roads, course_rule, slow
 from bootcourse.road.state import ACCELERATION, COLUMNS, HEADING, LANE, SPEED, TARGET_LANE, TRAFFIC, X, Y
 from bootcourse.scenario import IDLE, N_ACTIONS, Scenario
@@ -118,6 +118,5 @@ TEACHERS = {
 
 def teacher_named(name: str) -> Rule:
     """The teacher of that name. Raises BootcourseError for an unknown one."""
-    if name not in TEACHERS:
-        raise BootcourseError(f"Teacher {did_you_mean(name, TEACHERS)}.")
+    check_known("Teacher", name, TEACHERS)
     return TEACHERS[name].rule

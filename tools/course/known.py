@@ -174,7 +174,8 @@ def safer() -> dict[str, Results]:
 
 BEST = "accident cost and shield by hand, twice as long"  # of `safer`
 REMEMBERS = "accident cost, shield by hand and memory, twice as long"
-ALONE = ("accident cost", "multiplier", "restarts", "shield by hand", "γ = 0.995", "memory")  # but for the mask
+ALONE = ("accident cost", "multiplier", "restarts", "shield by hand", "γ = 0.995", "memory")
+ALONE += ("distributional critic",)  # the learned mask is the one other that an agent has alone
 
 
 def p_safer(kind: str) -> float:
