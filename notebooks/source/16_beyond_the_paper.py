@@ -450,8 +450,8 @@ bc.show(charts.lines(np.arange(500, 4001), named_curves, title, "episode", "shar
 # - a memory: the agent gets the observations of its last three decisions, and not of one;
 # - a **distributional critic**: V(s) is not one number, but {{ safer()['distributional
 #   critic'].agents[0]['value_quantiles'] }} quantiles of the returns from s. The agent learns from
-#   the mean of the worst {{ 100 * safer()['distributional critic'].agents[0]['worst_share'] | .0f }}
-#   % of them, as if it always had bad luck;
+#   the mean of the worst {{ 100 * safer()['distributional critic'].agents[0]['worst_share'] | .0f
+#   }} % of them, as if it always had bad luck;
 # - a learned **mask**: two networks learn how probable a crash within the next
 #   {{ settings_for('ppo_safe').risk_decisions }} s is after each action. The trained agent leaves
 #   out the actions for which one of them says more than
@@ -484,8 +484,8 @@ bc.show(frontier.safe_and_fast(safer, shipped.shipped_bound().mean()))
 # with a memory {{ crashed(safer()['memory']) | .1f }}, with a distributional critic {{
 # crashed(safer()['distributional critic']) | .1f }}, and with the shield {{ crashed(safer()['shield
 # by hand']) | .1f }}. Each of these differences may be luck: the smallest p of the seven rank tests
-# is {{ p_safer('shield by hand') | .2f }}. The eighth, the learned mask, does harm: {{ crashed(safer()['learned mask']) | .0f }} (p is {{ p_safer('learned mask') | .2f
-# }}).
+# is {{ p_safer('shield by hand') | .2f }}. The eighth, the learned mask, does harm: {{
+# crashed(safer()['learned mask']) | .0f }} (p is {{ p_safer('learned mask') | .2f }}).
 # <!-- claim: {its.escapers('ppo_safe') for its in safer().values()} == {len(its) for its in
 #   safer().values()} == {10} -->
 # <!-- claim: min(ALONE, key=p_safer) == 'shield by hand' and p_safer('shield by hand') > 0.05 >
