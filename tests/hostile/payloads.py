@@ -42,8 +42,8 @@ class Watched:
         self.page.on("dialog", lambda dialog: (self.ran.append(dialog.message), dialog.dismiss()))
         self.page.on("request", lambda request: self.ran.append(request.url) if FIRED in request.url else None)
 
-    def show(self, address: str, number: int | None) -> list[str]:
-        """Open an address, wait until frame `number` shows the label as text (None: do not), and tell what ran."""
+    def show(self, address: str, number: int | None) -> "Watched":
+        """Open an address, and wait until frame `number` shows the label as text (None: do not)."""
         self.page.goto(address, timeout=1000 * PATIENCE)
         if number is not None:
             wait = time.monotonic() + PATIENCE
@@ -51,8 +51,7 @@ class Watched:
                 self.page.wait_for_timeout(200)
             heading = self.page.frames[number].wait_for_selector(".bc h4", state="attached", timeout=1000 * PATIENCE)
             assert f"<img src={FIRED}" in heading.text_content(), "the label is not shown"
-        self.page.wait_for_timeout(1500)
-        return self.ran
+        return self
 
 
 def shown() -> dict[str, list[str]]:
@@ -73,7 +72,8 @@ def shown() -> dict[str, list[str]]:
         found = {name: Watched(new_page()).show(*where) for name, where in pages.items()}
         with replay([drive, drive]) as live:
             found["live replay"] = Watched(new_page()).show(live.url, 0)
-    return found
+            found["live replay"].page.wait_for_timeout(2000)  # in which the others run on
+    return {name: page.ran for name, page in found.items()}
 
 
 def main() -> int:
