@@ -19,6 +19,8 @@ def code_of(notebook: Path) -> list[str]:
 def cells_to_run(solved: list[str], student: list[str]) -> list[str]:
     """Those of the solved notebook's code cells, in their order. Both as `code_of` gives them."""
     made, changed, used = ([names(text) for text in solved] for names in (names_made, names_changed, names_used))
+    imported = set().union(*map(names_imported, solved))  # `bc.show(x)` is about x, and changes no `bc`
+    changed = [names - imported for names in changed]
     run, of_solutions = set(), set()
     for place, text in enumerate(solved):
         if text not in student or used[place] & of_solutions:
@@ -40,6 +42,12 @@ def names_changed(text: str) -> set[str]:
     calls = [node.value.func for node in tree.body if isinstance(node, ast.Expr) and isinstance(node.value, ast.Call)]
     places = [node for node in ast.walk(tree) if isinstance(getattr(node, "ctx", None), ast.Store)]
     return {root_of(node) for node in calls + places if isinstance(node, (ast.Attribute, ast.Subscript))}
+
+
+def names_imported(text: str) -> set[str]:
+    """The names that a cell imports."""
+    imports = [node for node in ast.walk(ast.parse(text)) if isinstance(node, (ast.Import, ast.ImportFrom))]
+    return {(name.asname or name.name).partition(".")[0] for node in imports for name in node.names}
 
 
 def root_of(node: ast.AST) -> str:

@@ -9,6 +9,7 @@ import nbformat
 import pytest
 
 from bootcourse import one_per_cell
+from bootcourse.learn.training import Training
 from bootcourse.lessons import check
 from tests.solved import cells_to_run, code_of
 from tools.course.source import NOTEBOOKS
@@ -17,7 +18,9 @@ SOLVED = sorted(NOTEBOOKS.glob("solved/*.ipynb"))
 NOTEBOOK_FILES = sorted(NOTEBOOKS.glob("*.ipynb")) + SOLVED
 
 
-@pytest.fixture(params=NOTEBOOK_FILES, ids=lambda path: str(path.relative_to(NOTEBOOKS).with_suffix("")))
+@pytest.fixture(
+    scope="module", params=NOTEBOOK_FILES, ids=lambda path: str(path.relative_to(NOTEBOOKS).with_suffix(""))
+)
 def notebook(request):
     return nbformat.read(request.param, as_version=4)
 
@@ -64,6 +67,18 @@ def execute(cells: list[str]) -> None:
             shown.close()
 
 
+@pytest.fixture
+def short_trainings(monkeypatch):
+    """A training ends after 500 updates. What the course's code learns in a whole one, nbval sees."""
+    whole = Training.run
+
+    def run(training, *arguments, stop=None, **more):
+        return whole(training, *arguments, stop=lambda: training.updates >= 500 or bool(stop and stop()), **more)
+
+    monkeypatch.setattr(Training, "run", run)
+
+
+@pytest.mark.usefixtures("short_trainings")
 @pytest.mark.parametrize("path", SOLVED, ids=lambda path: path.stem)
 def test_in_a_solved_notebook_every_check_passes_and_what_uses_a_solution_runs(path, monkeypatch):
     monkeypatch.chdir(path.parent)
@@ -93,7 +108,7 @@ def test_of_a_solved_notebook_the_exercises_run_and_no_cell_that_has_nothing_to_
     ],
 )
 def test_cells_that_use_a_solution_run_with_all_that_they_need(later, runs):
-    before = ["scale = 1", "scale += 1", "critic_targets = scale", "agents = make()", "agents.reset()"]
+    before = ["scale = 1", "scale += 1", "critic_targets = scale", "check.show(1)", "agents = make()", "agents.reset()"]
     solved = cells_to_run([IMPORTS, *before, RIGHT, *later], [IMPORTS, *before, STUB, *later])
     assert solved == [IMPORTS, *runs, RIGHT, *(cell for cell in later if cell != "other = 3")]
 

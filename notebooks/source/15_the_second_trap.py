@@ -83,9 +83,11 @@ predict("15.1", "They earn more because", choices)
 # Do not play the recording before everybody has committed. Ask for a sketch of the speed over time:
 # those who draw a constant line should say at which speed, and why the agent is not ahead then.
 
-# %% tags=["nbval-ignore-output"]
+# %%
 ROAD = 10
 drive = bc.record(ppo_reference.agent_of("alone").as_policy(), [ROAD], label="ppo")[0]
+
+# %% tags=["nbval-ignore-output"]
 bc.recording([drive], height=360)
 
 # %%
