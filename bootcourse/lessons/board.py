@@ -26,6 +26,7 @@ from bootcourse.learn.teachers import Rule, course_rule, teacher_of, teacher_pol
 from bootcourse.learn.training import Result
 from bootcourse.lessons.board_row import HEADINGS, Row, keep_rows, kept_rows, read_rows
 from bootcourse.lessons.ppo_reference import KINDS, reference
+from bootcourse.lessons.shipped import shipped_bound
 from bootcourse.markup import html, joined
 from bootcourse.methods import DRIVERS, display_name
 from bootcourse.policies import Policy, idle_policy, random_policy, rule_policy
@@ -115,7 +116,7 @@ def board(*own: str | Path | Result | Rule, keep: str | Path | None = None, teac
     mine = [row for one in own for row in entered(one, teacher)]
     if keep is not None:
         mine = keep_rows(Path(keep), before, mine)
-    bound = in_assets(FOLDER).bound[DEFAULT.name]
+    bound = shipped_bound()
     return ranked([*shipped_rows(), *mine], float(bound.mean()))
 
 

@@ -6,11 +6,12 @@ from pathlib import Path
 import numpy as np
 
 from bootcourse.episodes.rollout import OPTIONAL, Rollout
-from bootcourse.errors import BootcourseError
+from bootcourse.errors import BootcourseError, check_known
 from bootcourse.learn.agent import Agent
 from bootcourse.storage.assets import FOLDER
 from bootcourse.storage.runs import Run, find_runs, load_run
-from bootcourse.study.results import Results, in_assets, load_results
+from bootcourse.study.plan import EXPERIMENTS
+from bootcourse.study.results import Results, experiment, load_bound, load_results
 from bootcourse.study.teacher_worth import Cells, taught
 
 
@@ -44,11 +45,11 @@ def shipped_experiment(name: str) -> dict[str, Results]:
 
     Raises BootcourseError if it does not ship.
     """
-    experiments = in_assets(FOLDER).experiments
-    if not experiments.get(name):
-        there = ", ".join(key for key, its in experiments.items() if its)
-        raise BootcourseError(f"No results of the experiment '{name}' ship: there are {there or 'none'}.")
-    return experiments[name]
+    check_known("Experiment", name, EXPERIMENTS)
+    found = experiment(name)
+    if not found:
+        raise BootcourseError(f"No results of the experiment '{name}' ship: copy {FOLDER.name} from the course again.")
+    return found
 
 
 def shipped_teachers(study: Path | str = "") -> Cells:
@@ -62,7 +63,7 @@ def shipped_teachers(study: Path | str = "") -> Cells:
 
 def shipped_bound(scenario: str = "default") -> np.ndarray:
     """The best return that the planner found on each held-out road of the study, (episodes,)."""
-    return in_assets(FOLDER).bound[scenario]
+    return load_bound(FOLDER / f"bound-{scenario}.npz")
 
 
 def shipped_drive(name: str) -> Rollout:

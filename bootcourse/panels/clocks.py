@@ -18,7 +18,7 @@ from bootcourse.statistics import iqm, rolling_means
 from bootcourse.storage.assets import FOLDER
 from bootcourse.study.clocks import cells, faded
 from bootcourse.study.plan import VARIED
-from bootcourse.study.results import Results, in_assets, in_study
+from bootcourse.study.results import Results, experiment
 
 WIDTH, HEIGHT = 940, 500
 FADING, SUCCESS = (52, 84, 660, 140), (52, 296, 660, 150)  # the charts' left, top, width and height, pixels
@@ -107,7 +107,7 @@ def clocks_panel(updates: str = "", demonstrations: str = "", study: Path | str 
     default the first pair that was computed. study: a folder in which `bootcourse study clocks` has finished jobs; by
     default the results that ship. Raises BootcourseError for a pair that was not computed.
     """
-    measured = cells((in_study(Path(study)) if study else in_assets(FOLDER)).experiments["clocks"])
+    measured = cells(experiment("clocks", study))
     if not measured:
         run = f"run `bootcourse study clocks --out {study or 'DIR'}`" + ("" if study else ", then give study=DIR")
         raise BootcourseError(f"{study or FOLDER} holds no results of the experiment clocks: {run}.")

@@ -18,12 +18,14 @@ from bootcourse.learn.curves import NAMES
 from bootcourse.learn.settings import stored_settings
 from bootcourse.road.state import Accident
 from bootcourse.statistics import ESCAPES
+from bootcourse.storage.assets import FOLDER
 from bootcourse.study.jobs import Made
 from bootcourse.study.plan import EXPERIMENTS, STUDIES, folder
 from bootcourse.study.planner import Staying
 from bootcourse.study.teachers import RULE
 
 MEASURES = ("success", "returns", "speed", "distance", "collision", "road_departure", "stoppage")
+IN_STUDY, IN_ASSETS = "/results.npz", ".npz"  # after a variation's folder or name
 RUN_AGAIN = "run the study again, or restore it from a copy"
 KINDS = {"collision": Accident.COLLISION, "road_departure": Accident.ROAD_DEPARTURE, "stoppage": Accident.STOPPAGE}
 
@@ -177,7 +179,7 @@ def in_study(root: Path) -> StudyResults:
         results,
         {name: bound for name, bound in bounds.items() if bound is not None},
         {name: vars(read_json(path, Staying, RUN_AGAIN)) for name, path in staying.items() if path.exists()},
-        _experiments(root / "jobs", "/results.npz"),
+        {name: _experiment(root / "jobs", name, IN_STUDY) for name in EXPERIMENTS},
     )
 
 
@@ -189,22 +191,26 @@ def in_assets(root: Path) -> StudyResults:
     studies = {name: root / f"study-{name}.npz" for name in STUDIES}
     return StudyResults(
         {name: load_results(path) for name, path in studies.items() if path.exists()},
-        {name: _returns(path)["returns"] for name, path in bounds.items() if path.exists()},
+        {name: load_bound(path) for name, path in bounds.items() if path.exists()},
         {name: vars(read_json(path, Staying, RUN_AGAIN)) for name, path in staying.items() if path.exists()},
-        _experiments(root, ".npz"),
+        {name: _experiment(root, name, IN_ASSETS) for name in EXPERIMENTS},
     )
 
 
-def _experiments(root: Path, ending: str) -> dict[str, dict[str, Results]]:
+def experiment(name: str, study: Path | str = "") -> dict[str, Results]:
+    """The variations of one experiment that were computed: in a study's folder, by default those that ship."""
+    return _experiment(Path(study) / "jobs", name, IN_STUDY) if study else _experiment(FOLDER, name, IN_ASSETS)
+
+
+def _experiment(root: Path, name: str, ending: str) -> dict[str, Results]:
     """The variations that were computed, root/EXPERIMENT/VARIATION + ending."""
-    found = {
-        name: {variation: root / name / f"{folder(variation)}{ending}" for variation in its.variations}
-        for name, its in EXPERIMENTS.items()
-    }
-    return {
-        name: {variation: load_results(path) for variation, path in paths.items() if path.exists()}
-        for name, paths in found.items()
-    }
+    paths = {variation: root / name / f"{folder(variation)}{ending}" for variation in EXPERIMENTS[name].variations}
+    return {variation: load_results(path) for variation, path in paths.items() if path.exists()}
+
+
+def load_bound(path: Path) -> np.ndarray:
+    """The best return that the planner found on each held-out road of a study, (episodes,)."""
+    return _returns(path)["returns"]
 
 
 def _bound(root: Path, name: str, tests: int) -> np.ndarray | None:

@@ -14,10 +14,9 @@ import numpy as np
 from bootcourse.errors import BootcourseError
 from bootcourse.methods import display_name
 from bootcourse.statistics import ESCAPES, Estimate, escapes, interval, median
-from bootcourse.storage.assets import FOLDER
 from bootcourse.study.beyond import SHARE, WINDOW, spent
 from bootcourse.study.plan import TAUGHT
-from bootcourse.study.results import Results, in_assets, in_study
+from bootcourse.study.results import Results, experiment
 from bootcourse.study.tables import bracketed, k_of_n
 from bootcourse.study.teachers import TEACHERS
 
@@ -32,7 +31,7 @@ def cells(varied: dict[str, Results]) -> Cells:
 
 def taught(study: Path | str = "") -> Cells:
     """The cells in the folder of a study; by default those that ship. Raises BootcourseError if there are none."""
-    found = cells((in_study(Path(study)) if study else in_assets(FOLDER)).experiments["teachers"])
+    found = cells(experiment("teachers", study))
     if not found:
         where = study or "This copy of the course"
         raise BootcourseError(
