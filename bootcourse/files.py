@@ -6,6 +6,7 @@ and whatever a damaged file makes a library raise becomes one sentence that name
 """
 
 import contextlib
+import functools
 import hashlib
 import importlib.metadata
 import io
@@ -215,10 +216,12 @@ def sha256(path: Path) -> str:
 def provenance(**more) -> dict:
     """The versions of Python and of the packages that results depend on, and the given entries."""
     packages = ("bootcourse", "highway-env", "gymnasium", "numpy", "numba", "torch")
-    versions = {}
-    for name in packages:
-        try:
-            versions[name] = importlib.metadata.version(name)
-        except importlib.metadata.PackageNotFoundError:
-            versions[name] = "not installed"
-    return {"python": platform.python_version(), **versions, **more}
+    return {"python": platform.python_version(), **{name: _version(name) for name in packages}, **more}
+
+
+@functools.cache  # a package's files tell its version, which takes a millisecond
+def _version(package: str) -> str:
+    try:
+        return importlib.metadata.version(package)
+    except importlib.metadata.PackageNotFoundError:
+        return "not installed"
