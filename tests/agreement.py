@@ -205,14 +205,16 @@ def _note_events(report: Report, before, after) -> None:
     report.events["decisions with a car at a standstill"] += int((after[:, SPEED] < 0.01).any())
 
 
-def run(episodes: int, seed: int = 0, scenarios=SCENARIOS, drivers=DRIVERS, progress=None) -> Report:
+def run(
+    episodes: int, seed: int = 0, scenarios=SCENARIOS, drivers=DRIVERS, progress=None, roads: int = ROADS
+) -> Report:
     """Compare the roads over `episodes` episodes: the default scenario in half of them, the others in turn."""
     report = Report()
     names = list(scenarios)
-    batches = -(-episodes // ROADS)
+    batches = -(-episodes // roads)
     for batch in range(batches):
         name = names[0] if batch % 2 == 0 or len(names) == 1 else names[1 + batch // 2 % (len(names) - 1)]
-        seeds = range(seed + batch * ROADS, seed + min((batch + 1) * ROADS, episodes))
+        seeds = range(seed + batch * roads, seed + min((batch + 1) * roads, episodes))
         compare(report, scenarios[name], drivers, seeds)
         report.events[f"episodes of '{name}'"] += len(seeds)
         if progress:
