@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from scipy import stats
+import scipy
 
 RESAMPLES = 9999
 ESCAPES = 0.95  # an agent escapes if it succeeds in at least this share of its episodes
@@ -27,7 +27,7 @@ class Estimate(NamedTuple):
 
 def rate(hits: np.ndarray) -> Estimate:
     """A rate with its exact (Clopper-Pearson) interval: hits (n,) bool."""
-    test = stats.binomtest(int(np.sum(hits)), len(hits))
+    test = scipy.stats.binomtest(int(np.sum(hits)), len(hits))
     low, high = test.proportion_ci(confidence_level=0.95, method="exact")
     return Estimate(test.statistic, float(low), float(high))
 
@@ -37,7 +37,7 @@ def mean(values: np.ndarray) -> Estimate:
     value = float(np.mean(values))
     if len(values) < 2:
         return Estimate(value, float("nan"), float("nan"))
-    half = stats.t.ppf(0.975, len(values) - 1) * stats.sem(values)
+    half = scipy.stats.t.ppf(0.975, len(values) - 1) * scipy.stats.sem(values)
     return Estimate(value, value - float(half), value + float(half))
 
 
@@ -46,7 +46,7 @@ def iqm(scores: np.ndarray, axis: int = -1) -> np.ndarray:
 
     A quarter is rounded down: of 10 scores 6 remain, of 3 or fewer all.
     """
-    return stats.trim_mean(scores, 0.25, axis=axis)
+    return scipy.stats.trim_mean(scores, 0.25, axis=axis)
 
 
 def interval(scores: Sequence[float] | np.ndarray, statistic=iqm, seed: int = 0) -> Estimate:
@@ -65,7 +65,7 @@ def median(values: np.ndarray) -> Estimate:
     value to the ninth. Fewer than 6 values have none: NaN.
     """
     values, n = np.sort(np.asarray(values, dtype=np.float64)), len(values)
-    value, k = float(np.median(values)), int(stats.binom.ppf(0.025, n, 0.5))
+    value, k = float(np.median(values)), int(scipy.stats.binom.ppf(0.025, n, 0.5))
     return Estimate(value, float(values[k - 1]), float(values[n - k])) if k else Estimate(value, np.nan, np.nan)
 
 
@@ -99,8 +99,8 @@ def _bootstrap(samples: Sequence, statistic, seed: int) -> Estimate:
     if min(map(len, samples)) < 2:
         return Estimate(value, float("nan"), float("nan"))
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", stats.DegenerateDataWarning)
-        found = stats.bootstrap(
+        warnings.simplefilter("ignore", scipy.stats.DegenerateDataWarning)
+        found = scipy.stats.bootstrap(
             samples, statistic, method="percentile", n_resamples=RESAMPLES, batch=1000, rng=np.random.default_rng(seed)
         )
     return Estimate(value, *map(float, found.confidence_interval))

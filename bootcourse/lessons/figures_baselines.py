@@ -3,8 +3,8 @@
 from collections.abc import Mapping, Sequence
 
 import numpy as np
+import scipy
 from matplotlib.figure import Figure
-from scipy import stats
 
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
@@ -99,9 +99,9 @@ def finds(x: np.ndarray, y: np.ndarray, n: int, same_roads: bool) -> float:
     rng = np.random.default_rng(0)
     a = rng.integers(len(x), size=(2000, n))
     if same_roads:
-        return np.mean(stats.ttest_rel(x[a], y[a], axis=1).pvalue < 0.05)
+        return np.mean(scipy.stats.ttest_rel(x[a], y[a], axis=1).pvalue < 0.05)
     b = rng.integers(len(y), size=(2000, n))
-    return np.mean(stats.ttest_ind(x[a], y[b], axis=1, equal_var=False).pvalue < 0.05)
+    return np.mean(scipy.stats.ttest_ind(x[a], y[b], axis=1, equal_var=False).pvalue < 0.05)
 
 
 def still_going(results: Results, methods: Sequence[str] = ("bc", "cql", "gail"), single: str = "gail") -> Figure:

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from scipy import stats
+import scipy
 
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
@@ -96,7 +96,7 @@ def alike(agents: list[Agent], teacher: Rule, roads: int = 4) -> np.ndarray:
 
 def p_value(taught: np.ndarray, alone: np.ndarray) -> float:
     """Mann and Whitney's two-sided p-value of the scores of two groups of agents, (m,) and (n,)."""
-    return float(stats.mannwhitneyu(taught, alone).pvalue)
+    return float(scipy.stats.mannwhitneyu(taught, alone).pvalue)
 
 
 def holm(p: Sequence[float]) -> np.ndarray:

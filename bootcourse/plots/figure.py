@@ -10,11 +10,11 @@ import textwrap
 from pathlib import Path
 
 import numpy as np
+import scipy
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
-from scipy.optimize import isotonic_regression
 
 from bootcourse.colours import GRID, INK, QUIET, Style
 from bootcourse.files import check_replaceable, write_bytes
@@ -120,7 +120,7 @@ def _apart(wanted: np.ndarray, heights: np.ndarray) -> np.ndarray:
     sizes = heights[order]
     stacked = np.append(0, np.cumsum((sizes[:-1] + sizes[1:]) / 2))  # the labels one on the other, from 0 on
     places = np.empty(len(wanted))
-    places[order] = stacked + np.maximum(isotonic_regression(wanted[order] - stacked).x, 0)
+    places[order] = stacked + np.maximum(scipy.optimize.isotonic_regression(wanted[order] - stacked).x, 0)
     return places
 
 

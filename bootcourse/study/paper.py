@@ -4,7 +4,7 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from scipy import stats
+import scipy
 
 from bootcourse.road.formulas import centring_reward, speed_reward, weighted_reward
 from bootcourse.scenario import DEFAULT
@@ -65,7 +65,7 @@ def paper_interval(method: str, column: str) -> Estimate:
     mean, sd = PRINTED[method][column]
     if column in RATES:
         return Estimate(*(100 * part for part in rate(np.arange(EPISODES) < round(mean / 100 * EPISODES))))
-    half = float(stats.t.ppf(0.975, EPISODES - 1)) * sd / math.sqrt(EPISODES)
+    half = float(scipy.stats.t.ppf(0.975, EPISODES - 1)) * sd / math.sqrt(EPISODES)
     return Estimate(mean, mean - half, mean + half)
 
 

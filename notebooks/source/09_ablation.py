@@ -26,9 +26,9 @@
 # %%
 import bootcourse as bc
 import numpy as np
+import scipy
 from bootcourse.lessons import check, compare_predictions, figures_ablation, predict, shipped, table
 from bootcourse.study import clocks, figures, paper, report, results, sweep, tables
-from scipy import stats
 
 # %% [markdown]
 # ## Look first
@@ -114,7 +114,7 @@ for method in methods:
     won = study.of(method).scores("success") >= bc.statistics.ESCAPES
     printed = paper.PRINTED[method]["success"].mean
     one = int(printed >= 100 * bc.statistics.ESCAPES)  # if the row is one agent: does it escape?
-    luck = stats.fisher_exact([[won.sum(), (~won).sum()], [one, 1 - one]]).pvalue
+    luck = scipy.stats.fisher_exact([[won.sum(), (~won).sum()], [one, 1 - one]]).pvalue
     rows.append([bc.display_name(method), tables.k_of_n(won), f"{printed:g} %", f"{luck:.2f}"])
 theirs = f"the paper's success, {paper.EPISODES} drives"
 table(["", "agents that escape (95 %)", theirs, "p, if one agent drove them"], rows)

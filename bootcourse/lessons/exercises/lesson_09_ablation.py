@@ -1,15 +1,15 @@
 """Exercises of the lesson on the ablation."""
 
 import numpy as np
-from scipy import stats
+import scipy
 
 from bootcourse.lessons.exercise import Exercise, Mistake
 from bootcourse.statistics import iqm
 
 
 def exact_interval_solution(k, n):
-    low = stats.beta.ppf(0.025, k, n - k + 1) if k > 0 else 0.0
-    high = stats.beta.ppf(0.975, k + 1, n - k) if k < n else 1.0
+    low = scipy.stats.beta.ppf(0.025, k, n - k + 1) if k > 0 else 0.0
+    high = scipy.stats.beta.ppf(0.975, k + 1, n - k) if k < n else 1.0
     return np.array([low, high])
 
 
@@ -29,28 +29,28 @@ exact_interval = Exercise(
             "This is the normal approximation. At 0 of 10 its interval has length 0, as if the rate were known "
             "exactly.",
             "1.96 standard errors are always 95 %."),
-        Mistake(lambda k, n: np.array([*stats.binomtest(k, n).proportion_ci(0.9, method="exact")]),
+        Mistake(lambda k, n: np.array([*scipy.stats.binomtest(k, n).proportion_ci(0.9, method="exact")]),
             "You leave 5 % at each end. Both ends together may miss in 5 % of the cases: 2.5 % each.",
             "95 % means that 0.05 goes into the formula."),
         Mistake(lambda k, n: exact_interval_solution(n - k, n),
             "This is the interval of the failures: k and n - k are swapped.",
             "The order of a beta distribution's two parameters does not matter."),
-        Mistake(lambda k, n: stats.beta.ppf([0.025, 0.975], k + 1, n - k + 1),
+        Mistake(lambda k, n: scipy.stats.beta.ppf([0.025, 0.975], k + 1, n - k + 1),
             "You take both ends from one beta distribution, as in a Bayesian interval. The exact ends come from two "
             "different ones.",
             "An interval is two quantiles of one distribution."),
-        Mistake(lambda k, n: np.array([*stats.binomtest(k, n).proportion_ci(method="wilson")]),
+        Mistake(lambda k, n: np.array([*scipy.stats.binomtest(k, n).proportion_ci(method="wilson")]),
             "This is Wilson's interval: it is shorter, and holds the true rate in about 95 % of the cases. The exact "
             "one does so in at least 95 %.",
             "All good intervals of a rate agree."),
-        Mistake(lambda k, n: np.array([stats.beta.ppf(0.025, k, n - k + 1), stats.beta.ppf(0.975, k + 1, n - k)]),
+        Mistake(lambda k, n: scipy.stats.beta.ppf([0.025, 0.975], [k, k + 1], [n - k + 1, n - k]),
             "At k = 0 and at k = n one of your ends is not a number (NaN): a beta distribution has no parameter 0. "
             "There the low end is 0, and the high end is 1.",
             "The formula holds for every k."),
     ),
     hints=(
         "The low end is the rate at which k or more of n has a chance of 2.5 %; at the high end, k or fewer has it.",
-        "`stats.beta.ppf(0.025, k, n - k + 1)` solves the first. For the second, 0.975 with k + 1 and n - k.",
+        "`scipy.stats.beta.ppf(0.025, k, n - k + 1)` solves the first. For the second, 0.975 with k + 1 and n - k.",
         "Where k = 0 the low end is 0, where k = n the high end is 1. Return `np.array([low, high])`.",
     ),
     minutes=8, difficulty=2, equation="the exact (Clopper-Pearson) 95 % interval of k out of n",
