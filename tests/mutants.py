@@ -128,7 +128,7 @@ def mutants(exercise: Exercise) -> Iterator[tuple[str, Callable]]:
     for argument in (*function.args.args, *function.args.kwonlyargs):
         argument.annotation = None
     arguments = [a.arg for a in function.args.args]
-    first = dict(zip(arguments, exercise.all_arguments()[0], strict=False)) if exercise.run is call_it else {}
+    first = dict(zip(arguments, exercise.all_arguments[0], strict=False)) if exercise.run is call_it else {}
     first["slopes"] = exercise.slopes
     space = solution.__globals__
     seen = {ast.unparse(function)}
@@ -215,7 +215,7 @@ def passes(exercise: Exercise, answer: Callable) -> bool:
     try:
         with np.errstate(all="ignore"), warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            for case, right in zip(exercise.all_arguments(), rights, strict=True):
+            for case, right in zip(exercise.all_arguments, rights, strict=True):
                 given = copy.deepcopy(case)
                 found = plain(exercise.answers(answer, *given))
                 if not same(fitted(found, right), right, exercise.tolerance):

@@ -243,7 +243,7 @@ class Training:
                     if callback is not None:
                         callback(self)
                     driven = int(np.minimum(self.curves.finished, self.episodes).sum())
-                    if driven > bar.n:
+                    if progress and driven > bar.n:
                         bar.set_postfix_str(_success(self.curves), refresh=False)
                         bar.update(driven - bar.n)
             except KeyboardInterrupt:

@@ -3,6 +3,7 @@
 `exercises/` has the exercises, one file for each lesson; `judge.py` judges the answers.
 """
 
+import functools
 import inspect
 import re
 from collections.abc import Callable, Iterable
@@ -97,8 +98,9 @@ class Exercise:
         """The difficulty as it is printed: ●●○."""
         return "●" * self.difficulty + "○" * (3 - self.difficulty)
 
+    @functools.cached_property
     def all_arguments(self) -> list[tuple]:
-        """The arguments of every case, those of `worked` first; they are the same at each call.
+        """The arguments of every case, those of `worked` first. Copy them for a function that may change them.
 
         A number that NumPy drew becomes Python's, as a student would write it.
         """

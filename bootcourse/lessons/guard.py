@@ -69,7 +69,7 @@ def run(exercise: Exercise, answer: Callable | str, times: int = 1) -> GuardedRu
     }  # fmt: skip
     with _one_at_a_time:
         found = report(*(_in_a_fork if worker.FORKS else _alone)(pickle.dumps(job), exercise.seconds))
-    if not (found.error or found.refused) and found.case != times * len(exercise.all_arguments()):
+    if not (found.error or found.refused) and found.case != times * len(exercise.all_arguments):
         found.ended = found.ended or 0  # somebody else wrote that it is done
     return found
 
@@ -77,7 +77,7 @@ def run(exercise: Exercise, answer: Callable | str, times: int = 1) -> GuardedRu
 @functools.lru_cache(maxsize=256)
 def packed(exercise: Exercise) -> bytes:
     """What the process needs of an exercise: how to run an answer, the solution, the cases."""
-    return cloudpickle.dumps((exercise.answers, exercise.solution, exercise.all_arguments()))
+    return cloudpickle.dumps((exercise.answers, exercise.solution, exercise.all_arguments))
 
 
 def report(ended: str | int, stream: bytes) -> GuardedRun:

@@ -12,7 +12,7 @@ import dis
 import functools
 import signal
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from copy import deepcopy
 from dataclasses import replace
 
@@ -62,7 +62,7 @@ def limited(exercise: Exercise, seconds: float) -> Exercise:
 
 def judge_any(exercise: Exercise, answer: Callable | str) -> Verdict:
     report = guard.run(exercise, answer)
-    cases = exercise.all_arguments()
+    cases = exercise.all_arguments
     verdict = ended_early(exercise, answer, report, cases) or judge_answers(exercise, answer, report, cases)
     if report.printed and not verdict.passed:
         verdict = replace(verdict, details=(*verdict.details, f"printed: {report.printed}"))
@@ -144,8 +144,8 @@ def judge_values(
     """The verdict on the values; of(answers) picks them out."""
 
     def makes(mistake: Mistake, mine: list[Plain]) -> bool:
-        theirs = [fitted(a, right) for a, right in zip(of(outcomes(exercise, mistake.answer)), rights, strict=True)]
-        return all_same(mine, theirs, exercise.tolerance)
+        theirs = (fitted(a, right) for a, right in zip(of(outcomes(exercise, mistake.answer)), rights, strict=True))
+        return all_same(mine, theirs, exercise.tolerance)  # which ends at the first case that differs
 
     rights = of(outcomes(exercise, exercise.solution))
     mine = [fitted(a, right) for a, right in zip(of(report.answers), rights, strict=True)]
@@ -202,7 +202,7 @@ def judge_slopes(exercise: Exercise, answers: list[Plain], cases: list[tuple]) -
     return None
 
 
-def all_same(answers: list[Plain], others: list[Plain], tolerance: float) -> bool:
+def all_same(answers: list[Plain], others: Iterable[Plain], tolerance: float) -> bool:
     return all(same(a, other, tolerance, nan_too=True) for a, other in zip(answers, others, strict=True))
 
 
@@ -238,7 +238,7 @@ def outcomes(exercise: Exercise, function: Callable) -> list[Plain]:
     """The answers of a solution or of a known mistake to all cases."""
     with np.errstate(all="ignore"), warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        return [plain(exercise.answers(function, *deepcopy(case))) for case in exercise.all_arguments()]
+        return [plain(exercise.answers(function, *deepcopy(case))) for case in exercise.all_arguments]
 
 
 def given(exercise: Exercise, case: tuple) -> tuple[str, ...]:

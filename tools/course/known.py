@@ -61,6 +61,8 @@ from tools.course.source import NOTEBOOKS, read
 shipped_results = cache(shipped.shipped_results)
 shipped_runs = cache(shipped.shipped_runs)
 shipped_drive = cache(shipped.shipped_drive)
+shipped_experiment = cache(shipped.shipped_experiment)
+shipped_teachers = cache(shipped.shipped_teachers)
 hunt = cache(bugs.Hunt)  # lesson 13's agents
 ROAD = 10  # the road that most lessons show
 SETTINGS = settings_for("bootstrapped")  # the paper's
@@ -128,10 +130,9 @@ def escaped(method: str, scenario: str = "default") -> int:
     return escapers(of(method) if scenario == "default" else shipped_results(scenario), method)
 
 
-@cache
 def varied() -> dict[str, Results]:
     """The study's agents with one number changed, by what was changed."""
-    return shipped.shipped_experiment("sensitivity")
+    return shipped_experiment("sensitivity")
 
 
 def escaped_with(change: str, method: str) -> int:
@@ -139,37 +140,33 @@ def escaped_with(change: str, method: str) -> int:
     return escapers(varied()[change], method)
 
 
-@cache
 def ablations() -> dict[str, Results]:
     """The ten agents of each method with one choice of the method changed, by what was changed."""
-    return shipped.shipped_experiment("ablations")
+    return shipped_experiment("ablations")
 
 
 @cache
 def clocks() -> dict[tuple[str, str], Results]:
     """The four methods' ten agents each, by (updates per decision, who drives the demonstrations): ("2", "π̃")."""
-    return study_clocks.cells(shipped.shipped_experiment("clocks"))
+    return study_clocks.cells(shipped_experiment("clocks"))
 
 
 LATER = ("ppo", "ppo_cloned", "ppo_kl", "ppo_residual", "rlpd", "ibrl", "pex", "jsrl")  # those of lesson 16
 
 
-@cache
 def later(method: str) -> Results:
     """The ten agents of a method that the paper does not train."""
-    return shipped.shipped_experiment("beyond")[method]
+    return shipped_experiment("beyond")[method]
 
 
-@cache
 def longer() -> Results:
     """The ten agents of the paper's method with a longer view, a smaller bonus and larger batches."""
-    return shipped.shipped_experiment("longer-view")["γ = 0.95"]
+    return shipped_experiment("longer-view")["γ = 0.95"]
 
 
-@cache
 def safer() -> dict[str, Results]:
     """The ten agents of PPO after cloning with something more against accidents, by what it is."""
-    return shipped.shipped_experiment("safe")
+    return shipped_experiment("safe")
 
 
 BEST = "accident cost and shield by hand, twice as long"  # of `safer`
@@ -230,10 +227,9 @@ def learned(method: str) -> np.ndarray:
     return beyond.spent(later(method))
 
 
-@cache
 def taught(teacher: str, method: str = "ppo_cloned") -> Results:
     """The ten agents of a method that a teacher of the experiment `teachers` taught."""
-    return shipped.shipped_teachers()[teacher, method]
+    return shipped_teachers()[teacher, method]
 
 
 def taught_cost(teacher: str) -> np.ndarray:
@@ -462,7 +458,7 @@ def teacher_exam(name: str):
 def dense_escapes(name: str) -> float:
     """The share of lesson 14's roads with a dense left lane on which one of its teachers gets out unharmed."""
     rule = getattr(example_teachers, name)
-    roads = registry()["watchful_rule"].all_arguments()
+    roads = registry()["watchful_rule"].all_arguments
     return float(np.mean([drive_out(rule, cars, scenario) == OUT for cars, scenario in roads]))
 
 
