@@ -17,7 +17,7 @@ def quantile_loss(quantiles: Tensor, returns: Tensor) -> Tensor:
     n = quantiles.shape[-1]
     tau = (torch.arange(n, device=quantiles.device) + 0.5) / n
     error = returns[..., None] - quantiles  # (..., batch, N)
-    return ((tau - (error.detach() < 0).float()) * error).mean(-2).sum(-1)
+    return ((tau - (error < 0).float()) * error).mean(-2).sum(-1)
 
 
 def mean_of_the_worst(quantiles: Tensor, share: float) -> Tensor:

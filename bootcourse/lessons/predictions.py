@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
-from bootcourse.errors import BootcourseError, did_you_mean
+from bootcourse.errors import BootcourseError, check_known
 from bootcourse.files import read_json, write_json
 from bootcourse.lessons.verdict import marked
 from bootcourse.markup import html
@@ -42,8 +42,8 @@ class Question:
             raise BootcourseError(f"Prediction {self.number} is empty: {what}, then commit to it.")
         if len(words) > LONGEST:
             raise BootcourseError(f"Prediction {self.number} has {len(words)} characters: use at most {LONGEST}.")
-        if self.choices and words not in self.choices:
-            raise BootcourseError(f"Prediction {self.number}: the answer {did_you_mean(words, self.choices)}.")
+        if self.choices:
+            check_known(f"Prediction {self.number}: the answer", words, self.choices)
         return words if self.unit is None else self._number(words)
 
     def _number(self, words: str) -> float:

@@ -56,27 +56,28 @@ def main() -> None:
         while True:
             job = pickle.load(jobs)
             sys.path[:] = job["path"]
-            run, cases, before = prepared(job["exercise"])
+            run, cases = prepared(job["exercise"])
             if not FORKS or job["alone"]:
                 faulthandler.dump_traceback_later(job["seconds"], exit=True)  # its clock needs no interpreter
-                work(job, run, cases, before, replies)
+                work(job, run, cases, replies)
                 return
-            ended, stream = in_a_fork(job, run, cases, before, close=(jobs, replies))
+            ended, stream = in_a_fork(job, run, cases, close=(jobs, replies))
             replies.write(json.dumps({"ended": ended, "bytes": len(stream)}).encode() + b"\n" + stream)
             replies.flush()
 
 
 @functools.lru_cache(maxsize=128)
-def prepared(exercise: bytes) -> tuple[Callable, list[tuple], list[list]]:
-    """(run, cases, cases as `plain`) of an exercise. Its solution has run once: all is imported and compiled."""
+def prepared(exercise: bytes) -> tuple[Callable, list[tuple]]:
+    """(run, cases) of an exercise: each case's arguments, and the same as `plain`.
+
+    Its solution has run once, so that what it needs is imported and compiled.
+    """
     run, solution, cases = pickle.loads(exercise)
     run(solution, *copy.deepcopy(cases[0]))
-    return run, cases, [[plain(argument) for argument in arguments] for arguments in cases]
+    return run, [(arguments, [*map(plain, arguments)]) for arguments in cases]
 
 
-def in_a_fork(
-    job: dict, run: Callable, cases: list[tuple], before: list[list], close: tuple
-) -> tuple[str | int, bytes]:
+def in_a_fork(job: dict, run: Callable, cases: list[tuple], close: tuple) -> tuple[str | int, bytes]:
     """(how it ended, what it wrote): "" for well, "time", "size", a negative signal or an exit code."""
     ours, theirs = os.pipe()
     child = os.fork()
@@ -87,7 +88,7 @@ def in_a_fork(
                 os.close(file.fileno())
             limit(job["memory"], job["seconds"])
             with os.fdopen(theirs, "wb") as stream:
-                work(job, run, cases, before, stream)
+                work(job, run, cases, stream)
         finally:
             os._exit(0)
     os.close(theirs)
@@ -161,7 +162,7 @@ class Printed(io.TextIOBase):
         return len(text)
 
 
-def work(job: dict, run: Callable, cases: list[tuple], before: list[list], stream) -> None:
+def work(job: dict, run: Callable, cases: list[tuple], stream) -> None:
     """Write, line by line, what the student's function answers in each case, and which argument it changed."""
 
     def send(**what):
@@ -179,7 +180,7 @@ def work(job: dict, run: Callable, cases: list[tuple], before: list[list], strea
         if refused:
             send(refused=refused)
         else:
-            for arguments, unchanged in [*zip(cases, before, strict=True)] * job["times"]:
+            for arguments, unchanged in cases * job["times"]:
                 given = copy.deepcopy(arguments)
                 value = as_json(plain(run(answer, *given)))
                 pairs = enumerate(zip(map(plain, given), unchanged, strict=True))

@@ -9,7 +9,7 @@ from pathlib import Path
 import ipywidgets as widgets
 import numpy as np
 
-from bootcourse.errors import BootcourseError, did_you_mean
+from bootcourse.errors import BootcourseError, check_known
 from bootcourse.methods import display_name, style
 from bootcourse.panels.panel import Panel
 from bootcourse.plots.svg import QUIET, SvgAxes, drawing, text
@@ -113,6 +113,5 @@ def clocks_panel(updates: str = "", demonstrations: str = "", study: Path | str 
         raise BootcourseError(f"{study or FOLDER} holds no results of the experiment clocks: {run}.")
     first = next(iter(measured))
     chosen = (updates or first[0], demonstrations or first[1])
-    if chosen not in measured:
-        raise BootcourseError(f"Choice {did_you_mean(' '.join(chosen), [' '.join(pair) for pair in measured])}.")
+    check_known("Choice", " ".join(chosen), [" ".join(pair) for pair in measured])
     return ClocksPanel(measured, chosen)

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from itertools import product
 
-from bootcourse.errors import BootcourseError, did_you_mean
+from bootcourse.errors import BootcourseError, check_known, did_you_mean
 from bootcourse.learn.settings import SETTINGS, Settings, settings_for, with_seeds
 from bootcourse.methods import ABLATION, AFTER, BASELINES, METHODS
 from bootcourse.scenario import CALIBRATED, DEFAULT, Scenario, Sight
@@ -236,8 +236,8 @@ class Experiment:
             for variation, its in self.variations.items()
         }
         wanted, known = {word.strip() for word in words.split(",")} - {""}, sorted(set().union(*names.values()))
-        for word in sorted(wanted - set(known)):
-            raise BootcourseError(f"Part {did_you_mean(word, known)}.")
+        for word in sorted(wanted):
+            check_known("Part", word, known)
         kept = {variation: self.variations[variation] for variation in names if not wanted or wanted & names[variation]}
         return replace(self, variations=kept)
 
