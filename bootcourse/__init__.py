@@ -17,12 +17,11 @@ episodes           driving: one recorded drive, many evaluated episodes, a drive
 learn              discrete SAC, the rule's help, the baselines, the training loop
 storage            runs, checkpoints and shipped results on disk
 plots              figures: the road from above, a drive over time, training curves
-study              the paper's experiments and ours: jobs, tables, planner, checks against published figures
 one_per_cell       a notebook cell that runs again replaces what it showed
 replay3d           drives in 3D: in a notebook, in a browser, as one file
 panels             widgets for notebooks: drive, train, look into one decision
-lessons            exercises, their checks, the leaderboard, and what only lessons need
-classroom          a class: handing out lessons, collecting answers, grading them
+research           the paper's experiments and ours: jobs, tables, planner, checks against published figures
+course             exercises and their judge, the lessons, a class: handing out, collecting, grading
 doctor             what is wrong with an installation, and what to do about it
 cli                the command line
 """
@@ -68,10 +67,10 @@ NAMES = {  # name -> where it is defined
     "save_runs": "bootcourse.storage.runs",
     "load_run": "bootcourse.storage.runs",
     # what ships with the course
-    "shipped_results": "bootcourse.lessons.shipped",
-    "shipped_agents": "bootcourse.lessons.shipped",
-    "shipped_drive": "bootcourse.lessons.shipped",
-    "board": "bootcourse.lessons.board",
+    "shipped_results": "bootcourse.course.shipped",
+    "shipped_agents": "bootcourse.course.shipped",
+    "shipped_drive": "bootcourse.course.shipped",
+    "board": "bootcourse.course.board",
     # to look at it
     "show": "bootcourse.plots.figure",
     "top_view": "bootcourse.plots.top_view",

@@ -17,9 +17,9 @@ from pathlib import Path
 
 import nbformat
 
-from bootcourse.classroom.answers import names_in, pieces, with_needs
-from bootcourse.classroom.submission import FORMAT, fingerprint
-from bootcourse.lessons.exercises import registry
+from bootcourse.course.classroom.answers import names_in, pieces, with_needs
+from bootcourse.course.classroom.submission import FORMAT, fingerprint
+from bootcourse.course.lessons import registry
 from tests.answers import IMPORTS, RIGHT, WRONG
 
 ATTACKS = {

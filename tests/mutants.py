@@ -20,10 +20,10 @@ from collections.abc import Callable, Iterator
 import numpy as np
 import torch
 
-from bootcourse.lessons.exercise import Exercise, call_it
-from bootcourse.lessons.exercises import registry
-from bootcourse.lessons.judge import outcomes
-from bootcourse.lessons.values import fitted, plain, same
+from bootcourse.course.exercise import Exercise, call_it
+from bootcourse.course.judge import outcomes
+from bootcourse.course.lessons import registry
+from bootcourse.course.values import fitted, plain, same
 from tests.answers import EQUIVALENT
 
 FREE = ("direct_plan", "my_rule", "watchful_rule", "unmasks")

@@ -18,8 +18,8 @@ from bootcourse.learn.replay_buffer import ReplayBuffer
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
 from bootcourse.plots.figure import INK, TEXT, finish, new_figure, plain_axes, save
+from bootcourse.research.tables import markdown
 from bootcourse.scenario import DEFAULT, N_ACTIONS
-from bootcourse.study.tables import markdown
 from tests.bench_learn import AGENTS, growth, milliseconds, ours, table
 
 HERE = Path(__file__).resolve().parent

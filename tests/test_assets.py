@@ -11,14 +11,14 @@ from bootcourse.cli import studies
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import settings_for, with_seeds
+from bootcourse.research import ship
+from bootcourse.research.fingerprint import older
+from bootcourse.research.jobs import Job, read_job, run_job
+from bootcourse.research.results import in_assets, load_results
 from bootcourse.scenario import CALIBRATED, DEFAULT
 from bootcourse.storage import assets
 from bootcourse.storage.runs import find_runs, load_run
 from bootcourse.storage.sealed import write_sealed
-from bootcourse.study import ship
-from bootcourse.study.fingerprint import older
-from bootcourse.study.jobs import Job, read_job, run_job
-from bootcourse.study.results import in_assets, load_results
 
 
 @pytest.fixture(scope="module")

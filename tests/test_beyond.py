@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from bootcourse.study import beyond
-from bootcourse.study.beyond import (
+from bootcourse.research import beyond
+from bootcourse.research.beyond import (
     after_seconds,
     at_budget,
     budget_rows,
@@ -14,7 +14,7 @@ from bootcourse.study.beyond import (
     thousands,
     within,
 )
-from bootcourse.study.results import Results
+from bootcourse.research.results import Results
 
 NAN = np.nan
 

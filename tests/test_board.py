@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 import bootcourse as bc
+from bootcourse.course import board as module
+from bootcourse.course.board import Row, driven, entered, ranked, read_rows, row_of, shipped_rows, study_rows
 from bootcourse.errors import BootcourseError
-from bootcourse.lessons import board as module
-from bootcourse.lessons.board import Row, driven, entered, ranked, read_rows, row_of, shipped_rows, study_rows
+from bootcourse.research.beyond import Within
+from bootcourse.research.results import Results, StudyResults, in_assets
 from bootcourse.scenario import DEFAULT, Sight
 from bootcourse.statistics import Estimate
 from bootcourse.storage.assets import FOLDER
-from bootcourse.study.beyond import Within
-from bootcourse.study.results import Results, StudyResults, in_assets
 from tests.hostile.payloads import PAYLOAD
 
 IDLE_EARNS = 23.4375  # on every road

@@ -6,8 +6,8 @@ import shutil
 import pytest
 
 import bootcourse as bc
-from bootcourse.lessons.shipped import shipped_drive
-from bootcourse.study.sweep import load_sweep, nearest_setting
+from bootcourse.course.shipped import shipped_drive
+from bootcourse.research.sweep import load_sweep, nearest_setting
 from tests.browser import ARTEFACTS, is_blank, needs_browser, open_browser
 from tools import book
 from tools.course.source import NOTEBOOKS

@@ -6,17 +6,17 @@ import numpy as np
 import pytest
 import torch
 
+from bootcourse.course.lessons import registry
+from bootcourse.course.lessons.bug_hunt import bugs
+from bootcourse.course.lessons.bug_hunt.bugs import BUGS, COMMAND, FILE, LEARNERS, LETTERS, PROBES, Hunt
 from bootcourse.errors import BootcourseError
 from bootcourse.files import sha256, write_arrays
 from bootcourse.learn import bootstrap, sac
 from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.replay_buffer import Batch
 from bootcourse.learn.settings import settings_for, with_seeds
-from bootcourse.lessons import bugs
-from bootcourse.lessons.bugs import BUGS, COMMAND, FILE, LEARNERS, LETTERS, PROBES, Hunt
-from bootcourse.lessons.exercises import registry
+from bootcourse.research.ship import Shipment, add_kept
 from bootcourse.storage.assets import FOLDER
-from bootcourse.study.ship import Shipment, add_kept
 
 AGENTS, SIZE = 2, 16
 
@@ -146,7 +146,7 @@ def test_a_file_that_is_missing_or_another_is_named_with_the_remedy(tmp_path):
     with pytest.raises(BootcourseError, match="is not there"):
         Hunt(tmp_path / "none.npz")
     write_arrays(tmp_path / "other.npz", {"a": np.zeros(3), "provenance": np.array(json.dumps({}))})
-    with pytest.raises(BootcourseError, match="python -m bootcourse.lessons.bugs"):
+    with pytest.raises(BootcourseError, match="python -m bootcourse.course.lessons.bug_hunt.bugs"):
         Hunt(tmp_path / "other.npz")
     with pytest.raises(BootcourseError, match="choose from healthy, A, B"):
         Hunt().curve("G", "success")

@@ -1,4 +1,4 @@
-"""The harness of the independent checks. The checks themselves: `python -m bootcourse.study.checks`."""
+"""The harness of the independent checks. The checks themselves: `python -m bootcourse.research.checks`."""
 
 from dataclasses import replace
 
@@ -9,7 +9,7 @@ import torch
 from bootcourse.learn.learner import learner_for
 from bootcourse.learn.replay_buffer import decode_transitions
 from bootcourse.learn.settings import settings_for, with_seeds
-from bootcourse.study import checks
+from bootcourse.research import checks
 
 
 def test_the_demonstrator_balances_every_pole_to_the_end():

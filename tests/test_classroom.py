@@ -12,16 +12,16 @@ from pathlib import Path
 
 import pytest
 
-from bootcourse.classroom import grading, pages, report
-from bootcourse.classroom.answers import answers_in, errors_in, unfinished, verdicts_in
-from bootcourse.classroom.collect import collect
-from bootcourse.classroom.grading import Graded, Graduate, Verdicts, identical, judge_all, key, other_versions
-from bootcourse.classroom.judging import Judge
-from bootcourse.classroom.points import read_lessons, read_points
-from bootcourse.classroom.submission import Submission, fingerprint, from_folder
 from bootcourse.cli import main
+from bootcourse.course.classroom import grading, pages, report
+from bootcourse.course.classroom.answers import answers_in, errors_in, unfinished, verdicts_in
+from bootcourse.course.classroom.collect import collect
+from bootcourse.course.classroom.grading import Graded, Graduate, Verdicts, identical, judge_all, key, other_versions
+from bootcourse.course.classroom.judging import Judge
+from bootcourse.course.classroom.points import read_lessons, read_points
+from bootcourse.course.classroom.submission import Submission, fingerprint, from_folder
+from bootcourse.course.lessons import registry
 from bootcourse.errors import BootcourseError
-from bootcourse.lessons.exercises import registry
 from tests.classroom import ATTACKS, body, make, submission
 from tools.course.source import NOTEBOOKS
 
@@ -44,7 +44,7 @@ def notebook(*cells: dict) -> dict:
 
 def test_an_answer_comes_with_what_it_uses_of_other_cells_and_with_nothing_else():
     mine = notebook(
-        cell("import math\nimport numpy as np\nfrom bootcourse.lessons import check\n%time\nlaunch_missiles()"),
+        cell("import math\nimport numpy as np\nfrom bootcourse.course import check\n%time\nlaunch_missiles()"),
         cell("SHARE = 9\n\ndef once(good, decisions):\n    return (good / SHARE) ** decisions"),
         cell("def luck(good, decisions, tries):\n    return 0"),
         cell("def luck(good, decisions, tries):\n    return -np.expm1(tries * np.log1p(-once(good, decisions)))\n"
@@ -194,7 +194,7 @@ def test_a_process_that_dies_is_started_anew(judge):
 @pytest.mark.skipif(not Path("/bin/sh").exists(), reason="there it is so without a wrapper")
 def test_without_fork_namespaces_and_landlock_answers_are_judged_in_processes_of_their_own(tmp_path, monkeypatch):
     as_elsewhere = (
-        "from bootcourse.classroom import judging, sandbox; from bootcourse.lessons import worker; "
+        "from bootcourse.course.classroom import judging, sandbox; from bootcourse.course import worker; "
         "sandbox.shut_in = lambda folder: []; worker.FORKS = False; judging.main()"
     )
     python = tmp_path / "python"

@@ -8,7 +8,7 @@ import nbformat
 import pytest
 from nbclient.exceptions import CellExecutionError
 
-from bootcourse.lessons.exercises import registry
+from bootcourse.course.lessons import registry
 from tools.course import problems as problems_module
 from tools.course.problems import dead_names, has_alt, of_pictures, problems
 from tools.course.products import WIDGET, instructor_file, make, refresh_prose, solved_file, student_file, tidy
@@ -180,7 +180,7 @@ def test_it_is_found_when_an_exercise_has_no_solution(copy):
 def test_a_solution_shown_on_request_must_be_the_source_s(few_exercises, tmp_path):
     text = """\
 # %%
-from bootcourse.lessons import check
+from bootcourse.course import check
 
 # %% [markdown]
 # # 7
@@ -203,7 +203,7 @@ check.soft_constraint(soft_constraint)
 def test_predictions_are_numbered_after_the_lesson_and_answered_at_its_end(few_exercises, tmp_path):
     text = """\
 # %%
-from bootcourse.lessons import compare_predictions, predict
+from bootcourse.course import compare_predictions, predict
 
 # %%
 predict("3.1", "Left?", ["yes", "no"])

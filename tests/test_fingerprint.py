@@ -12,13 +12,13 @@ from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.replay_buffer import ReplayBuffer
 from bootcourse.learn.risk import accident_within, masked
 from bootcourse.methods import METHODS
+from bootcourse.research import fingerprint as fingerprints
+from bootcourse.research import planner
+from bootcourse.research.fingerprint import COMPUTED, LEARNED, alike, fingerprint, older
 from bootcourse.road import vector_env
 from bootcourse.road.constants import constants
 from bootcourse.storage.assets import FOLDER, FORMAT, MANIFEST, read_manifest
 from bootcourse.storage.sealed import write_sealed
-from bootcourse.study import fingerprint as fingerprints
-from bootcourse.study import planner
-from bootcourse.study.fingerprint import COMPUTED, LEARNED, alike, fingerprint, older
 
 
 def listing(tmp_path, *files: str):

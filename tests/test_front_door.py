@@ -33,7 +33,7 @@ HEAVY = "torch numba viser ipywidgets highway_env matplotlib pandas scipy"
     ("imported", "spared"),
     [
         ("bootcourse", HEAVY),
-        ("bootcourse.storage.assets", "bootcourse.study"),  # files are checked without the study's code
+        ("bootcourse.storage.assets", "bootcourse.research"),  # files are checked without the study's code
         ("bootcourse.policies, bootcourse.episodes.record", "viser"),
     ],
 )

@@ -8,10 +8,10 @@ import zipfile
 import nbformat
 import pytest
 
-from bootcourse.classroom import handout
-from bootcourse.classroom.merge import merge, texts
+from bootcourse.course import check, edition
+from bootcourse.course.classroom import handout
+from bootcourse.course.classroom.merge import merge, texts
 from bootcourse.errors import BootcourseError
-from bootcourse.lessons import check, edition
 from tools.course.products import notebook
 
 

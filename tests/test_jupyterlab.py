@@ -5,8 +5,8 @@ import statistics
 
 import pytest
 
-from bootcourse.lessons.predictions import FILE
-from bootcourse.study.results import save_results
+from bootcourse.course.predictions import FILE
+from bootcourse.research.results import save_results
 from tests.browser import ARTEFACTS, close_notice, is_blank, needs_browser
 from tests.jupyterlab import open_lab
 from tests.test_panels_sweep import invented
@@ -77,7 +77,7 @@ def notebook(open_notebook):
         THINKING + "weighed = policy_panel(drive)\nweighed",
         "from bootcourse.panels import bonus_panel\nbonus = bonus_panel()\nbonus",
         "from bootcourse.panels import scenario_panel\nworld = scenario_panel()\nworld",
-        "from bootcourse.lessons import predict\npredict('5.1', 'Does <b>it</b> stay?', ['<i>yes</i>', 'no'])",
+        "from bootcourse.course import predict\npredict('5.1', 'Does <b>it</b> stay?', ['<i>yes</i>', 'no'])",
     )
     with open_notebook(*cells) as it:
         it.page.set_default_timeout(20_000)

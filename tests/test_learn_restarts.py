@@ -11,10 +11,10 @@ from bootcourse.learn.restarts import FARTHEST, NEAREST, POOL, Restarts
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
 from bootcourse.methods import METHODS
+from bootcourse.research.checks import cartpole, several
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, Sight
 from bootcourse.storage.checkpoint import DamagedCheckpoint, restored, state_of
-from bootcourse.study.checks import cartpole, several
 from tests.test_learn_safe import SMALL
 
 ROADS = 4

@@ -14,7 +14,7 @@ from bootcourse.learn.networks import init_mlp
 from bootcourse.learn.rlpd import normalised_mlp, smallest_of
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
-from bootcourse.study.checks import cartpole, several
+from bootcourse.research.checks import cartpole, several
 from tests.test_baselines import a_batch
 
 

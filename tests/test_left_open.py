@@ -8,15 +8,15 @@ import numpy as np
 import pytest
 
 from bootcourse import rule
+from bootcourse.course.shipped import shipped_experiment, shipped_results
 from bootcourse.learn.settings import Settings
-from bootcourse.lessons.shipped import shipped_experiment, shipped_results
 from bootcourse.methods import METHODS
+from bootcourse.research.clocks import cells
+from bootcourse.research.paper import EPISODES, PRINTED, earned_at
+from bootcourse.research.plan import EXPERIMENTS
 from bootcourse.road.formulas import bicycle_step, speed_reward, steering_reward, weighted_reward
 from bootcourse.scenario import CALIBRATED, DEFAULT
 from bootcourse.statistics import ESCAPES, rate
-from bootcourse.study.clocks import cells
-from bootcourse.study.paper import EPISODES, PRINTED, earned_at
-from bootcourse.study.plan import EXPERIMENTS
 from tools.course.paper_map import items
 from tools.course.problems import exists
 from tools.course.reference import BOOK, text_of

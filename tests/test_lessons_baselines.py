@@ -5,9 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bootcourse.learn.learner import learner_for
-from bootcourse.learn.settings import settings_for, with_seeds
-from bootcourse.lessons.figures_baselines import (
+from bootcourse.course.lessons.imitation.figures import (
     WINDOW,
     agents_of,
     as_the_rule_would,
@@ -17,14 +15,16 @@ from bootcourse.lessons.figures_baselines import (
     success_around,
     updates_made,
 )
-from bootcourse.lessons.shipped import (
+from bootcourse.course.shipped import (
     shipped_agents,
     shipped_bound,
     shipped_drive,
     shipped_experiment,
     shipped_results,
 )
-from bootcourse.study.results import Results
+from bootcourse.learn.learner import learner_for
+from bootcourse.learn.settings import settings_for, with_seeds
+from bootcourse.research.results import Results
 
 
 def results(seconds: np.ndarray) -> Results:

@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 import torch
 
+from bootcourse.course import check, values
+from bootcourse.course.exercise import call_it
+from bootcourse.course.judge import judge, outcomes
+from bootcourse.course.lessons import registry
+from bootcourse.course.verdict import Verdict
 from bootcourse.errors import BootcourseError
-from bootcourse.lessons import check, values
-from bootcourse.lessons.exercise import call_it
-from bootcourse.lessons.exercises import registry
-from bootcourse.lessons.judge import judge, outcomes
-from bootcourse.lessons.verdict import Verdict
 from tests.answers import RIGHT, WRONG, in_this_process, one_sentence
 
 EXERCISES = list(registry().values())

@@ -21,10 +21,10 @@ import pytest
 import torch
 from nbclient import NotebookClient
 
+from bootcourse.course import check, guard, values, worker
+from bootcourse.course.judge import judge, judge_source
+from bootcourse.course.lessons import registry
 from bootcourse.learn import sac
-from bootcourse.lessons import check, guard, values, worker
-from bootcourse.lessons.exercises import registry
-from bootcourse.lessons.judge import judge, judge_source
 from tests.answers import one_sentence
 
 TARGET = registry()["critic_target"]
@@ -219,7 +219,7 @@ def test_what_a_function_prints_is_kept_short_and_shown_with_what_is_wrong():
 
 def test_a_kernel_outlives_what_an_answer_does_and_shows_its_line():
     cells = [
-        "import os, threading\nfrom bootcourse.lessons import check\nbefore = threading.active_count()",
+        "import os, threading\nfrom bootcourse.course import check\nbefore = threading.active_count()",
         "check.critic_target(lambda *a: os._exit(1))",
         "def f(*a):\n    x = 1\n    return x + 'a'\ncheck.critic_target(f)",
         "def f(reward, *a):\n    ...\n\n\ncheck.critic_target(f)",

@@ -6,7 +6,7 @@ import json
 import pytest
 from IPython.core.interactiveshell import InteractiveShell
 
-from bootcourse.lessons import order
+from bootcourse.course import order
 from tools.course.problems import of_order
 from tools.course.source import Cell
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from bootcourse.lessons.exercises import registry
+from bootcourse.course.lessons import registry
 from tests.answers import EQUIVALENT
 from tests.mutants import left_out, surviving
 

@@ -9,8 +9,8 @@ import nbformat
 import pytest
 
 from bootcourse import one_per_cell
+from bootcourse.course import check
 from bootcourse.learn.training import Training
-from bootcourse.lessons import check
 from tests.solved import cells_to_run, code_of
 from tools.course.source import NOTEBOOKS
 
@@ -87,7 +87,7 @@ def test_in_a_solved_notebook_every_check_passes_and_what_uses_a_solution_runs(p
     execute(cells)
 
 
-IMPORTS, STRICT = "from bootcourse.lessons import check", "check.strict()"
+IMPORTS, STRICT = "from bootcourse.course import check", "check.strict()"
 STUB = "def critic_target(reward, terminated, next_value, gamma):\n    ...\ncheck.critic_target(critic_target)"
 RIGHT = STUB.replace("...", "return reward + gamma * (1 - terminated) * next_value")
 

@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 import torch
 
+from bootcourse.course import check, own_code
+from bootcourse.course.lessons import registry
+from bootcourse.course.own_learner import LATER, OwnReplay, OwnSAC, own_learner, parts_of
 from bootcourse.episodes.evaluate import evaluate
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.learner import SACLearner, learner_for
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
-from bootcourse.lessons import check, own_code
-from bootcourse.lessons.exercises import registry
-from bootcourse.lessons.own_learner import LATER, OwnReplay, OwnSAC, own_learner, parts_of
 
 PARTS = [name for name in own_code.PARTS if name in registry()]
 

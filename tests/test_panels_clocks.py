@@ -9,9 +9,9 @@ from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import settings_for
 from bootcourse.panels import clocks_panel
 from bootcourse.panels.clocks import ClocksPanel
-from bootcourse.study.clocks import faded
-from bootcourse.study.plan import VARIED
-from bootcourse.study.results import Results, save_results
+from bootcourse.research.clocks import faded
+from bootcourse.research.plan import VARIED
+from bootcourse.research.results import Results, save_results
 from tests.panels import raise_in_callbacks, words  # noqa: F401
 
 pytestmark = pytest.mark.usefixtures("raise_in_callbacks")

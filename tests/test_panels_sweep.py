@@ -7,9 +7,9 @@ from bootcourse.learn.settings import Settings
 from bootcourse.learn.training import Training
 from bootcourse.panels.sweep import sweep_panel
 from bootcourse.panels.sweep_view import choices, rerun
-from bootcourse.study.plan import sweep_settings
-from bootcourse.study.results import Results, save_results
-from bootcourse.study.sweep import nearest_setting, settings_run
+from bootcourse.research.plan import sweep_settings
+from bootcourse.research.results import Results, save_results
+from bootcourse.research.sweep import nearest_setting, settings_run
 from tests.panels import from_page, raise_in_callbacks, words  # noqa: F401
 
 pytestmark = pytest.mark.usefixtures("raise_in_callbacks")

@@ -5,15 +5,15 @@ from dataclasses import asdict
 import numpy as np
 import pytest
 
+from bootcourse.course.lessons.beyond_the_paper.figures import teacher_value
+from bootcourse.course.shipped import shipped_teachers
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import settings_for
-from bootcourse.lessons.figures_teachers import teacher_value
-from bootcourse.lessons.shipped import shipped_teachers
 from bootcourse.panels import teachers_panel
 from bootcourse.panels.teachers import TeachersPanel
-from bootcourse.study.report import experiments_part
-from bootcourse.study.results import Results, StudyResults, save_results
-from bootcourse.study.teacher_worth import QUANTITIES, cells, in_words, worth_rows
+from bootcourse.research.report import experiments_part
+from bootcourse.research.results import Results, StudyResults, save_results
+from bootcourse.research.teacher_worth import QUANTITIES, cells, in_words, worth_rows
 from tests.panels import from_page, raise_in_callbacks, words  # noqa: F401
 
 pytestmark = pytest.mark.usefixtures("raise_in_callbacks")

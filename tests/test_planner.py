@@ -8,10 +8,7 @@ from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.teachers import teacher_name, teacher_policy
 from bootcourse.policies import idle_policy, rule_policy
-from bootcourse.road.state import CRASHED, EGO, HEADING, LANE, SPEED, X, Y
-from bootcourse.road.vector_env import TrapVectorEnv
-from bootcourse.scenario import DEFAULT, IDLE, Clock, Scenario, Traffic
-from bootcourse.study.planner import (
+from bootcourse.research.planner import (
     Search,
     discounted_values,
     expand,
@@ -23,6 +20,9 @@ from bootcourse.study.planner import (
     planner_rule,
     select,
 )
+from bootcourse.road.state import CRASHED, EGO, HEADING, LANE, SPEED, X, Y
+from bootcourse.road.vector_env import TrapVectorEnv
+from bootcourse.scenario import DEFAULT, IDLE, Clock, Scenario, Traffic
 
 SEEDS = [2**33 - 100, 2**33 - 99, 2**33 - 98]
 SHORT = Search(beam=20, decisions=25)

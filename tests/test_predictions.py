@@ -4,10 +4,10 @@ import json
 
 import pytest
 
+from bootcourse.course import compare_predictions, predict
+from bootcourse.course.prediction_form import PredictionForm
+from bootcourse.course.predictions import FILE, NOTHING, predictions
 from bootcourse.errors import BootcourseError
-from bootcourse.lessons import compare_predictions, predict
-from bootcourse.lessons.prediction_form import PredictionForm
-from bootcourse.lessons.predictions import FILE, NOTHING, predictions
 from tests.panels import raise_in_callbacks, words  # noqa: F401
 
 CHOICES = ["it escapes", "it stays"]

@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 
+from bootcourse.course.lessons.the_second_trap import second_trap
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.errors import BootcourseError
 from bootcourse.files import read_arrays, write_arrays
-from bootcourse.lessons import ppo_reference, second_trap
+from bootcourse.research import ppo_reference
 from bootcourse.road.formulas import speed_reward
 from bootcourse.road.vector_env import TrapVectorEnv
 

@@ -18,16 +18,16 @@ from bootcourse.cli import app
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import settings_for, with_seeds
+from bootcourse.research import jobs as jobs_module
+from bootcourse.research.jobs import BoundJob, Job, asked, finished, read_job, run_job
+from bootcourse.research.plan import EXPERIMENTS, methods_named, study_jobs, sweep_jobs
+from bootcourse.research.planner import Search
+from bootcourse.research.results import join, load_jobs, load_results, save_results
+from bootcourse.research.runner import run_jobs
+from bootcourse.research.teachers import TEACHERS
 from bootcourse.scenario import DEFAULT
 from bootcourse.storage.runs import load_run
 from bootcourse.storage.work import locked
-from bootcourse.study import jobs as jobs_module
-from bootcourse.study.jobs import BoundJob, Job, asked, finished, read_job, run_job
-from bootcourse.study.plan import EXPERIMENTS, methods_named, study_jobs, sweep_jobs
-from bootcourse.study.planner import Search
-from bootcourse.study.results import join, load_jobs, load_results, save_results
-from bootcourse.study.runner import run_jobs
-from bootcourse.study.teachers import TEACHERS
 
 TINY = {"learning_starts": 16, "hidden": (8,), "buffer_size": 2000}
 
@@ -60,7 +60,7 @@ def test_a_cell_holds_scores_and_curves_of_every_agent_and_their_runs(study):
 
 def test_a_finished_cell_is_never_computed_again(study, monkeypatch):
     before = {path: path.stat().st_mtime_ns for path in study.rglob("jobs/**/*")}
-    monkeypatch.setattr("bootcourse.study.runner._compute", lambda *args: pytest.fail("computed"))
+    monkeypatch.setattr("bootcourse.research.runner._compute", lambda *args: pytest.fail("computed"))
     assert run_jobs([job(), job("default/soft-0-1", "soft")], study) == []
     assert before == {path: path.stat().st_mtime_ns for path in study.rglob("jobs/**/*")}
 

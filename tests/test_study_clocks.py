@@ -1,11 +1,11 @@
-"""How often a table of single agents reads as the paper's: `bootcourse.study.clocks`."""
+"""How often a table of single agents reads as the paper's: `bootcourse.research.clocks`."""
 
 import numpy as np
 import pytest
 
-from bootcourse.study.clocks import as_printed, cells, pattern, pattern_rows
-from bootcourse.study.plan import EXPERIMENTS, STUDIES
-from bootcourse.study.results import Results
+from bootcourse.research.clocks import as_printed, cells, pattern, pattern_rows
+from bootcourse.research.plan import EXPERIMENTS, STUDIES
+from bootcourse.research.results import Results
 
 
 def agents(**success):

@@ -11,10 +11,10 @@ import pytest
 
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import settings_for, with_seeds
+from bootcourse.research.jobs import Job, finished, run_job
+from bootcourse.research.results import load_jobs
+from bootcourse.research.runner import run_jobs
 from bootcourse.scenario import DEFAULT
-from bootcourse.study.jobs import Job, finished, run_job
-from bootcourse.study.results import load_jobs
-from bootcourse.study.runner import run_jobs
 
 distributed = pytest.importorskip("distributed", reason="dask is an extra: pip install 'bootcourse[dask]'")
 
@@ -51,7 +51,7 @@ def test_a_study_on_a_dask_cluster_survives_the_death_of_a_worker(tmp_path):
 
 @pytest.mark.parametrize("backend", ["dask", "ray"])
 def test_a_scheduler_that_does_not_answer_is_a_sentence(backend, tmp_path, monkeypatch):
-    monkeypatch.setattr("bootcourse.study.runner.CONNECT", 0.5)
+    monkeypatch.setattr("bootcourse.research.runner.CONNECT", 0.5)
     with pytest.raises(BootcourseError, match=f"No {backend} .* answers at tcp://127.0.0.1:9"):
         pytest.importorskip("ray") if backend == "ray" else None
         run_jobs(jobs(1), tmp_path, backend, "tcp://127.0.0.1:9")

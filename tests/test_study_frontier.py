@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from bootcourse.study.frontier import frontier, safe_and_fast, scored
-from bootcourse.study.plan import EXPERIMENTS
-from bootcourse.study.report import safe_part
-from bootcourse.study.results import Results, StudyResults
+from bootcourse.research.frontier import frontier, safe_and_fast, scored
+from bootcourse.research.plan import EXPERIMENTS
+from bootcourse.research.report import safe_part
+from bootcourse.research.results import Results, StudyResults
 from tests.test_figures import overlaps, words_of
 
 

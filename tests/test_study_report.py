@@ -8,14 +8,14 @@ import pytest
 
 from bootcourse.files import write_json
 from bootcourse.learn.settings import settings_for
+from bootcourse.research import figures as training_figures
+from bootcourse.research import tables
+from bootcourse.research.fidelity import VERDICTS, fidelity, judge
+from bootcourse.research.paper import COLUMNS, PRINTED, TABLES, arithmetic, earned_at, paper_interval, possible
+from bootcourse.research.report import budget_part, rule_results, write_report
+from bootcourse.research.results import Results, StudyResults, in_study, save_results
 from bootcourse.scenario import SCENARIOS
 from bootcourse.statistics import Estimate
-from bootcourse.study import figures as training_figures
-from bootcourse.study import tables
-from bootcourse.study.fidelity import VERDICTS, fidelity, judge
-from bootcourse.study.paper import COLUMNS, PRINTED, TABLES, arithmetic, earned_at, paper_interval, possible
-from bootcourse.study.report import budget_part, rule_results, write_report
-from bootcourse.study.results import Results, StudyResults, in_study, save_results
 
 METHODS = ("bc", "cql", "gail", "sac", "soft", "demos", "bootstrapped", "margin", "margin_soft")
 

@@ -13,17 +13,17 @@ from bootcourse.files import read_arrays, sha256, write_arrays
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.teachers import course_rule, slow, teacher_name, teacher_policy
 from bootcourse.learn.training import Training
+from bootcourse.research import jobs as jobs_module
+from bootcourse.research.fingerprint import behind
+from bootcourse.research.jobs import Job, OtherQuestion, finished, read_job, run_job
+from bootcourse.research.plan import Variation
+from bootcourse.research.results import load_job, load_results, save_results
+from bootcourse.research.teachers import LATE, PLANNER, TEACHERS, as_it_was, chance, late, mirrored, teacher_named
 from bootcourse.road.state import ACCELERATION, EGO, HEADING, LANE, SPEED, TRAP_1, X, Y
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT
 from bootcourse.storage.runs import save_checkpoint
 from bootcourse.storage.sealed import write_sealed
-from bootcourse.study import jobs as jobs_module
-from bootcourse.study.fingerprint import behind
-from bootcourse.study.jobs import Job, OtherQuestion, finished, read_job, run_job
-from bootcourse.study.plan import Variation
-from bootcourse.study.results import load_job, load_results, save_results
-from bootcourse.study.teachers import LATE, PLANNER, TEACHERS, as_it_was, chance, late, mirrored, teacher_named
 
 TINY = {"learning_starts": 16, "hidden": (8,), "buffer_size": 2000, "demonstration_episodes": 2}
 NAME = "teachers/mirrored-bootstrapped"
@@ -115,8 +115,8 @@ def test_the_planner_does_not_plan_twice_for_the_same_road(monkeypatch):
         planned.append(cars.copy())
         return 7
 
-    monkeypatch.setattr("bootcourse.study.teachers.planner_rule", lambda: plans)
-    from bootcourse.study.teachers import remembering_planner
+    monkeypatch.setattr("bootcourse.research.teachers.planner_rule", lambda: plans)
+    from bootcourse.research.teachers import remembering_planner
 
     planner, cars = remembering_planner(), some_roads(2)
     assert [planner(cars[i], DEFAULT) for i in (0, 1, 0, 1)] == [7] * 4

@@ -6,9 +6,9 @@ from typer.testing import CliRunner
 
 from bootcourse import cli
 from bootcourse.errors import BootcourseError
-from bootcourse.study.plan import sweep_settings
-from bootcourse.study.results import Results, load_results
-from bootcourse.study.sweep import nearest_setting, settings_run, sweep_table
+from bootcourse.research.plan import sweep_settings
+from bootcourse.research.results import Results, load_results
+from bootcourse.research.sweep import nearest_setting, settings_run, sweep_table
 
 
 @pytest.fixture(scope="module")
@@ -77,7 +77,7 @@ def test_every_setting_has_a_row_in_the_table(sweep):
 
 
 def test_a_sweep_is_computed_into_one_small_file(tmp_path, monkeypatch):
-    monkeypatch.setattr("bootcourse.study.plan.sweep_settings", lambda: sweep_settings((0.9,), (0.0, 200.0), (2.0,)))
+    monkeypatch.setattr("bootcourse.research.plan.sweep_settings", lambda: sweep_settings((0.9,), (0.0, 200.0), (2.0,)))
     options = {"--out": tmp_path, "--seeds": 2, "--episodes": 3, "--tests": 4, "--workers": 1}
     arguments = [str(word) for pair in options.items() for word in pair]
     assert CliRunner().invoke(cli.app, ["sweep", *arguments]).exit_code == 0

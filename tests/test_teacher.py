@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import torch
 
+from bootcourse.course.lessons.your_teacher.example_teachers import examine
 from bootcourse.episodes.evaluate import evaluate, held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError, RuleFailed
@@ -25,7 +26,6 @@ from bootcourse.learn.teachers import (
     toward,
 )
 from bootcourse.learn.training import Training
-from bootcourse.lessons.example_teachers import examine
 from bootcourse.policies import idle_policy
 from bootcourse.road.state import EGO, LANE, TRAP_1, X
 from bootcourse.road.vector_env import TrapVectorEnv

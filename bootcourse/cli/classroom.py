@@ -16,7 +16,7 @@ def submit(
     out: Path | None = typer.Option(None, help="The file to write; by default submission-NAME.json in the folder."),
 ) -> None:
     """Put your answers and predictions into one file to hand in. Nothing is run."""
-    from bootcourse.classroom.submission import submit as write
+    from bootcourse.course.classroom.submission import submit as write
 
     path, made = write(folder, name, out)
     print(path)
@@ -34,10 +34,10 @@ def grade(
     workers: int = typer.Option(0, min=0, help="Answers judged at once; 0: one for each core."),
 ) -> None:
     """Judge every answer of a class again; write tables, a page for each student and one for the class."""
-    from bootcourse.classroom.collect import collect
-    from bootcourse.classroom.grading import Verdicts, graded, judge_all
-    from bootcourse.classroom.points import read_lessons, read_points
-    from bootcourse.classroom.report import write_report
+    from bootcourse.course.classroom.collect import collect
+    from bootcourse.course.classroom.grading import Verdicts, graded, judge_all
+    from bootcourse.course.classroom.points import read_lessons, read_points
+    from bootcourse.course.classroom.report import write_report
 
     worth, submissions = read_points(points, read_lessons(lessons)), collect(folder)
     verdicts = Verdicts(out.with_name(f"{out.stem}-verdicts.jsonl"))
@@ -58,8 +58,8 @@ def handout(
     update: bool = typer.Option(False, "--update", help="Bring this handout up to date; what students wrote stays."),
 ) -> None:
     """Write what students get: lessons, the kit, a lock and one page, without solutions."""
-    from bootcourse.classroom import handout
-    from bootcourse.classroom.points import read_lessons
+    from bootcourse.course.classroom import handout
+    from bootcourse.course.classroom.points import read_lessons
 
     chosen = read_lessons(lessons)
     if update:

@@ -66,7 +66,7 @@ def evaluate(
 def print_board(who: list[str], keep: Path | None, teacher: str) -> None:
     """Print the leaderboard, where the built-in drivers stand, with other drivers' rows."""
     from bootcourse.cli.training import teacher_from
-    from bootcourse.lessons.board import board
+    from bootcourse.course.board import board
 
     own = [one for one in who if one not in BUILT_IN]
     for one in own:

@@ -39,9 +39,9 @@ def study(
     ablation, varied. longer-view: its method with other numbers. beyond: methods that the paper does not train.
     teachers: what a teacher is worth. safe: what prevents accidents.
     """
-    from bootcourse.study import plan
-    from bootcourse.study.report import write_report
-    from bootcourse.study.results import in_study
+    from bootcourse.research import plan
+    from bootcourse.research.report import write_report
+    from bootcourse.research.results import in_study
 
     check_known("Study", name, (*plan.STUDIES, *plan.EXPERIMENTS))
     if name in plan.STUDIES:
@@ -71,9 +71,9 @@ def sweep(
 ) -> None:
     """Train the paper's method with many settings of p, ξ and c; write one file of results."""
     from bootcourse.files import provenance
-    from bootcourse.study.plan import sweep_jobs
-    from bootcourse.study.results import load_jobs, save_results
-    from bootcourse.study.sweep import sweep_table
+    from bootcourse.research.plan import sweep_jobs
+    from bootcourse.research.results import load_jobs, save_results
+    from bootcourse.research.sweep import sweep_table
 
     wanted = sweep_jobs(seeds, episodes, tests)
 
@@ -91,7 +91,7 @@ def sweep(
 
 def compute(wanted: list, out: Path, after: Callable[[list[str]], None], **how) -> int:
     """Compute the missing jobs, then call `after`; print failures and how to continue. Returns the exit status."""
-    from bootcourse.study.runner import run_jobs
+    from bootcourse.research.runner import run_jobs
 
     started = time.monotonic()
     try:
@@ -125,7 +125,7 @@ def assets(
     if what == "build" and study is None:
         raise BootcourseError("build needs --study DIR, a folder that `bootcourse study` and `bootcourse sweep` wrote.")
     if what != "verify":
-        from bootcourse.study.ship import build
+        from bootcourse.research.ship import build
 
         build(study if what == "build" else None, assets.FOLDER, replace_larger)
     assets.put_back(assets.FOLDER)
@@ -134,8 +134,8 @@ def assets(
 
 def report_assets(folder: Path) -> int:
     """Print the shipped files that are damaged or older than the code. Returns the exit status."""
+    from bootcourse.research.fingerprint import older
     from bootcourse.storage.assets import read_manifest, verify
-    from bootcourse.study.fingerprint import older
 
     problems, old = verify(folder), older(folder)
     for sentence in (*problems, *old):

@@ -104,7 +104,7 @@ def teacher_from(place: str):
         return course_rule
     file, colon, function = place.rpartition(":")
     if not colon:
-        from bootcourse.study.teachers import TEACHERS  # slow: it loads the planner
+        from bootcourse.research.teachers import TEACHERS  # slow: it loads the planner
 
         if place not in TEACHERS:
             own = "or give a rule of your own, FILE.py:FUNCTION"

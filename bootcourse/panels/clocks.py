@@ -14,11 +14,11 @@ from bootcourse.methods import display_name, style
 from bootcourse.panels.panel import Panel
 from bootcourse.plots.svg import QUIET, SvgAxes, drawing, text
 from bootcourse.plots.training_curves import WINDOW, draw_band
+from bootcourse.research.clocks import cells, faded
+from bootcourse.research.plan import VARIED
+from bootcourse.research.results import Results, experiment
 from bootcourse.statistics import iqm, rolling_means
 from bootcourse.storage.assets import FOLDER
-from bootcourse.study.clocks import cells, faded
-from bootcourse.study.plan import VARIED
-from bootcourse.study.results import Results, experiment
 
 WIDTH, HEIGHT = 940, 500
 FADING, SUCCESS = (52, 84, 660, 140), (52, 296, 660, 150)  # the charts' left, top, width and height, pixels

@@ -16,8 +16,8 @@ from bootcourse.panels.number import Entry
 from bootcourse.panels.panel import Panel
 from bootcourse.panels.sweep_view import choices, rerun, view
 from bootcourse.plots.svg import Drawing, drawing, text
-from bootcourse.study.results import Results
-from bootcourse.study.sweep import SHIPPED, SweepResult, load_sweep, nearest_setting
+from bootcourse.research.results import Results
+from bootcourse.research.sweep import SHIPPED, SweepResult, load_sweep, nearest_setting
 
 
 class Snap(Entry):

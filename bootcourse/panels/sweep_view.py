@@ -11,9 +11,9 @@ from bootcourse.colours import ALARM, rgb
 from bootcourse.methods import style
 from bootcourse.plots.svg import INK, QUIET, Drawing, SvgAxes, drawing, number, rect, span, text
 from bootcourse.plots.training_curves import MEASURES, WINDOW, draw_band, draw_training
+from bootcourse.research.results import Results
+from bootcourse.research.sweep import SweepResult, nearest_setting, settings_run
 from bootcourse.statistics import rolling_means
-from bootcourse.study.results import Results
-from bootcourse.study.sweep import SweepResult, nearest_setting, settings_run
 
 WIDTH, HEIGHT = 1000, 428
 MAPS: dict[str, tuple[str, tuple[str, str], Callable[[SweepResult], float]]] = {

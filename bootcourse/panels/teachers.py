@@ -15,9 +15,9 @@ from bootcourse.methods import display_name
 from bootcourse.panels.panel import Panel
 from bootcourse.panels.sweep_view import between, cell, empty_cell
 from bootcourse.plots.svg import QUIET, Drawing, drawing, text
-from bootcourse.study.plan import TAUGHT
-from bootcourse.study.teacher_worth import QUANTITIES, Cells, in_words, reached, taught
-from bootcourse.study.teachers import TEACHERS
+from bootcourse.research.plan import TAUGHT
+from bootcourse.research.teacher_worth import QUANTITIES, Cells, in_words, reached, taught
+from bootcourse.research.teachers import TEACHERS
 
 LEFT, TOP, ACROSS, DOWN = 172, 58, 150, 46  # pixels: of the first cell, and from one cell to the next
 WORDS = 560  # pixels that the longest line above or below the map takes

@@ -1,8 +1,8 @@
 """The shipped files in `assets/`, and their check against the manifest.
 
 `manifest.json` lists the size of every file, its hash, the command and the package versions that made it, and the
-behaviours that it depends on. `bootcourse.study.fingerprint` checks the behaviours; `bootcourse.study.ship` makes the
-files.
+behaviours that it depends on. `bootcourse.research.fingerprint` checks the behaviours; `bootcourse.research.ship` makes
+the files.
 """
 
 import os

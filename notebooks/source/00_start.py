@@ -22,8 +22,8 @@
 
 # %%
 import bootcourse as bc
-from bootcourse.lessons import compare_predictions, predict, shipped, table
-from bootcourse.study import report, tables
+from bootcourse.course import compare_predictions, predict, shipped, table
+from bootcourse.research import report, tables
 
 # %% [markdown]
 # ## Look first

@@ -26,7 +26,7 @@
 import bootcourse as bc
 import gymnasium as gym
 import numpy as np
-from bootcourse.lessons import check, compare_predictions, figures, predict, table
+from bootcourse.course import check, compare_predictions, figures, predict, table
 from bootcourse.road import formulas, observation
 
 # %% [markdown]

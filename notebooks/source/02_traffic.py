@@ -27,16 +27,9 @@ import math
 
 import bootcourse as bc
 import numpy as np
-from bootcourse.lessons import (
-    charts,
-    check,
-    compare_predictions,
-    figures_traffic,
-    predict,
-    source,
-    table,
-    traffic,
-)
+from bootcourse.course import charts, check, compare_predictions, predict, source, table
+from bootcourse.course.lessons.traffic import figures as figures_traffic
+from bootcourse.course.lessons.traffic import simulation as traffic
 
 # %% [markdown]
 # ## Look first
@@ -242,7 +235,7 @@ table(["mean distance", "slowest car, mean of 50 roads", "slowest of all"], rows
 
 # %% [markdown] tags=["instructor"] minutes=8
 # Ask for a ring of 25 m: does the jam stay or dissolve? It depends on how slowly the first car
-# begins: in `bootcourse.lessons.traffic.ring`, `v[0] = 5.0` and `v[0] = 1.0` end differently. The
+# begins: in `bootcourse.course.lessons.traffic.simulation.ring`, `v[0] = 5.0` and `v[0] = 1.0` end differently. The
 # ring has two stable states there.
 
 # %% [markdown]

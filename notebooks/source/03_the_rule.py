@@ -25,16 +25,8 @@
 # %%
 import bootcourse as bc
 import numpy as np
-from bootcourse.lessons import (
-    charts,
-    check,
-    compare_predictions,
-    figures,
-    predict,
-    source,
-    table,
-    tracking,
-)
+from bootcourse.course import charts, check, compare_predictions, figures, predict, source, table
+from bootcourse.course.lessons.the_rule import tracking
 from bootcourse.road.state import EGO, LANE, SPEED
 
 # %% [markdown]
@@ -263,7 +255,7 @@ table(["time constant", *headings], rows, below="(200 roads each)")
 #   0.7)) and 3 ** 3 == 27 -->
 
 # %% tags=["nbval-ignore-output"]
-source("bootcourse.lessons.tracking", "plan_costs")
+source("bootcourse.course.lessons.the_rule.tracking", "plan_costs")
 
 # %% [markdown]
 # **Exercise 3.4 (5 min, ●●○).** For one road, `costs[first, second, third]` holds the cost of each

@@ -27,16 +27,8 @@
 import bootcourse as bc
 import numpy as np
 import torch
-from bootcourse.lessons import (
-    charts,
-    check,
-    compare_predictions,
-    figures,
-    own_code,
-    predict,
-    source,
-)
-from bootcourse.study import checks
+from bootcourse.course import charts, check, compare_predictions, figures, own_code, predict, source
+from bootcourse.research import checks
 
 # %% [markdown]
 # ## Look first
@@ -573,7 +565,7 @@ source("bootcourse.learn.sac", "temperature_loss", "min_q")
 # and the demonstrations (lesson 8). `python -m bootcourse.learn.textbook` runs it.
 
 # %% [markdown] tags=["instructor"] minutes=10
-# How far does it get with more pushes? `python -m bootcourse.study.checks --only sac-cartpole`
+# How far does it get with more pushes? `python -m bootcourse.research.checks --only sac-cartpole`
 # trains for 100,000 and compares with a published figure (some minutes). Let groups try η from 0 to
 # 0.69 and collect the scores on the board: a histogram per η, seeds as crosses, teaches more than a
 # mean.

@@ -25,8 +25,7 @@
 # %%
 import bootcourse as bc
 import numpy as np
-from bootcourse.lessons import (
-    chain,
+from bootcourse.course import (
     charts,
     check,
     compare_predictions,
@@ -36,7 +35,8 @@ from bootcourse.lessons import (
     source,
     table,
 )
-from bootcourse.study import planner, report, tables
+from bootcourse.course.lessons.the_barrier import chain
+from bootcourse.research import planner, report, tables
 
 # %% [markdown]
 # ## Look first

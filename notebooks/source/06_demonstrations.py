@@ -26,17 +26,9 @@
 import bootcourse as bc
 import numpy as np
 import torch
+from bootcourse.course import charts, check, compare_predictions, figures, predict, source, table
+from bootcourse.course.lessons.demonstrations import cloning
 from bootcourse.learn import demonstrations, replay_buffer
-from bootcourse.lessons import (
-    charts,
-    check,
-    cloning,
-    compare_predictions,
-    figures,
-    predict,
-    source,
-    table,
-)
 
 # %% [markdown]
 # ## Look first
@@ -225,7 +217,7 @@ check.cloning_loss(cloning_loss)
 # the learners in this course: {{ DEFAULT.observation_size }} numbers in, nine probabilities out.
 
 # %% tags=["nbval-ignore-output"]
-source("bootcourse.lessons.cloning", "clone")
+source("bootcourse.course.lessons.demonstrations.cloning", "clone")
 
 # %%
 torch.set_num_threads(1)  # small matrices are faster on one thread

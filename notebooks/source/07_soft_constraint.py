@@ -27,7 +27,7 @@ import math
 import bootcourse as bc
 import numpy as np
 import torch
-from bootcourse.lessons import charts, check, compare_predictions, own_code, predict, source, table
+from bootcourse.course import charts, check, compare_predictions, own_code, predict, source, table
 
 # %% [markdown]
 # ## Look first

@@ -28,7 +28,7 @@
 import bootcourse as bc
 import numpy as np
 import torch
-from bootcourse.lessons import (
+from bootcourse.course import (
     charts,
     check,
     compare_predictions,

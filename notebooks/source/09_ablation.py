@@ -27,8 +27,9 @@
 import bootcourse as bc
 import numpy as np
 import scipy
-from bootcourse.lessons import check, compare_predictions, figures_ablation, predict, shipped, table
-from bootcourse.study import clocks, figures, paper, report, results, sweep, tables
+from bootcourse.course import check, compare_predictions, predict, shipped, table
+from bootcourse.course.lessons.ablation import figures as figures_ablation
+from bootcourse.research import clocks, figures, paper, report, results, sweep, tables
 
 # %% [markdown]
 # ## Look first

@@ -25,18 +25,18 @@
 import bootcourse as bc
 import numpy as np
 import torch
-from bootcourse.lessons import (
+from bootcourse.course import (
     charts,
     check,
     compare_predictions,
-    figures_baselines,
     own_code,
     predict,
     shipped,
     source,
     table,
 )
-from bootcourse.study import checks, figures, paper, planner, report, results, tables
+from bootcourse.course.lessons.imitation import figures as figures_baselines
+from bootcourse.research import checks, figures, paper, planner, report, results, tables
 
 # %% [markdown]
 # ## Look first
@@ -434,7 +434,7 @@ table(headings, rows)
 #
 # **Explain.** How would a reader notice that a training was too short? A row of a table does not
 # show it. So test your learners where others have published what can be reached: `python -m
-# bootcourse.study.checks` trains the very classes of this course on CartPole and Acrobot, with at
+# bootcourse.research.checks` trains the very classes of this course on CartPole and Acrobot, with at
 # most the published number of steps. It takes some minutes. Our last run ships as
 # `assets/checks.md` (mean [worst, best]; *reached* means at most 1 % below the published score):
 #
@@ -530,7 +530,7 @@ for k in range(4):
 #   n]).std(ddof=1) for n in range(1, 99)) < 29.69 -->
 
 # %%
-source("bootcourse.study.paper", "possible")
+source("bootcourse.research.paper", "possible")
 
 # %% [markdown]
 # > **Predict.** A driver collides in one drive of 20, on average. How many drives must you watch so

@@ -25,17 +25,9 @@
 import bootcourse as bc
 import numpy as np
 import torch
-from bootcourse.lessons import (
-    charts,
-    check,
-    compare_predictions,
-    figures_baselines,
-    own_code,
-    predict,
-    shipped,
-    table,
-)
-from bootcourse.study import figures, paper, report, tables
+from bootcourse.course import charts, check, compare_predictions, own_code, predict, shipped, table
+from bootcourse.course.lessons.imitation import figures as figures_baselines
+from bootcourse.research import figures, paper, report, tables
 
 # %% [markdown]
 # ## Look first

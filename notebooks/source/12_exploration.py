@@ -24,16 +24,9 @@
 # %%
 import bootcourse as bc
 import numpy as np
-from bootcourse.lessons import (
-    charts,
-    check,
-    compare_predictions,
-    exploring,
-    predict,
-    shipped,
-    table,
-)
-from bootcourse.study.figures import exploration
+from bootcourse.course import charts, check, compare_predictions, predict, shipped, table
+from bootcourse.course.lessons.exploration import exploring
+from bootcourse.research.figures import exploration
 
 # %% [markdown]
 # ## Look first

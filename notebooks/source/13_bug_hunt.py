@@ -25,7 +25,8 @@
 import bootcourse as bc
 import numpy as np
 import torch
-from bootcourse.lessons import bugs, charts, check, compare_predictions, predict, source, table
+from bootcourse.course import charts, check, compare_predictions, predict, source, table
+from bootcourse.course.lessons.bug_hunt import bugs
 
 hunt = bugs.Hunt()
 print(f"{len(hunt.names)} agents, 2 seeds each, {hunt.provenance['updates']} updates of each")
@@ -400,7 +401,7 @@ check.fixed_loss(fixed_loss)
 # NumPy arrays of shape (batch,), and two floats: bonus and gamma. Say whether it is wrong. The
 # check gives it three functions that are right and twelve that are wrong, each in another way.
 # <!-- claim: (lambda e: len(e.TARGETS) - len(e.RIGHT_TARGETS) == 12 and len(e.RIGHT_TARGETS) ==
-#   3)(__import__('bootcourse.lessons.exercises.target_probe', fromlist=['x'])) -->
+#   3)(__import__('bootcourse.course.lessons.bug_hunt.target_probe', fromlist=['x'])) -->
 
 
 # %%
@@ -435,7 +436,7 @@ check.label_pairs(label_pairs)
 # Each buggy learner is the right one with one piece exchanged. Here are four of the six:
 
 # %% tags=["nbval-ignore-output"]
-source("bootcourse.lessons.bugs", "NoEnd", "BonusForAll", "ShiftedLabels", "FlippedKL")
+source("bootcourse.course.lessons.bug_hunt.bugs", "NoEnd", "BonusForAll", "ShiftedLabels", "FlippedKL")
 
 # %% [markdown]
 # > **Predict.** Which of the six would you have found by testing your code, and not by training?

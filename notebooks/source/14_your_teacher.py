@@ -24,17 +24,10 @@
 # %%
 import bootcourse as bc
 import numpy as np
+from bootcourse.course import charts, check, compare_predictions, predict, source, table
+from bootcourse.course.lessons.your_teacher import example_teachers
 from bootcourse.learn.teachers import ahead, course_rule, teacher_policy, toward
-from bootcourse.lessons import (
-    charts,
-    check,
-    compare_predictions,
-    example_teachers,
-    predict,
-    source,
-    table,
-    teacher_reference,
-)
+from bootcourse.research import teacher_reference
 from bootcourse.road.state import EGO, LANE, SPEED, X, Y
 
 # %% [markdown]
@@ -155,7 +148,7 @@ for lane in (2, 1, 0):
 # teachers are rules in one line:
 
 # %% tags=["nbval-ignore-output"]
-source("bootcourse.lessons.example_teachers", "timid", "racer")
+source("bootcourse.course.lessons.your_teacher.example_teachers", "timid", "racer")
 
 # %% [markdown]
 # > **Predict.** What is the smallest number of situations that a rule has to tell apart to get
@@ -338,7 +331,7 @@ bc.show(charts.lines(taught.updates, named, title, "update", "escapes, % of the 
 # %% [markdown]
 # Now ten students of each teacher, and ten agents that learned alone, with the same number of
 # updates. They were trained once, and ship with the course
-# (`python -m bootcourse.lessons.teacher_reference` trains them again). Each is tested on
+# (`python -m bootcourse.research.teacher_reference` trains them again). Each is tested on
 # {{ len(teacher_reference.ROADS) }} held-out roads.
 
 # %%

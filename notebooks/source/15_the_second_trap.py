@@ -25,16 +25,9 @@
 import bootcourse as bc
 import numpy as np
 import torch
-from bootcourse.lessons import (
-    charts,
-    check,
-    compare_predictions,
-    own_code,
-    ppo_reference,
-    predict,
-    second_trap,
-    table,
-)
+from bootcourse.course import charts, check, compare_predictions, own_code, predict, table
+from bootcourse.course.lessons.the_second_trap import second_trap
+from bootcourse.research import ppo_reference
 from bootcourse.road.state import EGO, SPEED
 
 # %% [markdown]

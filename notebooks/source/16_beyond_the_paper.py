@@ -26,18 +26,9 @@
 import bootcourse as bc
 import numpy as np
 import torch
-from bootcourse.lessons import (
-    charts,
-    check,
-    compare_predictions,
-    figures_teachers,
-    own_code,
-    ppo_reference,
-    predict,
-    shipped,
-    table,
-)
-from bootcourse.study import beyond, frontier
+from bootcourse.course import charts, check, compare_predictions, own_code, predict, shipped, table
+from bootcourse.course.lessons.beyond_the_paper import figures as figures_teachers
+from bootcourse.research import beyond, frontier, ppo_reference
 
 # %% [markdown]
 # ## Look first

@@ -32,8 +32,8 @@ from unittest import mock
 
 import cloudpickle
 
-from bootcourse.lessons import guard, worker
-from bootcourse.lessons.exercises import registry
+from bootcourse.course import guard, worker
+from bootcourse.course.lessons import registry
 
 RIGHT: dict[str, list[Callable]] = defaultdict(list)
 EQUIVALENT: dict[str, dict[str, str]] = defaultdict(dict)
@@ -65,7 +65,7 @@ from scipy import optimize, stats
 from torch.nn import functional
 import bootcourse as bc
 from bootcourse.learn.bootstrap import kl_to_rule
-from bootcourse.lessons.example_teachers import watchful
+from bootcourse.course.lessons.your_teacher.example_teachers import watchful
 """  # for the tables
 
 

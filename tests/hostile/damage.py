@@ -22,6 +22,7 @@ import numpy as np
 import torch
 from safetensors.numpy import load, save
 
+from bootcourse.course.board import Row, keep_rows, ranked, read_rows
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.episodes.words import transcripts
@@ -29,17 +30,16 @@ from bootcourse.errors import BootcourseError
 from bootcourse.files import provenance, read_arrays, sha256, write_json
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
-from bootcourse.lessons.board import Row, keep_rows, ranked, read_rows
 from bootcourse.policies import rule_policy
+from bootcourse.research.jobs import FORMAT as JOB
+from bootcourse.research.jobs import read_job
+from bootcourse.research.results import load_results, save_results
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import Estimate
 from bootcourse.storage.assets import FOLDER, MANIFEST, read_manifest
 from bootcourse.storage.checkpoint import state_of
 from bootcourse.storage.runs import HASHED, load_checkpoint, load_run, save_checkpoint, save_runs
 from bootcourse.storage.sealed import write_sealed
-from bootcourse.study.jobs import FORMAT as JOB
-from bootcourse.study.jobs import read_job
-from bootcourse.study.results import load_results, save_results
 from tests.hostile.payloads import PAYLOAD
 
 NASTY = [None, True, -1, 0, 7, 99, 1.5, 1e308, -1e308, 10**19, 10**400, float("nan"), "", PAYLOAD, "$", "x" * 10**5]

@@ -52,7 +52,7 @@ BUILD = ["assets", "build", "--study", "{}/study"]
 
 def commands(study: Path) -> list[Command]:
     """All of them. study: a finished one, for `assets build`."""
-    from bootcourse.study import ship
+    from bootcourse.research import ship
 
     def ready_to_ship(folder: Path) -> None:
         if not (study.parent / "assets").exists():
@@ -115,8 +115,8 @@ def _inside(path: str, folder: Path) -> bool:
 def run_here(arguments: list[str], folder: Path) -> int:
     """Run a command in this process: its exit status."""
     from bootcourse.cli import main
+    from bootcourse.research import jobs
     from bootcourse.storage import assets
-    from bootcourse.study import jobs
 
     jobs.PARENT, assets.FOLDER = os.getppid(), folder / "assets"
     sys.argv = ["bootcourse", *(each.format(folder) for each in arguments)]
@@ -231,10 +231,10 @@ def warm(scratch: Path) -> Path:
 
     from bootcourse.learn import training
     from bootcourse.learn.settings import settings_for, with_seeds
+    from bootcourse.research import fingerprint
+    from bootcourse.research.jobs import Job, run_job
     from bootcourse.scenario import DEFAULT
     from bootcourse.storage import work
-    from bootcourse.study import fingerprint
-    from bootcourse.study.jobs import Job, run_job
 
     fingerprint.fingerprint = functools.cache(fingerprint.fingerprint)  # computed once, not by every attempt
     torch.set_num_threads(1)

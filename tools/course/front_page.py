@@ -9,13 +9,13 @@ from pathlib import Path
 import numpy as np
 
 from bootcourse.colours import TRAFFIC, TRAP
+from bootcourse.course.shipped import shipped_drive, shipped_results
 from bootcourse.learn.settings import settings_for
-from bootcourse.lessons.shipped import shipped_drive, shipped_results
 from bootcourse.methods import DRIVERS, style
+from bootcourse.research.report import rule_results
+from bootcourse.research.sweep import load_sweep, nearest_setting, settings_run
 from bootcourse.road.state import EGO, HEADING, SPEED, TRAP_1, TRAP_2, X, Y
 from bootcourse.scenario import ACTION_NAMES, DEFAULT
-from bootcourse.study.report import rule_results
-from bootcourse.study.sweep import load_sweep, nearest_setting, settings_run
 
 PACE = 6  # s of the drive in a second
 

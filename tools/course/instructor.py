@@ -7,8 +7,8 @@ misconception behind each wrong one.
 import re
 from pathlib import Path
 
-from bootcourse.lessons.exercise import Exercise
-from bootcourse.lessons.exercises import registry
+from bootcourse.course.exercise import Exercise
+from bootcourse.course.lessons import registry
 from tools.course.claims import filled
 from tools.course.source import Cell, one_folder_down, title
 

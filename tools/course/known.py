@@ -14,6 +14,17 @@ import numpy as np
 import torch
 from scipy import stats
 
+from bootcourse.course import shipped
+from bootcourse.course.lessons import registry
+from bootcourse.course.lessons.bug_hunt import bugs
+from bootcourse.course.lessons.the_barrier import chain
+from bootcourse.course.lessons.the_barrier.chain import leaving
+from bootcourse.course.lessons.the_rule import tracking
+from bootcourse.course.lessons.the_second_trap import second_trap
+from bootcourse.course.lessons.traffic import simulation as traffic
+from bootcourse.course.lessons.your_teacher import example_teachers
+from bootcourse.course.lessons.your_teacher.driven_out import OUT, drive_out
+from bootcourse.course.own_learner import parts_of
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.episodes.words import overtaken
@@ -23,23 +34,16 @@ from bootcourse.learn import bootstrap, sac
 from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.settings import settings_for
 from bootcourse.learn.teachers import teacher_policy, toward
-from bootcourse.lessons import (
-    bugs,
-    chain,
-    example_teachers,
-    ppo_reference,
-    second_trap,
-    shipped,
-    teacher_reference,
-    tracking,
-    traffic,
-)
-from bootcourse.lessons.chain import leaving
-from bootcourse.lessons.exercises import registry
-from bootcourse.lessons.exercises.driven_out import OUT, drive_out
-from bootcourse.lessons.own_learner import parts_of
 from bootcourse.methods import METHODS
 from bootcourse.policies import idle_policy, plan_policy, random_policy, rule_policy, stochastic_rule_policy
+from bootcourse.research import beyond, ppo_reference, report, teacher_reference
+from bootcourse.research import clocks as study_clocks
+from bootcourse.research.checks import CHECKS
+from bootcourse.research.clocks import pattern
+from bootcourse.research.paper import EPISODES, PRINTED, paper_interval
+from bootcourse.research.planner import Search, discounted_values, plan_episodes
+from bootcourse.research.results import KINDS, Results
+from bootcourse.research.teachers import LATE, TEACHERS
 from bootcourse.road import formulas, observation
 from bootcourse.road.formulas import centring_reward, speed_reward
 from bootcourse.road.state import CRASHED, EGO, LANE, SPEED, TRAP_1, TRAP_2, Accident, X, Y
@@ -47,14 +51,6 @@ from bootcourse.rule import HEADING_COST, Reason, stochastic_rule, target_speed
 from bootcourse.scenario import ACTION_NAMES, CALIBRATED, DEFAULT, N_ACTIONS, RULE_P
 from bootcourse.statistics import ESCAPES, escapes, improvement, interval, iqm, rate
 from bootcourse.storage.assets import FOLDER
-from bootcourse.study import beyond, report
-from bootcourse.study import clocks as study_clocks
-from bootcourse.study.checks import CHECKS
-from bootcourse.study.clocks import pattern
-from bootcourse.study.paper import EPISODES, PRINTED, paper_interval
-from bootcourse.study.planner import Search, discounted_values, plan_episodes
-from bootcourse.study.results import KINDS, Results
-from bootcourse.study.teachers import LATE, TEACHERS
 from tools.course.reference import lessons
 from tools.course.source import NOTEBOOKS, read
 

@@ -11,7 +11,7 @@ import tomllib
 from dataclasses import dataclass
 from functools import cache
 
-from bootcourse.lessons.exercises import registry
+from bootcourse.course.lessons import registry
 from tools.course.problems import exists
 from tools.course.reference import BOOK, everything, link, mentions
 from tools.course.source import read, sources

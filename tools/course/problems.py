@@ -13,7 +13,7 @@ from pathlib import Path
 
 import nbformat
 
-from bootcourse.lessons.exercises import registry
+from bootcourse.course.lessons import registry
 from tools.course.claims import filled
 from tools.course.products import IMPORTS_CHECK, out_of_date, solved_file, student_file
 from tools.course.source import Cell, arguments_of, body, function_in
@@ -72,7 +72,7 @@ def of_exercises(cells: list[Cell], lesson: str) -> list[str]:
               if name in registry() and name not in own]  # fmt: skip
     found += [f"The exercise {name} of this lesson is not used in it." for name in own if name not in used]
     if used and not any(cell.is_code and IMPORTS_CHECK.search(cell.solved) for cell in cells):
-        found.append("The lesson uses check but has no `from bootcourse.lessons import check`.")
+        found.append("The lesson uses check but has no `from bootcourse.course import check`.")
     for before, cell in zip([None, *cells], cells, strict=False):
         if cell.is_exercise and len(cell.checks) != 1:
             found.append(f"{begins(cell.solved)} has a solution but not exactly one check.")
@@ -102,7 +102,7 @@ def of_exercise(name: str, cell: Cell, before: Cell | None) -> list[str]:
 
 def of_solution(exercise, solved: ast.FunctionDef | ast.ClassDef) -> list[str]:
     """A solution that stands beside the exercise, and is shown on request, is the one in the source."""
-    if not exercise.solution.__module__.startswith("bootcourse.lessons.exercises"):
+    if not exercise.solution.__module__.startswith("bootcourse.course.lessons"):
         return []  # the library's own
     shown = ast.parse(textwrap.dedent(inspect.getsource(exercise.solution))).body[0]
     if not isinstance(shown, (ast.FunctionDef, ast.ClassDef)):

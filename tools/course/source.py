@@ -13,7 +13,7 @@ from pathlib import Path
 
 import jupytext
 
-from bootcourse.lessons.exercises import registry
+from bootcourse.course.lessons import registry
 
 NOTEBOOKS = Path(__file__).resolve().parent.parent.parent / "notebooks"
 BEGIN, END = "# solution", "# end solution"

@@ -1,0 +1,62 @@
+"""What only the notebooks need: exercises and their checks, the library's own source, live curves, small figures."""
+
+import importlib
+import inspect
+import operator
+import sys
+import textwrap
+from collections.abc import Sequence
+
+from bootcourse.course.predictions import compare_predictions, predict
+
+__all__ = ["code_of", "compare_predictions", "predict", "source", "table", "text_of"]
+
+if "IPython" in sys.modules and (_shell := sys.modules["IPython"].get_ipython()) is not None:
+    from bootcourse.course.order import install
+
+    install(_shell)
+
+
+def table(headings: Sequence[str], rows: Sequence[Sequence[str]], below: str = ""):
+    """A table as a notebook output. Its cells may be Markdown, and so may the sentence below it."""
+    from IPython.display import Markdown
+
+    from bootcourse.research.tables import markdown
+
+    return Markdown(f"{markdown(headings, rows)}\n{below}" if below else markdown(headings, rows))
+
+
+def source(module: str, *names: str):
+    """The library's own code of some functions, or of a "Class.method", as a notebook output: it is what runs.
+
+    It is folded, since it may be the answer to an exercise.
+    """
+    code = code_of(*(operator.attrgetter(name)(importlib.import_module(module)) for name in names))
+    listed = ", ".join(f"<code>{name}</code>" for name in names)
+    html = f"<details><summary>{module}: {listed}</summary>{code._repr_html_()}</details>"
+    return Folded(html, f"{module}: {', '.join(names)}\n\n{code.data}")
+
+
+class Folded:
+    """An output that a click opens; in plain text all of it."""
+
+    def __init__(self, html: str, text: str):
+        self.html, self.text = html, text
+
+    def _repr_html_(self) -> str:
+        return self.html
+
+    def __repr__(self) -> str:
+        return self.text
+
+
+def code_of(*functions):
+    """The code of functions at hand, as a notebook output."""
+    from IPython.display import Code
+
+    return Code("\n\n".join(text_of(function) for function in functions), language="python")
+
+
+def text_of(function) -> str:
+    """A function's code; a compiled function holds its Python."""
+    return textwrap.dedent(inspect.getsource(getattr(function, "py_func", function))).rstrip()

@@ -1,0 +1,126 @@
+"""A process that judges answers, shut in, and the `Judge` that starts it, asks it, and starts it anew when it dies.
+
+`python -m bootcourse.course.classroom.judging FOLDER` reads one JSON object a line, {"exercise": name, "source": text,
+"seconds": limit}, and answers each with one line, {"kind": ..., "sentence": ..., "details": [...]}. `lessons.judge`
+runs the text in a process of its own again, with limits of time and memory.
+"""
+
+import contextlib
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import threading
+from pathlib import Path
+
+from bootcourse.errors import BootcourseError
+
+START, SLACK = 180.0, 120.0  # s that a process has to start, and to answer beyond an exercise's own limit
+UNJUDGED = "Your answer could not be judged: the process that judges it ended, or gave no verdict in time."
+
+
+def main() -> None:
+    """Judge until the input ends. The first line says what holds the process in."""
+    from bootcourse.course.classroom.sandbox import shut_in
+
+    questions, replies = os.fdopen(os.dup(0), "r", encoding="utf-8"), os.fdopen(os.dup(1), "w", encoding="utf-8")
+    nowhere = os.open(os.devnull, os.O_RDWR)
+    for descriptor in (0, 1):
+        os.dup2(nowhere, descriptor)
+    print(json.dumps(shut_in(Path(sys.argv[1]))), file=replies, flush=True)
+    from bootcourse.course.judge import judge_source
+    from bootcourse.course.lessons import registry
+
+    for line in questions:
+        asked = json.loads(line)
+        verdict = judge_source(registry()[asked["exercise"]], asked["source"], asked["seconds"])
+        told = {"kind": verdict.kind, "sentence": verdict.sentence, "details": verdict.details}
+        print(json.dumps(told), file=replies, flush=True)
+        if left_behind():
+            return  # and with this process they end
+
+
+def left_behind() -> bool:
+    """Linux: has an answer left processes that run on? Its own process is the parent's that it knows of."""
+    children = [path.read_text().split() for path in Path("/proc/self/task").glob("*/children")]
+    return sum(map(len, children)) > 1
+
+
+class Judge:
+    """One such process. Use it in one thread, and close it."""
+
+    def __init__(self):
+        self.process: subprocess.Popen | None = None
+        self.holds: list[str] = []  # what shuts it in: network, processes, files
+        self.folder: str | None = None
+
+    def ask(self, exercise: str, source: str, seconds: float) -> dict:
+        """The verdict on an answer: kind, sentence, details. A process that dies is started anew, for a second try.
+
+        Raises BootcourseError if no process starts.
+        """
+        asked = json.dumps({"exercise": exercise, "source": source, "seconds": seconds})
+        for _ in range(2):
+            self.start()
+            with contextlib.suppress(OSError, ValueError):  # it died: nobody reads, or the line is cut
+                self.process.stdin.write(asked + "\n")
+                self.process.stdin.flush()
+                return json.loads(self.line(2 * seconds + SLACK))
+            self.close()
+        return {"kind": "unjudged", "sentence": UNJUDGED, "details": []}
+
+    def start(self) -> None:
+        """Start the process, unless it runs. Raises BootcourseError where it does not start."""
+        if self.process is not None:
+            return
+        self.folder = tempfile.mkdtemp(prefix="bootcourse-judge-")
+        command = [sys.executable, "-m", "bootcourse.course.classroom.judging", self.folder]
+        self.process = subprocess.Popen(
+            command, env=environment(self.folder), stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL, encoding="utf-8", start_new_session=True,
+        )  # fmt: skip
+        told = self.line(START)
+        if not told:
+            self.close()
+            raise BootcourseError("The process that judges answers does not start: run `bootcourse doctor`.")
+        self.holds = json.loads(told)
+
+    def line(self, seconds: float) -> str:
+        """The process's next line; it is killed if none comes in time."""
+        clock = threading.Timer(seconds, self.process.kill)
+        clock.start()
+        try:
+            return self.process.stdout.readline()
+        finally:
+            clock.cancel()
+
+    def close(self) -> None:
+        """End the process, with all that it started, and remove its folder."""
+        if self.process is not None:
+            self.process.kill()
+            self.process.communicate()
+            shutil.rmtree(self.folder, ignore_errors=True)
+        self.process = None
+
+
+def environment(folder: str) -> dict[str, str]:
+    """What the process knows of this one's surroundings: where Python, the package and the temporary folder are."""
+    from bootcourse.road.compiled import CACHE_FOLDER
+
+    caches = Path(folder) / "numba"
+    if CACHE_FOLDER is not None:  # a copy: what a stranger may write to is not executed by anybody else
+        shutil.copytree(CACHE_FOLDER, caches / CACHE_FOLDER.name)
+    kept = {name: os.environ[name] for name in ("PATH", "LANG", "LC_ALL", "SYSTEMROOT") if name in os.environ}
+    own = {"HOME": folder, "TMPDIR": folder, "TEMP": folder, "TMP": folder, "MPLCONFIGDIR": folder}
+    own |= {
+        "NUMBA_CACHE_DIR": str(caches),
+        "OMP_NUM_THREADS": "1",
+        "PYTHONPATH": os.pathsep.join(filter(None, sys.path)),
+    }
+    return kept | own | {"PYTHONDONTWRITEBYTECODE": "1"}
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,52 @@
+"""The lessons in their order, and their exercises: the folder NAME holds all that belongs to the lesson NAME.
+
+A lesson's number is its place in `LESSONS`. Every `Exercise` in NAME/exercises.py is registered, under the name of
+the student's function.
+"""
+
+import functools
+import importlib
+from dataclasses import replace
+from pathlib import Path
+
+from bootcourse.course.exercise import Exercise
+
+LESSONS = (
+    "start",
+    "the_trap",
+    "traffic",
+    "the_rule",
+    "discrete_sac",
+    "the_barrier",
+    "demonstrations",
+    "soft_constraint",
+    "learning_from_demonstrations",
+    "ablation",
+    "imitation",
+    "offline_learning",
+    "exploration",
+    "bug_hunt",
+    "your_teacher",
+    "the_second_trap",
+    "beyond_the_paper",
+)
+
+
+def stem(lesson: str) -> str:
+    """The name of a lesson's files, such as "07_soft_constraint"."""
+    return f"{LESSONS.index(lesson):02d}_{lesson}"
+
+
+@functools.cache
+def registry() -> dict[str, Exercise]:
+    """name -> exercise, in the order of the lessons and of the files' lines."""
+    exercises = {}
+    for lesson in LESSONS:
+        if not (Path(__file__).parent / lesson / "exercises.py").exists():
+            continue
+        for value in vars(importlib.import_module(f"{__name__}.{lesson}.exercises")).values():
+            if isinstance(value, Exercise):
+                if value.name in exercises:
+                    raise ValueError(f"Two exercises are called {value.name}: {exercises[value.name].lesson}, {lesson}")
+                exercises[value.name] = replace(value, lesson=stem(lesson))
+    return exercises

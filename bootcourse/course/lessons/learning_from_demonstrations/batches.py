@@ -1,0 +1,181 @@
+"""The exercise of the lesson on learning from demonstrations in which batches are mixed."""
+
+import numpy as np
+import torch
+
+from bootcourse.course.drawing import drawn_apart, drawn_evenly
+from bootcourse.course.exercise import Exercise, Mistake, refuse
+from bootcourse.learn.replay_buffer import REWARD
+
+
+class TableBuffer:
+    """A replay buffer with rows that are there already; sample(batch, rng) draws from them."""
+
+    def __init__(self, rows):
+        self.rows = rows
+
+    def sample(self, batch, rng):
+        return self.rows[torch.from_numpy(rng.integers(len(self.rows), size=batch))]
+
+
+def mixed_batch_solution(own, demonstrations, size, beta, bonus, rng):
+    n = round(beta * size)
+    theirs = demonstrations[torch.from_numpy(rng.integers(len(demonstrations), size=n))]
+    theirs[:, REWARD] += bonus
+    rows = torch.cat([theirs, own.sample(size - n, rng)])
+    return rows, (torch.arange(size) < n).float()
+
+
+def numbered(first, count, width=8):
+    """Rows with the numbers first, first + 1, ... in column 0, and rewards that follow from them: (count, width)."""
+    rows = torch.zeros(count, width)
+    rows[:, 0] = torch.arange(first, first + count)
+    rows[:, REWARD] = rows[:, 0] / 10
+    return rows
+
+
+OWN = 1000  # the number of the first row of the agent's own
+SMALL = 12  # rows of a table so small that each can be drawn often
+DRAWS = 150  # of each of these rows
+
+
+def mixed_many_times(answer, demonstrations, size, beta, bonus):
+    """What is in batches that are drawn one after the other from the same tables.
+
+    Returns the shapes of the rows and of the marks; how many rows are demonstrations; the share of the marks that are
+    right; what was added to the reward of demonstrations, and of own rows; whether the demonstrations are drawn evenly,
+    and independently of each other; whether the own rows of two batches differ; whether equal generators give equal
+    batches.
+    """
+    width = demonstrations.shape[1]
+    own, rng = TableBuffer(numbered(OWN, 400, width)), np.random.default_rng(0)
+    pairs = []
+    small = len(demonstrations) <= SMALL
+    for _ in range(DRAWS * SMALL // round(beta * size) if small else 3):
+        pair = answer(own, demonstrations, size, beta, bonus, rng)
+        if not (isinstance(pair, (tuple, list)) and len(pair) == 2):
+            return refuse(pair, "the rows and their marks")
+        for part in pair:
+            if not isinstance(part, torch.Tensor):
+                return refuse(part, "torch tensors, the rows and their marks, because training needs them")
+        if pair[0].dim() != 2 or pair[0].shape[1] != width or pair[1].shape != pair[0].shape[:1]:
+            shapes = " and ".join(str(tuple(part.shape)) for part in pair)
+            return refuse(pair, f"({size}, {width}) rows and ({size},) marks; yours have the shapes {shapes}")
+        pairs.append(pair)
+    rows, marks = pairs[-1]
+    theirs, added = rows[:, 0] < OWN, rows[:, REWARD] - rows[:, 0] / 10
+    paid = [float(added[who].mean()) if who.any() else 0.0 for who in (theirs, ~theirs)]
+    right = float((marks.bool() == theirs).float().mean())
+    drawn = [each[:, 0][each[:, 0] < OWN] for each, _ in pairs]
+    equal = len({len(each) for each in drawn}) == 1
+    even = not (small and equal) or drawn_evenly(torch.stack(drawn), len(demonstrations))
+    apart = not equal or drawn_apart(torch.stack(drawn), len(demonstrations))
+    again = [answer(own, demonstrations, size, beta, bonus, np.random.default_rng(1))[0] for _ in range(2)]
+    fresh = differ(*(each[:, 0][each[:, 0] >= OWN] for each, _ in pairs[-2:]))
+    judged = map(float, (even, apart, fresh, torch.equal(*again)))
+    return np.array([*rows.shape, *marks.shape]), float(theirs.sum()), right, *paid, *judged
+
+
+def differ(one, other):
+    """Whether more than half of two draws differ; fewer than four rows may agree by chance."""
+    return len(one) < 4 or len(one) != len(other) or bool((one != other).float().mean() > 0.5)
+
+
+def batch_cases(rng):
+    """Half, none, all, shares that are no whole number from above and below, no bonus; small tables; 16 at random."""
+    shares = (8, 0.5, 2.0), (8, 0.0, 2.0), (8, 1.0, 0.5), (64, 0.59, 1.0), (64, 0.51, 1.0), (32, 0.6, 0.0)
+    for share in shares:
+        yield numbered(0, 300, rng.integers(7, 14)), *share
+    for width, beta in ((8, 0.5), (11, 0.4), (10, 0.25)):
+        yield numbered(0, SMALL, width), 20, beta, 2.0
+    for _ in range(16):
+        size, beta, bonus = rng.integers(12, 65), rng.uniform(0.1, 0.9), rng.uniform(0.1, 3)
+        yield numbered(0, 300, rng.integers(7, 14)), size, beta, bonus
+
+
+def of_the_batches(cases, answers):
+    """A sentence on batches whose size, shares and rewards may be right, but that are not drawn as they should be."""
+    for (_, size, beta, bonus), (shape, theirs, right, paid, own_paid, *drawn) in zip(cases, answers, strict=True):
+        even, apart, fresh, same = (bool(part.data) for part in drawn)
+        wanted = round(beta * size)
+        if shape.data[0] != size or theirs.data != wanted:
+            return (
+                f"A batch of {size} with β = {beta:.3g} has {wanted} demonstrations and {size - wanted} own rows: "
+                f"yours has {theirs.data:.0f} and {shape.data[0] - theirs.data:.0f}."
+            )
+        if abs(right.data - 1) > 1e-6:
+            return "Some of your marks are wrong: each must say whether *its* row is a demonstration."
+        if abs(own_paid.data) > 1e-3 or abs(paid.data - (bonus if wanted else 0)) > 1e-3:
+            return (
+                f"With a bonus of {bonus:.3g}, your batch adds {paid.data:.3g} to the rewards of the demonstrations "
+                f"and {own_paid.data:.3g} to those of the own rows."
+            )
+        if not fresh:
+            return "Your own rows are the same in each batch: ask `own.sample` for new ones."
+        if not apart:
+            return (
+                "The demonstrations of your batch are one row again and again, or neighbours: draw each row for itself."
+            )
+        if not even:
+            return "You draw some demonstrations more often than others: each row has the same chance."
+        if not same:
+            return "Two equal generators give different batches: draw with `rng`, so that a training can be repeated."
+    return "Your batches are not drawn as they should be."
+
+
+def mixed(n=None, pay=None, marks=None, rows=None):
+    """A wrong mixture: another number of demonstrations, other rewards, other marks, or other rows."""
+
+    def answer(own, demonstrations, size, beta, bonus, rng):
+        k = round(beta * size) if n is None else n(beta, size)
+        theirs = demonstrations[torch.from_numpy(rng.integers(len(demonstrations), size=k))]
+        theirs = theirs if rows is None else rows(demonstrations, k)
+        both = torch.cat([theirs, own.sample(size - k, rng)])
+        is_theirs = (torch.arange(size) < k).float()
+        both[:, REWARD] += bonus * (is_theirs if pay is None else pay(is_theirs))
+        return both, is_theirs if marks is None else marks(is_theirs)
+
+    return answer
+
+
+mixed_batch = Exercise(
+    "mixed_batch(own, demonstrations, size, beta, bonus, rng)",
+    solution=mixed_batch_solution, cases=batch_cases, run=mixed_many_times, explain=of_the_batches,
+    worked=(
+        # half of four rows are demonstrations, paid 2 more
+        ((numbered(0, 50), 4, 0.5, 2.0), (np.array([4, 8, 4]), 2.0, 1.0, 2.0, 0.0, 1.0, 1.0, 1.0, 1.0)),
+    ),
+    mistakes=(
+        Mistake(mixed(pay=lambda is_theirs: 1),
+            "You add the bonus to every reward, even where the agent stays behind the trap: only demonstrations get "
+            "it.",
+            "The bonus is a new reward function."),
+        Mistake(mixed(pay=lambda is_theirs: -is_theirs),
+            "Your bonus is subtracted: the critic would learn to avoid what the rule did.",
+            "c is a cost."),
+        Mistake(mixed(pay=lambda is_theirs: 1 - is_theirs),
+            "Your bonus goes to the agent's own driving. It belongs to the rows of the *demonstrations*.",
+            "The bonus encourages the agent, so its own driving gets it."),
+        Mistake(mixed(pay=lambda is_theirs: 0 * is_theirs),
+            "You pay no bonus: add it to the reward of each demonstration, in the column `REWARD`.",
+            "The critic's target adds the bonus."),
+        Mistake(mixed(marks=lambda is_theirs: 1 - is_theirs),
+            "Your marks are the wrong way round: 1 says that a row is a demonstration.",
+            "1 marks the agent's own rows."),
+        Mistake(mixed(n=lambda beta, size: size - round(beta * size)),
+            "You swapped the shares: β is the share of the demonstrations.",
+            "β is the share of the agent's own rows."),
+        Mistake(mixed(n=lambda beta, size: int(beta * size)),
+            "Your number of demonstrations is cut off, not rounded: use `round(beta * size)`.",
+            "`int` rounds."),
+        Mistake(mixed(rows=lambda demonstrations, k: demonstrations[:k].clone()),
+            "You always take the same demonstrations. Draw them at random, with `rng`.",
+            "The table is in random order. (It holds one drive after the other.)"),
+    ),
+    hints=(
+        "How many rows come from the demonstrations? Draw that many row numbers with `rng.integers`, and index.",
+        "Indexing with a tensor of row numbers makes a copy, so `theirs[:, REWARD] += bonus` leaves the table alone.",
+        "`rows = torch.cat([theirs, own.sample(size - n, rng)])` and `(torch.arange(size) < n).float()`",
+    ),
+    minutes=20, difficulty=3, equation="a share β of a batch are demonstrations, with r + c, Section IV-B",
+)  # fmt: skip

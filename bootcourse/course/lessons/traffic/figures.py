@@ -1,0 +1,107 @@
+"""Figures of the lesson on traffic: a jam over time, how IDM follows, when MOBIL changes lane, how steering swings.
+
+Each draws what it is given, or one formula of `bootcourse.road.formulas`.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.collections import LineCollection
+from matplotlib.figure import Figure
+
+from bootcourse.colours import ALARM, Style
+from bootcourse.course.charts import lines
+from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, finish, new_figure, plain_axes
+from bootcourse.road.formulas import desired_gap, idm_acceleration, mobil_incentive
+from bootcourse.scenario import DEFAULT, Traffic
+
+LOOKS = (Style("#0072B2"), Style("#444444", "--"), Style("#D55E00", "-."))  # of the lines, first to last
+ROW = (Style("#444444", "--"), Style("#56B4E9"), Style("#0072B2"), Style("#332288"))  # a leader, and drivers behind it
+FAST = 12.5  # m/s, the bright end of the colours
+SWING = 3.6  # times its start: where a growing error leaves the picture
+
+
+def space_time(drives: dict[str, tuple[np.ndarray, np.ndarray]], dt: float, title: str) -> Figure:
+    """Where each car of a ring is over time, coloured by its speed; one panel for each named ring.
+
+    drives: name -> (places (m), speeds (m/s)), both (steps, cars); dt: seconds between two steps.
+    """
+    figure = new_figure(3.9)
+    told, width = [], 0.78 / len(drives)
+    for k, (name, (places, speeds)) in enumerate(drives.items()):
+        ax = figure.add_axes((0.08 + k * (width + 0.04), 0.15, width - 0.02, 0.62))
+        seconds = np.arange(len(places)) * dt
+        length = places.max() - places.min()
+        points = np.stack([np.broadcast_to(seconds[:, None], places.shape), places], axis=-1)
+        pieces = np.stack([points[:-1], points[1:]], axis=2)  # (steps - 1, cars, 2 ends, 2)
+        goes_on = np.abs(np.diff(places, axis=0)) < length / 2  # the others jump from the ring's end to its start
+        goes_on[:, 1::2] = False  # lines of all cars would lie too close
+        colours = LineCollection(pieces[goes_on], array=speeds[1:][goes_on], cmap="viridis", linewidths=0.9)
+        colours.set(clim=(0, FAST), rasterized=True)
+        dots = ax.add_collection(colours)
+        ax.set_ylim(places.min(), places.max())
+        plain_axes(ax, f"place on the ring (m): {name}", grid="")
+        ax.set_xlim(0, seconds[-1])
+        ax.set_xlabel("time (s)", fontsize=TEXT, color=INK)
+        last = speeds[-1]
+        told.append(f"{name}: at the end the slowest car drives {last.min():.1f} m/s, the fastest {last.max():.1f}")
+    bar = figure.colorbar(dots, cax=figure.add_axes((0.925, 0.15, 0.015, 0.62)))
+    bar.outline.set_visible(False)
+    bar.ax.tick_params(labelsize=SMALL, labelcolor=QUIET, length=0)
+    bar.ax.set_title("m/s", fontsize=SMALL, color=INK, loc="left")
+    drawn = "Each line is one car, coloured by its speed; half of the cars are drawn"
+    return finish(figure, title, f"{drawn}. {'; '.join(told)}.")
+
+
+def following(v: float, closing: Sequence[float], title: str, traffic: Traffic = DEFAULT.traffic) -> Figure:
+    """IDM's acceleration at speed v (m/s) against the gap, closing in at several speeds (m/s)."""
+    gaps, named, told = np.linspace(8, 120, 300), {}, []
+    for dv in closing:
+        s_star = desired_gap(v, dv, traffic.s0, traffic.time_gap, traffic.a_max, traffic.b)
+        values = [idm_acceleration(v, traffic.desired_speed, s, s_star, traffic.a_max, traffic.delta) for s in gaps]
+        words = f"closing in at {dv:g} m/s" if dv > 0 else (f"falling back at {-dv:g} m/s" if dv < 0 else "same speed")
+        named[f"{words}, s* = {s_star:.0f} m"] = np.maximum(values, -traffic.braking_limit)
+        zero = f"zero at a gap of {np.interp(0, values, gaps):.0f} m" if min(values) < 0 else "above zero at each gap"
+        told.append(f"{words}: {zero}")
+    x_label, y_label = "gap to the car ahead, centre to centre (m)", "acceleration (m/s²)"
+    told.append(f"no driver brakes harder than {traffic.braking_limit:g} m/s²")
+    alt = f"Three curves that rise with the gap. {'; '.join(told)}."
+    limits = (-1.05 * traffic.braking_limit, 0.6)
+    return lines(gaps, named, title, x_label, y_label, marks={"": 0.0}, limits=limits, looks=LOOKS, alt=alt)
+
+
+def changing(own_gain: float, follower, politeness: Sequence[float], traffic: Traffic = DEFAULT.traffic) -> Figure:
+    """MOBIL's incentive against the gap to the new follower, for several degrees of politeness.
+
+    own_gain (m/s²); follower(gap) -> (acceleration before, after) of the new follower (m/s²).
+    """
+    gaps, named, told = np.linspace(8, 100, 300), {}, []
+    before, after = np.array([follower(gap) for gap in gaps]).T
+    for p in politeness:
+        values = np.array([mobil_incentive(own_gain, gain, 0.0, p) for gain in after - before])
+        named[f"p = {p:g}"] = values
+        allowed = gaps[(values >= traffic.a_threshold) & (after >= -traffic.safe_braking)]
+        told.append(f"p = {p:g}: changes from {allowed[0]:.0f} m on" if len(allowed) else f"p = {p:g}: never changes")
+    title = "The more polite the driver, the larger the gap that it waits for"
+    x_label, y_label = "gap to the new follower, centre to centre (m)", "incentive (m/s²)"
+    looks = {"marks": {"threshold": traffic.a_threshold}, "limits": (-1.2, 0.5), "looks": LOOKS}
+    figure = lines(gaps, named, title, x_label, y_label, **looks, alt=f"{'; '.join(told)}.")
+    unsafe = gaps[after < -traffic.safe_braking]
+    if len(unsafe):
+        figure.axes[0].axvspan(gaps[0], unsafe[-1], color=ALARM, alpha=0.12, linewidth=0)
+        figure.axes[0].text(gaps[0] + 0.4, 0.45, "not safe", fontsize=TEXT, color=ALARM, va="top")
+    return figure
+
+
+def swinging(taus: Sequence[float], dt: float, seconds: float = 5.0) -> Figure:
+    """A heading error of 1, step by step, for several time constants (s) at a time step dt (s)."""
+    steps, named = np.arange(int(seconds / dt) + 1), {}
+    for tau in taus:
+        factor = 1 - dt / tau
+        kind = "grows" if abs(factor) > 1 else ("overshoots, then settles" if factor < 0 else "settles")
+        words = f"τ = {tau:g} s: times {factor:.2f}, {kind}".replace("-", "−")
+        named[words] = np.where(np.abs(factor**steps) < 1.2 * SWING, factor**steps, np.nan)
+    title = f"At {1 / dt:g} Hz a controller that is too quick throws the car from side to side"
+    alt = f"Heading errors over {seconds:g} s, multiplied at each step. {'; '.join(named)}."
+    look = {"marks": {"": 0.0}, "limits": (-SWING, SWING), "looks": [each._replace(marker="o") for each in LOOKS]}
+    return lines(steps * dt, named, title, "time (s)", "heading error (its start is 1)", **look, alt=alt)

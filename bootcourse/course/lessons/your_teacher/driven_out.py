@@ -1,0 +1,61 @@
+"""How a rule is judged: it drives a road to the end, and a sentence says what went wrong on how many of them."""
+
+import numpy as np
+from gymnasium.vector import AutoresetMode
+
+from bootcourse.course.values import NUMERIC, plain
+from bootcourse.learn.teachers import is_action
+from bootcourse.road.state import EGO, TRAP_1, X
+from bootcourse.road.vector_env import TrapVectorEnv
+from bootcourse.scenario import N_ACTIONS
+
+OUT, BEHIND, OUTSIDE, NOT_SAME, NOT_WHOLE, NOTHING = 0, 4, 5, 6, 7, 8  # 1 to 3 are the accidents
+ENDINGS = {1: "collides", 2: "leaves the road", 3: "stops on the road", BEHIND: "is still behind trap 1 at the end"}
+
+
+def drive_out(answer, cars, scenario):
+    """How one road ends: 0 for ahead of trap 1 at the end, without an accident, else what went wrong.
+
+    An answer that is not a number is returned unchanged.
+    """
+    env = TrapVectorEnv(1, scenario, AutoresetMode.DISABLED)
+    env.reset(seed=0)
+    env.cars[0] = cars
+    for second in range(scenario.clock.decisions):
+        now = cars if second == 0 else env.cars[0].copy()  # its own array, so that the check sees a change
+        action, again = answer(now, scenario), answer(env.cars[0].copy(), scenario)
+        wrong = no_action(action, again)
+        if wrong == NOTHING and second == 0:
+            return None
+        if wrong is not None:
+            return action if wrong == "as it is" else wrong
+        _, _, terminated, _, infos = env.step(np.array([int(action)]))
+        if terminated[0]:
+            return int(infos["accident"][0])
+    return OUT if env.cars[0, EGO, X] > env.cars[0, TRAP_1, X] else BEHIND
+
+
+def no_action(action, again):
+    """What is wrong with an answer of the rule; None if nothing is."""
+    if action is None:
+        return NOTHING
+    if plain(action).kind not in NUMERIC or plain(action).shape != ():
+        return "as it is"
+    if not is_action(action):
+        return OUTSIDE if isinstance(action, (int, np.integer)) and not isinstance(action, bool) else NOT_WHOLE
+    return NOT_SAME if action != again else None
+
+
+def explain_rule(cases, answers):
+    """What went wrong on how many of the roads."""
+    ends = [int(answer) for answer in answers]
+    if NOTHING in ends:
+        return "Your rule returns nothing in some situations: look for a branch without `return`."
+    if NOT_WHOLE in ends:
+        return "Your rule sometimes returns another kind of number: an action is a whole number, 0 to 8."
+    if OUTSIDE in ends:
+        return f"Your rule sometimes returns a number that is not an action: give a whole number, 0 to {N_ACTIONS - 1}."
+    if NOT_SAME in ends:
+        return "Your rule answers the same road differently each time. The label of a state must not change."
+    told = ", on ".join(f"{ends.count(end)} it {words}" for end, words in ENDINGS.items() if end in ends)
+    return f"Your rule gets out on {ends.count(OUT)} of {len(ends)} roads; on {told}."

@@ -1,0 +1,80 @@
+"""The form of a prediction in a notebook: radio buttons or a field, and a button that commits to the answer.
+
+Without a kernel, or where no widgets are shown, a reader sees the question and its choices.
+"""
+
+import ipywidgets as widgets
+
+from bootcourse.course.predictions import Question, commit, committed, predictions
+from bootcourse.course.verdict import marked
+from bootcourse.markup import Markup, html, joined
+from bootcourse.panels.panel import Panel
+
+STYLE = """<style>
+.bc-panel .widget-radio-box {height: auto}
+.bc-panel .widget-radio-box label {display: flex; flex-direction: row-reverse; justify-content: flex-end; gap: 8px;
+  height: auto; margin: 3px 0; line-height: 1.35; white-space: normal; text-align: left}
+.bc-panel .widget-radio-box input {flex: none; margin: 2px 0 0}
+</style>"""
+# JupyterLab would use the arrows, which choose among radio buttons, to go from cell to cell, and Enter to edit a cell.
+# Text that is put into a page runs no <script>: this is what an empty image does when it cannot be loaded.
+KEYS = """const image = this; let tries = 0; const waiting = setInterval(() => {
+  const form = image.closest('.bc-panel');
+  if (form) {
+    image.remove();
+    form.addEventListener('keydown', event => {
+      if (!event.ctrlKey && !event.metaKey && !event.shiftKey) event.stopPropagation();
+    });
+  }
+  if (form || ++tries > 200) clearInterval(waiting);
+}, 50);"""
+
+
+class PredictionForm(Panel):
+    """Nothing is written before the click. After it, or when an answer is kept already, the form is locked."""
+
+    def __init__(self, question: Question):
+        self.question = question
+        self.field = self._field()
+        help = "Keep this answer, with the time. It cannot be changed."
+        self.button = self.make_button("Commit", "check", help, self.commit, "primary")
+        keys = html('<img src="data:," alt="" style="display:none" onerror="{}">', KEYS)
+        text = widgets.HTML(Markup(STYLE) + html("<div>{}</div>{}", marked(question.text), keys))
+        super().__init__(f"Prediction {question.number}", text, self.field, self.button)
+        with self.saying_what_is_wrong():
+            kept = predictions().get(question.number)
+            if kept is not None:
+                self._lock(kept)
+
+    def _field(self) -> widgets.Widget:
+        name = f"Prediction {self.question.number}"
+        if self.question.choices:
+            return widgets.RadioButtons(
+                options=self.question.choices, value=None, tooltip=name, layout={"width": "auto"}
+            )
+        if self.question.unit is not None:
+            unit = f", in {self.question.unit}" if self.question.unit else ""
+            return widgets.Text(placeholder=f"a number{unit}", tooltip=name, layout={"width": "200px"})
+        return widgets.Text(placeholder="your answer", tooltip=name, layout={"width": "auto", "max_width": "640px"})
+
+    def commit(self) -> None:
+        """Keep the answer. Raises BootcourseError if it is not accepted."""
+        self._lock(commit(self.question, self.field.value))
+
+    def _lock(self, kept: dict) -> None:
+        if not self.question.choices:
+            self.field.value = str(kept["answer"])
+        elif kept["answer"] in self.question.choices:  # the question may have changed since
+            self.field.value = kept["answer"]
+        self.field.disabled = self.button.disabled = True
+        self.say(committed(kept))
+
+    def _repr_mimebundle_(self, **kwargs) -> dict:
+        """The same in every notebook, whatever is kept."""
+        question, by_hand = self.question, 'No buttons here? Add answer="…" to the call, and run the cell.'
+        choices = joined(html("<li>{}</li>", marked(choice)) for choice in question.choices)
+        choices = html("<ul>{}</ul>", choices) if choices else ""
+        page = '<div class="bc-prediction"><strong>Prediction {}</strong> {}{}<div><small>{}</small></div></div>'
+        page = html(page, question.number, marked(question.text), choices, by_hand)
+        text = " / ".join([f"Prediction {question.number}: {question.text}", *question.choices])
+        return widgets.VBox._repr_mimebundle_(self, **kwargs) | {"text/html": str(page), "text/plain": text}

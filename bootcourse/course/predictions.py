@@ -1,0 +1,174 @@
+"""Predictions: a student commits to an answer before the cell that shows it, and the lesson's end compares.
+
+They are kept in `answers/predictions.json` beside the notebooks, each with its question and the time. The first answer
+to a question stays. `prediction_form.py` is the form that a notebook shows.
+"""
+
+import math
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+
+from bootcourse.course.verdict import marked
+from bootcourse.errors import BootcourseError, check_known
+from bootcourse.files import read_json, write_json
+from bootcourse.markup import html
+
+FILE = Path("answers/predictions.json")  # in the folder of the notebooks, where a kernel works
+LONGEST = 2000  # characters of an answer
+NOTHING = "You committed to no prediction in this lesson."
+
+
+@dataclass(frozen=True)
+class Question:
+    """What a lesson asks. number: "5.1"; choices: empty for a free answer; unit: None for an answer in words."""
+
+    number: str
+    text: str = ""
+    choices: tuple[str, ...] = ()
+    unit: str | None = None
+
+    def __post_init__(self):
+        if not re.fullmatch(r"\d{1,2}\.\d{1,2}", str(self.number)):
+            raise BootcourseError(f'The prediction {self.number!r}: give its number as text, such as "5.1".')
+
+    def read(self, answer: object) -> str | float:
+        """The answer as it is kept. Raises BootcourseError if it is empty, no choice, or no number where one is due."""
+        words = " ".join(str("" if answer is None else answer).split())
+        if not words:
+            what = "choose an answer" if self.choices else "write an answer"
+            raise BootcourseError(f"Prediction {self.number} is empty: {what}, then commit to it.")
+        if len(words) > LONGEST:
+            raise BootcourseError(f"Prediction {self.number} has {len(words)} characters: use at most {LONGEST}.")
+        if self.choices:
+            check_known(f"Prediction {self.number}: the answer", words, self.choices)
+        return words if self.unit is None else self._number(words)
+
+    def _number(self, words: str) -> float:
+        try:
+            value = float(words.removesuffix(self.unit))
+        except ValueError:
+            value = math.nan
+        if not math.isfinite(value):
+            raise BootcourseError(f"Prediction {self.number} = '{words}': give a number such as 1200 or 12.5.")
+        return value
+
+
+def predictions(folder: Path | None = None) -> dict[str, dict]:
+    """What a student has committed to: number -> question, choices, unit, answer, time (UTC). {} if nothing.
+
+    folder: that of the notebooks; by default the present one. Raises BootcourseError for a damaged file.
+    """
+    path = Path(folder or "") / FILE
+    if not path.exists():
+        return {}
+    kept = read_json(path, dict[str, dict])
+    if not all("answer" in one for one in kept.values()):
+        raise BootcourseError(f"{path} is damaged: a prediction has no answer. Delete it, or restore it from a copy.")
+    return kept
+
+
+def commit(question: Question, answer: object) -> dict:
+    """Keep the answer, unless the question has one already. Returns what is kept. Raises BootcourseError."""
+    kept = predictions()
+    if question.number not in kept:
+        kept[question.number] = {
+            "question": question.text,
+            "choices": list(question.choices),
+            "unit": question.unit,
+            "answer": question.read(answer),
+            "time": datetime.now(UTC).isoformat(timespec="seconds"),
+        }
+        write_json(FILE, kept)
+    return kept[question.number]
+
+
+def predict(
+    number: str, question: str = "", choices: Sequence[str] = (), *, unit: str | None = None, answer: object = None
+):
+    """A form to commit to a prediction: radio buttons for `choices`, a number field for a `unit`, else a text field.
+
+    unit: of the number, "" for one without a unit. answer: commit to this and show no form, where a notebook shows no
+    widgets. Raises BootcourseError for a wrong number of the question, or an answer that is not accepted.
+    """
+    asked = Question(number, question, tuple(map(str, choices)), unit)
+    if answer is None:
+        from bootcourse.course.prediction_form import PredictionForm
+
+        return PredictionForm(asked)
+    return Note(committed(commit(asked, answer), asked.read(answer)))
+
+
+def committed(kept: dict, wanted: object = None) -> str:
+    """The sentence after a commitment; `wanted` is what was asked to be kept now, if that is something else."""
+    shown = worded(kept["answer"], kept.get("unit"))
+    if wanted not in (None, kept["answer"]):
+        return f"You have committed to “{shown}” before, and the first prediction stays."
+    return f"You predict: {shown}. The end of the lesson compares."
+
+
+def worded(answer: object, unit: str | None = None) -> str:
+    """An answer in words, with its unit."""
+    words = f"{answer:.6g}" if isinstance(answer, float) and abs(answer) < 1e6 else str(answer)
+    return f"{words} {unit}" if unit else words
+
+
+def compare_predictions(lesson: str, answers: Mapping[str, object]):
+    """A table of what the student predicted and what the lesson found, for the lesson's last cell.
+
+    lesson: its number, such as "05"; answers: {"5.1": what the lesson found, in words or a number}. Raises
+    BootcourseError where a number belongs to another lesson, and for a damaged file.
+    """
+    chapter = str(lesson).lstrip("0") or "0"
+    strange = [number for number in answers if str(number).partition(".")[0] != chapter]
+    if strange:
+        raise BootcourseError(f"{strange[0]} is no prediction of lesson {lesson}: its numbers begin with {chapter}.")
+    kept = predictions()
+    rows = [
+        (number, kept[number].get("question", ""), worded(kept[number]["answer"], kept[number].get("unit")),
+         worded(found, kept[number].get("unit") if isinstance(found, (int, float)) else None))
+        for number, found in answers.items() if number in kept
+    ]  # fmt: skip
+    return Comparison(tuple(rows), len(answers)) if rows else Note(NOTHING)
+
+
+@dataclass(frozen=True)
+class Note:
+    """A sentence as a cell's output."""
+
+    sentence: str
+
+    def __repr__(self) -> str:
+        return self.sentence
+
+    def _repr_html_(self) -> str:
+        return str(html('<div role="status">{}</div>', self.sentence))
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Rows of (number, question, predicted, found), and how many predictions the lesson asked for."""
+
+    rows: tuple[tuple[str, str, str, str], ...]
+    asked: int
+
+    HEADINGS = ("", "question", "you predicted", "the lesson found")
+
+    @property
+    def below(self) -> str:
+        return f"You committed to {len(self.rows)} of {self.asked} predictions."
+
+    def __repr__(self) -> str:
+        return "\n".join(
+            [*(f"{n} {q}\n    you predicted: {p}\n    the lesson found: {f}" for n, q, p, f in self.rows), self.below]
+        )
+
+    def _repr_html_(self) -> str:
+        head = "".join(f'<th scope="col" style="text-align: left">{heading}</th>' for heading in self.HEADINGS)
+        left = "text-align: left; vertical-align: top; white-space:"
+        first, other = f'<td style="{left} nowrap">', f'<td style="{left} normal; overflow-wrap: anywhere">'
+        rows = [f"{first}{row[0]}</td>" + "".join(f"{other}{marked(p)}</td>" for p in row[1:]) for row in self.rows]
+        body = "".join(f"<tr>{row}</tr>" for row in rows)
+        return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table><div>{self.below}</div>"

@@ -1,0 +1,146 @@
+"""What the learners beyond the paper reached, and every method at an equal budget of decisions or seconds."""
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from bootcourse.methods import METHODS, display_name
+from bootcourse.research.plan import EXPERIMENTS, STUDIES
+from bootcourse.research.results import Results, StudyResults
+from bootcourse.research.tables import bracketed, escaped, score
+from bootcourse.scenario import DEFAULT
+from bootcourse.statistics import interval
+
+SHARE, WINDOW = 0.95, 50  # an agent has learned the way out when this share of so many episodes in a row ended ahead
+DECISIONS, SECONDS = (100_000, 1_000_000), (20, 60)  # § equal budgets; seconds of one core
+ASIDE = ("sensitivity", "clocks", "ablations", "teachers")  # they vary the method or the teacher to learn about them
+
+
+def lengths(curves: dict[str, np.ndarray]) -> np.ndarray | None:
+    """Decisions of each training episode, (agents, episodes); None if no curve tells.
+
+    Files of earlier versions hold the distance and the mean speed instead. Their quotient is within 1 % of the sum.
+    """
+    if "decisions" in curves:
+        return curves["decisions"]
+    known = {"distance", "speed"} <= curves.keys()
+    return curves["distance"] / curves["speed"] * DEFAULT.clock.decision_rate if known else None
+
+
+def decisions_until(success: np.ndarray, decisions: np.ndarray, share: float = SHARE, window: int = WINDOW):
+    """Decisions until at least `share` of the last `window` episodes ended ahead, (agents,); inf if they never did.
+
+    success, decisions: (agents, episodes), 1 or 0 and the episode's length; NaN for episodes that were not driven.
+    """
+    if success.shape[1] < window:
+        return np.full(len(success), np.inf)
+    recent = np.apply_along_axis(np.convolve, 1, np.nan_to_num(success, nan=-window), np.ones(window), "valid")
+    reached = recent >= share * window - 1e-9  # (agents, episodes - window + 1)
+    spent = np.cumsum(np.nan_to_num(decisions), axis=1, dtype=float)[:, window - 1 :]
+    first = np.take_along_axis(spent, reached.argmax(axis=1)[:, None], axis=1)[:, 0]
+    return np.where(reached.any(axis=1), first, np.inf)
+
+
+def spent(results: Results) -> np.ndarray:
+    """Decisions of each agent until it had learned the way out, (agents,); inf if it did not. See `decisions_until`."""
+    return decisions_until(results.curves["success"], lengths(results.curves))
+
+
+def thousands(decisions: np.ndarray) -> str:
+    """ "120 (34 to 200), 9 of 10": the median and the extremes of those that got there, in thousands, and how many."""
+    there = decisions[np.isfinite(decisions)] / 1000
+    if not len(there):
+        return f"none of {len(decisions)}"
+    middle = f"{np.median(there):,.0f} ({there.min():,.0f} to {there.max():,.0f})"
+    return middle if len(there) == len(decisions) else f"{middle}, {len(there)} of {len(decisions)}"
+
+
+def learner_rows(named: Mapping[str, Results]) -> tuple[list[str], list[list[str]]]:
+    """(headings, rows): what some agents reached, and at which cost. named: {what they are: results of one method}."""
+    rows = []
+    for name, results in named.items():
+        method = results.methods[0]
+        rates = [f"{100 * results.episodes(measure).mean():.1f}" for measure in ("success", "accident")]
+        cells = [rates[0], bracketed(score(results, method, "returns")), rates[1], thousands(spent(results))]
+        rows.append([name, escaped(results, method), *cells])
+    learned = f"thousand decisions until {100 * SHARE:g} % of {WINDOW} episodes are ahead"
+    return ["", "agents that escape", "drives that do, %", "return [95 %]", "accidents, %", learned], rows
+
+
+def at_budget(curves: dict[str, np.ndarray], decisions: float | np.ndarray) -> np.ndarray:
+    """Mean training return of the last `WINDOW` episodes that ended within so many decisions, (agents,).
+
+    curves: each (agents, episodes), NaN for episodes that were not driven. decisions: of each agent, or (agents,). NaN
+    for an agent whose whole training was shorter, or that ended fewer episodes, and where a curve is missing.
+    """
+    episodes, returns = lengths(curves), curves.get("return")
+    if episodes is None or returns is None:
+        return np.full(len(next(iter(curves.values()), [0])), np.nan)
+    found, totals = np.full(len(returns), np.nan), np.nansum(episodes, axis=1, dtype=float)
+    for i, budget in enumerate(np.broadcast_to(decisions, len(returns))):
+        ended = np.searchsorted(np.cumsum(episodes[i], dtype=float), budget, side="right")
+        if totals[i] >= budget and ended >= WINDOW:
+            found[i] = returns[i, ended - WINDOW : ended].mean(dtype=float)
+    return found
+
+
+def after_seconds(curves: dict[str, np.ndarray], seconds: float, took: np.ndarray) -> np.ndarray:
+    """`at_budget` for seconds of one core, as if every decision took equally long. took: (agents,), of the training."""
+    episodes, took = lengths(curves), np.where(took > 0, took, np.nan)
+    return at_budget(curves, np.nan if episodes is None else seconds / took * np.nansum(episodes, axis=1, dtype=float))
+
+
+class Within(NamedTuple):
+    """What agents of a method earned within a budget."""
+
+    agents: int  # that trained as long
+    returns: float  # interquartile mean over them
+    limits: tuple[float, float] | None  # its 95 % interval; one agent has none
+
+    def words(self, agents: int) -> str:
+        """ "24 [18, 26], 9 of 10". agents: of the method."""
+        there = "" if self.agents == agents else f", {self.agents} of {agents}"
+        return bracketed((self.returns, *(self.limits or (np.nan, np.nan)))) + there
+
+
+def within(returns: np.ndarray) -> Within | None:
+    """Of agents' returns at a budget (agents,), NaN where they did not get there; None if none did."""
+    there = returns[np.isfinite(returns)]
+    if not len(there):
+        return None
+    value, *limits = interval(there)
+    return Within(len(there), value, tuple(limits) if len(there) > 1 else None)
+
+
+def entries(found: StudyResults) -> list[tuple[str, Results]]:
+    """(setting, results) of the studies on the default scenario and of each experiment there that is not `ASIDE`."""
+    parts = [
+        ("quick" if name == "default" else name, results)
+        for name, results in found.results.items()
+        if STUDIES[name].scenario == DEFAULT
+    ]
+    for name, varied in found.experiments.items():
+        for variation, results in varied.items():
+            if name not in ASIDE and EXPERIMENTS[name].variations[variation].scenario == DEFAULT:
+                parts.append((name if variation in METHODS else f"{name}: {variation}", results))
+    return parts
+
+
+def budget_rows(parts: Sequence[tuple[str, Results]]) -> tuple[list[str], list[list[str]]]:
+    """(headings, rows): every method at each of `DECISIONS` and `SECONDS`, the highest at the first budget on top.
+
+    parts: `entries`. Methods of which no file tells the training returns are left out.
+    """
+    rows = []
+    for setting, results in parts:
+        for method in results.methods:
+            mine = results.of(method)
+            found = [within(at_budget(mine.curves, budget)) for budget in DECISIONS]
+            found += [within(after_seconds(mine.curves, budget, mine.seconds)) for budget in SECONDS]
+            if any(found):
+                cells = [one.words(len(mine)) if one else "–" for one in found]
+                rows.append((found[0].returns if found[0] else -np.inf, [display_name(method), setting, *cells]))
+    rows.sort(key=lambda row: -row[0])
+    headings = [f"{budget:,} decisions" for budget in DECISIONS] + [f"{budget} s of one core" for budget in SECONDS]
+    return ["method", "setting", *headings], [cells for _, cells in rows]

@@ -1,0 +1,64 @@
+"""Which help lasts? ξ = 200 α fades with updates, β with episodes: the experiment `clocks` varies the updates.
+
+The paper reports one trained agent per method. `pattern` is the probability that such a table comes out as the
+paper's Table 4 if the agents are drawn from ours.
+"""
+
+import numpy as np
+
+from bootcourse.methods import display_name
+from bootcourse.research.paper import EPISODES, PRINTED
+from bootcourse.research.plan import UPDATES, VARIED
+from bootcourse.research.results import Results, join
+from bootcourse.research.tables import escaped
+from bootcourse.statistics import Estimate
+
+DRIVERS = ("μ", "π̃")  # of the demonstrations
+DRAWS = 100_000
+
+
+def cells(varied: dict[str, Results]) -> dict[tuple[str, str], Results]:
+    """The four methods' agents of every choice that was computed: {(updates per decision, driver): results}."""
+    found = {}
+    for updates in UPDATES:
+        alone = varied.get(f"{updates} updates, no demonstrations")
+        for driver in DRIVERS:
+            helped = varied.get(f"{updates} updates, demonstrations by {driver}")
+            if alone is not None and helped is not None:
+                found[updates, driver] = join([alone, helped])
+    return found
+
+
+def faded(xi: np.ndarray) -> float:
+    """The episode after which ξ is down to a tenth of its start, the median over agents: curves (agents, episodes)."""
+    return float(np.median((xi <= 0.1 * xi[:, :1]).argmax(axis=1)))
+
+
+def as_printed(success: np.ndarray, method: str) -> np.ndarray:
+    """The probability that 20 test episodes of an agent all end as the paper's row says: success rates (agents,)."""
+    return success**EPISODES if PRINTED[method]["success"].mean == 100 else (1 - success) ** EPISODES
+
+
+def pattern(results: Results, seed: int = 0) -> Estimate:
+    """The probability that one agent per method, tested on 20 episodes, gives the paper's four success rates.
+
+    Each row's probability is a mean over agents, their product the value. The interval: each row's probability has a
+    beta distribution with Jeffreys' prior (Brown, Cai & DasGupta 2001), which stays positive where no agent fits.
+    """
+    rng, product, value = np.random.default_rng(seed), np.ones(DRAWS), 1.0
+    for method in VARIED:
+        fits = as_printed(results.of(method).scores("success"), method)
+        value *= float(fits.mean())
+        product *= rng.beta(fits.sum() + 0.5, (1 - fits).sum() + 0.5, DRAWS)
+    low, high = np.percentile(product, [2.5, 97.5])
+    return Estimate(value, float(low), float(high))
+
+
+def pattern_rows(varied: dict[str, Results]) -> tuple[list[str], list[list[str]]]:
+    """(headings, rows): who escapes with each choice, and how often a table of single agents reads as the paper's."""
+    rows = []
+    for (updates, driver), results in cells(varied).items():
+        escaping = [escaped(results, method) for method in VARIED]
+        probability, low, high = (f"{100 * part:.0f}" for part in pattern(results))
+        rows.append([updates, driver, *escaping, f"{probability} [{low}, {high}]"])
+    return ["updates per decision", "demonstrations by", *map(display_name, VARIED), "as the paper, % [95 %]"], rows

@@ -1,0 +1,109 @@
+"""The study's figures: the paper's training panels, exploration, and final scores. One function each.
+
+Every one takes `Results` and returns a matplotlib figure with `figure.alt`. Titles are made from the
+numbers, so they cannot say what the numbers do not.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from bootcourse.methods import display_name, style
+from bootcourse.plots.figure import GRID, QUIET, SMALL, finish, new_figure, plain_axes
+from bootcourse.plots.training_curves import MEASURES, training_curves
+from bootcourse.research.paper import COLUMNS, PRINTED, RATES
+from bootcourse.research.results import Results
+from bootcourse.research.tables import escaped
+from bootcourse.statistics import interval
+
+TRAINING = {"success": "success", "return": "returns", "speed": "speed", "distance": "distance"}  # curve: column
+
+
+def of_methods(results: Results, methods: Sequence[str]) -> dict[str, dict[str, np.ndarray]]:
+    """{method: {curve: (agents, episodes)}}, without agents that were stopped: they have no curve to their end."""
+    found = {}
+    for method in methods:
+        if method in results.methods:
+            curves = results.of(method).curves
+            whole = np.logical_and.reduce([np.isfinite(values).all(axis=1) for values in curves.values()])
+            if whole.any():
+                found[method] = {name: values[whole] for name, values in curves.items()}
+    return found
+
+
+def training_panels(results: Results, methods: Sequence[str], title: str, rule: Results | None = None) -> Figure:
+    """Success, return, speed and distance in training, the rule's level and the paper's test results."""
+    printed = {
+        method: {curve: PRINTED[method][column].mean / MEASURES[curve].factor for curve, column in TRAINING.items()}
+        for method in methods
+        if method in PRINTED and method in results.methods
+    }
+    levels = {curve: float(rule.scores(column)[0]) for curve, column in TRAINING.items()} if rule is not None else {}
+    return training_curves(of_methods(results, methods), title, {"rule": levels}, printed, tuple(TRAINING))
+
+
+def _escapes(results: Results, methods: Sequence[str], short: dict[str, str], rule: Results | None) -> Figure:
+    """Training panels of these methods. short: {method: its name in the title, which counts who escapes}."""
+    counts = ", ".join(f"{escaped(results, method)} {name}" for method, name in short.items())
+    return training_panels(results, methods, f"Agents that escape: {counts}", rule)
+
+
+def margin_against_bonus(results: Results, rule: Results | None = None) -> Figure:
+    """The paper's first training figure (Figure 4): demonstrations by a bonus, or by a large margin."""
+    methods = ("margin", "margin_soft", "demos", "bootstrapped")
+    return _escapes(results, methods, {"demos": "with the bonus", "margin": "with the margin"}, rule)
+
+
+def ablation(results: Results, rule: Results | None = None) -> Figure:
+    """The paper's second training figure (Figure 5): each ingredient alone, and both."""
+    short = {"sac": "plain", "soft": "soft constraint", "demos": "demonstrations", "bootstrapped": "both"}
+    return _escapes(results, tuple(short), short, rule)
+
+
+def baselines(results: Results, rule: Results | None = None) -> Figure:
+    """The paper's third training figure (Figure 6): the method against others."""
+    short = {"bc": "BC", "cql": "CQL", "gail": "GAIL", "sac": "SAC", "bootstrapped": "bootstrapped"}
+    return _escapes(results, tuple(short), short, rule)
+
+
+def exploration(results: Results) -> Figure:
+    """The paper's Figure 7: entropy, and e to the power of it, the effective actions (Equations 21 and 22)."""
+    curves = of_methods(results, ("sac", "soft", "demos", "bootstrapped"))
+    for its in curves.values():
+        its["effective"] = np.exp(its["entropy"].astype(np.float64))
+    last = {method: its["effective"][:, -max(1, its["effective"].shape[1] // 10) :] for method, its in curves.items()}
+    title = (
+        f"In the last tenth of training plain SAC has {last['sac'].mean():.2f} effective actions on average, "
+        f"bootstrapped SAC {last['bootstrapped'].mean():.2f}"
+    )
+    return training_curves(curves, title, measures=("entropy", "effective"))
+
+
+def final_scores(results: Results, methods: Sequence[str], column: str = "returns") -> Figure:
+    """Each agent's score on the held-out episodes, and their interquartile mean with its interval."""
+    methods = [method for method in methods if method in results.methods]
+    height = 1.1 + 0.36 * len(methods)
+    figure = new_figure(height)
+    ax = figure.add_axes((0.27, 0.55 / height, 0.68, 0.9 * 0.36 * len(methods) / height))
+    scale, words, label = 100 if column in RATES else 1, [], (COLUMNS | {"returns": "return"}).get(column, column)
+    middles = {}
+    for row, method in enumerate(methods):
+        scores, its = results.of(method).scores(column) * scale, style(method)
+        middles[method] = middle = interval(scores)
+        ax.plot(scores, np.full(len(scores), row) + np.linspace(-0.3, 0.3, len(scores)), "o", color=its.colour, ms=4)
+        ax.plot([middle.low, middle.high], [row, row], "-", color=its.colour, linewidth=6, alpha=0.3, zorder=1)
+        ax.plot(middle.value, row, "|", color=its.colour, ms=14, mew=2.5)
+        if method in PRINTED and column in COLUMNS:
+            ax.plot(PRINTED[method][column].mean, row, "D", mfc="white", mec=its.colour, ms=5, zorder=4)
+        words.append(f"{display_name(method)} {middle.value:.3g} [{middle.low:.3g}, {middle.high:.3g}]")
+    plain_axes(ax, "", grid="x")
+    ax.set_yticks(range(len(methods)), [display_name(method) for method in methods])
+    ax.set_ylim(len(methods) - 0.5, -0.5)
+    ax.set_xlabel(label, fontsize=SMALL, color=QUIET)
+    ax.spines["bottom"].set_color(GRID)
+    best = max(middles.values(), key=lambda middle: middle.value)
+    ahead = [display_name(m) for m, middle in middles.items() if middle is best or middle.high >= best.low]
+    within = ", as far as the intervals tell" * (len(ahead) > 1)
+    title = f"Highest {label.split(',')[0]}{within}: {', '.join(ahead)}"
+    return finish(figure, title, "Interquartile means over agents with 95 % intervals: " + "; ".join(words) + ".")

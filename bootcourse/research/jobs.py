@@ -1,0 +1,261 @@
+"""A job is a piece of a study that is computed in one go. A finished job is not computed again.
+
+    DIR/unfinished/NAME   while it is computed: `checkpoint.npz`, from which a killed job continues
+    DIR/jobs/NAME         when it is done: `results.npz`, `runs/`, and `job.json` with what was asked for, the
+                          fingerprints of the code that computed it, and the hash of every file
+
+The folder is moved in one step, so every folder in `jobs` is complete.
+"""
+
+import json
+import os
+import shutil
+import tempfile
+import time
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+from msgspec import Meta, Struct, convert
+
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
+from bootcourse.errors import BootcourseError
+from bootcourse.files import decoding, provenance, sha256, write_arrays, write_json
+from bootcourse.learn.settings import Settings, stored_settings
+from bootcourse.learn.training import Result, Training
+from bootcourse.research.fingerprint import behind, fingerprints
+from bootcourse.research.planner import Search, is_staying_optimal, plan_episodes
+from bootcourse.research.teachers import RULE, teacher_named
+from bootcourse.scenario import Scenario
+from bootcourse.storage.checkpoint import DamagedCheckpoint
+from bootcourse.storage.runs import load_checkpoint, save_checkpoint, save_runs
+from bootcourse.storage.sealed import is_file_with, read_sealed, write_sealed
+from bootcourse.storage.work import Checkpoints
+
+FORMAT = "bootcourse job 2"
+FORMER_FORMAT = "bootcourse job 1"  # its job.json has no hash of its own
+FORMER = {"teacher": RULE}  # what a job.json of an earlier version does not say
+CHECKPOINT = "checkpoint.npz"
+HELD_OUT = 1  # the block of held-out roads that every method of every study is tested on
+SECONDS_BETWEEN = 60.0  # of checkpoints
+PARENT = os.getppid()  # read at import: a worker may be busy compiling when the process that started it dies
+
+
+class Provenance(Struct):
+    """The entry of a job's provenance that is a number; the others, the packages' versions, are for people."""
+
+    seconds: Annotated[float, Meta(ge=0)] = 0.0
+
+
+class Made(Struct):
+    """The entries of job.json that are read."""
+
+    asked: dict[str, Any]  # compared with what is asked for, see `finished`
+    sha256: dict[str, str]  # {file: its hash}
+    provenance: Provenance
+    behaviour: dict[str, list[float]] = {}  # {name: fingerprint}; absent in files of earlier versions
+
+
+class Interrupted(Exception):
+    """The study was stopped; the job has written a checkpoint."""
+
+
+class OtherQuestion(BootcourseError):
+    """The folder holds a job of the same name with other settings: it is not damaged and must not be replaced."""
+
+
+@dataclass(frozen=True)
+class Job:
+    """Train some agents side by side and test them on the same held-out episodes."""
+
+    name: str  # its folder, such as "default/bootstrapped-0-4"
+    settings: tuple[Settings, ...]
+    scenario: Scenario
+    episodes: int  # of training
+    tests: int = 1000  # held-out episodes
+    runs: bool = True  # keep each agent's weights too; needs agents that differ in method or seed
+    teacher: str = RULE  # a name of `teachers.TEACHERS`
+
+    def __post_init__(self):
+        teacher_named(self.teacher)
+
+    @property
+    def behaviours(self) -> tuple[str, ...]:
+        return behind(self.settings, self.scenario, self.teacher)
+
+    def compute(self, folder: Path) -> float:
+        """Train, or continue a training, and test. Returns the seconds of earlier attempts. Raises Interrupted."""
+        training, checkpoint = self._training(folder), folder / CHECKPOINT
+        earlier = training.seconds
+        result = training.run(progress=False, callback=Checkpoints(checkpoint, SECONDS_BETWEEN), stop=_orphaned)
+        if result.interrupted:
+            save_checkpoint(training, checkpoint)
+            raise Interrupted(self.name)
+        write_arrays(folder / "results.npz", self._tested(result))
+        if self.runs:
+            shutil.rmtree(folder / "runs", ignore_errors=True)  # left by an attempt that was killed while it wrote
+            save_runs(result, folder / "runs")
+        return earlier
+
+    def _training(self, folder: Path) -> Training:
+        teacher = teacher_named(self.teacher)
+        if not (folder / CHECKPOINT).exists():
+            return Training(self.settings, self.episodes, self.scenario, teacher)
+        training = load_checkpoint(folder / CHECKPOINT, teacher)
+        wanted = ([*self.settings], self.episodes, self.scenario)
+        if (training.settings, training.episodes, training.scenario) != wanted:
+            raise OtherQuestion(f"{folder} was begun with other settings: choose another folder, or delete this one.")
+        return training
+
+    def _tested(self, result: Result) -> dict[str, np.ndarray]:
+        seeds = held_out_seeds(HELD_OUT, self.tests)
+        episodes = [drive_episodes(agent.as_policy(), seeds, self.scenario) for agent in result.agents]
+        tested = {name: np.stack([getattr(each, name) for each in episodes]) for name in vars(episodes[0])}
+        return {
+            "agents": np.array(json.dumps([asdict(a.settings) | {"teacher": self.teacher} for a in result.agents])),
+            "stopped": np.array([getattr(result, "stopped", {}).get(i, -1) for i in range(len(result.agents))]),
+            **{f"tested.{name}": _small(values) for name, values in tested.items()},
+            **{f"curves.{name}": values.astype(np.float32) for name, values in result.curves.items()},
+        }
+
+
+@dataclass(frozen=True)
+class BoundJob:
+    """Search for the best return on some of the held-out roads."""
+
+    name: str
+    scenario: Scenario
+    first: int  # held-out episode
+    episodes: int
+    search: Search = Search()
+
+    @property
+    def behaviours(self) -> tuple[str, ...]:
+        return (*behind((), self.scenario), "planner")
+
+    def compute(self, folder: Path) -> None:
+        seeds = held_out_seeds(HELD_OUT, self.first + self.episodes)[self.first :]
+        plans = plan_episodes(seeds, self.scenario, self.search)
+        returns, success = np.array([plan.value for plan in plans]), np.array([plan.success for plan in plans])
+        write_arrays(folder / "results.npz", {"first": np.array(self.first), "returns": returns, "success": success})
+
+
+@dataclass(frozen=True)
+class StayingJob:
+    """Ask the planner: at this γ, is staying behind the trap the best that a driver can do?"""
+
+    name: str
+    scenario: Scenario
+    gamma: float = 0.8  # the paper's
+    roads: int = 50  # of the held-out ones
+    beam: int = 200
+
+    @property
+    def behaviours(self) -> tuple[str, ...]:
+        return (*behind((), self.scenario), "rule", "planner")
+
+    def compute(self, folder: Path) -> None:
+        staying = is_staying_optimal(held_out_seeds(HELD_OUT, self.roads), self.scenario, self.gamma, self.beam)
+        write_json(folder / "staying.json", vars(staying))
+
+
+AnyJob = Job | BoundJob | StayingJob
+
+
+def asked(job: AnyJob) -> dict:
+    """All fields that determine the job's result, as JSON reads them back."""
+    return as_read({name: value for name, value in asdict(job).items() if name not in ("name", "runs")})
+
+
+def as_read(value):
+    """A value as JSON reads it back."""
+    return json.loads(json.dumps(value))
+
+
+def _small(values: np.ndarray) -> np.ndarray:
+    return values.astype(np.float32) if values.dtype == np.float64 else values.astype(np.int8)
+
+
+def _orphaned() -> bool:
+    """Has the process that started this one ended?"""
+    return os.getppid() != PARENT
+
+
+def finished(job: AnyJob, root: Path) -> bool:
+    """Is it done? Raises BootcourseError if its folder is damaged, OtherQuestion if that holds another job."""
+    folder = root / "jobs" / job.name
+    if not folder.exists():
+        return False
+    made = FORMER | read_job(folder)["asked"]
+    with decoding(folder / "job.json"):  # what later versions added has its default
+        made["settings"] = as_read([asdict(stored_settings(stored)) for stored in made.get("settings", [])])
+        made["scenario"] = as_read(asdict(Scenario.from_json(json.dumps(made["scenario"]))))
+    different = [name for name, value in asked(job).items() if made.get(name) != value]
+    if different:
+        raise OtherQuestion(
+            f"{folder} was computed with other {', '.join(different)}: choose another folder for this study."
+        )
+    return True
+
+
+def read_job(folder: Path) -> dict:
+    """The `job.json` of a finished job, after a check of all its files. Raises BootcourseError if one is damaged."""
+    made = read_sealed(folder / "job.json", FORMAT, FORMER_FORMAT)
+    with decoding(folder / "job.json"):
+        convert(made, Made)
+    damaged = [name for name, digest in made["sha256"].items() if not is_file_with(folder / name, digest)]
+    if damaged:
+        raise BootcourseError(f"{folder} is damaged ({', '.join(damaged)}).")
+    return made
+
+
+def run_job(job: AnyJob, root: Path, recompute: bool = False) -> str:
+    """Compute a job and move it to `jobs`. Returns "", or a sentence that says what went wrong.
+
+    recompute: begin again, with the old files moved aside, if it was begun and its checkpoint is damaged.
+    """
+    try:
+        if not (root / "study.json").exists():  # on a machine of a cluster that has another disk
+            return f"{root} is not there for the process that should compute {job.name}: use a folder that all share."
+        _run(job, root, recompute)
+    except (BootcourseError, OSError) as error:
+        return f"{job.name}: {error}"
+    except (Interrupted, KeyboardInterrupt):
+        return f"{job.name}: interrupted"
+    return ""
+
+
+def _run(job: AnyJob, root: Path, recompute: bool) -> None:
+    final, folder = root / "jobs" / job.name, root / "unfinished" / job.name
+    if final.exists():  # another process was faster: a cluster may start a job twice
+        return
+    folder.mkdir(parents=True, exist_ok=True)
+    started = time.perf_counter()
+    try:
+        earlier = job.compute(folder)
+    except DamagedCheckpoint as error:
+        if not recompute:
+            raise BootcourseError(f"{error} Add --recompute to begin this job again.") from None
+        os.rename(folder, aside(root, job.name))
+        folder.mkdir()
+        earlier = job.compute(folder)
+    seconds = (earlier or 0.0) + time.perf_counter() - started
+    (folder / CHECKPOINT).unlink(missing_ok=True)
+    files = [path for path in sorted(folder.rglob("*")) if path.is_file() and path.name != "job.json"]
+    made = {
+        "format": FORMAT,
+        "asked": asked(job),
+        "sha256": {path.relative_to(folder).as_posix(): sha256(path) for path in files},
+        "behaviour": fingerprints(*job.behaviours),
+        "provenance": provenance(seconds=round(seconds, 1)),
+    }
+    write_sealed(folder / "job.json", made)
+    final.parent.mkdir(parents=True, exist_ok=True)
+    os.rename(folder, final)
+
+
+def aside(root: Path, name: str) -> Path:
+    """A free place in `damaged` for the files of a job."""
+    (root / "damaged").mkdir(parents=True, exist_ok=True)
+    return Path(tempfile.mkdtemp(dir=root / "damaged", prefix=f"{name.replace('/', '-')}-")) / "job"

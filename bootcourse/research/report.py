@@ -1,0 +1,219 @@
+"""The study's report: one Markdown file with its tables, figures and verdicts, made from what is on disk."""
+
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
+from bootcourse.errors import BootcourseError
+from bootcourse.files import write_bytes
+from bootcourse.methods import display_name
+from bootcourse.plots.figure import save
+from bootcourse.policies import rule_policy
+from bootcourse.research import clocks, tables, teacher_worth
+from bootcourse.research import figures as training_figures
+from bootcourse.research.beyond import WINDOW, budget_rows, entries, learner_rows
+from bootcourse.research.fidelity import CLOSE, VERDICTS, fidelity
+from bootcourse.research.frontier import safe_and_fast
+from bootcourse.research.jobs import HELD_OUT
+from bootcourse.research.paper import COLUMNS, PRINTED, ROWS, TABLES, arithmetic
+from bootcourse.research.plan import STUDIES
+from bootcourse.research.results import Results, StudyResults, join
+from bootcourse.scenario import Scenario
+from bootcourse.statistics import Estimate, mean
+
+FIGURES = {  # name: (function, the methods that it needs)
+    "margin-against-bonus": (training_figures.margin_against_bonus, ("margin", "demos")),
+    "ablation": (training_figures.ablation, ("sac", "soft", "demos", "bootstrapped")),
+    "baselines": (training_figures.baselines, ("bc", "cql", "gail", "sac", "bootstrapped")),
+}
+
+
+def rule_results(scenario: Scenario, tests: int) -> Results:
+    """The rule controller on the held-out episodes, as one agent without a history."""
+    episodes = drive_episodes(rule_policy(scenario), held_out_seeds(HELD_OUT, tests), scenario)
+    tested = {name: values[None] for name, values in vars(episodes).items()}
+    return Results([{"method": "rule", "seed": 0}], np.array([-1]), tested, {})
+
+
+def write_report(found: StudyResults, folder: Path) -> Path:
+    """Write folder/report.md and its pictures, folder/figures. Raises BootcourseError if nothing was found."""
+    if not found.results:
+        raise BootcourseError("No job of this study is finished: run `bootcourse study --out DIR` first.")
+    text, findings = [HEAD], {}
+    for name, results in found.results.items():
+        rule = rule_results(STUDIES[name].scenario, results.sizes[0])
+        everyone = join([Results(results.agents, results.stopped, results.tested, {}), rule])
+        findings[name] = fidelity(everyone)
+        text += [f"## Study: {name}\n", *study_part(found, name, rule, everyone, folder)]
+    text += ["## Fidelity: every number of the paper's two tables\n", FIDELITY.format(close=close()), counted(findings)]
+    text += [tables.fidelity_table(findings), "### What each row's own numbers say\n"]
+    text += ["\n".join(f"- **{ROWS[method]}.** {arithmetic(method)}" for method in PRINTED) + "\n"]
+    text += [*experiments_part(found.experiments), *budget_part(found), *safe_part(found, folder)]
+    path = folder / "report.md"
+    write_bytes(path, "\n".join(text).encode())
+    return path
+
+
+def study_part(found: StudyResults, name: str, rule: Results, everyone: Results, folder: Path) -> list[str]:
+    results, text, best = found.results[name], [], found.bound.get(STUDIES[name].scenario.name)
+    for title, methods in TABLES.items():
+        text += [f"### {title}\n", tables.result_table(everyone, methods)]
+    others = [method for method in results.methods if not any(method in methods for methods in TABLES.values())]
+    if others:
+        text += ["### Not in the paper's tables\n", tables.result_table(everyone, others)]
+    text += ["### Who escapes\n", tables.escape_table(everyone, best)]
+    if best is not None:
+        text += [f"Best known return of the planner: {tables.bracketed(mean(best))}, {len(best)} episodes.\n"]
+    text += staying(found.staying.get(name))
+    if "bootstrapped" in results.methods and len(results.methods) > 1:
+        text += ["### Probability of improvement\n", tables.markdown(*tables.improvement_rows(everyone))]
+    text += ["### Training\n", *pictures(folder, name, results, rule)]
+    return text + [stopped(results)]
+
+
+def pictures(folder: Path, name: str, results: Results, rule: Results) -> list[str]:
+    """Draw the figures whose methods are there; returns the Markdown that shows them."""
+    there = set(results.methods)
+    figures = {title: draw(results, rule) for title, (draw, needed) in FIGURES.items() if set(needed) <= there}
+    if {"sac", "bootstrapped"} <= there:
+        figures["exploration"] = training_figures.exploration(results)
+    for column in ("returns", "success"):
+        figures[column] = training_figures.final_scores(results, results.methods, column)
+    for title, figure in figures.items():
+        save(figure, folder / "figures" / f"{name}-{title}.png")
+    return [f"![{figure.alt}](figures/{name}-{title}.png)\n" for title, figure in figures.items()]
+
+
+def staying(answer: dict | None) -> list[str]:
+    """Is staying in the trap optimal at the paper's γ, as far as the planner can tell?"""
+    if answer is None:
+        return []
+    worth = {key: Estimate(*value) for key, value in answer.items() if key != "gamma"}
+    names = {
+        "idle": "doing nothing",
+        "keep_lane": "the best drive found that keeps its lane",
+        "rule": "the rule",
+        "best": "the best drive found",
+        "gain": "what leaving the lane gains",
+    }
+    rows = [[words, tables.bracketed(worth[key])] for key, words in names.items()]
+    pays = "it pays to leave" if worth["gain"].low > 0 else "no drive was found that makes leaving pay"
+    ahead = f"{100 * worth['leaves'].value:.0f} % of the best drives found end ahead of trap 1"
+    text = f"Discounted with γ = 0.8, from the start: {pays}; {ahead}.\n"
+    table = tables.markdown(["driver", "Σ γ^t r_t [95 %]"], rows)
+    return ["### Is staying in the trap optimal at γ = 0.8?\n", text, table]
+
+
+def stopped(results: Results) -> str:
+    agents = [(results.agents[i], decision) for i, decision in enumerate(results.stopped) if decision >= 0]
+    if not agents:
+        return "No agent had to be stopped.\n"
+    named = "; ".join(f"{agent['method']}, seed {agent['seed']}, at decision {decision}" for agent, decision in agents)
+    return f"Stopped because their loss was not a number, and tested with the weights from before: {named}.\n"
+
+
+def experiments_part(experiments: dict[str, dict[str, Results]]) -> list[str]:
+    """The tables of what was varied."""
+    text = []
+    if varied := experiments.get("sensitivity"):
+        seeds = len(next(iter(varied.values())).of("sac"))
+        text += ["## Sensitivity\n", f"{seeds} seeds each: mean (lowest to highest seed). Too few for intervals.\n"]
+        text += [tables.sensitivity_table(varied, measure) for measure in ("success", "returns", "collision")]
+    if varied := experiments.get("clocks"):
+        text += ["## Two clocks\n", CLOCKS, tables.markdown(*clocks.pattern_rows(varied))]
+    if varied := experiments.get("ablations"):
+        text += ["## One choice of the method changed\n", tables.variations_table(varied)]
+    if varied := experiments.get("longer-view"):
+        text += ["## A longer view\n", LONGER_VIEW, tables.markdown(*learner_rows(varied))]
+    if varied := experiments.get("beyond"):
+        named = {display_name(its.methods[0]): its for its in varied.values()}
+        text += ["## Other learners with a teacher\n", tables.markdown(*learner_rows(named))]
+    if varied := experiments.get("teachers"):
+        worth = tables.markdown(*teacher_worth.worth_rows(teacher_worth.cells(varied)))
+        text += ["## What a teacher is worth\n", TEACHERS, worth]
+    return text
+
+
+def budget_part(found: StudyResults) -> list[str]:
+    """Every method at the same decisions and at the same seconds, and the planner's bound if it was computed."""
+    headings, rows = budget_rows(entries(found))
+    if not rows:
+        return []
+    bound = found.bound.get("default")
+    best = [] if bound is None else [f"The planner's bound: {tables.bracketed(mean(bound))}.\n"]
+    return ["## All methods at an equal budget\n", tables.markdown(headings, rows), *best, BUDGET]
+
+
+def safe_part(found: StudyResults, folder: Path) -> list[str]:
+    """The experiment on safety: its figure and its table, if it and the planner's bound were computed."""
+    varied, bound = found.experiments.get("safe"), found.bound.get("default")
+    if not varied or bound is None:
+        return []
+    if plain := found.experiments.get("beyond", {}).get("ppo_cloned"):
+        varied = {"nothing more": plain} | varied
+    figure = safe_and_fast(varied, float(np.mean(bound)))
+    save(figure, folder / "figures" / "safe.png")
+    shown = f"![{figure.alt}](figures/safe.png)\n"
+    return ["## Fast and safe\n", SAFE, shown, tables.markdown(*learner_rows(varied))]
+
+
+def close() -> str:
+    return ", ".join(f"{COLUMNS[column].split(',')[0]} within {within:g}" for column, within in CLOSE.items())
+
+
+def counted(findings: dict) -> str:
+    lines = []
+    for scenario, its in findings.items():
+        count = Counter(finding.verdict for finding in its)
+        lines.append(f"- {scenario}: " + ", ".join(f"{count[verdict]} {verdict}" for verdict in VERDICTS) + ".")
+    return "\n".join(lines) + "\n"
+
+
+HEAD = """# The study
+
+Every agent is the one at the end of its training, never a chosen checkpoint, and drives by its most
+probable action. All methods are tested on the same held-out roads. IQM: interquartile mean over
+training seeds, with a 95 % interval from resampling seeds. SD: over all episodes of all agents.
+Success is to be ahead of trap 1 at the end; a crash after overtaking counts as success, as in the paper.
+"""
+
+FIDELITY = """The paper's intervals assume 20 test episodes, the number that its "5 ± 22.36 %" gives away.
+An agent of ours scores "so" if it lies in the paper's interval, or close to its value ({close}).
+*Reproduced*: at least half of our agents score so. *Partly*: fewer do, or none does but the intervals meet. *Not
+reproduced*: neither. The rules were fixed before the study was run.
+"""
+
+CLOCKS = """ξ = 200 α fades with the updates, β with the episodes. The paper does not print how many updates follow a
+decision; its text says that π̃ drove the demonstrations. Each row is one choice of both, with one road per agent (four
+where a decision has 1/4 of an update). The last column is the probability that a table with *one* trained agent per
+method and 20 test episodes each reads as the paper's: successes 0, 0, 20 and 20. Its interval is over training seeds
+(Jeffreys).
+"""
+
+TEACHERS = """Teachers from bad to perfect, and methods that learn from them. Return: interquartile mean over agents,
+accidents: mean, decisions: median, each with its 95 % interval over training seeds. In brackets behind the decisions:
+how many agents reached it in their training.
+"""
+
+SAFE = """PPO after cloning, with one or two things more against accidents. The shield is written by hand and knows what
+no learner is told; everything else is learned from the agents' own accidents. Restarts: some training episodes begin
+shortly before an accident, fewer and fewer of them.
+"""
+
+BUDGET = f"""These are training returns, with drawn actions: the mean of an agent's last {WINDOW} episodes that ended
+within the budget, then the interquartile mean over agents with its 95 % interval. The returns of the other tables are
+those of most probable actions after the whole training. –: the training ended before, or no file tells its seconds.
+"9 of 10": the training of one agent ended before. It has a fixed number of episodes and is short where an agent crashes
+early, so the mean of the others can be too high. Decisions of the teacher in demonstrations are not counted, and
+neither are those of episodes that had not ended: of PPO, which drives 512 roads at once, up to 76,800, and the first to
+end are those with an early accident. The teacher drives the beginning of jump-start RL's training episodes.
+
+Seconds are counted as if every decision of a training took equally long. They are wall time of training and test, on a
+machine with other work, which makes them up to twice as long: small differences in these columns mean nothing.
+"""
+
+LONGER_VIEW = """The paper's method with two updates per decision, a bonus of 0.5 instead of 2, batches of 128 instead
+of 64, and a γ of 0.95 instead of 0.8.
+"""

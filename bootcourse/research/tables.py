@@ -1,0 +1,139 @@
+"""The study's tables, as Markdown: one function each."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from bootcourse.methods import display_name
+from bootcourse.research.fidelity import FidelityRow, estimate
+from bootcourse.research.paper import COLUMNS, PRINTED, RATES, ROWS
+from bootcourse.research.results import MEASURES, Results
+from bootcourse.statistics import ESCAPES, Estimate, improvement, interval, iqm, rate
+
+HEADINGS = COLUMNS | {"road_departure": "road departures, %", "stoppage": "stops, %"}
+
+
+def markdown(headings: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    lines = [headings, ["---"] * len(headings), *rows]
+    return "\n".join("| " + " | ".join(str(cell).replace("|", "\\|") for cell in line) + " |" for line in lines) + "\n"
+
+
+def number(value: float) -> str:
+    """Two decimals, fewer for large numbers, without an exponent."""
+    if np.isnan(value):
+        return "?"
+    return f"{value:.0f}" if abs(value) >= 1000 else f"{value:.1f}" if abs(value) >= 100 else f"{value:.2f}"
+
+
+def bracketed(estimate: Estimate, scale: float = 1) -> str:
+    """ "62 [39, 83]": with the decimals that the interval's length leaves meaningful; one seed has no interval."""
+    value, low, high = (scale * part for part in estimate)
+    if np.isnan(low):
+        return number(value)
+    decimals = 0 if high - low >= 10 else 1 if high - low >= 1 else 2
+    return f"{value:.{decimals}f} [{low:.{decimals}f}, {high:.{decimals}f}]"
+
+
+def k_of_n(hits: np.ndarray) -> str:
+    """ "1 of 10 (0 to 45 %)": how many, and the exact 95 % interval of the rate; one has none. hits (n,) bool."""
+    its, counted = rate(hits), f"{int(np.sum(hits))} of {len(hits)}"
+    return counted if len(hits) < 2 else f"{counted} ({100 * its.low:.0f} to {100 * its.high:.0f}\u00a0%)"
+
+
+def escaped(results: Results, method: str) -> str:
+    """ "7 of 10": how many agents of a method escape."""
+    return f"{results.escapers(method)} of {len(results.of(method))}"
+
+
+def score(results: Results, method: str, measure: str) -> Estimate:
+    """Interquartile mean over agents with its interval; of a driver that is not trained, the mean of its episodes."""
+    return estimate(results, method, measure, iqm)
+
+
+def result_table(results: Results, methods: Sequence[str]) -> str:
+    """A result table of the paper: its row above ours. Means with deviations as it prints them, then intervals."""
+    rows = []
+    for method in methods:
+        printed = PRINTED.get(method)
+        if printed:
+            cells = [f"{printed[column].mean:g} ± {printed[column].sd:g}" for column in COLUMNS]
+            rows.append([f"**{ROWS[method]}**", "paper: mean ± SD", *cells, "", ""])
+        if method not in results.methods:
+            rows.append(["", "ours", *["not run"] * len(MEASURES)])
+            continue
+        mine, agents = results.of(method), len(results.of(method))
+        scale = {measure: 100 if measure in RATES else 1 for measure in MEASURES}
+        spread = [(mine.episodes(m).mean() * scale[m], mine.episodes(m).std(ddof=1) * scale[m]) for m in MEASURES]
+        label = "" if printed else f"**{display_name(method)}**"
+        rows.append([label, "ours: mean ± SD", *(f"{number(a)} ± {number(b)}" for a, b in spread)])
+        kind = f"ours: IQM over {agents} agents [95 %]" if agents > 1 else "ours: mean [95 %]"
+        rows.append(["", kind, *(bracketed(score(results, method, measure)) for measure in MEASURES)])
+    return markdown(["", "", *(HEADINGS[measure] for measure in MEASURES)], rows)
+
+
+def escape_table(results: Results, bound: np.ndarray | None = None) -> str:
+    """How many agents escape, and what share of the best known return each method reaches."""
+    rows = []
+    for method in results.methods:
+        mine = results.of(method)
+        success = mine.scores("success")
+        cells = [display_name(method), k_of_n(success >= ESCAPES)]
+        returns = mine.scores("returns")
+        cells.append(f"{number(returns.min())} to {number(returns.max())}")
+        if bound is not None:
+            cells.append(bracketed(interval(returns / bound.mean()), 100))
+        rows.append(cells)
+    headings = ["method", "agents that escape (95 % interval of the rate)", "returns of single agents"]
+    return markdown([*headings, *(["share of the best known return, % (IQM)"] if bound is not None else [])], rows)
+
+
+def improvement_rows(results: Results, method: str = "bootstrapped", measure: str = "returns") -> tuple[list, list]:
+    """How often a random agent of a method scores above a random agent of each other: (headings, rows)."""
+    mine = results.of(method).scores(measure)
+    rows = []
+    for other in results.methods:
+        if other != method and len(results.of(other)) > 1:
+            rows.append([display_name(other), bracketed(improvement(mine, results.of(other).scores(measure)), 100)])
+    return [f"P({display_name(method)} > ...) on {HEADINGS[measure]}", "% [95 %]"], rows
+
+
+def fidelity_table(findings: dict[str, list[FidelityRow]]) -> str:
+    """Every number of the paper's tables, beside each scenario's: {scenario: findings}."""
+    rows = []
+    scenarios = list(findings)
+    for alike in zip(*findings.values(), strict=True):
+        first = alike[0]
+        cells = [ROWS[first.method], COLUMNS[first.column], bracketed(first.paper)]
+        for finding in alike:
+            cells.append("not run" if finding.ours is None else bracketed(finding.ours))
+            cells.append(f"**{finding.verdict}** {finding.reason}")
+        rows.append(cells)
+    headings = ["row", "number", "paper [95 % of 20 episodes]"]
+    for scenario in scenarios:
+        headings += [f"ours, {scenario}", f"verdict, {scenario}"]
+    return markdown(headings, rows)
+
+
+def sensitivity_table(results: dict[str, Results], measure: str) -> str:
+    """One row for each variation, one column for each method: mean over seeds, lowest to highest seed."""
+    methods = next(iter(results.values())).methods
+    scale = 100 if measure in RATES else 1
+    rows = []
+    for variation, found in results.items():
+        cells = []
+        for method in methods:
+            scores = found.of(method).scores(measure) * scale
+            cells.append(f"{number(scores.mean())} ({number(scores.min())} to {number(scores.max())})")
+        rows.append([variation, *cells])
+    return markdown([HEADINGS[measure], *(display_name(method) for method in methods)], rows)
+
+
+def variations_table(varied: dict[str, Results]) -> str:
+    """Who escapes and what they earn, a row for each variation and method."""
+    rows = []
+    for variation, found in varied.items():
+        for method in found.methods:
+            cells = [bracketed(score(found, method, measure)) for measure in ("success", "returns", "collision")]
+            rows.append([variation, display_name(method), escaped(found, method), *cells])
+    headings = ["changed", "method", "agents that escape"]
+    return markdown([*headings, *(HEADINGS[m] for m in ("success", "returns", "collision"))], rows)

@@ -1,0 +1,104 @@
+"""What is a teacher worth? The experiment `teachers`: each teacher with each method that it taught, as numbers.
+
+    bootcourse study teachers --out DIR
+
+`cells` holds the agents, `QUANTITIES` what can be said of them, each agent's number and their estimate.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from bootcourse.errors import BootcourseError
+from bootcourse.methods import display_name
+from bootcourse.research.beyond import SHARE, WINDOW, spent
+from bootcourse.research.plan import TAUGHT
+from bootcourse.research.results import Results, experiment
+from bootcourse.research.tables import bracketed, k_of_n
+from bootcourse.research.teachers import TEACHERS
+from bootcourse.statistics import ESCAPES, Estimate, escapes, interval, median
+
+Cells = dict[tuple[str, str], Results]  # {(teacher, method): its agents}
+
+
+def cells(varied: dict[str, Results]) -> Cells:
+    """The variations that were computed, by (teacher, method), in the orders of `TEACHERS` and `TAUGHT`."""
+    found = {(agents.agents[0]["teacher"], agents.agents[0]["method"]): agents for agents in varied.values()}
+    return {(t, m): found[t, m] for t in TEACHERS for m in TAUGHT if (t, m) in found}
+
+
+def taught(study: Path | str = "") -> Cells:
+    """The cells in the folder of a study; by default those that ship. Raises BootcourseError if there are none."""
+    found = cells(experiment("teachers", study))
+    if not found:
+        where = study or "This copy of the course"
+        raise BootcourseError(
+            f"{where} holds no results of the experiment teachers yet: "
+            f"run `bootcourse study teachers --out {study or 'DIR'}`{'' if study else ', then give study=DIR'}."
+        )
+    return found
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A number of each agent, and the estimate of it for a cell, both in the label's unit."""
+
+    label: str
+    of_agents: Callable[[Results], np.ndarray]  # -> (agents,)
+    estimate: Callable[[np.ndarray], Estimate]  # (agents,) -> with its 95 % interval over seeds
+    colours: tuple[str, str]  # of the lowest and of the highest value
+    logarithmic: bool = False  # scale of figures
+
+
+QUANTITIES = {
+    "escape": Quantity(
+        "agents that escape (%)",
+        lambda results: 100 * results.scores("success"),
+        lambda success: Estimate(*(100 * part for part in escapes(success / 100))),
+        ("#EAF2F8", "#08447A"),
+    ),
+    "return": Quantity("return", lambda results: results.scores("returns"), interval, ("#EFF5EC", "#15532D")),
+    "accidents": Quantity(
+        "accidents (% of drives)",
+        lambda results: 100 * results.scores("accident"),
+        lambda rates: interval(rates, np.mean),
+        ("#FBF1EE", "#7A1F1F"),
+    ),
+    "decisions": Quantity(
+        f"thousand decisions until {100 * SHARE:g} % of the last {WINDOW} roads in training escape",
+        lambda results: spent(results) / 1000,
+        median,
+        ("#F6F1FA", "#4A2A6B"),
+        logarithmic=True,
+    ),
+}
+
+
+def in_words(estimate: Estimate) -> tuple[str, str]:
+    """("80", "[44, 97]"): a cell's value and interval; "not reached" where it is infinite, "" where there is none."""
+    if np.isinf(estimate.value):
+        return "not reached", "" if np.isnan(estimate.low) or np.isinf(estimate.low) else f"[{estimate.low:.0f}, –]"
+    if np.isinf(estimate.high):
+        return f"{estimate.value:.0f}", f"[{estimate.low:.0f}, –]"
+    value, _, low_high = bracketed(estimate).partition(" ")
+    return value, low_high
+
+
+def reached(results: Results) -> str:
+    """ "7 of 10": how many agents escaped on 95 % of the last roads at some time of their training."""
+    return f"{int(np.isfinite(spent(results)).sum())} of {len(results)}"
+
+
+def worth_rows(found: Cells) -> tuple[list[str], list[list[str]]]:
+    """(headings, rows): each cell's numbers, with 95 % intervals over seeds."""
+    rows = []
+    for (teacher, method), results in found.items():
+        of = {name: its.estimate(its.of_agents(results)) for name, its in QUANTITIES.items()}
+        until = " ".join(in_words(of["decisions"])).strip()
+        numbers = [bracketed(of["return"]), bracketed(of["accidents"]), f"{until} ({reached(results)})"]
+        escaping = k_of_n(results.scores("success") >= ESCAPES)
+        rows.append([TEACHERS[teacher].words, display_name(method), escaping, *numbers])
+    labels = [QUANTITIES[name].label for name in ("return", "accidents", "decisions")]
+    return ["teacher", "method", "agents that escape", *labels], rows

@@ -1,0 +1,154 @@
+"""Answers to the exercises of the lesson on demonstrations and behaviour cloning."""
+
+import numpy as np
+import torch
+
+from bootcourse.course.lessons.demonstrations import cloning
+from bootcourse.course.lessons.demonstrations.cloning import ACTION, RULE_ACTION
+from tests.answers import equivalent, right, right_lines, wrong, wrong_lines
+
+PICKED = "log_pi.gather(-1, expert_actions.unsqueeze(-1)).squeeze(-1)"
+equivalent("cloning_loss", f"{PICKED}.mean(-1)  ->  {PICKED}.mean(0)", "the batch is the only axis left")
+equivalent(
+    "return_to_go", "togo = np.array(rewards, dtype=float)  ->  togo = np.array(rewards)", "the rewards are floats"
+)
+
+
+def rows(observations, actions, rewards, terminated):
+    return np.concatenate([observations[:-1], observations[1:], np.stack([actions, rewards, terminated], 1)], axis=1)
+
+
+right_lines("""transitions
+    by comparison: ended = (np.arange(len(actions)) == len(actions) - 1) & (accident != 0)
+        rows(observations, actions, rewards, ended)
+    row by row: found = []
+        for t in range(len(actions)):
+            ended = 1.0 if accident and t == len(actions) - 1 else 0.0
+            found.append([*observations[t], *observations[t + 1], actions[t], rewards[t], ended])
+        found
+""")
+
+wrong_lines("""transitions
+    without the end: rows(observations, actions, rewards, [0] * len(actions))[:, :-1]  # shape
+    reward before action: rows(observations, rewards, actions, [0] * (len(actions) - 1) + [accident > 0])
+""")
+
+right_lines("""return_to_go
+    as a table: t = np.arange(len(rewards))
+        later = t[None, :] - t[:, None]
+        np.where(later >= 0, gamma ** np.maximum(later, 0), 0.0) @ rewards
+""")
+
+
+@right("return_to_go")
+def from_the_end(rewards, gamma):
+    total, found = 0.0, []
+    for reward in rewards[::-1]:
+        total = reward + gamma * total
+        found.append(total)
+    return found[::-1]
+
+
+wrong_lines("""return_to_go
+    all that comes: np.array([rewards[t:].sum() for t in range(len(rewards))])  # without a discount
+    by the drive's clock:
+        np.array([sum(gamma**k * rewards[k] for k in range(t, len(rewards))) for t in range(len(rewards))])
+        # clock of its own
+    up to now: np.array([sum(gamma**k * rewards[k] for k in range(t + 1)) for t in range(len(rewards))])  # so far
+    of the first second: from_the_end(rewards, gamma)[:1]  # shape
+    left in reverse: from_the_end(rewards, gamma)[::-1]
+""")
+
+right_lines("""agreement
+    counted: sum(int(np.argmax(row)) == action for row, action in zip(pi, actions, strict=True)) / len(actions)
+    nothing is larger: (pi[np.arange(len(pi)), actions] >= pi.max(axis=1)).mean()
+""")
+
+wrong_lines("""agreement
+    each state: pi.argmax(1) == actions  # NumPy array
+    over the wrong axis: float(np.mean(np.isin(pi.argmax(0), actions)))
+    least probable: np.mean(pi.argmin(axis=1) == actions)
+""")
+
+right_lines("""cloning_loss
+    torch's own: torch.nn.functional.nll_loss(log_pi, expert_actions)
+    by index: -log_pi[torch.arange(len(log_pi)), expert_actions].mean()
+    with one hot: own = torch.nn.functional.one_hot(expert_actions, log_pi.shape[-1]); -(own * log_pi).sum(-1).mean()
+    a row of nine marks: -(torch.nn.functional.one_hot(expert_actions, 9) * log_pi).sum(-1).mean()
+""")
+
+wrong_lines("""cloning_loss
+    as a number: solution(log_pi, expert_actions).item()  # no gradient reaches `log_pi`
+    detached: solution(log_pi.detach(), expert_actions)  # no gradient reaches `log_pi`
+    in numpy: torch.tensor(-np.mean(log_pi.numpy()[np.arange(len(log_pi)), expert_actions]))  # use torch's functions
+    all actions: -log_pi.mean(-1).mean()  # all nine actions
+    one hot mean: own = torch.nn.functional.one_hot(expert_actions, log_pi.shape[-1]); -(own * log_pi).mean()
+    share of errors: (log_pi.argmax(-1) != expert_actions).double().mean()
+""")
+
+
+@right("dagger")
+def with_a_list_of_rows(rows, train, drive, rounds):
+    everything, drivers = [rows], [train(rows)]
+    for number in range(rounds):
+        own = drive(drivers[number])
+        relabelled = torch.cat([own[:, :ACTION], own[:, RULE_ACTION : RULE_ACTION + 1], own[:, ACTION + 1 :]], dim=1)
+        everything.append(relabelled)
+        drivers.append(train(torch.cat(everything)))
+    return drivers
+
+
+@right("dagger")
+def by_recursion(rows, train, drive, rounds):
+    driver = train(rows)
+    if rounds == 0:
+        return [driver]
+    own = drive(driver)
+    own[:, ACTION] = own[:, RULE_ACTION]
+    return [driver, *by_recursion(torch.vstack((rows, own)), train, drive, rounds - 1)]
+
+
+@right("dagger")
+def relabelled_row_by_row(rows, train, drive, rounds):
+    drivers = []
+    for number in range(rounds + 1):
+        drivers.append(train(rows))
+        if number < rounds:
+            for row in drive(drivers[-1]):
+                row = row.clone()
+                row[ACTION] = row[RULE_ACTION]
+                rows = torch.cat([rows, row[None]])
+    return drivers
+
+
+wrong_lines("""dagger
+    one round too many: cloning.dagger(rows, train, drive, rounds + 1)  # one driver too many
+    always three rounds: cloning.dagger(rows, train, drive, 3)
+    with half of the rows: cloning.dagger(rows, train, lambda driver: drive(driver)[::2], rounds)
+    a number of drivers: len(cloning.dagger(rows, train, drive, rounds))
+    the newest alone: cloning.dagger(rows, train, drive, rounds)[-1]  # the last driver alone
+    the rows: rows  # a list of drivers
+    relabelled after the training: drivers = [train(rows)]
+        for _ in range(rounds):
+            own = drive(drivers[-1])
+            rows = torch.cat([own, rows])
+            drivers.append(train(rows))
+        drivers
+    without the rule's own rows: drivers, collected = [train(rows)], rows[:0]
+        for _ in range(rounds):
+            own = drive(drivers[-1])
+            own[:, ACTION] = own[:, RULE_ACTION]
+            collected = torch.cat([collected, own])
+            drivers.append(train(collected))
+        drivers
+""")
+
+
+@wrong("dagger")
+def labels_that_do_not_match_the_state(rows, train, drive, rounds):
+    def backwards(driver):
+        own = drive(driver)
+        own[:, RULE_ACTION] = own[:, RULE_ACTION].flip(0)
+        return own
+
+    return cloning.dagger(rows, train, backwards, rounds)

@@ -1,0 +1,121 @@
+"""Answers to the exercises of the lesson on the barrier."""
+
+import numpy as np
+
+from bootcourse.course.lessons.the_barrier import chain
+from tests.answers import equivalent, right, right_lines, wrong, wrong_lines
+
+right_lines("""share_of_the_future
+    added up: weights = gamma ** np.arange(10_000); weights[seconds:].sum() / weights.sum()
+    less the past: past = (1 - gamma**seconds) / (1 - gamma); (1 / (1 - gamma) - past) * (1 - gamma)
+""")
+
+wrong_lines("""share_of_the_future
+    product: gamma * seconds
+""")
+
+right_lines("""luck
+    binomial: 1 - stats.binom.pmf(0, tries, (good / 9) ** decisions)
+    not all fail: fails = 1.0
+        for _ in range(tries):
+            fails *= 1 - (good / 9) ** decisions
+        1 - fails
+""")
+
+wrong_lines("""luck
+    capped: min(1.0, tries * (good / 9) ** decisions)
+    of eight: 1 - (1 - (good / 8) ** decisions) ** tries
+""")
+
+
+for _start in (-1, 1):
+    _before, _after = (f"(np.zeros((STATES, 2)), {s})" for s in (0, _start))
+    equivalent("learn_chain", f"{_before}  ->  {_after}", "decision 0 begins an episode, and so in state 0")
+equivalent(
+    "learn_chain",
+    "int(q[s].argmax()) if chance < 0 else chance  ->  q[s].argmax() if chance < 0 else chance",
+    "a number of NumPy's is an index, too",
+)
+
+
+right_lines("""learn_chain
+    with lists: q, s = [[0.0, 0.0] for _ in range(5)], 0
+        for t, chance in enumerate(list(chances)):
+            s = 0 if t % 20 == 0 else s
+            a = chance if chance >= 0 else int(q[s][1] > q[s][0])
+            for x, u in ((s, a),) + tuple(taught):
+                q[x][u] = (1 - step) * q[x][u] + step * (chain.REWARD[x, u] + gamma * max(q[chain.NEXT[x, u]]))
+            s = chain.NEXT[s, a]
+        np.array(q)
+""")
+
+
+@right("learn_chain")
+def episode_by_episode(chances, gamma, step, taught):
+    q = np.zeros((5, 2))
+
+    def update(s, a):
+        after = chain.NEXT[s][a]
+        q[s][a] += step * (chain.REWARD[s][a] + gamma * np.max(q[after]) - q[s][a])
+        return after
+
+    for begin in range(0, len(chances), chain.EPISODE):
+        s = 0
+        for chance in chances[begin : begin + chain.EPISODE]:
+            s = update(s, np.argmax(q[s]) if chance == -1 else chance)
+            for each in taught:
+                update(*each)
+    return q
+
+
+@right("learn_chain")
+def with_one_row_of_numbers(chances, gamma, step, taught):
+    q, s = np.zeros(10), 0
+    for t in range(len(chances)):
+        s = 0 if t % 20 == 0 else s
+        a = int(chances[t]) if chances[t] != -1 else int(q[2 * s + 1] > q[2 * s])
+        for x, u in ((s, a), *taught):
+            y = chain.NEXT[x, u]
+            error = chain.REWARD[x, u] + gamma * max(q[2 * y], q[2 * y + 1]) - q[2 * x + u]
+            q[2 * x + u] = q[2 * x + u] + step * error
+        s = chain.NEXT[s, a]
+    return q.reshape(5, 2)
+
+
+def chain_learner(first=0, ties=0, ahead=0, sarsa=False, own=True):
+    """Q-learning in the chain with other slips than the exercise knows."""
+
+    def answer(chances, gamma, step, taught):
+        q, s = np.zeros((5, 2)), 0
+        for t, chance in enumerate(chances):
+            s = 0 if t % 20 == first else s
+            greedy = int(q[s, 1] > q[s, 0]) if not ties else int(q[s, 1] >= q[s, 0])
+            a = greedy if chance < 0 else chance
+            for x, u in [(s, a)] * own + list(taught):
+                y = chain.NEXT[x, u] if not ahead else x
+                best = q[y, u] if sarsa else q[y].max()
+                q[x, u] += step * (chain.REWARD[x, u] + gamma * best - q[x, u])
+            s = chain.NEXT[s, a]
+        return q
+
+    return answer
+
+
+for _slip in ({"first": 19}, {"ties": 1}, {"ahead": 1}, {"sarsa": True}, {"own": False}):
+    wrong("learn_chain")(chain_learner(**_slip))
+
+
+wrong_lines("""learn_chain
+    with a step of a half: chain.learn_chain(chances, gamma, 0.5, taught)
+    with the paper's discount: chain.learn_chain(chances, 0.8, step, taught)
+    the values of the states: chain.learn_chain(chances, gamma, step, taught).max(axis=1)
+""")
+
+right_lines("""lowest_rate
+    scipy's: stats.binomtest(agents, agents).proportion_ci(0.95, method="exact").low
+    with logarithms: np.exp(np.log(0.025) / agents)
+""")
+
+wrong_lines("""lowest_rate
+    bayes: (agents + 1) / (agents + 2)
+""")
