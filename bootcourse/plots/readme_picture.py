@@ -1,6 +1,8 @@
 """The picture of the README: two drives on the same road, one that stays in the trap and one that leaves it.
 
-    python -m bootcourse.plots.readme_picture        # writes trap.gif and trap.png into assets/readme
+    python -m bootcourse.plots.readme_picture
+
+It writes trap.gif and trap.png into assets/readme.
 """
 
 from pathlib import Path
