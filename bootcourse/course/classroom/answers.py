@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterable
 
 from bootcourse.course.lessons import registry
-from bootcourse.course.order import names_made, names_used
+from bootcourse.course.names import names_made, names_used
 
 BUILT_IN = frozenset(vars(builtins))
 COMMAND = re.compile(r"^\s*[%!].*$", re.M)  # %time, !pip: no Python
