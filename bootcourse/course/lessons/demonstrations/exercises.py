@@ -3,7 +3,7 @@
 import numpy as np
 import torch
 
-from bootcourse.course.exercise import Exercise, Mistake, refuse
+from bootcourse.course.exercise import Exercise, Mistake, logits, refuse
 from bootcourse.course.lessons.demonstrations import cloning
 from bootcourse.learn import bc
 
@@ -180,7 +180,7 @@ def chosen(log_pi, actions):
 
 
 cloning_loss = Exercise(
-    "cloning_loss(log_pi, expert_actions)", solution=bc.cloning_loss, cases=cloning_cases, slopes=("log_pi",),
+    "cloning_loss(log_pi, expert_actions)", solution=bc.cloning_loss, cases=cloning_cases, slopes=(logits("log_pi"),),
     worked=(
         ((torch.tensor([[0.5] + [0.0625] * 8, [0.2] + [0.1] * 8]).log(), torch.tensor([0, 1])),
          torch.tensor((np.log(2) + np.log(10)) / 2)),

@@ -4,7 +4,7 @@ import math
 
 import torch
 
-from bootcourse.course.exercise import Exercise, Mistake
+from bootcourse.course.exercise import Exercise, Mistake, logits
 from bootcourse.learn import bootstrap
 
 
@@ -92,7 +92,7 @@ def cases(rng):
 
 
 soft_constraint = Exercise(
-    "soft_constraint(log_pi, rule_action, p)", solution=solution, cases=cases, slopes=("log_pi",),
+    "soft_constraint(log_pi, rule_action, p)", solution=solution, cases=cases, slopes=(logits("log_pi"),),
     worked=(
         ((sure(5), torch.tensor([3]), 0.9), torch.tensor([math.log(80)])),  # log 1 / (0.1 / 8): 4.4 nats
         ((sure(3), torch.tensor([3]), 0.9), torch.tensor([-math.log(0.9)])),  # in agreement: log 1 / 0.9
@@ -207,7 +207,7 @@ def loss_cases(rng):
 
 constrained_loss = Exercise(
     "constrained_loss(log_pi, q, alpha, xi, kl)",
-    solution=constrained_loss_solution, cases=loss_cases, slopes=("log_pi", "q", "kl"),
+    solution=constrained_loss_solution, cases=loss_cases, slopes=(logits("log_pi"), "q", "kl"),
     worked=(
         # two actions, half and half: V = (1 + 3)/2 + 0.5 log 2 - 2 · 0.25
         ((torch.full((1, 2), -math.log(2)), torch.tensor([[1.0, 3.0]]), 0.5, 2.0, torch.tensor([0.25])),
