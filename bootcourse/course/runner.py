@@ -217,6 +217,8 @@ def serve(connection) -> None:
         os.dup2(nowhere, descriptor)  # compiled code, too, prints nowhere
     if FORKS:
         os.setsid()  # the notebook's stop button does not reach it
+        os.closerange(3, connection.fileno())
+        os.closerange(connection.fileno() + 1, 1024)  # what belongs to `multiprocessing`
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
     torch.set_num_threads(1)
     with contextlib.suppress(EOFError):  # nobody needs it any more
