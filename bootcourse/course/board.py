@@ -41,7 +41,6 @@ from bootcourse.research.beyond import (
     within,
 )
 from bootcourse.research.jobs import HELD_OUT
-from bootcourse.research.ppo_reference import KINDS, reference
 from bootcourse.research.results import Results, StudyResults, in_assets
 from bootcourse.research.tables import score
 from bootcourse.scenario import DEFAULT, Scenario
@@ -158,7 +157,7 @@ def shipped_rows() -> tuple[Row, ...]:
     drivers = {"rule": rule_policy(DEFAULT), "idle": idle_policy, "random": random_policy(np.random.default_rng(0))}
     rows = [row_of(driven(name, [policy]), name, "not trained") for name, policy in drivers.items()]
     rows.append(Row(DRIVERS["planner"][0], "best drives found", 1, mean(found.bound[DEFAULT.name])))
-    return *rows, *study_rows(found), *second_trap_rows()
+    return *rows, *study_rows(found)
 
 
 def study_rows(found: StudyResults) -> list[Row]:
@@ -216,18 +215,6 @@ def decisions_of(curves: dict[str, np.ndarray]) -> np.ndarray:
 def known(values: Sequence[float] | np.ndarray) -> float | None:
     """The mean, None if a value is not known."""
     return float(np.mean(values)) if np.isfinite(values).all() else None
-
-
-def second_trap_rows() -> list[Row]:
-    """The rows of the agents of the lesson on the second trap."""
-    rows = []
-    for kind, kept in reference().items():
-        method, agents = KINDS[kind].method, len(kept["at"])
-        tested = {name: kept[f"study {name}"] for name in ("success", "returns", "accident")}
-        results = Results([{"method": method, "seed": i} for i in range(agents)], np.full(agents, -1), tested, {})
-        mine = row_of(results, method, "lesson 15", decisions=float(kept["at"][:, -1].mean()))
-        rows.append(changed(mine, method=mine.method + KINDS[kind].paid))
-    return rows
 
 
 # Your own -------------------------------------------------------------------------------------------

@@ -20,7 +20,7 @@ ASIDE = ("sensitivity", "clocks", "ablations", "teachers")  # they vary the meth
 def lengths(curves: dict[str, np.ndarray]) -> np.ndarray | None:
     """Decisions of each training episode, (agents, episodes); None if no curve tells.
 
-    Files of earlier versions hold the distance and the mean speed instead. Their quotient is within 1 % of the sum.
+    Curves without decisions have the distance and the mean speed. Their quotient is within 1 % of the sum.
     """
     if "decisions" in curves:
         return curves["decisions"]
@@ -77,12 +77,12 @@ def at_budget(curves: dict[str, np.ndarray], decisions: float | np.ndarray) -> n
     episodes, returns = lengths(curves), curves.get("return")
     if episodes is None or returns is None:
         return np.full(len(next(iter(curves.values()), [0])), np.nan)
-    found, totals = np.full(len(returns), np.nan), np.nansum(episodes, axis=1, dtype=float)
+    means, totals = np.full(len(returns), np.nan), np.nansum(episodes, axis=1, dtype=float)
     for i, budget in enumerate(np.broadcast_to(decisions, len(returns))):
         ended = np.searchsorted(np.cumsum(episodes[i], dtype=float), budget, side="right")
         if totals[i] >= budget and ended >= WINDOW:
-            found[i] = returns[i, ended - WINDOW : ended].mean(dtype=float)
-    return found
+            means[i] = returns[i, ended - WINDOW : ended].mean(dtype=float)
+    return means
 
 
 def after_seconds(curves: dict[str, np.ndarray], seconds: float, took: np.ndarray) -> np.ndarray:
@@ -113,14 +113,14 @@ def within(returns: np.ndarray) -> Within | None:
     return Within(len(there), value, tuple(limits) if len(there) > 1 else None)
 
 
-def entries(found: StudyResults) -> list[tuple[str, Results]]:
+def entries(study: StudyResults) -> list[tuple[str, Results]]:
     """(setting, results) of the studies on the default scenario and of each experiment there that is not `ASIDE`."""
     parts = [
         ("quick" if name == "default" else name, results)
-        for name, results in found.results.items()
+        for name, results in study.results.items()
         if STUDIES[name].scenario == DEFAULT
     ]
-    for name, varied in found.experiments.items():
+    for name, varied in study.experiments.items():
         for variation, results in varied.items():
             if name not in ASIDE and EXPERIMENTS[name].variations[variation].scenario == DEFAULT:
                 parts.append((name if variation in METHODS else f"{name}: {variation}", results))
@@ -136,11 +136,11 @@ def budget_rows(parts: Sequence[tuple[str, Results]]) -> tuple[list[str], list[l
     for setting, results in parts:
         for method in results.methods:
             mine = results.of(method)
-            found = [within(at_budget(mine.curves, budget)) for budget in DECISIONS]
-            found += [within(after_seconds(mine.curves, budget, mine.seconds)) for budget in SECONDS]
-            if any(found):
-                cells = [one.words(len(mine)) if one else "–" for one in found]
-                rows.append((found[0].returns if found[0] else -np.inf, [display_name(method), setting, *cells]))
+            earned = [within(at_budget(mine.curves, budget)) for budget in DECISIONS]
+            earned += [within(after_seconds(mine.curves, budget, mine.seconds)) for budget in SECONDS]
+            if any(earned):
+                cells = [one.words(len(mine)) if one else "–" for one in earned]
+                rows.append((earned[0].returns if earned[0] else -np.inf, [display_name(method), setting, *cells]))
     rows.sort(key=lambda row: -row[0])
     headings = [f"{budget:,} decisions" for budget in DECISIONS] + [f"{budget} s of one core" for budget in SECONDS]
     return ["method", "setting", *headings], [cells for _, cells in rows]

@@ -1,35 +1,37 @@
-"""The study's figures: the paper's training panels, exploration, and final scores. One function each.
+"""The study's figures: the paper's training panels, exploration, the two clocks, final scores, accidents.
 
 Every one takes `Results` and returns a matplotlib figure with `figure.alt`. Titles are made from the
 numbers, so they cannot say what the numbers do not.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from bootcourse.methods import display_name, style
-from bootcourse.plots.figure import GRID, QUIET, SMALL, finish, new_figure, plain_axes
+from bootcourse.colours import INK
+from bootcourse.methods import DRIVERS, display_name, style
+from bootcourse.plots.figure import GRID, QUIET, SMALL, finish, label_ends, new_figure, one_axes, plain_axes, wrapped
 from bootcourse.plots.training_curves import MEASURES, training_curves
+from bootcourse.research.clocks import faded
 from bootcourse.research.paper import COLUMNS, PRINTED, RATES
 from bootcourse.research.results import Results
-from bootcourse.research.tables import escaped
-from bootcourse.statistics import interval
+from bootcourse.research.tables import bracketed, escaped
+from bootcourse.statistics import Estimate, interval
 
 TRAINING = {"success": "success", "return": "returns", "speed": "speed", "distance": "distance"}  # curve: column
 
 
 def of_methods(results: Results, methods: Sequence[str]) -> dict[str, dict[str, np.ndarray]]:
     """{method: {curve: (agents, episodes)}}, without agents that were stopped: they have no curve to their end."""
-    found = {}
+    of_method = {}
     for method in methods:
         if method in results.methods:
             curves = results.of(method).curves
             whole = np.logical_and.reduce([np.isfinite(values).all(axis=1) for values in curves.values()])
             if whole.any():
-                found[method] = {name: values[whole] for name, values in curves.items()}
-    return found
+                of_method[method] = {name: values[whole] for name, values in curves.items()}
+    return of_method
 
 
 def training_panels(results: Results, methods: Sequence[str], title: str, rule: Results | None = None) -> Figure:
@@ -70,14 +72,26 @@ def baselines(results: Results, rule: Results | None = None) -> Figure:
 def exploration(results: Results) -> Figure:
     """The paper's Figure 7: entropy, and e to the power of it, the effective actions (Equations 21 and 22)."""
     curves = of_methods(results, ("sac", "soft", "demos", "bootstrapped"))
-    for its in curves.values():
-        its["effective"] = np.exp(its["entropy"].astype(np.float64))
-    last = {method: its["effective"][:, -max(1, its["effective"].shape[1] // 10) :] for method, its in curves.items()}
+    last = {}
+    for method, of_method in curves.items():
+        effective = of_method["effective"] = np.exp(of_method["entropy"].astype(np.float64))
+        last[method] = effective[:, -max(1, effective.shape[1] // 10) :]
     title = (
         f"In the last tenth of training plain SAC has {last['sac'].mean():.2f} effective actions on average, "
         f"bootstrapped SAC {last['bootstrapped'].mean():.2f}"
     )
     return training_curves(curves, title, measures=("entropy", "effective"))
+
+
+def two_clocks(results: Results, updates: str) -> Figure:
+    """ξ, which fades with the updates, and success, of four methods with so many updates per decision.
+
+    results: a cell of `clocks.cells`. The title says when ξ is down to a tenth and when β is 0.
+    """
+    xi, beta = faded(results.of("soft").curves["xi"]), results.of("demos").agents[0]["beta_episodes"]
+    title = f"{updates} updates per decision: ξ is down to a tenth after {xi:.0f} episodes, β is 0 after {beta:,}"
+    curves = of_methods(results, ("sac", "soft", "demos", "bootstrapped"))
+    return training_curves(curves, title, measures=("xi", "success"))
 
 
 def final_scores(results: Results, methods: Sequence[str], column: str = "returns") -> Figure:
@@ -89,13 +103,13 @@ def final_scores(results: Results, methods: Sequence[str], column: str = "return
     scale, words, label = 100 if column in RATES else 1, [], (COLUMNS | {"returns": "return"}).get(column, column)
     middles = {}
     for row, method in enumerate(methods):
-        scores, its = results.of(method).scores(column) * scale, style(method)
+        scores, look = results.of(method).scores(column) * scale, style(method)
         middles[method] = middle = interval(scores)
-        ax.plot(scores, np.full(len(scores), row) + np.linspace(-0.3, 0.3, len(scores)), "o", color=its.colour, ms=4)
-        ax.plot([middle.low, middle.high], [row, row], "-", color=its.colour, linewidth=6, alpha=0.3, zorder=1)
-        ax.plot(middle.value, row, "|", color=its.colour, ms=14, mew=2.5)
+        ax.plot(scores, np.full(len(scores), row) + np.linspace(-0.3, 0.3, len(scores)), "o", color=look.colour, ms=4)
+        ax.plot([middle.low, middle.high], [row, row], "-", color=look.colour, linewidth=6, alpha=0.3, zorder=1)
+        ax.plot(middle.value, row, "|", color=look.colour, ms=14, mew=2.5)
         if method in PRINTED and column in COLUMNS:
-            ax.plot(PRINTED[method][column].mean, row, "D", mfc="white", mec=its.colour, ms=5, zorder=4)
+            ax.plot(PRINTED[method][column].mean, row, "D", mfc="white", mec=look.colour, ms=5, zorder=4)
         words.append(f"{display_name(method)} {middle.value:.3g} [{middle.low:.3g}, {middle.high:.3g}]")
     plain_axes(ax, "", grid="x")
     ax.set_yticks(range(len(methods)), [display_name(method) for method in methods])
@@ -107,3 +121,57 @@ def final_scores(results: Results, methods: Sequence[str], column: str = "return
     within = ", as far as the intervals tell" * (len(ahead) > 1)
     title = f"Highest {label.split(',')[0]}{within}: {', '.join(ahead)}"
     return finish(figure, title, "Interquartile means over agents with 95 % intervals: " + "; ".join(words) + ".")
+
+
+def scored(results: Results) -> tuple[Estimate, Estimate]:
+    """Accidents of any kind in % of the held-out episodes, and return: means over agents with 95 % intervals.
+
+    Means, because an interquartile mean would leave out the agents with the most accidents.
+    """
+    return tuple(interval(scale * results.scores(of), np.mean) for of, scale in (("accident", 100), ("returns", 1)))
+
+
+def frontier(varied: Mapping[str, Results]) -> list[str]:
+    """The names that no other beats, with fewer accidents and as much return or the reverse, from safest to fastest."""
+    middles = {name: (of.scores("accident").mean(), of.scores("returns").mean()) for name, of in varied.items()}
+
+    def beaten(name: str) -> bool:
+        accidents, returns = middles[name]
+        others = (other for other in middles.values() if other != middles[name])
+        return any(a <= accidents and r >= returns for a, r in others)
+
+    return sorted((name for name in middles if not beaten(name)), key=middles.get)
+
+
+def safe_and_fast(varied: Mapping[str, Results], bound: float) -> Figure:
+    """Return against accidents of every kind of agent, with their intervals, and the planner's return as a line.
+
+    varied: {what the agents have: their results}; bound: the planner's mean return.
+    """
+    best, colours = frontier(varied), style("ppo_cloned")
+    title = f"Nothing here is both safer and faster than {best[0]}"
+    if len(best) > 1:
+        title = f"The {len(best)} filled dots are the frontier: nothing here is both safer and faster"
+    height = max(3.8, 0.42 * len(varied)) + 0.2 * len(wrapped(title).splitlines())  # room for the labels
+    where = "accidents of any kind (% of held-out drives)"
+    figure, ax = one_axes(height, title, where, "return", width=0.68)
+    points, words = [], []
+    scores = {name: scored(results) for name, results in varied.items()}
+    for name, (accidents, returns) in sorted(scores.items(), key=lambda each: each[1]):
+        ahead = name in best
+        colour, fill = (colours.colour, colours.colour) if ahead else (QUIET, "white")
+        ax.plot([accidents.low, accidents.high], [returns.value] * 2, color=colour, linewidth=1.2, zorder=2)
+        ax.plot([accidents.value] * 2, [returns.low, returns.high], color=colour, linewidth=1.2, zorder=2)
+        ax.plot(accidents.value, returns.value, "o", ms=6, mfc=fill, mec=colour, zorder=3)
+        points.append((accidents.value, returns.value, name, INK if ahead else QUIET))
+        words.append(f"{name} ({len(varied[name])} agents): {bracketed(accidents)} %, return {bracketed(returns)}")
+    name, line = DRIVERS["planner"]
+    ax.axhline(bound, color=line.colour, linewidth=line.width, linestyle=line.line)
+    ax.set_xlim(left=0)
+    places = label_ends(ax, [*(point[1:] for point in points), (bound, f"{name} {bound:.1f}", INK)], SMALL, wrap=24)
+    for (x, y, *_), place in zip(points, places, strict=False):
+        thin = {"arrowstyle": "-", "color": GRID, "linewidth": 0.9, "shrinkA": 0, "shrinkB": 4}
+        ax.annotate("", (x, y), xytext=(1.01, place), textcoords="axes fraction", arrowprops=thin, zorder=1)
+    alt = f"Accidents and return, means over agents with 95 % intervals over training seeds: {'; '.join(words)}. "
+    alt += f"On the frontier: {', '.join(best)}. A line marks the planner's return, {bound:.1f}."
+    return finish(figure, title, alt)

@@ -17,7 +17,8 @@ from bootcourse.errors import BootcourseError, check_known
 def study(
     name: str = typer.Argument(
         "default",
-        help="default, calibrated or paper; sensitivity, clocks, ablations, longer-view, beyond, teachers or safe.",
+        help="default, calibrated or paper; sensitivity, clocks, ablations, longer-view, beyond or teachers; "
+        "bug-hunt, students or second-trap.",
     ),
     out: Path = typer.Option(..., help="The study's folder: new, or that of a study to continue; all may share one."),
     seeds: int = typer.Option(0, min=0, help="Training seeds of each method; 0: the study's own number."),
@@ -26,7 +27,7 @@ def study(
     only: str = typer.Option(
         "",
         help="Only these methods, such as sac,bootstrapped; planner is the bound. "
-        "Of an experiment: a method, a teacher, or a part such as learned-mask.",
+        "Of an experiment: a method, a teacher, or a part such as planner-dagger.",
     ),
     backend: str = typer.Option("loky", help="loky (this machine), dask or ray."),
     scheduler: str = typer.Option("", help="The address of a dask or ray cluster that you have."),
@@ -37,23 +38,23 @@ def study(
 
     default, calibrated and paper: the paper's methods and baselines. sensitivity, clocks and ablations: the paper's
     ablation, varied. longer-view: its method with other numbers. beyond: methods that the paper does not train.
-    teachers: what a teacher is worth. safe: what prevents accidents.
+    teachers: what a teacher is worth. bug-hunt, students and second-trap: the agents of three lessons.
     """
     from bootcourse.research import plan
     from bootcourse.research.report import write_report
     from bootcourse.research.results import in_study
 
-    check_known("Study", name, (*plan.STUDIES, *plan.EXPERIMENTS))
+    check_known("Study", name, (*plan.STUDIES, *plan.EXPERIMENTS, *plan.LESSON_EXPERIMENTS))
     if name in plan.STUDIES:
         methods = plan.methods_named(only)
         wanted = plan.study_jobs(name, methods, seeds or plan.SEEDS, tests or plan.TESTS, episodes)
     else:
-        wanted = plan.EXPERIMENTS[name].only(only).jobs(name, seeds, episodes, tests)
+        wanted = plan.experiment_named(name).only(only).jobs(name, seeds, episodes, tests)
 
     def report(problems: list[str]) -> None:
-        found = in_study(out)
-        if found.results:
-            print(write_report(found, out))
+        study = in_study(out)
+        if study.results:
+            print(write_report(study, out))
 
     how = {"backend": backend, "scheduler": scheduler, "workers": workers, "recompute": recompute}
     raise typer.Exit(compute(wanted, out, report, **how))
@@ -79,10 +80,10 @@ def sweep(
 
     def write(problems: list[str]) -> None:
         if not problems:
-            found = load_jobs(out, "sweep")
-            made = provenance(command=f"bootcourse sweep --seeds {seeds} --episodes {episodes}")
-            save_results(found, out / "sweep.npz", made)
-            print(sweep_table(found))
+            results = load_jobs(out, "sweep")
+            versions = provenance(command=f"bootcourse sweep --seeds {seeds} --episodes {episodes}")
+            save_results(results, out / "sweep.npz", versions)
+            print(sweep_table(results))
             print(out / "sweep.npz")
 
     how = {"backend": backend, "scheduler": scheduler, "workers": workers, "recompute": recompute}
@@ -133,14 +134,11 @@ def assets(
 
 
 def report_assets(folder: Path) -> int:
-    """Print the shipped files that are damaged or older than the code. Returns the exit status."""
-    from bootcourse.research.fingerprint import older
+    """Print which shipped files are damaged or missing. Returns the exit status."""
     from bootcourse.storage.assets import read_manifest, verify
 
-    problems, old = verify(folder), older(folder)
-    for sentence in (*problems, *old):
+    problems, entries = verify(folder), read_manifest(folder)["files"]
+    for sentence in problems:
         print(sentence)
-    entries = read_manifest(folder)["files"]
-    size = sum(entry["bytes"] for entry in entries) / 1e6
-    print(f"{len(entries)} files, {size:.1f} MB: {len(problems)} wrong, {len(old)} made by older code.")
+    print(f"{len(entries)} files, {sum(entry['bytes'] for entry in entries) / 1e6:.1f} MB: {len(problems)} wrong.")
     return 1 if problems else 0

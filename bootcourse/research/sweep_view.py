@@ -57,11 +57,11 @@ def curves(happened: SweepResult, top: float) -> list[str]:
     """Success and return over the episodes: thin lines are seeds, the thick one their interquartile mean, its band."""
     parts, look = [], style("bootstrapped")
     for i, name in enumerate(("success", "return")):
-        its, values = MEASURES[name], happened.results.curves[name]
-        at, means = rolling_means(values.astype(np.float64) * its.factor, WINDOW)
+        measure, values = MEASURES[name], happened.results.curves[name]
+        at, means = rolling_means(values.astype(np.float64) * measure.factor, WINDOW)
         episodes = (0, max(values.shape[1], 1))
-        axes = SvgAxes(48 + i * 500, top, 430, 130, episodes, its.limits or span(means.ravel(), its.least))
-        axes.frame(its.label, f"episode (means of the last {WINDOW})")
+        axes = SvgAxes(48 + i * 500, top, 430, 130, episodes, measure.limits or span(means.ravel(), measure.least))
+        axes.frame(measure.label, f"episode (means of the last {WINDOW})")
         draw_band(axes, at, means, look.colour)
         draw_training(axes, at, means, look)
         parts += axes.parts

@@ -2,7 +2,7 @@
 
     sweep_panel()
 
-Nothing is trained here: `study/sweep.py` finds the agents of a setting, `sweep_view.py` draws them.
+Nothing is trained here: `sweep.py` finds the agents of a setting, `sweep_view.py` draws them.
 """
 
 from collections.abc import Callable, Sequence
@@ -14,10 +14,10 @@ from bootcourse.errors import BootcourseError
 from bootcourse.markup import html
 from bootcourse.panels.number import Entry
 from bootcourse.panels.panel import Panel
-from bootcourse.panels.sweep_view import choices, rerun, view
 from bootcourse.plots.svg import Drawing, drawing, text
 from bootcourse.research.results import Results
 from bootcourse.research.sweep import SHIPPED, SweepResult, load_sweep, nearest_setting
+from bootcourse.research.sweep_view import choices, rerun, view
 
 
 class Snap(Entry):
