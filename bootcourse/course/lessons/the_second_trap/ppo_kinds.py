@@ -92,8 +92,11 @@ def train_kind(kind: str, seeds: int = SEEDS) -> dict[str, np.ndarray]:
     results = Results(
         agent_entries(settings),
         np.full(seeds, -1),
-        notes={"at": np.stack([one.at for one in each]), "curve": np.stack([one.returns for one in each]),
-               "escapes": np.stack([one.escapes for one in each])},  # fmt: skip
+        notes={
+            "at": np.stack([one.at for one in each]),
+            "curve": np.stack([one.returns for one in each]),
+            "escapes": np.stack([one.escapes for one in each]),
+        },  # fmt: skip
         measured={name: np.array([one[name] for one in measures]) for name in measures[0]},
         weights={f"actor.{i}": np.concatenate(layer) for i, layer in enumerate(layers)},
     )
@@ -105,9 +108,7 @@ def shipped_kinds() -> dict[str, Results]:
     """{kind: its agents}, as they ship. Raises BootcourseError if a kind is missing."""
     kinds = experiment("second-trap")
     if missing := KINDS.keys() - kinds.keys():
-        raise BootcourseError(
-            f"No agents of {', '.join(missing)} ship: run `bootcourse study second-trap --out DIR`."
-        )
+        raise BootcourseError(f"No agents of {', '.join(missing)} ship: run `bootcourse study second-trap --out DIR`.")
     return kinds
 
 

@@ -88,14 +88,17 @@ def train_group(group: str, seeds: int = SEEDS, updates: int = UPDATES) -> dict[
 
 
 def reference() -> dict[str, dict[str, np.ndarray]]:
-    """{teacher or "alone": what `tested` and `teach` say of its ten students}, as it ships, each (students, ...).
+    """{teacher or "alone": what `tested` and `teach` say of its ten students}, as it ships.
 
     Raises BootcourseError if the students of a teacher are missing.
     """
     groups = experiment("students")
     if missing := EXPERIMENT.variations.keys() - groups.keys():
         raise BootcourseError(f"No students of {', '.join(missing)} ship: run `bootcourse study students --out DIR`.")
-    return {name: group.measured | group.notes for name, group in groups.items()}
+    return {
+        name: group.measured | {"updates": group.notes["updates"][0], "escapes": group.notes["escapes"]}
+        for name, group in groups.items()
+    }
 
 
 def p_value(taught: np.ndarray, alone: np.ndarray) -> float:
