@@ -1,4 +1,4 @@
-"""`bootcourse study` and `sweep` compute what ships; `assets` checks it and makes it.
+"""`bootcourse study` computes what ships; `bootcourse assets` checks it and makes it.
 
 A study that is stopped by Ctrl-C (exit status 130) or killed goes on when the same command is started again.
 """
@@ -17,7 +17,7 @@ from bootcourse.errors import BootcourseError, check_known
 def study(
     name: str = typer.Argument(
         "default",
-        help="default, calibrated or paper; sensitivity, clocks, ablations, longer-view, beyond or teachers; "
+        help="default, calibrated or paper; sweep; sensitivity, clocks, ablations, longer-view, beyond or teachers; "
         "bug-hunt, students or second-trap.",
     ),
     out: Path = typer.Option(..., help="The study's folder: new, or that of a study to continue; all may share one."),
@@ -36,18 +36,22 @@ def study(
 ) -> None:
     """Train and test methods with many seeds; write tables, figures and the fidelity report.
 
-    default, calibrated and paper: the paper's methods and baselines. sensitivity, clocks and ablations: the paper's
-    ablation, varied. longer-view: its method with other numbers. beyond: methods that the paper does not train.
-    teachers: what a teacher is worth. bug-hunt, students and second-trap: the agents of three lessons.
+    default, calibrated and paper: the paper's methods and baselines. sweep: the paper's method with many settings of
+    p, ξ and c. sensitivity, clocks and ablations: the paper's ablation, varied. longer-view: its method with other
+    numbers. beyond: methods that the paper does not train. teachers: what a teacher is worth. bug-hunt, students and
+    second-trap: the agents of three lessons.
     """
     from bootcourse.research import plan
     from bootcourse.research.report import write_report
     from bootcourse.research.results import in_study
+    from bootcourse.research.sweep import write_sweep
 
-    check_known("Study", name, (*plan.STUDIES, *plan.EXPERIMENTS, *plan.LESSON_EXPERIMENTS))
+    check_known("Study", name, (*plan.STUDIES, "sweep", *plan.EXPERIMENTS, *plan.LESSON_EXPERIMENTS))
     if name in plan.STUDIES:
         methods = plan.methods_named(only)
         wanted = plan.study_jobs(name, methods, seeds or plan.SEEDS, tests or plan.TESTS, episodes)
+    elif name == "sweep":
+        wanted = plan.sweep_jobs(seeds or 4, episodes or 1500, tests or plan.TESTS)
     else:
         wanted = plan.experiment_named(name).only(only).jobs(name, seeds, episodes, tests)
 
@@ -55,39 +59,11 @@ def study(
         study = in_study(out)
         if study.results:
             print(write_report(study, out))
+        if name == "sweep" and not problems:
+            print(write_sweep(out))
 
     how = {"backend": backend, "scheduler": scheduler, "workers": workers, "recompute": recompute}
     raise typer.Exit(compute(wanted, out, report, **how))
-
-
-def sweep(
-    out: Path = typer.Option(..., help="The folder: new, a study's, or that of a sweep to continue."),
-    seeds: int = typer.Option(4, min=1, help="Training seeds of each setting."),
-    episodes: int = typer.Option(1500, min=1, help="Training episodes of each agent."),
-    tests: int = typer.Option(1000, min=1, help="Held-out episodes that each agent is tested on."),
-    backend: str = typer.Option("loky", help="loky (this machine), dask or ray."),
-    scheduler: str = typer.Option("", help="The address of a dask or ray cluster that you have."),
-    workers: int = typer.Option(0, min=0, help="Jobs at once; 0: one for each core."),
-    recompute: bool = typer.Option(False, "--recompute", help="Compute damaged jobs again."),
-) -> None:
-    """Train the paper's method with many settings of p, ξ and c; write one file of results."""
-    from bootcourse.files import provenance
-    from bootcourse.research.plan import sweep_jobs
-    from bootcourse.research.results import load_jobs, save_results
-    from bootcourse.research.sweep import sweep_table
-
-    wanted = sweep_jobs(seeds, episodes, tests)
-
-    def write(problems: list[str]) -> None:
-        if not problems:
-            results = load_jobs(out, "sweep")
-            versions = provenance(command=f"bootcourse sweep --seeds {seeds} --episodes {episodes}")
-            save_results(results, out / "sweep.npz", versions)
-            print(sweep_table(results))
-            print(out / "sweep.npz")
-
-    how = {"backend": backend, "scheduler": scheduler, "workers": workers, "recompute": recompute}
-    raise typer.Exit(compute(wanted, out, write, **how))
 
 
 def compute(wanted: list, out: Path, after: Callable[[list[str]], None], **how) -> int:
@@ -124,7 +100,7 @@ def assets(
 
     check_known("Action", what, ("verify", "build", "report"))
     if what == "build" and study is None:
-        raise BootcourseError("build needs --study DIR, a folder that `bootcourse study` and `bootcourse sweep` wrote.")
+        raise BootcourseError("build needs --study DIR, a folder that `bootcourse study` wrote.")
     if what != "verify":
         from bootcourse.research.ship import build
 

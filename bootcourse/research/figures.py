@@ -1,23 +1,21 @@
-"""The study's figures: the paper's training panels, exploration, the two clocks, final scores, accidents.
+"""The study's figures: the paper's training panels, exploration, final scores.
 
 Every one takes `Results` and returns a matplotlib figure with `figure.alt`. Titles are made from the
 numbers, so they cannot say what the numbers do not.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from bootcourse.colours import INK
-from bootcourse.methods import DRIVERS, display_name, style
-from bootcourse.plots.figure import GRID, QUIET, SMALL, finish, label_ends, new_figure, one_axes, plain_axes, wrapped
+from bootcourse.methods import display_name, style
+from bootcourse.plots.figure import GRID, QUIET, SMALL, finish, new_figure, plain_axes
 from bootcourse.plots.training_curves import MEASURES, training_curves
-from bootcourse.research.clocks import faded
 from bootcourse.research.paper import COLUMNS, PRINTED, RATES
 from bootcourse.research.results import Results
-from bootcourse.research.tables import bracketed, escaped
-from bootcourse.statistics import Estimate, interval
+from bootcourse.research.tables import escaped
+from bootcourse.statistics import interval
 
 TRAINING = {"success": "success", "return": "returns", "speed": "speed", "distance": "distance"}  # curve: column
 
@@ -83,17 +81,6 @@ def exploration(results: Results) -> Figure:
     return training_curves(curves, title, measures=("entropy", "effective"))
 
 
-def two_clocks(results: Results, updates: str) -> Figure:
-    """ξ, which fades with the updates, and success, of four methods with so many updates per decision.
-
-    results: a cell of `clocks.cells`. The title says when ξ is down to a tenth and when β is 0.
-    """
-    xi, beta = faded(results.of("soft").curves["xi"]), results.of("demos").agents[0]["beta_episodes"]
-    title = f"{updates} updates per decision: ξ is down to a tenth after {xi:.0f} episodes, β is 0 after {beta:,}"
-    curves = of_methods(results, ("sac", "soft", "demos", "bootstrapped"))
-    return training_curves(curves, title, measures=("xi", "success"))
-
-
 def final_scores(results: Results, methods: Sequence[str], column: str = "returns") -> Figure:
     """Each agent's score on the held-out episodes, and their interquartile mean with its interval."""
     methods = [method for method in methods if method in results.methods]
@@ -121,57 +108,3 @@ def final_scores(results: Results, methods: Sequence[str], column: str = "return
     within = ", as far as the intervals tell" * (len(ahead) > 1)
     title = f"Highest {label.split(',')[0]}{within}: {', '.join(ahead)}"
     return finish(figure, title, "Interquartile means over agents with 95 % intervals: " + "; ".join(words) + ".")
-
-
-def scored(results: Results) -> tuple[Estimate, Estimate]:
-    """Accidents of any kind in % of the held-out episodes, and return: means over agents with 95 % intervals.
-
-    Means, because an interquartile mean would leave out the agents with the most accidents.
-    """
-    return tuple(interval(scale * results.scores(of), np.mean) for of, scale in (("accident", 100), ("returns", 1)))
-
-
-def frontier(varied: Mapping[str, Results]) -> list[str]:
-    """The names that no other beats, with fewer accidents and as much return or the reverse, from safest to fastest."""
-    middles = {name: (of.scores("accident").mean(), of.scores("returns").mean()) for name, of in varied.items()}
-
-    def beaten(name: str) -> bool:
-        accidents, returns = middles[name]
-        others = (other for other in middles.values() if other != middles[name])
-        return any(a <= accidents and r >= returns for a, r in others)
-
-    return sorted((name for name in middles if not beaten(name)), key=middles.get)
-
-
-def safe_and_fast(varied: Mapping[str, Results], bound: float) -> Figure:
-    """Return against accidents of every kind of agent, with their intervals, and the planner's return as a line.
-
-    varied: {what the agents have: their results}; bound: the planner's mean return.
-    """
-    best, colours = frontier(varied), style("ppo_cloned")
-    title = f"Nothing here is both safer and faster than {best[0]}"
-    if len(best) > 1:
-        title = f"The {len(best)} filled dots are the frontier: nothing here is both safer and faster"
-    height = max(3.8, 0.42 * len(varied)) + 0.2 * len(wrapped(title).splitlines())  # room for the labels
-    where = "accidents of any kind (% of held-out drives)"
-    figure, ax = one_axes(height, title, where, "return", width=0.68)
-    points, words = [], []
-    scores = {name: scored(results) for name, results in varied.items()}
-    for name, (accidents, returns) in sorted(scores.items(), key=lambda each: each[1]):
-        ahead = name in best
-        colour, fill = (colours.colour, colours.colour) if ahead else (QUIET, "white")
-        ax.plot([accidents.low, accidents.high], [returns.value] * 2, color=colour, linewidth=1.2, zorder=2)
-        ax.plot([accidents.value] * 2, [returns.low, returns.high], color=colour, linewidth=1.2, zorder=2)
-        ax.plot(accidents.value, returns.value, "o", ms=6, mfc=fill, mec=colour, zorder=3)
-        points.append((accidents.value, returns.value, name, INK if ahead else QUIET))
-        words.append(f"{name} ({len(varied[name])} agents): {bracketed(accidents)} %, return {bracketed(returns)}")
-    name, line = DRIVERS["planner"]
-    ax.axhline(bound, color=line.colour, linewidth=line.width, linestyle=line.line)
-    ax.set_xlim(left=0)
-    places = label_ends(ax, [*(point[1:] for point in points), (bound, f"{name} {bound:.1f}", INK)], SMALL, wrap=24)
-    for (x, y, *_), place in zip(points, places, strict=False):
-        thin = {"arrowstyle": "-", "color": GRID, "linewidth": 0.9, "shrinkA": 0, "shrinkB": 4}
-        ax.annotate("", (x, y), xytext=(1.01, place), textcoords="axes fraction", arrowprops=thin, zorder=1)
-    alt = f"Accidents and return, means over agents with 95 % intervals over training seeds: {'; '.join(words)}. "
-    alt += f"On the frontier: {', '.join(best)}. A line marks the planner's return, {bound:.1f}."
-    return finish(figure, title, alt)

@@ -18,7 +18,7 @@ from bootcourse.errors import BootcourseError
 from bootcourse.files import provenance, sha256, write_arrays, write_bytes, write_json
 from bootcourse.policies import rule_policy
 from bootcourse.research.jobs import HELD_OUT, read_job
-from bootcourse.research.plan import EXPERIMENTS, LESSON_EXPERIMENTS
+from bootcourse.research.plan import EXPERIMENTS, LESSON_EXPERIMENTS, STUDIES
 from bootcourse.research.report import model_card, write_report
 from bootcourse.research.results import Results, in_assets, in_study, load_job, load_jobs, load_results, save_results
 from bootcourse.scenario import DEFAULT
@@ -37,7 +37,7 @@ COMMANDS = {
     "default": STUDY,
     "calibrated": f"bootcourse study calibrated --out DIR && {BUILD}",
     "paper": f"bootcourse study paper --out DIR && {BUILD}",
-    "sweep": f"bootcourse sweep --out DIR && {BUILD}",
+    "sweep": f"bootcourse study sweep --out DIR && {BUILD}",
 }
 ELSEWHERE = {  # what no study makes, and the command that does
     "checks.md": "python -m bootcourse.research.checks --out assets/checks.md",
@@ -96,7 +96,7 @@ class Shipment:
         """Write and list the results of a part of the study, with these curves."""
         self.check_size(results, path)
         versions = self.versions(part)
-        save_results(lighter(results, curves), path, versions)
+        save_results(lighter(results, curves, half=part not in STUDIES), path, versions)
         self.add(path, command, versions)
 
     def write_manifest(self) -> None:
@@ -178,11 +178,15 @@ def add_experiments(to: Shipment) -> None:
             to.add_results(results, path, command, f"{name}/{job.parent.name}", curves)
 
 
-def lighter(results: Results, curves: Sequence[str]) -> Results:
-    """The same results with these curves only. Curves, speeds and distances have half precision, 3 digits."""
+def lighter(results: Results, curves: Sequence[str], half: bool) -> Results:
+    """The same results with these curves only, in half precision: a figure shows fewer than its 3 digits.
+
+    half: the tests' speeds and distances, too, for results of which no table shows them.
+    """
+    names = ("speed", "distance") if half else ()
+    tested = {name: each.astype(np.float16) if name in names else each for name, each in results.tested.items()}
     kept = {name: results.curves[name].astype(np.float16) for name in curves if name in results.curves}
-    half = {name: results.tested[name].astype(np.float16) for name in ("speed", "distance") if name in results.tested}
-    return replace(results, curves=kept, tested=results.tested | half)
+    return replace(results, curves=kept, tested=tested)
 
 
 def add_runs(to: Shipment) -> None:

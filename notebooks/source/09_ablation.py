@@ -645,7 +645,7 @@ table(*clocks.pattern_rows(shipped.shipped_experiment("clocks")))
 
 # %%
 cells = clocks.cells(shipped.shipped_experiment("clocks"))
-bc.show(figures.two_clocks(cells["2", "π̃"], "2"))
+bc.show(figures_ablation.two_clocks(cells["2", "π̃"], "2"))
 
 # %% [markdown]
 # **See.** With two updates and demonstrations by π̃ all ten agents escape with demonstrations

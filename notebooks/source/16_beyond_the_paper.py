@@ -29,7 +29,7 @@ import torch
 from bootcourse.course import charts, check, compare_predictions, own_code, predict, shipped, table
 from bootcourse.course.lessons.beyond_the_paper import figures as figures_teachers
 from bootcourse.course.lessons.the_second_trap import ppo_kinds
-from bootcourse.research import beyond, figures
+from bootcourse.research import beyond
 
 # %% [markdown]
 # ## Look first
@@ -272,7 +272,7 @@ named |= {bc.display_name(method): part for method, part in later.items()}
 table(*beyond.learner_rows(named))
 
 # %%
-bc.show(figures.safe_and_fast(named, shipped.shipped_bound().mean()))
+bc.show(figures_teachers.safe_and_fast(named, shipped.shipped_bound().mean()))
 
 # %% [markdown]
 # (The table's return is the interquartile mean, the figure's the mean. In the last column stands
@@ -465,7 +465,7 @@ safer = {"PPO after cloning": later["ppo_cloned"], **shipped.shipped_experiment(
 table(*beyond.learner_rows(safer))
 
 # %%
-bc.show(figures.safe_and_fast(safer, shipped.shipped_bound().mean()))
+bc.show(figures_teachers.safe_and_fast(safer, shipped.shipped_bound().mean()))
 
 # %% [markdown]
 # **See.** All ten agents of each kind escape. Without a remedy, {{ crashed(later('ppo_cloned')) |
