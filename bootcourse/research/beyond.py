@@ -1,7 +1,6 @@
 """What the learners beyond the paper reached, and every method at an equal budget of decisions or seconds."""
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
 
 import numpy as np
 
@@ -91,26 +90,17 @@ def after_seconds(curves: dict[str, np.ndarray], seconds: float, took: np.ndarra
     return at_budget(curves, np.nan if episodes is None else seconds / took * np.nansum(episodes, axis=1, dtype=float))
 
 
-class Within(NamedTuple):
-    """What agents of a method earned within a budget."""
+def at_a_budget(returns: np.ndarray) -> tuple[float, str]:
+    """(24.1, "24 [18, 26], 9 of 10"): the interquartile mean of agents' returns at a budget, and it in words.
 
-    agents: int  # that trained as long
-    returns: float  # interquartile mean over them
-    limits: tuple[float, float] | None  # its 95 % interval; one agent has none
-
-    def words(self, agents: int) -> str:
-        """ "24 [18, 26], 9 of 10". agents: of the method."""
-        there = "" if self.agents == agents else f", {self.agents} of {agents}"
-        return bracketed((self.returns, *(self.limits or (np.nan, np.nan)))) + there
-
-
-def within(returns: np.ndarray) -> Within | None:
-    """Of agents' returns at a budget (agents,), NaN where they did not get there; None if none did."""
+    returns: (agents,), NaN for those that did not get there; (-inf, "–") if none did.
+    """
     there = returns[np.isfinite(returns)]
     if not len(there):
-        return None
-    value, *limits = interval(there)
-    return Within(len(there), value, tuple(limits) if len(there) > 1 else None)
+        return -np.inf, "–"
+    estimate = interval(there)
+    counted = "" if len(there) == len(returns) else f", {len(there)} of {len(returns)}"
+    return estimate.value, bracketed(estimate) + counted
 
 
 def entries(study: StudyResults) -> list[tuple[str, Results]]:
@@ -136,11 +126,11 @@ def budget_rows(parts: Sequence[tuple[str, Results]]) -> tuple[list[str], list[l
     for setting, results in parts:
         for method in results.methods:
             mine = results.of(method)
-            earned = [within(at_budget(mine.curves, budget)) for budget in DECISIONS]
-            earned += [within(after_seconds(mine.curves, budget, mine.seconds)) for budget in SECONDS]
-            if any(earned):
-                cells = [one.words(len(mine)) if one else "–" for one in earned]
-                rows.append((earned[0].returns if earned[0] else -np.inf, [display_name(method), setting, *cells]))
+            each = [at_budget(mine.curves, budget) for budget in DECISIONS]
+            each += [after_seconds(mine.curves, budget, mine.seconds) for budget in SECONDS]
+            values, cells = zip(*map(at_a_budget, each), strict=True)
+            if max(values) > -np.inf:
+                rows.append((values[0], [display_name(method), setting, *cells]))
     rows.sort(key=lambda row: -row[0])
     headings = [f"{budget:,} decisions" for budget in DECISIONS] + [f"{budget} s of one core" for budget in SECONDS]
     return ["method", "setting", *headings], [cells for _, cells in rows]

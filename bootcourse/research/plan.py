@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from itertools import product
 
-from bootcourse.errors import BootcourseError, check_known, did_you_mean
+from bootcourse.errors import BootcourseError, check_known
 from bootcourse.learn.settings import SETTINGS, Settings, settings_for, with_seeds
 from bootcourse.methods import ABLATION, BASELINES, METHODS
 from bootcourse.research.jobs import BoundJob, Job, LessonJob, StayingJob, named_function
@@ -46,13 +46,9 @@ def methods_named(only: str) -> list[str]:
     everything = (*BASELINES, *ABLATION, PLANNER)  # the longest first
     names = [name.strip() for name in only.split(",") if name.strip()] or everything
     for name in names:
-        if name not in everything:
-            for experiment, plan in EXPERIMENTS.items():
-                if (name,) in {variation.methods for variation in plan.variations.values()}:
-                    raise BootcourseError(
-                        f"Method '{name}' is not in this study: run `bootcourse study {experiment} --only {name}`."
-                    )
-            raise BootcourseError(f"Method {did_you_mean(name, everything)}.")
+        if name in BEYOND:
+            raise BootcourseError(f"Method '{name}' is not in this study: run `bootcourse study beyond --only {name}`.")
+        check_known("Method", name, everything)
     return [name for name in everything if name in names]
 
 

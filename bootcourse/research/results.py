@@ -53,7 +53,7 @@ class Results:
     def pick(self, which: Iterable[int]) -> "Results":
         """Some of the agents."""
         which = list(which)
-        parts = {part: {name: values[which] for name, values in getattr(self, part).items()} for part in PARTS}
+        parts = {part: {name: each[which] for name, each in getattr(self, part).items()} for part in PARTS[:-1]}
         return Results([self.agents[i] for i in which], self.stopped[which], **parts, seconds=self.seconds[which])
 
     def of(self, method: str) -> "Results":
