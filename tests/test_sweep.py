@@ -61,7 +61,7 @@ def test_without_the_constraint_p_does_not_matter(sweep):
 
 def test_the_answer_reads_as_a_sentence(sweep):
     assert str(nearest_setting(sweep)) == (
-        "p = 0.9, ξ = 200 α, c = 2, 2 seeds: success 49 % [49, 49], return 4.9 [4.9, 4.9], accidents 51 %"
+        "p = 0.9, ξ = 200 α, c = 2, 2 seeds: success 50 % [50, 50], return 5.0 [5.0, 5.0], accidents 50 %"
     )
 
 

@@ -27,7 +27,8 @@ from bootcourse.storage.assets import FOLDER
 MEASURES = ("success", "returns", "speed", "distance", "collision", "road_departure", "stoppage")
 RUN_AGAIN = "run the study again, or restore it from a copy"
 KINDS = {"collision": Accident.COLLISION, "road_departure": Accident.ROAD_DEPARTURE, "stoppage": Accident.STOPPAGE}
-PARTS = ("tested", "curves", "notes", "measured", "weights")  # of a file; those with agents and something else
+OF_AGENTS = ("tested", "curves", "notes", "measured")  # the parts with every agent; weights are kept of the first ones
+PARTS = (*OF_AGENTS, "weights")
 
 
 @dataclass(frozen=True)
@@ -51,9 +52,9 @@ class Results:
         return len(self.agents)
 
     def pick(self, which: Iterable[int]) -> "Results":
-        """Some of the agents."""
+        """Some of the agents, without their weights."""
         which = list(which)
-        parts = {part: {name: each[which] for name, each in getattr(self, part).items()} for part in PARTS[:-1]}
+        parts = {part: {name: each[which] for name, each in getattr(self, part).items()} for part in OF_AGENTS}
         return Results([self.agents[i] for i in which], self.stopped[which], **parts, seconds=self.seconds[which])
 
     def of(self, method: str) -> "Results":
@@ -91,7 +92,7 @@ class Results:
 
 
 def join(parts: Sequence[Results]) -> Results:
-    """One `Results` of several. Raises BootcourseError if their episodes differ in number."""
+    """One `Results` of several, without weights. Raises BootcourseError if their episodes differ in number."""
     if not parts:
         raise BootcourseError("There are no results yet: run `bootcourse study --out DIR`.")
 
@@ -100,7 +101,7 @@ def join(parts: Sequence[Results]) -> Results:
         return {name: np.concatenate([each[name] for each in arrays]) for name in arrays[0]}
 
     try:
-        joined = {part: together(part) for part in PARTS}
+        joined = {part: together(part) for part in OF_AGENTS}
     except ValueError:
         raise BootcourseError("These results have different numbers of episodes: they cannot be joined.") from None
     stopped, seconds = (np.concatenate([getattr(part, name) for part in parts]) for name in ("stopped", "seconds"))
