@@ -29,8 +29,8 @@ def study(
         help="Only these methods, such as sac,bootstrapped; planner is the bound. "
         "Of an experiment: a method, a teacher, or a part such as planner-dagger.",
     ),
-    backend: str = typer.Option("loky", help="loky (this machine), dask or ray."),
-    scheduler: str = typer.Option("", help="The address of a dask or ray cluster that you have."),
+    backend: str = typer.Option("loky", help="loky (this machine) or dask."),
+    scheduler: str = typer.Option("", help="The address of a dask cluster that you have."),
     workers: int = typer.Option(0, min=0, help="Jobs at once; 0: one for each core."),
     recompute: bool = typer.Option(False, "--recompute", help="Compute damaged jobs again."),
 ) -> None:
