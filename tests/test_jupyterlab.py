@@ -9,7 +9,7 @@ from bootcourse.course.predictions import FILE
 from bootcourse.research.results import save_results
 from tests.browser import ARTEFACTS, close_notice, is_blank, needs_browser
 from tests.jupyterlab import open_lab
-from tests.test_panels_sweep import invented
+from tests.test_sweep import invented
 from tests.waiting import until
 
 pytestmark = needs_browser
