@@ -1,15 +1,11 @@
-"""Ten students of each of lesson 14's teachers and ten agents that learn alone: trained, tested, kept in a file.
+"""Ten students of each of this lesson's teachers and ten agents that learn alone: an experiment of the study.
 
-    python -m bootcourse.research.teacher_reference --out assets/students.npz    # some minutes
+    bootcourse study students --out DIR    # some minutes
 
-One training depends on the processor's rounding; the lesson's text rests on this file.
+One training depends on the processor's rounding; the lesson's text rests on the results that ship.
 """
 
-import argparse
-import json
-import sys
 from collections.abc import Sequence
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -19,33 +15,19 @@ from bootcourse.course.lessons.your_teacher.example_teachers import careful, rac
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError
-from bootcourse.files import provenance, read_arrays, write_arrays
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.settings import Settings, settings_for, with_seeds
 from bootcourse.learn.teachers import Rule, course_rule, teacher_of
 from bootcourse.learn.training import Training
-from bootcourse.storage.assets import FOLDER
+from bootcourse.research.plan import LessonExperiment
+from bootcourse.research.results import Results, agent_entries, as_arrays, experiment
+from bootcourse.research.teachers import RULE
 
 SEEDS, UPDATES, EVERY = 10, 3500, 250  # students of each teacher; updates of each; updates between two notes
 ROADS = held_out_seeds(13, 200)  # that every student is tested on
-FILE = FOLDER / "students.npz"
-COMMAND = "python -m bootcourse.research.teacher_reference --out assets/students.npz"
-
-
-class TeacherJob(NamedTuple):
-    """Agents that learn side by side from one teacher."""
-
-    name: str
-    teacher: Rule
-    settings: list[Settings]
-
-
-def teacher_jobs(seeds: int = SEEDS) -> list[TeacherJob]:
-    """One job for each teacher, and one for agents that learn alone, as plain SAC."""
-    taught = with_seeds(settings_for("bootstrapped"), seeds)
-    teachers = {"the rule": course_rule} | {each.__name__: each for each in (careful, timid, reckless, racer)}
-    alone = TeacherJob("alone", course_rule, with_seeds(settings_for("sac"), seeds))
-    return [alone, *(TeacherJob(name, teacher, taught) for name, teacher in teachers.items())]
+TEACHERS = {"the rule": course_rule} | {teacher.__name__: teacher for teacher in (careful, timid, reckless, racer)}
+ALONE = "alone"  # agents without a teacher, as plain SAC
+EXPERIMENT = LessonExperiment(f"{__name__}:train_group", {name: {"group": name} for name in (ALONE, *TEACHERS)})
 
 
 class Taught(NamedTuple):
@@ -94,6 +76,31 @@ def alike(agents: list[Agent], teacher: Rule, roads: int = 4) -> np.ndarray:
     return np.array(shares)
 
 
+def train_group(group: str, seeds: int = SEEDS, updates: int = UPDATES) -> dict[str, np.ndarray]:
+    """Train and test the students of a teacher, or the agents that learn alone: the arrays of a file of results."""
+    teacher, method = TEACHERS.get(group, course_rule), "sac" if group == ALONE else "bootstrapped"
+    settings = with_seeds(settings_for(method), seeds)
+    taught = teach(teacher, settings, updates)
+    measured = tested(taught.agents) | {"beta": taught.beta, "xi": taught.xi, "alike": alike(taught.agents, teacher)}
+    notes = {"updates": np.tile(taught.updates, (seeds, 1)), "escapes": taught.escapes}
+    agents = agent_entries(settings, group if group in TEACHERS else RULE)
+    return as_arrays(Results(agents, np.full(seeds, -1), notes=notes, measured=measured))
+
+
+def reference() -> dict[str, dict[str, np.ndarray]]:
+    """{teacher or "alone": what `tested` and `teach` say of its ten students}, as it ships.
+
+    Raises BootcourseError if the students of a teacher are missing.
+    """
+    groups = experiment("students")
+    if missing := EXPERIMENT.variations.keys() - groups.keys():
+        raise BootcourseError(f"No students of {', '.join(missing)} ship: run `bootcourse study students --out DIR`.")
+    return {
+        name: group.measured | {"updates": group.notes["updates"][0], "escapes": group.notes["escapes"]}
+        for name, group in groups.items()
+    }
+
+
 def p_value(taught: np.ndarray, alone: np.ndarray) -> float:
     """Mann and Whitney's two-sided p-value of the scores of two groups of agents, (m,) and (n,)."""
     return float(scipy.stats.mannwhitneyu(taught, alone).pvalue)
@@ -106,44 +113,3 @@ def holm(p: Sequence[float]) -> np.ndarray:
     adjusted = np.empty(m)
     adjusted[order] = np.minimum(np.maximum.accumulate(scaled), 1)
     return adjusted
-
-
-def main(arguments: list[str] | None = None) -> int:
-    parser = argparse.ArgumentParser(prog=COMMAND.split(" --")[0], description=__doc__.split("\n")[0])
-    parser.add_argument("--out", type=Path, default=FILE, help="the file to write (default: assets/students.npz)")
-    parser.add_argument("--updates", type=int, default=UPDATES, help=f"of each agent (default: {UPDATES})")
-    options = parser.parse_args(arguments)
-    arrays = {}
-    for job in teacher_jobs():
-        print(f"{job.name} ...", flush=True)
-        taught = teach(job.teacher, job.settings, options.updates)
-        found = tested(taught.agents) | taught._asdict() | {"alike": alike(taught.agents, job.teacher)}
-        arrays |= {f"{job.name}/{name}": values for name, values in found.items() if name != "agents"}
-    made = provenance(command=COMMAND, updates=options.updates, seeds=SEEDS)
-    write_arrays(options.out, arrays | {"provenance": np.array(json.dumps(made))})
-    return 0
-
-
-def reference(path: Path = FILE) -> dict[str, dict[str, np.ndarray]]:
-    """{teacher or "alone": what `main` kept of its ten students}. Raises BootcourseError if the file is damaged."""
-    found = grouped(path)
-    if set(found) != {job.name for job in teacher_jobs(1)}:
-        raise BootcourseError(f"{path} does not hold the students of all teachers: make it again with `{COMMAND}`.")
-    return found
-
-
-def grouped(path: Path) -> dict[str, dict[str, np.ndarray]]:
-    """The arrays GROUP/NAME of a file: {group: {name: array}}."""
-    found = {}
-    for name, values in read_arrays(path).items():
-        group, _, what = name.partition("/")
-        if what:
-            found.setdefault(group, {})[what] = values
-    return found
-
-
-if __name__ == "__main__":
-    try:
-        sys.exit(main())
-    except BootcourseError as error:
-        sys.exit(str(error))
