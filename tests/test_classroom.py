@@ -194,8 +194,8 @@ def test_a_process_that_dies_is_started_anew(judge):
 @pytest.mark.skipif(not Path("/bin/sh").exists(), reason="there it is so without a wrapper")
 def test_without_fork_namespaces_and_landlock_answers_are_judged_in_processes_of_their_own(tmp_path, monkeypatch):
     as_elsewhere = (
-        "from bootcourse.course.classroom import judging, sandbox; from bootcourse.course import worker; "
-        "sandbox.shut_in = lambda folder: []; worker.FORKS = False; judging.main()"
+        "from bootcourse.course.classroom import judging, sandbox; from bootcourse.course import runner; "
+        "sandbox.shut_in = lambda folder: []; runner.FORKS = False; judging.main()"
     )
     python = tmp_path / "python"
     python.write_text(f"#!/bin/sh\nexec {sys.executable} -c '{as_elsewhere}' \"$3\"\n")
@@ -261,7 +261,7 @@ def test_the_long_table_has_a_row_for_each_answer(graded):
     text = (graded[0] / "grades-answers.csv").read_text(encoding="utf-8-sig")
     found = list(csv.DictReader(text.splitlines()))
     assert len(found) == len(graded[2]) * sum(e.lesson.startswith("05") for e in registry().values())
-    assert {row["result"] for row in found} == {"passed", "wrong", "missing"}
+    assert {row["result"] for row in found} == {"passed", "wrong", "did_not_run", "missing"}
 
 
 def test_the_page_about_the_class_says_what_to_look_at(graded):
@@ -297,13 +297,13 @@ def test_another_version_is_told_and_an_unknown_one_is_not():
     assert other_versions([own, other, unknown]) == ["b"]
 
 
-def test_beliefs_are_counted_from_the_named_mistakes(tmp_path):
+def test_known_mistakes_are_counted(tmp_path):
     mistake = registry()[NAME].mistakes[0]
     verdicts = Verdicts(tmp_path / "v.jsonl")
-    verdicts.add(key(NAME, ONE_TRY), {"kind": "wrong", "sentence": mistake.says, "details": []})
+    verdicts.add(key(NAME, ONE_TRY), {"kind": "wrong", "sentence": mistake.says, "details": [], "known": True})
     two = [grading.graded(Submission(student=s, answers={NAME: ONE_TRY}), {NAME: 2.0}, verdicts) for s in ("a", "b")]
     text = pages.class_page(two, {NAME: 2.0}, {"a": "a.html", "b": "b.html"}, "")
-    assert f"{mistake.belief} (2)" in text and "0&nbsp;of&nbsp;2" in text
+    assert f"{pages.escape(mistake.says)} (2)" in text and "0&nbsp;of&nbsp;2" in text
 
 
 def test_pages_of_students_with_like_names_do_not_overwrite_each_other():

@@ -21,7 +21,6 @@ from bootcourse.episodes.evaluate import drive_episodes
 from bootcourse.policies import rule_policy
 from bootcourse.scenario import DEFAULT
 
-TROUBLE = ("raises an error", "was stopped after", "crash", "memory", "ended Python")
 LONGER = 3  # times an exercise's own limit: here the imports count, too, and all cores are busy
 
 
@@ -30,11 +29,11 @@ class Graded:
     """One answer of one student."""
 
     exercise: str
-    kind: str  # passed, wrong, todo (a stub), missing, or unjudged
+    kind: str  # of the verdict (passed, wrong, did_not_run, todo), missing, or unjudged
     points: float
     sentence: str = ""
     details: tuple[str, ...] = ()
-    belief: str = ""  # what the student probably thinks, where the mistake is a known one
+    known: bool = False  # is the sentence that of a mistake which the exercise knows?
 
     @property
     def passed(self) -> bool:
@@ -126,16 +125,14 @@ def graded(submission: Submission, points: dict[str, float], verdicts: Verdicts)
             continue
         told = verdicts.known[key(name, source)]
         passed, sentence = told["kind"] == "passed", str(told["sentence"])
-        beliefs = [m.belief for m in registry()[name].mistakes if m.says == sentence]
-        found.append(
-            Graded(name, told["kind"], worth * passed, sentence, tuple(map(str, told["details"])), "".join(beliefs[:1]))
-        )
+        details = tuple(map(str, told["details"]))
+        found.append(Graded(name, told["kind"], worth * passed, sentence, details, told["known"]))
     return Graduate(submission, tuple(found))
 
 
 def did_not_run(graduate: Graduate) -> list[str]:
     """The exercises whose answer raised an error, took too long, or ended its process."""
-    return [g.exercise for g in graduate.grades if g.kind == "wrong" and any(words in g.sentence for words in TROUBLE)]
+    return [g.exercise for g in graduate.grades if g.kind == "did_not_run"]
 
 
 def identical(submissions: Sequence[Submission]) -> list[list[str]]:

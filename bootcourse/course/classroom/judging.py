@@ -1,7 +1,8 @@
 """A process that judges answers, shut in, and the `Judge` that starts it, asks it, and starts it anew when it dies.
 
 `python -m bootcourse.course.classroom.judging FOLDER` reads one JSON object a line, {"exercise": name, "source": text,
-"seconds": limit}, and answers each with one line, {"kind": ..., "sentence": ..., "details": [...]}. `lessons.judge`
+"seconds": limit}, and answers each with one line, {"kind": ..., "sentence": ..., "details": [...],
+"known": is it one of the exercise's mistakes?}. `lessons.judge`
 runs the text in a process of its own again, with limits of time and memory.
 """
 
@@ -18,6 +19,7 @@ from pathlib import Path
 from bootcourse.errors import BootcourseError
 
 START, SLACK = 180.0, 120.0  # s that a process has to start, and to answer beyond an exercise's own limit
+HELPERS = ("the server that forks", "the tracker of `multiprocessing`")  # children that `runner.py` has
 UNJUDGED = "Your answer could not be judged: the process that judges it ended, or gave no verdict in time."
 
 
@@ -36,16 +38,17 @@ def main() -> None:
     for line in questions:
         asked = json.loads(line)
         verdict = judge_source(registry()[asked["exercise"]], asked["source"], asked["seconds"])
-        told = {"kind": verdict.kind, "sentence": verdict.sentence, "details": verdict.details}
+        told = {"kind": verdict.kind, "sentence": verdict.sentence, "details": verdict.details,
+                "known": verdict.mistake is not None}  # fmt: skip
         print(json.dumps(told), file=replies, flush=True)
         if left_behind():
             return  # and with this process they end
 
 
 def left_behind() -> bool:
-    """Linux: has an answer left processes that run on? Its own process is the parent's that it knows of."""
+    """Linux: has an answer left processes that run on? Those of `runner.py` are known: they wait for the next one."""
     children = [path.read_text().split() for path in Path("/proc/self/task").glob("*/children")]
-    return sum(map(len, children)) > 1
+    return sum(map(len, children)) > len(HELPERS)
 
 
 class Judge:
@@ -69,7 +72,7 @@ class Judge:
                 self.process.stdin.flush()
                 return json.loads(self.line(2 * seconds + SLACK))
             self.close()
-        return {"kind": "unjudged", "sentence": UNJUDGED, "details": []}
+        return {"kind": "unjudged", "sentence": UNJUDGED, "details": [], "known": False}
 
     def start(self) -> None:
         """Start the process, unless it runs. Raises BootcourseError where it does not start."""

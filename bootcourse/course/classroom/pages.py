@@ -84,7 +84,7 @@ def title_of(lesson: str) -> str:
 
 
 def class_page(graduates: Sequence[Graduate], points: dict[str, float], files: dict[str, str], holds: str) -> str:
-    """Which exercise failed whom, the beliefs behind it, what to look at, and what the class predicted.
+    """Which exercise failed whom, the mistakes behind it, what to look at, and what the class predicted.
 
     files: student -> the file of the feedback page; holds: a sentence about what shut the judging in.
     """
@@ -96,7 +96,7 @@ def class_page(graduates: Sequence[Graduate], points: dict[str, float], files: d
     parts += ["<h2>Students</h2>", table(("id", "name", "", "points"), ranked), to_look_at(graduates, link)]
     for lesson, names in groupby(points, lambda name: registry()[name].lesson):
         rows = [row_of(name, graduates, link) for name in names]
-        headings = ("exercise", "right", "", "wrong", "what they probably think")
+        headings = ("exercise", "right", "", "wrong", "what the check told them")
         parts.append(f"<h2>{title_of(lesson)}</h2>" + table(headings, rows))
     parts.append(histograms([one.submission.predictions for one in graduates]))
     return page("The class", *parts)
@@ -108,13 +108,13 @@ def bar(value: float, most: float) -> str:
 
 
 def row_of(exercise: str, graduates: Sequence[Graduate], link: dict[str, str]) -> list[str]:
-    """An exercise: how many are right, whose answers are wrong, and the beliefs by how many share them."""
+    """An exercise: how many are right, whose answers are wrong, and the mistakes by how many make them."""
     grades = {one.submission.student: grade for one in graduates for grade in one.grades if grade.exercise == exercise}
     right = sum(grade.passed for grade in grades.values())
-    wrong = [student for student, grade in grades.items() if grade.kind == "wrong"]
-    beliefs = Counter(grade.belief for grade in grades.values() if grade.belief)
-    others = len(wrong) - sum(beliefs.values())
-    told = [f"{escape(belief)} ({count})" for belief, count in beliefs.most_common()]
+    wrong = [student for student, grade in grades.items() if grade.kind in ("wrong", "did_not_run")]
+    mistakes = Counter(grade.sentence for grade in grades.values() if grade.known)
+    others = len(wrong) - sum(mistakes.values())
+    told = [f"{escape(sentence)} ({count})" for sentence, count in mistakes.most_common()]
     told += [f"<small>no known mistake ({others})</small>"] * bool(others)
     return [f"<code>{exercise}</code>", f"{right}&nbsp;of&nbsp;{len(grades)}", bar(right, len(grades)),
             ", ".join(link[student] for student in wrong), "<br>".join(told)]  # fmt: skip

@@ -60,7 +60,7 @@ def long(graduates: Sequence[Graduate]) -> list[list]:
         for grade in one.grades:
             lesson = registry()[grade.exercise].lesson
             rows.append([one.submission.student, grade.exercise, lesson, grade.kind, int(grade.passed),
-                         f"{grade.points:g}", grade.belief and grade.sentence, version])  # fmt: skip
+                         f"{grade.points:g}", grade.sentence if grade.known else "", version])  # fmt: skip
     return rows
 
 
