@@ -1,7 +1,7 @@
 """The instructor's page of a lesson, made from its source and from what its exercises know.
 
 Timings, the questions to ask before a cell is run, each exercise with a right answer, and the
-misconception behind each wrong one.
+changes that make it wrong, with what the check says.
 """
 
 import re
@@ -81,7 +81,7 @@ def predictions(text: str) -> list[str]:
 
 
 def of_exercise(exercise: Exercise, cell: Cell) -> str:
-    rows = [f"| {in_table(mistake.says)} | {in_table(mistake.belief)} |" for mistake in exercise.mistakes]
+    rows = [f"| {code(mistake.change)} | {in_table(mistake.says)} |" for mistake in exercise.mistakes]
     return "\n".join(
         [
             f"### Exercise `{exercise.name}` ({exercise.minutes} min, {exercise.dots})",
@@ -92,7 +92,7 @@ def of_exercise(exercise: Exercise, cell: Cell) -> str:
             re.sub(r"^check\..*", "", cell.solved, flags=re.M).rstrip(),
             "```",
             "",
-            "| The check says | They probably think |",
+            "| A wrong change of it | The check says |",
             "|---|---|",
             *rows,
             "",
@@ -101,6 +101,11 @@ def of_exercise(exercise: Exercise, cell: Cell) -> str:
             *(f"{number}. {hint}" for number, hint in enumerate(exercise.hints, start=1)),
         ]
     )
+
+
+def code(change: str) -> str:
+    """A change of the solution, in a table."""
+    return f"`{in_table(change)}`" if change else ""
 
 
 def in_table(text: str) -> str:
