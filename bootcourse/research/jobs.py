@@ -28,13 +28,12 @@ from bootcourse.research.fingerprint import behind, fingerprints
 from bootcourse.research.planner import Search, is_staying_optimal, plan_episodes
 from bootcourse.research.teachers import RULE, teacher_named
 from bootcourse.scenario import Scenario
-from bootcourse.storage.checkpoint import DamagedCheckpoint
-from bootcourse.storage.runs import load_checkpoint, save_checkpoint, save_runs
+from bootcourse.storage.checkpoint import DamagedCheckpoint, load_checkpoint, save_checkpoint
+from bootcourse.storage.runs import save_runs
 from bootcourse.storage.sealed import is_file_with, read_sealed, write_sealed
 from bootcourse.storage.work import Checkpoints
 
 FORMAT = "bootcourse job 2"
-FORMER_FORMAT = "bootcourse job 1"  # its job.json has no hash of its own
 FORMER = {"teacher": RULE}  # what a job.json of an earlier version does not say
 CHECKPOINT = "checkpoint.npz"
 HELD_OUT = 1  # the block of held-out roads that every method of every study is tested on
@@ -201,7 +200,7 @@ def finished(job: AnyJob, root: Path) -> bool:
 
 def read_job(folder: Path) -> dict:
     """The `job.json` of a finished job, after a check of all its files. Raises BootcourseError if one is damaged."""
-    made = read_sealed(folder / "job.json", FORMAT, FORMER_FORMAT)
+    made = read_sealed(folder / "job.json", FORMAT)
     with decoding(folder / "job.json"):
         convert(made, Made)
     damaged = [name for name, digest in made["sha256"].items() if not is_file_with(folder / name, digest)]

@@ -10,7 +10,7 @@ from bootcourse.methods import ABLATION, AFTER, BASELINES, METHODS
 from bootcourse.research.jobs import BoundJob, Job, StayingJob
 from bootcourse.research.teachers import PLANNER as PLANS
 from bootcourse.research.teachers import RULE, TEACHERS, teacher_named
-from bootcourse.scenario import CALIBRATED, DEFAULT, Scenario, Sight
+from bootcourse.scenario import CALIBRATED, DEFAULT, Scenario
 
 SEEDS, TESTS = 10, 1000  # of training, in a study of all methods; held-out episodes of each agent
 GROUP = 10  # seeds that train side by side: with 5, each costs a third more
@@ -140,7 +140,7 @@ def _ablations() -> dict[str, Variation]:
     return {
         "KL in the actor only": Variation({"kl_in_target": False}, methods=("soft", "bootstrapped")),
         "β over 300 episodes": Variation({"beta_episodes": 300}, methods=helped),
-        "β for ever": Variation({"beta_episodes": 10**9}, methods=helped),
+        "β for ever": Variation({"beta_episodes": None}, methods=helped),
     }
 
 
@@ -157,7 +157,7 @@ def _beyond() -> dict[str, Variation]:
     in the experiment `teachers`.
     """
     episodes = {"rlpd": 250} | {method: METHODS[method].episodes for method in AFTER if METHODS[method].on_policy}
-    methods = [method for method in AFTER if method not in ("dagger", "ppo_safe")]
+    methods = [method for method in AFTER if method != "dagger"]
     return {method: Variation(methods=(method,), episodes=episodes.get(method, 0)) for method in methods}
 
 
@@ -182,38 +182,6 @@ def _teachers() -> dict[str, Variation]:
         for teacher in TEACHERS
         if teacher != PLANS or method not in ("bootstrapped", "soft")
     }
-
-
-RESTARTS = {"restart_share": 0.25, "restart_episodes": 10_000}  # in the first half of the training
-
-# Of the experiment `safe`: what is switched on beside PPO after cloning, whose own agents are in `beyond`. Ten agents
-# took 7 minutes of one core, and 14 for twice as long: two hours for all.
-SAFER = {
-    "accident cost": {"accident_cost": 50.0},
-    "multiplier": {"multiplier_step": 3.0},
-    "learned mask": {"risk_limit": 0.1},
-    "shield by hand": {"shield": True},
-    "accident cost and multiplier": {"accident_cost": 50.0, "multiplier_step": 3.0},
-    "accident cost and shield by hand": {"accident_cost": 50.0, "shield": True},
-    "restarts": RESTARTS,
-    "accident cost and restarts": {"accident_cost": 50.0} | RESTARTS,
-    "γ = 0.995": {"gamma": 0.995},
-    "distributional critic": {"value_quantiles": 32, "worst_share": 0.25},  # shares 0.5 and 1 did worse on other roads
-}
-
-
-def _safe() -> dict[str, Variation]:
-    """What may make PPO after cloning safe: each alone, two together, and some for twice as long."""
-    off = {"accident_cost": 0.0, "multiplier_step": 0.0, "risk_limit": 1.0, "shield": False, "restart_share": 0.0}
-    off["value_quantiles"] = 1
-    found = {name: Variation(off | changes, methods=("ppo_safe",)) for name, changes in SAFER.items()}
-    remembers = replace(DEFAULT, name="memory", sight=Sight(memory=3))
-    found["memory"] = Variation(off, remembers, ("ppo_safe",))
-    found["accident cost, shield by hand and memory"] = replace(
-        found["accident cost and shield by hand"], scenario=remembers
-    )
-    longer = ("accident cost", "accident cost and shield by hand", "accident cost, shield by hand and memory")
-    return found | {f"{name}, twice as long": replace(found[name], episodes=40_000) for name in longer}
 
 
 @dataclass(frozen=True)
@@ -259,7 +227,6 @@ EXPERIMENTS = {
     "longer-view": Experiment(_longer_view(), seeds=10, episodes=1500),
     "beyond": Experiment(_beyond(), seeds=10, episodes=1500),
     "teachers": Experiment(_teachers(), seeds=10, episodes=1500, tests=200),
-    "safe": Experiment(_safe(), seeds=10, episodes=20_000),
 }
 
 

@@ -42,7 +42,7 @@ def read_manifest(folder: Path) -> Manifest:
     path = folder / MANIFEST
     if not path.exists():
         raise BootcourseError(f"{folder} holds no shipped results: work in a whole copy of the course's repository.")
-    content = read_sealed(path, FORMAT, None)
+    content = read_sealed(path, FORMAT)
     with decoding(path):
         return convert(content, Manifest)
 
