@@ -37,8 +37,8 @@ from bootcourse.research.results import load_results, save_results
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import Estimate
 from bootcourse.storage.assets import FOLDER, MANIFEST, read_manifest
-from bootcourse.storage.checkpoint import state_of
-from bootcourse.storage.runs import HASHED, load_checkpoint, load_run, save_checkpoint, save_runs
+from bootcourse.storage.checkpoint import load_checkpoint, save_checkpoint, state_of
+from bootcourse.storage.runs import HASHED, load_run, save_runs
 from bootcourse.storage.sealed import write_sealed
 from tests.hostile.payloads import PAYLOAD
 
