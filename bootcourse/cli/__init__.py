@@ -19,9 +19,9 @@ from bootcourse.errors import BootcourseError
 LAZY = {  # commands of the research and of the course, "module:function", imported when they are used
     "study": "bootcourse.research.commands:study",
     "assets": "bootcourse.research.commands:assets",
-    "handout": "bootcourse.cli.classroom:handout",
-    "submit": "bootcourse.cli.classroom:submit",
-    "grade": "bootcourse.cli.classroom:grade",
+    "handout": "bootcourse.course.classroom.commands:handout",
+    "submit": "bootcourse.course.classroom.commands:submit",
+    "grade": "bootcourse.course.classroom.commands:grade",
 }
 PLAIN = {"add_completion": False, "rich_markup_mode": None, "pretty_exceptions_enable": False}  # on every terminal
 

@@ -5,7 +5,6 @@ import importlib
 from bootcourse.panels.bonus import bonus_panel as bonus_panel
 from bootcourse.panels.drive import drive_panel as drive_panel
 from bootcourse.panels.policy import policy_panel as policy_panel
-from bootcourse.panels.scenario import scenario_panel as scenario_panel
 from bootcourse.panels.train import train_panel as train_panel
 
 ELSEWHERE = {"sweep_panel": "bootcourse.research.sweep_panel"}  # loaded when it is first used
