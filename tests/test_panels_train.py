@@ -470,9 +470,9 @@ def test_a_method_with_its_own_number_of_episodes_sets_it_when_it_is_chosen():
         return panel.episodes.value, panel.episodes.slider.value
 
     assert chosen("sac") == (3, 50)  # the slider begins at 50
-    assert chosen("ppo") == chosen("ppo_kl") == (METHODS["ppo"].episodes,) * 2 == (20_000,) * 2
+    assert chosen("ppo") == (METHODS["ppo"].episodes,) * 2 == (20_000,) * 2
     from_page(panel.episodes.field, value=15_000)
-    assert chosen("ppo_safe") == (15_000, 15_000)
+    assert chosen("ppo_cloned") == (15_000, 15_000)
     assert chosen("soft") == (1000, 1000)
 
 

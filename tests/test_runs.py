@@ -1,7 +1,6 @@
 """Runs and checkpoints on disk: whole or not at all, and never believed when damaged."""
 
 import json
-import shutil
 from dataclasses import replace
 
 import numpy as np
@@ -39,11 +38,6 @@ def test_a_run_reads_back_as_it_was_written(result, run):
     np.testing.assert_array_equal(back.curves["return"], result.curves["return"][0])
     assert back.agent.settings == result.agents[0].settings and back.scenario == result.scenario
     assert back.provenance["seed"] == 0 and "torch" in back.provenance
-
-
-def test_every_seed_has_its_own_run(result, run):
-    assert [path.name for path in find_runs(run.parent)] == ["bootstrapped-0", "bootstrapped-1"]
-    assert find_runs(run) == [run]
 
 
 def test_a_run_is_never_overwritten(result, run):
@@ -129,15 +123,6 @@ def test_an_agent_that_sees_another_number_of_neighbours_is_refused(run):
         load_run(run).agent.probabilities(np.zeros((1, 36)))
 
 
-def test_a_changed_provenance_is_noticed(run):
-    text = (run / "provenance.json").read_text()
-    (run / "provenance.json").write_text(text.replace('"seed": 0', '"seed": 1'))
-    with pytest.raises(
-        BootcourseError, match=r"provenance.json is damaged \(it does not fit its own hash\): train this run again"
-    ):
-        load_run(run)
-
-
 def test_a_file_of_a_run_that_is_another_kind_of_json_is_refused(run):
     (run / "provenance.json").write_text("[]")
     with pytest.raises(BootcourseError, match="Expected `object`, got `array`"):
@@ -166,14 +151,3 @@ def test_a_damaged_checkpoint_is_refused(tmp_path):
     path.write_bytes(path.read_bytes()[:5000])
     with pytest.raises(BootcourseError, match="is damaged or cut short.*begin again"):
         load_checkpoint(path)
-
-
-def test_a_run_that_cannot_be_written_leaves_nothing_behind(result, tmp_path, monkeypatch):
-    def full(*args):
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr("os.fsync", full)
-    with pytest.raises(BootcourseError, match="Cannot write"):
-        save_runs(result, tmp_path / "runs")
-    assert list((tmp_path / "runs").iterdir()) == []
-    shutil.rmtree(tmp_path / "runs")
