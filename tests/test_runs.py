@@ -1,6 +1,7 @@
 """Runs and checkpoints on disk: whole or not at all, and never believed when damaged."""
 
 import json
+import shutil
 from dataclasses import replace
 
 import numpy as np
@@ -123,6 +124,15 @@ def test_an_agent_that_sees_another_number_of_neighbours_is_refused(run):
         load_run(run).agent.probabilities(np.zeros((1, 36)))
 
 
+def test_a_changed_provenance_is_noticed(run):
+    text = (run / "provenance.json").read_text()
+    (run / "provenance.json").write_text(text.replace('"seed": 0', '"seed": 1'))
+    with pytest.raises(
+        BootcourseError, match=r"provenance.json is damaged \(it does not fit its own hash\): train this run again"
+    ):
+        load_run(run)
+
+
 def test_a_file_of_a_run_that_is_another_kind_of_json_is_refused(run):
     (run / "provenance.json").write_text("[]")
     with pytest.raises(BootcourseError, match="Expected `object`, got `array`"):
@@ -151,3 +161,14 @@ def test_a_damaged_checkpoint_is_refused(tmp_path):
     path.write_bytes(path.read_bytes()[:5000])
     with pytest.raises(BootcourseError, match="is damaged or cut short.*begin again"):
         load_checkpoint(path)
+
+
+def test_a_run_that_cannot_be_written_leaves_nothing_behind(result, tmp_path, monkeypatch):
+    def full(*args):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("os.fsync", full)
+    with pytest.raises(BootcourseError, match="Cannot write"):
+        save_runs(result, tmp_path / "runs")
+    assert list((tmp_path / "runs").iterdir()) == []
+    shutil.rmtree(tmp_path / "runs")
