@@ -208,8 +208,6 @@ def test_a_training_that_is_stopped_loses_nothing_and_resumes(bootcourse, tmp_pa
 
 
 def test_a_training_that_is_stopped_before_its_first_decision_says_how_to_go_on(bootcourse, tmp_path, monkeypatch):
-    from bootcourse.learn.training import Training
-
     def stopped(*arguments):
         raise KeyboardInterrupt
 
