@@ -18,7 +18,7 @@ from bootcourse.course import answer_files
 from bootcourse.course.answer_files import PARTS
 from bootcourse.course.judge import judge
 from bootcourse.course.lessons import registry
-from bootcourse.course.own_learner import BUFFER, own_learner, part, parts_of
+from bootcourse.course.own_learner import ALONE, BUFFER, own_learner, part, parts_of
 from bootcourse.course.verdict import Verdict
 from bootcourse.errors import BootcourseError, check_known
 from bootcourse.learn.learner import SACLearner, learner_for
@@ -26,7 +26,8 @@ from bootcourse.learn.replay_buffer import Batch
 from bootcourse.learn.settings import Settings, settings_for
 from bootcourse.learn.training import Training
 
-APART = PARTS[-10:]  # they are parts of other learners than SAC, and of a reward
+APART = {name for names in ALONE.values() for name in names}  # parts of other learners than SAC
+APART |= {"advantages", "clipped_loss", "shaping_reward"}
 NONE = "No part is yours yet: agents train with the library's own."
 TOLERANCE = 1e-3  # relative difference of a loss or a gradient; rounding gives about 1e-6
 _own: dict[str, Callable] = {}  # the student's parts in this kernel
