@@ -25,7 +25,7 @@ PYTHON = {
     "language_info": {"name": "python"},
 }
 STRICT = "check.strict()  # in this notebook every check must pass"
-IMPORTS_CHECK = re.compile(r"^from bootcourse\.lessons import (?:.*|\([^)]*)\bcheck\b", re.M)
+IMPORTS_CHECK = re.compile(r"^from bootcourse\.course import (?:.*|\([^)]*)\bcheck\b", re.M)
 
 
 def student_file(path: Path) -> Path:
