@@ -9,10 +9,8 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
-from tools.course.source import CLAIM, NOTEBOOKS, NUMBER, Cell, read, sources, title
+from tools.course.source import CLAIM, NUMBER, Cell, read, sources, title
 
-# A sentence with one of these speaks about all cases: it needs a claim.
-STRONG = re.compile(r"\b(ever|never|no|nobody|none|all|only|cannot|because|every)\b", re.I)
 HEAD = """# Where the numbers come from
 
 Numbers in the text of a lesson are computed when the lesson is made, from the library and from the results that ship
@@ -74,21 +72,10 @@ def blocks(text: str) -> list[str]:
     return [block for block in re.split(r"\n\s*\n|\n(?=- |\d+\. |#)", text) if block.strip()]
 
 
-def unclaimed(path: Path) -> list[str]:
-    """The sentences about all cases without a claim in their paragraph, other than questions and predictions."""
-    found = []
-    for block in (block for cell in read(path) for block in blocks(cell.text) if not CLAIM.search(block)):
-        if block.lstrip().startswith(">"):
-            continue
-        sentences = re.split(r"(?<=[.!?])[\"”')*]*\s", " ".join(block.split()))
-        found += [each for each in sentences if STRONG.search(each) and not each.endswith("?")]
-    return found
-
-
-def claims_page(notebooks: Path = NOTEBOOKS) -> str:
+def claims_page() -> str:
     """Each paragraph with numbers or claims, of all lessons, and what they come from, as Markdown."""
     parts = [HEAD]
-    for path in sources(notebooks=notebooks):
+    for path in sources():
         cells = read(path)
         entries = [entry(block) for cell in cells for block in blocks(cell.text) if is_computed(block)]
         parts += [f"## {title(cells)}", *entries] if entries else []

@@ -8,7 +8,7 @@ import re
 from pathlib import Path
 
 from bootcourse.course.exercise import Exercise
-from bootcourse.course.lessons import registry
+from bootcourse.course.lessons import registry, stem
 from tools.course.claims import filled
 from tools.course.source import Cell, one_folder_down, title
 
@@ -16,10 +16,11 @@ from tools.course.source import Cell, one_folder_down, title
 def page(path: Path) -> str:
     """The whole page, as markdown."""
     cells = filled(path)
-    solved = f" · [solved](../solved/{path.stem}.ipynb)" if any(cell.is_exercise for cell in cells) else ""
+    file = f"{stem(path.stem)}.ipynb"
+    solved = f" · [solved](../solved/{file})" if any(cell.is_exercise for cell in cells) else ""
     parts = [
         f"# For the instructor: {title(cells)}",
-        f"[Notebook](../{path.stem}.ipynb){solved}. Made from `source/{path.name}`: change it there.",
+        f"[Notebook](../{file}){solved}. Made from `source/{path.name}`: change it there.",
         timings(cells),
     ]
     for heading, inside in sections(cells):

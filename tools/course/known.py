@@ -15,7 +15,7 @@ import torch
 from scipy import stats
 
 from bootcourse.course import shipped
-from bootcourse.course.lessons import registry
+from bootcourse.course.lessons import LESSONS, registry
 from bootcourse.course.lessons.bug_hunt import bugs
 from bootcourse.course.lessons.the_barrier import chain
 from bootcourse.course.lessons.the_barrier.chain import leaving
@@ -51,8 +51,7 @@ from bootcourse.rule import HEADING_COST, Reason, stochastic_rule, target_speed
 from bootcourse.scenario import ACTION_NAMES, CALIBRATED, DEFAULT, N_ACTIONS, RULE_P
 from bootcourse.statistics import ESCAPES, escapes, improvement, interval, iqm, rate
 from bootcourse.storage.assets import FOLDER
-from tools.course.reference import lessons
-from tools.course.source import NOTEBOOKS, read
+from tools.course.source import read, sources
 
 shipped_results = cache(shipped.shipped_results)
 shipped_runs = cache(shipped.shipped_runs)
@@ -69,15 +68,14 @@ def roads() -> int:
     return shipped_results().sizes[0]
 
 
-def minutes(*numbers: int) -> int:
+def minutes(*lessons: str) -> int:
     """The time of these lessons together, as they state it at their top."""
-    texts = [lessons()[number].read_text(encoding="utf-8") for number in numbers]
-    return sum(int(re.search(r"^# \*\*Time\*\* (\d+) minutes", text, re.M)[1]) for text in texts)
+    return sum(int(re.search(r"^# \*\*Time\*\* (\d+) minutes", code_of(name), re.M)[1]) for name in lessons)
 
 
-def talk(*numbers: int) -> int:
+def talk(*lessons: str) -> int:
     """The minutes that the instructor's pages of these lessons have for talk."""
-    return sum(cell.metadata.get("minutes", 0) for number in numbers for cell in read(lessons()[number]))
+    return sum(cell.metadata.get("minutes", 0) for path in sources(lessons) for cell in read(path))
 
 
 def work(*names: str) -> int:
@@ -302,8 +300,8 @@ def accidents(method: str) -> float:
 
 
 def code_of(lesson: str) -> str:
-    """The source of another lesson."""
-    return (NOTEBOOKS / "source" / f"{lesson}.py").read_text(encoding="utf-8")
+    """The source of a lesson."""
+    return sources([lesson])[0].read_text(encoding="utf-8")
 
 
 def second_pays(speed: float, offset: float = 0.0) -> float:

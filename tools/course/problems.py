@@ -13,7 +13,7 @@ from pathlib import Path
 
 import nbformat
 
-from bootcourse.course.lessons import registry
+from bootcourse.course.lessons import registry, stem
 from tools.course.claims import filled
 from tools.course.products import IMPORTS_CHECK, out_of_date, solved_file, student_file
 from tools.course.source import Cell, arguments_of, body, function_in
@@ -66,7 +66,7 @@ def of_imports(cells: list[Cell]) -> list[str]:
 def of_exercises(cells: list[Cell], lesson: str) -> list[str]:
     """Used and registered exercises are the same; each stands as its lesson writers' README says."""
     used = [name for cell in cells for name in cell.checks]
-    own = [exercise.name for exercise in registry().values() if exercise.lesson == lesson]
+    own = [exercise.name for exercise in registry().values() if exercise.lesson == stem(lesson)]
     found = [f"check.{name}: no such exercise is registered." for name in used if name not in registry()]
     found += [f"check.{name} belongs to lesson {registry()[name].lesson}." for name in used
               if name in registry() and name not in own]  # fmt: skip
@@ -116,14 +116,15 @@ def of_solution(exercise, solved: ast.FunctionDef | ast.ClassDef) -> list[str]:
 
 
 def of_predictions(cells: list[Cell], lesson: str) -> list[str]:
-    """Each prediction has a number of its own that begins with the lesson's, and the lesson's end compares them all."""
+    """Each prediction has a name of its own that begins with the lesson's, and the lesson's end compares them all."""
     code = "\n".join(cell.solved for cell in cells if cell.is_code)
     asked = re.findall(r"(?<![\w.])predict\(\s*[\"']([^\"']*)", code)
     compared = code.rpartition("compare_predictions(")[2] if "compare_predictions(" in code else ""
-    chapter = str(int(lesson[:2]))
-    found = [f"The prediction {n} does not begin with {chapter}." for n in asked if n.partition(".")[0] != chapter]
-    found += [f"There are two predictions {number}." for number in sorted(set(asked)) if asked.count(number) > 1]
-    return found + [f"No compare_predictions answers {number}." for number in asked if f'"{number}":' not in compared]
+    problems = [f"The prediction {name} does not begin with {lesson}." for name in asked
+                if name.partition(".")[0] != lesson]  # fmt: skip
+    problems += [f"There are two predictions {name}." for name in sorted(set(asked)) if asked.count(name) > 1]
+    return problems + [f"No compare_predictions answers {name}." for name in asked
+                       if not re.search(rf"\b{name.partition('.')[2]}: ", compared)]  # fmt: skip
 
 
 # Order ----------------------------------------------------------------------------------------------

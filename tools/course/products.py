@@ -12,9 +12,11 @@ from pathlib import Path
 import nbformat
 from nbclient import NotebookClient
 
+from bootcourse.course.lessons import stem
 from tools.course.claims import filled
 from tools.course.instructor import page
-from tools.course.source import Cell, one_folder_down, read
+from tools.course.numbering import NOTEBOOKS
+from tools.course.source import Cell, one_folder_down, read, sources
 
 WIDGET = "application/vnd.jupyter.widget-view+json"
 SOLVED_NOTE = (
@@ -25,19 +27,19 @@ PYTHON = {
     "language_info": {"name": "python"},
 }
 STRICT = "check.strict()  # in this notebook every check must pass"
-IMPORTS_CHECK = re.compile(r"^from bootcourse\.lessons import (?:.*|\([^)]*)\bcheck\b", re.M)
+IMPORTS_CHECK = re.compile(r"^from bootcourse\.course import (?:.*|\([^)]*)\bcheck\b", re.M)
 
 
 def student_file(path: Path) -> Path:
-    return path.parent.parent / f"{path.stem}.ipynb"
+    return path.parent.parent / f"{stem(path.stem)}.ipynb"
 
 
 def solved_file(path: Path) -> Path:
-    return path.parent.parent / "solved" / f"{path.stem}.ipynb"
+    return path.parent.parent / "solved" / f"{stem(path.stem)}.ipynb"
 
 
 def instructor_file(path: Path) -> Path:
-    return path.parent.parent / "instructor" / f"{path.stem}.md"
+    return path.parent.parent / "instructor" / f"{stem(path.stem)}.md"
 
 
 def documents(path: Path) -> dict[Path, nbformat.NotebookNode]:
@@ -51,7 +53,7 @@ def documents(path: Path) -> dict[Path, nbformat.NotebookNode]:
 
 def solved_nodes(path: Path, cells: list[Cell]) -> list[nbformat.NotebookNode]:
     """The solved notebook's cells: a note where one is, and strict checks from the import on."""
-    nodes = [nbformat.v4.new_markdown_cell(SOLVED_NOTE.format(path.stem))]
+    nodes = [nbformat.v4.new_markdown_cell(SOLVED_NOTE.format(stem(path.stem)))]
     for cell in cells:
         nodes.append(node(cell, cell.solved if cell.is_code else one_folder_down(cell.solved)))
         if cell.is_code and IMPORTS_CHECK.search(cell.solved):
@@ -94,7 +96,7 @@ def execute(path: Path) -> dict[str, list]:
             steps.append(cell.student)
             if cell.is_exercise:
                 steps += ["check.strict()", cell.solved, "check.strict(False)"]
-    if answers := list(path.parent.parent.glob("answers/*.py")):
+    if answers := list(path.parent.parent.glob("answers/*.*")):
         raise ValueError(f"Move {answers[0].parent} away: the notebooks would be made with these answers.")
     ran = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(step) for step in steps], metadata=PYTHON)
     NotebookClient(ran, timeout=300, resources={"metadata": {"path": path.parent.parent}}).execute()
@@ -146,20 +148,29 @@ def write(path: Path, made: dict[Path, nbformat.NotebookNode]) -> list[Path]:
     return [*made, instructor_file(path)]
 
 
-def refresh_prose(path: Path) -> bool:
-    """Take over a source's text and keep the outputs; False where the code has changed, too."""
+def remove_strange() -> list[Path]:
+    """Remove what was made under another number, or from a source that is gone. Returns what is removed."""
+    made = {file(path) for path in sources() for file in (student_file, solved_file, instructor_file)}
+    folders = NOTEBOOKS.glob("*.ipynb"), NOTEBOOKS.glob("solved/*.ipynb"), NOTEBOOKS.glob("instructor/*.md")
+    strange = [path for folder in folders for path in folder if path not in made]
+    for path in strange:
+        path.unlink()
+    return strange
+
+
+def refresh_prose(path: Path) -> list[Path]:
+    """Take over a source's text and keep the outputs. Returns what is written: [] where the code has changed, too."""
     made = documents(path)
     for target, document in made.items():
         if not target.exists():
-            return False
+            return []
         old = [cell for cell in nbformat.read(target, as_version=4).cells if cell.cell_type == "code"]
         new = [cell for cell in document.cells if cell.cell_type == "code"]
         if [cell.source for cell in old] != [cell.source for cell in new]:
-            return False
+            return []
         for before, after in zip(old, new, strict=True):
             after.outputs, after.execution_count = before.outputs, before.execution_count
-    write(path, made)
-    return True
+    return write(path, made)
 
 
 def out_of_date(path: Path) -> list[Path]:

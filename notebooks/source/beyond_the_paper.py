@@ -11,7 +11,7 @@
 # ---
 
 # %% [markdown]
-# # 16 · Beyond the paper
+# # Beyond the paper
 #
 # **What you will be able to do**
 # - write what three other methods take from a teacher: RLPD, IBRL and jump-start RL;
@@ -19,8 +19,8 @@
 # - write a cost of accidents that sets itself, and judge what makes a driver safer;
 # - say what a teacher is worth to a learner, and on what evidence.
 #
-# **Time** 80 minutes, about one of them the machine's. **It builds on** demonstrations (lesson 8),
-# the ablation (9) and PPO (15).
+# **Time** 80 minutes, about one of them the machine's. **It builds on** demonstrations (lesson
+# [[learning_from_demonstrations]]), the ablation (9) and PPO (15).
 
 # %%
 import bootcourse as bc
@@ -39,15 +39,15 @@ from bootcourse.research import beyond, frontier, ppo_reference
 # | | takes from the teacher | until when | needed to drive |
 # |---|---|---|---|
 # | bootstrapped SAC | a KL in the losses, demonstrations with a bonus | both fade | – |
-# | PPO after cloning (lesson 15) | a first policy | before the training | – |
+# | PPO after cloning (lesson [[the_second_trap]]) | a first policy | before the training | – |
 # | PPO with a fading KL, *kickstarting* | a KL in the loss | it succeeds alone | – |
 # | residual PPO | a policy to correct | to the end | yes |
 # | jump-start RL | the first seconds of each episode | they shrink | – |
 # | RLPD | half of each batch | to the end | – |
-# | DAgger (lesson 6) | labels in the agent's own states | to the end | – |
+# | DAgger (lesson [[demonstrations]]) | labels in the agent's own states | to the end | – |
 # | IBRL, PEX | a second action to choose from | to the end | yes |
 #
-# Our teacher is the rule of lesson 3. On the planner's scale it earns {{ 100 *
+# Our teacher is the rule of lesson [[the_rule]]. On the planner's scale it earns {{ 100 *
 # of('rule').scores('returns')[0] / bound().mean() | .0f }} %.
 #
 # > **Predict.** Which of these learners needs the fewest decisions of its own until almost all of
@@ -55,7 +55,7 @@ from bootcourse.research import beyond, frontier, ppo_reference
 
 # %%
 learners = ["PPO after cloning", "jump-start RL", "RLPD", "IBRL", "bootstrapped SAC"]
-predict("16.1", "The fewest decisions until it gets out", learners)
+predict("beyond_the_paper.1", "The fewest decisions until it gets out", learners)
 
 # %% [markdown] tags=["instructor"] minutes=6
 # Ask for a reason with each vote: a learner can be quick by taking much from the teacher, or by
@@ -66,17 +66,17 @@ predict("16.1", "The fewest decisions until it gets out", learners)
 # ## Round 1: half of each batch, to the end
 #
 # RLPD (*reinforcement learning with prior data*) is SAC with half of each batch demonstrations,
-# from the first update to the last, without bonus, margin and KL. Lesson 11 showed what goes wrong
-# with such data: the target takes the best of nine guesses, and untried actions are guessed too
-# high. RLPD's remedy is an **ensemble**: {{ settings_for('rlpd').critics }} critics instead of two.
-# Each update draws {{ settings_for('rlpd').target_critics }} of them, and the target takes the
-# smallest of *their* values. Where the data say little, critics that began differently disagree,
-# and the smallest is a careful guess. (Its other remedy normalises what goes through each hidden
-# layer, which bounds a critic's values.)
+# from the first update to the last, without bonus, margin and KL. Lesson [[offline_learning]]
+# showed what goes wrong with such data: the target takes the best of nine guesses, and untried
+# actions are guessed too high. RLPD's remedy is an **ensemble**: {{ settings_for('rlpd').critics }}
+# critics instead of two. Each update draws {{ settings_for('rlpd').target_critics }} of them, and
+# the target takes the smallest of *their* values. Where the data say little, critics that began
+# differently disagree, and the smallest is a careful guess. (Its other remedy normalises what goes
+# through each hidden layer, which bounds a critic's values.)
 # <!-- claim: (lambda s: s.bonus == s.margin == s.xi_multiplier == 0 and s.beta_start == 0.5 and
 #   s.beta_episodes > 10**8)(settings_for('rlpd')) -->
 #
-# **Exercise 16.1 (4 min, ●○○).** Write it: the smallest value of the chosen critics.
+# **Exercise (4 min, ●○○).** Write it: the smallest value of the chosen critics.
 
 
 # %%
@@ -92,7 +92,7 @@ check.smallest_of(smallest_of)
 # > How long are the first 50 episodes of an agent that trains like this, on average?
 
 # %%
-predict("16.2", "RLPD's first 50 episodes", unit="s")
+predict("beyond_the_paper.2", "RLPD's first 50 episodes", unit="s")
 
 # %% tags=["nbval-ignore-output"]
 torch.set_num_threads(1)  # small matrices are faster on one thread
@@ -120,9 +120,10 @@ bc.show(charts.lines(at, named, title, "episode", "mean of 20 episodes of ten ag
 # np.isfinite(learned('rlpd')).sum() }} of ten end 95 % of 50 episodes in a row ahead.
 # <!-- claim: np.isfinite(learned('rlpd')).sum() > 5 -->
 #
-# **Explain.** Compare what the paper adds to the same demonstrations (lesson 8): a bonus c for each
-# demonstrated action, which has to fade, since it changes what the actions are worth. RLPD leaves
-# the values as they are. Its demonstrations stay in each batch instead, to the end.
+# **Explain.** Compare what the paper adds to the same demonstrations (lesson
+# [[learning_from_demonstrations]]): a bonus c for each demonstrated action, which has to fade,
+# since it changes what the actions are worth. RLPD leaves the values as they are. Its
+# demonstrations stay in each batch instead, to the end.
 
 # %% [markdown]
 # ## Round 2: the better of two
@@ -138,7 +139,7 @@ bc.show(charts.lines(at, named, title, "episode", "mean of 20 episodes of ten ag
 # *distribution*. An action that is better than μ(s) keeps its probability; if another is
 # drawn, μ(s) is taken instead.
 #
-# **Exercise 16.2 (12 min, ●●●).** Write this distribution.
+# **Exercise (12 min, ●●●).** Write this distribution.
 
 
 # %%
@@ -164,7 +165,7 @@ for rule in range(3):
 
 # %%
 choices = ["in the first 30 seconds", "afterwards", "about equally often"]
-predict("16.3", "It takes the rule's action more often", choices)
+predict("beyond_the_paper.3", "It takes the rule's action more often", choices)
 
 # %% tags=["nbval-ignore-output"]
 training = own_code.training([bc.settings_for("ibrl")], 260)
@@ -207,7 +208,7 @@ bc.show(bc.traces([drives[0]], title="One drive of your agent", what=("speed", "
 # At first h is {{ settings_for('jsrl').guide_decisions }}. As soon as the two together earn about
 # as much as at their best, h shrinks by a tenth of this first value, until the agent drives alone.
 #
-# **Exercise 16.3 (6 min, ●●○).** Write the judgement: does h shrink now?
+# **Exercise (6 min, ●●○).** Write the judgement: does h shrink now?
 
 
 # %%
@@ -230,7 +231,7 @@ jump = training.run(
 )
 print(f"{training.decisions:,} decisions, {jump.seconds:.0f} s")
 
-# %%
+# %% tags=["hide-input"]
 episode, guide = np.array(course).T
 h = np.array([guide[episode <= n][-1] for n in range(1, 121)])
 ahead = np.convolve(jump.curves["success"][0], np.ones(20) / 20, "valid")
@@ -252,17 +253,18 @@ bc.show(charts.lines(np.arange(20, 121), named, title, "episode", "share"))
 # %% [markdown]
 # ## Round 4: ten seeds of each
 #
-# One training says little (lesson 9). So ten agents of each method were trained, and each drove
-# {{ roads() | , }} held-out roads. The other methods look further ahead than the paper's γ = 0.8:
-# γ is {{ settings_for('ibrl').gamma | g }}, and {{ settings_for('ppo').gamma | g }} for PPO. The
-# paper's method is the one with two updates for each decision (lesson 9, round 6).
+# One training says little (lesson [[ablation]]). So ten agents of each method were trained, and
+# each drove {{ roads() | , }} held-out roads. The other methods look further ahead than the paper's
+# γ = 0.8: γ is {{ settings_for('ibrl').gamma | g }}, and {{ settings_for('ppo').gamma | g }} for
+# PPO. The paper's method is the one with two updates for each decision (lesson [[ablation]], round
+# 6).
 # <!-- claim: {len(later(m)) for m in LATER} == {10} -->
 #
 # > **Predict.** Count only the methods whose ten agents all escape. Of 1,000 drives, in how many
 # > does the safest of them crash?
 
 # %%
-predict("16.4", "Accidents of the safest method that escapes", unit="of 1,000 drives")
+predict("beyond_the_paper.4", "Accidents of the safest method that escapes", unit="of 1,000 drives")
 
 # %%
 named = {"bootstrapped SAC": bc.shipped_results("paper").of("bootstrapped")}
@@ -279,18 +281,18 @@ bc.show(frontier.safe_and_fast(named, shipped.shipped_bound().mean()))
 #
 # **See.** All ten agents escape with the paper's method, with the three kinds of PPO that use a
 # teacher, and with PEX (*policy expansion*). Of PPO alone none does: its agents are in the second
-# trap of lesson 15. They earn {{ iqm(later('ppo').scores('returns')) | .0f }}, a little more than
-# the rule, and have no accident in their {{ later('ppo').episodes('accident').size | , }} test
-# drives. Of IBRL and of jump-start RL {{ escapers(later('ibrl'), 'ibrl') }} each escape, of RLPD
-# {{ escapers(later('rlpd'), 'rlpd') }}. PPO after cloning earns the most. It crashes in
-# {{ accident_percent(later('ppo_cloned')) | .1f }} % of its drives, residual PPO in
-# {{ accident_percent(later('ppo_residual')) | .1f }} % and PEX in
+# trap of lesson [[the_second_trap]]. They earn {{ iqm(later('ppo').scores('returns')) | .0f }}, a
+# little more than the rule, and have no accident in their
+# {{ later('ppo').episodes('accident').size | , }} test drives. Of IBRL and of jump-start RL
+# {{ escapers(later('ibrl'), 'ibrl') }} each escape, of RLPD {{ escapers(later('rlpd'), 'rlpd') }}.
+# PPO after cloning earns the most. It crashes in {{ accident_percent(later('ppo_cloned')) | .1f }}
+# % of its drives, residual PPO in {{ accident_percent(later('ppo_residual')) | .1f }} % and PEX in
 # {{ accident_percent(later('pex')) | .1f }} %: ten agents do not tell the three apart. PPO after
 # cloning and residual PPO drove {{ driven('ppo_cloned') / 1e6 | .1f }} million decisions each, PEX
 # and IBRL {{ driven('ibrl') / 1e6 | .1f }} million each. In the last column the paper's method is
 # ahead of the others: half of its agents know the way out after
-# {{ np.median(papers_cost()) | ,.0f }} decisions. It crashes in
-# {{ accident_percent(shipped_results('paper').of('bootstrapped')) | .1f }} % of its drives.
+# {{ np.median(papers_cost()) | ,.0f }} decisions. It crashes in {{
+# accident_percent(shipped_results('paper').of('bootstrapped')) | .1f }} % of its drives.
 # <!-- claim: escapers(later('ibrl'), 'ibrl') == escapers(later('jsrl'), 'jsrl') -->
 # <!-- claim: {escapers(later(m), m) for m in ('ppo_cloned', 'ppo_kl', 'ppo_residual', 'pex')} ==
 #   {10} and escaped('bootstrapped', 'paper') == 10 -->
@@ -350,16 +352,16 @@ bc.show(frontier.safe_and_fast(named, shipped.shipped_bound().mean()))
 # %% [markdown]
 # ## Round 5: what makes it safer?
 #
-# How does one of the safest methods still crash? Here is the first agent of lesson 15 that PPO
-# trained after cloning. It trained for a shorter time than those in the table, and crashes more
-# often.
+# How does one of the safest methods still crash? Here is the first agent of lesson
+# [[the_second_trap]] that PPO trained after cloning. It trained for a shorter time than those in
+# the table, and crashes more often.
 #
 # > **Predict.** What happens in most of its crashes?
 
 # %%
 ends = "it leaves the road", "it hits a car that slows down", "it hits a car that keeps its speed"
 choices = [*ends]
-predict("16.5", "Most crashes of PPO after cloning", choices)
+predict("beyond_the_paper.5", "Most crashes of PPO after cloning", choices)
 
 # %%
 drives = bc.record(ppo_reference.agent_of("cloned").as_policy(), bc.held_out_seeds(16, 200))
@@ -372,7 +374,7 @@ for drive in crashes:
     kinds[choices[0 if not len(hit) else 1 if slower[0] else 2]] += 1
 table(["crashes", f"of {len(crashes)}, in {len(drives)} drives"], list(kinds.items()))
 
-# %%
+# %% tags=["hide-input"]
 drive = next(drive for drive in crashes if drive.times[-1] > 30)
 end = drive.times[-1]
 bc.show(bc.top_view_over_time(drive, times=[end - 12, end - 8, end - 4, end]))
@@ -394,7 +396,7 @@ bc.show(bc.top_view_over_time(drive, times=[end - 12, end - 8, end - 4, end]))
 # takes a step, in proportion to how far the rate of crashes is from d. It is at least 0: with a
 # negative cost a crash would be a reward.
 #
-# **Exercise 16.4 (5 min, ●●○).** Write this step.
+# **Exercise (5 min, ●●○).** Write this step.
 
 
 # %%
@@ -413,7 +415,7 @@ check.multiplier_step(multiplier_step)
 
 # %%
 shapes = ["it rises to the end", "it rises, and falls to 0", "it stays at 0"]
-predict("16.6", "While the agent learns, λ", shapes)
+predict("beyond_the_paper.6", "While the agent learns, λ", shapes)
 
 # %% tags=["nbval-ignore-output"]
 settings = bc.settings_for("ppo_safe", accident_cost=0.0, multiplier_step=3.0)
@@ -457,7 +459,7 @@ bc.show(charts.lines(np.arange(500, 4001), named_curves, title, "episode", "shar
 
 # %%
 extras = ["nothing more", "multiplier", "shield by hand", "restarts", "twice the training"]
-predict("16.7", "The fewest crashes has an accident cost and", extras)
+predict("beyond_the_paper.7", "The fewest crashes has an accident cost and", extras)
 
 # %%
 safer = {"PPO after cloning": later["ppo_cloned"], **shipped.shipped_experiment("safe")}
@@ -513,7 +515,7 @@ bc.show(frontier.safe_and_fast(safer, shipped.shipped_bound().mean()))
 # > half of their crashes happen?
 
 # %%
-predict("16.8", "Half of the crashes are on", unit="roads")
+predict("beyond_the_paper.8", "Half of the crashes are on", unit="roads")
 
 # %%
 crashes_on = np.concatenate([its.tested["accident"] > 0 for its in safer.values()]).sum(axis=0)
@@ -534,9 +536,9 @@ bc.show(bc.top_view_over_time(drive, times=[end - 4, end - 2, end]))
 # **See.** Half of the crashes happen on {{ half_of_the_crashes() }} of the 1,000 roads. On the
 # worst road {{ crashes_on_roads().max() }} of the {{ sum(map(len, with_and_without())) }} agents
 # crash. The picture shows why: three slower cars drive side by side, one in each lane, and the
-# agent of lesson 15 keeps its 15 m/s until it hits the one in its own lane. The planner earns at
-# least {{ bound()[worst_roads(20)].min() | .0f }} on each of the 20 worst roads, so they can be
-# driven without an accident.
+# agent of lesson [[the_second_trap]] keeps its 15 m/s until it hits the one in its own lane. The
+# planner earns at least {{ bound()[worst_roads(20)].min() | .0f }} on each of the 20 worst roads,
+# so they can be driven without an accident.
 # <!-- claim: crashes_on_roads()[worst_roads(1)[0]] == crashes_on_roads().max() and
 #   three_abreast(worst_roads(1)[0]) -->
 #
@@ -548,9 +550,9 @@ bc.show(bc.top_view_over_time(drive, times=[end - 4, end - 2, end]))
 # did not help in a way that ten agents could show. Twice as many drives did, perhaps because more
 # drives bring more of these arrangements. The shield needs no experience, but it can be wrong: it
 # takes for granted that the others keep their lanes and speeds, and they are drivers who change
-# lanes and brake (lesson 2). So when you compare a remedy, compare it with nothing more, and with
-# nothing more for longer. And look where it fails. A rate does not tell ten roads on which everyone
-# crashes from a thousand on which anyone might.
+# lanes and brake (lesson [[traffic]]). So when you compare a remedy, compare it with nothing more,
+# and with nothing more for longer. And look where it fails. A rate does not tell ten roads on which
+# everyone crashes from a thousand on which anyone might.
 # <!-- claim: min(crashed(its) for its in safer().values()) > 3 and
 #   (safer()[BEST].scores('accident') < 0.0015).sum() == 1 -->
 
@@ -562,10 +564,12 @@ bc.show(bc.top_view_over_time(drive, times=[end - 4, end - 2, end]))
 # right exchanged, one keeps straight, and one sees the road {{ LATE | g }} s late. The last two are
 # the rule itself and the planner. Each taught ten agents of each of five learners, but for the
 # planner and the two SACs: it takes too long for a decision.
-# - *DAgger* imitates the teacher in the states that the agent reaches (lesson 6), without a reward;
+# - *DAgger* imitates the teacher in the states that the agent reaches (lesson [[demonstrations]]),
+#   without a reward;
 # - *PPO after cloning* begins as a clone of the teacher, and then learns from the reward alone, for
 #   {{ taught('rule').curves['success'].shape[1] | , }} episodes;
-# - *SAC with the soft constraint* is pulled towards the teacher as long as ξ lasts (lesson 7);
+# - *SAC with the soft constraint* is pulled towards the teacher as long as ξ lasts (lesson
+#   [[soft_constraint]]);
 # - *bootstrapped SAC* has demonstrations as well. Both SACs train for
 #   {{ taught('rule', 'soft').curves['success'].shape[1] | , }} episodes, with a quarter of an
 #   update for each decision;
@@ -581,7 +585,7 @@ bc.show(bc.top_view_over_time(drive, times=[end - 4, end - 2, end]))
 
 # %%
 choices = ["none", "one or two", "about half", "all ten"]
-predict("16.9", "Of ten clones of that teacher escape", choices)
+predict("beyond_the_paper.9", "Of ten clones of that teacher escape", choices)
 
 # %% [markdown]
 # > **Predict.** And the planner, which earns almost three times as much as the rule? What do those
@@ -590,7 +594,7 @@ predict("16.9", "Of ten clones of that teacher escape", choices)
 
 # %%
 choices = ["more", "about as much", "less"]
-predict("16.10", "Who began as a clone of the planner earns", choices)
+predict("beyond_the_paper.10", "Who began as a clone of the planner earns", choices)
 
 # %% [markdown]
 # > **Predict.** The teacher that acts at random in half of its decisions gets ahead in
@@ -599,7 +603,7 @@ predict("16.10", "Who began as a clone of the planner earns", choices)
 
 # %%
 pupils = {"PPO after cloning": "ppo_cloned", "bootstrapped SAC": "bootstrapped"}
-predict("16.11", "Half at random: all ten escape with", [*pupils, "both", "neither"])
+predict("beyond_the_paper.11", "Half at random: all ten escape with", [*pupils, "both", "neither"])
 
 # %%
 worth = shipped.shipped_teachers()
@@ -718,19 +722,19 @@ beside |= {extras[0]: safer["accident cost"], extras[-1]: safer["accident cost, 
 first = np.nansum(later["rlpd"].curves["decisions"][:, :50], axis=1).mean() / 50
 freed = [words for words, m in pupils.items() if worth["random-50", m].escapers(m) == 10]
 compare_predictions(
-    "16",
+    "beyond_the_paper",
     {
-        "16.1": min(learners, key=spent.get),
-        "16.2": round(float(first), 1),
-        "16.3": max(shares, key=lambda part: shares[part].mean()),
-        "16.4": round(float(crashes)),
-        "16.5": max(kinds, key=kinds.get),
-        "16.6": shapes[0 if price[-1] > 0.9 * price.max() else 1 if price.max() else 2],
-        "16.7": min(beside, key=lambda extra: beside[extra].scores("accident").mean()),
-        "16.8": int(half),
-        "16.9": f"{worth['random-25', 'ppo_cloned'].escapers('ppo_cloned')} of ten",
-        "16.10": "less",
-        "16.11": freed[0] if len(freed) == 1 else "both" if freed else "neither",
+        1: min(learners, key=spent.get),
+        2: round(float(first), 1),
+        3: max(shares, key=lambda part: shares[part].mean()),
+        4: round(float(crashes)),
+        5: max(kinds, key=kinds.get),
+        6: shapes[0 if price[-1] > 0.9 * price.max() else 1 if price.max() else 2],
+        7: min(beside, key=lambda extra: beside[extra].scores("accident").mean()),
+        8: int(half),
+        9: f"{worth['random-25', 'ppo_cloned'].escapers('ppo_cloned')} of ten",
+        10: "less",
+        11: freed[0] if len(freed) == 1 else "both" if freed else "neither",
     },
 )
 
