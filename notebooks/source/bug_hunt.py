@@ -19,7 +19,8 @@
 # - repair six bugs that are easily made, each in one line.
 #
 # **Time** 95 minutes, under a minute of it the machine's. **It builds on** the losses of lesson
-# [[discrete_sac]], the soft constraint (7) and learning from demonstrations (8).
+# [[discrete_sac]], the soft constraint ([[soft_constraint]]) and learning from demonstrations
+# ([[learning_from_demonstrations]]).
 
 # %%
 import bootcourse as bc

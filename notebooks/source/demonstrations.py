@@ -26,8 +26,8 @@
 import bootcourse as bc
 import numpy as np
 import torch
-from bootcourse.course import charts, check, compare_predictions, figures, predict, source, table
-from bootcourse.course.lessons.demonstrations import cloning
+from bootcourse.course import charts, check, compare_predictions, predict, source, table
+from bootcourse.course.lessons.demonstrations import cloning, figures
 from bootcourse.learn import demonstrations, replay_buffer
 
 # %% [markdown]

@@ -27,7 +27,9 @@
 import bootcourse as bc
 import numpy as np
 import torch
-from bootcourse.course import charts, check, compare_predictions, figures, own_code, predict, source
+from bootcourse.course import charts, check, compare_predictions, own_code, predict, source
+from bootcourse.course.lessons.discrete_sac import figures
+from bootcourse.plots import diagrams
 from bootcourse.research import checks
 
 # %% [markdown]
@@ -102,7 +104,7 @@ bc.show(charts.lines(grid, {"sac": np.array(lasted)}, title, label, "pushes in a
 # ## The parts in one picture
 
 # %%
-bc.show(figures.sac_diagram())
+bc.show(diagrams.sac_diagram())
 
 # %% [markdown]
 # The **actor** gives each action a probability, $\pi(a|s)$: its **policy**. The **critics**

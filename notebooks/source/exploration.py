@@ -19,7 +19,7 @@
 # - tell being undecided from seeing new places, and finding a way out from keeping it.
 #
 # **Time** 60 minutes, under half of one the machine's. **It builds on** discrete SAC (lesson
-# [[discrete_sac]]) and the barrier (5).
+# [[discrete_sac]]) and the barrier ([[the_barrier]]).
 
 # %%
 import bootcourse as bc

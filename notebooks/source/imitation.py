@@ -19,7 +19,7 @@
 # - read a table of {{ EPISODES }} test drives, and say what it leaves open.
 #
 # **Time** 50 minutes, under one of them the machine's. **It builds on** demonstrations (lesson
-# [[demonstrations]]) and the ablation (9).
+# [[demonstrations]]) and the ablation ([[ablation]]).
 
 # %%
 import bootcourse as bc

@@ -33,13 +33,13 @@ from bootcourse.course import (
     charts,
     check,
     compare_predictions,
-    figures,
     own_code,
     predict,
     shipped,
     source,
     table,
 )
+from bootcourse.course.lessons.the_barrier import figures
 from bootcourse.panels.bonus_numbers import bonus_numbers
 
 # %% [markdown]

@@ -19,7 +19,7 @@
 # - judge a method by ten agents and by a planner's bound, and not by one agent.
 #
 # **Time** 55 minutes, about one of them the machine's. **It builds on** demonstrations (lesson
-# [[demonstrations]]) and imitation (10).
+# [[demonstrations]]) and imitation ([[imitation]]).
 
 # %%
 import bootcourse as bc

@@ -29,13 +29,13 @@ from bootcourse.course import (
     charts,
     check,
     compare_predictions,
-    figures,
+    live_curves,
     predict,
     shipped,
     source,
     table,
 )
-from bootcourse.course.lessons.the_barrier import chain
+from bootcourse.course.lessons.the_barrier import chain, figures
 from bootcourse.research import planner, report, tables
 
 # %% [markdown]
@@ -97,7 +97,7 @@ agents = bc.with_seeds(bc.settings_for("sac"), SEEDS)
 agents += bc.with_seeds(bc.settings_for("sac", gamma=0.95), SEEDS)
 labels = ["sac, γ = 0.8"] * SEEDS + ["γ = 0.95"] * SEEDS
 training = bc.Training(agents, episodes=20_000)
-live = figures.LiveCurves(labels)
+live = live_curves.LiveCurves(labels)
 alone = training.run(callback=live, stop=lambda: training.updates > UPDATES)
 
 
@@ -457,7 +457,7 @@ predict(
 
 # %%
 with_rule = bc.Training(bc.with_seeds(bc.settings_for("bootstrapped"), SEEDS), episodes=20_000)
-helped = with_rule.run(callback=figures.LiveCurves(), stop=lambda: with_rule.updates > UPDATES)
+helped = with_rule.run(callback=live_curves.LiveCurves(), stop=lambda: with_rule.updates > UPDATES)
 
 # %% [markdown] tags=["instructor"] minutes=6
 # "So it imitates." Have them compare the return with the rule's after 2,000 updates and again after
@@ -475,7 +475,7 @@ shown(helped.agents, tests)
 # come with the course, trained for longer:
 
 # %%
-study = shipped.shipped_results()
+study = bc.shipped_results()
 curves = {method: study.of(method).curves for method in ("sac", "bootstrapped")}
 of_ten = {m: study.of(m).scores("success") >= bc.statistics.ESCAPES for m in curves}
 alone_of_ten, helped_of_ten = map(tables.k_of_n, of_ten.values())

@@ -25,8 +25,8 @@
 # %%
 import bootcourse as bc
 import numpy as np
-from bootcourse.course import charts, check, compare_predictions, figures, predict, source, table
-from bootcourse.course.lessons.the_rule import tracking
+from bootcourse.course import charts, check, compare_predictions, predict, source, table
+from bootcourse.course.lessons.the_rule import figures, tracking
 from bootcourse.road.state import EGO, LANE, SPEED
 
 # %% [markdown]

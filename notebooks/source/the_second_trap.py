@@ -19,7 +19,7 @@
 # - tell what a change of the reward can repair: what is best, or what is found.
 #
 # **Time** 70 minutes, about one of them the machine's. **It builds on** the reward (lesson
-# [[the_trap]]), the barrier (5) and demonstrations (6).
+# [[the_trap]]), the barrier ([[the_barrier]]) and demonstrations ([[demonstrations]]).
 
 # %%
 import bootcourse as bc

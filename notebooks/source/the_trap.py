@@ -26,7 +26,9 @@
 import bootcourse as bc
 import gymnasium as gym
 import numpy as np
-from bootcourse.course import check, compare_predictions, figures, predict, table
+from bootcourse.course import check, compare_predictions, live_curves, predict, table
+from bootcourse.course.lessons.the_trap import figures
+from bootcourse.plots import diagrams
 from bootcourse.road import formulas, observation
 
 # %% [markdown]
@@ -203,7 +205,7 @@ predict("the_trap.3", "Where can you change lane behind trap 2 without braking?"
 # second begins. Such a program is called an *agent*.
 
 # %%
-bc.show(figures.agent_loop(observation="26 numbers", action="one of nine", reward="one number"))
+bc.show(diagrams.agent_loop(observation="26 numbers", action="one of nine", reward="one number"))
 
 # %% [markdown]
 # The agent chooses by its **policy**: a function that gives each action a probability. At first
@@ -229,7 +231,7 @@ agents = bc.with_seeds(bc.settings_for("sac"), 2) + bc.with_seeds(
 )
 training = bc.Training(agents, episodes=5000)
 beginner = training.agent(2).as_policy()
-live = figures.LiveCurves(every=2)
+live = live_curves.LiveCurves(every=2)
 learned = training.run(progress=False, callback=live, stop=lambda: training.updates >= 1500)
 
 # %% [markdown]
@@ -564,7 +566,7 @@ table(["of 100 episodes", "success", *kinds], rows)
 # part by part. If you skip that lesson, this page is enough to follow the others.
 
 # %%
-bc.show(figures.sac_diagram())
+bc.show(diagrams.sac_diagram())
 
 # %% [markdown]
 # The diagram says *state* for what the agent observes. The *replay buffer* keeps what happened: a

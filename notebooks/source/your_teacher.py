@@ -19,7 +19,8 @@
 # - decide from ten seeds whether a teacher helps or hurts, or that they do not show it.
 #
 # **Time** 95 minutes, about one of them the machine's. **It builds on** the rule (lesson
-# [[the_rule]]), the soft constraint (7) and learning from demonstrations (8).
+# [[the_rule]]), the soft constraint ([[soft_constraint]]) and learning from demonstrations
+# ([[learning_from_demonstrations]]).
 
 # %%
 import bootcourse as bc
@@ -496,9 +497,8 @@ table(headings, rows)
 # So the return of a teacher alone is a poor measure of its use. Ask as well: does it lead to a
 # place that the learner does not find alone, and does the learner stop following it afterwards?
 #
-# **Try**: run `bc.panels.teachers_panel()` in a cell of your own. It shows what seven teachers, the
-# planner among them, are worth to several learners (round 6 of
-# [lesson [[beyond_the_paper]]](beyond_the_paper.ipynb)).
+# What seven teachers, the planner among them, are worth to several learners stands in round 5 of
+# [lesson [[beyond_the_paper]]](beyond_the_paper.ipynb).
 # <!-- claim: len({teacher for teacher, _ in shipped.shipped_teachers()}) == 7 -->
 
 # %% [markdown] tags=["instructor"] minutes=10

@@ -46,7 +46,7 @@ from bootcourse.research.results import KINDS, Results
 from bootcourse.research.teachers import LATE, TEACHERS
 from bootcourse.road import formulas, observation
 from bootcourse.road.formulas import centring_reward, speed_reward
-from bootcourse.road.state import CRASHED, EGO, LANE, SPEED, TRAP_1, TRAP_2, Accident, X, Y
+from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, Accident, X, Y
 from bootcourse.rule import HEADING_COST, Reason, stochastic_rule, target_speed
 from bootcourse.scenario import ACTION_NAMES, CALIBRATED, DEFAULT, N_ACTIONS, RULE_P
 from bootcourse.statistics import ESCAPES, escapes, improvement, interval, iqm, rate
@@ -58,7 +58,7 @@ shipped_runs = cache(shipped.shipped_runs)
 shipped_drive = cache(shipped.shipped_drive)
 shipped_experiment = cache(shipped.shipped_experiment)
 shipped_teachers = cache(shipped.shipped_teachers)
-hunt = cache(bugs.Hunt)  # lesson 13's agents
+hunt = cache(bugs.Hunt)  # the agents of the bug hunt
 ROAD = 10  # the road that most lessons show
 SETTINGS = settings_for("bootstrapped")  # the paper's
 
@@ -95,7 +95,7 @@ def by_rule(road: int = ROAD):
     return record(rule_policy(DEFAULT), [road])[0]
 
 
-NO_BRAKING = [3, 3, 5, 3, 5, 5, 5, 3, 7, 7, 7, 7, 7]  # lesson 1: a plan that changes lanes behind trap 2 at once
+NO_BRAKING = [3, 3, 5, 3, 5, 5, 5, 3, 7, 7, 7, 7, 7]  # the trap's plan, which changes lanes behind trap 2 at once
 
 
 @cache
@@ -145,7 +145,7 @@ def clocks() -> dict[tuple[str, str], Results]:
     return study_clocks.cells(shipped_experiment("clocks"))
 
 
-LATER = ("ppo", "ppo_cloned", "ppo_kl", "ppo_residual", "rlpd", "ibrl", "pex", "jsrl")  # those of lesson 16
+LATER = ("ppo", "ppo_cloned", "rlpd", "ibrl", "jsrl")  # methods that the paper does not train
 
 
 def later(method: str) -> Results:
@@ -156,59 +156,6 @@ def later(method: str) -> Results:
 def longer() -> Results:
     """The ten agents of the paper's method with a longer view, a smaller bonus and larger batches."""
     return shipped_experiment("longer-view")["γ = 0.95"]
-
-
-def safer() -> dict[str, Results]:
-    """The ten agents of PPO after cloning with something more against accidents, by what it is."""
-    return shipped_experiment("safe")
-
-
-BEST = "accident cost and shield by hand, twice as long"  # of `safer`
-REMEMBERS = "accident cost, shield by hand and memory, twice as long"
-ALONE = ("accident cost", "multiplier", "restarts", "shield by hand", "γ = 0.995", "memory")
-ALONE += ("distributional critic",)  # the learned mask is the one other that an agent has alone
-
-
-def p_safer(kind: str) -> float:
-    """The p of a rank test: the accidents of such agents against those of PPO after cloning with nothing more."""
-    accidents = [its.scores("accident") for its in (safer()[kind], later("ppo_cloned"))]
-    return float(stats.mannwhitneyu(*accidents).pvalue)
-
-
-def crashed(results: Results) -> float:
-    """How many of 1,000 of these agents' held-out drives end in an accident."""
-    return 10 * accident_percent(results)
-
-
-def with_and_without() -> list[Results]:
-    """The agents of `safer`, and those with nothing more."""
-    return [later("ppo_cloned"), *safer().values()]
-
-
-def crashes_on_roads() -> np.ndarray:
-    """How many of these agents crash on each of the held-out roads, (1000,)."""
-    return np.concatenate([its.tested["accident"] > 0 for its in with_and_without()]).sum(axis=0)
-
-
-def worst_roads(n: int) -> np.ndarray:
-    """The n roads on which most of them crash."""
-    return np.argsort(-crashes_on_roads(), kind="stable")[:n]
-
-
-def half_of_the_crashes() -> int:
-    """On how many roads half of the crashes happen, at least."""
-    crashes = np.sort(crashes_on_roads())[::-1]
-    return int(np.searchsorted(np.cumsum(crashes), crashes.sum() / 2)) + 1
-
-
-@cache
-def three_abreast(road: int) -> bool:
-    """Whether lesson 15's agent crashes on this road beside three slower cars, one in each lane, 5 m apart at most."""
-    agent = ppo_reference.agent_of("cloned").as_policy()
-    end = record(agent, [held_out_seeds(1, 1000)[road]])[0].states[-1]
-    three = end[1:][np.argsort(abs(end[1:, X] - end[EGO, X]))[:3]]
-    slower = three[:, SPEED].max() < end[EGO, SPEED] - 2
-    return bool(set(three[:, LANE]) == {0, 1, 2} and np.ptp(three[:, X]) < 5 and slower and end[EGO, CRASHED])
 
 
 def first_episodes(method: str, episodes: int = 50) -> float:
@@ -328,7 +275,7 @@ def undecided(method: str, first: int, last: int | None) -> float:
 
 @cache
 def rule_drives() -> list:
-    """The rule's drives on the 60 roads of lesson 6."""
+    """The rule's drives on the 60 roads of the lesson on demonstrations."""
     return record(rule_policy(DEFAULT), range(60))
 
 
@@ -362,12 +309,12 @@ def discounted_scores(method: str) -> np.ndarray:
 
 @cache
 def by_chance():
-    """Lesson 5's 5,000 random drives."""
+    """The barrier's 5,000 random drives."""
     return drive_episodes(random_policy(np.random.default_rng(0)), held_out_seeds(6, 5000))
 
 
 def free_road_seen(explore: float, gamma: float, walks: int = 30) -> int:
-    """How many learners of lesson 5's chain have been on its free road, of which Q(3, 1) tells."""
+    """How many learners of the barrier's chain have been on its free road, of which Q(3, 1) tells."""
     walked = (chain.learn_chain(chain.chances(explore, 1000, seed), gamma, 0.3, ()) for seed in range(walks))
     return sum(bool(q[3, 1] > 0) for q in walked)
 
@@ -444,13 +391,13 @@ def checked(row: int, column: str) -> str:
 
 @cache
 def teacher_exam(name: str):
-    """How one of lesson 14's teachers drives on the exam's roads."""
+    """How one of the example teachers drives on the exam's roads."""
     return example_teachers.examine(getattr(example_teachers, name)).episodes
 
 
 @cache
 def dense_escapes(name: str) -> float:
-    """The share of lesson 14's roads with a dense left lane on which one of its teachers gets out unharmed."""
+    """The share of the roads with a dense left lane on which an example teacher gets out unharmed."""
     rule = getattr(example_teachers, name)
     roads = registry()["watchful_rule"].all_arguments
     return float(np.mean([drive_out(rule, cars, scenario) == OUT for cars, scenario in roads]))
@@ -458,7 +405,7 @@ def dense_escapes(name: str) -> float:
 
 @cache
 def students(teacher: str) -> dict:
-    """What ships of the ten students of one of lesson 14's teachers, or of the ten that learned "alone"."""
+    """What ships of the ten students of an example teacher, or of the ten that learned "alone"."""
     return teacher_reference.reference()[teacher]
 
 
@@ -476,7 +423,7 @@ def teacher_tests() -> dict:
 
 
 def ppo(kind: str) -> dict:
-    """What ships of lesson 15's agents of a kind: "alone", "shaped" or "cloned"."""
+    """What ships of the second trap's agents of a kind: "alone", "shaped" or "cloned"."""
     return ppo_reference.reference()[kind]
 
 
@@ -520,7 +467,7 @@ def two_situations(slow: float):
 
 @cache
 def lowest_speeds() -> list[float]:
-    """Of lesson 2's eight drivers in a row, behind a leader that brakes to 4 m/s for 20 s."""
+    """Of traffic's eight drivers in a row, behind a leader that brakes to 4 m/s for 20 s."""
     ahead, found = np.repeat([10.0, 4.0, 10.0], [60, 40, 140]), []
     for _ in range(8):
         ahead = traffic.behind(ahead, v=10.0, gap=25.0)[:-1, 1]

@@ -1,8 +1,9 @@
 """A lesson's source, notebooks/source/NAME.py in percent format, as cells with a student's and a solved text.
 
-The title, the exercises and the lessons that a text names get their numbers here (numbering.py). Lines between `# solution` and `# end solution` are the student's to write: the student gets `...` for
-them. `# solution: the exercise's own` stands for the one that the exercise itself holds. A markdown cell tagged
-"instructor" goes to the instructor's page only.
+The title, the exercises and the lessons that a text names get their numbers here (numbering.py). Lines between
+`# solution` and `# end solution` are the student's to write: the student gets `...` for them.
+`# solution: the exercise's own` stands for the one that the exercise itself holds. A markdown cell tagged "instructor"
+goes to the instructor's page only.
 """
 
 import ast
