@@ -31,7 +31,6 @@ from bootcourse.course import (
     compare_predictions,
     live_curves,
     predict,
-    shipped,
     source,
     table,
 )
