@@ -66,6 +66,29 @@ def test_a_page_that_holds_the_numbers_itself_follows():
     assert refreshed(old) == refreshed(new) == new
 
 
+@pytest.mark.parametrize(
+    "moved, course, appendix, expected",
+    [
+        ("two lessons change places", ("start", "the_rule", "the_trap"), (), {"the_rule": "1", "the_trap": "2"}),
+        ("one goes to the appendix", ("start", "the_trap"), ("the_rule",), {"the_rule": "A", "the_trap": "1"}),
+    ],
+)
+def test_moving_a_name_moves_the_lesson(monkeypatch, moved, course, appendix, expected):
+    monkeypatch.setattr(lessons, "APPENDIX", appendix)
+    for module in (lessons, numbering):
+        monkeypatch.setattr(module, "LESSONS", course + appendix)
+    for name, place in expected.items():
+        assert stem(name) == f"{place.zfill(2) if place.isdigit() else place}_{name}"
+        text = "\n".join(cell.text for cell in read_alone(name))
+        assert text.startswith(f"# {place} · ") and f"**Exercise {place}.1 (" in text
+        assert predictions.number_of(f"{name}.1") == f"{place}.1"
+    readme = refreshed((ROOT / "README.md").read_text(encoding="utf-8"))
+    files = [name for name in re.findall(r"^\| \w+ \| \[[^]]*\]\(notebooks/(\w+)", readme, re.M)]
+    assert [name for name in files if name in {stem(each) for each in course + appendix}] == [
+        stem(each) for each in course + appendix
+    ]
+
+
 @pytest.mark.parametrize("name", ["README.md", "book/cloud.md", "tests/check.txt"])
 def test_the_pages_that_hold_the_numbers_are_up_to_date(name):
     text = (ROOT / name).read_text(encoding="utf-8")

@@ -50,5 +50,11 @@ def test_each_part_uses_only_what_stands_above_it():
     assert wrong == []
 
 
+def test_the_library_imports_nothing_of_the_rooms_and_the_research_nothing_of_the_course():
+    rooms = {"research": {"course"}, "course": set()}
+    wrong = [place for own, other, place in uses() if other in rooms.get(own, rooms)]
+    assert wrong == []
+
+
 def test_the_front_door_itself_imports_only_what_raises_errors():
     assert {other for own, other, _ in uses() if own == "__init__"} == {"errors"}

@@ -35,18 +35,17 @@ def evaluate(
     teacher: str = typer.Option("", help="The teacher that a run drives with: planner …, or FILE.py:FUNCTION."),
     as_json: bool = typer.Option(False, "--json", help="Print JSON."),
     board: bool = typer.Option(False, "--board", help="Print the leaderboard with them; here WHO may be several."),
-    keep: Path | None = typer.Option(None, help="With --board: a file, such as mine.json, that keeps their rows."),
 ) -> None:
     """Drive held-out episodes and print success, return, speed, distance and accidents with 95 % intervals."""
     from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds, over_seeds, summarise
 
     if board:
         if (episodes, seed, scenario, sample, as_json) != (1000, 1, "", False, False):
-            raise BootcourseError("--board has its own roads and form: with it, give only --keep and --teacher.")
-        print_board(who, keep, teacher)
+            raise BootcourseError("--board has its own roads and form: with it, give only --teacher.")
+        print_board(who, teacher)
         return
-    if len(who) > 1 or keep is not None:
-        raise BootcourseError(f"{'Several drivers need' if len(who) > 1 else '--keep needs'} --board.")
+    if len(who) > 1:
+        raise BootcourseError("Several drivers need --board.")
     seeds, drivers = held_out_seeds(seed, episodes), drivers_of(who[0], scenario, sample, seed, teacher)
     found = {each.label: summarise(drive_episodes(each.policy, seeds, each.road)) for each in drivers}
     means = {name: over_seeds([found[label] for label in labels]) for name, labels in alike(drivers).items()}
@@ -63,17 +62,17 @@ def evaluate(
         print_table({label: columns[label] for label in labels[first : first + ACROSS]})
 
 
-def print_board(who: list[str], keep: Path | None, teacher: str) -> None:
-    """Print the leaderboard, where the built-in drivers stand, with other drivers' rows."""
+def print_board(who: list[str], teacher: str) -> None:
+    """Print the leaderboard, where the built-in drivers stand, with the rows of agents in folders."""
+    import bootcourse
     from bootcourse.cli.training import teacher_from
-    from bootcourse.course.board import board
 
     own = [one for one in who if one not in BUILT_IN]
     for one in own:
         check_driver(one)
     if teacher and not own:
         refuse_teacher(teacher)
-    print(board(*own, keep=keep, teacher=teacher_from(teacher)))
+    print(bootcourse.board(*own, teacher=teacher_from(teacher)))
 
 
 def check_driver(who: str) -> None:

@@ -18,12 +18,12 @@ def submit(
     """Put your answers and predictions into one file to hand in. Nothing is run."""
     from bootcourse.course.classroom.submission import submit as write
 
-    path, made = write(folder, name, out)
+    path, submission = write(folder, name, out)
+    written = submission.written
     print(path)
-    held = f"{len(made.written)} answers, {len(made.predictions)} predictions."
-    print(f"{held} {'Hand in this file.' if made.written else 'No exercise is answered yet.'}")
-    for problem in made.problems:
-        print(problem)
+    print(f"{len(written)} answers, {len(submission.predictions)} predictions.", end=" ")
+    print("Hand in this file." if written else "No exercise is answered yet.")
+    print(*submission.problems, sep="\n", end="\n" * bool(submission.problems))
 
 
 def grade(
@@ -34,10 +34,10 @@ def grade(
     workers: int = typer.Option(0, min=0, help="Answers judged at once; 0: one for each core."),
 ) -> None:
     """Judge every answer of a class again; write tables, a page for each student and one for the class."""
-    from bootcourse.course.classroom.collect import collect
     from bootcourse.course.classroom.grading import Verdicts, graded, judge_all
+    from bootcourse.course.classroom.pages import write_report
     from bootcourse.course.classroom.points import read_lessons, read_points
-    from bootcourse.course.classroom.report import write_report
+    from bootcourse.course.classroom.submission import collect
 
     worth, submissions = read_points(points, read_lessons(lessons)), collect(folder)
     verdicts = Verdicts(out.with_name(f"{out.stem}-verdicts.jsonl"))
@@ -46,7 +46,7 @@ def grade(
     except KeyboardInterrupt:
         print("Interrupted. Verdicts are kept: start the same command again to continue.", file=sys.stderr)
         raise typer.Exit(INTERRUPTED) from None
-    for path in write_report([graded(one, worth, verdicts) for one in submissions], worth, out, holds):
+    for path in write_report([graded(one, worth, verdicts) for one in submissions], out, holds):
         print(path)
 
 
