@@ -1,7 +1,8 @@
 """Predictions: a student commits to an answer before the cell that shows it, and the lesson's end compares.
 
 They are kept in `answers/predictions.json` beside the notebooks, each with its question and the time, under a name such
-as "the_barrier.1" that stays when a lesson gets another number. The first answer to a question stays. `prediction_form.py` is the form that a notebook shows.
+as "the_barrier.1" that stays when a lesson gets another number. The first answer to a question stays.
+`prediction_form.py` is the form that a notebook shows.
 """
 
 import math
@@ -25,7 +26,7 @@ NOTHING = "You committed to no prediction in this lesson."
 
 @dataclass(frozen=True)
 class Question:
-    """What a lesson asks. name: "the_barrier.1"; choices: empty for a free answer; unit: None for an answer in words."""
+    """What a lesson asks. name: "the_barrier.1"; choices: () for a free answer; unit: None for an answer in words."""
 
     name: str
     text: str = ""
@@ -64,9 +65,9 @@ class Question:
 
 
 def number_of(name: str) -> str:
-    """The number of a prediction as the page shows it: "the_barrier.1" -> "5.1"."""
+    """The number of a prediction as the page shows it: "the_barrier.1" -> "5.1"; what is no lesson's stays."""
     lesson, _, place = name.partition(".")
-    return f"{number(lesson)}.{place}"
+    return f"{number(lesson)}.{place}" if lesson in LESSONS else name
 
 
 def predictions(folder: Path | None = None) -> dict[str, dict]:

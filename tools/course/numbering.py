@@ -23,7 +23,7 @@ FILE = re.compile(rf"(?<=[/(])({NAME})(?=\.(?:ipynb|md|html)\b)")
 UNTITLED = re.compile(rf"\[\](?=\(({NAME})\.ipynb\))")
 ROW = re.compile(r"\| \[\[(\w+)\]\]")
 # By hand: "lesson 3", "Lessons 4 and 7" or "03_the_rule.ipynb".
-BY_HAND = re.compile(rf"(?<!-)\b[Ll]essons?\s+\d|\b\w{{1,2}}_(?:{NAME})\b")
+BY_HAND = re.compile(rf"(?<!-)\b[Ll]essons?\s+\d|\b\d\d_(?:{NAME})\b")
 
 
 def resolved(text: str, folder: str | None = None) -> str:
@@ -63,8 +63,8 @@ def title(lesson: str) -> str:
 
 def refreshed(text: str) -> str:
     """A page that holds the numbers itself, brought up to date: file names, and the rows of a table of lessons."""
-    text = re.sub(rf"\b\w{{1,2}}_({NAME})(?=\.ipynb)", r"\1", text)
-    return resolved(re.sub(rf"^\| \w+ (?=\| \[[^]]*\]\([^)]*?\b({NAME})\.ipynb)", r"| [[\1]] ", text, flags=re.M))
+    text = re.sub(rf"\b\d\d_({NAME})(?=\.ipynb)", r"\1", text)
+    return resolved(re.sub(rf"^\| \d+ (?=\| \[[^]]*\]\([^)]*?\b({NAME})\.ipynb)", r"| [[\1]] ", text, flags=re.M))
 
 
 def refresh_kept() -> None:

@@ -39,7 +39,7 @@ def exercise_numbers() -> dict[str, str]:
     """exercise -> its number, such as "7.2", from the cell that announces it."""
     numbers, announced = {}, ""
     for cell in (cell for path in sources() for cell in read(path)):
-        announced = ([announced] + re.findall(r"\*\*Exercise (\w+\.\d+)", cell.text))[-1]
+        announced = ([announced] + re.findall(r"\*\*Exercise (\d+\.\d+)", cell.text))[-1]
         numbers |= dict.fromkeys(cell.checks, announced)
     return numbers
 

@@ -32,21 +32,18 @@ ELECTIVES = (
     "the_second_trap",
     "beyond_the_paper",
 )
-APPENDIX = ()  # numbered A, B, ...
+APPENDIX = ()
 LESSONS = COURSE + ELECTIVES + APPENDIX
 
 
-def number(lesson: str) -> str:
-    """A lesson's number, such as "7"; in the appendix a letter, such as "A". Raises ValueError for no lesson."""
-    if lesson in APPENDIX:
-        return "ABCDEFGH"[APPENDIX.index(lesson)]
-    return str(LESSONS.index(lesson))
+def number(lesson: str) -> int:
+    """A lesson's number. Raises ValueError for no lesson."""
+    return LESSONS.index(lesson)
 
 
 def stem(lesson: str) -> str:
     """The name of a lesson's files, such as "07_soft_constraint". Raises ValueError for no lesson."""
-    place = number(lesson)
-    return f"{place.zfill(2) if place.isdigit() else place}_{lesson}"
+    return f"{number(lesson):02d}_{lesson}"
 
 
 @functools.cache
