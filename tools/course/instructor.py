@@ -32,13 +32,13 @@ def page(path: Path) -> str:
 
 def sections(cells: list[Cell]) -> list[tuple[str, list[Cell]]]:
     """The cells under each `##` heading; what comes before the first is called the beginning."""
-    found = [("The beginning", [])]
+    parts = [("The beginning", [])]
     for cell in cells:
         heading = re.search(r"^## (.+)", cell.text, re.M)
         if heading:
-            found.append((heading[1], []))
-        found[-1][1].append(cell)
-    return found
+            parts.append((heading[1], []))
+        parts[-1][1].append(cell)
+    return parts
 
 
 def timings(cells: list[Cell]) -> str:

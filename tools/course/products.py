@@ -45,10 +45,10 @@ def instructor_file(path: Path) -> Path:
 def documents(path: Path) -> dict[Path, nbformat.NotebookNode]:
     """The notebooks that a source describes, without outputs; a source without solutions has no solved one."""
     cells = [cell for cell in filled(path) if not cell.for_instructor]
-    made = {student_file(path): notebook([node(cell, cell.student) for cell in cells])}
+    targets = {student_file(path): notebook([node(cell, cell.student) for cell in cells])}
     if any(cell.is_exercise for cell in cells):
-        made[solved_file(path)] = notebook(solved_nodes(path, cells))
-    return made
+        targets[solved_file(path)] = notebook(solved_nodes(path, cells))
+    return targets
 
 
 def solved_nodes(path: Path, cells: list[Cell]) -> list[nbformat.NotebookNode]:
@@ -81,11 +81,11 @@ def notebook(nodes: list[nbformat.NotebookNode]) -> nbformat.NotebookNode:
 
 def make(path: Path) -> list[Path]:
     """Execute a source and write all that comes from it. Raises what a cell raises, and where a check fails."""
-    made = documents(path)
+    targets = documents(path)
     outputs = execute(path)
-    for document in made.values():
+    for document in targets.values():
         fill_in(document, outputs)
-    return write(path, made)
+    return write(path, targets)
 
 
 def execute(path: Path) -> dict[str, list]:
@@ -123,7 +123,7 @@ def tidy(outputs: list) -> list:
 
     A widget that shows a picture as well keeps the picture: it works only while its kernel runs.
     """
-    kept = []
+    tidied = []
     for output in outputs:
         data = output.get("data", {})
         if "text/html" in data:
@@ -132,27 +132,27 @@ def tidy(outputs: list) -> list:
             continue
         if WIDGET in data and "%|" in data.get("text/plain", ""):
             continue
-        if output.output_type == "stream" and kept and kept[-1].get("name") == output.name:
-            kept[-1].text += output.text
+        if output.output_type == "stream" and tidied and tidied[-1].get("name") == output.name:
+            tidied[-1].text += output.text
         else:
-            kept.append(output)
-    return kept
+            tidied.append(output)
+    return tidied
 
 
-def write(path: Path, made: dict[Path, nbformat.NotebookNode]) -> list[Path]:
-    for target, document in made.items():
+def write(path: Path, targets: dict[Path, nbformat.NotebookNode]) -> list[Path]:
+    for target, document in targets.items():
         target.parent.mkdir(exist_ok=True)
         nbformat.write(document, target)
     instructor_file(path).parent.mkdir(exist_ok=True)
     instructor_file(path).write_text(page(path), encoding="utf-8")
-    return [*made, instructor_file(path)]
+    return [*targets, instructor_file(path)]
 
 
 def remove_strange() -> list[Path]:
     """Remove what was made under another number, or from a source that is gone. Returns what is removed."""
-    made = {file(path) for path in sources() for file in (student_file, solved_file, instructor_file)}
+    targets = {file(path) for path in sources() for file in (student_file, solved_file, instructor_file)}
     folders = NOTEBOOKS.glob("*.ipynb"), NOTEBOOKS.glob("solved/*.ipynb"), NOTEBOOKS.glob("instructor/*.md")
-    strange = [path for folder in folders for path in folder if path not in made]
+    strange = [path for folder in folders for path in folder if path not in targets]
     for path in strange:
         path.unlink()
     return strange
@@ -160,8 +160,8 @@ def remove_strange() -> list[Path]:
 
 def refresh_prose(path: Path) -> list[Path]:
     """Take over a source's text and keep the outputs. Returns what is written: [] where the code has changed, too."""
-    made = documents(path)
-    for target, document in made.items():
+    targets = documents(path)
+    for target, document in targets.items():
         if not target.exists():
             return []
         old = [cell for cell in nbformat.read(target, as_version=4).cells if cell.cell_type == "code"]
@@ -170,17 +170,17 @@ def refresh_prose(path: Path) -> list[Path]:
             return []
         for before, after in zip(old, new, strict=True):
             after.outputs, after.execution_count = before.outputs, before.execution_count
-    return write(path, made)
+    return write(path, targets)
 
 
 def out_of_date(path: Path) -> list[Path]:
     """The generated files that are not what their source says, or are missing."""
-    made = documents(path)
-    late = [target for target, document in made.items() if not same_cells(target, document)]
+    targets = documents(path)
+    late = [target for target, document in targets.items() if not same_cells(target, document)]
     target = instructor_file(path)
     if not target.exists() or target.read_text(encoding="utf-8") != page(path):
         late.append(target)
-    return late + [target for target in (solved_file(path),) if target not in made and target.exists()]
+    return late + [target for target in (solved_file(path),) if target not in targets and target.exists()]
 
 
 def same_cells(target: Path, document: nbformat.NotebookNode) -> bool:

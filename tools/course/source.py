@@ -86,7 +86,7 @@ def numbered(text: str, lesson: str, exercises: int) -> tuple[str, int]:
 
 
 def title(cells: list[Cell]) -> str:
-    return next(found[1] for cell in cells if (found := re.search(r"^# (.+)", cell.text, re.M)))
+    return next(heading[1] for cell in cells if (heading := re.search(r"^# (.+)", cell.text, re.M)))
 
 
 def with_solutions(text: str) -> str:
@@ -132,8 +132,7 @@ def one_folder_down(text: str) -> str:
 def function_in(text: str, name: str) -> ast.FunctionDef | ast.ClassDef | None:
     """The function or class of that name that a cell defines."""
     kinds = (ast.FunctionDef, ast.ClassDef)
-    found = [node for node in ast.parse(text).body if isinstance(node, kinds) and node.name == name]
-    return found[0] if found else None
+    return next((node for node in ast.parse(text).body if isinstance(node, kinds) and node.name == name), None)
 
 
 def arguments_of(function: ast.FunctionDef | ast.ClassDef) -> list[str]:
