@@ -18,7 +18,6 @@ from bootcourse.errors import BootcourseError
 
 LAZY = {  # commands of the research and of the course, "module:function", imported when they are used
     "study": "bootcourse.research.commands:study",
-    "sweep": "bootcourse.research.commands:sweep",
     "assets": "bootcourse.research.commands:assets",
     "handout": "bootcourse.course.classroom.commands:handout",
     "submit": "bootcourse.course.classroom.commands:submit",

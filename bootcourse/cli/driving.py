@@ -191,8 +191,8 @@ def drive(
 def replay(
     files: list[Path] = typer.Argument(..., help="Rollouts of `bootcourse drive`; several of one road are compared."),
     export: Path | None = typer.Option(None, help="Write one HTML file that plays anywhere, such as out.html."),
-    gif: Path | None = typer.Option(None, help="Write an animation for slides, such as out.gif."),
-    png: Path | None = typer.Option(None, help="Write a picture, such as out.png."),
+    gif: Path | None = typer.Option(None, help="Write an animation of the road from above, such as out.gif."),
+    png: Path | None = typer.Option(None, help="Write one moment from above as a picture, such as out.png."),
     text: bool = typer.Option(False, "--text", help="Print each drive in words."),
     port: int = typer.Option(0, min=0, max=65535, help="The server's port; 0: any free one."),
     browser: bool = typer.Option(True, help="Open the browser, or print only the address."),
@@ -211,9 +211,14 @@ def replay(
             threading.Event().wait()
         return
     from bootcourse.episodes.words import transcripts
-    from bootcourse.replay3d import pictures, recorder
+    from bootcourse.plots.animation import animate, key_frame
+    from bootcourse.plots.figure import save
+    from bootcourse.replay3d import recorder
 
-    for path, write in ((export, recorder.export), (gif, pictures.write_gif), (png, pictures.write_png)):
+    def picture(drives, path):
+        return save(key_frame(drives), path)
+
+    for path, write in ((export, recorder.export), (gif, animate), (png, picture)):
         if path is not None:
             print(f"{write(rollouts, path)} ({path.stat().st_size / 1e6:.1f} MB)")
     if text:

@@ -647,10 +647,8 @@ print("In the study, ξ is a tenth of its start at the episodes", *sorted(cold))
 table(*clocks.pattern_rows(shipped.shipped_experiment("clocks")))
 
 # %%
-two = clocks.cells(shipped.shipped_experiment("clocks"))["2", "π̃"]
-title = "Two updates for each decision, demonstrations by π̃: who finds the way out, and keeps it"
-four = ("sac", "soft", "demos", "bootstrapped")
-bc.show(figures_ablation.seed_by_seed(two, four, title, gone, words))
+cells = clocks.cells(shipped.shipped_experiment("clocks"))
+bc.show(figures_ablation.two_clocks(cells["2", "π̃"], "2"))
 
 # %% [markdown]
 # **See.** With two updates and demonstrations by π̃ all ten agents escape with demonstrations

@@ -27,7 +27,7 @@ import numpy as np
 import torch
 from bootcourse.course import charts, check, compare_predictions, own_code, predict, shipped, table
 from bootcourse.course.lessons.beyond_the_paper import figures
-from bootcourse.research import beyond, frontier
+from bootcourse.research import beyond
 
 # %% [markdown]
 # ## Look first
@@ -269,7 +269,7 @@ named |= {bc.display_name(method): part for method, part in later.items()}
 table(*beyond.learner_rows(named))
 
 # %%
-bc.show(frontier.safe_and_fast(named, shipped.shipped_bound().mean()))
+bc.show(figures.safe_and_fast(named, shipped.shipped_bound().mean()))
 
 # %% [markdown]
 # (The table's return is the interquartile mean, the figure's the mean. In the last column stands

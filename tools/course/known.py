@@ -20,9 +20,9 @@ from bootcourse.course.lessons.bug_hunt import bugs
 from bootcourse.course.lessons.the_barrier import chain
 from bootcourse.course.lessons.the_barrier.chain import leaving
 from bootcourse.course.lessons.the_rule import tracking
-from bootcourse.course.lessons.the_second_trap import second_trap
+from bootcourse.course.lessons.the_second_trap import ppo_kinds, second_trap
 from bootcourse.course.lessons.traffic import simulation as traffic
-from bootcourse.course.lessons.your_teacher import example_teachers
+from bootcourse.course.lessons.your_teacher import example_teachers, taught_agents
 from bootcourse.course.lessons.your_teacher.driven_out import OUT, drive_out
 from bootcourse.course.own_learner import parts_of
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
@@ -36,7 +36,7 @@ from bootcourse.learn.settings import settings_for
 from bootcourse.learn.teachers import teacher_policy, toward
 from bootcourse.methods import METHODS
 from bootcourse.policies import idle_policy, plan_policy, random_policy, rule_policy, stochastic_rule_policy
-from bootcourse.research import beyond, ppo_reference, report, teacher_reference
+from bootcourse.research import beyond, report
 from bootcourse.research import clocks as study_clocks
 from bootcourse.research.checks import CHECKS
 from bootcourse.research.clocks import pattern

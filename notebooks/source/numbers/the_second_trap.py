@@ -3,8 +3,8 @@
 from functools import cache
 
 import numpy as np
+from bootcourse.course.lessons.the_second_trap import ppo_kinds
 from bootcourse.episodes.record import record
-from bootcourse.research import ppo_reference
 from bootcourse.road.state import EGO, SPEED, TRAP_1, X
 from bootcourse.statistics import ESCAPES
 from tools.course.known import ROAD
@@ -12,7 +12,7 @@ from tools.course.known import ROAD
 
 def ppo(kind: str) -> dict:
     """What ships of the second trap's agents of a kind: "alone", "shaped" or "cloned"."""
-    return ppo_reference.reference()[kind]
+    return ppo_kinds.reference()[kind]
 
 
 def ppo_agents() -> int:
@@ -28,7 +28,7 @@ def ppo_escapes(kind: str) -> int:
 @cache
 def ppo_drive(kind: str = "alone", road: int = ROAD):
     """The first of these agents on one road."""
-    return record(ppo_reference.agent_of(kind).as_policy(), [road])[0]
+    return record(ppo_kinds.agent_of(kind).as_policy(), [road])[0]
 
 
 def ppo_speeds(kind: str = "alone") -> np.ndarray:

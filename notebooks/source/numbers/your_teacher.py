@@ -4,10 +4,9 @@ from functools import cache
 
 import numpy as np
 from bootcourse.course.lessons import registry
-from bootcourse.course.lessons.your_teacher import example_teachers
+from bootcourse.course.lessons.your_teacher import example_teachers, taught_agents
 from bootcourse.course.lessons.your_teacher.driven_out import OUT, drive_out
 from bootcourse.learn.teachers import toward
-from bootcourse.research import teacher_reference
 from bootcourse.road.state import EGO, LANE
 from bootcourse.statistics import ESCAPES
 from scipy import stats
@@ -30,7 +29,7 @@ def dense_escapes(name: str) -> float:
 @cache
 def students(teacher: str) -> dict:
     """What ships of the ten students of an example teacher, or of the ten that learned "alone"."""
-    return teacher_reference.reference()[teacher]
+    return taught_agents.reference()[teacher]
 
 
 def student_escapes(teacher: str) -> int:
@@ -40,10 +39,10 @@ def student_escapes(teacher: str) -> int:
 
 def teacher_tests() -> dict:
     """Holm's adjusted p-values against the ten that learned alone: {(teacher, score): p}."""
-    names = [job.name for job in teacher_reference.teacher_jobs(1) if job.name != "alone"]
+    names = list(taught_agents.TEACHERS)
     pairs = [(name, score) for name in names for score in ("success", "returns")]
     p = [stats.mannwhitneyu(students(name)[score], students("alone")[score]).pvalue for name, score in pairs]
-    return dict(zip(pairs, teacher_reference.holm(p), strict=True))
+    return dict(zip(pairs, taught_agents.holm(p), strict=True))
 
 
 @cache
