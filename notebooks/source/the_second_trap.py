@@ -131,7 +131,10 @@ bc.show(charts.lines(v, named, title, "mean speed (m/s)", "speed reward of a sec
 # %%
 def jensen_gap(speeds):
     """Mean r_v at these speeds less r_v at their mean. speeds: (seconds,) in m/s. A number."""
-    # solution: the exercise's own
+    # solution
+    paid = np.mean([bc.formulas.speed_reward(v) for v in speeds])
+    return paid - bc.formulas.speed_reward(np.mean(speeds))
+    # end solution
 
 
 check.jensen_gap(jensen_gap)
