@@ -11,15 +11,15 @@
 # ---
 
 # %% [markdown]
-# # 10 · Imitation
+# # Imitation
 #
 # **What you will be able to do**
 # - say what each of seven drivers learns from, and what that costs;
 # - write GAIL's two halves: the judge's loss, and the reward that the agent makes of it;
 # - read a table of {{ EPISODES }} test drives, and say what it leaves open.
 #
-# **Time** 50 minutes, under one of them the machine's. **It builds on** demonstrations (lesson 6)
-# and the ablation (9).
+# **Time** 50 minutes, under one of them the machine's. **It builds on** demonstrations (lesson
+# [[demonstrations]]) and the ablation ([[ablation]]).
 
 # %%
 import bootcourse as bc
@@ -57,7 +57,7 @@ bc.recording([shipped.beginning(drive, 30) for drive in pupils.values()], height
 # %% [markdown]
 # The same in words:
 
-# %%
+# %% tags=["hide-input"]
 rows = []
 for t in range(0, 31, 5):
     doing = [bc.words.doing(d, t) if t <= d.times[-1] else "" for d in pupils.values()]
@@ -72,7 +72,7 @@ table(["", *map(bc.display_name, pupils)], rows)
 # yardstick: the best return that a planner found on each road. We call it the **bound**. It is a
 # lower bound on what is possible: a better drive may exist. None of the study's agents has driven
 # one on any of its {{ roads() | , }} test roads. This lesson takes the two methods that *imitate*
-# apart, BC and GAIL; lesson 11 does the same with CQL.
+# apart, BC and GAIL; lesson [[offline_learning]] does the same with CQL.
 # <!-- claim: (shipped_results().episodes('returns') < bound()).all() -->
 # <!-- claim: sum(method in PRINTED for method in ('cql', 'gail', 'sac', 'rule', 'bc')) == 4 -->
 #
@@ -80,7 +80,9 @@ table(["", *map(bc.display_name, pupils)], rows)
 # > of our ten GAIL agents will escape? (In the paper's table, GAIL escapes in 0 % of the drives.)
 
 # %%
-predict("10.1", "How many of ten GAIL agents escape?", ["none", "1 to 5", "6 to 9", "all ten"])
+predict(
+    "imitation.1", "How many of ten GAIL agents escape?", ["none", "1 to 5", "6 to 9", "all ten"]
+)
 
 # %% [markdown]
 # ## Round 1: seven drivers
@@ -108,8 +110,8 @@ predict("10.1", "How many of ten GAIL agents escape?", ["none", "1 to 5", "6 to 
 # demonstrations can stand in its memory.
 #
 # The paper announces "one state-of-the-art behavior cloning method" and then lists CQL, SAC and
-# GAIL. It probably means GAIL, though GAIL learns by driving. Behaviour cloning as in lesson 6 has
-# no row in the paper's table; in ours it has one. The price of each method:
+# GAIL. It probably means GAIL, though GAIL learns by driving. Behaviour cloning as in lesson
+# [[demonstrations]] has no row in the paper's table; in ours it has one. The price of each method:
 # <!-- claim: 'bc' not in PRINTED and len(of('bc')) == 10 -->
 
 # %%
@@ -185,8 +187,8 @@ print(paper.arithmetic("gail"))
 # **Explain.** The paper's GAIL drives like a car that does nothing, and so does its CQL. By the
 # paper's own words, each demonstration gets out. Why do its imitators stay behind, then? The paper
 # does not print enough to decide. You can examine four suspects: how *long* the baselines were
-# trained (round 2), the *luck* of {{ EPISODES }} test drives (round 3), and, in lesson 11, *which*
-# CQL it was and the *road*.
+# trained (round 2), the *luck* of {{ EPISODES }} test drives (round 3), and, in lesson
+# [[offline_learning]], *which* CQL it was and the *road*.
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Collect the votes for each method before the table. The class will be tempted to conclude that the
@@ -246,7 +248,7 @@ table(headings, rows)
 # <!-- claim: float(torch.tensor(60.0).sigmoid()) == 1 and
 #   bool(torch.tensor(100.0).exp().isinf()) -->
 #
-# **Exercise 10.1 (15 min, ●●●).** Write the judge's loss from its logits, so that it is right for
+# **Exercise (15 min, ●●●).** Write the judge's loss from its logits, so that it is right for
 # logits from −100 to 100. First work out, on paper, log D and log (1 − D) as functions of x.
 
 
@@ -271,10 +273,10 @@ check.discriminator_loss(discriminator_loss)
 # > after 5 s?
 
 # %%
-predict("10.2", "A long drive is better with", ["−log (1 − D)", "log D", "both", "neither"])
+predict("imitation.2", "A long drive is better with", ["−log (1 − D)", "log D", "both", "neither"])
 
 # %% [markdown]
-# **Exercise 10.2 (6 min, ●●○).** Write the reward, from the logit x of each decision. It, too, must
+# **Exercise (6 min, ●●○).** Write the reward, from the logit x of each decision. It, too, must
 # be right from −100 to 100.
 
 
@@ -307,9 +309,9 @@ for d in (0.1, 0.5, 0.9):
 # > share of *these* drives counts as a success?
 
 # %%
-predict("10.3", "Of the drives that leave the road, successes", unit="%")
+predict("imitation.3", "Of the drives that leave the road, successes", unit="%")
 
-# %%
+# %% tags=["hide-input"]
 rows = []
 for label, its in (("BC", study.of("bc")), ("CQL", study.of("cql")), ("GAIL", study.of("gail"))):
     left, ahead = its.episodes("road_departure") > 0, its.episodes("success")
@@ -323,7 +325,7 @@ table(headings, rows)
 # %%
 bc.show(figures_baselines.still_going(study))
 
-# %%
+# %% tags=["hide-input"]
 pupils = {bc.display_name(m): bc.shipped_agents(m) for m in ("bc", "gail")}
 headings, rows = figures_baselines.followers(pupils, bc.held_out_seeds(11, 24))
 table(headings, rows)
@@ -358,7 +360,7 @@ training = own_code.training(agents, episodes=5000)
 result = training.run(callback=note, stop=lambda: training.updates >= 2500)
 print(f"episodes of each agent: {training.curves.finished.tolist()}")
 
-# %%
+# %% tags=["hide-input"]
 loss = torch.stack([each["discriminator_loss"] for each in noted]).T.numpy()
 smooth = loss[:, : len(noted) // 50 * 50].reshape(len(agents), -1, 50).mean(-1)
 updates, marks = np.arange(smooth.shape[1]) * 50, {"D = ½: it cannot tell": 2 * np.log(2)}
@@ -394,7 +396,7 @@ bc.show(bc.top_view_over_time(bc.record(result.agents[0].as_policy(), [road], la
 
 # %%
 choices = ["fewer than CQL's", "1 to 2 times CQL's", "3 to 4 times CQL's", "10 times CQL's"]
-predict("10.4", "GAIL's updates until half of its drives escape", choices)
+predict("imitation.4", "GAIL's updates until half of its drives escape", choices)
 
 # %%
 rows, until_half, budgets = [], {}, (250, 500, 1000, 2500, 10_000)
@@ -421,7 +423,7 @@ table(headings, rows)
 # enough.
 #
 # Would GAIL gain from more updates? Ten more of its agents were trained with the setting of lesson
-# 9, round 6: eight times as many updates for each decision, demonstrations by π̃, and
+# [[ablation]], round 6: eight times as many updates for each decision, demonstrations by π̃, and
 # {{ shipped_results('paper').curves['success'].shape[1] | , }} episodes.
 # {{ escaped('gail', 'paper') }} of them escape, where {{ escaped('gail') }} did. Ten agents cannot
 # tell these two numbers apart (Fisher's p is {{ fisher(escaped('gail'), escaped('gail', 'paper'))
@@ -433,9 +435,9 @@ table(headings, rows)
 #   settings_for('gail').envs_per_agent -->
 #
 # **Explain.** How would a reader notice that a training was too short? A row of a table does not
-# show it. So test your learners where others have published what can be reached: `python -m
-# bootcourse.research.checks` trains the very classes of this course on CartPole and Acrobot, with at
-# most the published number of steps. It takes some minutes. Our last run ships as
+# show it. So test your learners where others have published what can be reached:
+# `python -m bootcourse.research.checks` trains the very classes of this course on CartPole and
+# Acrobot, with at most the published number of steps. It takes some minutes. Our last run ships as
 # `assets/checks.md` (mean [worst, best]; *reached* means at most 1 % below the published score):
 #
 # | learner, task | published | ours | reached |
@@ -454,7 +456,7 @@ table(headings, rows)
 # the goal in time. Next to a badly trained baseline a new method looks good, so make such checks
 # for the baselines, too. This table says who published each score, and with which budget:
 
-# %%
+# %% tags=["hide-input"]
 rows = [
     [c.learner, c.task, f"{c.published:g}", c.their_budget, c.source]
     for c in checks.CHECKS.values()
@@ -477,7 +479,7 @@ table(["learner", "task", "published", "with", "by"], rows)
 
 # %%
 choices = ["up to 1 %", "up to 5 %", "up to 17 %", "up to 50 %"]
-predict("10.5", "No accident in 20 drives: the true rate is", choices)
+predict("imitation.5", "No accident in 20 drives: the true rate is", choices)
 
 # %%
 # NBVAL_CHECK_OUTPUT
@@ -497,7 +499,7 @@ for k in (0, 1, 20):
 # <!-- claim: PRINTED['gail']['collision'] == (5, 22.36) and PRINTED['demos']['collision'] == (5,
 #   29.69) -->
 #
-# **Exercise 10.3 (5 min, ●○○).** Each drive counts 100 % or 0 %. Write the standard deviation of n
+# **Exercise (5 min, ●○○).** Each drive counts 100 % or 0 %. Write the standard deviation of n
 # drives of which k count 100 %, as for a sample: with n − 1.
 
 
@@ -537,10 +539,10 @@ source("bootcourse.research.paper", "possible")
 # > that you see a collision with a probability of 95 %?
 
 # %%
-predict("10.6", "Drives until one in 20 is found out", ["20", "60", "400"])
+predict("imitation.6", "Drives until one in 20 is found out", ["20", "60", "400"])
 
 # %% [markdown]
-# **Exercise 10.4 (5 min, ●●○).** Write it: the smallest n for which n drives in a row without an
+# **Exercise (5 min, ●●○).** Write it: the smallest n for which n drives in a row without an
 # accident have a probability of 5 % or less.
 
 
@@ -565,7 +567,7 @@ for r in (0.5, 0.05, 0.01, 0.001):
 # drives without a collision?
 # <!-- claim: PRINTED['bootstrapped']['collision'] == (0, 0) -->
 
-# %%
+# %% tags=["hide-input"]
 collisions = np.sort(study.of("bootstrapped").scores("collision"))
 lucky = (1 - collisions) ** paper.EPISODES
 rows = [["collisions in 1,000 drives", *(f"{100 * r:.1f} %" for r in collisions)]]
@@ -587,7 +589,7 @@ table(["bootstrapped agents", *map(str, range(1, len(collisions) + 1))], rows)
 # > will the test find the difference? Does it help if both drive the *same* 20 roads?
 
 # %%
-predict("10.7", "Twenty roads each: how often the test finds it", unit="%")
+predict("imitation.7", "Twenty roads each: how often the test finds it", unit="%")
 
 # %%
 firsts = {m: everyone.of(m).episodes("returns")[0] for m in ("bc", "cql", "gail", "rule")}
@@ -612,8 +614,9 @@ table(headings, rows)
 #   min(of(m).episodes('returns')[0].std() for m in ('cql', 'rule')) -->
 
 # %% [markdown] tags=["instructor"] minutes=5
-# "Then {{ roads() | , }} drives settle it." Hold that thought until lesson 11: they settle which
-# *agent* is better. Ask what {{ roads() | , }} drives of a second agent would show.
+# "Then {{ roads() | , }} drives settle it." Hold that thought until lesson [[offline_learning]]:
+# they settle which *agent* is better. Ask what {{ roads() | , }} drives of a second agent would
+# show.
 
 # %% [markdown]
 # ## What you now know
@@ -627,7 +630,7 @@ table(headings, rows)
 #
 # **Three questions to think about**
 # - Our rule earns about twice what the paper's does, at nearly the same mean speed. Where can a
-#   return get lost on the way? (Look at the reward's curve in lesson 1.)
+#   return get lost on the way? (Look at the reward's curve in lesson [[the_trap]].)
 # - The judge sees states and actions. What would GAIL imitate if it saw states only?
 # - What would GAIL learn from 200 drives of a bootstrapped agent, accidents included? And BC?
 
@@ -638,15 +641,15 @@ times = np.median(until_half["gail"]) / np.median(until_half["cql"])
 found = 100 * figures_baselines.finds(firsts["cql"], firsts["rule"], 20, False)
 escaping = (study.of("gail").scores("success") >= bc.statistics.ESCAPES).sum()
 compare_predictions(
-    "10",
+    "imitation",
     {
-        "10.1": f"{escaping} of ten",
-        "10.2": "−log (1 − D)",
-        "10.3": round(100 * ahead),
-        "10.4": f"{times:.1f} times CQL's",
-        "10.5": f"up to {100 * bc.statistics.rate(np.zeros(paper.EPISODES)).high:.0f} %",
-        "10.6": "60",
-        "10.7": round(found),
+        1: f"{escaping} of ten",
+        2: "−log (1 − D)",
+        3: round(100 * ahead),
+        4: f"{times:.1f} times CQL's",
+        5: f"up to {100 * bc.statistics.rate(np.zeros(paper.EPISODES)).high:.0f} %",
+        6: "60",
+        7: round(found),
     },
 )
 
@@ -665,4 +668,4 @@ compare_predictions(
 # **Read on**: Ho and Ermon, *Generative Adversarial Imitation Learning* (arXiv 1606.03476);
 # Kostrikov et al., *Discriminator-Actor-Critic* (arXiv 1809.02925), on rewards that pay for staying
 # or for leaving; Orsini et al., *What Matters for Adversarial Imitation Learning?* (arXiv
-# 2106.00672). Next: [offline learning](11_offline_learning.ipynb).
+# 2106.00672). Next: [offline learning](offline_learning.ipynb).

@@ -11,15 +11,15 @@
 # ---
 
 # %% [markdown]
-# # 15 · The second trap
+# # The second trap
 #
 # **What you will be able to do**
 # - find out from a drive how an agent earns a lot and still misses its goal, and what pays for it;
 # - write PPO's two formulas, and train an agent with them in seconds;
 # - tell what a change of the reward can repair: what is best, or what is found.
 #
-# **Time** 70 minutes, about one of them the machine's. **It builds on** the reward (lesson 1), the
-# barrier (5) and demonstrations (6).
+# **Time** 70 minutes, about one of them the machine's. **It builds on** the reward (lesson
+# [[the_trap]]), the barrier ([[the_barrier]]) and demonstrations ([[demonstrations]]).
 
 # %%
 import bootcourse as bc
@@ -69,7 +69,7 @@ choices = [
     "they drive fast between two lanes",
     "they overtake and let themselves be overtaken again",
 ]
-predict("15.1", "They earn more because", choices)
+predict("the_second_trap.1", "They earn more because", choices)
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Do not play the recording before everybody has committed. Ask for a sketch of the speed over time:
@@ -106,9 +106,9 @@ bc.show(bc.traces(drive, title=title, what=("speed", "distance", "reward")))
 
 # %%
 choices = ["about half", "the same", "about twice as much", "almost four times as much"]
-predict("15.2", "Changing between 5 and 15 m/s earns", choices)
+predict("the_second_trap.2", "Changing between 5 and 15 m/s earns", choices)
 
-# %%
+# %% tags=["hide-input"]
 v = np.linspace(5, 15, 101)
 pays = np.array([bc.formulas.speed_reward(each) for each in v])
 chord = (v - 5) / 10
@@ -124,7 +124,7 @@ bc.show(charts.lines(v, named, title, "mean speed (m/s)", "speed reward of a sec
 # <!-- claim: (lambda r: all(r[i - 1] + r[i + 1] >= 2 * r[i] - 1e-12 for i in range(1, len(r) -
 #   1)))([speed_reward(v) for v in np.linspace(5, 15, 401)]) -->
 #
-# **Exercise 15.1 (6 min, ●●○).** Write that gain: what a second pays on average at these speeds,
+# **Exercise (6 min, ●●○).** Write that gain: what a second pays on average at these speeds,
 # less what it pays at their mean.
 
 
@@ -139,7 +139,7 @@ def jensen_gap(speeds):
 
 check.jensen_gap(jensen_gap)
 
-# %%
+# %% tags=["hide-input"]
 cars = drive.states[:: bc.DEFAULT.clock.steps]
 speeds, rows = cars[1:, EGO, SPEED], []
 for name, driven in (("PPO alone", speeds), ("keeping straight", np.full(len(speeds), 10.0))):
@@ -182,7 +182,7 @@ table(["", "mean speed, m/s", "mean r_v", "r_v at the mean speed", "gap"], rows)
 # 0 there. If the time is over, the last state still has its value. In both cases the next row
 # belongs to another episode, and the sum stops.
 #
-# **Exercise 15.2 (15 min, ●●●).** Write it, in torch. Can you do it in one loop, from the last row
+# **Exercise (15 min, ●●●).** Write it, in torch. Can you do it in one loop, from the last row
 # to the first?
 
 
@@ -217,10 +217,10 @@ check.advantages(advantages)
 
 # %%
 choices = ["yes, it makes the action rarer", "yes, likelier", "no, it is clipped"]
-predict("15.3", "Does it still change the policy?", choices)
+predict("the_second_trap.3", "Does it still change the policy?", choices)
 
 # %% [markdown]
-# **Exercise 15.3 (8 min, ●●○).** Write the loss. Its slope is checked, too.
+# **Exercise (8 min, ●●○).** Write the loss. Its slope is checked, too.
 
 
 # %%
@@ -255,7 +255,7 @@ mine = ppo_kinds.train(training, 500_000)
 rate = training.decisions / training.seconds
 print(f"{training.decisions:,} decisions in {training.seconds:.0f} s: {rate:,.0f} a second")
 
-# %%
+# %% tags=["hide-input"]
 named = {"the ones that ship": alone["curve"], "yours": mine.returns}
 count = min(len(alone["at"][0]), len(mine.at))
 named = {name: np.atleast_2d(values)[:, :count] for name, values in named.items()}
@@ -303,7 +303,7 @@ bc.show(bc.traces(your_drive, title="Your agent", what=("speed", "distance")))
 
 # %%
 choices = ["it leaves", "it drives steadily behind trap 1", "it falls back and sprints as before"]
-predict("15.4", "With the concave reward", choices)
+predict("the_second_trap.4", "With the concave reward", choices)
 
 # %%
 concave = bc.record(ppo_kinds.agent_of("concave").as_policy(), [ROAD], label="ppo")[0]
@@ -325,8 +325,8 @@ bc.show(charts.lines(seconds, speeds, title, "time (s)", "speed (m/s)"))
 # <!-- claim: ppo_speeds('concave')[20:].std() < 0.2 * ppo_speeds()[20:].std() -->
 #
 # **Explain.** A reward says what is best, and not how it is found. The way out still leads through
-# seconds that pay less, and trials that crash (lesson 5). There is also a way to change the reward
-# and to leave what is best as it is.
+# seconds that pay less, and trials that crash (lesson [[the_barrier]]). There is also a way to
+# change the reward and to leave what is best as it is.
 #
 # A **potential** Φ(s) is a number for each state that says how promising it looks. The shaping
 # reward pays for its change:
@@ -339,7 +339,7 @@ bc.show(charts.lines(seconds, speeds, title, "time (s)", "speed (m/s)"))
 # gives back what it was lent. Our potential is {{ second_trap.PER_LANE | g }} for each lane that
 # the car has come to the left.
 #
-# **Exercise 15.4 (6 min, ●●○).** Write F for many roads at once.
+# **Exercise (6 min, ●●○).** Write F for many roads at once.
 
 
 # %%
@@ -366,7 +366,7 @@ for name, policy in (("the rule", bc.rule_policy(bc.DEFAULT)), ("nobody", bc.pol
 # > {{ ppo_agents() }} agents escape?
 
 # %%
-predict("15.5", "With the potential escape", ["none", "some of them", "all of them"])
+predict("the_second_trap.5", "With the potential escape", ["none", "some of them", "all of them"])
 
 # %% tags=["nbval-ignore-output"]
 pay = second_trap.shaped_pay(second_trap.left_of, gamma, own_code.yours_or_ours("shaping_reward"))
@@ -378,7 +378,7 @@ shaped = ppo_kinds.train(training, 300_000)
 found = bc.evaluate(shaped.agent.as_policy(), 100)
 print(f"Yours is ahead on {100 * found.success.value:.0f} %, return {found.returns.value:.1f}")
 
-# %%
+# %% tags=["hide-input"]
 names = {"alone": "the road's reward", "concave": "concave", "shaped": "the potential, too"}
 rows = []
 for kind, name in names.items():
@@ -423,7 +423,7 @@ table(["PPO, paid", "each agent's escapes, %, sorted", "the road's return", "acc
 
 # %%
 choices = ["in less than half", "in about three quarters", "in nearly all"]
-predict("15.6", "It does as the rule would", choices)
+predict("the_second_trap.6", "It does as the rule would", choices)
 
 # %% tags=["nbval-ignore-output"]
 training = own_code.training([ppo_kinds.settings_of("cloned")], MOST)
@@ -432,7 +432,7 @@ found = bc.evaluate(cloned.agent.as_policy(), 100)
 print(f"{training.decisions:,} decisions in {training.seconds:.0f} s. Yours is ahead on ", end="")
 print(f"{100 * found.success.value:.0f} %, return {found.returns.value:.1f}")
 
-# %%
+# %% tags=["hide-input"]
 numbers = (by_rule.returns.mean(), 100 * np.mean(by_rule.accident > 0), 100)
 rows = [["the rule", f"{100 * by_rule.success.mean():.0f}", *(f"{each:.1f}" for each in numbers)]]
 for kind, name in (("alone", "PPO alone"), ("cloned", "PPO after cloning")):
@@ -451,8 +451,7 @@ table(["", *headings], rows)
 # %%
 kinds = {"ppo": "alone", "ppo_cloned": "cloned"}
 fast = {
-    m: bc.record(ppo_kinds.agent_of(k).as_policy(), [ROAD], label=m)[0]
-    for m, k in kinds.items()
+    m: bc.record(ppo_kinds.agent_of(k).as_policy(), [ROAD], label=m)[0] for m, k in kinds.items()
 }
 title = "PPO alone stays behind trap 1; after cloning it passes trap 1 and stays ahead"
 bc.show(bc.traces(list(fast.values()), title=title, what=("speed", "distance", "return")))
@@ -473,8 +472,8 @@ bc.show(bc.traces(list(fast.values()), title=title, what=("speed", "distance", "
 # what the cloned agents earn, and in most of their decisions they do something else. It put the
 # learner on the other side of the barrier. From there on the reward was enough: speed pays more on
 # a free road than behind trap 1, and PPO found out how. That is the paper's idea in its shortest
-# form. The soft constraint and the demonstrations of lessons 7 to 9 do the same for a learner that
-# needs help for longer.
+# form. The soft constraint and the demonstrations of lessons [[soft_constraint]] to [[ablation]] do
+# the same for a learner that needs help for longer.
 
 # %% [markdown] tags=["instructor"] minutes=6
 # Ask which of the course's figures would have looked the same for the second trap: those that
@@ -498,20 +497,21 @@ bc.show(bc.traces(list(fast.values()), title=title, what=("speed", "distance", "
 # **Three questions to think about**
 # - Which number, printed beside the return during training, would have shown the second trap?
 # - With the concave reward the agents stay in the first trap. Is that better than the second?
-# - Could cloning a *bad* driver have worked as well? Which of the four teachers of lesson 14?
+# - Could cloning a *bad* driver have worked as well? Which of the four teachers of lesson
+#   [[your_teacher]]?
 
 # %%
 alike = 100 * groups["cloned"]["alike"].mean()
 escaping = int((groups["shaped"]["success"] >= bc.statistics.ESCAPES).sum())
 compare_predictions(
-    "15",
+    "the_second_trap",
     {
-        "15.1": "they fall back and then drive fast",
-        "15.2": "almost four times as much",
-        "15.3": "yes, it makes the action rarer",
-        "15.4": "it drives steadily behind trap 1",
-        "15.5": f"{escaping} of {len(groups['shaped']['success'])}",
-        "15.6": f"in {alike:.0f} % of its decisions",
+        1: "they fall back and then drive fast",
+        2: "almost four times as much",
+        3: "yes, it makes the action rarer",
+        4: "it drives steadily behind trap 1",
+        5: f"{escaping} of {len(groups['shaped']['success'])}",
+        6: f"in {alike:.0f} % of its decisions",
     },
 )
 
@@ -532,4 +532,4 @@ compare_predictions(
 #
 # **Try**: `bc.board()` shows the methods of the course on the same {{ roads() | , }} roads, by
 # return, and `bc.board("runs/mine")` puts your own agents among them. Next:
-# [beyond the paper](16_beyond_the_paper.ipynb), the learners that it does not train.
+# [beyond the paper](beyond_the_paper.ipynb), the learners that it does not train.

@@ -11,7 +11,7 @@
 # ---
 
 # %% [markdown]
-# # 4 · Discrete soft actor-critic
+# # Discrete soft actor-critic
 #
 # **What you will be able to do**
 # - write each part of discrete soft actor-critic: the soft value, the losses of critics, actor and
@@ -21,13 +21,15 @@
 #   of an agent with nine actions, and choose another target.
 #
 # **Time** 100 minutes, about one of them the machine's. You can stop after any round. **You need**
-# Python and a little torch; states, actions and rewards as in lesson 1.
+# Python and a little torch; states, actions and rewards as in lesson [[the_trap]].
 
 # %%
 import bootcourse as bc
 import numpy as np
 import torch
-from bootcourse.course import charts, check, compare_predictions, figures, own_code, predict, source
+from bootcourse.course import charts, check, compare_predictions, own_code, predict, source
+from bootcourse.course.lessons.discrete_sac import figures
+from bootcourse.plots import diagrams
 from bootcourse.research import checks
 
 # %% [markdown]
@@ -63,7 +65,11 @@ bc.show(figures.cartpole_strip(drives, title))
 # > learn from. For how many pushes will the best of them balance the pole after that?
 
 # %%
-predict("4.1", "Pushes of the best of three learners", ["about 20", "about 100", "250 or more"])
+predict(
+    "discrete_sac.1",
+    "Pushes of the best of three learners",
+    ["about 20", "about 100", "250 or more"],
+)
 
 # %%
 PUSHES, TARGET = 8_000, 0.3 * np.log(2).item()
@@ -92,13 +98,13 @@ bc.show(charts.lines(grid, {"sac": np.array(lasted)}, title, label, "pushes in a
 # that the agents at the end of this lesson learn with your code. Your part is kept in the folder
 # `answers`, beside the notebooks, for the lessons that build on it.
 # <!-- claim: len(parts_of([settings_for('sac')], {})) == 6 -->
-# <!-- claim: all(f'check.{part}({part})' in code_of('04_discrete_sac')
+# <!-- claim: all(f'check.{part}({part})' in code_of('discrete_sac')
 #   for part in parts_of([settings_for('sac')], {})) -->
 #
 # ## The parts in one picture
 
 # %%
-bc.show(figures.sac_diagram())
+bc.show(diagrams.sac_diagram())
 
 # %% [markdown]
 # The **actor** gives each action a probability, $\pi(a|s)$: its **policy**. The **critics**
@@ -119,7 +125,7 @@ bc.show(figures.sac_diagram())
 # > between two? Between nine? Can it be negative?
 
 # %%
-predict("4.2", "The smallest entropy that a policy can have, in nats", unit="nats")
+predict("discrete_sac.2", "The smallest entropy that a policy can have, in nats", unit="nats")
 
 # %%
 for words, pi in (
@@ -138,7 +144,7 @@ for words, pi in (
 # <!-- claim: 0 == float(sac.entropy(torch.tensor([1.0]).log())) <
 #   float(sac.entropy(torch.full((9,), 1 / 9).log())) < math.log(9) + 1e-6 -->
 #
-# **Exercise 4.1 (3 min, ●○○).** Write the entropy of each policy in a batch.
+# **Exercise (3 min, ●○○).** Write the entropy of each policy in a batch.
 
 
 # %%
@@ -157,7 +163,7 @@ check.entropy(entropy)
 #
 # $$ V(s) = \sum_a \pi(a|s)\, Q(s,a) + \alpha\, \mathcal{H}(\pi(\cdot|s)) $$
 #
-# **Exercise 4.2 (5 min, ●○○).** Write the soft value.
+# **Exercise (5 min, ●○○).** Write the soft value.
 
 
 # %%
@@ -175,7 +181,9 @@ check.soft_value(soft_value)
 # > is even. At which α have both the same V? (The entropy of the even one is 0.693.)
 
 # %%
-predict("4.3", "The α at which both are worth the same", ["0.5", "0.693", "1", "1.44", "2"])
+predict(
+    "discrete_sac.3", "The α at which both are worth the same", ["0.5", "0.693", "1", "1.44", "2"]
+)
 
 # %%
 q = torch.tensor([[1.0, 3.0]])
@@ -204,7 +212,7 @@ for alpha in (0.1, 1.0, 1.4427, 2.0):
 #
 # </details>
 
-# %%
+# %% tags=["hide-input"]
 temperatures = np.geomspace(0.1, 30, 60)
 best = [torch.softmax(q[0] / alpha, 0)[1].item() for alpha in temperatures]
 title = "The colder, the surer: the best policy for Q = 1 and Q = 3"
@@ -237,13 +245,13 @@ bc.show(
 
 # %%
 predict(
-    "4.4",
+    "discrete_sac.4",
     "y of the pole that fell, and of the one whose time was up",
     ["1 and 1", "1 and 50.5", "50.5 and 1", "50.5 and 50.5"],
 )
 
 # %% [markdown]
-# **Exercise 4.3 (5 min, ●○○).** Write the target.
+# **Exercise (5 min, ●○○).** Write the target.
 
 
 # %%
@@ -273,7 +281,7 @@ print(bc.sac.critic_target(torch.ones(2), terminated, torch.tensor([50.0, 50.0])
 # critics that take over a small share τ ("tau") of the new weights at each update. Without them,
 # an update that moves a critic towards its target would at once move the target as well.
 #
-# **Exercise 4.4 (8 min, ●●○).** Write the loss of both critics: for each of them the mean over the
+# **Exercise (8 min, ●●○).** Write the loss of both critics: for each of them the mean over the
 # batch of $(Q(s,a) - y)^2$, and then the sum of the two. Here a is the action that was taken. The
 # target is held fixed, and the check also looks at where the gradient goes.
 
@@ -300,13 +308,13 @@ check.critic_loss(critic_loss)
 
 # %%
 predict(
-    "4.5",
+    "discrete_sac.5",
     "If the gradient may change both",
     ["the policy gets better sooner", "both get better", "Q grows and nothing gets better"],
 )
 
 # %% [markdown]
-# **Exercise 4.5 (8 min, ●●○).** Write the actor's loss. The check also looks at where its gradient
+# **Exercise (8 min, ●●○).** Write the actor's loss. The check also looks at where its gradient
 # goes.
 
 
@@ -346,7 +354,7 @@ for words, keeps_q in (("Q held fixed", True), ("Q may move, too", False)):
 #
 # $$ L_\alpha = \alpha\, (\mathcal{H}(\pi) - \eta) $$
 #
-# **Exercise 4.6 (5 min, ●●○).** Write it. The parameter is log α, so that α stays positive; again
+# **Exercise (5 min, ●●○).** Write it. The parameter is log α, so that α stays positive; again
 # the check looks at the gradient.
 
 
@@ -368,7 +376,7 @@ check.temperature_loss(temperature_loss)
 
 # %%
 predict(
-    "4.6",
+    "discrete_sac.6",
     "With η = −1, α",
     ["falls, and stops at H = η", "rises for ever", "falls for ever", "moves up and down"],
 )
@@ -419,10 +427,14 @@ for part in (10, 100):
 # > many batches does a row appear, on average, before it is thrown out?
 
 # %%
-predict("4.7", "Batches in which a row appears", ["fewer than 1", "1", "about 16", "64", "1,000"])
+predict(
+    "discrete_sac.7",
+    "Batches in which a row appears",
+    ["fewer than 1", "1", "about 16", "64", "1,000"],
+)
 
 # %% [markdown]
-# **Exercise 4.7 (20 min, ●●●).** Write the buffer. It keeps the last `size` rows; a row is a
+# **Exercise (20 min, ●●●).** Write the buffer. It keeps the last `size` rows; a row is a
 # tensor. When it is full, each new row replaces the oldest one. `sample` draws rows with the
 # generator `rng`, each row with the same chance at each draw, so that a row may come twice. Your
 # agents call `add` after each decision and `sample` at each update, thousands of times: do not
@@ -467,7 +479,7 @@ check.ReplayBuffer(ReplayBuffer)
 # > **Predict.** Draw α over the updates for both kinds. Which kind ends with the higher α?
 
 # %%
-predict("4.8", "The higher α at the end", ["η = −1", "η = 0.21", "the same"])
+predict("discrete_sac.8", "The higher α at the end", ["η = −1", "η = 0.21", "the same"])
 
 # %%
 agents = learners + bc.with_seeds(bc.settings_for("sac", **changes), 3)  # η = 0.21, and the paper's
@@ -483,14 +495,14 @@ training = own_code.training(agents, PUSHES, make_env=checks.several(checks.cart
 training.run(callback=note, stop=lambda: training.decisions >= PUSHES * len(agents))
 print(f"{len(noted):,} updates of {len(agents)} agents")
 
-# %%
+# %% tags=["hide-input"]
 alpha = torch.stack([each["alpha"] for each in noted[::50]]).T.numpy()
 updates = np.arange(len(noted))[::50]
 named = {"sac, η = 0.21": alpha[:3], "η = −1": alpha[3:]}
 title = "The temperature of six agents"
 bc.show(charts.lines(updates, named, title, "update", "temperature α", logarithmic="y"))
 
-# %%
+# %% tags=["hide-input"]
 state_entropy = torch.stack([each["entropy"] for each in noted]).T.numpy()
 smooth = state_entropy[:, : len(noted) // 50 * 50].reshape(len(agents), -1, 50).mean(-1)
 named = {"sac, η = 0.21": smooth[:3], "η = −1": smooth[3:]}
@@ -550,7 +562,8 @@ own_code.compare()
 
 # %% [markdown]
 # Here are the losses of SAC as the library computes them. Open them beside yours. The dots in a
-# shape stand for any number of agents, which learn side by side; `constraint` belongs to lesson 7.
+# shape stand for any number of agents, which learn side by side; `constraint` belongs to lesson
+# [[soft_constraint]].
 
 # %% tags=["nbval-ignore-output"]
 source("bootcourse.learn.sac", "soft_value", "critic_target", "critic_loss", "actor_loss")
@@ -560,8 +573,9 @@ source("bootcourse.learn.sac", "temperature_loss", "min_q")
 
 # %% [markdown]
 # With a loop around them, these lines are a short program for one agent:
-# `bootcourse/learn/textbook.py`. It also has two things that are still to come: the KL (lesson 7)
-# and the demonstrations (lesson 8). `python -m bootcourse.learn.textbook` runs it.
+# `bootcourse/learn/textbook.py`. It also has two things that are still to come: the KL (lesson
+# [[soft_constraint]]) and the demonstrations (lesson [[learning_from_demonstrations]]).
+# `python -m bootcourse.learn.textbook` runs it.
 
 # %% [markdown] tags=["instructor"] minutes=10
 # How far does it get with more pushes? `python -m bootcourse.research.checks --only sac-cartpole`
@@ -586,9 +600,9 @@ source("bootcourse.learn.sac", "temperature_loss", "min_q")
 best_of_three = "250 or more" if balanced.max() >= 250 else f"{balanced.max():.0f}"
 nothing = "Q grows and nothing gets better"
 compare_predictions(
-    "04",
-    {"4.1": best_of_three, "4.2": 0.0, "4.3": "1.44", "4.4": "1 and 50.5", "4.5": nothing}
-    | {"4.6": "falls for ever", "4.7": "64", "4.8": "η = 0.21"},
+    "discrete_sac",
+    {1: best_of_three, 2: 0.0, 3: "1.44", 4: "1 and 50.5", 5: nothing}
+    | {6: "falls for ever", 7: "64", 8: "η = 0.21"},
 )
 
 # %% [markdown]

@@ -11,15 +11,15 @@
 # ---
 
 # %% [markdown]
-# # 11 · Offline learning
+# # Offline learning
 #
 # **What you will be able to do**
 # - write CQL's loss, and say why its values bound the true ones from below;
 # - tell two methods apart that are both called CQL;
 # - judge a method by ten agents and by a planner's bound, and not by one agent.
 #
-# **Time** 55 minutes, about one of them the machine's. **It builds on** demonstrations (lesson 6)
-# and imitation (10).
+# **Time** 55 minutes, about one of them the machine's. **It builds on** demonstrations (lesson
+# [[demonstrations]]) and imitation ([[imitation]]).
 
 # %%
 import bootcourse as bc
@@ -45,7 +45,7 @@ for method in ("cql", "cql_sac"):
     pupils[method] = bc.record(agent.as_policy(), [road], label=method)[0]
 bc.recording([shipped.beginning(drive, 30) for drive in pupils.values()], height=360)
 
-# %%
+# %% tags=["hide-input"]
 rows = []
 for method, drive in pupils.items():
     end, earned = bc.words.outcome(drive), f"{drive.rewards.sum():.1f}"
@@ -62,9 +62,10 @@ print(paper.arithmetic("cql"))
 # %% [markdown]
 # The paper's CQL drives like a car that does nothing. The paper's explanation is too little
 # exploration. But an offline learner does not explore at all, and it need not: by the paper's own
-# words, each of its demonstrations gets out. All ten of *our* CQL agents escape (lesson 10). Lesson
-# 10 examined two suspects, how *long* a baseline is trained and the *luck* of {{ EPISODES }} test
-# drives. Two are left: *which* CQL it was (rounds 1 and 2), and the *road* (round 4).
+# words, each of its demonstrations gets out. All ten of *our* CQL agents escape (lesson
+# [[imitation]]). Lesson [[imitation]] examined two suspects, how *long* a baseline is trained and
+# the *luck* of {{ EPISODES }} test drives. Two are left: *which* CQL it was (rounds 1 and 2), and
+# the *road* (round 4).
 # <!-- claim: escaped('cql') == len(of('cql')) -->
 
 # %% [markdown]
@@ -78,7 +79,7 @@ print(paper.arithmetic("cql"))
 
 # %%
 choices = ["lower than the rule's action", "about as high", "higher than the rule's action"]
-predict("11.1", "Q-learning values the best untried action", choices)
+predict("offline_learning.1", "Q-learning values the best untried action", choices)
 
 # %% [markdown]
 # Of nine guesses the largest is mostly too high. An agent that drives would try the action and see
@@ -90,7 +91,7 @@ predict("11.1", "Q-learning values the best untried action", choices)
 # The first part is near the highest Q of the nine, and is pushed down. The second is the Q of the
 # action that the data hold, and is pulled up.
 #
-# **Exercise 11.1 (6 min, ●●○).** Write it, in torch.
+# **Exercise (6 min, ●●○).** Write it, in torch.
 
 
 # %%
@@ -106,8 +107,8 @@ check.conservative_loss(conservative_loss)
 
 # %% [markdown]
 # Why is that *conservative*? Take one state. The data hold action a with probability β(a) (not the
-# demonstrations' share of lesson 8), and its target y(a) is given. The loss is the mean of (Q − y)²
-# over the data, plus w times the term. Which Q makes it smallest?
+# demonstrations' share of lesson [[learning_from_demonstrations]]), and its target y(a) is given.
+# The loss is the mean of (Q − y)² over the data, plus w times the term. Which Q makes it smallest?
 #
 # <details><summary>The answer</summary>
 #
@@ -138,7 +139,7 @@ table(["", *"abc"], [[n, *row] for n, row in zip(names, cells, strict=True)])
 # conservative Q of c lies far below its target, and the highest Q is that of a, which the data hold
 # most often.
 #
-# **Exercise 11.2 (20 min, ●●●).** Write the whole loss that trains CQL's critic, from a batch of
+# **Exercise (20 min, ●●●).** Write the whole loss that trains CQL's critic, from a batch of
 # the data. The target is that of *double* Q-learning: the critic itself chooses the next action,
 # and a slower copy of it, the target critic, says what that action is worth. Which part must have
 # no gradient? What comes after an accident?
@@ -219,7 +220,8 @@ bc.show(bc.top_view_over_time(bc.record(agents[0].as_policy(), [road], label="cq
 # each other. Compare the curves with the two dotted lines: the most that a drive can be worth, and
 # what the rule's own drives earn from these seconds on, discounted.
 #
-# **Explain.** What does the term do to the car? Compare it with the cloning loss of lesson 6:
+# **Explain.** What does the term do to the car? Compare it with the cloning loss of lesson
+# [[demonstrations]]:
 
 # %%
 # NBVAL_CHECK_OUTPUT
@@ -234,7 +236,7 @@ for action in (1, 7, 8):
 # They are the same number. CQL is Q-learning and cloning in one. Where the data hold one action,
 # the cloning term decides; where they hold several, the rewards can decide. (We think that this is
 # why it takes the way out, although with γ = 0.8 the rule's drive is worth less than staying:
-# lesson 6.)
+# lesson [[demonstrations]].)
 # <!-- claim: discounted(by_rule(), 0.8) < discounted(idle(), 0.8) and settings_for('cql').gamma ==
 #   0.8 -->
 #
@@ -245,9 +247,9 @@ for action in (1, 7, 8):
 
 # %%
 choices = ["the clone", "CQL", "both equally often"]
-predict("11.2", "Where the rule brakes, who brakes more often?", choices)
+predict("offline_learning.2", "Where the rule brakes, who brakes more often?", choices)
 
-# %%
+# %% tags=["hide-input"]
 groups = {bc.display_name(m): bc.shipped_agents(m) for m in ("bc", "cql")}
 groups |= {"just trained, with rewards": agents[:SEEDS], "without rewards": agents[-SEEDS:]}
 headings, rows = figures_baselines.followers(groups, bc.held_out_seeds(11, 24))
@@ -299,13 +301,13 @@ table(["", "agents that escape", "mean speed", "returns of the agents, sorted"],
 
 # %%
 choices = ["CQL", "bootstrapped SAC", "both about the same"]
-predict("11.3", "With seed 0 alone, which earns more?", choices)
+predict("offline_learning.3", "With seed 0 alone, which earns more?", choices)
 
 # %% [markdown]
 # As a yardstick take the planner, which tries actions in a copy of the road, other cars included.
 # On each of the {{ roads() | , }} roads we know the best return that it found, the bound.
 #
-# **Exercise 11.3 (4 min, ●○○).** Write the share of the bound: an agent's mean return on these
+# **Exercise (4 min, ●○○).** Write the share of the bound: an agent's mean return on these
 # roads, divided by the planner's mean return.
 
 
@@ -386,14 +388,18 @@ print(f"ten seeds: P(bootstrapped > CQL) = {tables.bracketed(both, 100)} %")
 # {{ EPISODES }} test drives do not explain it; a single unlucky seed might, for GAIL. The *road* is
 # left. The paper's traps were probably a little faster than ours, and a method that gets out of one
 # trap need not get out of another. So the whole study was run a second time, behind traps at
-# {{ CALIBRATED.traps.speed }} m/s (lesson 9).
+# {{ CALIBRATED.traps.speed }} m/s (lesson [[ablation]]).
 # <!-- claim: escaped('cql') == len(of('cql')) and escaped('cql_sac') == 0 -->
 #
 # > **Predict.** Behind faster traps there is less to gain. For which methods do fewer of ten agents
-# > escape? (Lesson 9 showed that more agents of plain SAC do.)
+# > escape? (Lesson [[ablation]] showed that more agents of plain SAC do.)
 
 # %%
-predict("11.4", "Behind faster traps, of ten CQL agents", ["none", "1 to 5", "6 to 9", "all ten"])
+predict(
+    "offline_learning.4",
+    "Behind faster traps, of ten CQL agents",
+    ["none", "1 to 5", "6 to 9", "all ten"],
+)
 
 # %%
 faster, rows = bc.shipped_results("calibrated"), []
@@ -430,21 +436,21 @@ table(headings, rows)
 # %% [markdown]
 # ## Round 5: more updates, and other demonstrations
 #
-# Lesson 9 found a setting with which the paper's ablation comes out as printed: two updates for
-# each decision instead of a quarter, and demonstrations by the stochastic rule π̃. The whole study
-# was run with it.
+# Lesson [[ablation]] found a setting with which the paper's ablation comes out as printed: two
+# updates for each decision instead of a quarter, and demonstrations by the stochastic rule π̃. The
+# whole study was run with it.
 #
 # > **Predict.** π̃ takes another action than the rule in one decision of ten, and most of its
-# > drives end in an accident (lesson 6). CQL learns from 200 of them. What becomes of its ten
-# > agents?
+# > drives end in an accident (lesson [[demonstrations]]). CQL learns from 200 of them. What becomes
+# > of its ten agents?
 # <!-- claim: (drive_episodes(stochastic_rule_policy(DEFAULT, np.random.default_rng(0)),
 #   range(200)).accident > 0).mean() > 0.5 -->
 
 # %%
 choices = ["they stay in the trap", "they escape and crash more often", "they drive as before"]
-predict("11.5", "CQL with the drives of π̃", choices)
+predict("offline_learning.5", "CQL with the drives of π̃", choices)
 
-# %%
+# %% tags=["hide-input"]
 more, rows = bc.shipped_results("paper"), []
 for method in ("bc", "cql", "cql_sac", "gail"):
     both = [each.of(method) for each in (study, more)]
@@ -478,11 +484,11 @@ table(["", *names], rows)
 # {{ 100 * (drive_episodes(stochastic_rule_policy(DEFAULT, np.random.default_rng(0)),
 # range(200)).accident > 0).mean() | .0f }} % end in an accident. This teacher errs at random, and a
 # learner that takes its most frequent action leaves errors out, as round 3 says. But they drive
-# worse than with the rule's drives, while the learners of lesson 9 gained from this setting. Two
-# things changed at once, the drives and the updates, and one more study would tell which of them it
-# was. (In our runs of lesson 6, with far fewer updates, clones of π̃ crashed less often than clones
-# of the rule.) The paper's rows of CQL and GAIL, a car that stays behind, are not explained by
-# this setting either.
+# worse than with the rule's drives, while the learners of lesson [[ablation]] gained from this
+# setting. Two things changed at once, the drives and the updates, and one more study would tell
+# which of them it was. (In our runs of lesson [[demonstrations]], with far fewer updates, clones of
+# π̃ crashed less often than clones of the rule.) The paper's rows of CQL and GAIL, a car that stays
+# behind, are not explained by this setting either.
 # <!-- claim: (drive_episodes(stochastic_rule_policy(DEFAULT, np.random.default_rng(0)),
 #   range(200)).accident > 0).mean() > 2 *
 #   max(shipped_results('paper').of(m).scores('accident').max() for m in ('bc', 'cql')) -->
@@ -527,13 +533,13 @@ agree = [
     for m in ("bc", "cql")
 ]
 compare_predictions(
-    "11",
+    "offline_learning",
     {
-        "11.1": f"{rival[plain, -1].mean():.1f}; the rule's action {mine[plain, -1].mean():.1f}",
-        "11.2": "the clone" if agree[0] > agree[1] else "CQL",
-        "11.3": "CQL" if first["cql"] > first["bootstrapped"] else "bootstrapped SAC",
-        "11.4": f"{(faster.of('cql').scores('success') >= bc.statistics.ESCAPES).sum()} of ten",
-        "11.5": "they escape and crash more often",
+        1: f"{rival[plain, -1].mean():.1f}; the rule's action {mine[plain, -1].mean():.1f}",
+        2: "the clone" if agree[0] > agree[1] else "CQL",
+        3: "CQL" if first["cql"] > first["bootstrapped"] else "bootstrapped SAC",
+        4: f"{(faster.of('cql').scores('success') >= bc.statistics.ESCAPES).sum()} of ten",
+        5: "they escape and crash more often",
     },
 )
 
@@ -550,4 +556,4 @@ compare_predictions(
 # %% [markdown]
 # **Read on**: Kumar et al., *Conservative Q-Learning for Offline Reinforcement Learning* (arXiv
 # 2006.04779); Kumar et al., *When Should We Prefer Offline Reinforcement Learning Over Behavioral
-# Cloning?* (arXiv 2204.05618). Next: [exploration](12_exploration.ipynb).
+# Cloning?* (arXiv 2204.05618). Next: [exploration](exploration.ipynb).

@@ -11,15 +11,15 @@
 # ---
 
 # %% [markdown]
-# # 7 · The soft constraint
+# # The soft constraint
 #
 # **What you will be able to do**
 # - turn a rule into a probability for each action, and say in nats what it costs to ignore it;
 # - derive the best compromise between a learner's Q and what the rule says;
 # - write the two losses that the pull enters, train with them, and say how fast the pull fades.
 #
-# **Time** 90 minutes, about one of them the machine's. **You need** the rule of lesson 3, and
-# actor, critic and soft value from lesson 4.
+# **Time** 90 minutes, about one of them the machine's. **You need** the rule of lesson
+# [[the_rule]], and actor, critic and soft value from lesson [[discrete_sac]].
 
 # %%
 import math
@@ -50,7 +50,9 @@ bc.panels.policy_panel(first_drive)
 
 # %%
 predict(
-    "7.1", "With ξ = 0, the compromise is", ["even", "the agent's π", "the rule's π̃", "by Q alone"]
+    "soft_constraint.1",
+    "With ξ = 0, the compromise is",
+    ["even", "the agent's π", "the rule's π̃", "by Q alone"],
 )
 
 # %% [markdown]
@@ -58,10 +60,10 @@ predict(
 # ξ is how hard the rule pulls. This lesson takes the pull apart: what it costs to ignore the rule,
 # which compromise is best, where it enters the losses, and how it fades.
 #
-# The agents of this lesson train with the parts that you wrote in lesson 4, if they have passed
-# their checks there. The next cell looks for them. It runs the files in the folder `answers`, which
-# hold your own code; no other cell of this lesson does that.
-# <!-- claim: len(re.findall('\nown_code.load()', code_of('07_soft_constraint'))) == 1 -->
+# The agents of this lesson train with the parts that you wrote in lesson [[discrete_sac]], if they
+# have passed their checks there. The next cell looks for them. It runs the files in the folder
+# `answers`, which hold your own code; no other cell of this lesson does that.
+# <!-- claim: len(re.findall('\nown_code.load()', code_of('soft_constraint'))) == 1 -->
 
 # %%
 own_code.load()
@@ -83,7 +85,11 @@ own_code.load()
 # > unlikely. Does its price grow by a factor of 10, of 2, or of about 1.5?
 
 # %%
-predict("7.2", "The price of another action grows by a factor of", ["10", "2", "about 1.5"])
+predict(
+    "soft_constraint.2",
+    "The price of another action grows by a factor of",
+    ["10", "2", "about 1.5"],
+)
 
 # %%
 for p in (0.5, 0.9, 0.99, 0.999):
@@ -95,7 +101,7 @@ for p in (0.5, 0.9, 0.99, 0.999):
 # nats, from line to line. The rule names the same action in each line, so it has not become better.
 # What has changed is p, and with it the price of doing something else.
 #
-# **Exercise 7.1 (5 min, ●○○).** Write $\log\tilde\pi$ for a batch of states.
+# **Exercise (5 min, ●○○).** Write $\log\tilde\pi$ for a batch of states.
 
 
 # %%
@@ -124,7 +130,7 @@ check.log_stochastic_rule(log_stochastic_rule)
 
 # %%
 predict(
-    "7.3",
+    "soft_constraint.3",
     "The smallest KL has",
     ["the one that is sure of keep left: 0", "the same one, but not 0", "the even one"],
 )
@@ -148,7 +154,7 @@ for words, pi in (("agrees", sure), (bc.ACTION_NAMES[7], elsewhere), ("undecided
 # small probability to an action that π̃ takes often. Ours is large if the agent gives a large
 # probability to an action that π̃ takes seldom.
 #
-# **Exercise 7.2 (5 min, ●●○).** Write the KL for a batch of states.
+# **Exercise (5 min, ●●○).** Write the KL for a batch of states.
 
 
 # %%
@@ -184,14 +190,14 @@ source("bootcourse.learn.bootstrap", "log_stochastic_rule", "kl_to_rule")
 
 # %%
 predict(
-    "7.4",
+    "soft_constraint.4",
     "With all Q equal and α = ξ, the best π is",
     ["π̃", "halfway between π̃ and even", "proportional to the root of π̃", "even"],
 )
 
 # %% [markdown]
-# **Exercise 7.3 (15 min, ●●●).** Derive the best policy on paper, then write it. Use that without
-# the KL it is softmax(Q / α) (lesson 4 shows why). The check expects probabilities.
+# **Exercise (15 min, ●●●).** Derive the best policy on paper, then write it. Use that without
+# the KL it is softmax(Q / α) (lesson [[discrete_sac]] shows why). The check expects probabilities.
 #
 # <details><summary>First step</summary>
 #
@@ -241,7 +247,7 @@ for _ in range(2000):
 best = bc.bootstrap.regularised_policy(q, log_rule, alpha, xi)
 print(f"largest difference of a probability: {(logits.softmax(-1) - best).abs().max():.1e}")
 
-# %%
+# %% tags=["hide-input"]
 alone = (q / alpha).softmax(-1)[0].tolist()
 title = "Q would accelerate, the rule keeps left; the compromise gives both a share"
 bc.show(
@@ -258,7 +264,9 @@ bc.show(
 # > with the most that one second on the road can pay, which is 1.5/1.6 + 0.05/1.6, about 1.
 
 # %%
-predict("7.5", "The head start, in seconds of the best reward", ["0.5", "2", "9", "40"])
+predict(
+    "soft_constraint.5", "The head start, in seconds of the best reward", ["0.5", "2", "9", "40"]
+)
 
 # %%
 step = math.log(8 * 0.9 / 0.1)
@@ -269,7 +277,7 @@ best_second = bc.formulas.weighted_reward(
 )
 print(f"the best second pays {best_second:.2f}; γ = 0.8 counts about {1 / (1 - 0.8):.0f} of them")
 
-# %%
+# %% tags=["hide-input"]
 strengths = np.geomspace(0.002, 5, 100)
 policies = [bc.bootstrap.regularised_policy(q, log_rule, 0.01, float(xi))[0] for xi in strengths]
 probability = {
@@ -302,7 +310,7 @@ bc.show(charts.lines(strengths, probability, title, "ξ (α = 0.01)", "probabili
 #
 # **The actor's**: minus the soft value, now with the KL in it.
 #
-# **Exercise 7.4 (8 min, ●●○).** Write it. The check also looks at where your loss sends a
+# **Exercise (8 min, ●●○).** Write it. The check also looks at where your loss sends a
 # gradient: the actor's loss must not change Q.
 
 
@@ -321,7 +329,7 @@ check.constrained_loss(constrained_loss)
 # **The critics'**: their target follows from the same sum over time. The paper's text does not
 # write it out, and it is easy to get wrong.
 #
-# **Exercise 7.5 (20 min, ●●●).** Derive the target, then write it. Begin on paper: which seconds
+# **Exercise (20 min, ●●●).** Derive the target, then write it. Begin on paper: which seconds
 # does $Q(s,a)$ count, if a has been taken already? In which states does the policy choose after
 # that, and so pay a KL and earn an entropy? Then put the whole target into code: the smaller of two
 # critics, the entropy, the KL, the end of an episode.
@@ -359,7 +367,7 @@ check.constrained_target(constrained_target)
 
 # %%
 predict(
-    "7.6",
+    "soft_constraint.6",
     "Following is worth",
     [
         "more than a crash in both",
@@ -391,8 +399,8 @@ for xi in (0.0, 0.02, 0.2, 2.0):
 source("bootcourse.learn.sac", "soft_value", "actor_loss")
 
 # %% [markdown]
-# In the program of lesson 4, `bootcourse/learn/textbook.py`, the KL stands in two places: in the
-# critic's target and in the actor's loss.
+# In the program of lesson [[discrete_sac]], `bootcourse/learn/textbook.py`, the KL stands in two
+# places: in the critic's target and in the actor's loss.
 
 # %% tags=["nbval-ignore-output"]
 source("bootcourse.learn.textbook", "TextbookSAC.critic_target", "TextbookSAC.actor_loss")
@@ -405,13 +413,13 @@ source("bootcourse.learn.textbook", "TextbookSAC.critic_target", "TextbookSAC.ac
 # %% [markdown]
 # ## Round 5: how fast does the pull fade?
 #
-# If ξ stayed at 2, the agent would stay close to the rule, also where something else is better.
-# The paper couples the pull to the temperature: $\xi = {{ SETTINGS.xi_multiplier }}\,\alpha$. It
-# starts at α = {{ SETTINGS.alpha_init }}, so ξ =
-# {{ SETTINGS.xi_multiplier * SETTINGS.alpha_init }}, and α falls: with a target entropy of
-# {{ SETTINGS.target_entropy }} it falls at each update (lesson 4). How fast can it? Adam, the
-# optimiser, changes log α by about its learning rate, {{ SETTINGS.alpha_lr }}, at each update while
-# the slopes stay the same, and by less when they shrink.
+# If ξ stayed at 2, the agent would stay close to the rule, also where something else is better. The
+# paper couples the pull to the temperature: $\xi = {{ SETTINGS.xi_multiplier }}\,\alpha$. It starts
+# at α = {{ SETTINGS.alpha_init }}, so ξ = {{ SETTINGS.xi_multiplier * SETTINGS.alpha_init }}, and α
+# falls: with a target entropy of {{ SETTINGS.target_entropy }} it falls at each update (lesson
+# [[discrete_sac]]). How fast can it? Adam, the optimiser, changes log α by about its learning rate,
+# {{ SETTINGS.alpha_lr }}, at each update while the slopes stay the same, and by less when they
+# shrink.
 
 # %% [markdown]
 # > **Predict.** Four agents train, 6,000 updates each: two whose ξ fades, two whose ξ stays at 2.
@@ -420,11 +428,11 @@ source("bootcourse.learn.textbook", "TextbookSAC.critic_target", "TextbookSAC.ac
 # > earns more?
 
 # %%
-predict("7.7", "Updates until the fading ξ is a tenth of its start", unit="updates")
+predict("soft_constraint.7", "Updates until the fading ξ is a tenth of its start", unit="updates")
 
 # %%
 predict(
-    "7.8",
+    "soft_constraint.8",
     "More like the rule at the end",
     ["those whose ξ fades", "those whose ξ stays", "no difference"],
 )
@@ -464,16 +472,16 @@ title = f"ξ is a tenth of its start after {tenth} updates"
 bc.show(charts.lines(updates, named, title, "update", "ξ = 200 α", logarithmic="y"))
 
 # %% [markdown]
-# **See.** At first ξ falls at full speed, then more slowly. The slope of the temperature's
-# loss, $\alpha (\mathcal{H} - \eta)$, shrinks as α falls and as the policy becomes surer. Adam
-# divides each slope by an average over about the last thousand, which were larger, so its steps
-# become smaller than the learning rate. From α alone, with an entropy that stays the same, a tenth
-# would take {{ cooling_updates(0.1) | , }} updates, and not the
+# **See.** At first ξ falls at full speed, then more slowly. The slope of the temperature's loss,
+# $\alpha (\mathcal{H} - \eta)$, shrinks as α falls and as the policy becomes surer. Adam divides
+# each slope by an average over about the last thousand, which were larger, so its steps become
+# smaller than the learning rate. From α alone, with an entropy that stays the same, a tenth would
+# take {{ cooling_updates(0.1) | , }} updates, and not the
 # {{ math.log(10) / SETTINGS.alpha_lr | ,.0f }} of full speed. The falling entropy slows it further.
 # Counted in episodes, the pull fades early: for the {{ len(tenth_of_xi('soft')) }} agents of the
 # study that ship with this course, ξ is a tenth of its start after {{ tenth_of_xi('soft').min() }}
-# to {{ tenth_of_xi('soft').max() }} episodes. The demonstrations (lesson 8) fade over
-# {{ SETTINGS.beta_episodes | , }}.
+# to {{ tenth_of_xi('soft').max() }} episodes. The demonstrations (lesson
+# [[learning_from_demonstrations]]) fade over {{ SETTINGS.beta_episodes | , }}.
 # <!-- claim: cooling_updates(0.1) > 1.5 * math.log(10) / SETTINGS.alpha_lr -->
 # <!-- claim: tenth_of_xi('soft').max() < SETTINGS.beta_episodes / 2 -->
 
@@ -497,9 +505,9 @@ table(["", "success, %", "return", "accidents, %"], rows)
 # %% [markdown]
 # **See.** (Yours will differ.) Compare the table with your prediction, seed by seed. These agents
 # had no demonstrations. Where one of them gets out, we think that the soft constraint led it out:
-# of the study's {{ len(of('sac')) }} plain SAC agents {{ escaped('sac') }} escapes (lesson 5), of
-# its {{ len(of('soft')) }} agents with the soft constraint alone {{ escaped('soft') }} do (lesson
-# 9).
+# of the study's {{ len(of('sac')) }} plain SAC agents {{ escaped('sac') }} escapes (lesson
+# [[the_barrier]]), of its {{ len(of('soft')) }} agents with the soft constraint alone
+# {{ escaped('soft') }} do (lesson [[ablation]]).
 # <!-- claim: escaped('sac') == 1 < len(of('sac')) / 2 < escaped('soft') -->
 #
 # **Explain.** An agent that does as the rule does in most seconds can still leave the road in one
@@ -507,7 +515,8 @@ table(["", "success, %", "return", "accidents, %"], rows)
 # of the road count more and more, also where the rule would do something else. (The paper's table
 # gives the soft constraint alone a success of {{ 100 * PRINTED['soft']['success'].mean | .0f }} %.
 # On our road, with the KL in the target, {{ escaped('soft') }} of the study's {{ len(of('soft')) }}
-# agents escape. When two results differ, report both, and look for the cause: lesson 9, round 6.)
+# agents escape. When two results differ, report both, and look for the cause: lesson [[ablation]],
+# round 6.)
 # <!-- claim: PRINTED['soft']['success'].mean == 0 -->
 # <!-- claim: escaped('soft') > 0 -->
 #
@@ -540,9 +549,9 @@ bc.panels.policy_panel(drive, xi=round(float(xi[0, -1]), 3), alpha=round(result.
 stays = "those whose ξ stays" if alike[2:, -1].min() > alike[:2, -1].max() else "no difference"
 kl_alone = "less than a crash, but only with the KL"
 compare_predictions(
-    "07",
-    {"7.1": "by Q alone", "7.2": "about 1.5", "7.3": "the same one, but not 0", "7.5": "9"}
-    | {"7.4": "proportional to the root of π̃", "7.6": kl_alone, "7.7": int(tenth), "7.8": stays},
+    "soft_constraint",
+    {1: "by Q alone", 2: "about 1.5", 3: "the same one, but not 0", 5: "9"}
+    | {4: "proportional to the root of π̃", 6: kl_alone, 7: int(tenth), 8: stays},
 )
 
 # %% [markdown]

@@ -11,7 +11,7 @@
 # ---
 
 # %% [markdown]
-# # 6 · Demonstrations
+# # Demonstrations
 #
 # **What you will be able to do**
 # - collect demonstrations in three ways, and say what is in them before you learn from them;
@@ -20,14 +20,14 @@
 # - let a clone drive, have the rule label what it meets, and see what that changes.
 #
 # **Time** 65 minutes, under a minute of it the machine's. **It builds on**
-# [lesson 1](01_the_trap.ipynb) and [lesson 3](03_the_rule.ipynb).
+# [lesson [[the_trap]]](the_trap.ipynb) and [lesson [[the_rule]]](the_rule.ipynb).
 
 # %%
 import bootcourse as bc
 import numpy as np
 import torch
-from bootcourse.course import charts, check, compare_predictions, figures, predict, source, table
-from bootcourse.course.lessons.demonstrations import cloning
+from bootcourse.course import charts, check, compare_predictions, predict, source, table
+from bootcourse.course.lessons.demonstrations import cloning, figures
 from bootcourse.learn import demonstrations, replay_buffer
 
 # %% [markdown]
@@ -50,7 +50,9 @@ bc.show(figures.where_they_were(driven, seconds=30, title=title))
 # > which has no accident in these drives, or the stochastic rule, which often leaves the road?
 
 # %%
-predict("6.1", "From whose drives do you learn?", ["the rule's", "the stochastic rule's"])
+predict(
+    "demonstrations.1", "From whose drives do you learn?", ["the rule's", "the stochastic rule's"]
+)
 
 # %% [markdown]
 # Round 5 answers it.
@@ -67,10 +69,12 @@ predict("6.1", "From whose drives do you learn?", ["the rule's", "the stochastic
 # > collision. In which of the two does the last transition count as terminated?
 
 # %%
-predict("6.2", "Whose last transition is terminated?", ["the first", "the second", "both"])
+predict(
+    "demonstrations.2", "Whose last transition is terminated?", ["the first", "the second", "both"]
+)
 
 # %% [markdown]
-# **Exercise 6.1 (6 min, ●●○).** Turn one drive into transitions.
+# **Exercise (6 min, ●●○).** Turn one drive into transitions.
 
 
 # %%
@@ -93,7 +97,7 @@ check.transitions(transitions)
 # > and how many the stochastic rule?
 
 # %%
-predict("6.3", "Transitions of the rule", unit="transitions")
+predict("demonstrations.3", "Transitions of the rule", unit="transitions")
 
 # %%
 # NBVAL_CHECK_OUTPUT
@@ -131,7 +135,7 @@ print(f"the last one: return {mine[-1].rewards.sum():.1f}, success {mine[-1].suc
 # > **Predict.** What share of the rule's decisions is "keep straight"?
 
 # %%
-predict("6.4", "Share of 'keep straight'", unit="%")
+predict("demonstrations.4", "Share of 'keep straight'", unit="%")
 
 # %%
 batch = replay_buffer.decode_transitions(by_rule, cloning.SIZE, torch.zeros(len(by_rule)))
@@ -152,7 +156,7 @@ bc.show(charts.action_bars({"rule": shares}, title, "share of the decisions"))
 #
 # $$ G_t = r_t + \gamma\, G_{t+1} $$
 #
-# **Exercise 6.2 (5 min, ●○○).** Write it for each second of a drive. Where do you have to begin?
+# **Exercise (5 min, ●○○).** Write it for each second of a drive. Where do you have to begin?
 
 
 # %%
@@ -168,7 +172,9 @@ check.return_to_go(return_to_go)
 # > *start*, when γ = 0.8?
 
 # %%
-predict("6.5", "Worth more at the start, γ = 0.8", ["the rule's drive", "doing nothing"])
+predict(
+    "demonstrations.5", "Worth more at the start, γ = 0.8", ["the rule's drive", "doing nothing"]
+)
 
 # %%
 # NBVAL_CHECK_OUTPUT
@@ -183,11 +189,11 @@ below = f"γ = 0.8: from second {behind[-1] + 1} on, the rule's drive is worth m
 table(["γ", "doing nothing", "the rule"], rows, below=below)
 
 # %% [markdown]
-# **Explain.** A learner with γ = {{ SETTINGS.gamma }} looks about five seconds ahead
-# (1 / (1 − γ) = {{ 1 / (1 - SETTINGS.gamma) | .0f }}), and in its first five seconds the rule
-# brakes. In discounted reward this escape is worth less at its start than doing nothing: of the
-# two, a learner that goes by the reward prefers doing nothing. Lesson 8 pays a bonus for the
-# demonstrated actions. Here we leave the reward out and copy the actions.
+# **Explain.** A learner with γ = {{ SETTINGS.gamma }} looks about five seconds ahead (1 / (1 − γ) =
+# {{ 1 / (1 - SETTINGS.gamma) | .0f }}), and in its first five seconds the rule brakes. In
+# discounted reward this escape is worth less at its start than doing nothing: of the two, a learner
+# that goes by the reward prefers doing nothing. Lesson [[learning_from_demonstrations]] pays a
+# bonus for the demonstrated actions. Here we leave the reward out and copy the actions.
 # <!-- claim: round(1 / (1 - SETTINGS.gamma)) == 5 -->
 # <!-- claim: by_rule().states[10, EGO, SPEED] < by_rule().states[0, EGO, SPEED] -->
 
@@ -198,7 +204,7 @@ table(["γ", "doing nothing", "the rule"], rows, below=below)
 # action that the demonstrator took there. The loss is the mean of $-\log \pi(a_E | s)$, with $a_E$
 # the demonstrated action.
 #
-# **Exercise 6.3 (5 min, ●○○).** Write it, in torch.
+# **Exercise (5 min, ●○○).** Write it, in torch.
 
 
 # %%
@@ -226,7 +232,7 @@ rule_clones = cloning.clone(by_rule)
 # %% [markdown]
 # How often is the clone's most probable action the demonstrated one?
 #
-# **Exercise 6.4 (3 min, ●○○).** Compute that share over a set of states.
+# **Exercise (3 min, ●○○).** Compute that share over a set of states.
 
 
 # %%
@@ -244,7 +250,7 @@ check.agreement(agreement)
 # <!-- claim: of('rule').scores('success').min() == 1 and accidents('rule') == 0 -->
 
 # %%
-predict("6.6", "Drives of such a clone that end in an accident", unit="%")
+predict("demonstrations.6", "Drives of such a clone that end in an accident", unit="%")
 
 
 # %%
@@ -267,8 +273,8 @@ shown({f"clone, seed {i}": three for i, three in enumerate(measured["clones of t
 
 # %% [markdown] tags=["instructor"] minutes=6
 # Somebody will say "train longer". They are right: the ten clones of the study were trained far
-# longer, and all of them escape (lesson 10). The point stands: a clone is trained on the rule's
-# states and drives in its own, and the loss does not say when the training is long enough.
+# longer, and all of them escape (lesson [[imitation]]). The point stands: a clone is trained on the
+# rule's states and drives in its own, and the loss does not say when the training is long enough.
 # <!-- claim: len(of('bc')) == 10 -->
 # <!-- claim: escaped('bc') == len(of('bc')) -->
 
@@ -282,7 +288,7 @@ shown({f"clone, seed {i}": three for i, three in enumerate(measured["clones of t
 # > decisions grow, in the worst case?
 
 # %%
-predict("6.7", "The worst case grows by a factor of", ["less than 2", "2", "4"])
+predict("demonstrations.7", "The worst case grows by a factor of", ["less than 2", "2", "4"])
 
 # %% [markdown]
 # <details><summary>The answer, in five lines</summary>
@@ -310,7 +316,7 @@ predict("6.7", "The worst case grows by a factor of", ["less than 2", "2", "4"])
 
 # %%
 predict(
-    "6.8",
+    "demonstrations.8",
     "A clone's distance from the demonstrations over 30 s",
     ["small throughout", "large from the start", "small, then large"],
 )
@@ -389,7 +395,7 @@ table(["seed", "agreement, %, in states of", *(f"{t} s" for t in times)], rows)
 
 # %%
 KINDS = ["clones of the rule", "of the stochastic rule", "its drives, rule's labels"]
-predict("6.9", "Fewest accidents", KINDS)
+predict("demonstrations.9", "Fewest accidents", KINDS)
 
 # %%
 ACTION, RULE_ACTION = cloning.ACTION, cloning.RULE_ACTION  # columns
@@ -431,13 +437,13 @@ shown({f"{name} (mean of 4)": values.mean(axis=0) for name, values in measured.i
 
 # %%
 predict(
-    "6.10",
+    "demonstrations.10",
     "The last clone, compared with the clones of 200 drives",
     ["more accidents", "about as many", "fewer accidents"],
 )
 
 # %% [markdown]
-# **Exercise 6.5 (20 min, ●●●).** Write DAgger. `train(rows)` returns a driver, `drive(driver)`
+# **Exercise (20 min, ●●●).** Write DAgger. `train(rows)` returns a driver, `drive(driver)`
 # returns the transitions of its drives. In a transition, column `ACTION` holds what was done, which
 # a clone copies, and column `RULE_ACTION` what the rule would have done.
 
@@ -474,7 +480,8 @@ shown({f"after {20 * i} drives of its own": three for i, three in enumerate(roun
 #
 # The reward does not enter the cloning loss, with or without DAgger: the loss asks a clone to be
 # like its teacher, and not to be better. An agent that is to drive better than the rule has to
-# learn from what its actions lead to, with the demonstrations as a start: lesson 8.
+# learn from what its actions lead to, with the demonstrations as a start: lesson
+# [[learning_from_demonstrations]].
 
 # %% [markdown] tags=["instructor"] minutes=8
 # Ask what DAgger costs: here a label is free, with a human teacher each one is work, and somebody
@@ -504,23 +511,23 @@ shown({f"after {20 * i} drives of its own": three for i, three in enumerate(roun
 #
 # **Read on**: Pomerleau, *ALVINN* (1989), an early clone that drove; Ross, Gordon and Bagnell on
 # *DAgger* (arXiv 1011.0686); Laskey et al., *DART* (arXiv 1703.09327). Next:
-# [the soft constraint](07_soft_constraint.ipynb).
+# [the soft constraint](soft_constraint.ipynb).
 
 # %%
 crashed = {name: round(100 * values[:, 2].mean()) for name, values in measured.items()}
 compare_predictions(
-    "06",
+    "demonstrations",
     {
-        "6.1": f"accidents: {crashed[KINDS[0]]} % and {crashed[KINDS[1]]} %, in this order",
-        "6.2": "the second",
-        "6.3": len(by_rule),
-        "6.4": round(100 * shares[4], 1),
-        "6.5": "doing nothing",
-        "6.6": crashed[KINDS[0]],
-        "6.7": "4",
-        "6.8": "small, then large",
-        "6.9": min(crashed, key=crashed.get),
-        "6.10": f"accidents: {100 * rounds[-1, 2]:.0f} % against {crashed[KINDS[0]]} %",
+        1: f"accidents: {crashed[KINDS[0]]} % and {crashed[KINDS[1]]} %, in this order",
+        2: "the second",
+        3: len(by_rule),
+        4: round(100 * shares[4], 1),
+        5: "doing nothing",
+        6: crashed[KINDS[0]],
+        7: "4",
+        8: "small, then large",
+        9: min(crashed, key=crashed.get),
+        10: f"accidents: {100 * rounds[-1, 2]:.0f} % against {crashed[KINDS[0]]} %",
     },
 )
 

@@ -11,7 +11,7 @@
 # ---
 
 # %% [markdown]
-# # 0 · Start
+# # Start
 #
 # **What you will be able to do**
 # - say what the trap is, and how a car can get out of it;
@@ -45,7 +45,7 @@ bc.recording([shipped.beginning(trapped, 30), shipped.beginning(escape, 30)], he
 # %% [markdown]
 # The same in words:
 
-# %%
+# %% tags=["hide-input"]
 rows = [
     [f"{t} s", bc.words.doing(trapped, t), bc.words.doing(escape, t)]
     for t in (0, 2, 4, 6, 8, 11, 14, 20)
@@ -76,14 +76,14 @@ table(["", *names], rows, below=f"In the end: {'; '.join(ends)}.")
 # > **Predict.** How many tries until you are ahead of trap 1?
 
 # %%
-predict("0.1", "How many tries until you are ahead of trap 1?", unit="tries")
+predict("start.1", "How many tries until you are ahead of trap 1?", unit="tries")
 
 # %% tags=["nbval-ignore-output"]
 bc.panels.drive_panel(seed=10)
 
 # %% [markdown] tags=["instructor"] minutes=10
 # Open with this page on the wall and let two people drive before you explain anything. Expect
-# crashes into trap 2. Keep the number of tries on the board for lesson 5.
+# crashes into trap 2. Keep the number of tries on the board for lesson [[the_barrier]].
 
 # %% [markdown]
 # ## What the agents do
@@ -101,14 +101,16 @@ bc.panels.drive_panel(seed=10)
 # > or the rule?
 
 # %%
-predict("0.2", "How many agents of plain SAC escape?", unit="of 10")
+predict("start.2", "How many agents of plain SAC escape?", unit="of 10")
 
 # %%
-predict("0.3", "How many of the agents with help?", unit="of 10")
+predict("start.3", "How many of the agents with help?", unit="of 10")
 
 # %%
 predict(
-    "0.4", "Who has more accidents?", ["the agents with help", "the rule", "both about the same"]
+    "start.4",
+    "Who has more accidents?",
+    ["the agents with help", "the rule", "both about the same"],
 )
 
 
@@ -161,29 +163,29 @@ table(headings, rows)
 #
 # | lesson | an evening | a week | a researcher's |
 # |---|:---:|:---:|:---:|
-# | 1 · [The trap](01_the_trap.ipynb) | ● | ● | |
-# | 2 · [Traffic](02_traffic.ipynb) | | ● | |
-# | 3 · [The rule](03_the_rule.ipynb) | | ● | |
-# | 4 · [Discrete soft actor-critic](04_discrete_sac.ipynb) | | ● | |
-# | 5 · [The barrier](05_the_barrier.ipynb) | ● | ● | ● |
-# | 6 · [Demonstrations](06_demonstrations.ipynb) | | ● | |
-# | 7 · [The soft constraint](07_soft_constraint.ipynb) | ● | ● | ● |
-# | 8 · [Learning from demonstrations](08_learning_from_demonstrations.ipynb) | | ● | ● |
-# | 9 · [The ablation](09_ablation.ipynb) | | ● | ● |
-# | 10 · [Imitation](10_imitation.ipynb) | | ● | ● |
-# | 11 · [Offline learning](11_offline_learning.ipynb) | | ● | ● |
-# | 12 · [Exploration](12_exploration.ipynb) | | ● | ● |
-# | 13 · [The bug hunt](13_bug_hunt.ipynb) | | ● | ● |
-# | 14 · [Your teacher](14_your_teacher.ipynb) | | ● | |
-# | 15 · [The second trap](15_the_second_trap.ipynb) | | | ● |
-# | 16 · [Beyond the paper](16_beyond_the_paper.ipynb) | | | ● |
+# | [[the_trap]] · [](the_trap.ipynb) | ● | ● | |
+# | [[traffic]] · [](traffic.ipynb) | | ● | |
+# | [[the_rule]] · [](the_rule.ipynb) | | ● | |
+# | [[discrete_sac]] · [](discrete_sac.ipynb) | | ● | |
+# | [[the_barrier]] · [](the_barrier.ipynb) | ● | ● | ● |
+# | [[demonstrations]] · [](demonstrations.ipynb) | | ● | |
+# | [[soft_constraint]] · [](soft_constraint.ipynb) | ● | ● | ● |
+# | [[learning_from_demonstrations]] · [](learning_from_demonstrations.ipynb) | | ● | ● |
+# | [[ablation]] · [](ablation.ipynb) | | ● | ● |
+# | [[imitation]] · [](imitation.ipynb) | | ● | ● |
+# | [[offline_learning]] · [](offline_learning.ipynb) | | ● | ● |
+# | [[exploration]] · [](exploration.ipynb) | | ● | ● |
+# | [[bug_hunt]] · [](bug_hunt.ipynb) | | ● | ● |
+# | [[your_teacher]] · [](your_teacher.ipynb) | | ● | |
+# | [[the_second_trap]] · [](the_second_trap.ipynb) | | | ● |
+# | [[beyond_the_paper]] · [](beyond_the_paper.ipynb) | | | ● |
 #
 # Each lesson opens on its own, says what it builds on, and runs in about a minute. In its
 # exercises you write some lines, and a check says what is wrong with them in plain words;
 # `check.hint("name")` gives a hint, and `check.solution("name")` shows a right answer. The dots say
 # how hard an exercise is, from ●○○ to ●●●.
 #
-# **Read on**: [the trap](01_the_trap.ipynb). The paper that the course follows: Zhang, Peng,
+# **Read on**: [the trap](the_trap.ipynb). The paper that the course follows: Zhang, Peng,
 # Yurtsever and Redmill, *Bootstrapping Reinforcement Learning with Sub-optimal Policies for
 # Autonomous Driving* (2025).
 
@@ -191,6 +193,4 @@ table(headings, rows)
 helped = (study.of("bootstrapped").scores("success") >= bc.statistics.ESCAPES).sum()
 alone = (study.of("sac").scores("success") >= bc.statistics.ESCAPES).sum()
 who = "the agents with help"
-compare_predictions(
-    "00", {"0.1": "what you counted", "0.2": int(alone), "0.3": int(helped), "0.4": who}
-)
+compare_predictions("start", {1: "what you counted", 2: int(alone), 3: int(helped), 4: who})

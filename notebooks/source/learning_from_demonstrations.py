@@ -11,7 +11,7 @@
 # ---
 
 # %% [markdown]
-# # 8 · Learning from demonstrations
+# # Learning from demonstrations
 #
 # **What you will be able to do**
 # - mix a teacher's drives into a learner's batches, pay them a bonus, and let their share fall to
@@ -22,7 +22,8 @@
 # - train the paper's whole method, made of the parts that you wrote, and watch it escape.
 #
 # **Time** 95 minutes, about one of them the machine's. **You need** the critic's target of lesson
-# 4, the demonstrations of lesson 6, and for the last round the parts of lessons 4 and 7.
+# [[discrete_sac]], the demonstrations of lesson [[demonstrations]], and for the last round the
+# parts of lessons [[discrete_sac]] and [[soft_constraint]].
 
 # %%
 import bootcourse as bc
@@ -32,13 +33,13 @@ from bootcourse.course import (
     charts,
     check,
     compare_predictions,
-    figures,
     own_code,
     predict,
     shipped,
     source,
     table,
 )
+from bootcourse.course.lessons.the_barrier import figures
 from bootcourse.panels.bonus_numbers import bonus_numbers
 
 # %% [markdown]
@@ -53,7 +54,9 @@ from bootcourse.panels.bonus_numbers import bonus_numbers
 
 # %%
 predict(
-    "8.1", "The smallest bonus c with which the way out is worth more", ["0", "0.05", "0.5", "5"]
+    "learning_from_demonstrations.1",
+    "The smallest bonus c with which the way out is worth more",
+    ["0", "0.05", "0.5", "5"],
 )
 
 # %% [markdown]
@@ -66,10 +69,10 @@ predict(
 bc.panels.bonus_panel()
 
 # %% [markdown]
-# The last round trains with the parts that you wrote in lessons 4 and 7. The next cell looks for
-# them: it runs the files in the folder `answers`, which hold your own code. No other cell of this
-# lesson does that.
-# <!-- claim: len(re.findall('\nown_code.load()', code_of('08_learning_from_demonstrations'))) == 1
+# The last round trains with the parts that you wrote in lessons [[discrete_sac]] and
+# [[soft_constraint]]. The next cell looks for them: it runs the files in the folder `answers`,
+# which hold your own code. No other cell of this lesson does that.
+# <!-- claim: len(re.findall('\nown_code.load()', code_of('learning_from_demonstrations'))) == 1
 #   -->
 
 # %%
@@ -80,7 +83,8 @@ own_code.load()
 #
 # A learner keeps what it drove in its replay buffer: a long table, one row for each decision, with
 # the state, the action, the reward and the next state. For each update it draws a batch of
-# {{ SETTINGS.batch }} rows (lesson 4). Now there is a second table, with the rule's drives in it.
+# {{ SETTINGS.batch }} rows (lesson [[discrete_sac]]). Now there is a second table, with the rule's
+# drives in it.
 
 # %%
 demonstrations = bc.collect(200)
@@ -95,7 +99,11 @@ print(f"{len(demonstrations):,} transitions of 200 drives of the rule")
 # > **Predict.** How many of the 64 rows are the rule's after 500 episodes? After 2,000?
 
 # %%
-predict("8.2", "Rows of the rule's after 500 episodes", ["10", "19", "32", "38"])
+predict(
+    "learning_from_demonstrations.2",
+    "Rows of the rule's after 500 episodes",
+    ["10", "19", "32", "38"],
+)
 
 # %%
 for episode in (0, 250, 500, 999, 2000):
@@ -117,7 +125,7 @@ bc.show(figures.fading(bc.settings_for("bootstrapped")))
 #
 # ($a_E$ is the demonstrator's action. The paper calls the demonstrator an *expert*, so E.)
 #
-# **Exercise 8.1 (20 min, ●●●).** Write the mixed batch. `round(beta * size)` rows are drawn from
+# **Exercise (20 min, ●●●).** Write the mixed batch. `round(beta * size)` rows are drawn from
 # the table of demonstrations, with the same chance for each row; the others come from your own
 # replay buffer, `own.sample(n, rng)`. Each demonstration's reward, in the column `REWARD`, is
 # raised by the bonus. Return the rows, and a mark for each: 1 if it is a demonstration, else 0. The
@@ -139,7 +147,11 @@ check.mixed_batch(mixed_batch)
 # > way out worth more, at the first second, than doing nothing? On 20, on 10, on 0?
 
 # %%
-predict("8.3", "Roads on which the way out is worth more", ["20", "about 10", "0"])
+predict(
+    "learning_from_demonstrations.3",
+    "Roads on which the way out is worth more",
+    ["20", "about 10", "0"],
+)
 
 # %%
 roads = range(20)
@@ -165,7 +177,11 @@ for gamma in (0.8, 0.9, 0.95):
 # > does that raise the discounted return? Compare with the −10 of an accident.
 
 # %%
-predict("8.4", "c = 2 in each second raises the discounted return by", ["2", "4", "10", "300"])
+predict(
+    "learning_from_demonstrations.4",
+    "c = 2 in each second raises the discounted return by",
+    ["2", "4", "10", "300"],
+)
 
 # %%
 drive, idle = by_rule[10], stays[10]
@@ -174,7 +190,7 @@ for c in (0.0, 0.05, 0.5, 2.0):
     values = f"the rule's way {each.augmented[0]:5.2f}, staying {each.trapped[0]:.2f}"
     print(f"c = {c:4}: {values}; the bonus adds {c * each.weight[0]:5.2f} = c / (1 - γ)")
 
-# %%
+# %% tags=["hide-input"]
 each = bonus_numbers(drive, idle, bc.settings_for("bootstrapped", bonus=0.05))
 named = {
     "rule, c = 0.05": each.augmented[:60],
@@ -216,7 +232,11 @@ bc.show(charts.lines(np.arange(60), named, title, "second of the drive", "discou
 # > And if it took the third? Which Q does the gradient move then, and in which direction?
 
 # %%
-predict("8.5", "The loss if the expert took the third", ["1", "2.4", "3", "4"])
+predict(
+    "learning_from_demonstrations.5",
+    "The loss if the expert took the third",
+    ["1", "2.4", "3", "4"],
+)
 
 # %%
 for expert in (0, 2):
@@ -232,7 +252,7 @@ for expert in (0, 2):
 # <!-- claim: bool(bootstrap.large_margin_loss(torch.tensor([[3.0, 2.0, 0.0]]), torch.tensor([0]))
 #   == 0) -->
 #
-# **Exercise 8.2 (8 min, ●●○).** Write the loss of each state.
+# **Exercise (8 min, ●●○).** Write the loss of each state.
 
 
 # %%
@@ -260,11 +280,13 @@ check.large_margin_loss(large_margin_loss)
 
 # %%
 predict(
-    "8.6", "For the second largest Q of nine the loss is", ["on", "off", "on in half of the states"]
+    "learning_from_demonstrations.6",
+    "For the second largest Q of nine the loss is",
+    ["on", "off", "on in half of the states"],
 )
 
 # %% [markdown]
-# **Exercise 8.3 (3 min, ●○○).** Write the filter as it is printed.
+# **Exercise (3 min, ●○○).** Write the filter as it is printed.
 
 
 # %%
@@ -287,7 +309,7 @@ check.paper_q_filter(paper_q_filter)
 # <!-- claim: bootstrap.paper_q_filter(torch.tensor([[1, 2, 3]] * 3), torch.arange(3)).tolist()
 #   == [0, 0, 1] -->
 #
-# **Exercise 8.4 (5 min, ●●○).** Write the usual one.
+# **Exercise (5 min, ●●○).** Write the usual one.
 
 
 # %%
@@ -302,7 +324,7 @@ def q_filter(q, expert_action, log_pi):
 check.q_filter(q_filter)
 
 # %% [markdown]
-# **Exercise 8.5 (15 min, ●●●).** Put the margin into the critics' loss, as the paper prints it: for
+# **Exercise (15 min, ●●●).** Put the margin into the critics' loss, as the paper prints it: for
 # each of the two critics the margin loss (margin 1) of the rows that are demonstrations, switched
 # by the printed filter of the *same* critic. The mean runs over the whole batch, other rows count
 # as 0, and the two critics' means are added. The filter is a switch: the gradient must not go
@@ -365,7 +387,8 @@ for seed in range(4):
 # <!-- claim: settings_for('margin_soft').paper_q_filter -->
 #
 # "On its own" holds for this study, which makes a quarter of an update for each decision. With two
-# updates, and demonstrations by π̃, all ten agents with the bonus alone escape: lesson 9, round 6.
+# updates, and demonstrations by π̃, all ten agents with the bonus alone escape: lesson
+# [[ablation]], round 6.
 # <!-- claim: escapers(clocks()['2', 'π̃'], 'demos') == len(clocks()['2', 'π̃'].of('demos')) == 10 -->
 
 # %% [markdown] tags=["instructor"] minutes=8
@@ -391,7 +414,9 @@ for seed in range(4):
 
 # %%
 predict(
-    "8.7", "With c = 2 the demonstrated action leads its best rival by", ["10", "2", "less than 1"]
+    "learning_from_demonstrations.7",
+    "With c = 2 the demonstrated action leads its best rival by",
+    ["10", "2", "less than 1"],
 )
 
 # %%
@@ -459,9 +484,9 @@ table(["", "Q demonstrated", "Q best rival", "success, %", "return", "accidents,
 # {{ demonstrated_q().max() | .1f }} for these agents: little or nothing of the bonus is left.
 # <!-- claim: len(demonstrated_q()) == 5 and demonstrated_q().max() < 2 -->
 #
-# The paper's method has a second ingredient, the soft constraint of lesson 7: it keeps the actor
-# near actions that the demonstrations hold. The offline learner of lesson 11 instead lowers the
-# critic's values of the other actions.
+# The paper's method has a second ingredient, the soft constraint of lesson [[soft_constraint]]: it
+# keeps the actor near actions that the demonstrations hold. The offline learner of lesson
+# [[offline_learning]] instead lowers the critic's values of the other actions.
 
 # %% tags=["nbval-ignore-output"]
 source("bootcourse.learn.bootstrap", "augmented_reward", "large_margin_loss", "q_filter")
@@ -476,12 +501,12 @@ source("bootcourse.learn.textbook", "train")
 # %% [markdown]
 # ## Round 6: does the whole method escape, in your code?
 #
-# The paper's method is SAC (lesson 4), with the KL in the actor's loss and in the critics' target
-# (lesson 7), and with mixed batches and a bonus (this lesson); the margin is its alternative to the
-# bonus. If you did the exercises of these three lessons, you have written each of these parts.
-# First: do they make the same update as ours? One part at a time is put into our learner, and the
-# losses and gradients on one batch are compared. The buffer and the mixed batch, which draw at
-# random, go through their checks again.
+# The paper's method is SAC (lesson [[discrete_sac]]), with the KL in the actor's loss and in the
+# critics' target (lesson [[soft_constraint]]), and with mixed batches and a bonus (this lesson);
+# the margin is its alternative to the bonus. If you did the exercises of these three lessons, you
+# have written each of these parts. First: do they make the same update as ours? One part at a time
+# is put into our learner, and the losses and gradients on one batch are compared. The buffer and
+# the mixed batch, which draw at random, go through their checks again.
 
 # %%
 own_code.compare()
@@ -494,7 +519,11 @@ own_code.compare()
 # > these three end ahead of trap 1 on most of 200 roads, after 2,500 updates?
 
 # %%
-predict("8.8", "Agents of the three that end ahead on most of 200 roads", ["0", "1", "2", "3"])
+predict(
+    "learning_from_demonstrations.8",
+    "Agents of the three that end ahead on most of 200 roads",
+    ["0", "1", "2", "3"],
+)
 
 # %%
 agents = bc.with_seeds(bc.settings_for("bootstrapped"), 2) + [bc.settings_for("margin_soft")]
@@ -524,7 +553,7 @@ bc.recording([shipped.beginning(drive, 60) for drive in (yours, *ours)], height=
 #
 # **Try.** Plant a mistake in one part: copy it into a new cell, change a sign, and call
 # `own_code.use` with it. Which part does the comparison name? How long would you have needed to
-# find it from the curves? Lesson 13 hunts such mistakes.
+# find it from the curves? Lesson [[bug_hunt]] hunts such mistakes.
 
 # %% [markdown]
 # ## What you now know
@@ -547,9 +576,9 @@ bc.recording([shipped.beginning(drive, 60) for drive in (yours, *ours)], height=
 # %%
 lead = expert[:2, -1] - rival[:2, -1]
 compare_predictions(
-    "08",
-    {"8.1": "0.05", "8.2": "19", "8.3": "0", "8.4": "10", "8.5": "4", "8.6": "off"}
-    | {"8.7": f"{lead[0]:.1f} and {lead[1]:.1f}", "8.8": str(sum(escaping))},
+    "learning_from_demonstrations",
+    {1: "0.05", 2: "19", 3: "0", 4: "10", 5: "4", 6: "off"}
+    | {7: f"{lead[0]:.1f} and {lead[1]:.1f}", 8: str(sum(escaping))},
 )
 
 # %% [markdown]

@@ -11,7 +11,7 @@
 # ---
 
 # %% [markdown]
-# # 3 · The rule
+# # The rule
 #
 # **What you will be able to do**
 # - read a rule controller as three formulas: a target speed, a safety distance, a lane;
@@ -20,13 +20,13 @@
 # - say where the rule wastes time, and what a stochastic rule is good for.
 #
 # **Time** 80 minutes, under a minute of it the machine's. **It builds on**
-# [lesson 1](01_the_trap.ipynb); [lesson 2](02_traffic.ipynb) helps.
+# [lesson [[the_trap]]](the_trap.ipynb); [lesson [[traffic]]](traffic.ipynb) helps.
 
 # %%
 import bootcourse as bc
 import numpy as np
-from bootcourse.course import charts, check, compare_predictions, figures, predict, source, table
-from bootcourse.course.lessons.the_rule import tracking
+from bootcourse.course import charts, check, compare_predictions, predict, source, table
+from bootcourse.course.lessons.the_rule import figures, tracking
 from bootcourse.road.state import EGO, LANE, SPEED
 
 # %% [markdown]
@@ -44,7 +44,7 @@ bc.show(bc.top_view_over_time(drive, times=[0, 3, 5, 7, 9, 12]))
 # Once a second it decides, and gives the reason. The lane is the one that it wants to be in: 2 is
 # the right lane, 0 the left one.
 
-# %%
+# %% tags=["hide-input"]
 rows = []
 for second in range(16):
     reason = bc.rule.SENTENCES[bc.rule.Reason(drive.rule_reasons[second])]
@@ -69,14 +69,14 @@ bc.show(figures.reasons_over_time(drive, "First the rule gets out, then it follo
 # > **Predict.** Both traps drive 10 m/s. Which of the five speeds does it take?
 
 # %%
-predict("3.1", "Which of the five speeds does it take behind the traps?", unit="m/s")
+predict("the_rule.1", "Which of the five speeds does it take behind the traps?", unit="m/s")
 
 # %% [markdown]
 # The paper does not say what happens when a car ahead is at or below 6 m/s, so that none of the
 # five is left. We take the slowest, $v_1$.
 # <!-- claim: target_speed(6.0, 6.0, 6.0, 15.0, 5) == 6 -->
 #
-# **Exercise 3.1 (6 min, ●○○).** Write the target speed.
+# **Exercise (6 min, ●○○).** Write the target speed.
 
 
 # %%
@@ -124,14 +124,14 @@ table(["", "m/s"], rows)
 
 # %%
 choices = ["positive", "zero", "negative"]
-predict("3.2", "What is d_s when you are slower than both cars?", choices)
+predict("the_rule.2", "What is d_s when you are slower than both cars?", choices)
 
 # %% [markdown]
 # Two numbers here are our choice; this course marks such a choice with §. The paper leaves
 # $t_\text{safe}$ open: we take {{ DEFAULT.rule.t_safe }} s. And we set a *floor*: $d_s$ is at least
 # {{ DEFAULT.rule.floor | g }} m.
 #
-# **Exercise 3.2 (5 min, ●○○).** Write the distance with its floor.
+# **Exercise (5 min, ●○○).** Write the distance with its floor.
 
 
 # %%
@@ -160,7 +160,7 @@ check.safety_distance(safety_distance)
 
 # %%
 choices = ["true now", "false now, true later", "false as long as you are slower"]
-predict("3.3", "The printed condition is …", choices)
+predict("the_rule.3", "The printed condition is …", choices)
 
 # %%
 v_ego, v_traps, dx_current, dx_new = 8.25, 10.0, 25.0, 12.0
@@ -194,7 +194,7 @@ table(["", "the test", "change lane?"], rows)
 # compute it (§): the gap behind must be longer than the distance by which the *other* car closes in
 # on you during $t_\text{safe}$, and longer than the same floor.
 #
-# **Exercise 3.3 (6 min, ●●○).** Decide whether there is room, ahead and behind.
+# **Exercise (6 min, ●●○).** Decide whether there is room, ahead and behind.
 
 
 # %%
@@ -232,7 +232,7 @@ source("bootcourse.rule", "decide_rule")
 # > (0.4 s) or a slower one (1 s) get the car out of the trap?
 
 # %%
-predict("3.4", "Which time constant gets the car out?", ["0.4 s", "1 s", "both", "neither"])
+predict("the_rule.4", "Which time constant gets the car out?", ["0.4 s", "1 s", "both", "neither"])
 
 # %%
 rows = []
@@ -258,7 +258,7 @@ table(["time constant", *headings], rows, below="(200 roads each)")
 source("bootcourse.course.lessons.the_rule.tracking", "plan_costs")
 
 # %% [markdown]
-# **Exercise 3.4 (5 min, ●●○).** For one road, `costs[first, second, third]` holds the cost of each
+# **Exercise (5 min, ●●○).** For one road, `costs[first, second, third]` holds the cost of each
 # sequence (0 left, 1 straight, 2 right). Which step do you do now?
 # <!-- claim: [ACTION_NAMES.index(f'brake {steering}') for steering in ('left', 'straight',
 #   'right')] == [0, 1, 2] -->
@@ -277,7 +277,7 @@ check.best_first_step(best_first_step)
 # > two, or three? What goes wrong with less?
 
 # %%
-predict("3.5", "How far must it look ahead to escape on each road?", ["1 s", "2 s", "3 s"])
+predict("the_rule.5", "How far must it look ahead to escape on each road?", ["1 s", "2 s", "3 s"])
 
 # %%
 rows = [[f"{n} s ahead", *tracking.in_short(tracking.looks_ahead(n))] for n in (1, 2, 3)]
@@ -308,10 +308,10 @@ table(["", *headings], rows, below="(200 roads each)")
 # > such a plan work?
 
 # %%
-predict("3.6", "From which D2 on can a plan without braking work?", unit="m")
+predict("the_rule.6", "From which D2 on can a plan without braking work?", unit="m")
 
 # %% [markdown]
-# **Exercise 3.5 (20 min, ●●●).** Find the plan. It must not brake, it must be free of accidents for
+# **Exercise (20 min, ●●●).** Find the plan. It must not brake, it must be free of accidents for
 # the first 15 s, and it must end ahead of trap 1 on eight roads where trap 2 starts 4.85 m ahead or
 # more. Try plans in the cell below the exercise, or with the buttons of
 # `bc.panels.drive_panel(seed=7)`. A short search in code is fair, too.
@@ -344,14 +344,14 @@ bc.show(figures.escape_against_d2(direct_plan()))
 # * without_braking()[1][without_braking()[0] < 4.85].mean() | .0f }} % of those below. That is {{
 # 100 * without_braking()[1].mean() | .0f }} % of the roads together. Where trap 2 starts closer,
 # the front of your car hits its tail. There you can fall back first, as the rule does. Other ways
-# without braking may exist there, too: lesson 5 shows one between the two traps.
+# without braking may exist there, too: lesson [[the_barrier]] shows one between the two traps.
 # <!-- claim: without_braking()[1][without_braking()[0] >= 4.85].all() -->
 # <!-- claim: without_braking()[1][without_braking()[0] < 4.85].mean() < 0.1 -->
 #
-# So on most roads there is a way out that costs hardly anything at first. Lesson 5 asks why plain
-# SAC does not find it. The plan begins with eight turns of the wheel. An agent that picks each of
-# its actions at random from nine hits exactly these eight with a probability of 9⁻⁸, one in 43
-# million.
+# So on most roads there is a way out that costs hardly anything at first. Lesson [[the_barrier]]
+# asks why plain SAC does not find it. The plan begins with eight turns of the wheel. An agent that
+# picks each of its actions at random from nine hits exactly these eight with a probability of 9⁻⁸,
+# one in 43 million.
 # <!-- claim: 43e6 < 9 ** 8 < 43.1e6 -->
 #
 # </details>
@@ -372,7 +372,7 @@ bc.show(figures.escape_against_d2(direct_plan()))
 # > covers 1500 m in 150 s. How far does the rule get?
 
 # %%
-predict("3.7", "How far does the rule get in 150 s, on average?", unit="m")
+predict("the_rule.7", "How far does the rule get in 150 s, on average?", unit="m")
 
 # %%
 episodes = bc.drive_episodes(bc.rule_policy(bc.DEFAULT), bc.held_out_seeds(1, 1000))
@@ -398,7 +398,7 @@ bc.show(charts.histogram(episodes.returns, "return of an episode", title))
 # <!-- claim: of('rule').episodes('success').all() and accidents('rule') == 0 -->
 # <!-- claim: of('rule').scores('returns').max() < 150 * second_pays(15) / 2 -->
 
-# %%
+# %% tags=["hide-input"]
 after = drive.states[:: bc.DEFAULT.clock.steps, EGO]
 free = after[:-1, LANE] == 0
 speed = after[:-1, SPEED][free].mean()
@@ -417,13 +417,13 @@ bc.show(bc.traces([drive], title=title))
 # %% [markdown]
 # ## Round 6: an unsure rule
 #
-# In lesson 7 a learner is pulled towards the rule. For that the rule must give a probability to
-# each action, as a policy does. So we make it unsure: it takes its own action with probability $p$
-# and each of the other eight with probability $(1-p)/8$. This is the **stochastic rule**,
-# $\tilde\pi$.
+# In lesson [[soft_constraint]] a learner is pulled towards the rule. For that the rule must give a
+# probability to each action, as a policy does. So we make it unsure: it takes its own action with
+# probability $p$ and each of the other eight with probability $(1-p)/8$. This is the **stochastic
+# rule**, $\tilde\pi$.
 # <!-- claim: N_ACTIONS - 1 == 8 -->
 #
-# **Exercise 3.6 (5 min, ●○○).** Write the stochastic rule for many states at once.
+# **Exercise (5 min, ●○○).** Write the stochastic rule for many states at once.
 
 
 # %%
@@ -448,7 +448,7 @@ bc.show(charts.action_bars(shown, "The stochastic rule where the rule keeps left
 
 # %%
 choices = ["nearly all", "about half", "hardly any"]
-predict("3.8", "In how many episodes is the stochastic rule without an accident?", choices)
+predict("the_rule.8", "In how many episodes is the stochastic rule without an accident?", choices)
 
 # %%
 rng = np.random.default_rng(0)
@@ -507,16 +507,16 @@ table(["p", "without an accident (500 roads)"], rows)
 
 # %%
 compare_predictions(
-    "03",
+    "the_rule",
     {
-        "3.1": drive.rule_speeds[0],
-        "3.2": "negative",
-        "3.3": "false as long as you are slower",
-        "3.4": "neither",
-        "3.5": "2 s",
-        "3.6": "about 4.85 m, for the plan that we found",
-        "3.7": round(result.distance.value),
-        "3.8": "hardly any",
+        1: drive.rule_speeds[0],
+        2: "negative",
+        3: "false as long as you are slower",
+        4: "neither",
+        5: "2 s",
+        6: "about 4.85 m, for the plan that we found",
+        7: round(result.distance.value),
+        8: "hardly any",
     },
 )
 

@@ -11,7 +11,7 @@
 # ---
 
 # %% [markdown]
-# # 9 · The ablation
+# # The ablation
 #
 # **What you will be able to do**
 # - say which of two helps gets an agent out of the trap, and how sure ten seeds can make you;
@@ -21,7 +21,7 @@
 # - read where our results differ from the paper's, and what p, ξ and c change.
 #
 # **Time** 80 minutes, about one of them the machine's. **It builds on** the soft constraint (lesson
-# 7) and learning from demonstrations (8).
+# [[soft_constraint]]) and learning from demonstrations ([[learning_from_demonstrations]]).
 
 # %%
 import bootcourse as bc
@@ -58,7 +58,7 @@ print(f"return {crash.rewards.sum():.0f} after {end:.0f} s")
 
 # %%
 predict(
-    "9.1",
+    "ablation.1",
     "In which method do most agents escape?",
     ["plain SAC", "soft constraint alone", "demonstrations alone", "both"],
 )
@@ -86,7 +86,7 @@ bc.show(figures_ablation.who_escapes(study, methods))
 # have a chance of 2.5 %; at its high end, k *or fewer* have.
 # <!-- claim: escaped('soft') == 8 -->
 #
-# **Exercise 9.1 (8 min, ●●○).** Write it. `scipy.stats.beta.ppf(q, a, b)` is where a beta
+# **Exercise (8 min, ●●○).** Write it. `scipy.stats.beta.ppf(q, a, b)` is where a beta
 # distribution reaches q, and solves both: a = k, b = n − k + 1 for the low end, a = k + 1, b = n −
 # k for the high one. Mind k = 0 and k = n.
 # <!-- claim: rate(np.zeros(10)).low == 0 -->
@@ -135,9 +135,9 @@ table(["", "agents that escape (95 %)", theirs, "p, if one agent drove them"], r
 #
 # **Explain.** If they do differ, what could be the reason? The first suspect is the KL. In our
 # learner it is part of the critic's target, too, and that makes staying in the trap expensive
-# (lesson 7, round 4). One can also subtract it in the actor's loss alone. So ten more agents of
-# both methods with the KL were trained in this way (`kl_in_target=False`), with the study's
-# settings otherwise:
+# (lesson [[soft_constraint]], round 4). One can also subtract it in the actor's loss alone. So ten
+# more agents of both methods with the KL were trained in this way (`kl_in_target=False`), with the
+# study's settings otherwise:
 
 # %%
 ablations = shipped.shipped_experiment("ablations")
@@ -164,7 +164,7 @@ table(["agents that escape, the KL ...", *kinds], rows)
 # been tried, too: the whole study was run again behind traps at {{ CALIBRATED.traps.speed }} m/s,
 # the speed that fits the paper's own numbers best.
 
-# %%
+# %% tags=["hide-input"]
 faster, rows = bc.shipped_results("calibrated"), []
 for method in methods:
     scores = [each.of(method).scores("success") for each in (study, faster)]
@@ -194,7 +194,7 @@ table(["agents that escape", "traps at 10 m/s", "traps at 10.9 m/s"], rows)
 
 # %%
 predict(
-    "9.2",
+    "ablation.2",
     "Which column changes most?",
     ["plain SAC", "soft constraint alone", "demonstrations alone", "both"],
 )
@@ -231,7 +231,7 @@ table(["agents that escape", *map(bc.display_name, methods)], rows)
 #
 # What moves it? With a larger γ or a positive target entropy two or three of three escape each
 # time; with both changes it is one. With demonstrations that π̃ drives, as the paper prints it
-# (lesson 6), it is one. With one update for each decision
+# (lesson [[demonstrations]]), it is one. With one update for each decision
 # {{ escaped_with('1 update for each decision', 'demos') }} of three escape with demonstrations and
 # {{ escaped_with('1 update for each decision', 'soft') }} of three with the soft constraint. That
 # is the order of the paper's rows, and it comes from a number that the paper does not print.
@@ -243,19 +243,21 @@ table(["agents that escape", *map(bc.display_name, methods)], rows)
 #   decision', 'demos') -->
 #
 # Look at the three rows with a positive target entropy, too. The nine agents with both helps earn
-# {{ positive_target('bootstrapped', 'returns').min() | .0f }} to {{ positive_target('bootstrapped',
-# 'returns').max() | .0f }}. That is close to the rule ({{ of('rule').scores('returns').mean() | .0f
-# }}) or less, and in the range of the paper's own agents ({{
-# PRINTED['bootstrapped']['returns'].mean | .1f }} ± {{ PRINTED['bootstrapped']['returns'].sd | .1f
-# }}). None of the nine collides with a car, in {{ roads() | , }} drives each. But two of them leave
-# the road in {{ 100 * np.sort(positive_target('bootstrapped', 'road_departure'))[-1] | .0f }} % and
-# {{ 100 * np.sort(positive_target('bootstrapped', 'road_departure'))[-2] | .0f }} % of their
-# drives, and the paper's collision rate counts road departures, too (lesson 1). It is tempting to
-# say that a positive target keeps α up, that ξ = {{ SETTINGS.xi_multiplier }} α then stays large,
-# and that ξ holds the agent close to the rule. But the soft constraint alone has the same rule for
-# ξ, and with a target of 0.3 nats its agents earn {{ positive_target('soft', 'returns', 'entropy
-# 0.3').min() | .0f }} to {{ positive_target('soft', 'returns', 'entropy 0.3').max() | .0f }}. So ξ
-# alone does not explain it.
+# {{ positive_target('bootstrapped', 'returns').min() | .0f }} to
+# {{ positive_target('bootstrapped', 'returns').max() | .0f }}. That is close to the rule
+# ({{ of('rule').scores('returns').mean() | .0f }}) or less, and in the range of the paper's own
+# agents ({{ PRINTED['bootstrapped']['returns'].mean | .1f }} ±
+# {{ PRINTED['bootstrapped']['returns'].sd | .1f }}). None of the nine collides with a car, in
+# {{ roads() | , }} drives each. But two of them leave the road in {{ 100 *
+# np.sort(positive_target('bootstrapped', 'road_departure'))[-1] | .0f }} % and {{ 100 *
+# np.sort(positive_target('bootstrapped', 'road_departure'))[-2] | .0f }} % of their drives, and the
+# paper's collision rate counts road departures, too (lesson [[the_trap]]). It is tempting to say
+# that a positive target keeps α up, that ξ = {{ SETTINGS.xi_multiplier }} α then stays large, and
+# that ξ holds the agent close to the rule. But the soft constraint alone has the same rule for ξ,
+# and with a target of 0.3 nats its agents earn
+# {{ positive_target('soft', 'returns', 'entropy 0.3').min() | .0f }} to
+# {{ positive_target('soft', 'returns', 'entropy 0.3').max() | .0f }}. So ξ alone does not explain
+# it.
 # <!-- claim: not positive_target('bootstrapped', 'collision').any() and
 #   len(positive_target('bootstrapped', 'collision')) == 9 and PRINTED['bootstrapped'][
 #   'collision'].mean == 0 -->
@@ -283,13 +285,13 @@ table(["agents that escape", *map(bc.display_name, methods)], rows)
 # > agent crashes?
 
 # %%
-predict("9.3", "What changes most if one more agent crashes?", ["mean", "median", "IQM"])
+predict("ablation.3", "What changes most if one more agent crashes?", ["mean", "median", "IQM"])
 
 # %% [markdown]
 # The mean of the middle half is called **interquartile mean** (IQM). It leaves out the highest and
 # the lowest quarter and uses half of the agents, where a median uses one or two.
 #
-# **Exercise 9.2 (5 min, ●○○).** Write it. A quarter is rounded down: of ten scores, six are left.
+# **Exercise (5 min, ●○○).** Write it. A quarter is rounded down: of ten scores, six are left.
 
 
 # %%
@@ -300,7 +302,7 @@ def interquartile_mean(scores):
 
 check.interquartile_mean(interquartile_mean)
 
-# %%
+# %% tags=["hide-input"]
 rows = []
 for method in methods:
     returns = np.sort(study.of(method).scores("returns"))
@@ -325,7 +327,7 @@ table(["return", "mean", "median", "IQM", "the agents, sorted"], rows)
 # > much might their mean return differ from ours: by 2, by 10, by 40?
 
 # %%
-predict("9.4", "Half the length of the mean's 95 % interval", unit="of return")
+predict("ablation.4", "Half the length of the mean's 95 % interval", unit="of return")
 
 # %% [markdown]
 # Training a hundred agents again would take hours, so the computer imitates a repetition. Draw ten
@@ -334,7 +336,7 @@ predict("9.4", "Half the length of the mean's 95 % interval", unit="of return")
 # interval**. (The word has another meaning here: the interval has nothing to do with the paper's
 # method.)
 #
-# **Exercise 9.3 (7 min, ●●○).** Write it. The draws are given, so that yours and ours agree.
+# **Exercise (7 min, ●●○).** Write it. The draws are given, so that yours and ours agree.
 
 
 # %%
@@ -345,7 +347,7 @@ def bootstrap_interval(scores, draws):
 
 check.bootstrap_interval(bootstrap_interval)
 
-# %%
+# %% tags=["hide-input"]
 rows = []
 for method in methods:
     returns = study.of(method).scores("returns")
@@ -368,7 +370,7 @@ bc.show(figures.final_scores(study, methods))
 #   of(m).scores('speed').mean() > of('rule').scores('speed').mean() and accidents(m) >
 #   accidents('rule') for m in ('soft', 'bootstrapped')) -->
 
-# %%
+# %% tags=["hide-input"]
 rows = []
 for method in (*methods, "rule"):
     mine = (rule if method == "rule" else study).of(method)
@@ -384,10 +386,10 @@ table(headings, rows)
 # > How often does the bootstrapped one earn more?
 
 # %%
-predict("9.5", "How often the bootstrapped agent earns more", unit="%")
+predict("ablation.5", "How often the bootstrapped agent earns more", unit="%")
 
 # %% [markdown]
-# **Exercise 9.4 (6 min, ●●○).** That is the **probability of improvement**. Pair each agent x of
+# **Exercise (6 min, ●●○).** That is the **probability of improvement**. Pair each agent x of
 # the first method with each agent y of the second: in which share of the pairs is x above? A tie
 # counts half.
 
@@ -418,15 +420,15 @@ table(*tables.improvement_rows(four), below=words)
 #   of('soft').scores('returns'))) -->
 #
 # The same tools say how far our study supports the paper's *first* ablation. It compares two ways
-# to use demonstrations, the bonus c and the large margin (lesson 8). It reports that in training
-# the bonus is better in each of its metrics.
+# to use demonstrations, the bonus c and the large margin (lesson [[learning_from_demonstrations]]).
+# It reports that in training the bonus is better in each of its metrics.
 #
 # > **Predict.** Which of the two lets more agents escape in our study: without the soft constraint,
 # > and with it?
 
 # %%
 predict(
-    "9.6",
+    "ablation.6",
     "With the soft constraint, more agents escape with",
     ["the bonus", "the margin", "neither: equally many"],
 )
@@ -466,9 +468,10 @@ bonus_or_margin(study)
 # <!-- claim: all((lambda p: p.low <= 0.5 <= p.high)(improvement(of('margin_soft').scores(
 #   'returns'), of(m).scores('returns'))) for m in ('bootstrapped', 'soft')) -->
 #
-# Two cautions. Our margin uses the Q-filter as the paper prints it, which is rarely on (lesson 8);
-# the usual filter is not in the study. And with that filter the method with margin and KL is close
-# to the soft constraint alone: these ten seeds cannot tell the two apart by their return.
+# Two cautions. Our margin uses the Q-filter as the paper prints it, which is rarely on (lesson
+# [[learning_from_demonstrations]]); the usual filter is not in the study. And with that filter the
+# method with margin and KL is close to the soft constraint alone: these ten seeds cannot tell the
+# two apart by their return.
 # <!-- claim: all(agent['paper_q_filter'] for agent in of('margin_soft').agents) -->
 
 # %% [markdown] tags=["instructor"] minutes=6
@@ -485,7 +488,7 @@ bonus_or_margin(study)
 
 # %%
 predict(
-    "9.7",
+    "ablation.7",
     "As β runs out, the success of agents with both helps",
     ["stays", "falls, and recovers in most", "falls for good in most"],
 )
@@ -558,7 +561,7 @@ by_seed("demos", (gone - 400, gone - 200), (gone - 200, gone - 100), (gone + 100
 # <!-- claim: losing('margin_soft').sum() <= losing('soft').sum() < losing('bootstrapped').sum() and
 #   {agent['beta_episodes'] for agent in of('margin_soft').agents} == {1000} -->
 
-# %%
+# %% tags=["hide-input"]
 ends = {"300": ablations["β over 300 episodes"], f"{gone:,}": study}
 ends["never"] = ablations["β for ever"]
 rows = []
@@ -598,9 +601,9 @@ table(headings, rows)
 #
 # The two helps fade by different clocks. β falls with the *episodes*. ξ = {{ SETTINGS.xi_multiplier
 # | .0f }}α falls with the *updates*, because the temperature is learned: at the paper's target
-# entropy α can only fall (lesson 4), and Adam changes log α by up to {{ SETTINGS.alpha_lr }} at an
-# update. How many updates belong to a decision? The paper does not say. In the study it is one for
-# each four.
+# entropy α can only fall (lesson [[discrete_sac]]), and Adam changes log α by up to
+# {{ SETTINGS.alpha_lr }} at an update. How many updates belong to a decision? The paper does not
+# say. In the study it is one for each four.
 # <!-- claim: SETTINGS.updates == 1 and SETTINGS.envs_per_agent == 4 and SETTINGS.target_entropy < 0
 #   -->
 #
@@ -608,7 +611,7 @@ table(headings, rows)
 # > of its start first, and after about how many episodes?
 
 # %%
-predict("9.8", "Two updates for each decision: which help fades first?", ["ξ", "β"])
+predict("ablation.8", "Two updates for each decision: which help fades first?", ["ξ", "β"])
 
 # %%
 settings = bc.settings_for("bootstrapped")
@@ -680,15 +683,15 @@ bc.show(figures_ablation.two_clocks(cells["2", "π̃"], "2"))
 #
 # With four updates only three agents of each kind were trained. None of the three with the soft
 # constraint alone escapes. Two of them had found the way out: of 50 training episodes in a row more
-# than 90 % ended ahead, and later they lost it again (choose 4 in the panel). With demonstrations
+# than 90 % ended ahead, and later they lost it again. With demonstrations
 # alone {{ escapers(clocks()['4', 'μ'], 'demos') }} of three escape if μ drove them, and as many if
 # π̃ did. With both helps it is {{ escapers(clocks()['4', 'μ'], 'bootstrapped') }} (μ) and {{
 # escapers(clocks()['4', 'π̃'], 'bootstrapped') }} (π̃). So the half that fails with two updates may
 # hold with four. But three agents are few: if half of all such agents escape, none of three does in
 # one case in eight.
 # <!-- claim: [escapers(clocks()['4', 'μ'], m) for m in ('sac', 'soft')] == [0, 0] and
-#   escapers(clocks()['4', 'μ'], 'demos') == escapers(clocks()['4', 'π̃'], 'demos') and 0.5**3 == 1/8
-#   -->
+#   escapers(clocks()['4', 'μ'], 'demos') == escapers(clocks()['4', 'π̃'], 'demos') and 0.5**3 ==
+#   1/8 -->
 # <!-- claim: {len(clocks()['4', d].of(m)) for d in ('μ', 'π̃') for m in ('sac', 'soft', 'demos',
 #   'bootstrapped')} == {3} -->
 # <!-- claim: sum(max(np.convolve(curve, np.ones(50) / 50, 'valid')) > 0.9 for curve in clocks()[
@@ -748,7 +751,7 @@ bonus_or_margin(bc.shipped_results("paper"))
 # they are and five with that number changed, and say how sure five seeds make you. For that you
 # need an interval for a *difference*.
 #
-# **Exercise 9.5 (20 min, ●●●).** Write it: the IQM of one group less the IQM of the other, and the
+# **Exercise (20 min, ●●●).** Write it: the IQM of one group less the IQM of the other, and the
 # 95 % bootstrap interval of that difference. Each resample draws both groups anew. It can be
 # written without a loop over the resamples.
 
@@ -781,7 +784,7 @@ check.difference_interval(difference_interval)
 # > **Predict.** By how many points of success does your change raise or lower the IQM?
 
 # %%
-predict("9.9", "Effect of my change on the success", unit="points")
+predict("ablation.9", "Effect of my change on the success", unit="points")
 
 # %%
 CHANGE, SEEDS, UPDATES = {"bonus": 0.0}, 5, 900  # yours
@@ -823,7 +826,7 @@ table(["success after 900 updates, %", "IQM", "the agents, sorted"], rows, below
 # > set to 0 or far off, costs the most agents?
 
 # %%
-predict("9.10", "Set to 0, which costs most agents?", ["ξ", "c", "neither"])
+predict("ablation.10", "Set to 0, which costs most agents?", ["ξ", "c", "neither"])
 
 # %% tags=["nbval-ignore-output"]
 bc.panels.sweep_panel()
@@ -882,9 +885,10 @@ print("most successful:", best)
 # - You may train 40 more agents. Ten more seeds for each of four methods, or the sweep's best
 #   setting forty times?
 #
-# **Read on**: [lesson 14](14_your_teacher.ipynb) repeats the ablation with a teacher of your own.
-# Agarwal et al., *Deep Reinforcement Learning at the Edge of the Statistical Precipice* (arXiv
-# 2108.13264); Henderson et al., *Deep Reinforcement Learning that Matters* (arXiv 1709.06560).
+# **Read on**: [lesson [[your_teacher]]](your_teacher.ipynb) repeats the ablation with a teacher of
+# your own. Agarwal et al., *Deep Reinforcement Learning at the Edge of the Statistical Precipice*
+# (arXiv 2108.13264); Henderson et al., *Deep Reinforcement Learning that Matters* (arXiv
+# 1709.06560).
 
 # %%
 both, soft = (study.of(m).scores("returns") for m in ("bootstrapped", "soft"))
@@ -894,18 +898,18 @@ by_zero = {
     for name, key in (("ξ", "xi_multiplier"), ("c", "bonus"))
 }
 compare_predictions(
-    "09",
+    "ablation",
     {
-        "9.1": "soft constraint alone; ten seeds do not separate it from both",
-        "9.2": "demonstrations alone",
-        "9.3": "mean",
-        "9.4": round(spread, 1),
-        "9.5": round(100 * bc.statistics.improvement(both, soft).value, 1),
-        "9.6": "the margin",
-        "9.7": "falls, and recovers in most",
-        "9.8": "ξ",
-        "9.9": round(effect.value, 1),
-        "9.10": f"{min(by_zero, key=by_zero.get)}: at 0, {min(by_zero.values()):.0%} escape",
+        1: "soft constraint alone; ten seeds do not separate it from both",
+        2: "demonstrations alone",
+        3: "mean",
+        4: round(spread, 1),
+        5: round(100 * bc.statistics.improvement(both, soft).value, 1),
+        6: "the margin",
+        7: "falls, and recovers in most",
+        8: "ξ",
+        9: round(effect.value, 1),
+        10: f"{min(by_zero, key=by_zero.get)}: at 0, {min(by_zero.values()):.0%} escape",
     },
 )
 

@@ -11,7 +11,7 @@
 # ---
 
 # %% [markdown]
-# # 5 · The barrier
+# # The barrier
 #
 # **What you will be able to do**
 # - train plain SAC in the trap, live, and say where it ends;
@@ -19,8 +19,8 @@
 # - write a learner for a barrier of five states, and find out what gets it across;
 # - train agents that get out with the rule's help, and judge both kinds by their seeds.
 #
-# **Time** 70 minutes, about one of them the machine's. **You need** the trap of lesson 1, the rule
-# of lesson 3, SAC of lesson 4.
+# **Time** 70 minutes, about one of them the machine's. **You need** the trap of lesson
+# [[the_trap]], the rule of lesson [[the_rule]], SAC of lesson [[discrete_sac]].
 
 # %%
 import bootcourse as bc
@@ -29,13 +29,12 @@ from bootcourse.course import (
     charts,
     check,
     compare_predictions,
-    figures,
+    live_curves,
     predict,
-    shipped,
     source,
     table,
 )
-from bootcourse.course.lessons.the_barrier import chain
+from bootcourse.course.lessons.the_barrier import chain, figures
 from bootcourse.research import planner, report, tables
 
 # %% [markdown]
@@ -57,7 +56,7 @@ idle = bc.record(bc.idle_policy, [ROAD], label="idle")[0]
 by_rule = bc.record(bc.rule_policy(bc.DEFAULT), [ROAD], label="rule")[0]
 bc.show(bc.traces([idle, by_rule, planned]))
 
-# %%
+# %% tags=["hide-input"]
 rows = []
 for drive in (idle, by_rule, planned):
     passed = bc.overtaken(drive)
@@ -77,9 +76,10 @@ bc.show(bc.top_view_over_time(planned, times=[0, 2, 4, 6, 8, 12]))
 # %% [markdown]
 # ## Round 1: does plain SAC find a way out?
 #
-# Six agents learn with the SAC of lesson 4, from their own drives alone. Three have the paper's
-# discount, γ = {{ SETTINGS.gamma }}. Three look further ahead, γ = 0.95. Each gets the same number
-# of updates. You can stop the training at any time (the ■ button), and what was learned is kept.
+# Six agents learn with the SAC of lesson [[discrete_sac]], from their own drives alone. Three have
+# the paper's discount, γ = {{ SETTINGS.gamma }}. Three look further ahead, γ = 0.95. Each gets the
+# same number of updates. You can stop the training at any time (the ■ button), and what was learned
+# is kept.
 #
 # After training each agent drives 200 roads. In this course an agent **escapes** if it ends ahead
 # of trap 1 on at least {{ 100 * ESCAPES | .0f }} % of the roads that it is tested on.
@@ -88,7 +88,7 @@ bc.show(bc.top_view_over_time(planned, times=[0, 2, 4, 6, 8, 12]))
 # > ahead? What will the others do?
 
 # %%
-predict("5.1", "How many of the three agents with γ = 0.8 escape?", ["0", "1", "2", "3"])
+predict("the_barrier.1", "How many of the three agents with γ = 0.8 escape?", ["0", "1", "2", "3"])
 
 # %%
 SEEDS, UPDATES = 3, 2000
@@ -96,7 +96,7 @@ agents = bc.with_seeds(bc.settings_for("sac"), SEEDS)
 agents += bc.with_seeds(bc.settings_for("sac", gamma=0.95), SEEDS)
 labels = ["sac, γ = 0.8"] * SEEDS + ["γ = 0.95"] * SEEDS
 training = bc.Training(agents, episodes=20_000)
-live = figures.LiveCurves(labels)
+live = live_curves.LiveCurves(labels)
 alone = training.run(callback=live, stop=lambda: training.updates > UPDATES)
 
 
@@ -125,13 +125,14 @@ print(f"In {driven:,} episodes of training, {ahead} ended ahead of trap 1;", end
 print(f"{100 * ended / driven:.0f} % of all ended in an accident.")
 
 # %% [markdown]
-# **See.** Your numbers will differ from another machine's. The study of lesson 9 trained ten agents
-# with γ = {{ SETTINGS.gamma }} for {{ of('sac').curves['success'].shape[1] | , }} episodes each:
-# {{ escaped('sac') }} of them escapes. How close was your prediction?
+# **See.** Your numbers will differ from another machine's. The study of lesson [[ablation]] trained
+# ten agents with γ = {{ SETTINGS.gamma }} for {{ of('sac').curves['success'].shape[1] | , }}
+# episodes each: {{ escaped('sac') }} of them escapes. How close was your prediction?
 # <!-- claim: escaped('sac') == 1 and len(of('sac')) == 10 -->
 #
-# Compare the returns with {{ idle().rewards.sum() | .1f }}, the return of doing nothing (lesson 1).
-# Why do most agents not leave? Here are two explanations, and each calls for a cure of its own.
+# Compare the returns with {{ idle().rewards.sum() | .1f }}, the return of doing nothing (lesson
+# [[the_trap]]). Why do most agents not leave? Here are two explanations, and each calls for a cure
+# of its own.
 #
 # - **Discount.** For an agent with γ = 0.8, a reward in 20 s hardly counts. Perhaps leaving does
 #   not *pay* for it, and to stay is the best that it can do.
@@ -153,10 +154,10 @@ print(f"{100 * ended / driven:.0f} % of all ended in an accident.")
 # > from the seconds that are 5 s ahead or more?
 
 # %%
-predict("5.2", "Share of the value more than 5 s ahead, γ = 0.8", unit="%")
+predict("the_barrier.2", "Share of the value more than 5 s ahead, γ = 0.8", unit="%")
 
 # %% [markdown]
-# **Exercise 5.1 (3 min, ●○○).** Write that share, for a reward that is the same at each second.
+# **Exercise (3 min, ●○○).** Write that share, for a reward that is the same at each second.
 
 
 # %%
@@ -190,7 +191,7 @@ check.share_of_the_future(share_of_the_future)
 
 # %%
 predict(
-    "5.3",
+    "the_barrier.3",
     "At γ = 0.8, which is worth more than doing nothing?",
     ["no way out", "the best way out, not the rule's", "the best way out, and the rule's"],
 )
@@ -209,14 +210,13 @@ table(headings, rows, below="Discounted sums from the start, means of four roads
 # leaves the trap, and it is worth more than the best one that it found in the lane. That does not
 # yet answer the question for a learner, which sees 26 numbers and not the future.
 #
-# Trained agents answer it. In lesson 9's study some agents learned to escape, with γ = 0.8 and with
-# the rule's help, and they see the same 26 numbers. Take the
+# Trained agents answer it. In lesson [[ablation]]'s study some agents learned to escape, with γ =
+# 0.8 and with the rule's help, and they see the same 26 numbers. Take the
 # {{ len(discounted_scores('soft')) }} that come with this course and had one kind of help, the soft
 # constraint of Round 5. On 200 **held-out** roads, which were not used in training, they earn
-# {{ discounted_scores('soft').min() | .2f }} to
-# {{ discounted_scores('soft').max() | .2f }} in discounted reward. Doing nothing earns
-# {{ discounted(idle(), 0.8) | .2f }}. So leaving can pay at γ = 0.8, and the discount alone does
-# not explain why an agent stays.
+# {{ discounted_scores('soft').min() | .2f }} to {{ discounted_scores('soft').max() | .2f }} in
+# discounted reward. Doing nothing earns {{ discounted(idle(), 0.8) | .2f }}. So leaving can pay at
+# γ = 0.8, and the discount alone does not explain why an agent stays.
 # <!-- claim: discounted_scores('soft').min() > discounted(idle(), 0.8) -->
 # <!-- claim: (of('soft').scores('success')[:len(discounted_scores('soft'))] >= ESCAPES).all() -->
 # <!-- claim: all(run.agent.settings.gamma == 0.8 for run in shipped_runs('soft')) -->
@@ -224,7 +224,7 @@ table(headings, rows, below="Discounted sums from the start, means of four roads
 # Now the second half of your prediction. At γ = 0.8 the rule's way out is worth **less** than doing
 # nothing: falling back costs reward at once, and what it earns comes so late that it hardly counts.
 # A critic that learned from these rewards alone would give the rule's way out a lower value than
-# staying. Lesson 8 comes back to that.
+# staying. Lesson [[learning_from_demonstrations]] comes back to that.
 # <!-- claim: all(discounted(by_rule(road), 0.8) < discounted(idle(road), 0.8) for road in range(4))
 #   -->
 
@@ -242,10 +242,10 @@ table(headings, rows, below="Discounted sums from the start, means of four roads
 # > About how many random attempts does it take until one works?
 
 # %%
-predict("5.4", "Attempts until one works", unit="attempts")
+predict("the_barrier.4", "Attempts until one works", unit="attempts")
 
 # %% [markdown]
-# **Exercise 5.2 (5 min, ●●○).** Write the chance that at least one of `tries` works.
+# **Exercise (5 min, ●●○).** Write the chance that at least one of `tries` works.
 
 
 # %%
@@ -278,7 +278,7 @@ q = alone.agents[0].q_values(start)[0]
 title = "What the critic of plain SAC, seed 0, expects of each action"
 bc.show(charts.action_bars({"Q(s, a)": q.tolist()}, title, "value"))
 
-# %%
+# %% tags=["hide-input"]
 policy = alone.agents[0].probabilities(start)[0]
 rows = [
     [words, bc.ACTION_NAMES[action], f"{q[action]:.2f}", f"{policy[action]:.4f}"]
@@ -288,18 +288,17 @@ below = f"α has fallen from {agents[0].alpha_init} to {alone.agents[0].alpha:.5
 table(["", "action", "Q", "π"], rows, below=below)
 
 # %% [markdown]
-# **Explain.** By now the temperature has fallen (lesson 4), and a policy at a low temperature is
-# nearly sure of its actions. The gradient of a softmax is proportional to π. So the probability of
-# an unlikely action grows slowly, even where the critic gives that action the highest value. The
-# agent seldom tries something new, and seldom learns something new.
+# **Explain.** By now the temperature has fallen (lesson [[discrete_sac]]), and a policy at a low
+# temperature is nearly sure of its actions. The gradient of a softmax is proportional to π. So the
+# probability of an unlikely action grows slowly, even where the critic gives that action the
+# highest value. The agent seldom tries something new, and seldom learns something new.
 #
 # A higher temperature alone did not help: none of the
 # {{ len(varied()['target entropy 1'].of('sac')) }} plain SAC agents that were trained with a target
-# entropy of 1 escaped. A way out takes several right decisions in a row (the one without braking
-# in lesson 3 begins with eight exact turns), and most other attempts stay behind a trap or end in
-# an accident. That is the **barrier**. An agent that learns from its
-# own drives alone seldom gets across: of the study's {{ len(of('sac')) }} plain SAC agents
-# {{ escaped('sac') }} escapes.
+# entropy of 1 escaped. A way out takes several right decisions in a row (the one without braking in
+# lesson [[the_rule]] begins with eight exact turns), and most other attempts stay behind a trap or
+# end in an accident. That is the **barrier**. An agent that learns from its own drives alone seldom
+# gets across: of the study's {{ len(of('sac')) }} plain SAC agents {{ escaped('sac') }} escapes.
 # <!-- claim: escaped_with('target entropy 1', 'sac') == 0 -->
 # <!-- claim: escaped('sac') == 1 -->
 
@@ -323,7 +322,7 @@ table(["", "action", "Q", "π"], rows, below=below)
 # > **Predict.** Does leaving pay at γ = 0.8? From which γ on?
 
 # %%
-predict("5.5", "Leaving the chain's trap pays from this γ on", unit="")
+predict("the_barrier.5", "Leaving the chain's trap pays from this γ on", unit="")
 
 # %% [markdown]
 # <details><summary>The answer, in four lines</summary>
@@ -345,7 +344,7 @@ predict("5.5", "Leaving the chain's trap pays from this γ on", unit="")
 # To learn an estimate from an estimate is called **bootstrapping**. (The paper's title uses the
 # word in another sense: to start a learner with a rule's help.)
 #
-# **Exercise 5.3 (20 min, ●●●).** Write this learner. `chain.NEXT[s, a]` and `chain.REWARD[s, a]`
+# **Exercise (20 min, ●●●).** Write this learner. `chain.NEXT[s, a]` and `chain.REWARD[s, a]`
 # hold the table above. The random decisions have been drawn beforehand (`chances`), so that your
 # learner makes the same ones as ours. A demonstrator's decisions (`taught`) are replayed after each
 # of your own. After each 20 decisions the walk starts again in state 0. It starts again since the
@@ -392,7 +391,7 @@ check.learn_chain(learn_chain)
 # > **Predict.** In which of the five kinds do more than half of the thirty learn to leave?
 
 # %%
-predict("5.6", "Kinds of which more than half learn to leave, such as A, C")
+predict("the_barrier.6", "Kinds of which more than half learn to leave, such as A, C")
 
 # %%
 # NBVAL_CHECK_OUTPUT
@@ -426,10 +425,10 @@ table(["", "learn to leave"], rows)
 
 # %% [markdown] tags=["instructor"] minutes=8
 # Draw the chain on the board and let them be the learner for two episodes, with γ = 0.8 and step 1,
-# before they write code. The question about the last decision separates two ideas that lesson 6
-# needs: an accident *terminates* (nothing follows), the end of the time *truncates* (we stop
-# looking). Afterwards ask in which order the demonstration should be replayed so that one pass is
-# enough (backwards, with step 1).
+# before they write code. The question about the last decision separates two ideas that lesson
+# [[demonstrations]] needs: an accident *terminates* (nothing follows), the end of the time
+# *truncates* (we stop looking). Afterwards ask in which order the demonstration should be replayed
+# so that one pass is enough (backwards, with step 1).
 
 # %% [markdown]
 # ## Round 5: does the rule's help get agents out?
@@ -437,10 +436,10 @@ table(["", "learn to leave"], rows)
 # The rule escapes on all {{ roads() | , }} held-out roads. It earns
 # {{ of('rule').scores('returns').mean() | .0f }} there, much less than the planner's
 # {{ bound().mean() | .0f }}. The paper's method uses the rule twice. A **soft constraint** makes
-# the agent pay for differing from the rule (lesson 7). **Demonstrations**, drives of the rule with
-# a bonus on them, are mixed into what the agent learns from (lesson 8). Both fade during training.
-# The picture shows β, the share of each batch that is demonstrations; ξ is the weight of the soft
-# constraint:
+# the agent pay for differing from the rule (lesson [[soft_constraint]]). **Demonstrations**, drives
+# of the rule with a bonus on them, are mixed into what the agent learns from (lesson
+# [[learning_from_demonstrations]]). Both fade during training. The picture shows β, the share of
+# each batch that is demonstrations; ξ is the weight of the soft constraint:
 # <!-- claim: of('rule').scores('success').min() == 1 -->
 
 # %%
@@ -451,11 +450,13 @@ bc.show(figures.fading(bc.settings_for("bootstrapped")))
 # > rule's help. How many escape? Will they be worse than the rule, as good, or better?
 
 # %%
-predict("5.7", "How many of three agents escape with the rule's help?", ["0", "1", "2", "3"])
+predict(
+    "the_barrier.7", "How many of three agents escape with the rule's help?", ["0", "1", "2", "3"]
+)
 
 # %%
 with_rule = bc.Training(bc.with_seeds(bc.settings_for("bootstrapped"), SEEDS), episodes=20_000)
-helped = with_rule.run(callback=figures.LiveCurves(), stop=lambda: with_rule.updates > UPDATES)
+helped = with_rule.run(callback=live_curves.LiveCurves(), stop=lambda: with_rule.updates > UPDATES)
 
 # %% [markdown] tags=["instructor"] minutes=6
 # "So it imitates." Have them compare the return with the rule's after 2,000 updates and again after
@@ -473,7 +474,7 @@ shown(helped.agents, tests)
 # come with the course, trained for longer:
 
 # %%
-study = shipped.shipped_results()
+study = bc.shipped_results()
 curves = {method: study.of(method).curves for method in ("sac", "bootstrapped")}
 of_ten = {m: study.of(m).scores("success") >= bc.statistics.ESCAPES for m in curves}
 alone_of_ten, helped_of_ten = map(tables.k_of_n, of_ten.values())
@@ -492,10 +493,10 @@ bc.show(bc.training_curves(curves, title, constants={"rule": level}))
 # > **Predict.** If three of three agents escape, could the true rate still be one in two?
 
 # %%
-predict("5.8", "Three of three escape: could the true rate be one in two?", ["yes", "no"])
+predict("the_barrier.8", "Three of three escape: could the true rate be one in two?", ["yes", "no"])
 
 # %% [markdown]
-# **Exercise 5.4 (5 min, ●●○).** n of n agents have escaped. At which true rate would that have a
+# **Exercise (5 min, ●●○).** n of n agents have escaped. At which true rate would that have a
 # probability of 2.5 %? This rate is the lower end of the 95 % interval.
 
 
@@ -507,12 +508,12 @@ def lowest_rate(agents):
 
 check.lowest_rate(lowest_rate)
 
-# %%
+# %% tags=["hide-input"]
 lowest = {n: bc.statistics.rate(np.ones(n, bool)).low for n in (3, 5, 10, 20)}
 rows = [[f"{n} of {n}", f"{100 * low:.0f} %"] for n, low in lowest.items()]
 table(["agents that escape", "the true rate is at least"], rows)
 
-# %%
+# %% tags=["hide-input"]
 pair = {"alone, γ = 0.8": escaped_alone[:SEEDS], "with the rule's help": escaped_helped}
 rows = [[words, tables.k_of_n(escaped)] for words, escaped in pair.items()]
 table(["", "our agents that escape (95 % interval of the rate)"], rows)
@@ -522,8 +523,8 @@ table(["", "our agents that escape (95 % interval of the rate)"], rows)
 # three. Suppose that the rule's help makes no difference, and that three of the six agents escape.
 # Then chance decides which three. There are {{ math.comb(6, 3) }} ways to pick three of six, and in
 # two of them the three are of one kind: even three of three against none of three comes about by
-# chance once in {{ math.comb(6, 3) // 2 }} times. The study behind lesson 9 trains ten agents of
-# each kind.
+# chance once in {{ math.comb(6, 3) // 2 }} times. The study behind lesson [[ablation]] trains ten
+# agents of each kind.
 # <!-- claim: len(of('bootstrapped')) == len(of('sac')) == 10 -->
 # <!-- claim: math.isclose(stats.fisher_exact([[3, 0], [0, 3]]).pvalue, 2 / math.comb(6, 3)) -->
 
@@ -534,14 +535,14 @@ table(["", "our agents that escape (95 % interval of the rate)"], rows)
 # > alone look like?
 
 # %%
-predict("5.9", "The speed of the agent that learned alone, on road 10")
+predict("the_barrier.9", "The speed of the agent that learned alone, on road 10")
 
 # %%
 pair = [("sac", alone.agents[0]), ("bootstrapped", helped.agents[0])]
 drives = [bc.record(agent.as_policy(with_q=True), [ROAD], label=label)[0] for label, agent in pair]
 bc.show(bc.traces([*drives, by_rule]))
 
-# %%
+# %% tags=["hide-input"]
 last, passed = drives[1].times[-1], bc.overtaken(drives[1])
 times = {0, 4, 8, 16, passed or 24, (passed or 24) + 8}
 bc.show(bc.top_view_over_time(drives[1], times=sorted(t for t in times if t <= last)))
@@ -566,14 +567,14 @@ source("bootcourse.learn.bootstrap", "kl_to_rule", "constraint_strength", "augme
 # > get out? And with ξ, but without demonstrations (β = 0)?
 
 # %%
-predict("5.10", "Which of the two helps gets agents out without the other?")
+predict("the_barrier.10", "Which of the two helps gets agents out without the other?")
 
 # %% tags=["nbval-ignore-output"]
 bc.panels.train_panel("bootstrapped", seeds=2, episodes=400)
 
 # %% [markdown]
-# **See.** Two agents and a few minutes make a guess, not a finding. Write yours down: lesson 9
-# trains ten of each for longer, and counts.
+# **See.** Two agents and a few minutes make a guess, not a finding. Write yours down: lesson
+# [[ablation]] trains ten of each for longer, and counts.
 
 # %% [markdown]
 # ## What you now know
@@ -605,24 +606,24 @@ bc.panels.train_panel("bootstrapped", seeds=2, episodes=400)
 # - Train `bootstrapped` for 1,500 episodes (some minutes). Do all seeds keep what they learned?
 #   Look at α when one does not.
 #
-# **Read on**: lessons 6 to 8 take the two helps apart. Ecoffet et al., *First return, then explore*
-# (arXiv 2004.12919), on why learners do not return to promising states; Haarnoja et al.,
-# *Soft Actor-Critic* (arXiv 1801.01290).
+# **Read on**: lessons [[demonstrations]] to [[learning_from_demonstrations]] take the two helps
+# apart. Ecoffet et al., *First return, then explore* (arXiv 2004.12919), on why learners do not
+# return to promising states; Haarnoja et al., *Soft Actor-Critic* (arXiv 1801.01290).
 
 # %%
 compare_predictions(
-    "05",
+    "the_barrier",
     {
-        "5.1": f"{escaped_alone[:SEEDS].sum()} here, {alone_of_ten} in the study",
-        "5.2": round(100 * 0.8**5, 1),
-        "5.3": "the best way out, not the rule's",
-        "5.4": round((9 / 2) ** 8),
-        "5.5": round(0.16**0.25, 2),
-        "5.6": "D and E",
-        "5.7": f"{escaped_helped.sum()} here, {helped_of_ten} in the study",
-        "5.8": f"yes: three of three rule out rates below {0.025 ** (1 / 3):.0%}",
-        "5.9": "round 6 shows it; it varies from training to training",
-        "5.10": "lesson 9 counts ten agents of each",
+        1: f"{escaped_alone[:SEEDS].sum()} here, {alone_of_ten} in the study",
+        2: round(100 * 0.8**5, 1),
+        3: "the best way out, not the rule's",
+        4: round((9 / 2) ** 8),
+        5: round(0.16**0.25, 2),
+        6: "D and E",
+        7: f"{escaped_helped.sum()} here, {helped_of_ten} in the study",
+        8: f"yes: three of three rule out rates below {0.025 ** (1 / 3):.0%}",
+        9: "round 6 shows it; it varies from training to training",
+        10: "our study counts ten agents of each",
     },
 )
 
@@ -637,10 +638,11 @@ compare_predictions(
 # <!-- claim: escaped_with('target entropy 1', 'sac') == 0 -->
 # - *Which help carries more?* Of ten agents each, {{ escaped('soft') }} escape with the soft
 #   constraint alone and {{ escaped('demos') }} with the demonstrations alone. Two agents in a
-#   notebook are too few to show that. And the order depends on how often one updates: lesson 9.
+#   notebook are too few to show that. And the order depends on how often one updates: lesson
+#   [[ablation]].
 # - *Do all seeds keep it?* No: {{ losing('bootstrapped').sum() }} of the study's ten lose 20 points
-#   of success or more around episode 1,000, where β ends. Most of these recover (lesson 9). By then
-#   α, and with it ξ, is almost 0.
+#   of success or more around episode 1,000, where β ends. Most of these recover (lesson
+#   [[ablation]]). By then α, and with it ξ, is almost 0.
 # <!-- claim: losing('bootstrapped').sum() > 0 -->
 # <!-- claim: 2 * (losing('bootstrapped') & (in_training('bootstrapped', -100, None)
 #   > in_training('bootstrapped', 900, 1100) + 0.2)).sum() > losing('bootstrapped').sum() -->

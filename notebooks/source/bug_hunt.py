@@ -11,15 +11,16 @@
 # ---
 
 # %% [markdown]
-# # 13 · The bug hunt
+# # The bug hunt
 #
 # **What you will be able to do**
 # - find a silent bug in a learner from curves, probes and drives, without reading its code;
 # - write a probe: ask a part of a learner something whose right answer you know;
 # - repair six bugs that are easily made, each in one line.
 #
-# **Time** 95 minutes, under a minute of it the machine's. **It builds on** the losses of lesson 4,
-# the soft constraint (7) and learning from demonstrations (8).
+# **Time** 95 minutes, under a minute of it the machine's. **It builds on** the losses of lesson
+# [[discrete_sac]], the soft constraint ([[soft_constraint]]) and learning from demonstrations
+# ([[learning_from_demonstrations]]).
 
 # %%
 import bootcourse as bc
@@ -61,7 +62,7 @@ bc.show(bc.top_view_over_time(agent_f, title="Agent F on the same road"))
 
 # %%
 choices = ["none", "one or two", "three or four", "five", "all six"]
-predict("13.1", "Broken agents that still escape in training", choices)
+predict("bug_hunt.1", "Broken agents that still escape in training", choices)
 
 # %% [markdown] tags=["instructor"] minutes=8
 # Collect the predictions in a table on the board, bugs in rows. If somebody writes "a lot" in each
@@ -80,7 +81,7 @@ curves = hunt.curves("success")
 title = "Escapes in training"
 bc.show(charts.many(curves, title, episode, share, reference="healthy", x_scale="log"))
 
-# %%
+# %% tags=["hide-input"]
 curves = hunt.curves("return")
 title = "Returns in training"
 words = "return, last 30 episodes"
@@ -116,10 +117,10 @@ table(["at the end of training", "escapes", "return"], rows)
 
 # %%
 names = list(bugs.BUGS)
-predict("13.2", "Q is wrong at accidents because of", names)
+predict("bug_hunt.2", "Q is wrong at accidents because of", names)
 
 # %% [markdown]
-# **Exercise 13.1 (6 min, ●●○).** Write the probe: by how much is Q above r, on average, where an
+# **Exercise (6 min, ●●○).** Write the probe: by how much is Q above r, on average, where an
 # episode ended?
 
 
@@ -136,7 +137,7 @@ check.end_error(end_error)
 # The picture shows Q itself; right is {{ DEFAULT.reward.accident }}.
 # <!-- claim: set(np.diff(hunt().updates)) == {bugs.EVERY} -->
 
-# %%
+# %% tags=["hide-input"]
 probes = hunt.probes("end")
 title = "What the critics think of their own accidents"
 bc.show(
@@ -154,7 +155,7 @@ bc.show(
 # > critic may promise? And the most if c = 2 is added in *every* second?
 
 # %%
-predict("13.3", "The most that a correct critic may promise", unit="")
+predict("bug_hunt.3", "The most that a correct critic may promise", unit="")
 
 # %%
 gamma, c = 0.8, 2.0
@@ -169,9 +170,10 @@ bc.show(
 
 # %% [markdown]
 # **Explain.** An honest critic, one that is right, promises at most 5. The healthy promise may lie
-# a little over 5: part of each batch is demonstrations, and they do get the bonus (lesson 8). In
-# two panels the promise is far above that: in one it rises slowly, in one at once. You can ask the
-# same of one drive: what did Q promise, and what did the road then pay?
+# a little over 5: part of each batch is demonstrations, and they do get the bonus (lesson
+# [[learning_from_demonstrations]]). In two panels the promise is far above that: in one it rises
+# slowly, in one at once. You can ask the same of one drive: what did Q promise, and what did the
+# road then pay?
 # <!-- claim: {n for n in 'ABCDEF' if hunt().probe(n, 'promise').max() > 10} == {'E', 'F'} -->
 
 # %%
@@ -204,7 +206,7 @@ table(["one road, from the start", "Q promised", "the road paid"], rows)
 # Two more kinds of curves are in the file, if you need them: `hunt.probes("kl")`, and the
 # temperature, `hunt.curves("alpha")`.
 
-# %%
+# %% tags=["hide-input"]
 probes = hunt.probes("entropy")
 title = "How undecided are the policies?"
 bc.show(charts.many(probes, title, "updates", "entropy of π (nats)", reference="healthy"))
@@ -219,12 +221,12 @@ for name in hunt.names:
 headings = ["early, both seeds", "as the rule now", "as one second later"]
 table([*headings, "rarest action, log π, at the end"], rows)
 
-# %%
+# %% tags=["hide-input"]
 probes = hunt.probes("alike")
 title = "How often the likeliest action is the rule's"
 bc.show(charts.many(probes, title, "updates", "likeliest action is the rule's (share)", "healthy"))
 
-# %%
+# %% tags=["hide-input"]
 probes = hunt.probes("rarest")
 title = "How unlikely is the least likely action?"
 bc.show(charts.many(probes, title, "updates", "log of the rarest action's probability", "healthy"))
@@ -236,7 +238,7 @@ bc.show(charts.many(probes, title, "updates", "log of the rarest action's probab
 
 # %%
 choices = ["it drops it", "it keeps it a little likely", "it makes it the favourite"]
-predict("13.4", "With the flipped KL the policy treats such an action so:", choices)
+predict("bug_hunt.4", "With the flipped KL the policy treats such an action so:", choices)
 
 # %% [markdown]
 # **Explain.** Read the table and the last picture with that question. The stochastic rule gives
@@ -275,7 +277,7 @@ table(headings, rows)
 # <!-- claim: drive_episodes(hunt().agent('B').as_policy(np.random.default_rng(0)),
 #   held_out_seeds(12, 200)).success.mean() < 0.5 -->
 #
-# **Exercise 13.2 (15 min, ●●●).** The verdict. For each agent one of the six names. The check
+# **Exercise (15 min, ●●●).** The verdict. For each agent one of the six names. The check
 # judges the six together: it does not say how many are right, or which. Find a picture that decides
 # each.
 
@@ -304,7 +306,7 @@ check.diagnose(diagnose)
 # target = reward + bonus + gamma * next_value
 # ```
 #
-# **Exercise 13.3 (4 min, ●○○).** Two of the six bugs are in that line. Write it without them.
+# **Exercise (4 min, ●○○).** Two of the six bugs are in that line. Write it without them.
 
 
 # %%
@@ -358,7 +360,7 @@ for name, slope in slopes.items():
     print(f"{name:9} mean slope towards action 7, which is worth 5 more: {slope[7]:.4f}")
 
 # %% [markdown]
-# **Exercise 13.4 (4 min, ●○○).** Write the value without drawing.
+# **Exercise (4 min, ●○○).** Write the value without drawing.
 
 
 # %%
@@ -378,7 +380,7 @@ check.fixed_value(fixed_value)
 # loss = -((pi * (q - alpha * log_pi)).sum(-1) - xi * kl).mean()
 # ```
 #
-# **Exercise 13.5 (6 min, ●●○).** Write it without them. The check looks at where your loss sends
+# **Exercise (6 min, ●●○).** Write it without them. The check looks at where your loss sends
 # a gradient.
 
 
@@ -396,7 +398,7 @@ check.fixed_loss(fixed_loss)
 # You found these bugs in agents that took minutes to train. The target can be tested in a
 # millisecond, from outside, with a few transitions whose right y you work out by hand.
 #
-# **Exercise 13.6 (20 min, ●●●).** Write that test. You are given a function
+# **Exercise (20 min, ●●●).** Write that test. You are given a function
 # `target(reward, demo, bonus, end, next_value, gamma)`, of which you do not see the code. It takes
 # NumPy arrays of shape (batch,), and two floats: bonus and gamma. Say whether it is wrong. The
 # check gives it three functions that are right and twelve that are wrong, each in another way.
@@ -420,7 +422,7 @@ check.unmasks(unmasks)
 # labels = asked[1:]
 # ```
 #
-# **Exercise 13.7 (4 min, ●○○).** For each of the T decisions: the label of the state in which it
+# **Exercise (4 min, ●○○).** For each of the T decisions: the label of the state in which it
 # was made, and the label of the state to which it led.
 
 
@@ -436,14 +438,16 @@ check.label_pairs(label_pairs)
 # Each buggy learner is the right one with one piece exchanged. Here are four of the six:
 
 # %% tags=["nbval-ignore-output"]
-source("bootcourse.course.lessons.bug_hunt.bugs", "NoEnd", "BonusForAll", "ShiftedLabels", "FlippedKL")
+source(
+    "bootcourse.course.lessons.bug_hunt.bugs", "NoEnd", "BonusForAll", "ShiftedLabels", "FlippedKL"
+)
 
 # %% [markdown]
 # > **Predict.** Which of the six would you have found by testing your code, and not by training?
 
 # %%
 choices = ["none", "one or two", "three or four", "all six"]
-predict("13.5", "Found by tests of single functions", choices)
+predict("bug_hunt.5", "Found by tests of single functions", choices)
 
 # %% [markdown]
 # **Explain.** The six are in the pieces that you have just repaired: two in the target (13.3), one
@@ -477,13 +481,13 @@ predict("13.5", "Found by tests of single functions", choices)
 # %%
 fine = sum(late[name].mean() > 0.8 for name in "ABCDEF")
 compare_predictions(
-    "13",
+    "bug_hunt",
     {
-        "13.1": f"{fine} of six, on more than 80 % of the last episodes",
-        "13.2": "no_end",
-        "13.3": round(1 / (1 - gamma), 1),
-        "13.4": "it keeps it a little likely",
-        "13.5": "all six",
+        1: f"{fine} of six, on more than 80 % of the last episodes",
+        2: "no_end",
+        3: round(1 / (1 - gamma), 1),
+        4: "it keeps it a little likely",
+        5: "all six",
     },
 )
 

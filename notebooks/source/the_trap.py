@@ -11,7 +11,7 @@
 # ---
 
 # %% [markdown]
-# # 1 · The trap
+# # The trap
 #
 # **What you will be able to do**
 # - say what a driver sees, what it can do and what it is paid for, and watch a program learn to
@@ -26,7 +26,9 @@
 import bootcourse as bc
 import gymnasium as gym
 import numpy as np
-from bootcourse.course import check, compare_predictions, figures, predict, table
+from bootcourse.course import check, compare_predictions, live_curves, predict, table
+from bootcourse.course.lessons.the_trap import figures
+from bootcourse.plots import diagrams
 from bootcourse.road import formulas, observation
 
 # %% [markdown]
@@ -47,20 +49,24 @@ bc.show(bc.top_view(idle, time=0, distances=True))
 # > How would you get to the free lane? Write a plan before you go on: how many seconds of what?
 
 # %%
-predict("1.1", "Your plan: how many seconds of what?")
+predict("the_trap.1", "Your plan: how many seconds of what?")
 
 # %% [markdown]
 # > **Predict.** A controller knows a way out of this trap. What does it do in the first second?
 
 # %%
-predict("1.2", "What does the controller do in the first second?", ["accelerate", "steer", "brake"])
+predict(
+    "the_trap.2",
+    "What does the controller do in the first second?",
+    ["accelerate", "steer", "brake"],
+)
 
 # %% [markdown]
 # ## Round 1: drive it
 #
 # Drive first, and think afterwards. In JupyterLab the panel below has nine buttons; click on the
 # pad once and the arrow keys work, too. You decide once a second, and the road waits for you. The
-# faint car is a **ghost**: it shows how the rule of lesson 3 drives the same road.
+# faint car is a **ghost**: it shows how the rule of lesson [[the_rule]] drives the same road.
 
 # %% tags=["nbval-ignore-output"]
 bc.panels.drive_panel(seed=ROAD)
@@ -77,7 +83,7 @@ bc.panels.drive_panel(seed=ROAD)
 # is held for one second. A program knows them by their numbers, 0 to {{ N_ACTIONS - 1 }}.
 # <!-- claim: N_ACTIONS == 9 -->
 
-# %%
+# %% tags=["hide-input"]
 rows = [
     [f"**{row}**", *(f"{n}: {bc.ACTION_NAMES[n]}" for n in n_s)]
     for row, n_s in (("brake", (0, 1, 2)), ("keep", (3, 4, 5)), ("accelerate", (6, 7, 8)))
@@ -92,7 +98,7 @@ table(["", "left", "straight", "right"], rows)
 # <!-- claim: np.ptp(record(plan_policy([('keep left', 2)]), [ROAD])[0].states[[0, 4], EGO, Y]) >
 #   DEFAULT.road.lane_width / 2 -->
 #
-# **Exercise 1.1 (5 min, ●○○).** Turn action numbers into what the car does. The middle action,
+# **Exercise (5 min, ●○○).** Turn action numbers into what the car does. The middle action,
 # {{ ACTION_NAMES.index('keep straight') }}, is "keep straight"; y grows to the *right*, so steering
 # left is negative.
 
@@ -144,8 +150,8 @@ table(["plan", "ends with", "after"], rows)
 # The paper reports one "collision rate" that includes the other two kinds. We keep the three apart:
 # a driver that stops on the motorway and one that hits a car have learned different things.
 #
-# Here is the controller's way out on this road. We call the controller the **rule**; lesson 3 takes
-# it apart.
+# Here is the controller's way out on this road. We call the controller the **rule**; lesson
+# [[the_rule]] takes it apart.
 
 # %%
 escape = bc.record(bc.rule_policy(bc.DEFAULT), [ROAD], label="rule")[0]
@@ -164,16 +170,16 @@ table(
 
 # %%
 choices = ["on no road", "on some roads", "on every road"]
-predict("1.3", "Where can you change lane behind trap 2 without braking?", choices)
+predict("the_trap.3", "Where can you change lane behind trap 2 without braking?", choices)
 
 # %% [markdown]
 # <details><summary>Answer</summary>
 #
 # On some. There is a list of {{ len(NO_BRAKING) }} decisions without any braking that takes the car
-# behind trap 2 and on to the left lane. It gets out on {{ 100 * without_braking()[1].mean() | .0f
-# }} % of {{ roads() | , }} other roads: where trap 2 starts far enough ahead. In lesson 3 you look
-# for it yourself. On road {{ ROAD }} that list does not work: trap 2 starts {{ idle().states[0,
-# TRAP_2, X] | .2f }} m ahead there.
+# behind trap 2 and on to the left lane. It gets out on
+# {{ 100 * without_braking()[1].mean() | .0f }} % of {{ roads() | , }} other roads: where trap 2
+# starts far enough ahead. In lesson [[the_rule]] you look for it yourself. On road {{ ROAD }} that
+# list does not work: trap 2 starts {{ idle().states[0, TRAP_2, X] | .2f }} m ahead there.
 # <!-- claim: not any(ACTION_NAMES[action].startswith('brake') for action in NO_BRAKING) -->
 # <!-- claim: without_braking()[0][without_braking()[1]].mean() >
 #   without_braking()[0][~without_braking()[1]].mean() -->
@@ -199,7 +205,7 @@ predict("1.3", "Where can you change lane behind trap 2 without braking?", choic
 # second begins. Such a program is called an *agent*.
 
 # %%
-bc.show(figures.agent_loop(observation="26 numbers", action="one of nine", reward="one number"))
+bc.show(diagrams.agent_loop(observation="26 numbers", action="one of nine", reward="one number"))
 
 # %% [markdown]
 # The agent chooses by its **policy**: a function that gives each action a probability. At first
@@ -217,7 +223,7 @@ bc.show(figures.agent_loop(observation="26 numbers", action="one of nine", rewar
 
 # %%
 choices = ["none", "the two that learn alone", "the two with help", "all four"]
-predict("1.4", "Who ends ahead of trap 1 in most drives?", choices)
+predict("the_trap.4", "Who ends ahead of trap 1 in most drives?", choices)
 
 # %% tags=["nbval-ignore-output"]
 agents = bc.with_seeds(bc.settings_for("sac"), 2) + bc.with_seeds(
@@ -225,7 +231,7 @@ agents = bc.with_seeds(bc.settings_for("sac"), 2) + bc.with_seeds(
 )
 training = bc.Training(agents, episodes=5000)
 beginner = training.agent(2).as_policy()
-live = figures.LiveCurves(every=2)
+live = live_curves.LiveCurves(every=2)
 learned = training.run(progress=False, callback=live, stop=lambda: training.updates >= 1500)
 
 # %% [markdown]
@@ -278,7 +284,7 @@ bc.show(bc.top_view_over_time(after, title=f"After {training.updates:,} updates"
 
 # %%
 choices = ["trap 1, and dy is 0", "trap 2, and dy is positive", "trap 2, and dy is negative"]
-predict("1.5", "Which car is `car 1`, and what is its dy?", choices)
+predict("the_trap.5", "Which car is `car 1`, and what is its dy?", choices)
 
 # %%
 env = gym.make("bootcourse:Trap-v0")
@@ -303,8 +309,8 @@ table(["number", "observed", "scale", "in m, m/s"], rows, below="(the first 16 o
 # The observation is *not* the state. It leaves out the cars beyond the four nearest, the lanes that
 # the cars want, and the seconds that are left. Two moments with the same observation can therefore
 # go on differently: such a world is a *partially observed* MDP. The learners of this course, like
-# the paper's, treat the observation as if it were the state. The rule of lesson 3 reads the true
-# places and speeds of the cars.
+# the paper's, treat the observation as if it were the state. The rule of lesson [[the_rule]] reads
+# the true places and speeds of the cars.
 # <!-- claim: DEFAULT.vehicles - 1 > DEFAULT.sight.neighbours == 4 -->
 # <!-- claim: not any('lane' in name or 'time' in name for name in observation.names(DEFAULT)) -->
 
@@ -345,7 +351,7 @@ bc.show(figures.reward_curve())
 # 12.5 m/s the speed term grows a little, from 12.5 to 15 m/s it becomes five times as large.
 # <!-- claim: math.isclose(speed_reward(15), 5 * speed_reward(12.5)) -->
 #
-# **Exercise 1.2 (6 min, ●○○).** Write the whole reward of one second. The three terms are in
+# **Exercise (6 min, ●○○).** Write the whole reward of one second. The three terms are in
 # `bootcourse.road.formulas`. An accident (1 collision, 2 road departure, 3 stoppage; 0 none) pays
 # {{ DEFAULT.reward.accident }} and nothing else.
 # <!-- claim: (Accident.COLLISION, Accident.ROAD_DEPARTURE, Accident.STOPPAGE, Accident.NONE) == (1,
@@ -372,10 +378,10 @@ check.reward(reward)
 # > in one second? In 150? Use pen and paper, before you write the function.
 
 # %%
-predict("1.6", "What does doing nothing earn in 150 s?", unit="")
+predict("the_trap.6", "What does doing nothing earn in 150 s?", unit="")
 
 # %% [markdown]
-# **Exercise 1.3 (6 min, ●○○).** Write the return of doing nothing: a car drives straight for some
+# **Exercise (6 min, ●○○).** Write the return of doing nothing: a car drives straight for some
 # seconds at one speed, in the middle of its lane.
 
 
@@ -424,12 +430,12 @@ print(f"return {idle.rewards.sum():.4f}, distance {idle.distance:.0f} m, success
 
 # %%
 choices = ["about 10 s", "about 35 s", "about 60 s", "about 100 s"]
-predict("1.7", "For how long has the escape earned less than doing nothing?", choices)
+predict("the_trap.7", "For how long has the escape earned less than doing nothing?", choices)
 
 # %%
 bc.show(bc.traces([idle, escape]))
 
-# %%
+# %% tags=["hide-input"]
 behind = np.cumsum(escape.rewards) < np.cumsum(idle.rewards)
 last_behind = int(np.flatnonzero(behind)[-1]) + 1
 ahead = escape.rewards.sum() - idle.rewards.sum()
@@ -445,7 +451,7 @@ table(["the escape is behind", ""], rows, below=f"At the end of the 150 s it is 
 
 # %%
 choices = ["about 1 in 200", "about 1 in 50", "about 1 in 10"]
-predict("1.8", "How often does a random driver end ahead of trap 1?", choices)
+predict("the_trap.8", "How often does a random driver end ahead of trap 1?", choices)
 
 # %%
 # NBVAL_CHECK_OUTPUT
@@ -469,7 +475,7 @@ table(["", "random driver, 1,000 roads"], rows, below)
 # <!-- claim: 0.003 < drive_episodes(random_policy(np.random.default_rng(0)), held_out_seeds(1,
 #   1000)).success.mean() < 0.007 -->
 #
-# **Exercise 1.4 (8 min, ●●○).** A driver that stays behind the traps earns the return `stay`. A try
+# **Exercise (8 min, ●●○).** A driver that stays behind the traps earns the return `stay`. A try
 # to escape ends in an accident with probability q, and then returns `crash`; otherwise it returns
 # `escape`, which is more than `crash`. What is the largest q at which a try returns, on average, at
 # least as much as staying?
@@ -513,13 +519,13 @@ check.bearable_risk(bearable_risk)
 
 # %%
 choices = ["a success", "an accident", "both", "neither"]
-predict("1.9", "It overtakes trap 1 and crashes a minute later. What is that?", choices)
+predict("the_trap.9", "It overtakes trap 1 and crashes a minute later. What is that?", choices)
 
 # %% [markdown]
 # **Success** means: the ego is ahead of trap 1 when its episode ends. A crash after overtaking
 # counts as a success, and as an accident as well.
 #
-# **Exercise 1.5 (5 min, ●○○).** Summarise some episodes: the share that are a success, and the
+# **Exercise (5 min, ●○○).** Summarise some episodes: the share that are a success, and the
 # share that end in each kind of accident.
 
 
@@ -556,11 +562,11 @@ table(["of 100 episodes", "success", *kinds], rows)
 # %% [markdown]
 # ## SAC on one page
 #
-# The agents that you watched learn by *soft actor-critic* (SAC). Lesson 4 builds it part by part.
-# If you skip that lesson, this page is enough to follow the others.
+# The agents that you watched learn by *soft actor-critic* (SAC). Lesson [[discrete_sac]] builds it
+# part by part. If you skip that lesson, this page is enough to follow the others.
 
 # %%
-bc.show(figures.sac_diagram())
+bc.show(diagrams.sac_diagram())
 
 # %% [markdown]
 # The diagram says *state* for what the agent observes. The *replay buffer* keeps what happened: a
@@ -584,8 +590,8 @@ bc.show(figures.sac_diagram())
 #   adjusts α by itself.
 #
 # *Bootstrapped* SAC adds two kinds of help, and both fade: some rows of each batch come from drives
-# of the rule (lesson 8), and a weight ξ makes actions costly that the rule would hardly take
-# (lesson 7).
+# of the rule (lesson [[learning_from_demonstrations]]), and a weight ξ makes actions costly that
+# the rule would hardly take (lesson [[soft_constraint]]).
 
 # %% [markdown]
 # ## What you now know
@@ -599,7 +605,8 @@ bc.show(figures.sac_diagram())
 #    {{ idle().distance }} m, and ends behind trap 1.
 # <!-- claim: not idle().success -->
 # 4. The rule falls back and changes lane behind trap 2. Where trap 2 starts far enough ahead, exact
-#    steering leads there without braking. (Lesson 5 shows a third way, between the traps.)
+#    steering leads there without braking. (Lesson [[the_barrier]] shows a third way, between the
+#    traps.)
 # 5. The escape pays late, and one accident costs what about a minute of doing nothing earns. A try
 #    pays on average if it crashes seldom enough, and random tries crash.
 # <!-- claim: 50 < -DEFAULT.reward.accident / second_pays(DEFAULT.traps.speed) < 70 -->
@@ -610,26 +617,26 @@ bc.show(figures.sac_diagram())
 # - The observation holds nothing of the past. Which two situations on this road give the same
 #   observation, but call for different actions?
 #
-# **Read on**: the next lesson is about the other cars, and [the one after it](03_the_rule.ipynb)
+# **Read on**: the next lesson is about the other cars, and [the one after it](the_rule.ipynb)
 # explains the controller that finds a way out. On the evening route, go to [lesson
-# 5](05_the_barrier.ipynb). highway-env, the simulator under this road: Leurent, *An Environment for
-# Autonomous Driving Decision-Making* (2018). MDPs from the beginning: Sutton and Barto,
-# *Reinforcement Learning* (2nd edition, 2018), chapter 3.
+# [[the_barrier]]](the_barrier.ipynb). highway-env, the simulator under this road: Leurent, *An
+# Environment for Autonomous Driving Decision-Making* (2018). MDPs from the beginning: Sutton and
+# Barto, *Reinforcement Learning* (2nd edition, 2018), chapter 3.
 
 # %%
 found = np.flatnonzero(np.cumsum(escape.rewards) < np.cumsum(idle.rewards))[-1] + 1
 compare_predictions(
-    "01",
+    "the_trap",
     {
-        "1.1": "fall back and change lane twice; or steer exactly, without braking",
-        "1.2": "brake",
-        "1.3": "on some roads",
-        "1.4": "see your own curves; in our longer study most of those with help",
-        "1.5": "trap 2, and dy is negative",
-        "1.6": idle.rewards.sum(),
-        "1.7": f"for {found} s",
-        "1.8": "about 1 in 200",
-        "1.9": "both",
+        1: "fall back and change lane twice; or steer exactly, without braking",
+        2: "brake",
+        3: "on some roads",
+        4: "see your own curves; in our longer study most of those with help",
+        5: "trap 2, and dy is negative",
+        6: idle.rewards.sum(),
+        7: f"for {found} s",
+        8: "about 1 in 200",
+        9: "both",
     },
 )
 

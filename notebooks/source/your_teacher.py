@@ -11,15 +11,16 @@
 # ---
 
 # %% [markdown]
-# # 14 · Your teacher
+# # Your teacher
 #
 # **What you will be able to do**
 # - write a rule controller of your own, have it examined, and let an agent learn from it;
 # - say in which three places a teacher enters the learner, and swap it there;
 # - decide from ten seeds whether a teacher helps or hurts, or that they do not show it.
 #
-# **Time** 95 minutes, about one of them the machine's. **It builds on** the rule (lesson 3), the
-# soft constraint (7) and learning from demonstrations (8).
+# **Time** 95 minutes, about one of them the machine's. **It builds on** the rule (lesson
+# [[the_rule]]), the soft constraint ([[soft_constraint]]) and learning from demonstrations
+# ([[learning_from_demonstrations]]).
 
 # %%
 import bootcourse as bc
@@ -32,10 +33,10 @@ from bootcourse.road.state import EGO, LANE, SPEED, X, Y
 # %% [markdown]
 # ## Look first
 #
-# In the lessons so far, the teacher was the rule of lesson 3. Here are four others. `careful` is a
-# good driver. `timid` keeps straight behind trap 1 to the end. `reckless` accelerates in each
-# second, even towards a car. `racer` gets out as `careful` does, then aims for 20 m/s and ignores
-# the other cars. Watch the last two.
+# In the lessons so far, the teacher was the rule of lesson [[the_rule]]. Here are four others.
+# `careful` is a good driver. `timid` keeps straight behind trap 1 to the end. `reckless`
+# accelerates in each second, even towards a car. `racer` gets out as `careful` does, then aims for
+# 20 m/s and ignores the other cars. Watch the last two.
 
 # %%
 ROAD = 10
@@ -76,14 +77,14 @@ table(["100 roads", "gets out, %", "accidents, %", "return"], rows)
 
 # %%
 predict(
-    "14.1",
+    "your_teacher.1",
     "Of ten students of the racer, how many escape?",
     ["none", "1 to 3", "4 to 7", "8 to 10"],
 )
 
 # %%
 choices = ["less than those alone", "about as much", "more"]
-predict("14.2", "The students of the reckless teacher earn", choices)
+predict("your_teacher.2", "The students of the reckless teacher earn", choices)
 
 # %% [markdown] tags=["instructor"] minutes=8
 # Collect the predictions on the board. Expect most people to rank the students as the teachers are
@@ -113,10 +114,10 @@ table(["car", "x (m)", "y (m)", "speed (m/s)", "lane"], rows)
 # > long, and `X` is the place of its centre.
 
 # %%
-predict("14.3", "Trap 2 is ahead of you by", unit="m")
+predict("your_teacher.3", "Trap 2 is ahead of you by", unit="m")
 
 # %% [markdown]
-# **Exercise 14.1 (6 min, ●○○).** Write the question that most rules ask: how much road is free
+# **Exercise (6 min, ●○○).** Write the question that most rules ask: how much road is free
 # ahead of me, in a lane of my choice?
 
 
@@ -141,10 +142,10 @@ for lane in (2, 1, 0):
 # %% [markdown]
 # ## Round 2: a rule of your own
 #
-# Nine coarse actions are hard to drive with (lesson 1). You do not have to use them directly:
-# decide on a **speed** and a **lane**, and `toward(cars, speed, lane, scenario)` finds the action
-# that brings the car there. It is the same tracker that the rule of lesson 3 uses. Two of the
-# teachers are rules in one line:
+# Nine coarse actions are hard to drive with (lesson [[the_trap]]). You do not have to use them
+# directly: decide on a **speed** and a **lane**, and `toward(cars, speed, lane, scenario)` finds
+# the action that brings the car there. It is the same tracker that the rule of lesson [[the_rule]]
+# uses. Two of the teachers are rules in one line:
 
 # %% tags=["nbval-ignore-output"]
 source("bootcourse.course.lessons.your_teacher.example_teachers", "timid", "racer")
@@ -154,10 +155,10 @@ source("bootcourse.course.lessons.your_teacher.example_teachers", "timid", "race
 # > out?
 
 # %%
-predict("14.4", "Situations that a rule must tell apart", ["two", "three", "five"])
+predict("your_teacher.4", "Situations that a rule must tell apart", ["two", "three", "five"])
 
 # %% [markdown]
-# **Exercise 14.2 (12 min, ●●○).** Write a rule that gets out. The check drives it on 24 roads: it
+# **Exercise (12 min, ●●○).** Write a rule that gets out. The check drives it on 24 roads: it
 # has to be ahead of trap 1 at the end of every one, without an accident. It may be as fast or slow,
 # as bold or careful as you like. It must answer the same road the same way each time, and leave
 # `cars` as it is. How would you use `ahead`, `toward`, `cars[EGO, LANE]` and `cars[EGO, Y]`?
@@ -216,8 +217,9 @@ bc.show(bc.top_view_over_time(mine_drive, times=[0, 3, 6, 9, 15], title=title))
 # <!-- claim: (two_situations(10.0).accident == Accident.COLLISION).sum() ==
 #   (two_situations(10.0).accident > 0).sum() > 0 -->
 #
-# The rule of lesson 3 stays slower than the car ahead as long as it sees one, however far away. We
-# think that most of its distance from `careful` in return comes from this, on the free lane.
+# The rule of lesson [[the_rule]] stays slower than the car ahead as long as it sees one, however
+# far away. We think that most of its distance from `careful` in return comes from this, on the free
+# lane.
 
 # %% [markdown] tags=["instructor"] minutes=10
 # A usual first attempt changes left at once, at 10 m/s or more, and hits trap 2. Let them print the
@@ -240,7 +242,7 @@ left = np.sort(dense[dense[:, LANE] == 0, X])
 print("cars in the left lane, m ahead of you:", ", ".join(f"{x:.0f}" for x in left))
 
 # %% [markdown]
-# **Exercise 14.3 (25 min, ●●●).** Write a rule that gets out of the trap on this road, too. The
+# **Exercise (25 min, ●●●).** Write a rule that gets out of the trap on this road, too. The
 # check drives it on 24 such roads: ahead of trap 1 at the end, without an accident, on every one.
 # `careful` does it on fewer than half of the roads; it looks at the gap ahead, and not at the cars
 # that come from behind.
@@ -256,9 +258,9 @@ def watchful_rule(cars, scenario):
 check.watchful_rule(watchful_rule)
 
 # %% [markdown]
-# A safe gap behind grows with the speed at which the other car closes in, as in MOBIL (lesson 2).
-# And a rule that decides anew in each second should not take back a lane change that it has begun:
-# it could swing from one lane to the other and back.
+# A safe gap behind grows with the speed at which the other car closes in, as in MOBIL (lesson
+# [[traffic]]). And a rule that decides anew in each second should not take back a lane change that
+# it has begun: it could swing from one lane to the other and back.
 
 # %% [markdown]
 # ## Round 3: how a teacher gets in
@@ -274,7 +276,7 @@ check.watchful_rule(watchful_rule)
 
 # %%
 choices = ["the new one only", "the old one only", "the demonstrations one thing, the KL another"]
-predict("14.5", "The agent hears", choices)
+predict("your_teacher.5", "The agent hears", choices)
 
 # %% tags=["nbval-ignore-output"]
 source("bootcourse.learn.demonstrations", "collect")
@@ -284,7 +286,7 @@ source("bootcourse.learn.demonstrations", "collect")
 # starts a new one *in the same step*. After that step it shows the first second of the next
 # episode, and the last state of the old episode is kept apart.
 #
-# **Exercise 14.4 (4 min, ●○○).** `now` is what the teacher says about the roads as they stand,
+# **Exercise (4 min, ●○○).** `now` is what the teacher says about the roads as they stand,
 # `at_end` what it says about the kept last states. Which label belongs to s'?
 
 
@@ -343,7 +345,7 @@ for name, group in (*groups.items(), (f"yours: {mine.__name__}", learned)):
 headings = ["students of", "each agent's escapes, %, sorted", "escapes, drawn actions, %"]
 table([*headings, "return", "accidents, %"], rows)
 
-# %%
+# %% tags=["hide-input"]
 curves = {name: (group["updates"], 100 * group["escapes"]) for name, group in groups.items()}
 title = "Escapes while they learn, ten students each"
 bc.show(charts.many(curves, title, "updates", "escapes, % of the last 30 episodes", columns=3))
@@ -376,7 +378,7 @@ bc.show(charts.many(curves, title, "updates", "escapes, % of the last 30 episode
 # > taught ones come out on top by luck?
 
 # %%
-predict("14.6", "Three on top of three by luck", ["1 in 6", "1 in 20", "1 in 100"])
+predict("your_teacher.6", "Three on top of three by luck", ["1 in 6", "1 in 20", "1 in 100"])
 
 # %%
 # NBVAL_CHECK_OUTPUT
@@ -384,7 +386,7 @@ orders = {n: np.prod([(n + k) / k for k in range(1, n + 1)]) for n in (3, 5, 10)
 print(", ".join(f"with {n} seeds each one order in {orders[n]:,.0f}" for n in orders))
 
 # %% [markdown]
-# **Exercise 14.5 (5 min, ●●○).** Write that judge: 1 for "helps", −1 for "hurts", 0 if the groups
+# **Exercise (5 min, ●●○).** Write that judge: 1 for "helps", −1 for "hurts", 0 if the groups
 # do not show either. There are three seeds or more in each group.
 
 
@@ -408,7 +410,7 @@ check.verdict(verdict)
 # so on. Then raise each to at least the one before it, and cap it at 1.
 # <!-- claim: 1 - 0.95**10 > 3 * 0.05 -->
 #
-# **Exercise 14.6 (8 min, ●●○).** Write it.
+# **Exercise (8 min, ●●○).** Write it.
 
 
 # %%
@@ -419,7 +421,7 @@ def holm(p):
 
 check.holm(holm)
 
-# %%
+# %% tags=["hide-input"]
 tests = [(name, score) for name in groups if name != "alone" for score in ("success", "returns")]
 p = [taught_agents.p_value(groups[name][s], groups["alone"][s]) for name, s in tests]
 adjusted, rows = taught_agents.holm(p), []
@@ -455,7 +457,7 @@ table(headings, rows)
 # student drives, how often does it do what its teacher would do? And how strongly is it still
 # pulled at the end?
 
-# %%
+# %% tags=["hide-input"]
 rows = []
 for name, group in groups.items():
     if name != "alone":
@@ -494,8 +496,8 @@ table(headings, rows)
 # So the return of a teacher alone is a poor measure of its use. Ask as well: does it lead to a
 # place that the learner does not find alone, and does the learner stop following it afterwards?
 #
-# Round 6 of [lesson 16](16_beyond_the_paper.ipynb) shows what seven teachers, the planner among
-# them, are worth to several learners.
+# What seven teachers, the planner among them, are worth to several learners stands in round 5 of
+# [lesson [[beyond_the_paper]]](beyond_the_paper.ipynb).
 # <!-- claim: len({teacher for teacher, _ in shipped.shipped_teachers()}) == 7 -->
 
 # %% [markdown] tags=["instructor"] minutes=10
@@ -526,14 +528,14 @@ table(headings, rows)
 escaping = {name: int((g["success"] >= bc.statistics.ESCAPES).sum()) for name, g in groups.items()}
 earned = {name: group["returns"].mean() for name, group in groups.items()}
 compare_predictions(
-    "14",
+    "your_teacher",
     {
-        "14.1": f"{escaping['racer']} of ten",
-        "14.2": f"{earned['reckless']:.1f}; alone {earned['alone']:.1f}",
-        "14.3": round(ahead(cars, 1)[0], 1),
-        "14.4": "two",
-        "14.5": "the demonstrations one thing, the KL another",
-        "14.6": "1 in 20",
+        1: f"{escaping['racer']} of ten",
+        2: f"{earned['reckless']:.1f}; alone {earned['alone']:.1f}",
+        3: round(ahead(cars, 1)[0], 1),
+        4: "two",
+        5: "the demonstrations one thing, the KL another",
+        6: "1 in 20",
     },
 )
 
@@ -542,8 +544,9 @@ compare_predictions(
 # one leads out, and the other keeps a safe distance. Mixed by *state*; a coin at each second would
 # leave the change of lane half done. (2) From agreement and outcome: where Q says that the agent's
 # own action is worth more than the teacher's, or where following led to accidents. A Q-filter
-# (lesson 8) is one such rule. (3) Whatever depends on what the 26 numbers leave out: cars beyond
-# the four nearest or further than 200 m, and the plan of a neighbour that is about to change lane.
+# (lesson [[learning_from_demonstrations]]) is one such rule. (3) Whatever depends on what the 26
+# numbers leave out: cars beyond the four nearest or further than 200 m, and the plan of a neighbour
+# that is about to change lane.
 
 # %% [markdown]
 # **Read on**: teachers that are left behind on purpose: Uchendu et al., *Jump-Start Reinforcement

@@ -11,15 +11,15 @@
 # ---
 
 # %% [markdown]
-# # 12 · Exploration
+# # Exploration
 #
 # **What you will be able to do**
 # - turn a policy's entropy into a number of actions, and say what it does not tell;
 # - find out where on the road an agent still tries things, and where it does not get;
 # - tell being undecided from seeing new places, and finding a way out from keeping it.
 #
-# **Time** 60 minutes, under half of one the machine's. **It builds on** discrete SAC (lesson 4) and
-# the barrier (5).
+# **Time** 60 minutes, under half of one the machine's. **It builds on** discrete SAC (lesson
+# [[discrete_sac]]) and the barrier ([[the_barrier]]).
 
 # %%
 import bootcourse as bc
@@ -66,13 +66,14 @@ print(f"of {len(seen.policy)}")
 # log k, so $e^\mathcal{H} = k$. We call it the **effective number of actions**.
 #
 # > **Predict.** A policy takes its favourite with probability 0.9, and the other eight evenly with
-# > what is left. That is the stochastic rule of lesson 3. How many effective actions is that?
+# > what is left. That is the stochastic rule of lesson [[the_rule]]. How many effective actions is
+# > that?
 
 # %%
-predict("12.1", "Effective actions of the stochastic rule", ["1.1", "1.7", "3"])
+predict("exploration.1", "Effective actions of the stochastic rule", ["1.1", "1.7", "3"])
 
 # %% [markdown]
-# **Exercise 12.1 (6 min, ●○○).** Write it. A probability may be exactly 0: 0 · log 0 counts as 0.
+# **Exercise (6 min, ●○○).** Write it. A probability may be exactly 0: 0 · log 0 counts as 0.
 
 
 # %%
@@ -107,7 +108,7 @@ for p in (1 / 9, 0.5, 0.9, 0.99):
 
 # %%
 choices = ["the one that never leaves", "the one that does", "both are nearly certain"]
-predict("12.2", "More undecided at the end of training", choices)
+predict("exploration.2", "More undecided at the end of training", choices)
 
 # %%
 study = bc.shipped_results()
@@ -153,7 +154,7 @@ table(["effective actions", "first 100", "200-300", "900-1000", f"last 100 of {e
 # adjusts α to hold the entropy at a target η, and the paper's target is
 # {{ SETTINGS.target_entropy }}. That formula is for continuous actions. With nine actions the
 # entropy is at least 0, and so above {{ SETTINGS.target_entropy }} in each state. Each update
-# therefore lowers α (lesson 4). Here it is in the shipped agents:
+# therefore lowers α (lesson [[discrete_sac]]). Here it is in the shipped agents:
 # <!-- claim: SETTINGS.target_entropy < 0 -->
 
 # %%
@@ -202,10 +203,10 @@ print(f"{sum(len(v.place) for v in driven.values())} decisions of {len(agents)} 
 
 # %%
 choices = ["behind the traps", "beside them", "on the free road"]
-predict("12.3", "Where are escaping agents least decided?", choices)
+predict("exploration.3", "Where are escaping agents least decided?", choices)
 
 # %% [markdown]
-# **Exercise 12.2 (8 min, ●●○).** You get the entropy of some decisions, and where on the road each
+# **Exercise (8 min, ●●○).** You get the entropy of some decisions, and where on the road each
 # was made. Which share of the whole entropy was spent in each stretch? A stretch begins at its edge
 # and ends before the next one. Decisions outside the stretches count in the whole.
 
@@ -223,7 +224,7 @@ check.where_explored(where_explored)
 # the agent has there, on average. Its digits say in which lanes it was there: 0 is the leftmost, 2
 # the lane of the start. An empty field means that the agent did not get there in these 24 drives.
 
-# %%
+# %% tags=["hide-input"]
 edges = np.array([-80, -40, -25, -15, -5, 5, 20, 60, 200, 1000])
 actions = {k: exploring.mean_in_bins(v, np.exp(v.entropy), edges) for k, v in driven.items()}
 furthest = {k: v.place.max() for k, v in driven.items()}
@@ -234,7 +235,7 @@ low, high = (f(list(actions.values())) for f in (np.nanmin, np.nanmax))
 words = f"colour: effective actions, {low:.2f} (white) to {high:.2f}; digits: lanes"
 bc.show(exploring.map_of_places(actions, lanes, edges, title, words))
 
-# %%
+# %% tags=["hide-input"]
 rows = []
 for method in methods:
     mine = [v for label, v in driven.items() if label.startswith(bc.display_name(method) + ",")]
@@ -261,10 +262,12 @@ table(headings, rows)
 #   'bootstrapped')) == 10 -->
 
 # %%
-predict("12.4", "How many of them had been ahead?", ["none", "1 to 3", "4 to 7", "8 or more"])
+predict(
+    "exploration.4", "How many of them had been ahead?", ["none", "1 to 3", "4 to 7", "8 or more"]
+)
 
 # %% [markdown]
-# **Exercise 12.3 (15 min, ●●●).** An agent that found the way out and lost it has *forgotten*.
+# **Exercise (15 min, ●●●).** An agent that found the way out and lost it has *forgotten*.
 # Measure that in the training curves, over windows of `window` episodes in a row. For each agent:
 # the share of successes in its best window, the share in its last window, and the episode that ends
 # the last window with a share of at least one half (0 without such a window). Episodes are counted
@@ -279,7 +282,7 @@ def forgetting(success, window):
 
 check.forgetting(forgetting)
 
-# %%
+# %% tags=["hide-input"]
 rows = []
 for method in methods:
     tested = study.of(method).scores("success")
@@ -315,17 +318,18 @@ table([*headings, "best 100 in a row, %", "after training, % of all held-out roa
 # <!-- claim: np.sort(ended_ahead('sac'))[3] < 20 and (of('sac').scores('success')[:5] >=
 #   ESCAPES).sum() == 1 and of('sac').scores('success')[ended_ahead('sac').argmax()] >= ESCAPES -->
 #
-# A map of drives after training does not show this. Why did they not keep it? Lesson 9, round 5,
-# shows when four of the ten agents with demonstrations alone lose it: as the demonstrations run
-# out. And round 6 shows agents that keep it: with two updates for each decision instead of a
-# quarter, and demonstrations by the stochastic rule, all ten do.
+# A map of drives after training does not show this. Why did they not keep it? Lesson [[ablation]],
+# round 5, shows when four of the ten agents with demonstrations alone lose it: as the
+# demonstrations run out. And round 6 shows agents that keep it: with two updates for each decision
+# instead of a quarter, and demonstrations by the stochastic rule, all ten do.
 # <!-- claim: escapers(clocks()['2', 'π̃'], 'demos') == len(clocks()['2', 'π̃'].of('demos')) == 10 -->
 
 # %% [markdown] tags=["instructor"] minutes=7
 # Stop at the map and ask what it does not show before they see the table: these are drives after
 # training, and a colour is a mean over lanes and drives. The training curves record whether an
 # episode ended ahead, but not the places in between. How would they find these out? (Train with
-# `Training.run` and a callback, as in lesson 7, that calls `visits` on a few drives now and then.)
+# `Training.run` and a callback, as in lesson [[soft_constraint]], that calls `visits` on a few
+# drives now and then.)
 
 # %% [markdown]
 # ## Round 4: undecided drivers and the places they see
@@ -334,10 +338,14 @@ table([*headings, "best 100 in a row, %", "after training, % of all held-out roa
 # > entropy as there can be. The other is the rule: 0 nats. Which one sees more of the road?
 
 # %%
-predict("12.5", "Who sees more of the road?", ["the random driver", "the rule", "about the same"])
+predict(
+    "exploration.5",
+    "Who sees more of the road?",
+    ["the random driver", "the rule", "about the same"],
+)
 
 # %% [markdown]
-# **Exercise 12.4 (7 min, ●●○).** Cut the road around trap 1 into cells: a stretch between two
+# **Exercise (7 min, ●●○).** Cut the road around trap 1 into cells: a stretch between two
 # edges, in one lane. In which share of the cells did a driver make a decision?
 
 
@@ -385,10 +393,10 @@ table(["", "entropy, nats", "a drive lasts", "cells seen, of one driver"], rows)
 
 # %%
 choices = ["under 5 %", "about half", "over 95 %", "it differs widely between agents"]
-predict("12.6", "A trapped agent tries something else with a chance", choices)
+predict("exploration.6", "A trapped agent tries something else with a chance", choices)
 
 # %% [markdown]
-# **Exercise 12.5 (5 min, ●●○).** The chance that in a drive at least one action that is drawn is
+# **Exercise (5 min, ●●○).** The chance that in a drive at least one action that is drawn is
 # not the likeliest one. You get the policy at each second of a drive with the likeliest actions:
 # until it tries something else, the agent drives like that.
 
@@ -455,14 +463,14 @@ table(["one drive", "ends", "tries at all", "tries expected"], rows)
 was_ahead = [run.curves["success"].any() for m in methods for run in shipped.shipped_runs(m)]
 trapped = [study.of(m).scores("success")[:5] < bc.statistics.ESCAPES for m in methods]
 compare_predictions(
-    "12",
+    "exploration",
     {
-        "12.1": "1.7",
-        "12.2": "both are nearly certain",
-        "12.3": "it differs: see each row's darkest field in the map",
-        "12.4": f"{np.sum(np.array(was_ahead) & np.concatenate(trapped))} of {np.sum(trapped)}",
-        "12.5": "the rule",
-        "12.6": "it differs widely between agents",
+        1: "1.7",
+        2: "both are nearly certain",
+        3: "it differs: see each row's darkest field in the map",
+        4: f"{np.sum(np.array(was_ahead) & np.concatenate(trapped))} of {np.sum(trapped)}",
+        5: "the rule",
+        6: "it differs widely between agents",
     },
 )
 
@@ -475,7 +483,8 @@ compare_predictions(
 # on each road, so a bonus for surprise would hardly run out, and it would pay for risky places.
 
 # %% [markdown]
-# **Read on**: what a reachable target does in [lesson 4](04_discrete_sac.ipynb), and a way out that
-# comes from somebody else in [lesson 8](08_learning_from_demonstrations.ipynb). Christodoulou,
-# *Soft Actor-Critic for Discrete Action Settings* (arXiv 1910.07207); Ecoffet et al., *First
-# return, then explore* (arXiv 2004.12919).
+# **Read on**: what a reachable target does in [lesson [[discrete_sac]]](discrete_sac.ipynb), and a
+# way out that comes from somebody else in [lesson
+# [[learning_from_demonstrations]]](learning_from_demonstrations.ipynb). Christodoulou, *Soft
+# Actor-Critic for Discrete Action Settings* (arXiv 1910.07207); Ecoffet et al., *First return, then
+# explore* (arXiv 2004.12919).

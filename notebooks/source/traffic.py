@@ -11,7 +11,7 @@
 # ---
 
 # %% [markdown]
-# # 2 · Traffic
+# # Traffic
 #
 # **What you will be able to do**
 # - write down how the other cars follow (IDM) and change lane (MOBIL), and compute both by hand;
@@ -19,7 +19,7 @@
 # - tell from one number whether a simulated car's steering settles or swings.
 #
 # **Time** 75 minutes, under a minute of it the machine's. **It builds on**
-# [lesson 1](01_the_trap.ipynb).
+# [lesson [[the_trap]]](the_trap.ipynb).
 
 # %%
 import dataclasses
@@ -38,7 +38,7 @@ from bootcourse.course.lessons.traffic import simulation as traffic
 # the same formula. One of them begins slower than the others. Each line in the picture is one car;
 # half of the cars are drawn. On the left the cars are 20 m apart on average, on the right 30 m.
 
-# %%
+# %% tags=["hide-input"]
 rings = {f"{spacing} m apart": traffic.ring(spacing) for spacing in (20, 30)}
 title = "One slow driver starts a jam at 20 m; at 30 m the disturbance dies out"
 bc.show(figures_traffic.space_time(rings, dt=0.5, title=title))
@@ -48,7 +48,7 @@ bc.show(figures_traffic.space_time(rings, dt=0.5, title=title))
 # > And why does the band of standing cars move *backwards* while the cars drive forwards?
 
 # %%
-predict("2.1", "Why does the jam move backwards?")
+predict("traffic.1", "Why does the jam move backwards?")
 
 # %% [markdown]
 # Round 2 comes back to it.
@@ -75,10 +75,10 @@ predict("2.1", "Why does the jam move backwards?")
 # > m/s behind a car at 10 m/s? Behind one at 8 m/s?
 
 # %%
-predict("2.2", "The gap that you want behind the car at 8 m/s?", unit="m")
+predict("traffic.2", "The gap that you want behind the car at 8 m/s?", unit="m")
 
 # %% [markdown]
-# **Exercise 2.1 (4 min, ●○○).** Write the gap $s^*$ that a driver wants.
+# **Exercise (4 min, ●○○).** Write the gap $s^*$ that a driver wants.
 
 
 # %%
@@ -120,7 +120,7 @@ check.desired_gap(desired_gap)
 
 # %%
 predict(
-    "2.3",
+    "traffic.3",
     "At its desired speed and its desired gap, what does it do?",
     ["accelerate", "hold", "brake"],
 )
@@ -145,7 +145,7 @@ bc.show(figures_traffic.following(10.0, closing=(-2, 0, 2), title=title))
 # a · dt, but it does not fall below 0.
 # <!-- claim: traffic.follow(10.0, 10.0, 0.1) == -DEFAULT.traffic.braking_limit -->
 #
-# **Exercise 2.2 (20 min, ●●●).** Simulate a driver behind a car whose speeds are given. You need
+# **Exercise (20 min, ●●●).** Simulate a driver behind a car whose speeds are given. You need
 # both formulas, a loop, and the right order inside it.
 
 
@@ -165,7 +165,7 @@ check.drive_behind(drive_behind)
 # Here eight of the library's drivers follow each other, 25 m apart. Their leader drives 10 m/s,
 # then 4 m/s for 20 s, then 10 m/s again. The picture shows the leader and three of the eight.
 
-# %%
+# %% tags=["hide-input"]
 leader = np.repeat([10.0, 4.0, 10.0], [60, 40, 140])
 rows, ahead = {"leader": leader}, leader
 for k in range(1, 9):
@@ -182,7 +182,7 @@ bc.show(charts.lines(seconds, rows, title, "time (s)", "speed (m/s)", looks=figu
 # driver to driver the lowest speed falls.
 # <!-- claim: (np.diff([4.0, *lowest_speeds()]) < 0).all() -->
 #
-# **Exercise 2.3 (6 min, ●●○).** Which gap does a driver settle at, behind a car that drives $v$ all
+# **Exercise (6 min, ●●○).** Which gap does a driver settle at, behind a car that drives $v$ all
 # the time? Set $a = 0$ and $\Delta v = 0$, and solve for $s$.
 
 
@@ -235,8 +235,8 @@ table(["mean distance", "slowest car, mean of 50 roads", "slowest of all"], rows
 
 # %% [markdown] tags=["instructor"] minutes=8
 # Ask for a ring of 25 m: does the jam stay or dissolve? It depends on how slowly the first car
-# begins: in `bootcourse.course.lessons.traffic.simulation.ring`, `v[0] = 5.0` and `v[0] = 1.0` end differently. The
-# ring has two stable states there.
+# begins: in `bootcourse.course.lessons.traffic.simulation.ring`, `v[0] = 5.0` and `v[0] = 1.0` end
+# differently. The ring has two stable states there.
 
 # %% [markdown]
 # ## Round 3: when to change lane
@@ -257,7 +257,7 @@ table(["mean distance", "slowest car, mean of 50 roads", "slowest of all"], rows
 # leave behind. MOBIL was published with these two, and `bootcourse.road.traffic.worth_changing`
 # uses them, too. (At exactly the threshold the library changes lane; the formula does not.)
 #
-# **Exercise 2.4 (7 min, ●●○).** Decide whether the driver changes lane.
+# **Exercise (7 min, ●●○).** Decide whether the driver changes lane.
 
 
 # %%
@@ -282,7 +282,9 @@ check.worth_changing(worth_changing)
 # > compared with an egoist, p = 0?
 
 # %%
-predict("2.4", "The polite driver's gap over the egoist's?", ["the same", "twice", "four times"])
+predict(
+    "traffic.4", "The polite driver's gap over the egoist's?", ["the same", "twice", "four times"]
+)
 
 # %%
 own_gain = traffic.follow(11.5, 0.0, math.inf) - traffic.follow(11.5, 0.5, 40.0)
@@ -304,7 +306,9 @@ bc.show(figures_traffic.changing(own_gain, new_follower, politeness=(0, 0.5, 1))
 # > (p = 0)?
 
 # %%
-predict("2.5", "Polite traffic changes lane …", ["more often", "about as often", "less often"])
+predict(
+    "traffic.5", "Polite traffic changes lane …", ["more often", "about as often", "less often"]
+)
 
 # %%
 rows = []
@@ -325,13 +329,14 @@ table(["politeness", "lane changes a road (100 roads)"], rows)
 # loses, and what the *old* follower gains. On this road the other lanes are nearly empty, so often
 # the new follower loses nothing, while the old one gains. A polite driver gets out of the way.
 #
-# The traffic's numbers belong to the scenario, and you can change them: `dataclasses.replace` copies a
-# scenario with other numbers. A scenario whose numbers do not fit together is refused with the reason.
+# The traffic's numbers belong to the scenario, and you can change them: `dataclasses.replace`
+# copies a scenario with other numbers. A scenario whose numbers do not fit together is refused with
+# the reason.
 #
 # > **Predict.** You shorten the road. At about which length will it be refused, and why there?
 
 # %%
-predict("2.6", "Below which length is the road refused?", unit="m")
+predict("traffic.6", "Below which length is the road refused?", unit="m")
 
 # %%
 for length in (5000.0, 4500.0, 4000.0, 3500.0):  # m: try others
@@ -367,10 +372,10 @@ for length in (5000.0, 4500.0, 4000.0, 3500.0):  # m: try others
 
 # %%
 choices = ["it settles in one step", "it swings and settles", "it swings and grows"]
-predict("2.7", "What happens to the heading error at 2 Hz?", choices)
+predict("traffic.7", "What happens to the heading error at 2 Hz?", choices)
 
 # %% [markdown]
-# **Exercise 2.5 (6 min, ●●○).** Write the heading error after each step of dt.
+# **Exercise (6 min, ●●○).** Write the heading error after each step of dt.
 
 
 # %%
@@ -407,7 +412,7 @@ def broken(tau_heading, tau_lateral, rate=2, roads=100):
     return np.mean(off), np.mean(hit)
 
 
-# %%
+# %% tags=["hide-input"]
 tried = {"highway-env's, 2 Hz": (0.2, 0.6, 2), "highway-env's, 15 Hz": (0.2, 0.6, 15)}
 tried["ours, 2 Hz"] = (t.tau_heading, t.tau_lateral, 2)
 rows = []
@@ -453,20 +458,20 @@ source("bootcourse.road.formulas", "lane_keeping_steering")
 #
 # **Read on**: Treiber, Hennecke and Helbing, *Congested traffic states in empirical observations
 # and microscopic simulations* (2000), for IDM; Kesting, Treiber and Helbing, *General
-# lane-changing model MOBIL for car-following models* (2007). Next: [the rule](03_the_rule.ipynb).
+# lane-changing model MOBIL for car-following models* (2007). Next: [the rule](the_rule.ipynb).
 
 # %%
 backwards = "cars leave it at its front and join it at its back"
 compare_predictions(
-    "02",
+    "traffic",
     {
-        "2.1": f"{backwards}; it begins where a driver brakes below the speed ahead",
-        "2.2": bc.formulas.desired_gap(10.0, 2.0, 10.0, 1.5, 0.5, 0.5),
-        "2.3": "brake",
-        "2.4": "four times",
-        "2.5": "more often",
-        "2.6": 150 * bc.DEFAULT.ego.max_speed,
-        "2.7": "it swings and grows",
+        1: f"{backwards}; it begins where a driver brakes below the speed ahead",
+        2: bc.formulas.desired_gap(10.0, 2.0, 10.0, 1.5, 0.5, 0.5),
+        3: "brake",
+        4: "four times",
+        5: "more often",
+        6: 150 * bc.DEFAULT.ego.max_speed,
+        7: "it swings and grows",
     },
 )
 
