@@ -25,7 +25,8 @@ from bootcourse.research.jobs import read_job
 from bootcourse.research.results import load_results, save_results
 from bootcourse.scenario import DEFAULT
 from bootcourse.storage.assets import FOLDER, MANIFEST, read_manifest
-from bootcourse.storage.runs import HASHED, load_checkpoint, load_run, save_checkpoint, save_runs
+from bootcourse.storage.checkpoint import load_checkpoint, save_checkpoint
+from bootcourse.storage.runs import HASHED, load_run, save_runs
 from bootcourse.storage.sealed import write_sealed
 from tests.browser import needs_browser
 from tests.hostile import payloads
@@ -63,8 +64,8 @@ def formats(tmp_path_factory) -> dict[str, Format]:
     drive = record(rule_policy(DEFAULT), [1], DEFAULT, "rule")[0].save(folder / "drive.npz")
     save_results(load_results(FOLDER / "study-default.npz").pick(range(3)), folder / "results.npz", provenance())
     shutil.copy(FOLDER / MANIFEST, folder / MANIFEST)
-    job = {"format": JOB, "asked": {}, "provenance": provenance(seconds=1.5), "sha256": {}}
-    write_sealed(folder / "job" / "job.json", job)
+    made = {"provenance": provenance(seconds=1.5), "sha256": {}}
+    write_sealed(folder / "job" / "job.json", {"format": JOB, "asked": {}} | made)
     handout = {"format": Handout.FORMAT, "lessons": [5], "deadline": "", "solutions": True, "files": {}, "cells": {}}
     write_json(folder / "handout.json", handout)
     answers = folder / "answers" / "predictions.json"
@@ -93,7 +94,7 @@ DAMAGE = {
     "cut short": lambda data: data[: len(data) * 2 // 3],
     "a list instead": lambda data: b"[]",
     "zeros": lambda data: bytes(len(data)),
-    "a piece left out": lambda data: data[: len(data) // 2] + data[len(data) // 2 + 40 :],
+    "a piece left out": lambda data: data[: len(data) // 2] + data[len(data) // 2 + 40 :],  # more than white space
 }
 WITHOUT_HASH = {("handout", "a piece left out"), ("predictions", "a piece left out")}  # written by hand, too
 
