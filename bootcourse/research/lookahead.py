@@ -1,0 +1,144 @@
+"""The experiment on looking ahead: how safe and how good it makes each base policy, and what a wrong model costs.
+
+    python -m bootcourse.research.lookahead --out DIR --runs assets/runs DIR_OF_MORE_RUNS
+
+It drives a list of cells, each one base policy on held-out roads, and writes each to a file of its own. A cell whose
+file exists is not driven again, so a run that was stopped goes on where it was.
+"""
+
+import argparse
+import sys
+import time
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from gymnasium.vector import AutoresetMode
+
+from bootcourse.episodes.driving import steps
+from bootcourse.episodes.evaluate import held_out_seeds
+from bootcourse.episodes.lookahead import HORIZON, lookahead, lookahead_shield
+from bootcourse.episodes.models import MODELS
+from bootcourse.errors import BootcourseError, check_known
+from bootcourse.files import check_arrays, read_arrays, remove_temporary, write_arrays
+from bootcourse.policies import Policy, rule_policy
+from bootcourse.road.vector_env import TrapVectorEnv
+from bootcourse.scenario import DEFAULT, Scenario
+from bootcourse.storage.runs import find_runs, load_run
+
+BLOCK, TOGETHER = 1, 1000  # of held-out roads, those of the study; roads that are driven side by side
+FORMS = {"alone": None, "rollout": lookahead, "shield": lookahead_shield}
+BASES = ("ppo_cloned", "bootstrapped", "soft", "sac", "demos", "bc", "rule")
+CLOSELY = ("ppo_cloned", "bootstrapped")  # the base policies whose horizon and model are varied
+HORIZONS = (3, 6, 15)
+MANY = 10_000  # roads for the safest
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One base policy, looking ahead in one way, on some roads."""
+
+    base: str  # a method, or "rule"
+    seed: int = 0  # of the base's training
+    form: str = "rollout"  # one of FORMS
+    horizon: int = HORIZON  # decisions
+    model: str = "exact"  # one of MODELS
+    roads: int = 1000
+
+    def __post_init__(self):
+        check_known("Form", self.form, FORMS)
+        check_known("Model", self.model, MODELS)
+
+    @property
+    def file(self) -> str:
+        """The name of its file, such as "ppo_cloned-0-rollout-10-a-second-late-1000.npz"."""
+        model = self.model.replace(" ", "-").replace("/", "-")
+        return f"{self.base}-{self.seed}-{self.form}-{self.horizon}-{model}-{self.roads}.npz"
+
+
+def drive(cell: Cell, policy: Policy, scenario: Scenario = DEFAULT) -> dict[str, np.ndarray]:
+    """Drive a cell: of each road (roads,) returns, accident, success, decisions, how many were overruled; seconds."""
+    make = FORMS[cell.form]
+    driver = make(policy, cell.horizon, scenario, MODELS[cell.model], cell.seed) if make else policy
+    seeds, began = held_out_seeds(BLOCK, cell.roads), time.process_time()
+    parts = [_drive(driver, [*seeds[first : first + TOGETHER]], scenario) for first in range(0, cell.roads, TOGETHER)]
+    found = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+    return found | {"seconds": np.array(time.process_time() - began)}
+
+
+def _drive(driver: Policy, seeds: list[int], scenario: Scenario) -> dict[str, np.ndarray]:
+    env = TrapVectorEnv(len(seeds), scenario, AutoresetMode.DISABLED)
+    returns, accident = np.zeros(len(seeds)), np.zeros(len(seeds), dtype=np.int8)
+    decisions, overruled = np.zeros(len(seeds), dtype=np.int16), np.zeros(len(seeds), dtype=np.int16)
+    for step in steps(driver, env, seeds):
+        returns += step.rewards
+        accident = np.maximum(accident, step.infos["accident"].astype(np.int8))
+        decisions += step.running
+        overruled += step.running & getattr(driver, "overruled", False)
+    success = step.infos["is_success"]
+    return {
+        "returns": returns, "accident": accident, "success": success, "decisions": decisions, "overruled": overruled,
+    }  # fmt: skip
+
+
+def cells(seeds: dict[str, Sequence[int]]) -> Iterator[Cell]:
+    """Every cell of the experiment, the most important first. seeds: {base: its training seeds}."""
+    for base in BASES:
+        for form in FORMS:
+            yield from (Cell(base, seed, form) for seed in seeds.get(base, ()))
+    closely = [(base, seed) for base in CLOSELY for seed in seeds.get(base, ())]
+    for form in ("shield", "rollout"):
+        for model in MODELS:
+            yield from (Cell(base, seed, form, model=model) for base, seed in closely if model != "exact")
+    for horizon in HORIZONS:
+        yield from (Cell(base, seed, horizon=horizon) for base, seed in closely)
+    for form in ("alone", "shield", "rollout"):
+        yield from (Cell(CLOSELY[0], seed, form, roads=MANY) for seed in seeds.get(CLOSELY[0], ()))
+
+
+def policies(folders: Sequence[Path]) -> dict[tuple[str, int], Callable[[], Policy]]:
+    """{(base, training seed): a function that loads its policy}, of the runs in some folders, and the rule."""
+    loaders = {("rule", 0): lambda: rule_policy(DEFAULT)}
+    for path in (path for folder in folders for path in find_runs(folder)):
+        base, _, seed = path.name.rpartition("-")
+        loaders[base, int(seed)] = lambda path=path: load_run(path).agent.as_policy()
+    return loaders
+
+
+def evaluate_cells(todo: Sequence[Cell], loaders: dict, out: Path) -> None:
+    """Drive each cell that has no file in `out` yet, and write it, all or nothing."""
+    out.mkdir(parents=True, exist_ok=True)
+    remove_temporary(out)
+    for count, cell in enumerate(todo, 1):
+        if not (out / cell.file).exists():
+            found = drive(cell, loaders[cell.base, cell.seed]())
+            write_arrays(out / cell.file, found)
+            hurt, paid = int((found["accident"] > 0).sum()), found["returns"].mean()
+            print(f"{count}/{len(todo)} {cell.file}: return {paid:.1f}, {hurt} accidents", flush=True)
+
+
+def read_cell(cell: Cell, out: Path) -> dict[str, np.ndarray]:
+    """What `drive` found of a cell. Raises BootcourseError if its file is missing or damaged."""
+    arrays, shape = read_arrays(out / cell.file), (cell.roads,)
+    shapes = dict.fromkeys(("returns", "accident", "success", "decisions", "overruled"), shape) | {"seconds": ()}
+    check_arrays(arrays, shapes, out / cell.file)
+    return arrays
+
+
+def main(arguments: list[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(prog="python -m bootcourse.research.lookahead", description=__doc__.split("\n")[0])
+    parser.add_argument("--out", type=Path, required=True, help="the folder for the cells' files")
+    parser.add_argument("--runs", type=Path, nargs="+", required=True, help="folders with runs of the base policies")
+    options = parser.parse_args(arguments)
+    loaders = policies(options.runs)
+    seeds = {base: sorted(seed for name, seed in loaders if name == base) for base in BASES}
+    evaluate_cells(list(cells(seeds)), loaders, options.out)
+    return 0
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except BootcourseError as error:
+        sys.exit(str(error))
