@@ -83,18 +83,18 @@ def _drive(driver: Policy, seeds: list[int], scenario: Scenario) -> dict[str, np
 
 
 def cells(seeds: dict[str, Sequence[int]]) -> Iterator[Cell]:
-    """Every cell of the experiment, the most important first. seeds: {base: its training seeds}."""
-    for base in BASES:
-        for form in FORMS:
-            yield from (Cell(base, seed, form) for seed in seeds.get(base, ()))
-    closely = [(base, seed) for base in CLOSELY for seed in seeds.get(base, ())]
-    for form in ("shield", "rollout"):
-        for model in MODELS:
-            yield from (Cell(base, seed, form, model=model) for base, seed in closely if model != "exact")
-    for horizon in HORIZONS:
-        yield from (Cell(base, seed, horizon=horizon) for base, seed in closely)
-    for form in ("alone", "shield", "rollout"):
-        yield from (Cell(CLOSELY[0], seed, form, roads=MANY) for seed in seeds.get(CLOSELY[0], ()))
+    """Every cell of the experiment, first what is cheap or matters most. seeds: {base: its training seeds}."""
+    every = [(base, seed) for base in BASES for seed in seeds.get(base, ())]
+    closely = [(base, seed) for base, seed in every if base in CLOSELY]
+    wrong = [model for model in MODELS if model != "exact"]
+    for form in ("alone", "shield"):
+        yield from (Cell(*who, form) for who in every)
+    yield from (Cell(*who, "shield", model=model) for model in wrong for who in closely)
+    yield from (Cell(*who) for who in every)
+    yield from (Cell(*who, model=model) for model in wrong for who in closely)
+    yield from (Cell(*who, horizon=horizon) for horizon in HORIZONS for who in closely)
+    safest = [who for who in every if who[0] == CLOSELY[0]]
+    yield from (Cell(*who, form, roads=MANY) for form in ("alone", "shield", "rollout") for who in safest)
 
 
 def policies(folders: Sequence[Path]) -> dict[tuple[str, int], Callable[[], Policy]]:
