@@ -14,7 +14,7 @@ from bootcourse.errors import BootcourseError
 from bootcourse.learn.teachers import teacher_policy
 from bootcourse.policies import PlanPolicy, PolicyOutput, idle_policy, plan_policy, rule_policy
 from bootcourse.research.lookahead import Cell, evaluate_cells, read_cell
-from bootcourse.road.state import CRASHED, EGO, LANE, SPEED, TARGET_LANE, TRAP_1, X, Y
+from bootcourse.road.state import CRASHED, EGO, HEADING, LANE, SPEED, TARGET_LANE, TRAP_1, X, Y
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, N_ACTIONS, Sight
 
@@ -188,14 +188,26 @@ def test_noise_moves_the_others_and_not_the_ego():
     assert 0.4 < np.std(seen[:, 1:, X] - cars[:, 1:, X]) < 1.6
 
 
-def test_a_second_late_is_the_state_of_the_decision_before():
-    look, env = lookahead(idle_policy, 1, models=[Model(late=True)]), TrapVectorEnv(2, DEFAULT)
+def test_a_road_that_is_seen_late_is_that_of_the_decision_before():
+    look, env = lookahead(idle_policy, 1, models=[Model(all_late=True)]), TrapVectorEnv(2, DEFAULT)
     observations, _ = env.reset(seed=ROADS)
     before = env.cars.copy()
     look(observations, before)
     observations, *_ = env.step(np.full(2, 7))
     look(observations, env.cars)
     np.testing.assert_array_equal(look.imagined.values, rollout_values(before, idle_policy, 1))
+
+
+def test_others_that_are_seen_late_are_moved_on_at_their_old_speed():
+    cars = Reached(idle_policy, 8).cars
+    now, earlier = cars.copy(), cars.copy()
+    now[:, :, [X, SPEED]] += 50.0
+    seen = Model(others_late=True).seen(now, earlier, DEFAULT, np.random.default_rng(0))
+    np.testing.assert_array_equal(seen[:, EGO], now[:, EGO])
+    np.testing.assert_array_equal(seen[:, TRAP_1:, SPEED], earlier[:, TRAP_1:, SPEED])
+    straight = earlier[:, TRAP_1:, HEADING] == 0
+    moved = (seen[:, TRAP_1:, X] - earlier[:, TRAP_1:, X])[straight]
+    np.testing.assert_allclose(moved, earlier[:, TRAP_1:, SPEED][straight], atol=1e-9)
 
 
 def test_drawn_drivers_differ_from_road_to_road_and_come_from_the_seed():

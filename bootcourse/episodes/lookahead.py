@@ -163,8 +163,7 @@ class LookAhead:
                 f"There are {cars.shape[1]} cars on this road, and {self.scenario.vehicles} in the scenario "
                 f"'{self.scenario.name}': give the look-ahead the scenario that it drives."
             )
-        earlier = cars if self.earlier is None else self.earlier
-        self.earlier = cars.copy()
+        earlier, self.earlier = self.earlier, cars.copy()
         return [model.seen(cars, earlier, self.scenario, self.rng) for model in self.models]
 
     def _imagine(self, views: list[np.ndarray], observations: np.ndarray, first: np.ndarray, rows: np.ndarray):

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from bootcourse.errors import BootcourseError
-from bootcourse.road.state import EGO, LANE, SPEED, TARGET_LANE, X, Y
+from bootcourse.road.state import EGO, HEADING, LANE, SPEED, TARGET_LANE, X, Y
 from bootcourse.scenario import Scenario
 
 NEVER, TINY = 1e9, 1e-9  # m/s², an incentive that no lane change has; an acceleration that no car notices
@@ -28,7 +28,8 @@ class Model:
     drawn: int = 0  # so many kinds of drivers are drawn; each road is imagined with one kind; 0: the true one
     visible: bool = False  # only the cars that the observation shows
     noise: float = 0.0  # standard deviation of the others' places along the road, m; a fifth across, half in m/s
-    late: bool = False  # the road as it was one decision ago
+    others_late: bool = False  # the others as they were one decision ago, moved on at the speed that they had
+    all_late: bool = False  # the whole road, the ego included, as it was one decision ago
 
     def __post_init__(self):
         if self.time_gap < 0 or self.politeness < 0 or self.noise < 0 or self.drawn < 0:
@@ -47,15 +48,26 @@ class Model:
         names = ("desired_speed", "time_gap", "politeness")
         return [replace(scenario, traffic=replace(true, **dict(zip(names, one, strict=True)))) for one in believed]
 
-    def seen(self, cars: np.ndarray, earlier: np.ndarray, scenario: Scenario, rng: np.random.Generator) -> np.ndarray:
-        """A copy of the state to imagine from. cars, and earlier, those of one decision ago: (roads, vehicles, 10)."""
-        cars = np.array(earlier if self.late else cars)
+    def seen(
+        self, cars: np.ndarray, earlier: np.ndarray | None, scenario: Scenario, rng: np.random.Generator
+    ) -> np.ndarray:
+        """A copy of the cars to imagine from, (roads, vehicles, 10).
+
+        earlier: the cars of one decision ago; None at the first decision, when nothing is late.
+        """
+        cars = np.array(earlier if self.all_late and earlier is not None else cars)
         others = cars[:, EGO + 1 :]
+        if self.others_late and earlier is not None:
+            others[:] = earlier[:, EGO + 1 :]
+            metres = others[:, :, SPEED] / scenario.clock.decision_rate
+            others[:, :, X] += metres * np.cos(others[:, :, HEADING])
+            others[:, :, Y] += metres * np.sin(others[:, :, HEADING])
         if self.visible:
             others[~visible(cars, scenario), X] = FAR_BEHIND
         if self.noise > 0:
             for column, share in ((X, 1.0), (Y, 0.2), (SPEED, 0.5)):
                 others[:, :, column] += share * self.noise * rng.standard_normal(others.shape[:2])
+        if self.noise > 0 or self.others_late:
             lanes = np.rint(others[:, :, Y] / scenario.road.lane_width)
             others[:, :, LANE] = np.clip(lanes, 0, scenario.road.lanes - 1)
         if self.keep:
@@ -80,7 +92,8 @@ MODELS = {  # {how the imagined road differs: its model, or several, of which th
     "twice the time gap": (LONGER_GAPS,),
     "other drivers drawn anew": (Model(drawn=20),),
     "only the four visible cars": (Model(visible=True),),
-    "places off by 1 m": (Model(noise=1.0),),
-    "a second late": (Model(late=True),),
+    "places off by 1 m, speeds by 0.5 m/s": (Model(noise=1.0),),
+    "the others a second late": (Model(others_late=True),),
+    "everything a second late": (Model(all_late=True),),
     "worst case of three wrong models": (KEEPING, SLOWER, LONGER_GAPS),
 }
