@@ -83,16 +83,19 @@ def _drive(driver: Policy, seeds: list[int], scenario: Scenario) -> dict[str, np
 
 
 def cells(seeds: dict[str, Sequence[int]]) -> Iterator[Cell]:
-    """Every cell of the experiment, first what is cheap or matters most. seeds: {base: its training seeds}."""
-    every = [(base, seed) for base in BASES for seed in seeds.get(base, ())]
-    closely = [(base, seed) for base, seed in every if base in CLOSELY]
+    """Every cell of the experiment. seeds: {base: its training seeds}.
+
+    What is cheap comes first, then every base with the exact model; of the rest, all that one training seed needs
+    before the next seed, so that a run that is stopped early has whole rows of fewer seeds.
+    """
+    every = sorted(((base, seed) for base in BASES for seed in seeds.get(base, ())), key=lambda who: who[1])
+    closely = [who for who in every if who[0] in CLOSELY]
     wrong = [model for model in MODELS if model != "exact"]
-    for form in ("alone", "shield"):
+    for form in ("alone", "shield", "rollout"):
         yield from (Cell(*who, form) for who in every)
-    yield from (Cell(*who, "shield", model=model) for model in wrong for who in closely)
-    yield from (Cell(*who) for who in every)
-    yield from (Cell(*who, model=model) for model in wrong for who in closely)
-    yield from (Cell(*who, horizon=horizon) for horizon in HORIZONS for who in closely)
+    for who in closely:
+        yield from (Cell(*who, form, model=model) for form in ("shield", "rollout") for model in wrong)
+        yield from (Cell(*who, horizon=horizon) for horizon in HORIZONS)
     safest = [who for who in every if who[0] == CLOSELY[0]]
     yield from (Cell(*who, form, roads=MANY) for form in ("alone", "shield", "rollout") for who in safest)
 

@@ -104,18 +104,17 @@ def double_line(ax: Axes, x: Sequence[float], y: Sequence[float], colour: str) -
 def by_horizon(out: Path) -> Figure:
     """Return and accidents against the horizon; 0 is the base policy alone."""
     figure, words = new_figure(3.9, 9.0), []
-    axes = [figure.add_axes((left, 0.15, 0.36, 0.6)) for left in (0.055, 0.5)]
+    axes = [figure.add_axes((left, 0.15, 0.4, 0.6)) for left in (0.055, 0.565)]
     for ax, label in zip(axes, ("return", "accidents in 1,000 drives"), strict=True):
         plain_axes(ax, label)
         ax.set_xlabel("decisions ahead; 0: the base policy alone", fontsize=TEXT, color=INK)
     _accident_axis(axes[1], "y")
-    best = {}
+    changes = []
     for base in CLOSELY:
         reached = {0: score(out, base, "alone")}
         reached |= {h: score(out, base, "rollout", h) for h in sorted((*HORIZONS, HORIZON))}
         reached = {h: one for h, one in reached.items() if one is not None}
         colour, at = style(base).colour, list(reached)
-        best[base] = min(reached, key=lambda h, reached=reached: (reached[h].accidents, -reached[h].returns.value))
         returns = [one.returns for one in reached.values()]
         rates = [[1000 * value for value in one.accident_rate] for one in reached.values()]
         for ax, estimates in zip(axes, (returns, rates), strict=True):
@@ -123,7 +122,9 @@ def by_horizon(out: Path) -> Figure:
             double_line(ax, at, middle, colour)
             ax.errorbar(at, middle, [middle - low, high - middle], fmt="o", color=colour, ms=5, lw=1.3, zorder=3)
             ax.set_xticks(at)
-        last = reached[at[-1]]
+        last, before, after = (reached[h] for h in (at[-1], 0, HORIZON if HORIZON in reached else at[-1]))
+        counts = (f"{one.accidents:,} accidents in {one.drives:,} drives" for one in (before, after))
+        changes.append(f"{display_name(base)} from {' to '.join(counts)}")
         name = f"{display_name(base)}, {last.agents} agents"
         axes[0].annotate(name, (at[-1], returns[-1].value), xytext=(0, -14 if base != CLOSELY[0] else 8),
                          textcoords="offset points", ha="right", fontsize=TEXT, color=colour)  # fmt: skip
@@ -133,8 +134,7 @@ def by_horizon(out: Path) -> Figure:
         )
         words.append(f"{name}: {'; '.join(told)}.")
     axes[0].margins(y=0.12)
-    safest = " and ".join(f"{display_name(base)} {h}" for base, h in best.items())
-    title = f"Three decisions ahead are too few. The fewest accidents are at {safest} ahead"
+    title = f"Rollouts of {HORIZON} decisions: {', '.join(changes)}"
     alt = "Return, and accidents in 1,000 drives, against how many decisions are imagined. " + " ".join(words)
     return finish(figure, title, alt)
 
@@ -142,7 +142,7 @@ def by_horizon(out: Path) -> Figure:
 def wrong_models(out: Path, base: str = CLOSELY[0]) -> Figure:
     """Accidents and return with each wrong model, as full rollouts and as a shield, and of the base policy alone."""
     alone, names = score(out, base, "alone"), list(MODELS)
-    height, colour = 1.75 + 0.42 * len(names), style(base).colour
+    height, colour = 1.55 + 0.42 * len(names), style(base).colour
     figure = new_figure(height, 9.0)
     tall = 0.42 * len(names) / height
     axes = [figure.add_axes((left, 0.6 / height, 0.34, tall)) for left in (0.255, 0.635)]
