@@ -7,6 +7,7 @@ file exists is not driven again, so a run that was stopped goes on where it was.
 """
 
 import argparse
+import itertools
 import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -85,17 +86,20 @@ def _drive(driver: Policy, seeds: list[int], scenario: Scenario) -> dict[str, np
 def cells(seeds: dict[str, Sequence[int]]) -> Iterator[Cell]:
     """Every cell of the experiment. seeds: {base: its training seeds}.
 
-    What is cheap comes first, then every base with the exact model; of the rest, all that one training seed needs
-    before the next seed, so that a run that is stopped early has whole rows of fewer seeds.
+    The base policies alone and with the shield come first, because they are cheap; then all that one training seed
+    needs before the next seed, so that a run that is stopped early has whole rows of fewer seeds.
     """
     every = sorted(((base, seed) for base in BASES for seed in seeds.get(base, ())), key=lambda who: who[1])
-    closely = [who for who in every if who[0] in CLOSELY]
     wrong = [model for model in MODELS if model != "exact"]
-    for form in ("alone", "shield", "rollout"):
+    for form in ("alone", "shield"):
         yield from (Cell(*who, form) for who in every)
-    for who in closely:
-        yield from (Cell(*who, form, model=model) for form in ("shield", "rollout") for model in wrong)
-        yield from (Cell(*who, horizon=horizon) for horizon in HORIZONS)
+    for _, group in itertools.groupby(every, key=lambda who: who[1]):
+        group = list(group)
+        closely = [who for who in group if who[0] in CLOSELY]
+        yield from (Cell(*who) for who in group)
+        for form in ("shield", "rollout"):
+            yield from (Cell(*who, form, model=model) for model in wrong for who in closely)
+        yield from (Cell(*who, horizon=horizon) for horizon in HORIZONS for who in closely)
     safest = [who for who in every if who[0] == CLOSELY[0]]
     yield from (Cell(*who, form, roads=MANY) for form in ("alone", "shield", "rollout") for who in safest)
 
