@@ -8,6 +8,7 @@ file exists is not driven again, so a run that was stopped goes on where it was.
 
 import argparse
 import itertools
+import re
 import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -54,7 +55,7 @@ class Cell:
     @property
     def file(self) -> str:
         """The name of its file, such as "ppo_cloned-0-rollout-10-a-second-late-1000.npz"."""
-        model = self.model.replace(" ", "-").replace("/", "-")
+        model = re.sub(r"[^\w.]+", "-", self.model)
         return f"{self.base}-{self.seed}-{self.form}-{self.horizon}-{model}-{self.roads}.npz"
 
 
