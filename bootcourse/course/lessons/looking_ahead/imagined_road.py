@@ -1,4 +1,4 @@
-"""The look-ahead in the form in which the lesson writes it: one function of the state, and a driver that uses it."""
+"""The look-ahead in the form in which the lesson writes it: what its exercise is given, and a driver that uses it."""
 
 from collections.abc import Callable
 
@@ -9,8 +9,7 @@ from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.road.branching import advance
 from bootcourse.road.constants import constants
 from bootcourse.road.observation import observe_all
-from bootcourse.road.state import EGO, SPEED
-from bootcourse.scenario import DEFAULT, N_ACTIONS
+from bootcourse.scenario import DEFAULT
 
 Decide = Callable[[np.ndarray], np.ndarray]  # cars (roads, vehicles, 10) -> actions (roads,)
 
@@ -40,20 +39,6 @@ def decide_by(policy: Policy) -> Decide:
         return policy(observations, cars).actions
 
     return decide
-
-
-def rollout_values(cars: np.ndarray, policy: Decide, horizon: int) -> np.ndarray:
-    """The value of each of the nine actions, (roads, 9): see `bootcourse.episodes.lookahead.rollout_values`."""
-    values = np.zeros((len(cars), N_ACTIONS))
-    for action in range(N_ACTIONS):
-        imagined, alive = cars, np.ones(len(cars), dtype=bool)
-        for decision in range(horizon):
-            actions = np.full(len(cars), action) if decision == 0 else policy(imagined)
-            imagined, rewards, crashed = step(imagined, actions)
-            values[:, action] += alive * rewards
-            alive &= ~crashed
-        values[:, action] += alive * worth(imagined[:, EGO, SPEED])
-    return values
 
 
 def driver(values_of: Callable, policy: Policy, horizon: int) -> Policy:
