@@ -48,13 +48,13 @@ def blocked() -> np.ndarray:
 
 
 def cases(rng):
-    """One decision; accidents for some actions; a policy that must be asked again; then 8 at random."""
+    """One decision; accidents for some actions; a policy that must be asked again; then 16 at random."""
     yield reached(2, 0, IDLE, 3), keep, 1
     yield reached(2, 4, FAST, 5), keep, 4
     yield reached(2, 3, FAST, 7), accelerate, 6
     yield reached(3, 2, IDLE, 9), by_lane, 5
     yield reached(2, 0, IDLE, 11), by_rule, 10
-    for seed in range(8):
+    for seed in range(16):
         policy = (keep, accelerate, by_lane, by_rule)[rng.integers(4)]
         yield reached(2, int(rng.integers(5)), FAST, 20 + 2 * seed), policy, int(rng.integers(1, 9))
 
