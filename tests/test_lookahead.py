@@ -11,9 +11,12 @@ from bootcourse.episodes.evaluate import drive_episodes
 from bootcourse.episodes.lookahead import imagine, lookahead, lookahead_shield, rollout_values, worth_of_speed
 from bootcourse.episodes.models import FAR_BEHIND, MODELS, Model
 from bootcourse.errors import BootcourseError
+from bootcourse.files import write_arrays
 from bootcourse.learn.teachers import teacher_policy
+from bootcourse.plots.futures import nine_futures
 from bootcourse.policies import PlanPolicy, PolicyOutput, idle_policy, plan_policy, rule_policy
-from bootcourse.research.lookahead import Cell, evaluate_cells, read_cell
+from bootcourse.research.lookahead import Cell, cells, evaluate_cells, read_cell
+from bootcourse.research.lookahead_figures import by_horizon, rows, wrong_models
 from bootcourse.road.state import CRASHED, EGO, HEADING, LANE, SPEED, TARGET_LANE, TRAP_1, X, Y
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, N_ACTIONS, Sight
@@ -278,3 +281,21 @@ def test_a_cell_that_is_there_is_not_driven_again(tmp_path, capsys):
     alone, rollout, shield = (read_cell(cell, tmp_path) for cell in cells)
     np.testing.assert_array_equal(alone["returns"], shield["returns"])
     assert rollout["overruled"].all() and (rollout["overruled"] <= rollout["decisions"]).all()
+
+
+def test_the_figures_say_how_many_drives_end_in_an_accident(tmp_path):
+    todo = [cell for cell in cells({"ppo_cloned": range(2), "bootstrapped": range(1)}) if cell.roads == 1000]
+    for cell in todo:
+        hurt = np.arange(1000) < (30 if cell.form == "alone" else 4)
+        names = ("returns", "accident", "success", "decisions", "overruled")
+        write_arrays(tmp_path / cell.file, dict.fromkeys(names, hurt.astype(int)) | {"seconds": np.array(1.0)})
+    assert "from 60 accidents in 2,000 drives to 8 accidents in 2,000 drives" in by_horizon(tmp_path).alt
+    assert "others keep speed and lane 4.0" in wrong_models(tmp_path).alt
+    headings, lines = rows(tmp_path)
+    assert lines[0][6].startswith("60 in 2,000: 30.00 [") and {len(headings)} == {len(line) for line in lines}
+
+
+def test_the_nine_futures_name_the_best_and_the_accidents():
+    cars = Reached(plan_policy(INTO_TRAP_1), 3).cars[:1]
+    figure = nine_futures(cars[0], imagine(cars, np.arange(N_ACTIONS)[None], rule_policy(DEFAULT), 5), "Nine")
+    assert "accelerate straight ends in an accident" in figure.alt and "is worth" in figure.alt
