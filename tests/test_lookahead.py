@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import msgspec
 import numpy as np
 import pytest
 from gymnasium.vector import AutoresetMode
@@ -11,11 +12,11 @@ from bootcourse.episodes.evaluate import drive_episodes
 from bootcourse.episodes.lookahead import imagine, lookahead, lookahead_shield, rollout_values, worth_of_speed
 from bootcourse.episodes.models import FAR_BEHIND, MODELS, Model
 from bootcourse.errors import BootcourseError
-from bootcourse.files import write_arrays
+from bootcourse.files import write_arrays, write_json
 from bootcourse.learn.teachers import teacher_policy
 from bootcourse.plots.futures import nine_futures
 from bootcourse.policies import PlanPolicy, PolicyOutput, idle_policy, plan_policy, rule_policy
-from bootcourse.research.lookahead import Cell, cells, evaluate_cells, read_cell
+from bootcourse.research.lookahead import Cell, cells, evaluate_cells, read_cell, summaries
 from bootcourse.research.lookahead_figures import by_horizon, rows, wrong_models
 from bootcourse.road.state import CRASHED, EGO, HEADING, LANE, SPEED, TARGET_LANE, TRAP_1, X, Y
 from bootcourse.road.vector_env import TrapVectorEnv
@@ -278,7 +279,7 @@ def test_a_cell_that_is_there_is_not_driven_again(tmp_path, capsys):
     evaluate_cells(cells[:1], loaders, tmp_path)
     evaluate_cells(cells, loaders, tmp_path)
     assert capsys.readouterr().out.count("rule-0-alone") == 1
-    alone, rollout, shield = (read_cell(cell, tmp_path) for cell in cells)
+    alone, rollout, shield = (read_cell(tmp_path / cell.file, 3) for cell in cells)
     np.testing.assert_array_equal(alone["returns"], shield["returns"])
     assert rollout["overruled"].all() and (rollout["overruled"] <= rollout["decisions"]).all()
 
@@ -289,9 +290,12 @@ def test_the_figures_say_how_many_drives_end_in_an_accident(tmp_path):
         hurt = np.arange(1000) < (30 if cell.form == "alone" else 4)
         names = ("returns", "accident", "success", "decisions", "overruled")
         write_arrays(tmp_path / cell.file, dict.fromkeys(names, hurt.astype(int)) | {"seconds": np.array(1.0)})
-    assert "from 60 accidents in 2,000 drives to 8 accidents in 2,000 drives" in by_horizon(tmp_path).alt
-    assert "others keep speed and lane 4.0" in wrong_models(tmp_path).alt
-    headings, lines = rows(tmp_path)
+    found = summaries(tmp_path)
+    write_json(tmp_path / "summary.json", msgspec.to_builtins(found))
+    assert summaries(tmp_path / "summary.json") == found
+    assert "from 60 accidents in 2,000 drives to 8 accidents in 2,000 drives" in by_horizon(found).alt
+    assert "others keep speed and lane 4.0" in wrong_models(found).alt
+    headings, lines = rows(found)
     assert lines[0][6].startswith("60 in 2,000: 30.00 [") and {len(headings)} == {len(line) for line in lines}
 
 

@@ -56,8 +56,8 @@ def nine_futures(
     ax.set_xlabel("distance from the ego (m)", fontsize=SMALL, color=QUIET)
     words = f"Bold: {ACTION_NAMES[values.argmax()]}, the best. Darker blue: worth more. Red: ends in an accident."
     figure.text(0.012, 0.08 / (height + 1.25), words, fontsize=SMALL, color=INK)
-    told = (
+    described = (
         f"{name} {'ends in an accident' if end else f'is worth {value:.1f}'}"
         for name, value, end in zip(ACTION_NAMES, values, hurt, strict=True)
     )
-    return finish(figure, title, f"Nine imagined drives on the road from above: {'; '.join(told)}.")
+    return finish(figure, title, f"Nine imagined drives on the road from above: {'; '.join(described)}.")

@@ -15,6 +15,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+import msgspec
 import numpy as np
 from gymnasium.vector import AutoresetMode
 
@@ -23,7 +24,7 @@ from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.episodes.lookahead import HORIZON, lookahead, lookahead_shield
 from bootcourse.episodes.models import MODELS
 from bootcourse.errors import BootcourseError, check_known
-from bootcourse.files import check_arrays, read_arrays, remove_temporary, write_arrays
+from bootcourse.files import check_arrays, read_arrays, read_json, remove_temporary, write_arrays, write_json
 from bootcourse.policies import Policy, rule_policy
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, Scenario
@@ -35,6 +36,7 @@ BASES = ("ppo_cloned", "bootstrapped", "soft", "sac", "demos", "bc", "rule")
 CLOSELY = ("ppo_cloned", "bootstrapped")  # the base policies whose horizon and model are varied
 HORIZONS = (3, 6, 15)
 MANY = 10_000  # roads for the safest
+SUMMARY = "summary.json"  # written beside the cells when all are there
 
 
 @dataclass(frozen=True)
@@ -65,8 +67,8 @@ def drive(cell: Cell, policy: Policy, scenario: Scenario = DEFAULT) -> dict[str,
     driver = make(policy, cell.horizon, scenario, MODELS[cell.model], cell.seed) if make else policy
     seeds, began = held_out_seeds(BLOCK, cell.roads), time.process_time()
     parts = [_drive(driver, [*seeds[first : first + TOGETHER]], scenario) for first in range(0, cell.roads, TOGETHER)]
-    found = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
-    return found | {"seconds": np.array(time.process_time() - began)}
+    columns = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+    return columns | {"seconds": np.array(time.process_time() - began)}
 
 
 def _drive(driver: Policy, seeds: list[int], scenario: Scenario) -> dict[str, np.ndarray]:
@@ -120,18 +122,43 @@ def evaluate_cells(todo: Sequence[Cell], loaders: dict, out: Path) -> None:
     remove_temporary(out)
     for count, cell in enumerate(todo, 1):
         if not (out / cell.file).exists():
-            found = drive(cell, loaders[cell.base, cell.seed]())
-            write_arrays(out / cell.file, found)
-            hurt, paid = int((found["accident"] > 0).sum()), found["returns"].mean()
+            arrays = drive(cell, loaders[cell.base, cell.seed]())
+            write_arrays(out / cell.file, arrays)
+            hurt, paid = int((arrays["accident"] > 0).sum()), arrays["returns"].mean()
             print(f"{count}/{len(todo)} {cell.file}: return {paid:.1f}, {hurt} accidents", flush=True)
 
 
-def read_cell(cell: Cell, out: Path) -> dict[str, np.ndarray]:
+class Summary(msgspec.Struct, frozen=True):
+    """What is kept of a cell for figures and tables."""
+
+    roads: int
+    returns: float  # mean over the roads
+    accidents: int
+    success: float  # share of the roads
+    decisions: int
+    overruled: int  # of these decisions
+    seconds: float  # of one core
+
+
+def read_cell(path: Path, roads: int) -> dict[str, np.ndarray]:
     """What `drive` found of a cell. Raises BootcourseError if its file is missing or damaged."""
-    arrays, shape = read_arrays(out / cell.file), (cell.roads,)
-    shapes = dict.fromkeys(("returns", "accident", "success", "decisions", "overruled"), shape) | {"seconds": ()}
-    check_arrays(arrays, shapes, out / cell.file)
+    arrays, numbers = read_arrays(path), ("returns", "accident", "success", "decisions", "overruled")
+    check_arrays(arrays, dict.fromkeys(numbers, (roads,)) | {"seconds": ()}, path)
     return arrays
+
+
+def summaries(place: Path) -> dict[str, Summary]:
+    """{name of a cell's file: its summary}, from the folder of the cells, or from the JSON file of their summaries."""
+    if place.suffix == ".json":
+        return read_json(place, dict[str, Summary])
+    summary_of = {}
+    for path in sorted(place.glob("*.npz")):
+        roads = int(path.stem.rpartition("-")[2])
+        one = read_cell(path, roads)
+        hurt, success, seconds = int((one["accident"] > 0).sum()), float(one["success"].mean()), float(one["seconds"])
+        sums = (int(one[name].sum()) for name in ("decisions", "overruled"))
+        summary_of[path.name] = Summary(roads, float(one["returns"].mean()), hurt, success, *sums, seconds)
+    return summary_of
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -142,6 +169,7 @@ def main(arguments: list[str] | None = None) -> int:
     loaders = policies(options.runs)
     seeds = {base: sorted(seed for name, seed in loaders if name == base) for base in BASES}
     evaluate_cells(list(cells(seeds)), loaders, options.out)
+    write_json(options.out / SUMMARY, msgspec.to_builtins(summaries(options.out)))
     return 0
 
 

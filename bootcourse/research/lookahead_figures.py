@@ -5,7 +5,6 @@ independent drives; returns are means of the agents' means, with a bootstrap int
 """
 
 from collections.abc import Sequence
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -17,10 +16,11 @@ from bootcourse.episodes.lookahead import HORIZON
 from bootcourse.episodes.models import MODELS
 from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import GRID, INK, QUIET, SMALL, TEXT, finish, new_figure, plain_axes, wrapped
-from bootcourse.research.lookahead import BASES, CLOSELY, FORMS, HORIZONS, Cell, read_cell
+from bootcourse.research.lookahead import BASES, CLOSELY, FORMS, HORIZONS, Cell, Summary
 from bootcourse.statistics import Estimate, interval, rate
 
 FORM_NAMES = {"alone": "alone", "rollout": "rollouts", "shield": "shield by simulation"}
+MOST = 100  # training seeds of a base policy
 LINEAR = 1.0  # accidents in 1,000 drives: the axis is linear below, logarithmic above
 
 
@@ -34,36 +34,33 @@ class Score(NamedTuple):
     accident_rate: Estimate
     success: float  # share of the drives
     overruled: float  # share of the decisions
-    each: np.ndarray  # (agents,) return of each agent
     milliseconds: float  # for each decision
 
 
 def score(
-    out: Path, base: str, form: str, horizon: int = HORIZON, model: str = "exact", roads: int = 1000
+    cells: dict[str, Summary], base: str, form: str, horizon: int = HORIZON, model: str = "exact", roads: int = 1000
 ) -> Score | None:
-    """The score of the agents whose cells are in the folder `out`; None if there is none."""
-    wanted = (Cell(base, seed, form, horizon, model, roads) for seed in range(100))
-    found = [read_cell(cell, out) for cell in wanted if (out / cell.file).exists()]
-    if not found:
+    """The score of the agents of a base policy; None if none of them is in `cells`, see `lookahead.summaries`."""
+    wanted = (Cell(base, seed, form, horizon, model, roads).file for seed in range(MOST))
+    mine = [cells[file] for file in wanted if file in cells]
+    if not mine:
         return None
-    each = np.array([one["returns"].mean() for one in found])
-    hurt = np.concatenate([one["accident"] > 0 for one in found])
-    decisions = sum(one["decisions"].sum() for one in found)
+    drives, accidents = sum(one.roads for one in mine), sum(one.accidents for one in mine)
+    decisions = sum(one.decisions for one in mine)
     return Score(
-        agents=len(found),
-        drives=len(hurt),
-        returns=interval(each, np.mean),
-        accidents=int(hurt.sum()),
-        accident_rate=rate(hurt),
-        success=float(np.mean([one["success"].mean() for one in found])),
-        overruled=float(sum(one["overruled"].sum() for one in found) / decisions),
-        each=each,
-        milliseconds=1000 * float(sum(one["seconds"] for one in found) / decisions),
+        agents=len(mine),
+        drives=drives,
+        returns=interval([one.returns for one in mine], np.mean),
+        accidents=accidents,
+        accident_rate=rate(np.arange(drives) < accidents),
+        success=float(np.mean([one.success for one in mine])),
+        overruled=sum(one.overruled for one in mine) / decisions,
+        milliseconds=1000 * sum(one.seconds for one in mine) / decisions,
     )
 
 
-def rows(out: Path) -> tuple[list[str], list[list[str]]]:
-    """(headings, rows): every combination of base, form, horizon, model and roads that has cells in the folder."""
+def rows(cells: dict[str, Summary]) -> tuple[list[str], list[list[str]]]:
+    """(headings, rows): every combination of base, form, horizon, model and roads that is there."""
     kinds = [(base, form, HORIZON, "exact") for base in BASES for form in FORMS]
     kinds += [(base, "rollout", horizon, "exact") for base in CLOSELY for horizon in HORIZONS]
     kinds += [
@@ -72,7 +69,7 @@ def rows(out: Path) -> tuple[list[str], list[list[str]]]:
     lines = []
     for roads in (1000, 10_000):
         for base, form, horizon, model in kinds:
-            if one := score(out, base, form, horizon, model, roads):
+            if one := score(cells, base, form, horizon, model, roads):
                 value, low, high = one.returns
                 about = f"{value:.1f}" + (f" [{low:.1f}, {high:.1f}]" if np.isfinite(low) else "")
                 low, high = (1000 * limit for limit in one.accident_rate[1:])
@@ -101,7 +98,7 @@ def double_line(ax: Axes, x: Sequence[float], y: Sequence[float], colour: str) -
     ax.plot(x, y, color="white", linewidth=1.6, solid_capstyle="butt", zorder=2.6)
 
 
-def by_horizon(out: Path) -> Figure:
+def by_horizon(cells: dict[str, Summary]) -> Figure:
     """Return and accidents against the horizon; 0 is the base policy alone."""
     figure, words = new_figure(3.9, 9.0), []
     axes = [figure.add_axes((left, 0.15, 0.4, 0.6)) for left in (0.055, 0.565)]
@@ -111,8 +108,8 @@ def by_horizon(out: Path) -> Figure:
     _accident_axis(axes[1], "y")
     changes = []
     for base in CLOSELY:
-        reached = {0: score(out, base, "alone")}
-        reached |= {h: score(out, base, "rollout", h) for h in sorted((*HORIZONS, HORIZON))}
+        reached = {0: score(cells, base, "alone")}
+        reached |= {h: score(cells, base, "rollout", h) for h in sorted((*HORIZONS, HORIZON))}
         reached = {h: one for h, one in reached.items() if one is not None}
         colour, at = style(base).colour, list(reached)
         returns = [one.returns for one in reached.values()]
@@ -128,20 +125,20 @@ def by_horizon(out: Path) -> Figure:
         name = f"{display_name(base)}, {last.agents} agents"
         axes[0].annotate(name, (at[-1], returns[-1].value), xytext=(0, -14 if base != CLOSELY[0] else 8),
                          textcoords="offset points", ha="right", fontsize=TEXT, color=colour)  # fmt: skip
-        told = (
+        numbers = (
             f"{h}: return {one.returns.value:.1f}, accidents {1000 * one.accident_rate.value:.1f}"
             for h, one in reached.items()
         )
-        words.append(f"{name}: {'; '.join(told)}.")
+        words.append(f"{name}: {'; '.join(numbers)}.")
     axes[0].margins(y=0.12)
     title = f"Rollouts of {HORIZON} decisions: {', '.join(changes)}"
     alt = "Return, and accidents in 1,000 drives, against how many decisions are imagined. " + " ".join(words)
     return finish(figure, title, alt)
 
 
-def wrong_models(out: Path, base: str = CLOSELY[0]) -> Figure:
+def wrong_models(cells: dict[str, Summary], base: str = CLOSELY[0]) -> Figure:
     """Accidents and return with each wrong model, as full rollouts and as a shield, and of the base policy alone."""
-    alone, names = score(out, base, "alone"), list(MODELS)
+    alone, names = score(cells, base, "alone"), list(MODELS)
     height, colour = 1.55 + 0.42 * len(names), style(base).colour
     figure = new_figure(height, 9.0)
     tall = 0.42 * len(names) / height
@@ -152,7 +149,7 @@ def wrong_models(out: Path, base: str = CLOSELY[0]) -> Figure:
     )
     words, better = [], {}
     for form, shift, fill in (("rollout", -0.14, colour), ("shield", 0.14, "white")):
-        scores = {name: score(out, base, form, model=name) for name in names}
+        scores = {name: score(cells, base, form, model=name) for name in names}
         scores = {name: one for name, one in scores.items() if one is not None}
         better[form] = sum(one.accidents < alone.accidents for name, one in scores.items() if name != "exact")
         for ax, (_, of) in zip(axes, measures, strict=True):
@@ -160,10 +157,10 @@ def wrong_models(out: Path, base: str = CLOSELY[0]) -> Figure:
             at = [names.index(name) + shift for name in scores]
             ax.errorbar(middle, at, xerr=[middle - low, high - middle], fmt="o" if form == "rollout" else "s",
                         color=colour, mfc=fill, mec=colour, mew=1.5, ms=6, lw=1.3, zorder=3)  # fmt: skip
-        told = (
+        numbers = (
             f"{name} {1000 * one.accident_rate.value:.1f} and {one.returns.value:.1f}" for name, one in scores.items()
         )
-        words.append(f"{FORM_NAMES[form]}: {'; '.join(told)}.")
+        words.append(f"{FORM_NAMES[form]}: {'; '.join(numbers)}.")
     for ax, (label, of) in zip(axes, measures, strict=True):
         plain_axes(ax, "", grid="x")
         value, low, high = of(alone)
