@@ -254,12 +254,12 @@ table(["horizon, decisions", "return", f"accidents in {len(few)}"], rows)
 # The look-ahead can also do less. The **shield** follows the base policy, and overrules it only
 # where the imagined drive of the policy's *own* action ends in an accident.
 #
-# > **Predict.** With a wrong model, which of them loses more return: the full look-ahead, or the
+# > **Predict.** With a wrong model, which of them has more accidents: the full look-ahead, or the
 # > shield?
 
 # %%
-choices = ["the full look-ahead", "the shield", "both lose about the same"]
-predict("looking_ahead.4", "With a wrong model more is lost by", choices)
+choices = ["the full look-ahead", "the shield", "both about the same"]
+predict("looking_ahead.4", "With a wrong model more accidents has", choices)
 
 # %%
 forms = {"rollouts": bc.lookahead, "shield": lookahead_shield}
@@ -279,16 +279,22 @@ headings = [f"{form}: {what}" for form in forms for what in ("return", "accident
 table(["the imagined road", *headings], rows, f"On {len(few)} roads each.")
 
 # %% [markdown]
-# **See.** TODO: the experiment's figure `lookahead_figures.wrong_models`, ten agents on 1,000 roads
-# each, and one sentence of result.
+# So few roads cannot tell small rates apart. The experiment that ships has driven PPO after cloning
+# on 1,000 roads for each model.
+#
+# TODO: cell with `wrong_models(summaries(...))` of `bootcourse.research.lookahead_figures`, and one
+# sentence of result with its claim.
 #
 # **Explain.** The look-ahead compares nine numbers at each decision, and takes another action than
-# the base in many of them. Each comparison can be wrong. The shield asks one question, "does this
-# end in an accident?", and acts in a few decisions of a thousand. Where the model is wrong about
-# the speed of a distant car, the answer to that question is mostly the same.
+# the base in about one decision of eight. Each of these comparisons can be wrong. The shield asks
+# one question, "does this end in an accident?", and acts in less than one decision of a thousand if
+# its model is right. For the rest it is the trained agent, which has learned on the true road.
 #
-# Both can fail in the same way: an accident that the model does not contain cannot be seen. With
-# several models you can take the worst case. The driver is then more careful than it has to be.
+# A look-ahead that sees *everything* a second late, its own steering included, steers against what
+# is over already, and leaves the road. A shield with that model does it, too. An accident that the
+# model does not contain cannot be seen, and one that only the model contains is avoided at a price.
+# With several models you can take the worst case: the driver is then more careful than it has to
+# be.
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Which errors can a car measure while it drives? It can compare what it imagined a second ago with
@@ -313,7 +319,7 @@ table(["the imagined road", *headings], rows, f"On {len(few)} roads each.")
 # 3. It repairs what is one decision away, such as an accident. It cannot find what takes several
 #    new decisions in a row.
 # 4. The horizon has to show the gain, and a short one with a flattering estimate does harm.
-# 5. A wrong model costs. A shield that overrules few decisions loses less than a driver that
+# 5. A wrong model costs. A shield that overrules few decisions stays safer than a driver that
 #    compares nine numbers each time.
 #
 # **Three questions to think about**
