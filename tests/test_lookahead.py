@@ -20,10 +20,9 @@ from bootcourse.research.lookahead import Cell, cells, evaluate_cells, read_cell
 from bootcourse.research.lookahead_figures import by_horizon, rows, wrong_models
 from bootcourse.road.state import CRASHED, EGO, HEADING, LANE, SPEED, TARGET_LANE, TRAP_1, X, Y
 from bootcourse.road.vector_env import TrapVectorEnv
-from bootcourse.scenario import DEFAULT, N_ACTIONS, Sight
+from bootcourse.scenario import CALIBRATED, DEFAULT, N_ACTIONS
 
 ROADS = [2**33 - 7, 2**33 - 8]
-REMEMBERING = replace(DEFAULT, sight=Sight(memory=3))
 INTO_TRAP_1 = [("accelerate straight", 30)]
 
 
@@ -75,20 +74,20 @@ def by_hand(there: Reached, policy, action, horizon, scenario):
 @pytest.mark.parametrize(
     ("make", "scenario"),
     [
-        (lambda: rule_policy(DEFAULT), DEFAULT),
+        (lambda: rule_policy(CALIBRATED), CALIBRATED),
         (lambda: bc.shipped_agents("bootstrapped")[0].as_policy(), DEFAULT),
         (lambda: teacher_policy(own_rule), DEFAULT),
         (lambda: plan_policy(INTO_TRAP_1), DEFAULT),
         (lambda: PlanPolicy([[7, 1], [1, 7], [4, 8], [5, 3]] * 4), DEFAULT),
-        (lambda: erratic, REMEMBERING),
+        (lambda: erratic, DEFAULT),
     ],
-    ids=["rule", "agent", "own rule", "plan", "a plan for each road", "observations with a memory"],
+    ids=["rule", "agent", "own rule", "plan", "a plan for each road", "a policy of the observations"],
 )
 def test_the_nine_values_are_those_of_driving_each_action(make, scenario, horizon):
     policy = make()
     there = Reached(policy, 3, scenario)
     nine = np.tile(np.arange(N_ACTIONS), (len(ROADS), 1))
-    imagined = imagine(there.cars, nine, policy, horizon, scenario, there.observations)
+    imagined = imagine(there.cars, nine, policy, horizon, scenario)
     for action in range(N_ACTIONS):
         values, ended = by_hand(there, make(), action, horizon, scenario)
         np.testing.assert_allclose(imagined.values[:, action], values, atol=1e-9)

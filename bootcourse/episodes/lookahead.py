@@ -43,23 +43,23 @@ def imagine(
     policy: Policy,
     horizon: int = HORIZON,
     scenario: Scenario = DEFAULT,
-    observations: np.ndarray | None = None,
 ) -> Imagined:
     """On each road, from each of some first actions: follow the policy for the rest of the horizon.
 
-    cars (roads, vehicles, 10), which stay as they are; first (roads, branches) in 0..8. observations (roads,
-    observation_size) are needed only where they remember earlier decisions. A policy that draws its actions is
-    followed along one drawn drive for each first action. A policy with a state of its own (with a method `reset`)
-    is copied for each branch, in the state that it has after its decision on these cars.
+    cars (roads, vehicles, 10), which stay as they are; first (roads, branches) in 0..8. A policy that draws its
+    actions is followed along one drawn drive for each first action. A policy with a state of its own (with a method
+    `reset`) is copied for each branch, in the state that it has after its decision on these cars.
     """
     branches = first.shape[1]
     states, actions = cars.repeat(branches, axis=0), first.ravel()
-    seen, follow = _Sight(states, observations, scenario), _in_branches(policy, branches)
+    observations = np.zeros((len(states), scenario.observation_size), dtype=np.float32)
+    follow = _in_branches(policy, branches)
     values, accidents = np.zeros(len(states)), np.zeros(len(states), dtype=np.int64)
     places = [states[:, EGO, X : Y + 1].copy()]
     for decision in range(horizon):
         if decision > 0:
-            actions = follow(seen.now(states), states).actions
+            observe_all(states, constants(scenario), observations)
+            actions = follow(observations, states).actions
         values += advance(states, actions, accidents, scenario)
         places.append(states[:, EGO, X : Y + 1].copy())
     values += np.where(accidents == 0, np.interp(states[:, EGO, SPEED], *worth_of_speed(scenario)), 0.0)
@@ -68,18 +68,14 @@ def imagine(
 
 
 def rollout_values(
-    cars: np.ndarray,
-    policy: Policy,
-    horizon: int = HORIZON,
-    scenario: Scenario = DEFAULT,
-    observations: np.ndarray | None = None,
+    cars: np.ndarray, policy: Policy, horizon: int = HORIZON, scenario: Scenario = DEFAULT
 ) -> np.ndarray:
     """The value of each of the nine actions: the return of doing it and then following the policy. See `imagine`.
 
     cars (roads, vehicles, 10) -> (roads, 9). An accident ends the return; otherwise the worth of an empty road at
     the last speed is added.
     """
-    return imagine(cars, np.tile(NINE, (len(cars), 1)), policy, horizon, scenario, observations).values
+    return imagine(cars, np.tile(NINE, (len(cars), 1)), policy, horizon, scenario).values
 
 
 @lru_cache(maxsize=64)
@@ -89,26 +85,6 @@ def worth_of_speed(scenario: Scenario) -> tuple[np.ndarray, np.ndarray]:
     A drive without an accident is so worth more than any that ends in one, whenever that is.
     """
     return future_worth(scenario, scenario.clock.decisions, 1.0)[-1]
-
-
-class _Sight:
-    """The observations of imagined roads; those that remember decisions begin with what the driver remembers."""
-
-    def __init__(self, states: np.ndarray, observations: np.ndarray | None, scenario: Scenario):
-        self.constants, self.memory = constants(scenario), scenario.sight.memory
-        self.newest = np.zeros((len(states), scenario.sight.numbers), dtype=np.float32)
-        if self.memory > 1:
-            if observations is None:
-                raise BootcourseError("These observations remember earlier decisions: give them too.")
-            self.all = observations.repeat(len(states) // len(observations), axis=0)
-
-    def now(self, states: np.ndarray) -> np.ndarray:
-        """The present observations, (roads x branches, observation_size)."""
-        observe_all(states, self.constants, self.newest)
-        if self.memory == 1:
-            return self.newest
-        self.all = np.hstack([self.newest, self.all[:, : -self.newest.shape[1]]])
-        return self.all
 
 
 def _in_branches(policy: Policy, branches: int) -> Policy:
@@ -151,7 +127,7 @@ class LookAhead:
 
     def __call__(self, observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
         base, views = self.policy(observations, cars), self._views(cars)
-        self.imagined = self._imagine(views, observations, np.tile(NINE, (len(cars), 1)), np.arange(len(cars)))
+        self.imagined = self._imagine(views, np.tile(NINE, (len(cars), 1)), np.arange(len(cars)))
         actions = self.imagined.values.argmax(axis=1)
         self.overruled = actions != base.actions
         return PolicyOutput(actions, base.policy, self.imagined.values)
@@ -166,19 +142,19 @@ class LookAhead:
         earlier, self.earlier = self.earlier, cars.copy()
         return [model.seen(cars, earlier, self.scenario, self.rng) for model in self.models]
 
-    def _imagine(self, views: list[np.ndarray], observations: np.ndarray, first: np.ndarray, rows: np.ndarray):
+    def _imagine(self, views: list[np.ndarray], first: np.ndarray, rows: np.ndarray):
         """Imagined drives on some roads (rows,): of several models the worst case, and the paths of the first."""
-        each = [self._in_model(*model, observations, first, rows) for model in zip(self.believed, views, strict=True)]
+        each = [self._in_model(*model, first, rows) for model in zip(self.believed, views, strict=True)]
         worst = np.min([one.values for one in each], axis=0), np.max([one.accidents for one in each], axis=0)
         return Imagined(*worst, each[0].paths)
 
-    def _in_model(self, kinds: list[Scenario], cars, observations, first, rows) -> Imagined:
+    def _in_model(self, kinds: list[Scenario], cars, first, rows) -> Imagined:
         """Imagined drives in one model; where it has several kinds of drivers, road i is imagined with kind i % n."""
         if len(kinds) > 1 and hasattr(self.policy, "reset"):
             raise BootcourseError("A policy with a state of its own cannot be imagined with several kinds of drivers.")
         groups = [rows[rows % len(kinds) == kind] for kind in range(len(kinds))]
         parts = [
-            imagine(cars[group], first[group], self.policy, self.horizon, scenario, observations[group])
+            imagine(cars[group], first[group], self.policy, self.horizon, scenario)
             for group, scenario in zip(groups, kinds, strict=True)
             if len(group)
         ]
@@ -195,14 +171,14 @@ class Shield(LookAhead):
 
     def __call__(self, observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
         base, views, rows = self.policy(observations, cars), self._views(cars), np.arange(len(cars))
-        self.imagined = self._imagine(views, observations, base.actions[:, None], rows)
+        self.imagined = self._imagine(views, base.actions[:, None], rows)
         danger = self.imagined.accidents[:, 0] != 0
         self.overruled = np.zeros(len(cars), dtype=bool)
         if not danger.any():
             return base
         if not hasattr(self.policy, "reset"):  # a policy with a state of its own is asked about all roads at once
             rows = rows[danger]
-        values = self._imagine(views, observations, np.tile(NINE, (len(cars), 1)), rows).values
+        values = self._imagine(views, np.tile(NINE, (len(cars), 1)), rows).values
         actions = base.actions.copy()
         actions[danger] = values.argmax(axis=1)[danger[rows]]
         self.overruled = actions != base.actions

@@ -20,6 +20,7 @@ from bootcourse.research.lookahead import BASES, CLOSELY, FORMS, HORIZONS, Cell,
 from bootcourse.statistics import Estimate, interval, rate
 
 FORM_NAMES = {"alone": "alone", "rollout": "rollouts", "shield": "shield by simulation"}
+FARTHEST = 20.0  # below the base policy's return, on the axis of returns
 MOST = 100  # training seeds of a base policy
 LINEAR = 1.0  # accidents in 1,000 drives: the axis is linear below, logarithmic above
 
@@ -136,6 +137,15 @@ def by_horizon(cells: dict[str, Summary]) -> Figure:
     return finish(figure, title, alt)
 
 
+def _name_what_is_off(ax: Axes, scores_of: dict[float, dict[str, Score]], names: list[str], least: float) -> None:
+    """Write the returns below `least` at the left edge. scores_of: {height in its row: {model: score}}."""
+    for shift, scores in scores_of.items():
+        for model, one in scores.items():
+            if one.returns.value < least:
+                place = (least, names.index(model) + shift)
+                ax.annotate(f"◂ {one.returns.value:.1f}", place, va="center", fontsize=SMALL, color=INK)
+
+
 def wrong_models(cells: dict[str, Summary], base: str = CLOSELY[0]) -> Figure:
     """Accidents and return with each wrong model, as full rollouts and as a shield, and of the base policy alone."""
     alone, names = score(cells, base, "alone"), list(MODELS)
@@ -147,10 +157,11 @@ def wrong_models(cells: dict[str, Summary], base: str = CLOSELY[0]) -> Figure:
         ("accidents in 1,000 drives", lambda one: [1000 * value for value in one.accident_rate]),
         ("return", lambda one: list(one.returns)),
     )
-    words, better = [], {}
+    words, better, scores_of = [], {}, {}
     for form, shift, fill in (("rollout", -0.14, colour), ("shield", 0.14, "white")):
         scores = {name: score(cells, base, form, model=name) for name in names}
         scores = {name: one for name, one in scores.items() if one is not None}
+        scores_of[shift] = scores
         better[form] = sum(one.accidents < alone.accidents for name, one in scores.items() if name != "exact")
         for ax, (_, of) in zip(axes, measures, strict=True):
             middle, low, high = np.array([of(one) for one in scores.values()]).T
@@ -170,13 +181,16 @@ def wrong_models(cells: dict[str, Summary], base: str = CLOSELY[0]) -> Figure:
         ax.set_xlabel(label, fontsize=TEXT, color=INK)
         ax.spines["bottom"].set_color(GRID)
     _accident_axis(axes[0], "x")
+    low, high = axes[1].get_xlim()
+    if low < alone.returns.value - FARTHEST:  # where everything crashes: off the axis, and said in words
+        axes[1].set_xlim(alone.returns.value - FARTHEST, high)
+        _name_what_is_off(axes[1], scores_of, names, alone.returns.value - FARTHEST)
     axes[0].set_yticks(range(len(names)), names, fontsize=TEXT, color=INK)
     axes[1].set_yticks([])
     axes[0].text(alone.accident_rate.value * 1000, -0.62, "alone", ha="center", fontsize=SMALL, color=QUIET)
     axes[1].text(alone.returns.value, -0.62, "alone", ha="center", fontsize=SMALL, color=QUIET)
-    legend = (
-        f"● rollouts    □ shield by simulation    {alone.agents} agents, {alone.drives // alone.agents:,} roads each"
-    )
+    agents = f"{alone.agents} agent{'s' * (alone.agents > 1)}, {alone.drives // alone.agents:,} roads each"
+    legend = f"● rollouts    □ shield by simulation    {agents}"
     figure.text(0.012, 0.1 / height, legend, fontsize=SMALL, color=INK)
     wrong = len(names) - 1
     title = (
