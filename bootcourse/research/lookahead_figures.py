@@ -162,7 +162,8 @@ def wrong_models(cells: dict[str, Summary], base: str = CLOSELY[0]) -> Figure:
         scores = {name: score(cells, base, form, model=name) for name in names}
         scores = {name: one for name, one in scores.items() if one is not None}
         scores_of[shift] = scores
-        better[form] = sum(one.accidents < alone.accidents for name, one in scores.items() if name != "exact")
+        wrong = [one for name, one in scores.items() if name != "exact"]
+        better[form] = f"{sum(one.accidents < alone.accidents for one in wrong)} of {len(wrong)}"
         for ax, (_, of) in zip(axes, measures, strict=True):
             middle, low, high = np.array([of(one) for one in scores.values()]).T
             at = [names.index(name) + shift for name in scores]
@@ -192,10 +193,9 @@ def wrong_models(cells: dict[str, Summary], base: str = CLOSELY[0]) -> Figure:
     agents = f"{alone.agents} agent{'s' * (alone.agents > 1)}, {alone.drives // alone.agents:,} roads each"
     legend = f"● rollouts    □ shield by simulation    {agents}"
     figure.text(0.012, 0.1 / height, legend, fontsize=SMALL, color=INK)
-    wrong = len(names) - 1
     title = (
         f"{display_name(base)}, looking ahead with a wrong model: rollouts crash less than the base policy with "
-        f"{better['rollout']} of {wrong} models, the shield with {better['shield']}"
+        f"{better['rollout']} models, the shield with {better['shield']}"
     )
     alt = (
         f"For each model, accidents in 1,000 drives and the return. Alone: {1000 * alone.accident_rate.value:.1f} and "
