@@ -46,6 +46,7 @@ NAMES = {  # name -> where it is defined
     "random_policy": "bootcourse.policies",
     "plan_policy": "bootcourse.policies",
     "PolicyOutput": "bootcourse.policies",
+    "lookahead": "bootcourse.episodes.lookahead",
     # to drive
     "record": "bootcourse.episodes.record",
     "Rollout": "bootcourse.episodes.rollout",

@@ -33,6 +33,7 @@ def evaluate(
     scenario: str = typer.Option("", help="default or calibrated; by default the scenario that a run trained on."),
     sample: bool = typer.Option(False, "--sample", help="Draw an agent's actions instead of taking the most probable."),
     teacher: str = typer.Option("", help="The teacher that a run drives with: planner …, or FILE.py:FUNCTION."),
+    lookahead: int = typer.Option(0, min=0, help="Decisions to look ahead by rollouts, such as 10; 0: none."),
     as_json: bool = typer.Option(False, "--json", help="Print JSON."),
     board: bool = typer.Option(False, "--board", help="Print the leaderboard with them; here WHO may be several."),
 ) -> None:
@@ -40,13 +41,13 @@ def evaluate(
     from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds, over_seeds, summarise
 
     if board:
-        if (episodes, seed, scenario, sample, as_json) != (1000, 1, "", False, False):
+        if (episodes, seed, scenario, sample, lookahead, as_json) != (1000, 1, "", False, 0, False):
             raise BootcourseError("--board has its own roads and form: with it, give only --teacher.")
         print_board(who, teacher)
         return
     if len(who) > 1:
         raise BootcourseError("Several drivers need --board.")
-    seeds, drivers = held_out_seeds(seed, episodes), drivers_of(who[0], scenario, sample, seed, teacher)
+    seeds, drivers = held_out_seeds(seed, episodes), drivers_of(who[0], scenario, sample, seed, teacher, lookahead)
     found = {each.label: summarise(drive_episodes(each.policy, seeds, each.road)) for each in drivers}
     means = {name: over_seeds([found[label] for label in labels]) for name, labels in alike(drivers).items()}
     columns = {label: vars(each) for label, each in found.items()} | means
@@ -56,7 +57,8 @@ def evaluate(
             told[label] = {"episodes": episodes} | told[label]
         print(json.dumps(told, indent=2))
         return
-    print(f"{episodes} held-out episodes, block {seed}: value [95 % interval]; a mean is over training seeds")
+    ahead = f", looking {lookahead} decisions ahead" if lookahead else ""
+    print(f"{episodes} held-out episodes, block {seed}{ahead}: value [95 % interval]; a mean is over training seeds")
     labels = list(columns)
     for first in range(0, len(labels), ACROSS):
         print_table({label: columns[label] for label in labels[first : first + ACROSS]})
@@ -111,8 +113,8 @@ def alike(drivers: list[Driver]) -> dict[str, list[str]]:
     }
 
 
-def drivers_of(who: str, scenario: str, sample: bool, seed: int, teacher: str) -> list[Driver]:
-    """A built-in driver, or the agent of each run in a folder.
+def drivers_of(who: str, scenario: str, sample: bool, seed: int, teacher: str, horizon: int = 0) -> list[Driver]:
+    """A built-in driver, or the agent of each run in a folder; with a horizon, each looks ahead as far.
 
     Raises BootcourseError for a name that is neither, for an agent that sees another number of cars, for one that
     drives with another teacher, and for a teacher with a built-in driver.
@@ -128,7 +130,7 @@ def drivers_of(who: str, scenario: str, sample: bool, seed: int, teacher: str) -
             refuse_teacher(teacher)
         road, rng = named(scenario) if scenario else DEFAULT, np.random.default_rng(seed)
         built_in = {"rule": rule_policy(road), "idle": idle_policy, "random": random_policy(rng)}
-        return [Driver(who, built_in[who], road)]
+        return [ahead(Driver(who, built_in[who], road), horizon)]
     from bootcourse.cli.training import teacher_from
     from bootcourse.learn.teachers import teacher_of
     from bootcourse.storage.runs import find_runs, load_run
@@ -145,8 +147,15 @@ def drivers_of(who: str, scenario: str, sample: bool, seed: int, teacher: str) -
             )
         settings = replace(run.agent.settings, seed=0)
         agent = run.agent.taught_by(teacher_of(rule, road))
-        found.append(Driver(path.name, agent.as_policy(rng, with_q=True), road, settings))
+        found.append(ahead(Driver(path.name, agent.as_policy(rng, with_q=not horizon), road, settings), horizon))
     return found
+
+
+def ahead(driver: Driver, horizon: int) -> Driver:
+    """The driver with rollouts of so many decisions; the driver itself for 0."""
+    from bootcourse.episodes.lookahead import lookahead
+
+    return driver._replace(policy=lookahead(driver.policy, horizon, driver.road)) if horizon else driver
 
 
 def print_table(columns: dict[str, dict]) -> None:
@@ -165,6 +174,7 @@ def drive(
     scenario: str = typer.Option("", help="default or calibrated; by default the scenario that a run trained on."),
     png: Path | None = typer.Option(None, help="Also draw the top view and the traces to this picture."),
     teacher: str = typer.Option("", help="The teacher that a run drives with: planner …, or FILE.py:FUNCTION."),
+    lookahead: int = typer.Option(0, min=0, help="Decisions to look ahead by rollouts, such as 10; 0: none."),
 ) -> None:
     """Record one drive for figures and replays."""
     from bootcourse.episodes.record import record
@@ -175,11 +185,12 @@ def drive(
     if png is not None:
         check_replaceable(png, ".png")
     check_replaceable(out, ".npz")
-    found = drivers_of(who, scenario, False, seed, teacher)
+    found = drivers_of(who, scenario, False, seed, teacher, lookahead)
     if len(found) > 1:
         raise BootcourseError(f"{who} holds {len(found)} runs: name one, such as {Path(who) / found[0].label}.")
     label, policy, road, _ = found[0]
     label = label.rsplit("-", 1)[0] if label not in BUILT_IN else label
+    label += f", {lookahead} ahead" if lookahead else ""
     rollout = record(policy, [seed], road, label)[0]
     print(rollout.save(out))
     if png is not None:

@@ -19,9 +19,7 @@ from bootcourse.episodes.driving import steps
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.teachers import Rule
 from bootcourse.policies import PlanPolicy, Policy, idle_policy, rule_policy
-from bootcourse.road import twin
-from bootcourse.road.constants import constants
-from bootcourse.road.formulas import speed_reward
+from bootcourse.road.branching import expand, future_worth
 from bootcourse.road.state import EGO, HEADING, LANE, SPEED, TRAP_1, X, Y
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, IDLE, N_ACTIONS, Scenario
@@ -89,19 +87,6 @@ def plan(cars: np.ndarray, scenario: Scenario = DEFAULT, search: Search | None =
     return _trace_back(history, kept, values, seed)
 
 
-def expand(cars: np.ndarray, scenario: Scenario) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """All nine actions from each of some roads: cars (n, vehicles, 10) -> (n x 9, vehicles, 10), (n, 9), (n, 9).
-
-    The children, their rewards, their accidents (an Accident's number).
-    """
-    children = cars.repeat(N_ACTIONS, axis=0)
-    count = len(children)
-    rewards, terms, accidents = np.zeros(count), np.zeros((count, 3)), np.zeros(count, dtype=np.int64)
-    actions, asleep = np.tile(np.arange(N_ACTIONS), len(cars)), np.zeros(count, dtype=bool)
-    twin.decide(children, actions, asleep, constants(scenario), rewards, terms, accidents, twin.NO_TRACE)
-    return children, rewards.reshape(-1, N_ACTIONS), accidents.reshape(-1, N_ACTIONS)
-
-
 def select(children: np.ndarray, scores: np.ndarray, alive: np.ndarray, beam: int) -> np.ndarray:
     """Which children to keep: the best of each cell; of those, a fair share for each lane and speed, then the best.
 
@@ -120,23 +105,6 @@ def select(children: np.ndarray, scores: np.ndarray, alive: np.ndarray, beam: in
     for kind in np.unique(kinds):
         place[kinds == kind] = np.arange((kinds == kind).sum())
     return order[np.argsort(place >= share, kind="stable")[:beam]]
-
-
-def future_worth(scenario: Scenario, decisions: int, gamma: float) -> list[tuple[np.ndarray, np.ndarray]]:
-    """The return on an empty road: for 0, 1, ... decisions left, (speeds, Σ γ^t r_t) to interpolate in.
-
-    The ego goes to the best speed as fast as it can and keeps its lane: an upper bound for every drive.
-    """
-    a, weights = scenario.ego.acceleration / scenario.clock.decision_rate, scenario.reward
-    speeds = np.linspace(0.0, scenario.ego.max_speed, 401)
-    reward = weights.w_v * np.array([speed_reward(v) for v in speeds]) + weights.w_y
-    reward /= weights.w_v + weights.w_y + weights.w_theta
-    best = speeds[reward.argmax()]
-    following = speeds + np.clip(best - speeds, -a, a)
-    worth = [np.zeros_like(speeds)]
-    for _ in range(decisions):
-        worth.append(np.interp(following, speeds, reward + gamma * worth[-1]))
-    return [(speeds, values) for values in worth]
 
 
 def _trace_back(history, kept: np.ndarray, values: np.ndarray, seed: int) -> Plan:

@@ -1,0 +1,63 @@
+"""The nine imagined drives of a look-ahead on the road from above: thin, accidents red, the chosen one bold."""
+
+import numpy as np
+from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.figure import Figure
+
+from bootcourse.colours import ALARM, OTHER, QUIET
+from bootcourse.episodes.lookahead import Imagined
+from bootcourse.errors import BootcourseError
+from bootcourse.plots.canvas import MplAxes
+from bootcourse.plots.figure import INK, SMALL, WIDTH, finish, new_figure
+from bootcourse.plots.road import draw_cars, draw_road, edges_of
+from bootcourse.road.state import EGO, X
+from bootcourse.scenario import ACTION_NAMES, DEFAULT, Scenario
+
+BEHIND, AHEAD, ASIDE = 14.0, 24.0, 1.6  # m behind the ego, beyond the longest imagined drive, beside the road
+SHADES = LinearSegmentedColormap.from_list("value", ["#BFD9EA", "#0B3C66"])  # from the worst safe drive to the best
+
+
+def nine_futures(
+    cars: np.ndarray, imagined: Imagined, title: str, scenario: Scenario = DEFAULT, colour: str = OTHER.colour
+) -> Figure:
+    """The road at a decision with the nine imagined drives on it; x is in metres from the ego.
+
+    cars (vehicles, 10): the road at the decision; imagined: of this road alone, values (1, 9). colour: the ego's.
+    Raises BootcourseError for several roads.
+    """
+    if len(imagined.values) != 1:
+        raise BootcourseError(f"There are imagined drives of {len(imagined.values)} roads: give those of one.")
+    values, hurt, paths = imagined.values[0], imagined.accidents[0] > 0, imagined.paths[0]
+    left, right = -BEHIND, float(paths[..., 0].max() - cars[EGO, X]) + AHEAD
+    tall = (
+        scenario.road.lanes * scenario.road.lane_width + 2 * ASIDE
+    ) * 2.8  # metres across are drawn larger than along
+    width = WIDTH - 0.4
+    height = tall * width / (right - left)
+    figure = new_figure(height + 1.25)
+    ax = figure.add_axes((0.2 / WIDTH, 0.62 / (height + 1.25), width / WIDTH, height / (height + 1.25)))
+    draw_road(MplAxes(ax), scenario, left, right, cars[EGO, X])
+    draw_cars(MplAxes(ax), cars, scenario, colour, left, right, cars[EGO, X], names=False)
+    safe = values[~hurt]
+    spread = np.ptp(safe) if len(safe) > 1 and np.ptp(safe) > 0 else 1.0
+    for action in np.argsort(values):
+        x, y = paths[action, :, 0] - cars[EGO, X], paths[action, :, 1]
+        best = action == values.argmax()
+        shade = ALARM if hurt[action] else SHADES((values[action] - safe.min()) / spread)
+        ax.plot(x, y, color=shade, linewidth=3.2 if best else 1.2, zorder=7 if best else 6)
+        if hurt[action]:
+            ax.plot(x[-1], y[-1], "X", color=ALARM, markersize=6, markeredgecolor="white", zorder=7)
+    top, bottom = edges_of(scenario.road)
+    ax.set(xlim=(left, right), ylim=(bottom + ASIDE, top - ASIDE))
+    ax.set_yticks([])
+    for side in ("top", "right", "left", "bottom"):
+        ax.spines[side].set_visible(False)
+    ax.tick_params(labelsize=SMALL, labelcolor=QUIET, length=3)
+    ax.set_xlabel("distance from the ego (m)", fontsize=SMALL, color=QUIET)
+    words = f"Bold: {ACTION_NAMES[values.argmax()]}, the best. Darker blue: worth more. Red: ends in an accident."
+    figure.text(0.012, 0.08 / (height + 1.25), words, fontsize=SMALL, color=INK)
+    described = (
+        f"{name} {'ends in an accident' if end else f'is worth {value:.1f}'}"
+        for name, value, end in zip(ACTION_NAMES, values, hurt, strict=True)
+    )
+    return finish(figure, title, f"Nine imagined drives on the road from above: {'; '.join(described)}.")

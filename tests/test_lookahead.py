@@ -1,0 +1,304 @@
+"""Looking ahead: the nine values are what driving each action on a copy of the road would earn."""
+
+from dataclasses import replace
+
+import msgspec
+import numpy as np
+import pytest
+from gymnasium.vector import AutoresetMode
+
+import bootcourse as bc
+from bootcourse.episodes.evaluate import drive_episodes
+from bootcourse.episodes.lookahead import imagine, lookahead, lookahead_shield, rollout_values, worth_of_speed
+from bootcourse.episodes.models import FAR_BEHIND, MODELS, Model
+from bootcourse.errors import BootcourseError
+from bootcourse.files import write_arrays, write_json
+from bootcourse.learn.teachers import teacher_policy
+from bootcourse.plots.futures import nine_futures
+from bootcourse.policies import PlanPolicy, PolicyOutput, idle_policy, plan_policy, rule_policy
+from bootcourse.research.lookahead import Cell, cells, evaluate_cells, read_cell, summaries
+from bootcourse.research.lookahead_figures import by_horizon, rows, wrong_models
+from bootcourse.road.state import CRASHED, EGO, HEADING, LANE, SPEED, TARGET_LANE, TRAP_1, X, Y
+from bootcourse.road.vector_env import TrapVectorEnv
+from bootcourse.scenario import CALIBRATED, DEFAULT, N_ACTIONS
+
+ROADS = [2**33 - 7, 2**33 - 8]
+INTO_TRAP_1 = [("accelerate straight", 30)]
+
+
+def own_rule(cars, scenario):
+    """A rule of a student's own, of one road."""
+    return 7 if cars[EGO, SPEED] < 12 else 4
+
+
+def erratic(observations, cars):
+    """Brakes or keeps straight; any change of the observations changes which."""
+    return PolicyOutput(4 - 3 * ((np.abs(observations).sum(axis=1) * 1e4).astype(np.int64) % 2))
+
+
+class Reached:
+    """Roads that a policy has driven for some decisions, and the actions that led there."""
+
+    def __init__(self, policy, decisions, scenario=DEFAULT):
+        self.env = TrapVectorEnv(len(ROADS), scenario, AutoresetMode.DISABLED)
+        self.observations, _ = self.env.reset(seed=ROADS)
+        self.actions = []
+        if hasattr(policy, "reset"):
+            policy.reset(len(ROADS))
+        for _ in range(decisions):
+            self.actions.append(policy(self.observations, self.env.cars).actions)
+            self.observations, *_ = self.env.step(self.actions[-1])
+        policy(self.observations, self.env.cars)  # the decision that the look-ahead may overrule
+        self.cars = self.env.cars.copy()
+
+
+def by_hand(there: Reached, policy, action, horizon, scenario):
+    """(value of an action, ended in an accident?) on each road, on an environment that drives the same way again."""
+    env = TrapVectorEnv(len(ROADS), scenario, AutoresetMode.DISABLED)
+    observations, _ = env.reset(seed=ROADS)
+    for actions in there.actions:
+        if hasattr(policy, "decision"):
+            policy.decision += 1
+        observations, *_ = env.step(actions)
+    if hasattr(policy, "decision"):
+        policy.decision += 1
+    value, ended = np.zeros(len(ROADS)), np.zeros(len(ROADS), dtype=bool)
+    for decision in range(horizon):
+        actions = np.full(len(ROADS), action) if decision == 0 else policy(observations, env.cars).actions
+        observations, rewards, terminated, _, _ = env.step(actions)
+        value, ended = value + rewards, ended | terminated
+    return value + ~ended * np.interp(env.cars[:, EGO, SPEED], *worth_of_speed(scenario)), ended
+
+
+@pytest.mark.parametrize("horizon", [1, 2, 9])
+@pytest.mark.parametrize(
+    ("make", "scenario"),
+    [
+        (lambda: rule_policy(CALIBRATED), CALIBRATED),
+        (lambda: bc.shipped_agents("bootstrapped")[0].as_policy(), DEFAULT),
+        (lambda: teacher_policy(own_rule), DEFAULT),
+        (lambda: plan_policy(INTO_TRAP_1), DEFAULT),
+        (lambda: PlanPolicy([[7, 1], [1, 7], [4, 8], [5, 3]] * 4), DEFAULT),
+        (lambda: erratic, DEFAULT),
+    ],
+    ids=["rule", "agent", "own rule", "plan", "a plan for each road", "a policy of the observations"],
+)
+def test_the_nine_values_are_those_of_driving_each_action(make, scenario, horizon):
+    policy = make()
+    there = Reached(policy, 3, scenario)
+    nine = np.tile(np.arange(N_ACTIONS), (len(ROADS), 1))
+    imagined = imagine(there.cars, nine, policy, horizon, scenario)
+    for action in range(N_ACTIONS):
+        values, ended = by_hand(there, make(), action, horizon, scenario)
+        np.testing.assert_allclose(imagined.values[:, action], values, atol=1e-9)
+        np.testing.assert_array_equal(imagined.accidents[:, action] > 0, ended)
+
+
+def test_looking_ahead_leaves_the_road_and_the_plan_as_they_are():
+    plan = plan_policy([("keep straight", 3), ("brake straight", 40)])
+    there = Reached(plan, 2)
+    before, decision = there.cars.copy(), plan.decision
+    rollout_values(there.cars, plan, 12)
+    np.testing.assert_array_equal(there.cars, before)
+    assert plan.decision == decision
+
+
+def test_a_drive_that_ends_in_an_accident_is_worth_less_than_any_that_does_not():
+    there = Reached(plan_policy(INTO_TRAP_1), 3)
+    nine = np.tile(np.arange(N_ACTIONS), (len(ROADS), 1))
+    imagined = imagine(there.cars, nine, rule_policy(DEFAULT), 5)
+    hurt = imagined.accidents > 0
+    assert hurt.any() and not hurt.all()
+    assert imagined.values[hurt].max() < imagined.values[~hurt].min()
+
+
+def test_the_paths_are_those_of_the_imagined_egos():
+    there = Reached(idle_policy, 1)
+    paths = imagine(there.cars, np.full((len(ROADS), 1), 4), idle_policy, 3).paths
+    assert paths.shape == (len(ROADS), 1, 4, 2)
+    np.testing.assert_allclose(np.diff(paths[:, 0, :, 0]), DEFAULT.ego.speed, atol=1e-9)
+
+
+@pytest.mark.parametrize("make", [lookahead, lookahead_shield])
+def test_looking_ahead_saves_a_plan_that_drives_into_trap_1(make):
+    alone = drive_episodes(plan_policy(INTO_TRAP_1), ROADS)
+    ahead = drive_episodes(make(plan_policy(INTO_TRAP_1), horizon=6), ROADS)
+    assert (alone.accident > 0).all() and (ahead.returns > alone.returns).all()
+    assert not (ahead.accident > 0).any()
+
+
+def test_the_shield_changes_nothing_on_a_safe_drive():
+    rule, shield = rule_policy(DEFAULT), lookahead_shield(rule_policy(DEFAULT))
+    alone, shielded = (bc.record(policy, ROADS) for policy in (rule, shield))
+    for one, other in zip(alone, shielded, strict=True):
+        np.testing.assert_array_equal(one.actions, other.actions)
+    assert not shield.overruled.any()
+
+
+def test_a_drive_that_is_recorded_holds_the_nine_values_and_follows_the_best():
+    drive = bc.record(lookahead(bc.shipped_agents("soft")[0].as_policy(), horizon=4), ROADS[:1])[0]
+    np.testing.assert_array_equal(drive.actions, drive.q_values.argmax(axis=1))
+    assert drive.policy is not None
+
+
+def test_the_rule_earns_more_with_rollouts_on_most_roads():
+    rule, roads = rule_policy(DEFAULT), range(2**33 - 40, 2**33 - 20)
+    gain = drive_episodes(lookahead(rule), roads).returns - drive_episodes(rule, roads).returns
+    assert gain.mean() > 20 and (gain > 0).mean() > 0.5
+
+
+# What the models do wrong.
+
+
+def imagined_road(model: Model, decisions: int = 4):
+    """(cars before, cars of a road that the model imagines after some decisions of keeping straight)."""
+    there, rng = Reached(idle_policy, 8), np.random.default_rng(0)
+    scenario = model.scenarios(DEFAULT, rng)[0]
+    seen = model.seen(there.cars, there.cars, DEFAULT, rng)
+    env = TrapVectorEnv(len(ROADS), scenario, AutoresetMode.DISABLED)
+    env.reset(seed=ROADS)
+    env.cars[:] = seen
+    for _ in range(decisions):
+        env.step(np.full(len(ROADS), 4))
+    return there.cars, seen, env.cars
+
+
+def test_others_keep_their_speed_and_lane():
+    _, seen, after = imagined_road(Model(keep=True))
+    np.testing.assert_allclose(after[:, TRAP_1:, SPEED], seen[:, TRAP_1:, SPEED], atol=1e-6)
+    np.testing.assert_array_equal(after[:, TRAP_1:, TARGET_LANE], seen[:, TRAP_1:, LANE])
+
+
+@pytest.mark.parametrize("model", [Model(desired_speed=-2.0), Model(time_gap=2.0)])
+def test_others_with_other_wishes_drive_more_slowly(model):
+    slow, true = imagined_road(model)[2], imagined_road(Model())[2]
+    assert (slow[:, TRAP_1 + 2 :, SPEED] < true[:, TRAP_1 + 2 :, SPEED] + 1e-12).all()
+    assert slow[:, :, SPEED].mean() < true[:, :, SPEED].mean() - 0.05
+
+
+def test_only_what_the_observation_shows_is_there():
+    cars, seen, _ = imagined_road(Model(visible=True), 0)
+    there = seen[:, 1:, X] > FAR_BEHIND
+    assert (there.sum(axis=1) <= DEFAULT.sight.neighbours).all()
+    for road, row in enumerate(there):
+        near = np.hypot(cars[road, 1:, X] - cars[road, 0, X], cars[road, 1:, Y] - cars[road, 0, Y])
+        assert near[row].max() < near[~row].min()
+
+
+def test_noise_moves_the_others_and_not_the_ego():
+    cars, seen, _ = imagined_road(Model(noise=1.0), 0)
+    np.testing.assert_array_equal(seen[:, EGO], cars[:, EGO])
+    assert 0.4 < np.std(seen[:, 1:, X] - cars[:, 1:, X]) < 1.6
+
+
+def test_a_road_that_is_seen_late_is_that_of_the_decision_before():
+    look, env = lookahead(idle_policy, 1, models=[Model(all_late=True)]), TrapVectorEnv(2, DEFAULT)
+    observations, _ = env.reset(seed=ROADS)
+    before = env.cars.copy()
+    look(observations, before)
+    observations, *_ = env.step(np.full(2, 7))
+    look(observations, env.cars)
+    np.testing.assert_array_equal(look.imagined.values, rollout_values(before, idle_policy, 1))
+
+
+def test_others_that_are_seen_late_are_moved_on_at_their_old_speed():
+    cars = Reached(idle_policy, 8).cars
+    now, earlier = cars.copy(), cars.copy()
+    now[:, :, [X, SPEED]] += 50.0
+    seen = Model(others_late=True).seen(now, earlier, DEFAULT, np.random.default_rng(0))
+    np.testing.assert_array_equal(seen[:, EGO], now[:, EGO])
+    np.testing.assert_array_equal(seen[:, TRAP_1:, SPEED], earlier[:, TRAP_1:, SPEED])
+    straight = earlier[:, TRAP_1:, HEADING] == 0
+    moved = (seen[:, TRAP_1:, X] - earlier[:, TRAP_1:, X])[straight]
+    np.testing.assert_allclose(moved, earlier[:, TRAP_1:, SPEED][straight], atol=1e-9)
+
+
+def test_drawn_drivers_differ_from_road_to_road_and_come_from_the_seed():
+    there, model = Reached(idle_policy, 8), Model(drawn=2)
+    cars, observations = there.cars[[0, 0]], there.observations[[0, 0]]
+    first, again, other = (lookahead(idle_policy, 10, models=[model], seed=seed) for seed in (1, 1, 2))
+    values = [each(observations, cars).q_values for each in (first, again, other)]
+    assert (values[0][0] != values[0][1]).any()
+    np.testing.assert_array_equal(values[0], values[1])
+    assert (values[0] != values[2]).any()
+
+
+def test_of_several_models_the_worst_case_counts():
+    there = Reached(rule_policy(DEFAULT), 5)
+    models = [model for (model,) in (MODELS["others keep speed and lane"], MODELS["twice the time gap"])]
+    each = [lookahead(idle_policy, models=[one])(there.observations, there.cars).q_values for one in models]
+    both = lookahead(idle_policy, models=models)(there.observations, there.cars).q_values
+    np.testing.assert_array_equal(both, np.minimum(*each))
+
+
+@pytest.mark.parametrize("name", MODELS)
+@pytest.mark.parametrize("make", [lookahead, lookahead_shield])
+def test_every_model_drives_every_form(name, make):
+    driver = make(rule_policy(DEFAULT), 3, models=MODELS[name])
+    there = Reached(driver, 4)
+    assert len(there.actions) == 4 and not there.cars[:, EGO, CRASHED].any()
+
+
+# What a user may get wrong.
+
+
+@pytest.mark.parametrize(
+    ("mistake", "sentence"),
+    [
+        (lambda: lookahead(idle_policy, 0), "horizon = 0: give a whole number from 1 to 1,000"),
+        (lambda: lookahead(idle_policy, models=[]), "give at least one model"),
+        (lambda: Model(noise=-1.0), "cannot be negative"),
+        (
+            lambda: drive_episodes(
+                lookahead(idle_policy), ROADS, replace(DEFAULT, traffic=bc.scenario.Traffic(cars=2))
+            ),
+            "give the look-ahead the scenario that it drives",
+        ),
+    ],
+)
+def test_a_mistake_is_one_sentence(mistake, sentence):
+    with pytest.raises(BootcourseError, match=sentence):
+        mistake()
+
+
+def test_evaluate_and_drive_look_ahead_on_the_command_line(bootcourse, tmp_path):
+    answer = bootcourse("evaluate", "idle", "--episodes", 2, "--lookahead", 3)
+    assert answer.status == 0 and "looking 3 decisions ahead" in answer.out
+    answer = bootcourse("drive", "idle", "--out", tmp_path / "drive.npz", "--lookahead", 3)
+    drive = bc.Rollout.load(tmp_path / "drive.npz")
+    assert drive.label == "idle, 3 ahead" and drive.q_values is not None
+
+
+# The experiment.
+
+
+def test_a_cell_that_is_there_is_not_driven_again(tmp_path, capsys):
+    cells = [Cell("rule", form=form, horizon=2, roads=3) for form in ("alone", "rollout", "shield")]
+    loaders = {("rule", 0): lambda: rule_policy(DEFAULT)}
+    evaluate_cells(cells[:1], loaders, tmp_path)
+    evaluate_cells(cells, loaders, tmp_path)
+    assert capsys.readouterr().out.count("rule-0-alone") == 1
+    alone, rollout, shield = (read_cell(tmp_path / cell.file, 3) for cell in cells)
+    np.testing.assert_array_equal(alone["returns"], shield["returns"])
+    assert rollout["overruled"].all() and (rollout["overruled"] <= rollout["decisions"]).all()
+
+
+def test_the_figures_say_how_many_drives_end_in_an_accident(tmp_path):
+    todo = [cell for cell in cells({"ppo_cloned": range(2), "bootstrapped": range(1)}) if cell.roads == 1000]
+    for cell in todo:
+        hurt = np.arange(1000) < (30 if cell.form == "alone" else 4)
+        names = ("returns", "accident", "success", "decisions", "overruled")
+        write_arrays(tmp_path / cell.file, dict.fromkeys(names, hurt.astype(int)) | {"seconds": np.array(1.0)})
+    found = summaries(tmp_path)
+    write_json(tmp_path / "summary.json", msgspec.to_builtins(found))
+    assert summaries(tmp_path / "summary.json") == found
+    assert "from 60 accidents in 2,000 drives to 8 accidents in 2,000 drives" in by_horizon(found).alt
+    assert "others keep speed and lane 4.0" in wrong_models(found).alt
+    headings, lines = rows(found)
+    assert lines[0][6].startswith("60 in 2,000: 30.00 [") and {len(headings)} == {len(line) for line in lines}
+
+
+def test_the_nine_futures_name_the_best_and_the_accidents():
+    cars = Reached(plan_policy(INTO_TRAP_1), 3).cars[:1]
+    figure = nine_futures(cars[0], imagine(cars, np.arange(N_ACTIONS)[None], rule_policy(DEFAULT), 5), "Nine")
+    assert "accelerate straight ends in an accident" in figure.alt and "is worth" in figure.alt
