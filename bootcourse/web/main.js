@@ -1,0 +1,271 @@
+// The game: a clock that asks for a decision a second, and all that is shown around it.
+
+const find = id => document.getElementById(id);
+const LARGEST_ROAD = 999999999, FIRST_ROAD = 10;
+const PATIENCE = 5; // decisions between two sentences for readers who do not see the road
+const STEP_PACE = 2.5; // how much faster than real time a single step is shown
+const calm = matchMedia("(prefers-reduced-motion: reduce)");
+const dark = matchMedia("(prefers-color-scheme: dark)");
+
+class Game {
+  constructor(data, compiled, networks) {
+    this.data = data;
+    this.settings = { p: data.p, xi: 0, c: 0 };
+    this.failures = 0;
+    this.pace = calm.matches ? 0 : 1;
+    const wanted = new URLSearchParams(location.hash.slice(1));
+    this.scenarioName = wanted.get("scenario") in data.scenarios ? wanted.get("scenario") : "default";
+    this.road = new Road(compiled, data.scenarios[this.scenarioName]);
+    this.drivers = makeDrivers(data, networks, this.settings);
+    this.view = new View(find("road"), this.road.scenario);
+    this.thoughts = new Thoughts(data.actions);
+    this.controls = new Controls(find("pad"), () => this.pressed(), {
+      " ": () => this.go(), r: () => this.again(), n: () => this.another(), f: () => find("futures").click(),
+      t: () => find("theme").click(), 0: () => this.setPace(0), 1: () => this.setPace(1), 2: () => this.setPace(2),
+      5: () => this.setPace(5), Escape: () => this.again(),
+    });
+    this.controls.pad.forEach((button, action) => button.setAttribute("aria-label", data.actions[action]));
+    makeSliders(this.settings, name => this.tuned(name));
+    this.wire();
+    this.readAddress();
+  }
+
+  wire() {
+    const entries = Object.values(this.drivers).map(({ id, name }) => [id, name]);
+    const fill = (select, list) => select.append(...list.map(([id, name]) => new Option(name, id)));
+    fill(find("driver"), [["you", "you"], ...entries]);
+    fill(find("ghost"), [["none", "nobody"], ...entries]);
+    find("driver").addEventListener("change", event => this.begin({ driver: event.target.value }));
+    find("ghost").addEventListener("change", event => this.begin({ ghost: event.target.value }));
+    find("number").addEventListener("change", event => this.begin({ number: event.target.value }));
+    find("futures").addEventListener("change", () => { this.think(); this.dirty = true; });
+    find("go").addEventListener("click", () => this.go());
+    for (const id of ["again", "end-again"]) find(id).addEventListener("click", () => this.again());
+    for (const id of ["next", "end-next"]) find(id).addEventListener("click", () => this.another());
+    find("never").addEventListener("click", () => this.neverOut());
+    for (const button of document.querySelectorAll("[data-pace]")) {
+      button.addEventListener("click", () => this.setPace(Number(button.dataset.pace)));
+    }
+    find("theme").addEventListener("click", () => {
+      const root = document.documentElement.dataset;
+      this.theme(root.theme === "dark" ? "light" : "dark");
+    });
+    dark.addEventListener("change", () => this.theme(dark.matches ? "dark" : "light"));
+    this.theme(dark.matches ? "dark" : "light");
+    new ResizeObserver(() => { this.view.fit(); this.dirty = true; }).observe(find("road"));
+    document.addEventListener("visibilitychange", () => { if (document.hidden) this.run(false); });
+    window.addEventListener("hashchange", () => this.readAddress());
+    this.setPace(this.pace);
+  }
+
+  theme(name) {
+    document.documentElement.dataset.theme = name;
+    this.view.fit();
+    this.dirty = true;
+  }
+
+  // "#road=7&ghost=rule&driver=you": what the address asks for.
+  readAddress() {
+    const wanted = new URLSearchParams(location.hash.slice(1));
+    if (wanted.has("pace")) this.setPace(Number(wanted.get("pace")));
+    if (wanted.has("futures")) find("futures").checked = wanted.get("futures") !== "0";
+    this.begin({
+      number: wanted.get("road") ?? this.number ?? FIRST_ROAD,
+      ghost: wanted.get("ghost") ?? this.ghostName ?? "rule",
+      driver: wanted.get("driver") ?? this.driverName ?? "you",
+    });
+  }
+
+  // A new drive; whatever is not given stays as it is.
+  begin({ number = this.number, ghost = this.ghostName, driver = this.driverName }) {
+    const valid = /^\d{1,9}$/.test(String(number).trim());
+    this.number = valid ? Number(number) : this.number ?? FIRST_ROAD;
+    this.ghostName = ghost in this.drivers || ghost === "none" ? ghost : "rule";
+    this.driverName = driver in this.drivers ? driver : "you";
+    [find("number").value, find("ghost").value, find("driver").value] = [this.number, this.ghostName, this.driverName];
+    const scenario = this.scenarioName === "default" ? "" : `&scenario=${this.scenarioName}`;
+    history.replaceState(null, "", `#road=${this.number}&ghost=${this.ghostName}&driver=${this.driverName}${scenario}`);
+    this.drive = new Drive(this.road, this.number);
+    this.ghost = this.ghostName === "none" ? null : new Drive(this.road, this.number);
+    this.shown = 0;
+    this.finished = false;
+    this.controls.forget();
+    find("end").hidden = true;
+    find("about").textContent = this.drivers[this.ghostName]?.words ?? "";
+    this.run(false);
+    this.think();
+    const invitation = this.driverName === "you" ? "Press ↑ ↓ ← → or the pad: your first decision starts the clock."
+      : `Press Start and watch ${this.drivers[this.driverName].name} drive.`;
+    this.say(valid ? invitation : `“${number}” is not a road: give a whole number from 0 to ${LARGEST_ROAD}.`);
+    this.tell(`Road ${this.number}. ${stateInWords(this.drive.cars)}`);
+  }
+
+  again() { this.begin({}); }
+  another() { this.begin({ number: Math.floor(Math.random() * 10000) }); }
+
+  // A road on which plain SAC is still behind trap 1 at the end, with SAC at the wheel.
+  neverOut() {
+    let number = Math.floor(Math.random() * 10000);
+    while (new Drive(this.road, number).finish(this.drivers.sac).outAfter !== null) number++;
+    this.setPace(this.pace || 5);
+    this.begin({ number, driver: "sac", ghost: "rule" });
+    this.run(true);
+  }
+
+  setPace(pace) {
+    this.pace = [0, 1, 2, 5].includes(pace) ? pace : 1;
+    for (const button of document.querySelectorAll("[data-pace]")) {
+      button.setAttribute("aria-pressed", Number(button.dataset.pace) === this.pace);
+    }
+    this.showClock();
+  }
+
+  run(running) {
+    this.running = running && !this.finished;
+    this.showClock();
+    this.dirty = true;
+  }
+
+  showClock() {
+    find("go").textContent = this.pace === 0 ? "Next" : this.running ? "Pause" : "Start";
+  }
+
+  // The Start button and the space bar: start or stop the clock, or make one decision.
+  go() {
+    if (this.finished) this.again();
+    if (this.pace === 0) this.step();
+    else this.run(!this.running);
+    if (this.running) this.say("");
+  }
+
+  // The player has chosen an action: the clock starts, or takes the step that waited for it.
+  pressed() {
+    this.dirty = true;
+    if (this.finished || this.driverName !== "you") return;
+    this.say("");
+    if (this.pace === 0) this.step();
+    else if (!this.running) this.run(true);
+  }
+
+  step() {
+    if (this.drive.over || this.shown < this.drive.time - 0.5) return;
+    this.shown = this.drive.time;
+    this.decide();
+    if (calm.matches) this.shown = this.drive.end;
+    this.run(true);
+    this.say("");
+  }
+
+  // One decision of both cars.
+  decide() {
+    const action = this.driverName === "you" ? this.controls.take() : this.thought.action;
+    this.drive.decide(action);
+    if (this.ghost && !this.ghost.over) this.ghost.decide(this.drivers[this.ghostName].decide(this.road, this.ghost.cars).action);
+    this.think();
+    if (this.pace === 0 || this.drive.time % PATIENCE === 0) this.tell(`${this.drive.time} s. ${stateInWords(this.drive.cars)}`);
+  }
+
+  // What the driver, or the ghost in your place, thinks of the road as it is now.
+  think() {
+    const mind = this.drivers[this.driverName] ?? this.drivers[this.ghostName] ?? this.drivers.sac;
+    const { cars } = this.drive, taught = this.road.rule(cars);
+    this.thought = mind.decide(this.road, cars);
+    const wanted = find("futures").checked;
+    const futures = wanted ? this.thought.futures ?? this.drivers.lookahead.decide(this.road, cars).futures : null;
+    this.futures = this.drive.over ? null : futures;
+    this.thoughts.show(this.thought, stochasticRule(taught.action, this.settings.p), mind);
+    const whose = this.driverName === "you" ? `${mind.name} in your place` : `${mind.name} at the wheel`;
+    const base = mind.id === "lookahead" ? " π is PPO’s; the imagined drives choose the action in bold." : "";
+    find("mind-words").textContent = `${whose}. The rule says: ${this.data.reasons[taught.reason]}.${base}`;
+  }
+
+  // A slider moved: the compromise drives on with the new numbers; if nobody drove by it, it becomes the ghost.
+  tuned(name) {
+    if (name !== "p" && this.driverName !== "soft" && this.ghostName !== "soft") this.begin({ ghost: "soft" });
+    this.think();
+  }
+
+  // Once for each picture: let the clock run, and draw.
+  frame(now) {
+    const passed = Math.min((now - (this.last ?? now)) / 1000, 0.1);
+    this.last = now;
+    if (this.running) this.advance(passed * (this.pace || STEP_PACE));
+    if (this.running || this.dirty) this.draw();
+    requestAnimationFrame(next => this.frame(next));
+  }
+
+  advance(passed) {
+    this.shown += passed;
+    while (this.pace > 0 && this.shown >= this.drive.time && !this.drive.over) this.decide();
+    const limit = this.drive.over ? this.drive.end : this.drive.time;
+    if (this.shown < limit) return;
+    this.shown = limit;
+    if (this.drive.over) this.finish();
+    else if (this.pace === 0) this.run(false);
+  }
+
+  draw() {
+    this.dirty = false;
+    const cars = this.drive.at(this.shown), coming = this.driverName === "you" ? this.controls.coming : this.thought.action;
+    const shown = this.drive.over || (this.driverName === "you" && this.controls.idle) ? null : coming;
+    const ghost = this.ghost && {
+      state: this.ghost.at(Math.min(this.shown, this.ghost.end)), gone: this.ghost.over && this.shown >= this.ghost.end,
+      colour: this.drivers[this.ghostName].colour, name: this.drivers[this.ghostName].name,
+    };
+    const colour = this.driverName === "you" ? this.view.colour("you") : this.drivers[this.driverName].colour;
+    const accident = this.finished && this.drive.accident;
+    this.view.draw({ cars, ghost, coming: shown, colour, futures: this.futures, accident });
+    this.controls.mark(this.driverName === "you" ? shown : coming);
+    const earned = this.drive.rewards.slice(0, Math.ceil(this.shown)), lastReward = earned.at(-1) ?? 0;
+    find("speed").textContent = cars[SPEED].toFixed(1);
+    find("return").textContent = points(earned.reduce((sum, reward) => sum + reward, 0));
+    find("earning").textContent = (lastReward < 0 ? "" : "+") + lastReward.toFixed(2).replace("-", "−");
+    find("clock").textContent = `${Math.floor(this.shown)} s of ${this.road.scenario.decisions}`;
+  }
+
+  finish() {
+    this.finished = true;
+    this.run(false);
+    const idle = new Drive(this.road, this.number).finish({ decide: () => ({ action: IDLE }) });
+    const you = this.driverName === "you" ? "you" : this.drivers[this.driverName].name;
+    const drives = [];
+    if (this.ghost) {
+      const driver = this.drivers[this.ghostName];
+      drives.push({ drive: this.ghost.finish(driver), label: driver.name.split(",")[0], colour: driver.colour, width: 1.8 });
+    }
+    drives.push({ drive: this.drive, label: you.split(",")[0], width: 3,
+      colour: you === "you" ? "var(--you)" : this.drivers[this.driverName].colour });
+    const out = this.drive.outAfter !== null;
+    if (this.driverName === "you") this.failures = out ? 0 : this.failures + 1;
+    const hint = this.driverName === "you" ? hintAfter(this.failures) : "";
+    const ghostWords = this.ghost ? ` ${title(this.ghost)}: ${this.drivers[this.ghostName].name}, ${points(this.ghost.total)}.` : "";
+    find("verdict-title").textContent = title(this.drive);
+    find("verdict").textContent = verdict(this.drive, idle, you) + ghostWords;
+    find("picture").innerHTML = picture(drives);
+    find("hint").textContent = hint;
+    find("hint").hidden = !hint;
+    find("end").hidden = false;
+    find("end").focus({ preventScroll: true });
+    this.say("");
+    this.tell(`${title(this.drive)}. ${find("verdict").textContent} ${hint}`);
+    this.dirty = true;
+  }
+
+  say(words) { find("message").textContent = words; }
+  tell(words) { find("live").textContent = words; }
+}
+
+async function open() {
+  const data = JSON.parse(find("data").textContent);
+  const unpacked = Object.entries(data.networks).map(async ([name, packed]) => [name, await unpackNetwork(packed)]);
+  const networks = Object.fromEntries(await Promise.all(unpacked));
+  const compiled = await WebAssembly.compile(await unpack(data.module));
+  window.trap = { data, compiled, networks, game: new Game(data, compiled, networks) };
+  requestAnimationFrame(now => trap.game.frame(now));
+  window.trap.ready = performance.now(); // ms since the page was opened
+}
+
+open().catch(error => {
+  find("message").textContent = `This page could not start: ${error.message}. It needs a browser of 2023 or later.`;
+  throw error;
+});
