@@ -23,17 +23,20 @@ function makeDrivers(data, networks, settings) {
     const q = futures.map(future => future.value), action = largest(q);
     return { action, policy: agent("ppo")(road, cars).policy, q, futures };
   };
-  const driver = (name, colour, words, decide) => ({ name, colour: data.colours[colour], words, decide });
+  // name: in the lists; label: in pictures and sentences
+  const driver = (name, label, colour, words, decide) => ({ name, label, colour: data.colours[colour], words, decide });
   const drivers = {
-    rule: driver("the rule", "rule", "Written by hand: falls back, changes lane, passes, and then drives slowly.", rule),
-    sac: driver("plain SAC", "sac", "Learned alone, from reward. It follows the traps for ever.", agent("sac")),
-    escaping: driver("bootstrapped, escapes", "bootstrapped",
+    rule: driver("the rule", "the rule", "rule", 
+      "Written by hand: it falls back, changes lane, passes, and then drives slowly.", rule),
+    sac: driver("plain SAC", "plain SAC", "sac", "Learned from reward alone. It follows the traps for ever.", agent("sac")),
+    escaping: driver("bootstrapped, gets out", "the bootstrapped agent", "bootstrapped",
       "SAC with the rule's help: the paper's method.", agent("bootstrapped")),
-    crashing: driver("bootstrapped, crashes", "bootstrapped",
+    crashing: driver("bootstrapped, crashes", "the other bootstrapped agent", "bootstrapped",
       "The same method with another seed. It gets out, and often leaves the road.", agent("crashing")),
-    ppo: driver("PPO after cloning", "ppo", "Two seconds of imitation, then PPO.", agent("ppo")),
-    lookahead: driver("look-ahead", "ppo", "At each decision it imagines nine drives of ten seconds by PPO.", lookAhead),
-    soft: driver("SAC’s Q with the rule", "soft", "The compromise that your p, ξ and c make.", compromise),
+    ppo: driver("PPO after cloning", "PPO", "ppo", "Two seconds of imitation, then PPO.", agent("ppo")),
+    lookahead: driver("look-ahead", "the look-ahead", "ppo",
+      "At each decision it imagines nine drives of ten seconds by PPO.", lookAhead),
+    soft: driver("SAC’s Q with the rule", "the compromise", "soft", "It drives by your p, ξ and c: see the sliders.", compromise),
   };
   for (const [id, each] of Object.entries(drivers)) each.id = id;
   return drivers;

@@ -46,10 +46,8 @@ class Game {
     for (const button of document.querySelectorAll("[data-pace]")) {
       button.addEventListener("click", () => this.setPace(Number(button.dataset.pace)));
     }
-    find("theme").addEventListener("click", () => {
-      const root = document.documentElement.dataset;
-      this.theme(root.theme === "dark" ? "light" : "dark");
-    });
+    const other = () => (document.documentElement.dataset.theme === "dark" ? "light" : "dark");
+    find("theme").addEventListener("click", () => this.theme(other()));
     dark.addEventListener("change", () => this.theme(dark.matches ? "dark" : "light"));
     this.theme(dark.matches ? "dark" : "light");
     new ResizeObserver(() => { this.view.fit(); this.dirty = true; }).observe(find("road"));
@@ -84,7 +82,8 @@ class Game {
     this.driverName = driver in this.drivers ? driver : "you";
     [find("number").value, find("ghost").value, find("driver").value] = [this.number, this.ghostName, this.driverName];
     const scenario = this.scenarioName === "default" ? "" : `&scenario=${this.scenarioName}`;
-    history.replaceState(null, "", `#road=${this.number}&ghost=${this.ghostName}&driver=${this.driverName}${scenario}`);
+    const driving = this.driverName === "you" ? "" : `&driver=${this.driverName}`;
+    history.replaceState(null, "", `#road=${this.number}&ghost=${this.ghostName}${driving}${scenario}`);
     this.drive = new Drive(this.road, this.number);
     this.ghost = this.ghostName === "none" ? null : new Drive(this.road, this.number);
     this.shown = 0;
@@ -107,7 +106,7 @@ class Game {
   neverOut() {
     let number = Math.floor(Math.random() * 10000);
     while (new Drive(this.road, number).finish(this.drivers.sac).outAfter !== null) number++;
-    this.setPace(this.pace || 5);
+    this.setPace(5);
     this.begin({ number, driver: "sac", ghost: "rule" });
     this.run(true);
   }
@@ -159,7 +158,10 @@ class Game {
   // One decision of both cars.
   decide() {
     const action = this.driverName === "you" ? this.controls.take() : this.thought.action;
+    const wasBehind = this.drive.cars[X] <= row(this.drive.cars, TRAP_1)[X];
     this.drive.decide(action);
+    const justOut = wasBehind && this.drive.cars[X] > row(this.drive.cars, TRAP_1)[X];
+    if (this.driverName === "you") this.remark(remark(this.drive.cars, justOut));
     if (this.ghost && !this.ghost.over) this.ghost.decide(this.drivers[this.ghostName].decide(this.road, this.ghost.cars).action);
     this.think();
     if (this.pace === 0 || this.drive.time % PATIENCE === 0) this.tell(`${this.drive.time} s. ${stateInWords(this.drive.cars)}`);
@@ -167,16 +169,17 @@ class Game {
 
   // What the driver, or the ghost in your place, thinks of the road as it is now.
   think() {
-    const mind = this.drivers[this.driverName] ?? this.drivers[this.ghostName] ?? this.drivers.sac;
+    const beside = this.drivers[this.ghostName === "rule" ? "escaping" : this.ghostName] ?? this.drivers.escaping;
+    const mind = this.drivers[this.driverName] ?? beside; // the rule's own thoughts are in the column of π̃ already
     const { cars } = this.drive, taught = this.road.rule(cars);
     this.thought = mind.decide(this.road, cars);
     const wanted = find("futures").checked;
     const futures = wanted ? this.thought.futures ?? this.drivers.lookahead.decide(this.road, cars).futures : null;
     this.futures = this.drive.over ? null : futures;
     this.thoughts.show(this.thought, stochasticRule(taught.action, this.settings.p), mind);
-    const whose = this.driverName === "you" ? `${mind.name} in your place` : `${mind.name} at the wheel`;
     const base = mind.id === "lookahead" ? " π is PPO’s; the imagined drives choose the action in bold." : "";
-    find("mind-words").textContent = `${whose}. The rule says: ${this.data.reasons[taught.reason]}.${base}`;
+    find("mind-title").textContent = `What ${mind.label} thinks`;
+    find("mind-words").textContent = `${this.driverName === "you" ? "In your place. " : ""}The rule says: ${this.data.reasons[taught.reason]}.${base}`;
   }
 
   // A slider moved: the compromise drives on with the new numbers; if nobody drove by it, it becomes the ghost.
@@ -210,7 +213,7 @@ class Game {
     const shown = this.drive.over || (this.driverName === "you" && this.controls.idle) ? null : coming;
     const ghost = this.ghost && {
       state: this.ghost.at(Math.min(this.shown, this.ghost.end)), gone: this.ghost.over && this.shown >= this.ghost.end,
-      colour: this.drivers[this.ghostName].colour, name: this.drivers[this.ghostName].name,
+      colour: this.drivers[this.ghostName].colour, name: this.drivers[this.ghostName].label,
     };
     const colour = this.driverName === "you" ? this.view.colour("you") : this.drivers[this.driverName].colour;
     const accident = this.finished && this.drive.accident;
@@ -220,35 +223,41 @@ class Game {
     find("speed").textContent = cars[SPEED].toFixed(1);
     find("return").textContent = points(earned.reduce((sum, reward) => sum + reward, 0));
     find("earning").textContent = (lastReward < 0 ? "" : "+") + lastReward.toFixed(2).replace("-", "−");
-    find("clock").textContent = `${Math.floor(this.shown)} s of ${this.road.scenario.decisions}`;
+    find("clock").textContent = `${Math.floor(this.shown)} of ${this.road.scenario.decisions} s`;
   }
 
   finish() {
     this.finished = true;
     this.run(false);
     const idle = new Drive(this.road, this.number).finish({ decide: () => ({ action: IDLE }) });
-    const you = this.driverName === "you" ? "you" : this.drivers[this.driverName].name;
+    const you = this.driverName === "you" ? "you" : this.drivers[this.driverName].label;
     const drives = [];
     if (this.ghost) {
       const driver = this.drivers[this.ghostName];
-      drives.push({ drive: this.ghost.finish(driver), label: driver.name.split(",")[0], colour: driver.colour, width: 1.8 });
+      drives.push({ drive: this.ghost.finish(driver), label: driver.label, colour: driver.colour, width: 1.8 });
     }
-    drives.push({ drive: this.drive, label: you.split(",")[0], width: 3,
+    drives.push({ drive: this.drive, label: you, width: 3,
       colour: you === "you" ? "var(--you)" : this.drivers[this.driverName].colour });
     const out = this.drive.outAfter !== null;
     if (this.driverName === "you") this.failures = out ? 0 : this.failures + 1;
     const hint = this.driverName === "you" ? hintAfter(this.failures) : "";
-    const ghostWords = this.ghost ? ` ${title(this.ghost)}: ${this.drivers[this.ghostName].name}, ${points(this.ghost.total)}.` : "";
+    const ghostWords = this.ghost ? ` The ghost, ${drives[0].label}: ${title(this.ghost).toLowerCase()}, return ${points(this.ghost.total)}.` : "";
     find("verdict-title").textContent = title(this.drive);
     find("verdict").textContent = verdict(this.drive, idle, you) + ghostWords;
-    find("picture").innerHTML = picture(drives);
     find("hint").textContent = hint;
     find("hint").hidden = !hint;
     find("end").hidden = false;
+    find("picture").innerHTML = picture(drives, find("picture").clientWidth);
     find("end").focus({ preventScroll: true });
     this.say("");
     this.tell(`${title(this.drive)}. ${find("verdict").textContent} ${hint}`);
     this.dirty = true;
+  }
+
+  // A remark stays for a few decisions, so that it can be read.
+  remark(words) {
+    if (words) this.remarkedAt = this.drive.time;
+    if (words || this.drive.time - this.remarkedAt > 3) this.say(words);
   }
 
   say(words) { find("message").textContent = words; }

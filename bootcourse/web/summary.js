@@ -1,7 +1,8 @@
 // The picture at the end of a drive: how far ahead of trap 1 each driver was, and what it had earned, second by second.
 
-function picture(drives) {
-  const WIDE = 560, LEFT = 44, RIGHT = 92, HIGH = 118, GAP = 30, REACH = 60; // px; REACH: m shown on either side of trap 1
+function picture(drives, WIDE) {
+  const LEFT = 44, RIGHT = 92, HIGH = WIDE < 400 ? 84 : 118, GAP = 30; // px
+  const REACH = 60; // m shown on either side of trap 1
   const last = Math.max(...drives.map(({ drive }) => drive.time), 10);
   const across = time => LEFT + ((WIDE - LEFT - RIGHT) * time) / last;
   const ahead = ({ drive }) => drive.states.map((state, k) => (
@@ -25,9 +26,9 @@ function picture(drives) {
       return { svg: `<polyline points="${points.join(" ")}" fill="none" stroke="${each.colour}" stroke-width="${each.width}" stroke-linejoin="round"/>${cross}`, end, each };
     });
     const labels = spread(lines.map(({ end }) => end[1]), 14, top + HIGH).map((y, i) => (
-      `<text x="${lines[i].end[0] + 8}" y="${y + 4}" style="fill:${lines[i].each.colour}">${lines[i].each.label}</text>`));
+      `<text x="${lines[i].end[0] + 8}" y="${y + 4}" style="fill:color-mix(in oklab, ${lines[i].each.colour} 65%, var(--ink))">${lines[i].each.label.replace(/^the (other )?| agent$/g, "")}</text>`));
     const ticks = marks.map(mark => `<line x1="${LEFT}" x2="${WIDE - RIGHT}" y1="${down(mark)}" y2="${down(mark)}" stroke="var(--line)"/>`
-      + `<text x="${LEFT - 6}" y="${down(mark) + 4}" text-anchor="end">${String(mark).replace("-", "−")}</text>`);
+      + `<text x="${LEFT - 6}" y="${down(mark) + 4}" text-anchor="end">${mark === REACH ? "≥ " : ""}${String(mark).replace("-", "−")}</text>`);
     const words = zero ? `<text x="${LEFT + 6}" y="${down(0) - 5}">${zero}</text>` : "";
     return `<text x="${LEFT}" y="${top - 8}">${title}</text>${ticks.join("")}${words}${lines.map(line => line.svg).join("")}${labels.join("")}`;
   });

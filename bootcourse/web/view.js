@@ -138,8 +138,8 @@ class View {
     pen.font = "12.5px system-ui, sans-serif";
     const away = state[X] - this.x, beyond = py < 10 || py > this.height - 10;
     const words = beyond ? `${away > 0 ? "▲" : "▼"} ${name}, ${Math.abs(away).toFixed(0)} m` : name;
-    const half = pen.measureText(words).width / 2 + 9;
-    const x = beyond ? this.width / 2 : px - this.scale * 1.6 - half;
+    const half = pen.measureText(words).width / 2 + 9, [edge] = this.spot(0, -this.scenario.laneWidth / 2);
+    const x = beyond ? this.width / 2 : edge - half - 6; // beside the road, where it covers no car
     const y = Math.min(Math.max(py, 62), this.height - 18);
     pen.fillStyle = this.colour("card");
     pen.globalAlpha = 0.92;
@@ -196,18 +196,19 @@ class View {
     const order = futures.map((_, i) => i).sort((a, b) => (a === best) - (b === best));
     for (const i of order) {
       const { path, accident, value } = futures[i], share = high > low ? (value - low) / (high - low) : 1;
-      pen.strokeStyle = accident ? this.colour("alarm") : `color-mix(in oklab, #44aa99 ${20 + 80 * share}%, ${this.colour("paint")})`;
+      const worth = `color-mix(in oklab, #44aa99 ${20 + 80 * share}%, ${this.colour("paint")})`;
+      pen.strokeStyle = pen.fillStyle = accident ? this.colour("alarm") : worth;
       pen.lineWidth = i === best ? 5 : 1.6;
       pen.globalAlpha = i === best ? 1 : 0.85;
       pen.lineJoin = "round";
       pen.beginPath();
       path.forEach(([x, y]) => pen.lineTo(...this.spot(x, y)));
       pen.stroke();
+      if (i === best) Object.assign(pen, { lineWidth: 1.5, strokeStyle: this.colour("asphalt") }).stroke(); // a double line
       const [px, py] = this.spot(...path.at(-1));
-      pen.fillStyle = pen.strokeStyle;
       pen.beginPath();
-      if (accident) { pen.moveTo(px - 5, py - 5); pen.lineTo(px + 5, py + 5); pen.moveTo(px + 5, py - 5); pen.lineTo(px - 5, py + 5); pen.lineWidth = 2.5; pen.stroke(); }
-      else { pen.arc(px, py, i === best ? 4.5 : 2.5, 0, 7); pen.fill(); }
+      pen.arc(px, py, accident || i === best ? 4.5 : 2.5, 0, 7);
+      pen.fill();
     }
     pen.globalAlpha = 1;
   }

@@ -29,10 +29,7 @@ function verdict(drive, idle, who) {
   const they = who === "you" ? "You" : who[0].toUpperCase() + who.slice(1);
   const total = points(drive.total);
   if (drive.accident && drive.outAfter === null) return `${they} earned ${total}: an accident costs 10 and ends the drive.`;
-  if (drive.outAfter === null) {
-    return `${they} earned ${total}; following pays ${points(idle.rewards[0])} for every ten seconds.`.replace(
-      points(idle.rewards[0]), points(10 * idle.rewards[0]));
-  }
+  if (drive.outAfter === null) return `${they} earned ${total}. Who only follows earns ${points(idle.total)}.`;
   let sum = 0, lowest = 0, when = 0;
   drive.rewards.forEach((reward, t) => {
     sum += reward - idle.rewards[t];
@@ -50,6 +47,15 @@ const HINTS = [
   "Brake to about 7 m/s, wait until trap 2 is 12 m ahead, and change lane twice, to the far left. Then nobody is in front of you: accelerate to 15 m/s, which pays best.",
   "Switch on the nine futures and follow the bold one, or put the rule at the wheel and watch it.",
 ];
+
+// What is worth saying to a player at this moment, or "".
+function remark(cars, justOut) {
+  if (justOut) return "You are out. 15 m/s pays best. Press 5 for a faster clock.";
+  if (cars[SPEED] < 3) return "Slow: below 1 m/s the drive ends.";
+  if (cars[SPEED] > 16.5) return "Above 15 m/s every second pays less.";
+  if (cars[Y] < -1.2 || cars[Y] > 9.2) return "You are at the edge of the road.";
+  return "";
+}
 
 // A hint for somebody who has not got out in this many attempts; "" before the third.
 const hintAfter = failures => (failures < 3 ? "" : HINTS[Math.min(failures - 3, HINTS.length - 1)]);
