@@ -58,7 +58,7 @@ def driven(scenario: Scenario, episodes: int, first_seed: int = 0):
     """Drives by the rule, by the rule with noise, and at random: (plans, rows as in `drive_page.DRIVE`)."""
     env, rng = TrapVectorEnv(episodes, scenario, AutoresetMode.DISABLED), np.random.default_rng(first_seed)
     seen, _ = env.reset(seed=first_seed)
-    noise = np.array([0.0, 0.2, 0.9, 1.0])[np.arange(episodes) % 4]
+    noise = np.array([0.0, 0.03, 0.2, 1.0])[np.arange(episodes) % 4]
     plans, rows = [[] for _ in range(episodes)], [[cars.ravel().copy()] for cars in env.cars]
     for _ in range(scenario.clock.decisions):
         awake, taught = ~env.asleep, rule(env.cars, scenario).actions

@@ -21,7 +21,7 @@ from bootcourse.research.planner import future_worth
 from bootcourse.road.constants import constants
 from bootcourse.road.twin import uniforms_needed
 from bootcourse.rule import SENTENCES
-from bootcourse.scenario import ACTION_NAMES, DEFAULT, RULE_P, SCENARIOS, Scenario
+from bootcourse.scenario import ACTION_NAMES, DEFAULT, RULE_P, Scenario
 from bootcourse.storage.assets import FOLDER
 from bootcourse.storage.runs import load_run
 from bootcourse.web.wasm import road_module
@@ -32,7 +32,7 @@ SCRIPTS = (
 )  # fmt: skip
 # The agents in the page; of plain SAC also the critics, which the compromise between Q and the rule needs.
 AGENTS = {
-    "sac": FOLDER / "runs/sac-0",
+    "sac": FOLDER / "runs/sac-2",
     "bootstrapped": FOLDER / "runs/bootstrapped-4",
     "crashing": FOLDER / "runs/bootstrapped-0",
 }
@@ -84,7 +84,7 @@ def page_data() -> dict:
     speeds, worth = future_worth(DEFAULT, DEFAULT.clock.decisions, 1.0)[-1]
     return {
         "module": packed(road_module()),
-        "scenarios": {name: scenario_data(scenario) for name, scenario in SCENARIOS.items()},
+        "scenario": scenario_data(DEFAULT),
         "networks": networks,
         "worth": {"speed": float(speeds[1]), "values": [round(float(value), 6) for value in worth]},
         "actions": list(ACTION_NAMES),

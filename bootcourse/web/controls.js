@@ -1,4 +1,4 @@
-// Keys and fingers: what the player wants next. A tap counts for the next decision, a held key for as long as it is held.
+// Keys and fingers: what the player wants next. A tap counts for the next decision, a held key while it is held.
 
 const KEYS = {
   ArrowUp: ["push", 1], ArrowDown: ["push", -1], ArrowLeft: ["side", -1], ArrowRight: ["side", 1],
@@ -31,7 +31,7 @@ class Controls {
     }
     document.addEventListener("keydown", event => {
       if (event.ctrlKey || event.altKey || event.metaKey || usesKeys(event.target, event.key)) return;
-      const name = event.key.length === 1 ? event.key.toLowerCase() : event.key;
+      const name = keyName(event);
       if (KEYS[name]) {
         event.preventDefault();
         const [axis, sign] = KEYS[name];
@@ -41,7 +41,7 @@ class Controls {
         commands[name]();
       }
     });
-    document.addEventListener("keyup", event => this.release(event.key.length === 1 ? event.key.toLowerCase() : event.key));
+    document.addEventListener("keyup", event => this.release(keyName(event)));
     window.addEventListener("blur", () => this.held.clear());
   }
 
@@ -82,6 +82,8 @@ class Controls {
     this.pad.forEach((button, a) => button.classList.toggle("coming", a === action));
   }
 }
+
+const keyName = ({ key }) => (key.length === 1 ? key.toLowerCase() : key);
 
 // Whether the part of the page that has the focus needs this key itself.
 function usesKeys(target, key) {

@@ -28,7 +28,8 @@ function makeDrivers(data, networks, settings) {
   const drivers = {
     rule: driver("the rule", "the rule", "rule", 
       "Written by hand: it falls back, changes lane, passes, and then drives slowly.", rule),
-    sac: driver("plain SAC", "plain SAC", "sac", "Learned from reward alone. It follows the traps for ever.", agent("sac")),
+    sac: driver("plain SAC", "plain SAC", "sac",
+      "Learned from reward alone. It follows the traps for ever.", agent("sac")),
     escaping: driver("bootstrapped, gets out", "the bootstrapped agent", "bootstrapped",
       "SAC with the rule's help: the paper's method.", agent("bootstrapped")),
     crashing: driver("bootstrapped, crashes", "the other bootstrapped agent", "bootstrapped",
@@ -36,14 +37,15 @@ function makeDrivers(data, networks, settings) {
     ppo: driver("PPO after cloning", "PPO", "ppo", "Two seconds of imitation, then PPO.", agent("ppo")),
     lookahead: driver("look-ahead", "the look-ahead", "ppo",
       "At each decision it imagines nine drives of ten seconds by PPO.", lookAhead),
-    soft: driver("SAC’s Q with the rule", "the compromise", "soft", "It drives by your p, ξ and c: see the sliders.", compromise),
+    soft: driver("SAC’s Q with the rule", "the compromise", "soft",
+      "It drives by your p, ξ and c: see the sliders.", compromise),
   };
   for (const [id, each] of Object.entries(drivers)) each.id = id;
   return drivers;
 }
 
-// Nine imagined drives: each action, then a base policy. As bootcourse/episodes/lookahead.py: the value is what the drive
-// earns, and without an accident the worth of an empty road at its last speed.
+// Nine imagined drives: each action, then a base policy. As in bootcourse/episodes/lookahead.py, the value is what the
+// drive earns, and without an accident the worth of an empty road at its last speed.
 function imagine(road, cars, base, worth, horizon = HORIZON) {
   return Array.from({ length: ACTIONS }, (_, first) => {
     const state = cars.slice(), path = [[state[X], state[Y]]];
@@ -59,6 +61,7 @@ function imagine(road, cars, base, worth, horizon = HORIZON) {
 }
 
 function worthOf(speed, { speed: grid, values }) {
-  const place = Math.min(Math.max(speed / grid, 0), values.length - 1), k = Math.min(Math.floor(place), values.length - 2);
+  const place = Math.min(Math.max(speed / grid, 0), values.length - 1);
+  const k = Math.min(Math.floor(place), values.length - 2);
   return values[k] + (values[k + 1] - values[k]) * (place - k);
 }

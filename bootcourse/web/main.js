@@ -13,22 +13,23 @@ class Game {
     this.settings = { p: data.p, xi: 0, c: 0 };
     this.failures = 0;
     this.pace = calm.matches ? 0 : 1;
-    const wanted = new URLSearchParams(location.hash.slice(1));
-    this.scenarioName = wanted.get("scenario") in data.scenarios ? wanted.get("scenario") : "default";
-    this.road = new Road(compiled, data.scenarios[this.scenarioName]);
+    this.road = new Road(compiled, data.scenario);
     this.drivers = makeDrivers(data, networks, this.settings);
     this.view = new View(find("road"), this.road.scenario);
     this.thoughts = new Thoughts(data.actions);
     this.controls = new Controls(find("pad"), () => this.pressed(), {
       " ": () => this.go(), r: () => this.again(), n: () => this.another(), f: () => find("futures").click(),
       t: () => find("theme").click(), 0: () => this.setPace(0), 1: () => this.setPace(1), 2: () => this.setPace(2),
-      5: () => this.setPace(5), Escape: () => this.again(),
+      5: () => this.setPace(5),
     });
     this.controls.pad.forEach((button, action) => button.setAttribute("aria-label", data.actions[action]));
     makeSliders(this.settings, name => this.tuned(name));
     this.wire();
     this.readAddress();
   }
+
+  get mine() { return this.drivers[this.driverName]; } // undefined if you drive
+  get rival() { return this.drivers[this.ghostName]; } // undefined without a ghost
 
   wire() {
     const entries = Object.values(this.drivers).map(({ id, name }) => [id, name]);
@@ -81,20 +82,19 @@ class Game {
     this.ghostName = ghost in this.drivers || ghost === "none" ? ghost : "rule";
     this.driverName = driver in this.drivers ? driver : "you";
     [find("number").value, find("ghost").value, find("driver").value] = [this.number, this.ghostName, this.driverName];
-    const scenario = this.scenarioName === "default" ? "" : `&scenario=${this.scenarioName}`;
-    const driving = this.driverName === "you" ? "" : `&driver=${this.driverName}`;
-    history.replaceState(null, "", `#road=${this.number}&ghost=${this.ghostName}${driving}${scenario}`);
+    const driving = this.mine ? `&driver=${this.driverName}` : "";
+    history.replaceState(null, "", `#road=${this.number}&ghost=${this.ghostName}${driving}`);
     this.drive = new Drive(this.road, this.number);
     this.ghost = this.ghostName === "none" ? null : new Drive(this.road, this.number);
     this.shown = 0;
     this.finished = false;
     this.controls.forget();
     find("end").hidden = true;
-    find("about").textContent = this.drivers[this.ghostName]?.words ?? "";
+    find("about").textContent = this.rival?.words ?? "";
     this.run(false);
     this.think();
-    const invitation = this.driverName === "you" ? "Press ↑ ↓ ← → or the pad: your first decision starts the clock."
-      : `Press Start and watch ${this.drivers[this.driverName].name} drive.`;
+    const invitation = this.mine ? `Press Start and watch ${this.mine.label} drive.`
+      : "Press ↑ ↓ ← → or the pad: your first decision starts the clock.";
     this.say(valid ? invitation : `“${number}” is not a road: give a whole number from 0 to ${LARGEST_ROAD}.`);
     this.tell(`Road ${this.number}. ${stateInWords(this.drive.cars)}`);
   }
@@ -140,7 +140,7 @@ class Game {
   // The player has chosen an action: the clock starts, or takes the step that waited for it.
   pressed() {
     this.dirty = true;
-    if (this.finished || this.driverName !== "you") return;
+    if (this.finished || this.mine) return;
     this.say("");
     if (this.pace === 0) this.step();
     else if (!this.running) this.run(true);
@@ -157,29 +157,28 @@ class Game {
 
   // One decision of both cars.
   decide() {
-    const action = this.driverName === "you" ? this.controls.take() : this.thought.action;
-    const wasBehind = this.drive.cars[X] <= row(this.drive.cars, TRAP_1)[X];
-    this.drive.decide(action);
-    const justOut = wasBehind && this.drive.cars[X] > row(this.drive.cars, TRAP_1)[X];
-    if (this.driverName === "you") this.remark(remark(this.drive.cars, justOut));
-    if (this.ghost && !this.ghost.over) this.ghost.decide(this.drivers[this.ghostName].decide(this.road, this.ghost.cars).action);
+    const { drive, ghost } = this, ahead = () => drive.cars[X] > row(drive.cars, TRAP_1)[X], wasAhead = ahead();
+    drive.decide(this.mine ? this.thought.action : this.controls.take());
+    if (!this.mine) this.remark(remark(drive.cars, ahead() && !wasAhead));
+    if (ghost && !ghost.over) ghost.decide(this.rival.decide(this.road, ghost.cars).action);
     this.think();
-    if (this.pace === 0 || this.drive.time % PATIENCE === 0) this.tell(`${this.drive.time} s. ${stateInWords(this.drive.cars)}`);
+    if (this.pace === 0 || drive.time % PATIENCE === 0) this.tell(`${drive.time} s. ${stateInWords(drive.cars)}`);
   }
 
   // What the driver, or the ghost in your place, thinks of the road as it is now.
   think() {
     const beside = this.drivers[this.ghostName === "rule" ? "escaping" : this.ghostName] ?? this.drivers.escaping;
-    const mind = this.drivers[this.driverName] ?? beside; // the rule's own thoughts are in the column of π̃ already
+    const mind = this.mine ?? beside; // the rule's own thoughts are in the column of π̃ already
     const { cars } = this.drive, taught = this.road.rule(cars);
     this.thought = mind.decide(this.road, cars);
     const wanted = find("futures").checked;
     const futures = wanted ? this.thought.futures ?? this.drivers.lookahead.decide(this.road, cars).futures : null;
-    this.futures = this.drive.over ? null : futures;
+    [this.before, this.futures] = [this.futures, this.drive.over ? null : futures];
     this.thoughts.show(this.thought, stochasticRule(taught.action, this.settings.p), mind);
     const base = mind.id === "lookahead" ? " π is PPO’s; the imagined drives choose the action in bold." : "";
     find("mind-title").textContent = `What ${mind.label} thinks`;
-    find("mind-words").textContent = `${this.driverName === "you" ? "In your place. " : ""}The rule says: ${this.data.reasons[taught.reason]}.${base}`;
+    const where = this.mine ? "" : "In your place. ";
+    find("mind-words").textContent = `${where}The rule says: ${this.data.reasons[taught.reason]}.${base}`;
   }
 
   // A slider moved: the compromise drives on with the new numbers; if nobody drove by it, it becomes the ghost.
@@ -209,16 +208,17 @@ class Game {
 
   draw() {
     this.dirty = false;
-    const cars = this.drive.at(this.shown), coming = this.driverName === "you" ? this.controls.coming : this.thought.action;
-    const shown = this.drive.over || (this.driverName === "you" && this.controls.idle) ? null : coming;
+    const cars = this.drive.at(this.shown), coming = this.mine ? this.thought.action : this.controls.coming;
+    const shown = this.drive.over || (!this.mine && this.controls.idle) ? null : coming;
     const ghost = this.ghost && {
       state: this.ghost.at(Math.min(this.shown, this.ghost.end)), gone: this.ghost.over && this.shown >= this.ghost.end,
-      colour: this.drivers[this.ghostName].colour, name: this.drivers[this.ghostName].label,
+      colour: this.rival.colour, name: this.rival.label,
     };
-    const colour = this.driverName === "you" ? this.view.colour("you") : this.drivers[this.driverName].colour;
+    const colour = this.mine?.colour ?? this.view.colour("you");
     const accident = this.finished && this.drive.accident;
-    this.view.draw({ cars, ghost, coming: shown, colour, futures: this.futures, accident });
-    this.controls.mark(this.driverName === "you" ? shown : coming);
+    const futures = this.shown < this.drive.time ? this.before : this.futures; // those of the decision that is shown
+    this.view.draw({ cars, ghost, coming: shown, colour, futures, accident });
+    this.controls.mark(shown);
     const earned = this.drive.rewards.slice(0, Math.ceil(this.shown)), lastReward = earned.at(-1) ?? 0;
     find("speed").textContent = cars[SPEED].toFixed(1);
     find("return").textContent = points(earned.reduce((sum, reward) => sum + reward, 0));
@@ -230,27 +230,25 @@ class Game {
     this.finished = true;
     this.run(false);
     const idle = new Drive(this.road, this.number).finish({ decide: () => ({ action: IDLE }) });
-    const you = this.driverName === "you" ? "you" : this.drivers[this.driverName].label;
-    const drives = [];
+    const { label, colour } = this.mine ?? { label: "you", colour: "var(--you)" };
+    const drives = [{ drive: this.drive, label, colour, width: 3 }];
+    let sentence = verdict(this.drive, idle, label);
     if (this.ghost) {
-      const driver = this.drivers[this.ghostName];
-      drives.push({ drive: this.ghost.finish(driver), label: driver.label, colour: driver.colour, width: 1.8 });
+      drives.unshift({ drive: this.ghost.finish(this.rival), ...this.rival, width: 1.8 });
+      const end = title(this.ghost).toLowerCase();
+      sentence += ` The ghost, ${this.rival.label}: ${end}, return ${points(this.ghost.total)}.`;
     }
-    drives.push({ drive: this.drive, label: you, width: 3,
-      colour: you === "you" ? "var(--you)" : this.drivers[this.driverName].colour });
-    const out = this.drive.outAfter !== null;
-    if (this.driverName === "you") this.failures = out ? 0 : this.failures + 1;
-    const hint = this.driverName === "you" ? hintAfter(this.failures) : "";
-    const ghostWords = this.ghost ? ` The ghost, ${drives[0].label}: ${title(this.ghost).toLowerCase()}, return ${points(this.ghost.total)}.` : "";
+    if (!this.mine) this.failures = this.drive.outAfter === null ? this.failures + 1 : 0;
+    const hint = this.mine ? "" : hintAfter(this.failures);
     find("verdict-title").textContent = title(this.drive);
-    find("verdict").textContent = verdict(this.drive, idle, you) + ghostWords;
+    find("verdict").textContent = sentence;
     find("hint").textContent = hint;
     find("hint").hidden = !hint;
     find("end").hidden = false;
     find("picture").innerHTML = picture(drives, find("picture").clientWidth);
     find("end").focus({ preventScroll: true });
     this.say("");
-    this.tell(`${title(this.drive)}. ${find("verdict").textContent} ${hint}`);
+    this.tell(`${title(this.drive)}. ${sentence} ${hint}`);
     this.dirty = true;
   }
 

@@ -8,7 +8,7 @@ async function unpack(text) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-// The layers of a network, [{ inputs, outputs, weights, biases }]; its numbers come sorted by bytes, the last byte first.
+// The layers of a network, [{ inputs, outputs, weights, biases }]; the numbers come sorted by bytes, the last byte first.
 async function unpackNetwork({ sizes, weights }) {
   const planes = await unpack(weights);
   const count = sizes.slice(1).reduce((sum, outputs, i) => sum + (sizes[i] + 1) * outputs, 0);

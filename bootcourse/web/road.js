@@ -4,7 +4,7 @@
 const X = 0, Y = 1, HEADING = 2, SPEED = 3, STEERING = 4, ACCELERATION = 5, LANE = 6, TARGET_LANE = 7, CRASHED = 9;
 const COLUMNS = 10, EGO = 0, TRAP_1 = 1, TRAP_2 = 2, TRAFFIC = 3;
 const ACTIONS = 9, IDLE = 4;
-const COLLISION = 1, ROAD_DEPARTURE = 2;
+const COLLISION = 1;
 const WHOLE = 8n, REAL = 8n, SINGLE = 4n; // bytes of a number
 
 class Road {
@@ -44,9 +44,9 @@ class Road {
       place: [...numbaArray(this.start, REAL, scenario.uniforms), c, ...cars],
       observe: [...cars, c, ...numbaArray(this.seen, SINGLE, scenario.observation)],
       rule: [...cars, c, ...order, ...around, ...outcome],
-      beforeAction: cars,
-      afterAction: [c, ...order, ...around, ...numbaArray(this.directions, REAL, vehicles, 2), ...outcome,
-        ...numbaArray(this.trace, REAL, steps, vehicles, COLUMNS)],
+      decide: Array.from({ length: ACTIONS }, (_, action) => [...cars, BigInt(action), c, ...order, ...around,
+        ...numbaArray(this.directions, REAL, vehicles, 2), ...outcome,
+        ...numbaArray(this.trace, REAL, steps, vehicles, COLUMNS)]),
     };
   }
 
@@ -66,7 +66,7 @@ class Road {
   decide(cars, action) {
     this.cars.set(cars);
     this.order.set(this.inOrder);
-    this.call("decide", [...this.arguments.beforeAction, BigInt(action), ...this.arguments.afterAction]);
+    this.call("decide", this.arguments.decide[action]);
     cars.set(this.cars);
     return { reward: this.outcome[3], accident: this.outcome[4] };
   }
@@ -88,8 +88,8 @@ class Road {
   }
 }
 
-// An array as numba's functions take it: two unused pointers, the number of elements, their size, the address, the shape
-// and the strides in bytes. Numbers of 64 bits are BigInts.
+// An array as numba's functions take it: two unused pointers, the number of elements, their size, the address, the
+// shape and the strides in bytes. Numbers of 64 bits are BigInts.
 function numbaArray(view, itemBytes, ...shape) {
   const sizes = shape.map(BigInt), strides = [];
   let stride = itemBytes;

@@ -29,7 +29,10 @@ class View {
     this.x = cars[X];
     this.ground();
     if (futures) this.trails(futures);
-    for (let car = this.scenario.vehicles - 1; car > EGO; car--) this.other(row(cars, car), car);
+    for (let car = this.scenario.vehicles - 1; car > EGO; car--) {
+      const trap = car < TRAFFIC;
+      this.car(row(cars, car), this.colour(trap ? "trap" : "traffic"), { label: trap ? `${car}` : "" });
+    }
     if (ghost) this.ghost(ghost);
     this.car(cars, colour, { label: "" });
     if (coming !== null) this.coming(cars, coming, colour);
@@ -77,11 +80,6 @@ class View {
     }
   }
 
-  other(state, car) {
-    const trap = car < TRAFFIC;
-    this.car(state, this.colour(trap ? "trap" : "traffic"), { label: trap ? `${car}` : "" });
-  }
-
   // One car: a body with two windows, brake lights, and indicators while it changes lane.
   car(state, colour, { label, alpha = 1, hollow = false }) {
     const { pen, scale, scenario } = this, [px, py] = this.spot(state[X], state[Y]);
@@ -120,7 +118,8 @@ class View {
     const turn = state[TARGET_LANE] - state[LANE];
     if (turn && !hollow) {
       pen.fillStyle = "#e69f00";
-      for (const end of [-0.47, 0.4]) pen.fillRect(turn < 0 ? -wide / 2 : wide * 0.34, long * end, wide * 0.16, long * 0.07);
+      const side = turn < 0 ? -wide / 2 : wide * 0.34;
+      for (const end of [-0.47, 0.4]) pen.fillRect(side, long * end, wide * 0.16, long * 0.07);
     }
     if (label) {
       pen.fillStyle = "#fff";
@@ -204,7 +203,7 @@ class View {
       pen.beginPath();
       path.forEach(([x, y]) => pen.lineTo(...this.spot(x, y)));
       pen.stroke();
-      if (i === best) Object.assign(pen, { lineWidth: 1.5, strokeStyle: this.colour("asphalt") }).stroke(); // a double line
+      if (i === best) Object.assign(pen, { lineWidth: 1.5, strokeStyle: this.colour("asphalt") }).stroke(); // double
       const [px, py] = this.spot(...path.at(-1));
       pen.beginPath();
       pen.arc(px, py, accident || i === best ? 4.5 : 2.5, 0, 7);
