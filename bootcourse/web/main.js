@@ -40,6 +40,9 @@ class Game {
     find("ghost").addEventListener("change", event => this.begin({ ghost: event.target.value }));
     find("number").addEventListener("change", event => this.begin({ number: event.target.value }));
     find("futures").addEventListener("change", () => { this.think(); this.dirty = true; });
+    document.addEventListener("change", ({ target }) => { // after a mouse or a finger, the arrow keys drive again
+      if (!target.matches(":focus-visible") || target.type === "number") target.blur();
+    });
     find("go").addEventListener("click", () => this.go());
     for (const id of ["again", "end-again"]) find(id).addEventListener("click", () => this.again());
     for (const id of ["next", "end-next"]) find(id).addEventListener("click", () => this.another());
@@ -161,6 +164,7 @@ class Game {
     drive.decide(this.mine ? this.thought.action : this.controls.take());
     if (!this.mine) this.remark(remark(drive.cars, ahead() && !wasAhead));
     if (ghost && !ghost.over) ghost.decide(this.rival.decide(this.road, ghost.cars).action);
+    this.before = this.futures;
     this.think();
     if (this.pace === 0 || drive.time % PATIENCE === 0) this.tell(`${drive.time} s. ${stateInWords(drive.cars)}`);
   }
@@ -173,7 +177,7 @@ class Game {
     this.thought = mind.decide(this.road, cars);
     const wanted = find("futures").checked;
     const futures = wanted ? this.thought.futures ?? this.drivers.lookahead.decide(this.road, cars).futures : null;
-    [this.before, this.futures] = [this.futures, this.drive.over ? null : futures];
+    this.futures = this.drive.over ? null : futures;
     this.thoughts.show(this.thought, stochasticRule(taught.action, this.settings.p), mind);
     const base = mind.id === "lookahead" ? " π is PPO’s; the imagined drives choose the action in bold." : "";
     find("mind-title").textContent = `What ${mind.label} thinks`;
@@ -215,9 +219,8 @@ class Game {
       colour: this.rival.colour, name: this.rival.label,
     };
     const colour = this.mine?.colour ?? this.view.colour("you");
-    const accident = this.finished && this.drive.accident;
     const futures = this.shown < this.drive.time ? this.before : this.futures; // those of the decision that is shown
-    this.view.draw({ cars, ghost, coming: shown, colour, futures, accident });
+    this.view.draw({ cars, ghost, coming: shown, colour, futures });
     this.controls.mark(shown);
     const earned = this.drive.rewards.slice(0, Math.ceil(this.shown)), lastReward = earned.at(-1) ?? 0;
     find("speed").textContent = cars[SPEED].toFixed(1);

@@ -25,7 +25,7 @@ class View {
     return [this.width / 2 + (y - middle) * this.scale, this.height * AHEAD - (x - this.x) * this.scale];
   }
 
-  draw({ cars, ghost, coming, colour, futures, accident }) {
+  draw({ cars, ghost, coming, colour, futures }) {
     this.x = cars[X];
     this.ground();
     if (futures) this.trails(futures);
@@ -36,7 +36,6 @@ class View {
     if (ghost) this.ghost(ghost);
     this.car(cars, colour, { label: "" });
     if (coming !== null) this.coming(cars, coming, colour);
-    if (accident) this.ring(cars);
   }
 
   ground() {
@@ -177,15 +176,6 @@ class View {
     else { pen.moveTo(-scale * 0.6, scale * 0.7); pen.lineTo(0, 0); pen.lineTo(scale * 0.6, scale * 0.7); }
     pen.stroke();
     pen.restore();
-  }
-
-  ring(cars) {
-    const [px, py] = this.spot(cars[X], cars[Y]), { pen } = this;
-    pen.strokeStyle = this.colour("alarm");
-    pen.lineWidth = 3;
-    pen.beginPath();
-    pen.arc(px, py, this.scale * 4.2, 0, 7);
-    pen.stroke();
   }
 
   // Imagined drives: thin and by what they earn, those that crash in red, the best one bold.
