@@ -222,6 +222,6 @@ def test_no_number_of_episodes_gives_a_rate_of_5_with_the_printed_deviation():
 
 
 def test_the_settings_that_the_page_calls_variations_are_run_by_the_study():
-    changed = [its.changes for its in EXPERIMENTS["sensitivity"].variations.values()]
+    changed = [variation.changes for variation in EXPERIMENTS["sensitivity"].variations.values()]
     assert {"target_entropy": 0.3} in changed and {"target_entropy": 1.0} in changed
     assert {"updates": 4 * S.updates} in changed and any("hidden" in each for each in changed)

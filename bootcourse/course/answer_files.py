@@ -11,7 +11,7 @@ from collections.abc import Callable
 from pathlib import Path
 from types import FunctionType, ModuleType
 
-from bootcourse.course.order import names_used
+from bootcourse.course.names import names_used
 from bootcourse.errors import BootcourseError, described
 from bootcourse.files import write_bytes
 

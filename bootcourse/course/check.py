@@ -1,6 +1,6 @@
 """The checks that a notebook calls: `check.NAME(my_function)`, `check.hint("NAME")`, `check.solution("NAME")`.
 
-NAME is an exercise (see `exercises/`). A check says what is wrong with an answer and raises no error, and the cells
+NAME is an exercise (see `exercise.py`). A check says what is wrong with an answer and raises no error, and the cells
 after it use the library's code, so the notebook goes on. `check.strict()` is for solved notebooks: after it, an answer
 that does not pass raises `NotPassed`.
 """
@@ -11,7 +11,7 @@ from dataclasses import replace
 
 from bootcourse.course.answer_files import PARTS
 from bootcourse.course.edition import need_open_solutions, solutions_are_open
-from bootcourse.course.exercise import Exercise
+from bootcourse.course.exercise import Exercise, source_of
 from bootcourse.course.judge import judge
 from bootcourse.course.lessons import registry
 from bootcourse.course.verdict import Verdict
@@ -45,9 +45,9 @@ def hint(name: str) -> Verdict:
 def solution(name: str):
     """The code of a right answer. Raises BootcourseError for an unknown exercise, and where solutions are closed."""
     need_open_solutions()
-    from bootcourse.course import code_of
+    from IPython.display import Code
 
-    return code_of(_find(name).solution)
+    return Code(source_of(_find(name).solution), language="python")
 
 
 def _find(name: str) -> Exercise:

@@ -1,7 +1,7 @@
 """The slopes of a loss, which say what it trains: two losses of equal value can have different ones.
 
-Slopes in `log_pi` are taken through its logits, as training takes them: only changes that keep the probabilities'
-sum at 1 count, so that `log_pi`, `log_softmax(log_pi)` and `Categorical(logits=log_pi)` are the same.
+Slopes in log-probabilities are taken through their logits, as training takes them: only changes that keep the
+probabilities' sum at 1 count, so that `log_pi`, `log_softmax(log_pi)` and `Categorical(logits=log_pi)` are the same.
 """
 
 from collections.abc import Callable
@@ -9,10 +9,10 @@ from collections.abc import Callable
 import torch
 from torch import Tensor
 
-STEP = 1e-5  # slopes are taken this far from the case, where no two values tie and no maximum has a kink
+STEP = 1e-4  # slopes are taken this far from the case, where no two values tie and no maximum has a kink
 
 
-def loss_and_slopes(answer: Callable, arguments: tuple, places: list[int], logits: list[int]):
+def loss_and_slopes(places: list[int], logits: list[int], answer: Callable, *arguments):
     """(value, the slope of its sum in the argument at each of the places); None if the answer is None.
 
     logits: those places whose argument is a log-probability. A slope that autograd cannot give is a text, its error.
@@ -32,8 +32,8 @@ def loss_and_slopes(answer: Callable, arguments: tuple, places: list[int], logit
     try:
         loss = answer(*copies)
         if isinstance(loss, Tensor) and loss.requires_grad:
-            found = torch.autograd.grad(loss.sum(), list(leaves.values()), allow_unused=True)
-            slopes = [zero if slope is None else slope for zero, slope in zip(slopes, found, strict=True)]
+            gradients = torch.autograd.grad(loss.sum(), list(leaves.values()), allow_unused=True)
+            slopes = [zero if slope is None else slope for zero, slope in zip(slopes, gradients, strict=True)]
     except Exception as error:  # the value came without one: only autograd can have raised this
         return value, *[f"{type(error).__name__}: {error}" for _ in slopes]
     return value, *slopes

@@ -1,22 +1,31 @@
 """The result of a check: a sentence, with numbers where they help, as HTML and as plain text."""
 
+from __future__ import annotations
+
 import re
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
 
 from bootcourse.markup import Markup, html, joined
 
-MARKS = {"passed": "✓", "wrong": "✗", "todo": "…", "hint": "?"}  # words say the same, for readers who see no colour
-COLOURS = {"passed": "#009E73", "wrong": "#D55E00", "todo": "#777777", "hint": "#0072B2"}
+if TYPE_CHECKING:
+    from bootcourse.course.exercise import Mistake
+
+# wrong: it ran; did_not_run: it raised an error, took too long, or ended its process; todo: nothing to judge yet
+Kind = Literal["passed", "wrong", "did_not_run", "todo", "hint"]
+MARKS = {"passed": "✓", "wrong": "✗", "did_not_run": "✗", "todo": "…", "hint": "?"}  # for readers who see no colour
+COLOURS = {"passed": "#009E73", "wrong": "#D55E00", "did_not_run": "#D55E00", "todo": "#777777", "hint": "#0072B2"}
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """kind: passed, wrong, todo (nothing to judge yet) or hint."""
+    """What a check says."""
 
-    kind: str
+    kind: Kind
     sentence: str
     details: tuple[str, ...] = ()  # one line each, shown unchanged: numbers, code
     footer: str = ""
+    mistake: Mistake | None = None  # the exercise's mistake that the answer makes, if it is a known one
 
     @property
     def passed(self) -> bool:
@@ -33,8 +42,8 @@ class Verdict:
             numbers = html('<div style="{}">{}</div>', style, numbers)
         footer = html('<div style="margin-top: 6px; opacity: 0.8">{}</div>', marked(self.footer)) if self.footer else ""
         box = f"border-left: 4px solid {COLOURS[self.kind]}; padding: 4px 12px; max-width: 800px; line-height: 1.45"
-        told = html("{} {}{}{}", MARKS[self.kind], marked(self.sentence), numbers, footer)
-        return {"text/html": str(html('<div role="status" style="{}">{}</div>', box, told)), "text/plain": repr(self)}
+        text = html("{} {}{}{}", MARKS[self.kind], marked(self.sentence), numbers, footer)
+        return {"text/html": str(html('<div role="status" style="{}">{}</div>', box, text)), "text/plain": repr(self)}
 
 
 def marked(sentence: str) -> Markup:

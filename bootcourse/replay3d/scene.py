@@ -1,4 +1,4 @@
-"""What is drawn where at time t, as numbers computed from rollouts. The browser and the pictures draw the same.
+"""What is drawn where at time t, as numbers computed from rollouts. `stage.py` draws it in the browser.
 
 On the road y grows to the right (as in highway-env), which with z up is a left-handed system. The world is
 right-handed: x along the road, y = minus the road's y, to the left, z up; yaw = minus the road's heading.

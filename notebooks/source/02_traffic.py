@@ -325,17 +325,22 @@ table(["politeness", "lane changes a road (100 roads)"], rows)
 # loses, and what the *old* follower gains. On this road the other lanes are nearly empty, so often
 # the new follower loses nothing, while the old one gains. A polite driver gets out of the way.
 #
-# The traffic's numbers belong to the scenario, and you can change them. The panel refuses numbers
-# that do not fit together, and says why.
+# The traffic's numbers belong to the scenario, and you can change them: `dataclasses.replace` copies a
+# scenario with other numbers. A scenario whose numbers do not fit together is refused with the reason.
 #
-# > **Predict.** Under *Road and clock* you can shorten the road. At about which length will it be
-# > refused, and why there?
+# > **Predict.** You shorten the road. At about which length will it be refused, and why there?
 
 # %%
 predict("2.6", "Below which length is the road refused?", unit="m")
 
-# %% tags=["nbval-ignore-output"]
-bc.panels.scenario_panel()
+# %%
+for length in (5000.0, 4500.0, 4000.0, 3500.0):  # m: try others
+    road = dataclasses.replace(bc.DEFAULT.road, length=length)
+    try:
+        dataclasses.replace(bc.DEFAULT, name="shorter", road=road)
+        print(f"{length:g} m: accepted")
+    except bc.BootcourseError as error:
+        print(f"{length:g} m: {error}")
 
 # %% [markdown]
 # <details><summary>Answer</summary>

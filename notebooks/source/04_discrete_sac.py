@@ -71,7 +71,7 @@ changes = {"gamma": 0.99, "tau": 0.05}  # looks 100 pushes ahead; targets that f
 learners = bc.with_seeds(bc.settings_for("sac", target_entropy=TARGET, **changes), 3)
 first = own_code.training(learners, PUSHES, make_env=checks.several(checks.cartpole))
 first.run(stop=lambda: first.decisions >= PUSHES * len(learners))
-balanced = checks.scores(first.learner, checks.cartpole, 20)
+balanced = checks.scores(first.result().agents, checks.cartpole, 20)
 print("mean of 20 test episodes:", *(f"{pushes:.0f}" for pushes in balanced), "pushes")
 
 # %%
@@ -481,7 +481,6 @@ def note(training):
 
 training = own_code.training(agents, PUSHES, make_env=checks.several(checks.cartpole))
 training.run(callback=note, stop=lambda: training.decisions >= PUSHES * len(agents))
-learner = training.learner
 print(f"{len(noted):,} updates of {len(agents)} agents")
 
 # %%
@@ -500,7 +499,7 @@ title = "The entropy of the six agents"
 bc.show(charts.lines(updates, named, title, "update", "entropy (nats)", marks=marks))
 
 # %%
-results = checks.scores(learner, checks.cartpole, 20)
+results = checks.scores(training.result().agents, checks.cartpole, 20)
 for i, (agent, score) in enumerate(zip(agents, results, strict=True)):
     eta = f"{agent.target_entropy:5.2f}"
     print(f"η = {eta}, seed {agent.seed}: balances for {score:5.1f} of 500 pushes", end="")
@@ -510,7 +509,7 @@ for i, (agent, score) in enumerate(zip(agents, results, strict=True)):
 best, worst = int(results.argmax()), int(results.argmin())
 drives = {}
 for i in (worst, best):
-    rows, returns = checks.collect(checks.actor_of(learner, i), checks.cartpole, 1, seed=0)
+    rows, returns = checks.collect(checks.actor_of(training.agent(i)), checks.cartpole, 1, seed=0)
     name = f"agent {i} (η = {agents[i].target_entropy:.2f}): {returns[0]:.0f} pushes"
     drives[name] = rows[:, :4].numpy()
 bc.show(figures.cartpole_strip(drives, "The worst and the best of the six, from the same start"))

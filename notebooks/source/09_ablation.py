@@ -644,7 +644,8 @@ print("In the study, ξ is a tenth of its start at the episodes", *sorted(cold))
 table(*clocks.pattern_rows(shipped.shipped_experiment("clocks")))
 
 # %%
-bc.panels.clocks_panel("2", "π̃")
+cells = clocks.cells(shipped.shipped_experiment("clocks"))
+bc.show(figures_ablation.two_clocks(cells["2", "π̃"], "2"))
 
 # %% [markdown]
 # **See.** With two updates and demonstrations by π̃ all ten agents escape with demonstrations

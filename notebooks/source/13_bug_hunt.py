@@ -29,7 +29,7 @@ from bootcourse.course import charts, check, compare_predictions, predict, sourc
 from bootcourse.course.lessons.bug_hunt import bugs
 
 hunt = bugs.Hunt()
-print(f"{len(hunt.names)} agents, 2 seeds each, {hunt.provenance['updates']} updates of each")
+print(f"{len(hunt.names)} agents, 2 seeds each, {bugs.UPDATES} updates of each")
 
 # %% [markdown]
 # ## Look first

@@ -25,9 +25,8 @@
 import bootcourse as bc
 import numpy as np
 from bootcourse.course import charts, check, compare_predictions, predict, source, table
-from bootcourse.course.lessons.your_teacher import example_teachers
+from bootcourse.course.lessons.your_teacher import example_teachers, taught_agents
 from bootcourse.learn.teachers import ahead, course_rule, teacher_policy, toward
-from bootcourse.research import teacher_reference
 from bootcourse.road.state import EGO, LANE, SPEED, X, Y
 
 # %% [markdown]
@@ -317,13 +316,13 @@ table(["labels of an untrained agent's drives", "most frequent", "second", "thir
 # ## Round 4: students
 #
 # First *your* teacher: three agents learn from it with the paper's method, for
-# {{ teacher_reference.UPDATES | , }} updates. **Yours will differ.** The result depends on your
+# {{ taught_agents.UPDATES | , }} updates. **Yours will differ.** The result depends on your
 # processor: it rounds in its own way, and a training turns a small difference into a large one.
 
 # %% tags=["nbval-ignore-output"]
 SEEDS = 3
-taught = teacher_reference.teach(mine, bc.with_seeds(bc.settings_for("bootstrapped"), SEEDS))
-learned = teacher_reference.tested(taught.agents)
+taught = taught_agents.teach(mine, bc.with_seeds(bc.settings_for("bootstrapped"), SEEDS))
+learned = taught_agents.tested(taught.agents)
 title = f"Three students of {mine.__name__}, while they learn"
 named = {mine.__name__: 100 * taught.escapes}
 bc.show(charts.lines(taught.updates, named, title, "update", "escapes, % of the last 30 episodes"))
@@ -331,11 +330,11 @@ bc.show(charts.lines(taught.updates, named, title, "update", "escapes, % of the 
 # %% [markdown]
 # Now ten students of each teacher, and ten agents that learned alone, with the same number of
 # updates. They were trained once, and ship with the course
-# (`python -m bootcourse.research.teacher_reference` trains them again). Each is tested on
-# {{ len(teacher_reference.ROADS) }} held-out roads.
+# (`bootcourse study students` trains them again). Each is tested on
+# {{ len(taught_agents.ROADS) }} held-out roads.
 
 # %%
-groups = teacher_reference.reference()
+groups = taught_agents.reference()
 rows = []
 for name, group in (*groups.items(), (f"yours: {mine.__name__}", learned)):
     each = ", ".join(f"{100 * s:.0f}" for s in np.sort(group["success"]))
@@ -422,8 +421,8 @@ check.holm(holm)
 
 # %%
 tests = [(name, score) for name in groups if name != "alone" for score in ("success", "returns")]
-p = [teacher_reference.p_value(groups[name][s], groups["alone"][s]) for name, s in tests]
-adjusted, rows = teacher_reference.holm(p), []
+p = [taught_agents.p_value(groups[name][s], groups["alone"][s]) for name, s in tests]
+adjusted, rows = taught_agents.holm(p), []
 for (name, score), one, all_of_them in zip(tests, p, adjusted, strict=True):
     better = bc.statistics.improvement(groups[name][score], groups["alone"][score]).value
     word = ("hurts", "helps")[int(better > 0.5)] if all_of_them < 0.05 else "cannot be told"
@@ -495,9 +494,8 @@ table(headings, rows)
 # So the return of a teacher alone is a poor measure of its use. Ask as well: does it lead to a
 # place that the learner does not find alone, and does the learner stop following it afterwards?
 #
-# **Try**: run `bc.panels.teachers_panel()` in a cell of your own. It shows what seven teachers, the
-# planner among them, are worth to several learners (round 6 of
-# [lesson 16](16_beyond_the_paper.ipynb)).
+# Round 6 of [lesson 16](16_beyond_the_paper.ipynb) shows what seven teachers, the planner among
+# them, are worth to several learners.
 # <!-- claim: len({teacher for teacher, _ in shipped.shipped_teachers()}) == 7 -->
 
 # %% [markdown] tags=["instructor"] minutes=10

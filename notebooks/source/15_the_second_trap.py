@@ -26,8 +26,7 @@ import bootcourse as bc
 import numpy as np
 import torch
 from bootcourse.course import charts, check, compare_predictions, own_code, predict, table
-from bootcourse.course.lessons.the_second_trap import second_trap
-from bootcourse.research import ppo_reference
+from bootcourse.course.lessons.the_second_trap import ppo_kinds, second_trap
 from bootcourse.road.state import EGO, SPEED
 
 # %% [markdown]
@@ -36,12 +35,12 @@ from bootcourse.road.state import EGO, SPEED
 # The learner of the paper trains for minutes. The compiled road could drive much more in that time,
 # so here is a learner that drives hundreds of roads at once: PPO, *proximal policy optimisation*.
 # {{ ppo_agents() }} agents were trained with it, alone, without a rule or demonstrations. They
-# ship with the course, and were tested on {{ len(ppo_reference.ROADS) }} roads that are new to
+# ship with the course, and were tested on {{ len(ppo_kinds.ROADS) }} roads that are new to
 # them.
 
 # %%
-groups = ppo_reference.reference()
-alone, roads = groups["alone"], ppo_reference.ROADS
+groups = ppo_kinds.reference()
+alone, roads = groups["alone"], ppo_kinds.ROADS
 by_rule = bc.drive_episodes(bc.rule_policy(bc.DEFAULT), roads)
 nobody = bc.drive_episodes(bc.policies.idle_policy, roads)
 rows = []
@@ -78,7 +77,7 @@ predict("15.1", "They earn more because", choices)
 
 # %%
 ROAD = 10
-drive = bc.record(ppo_reference.agent_of("alone").as_policy(), [ROAD], label="ppo")[0]
+drive = bc.record(ppo_kinds.agent_of("alone").as_policy(), [ROAD], label="ppo")[0]
 
 # %% tags=["nbval-ignore-output"]
 bc.recording([drive], height=360)
@@ -251,8 +250,8 @@ for ratio, advantage in ((1.5, 2.0), (0.5, 2.0), (1.5, -2.0), (0.5, -2.0)):
 
 # %% tags=["nbval-ignore-output"]
 MOST = 100_000  # episodes; the number of decisions ends each training
-training = own_code.training([ppo_reference.settings_of("alone")], MOST)
-mine = ppo_reference.train(training, 500_000)
+training = own_code.training([ppo_kinds.settings_of("alone")], MOST)
+mine = ppo_kinds.train(training, 500_000)
 rate = training.decisions / training.seconds
 print(f"{training.decisions:,} decisions in {training.seconds:.0f} s: {rate:,.0f} a second")
 
@@ -274,7 +273,7 @@ bc.show(bc.traces(your_drive, title="Your agent", what=("speed", "distance")))
 
 # %% [markdown]
 # **See.** After 500,000 decisions the median agent that ships earns in training about what keeping
-# straight earns. After {{ ppo_reference.KINDS['alone'].decisions | , }} the ten earn {{
+# straight earns. After {{ ppo_kinds.KINDS['alone'].decisions | , }} the ten earn {{
 # ppo('alone')['curve'][:, -1].min() | .0f }} to {{ ppo('alone')['curve'][:, -1].max() | .0f }}.
 # Each of them was ahead of trap 1 in some episodes while it learned: at one time in {{ 100 *
 # ppo('alone')['escapes'].max(1).min() | .1f }} to {{ 100 * ppo('alone')['escapes'].max(1).max() |
@@ -307,7 +306,7 @@ choices = ["it leaves", "it drives steadily behind trap 1", "it falls back and s
 predict("15.4", "With the concave reward", choices)
 
 # %%
-concave = bc.record(ppo_reference.agent_of("concave").as_policy(), [ROAD], label="ppo")[0]
+concave = bc.record(ppo_kinds.agent_of("concave").as_policy(), [ROAD], label="ppo")[0]
 speeds = {
     name: each.states[:: bc.DEFAULT.clock.steps][1:, EGO, SPEED]
     for name, each in (("the road's reward", drive), ("the concave one", concave))
@@ -318,7 +317,7 @@ bc.show(charts.lines(seconds, speeds, title, "time (s)", "speed (m/s)"))
 
 # %% [markdown]
 # **See.** The sprints are gone. None of the {{ ppo_agents() }} agents that ship escapes; they
-# were trained for {{ ppo_reference.KINDS['concave'].decisions | , }} decisions. On the road's terms
+# were trained for {{ ppo_kinds.KINDS['concave'].decisions | , }} decisions. On the road's terms
 # they earn {{ ppo('concave')['returns'].mean() | .0f }} on average, about what a car earns that
 # keeps straight. They are back in the first trap.
 # <!-- claim: ppo_escapes('concave') == 0 and abs(ppo('concave')['returns'].mean() /
@@ -355,7 +354,7 @@ check.shaping_reward(shaping_reward)
 
 # %%
 # NBVAL_CHECK_OUTPUT
-gamma = ppo_reference.GAMMA
+gamma = ppo_kinds.GAMMA
 for name, policy in (("the rule", bc.rule_policy(bc.DEFAULT)), ("nobody", bc.policies.idle_policy)):
     phi = second_trap.left_of(bc.record(policy, [ROAD])[0].states[:: bc.DEFAULT.clock.steps])
     shaped = second_trap.shaping_reward(phi[:-1], phi[1:], np.zeros(len(phi) - 1), gamma)
@@ -372,8 +371,8 @@ predict("15.5", "With the potential escape", ["none", "some of them", "all of th
 # %% tags=["nbval-ignore-output"]
 pay = second_trap.shaped_pay(second_trap.left_of, gamma, own_code.yours_or_ours("shaping_reward"))
 new_roads = {"make_env": lambda n: second_trap.Repaid(n, pay)}
-training = own_code.training([ppo_reference.settings_of("shaped")], MOST, **new_roads)
-shaped = ppo_reference.train(training, 300_000)
+training = own_code.training([ppo_kinds.settings_of("shaped")], MOST, **new_roads)
+shaped = ppo_kinds.train(training, 300_000)
 
 # %% tags=["nbval-ignore-output"]
 found = bc.evaluate(shaped.agent.as_policy(), 100)
@@ -391,7 +390,7 @@ table(["PPO, paid", "each agent's escapes, %, sorted", "the road's return", "acc
 
 # %% [markdown]
 # **See.** Of the {{ ppo_agents() }} agents that ship, trained for {{
-# ppo_reference.KINDS['shaped'].decisions | , }} decisions, none
+# ppo_kinds.KINDS['shaped'].decisions | , }} decisions, none
 # escapes. On the road's terms they earn less than those without a potential.
 # <!-- claim: ppo_escapes('shaped') == 0 and ppo('shaped')['returns'].mean() <
 #   ppo('alone')['returns'].mean() -->
@@ -427,8 +426,8 @@ choices = ["in less than half", "in about three quarters", "in nearly all"]
 predict("15.6", "It does as the rule would", choices)
 
 # %% tags=["nbval-ignore-output"]
-training = own_code.training([ppo_reference.settings_of("cloned")], MOST)
-cloned = ppo_reference.train(training, 200_000)
+training = own_code.training([ppo_kinds.settings_of("cloned")], MOST)
+cloned = ppo_kinds.train(training, 200_000)
 found = bc.evaluate(cloned.agent.as_policy(), 100)
 print(f"{training.decisions:,} decisions in {training.seconds:.0f} s. Yours is ahead on ", end="")
 print(f"{100 * found.success.value:.0f} %, return {found.returns.value:.1f}")
@@ -452,7 +451,7 @@ table(["", *headings], rows)
 # %%
 kinds = {"ppo": "alone", "ppo_cloned": "cloned"}
 fast = {
-    m: bc.record(ppo_reference.agent_of(k).as_policy(), [ROAD], label=m)[0]
+    m: bc.record(ppo_kinds.agent_of(k).as_policy(), [ROAD], label=m)[0]
     for m, k in kinds.items()
 }
 title = "PPO alone stays behind trap 1; after cloning it passes trap 1 and stays ahead"
@@ -460,14 +459,14 @@ bc.show(bc.traces(list(fast.values()), title=title, what=("speed", "distance", "
 
 # %% [markdown]
 # **See.** All {{ ppo_agents() }} cloned agents that ship escape, after {{
-# ppo_reference.KINDS['cloned'].decisions | , }} decisions. They earn {{
+# ppo_kinds.KINDS['cloned'].decisions | , }} decisions. They earn {{
 # ppo('cloned')['returns'].mean() | .0f }} on average, about twice what the rule earns, and do
 # what the rule would do in {{ 100 * ppo('cloned')['alike'].mean() | .0f }} % of their decisions.
 # They are not safe: {{ 100 * ppo('cloned')['accident'].mean() | .1f }} % of their drives end in an
 # accident, and none of the rule's drives on the same roads does.
 # <!-- claim: ppo_escapes('cloned') == ppo_agents() and ppo('cloned')['returns'].mean() > 1.8 *
 #   of('rule').scores('returns')[0] and ppo('cloned')['accident'].mean() > 0 -->
-# <!-- claim: not drive_episodes(rule_policy(DEFAULT), ppo_reference.ROADS).accident.any() and
+# <!-- claim: not drive_episodes(rule_policy(DEFAULT), ppo_kinds.ROADS).accident.any() and
 #   (ppo('cloned')['alike'] < 0.5).all() -->
 #
 # **Explain.** What was the rule for? It was not a model of good driving: it earns about half of

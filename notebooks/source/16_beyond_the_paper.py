@@ -28,7 +28,8 @@ import numpy as np
 import torch
 from bootcourse.course import charts, check, compare_predictions, own_code, predict, shipped, table
 from bootcourse.course.lessons.beyond_the_paper import figures as figures_teachers
-from bootcourse.research import beyond, frontier, ppo_reference
+from bootcourse.course.lessons.the_second_trap import ppo_kinds
+from bootcourse.research import beyond
 
 # %% [markdown]
 # ## Look first
@@ -271,7 +272,7 @@ named |= {bc.display_name(method): part for method, part in later.items()}
 table(*beyond.learner_rows(named))
 
 # %%
-bc.show(frontier.safe_and_fast(named, shipped.shipped_bound().mean()))
+bc.show(figures_teachers.safe_and_fast(named, shipped.shipped_bound().mean()))
 
 # %% [markdown]
 # (The table's return is the interquartile mean, the figure's the mean. In the last column stands
@@ -362,7 +363,7 @@ choices = [*ends]
 predict("16.5", "Most crashes of PPO after cloning", choices)
 
 # %%
-drives = bc.record(ppo_reference.agent_of("cloned").as_policy(), bc.held_out_seeds(16, 200))
+drives = bc.record(ppo_kinds.agent_of("cloned").as_policy(), bc.held_out_seeds(16, 200))
 crashes = [drive for drive in drives if drive.accident]
 kinds = dict.fromkeys(choices, 0)
 for drive in crashes:
@@ -464,7 +465,7 @@ safer = {"PPO after cloning": later["ppo_cloned"], **shipped.shipped_experiment(
 table(*beyond.learner_rows(safer))
 
 # %%
-bc.show(frontier.safe_and_fast(safer, shipped.shipped_bound().mean()))
+bc.show(figures_teachers.safe_and_fast(safer, shipped.shipped_bound().mean()))
 
 # %% [markdown]
 # **See.** All ten agents of each kind escape. Without a remedy, {{ crashed(later('ppo_cloned')) |
@@ -525,7 +526,7 @@ rows += [["all 1,000 roads", crashes_on.sum()]]
 table(["", f"crashes of the {sum(map(len, safer.values()))} agents"], rows)
 
 # %%
-agent, seeds = ppo_reference.agent_of("cloned").as_policy(), bc.held_out_seeds(1, 1000)
+agent, seeds = ppo_kinds.agent_of("cloned").as_policy(), bc.held_out_seeds(1, 1000)
 drive = bc.record(agent, [seeds[worst_first[0]]], label="ppo_cloned")[0]
 end = drive.times[-1]
 bc.show(bc.top_view_over_time(drive, times=[end - 4, end - 2, end]))
@@ -605,8 +606,8 @@ predict("16.11", "Half at random: all ten escape with", [*pupils, "both", "neith
 worth = shipped.shipped_teachers()
 bc.show(figures_teachers.teacher_value(worth, "return"))
 
-# %% tags=["nbval-ignore-output"]
-bc.panels.teachers_panel("escape")
+# %%
+bc.show(figures_teachers.teacher_value(worth, "escape"))
 
 # %% [markdown]
 # **See.** *PPO after cloning.* All ten that began as clones of the teacher with a quarter at random

@@ -16,11 +16,10 @@ is the exercise's own. The words, after " # ", come last.
 """
 
 import ast
-import contextlib
+import faulthandler
 import importlib
-import io
+import json
 import linecache
-import pickle
 import pkgutil
 import re
 import sys
@@ -28,11 +27,10 @@ import textwrap
 import warnings
 from collections import defaultdict
 from collections.abc import Callable, Iterator
-from unittest import mock
 
 import cloudpickle
 
-from bootcourse.course import guard, worker
+from bootcourse.course import runner
 from bootcourse.course.lessons import registry
 
 RIGHT: dict[str, list[Callable]] = defaultdict(list)
@@ -110,12 +108,18 @@ def equivalent(exercise: str, change: str, why: str) -> None:
     EQUIVALENT[exercise][change] = why
 
 
-def here(job: bytes, seconds: float):
+def here(exercise, answer, seconds, times=1):
     """What a function answers in this process: faster than one of its own, for answers that do no harm."""
-    job, stream = pickle.loads(job), io.BytesIO()
-    with contextlib.redirect_stdout(sys.stdout), contextlib.redirect_stderr(sys.stderr), warnings.catch_warnings():
-        worker.work(job, *worker.prepared(job["exercise"]), stream)
-    return "", stream.getvalue()
+    report, settings = runner.Report(), (sys.stdout, sys.stderr)
+    with warnings.catch_warnings():
+        runner.work(runner.packed(exercise), runner.pickled(answer, times, 600), lambda **told: note(report, told))
+    faulthandler.cancel_dump_traceback_later()
+    sys.stdout, sys.stderr = settings
+    return report
+
+
+def note(report, told: dict) -> None:
+    report.take(json.loads(json.dumps(told)))
 
 
 def one_sentence(verdict) -> bool:
@@ -123,8 +127,6 @@ def one_sentence(verdict) -> bool:
     html = verdict._repr_mimebundle_()["text/html"]
     return "\n" not in verdict.sentence and verdict.sentence.endswith((".", "?")) and "Traceback" not in html
 
-
-in_this_process = mock.patch.multiple(guard, _in_a_fork=here, _alone=here)
 
 for _module in pkgutil.iter_modules(__path__):
     cloudpickle.register_pickle_by_value(importlib.import_module(f"{__name__}.{_module.name}"))

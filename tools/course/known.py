@@ -20,9 +20,9 @@ from bootcourse.course.lessons.bug_hunt import bugs
 from bootcourse.course.lessons.the_barrier import chain
 from bootcourse.course.lessons.the_barrier.chain import leaving
 from bootcourse.course.lessons.the_rule import tracking
-from bootcourse.course.lessons.the_second_trap import second_trap
+from bootcourse.course.lessons.the_second_trap import ppo_kinds, second_trap
 from bootcourse.course.lessons.traffic import simulation as traffic
-from bootcourse.course.lessons.your_teacher import example_teachers
+from bootcourse.course.lessons.your_teacher import example_teachers, taught_agents
 from bootcourse.course.lessons.your_teacher.driven_out import OUT, drive_out
 from bootcourse.course.own_learner import parts_of
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
@@ -36,7 +36,7 @@ from bootcourse.learn.settings import settings_for
 from bootcourse.learn.teachers import teacher_policy, toward
 from bootcourse.methods import METHODS
 from bootcourse.policies import idle_policy, plan_policy, random_policy, rule_policy, stochastic_rule_policy
-from bootcourse.research import beyond, ppo_reference, report, teacher_reference
+from bootcourse.research import beyond, report
 from bootcourse.research import clocks as study_clocks
 from bootcourse.research.checks import CHECKS
 from bootcourse.research.clocks import pattern
@@ -206,7 +206,7 @@ def half_of_the_crashes() -> int:
 @cache
 def three_abreast(road: int) -> bool:
     """Whether lesson 15's agent crashes on this road beside three slower cars, one in each lane, 5 m apart at most."""
-    agent = ppo_reference.agent_of("cloned").as_policy()
+    agent = ppo_kinds.agent_of("cloned").as_policy()
     end = record(agent, [held_out_seeds(1, 1000)[road]])[0].states[-1]
     three = end[1:][np.argsort(abs(end[1:, X] - end[EGO, X]))[:3]]
     slower = three[:, SPEED].max() < end[EGO, SPEED] - 2
@@ -461,7 +461,7 @@ def dense_escapes(name: str) -> float:
 @cache
 def students(teacher: str) -> dict:
     """What ships of the ten students of one of lesson 14's teachers, or of the ten that learned "alone"."""
-    return teacher_reference.reference()[teacher]
+    return taught_agents.reference()[teacher]
 
 
 def student_escapes(teacher: str) -> int:
@@ -471,15 +471,15 @@ def student_escapes(teacher: str) -> int:
 
 def teacher_tests() -> dict:
     """Holm's adjusted p-values against the ten that learned alone: {(teacher, score): p}."""
-    names = [job.name for job in teacher_reference.teacher_jobs(1) if job.name != "alone"]
+    names = list(taught_agents.TEACHERS)
     pairs = [(name, score) for name in names for score in ("success", "returns")]
     p = [stats.mannwhitneyu(students(name)[score], students("alone")[score]).pvalue for name, score in pairs]
-    return dict(zip(pairs, teacher_reference.holm(p), strict=True))
+    return dict(zip(pairs, taught_agents.holm(p), strict=True))
 
 
 def ppo(kind: str) -> dict:
     """What ships of lesson 15's agents of a kind: "alone", "shaped" or "cloned"."""
-    return ppo_reference.reference()[kind]
+    return ppo_kinds.reference()[kind]
 
 
 def ppo_agents() -> int:
@@ -495,7 +495,7 @@ def ppo_escapes(kind: str) -> int:
 @cache
 def ppo_drive(kind: str = "alone", road: int = ROAD):
     """The first of these agents on one road."""
-    return record(ppo_reference.agent_of(kind).as_policy(), [road])[0]
+    return record(ppo_kinds.agent_of(kind).as_policy(), [road])[0]
 
 
 def ppo_speeds(kind: str = "alone") -> np.ndarray:

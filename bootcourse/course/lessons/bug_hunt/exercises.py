@@ -5,7 +5,7 @@ import math
 import numpy as np
 import torch
 
-from bootcourse.course.exercise import Exercise, Mistake
+from bootcourse.course.exercise import Exercise, Mistake, logits
 from bootcourse.course.lessons.bug_hunt import target_probe
 from bootcourse.course.lessons.bug_hunt.target_probe import standard_target
 
@@ -200,7 +200,7 @@ EVEN = torch.full((1, 9), -math.log(9))
 ONE_TO_NINE = torch.arange(1.0, 10.0)[None]
 
 fixed_value = Exercise(
-    "fixed_value(log_pi, q, alpha)", solution=fixed_value_solution, cases=value_cases, slopes=("log_pi",),
+    "fixed_value(log_pi, q, alpha)", solution=fixed_value_solution, cases=value_cases, slopes=(logits("log_pi"),),
     worked=(
         # nine actions, all alike: (1 + 2 + ... + 9) / 9 + 0.5 log 9
         ((EVEN, ONE_TO_NINE, 0.5), torch.tensor([5 + 0.5 * math.log(9)])),
@@ -255,7 +255,7 @@ def loss_cases(rng):
 
 fixed_loss = Exercise(
     "fixed_loss(log_pi, q, log_rule, alpha, xi)",
-    solution=fixed_loss_solution, cases=loss_cases, slopes=("log_pi", "q"),
+    solution=fixed_loss_solution, cases=loss_cases, slopes=(logits("log_pi"), "q"),
     worked=(
         # π even, Q = 1 to 9, π̃ = π, α = 0.5, ξ = 1: V = 5 + 0.5 log 9; slopes in the logits: -π (Q - 5)
         ((EVEN, ONE_TO_NINE, EVEN, 0.5, 1.0),

@@ -4,7 +4,7 @@ import math
 
 import torch
 
-from bootcourse.course.exercise import Exercise, Mistake
+from bootcourse.course.exercise import Exercise, Mistake, logits
 from bootcourse.course.lessons.discrete_sac import replay_buffer
 from bootcourse.learn import sac
 
@@ -222,7 +222,7 @@ def actor_loss_solution(log_pi, q, alpha):
 
 
 actor_loss = Exercise(
-    "actor_loss(log_pi, q, alpha)", solution=actor_loss_solution, cases=value_cases, slopes=("log_pi", "q"),
+    "actor_loss(log_pi, q, alpha)", solution=actor_loss_solution, cases=value_cases, slopes=(logits("log_pi"), "q"),
     worked=(
         ((HALF, torch.tensor([[1.0, 3.0]]), torch.tensor(0.5)), torch.tensor(-(2 + 0.5 * LOG_2))),
     ),

@@ -1,0 +1,326 @@
+"""Run an answer in a process of its own, so that the notebook goes on whatever the function does.
+
+On Linux the process is a fork of a clean, warm one (`multiprocessing`'s forkserver), elsewhere a new one; one waits
+ahead for the next check. Nothing that the function changes there outlives the check; endless loops, crashes,
+`os._exit`, threads and prints end with it. What comes back is JSON, never a pickle.
+
+What is guarded: time, everywhere. Memory, on Linux only. Files, network and other processes, nowhere: the function runs
+with your rights.
+"""
+
+import atexit
+import contextlib
+import ctypes
+import faulthandler
+import functools
+import inspect
+import io
+import json
+import multiprocessing
+import os
+import pickle
+import re
+import signal
+import sys
+import threading
+import time
+import traceback
+import types
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import cloudpickle
+import torch
+
+from bootcourse.course.exercise import Exercise
+from bootcourse.course.lessons import LESSONS
+from bootcourse.course.values import Plain, as_json, from_json, plain, same
+from bootcourse.errors import BootcourseError
+
+FORKS = sys.platform == "linux"  # on macOS system libraries may break in a fork, and Windows has none
+MEMORY = 2 * 2**30  # bytes that a function may use
+START = 60  # seconds in which a process has to be ready
+LONGEST_PRINT = 500  # characters of a function's prints that are shown
+LONGEST_ANSWER = 64 * 2**20  # bytes of one case
+SLACK = 5  # seconds after which the process ends by itself
+PR_SET_PDEATHSIG = 1  # of Linux's prctl: the signal that a process gets when its parent ends
+READY = b"ready"
+PRELOADED = ["torch", *(f"bootcourse.course.lessons.{name}.exercises" for name in LESSONS[1:])]
+SOURCE = "your answer"  # the file name of a function that came as text
+PATH = re.compile(r"(?<![\w./])(?:[A-Za-z]:)?(?:[\\/][^\\/\s'\"():,;]+)+[\\/]([^\\/\s'\"():,;]+)")
+NOT_SENT = (
+    "Your function uses something that exists only in the notebook's own process, such as an open file, a widget or a "
+    "lock: make it inside the function ({})."
+)
+
+
+def without_paths(text: str) -> str:
+    """The text with the name alone of each file of this machine."""
+    return PATH.sub(r"\1", text)
+
+
+@dataclass
+class Report:
+    """What the function did, case by case, up to the first case that raised an error or took too long."""
+
+    answers: list[Plain] = field(default_factory=list)
+    refused: str = ""  # why it cannot be called at all
+    error: tuple[str, str, int | None] | None = None  # (type, text, line of the student's file)
+    changed: tuple[int, int] | None = None  # (case, index of the argument) of the first argument changed in place
+    ended: str | int = ""  # "time", "size", or how the process ended before its time: an exit code, minus a signal
+    printed: str = ""
+    warned: dict[int, str] = field(default_factory=dict)  # case -> NumPy's first warning
+
+    def take(self, told: dict) -> bool:
+        """Note a message of the process; False if it is the last. Raises ValueError for one that it cannot have sent."""
+        match told:
+            case {"answer": list() as answer, "changed": None | int() as place}:
+                if place is not None and self.changed is None:
+                    self.changed = len(self.answers), place
+                self.answers.append(from_json(answer))
+            case {"printed": str() as text}:
+                self.printed = (self.printed + without_paths(text))[:LONGEST_PRINT]
+            case {"warned": str() as text}:
+                self.warned.setdefault(len(self.answers), text)
+            case {"error": [str() as kind, str() as text, None | int() as line]}:
+                self.error = kind, without_paths(text), line
+            case {"refused": str() as text}:
+                self.refused = text
+            case {"done": True}:
+                return False
+            case _:
+                raise ValueError("no message")
+        return True
+
+
+# Here -------------------------------------------------------------------------------------------------
+
+
+class Pickler(cloudpickle.Pickler):
+    """Takes cached functions, too, and tensors in a tenth of the time."""
+
+    def reducer_override(self, thing):
+        if isinstance(thing, functools._lru_cache_wrapper):
+            return cached_again, (thing.__wrapped__, thing.cache_parameters())
+        if type(thing) is torch.Tensor and not thing.requires_grad:
+            return torch.from_numpy, (thing.numpy(),)
+        return super().reducer_override(thing)
+
+
+def cached_again(function: Callable, parameters: dict) -> Callable:
+    return functools.lru_cache(**parameters)(function)
+
+
+def pickled(*things) -> bytes:
+    stream = io.BytesIO()
+    Pickler(stream).dump(things)
+    return stream.getvalue()
+
+
+@functools.lru_cache(maxsize=256)
+def packed(exercise: Exercise) -> bytes:
+    """What the process needs of an exercise."""
+    return pickled(exercise.outcome, exercise.all_arguments, exercise.name, exercise.call, len(exercise.arguments))
+
+
+_one_at_a_time = threading.Lock()
+_waiting: list["Process"] = []  # the process that waits ahead
+
+
+def run(exercise: Exercise, answer: Callable | str, seconds: float, times: int = 1) -> Report:
+    """Call a function, or the one that a source text defines, for every case, `times` over, in a process of its own.
+
+    Raises BootcourseError where the process cannot be started.
+    """
+    try:
+        job = pickled(answer, times, seconds)
+    except Exception as error:  # whatever an object's own pickling raises
+        return Report(refused=NOT_SENT.format(without_paths(" ".join(str(error).split())[:200])))
+    with _one_at_a_time:
+        process = _waiting.pop() if _waiting else Process()
+        if not process.process.is_alive():
+            process = Process()
+        try:
+            return process.work(packed(exercise), job, seconds)
+        finally:  # also after the notebook's stop button
+            process.end()
+            _waiting.append(Process())
+
+
+class Process:
+    """A process that waits for one job."""
+
+    def __init__(self):
+        method = "forkserver" if FORKS else "spawn"
+        context = multiprocessing.get_context(method)
+        context.set_forkserver_preload(PRELOADED)
+        self.connection, theirs = context.Pipe()
+        self.process = context.Process(target=serve, args=(theirs,), daemon=True)
+        main, sys.modules["__main__"] = sys.modules["__main__"], types.ModuleType("__main__")
+        try:  # `multiprocessing` would run the script in `__main__` again
+            self.process.start()
+        except (OSError, EOFError) as error:
+            raise broken(error) from None
+        finally:
+            sys.modules["__main__"] = main
+        theirs.close()
+
+    def work(self, exercise: bytes, job: bytes, seconds: float) -> Report:
+        """The report on a job."""
+        report = Report()
+        try:
+            self.connection.send_bytes(exercise)
+            if not self.connection.poll(START) or self.connection.recv_bytes() != READY:
+                raise broken("it did not answer")
+            self.connection.send_bytes(job)
+            end = time.monotonic() + seconds
+            while self.connection.poll(max(0.0, end - time.monotonic())):
+                if not report.take(json.loads(self.connection.recv_bytes(LONGEST_ANSWER))):
+                    return report
+            report.ended = "time"
+        except (EOFError, OSError, ValueError, RecursionError) as error:  # it ended, or somebody else wrote
+            self.process.join(1)
+            report.ended = "size" if "bad message length" in str(error) else self.process.exitcode or 0
+        return report
+
+    def end(self) -> None:
+        """Kill it, with all processes that it started."""
+        with contextlib.suppress(ProcessLookupError, PermissionError, AttributeError):  # AttributeError: Windows
+            os.killpg(self.process.pid, signal.SIGKILL)
+        self.process.kill()
+        self.process.join()
+        self.connection.close()
+
+
+def broken(why: object) -> BootcourseError:
+    return BootcourseError(
+        f"The process that runs your function could not be started ({why}). "
+        "Restart the kernel; if that does not help, `bootcourse doctor` says what is wrong."
+    )
+
+
+@atexit.register
+def stop() -> None:
+    """End the process that waits; the next check starts another."""
+    while _waiting:
+        _waiting.pop().end()
+
+
+# There ------------------------------------------------------------------------------------------------
+
+
+def serve(connection) -> None:
+    """In the process: wait for an exercise and an answer, and report."""
+    nowhere = os.open(os.devnull, os.O_RDWR)
+    for descriptor in (0, 1, 2):
+        os.dup2(nowhere, descriptor)  # compiled code, too, prints nowhere
+    if FORKS:
+        os.setsid()  # the notebook's stop button does not reach it
+        os.closerange(3, connection.fileno())
+        os.closerange(connection.fileno() + 1, 1024)  # what belongs to `multiprocessing`
+        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+    torch.set_num_threads(1)
+    with contextlib.suppress(EOFError):  # nobody needs it any more
+        exercise = connection.recv_bytes()
+        pickle.loads(exercise)  # imports what it needs
+        connection.send_bytes(READY)
+        job = connection.recv_bytes()
+        limit_memory()
+        work(exercise, job, lambda **told: connection.send_bytes(json.dumps(told).encode()))
+        time.sleep(START)  # it is killed: nothing that the function left to do at the end is done
+
+
+def limit_memory() -> None:
+    if FORKS:
+        import resource
+
+        with open("/proc/self/statm") as file:
+            size = int(file.read().split()[0]) * resource.getpagesize()
+        resource.setrlimit(resource.RLIMIT_AS, (size + MEMORY, size + MEMORY))
+
+
+class Printed(io.TextIOBase):
+    """Sends on the beginning of what is printed."""
+
+    def __init__(self, send: Callable):
+        self.send, self.room = send, LONGEST_PRINT
+
+    def write(self, text: str) -> int:
+        begin, self.room = text[: self.room], max(0, self.room - len(text))
+        if begin:
+            self.send(printed=begin)
+        return len(text)
+
+
+def work(exercise: bytes, job: bytes, send: Callable) -> None:
+    """Send, message by message, what the student's function answers in each case, and which argument it changed."""
+    answer = None
+    outcome, cases, *asked = pickle.loads(exercise)
+    sys.stdout = sys.stderr = Printed(send)
+    try:
+        answer, times, seconds = pickle.loads(job)
+        faulthandler.dump_traceback_later(seconds + SLACK, exit=True, file=open(os.devnull, "w"))
+        warnings.simplefilter("ignore")
+        warnings.simplefilter("always", RuntimeWarning)
+        warnings.showwarning = lambda text, *_: send(warned=f"{text}")
+        if isinstance(answer, str):
+            answer = defined_in(answer, asked[0])
+        if refused := no_answer(answer, *asked):
+            send(refused=refused)
+        else:
+            copies = (case for _ in range(times) for case in pickle.loads(exercise)[1])
+            for case, given in zip(cases * times, copies, strict=True):
+                value = as_json(plain(outcome(answer, *given)))
+                pairs = enumerate(zip(map(plain, given), map(plain, case), strict=True))
+                changed = next((place for place, pair in pairs if not same(*pair, nan_too=True)), None)
+                send(answer=value, changed=changed)
+    except BaseException as error:  # also SystemExit and KeyboardInterrupt
+        send(error=in_words(error, answer))
+    send(done=True)
+
+
+def defined_in(source: str, name: str):
+    """The function that a source text defines; the sentence about it if it defines none of that name."""
+    space = {"__name__": "__main__"}
+    exec(compile(source, SOURCE, "exec"), space)
+    return space.get(name, f"There is no function `{name}` in this text.")
+
+
+def no_answer(answer, name: str, call: str, arguments: int) -> str | None:
+    """Why this cannot be called as the exercise asks; None if it can."""
+    if isinstance(answer, str):
+        return answer
+    if not callable(answer):
+        return f"Give the check your function itself, `check.{name}({name})`: this is {plain(answer).words}."
+    with contextlib.suppress(ValueError):  # a function written in C may have no signature
+        signature = inspect.signature(answer)
+        try:
+            signature.bind(*[None] * arguments)
+        except TypeError:
+            return f"Your function takes {signature}: the check calls `{call}`."
+    return None
+
+
+def file_of(answer) -> str:
+    """The file in which a function or a class is written; SOURCE if that is not known."""
+    parts = vars(answer).values() if isinstance(answer, type) else [answer]
+    return next((code.co_filename for part in parts if (code := code_of(part))), SOURCE)
+
+
+def code_of(function) -> types.CodeType | None:
+    """The code of a function, also of one that a cache holds."""
+    return getattr(inspect.unwrap(function) if callable(function) else None, "__code__", None)
+
+
+def in_words(error: BaseException, answer) -> tuple[str, str, int | None]:
+    """An error's type, its text, and the last line of the student's file that it passed."""
+    try:
+        text = " ".join(str(error).split())[:LONGEST_PRINT]
+    except BaseException:  # an error may come with a text that cannot be made
+        text = ""
+    if isinstance(error, SyntaxError) and error.filename == SOURCE:
+        return type(error).__name__, error.msg, error.lineno
+    file = file_of(answer)
+    lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == file]
+    return type(error).__name__[:80], text, lines[-1] if lines else None
