@@ -1,4 +1,4 @@
-"""Five visits to the page that drives, and how fast it is: `python -m tests.web_visits trap.html FOLDER`.
+"""Five visits to the page that drives, and how fast it is: `python -m tests.web_visits trap.html FOLDER [VISIT ...]`.
 
 Each visitor has one way of doing things; what they meet is printed, and pictures are written to the folder.
 """
@@ -136,10 +136,13 @@ def speed(visit, picture):
         yield f"decisions a second: {here:,.0f} in Chromium; numba {one:,.0f} with 1 road, {many:,.0f} with 256"
 
 
-def main(path: Path, folder: Path) -> None:
+VISITS = (speed, child, phone, keyboard, sceptic, lecturer)
+
+
+def main(path: Path, folder: Path, *names: str) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     with open_browser(offline=True) as new_page:
-        for visitor in (speed, child, phone, keyboard, sceptic, lecturer):
+        for visitor in (each for each in VISITS if not names or each.__name__ in names):
             picture = lambda page, name=visitor.__name__: page.page.screenshot(path=folder / f"{name}.png")  # noqa: E731
             print(f"\n{visitor.__name__}: {visitor.__doc__}", flush=True)
             for line in visitor(partial(opened, new_page, path), picture):
@@ -147,4 +150,4 @@ def main(path: Path, folder: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]).resolve(), Path(sys.argv[2]))
+    main(Path(sys.argv[1]).resolve(), Path(sys.argv[2]), *sys.argv[3:])

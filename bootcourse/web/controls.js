@@ -87,6 +87,7 @@ const keyName = ({ key }) => (key.length === 1 ? key.toLowerCase() : key);
 
 // Whether the part of the page that has the focus needs this key itself.
 function usesKeys(target, key) {
-  if (target.matches("select, input:not([type=checkbox])")) return true;
+  if (target.matches("select, input[type=number]")) return true;
+  if (target.matches("input[type=range]")) return /^(Arrow|Page|Home|End)/.test(key);
   return target.matches("button, input") && (key === " " || key === "Enter");
 }

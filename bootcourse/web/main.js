@@ -124,6 +124,7 @@ class Game {
 
   run(running) {
     this.running = running && !this.finished;
+    if (this.running) this.say("");
     this.showClock();
     this.dirty = true;
   }
@@ -137,14 +138,12 @@ class Game {
     if (this.finished) this.again();
     if (this.pace === 0) this.step();
     else this.run(!this.running);
-    if (this.running) this.say("");
   }
 
   // The player has chosen an action: the clock starts, or takes the step that waited for it.
   pressed() {
     this.dirty = true;
     if (this.finished || this.mine) return;
-    this.say("");
     if (this.pace === 0) this.step();
     else if (!this.running) this.run(true);
   }
@@ -152,10 +151,9 @@ class Game {
   step() {
     if (this.drive.over || this.shown < this.drive.time - 0.5) return;
     this.shown = this.drive.time;
+    this.run(true);
     this.decide();
     if (calm.matches) this.shown = this.drive.end;
-    this.run(true);
-    this.say("");
   }
 
   // One decision of both cars.

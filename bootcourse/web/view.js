@@ -10,7 +10,8 @@ class View {
 
   // Fit the canvas to its place on the page, and read the theme's colours.
   fit() {
-    const ratio = Math.min(window.devicePixelRatio || 1, 2), { clientWidth, clientHeight } = this.canvas;
+    const { clientWidth, clientHeight } = this.canvas, zoom = this.canvas.getBoundingClientRect().width / clientWidth;
+    const ratio = Math.min(devicePixelRatio * zoom, 2.5);
     [this.width, this.height] = [clientWidth, clientHeight];
     [this.canvas.width, this.canvas.height] = [clientWidth * ratio, clientHeight * ratio];
     this.pen.setTransform(ratio, 0, 0, ratio, 0, 0);

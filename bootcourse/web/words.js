@@ -35,18 +35,15 @@ function title(drive) {
 // One sentence about what getting out cost and what it earned, compared with following the traps (`idle`).
 function verdict(drive, idle, who) {
   const they = capital(who), total = points(drive.total);
-  if (drive.outAfter === null) {
-    if (drive.accident) return `${they} earned ${total}: an accident costs 10 and ends the drive.`;
-    return `${they} earned ${total}. Following the traps earns ${points(idle.total)}.`;
-  }
+  if (drive.accident) return `${they} earned ${total}: an accident costs 10 and ends the drive.`;
+  if (drive.outAfter === null) return `${they} earned ${total}. Following the traps earns ${points(idle.total)}.`;
   let sum = 0, lowest = 0, when = 0;
   drive.rewards.forEach((reward, t) => {
     sum += reward - idle.rewards[t];
     if (sum < lowest) [lowest, when] = [sum, t + 1];
   });
   const cost = when ? `lost ${points(-lowest)} in the first ${when} s` : "lost nothing at first";
-  const end = drive.accident ? `An accident ended it: ${total} in all.` : `That makes ${total}.`;
-  return `Compared with following, ${who} ${cost} and gained ${points(sum - lowest)} afterwards. ${end}`;
+  return `Compared with following, ${who} ${cost} and gained ${points(sum - lowest)} afterwards. That makes ${total}.`;
 }
 
 // What is worth saying to a player at this moment, or "".
