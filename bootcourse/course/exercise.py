@@ -17,7 +17,7 @@ It is written on its solution, in `lessons/NAME/exercises.py`; `judge.py` judges
         return (log_pi.exp() * (log_pi - log_rule)).sum(-1)
 
 The function's name and arguments are those that the student writes. A class is decorated in the same way. A solution
-that the library has is passed on: `q_filter = exercise(...)(bootstrap.q_filter)`.
+that the library has is passed on: `q_filter = exercise(...)(bootstrap.q_filter)`, if its arguments have these names.
 
 A key of `mistakes` is
 - "old -> new": `old` stands once in the solution's body and is replaced. It begins and ends with whole names, and a
@@ -33,7 +33,8 @@ How to migrate an old `Exercise(...)`:
 2. Turn each `Mistake` into a change that gives the same answers; its sentence stays as it is.
 3. Keep two hints: the last one is no longer the solution, which `check.solution` shows.
 4. Delete helpers that nothing uses any more, and `.double()`.
-5. Run `pytest tests/test_lessons_checks.py tests/test_mutants.py -k "NAME or NAME"` and `python -m tests.mutants 07`.
+5. Mark log-probabilities among the `slopes`: `logits("log_pi")`.
+6. Run `pytest tests/test_lessons_checks.py tests/test_mutants.py -k "NAME or NAME"` and `python -m tests.mutants NAME`.
    A change that `tests/answers/LESSON.py` lists as equivalent may have another text now: correct it there.
 '''
 

@@ -1,14 +1,14 @@
 """The instructor's page of a lesson, made from its source and from what its exercises know.
 
 Timings, the questions to ask before a cell is run, each exercise with a right answer, and the
-misconception behind each wrong one.
+changes that make it wrong, with what the check says.
 """
 
 import re
 from pathlib import Path
 
 from bootcourse.course.exercise import Exercise
-from bootcourse.course.lessons import registry
+from bootcourse.course.lessons import registry, stem
 from tools.course.claims import filled
 from tools.course.source import Cell, one_folder_down, title
 
@@ -16,10 +16,11 @@ from tools.course.source import Cell, one_folder_down, title
 def page(path: Path) -> str:
     """The whole page, as markdown."""
     cells = filled(path)
-    solved = f" · [solved](../solved/{path.stem}.ipynb)" if any(cell.is_exercise for cell in cells) else ""
+    file = f"{stem(path.stem)}.ipynb"
+    solved = f" · [solved](../solved/{file})" if any(cell.is_exercise for cell in cells) else ""
     parts = [
         f"# For the instructor: {title(cells)}",
-        f"[Notebook](../{path.stem}.ipynb){solved}. Made from `source/{path.name}`: change it there.",
+        f"[Notebook](../{file}){solved}. Made from `source/{path.name}`: change it there.",
         timings(cells),
     ]
     for heading, inside in sections(cells):
@@ -31,13 +32,13 @@ def page(path: Path) -> str:
 
 def sections(cells: list[Cell]) -> list[tuple[str, list[Cell]]]:
     """The cells under each `##` heading; what comes before the first is called the beginning."""
-    found = [("The beginning", [])]
+    parts = [("The beginning", [])]
     for cell in cells:
         heading = re.search(r"^## (.+)", cell.text, re.M)
         if heading:
-            found.append((heading[1], []))
-        found[-1][1].append(cell)
-    return found
+            parts.append((heading[1], []))
+        parts[-1][1].append(cell)
+    return parts
 
 
 def timings(cells: list[Cell]) -> str:
@@ -81,7 +82,7 @@ def predictions(text: str) -> list[str]:
 
 
 def of_exercise(exercise: Exercise, cell: Cell) -> str:
-    rows = [f"| {in_table(mistake.says)} | {in_table(mistake.belief)} |" for mistake in exercise.mistakes]
+    rows = [f"| {code(mistake.change)} | {in_table(mistake.says)} |" for mistake in exercise.mistakes]
     return "\n".join(
         [
             f"### Exercise `{exercise.name}` ({exercise.minutes} min, {exercise.dots})",
@@ -92,7 +93,7 @@ def of_exercise(exercise: Exercise, cell: Cell) -> str:
             re.sub(r"^check\..*", "", cell.solved, flags=re.M).rstrip(),
             "```",
             "",
-            "| The check says | They probably think |",
+            "| A wrong change of it | The check says |",
             "|---|---|",
             *rows,
             "",
@@ -101,6 +102,11 @@ def of_exercise(exercise: Exercise, cell: Cell) -> str:
             *(f"{number}. {hint}" for number, hint in enumerate(exercise.hints, start=1)),
         ]
     )
+
+
+def code(change: str) -> str:
+    """A change of the solution, in a table."""
+    return f"`{in_table(change)}`" if change else ""
 
 
 def in_table(text: str) -> str:
