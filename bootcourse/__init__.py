@@ -19,6 +19,7 @@ storage            runs, checkpoints and shipped results on disk
 plots              figures: the road from above, a drive over time, training curves
 one_per_cell       a notebook cell that runs again replaces what it showed
 replay3d           drives in 3D: in a notebook, in a browser, as one file
+web                the page that drives: the compiled road in a browser, one file without a network
 panels             widgets for notebooks: drive, train, look into one decision
 doctor             what is wrong with an installation, and what to do about it
 cli                the command line

@@ -1,0 +1,67 @@
+// Who can drive. Each driver has a name, a colour, a sentence, and decide(road, cars) -> { action, policy, q }.
+
+const HORIZON = 10; // decisions of an imagined drive, the first included
+
+function makeDrivers(data, networks, settings) {
+  const agent = name => (road, cars) => {
+    const policy = softmax(forward(networks[name], road.observe(cars)));
+    return { action: largest(policy), policy };
+  };
+  const rule = (road, cars) => {
+    const { action } = road.rule(cars);
+    return { action, policy: stochasticRule(action, settings.p) };
+  };
+  const compromise = (road, cars) => {
+    const taught = road.rule(cars).action, seen = road.observe(cars).slice();
+    const [one, other] = [forward(networks["critic 0"], seen), forward(networks["critic 1"], seen)];
+    const q = Array.from(one, (value, a) => Math.min(value, other[a]) + (a === taught ? settings.c : 0));
+    const policy = regularisedPolicy(q, stochasticRule(taught, settings.p), data.alpha, settings.xi);
+    return { action: largest(policy), policy, q };
+  };
+  const lookAhead = (road, cars) => {
+    const futures = imagine(road, cars, agent("ppo"), data.worth);
+    const q = futures.map(future => future.value), action = largest(q);
+    return { action, policy: agent("ppo")(road, cars).policy, q, futures };
+  };
+  // name: in the lists; label: in pictures and sentences
+  const driver = (name, label, colour, words, decide) => ({ name, label, colour: data.colours[colour], words, decide });
+  const drivers = {
+    rule: driver("the rule", "the rule", "rule", 
+      "Written by hand: it falls back, changes lane, passes, and then drives slowly.", rule),
+    sac: driver("plain SAC", "plain SAC", "sac",
+      "Learned from reward alone. It follows the traps for ever.", agent("sac")),
+    escaping: driver("bootstrapped, gets out", "the bootstrapped agent", "bootstrapped",
+      "SAC with the rule's help: the paper's method.", agent("bootstrapped")),
+    crashing: driver("bootstrapped, crashes", "the other bootstrapped agent", "bootstrapped",
+      "The same method with another seed. It gets out, and often leaves the road.", agent("crashing")),
+    ppo: driver("PPO after cloning", "PPO", "ppo", "Two seconds of imitation, then PPO.", agent("ppo")),
+    lookahead: driver("look-ahead", "the look-ahead", "ppo",
+      "At each decision it imagines nine drives of ten seconds by PPO.", lookAhead),
+    soft: driver("SAC’s Q with the rule", "the compromise", "soft",
+      "It drives by your p, ξ and c: see the sliders.", compromise),
+  };
+  for (const [id, each] of Object.entries(drivers)) each.id = id;
+  return drivers;
+}
+
+// Nine imagined drives: each action, then a base policy. As in bootcourse/episodes/lookahead.py, the value is what the
+// drive earns, and without an accident the worth of an empty road at its last speed.
+function imagine(road, cars, base, worth, horizon = HORIZON) {
+  return Array.from({ length: ACTIONS }, (_, first) => {
+    const state = cars.slice(), path = [[state[X], state[Y]]];
+    let earned = 0, accident = 0;
+    for (let k = 0; k < horizon && !accident; k++) {
+      const outcome = road.decide(state, k ? base(road, state).action : first);
+      for (let i = 0; i < road.trace.length; i += state.length) path.push([road.trace[i + X], road.trace[i + Y]]);
+      earned += outcome.reward;
+      accident = outcome.accident;
+    }
+    return { path, earned, accident, value: earned + (accident ? 0 : worthOf(state[SPEED], worth)) };
+  });
+}
+
+function worthOf(speed, { speed: grid, values }) {
+  const place = Math.min(Math.max(speed / grid, 0), values.length - 1);
+  const k = Math.min(Math.floor(place), values.length - 2);
+  return values[k] + (values[k + 1] - values[k]) * (place - k);
+}

@@ -1,0 +1,106 @@
+"""The compiled road as WebAssembly: numba's own LLVM code, given to LLVM's other back end.
+
+No linker is needed: the object that LLVM emits is a module that a browser instantiates as it is. What it imports and
+exports is compared with what the page's script supplies, so that another numba or llvmlite cannot break the page
+silently.
+
+    python -m bootcourse.web.wasm road.wasm
+"""
+
+import os
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from bootcourse.errors import BootcourseError
+
+# The code must be for no particular processor and without vector instructions, which numba reads when it is imported.
+PLAIN = {
+    "NUMBA_CPU_NAME": "generic",
+    "NUMBA_CPU_FEATURES": "",
+    "NUMBA_LOOP_VECTORIZE": "0",
+    "NUMBA_SLP_VECTORIZE": "0",
+}
+LAYOUT = "e-m:e-p:32:32-p10:8:8-p20:8:8-i64:64-i128:128-n32:64-S128-ni:1:10:20"  # LLVM's, for wasm32-unknown-unknown
+IMPORTS = {"__linear_memory", "asin", "atan", "cos", "exp", "fmod", "pow", "sin", "tan"}  # see road.js
+
+
+def road_module() -> bytes:
+    """The module with the functions of `entries.ENTRIES`. Raises BootcourseError if it is not what the page expects."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "road.wasm"
+        done = subprocess.run(
+            [sys.executable, "-m", "bootcourse.web.wasm", str(path)],
+            env={**os.environ, **PLAIN, "NUMBA_CACHE_DIR": folder},
+            capture_output=True,
+            text=True,
+        )
+        if done.returncode != 0:
+            raise BootcourseError(f"The road did not compile to WebAssembly: {done.stderr.strip()[-2000:]}")
+        return path.read_bytes()
+
+
+def compile_entries() -> bytes:
+    """Compile the entries in this process, whose environment must be `PLAIN`: the bytes of the module."""
+    import llvmlite.binding as llvm
+    import numba
+
+    from bootcourse.web.entries import ENTRIES
+
+    llvm.initialize_all_targets()
+    llvm.initialize_all_asmprinters()
+    whole = None
+    for name, (function, kinds) in ENTRIES.items():
+        compiled = numba.njit(
+            numba.void(*kinds), error_model="numpy", _nrt=False, no_cpython_wrapper=True, no_cfunc_wrapper=True
+        )(function)
+        (text,) = compiled.inspect_llvm().values()
+        module = llvm.parse_assembly(for_wasm(text, name, 2 + sum(map(arguments, kinds))))
+        module.verify()
+        if whole is None:
+            whole = module
+        else:
+            whole.link_in(module)
+    machine = llvm.Target.from_triple("wasm32-unknown-unknown").create_target_machine(opt=3)
+    module = machine.emit_object(whole)
+    check(module, set(ENTRIES))
+    return module
+
+
+def arguments(kind) -> int:
+    """How many machine arguments numba passes for a type: an array is 5 and two for each dimension (see road.js)."""
+    return 5 + 2 * kind.ndim if hasattr(kind, "ndim") else 1
+
+
+def for_wasm(text: str, name: str, arguments: int) -> str:
+    """LLVM code of one numba function with so many arguments, for wasm32: exported under this name."""
+    text = re.sub(r'^target datalayout = ".*"$', f'target datalayout = "{LAYOUT}"', text, flags=re.M)
+    text = re.sub(r'^target triple = ".*"$', 'target triple = "wasm32-unknown-unknown"', text, flags=re.M)
+    text = re.sub(r"^@\S*NumbaEnv\S* = common .*$\n", "", text, flags=re.M)  # numba's, unused; wasm has no `common`
+    defined = re.findall(r"^define .*$", text, flags=re.M)
+    if len(defined) != 1 or len(re.findall(r" %[\w.]+(?=[,)])", defined[0])) != arguments:
+        raise BootcourseError(
+            f"numba compiled '{name}' to {defined}: expected one function of {arguments} arguments (see road.js)."
+        )
+    exported = re.sub(r" #\d+ \{$", f' "wasm-export-name"="{name}" nounwind {{', defined[0])
+    return text.replace(defined[0], re.sub(r"@\w+\(", f"@{name}(", exported, count=1))
+
+
+def check(module: bytes, exports: set[str]) -> None:
+    """Raise BootcourseError unless the module exports these functions and imports only what the page supplies.
+
+    In a module's lists each name stands behind its length; imports stand behind "env", the module they come from.
+    """
+    imported = {match[2][: match[1][0]].decode() for match in re.finditer(rb"\x03env(.)(\w+)", module, re.S)}
+    absent = {name for name in exports if bytes([len(name)]) + name.encode() + b"\0" not in module}
+    if absent or not imported <= IMPORTS or "__linear_memory" not in imported:
+        raise BootcourseError(
+            f"The road's module lacks the exports {sorted(absent)} and imports {sorted(imported)} (supplied: "
+            f"{sorted(IMPORTS)}): numba or llvmlite has changed, so look at bootcourse/web/wasm.py."
+        )
+
+
+if __name__ == "__main__":
+    Path(sys.argv[1]).write_bytes(compile_entries())

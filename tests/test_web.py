@@ -1,0 +1,270 @@
+"""The page that drives: the compiled road, the agents and the game in Chromium."""
+
+from functools import partial
+
+import numpy as np
+import pytest
+from gymnasium.utils import seeding
+from gymnasium.vector import AutoresetMode
+
+from bootcourse.errors import BootcourseError
+from bootcourse.panels.policy_numbers import policy_numbers
+from bootcourse.road.state import HEADING, TARGET_LANE, X
+from bootcourse.road.vector_env import TrapVectorEnv
+from bootcourse.rule import rule
+from bootcourse.scenario import ACTION_NAMES, CALIBRATED, DEFAULT, IDLE, Clock, Road, Scenario, Sight, Traffic
+from bootcourse.storage.runs import load_run
+from bootcourse.web import build, wasm
+from bootcourse.web.entries import ENTRIES
+from tests.browser import ARTEFACTS, is_blank, needs_browser, open_browser
+from tests.drive_page import drive_in_page, opened
+
+pytestmark = needs_browser
+EPISODES = 40  # of each scenario
+SCENARIOS = {
+    "default": DEFAULT,
+    "calibrated": CALIBRATED,
+    "no traffic": Scenario(traffic=Traffic(cars=0)),
+    "five lanes, dense traffic": Scenario(road=Road(lanes=5), traffic=Traffic(cars=12, headway=24.0)),
+    "other clock, sight and exponent": Scenario(
+        clock=Clock(simulation_rate=4), sight=Sight(neighbours=6), traffic=Traffic(delta=3.5)
+    ),
+}
+
+
+@pytest.fixture(scope="module")
+def path(tmp_path_factory):
+    path = tmp_path_factory.mktemp("web") / "trap.html"
+    build.main(["--out", str(path)])
+    return path
+
+
+@pytest.fixture(scope="module")
+def visit(path):
+    """Opens the page: visit("#road=7", width=390)."""
+    with open_browser(offline=True) as new_page:
+        yield partial(opened, new_page, path)
+
+
+@pytest.fixture(scope="module")
+def page(visit):
+    with visit() as page:
+        yield page
+
+
+def driven(scenario: Scenario, episodes: int, first_seed: int = 0):
+    """Drives by the rule, by the rule with noise, and at random: (plans, rows as in `drive_page.DRIVE`)."""
+    env, rng = TrapVectorEnv(episodes, scenario, AutoresetMode.DISABLED), np.random.default_rng(first_seed)
+    seen, _ = env.reset(seed=first_seed)
+    noise = np.array([0.0, 0.03, 0.2, 1.0])[np.arange(episodes) % 4]
+    plans, rows = [[] for _ in range(episodes)], [[cars.ravel().copy()] for cars in env.cars]
+    for _ in range(scenario.clock.decisions):
+        awake, taught = ~env.asleep, rule(env.cars, scenario).actions
+        actions = np.where(rng.random(episodes) < noise, rng.integers(9, size=episodes), taught)
+        before = seen
+        seen, rewards, _, _, infos = env.step(actions)
+        for i in np.flatnonzero(awake):
+            plans[i].append(int(actions[i]))
+            rows[i].append([*env.cars[i].ravel(), *before[i], rewards[i], infos["accident"][i], taught[i]])
+    return plans, np.concatenate([np.ravel(row) for episode in rows for row in episode])
+
+
+@pytest.mark.parametrize("name", SCENARIOS)
+def test_the_page_drives_as_the_compiled_road_does(page, name):
+    scenario = SCENARIOS[name]
+    plans, expected = driven(scenario, EPISODES)
+    numbers = drive_in_page(page, build.scenario_data(scenario), range(EPISODES), plans)
+    assert numbers.shape == expected.shape  # so every drive ends at the same decision
+    assert np.abs(numbers - expected).max() < 1e-9
+
+
+CRAFTED = {  # states that random drives do not reach: (column, the values of cars 3 to 8)
+    "cars beside each other": (X, [60.0, 60.0, 60.0, 90.0, 90.0, 130.0]),
+    "negative remainders": (HEADING, [-7.0, -3.2, 3.2, 7.0, -np.pi, np.pi]),
+    "lanes that two cars want": (TARGET_LANE, [1, 1, 1, 1, 1, 1]),
+}
+
+
+@pytest.mark.parametrize("name", CRAFTED)
+def test_the_page_agrees_on_crafted_states(page, name):
+    env = TrapVectorEnv(1, autoreset_mode=AutoresetMode.DISABLED)
+    env.reset(seed=3)
+    column, values = CRAFTED[name]
+    env.cars[0, 3:, column] = values
+    cars = env.cars[0].copy()
+    for _ in range(5):
+        env.step(np.array([IDLE]))
+    there = page.page.evaluate(
+        """cars => {
+            const state = Float64Array.from(cars), road = trap.game.road;
+            for (let k = 0; k < 5; k++) road.decide(state, 4);
+            return [...state];
+        }""",
+        cars.ravel().tolist(),
+    )
+    assert np.abs(env.cars.ravel() - there).max() < 1e-9
+
+
+def test_a_road_has_the_same_number_as_in_python(page):
+    seeds = [*range(300), 2**31, 2**32 - 1, 2**32, 2**40 + 7, 999_999_999]
+    drawn = page.page.evaluate("seeds => seeds.map(seed => [...uniforms(seed, 19)])", seeds)
+    assert np.array_equal(drawn, [seeding.np_random(seed)[0].random(19) for seed in seeds])
+
+
+@pytest.mark.parametrize("name", build.AGENTS)
+def test_an_agent_decides_in_the_page_as_in_python(page, name):
+    agent, env = load_run(build.AGENTS[name]).agent, TrapVectorEnv(20)
+    seen, _ = env.reset(seed=50)
+    states = [seen]
+    for _ in range(100):
+        states.append(env.step(agent.probabilities(states[-1]).argmax(-1))[0])
+    states = np.concatenate(states)
+    policy = page.page.evaluate(
+        "([name, states]) => states.map(state => softmax(forward(trap.networks[name], state)))",
+        [name, states.tolist()],
+    )
+    probabilities = agent.probabilities(states)
+    assert np.abs(policy - probabilities).max() < 1e-3  # float32 there, float64 here
+    sure = np.diff(np.sort(probabilities)[:, -2:])[:, 0] > 1e-3
+    assert sure.mean() > 0.99
+    assert np.array_equal(np.argmax(policy, -1)[sure], probabilities.argmax(-1)[sure])
+
+
+@pytest.mark.parametrize("p, xi, alpha", [(0.9, 0.2, 0.01), (0.5, 0.0, 0.1), (0.999, 5.0, 0.01)])
+def test_the_compromise_is_that_of_the_soft_constraint(page, p, xi, alpha):
+    rng = np.random.default_rng(1)
+    q, policy = rng.normal(size=9), rng.dirichlet(np.ones(9))
+    expected = policy_numbers(policy, q, 3, p, xi, alpha)
+    optimum, shares = page.page.evaluate(
+        """([q, policy, p, xi, alpha]) => [
+            regularisedPolicy(q, stochasticRule(3, p), alpha, xi), klShares(policy, stochasticRule(3, p))]""",
+        [q.tolist(), policy.tolist(), p, xi, alpha],
+    )
+    assert np.allclose(optimum, expected.optimum, atol=1e-12)
+    assert np.allclose(shares, expected.shares, atol=1e-12)
+
+
+def test_the_build_fails_if_numba_passes_other_arguments():
+    text = "define i32 @f(ptr %retptr, ptr %excinfo, i64 %arg.x) local_unnamed_addr #0 {\n  ret i32 0\n}\n"
+    assert '"wasm-export-name"="place"' in wasm.for_wasm(text, "place", 3)
+    with pytest.raises(BootcourseError, match="expected one function of 4 arguments"):
+        wasm.for_wasm(text, "place", 4)
+
+
+def test_the_build_fails_if_the_module_imports_or_exports_something_else():
+    module = wasm.road_module()
+    wasm.check(module, set(ENTRIES))
+    with pytest.raises(BootcourseError, match=r"lacks the exports \['land'\]"):
+        wasm.check(module, {*ENTRIES, "land"})
+    with pytest.raises(BootcourseError, match="imports .*'tanh'"):
+        wasm.check(module.replace(b"\x03env\x03tan", b"\x03env\x04tanh"), set(ENTRIES))
+
+
+def test_the_page_is_one_file_under_250_kb_that_asks_for_nothing(path, page):
+    assert path.stat().st_size < 250_000
+    assert page.requests == [path.as_uri()]
+    assert page.errors == []
+
+
+def state(page) -> dict:
+    """What the game knows: its number, its ghost, whether the clock runs, and the actions so far."""
+    return page.page.evaluate(
+        """() => ({ number: trap.game.number, ghostName: trap.game.ghostName, running: trap.game.running,
+            actions: trap.game.drive.actions })"""
+    )
+
+
+def drive_to_the_end(page) -> None:
+    """Let the game's clock run to the end of the drive, however slow this machine draws."""
+    page.page.evaluate("() => { while (!trap.game.finished) trap.game.advance(0.1); }")
+
+
+def test_an_arrow_key_starts_the_clock_and_is_the_next_decision(visit):
+    with visit("#road=7&ghost=sac") as page:
+        assert state(page)["number"] == 7 and state(page)["ghostName"] == "sac"
+        page.page.keyboard.down("ArrowDown")
+        page.page.keyboard.down("ArrowLeft")
+        page.page.wait_for_function("() => trap.game.drive.time > 0")
+        assert state(page)["actions"][0] == ACTION_NAMES.index("brake left")
+        page.page.keyboard.up("ArrowDown")
+        page.page.keyboard.up("ArrowLeft")
+        page.page.wait_for_function("() => trap.game.drive.time > 1", timeout=20_000)
+        assert state(page)["actions"][-1] == IDLE
+        page.page.keyboard.press("Space")
+        assert not state(page)["running"]
+        assert page.errors == []
+
+
+def test_step_by_step_each_press_is_one_decision(visit):
+    with visit(reduced_motion="reduce") as page:  # with reduced motion the page opens step by step
+        for key, action in (("ArrowUp", "accelerate straight"), ("ArrowRight", "keep right"), ("s", "brake straight")):
+            page.page.keyboard.press(key)
+            page.page.wait_for_function("() => !trap.game.running && trap.game.controls.idle")
+            assert state(page)["actions"][-1] == ACTION_NAMES.index(action)
+        assert len(state(page)["actions"]) == 3
+
+
+def test_a_finger_on_the_pad_drives_and_the_page_fits_a_phone(visit):
+    with visit(width=390, height=844) as page:
+        assert page.page.evaluate("document.documentElement.scrollWidth") == 390
+        page.page.get_by_role("button", name="brake straight").click()
+        page.page.wait_for_function("() => trap.game.drive.time > 0")
+        assert state(page)["actions"][0] == ACTION_NAMES.index("brake straight")
+        lowest = page.page.get_by_role("button", name="Pause").bounding_box()
+        assert lowest["y"] + lowest["height"] <= 844  # the road, the pad and the clock are on the first screen
+
+
+def test_the_end_of_a_drive_is_one_picture_and_one_sentence(visit):
+    with visit("#road=10&ghost=sac&driver=escaping") as page:
+        page.page.get_by_role("button", name="Start").click()
+        drive_to_the_end(page)
+        end = page.page.locator("#end")
+        assert "Out after" in end.inner_text() and "gained" in end.inner_text()
+        assert "plain SAC: still in the trap" in end.inner_text()
+        assert end.locator("svg polyline").count() == 4  # two drivers in two plots
+        assert page.page.evaluate("document.activeElement.id") == "end"
+        page.page.keyboard.press("r")
+        assert not end.is_visible() and state(page)["actions"] == []
+
+
+def test_the_third_failure_brings_a_hint(visit):
+    with visit() as page:
+        for attempt in range(3):
+            page.page.keyboard.press("ArrowRight")
+            page.page.wait_for_function("() => trap.game.running")
+            drive_to_the_end(page)
+            assert page.page.locator("#hint").is_visible() == (attempt == 2)
+            page.page.get_by_role("button", name="The same road again").first.click()
+
+
+def test_more_xi_takes_sac_out_of_the_trap(visit):
+    with visit() as page:
+        out = page.page.evaluate(
+            """strengths => strengths.map(xi => {
+                trap.game.settings.xi = xi;
+                return new Drive(trap.game.road, 10).finish(trap.game.drivers.soft).outAfter !== null;
+            })""",
+            [0, 5],
+        )
+        assert out == [False, True]
+        page.page.locator("#xi").fill("12")
+        assert state(page)["ghostName"] == "soft"  # whoever moves the slider sees what it does
+        assert "π" in page.page.locator("#thoughts").inner_text()
+
+
+def test_a_wrong_address_is_answered_with_a_sentence(visit):
+    with visit("#road=minus&ghost=nobody-we-know") as page:
+        assert "is not a road" in page.page.locator("#message").inner_text()
+        assert state(page)["number"] == 10 and state(page)["ghostName"] == "rule"
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("width, height", [(1280, 720), (390, 844)])
+def test_the_page_in_pictures(visit, scheme, width, height):
+    with visit("#road=10&futures=1", width, height, color_scheme=scheme) as page:
+        page.page.keyboard.press("ArrowDown")
+        page.page.wait_for_function("() => trap.game.drive.time > 0")
+        png = page.page.screenshot(path=ARTEFACTS / f"web-{width}-{scheme}.png")
+        assert not is_blank(png)
+        shade = page.page.evaluate("getComputedStyle(document.body).backgroundColor")
+        assert (sum(map(int, shade[4:-1].split(","))) > 380) == (scheme == "light")
