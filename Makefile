@@ -1,4 +1,5 @@
 # make lab    JupyterLab on the first lesson      (NO_BROWSER=1 make lab: only print its address)
+# make drive  one page on which you drive the trap, beside agents; it needs no server and no network
 # make check  in less than a minute: the road, the learner, the rule, what is recorded, and one lesson
 # make test   every test, the notebooks included: about seven minutes on two cores
 # make bench  how fast the road and the learner are, as ratios
@@ -19,7 +20,7 @@ NOTEBOOKS := $(sort $(wildcard notebooks/*.ipynb))
 # So that a notebook finds this `bootcourse` and this `python`.
 WITH_PATH := PATH="$(CURDIR)/$(BIN):$$PATH"
 
-.PHONY: help lab check test bench book notebooks doctor lock clean
+.PHONY: help lab drive check test bench book notebooks doctor lock clean
 
 help:
 	@sed -n '/^$$/q;s/^# \{0,1\}//p' Makefile
@@ -28,6 +29,11 @@ lab: .venv/installed
 	@$(WITH_PATH) $(BIN)/jupyter-lab --ServerApp.ip=127.0.0.1 --ServerApp.root_dir="$(CURDIR)/notebooks" \
 		--LabApp.default_url=/lab/tree/$(notdir $(firstword $(NOTEBOOKS))) --log-level=WARN \
 		$(if $(NO_BROWSER),--no-browser) $(if $(filter 0,$(shell id -u)),--allow-root)
+
+drive: .venv/installed
+	@mkdir -p build
+	@$(BIN)/python -m bootcourse.web.build --out build/trap.html
+	@$(if $(NO_BROWSER),,$(BIN)/python -m webbrowser "file://$(CURDIR)/build/trap.html" > /dev/null)
 
 # tests/check.txt and tests/all.txt hold what pytest is given: the long files first, and each stays in one process.
 # One thread each, or two workers with two torches fight over the cores.

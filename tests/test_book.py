@@ -7,7 +7,6 @@ import pytest
 
 import bootcourse as bc
 from bootcourse.course.lessons import LESSONS, stem
-from bootcourse.course.shipped import shipped_drive
 from bootcourse.research.sweep import load_sweep, nearest_setting
 from tests.browser import ARTEFACTS, is_blank, needs_browser, open_browser
 from tools import book
@@ -180,22 +179,12 @@ def test_the_front_page_s_sliders_answer_to_the_keyboard_with_what_the_study_mea
 
 
 @needs_browser
-def test_the_front_page_s_drive_plays_pauses_and_shows_the_agent_s_policy(made, new_page):
+def test_the_trap_is_driven_on_the_front_page(made, new_page):
     page = new_page()
     page.page.goto((made / "index.html").as_uri())
-    page.page.wait_for_function("() => parseInt(document.getElementById('bc-time').textContent) >= 2")
-    page.page.focus("#bc-play")
-    page.page.keyboard.press("Enter")
-    assert page.page.inner_text("#bc-play") == "Play"
-    drive = shipped_drive("escape")
-    page.page.evaluate(
-        "() => { const at = document.getElementById('bc-at'); at.value = 20; at.dispatchEvent(new Event('input')); }"
-    )
-    decision = 20 // drive.scenario.clock.steps
-    likely = bc.ACTION_NAMES[int(drive.policy[decision].argmax())]
-    assert f"most probable action: {likely}." in page.page.inner_text("#bc-drive-says")
-    widths = page.page.evaluate(
-        "() => [...document.querySelectorAll('#bc-bars rect[height=\"12\"]')].map(b => +b.getAttribute('width'))"
-    )
-    assert [width / 468 for width in widths] == pytest.approx(drive.policy[decision].tolist(), abs=0.001)
+    page.page.locator("iframe").first.scroll_into_view_if_needed()
+    frame = page.page.frame_locator("iframe").first
+    frame.get_by_role("button", name="Start").click()
+    frame.get_by_text("1 of 150 s").wait_for()
+    assert page.errors == []
     page.page.close()

@@ -5,6 +5,7 @@ the rest (book/conf.py). `make book EDITION=instructor` adds the exam and the in
 solutions, in build/book/instructor.
 """
 
+import json
 import re
 import shutil
 import sys
@@ -15,11 +16,17 @@ sys.path.insert(0, str(ROOT))  # so that `tools.course` is found
 
 BUILD = ROOT / "build/book"
 INSTRUCTOR = re.compile(r"<!-- instructor -->\n(.*?)<!-- end -->\n", re.S)  # in a page, for this edition only
+DRIVEN = {  # lesson -> where its page in the book begins: the address of trap.html
+    "the_trap": "road=10&ghost=sac",
+    "the_rule": "driver=rule&ghost=none&pace=0",
+    "soft_constraint": "road=10&driver=soft&ghost=sac",
+}
 SOLVED = re.compile(r"\[([^]]*)\]\(\.\./solved/([^)]*)\)")
 
 
 def gather(to: Path, edition: str = "student") -> None:
     """Put all that the book is made of into the folder `to`. edition: student, or instructor with the solutions."""
+    from bootcourse.web import build as drive_page
     from tools.course import front_page, paper_map, slides
     from tools.course.claims import claims_page, fill_in
     from tools.course.numbering import resolved
@@ -31,6 +38,7 @@ def gather(to: Path, edition: str = "student") -> None:
     shutil.copy(ROOT / "assets/checks.md", to)
     front_page.fill(to / "front")
     slides.fill(to)
+    drive_page.main(["--out", str(to / "whole/trap.html")])
     if edition != "instructor":
         (to / "teaching/exam.md").unlink()
     (to / "paper_map.md").write_text(paper_map.page(), encoding="utf-8")
@@ -41,6 +49,8 @@ def gather(to: Path, edition: str = "student") -> None:
     (to / "lessons/instructor").mkdir(parents=True)
     for notebook in sorted((ROOT / "notebooks").glob("*.ipynb")):
         shutil.copy(notebook, to / "lessons")
+        if (lesson := notebook.stem.partition("_")[2]) in DRIVEN:
+            add_drive(to / "lessons" / notebook.name, DRIVEN[lesson])
         if edition != "instructor":
             continue
         page = (ROOT / "notebooks/instructor" / notebook.name).with_suffix(".md")
@@ -49,6 +59,15 @@ def gather(to: Path, edition: str = "student") -> None:
         (to / "lessons/instructor" / page.name).write_text(text, encoding="utf-8")
     (to / "replays.md").write_text(replays(), encoding="utf-8")
     (to / "claims.md").write_text(claims_page(), encoding="utf-8")
+
+
+def add_drive(notebook: Path, address: str) -> None:
+    """Let a lesson's page in the book show the page that drives, below the lesson's first cell."""
+    content = json.loads(notebook.read_text(encoding="utf-8"))
+    frame = f'<iframe src="../trap.html#{address}" title="Drive the trap" loading="lazy"'
+    text = f'{frame} style="width: 100%; height: 880px; border: 0"></iframe>'
+    content["cells"].insert(1, {"cell_type": "markdown", "id": "trap", "metadata": {}, "source": [text]})
+    notebook.write_text(json.dumps(content), encoding="utf-8")
 
 
 def replays() -> str:

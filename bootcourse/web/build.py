@@ -7,7 +7,6 @@ folder one after the other. It asks for nothing else, so it also opens from a me
 import argparse
 import base64
 import gzip
-import importlib
 import json
 from pathlib import Path
 
@@ -18,6 +17,7 @@ from bootcourse.colours import OTHER, TRAFFIC, TRAP
 from bootcourse.files import read_tensors, write_bytes
 from bootcourse.learn.agent import Agent
 from bootcourse.methods import DRIVERS, style
+from bootcourse.road.branching import future_worth
 from bootcourse.road.constants import constants
 from bootcourse.road.twin import uniforms_needed
 from bootcourse.rule import SENTENCES
@@ -81,8 +81,7 @@ def page_data() -> dict:
     networks["ppo"] = packed_network([torch.from_numpy(clone[name]) for name in sorted(clone)], 0, EXACT)
     for member in range(2):
         networks[f"critic {member}"] = packed_network(agents["sac"].critics, member, SHORT)
-    planner = importlib.import_module("bootcourse.research.planner")
-    speeds, worth = planner.future_worth(DEFAULT, DEFAULT.clock.decisions, 1.0)[-1]
+    speeds, worth = future_worth(DEFAULT, DEFAULT.clock.decisions, 1.0)[-1]
     return {
         "module": packed(road_module()),
         "scenario": scenario_data(DEFAULT),

@@ -29,7 +29,7 @@ function makeDrivers(data, networks, settings) {
     rule: driver("the rule", "the rule", "rule", 
       "Written by hand: it falls back, changes lane, passes, and then drives slowly.", rule),
     sac: driver("plain SAC", "plain SAC", "sac",
-      "Learned from reward alone. It follows the traps for ever.", agent("sac")),
+      "Learned from reward alone. It stays behind the traps.", agent("sac")),
     escaping: driver("bootstrapped, gets out", "the bootstrapped agent", "bootstrapped",
       "SAC with the rule's help: the paper's method.", agent("bootstrapped")),
     crashing: driver("bootstrapped, crashes", "the other bootstrapped agent", "bootstrapped",
