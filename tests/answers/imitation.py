@@ -2,11 +2,6 @@
 
 from tests.answers import equivalent, right, right_lines, wrong_lines
 
-for _name in ("-expert_logits", "own_logits"):
-    _change = f"F.softplus({_name}).mean(-1)  ->  F.softplus({_name}).mean(0)"
-    equivalent("discriminator_loss", _change, "the batch is the only axis")
-
-
 right_lines("""discriminator_loss
     as two classes: ones, zeros = torch.ones_like(rule_logits), torch.zeros_like(own_logits)
         of_the_rule = functional.binary_cross_entropy_with_logits(rule_logits, ones)
@@ -62,10 +57,6 @@ wrong_lines("""deviation_of_a_rate
     of k numbers: statistics.stdev([100.0] * k)  # raises an error
     with the mean: 100 * k / n, solution(k, n)  # 2 values
 """)
-
-
-NEEDED = "np.ceil(np.log(0.05) / np.log(1 - rate))"
-equivalent("episodes_needed", f"return int({NEEDED})  ->  return {NEEDED}", "the same whole number, as a float")
 
 
 @right("episodes_needed")
