@@ -1,7 +1,7 @@
 """bootcourse: a trap on the highway, and how an imperfect driver pulls a learner out of it.
 
 The front door: `import bootcourse as bc` gives every name in `NAMES` and every module in `MODULES`, each loaded when
-it is first used. The parts, each of which uses only those above it:
+it is first used. The parts, each of which uses only those above it; all but the last two are the small library:
 
 errors             the exception for mistakes that a user can mend
 files              reading and writing files, whole or not at all
@@ -20,10 +20,10 @@ plots              figures: the road from above, a drive over time, training cur
 one_per_cell       a notebook cell that runs again replaces what it showed
 replay3d           drives in 3D: in a notebook, in a browser, as one file
 panels             widgets for notebooks: drive, train, look into one decision
-research           the paper's experiments and ours: jobs, tables, planner, checks against published figures
-course             exercises and their judge, the lessons, a class: handing out, collecting, grading
 doctor             what is wrong with an installation, and what to do about it
 cli                the command line
+research           the paper's experiments and ours: jobs, tables, planner, checks against published figures
+course             exercises and their judge, the lessons, a class: handing out, collecting, grading
 """
 
 import importlib

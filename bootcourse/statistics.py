@@ -64,9 +64,8 @@ def median(values: np.ndarray) -> Estimate:
     It covers the median with 95 % or more (David & Nagaraja 2003, section 7.1): for n = 10 it runs from the second
     value to the ninth. Fewer than 6 values have none: NaN.
     """
-    values, n = np.sort(np.asarray(values, dtype=np.float64)), len(values)
-    value, k = float(np.median(values)), int(scipy.stats.binom.ppf(0.025, n, 0.5))
-    return Estimate(value, float(values[k - 1]), float(values[n - k])) if k else Estimate(value, np.nan, np.nan)
+    limits = scipy.stats.quantile_test(values, p=0.5).confidence_interval(confidence_level=0.95)
+    return Estimate(float(np.median(values)), float(limits.low), float(limits.high))
 
 
 def improvement(x: np.ndarray, y: np.ndarray, seed: int = 0) -> Estimate:

@@ -4,10 +4,10 @@ In a notebook ipywidgets catches what a button's callback raises and shows it; a
 Import `raise_in_callbacks` and write `pytestmark = pytest.mark.usefixtures("raise_in_callbacks")`.
 """
 
+import math
 import re
-import statistics
 import threading
-import time
+from xml.etree import ElementTree
 
 import ipywidgets as widgets
 import pytest
@@ -57,11 +57,17 @@ def wait_for(holds, seconds: float = 20.0) -> None:
     assert until(holds, seconds), "it never came"
 
 
-def seconds_of_a_drag(slider: widgets.Widget, values) -> float:
-    """The median time that a panel takes for a step of its slider."""
-    took = []
-    for value in values:
-        began = time.perf_counter()
-        from_page(slider, value=value)
-        took.append(time.perf_counter() - began)
-    return statistics.median(took)
+def at_its_ends(panel, number) -> None:
+    """Enter a number's ends and nonsense: each is taken or refused, and the drawing keeps its size and stays whole."""
+    size = panel.svg.split(' role="img"')[0]
+    low, high = number.slider.min, number.slider.max
+    if isinstance(number.slider, widgets.FloatLogSlider):
+        low, high = 10**low, 10**high
+    for value in (low, high, -7.5, 1e9 + 0.5, float("nan")):
+        from_page(number.field, value=value)
+        ElementTree.fromstring(panel.svg)
+        assert panel.svg.split(' role="img"')[0] == size and "nan" not in panel.svg
+        assert math.isclose(number.value, value) or number.refused is not None
+    assert number.refused is not None and "bc-wrong" in number.help.value
+    from_page(number.slider, value=low)
+    assert math.isclose(number.value, low) and number.refused is None

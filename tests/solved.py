@@ -9,7 +9,7 @@ from pathlib import Path
 
 import nbformat
 
-from bootcourse.course.order import names_made, names_used
+from bootcourse.course.names import names_made, names_used
 
 
 def code_of(notebook: Path) -> list[str]:

@@ -50,7 +50,7 @@ def test_train_then_evaluate_then_drive(bootcourse, tmp_path):
     assert (rollout.label, rollout.seed) == ("sac", 4) and rollout.q_values is not None
 
 
-@pytest.mark.parametrize("method", ["ppo_kl", "soft"])
+@pytest.mark.parametrize("method", ["ppo", "soft"])
 def test_a_training_takes_the_method_s_own_number_of_episodes_or_the_given_one(
     method, bootcourse, tmp_path, monkeypatch
 ):
@@ -208,8 +208,6 @@ def test_a_training_that_is_stopped_loses_nothing_and_resumes(bootcourse, tmp_pa
 
 
 def test_a_training_that_is_stopped_before_its_first_decision_says_how_to_go_on(bootcourse, tmp_path, monkeypatch):
-    from bootcourse.learn.training import Training
-
     def stopped(*arguments):
         raise KeyboardInterrupt
 

@@ -1,6 +1,7 @@
-"""The one reader of files: what it refuses before it unpacks anything, and the sentence that it gives."""
+"""The one writer and the one reader of files: what a kill leaves, and what is refused before anything is unpacked."""
 
 import os
+import sys
 import time
 import zipfile
 
@@ -9,8 +10,21 @@ import pytest
 
 from bootcourse.cli.driving import drive
 from bootcourse.errors import BootcourseError
-from bootcourse.files import MEMBERS, UNPACKED, check_replaceable, read_arrays, read_bytes, read_json, sha256
+from bootcourse.files import (
+    MEMBERS,
+    UNPACKED,
+    check_replaceable,
+    read_arrays,
+    read_bytes,
+    read_json,
+    remove_temporary,
+    sha256,
+    write_arrays,
+    write_bytes,
+)
 from bootcourse.storage.sealed import read_sealed, write_sealed
+
+CHANGES = {"open", "os.rename", "os.remove"}  # audit events of what changes files
 
 
 def refusal(read, *given) -> str:
@@ -23,24 +37,91 @@ def refusal(read, *given) -> str:
     return sentence
 
 
+# Writing --------------------------------------------------------------------------------------------
+
+
+def killed_at(operation: int, path, data: bytes) -> bool:
+    """Write in a fork that is killed before its n-th operation on files: whether it had so many."""
+    child = os.fork()
+    if child == 0:
+        begun, synced = [], os.fsync
+
+        def begin(event: str) -> None:
+            begun.append(event)
+            if len(begun) > operation:
+                os._exit(9)
+
+        os.fsync = lambda file: (begin("fsync"), synced(file))
+        sys.addaudithook(lambda event, arguments: begin(event) if event in CHANGES else None)
+        write_bytes(path, data)
+        os._exit(0)
+    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 9
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="needs fork")
+def test_a_process_that_is_killed_between_any_two_operations_leaves_the_old_file_or_the_new_one(tmp_path):
+    path, old, new, operation, left = tmp_path / "mine.json", b"old" * 1000, b"new" * 1000, 0, []
+    write_bytes(path, old)
+    while killed_at(operation, path, new):
+        left.append(path.read_bytes())
+        remove_temporary(tmp_path)
+        assert [each.name for each in tmp_path.iterdir()] == ["mine.json"], "what it left can be cleaned up"
+        operation += 1
+    assert operation >= 3 and set(left) <= {old, new} and path.read_bytes() == new
+
+
+@pytest.mark.parametrize("operation", ["fsync", "replace"])
+def test_a_full_disk_leaves_the_old_file_and_one_sentence(operation, tmp_path, monkeypatch):
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    write_bytes(tmp_path / "mine.json", b"old")
+    monkeypatch.setattr(os, operation, full)
+    assert "No space left on device. Free some space" in refusal(write_bytes, tmp_path / "mine.json", b"new")
+    assert [each.read_bytes() for each in tmp_path.iterdir()] == [b"old"]
+
+
+def test_numbers_booleans_and_texts_are_read_as_they_were_written(tmp_path):
+    arrays = {"a": np.asfortranarray(np.arange(6.0).reshape(2, 3)), "b": np.array("ä"), "c": np.zeros((0, 3), bool)}
+    write_arrays(tmp_path / "a.npz", arrays)
+    for name, values in read_arrays(tmp_path / "a.npz").items():
+        np.testing.assert_array_equal(values, arrays[name])
+        assert values.dtype == arrays[name].dtype and values.flags.writeable
+
+
+def test_a_picture_replaces_a_picture_and_nothing_else(tmp_path):
+    (tmp_path / "thesis.png").write_text("Chapter 1")
+    (tmp_path / "old.png").write_bytes(b"\x89PNG\r\n\x1a\n")
+    (tmp_path / "folder.png").mkdir()
+    assert "is not a png file" in refusal(check_replaceable, tmp_path / "thesis.png", ".png")
+    assert "is a folder" in refusal(check_replaceable, tmp_path / "folder.png", ".png")
+    assert "does not end in .png or .svg" in refusal(check_replaceable, tmp_path / "thesis.tex", ".png", ".svg")
+    for name in ("old.png", "new.png"):
+        assert check_replaceable(tmp_path / name, ".png") == tmp_path / name
+
+
+def test_a_drive_is_refused_before_it_begins_if_its_picture_has_another_ending(tmp_path):
+    for name in ("thesis.tex", "q.npz"):
+        with pytest.raises(BootcourseError, match="does not end in .png"):
+            drive("rule", tmp_path / "q.npz", 0, "", tmp_path / name)
+    assert list(tmp_path.iterdir()) == []
+
+
+# Reading --------------------------------------------------------------------------------------------
+
 READERS = [read_arrays, read_json, read_bytes, sha256]
-
-
-@pytest.mark.parametrize("read", READERS)
-def test_what_is_not_a_file_is_refused_at_once(read, tmp_path):
-    assert "is a folder, not a file" in refusal(read, tmp_path)
-    assert "is not there" in refusal(read, tmp_path / "nowhere")
-    assert "is not there" in refusal(read, tmp_path / "nowhere" / "deeper")
-    assert "File name too long" in refusal(read, tmp_path / ("x" * 300))
-    assert "null" in refusal(read, tmp_path / "a\0b")
+NO_FILE = {
+    ".": "is a folder, not a file", "nowhere": "is not there", "nowhere/deeper": "is not there",
+    "x" * 300: "File name too long", "a\0b": "null", "pipe": "is a device, not a file",
+}  # fmt: skip
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="Windows has neither pipes nor devices in folders")
 @pytest.mark.parametrize("read", READERS)
-def test_a_device_and_a_pipe_are_refused_at_once(read, tmp_path):
+@pytest.mark.parametrize("name", NO_FILE)
+def test_what_is_not_a_file_is_refused_at_once(read, name, tmp_path):
     os.mkfifo(tmp_path / "pipe")
-    assert "is a device, not a file" in refusal(read, tmp_path / "pipe")
-    assert refusal(read, "/dev/zero").startswith("/dev/zero is a device, not a file")
+    assert NO_FILE[name] in refusal(read, tmp_path / name)
 
 
 def packed(path, members: dict[str, bytes], compression: int = zipfile.ZIP_DEFLATED):
@@ -55,6 +136,26 @@ def header(text: str) -> bytes:
     return b"\x93NUMPY\x01\x00" + (len(text) + 1).to_bytes(2, "little") + text.encode() + b"\n"
 
 
+def one_of(shape: str, descr: str = "|i1") -> bytes:
+    return header(f"{{'descr': '{descr}', 'fortran_order': False, 'shape': {shape}, }}") + b"1"
+
+
+NO_ARRAYS = {
+    "more numbers than there are": ({"a.npy": one_of("(1000000000,)", "<f8")}, zipfile.ZIP_DEFLATED),
+    "a pickle": ({"a.npy": one_of("()", "|O")}, zipfile.ZIP_DEFLATED),
+    "a very deep header": ({"a.npy": header("(" * 5000)}, zipfile.ZIP_DEFLATED),
+    "no header": ({"a.npy": header("1 +")}, zipfile.ZIP_DEFLATED),
+    "another packing": ({"a.npy": one_of("(1,)")}, zipfile.ZIP_BZIP2),
+    "a name twice": ({"a.npy": one_of("(1,)"), "a": one_of("(1,)")}, zipfile.ZIP_DEFLATED),
+    "too many arrays": ({f"{i}.npy": one_of("(1,)") for i in range(MEMBERS + 1)}, zipfile.ZIP_STORED),
+}
+
+
+@pytest.mark.parametrize("case", NO_ARRAYS)
+def test_arrays_that_numpy_would_not_write_are_refused(case, tmp_path):
+    assert "a.npz is damaged" in refusal(read_arrays, packed(tmp_path / "a.npz", *NO_ARRAYS[case]))
+
+
 def test_a_file_that_would_fill_the_memory_is_refused_before_it_is_unpacked(tmp_path):
     with zipfile.ZipFile(tmp_path / "bomb.npz", "w", zipfile.ZIP_DEFLATED, compresslevel=1) as file:
         with file.open("a.npy", "w") as member:
@@ -63,56 +164,10 @@ def test_a_file_that_would_fill_the_memory_is_refused_before_it_is_unpacked(tmp_
     assert "it declares 1 arrays of" in refusal(read_arrays, tmp_path / "bomb.npz")
 
 
-def test_an_array_that_declares_more_numbers_than_it_has_is_refused(tmp_path):
-    declared = header("{'descr': '<f8', 'fortran_order': False, 'shape': (1000000000,), }")
-    assert "should have the shape" in refusal(read_arrays, packed(tmp_path / "a.npz", {"a.npy": declared + bytes(80)}))
-
-
-@pytest.mark.parametrize("text", ["(" * 5000, "{'descr': '|O', 'fortran_order': False, 'shape': ()}", "'", "{}", "1 +"])
-def test_an_array_with_a_damaged_header_is_refused(tmp_path, text):
-    refusal(read_arrays, packed(tmp_path / "a.npz", {"a.npy": header(text)}))
-
-
-def test_other_packings_and_repeated_names_are_refused(tmp_path):
-    one = header("{'descr': '|i1', 'fortran_order': False, 'shape': (1,), }") + b"1"
-    refusal(read_arrays, packed(tmp_path / "a.npz", {"a.npy": one}, zipfile.ZIP_BZIP2))
-    refusal(read_arrays, packed(tmp_path / "b.npz", {"a.npy": one, "a": one}))
-    refusal(read_arrays, packed(tmp_path / "c.npz", {f"{i}.npy": one for i in range(MEMBERS + 1)}))
-
-
 @pytest.mark.parametrize("text", [b"", b"{", b"\xff\xfe", b"[" * 10**6, b"NaN", b"1e999", b"9" * 5000, b'"\xff"'])
 def test_what_is_not_json_is_refused(tmp_path, text):
     (tmp_path / "a.json").write_bytes(text)
     assert "restore it from a copy" in refusal(read_json, tmp_path / "a.json")
-
-
-def test_numbers_booleans_and_texts_are_read_as_they_were_written(tmp_path):
-    arrays = {"a": np.asfortranarray(np.arange(6.0).reshape(2, 3)), "b": np.array("ä"), "c": np.zeros((0, 3), bool)}
-    np.savez_compressed(tmp_path / "a.npz", **arrays)
-    found = read_arrays(tmp_path / "a.npz")
-    for name, values in arrays.items():
-        np.testing.assert_array_equal(found[name], values)
-        assert found[name].dtype == values.dtype and found[name].flags.writeable
-
-
-def test_a_drive_is_refused_before_it_begins_if_its_picture_has_another_ending(tmp_path):
-    for name in ("thesis.tex", "q.npz"):
-        (tmp_path / "thesis.tex").write_text("Chapter 1")
-        with pytest.raises(BootcourseError, match="does not end in .png"):
-            drive("rule", tmp_path / "q.npz", 0, "", tmp_path / name)
-    assert [path.name for path in tmp_path.iterdir()] == ["thesis.tex"]
-    assert (tmp_path / "thesis.tex").read_text() == "Chapter 1"
-
-
-def test_a_picture_replaces_a_picture_and_nothing_else(tmp_path):
-    (tmp_path / "thesis.png").write_text("Chapter 1")
-    (tmp_path / "old.png").write_bytes(b"\x89PNG\r\n\x1a\n")
-    (tmp_path / "folder.png").mkdir()
-    assert "is not a png file" in refusal(check_replaceable, tmp_path / "thesis.png", ".png")
-    assert "is a folder" in refusal(check_replaceable, tmp_path / "folder.png", ".png")
-    assert "does not end in .png or .svg" in refusal(check_replaceable, tmp_path / "thesis.tex", ".png", ".svg")
-    for name in ("old.png", "new.png"):
-        assert check_replaceable(tmp_path / name, ".png") == tmp_path / name
 
 
 def test_a_flipped_bit_of_a_sealed_file_is_noticed(tmp_path):

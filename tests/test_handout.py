@@ -12,7 +12,8 @@ from bootcourse.course import check, edition
 from bootcourse.course.classroom import handout
 from bootcourse.course.classroom.merge import merge, texts
 from bootcourse.errors import BootcourseError
-from tools.course.products import notebook
+
+NAME = "notebooks/05_the_barrier.ipynb"
 
 
 @pytest.fixture(autouse=True)
@@ -29,7 +30,7 @@ def folder(tmp_path):
 
 def test_it_has_the_lessons_a_page_and_no_solution(folder):
     names = {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()}
-    assert {"README.md", "Makefile", "handout.json", "notebooks/05_the_barrier.ipynb"} <= names
+    assert {"README.md", "Makefile", "handout.json", NAME} <= names
     assert len([name for name in names if name.endswith(".ipynb")]) == 2
     assert not any("solved" in name or "instructor" in name for name in names)
     page = (folder / "README.md").read_text()
@@ -38,30 +39,20 @@ def test_it_has_the_lessons_a_page_and_no_solution(folder):
         assert {name.removeprefix("course/") for name in file.namelist()} == names
 
 
-def test_its_makefile_offers_only_what_it_can_do(folder):
-    text = (folder / "Makefile").read_text()
+def test_its_makefile_and_its_lock_offer_only_what_a_student_needs(folder):
+    text, lock = (folder / "Makefile").read_text(), (folder / "environment.lock").read_text()
     assert "\nlab:" in text and "\n.venv/installed:" in text and "# make lab" in text
     assert "\ntest:" not in text and "# make test" not in text and "\nbook:" not in text
     assert [name for name in re.findall(r"tools/[\w./]+", text) if not (folder / name).exists()] == []
-
-
-def test_its_lock_is_the_students_under_the_name_that_its_makefile_knows(folder):
-    lock = (folder / "environment.lock").read_text()
     assert "-r environment.lock\n" in lock and "\njupyterlab==" in lock and "\npytest==" not in lock
 
 
-def test_solutions_are_closed_in_it_and_hints_are_not(folder, monkeypatch):
+def test_solutions_are_closed_in_it_until_the_lecturer_opens_them_and_hints_are_not(folder, monkeypatch):
     monkeypatch.chdir(folder / "notebooks")
     with pytest.raises(BootcourseError, match="Solutions are closed"):
         check.solution("luck")
-    for _ in range(4):
-        given = check.hint("luck")
-    assert given.kind == "hint" and "check.solution" not in given.footer
-
-
-def test_a_lecturer_may_open_them(folder, monkeypatch):
+    assert check.hint("luck").kind == "hint"
     handout.update(folder, None, "", solutions=True)
-    monkeypatch.chdir(folder / "notebooks")
     assert edition.solutions_are_open() and "1 - (1 - once)" in check.solution("luck").data
 
 
@@ -81,89 +72,82 @@ def test_a_wrong_request_gets_one_sentence_and_writes_nothing(tmp_path, how, sen
 
 
 def test_an_update_keeps_what_a_student_wrote_and_says_so(folder):
-    path = folder / "notebooks/05_the_barrier.ipynb"
-    mine = json.loads(path.read_text())
+    mine = json.loads((folder / NAME).read_text())
     stub = next(cell for cell in mine["cells"] if "check.luck(luck)" in "".join(cell["source"]))
     stub["source"] = "def luck(good, decisions, tries):\n    return 1\n\ncheck.luck(luck)"
-    path.write_text(json.dumps(mine))
+    (folder / NAME).write_text(json.dumps(mine))
     (folder / "LICENSE").write_text("my own")
     said = handout.update(folder, None, "", None)
-    assert "notebooks/05_the_barrier.ipynb: 1 cells of the student's kept, 0 new, 0 changed." in said
+    assert f"{NAME}: 1 cells of the student's kept." in said
     assert any(line.startswith("LICENSE: replaced") for line in said)
     assert (folder / "LICENSE.yours").read_text() == "my own"
-    now = json.loads(path.read_text())
+    now = json.loads((folder / NAME).read_text())
     assert stub["source"] in [cell["source"] for cell in now["cells"]] and len(now["cells"]) == len(mine["cells"])
     assert json.loads((folder / "handout.json").read_text())["deadline"] == "2030-05-31"
 
 
-def test_a_damaged_notebook_is_left_alone(folder):
-    path = folder / "notebooks/05_the_barrier.ipynb"
-    path.write_text("{")
+@pytest.mark.parametrize("damaged", ["{", "[]", '{"cells": 3}', '{"cells": [3]}'])
+def test_a_damaged_notebook_is_left_alone(folder, damaged):
+    (folder / NAME).write_text(damaged)
     assert any("damaged, and left as it is" in line for line in handout.update(folder, None, "", None))
-    assert path.read_text() == "{" and json.loads(path.with_suffix(".new.ipynb").read_text())["cells"]
+    new = folder / NAME.replace(".ipynb", ".new.ipynb")
+    assert (folder / NAME).read_text() == damaged and json.loads(new.read_text())["cells"]
 
 
 # Cell by cell ---------------------------------------------------------------------------------------
 
-
-def made(*sources: str) -> dict:
-    cells = [nbformat.v4.new_code_cell(source, execution_count=None) for source in sources]
-    return json.loads(nbformat.writes(notebook(cells)))
-
-
-def sources(found: dict) -> list[str]:
-    return ["".join(cell["source"]) for cell in found["cells"]]
-
-
 STUB, MINE = "def f():\n    ...\n\ncheck.f(f)", "def f():\n    return 1\n\ncheck.f(f)"
 
 
-def changed(base: dict, old: str, new: str) -> dict:
-    """A student's copy in which one cell's text is another."""
+def notebook(*sources: str) -> dict:
+    cells = [nbformat.v4.new_code_cell(source, id=source[:3].strip()) for source in sources]
+    return json.loads(nbformat.writes(nbformat.v4.new_notebook(cells=cells)))
+
+
+def by_student(base: dict, changes: dict[str, str]) -> dict:
+    """A student's copy: {a cell's text: the text that it has now}, and every cell was run."""
     mine = copy.deepcopy(base)
-    cell = next(cell for cell in mine["cells"] if "".join(cell["source"]) == old)
-    cell["source"], cell["outputs"] = new, [{"output_type": "stream", "name": "stdout", "text": "mine"}]
+    for cell in mine["cells"]:
+        cell["source"] = changes.get("".join(cell["source"]), cell["source"])
+        cell["outputs"] = [{"output_type": "stream", "name": "stdout", "text": "mine"}]
     return mine
 
 
-def test_new_cells_come_and_the_student_s_stay_with_their_outputs():
-    base, new = made("import a", STUB, "show()"), made("import a", "import b", STUB, "look()")
-    merged = merge(changed(base, STUB, MINE), texts(base), new)
-    assert sources(merged.notebook) == ["import a", "import b", MINE, "look()"]
-    assert merged.notebook["cells"][2]["outputs"] and (merged.kept, merged.new, merged.both) == (1, 2, ())
+def without_ids(base: dict) -> dict:
+    return base | {"cells": [{key: cell[key] for key in cell if key != "id"} for cell in base["cells"]]}
 
 
-def test_an_exercise_that_both_have_changed_stays_the_student_s_and_is_named():
-    other = STUB.replace("def f():", "def f():\n    'Docstring.'")
-    merged = merge(changed(made(STUB), STUB, MINE), texts(made(STUB)), made(other))
-    assert sources(merged.notebook) == [MINE] and merged.both == ("def f():",) and "def f():" in str(merged)
+def with_own_cell(base: dict) -> dict:
+    own = {"id": "own", "cell_type": "code", "source": "own", "outputs": [], "metadata": {}}
+    return base | {"cells": [*base["cells"][:2], own, *base["cells"][2:]]}
 
 
-def test_a_student_s_own_cell_stays_behind_what_stood_before_it():
-    base = made("one", "two", "three")
-    mine = copy.deepcopy(base)
-    mine["cells"].insert(2, {"id": "own", "cell_type": "code", "source": "own", "outputs": [], "metadata": {}})
-    assert sources(merge(mine, texts(base), made("zero", "one", "two", "three")).notebook) == [
-        "zero", "one", "two", "own", "three"]  # fmt: skip
+OLD = notebook("one", "two", STUB)
+CHANGED_STUB = STUB.replace("def f():", "def f():\n    'Docstring.'")
+MERGES = {
+    "new cells come and the student's stay": (
+        by_student(OLD, {STUB: MINE}), ["zero", "one", STUB], ["zero", "one", MINE]
+    ),
+    "both changed a cell: the student's stays": (by_student(OLD, {STUB: MINE}), [CHANGED_STUB], [MINE]),
+    "an own cell stays behind what stood before it": (
+        with_own_cell(OLD), ["zero", "one", "two", STUB], ["zero", "one", "two", "own", STUB]
+    ),
+    "of cells that the lesson no longer has, those that were changed stay": (
+        by_student(OLD, {"two": "two, mine"}), ["one"], ["one", "two, mine"]
+    ),
+    "an editor dropped the ids: every line of the student's stays": (
+        without_ids(by_student(OLD, {STUB: MINE})), ["one", STUB], ["one", MINE, STUB]
+    ),
+}  # fmt: skip
 
 
-def test_a_changed_cell_that_the_lesson_no_longer_has_stays_and_an_unchanged_one_goes():
-    base = made("one", "two", "three")
-    merged = merge(changed(base, "two", "two, mine"), texts(base), made("one"))
-    assert sources(merged.notebook) == ["one", "two, mine"]
+@pytest.mark.parametrize("case", MERGES)
+def test_an_update_merges_cell_by_cell(case):
+    mine, new, expected = MERGES[case]
+    assert ["".join(cell["source"]) for cell in merge(mine, texts(OLD), notebook(*new)).notebook["cells"]] == expected
 
 
-def test_a_deleted_cell_stays_deleted_and_outputs_of_unchanged_cells_stay():
-    base = made("one", "two")
-    mine = changed(base, "one", "one")
-    del mine["cells"][1]
-    merged = merge(mine, texts(base), made("one", "two", "three"))
-    assert sources(merged.notebook) == ["one", "three"] and merged.notebook["cells"][0]["outputs"]
-
-
-def test_a_notebook_whose_editor_dropped_the_ids_keeps_every_line_of_the_student_s():
-    base = made("one", STUB)
-    mine = changed(base, STUB, MINE)
-    for cell in mine["cells"]:
-        del cell["id"]
-    assert MINE in sources(merge(mine, texts(base), made("one", STUB, "two")).notebook)
+def test_cells_that_did_not_change_keep_their_outputs_and_what_both_changed_is_named():
+    merged = merge(by_student(OLD, {STUB: MINE}), texts(OLD), notebook("one", "new", CHANGED_STUB))
+    assert [bool(cell["outputs"]) for cell in merged.notebook["cells"]] == [True, False, True]
+    assert merged.both == ("def f():",) and "def f():" in str(merged)

@@ -1,4 +1,4 @@
-"""Driving by hand in the panel: buttons, both clocks, the ghost, and what is kept of a drive."""
+"""Driving by hand in the panel: the numbers, buttons, both clocks, the ghost, and what is saved of a drive."""
 
 import time
 
@@ -10,15 +10,13 @@ from bootcourse.episodes.interactive import InteractiveEpisode
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError
-from bootcourse.learn.demonstrations import demonstration_rows
-from bootcourse.panels.cockpit import alt_text, cockpit, finished, ghost_at
-from bootcourse.panels.drive import REAL, STEPS, drive_panel
-from bootcourse.panels.pad import ROWS, SCRIPT, SIGNS, Pad
-from bootcourse.panels.ticker import Ticker
+from bootcourse.panels.cockpit import cockpit, score
+from bootcourse.panels.drive import drive_panel
+from bootcourse.panels.pad import ROWS, SCRIPT, Pad
 from bootcourse.panels.train import train_panel
-from bootcourse.policies import idle_policy, plan_policy, rule_policy
+from bootcourse.policies import idle_policy, plan_policy
 from bootcourse.road.state import EGO, X
-from bootcourse.scenario import ACTION_NAMES, CALIBRATED, DEFAULT, IDLE
+from bootcourse.scenario import ACTION_NAMES, CALIBRATED, IDLE
 from tests.panels import from_page, raise_in_callbacks, threads, wait_for, words  # noqa: F401
 
 pytestmark = pytest.mark.usefixtures("raise_in_callbacks")
@@ -31,102 +29,65 @@ def real_time(panel, pace=0.1):
     return panel
 
 
-# ---- the drawing
+def breaks(action):
+    raise RuntimeError("the road is closed")
 
 
-def test_the_drawing_keeps_its_size_at_every_moment():
-    drive, ghost = InteractiveEpisode(3), record(rule_policy(DEFAULT), [3], label="rule")[0]
-    shown = [cockpit(drive, ghost, 0.0), cockpit(drive, None, 0.0)]
+def test_a_decision_counts_when_its_second_is_over_and_the_ghost_moves_between_its_steps():
+    drive, ghost = InteractiveEpisode(3), record(plan_policy([("keep right", 30)]), [3])[0]
+    drive.decide(IDLE)
+    drive.decide(IDLE)
+    assert [score(drive, ghost, t).decisions for t in (0.0, 0.9, 1.0, 1.9, 2.0)] == [0, 0, 1, 1, 2]
+    assert score(drive, ghost, 2.0).earned == sum(drive.rewards)
+    assert ghost.states[0, EGO, X] < score(drive, ghost, 0.25).ghost[X] < ghost.states[1, EGO, X]
+    late = score(drive, ghost, 1e6)
+    assert np.array_equal(late.ghost, ghost.states[-1, EGO]) and late.ghost_earned == pytest.approx(ghost.rewards.sum())
+
+
+def test_the_drawing_keeps_its_size_at_every_moment_and_says_how_it_ended(escape):
+    drive = InteractiveEpisode(3)
+    shown = [cockpit(drive, escape, 0.0), cockpit(drive, None, 0.0)]
     while not drive.over:
         drive.decide(CRASH)
-        shown += [cockpit(drive, ghost, drive.time - 0.3), cockpit(drive, ghost, drive.time, "keep left")]
+        shown += [cockpit(drive, escape, drive.time - 0.3), cockpit(drive, escape, drive.time, "keep left")]
     assert len({svg[: svg.index("role")] for svg in shown}) == 1
-    assert "Over: off the road" in shown[-1] and "accident" in shown[-1]
+    assert shown[0].alt.startswith("Road 3 after 0 s: 10.0 m/s in lane 2, ") and "rule controller" in shown[0].alt
+    assert "Over: off the road" in shown[-1] and shown[-1].alt.endswith("It is over: off the road.")
 
 
-def test_a_decision_counts_when_its_second_is_over():
-    drive = InteractiveEpisode(3)
-    drive.decide(IDLE)
-    drive.decide(IDLE)
-    assert [finished(drive, time) for time in (0.0, 0.9, 1.0, 1.9, 2.0)] == [0, 0, 1, 1, 2]
-
-
-def test_the_ghost_moves_between_its_steps_and_stays_where_it_ended():
-    ghost = record(plan_policy([("keep right", 30)]), [3])[0]
-    cars, _ = ghost_at(ghost, 0.25)
-    assert ghost.states[0, EGO, X] < cars[EGO, X] < ghost.states[1, EGO, X]
-    cars, total = ghost_at(ghost, 1e6)
-    assert np.array_equal(cars, ghost.states[-1]) and total == pytest.approx(ghost.rewards.sum())
-
-
-def test_the_sentence_for_those_who_see_nothing_says_where_you_are():
-    told = alt_text(InteractiveEpisode(3), record(idle_policy, [3], label="idle")[0], 0.0)
-    assert told.startswith("Road 3 after 0 s: 10.0 m/s in lane 2, ") and "idle driver" in told
-
-
-# ---- the pad
-
-
-def test_each_of_the_nine_buttons_presses_its_own_action():
+def test_the_pad_has_a_button_for_each_action_where_the_car_would_go_and_a_script_for_the_keys():
     pressed = []
     pad = Pad(pressed.append)
     for action, button in enumerate(pad.buttons):
         button.click()
         assert f"bc-pad-{action}" in button._dom_classes and button.tooltip == ACTION_NAMES[action]
     assert pressed == list(range(9))
+    names = [[ACTION_NAMES[action].split() for action in row] for row in ROWS]
+    assert [[name[0] for name in row] for row in names] == [[what] * 3 for what in ("accelerate", "keep", "brake")]
+    assert [[name[1] for name in row] for row in names] == [["left", "straight", "right"]] * 3
+    assert 'onerror="' in pad.children[-1].value and '"' not in SCRIPT
 
 
-def test_the_pad_lies_as_the_car_moves():
-    names = [[ACTION_NAMES[action] for action in row] for row in ROWS]
-    assert [row[0].split()[0] for row in names] == ["accelerate", "keep", "brake"]
-    assert all([name.split()[1] for name in row] == ["left", "straight", "right"] for row in names)
-    assert SIGNS[7] == "↑" and SIGNS[3] == "←"
-
-
-def test_the_script_of_the_keys_reaches_the_page_whole():
-    pad = Pad(lambda action: None)
-    html = pad.children[-1].value
-    assert 'onerror="' in html and "&quot;" not in SCRIPT and '"' not in SCRIPT and 'tabindex="0"' in html
-
-
-# ---- the panel, step by step
-
-
-def test_a_press_is_a_decision_and_the_drive_is_a_rollout():
+def test_a_press_is_a_decision_the_drive_is_a_rollout_and_another_begins_after_it():
     panel = drive_panel(seed=3)
     assert panel.rollout is None and "road 3" in panel.view.value
     for action in (IDLE, 7, 1):
         panel.pad.buttons[action].click()
-    assert panel.rollout.actions.tolist() == [IDLE, 7, 1] and panel.rollout.seed == 3
-    assert panel.rollout.label == "you" and ">3 s<" in panel.view.value
-
-
-def test_the_drive_s_end_is_said_and_another_can_begin():
-    panel = drive_panel(seed=3)
+    assert panel.rollout.actions.tolist() == [IDLE, 7, 1] and panel.rollout.seed == 3 and ">3 s<" in panel.view.value
     for _ in range(40):
         panel.press(CRASH)
     assert "Over: off the road" in panel.view.value and "press Drive again" in words(panel)
     crash = panel.rollout
     panel.again.click()
     assert panel.rollout is None and panel.drives[0].accident == crash.accident != 0
-    panel.press(IDLE)
-    assert len(panel.rollout.actions) == 1
-
-
-def test_another_road_begins_a_new_drive_with_its_own_ghost():
-    panel = drive_panel(seed=3)
-    panel.press(IDLE)
     for seed in (0, 99):
         from_page(panel.road.slider, value=seed)
-        assert panel.drive.seed == panel.ghost.seed == seed and panel.rollout is None
-    assert len(panel.drives) == 1
+        assert panel.drive.seed == panel.ghost.seed == seed
 
 
 @pytest.mark.parametrize("nonsense", [-1, 2.5, 2**32, float("nan"), float("inf")])
 def test_a_road_or_a_pace_that_is_none_is_refused_in_a_sentence(nonsense):
     panel = real_time(drive_panel(), 1.0)
-    panel.press(IDLE)
-    panel.ticker.stop()
     from_page(panel.road.field, value=nonsense)
     assert panel.drive.seed == 0 and "road = " in words(panel.road)
     from_page(panel.pace.field, value=nonsense if nonsense != 2.5 else 11)
@@ -150,17 +111,9 @@ def test_the_ghost_is_the_rule_a_driver_or_a_drive_of_this_road():
     given = record(idle_policy, [2], label="sac, seed 1")[0]
     panel = drive_panel(seed=2, ghost=given)
     assert panel.ghost is given and panel.road.slider.disabled and "plain SAC, seed 1" in panel.view.value
-
-
-def test_a_ghost_of_another_road_is_refused():
-    given = record(idle_policy, [2])[0]
-    with pytest.raises(BootcourseError, match="drove road 2"):
-        drive_panel(seed=3, ghost=given)
-    with pytest.raises(BootcourseError, match="same road"):
-        drive_panel(seed=2, ghost=given, scenario=CALIBRATED)
-
-
-# ---- what is kept
+    for other in ({"seed": 3}, {"seed": 2, "scenario": CALIBRATED}):
+        with pytest.raises(BootcourseError, match="drove road 2 .*give a drive of the same road"):
+            drive_panel(ghost=given, **other)
 
 
 def test_a_drive_is_saved_and_never_over_another(tmp_path):
@@ -168,23 +121,18 @@ def test_a_drive_is_saved_and_never_over_another(tmp_path):
     panel.save.click()
     assert "Nothing was driven yet" in words(panel)
     panel.press(IDLE)
-    panel.path.value = str(tmp_path / "mine")
-    panel.save.click()
-    assert Rollout.load(tmp_path / "mine.npz").actions.tolist() == [IDLE]
-    panel.save.click()
-    assert "exists already" in words(panel)
-    for none in (" ", ".", "..", "/"):
-        panel.path.value = none
+    refused = dict.fromkeys((" ", ".", "..", "/"), "Name a file")
+    refused |= dict.fromkeys(("with\0null", "x" * 300, "~nobody-of-that-name/\0"), "Cannot write")
+    for path, sentence in (
+        {str(tmp_path / "mine"): "Saved to", str(tmp_path / "mine.npz"): "exists"} | refused
+    ).items():
+        panel.path.value = path
         panel.save.click()
-        assert "Name a file" in words(panel), none
-    for impossible in ("with\0null", "x" * 300, "~nobody-of-that-name/\0"):
-        panel.path.value = impossible
-        panel.save.click()
-        assert "Cannot write" in words(panel)
-    assert len(list(tmp_path.iterdir())) == 1
+        assert sentence in words(panel), path
+    assert Rollout.load(tmp_path / "mine.npz").actions.tolist() == [IDLE] and len(list(tmp_path.iterdir())) == 1
 
 
-def test_drives_that_are_kept_bootstrap_an_agent():
+def test_drives_that_are_demonstrations_bootstrap_an_agent_each_once():
     panel = drive_panel(seed=3)
     panel.keep.click()
     assert "Nothing was driven yet" in words(panel) and not panel.demonstrations
@@ -192,23 +140,13 @@ def test_drives_that_are_kept_bootstrap_an_agent():
     for decisions in (2, 3):
         for _ in range(decisions):
             panel.press(IDLE)
-        panel.keep.click()
+            panel.keep.click()
+        assert f"{sum(len(drive.actions) for drive in panel.demonstrations)} decisions" in words(panel)
         panel.again.click()
-    assert "2 demonstrations, 5 decisions" in words(panel) or len(demonstration_rows(panel.demonstrations)) == 5
+    assert [len(drive.actions) for drive in panel.demonstrations] == [2, 3]
     trainer.train.click()
     assert trainer.background.wait(60) and trainer.background.training.replay.demonstrations == 5
     assert "2 own drives" in trainer.drawn[0].label
-
-
-def test_the_same_drive_is_one_demonstration_however_often_it_is_kept():
-    panel = drive_panel()
-    for _ in range(2):
-        panel.press(IDLE)
-        panel.keep.click()
-    assert len(panel.demonstrations) == 1 and len(panel.demonstrations[0].actions) == 2
-
-
-# ---- real time
 
 
 def test_in_real_time_the_clock_decides_and_a_press_counts_for_its_next_decision():
@@ -217,86 +155,47 @@ def test_in_real_time_the_clock_decides_and_a_press_counts_for_its_next_decision
     assert panel.go.description == "Pause"
     wait_for(lambda: len(panel.drive.actions) >= 3)
     panel.go.click()
-    actions = panel.rollout.actions.tolist()
-    assert actions[0] == 7 and set(actions[1:]) == {IDLE} and panel.go.description == "Start" and not threads()
+    assert panel.rollout.actions[0] == 7 and set(panel.rollout.actions[1:]) == {IDLE}
+    assert panel.go.description == "Start" and not threads()
+    before = panel.shown
+    time.sleep(0.25)
+    assert panel.shown == before
+    panel.go.click()
+    wait_for(lambda: panel.shown > before)
+    from_page(panel.mode, index=0)  # step by step: no clock
+    assert not threads() and panel.shown == panel.drive.time
 
 
-def test_between_two_decisions_the_cars_move():
+def test_between_two_decisions_the_cars_move_and_close_ends_the_clock():
     panel = real_time(drive_panel(seed=3), pace=1.0)
     panel.press(IDLE)
     seen = set()
     wait_for(lambda: seen.add(panel.view.value) or len(seen) >= 4)
     assert len(panel.drive.actions) == 1
     panel.close()
-
-
-def test_a_pause_and_a_start_lose_nothing():
-    panel = real_time(drive_panel(seed=3))
-    panel.go.click()
-    wait_for(lambda: len(panel.drive.actions) >= 2)
-    panel.go.click()
-    before = panel.shown
-    time.sleep(0.25)
-    assert panel.shown == before
-    panel.go.click()
-    wait_for(lambda: panel.shown > before)
-    panel.close()
+    assert not threads() and panel not in one_per_cell.running()
 
 
 def test_the_clock_stands_when_the_drive_is_over():
     panel = real_time(drive_panel(seed=3))
-    for _ in range(30):
-        if panel.drive.over:
-            break
+    while not panel.drive.over:
         done = len(panel.drive.actions)
         panel.press(CRASH)
         wait_for(lambda done=done: len(panel.drive.actions) > done or panel.drive.over)
-    wait_for(lambda: not panel.ticker.running)
-    assert panel.drive.over and panel.go.description == "Start"
     wait_for(lambda: not threads())
+    assert panel.go.description == "Start"
     panel.go.click()
     assert "This drive is over" in words(panel)
 
 
-def test_step_by_step_stops_the_clock():
-    panel = real_time(drive_panel())
-    panel.press(IDLE)
-    from_page(panel.mode, index=0)
-    assert panel.mode.value == STEPS != REAL and not threads() and panel.shown == panel.drive.time
-
-
-def test_close_while_it_drives_ends_the_clock():
-    panel = real_time(drive_panel())
-    panel.press(IDLE)
-    panel.close()
-    panel.close()
-    assert not threads() and panel not in one_per_cell.running()
-
-
-def test_what_breaks_in_the_clock_s_thread_is_a_sentence(monkeypatch):
-    panel = real_time(drive_panel())
-
-    def breaks(action):
-        raise RuntimeError("the road is closed")
-
-    monkeypatch.setattr(panel.drive, "decide", breaks)
-    panel.go.click()
-    wait_for(lambda: not panel.ticker.running)
-    assert "The drive broke off: RuntimeError: the road is closed" in words(panel)
-
-
-def test_a_clock_that_breaks_at_once_does_not_leave_a_button_that_says_pause(monkeypatch):
+def test_what_breaks_in_the_clock_s_thread_is_a_sentence_even_if_it_breaks_at_once(monkeypatch):
     panel = real_time(drive_panel())
     start = panel.ticker.start
-
-    def breaks(action):
-        raise RuntimeError("the road is closed")
-
     monkeypatch.setattr(panel.drive, "decide", breaks)
     monkeypatch.setattr(panel.ticker, "start", lambda: start() or time.sleep(0.4))
     panel.go.click()
     wait_for(lambda: not panel.ticker.running)
-    assert panel.go.description == "Start" and "broke off" in words(panel)
+    assert "The drive broke off: RuntimeError: the road is closed" in words(panel) and panel.go.description == "Start"
 
 
 def test_the_clock_s_thread_writes_nothing_while_a_press_is_handled():
@@ -308,24 +207,3 @@ def test_the_clock_s_thread_writes_nothing_while_a_press_is_handled():
         time.sleep(0.4)
         assert (panel.shown, panel.view.value) == before
     wait_for(lambda: panel.shown > before[0])
-    panel.close()
-
-
-def test_a_clock_starts_and_stops_as_often_as_asked():
-    ticks = []
-    ticker = Ticker(lambda passed: ticks.append(passed) or True, 50.0)
-    for _ in range(2):
-        ticker.start()
-        ticker.start()
-        wait_for(lambda: len(ticks) > 3)
-        assert len(threads()) == 1
-        ticker.stop()
-        ticker.stop()
-        assert not threads()
-        ticks.clear()
-
-
-def test_a_reader_without_a_kernel_sees_the_road():
-    panel = drive_panel(seed=3)
-    bundle = panel._repr_mimebundle_()
-    assert "data:image/svg+xml" in bundle["text/html"] and bundle["text/plain"].startswith("Road 3")

@@ -1,4 +1,4 @@
-"""The moving picture of the README: its frames, its size, its command."""
+"""The road from above as a moving picture, and the picture of the README."""
 
 import io
 
@@ -8,17 +8,21 @@ from PIL import Image
 from bootcourse.episodes.words import overtaken
 from bootcourse.errors import BootcourseError
 from bootcourse.plots import animation, readme_picture
+from bootcourse.road.state import EGO, LANE
+
+
+def words_of(figure) -> list[str]:
+    return [text.get_text() for text in figure.texts]
 
 
 def test_the_animation_is_small_has_every_frame_and_is_the_same_each_time(idle, escape, tmp_path):
-    drives, until = [idle, escape], 2.0
-    path = animation.animate(drives, tmp_path / "clip.gif", until)
+    path = animation.animate([idle, escape], tmp_path / "clip.gif", 2.0)
     with Image.open(path) as clip:
-        assert clip.n_frames == len(animation.frame_times(drives, until)) == 10
+        assert clip.n_frames == len(animation.frame_times([idle, escape], 2.0)) == 10
         assert clip.info["loop"] == 0 and b"Idle driver" in clip.info["comment"]
         clip.seek(9)
         assert clip.info["duration"] == 1000 * animation.REST
-    assert animation.animate(drives, tmp_path / "again.gif", until).read_bytes() == path.read_bytes()
+    assert animation.animate([idle, escape], tmp_path / "again.gif", 2.0).read_bytes() == path.read_bytes()
 
 
 def test_the_animation_goes_on_until_the_trap_is_left(idle, escape):
@@ -27,28 +31,30 @@ def test_the_animation_goes_on_until_the_trap_is_left(idle, escape):
 
 
 def test_a_drive_that_ended_stays_as_it_ended(crash):
-    figure = animation.frame([crash], 100.0)
-    words = [text.get_text() for text in figure.texts]
+    words = words_of(animation.frame([crash], 100.0))
     assert f"{crash.times[-1]:.0f} s" in words and "collision" in words
 
 
-def test_an_animation_of_nothing_is_refused(idle, tmp_path):
-    with pytest.raises(BootcourseError, match="There is no drive to animate"):
-        animation.animate([], tmp_path / "clip.gif")
-    with pytest.raises(BootcourseError, match="above 0"):
-        animation.animate(idle, tmp_path / "clip.gif", until=0)
+def test_the_key_frame_is_the_accident_the_first_new_lane_or_the_middle(idle, escape, crash):
+    assert "collision" in words_of(animation.key_frame([crash]))
+    lanes = escape.states[:, EGO, LANE]
+    assert f"{escape.times[(lanes != lanes[0]).argmax()]:.0f} s" in words_of(animation.key_frame([idle, escape]))
+    assert "75 s" in words_of(animation.key_frame([idle]))
 
 
-def test_the_readme_picture_can_be_drawn_from_two_recorded_drives(idle, crash, tmp_path, monkeypatch, capsys):
+@pytest.mark.parametrize(
+    "drives, name, until, sentence",
+    [([], "clip.gif", None, "no drive to animate"), (None, "clip.gif", 0, "above 0"), (None, "clip.mp4", 2, ".gif")],
+)
+def test_an_animation_of_nothing_or_of_another_kind_is_refused(idle, tmp_path, drives, name, until, sentence):
+    with pytest.raises(BootcourseError, match=sentence):
+        animation.animate(idle if drives is None else drives, tmp_path / name, until)
+
+
+def test_the_readme_s_picture_can_be_drawn_again_and_the_shipped_one_is_light(tmp_path, monkeypatch):
     monkeypatch.setattr(animation, "frame_times", lambda rollouts, until=None: [0.0, 0.5])
-    drives = [str(idle.save(tmp_path / "top.npz")), str(crash.save(tmp_path / "bottom.npz"))]
-    assert readme_picture.main([*drives, "--out", str(tmp_path / "out")]) == 0
-    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["trap.gif", "trap.png"]
-    assert readme_picture.main([drives[0]]) == 2
-    assert "give two" in capsys.readouterr().err
-
-
-def test_the_readme_picture_in_the_repository_is_light():
+    readme_picture.main(tmp_path)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["trap.gif", "trap.png"]
     gif, still = readme_picture.FOLDER / "trap.gif", readme_picture.FOLDER / "trap.png"
     assert gif.stat().st_size <= 1_500_000 and still.stat().st_size <= 100_000
     with Image.open(io.BytesIO(gif.read_bytes())) as clip:

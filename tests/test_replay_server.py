@@ -23,7 +23,6 @@ from bootcourse.errors import BootcourseError
 from bootcourse.policies import idle_policy, rule_policy
 from bootcourse.replay3d import replay, scene, server, viewer
 from bootcourse.replay3d.camera import BIRD, SIDE, point, pose
-from bootcourse.replay3d.player import SPEEDS
 from bootcourse.road.state import EGO
 from tests.browser import ARTEFACTS, CARS, close_notice, is_blank, needs_browser, open_browser
 from tests.replays import SHORT
@@ -56,21 +55,17 @@ def ask(port: int, message: dict) -> None:
         time.sleep(0.5)
 
 
-def test_it_starts_serves_stops_and_frees_its_port_ten_times_in_a_row(drives):
+def test_it_starts_serves_stops_and_frees_its_port_several_times_in_a_row(drives, capfd):
     threads = threading.active_count()
-    for _ in range(10):
+    for _ in range(5):
         with replay(drives[1]) as live:
             with urllib.request.urlopen(live.url, timeout=10) as page:
                 assert page.status == 200 and b"<html" in page.read()
             port = live.port
         assert not is_open(port)
         live.close()  # closing twice does nothing
+    assert capfd.readouterr() == ("", ""), "viser's banner is not shown"
     assert not one_per_cell.running() and until(lambda: threading.active_count() <= threads + 1)
-
-
-def test_it_says_nothing_of_its_own(drives, capfd):
-    replay(drives[1]).close()
-    assert capfd.readouterr() == ("", "")
 
 
 def test_it_listens_on_this_machine_only(shown):
@@ -232,11 +227,6 @@ def test_behind_a_hub_it_goes_through_the_proxy_or_says_what_to_do(monkeypatch):
     assert viewer.address_for_browser(4321)[0] == "/user/ada/proxy/4321/"
 
 
-def test_a_cell_shows_a_frame_around_the_live_page(shown):
-    html = shown._repr_mimebundle_()["text/html"]
-    assert f'<iframe src="{shown.url}"' in html and ".export(" in html
-
-
 def test_without_viewers_the_clock_waits_and_nothing_is_sent(shown):
     shown.player.play()
     time.sleep(0.3)
@@ -293,10 +283,6 @@ def test_in_a_browser_the_buttons_and_the_slider_work(drives):
         assert live.stage.options.rule is False
         page.get_by_label("What the rule wants").click()
         assert until(lambda: live.stage.options.rule and live.stage.drives[0].lane.visible)
-
-
-def test_speeds_run_from_a_quarter_to_eight():
-    assert (min(SPEEDS.values()), max(SPEEDS.values())) == (0.25, 8.0)
 
 
 def test_one_moment_is_one_batch(shown):

@@ -47,6 +47,8 @@ def test_every_recorded_state_is_hit_exactly(drive):
         np.testing.assert_allclose(moment.y, states[:, Y], atol=1e-9)
         np.testing.assert_allclose(moment.heading, states[:, HEADING], atol=1e-9)
         np.testing.assert_allclose(moment.speed, states[:, SPEED], atol=1e-9)
+    np.testing.assert_array_equal(drive.at(-3.0).x, drive.at(0.0).x)
+    np.testing.assert_array_equal(drive.at(1e6).x, drive.at(drive.duration).x)
 
 
 def test_nothing_jumps_and_no_car_is_faster_than_it_drives(drive):
@@ -81,11 +83,6 @@ def test_a_heading_turns_the_short_way_round():
     before, after = row(heading=math.pi - 0.05), row(x=-5.0, heading=-math.pi + 0.05)
     headings = [between(before, after, tau, 0.5, 5.0).heading[0] for tau in np.linspace(0, 0.5, 11)]
     assert np.ptp(headings) == pytest.approx(0.1)
-
-
-def test_before_the_start_and_after_the_end_everything_holds_still(drive):
-    np.testing.assert_array_equal(drive.at(-3.0).x, drive.at(0.0).x)
-    np.testing.assert_array_equal(drive.at(1e6).x, drive.at(drive.duration).x)
 
 
 def test_rewards_are_earned_when_a_decision_is_over(drive):

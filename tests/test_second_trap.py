@@ -1,40 +1,44 @@
-"""Roads that pay otherwise, and the agents of the last lesson that ship."""
+"""Roads that pay otherwise, and the agents of the lesson on the second trap that ship."""
 
 import numpy as np
 import pytest
 
-from bootcourse.course.lessons.the_second_trap import second_trap
+from bootcourse.course.lessons.the_second_trap import ppo_kinds, second_trap
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
-from bootcourse.errors import BootcourseError
-from bootcourse.files import read_arrays, write_arrays
-from bootcourse.research import ppo_reference
 from bootcourse.road.formulas import speed_reward
 from bootcourse.road.vector_env import TrapVectorEnv
 
+RANDOM = np.random.default_rng(0).integers(0, 9, (60, 8))  # (decisions, roads)
 
-def both(pay, decisions, actions):
+
+def both(pay, actions):
     """The same roads with two rewards, and the potential before each decision: (decisions, roads) each."""
     plain, repaid = TrapVectorEnv(8), second_trap.Repaid(8, pay)
     for env in (plain, repaid):
         env.reset(seed=0)
-    found = []
-    for t in range(decisions):
+    each = []
+    for t in range(len(actions)):
         before = second_trap.left_of(repaid.cars)
         (_, rewards, *_), (_, others, terminated, truncated, _) = plain.step(actions[t]), repaid.step(actions[t])
-        found.append([rewards, others, before, terminated, truncated])
-    return map(np.array, zip(*found, strict=True))
+        each.append([rewards, others, before, terminated, truncated])
+    return map(np.array, zip(*each, strict=True))
 
 
 def test_a_shaping_reward_adds_up_to_its_two_ends_over_an_accident_and_a_new_episode():
-    actions = np.random.default_rng(0).integers(0, 9, (60, 8))
-    rewards, others, phi, terminated, truncated = both(
-        second_trap.shaped_pay(second_trap.left_of, gamma=1.0), 60, actions
-    )
+    pay = second_trap.shaped_pay(second_trap.left_of, gamma=1.0)
+    rewards, others, phi, terminated, truncated = both(pay, RANDOM)
     assert terminated.sum() > 8 and not truncated.any()
     ends = np.flatnonzero(terminated[:, 0])
     for start, end in zip([0, *(ends[:-1] + 1)], ends, strict=True):  # each episode: 0 - Φ(s_0)
         extra = (others - rewards)[start : end + 1, 0]
         assert extra.sum() == pytest.approx(-phi[start, 0], abs=1e-9)
+
+
+def test_an_episode_whose_time_is_over_keeps_its_last_potential():
+    pay = second_trap.shaped_pay(lambda cars: np.full(len(cars), 3.0), gamma=0.5)
+    rewards, others, _, terminated, truncated = both(pay, np.full((150, 8), 4))
+    assert truncated[-1].all() and not terminated.any()
+    assert np.allclose(others - rewards, 0.5 * 3 - 3)
 
 
 def test_the_concave_reward_has_the_ends_of_the_road_s_own_and_pays_more_between_them():
@@ -45,47 +49,25 @@ def test_the_concave_reward_has_the_ends_of_the_road_s_own_and_pays_more_between
 
 
 def test_the_concave_reward_replaces_that_of_the_speed_alone_and_leaves_accidents_as_they_are():
-    straight = np.full((20, 8), 4)
-    rewards, others, _, terminated, _ = both(second_trap.concave_pay, 20, straight)
-    assert not terminated.any()
+    rewards, others, *_ = both(second_trap.concave_pay, np.full((20, 8), 4))
     assert np.allclose(others - rewards, 1.5 / 1.6 * (0.5**0.5 - 2 / 15), atol=1e-3)  # 10 m/s, of w_v + w_y + w_θ = 1.6
-    actions = np.random.default_rng(0).integers(0, 9, (60, 8))
-    rewards, others, _, terminated, _ = both(second_trap.concave_pay, 60, actions)
+    rewards, others, _, terminated, _ = both(second_trap.concave_pay, RANDOM)
     assert terminated.sum() > 8 and np.array_equal(rewards[terminated], others[terminated])
 
 
-def test_an_episode_whose_time_is_over_keeps_its_last_potential():
-    actions = np.full((150, 8), 4)
-    pay = second_trap.shaped_pay(lambda cars: np.full(len(cars), 3.0), gamma=0.5)
-    rewards, others, _, terminated, truncated = both(pay, 150, actions)
-    assert truncated[-1].all() and not terminated.any()
-    assert np.allclose(others - rewards, 0.5 * 3 - 3)
+def test_the_agents_that_ship_drive_as_their_results_say():
+    ships = ppo_kinds.reference()["alone"]
+    driven = drive_episodes(ppo_kinds.agent_of("alone", 1).as_policy(), ppo_kinds.ROADS[:60])
+    assert abs(driven.returns.mean() - ships["returns"][1]) < 5
+    assert abs(driven.success.mean() - ships["success"][1]) < 0.05
 
 
-def test_a_reference_that_was_stopped_goes_on_and_keeps_the_networks(tmp_path, monkeypatch):
-    monkeypatch.setattr(ppo_reference, "KINDS", {"alone": ppo_reference.Kind("ppo", 600)})
-    monkeypatch.setattr(ppo_reference, "QUICK", {"hidden": (4, 4), "envs_per_agent": 4, "horizon": 8, "batch": 32})
-    monkeypatch.setattr(ppo_reference, "EVERY", 200)
-    monkeypatch.setattr(ppo_reference, "ROADS", held_out_seeds(14, 3))
-    out, kept = tmp_path / "ppo.npz", {"returns": np.array(5.0), "curve": np.zeros(3)}
-    write_arrays(tmp_path / "ppo.unfinished/alone-0.npz", kept)
-    trained = []
-    made = ppo_reference.made
-    monkeypatch.setattr(ppo_reference, "made", lambda kind, seed: trained.append(seed) or made(kind, seed))
-    assert ppo_reference.main(["--out", str(out), "--seeds", "2"]) == 0
-    assert trained == [1] and not (tmp_path / "ppo.unfinished").exists()
-    assert read_arrays(out)["alone/returns"][0] == 5 and read_arrays(out)["alone/curve"].shape == (2, 3)
-
-
-def test_the_agents_that_ship_drive_as_the_file_says():
-    kept = ppo_reference.reference()["alone"]
-    driven = drive_episodes(ppo_reference.agent_of("alone", 1).as_policy(), ppo_reference.ROADS[:60])
-    assert (
-        abs(driven.returns.mean() - kept["returns"][1]) < 5 and abs(driven.success.mean() - kept["success"][1]) < 0.05
-    )
-
-
-def test_a_file_without_all_kinds_is_refused_with_the_command(tmp_path):
-    write_arrays(tmp_path / "ppo.npz", {"alone/returns": np.zeros(2)})
-    with pytest.raises(BootcourseError, match="ppo_reference --out assets/ppo.npz"):
-        ppo_reference.reference(tmp_path / "ppo.npz")
+def test_a_training_of_a_kind_keeps_what_the_lesson_reads(monkeypatch):
+    monkeypatch.setattr(ppo_kinds, "KINDS", {"shaped": ppo_kinds.KINDS["shaped"]._replace(decisions=600)})
+    monkeypatch.setattr(ppo_kinds, "QUICK", {"hidden": (4, 4), "envs_per_agent": 4, "horizon": 8, "batch": 32})
+    monkeypatch.setattr(ppo_kinds, "EVERY", 200)
+    monkeypatch.setattr(ppo_kinds, "ROADS", held_out_seeds(14, 3))
+    arrays, ships = ppo_kinds.train_kind("shaped", seeds=2), ppo_kinds.shipped_kinds.__wrapped__()["shaped"]
+    names = {f"{part}.{name}" for part in ("notes", "measured", "weights") for name in getattr(ships, part)}
+    assert {name for name in arrays if "." in name} == names
+    assert arrays["notes.at"].shape == (2, 3) and arrays["weights.actor.0"].shape == (2, 26, 4)

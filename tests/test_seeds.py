@@ -9,7 +9,6 @@ from bootcourse.episodes.interactive import InteractiveEpisode
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.training import Training
 from bootcourse.panels.drive import drive_panel
-from bootcourse.panels.scenario import scenario_panel
 
 SHORT = bc.Scenario(clock=bc.DEFAULT.clock.__class__(decisions=3))
 PLACES = {
@@ -21,7 +20,6 @@ PLACES = {
     "evaluate": lambda seed: bc.evaluate(bc.idle_policy, 2, SHORT, seed),
     "a drive by hand": lambda seed: InteractiveEpisode(seed),
     "the drive panel": lambda seed: drive_panel(seed),
-    "the scenario panel": lambda seed: scenario_panel(seed=seed),
     "settings": lambda seed: bc.settings_for("sac", seed=seed),
     "settings of several agents": lambda seed: bc.with_seeds(bc.settings_for("sac"), 2, seed),
     "a training's roads": lambda seed: Training([bc.settings_for("sac")], 1, first_seed=seed),

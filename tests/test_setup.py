@@ -32,18 +32,11 @@ def requirements(lock: str) -> list[str]:
 
 
 @pytest.mark.parametrize("lock", LOCKS)
-def test_every_line_of_a_lock_is_exact_and_hashed(lock):
+def test_a_lock_is_exact_and_hashed_and_names_no_cuda_package_no_address_and_no_folder(lock):
     for line in requirements(lock):
         assert re.fullmatch(r"[a-z0-9.-]+==\S+( ; [^-]+)?(\s+--hash=sha256:[0-9a-f]{64})+", line), line
-
-
-@pytest.mark.parametrize("lock", LOCKS)
-def test_a_lock_names_no_cuda_package_no_address_and_no_folder(lock):
     text = (ROOT / lock).read_text()
-    assert not re.search(r"^(nvidia|cuda|triton)", text, flags=re.MULTILINE)
-    assert "://" not in text
-    assert "--index" not in text and "--find-links" not in text
-    assert not re.search(r"\s/\w", text)
+    assert not re.search(r"^(nvidia|cuda|triton)|://|--index|--find-links|\s/\w", text, flags=re.MULTILINE)
 
 
 def test_on_linux_the_lock_takes_only_the_cpu_build_of_torch():
@@ -152,6 +145,9 @@ def refuses(error: Exception):
 
 FULL = refuses(OSError(28, "No space left on device"))
 AMISS = {
+    "torch is not installed": (
+        doctor.torch_build, (sys.modules, "torch", None), 1, "STOP  torch_build: torch is not installed",
+    ),
     "no local port can be opened": (
         doctor.port, (socket, "create_server", refuses(PermissionError(13, "Permission denied"))),
         1, "no page can be served on 127.0.0.1",
@@ -166,17 +162,10 @@ AMISS = {
 
 @pytest.mark.parametrize("what", AMISS)
 def test_the_doctor_finds_that(what, monkeypatch, capsys):
-    check, change, status, said = AMISS[what]
-    monkeypatch.setattr(*change)
+    check, (place, name, value), status, said = AMISS[what]
+    (monkeypatch.setitem if isinstance(place, dict) else monkeypatch.setattr)(place, name, value)
     monkeypatch.setattr(doctor, "CHECKS", (check,))
     assert doctor.main() == status and said in capsys.readouterr().out
-
-
-def test_the_doctor_stops_when_a_package_cannot_be_imported(monkeypatch, capsys):
-    monkeypatch.setitem(sys.modules, "torch", None)
-    monkeypatch.setattr(doctor, "CHECKS", (doctor.torch_build,))
-    assert doctor.main() == 1
-    assert "STOP  torch_build: torch is not installed" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(
@@ -223,18 +212,27 @@ def test_the_doctor_speaks_when_nothing_is_installed():
 # The command line
 
 
-def test_help_lists_the_commands(bootcourse):
+def test_help_lists_the_commands_of_every_room(bootcourse):
     answer = bootcourse("--help")
-    assert answer.status == 0 and "doctor" in answer.out
+    commands = re.findall(r"^  (\w+)  +[A-Z]", answer.out.partition("Commands:")[2], re.M)
+    assert answer.status == 0 and {"doctor", "train", "study", "assets", "handout", "submit", "grade"} <= set(commands)
 
 
-@pytest.mark.parametrize("command", ["", "study", "sweep", "train"])
+def test_a_command_imports_nothing_of_the_rooms_that_it_does_not_need():
+    code = "import sys; from bootcourse.cli import main; sys.argv[1:] = ['train', '--help']\n"
+    code += "try: main()\nfinally: print(*sys.modules)"
+    said = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True).stdout
+    loaded = said.splitlines()[-1].split()
+    assert "bootcourse.cli" in loaded and not {"bootcourse.course", "bootcourse.research"} & set(loaded)
+
+
+@pytest.mark.parametrize("command", ["", "study", "train"])
 def test_help_can_be_printed_in_windows_usual_encoding(command, bootcourse, monkeypatch):
     printed = io.TextIOWrapper(io.BytesIO(), encoding="cp1252")
     monkeypatch.setattr(sys, "stdout", printed)
     assert bootcourse(*command.split(), "--help").status == 0
-    printed.flush()
-    assert (b"settings of p, xi and c" if command == "sweep" else b"--help") in printed.buffer.getvalue()
+    print("of p, ξ and c → ✓", file=printed, flush=True)
+    assert b"--help" in printed.buffer.getvalue() and b"of p, xi and c ? ?" in printed.buffer.getvalue()
 
 
 def test_a_mistyped_command_is_told_the_nearest_one(bootcourse):

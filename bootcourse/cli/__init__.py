@@ -1,26 +1,52 @@
-"""The command line, `bootcourse` or `python -m bootcourse`: a command is a function in `COMMANDS`.
+"""The command line, `bootcourse` or `python -m bootcourse`: a command is a function in `COMMANDS` or in `LAZY`.
 
 Commands import their modules themselves, so that `bootcourse --help` is fast.
 """
 
 import codecs
+import importlib
 import sys
 import unicodedata
 
 import typer
+from typer.core import TyperGroup
+from typer.main import get_command
 
-from bootcourse.cli.classroom import grade, handout, submit
 from bootcourse.cli.driving import drive, evaluate, replay
-from bootcourse.cli.studies import assets, study, sweep
 from bootcourse.cli.training import train
 from bootcourse.errors import BootcourseError
 
+LAZY = {  # commands of the research and of the course, "module:function", imported when they are used
+    "study": "bootcourse.research.commands:study",
+    "assets": "bootcourse.research.commands:assets",
+    "handout": "bootcourse.course.classroom.commands:handout",
+    "submit": "bootcourse.course.classroom.commands:submit",
+    "grade": "bootcourse.course.classroom.commands:grade",
+}
+PLAIN = {"add_completion": False, "rich_markup_mode": None, "pretty_exceptions_enable": False}  # on every terminal
+
+
+class Commands(TyperGroup):
+    """The commands of `COMMANDS` and of `LAZY`; of the latter only those that are asked for are imported."""
+
+    def __init__(self, **options):
+        super().__init__(**options)
+        self.commands |= dict.fromkeys(LAZY)
+
+    def get_command(self, ctx, name):
+        if name in LAZY and self.commands[name] is None:
+            module, _, function = LAZY[name].partition(":")
+            alone = typer.Typer(**PLAIN)
+            alone.command(name)(getattr(importlib.import_module(module), function))
+            self.commands[name] = get_command(alone)
+        return super().get_command(ctx, name)
+
+
 app = typer.Typer(
+    cls=Commands,
     help="A trap on the highway, and how an imperfect driver pulls a learner out of it.",
     no_args_is_help=True,
-    add_completion=False,
-    rich_markup_mode=None,  # plain text, on every terminal
-    pretty_exceptions_enable=False,
+    **PLAIN,
 )
 
 
@@ -69,6 +95,6 @@ def doctor() -> None:
     raise typer.Exit(doctor.main())
 
 
-COMMANDS = (doctor, train, evaluate, drive, replay, study, sweep, assets, handout, submit, grade)
+COMMANDS = (doctor, train, evaluate, drive, replay)
 for command in COMMANDS:
     app.command()(command)

@@ -35,18 +35,17 @@ def evaluate(
     teacher: str = typer.Option("", help="The teacher that a run drives with: planner …, or FILE.py:FUNCTION."),
     as_json: bool = typer.Option(False, "--json", help="Print JSON."),
     board: bool = typer.Option(False, "--board", help="Print the leaderboard with them; here WHO may be several."),
-    keep: Path | None = typer.Option(None, help="With --board: a file, such as mine.json, that keeps their rows."),
 ) -> None:
     """Drive held-out episodes and print success, return, speed, distance and accidents with 95 % intervals."""
     from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds, over_seeds, summarise
 
     if board:
         if (episodes, seed, scenario, sample, as_json) != (1000, 1, "", False, False):
-            raise BootcourseError("--board has its own roads and form: with it, give only --keep and --teacher.")
-        print_board(who, keep, teacher)
+            raise BootcourseError("--board has its own roads and form: with it, give only --teacher.")
+        print_board(who, teacher)
         return
-    if len(who) > 1 or keep is not None:
-        raise BootcourseError(f"{'Several drivers need' if len(who) > 1 else '--keep needs'} --board.")
+    if len(who) > 1:
+        raise BootcourseError("Several drivers need --board.")
     seeds, drivers = held_out_seeds(seed, episodes), drivers_of(who[0], scenario, sample, seed, teacher)
     found = {each.label: summarise(drive_episodes(each.policy, seeds, each.road)) for each in drivers}
     means = {name: over_seeds([found[label] for label in labels]) for name, labels in alike(drivers).items()}
@@ -63,17 +62,17 @@ def evaluate(
         print_table({label: columns[label] for label in labels[first : first + ACROSS]})
 
 
-def print_board(who: list[str], keep: Path | None, teacher: str) -> None:
-    """Print the leaderboard, where the built-in drivers stand, with other drivers' rows."""
+def print_board(who: list[str], teacher: str) -> None:
+    """Print the leaderboard, where the built-in drivers stand, with the rows of agents in folders."""
+    import bootcourse
     from bootcourse.cli.training import teacher_from
-    from bootcourse.course.board import board
 
     own = [one for one in who if one not in BUILT_IN]
     for one in own:
         check_driver(one)
     if teacher and not own:
         refuse_teacher(teacher)
-    print(board(*own, keep=keep, teacher=teacher_from(teacher)))
+    print(bootcourse.board(*own, teacher=teacher_from(teacher)))
 
 
 def check_driver(who: str) -> None:
@@ -192,8 +191,8 @@ def drive(
 def replay(
     files: list[Path] = typer.Argument(..., help="Rollouts of `bootcourse drive`; several of one road are compared."),
     export: Path | None = typer.Option(None, help="Write one HTML file that plays anywhere, such as out.html."),
-    gif: Path | None = typer.Option(None, help="Write an animation for slides, such as out.gif."),
-    png: Path | None = typer.Option(None, help="Write a picture, such as out.png."),
+    gif: Path | None = typer.Option(None, help="Write an animation of the road from above, such as out.gif."),
+    png: Path | None = typer.Option(None, help="Write one moment from above as a picture, such as out.png."),
     text: bool = typer.Option(False, "--text", help="Print each drive in words."),
     port: int = typer.Option(0, min=0, max=65535, help="The server's port; 0: any free one."),
     browser: bool = typer.Option(True, help="Open the browser, or print only the address."),
@@ -212,9 +211,14 @@ def replay(
             threading.Event().wait()
         return
     from bootcourse.episodes.words import transcripts
-    from bootcourse.replay3d import pictures, recorder
+    from bootcourse.plots.animation import animate, key_frame
+    from bootcourse.plots.figure import save
+    from bootcourse.replay3d import recorder
 
-    for path, write in ((export, recorder.export), (gif, pictures.write_gif), (png, pictures.write_png)):
+    def picture(drives, path):
+        return save(key_frame(drives), path)
+
+    for path, write in ((export, recorder.export), (gif, animate), (png, picture)):
         if path is not None:
             print(f"{write(rollouts, path)} ({path.stat().st_size / 1e6:.1f} MB)")
     if text:

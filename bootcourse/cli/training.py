@@ -8,6 +8,7 @@
 A training that is stopped by Ctrl-C (exit status 130) or killed goes on with --resume.
 """
 
+import importlib
 import importlib.util
 import os
 import shutil
@@ -20,6 +21,7 @@ from bootcourse.errors import BootcourseError, described, did_you_mean
 from bootcourse.methods import METHODS
 
 INTERRUPTED = 130  # exit status
+NAMED = "bootcourse.research.teachers"  # the module of the teachers with a name, loaded when one is asked for
 UNFINISHED, CHECKPOINT, SAVING, COMPLETE = "unfinished", "checkpoint.npz", "saving", "complete"  # see above
 SECONDS_BETWEEN = 20.0  # of checkpoints
 
@@ -45,8 +47,7 @@ def train(
     from bootcourse.learn.settings import settings_for, with_seeds
     from bootcourse.learn.training import Training
     from bootcourse.scenario import named
-    from bootcourse.storage.checkpoint import DamagedCheckpoint
-    from bootcourse.storage.runs import load_checkpoint, save_checkpoint
+    from bootcourse.storage.checkpoint import DamagedCheckpoint, load_checkpoint, save_checkpoint
     from bootcourse.storage.work import locked
 
     settings, road = with_seeds(settings_for(method, setting), seeds, first_seed), named(scenario)
@@ -104,12 +105,11 @@ def teacher_from(place: str):
         return course_rule
     file, colon, function = place.rpartition(":")
     if not colon:
-        from bootcourse.research.teachers import TEACHERS  # slow: it loads the planner
-
-        if place not in TEACHERS:
+        teachers = importlib.import_module(NAMED).TEACHERS  # slow: it loads the planner
+        if place not in teachers:
             own = "or give a rule of your own, FILE.py:FUNCTION"
-            raise BootcourseError(f"Teacher {did_you_mean(place, TEACHERS)}, {own}.")
-        return TEACHERS[place].rule
+            raise BootcourseError(f"Teacher {did_you_mean(place, teachers)}, {own}.")
+        return teachers[place].rule
     if Path(file).suffix != ".py":
         raise BootcourseError(f"--teacher {place}: give a file and a function in it, such as my_rule.py:my_rule.")
     if not Path(file).is_file():
@@ -130,7 +130,8 @@ def finish_training(training, out: Path, progress: bool) -> int:
 
     training: None if it is over and its runs are complete, but not all in their places.
     """
-    from bootcourse.storage.runs import save_checkpoint, save_runs
+    from bootcourse.storage.checkpoint import save_checkpoint
+    from bootcourse.storage.runs import save_runs
     from bootcourse.storage.work import Checkpoints
 
     work = out / UNFINISHED

@@ -3,18 +3,12 @@
 import importlib
 import inspect
 import operator
-import sys
 import textwrap
 from collections.abc import Sequence
 
 from bootcourse.course.predictions import compare_predictions, predict
 
 __all__ = ["code_of", "compare_predictions", "predict", "source", "table", "text_of"]
-
-if "IPython" in sys.modules and (_shell := sys.modules["IPython"].get_ipython()) is not None:
-    from bootcourse.course.order import install
-
-    install(_shell)
 
 
 def table(headings: Sequence[str], rows: Sequence[Sequence[str]], below: str = ""):

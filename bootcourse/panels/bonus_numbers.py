@@ -1,6 +1,6 @@
 """The critic's target along a drive, with and without the bonus c on its rewards.
 
-`bonus_view.py` draws these numbers, `bonus.py` lets you move c. The bonus is r'(s, a_E) = r(s, a_E) + c
+`bonus.py` draws these numbers and lets you move c. The bonus is r'(s, a_E) = r(s, a_E) + c
 (Section IV-B, "Demonstration-Guided Reward Augmentation"); it and the target are computed in `bootcourse.learn`.
 """
 

@@ -71,12 +71,12 @@ class Pad(widgets.VBox):
             button.on_click(lambda _, action=action: press(action))
             self.buttons.append(button)
         rows = [widgets.HBox([self.buttons[action] for action in row]) for row in ROWS]
-        told = "Click here, then drive with the arrow keys: ↑ accelerates, ↓ brakes, ← → steer, Space keeps straight."
+        help = "Click here, then drive with the arrow keys: ↑ accelerates, ↓ brakes, ← → steer, Space keeps straight."
         page = (
-            '<div class="bc-keys" tabindex="0" role="application" aria-label="{told}">{told}</div>'
+            '<div class="bc-keys" tabindex="0" role="application" aria-label="{help}">{help}</div>'
             '<img src="data:," alt="" style="display:none" onerror="{script}">'
         )
-        keys = Markup(STYLE) + html(page, told=told, script=SCRIPT)
+        keys = Markup(STYLE) + html(page, help=help, script=SCRIPT)
         super().__init__([*rows, widgets.HTML(keys, layout={"width": "206px"})])
         self.layout.width = "220px"
         self.add_class("bc-drive")

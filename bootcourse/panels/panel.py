@@ -73,9 +73,9 @@ class Panel(widgets.VBox):
         self, label: str, icon: str, help: str, does: Callable[[], None], kind: str = "", width: str = "104px"
     ) -> widgets.Button:
         """A button with its icon and a sentence of help; kind: "" or "primary"."""
-        made = widgets.Button(description=label, icon=icon, tooltip=help, button_style=kind, layout={"width": width})
-        made.on_click(lambda _: self.handle(does))
-        return made
+        button = widgets.Button(description=label, icon=icon, tooltip=help, button_style=kind, layout={"width": width})
+        button.on_click(lambda _: self.handle(does))
+        return button
 
     def update_with(self, *controls: widgets.Widget) -> None:
         """Call the panel's `update` now, and whenever the value of one of these controls changes."""
@@ -112,14 +112,14 @@ def beside(*parts: widgets.Widget) -> widgets.Box:
     return widgets.Box(parts, layout=widgets.Layout(flex_flow="row wrap", grid_gap="6px 32px", margin="6px 0 4px"))
 
 
-def _parts(value, found: dict[int, widgets.Widget]) -> dict[int, widgets.Widget]:
-    """Every widget that a value holds, also in its traits and attributes: children, layouts, styles, hidden parts."""
-    if isinstance(value, widgets.Widget) and id(value) not in found:
-        found[id(value)] = value
-        _parts(vars(value), found)  # its traits are in `_trait_values`
+def _parts(value, parts: dict[int, widgets.Widget]) -> dict[int, widgets.Widget]:
+    """{id: widget} of every widget that a value holds, in traits and attributes too: children, layouts, styles."""
+    if isinstance(value, widgets.Widget) and id(value) not in parts:
+        parts[id(value)] = value
+        _parts(vars(value), parts)  # its traits are in `_trait_values`
     elif isinstance(value, dict):
-        _parts(list(value.values()), found)
+        _parts(list(value.values()), parts)
     elif isinstance(value, (list, tuple)):
         for each in value:
-            _parts(each, found)
-    return found
+            _parts(each, parts)
+    return parts

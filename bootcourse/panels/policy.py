@@ -1,6 +1,6 @@
 """One decision of a drive, and what the soft constraint does to each action while you move p, ξ and α.
 
-`policy_numbers.py` computes the numbers, `policy_view.py` draws them.
+`policy_numbers.py` computes the numbers.
 """
 
 import ipywidgets as widgets
@@ -12,31 +12,28 @@ from bootcourse.methods import display_name, style
 from bootcourse.panels.arguments import a_number, one_drive
 from bootcourse.panels.number import Number, moment
 from bootcourse.panels.panel import Panel, beside
-from bootcourse.panels.policy_numbers import check_weights, policy_numbers
-from bootcourse.panels.policy_view import COLUMNS, GREEN, HEIGHT, ROAD, WIDTH, marks, policy_chart
+from bootcourse.panels.policy_numbers import PolicyNumbers, check_weights, policy_numbers
 from bootcourse.plots.road import road_svg
-from bootcourse.plots.svg import QUIET, drawing, text
+from bootcourse.plots.svg import GRID, INK, QUIET, drawing, line, rect, text
 from bootcourse.road.state import EGO, SPEED
 from bootcourse.rule import SENTENCES, Reason, rule
-from bootcourse.scenario import ACTION_NAMES, check_p
+from bootcourse.scenario import ACTION_NAMES, N_ACTIONS, check_p
 
-
-def missing(rollout: Rollout) -> str:
-    """A sentence that names what this drive did not record; empty if it recorded everything."""
-    who, remedy = display_name(rollout.label), "let an agent drive with `agent.as_policy(with_q=True)`"
-    lacks = [what for what, array in (("policy π", rollout.policy), ("Q", rollout.q_values)) if array is None]
-    return f"This drive ({who}) recorded no {' and no '.join(lacks)}: to see them, {remedy}." if lacks else ""
+GREEN = style("rule").colour
+WIDTH, ROAD, ROWS, ROW = 1036, 84, 176, 22  # pixels: the drawing, the road's height, where the rows begin, one row
+BOTTOM = ROWS + N_ACTIONS * ROW
+BAR, COLUMNS = 128, (148, 338, 528)  # a whole bar's length; where the bars of π, π̃ and the optimum begin
+SHARE, PER_NAT, MOST_NATS = 738, 17, 8  # the KL's bars: from here, so long for a nat, cut at so many nats
+Q, WORTH = 938, 1032  # right ends of the two columns of numbers
 
 
 class PolicyPanel(Panel):
     """A view on `policy_numbers` at one decision of a drive; `svg` is what it shows, `seen` the numbers."""
 
     def __init__(self, rollout: Rollout, p: float, xi: float, alpha: float):
-        self.rollout, self.clock = rollout, rollout.scenario.clock
-        starts = rollout.cars  # (T, vehicles, 10)
-        self.starts, self.decisions = starts, rule(np.ascontiguousarray(starts), rollout.scenario)
-        rate = self.clock.decision_rate
-        self.moment = moment(len(rollout.actions), rate, "The time of the decision.", "this drive has its")
+        self.rollout, self.rate = rollout, rollout.scenario.clock.decision_rate
+        self.decisions = rule(np.ascontiguousarray(rollout.cars), rollout.scenario)
+        self.moment = moment(len(rollout.actions), self.rate, "The time of the decision.", "this drive has its")
         self.p = Number("p", p, 0.12, 0.99, 0.01, "Probability that π̃ gives to the rule's own action.", check=check_p)
         self.xi = Number("ξ", xi, 0, 5, 0.05, "Weight of the KL, which pulls π to the rule.",
                          check=lambda xi: check_weights(xi, 1))  # fmt: skip
@@ -50,59 +47,131 @@ class PolicyPanel(Panel):
 
     def update(self, change=None) -> None:
         """Compute and draw the present moment."""
-        k = int(self.moment.value * self.clock.decision_rate + 1e-9)
+        k = int(self.moment.value * self.rate + 1e-9)
         policy, q = (None if a is None else a[k] for a in (self.rollout.policy, self.rollout.q_values))
-        settings, by_rule = (self.p.value, self.xi.value, self.alpha.value), int(self.decisions.actions[k])
-        self.seen = policy_numbers(policy, q, by_rule, *settings)
-        own, scenario = style(self.rollout.label).colour, self.rollout.scenario
+        p, xi, alpha = self.p.value, self.xi.value, self.alpha.value
+        self.seen = policy_numbers(policy, q, int(self.decisions.actions[k]), p, xi, alpha)
+        scenario, colour = self.rollout.scenario, style(self.rollout.label).colour
         scale = ROAD / (scenario.road.lanes * scenario.road.lane_width)
-        parts, _ = road_svg(self.starts[k], scenario, own, WIDTH, scale)
-        parts += self._head(k) + policy_chart(self.seen, *settings, display_name(self.rollout.label), own)
-        parts += marks(int(self.rollout.actions[k]), by_rule, own)
-        inner = ['<g transform="translate(8 0)">', *parts, "</g>"]
-        self.svg = self.view.value = drawing(WIDTH + 16, HEIGHT, inner, self._alt(k))
+        road, _ = road_svg(self.rollout.cars[k], scenario, colour, WIDTH, scale)
+        table = action_table(self.seen, p, xi, alpha, display_name(self.rollout.label), colour)
+        inner = ['<g transform="translate(8 0)">', *road, *self._head(k), *table, *self._marks(k, colour), "</g>"]
+        self.svg = self.view.value = drawing(WIDTH + 16, BOTTOM + 50, inner, self._alt(k))
 
     def _head(self, k: int) -> list[str]:
-        """When it is, how fast the car is, why the rule does what it does."""
+        """The time, the car's speed, and why the rule does what it does."""
         why = SENTENCES[Reason(int(self.decisions.reasons[k]))]
-        wants = f"It aims at lane {self.decisions.lanes[k]} (0 is the leftmost) and {self.decisions.speeds[k]:g} m/s."
-        kl = [] if self.seen.kl is None else [f"KL(π‖π̃) = {self.seen.kl:.2f} nats"]
+        aim = f"It aims at lane {self.decisions.lanes[k]} (0 is the leftmost) and {self.decisions.speeds[k]:g} m/s."
+        kl = "" if self.seen.kl is None else f"KL(π‖π̃) = {self.seen.kl:.2f} nats"
         return [
-            *(text(WIDTH, ROAD + 23, words, "end", size=16, bold=True) for words in kl),
-            text(0, ROAD + 22, f"{k / self.clock.decision_rate:g} s", bold=True, size=15),
-            text(64, ROAD + 22, f"{self.starts[k, EGO, SPEED]:.1f} m/s", size=13),
+            text(0, ROAD + 22, f"{k / self.rate:g} s", bold=True, size=15),
+            text(64, ROAD + 22, f"{self.rollout.cars[k, EGO, SPEED]:.1f} m/s", size=13),
             text(COLUMNS[0], ROAD + 22, f"The rule: {why}.", fill=GREEN, size=13, bold=True),
-            text(COLUMNS[0], ROAD + 40, wants, fill=QUIET),
+            text(COLUMNS[0], ROAD + 40, aim, fill=QUIET),
+            text(WIDTH, ROAD + 23, kl, "end", size=16, bold=True),
+        ]
+
+    def _marks(self, k: int, colour: str) -> list[str]:
+        """A triangle at the action that was driven, a dot at the rule's own, and what they stand for."""
+        driven = ROWS + int(self.rollout.actions[k]) * ROW + 15
+        by_rule = ROWS + int(self.decisions.actions[k]) * ROW + 15
+        return [
+            text(0, driven, "▸", fill=colour, size=14, bold=True),
+            f'<circle cx="13" cy="{by_rule - 4}" r="4" fill="{GREEN}"/>',
+            text(0, ROWS - 9, "▸", fill=colour, size=13, bold=True),
+            text(10, ROWS - 9, "driven", fill=QUIET, size=11),
+            f'<circle cx="62" cy="{ROWS - 13}" r="4" fill="{GREEN}"/>',
+            text(70, ROWS - 9, "the rule's", fill=QUIET, size=11),
         ]
 
     def _alt(self, k: int) -> str:
-        seen, rollout = self.seen, self.rollout
-        says, driven = ACTION_NAMES[self.decisions.actions[k]], ACTION_NAMES[rollout.actions[k]]
-        told = [f"{k / self.clock.decision_rate:g} s into the drive of the {display_name(rollout.label)}."]
-        told.append(f"The rule says {says}; {driven} is driven.")
+        seen = self.seen
+        by_rule, driven = ACTION_NAMES[self.decisions.actions[k]], ACTION_NAMES[self.rollout.actions[k]]
+        sentences = [
+            f"{k / self.rate:g} s into the drive of the {display_name(self.rollout.label)}.",
+            f"The rule says {by_rule}; {driven} is driven.",
+        ]
         if seen.kl is not None:
-            told.append(f"The KL from the rule with p = {self.p.value:g} is {seen.kl:.2f} nats.")
+            sentences.append(f"The KL from the rule with p = {self.p.value:g} is {seen.kl:.2f} nats.")
         if seen.optimum is not None:
             best = int(seen.optimum.argmax())
-            told.append(
+            sentences.append(
                 f"With ξ = {self.xi.value:g} and α = {self.alpha.value:g} the best compromise gives "
                 f"{seen.optimum[best]:.2f} to {ACTION_NAMES[best]}."
             )
-        return " ".join(told)
+        return " ".join(sentences)
+
+
+def missing(rollout: Rollout) -> str:
+    """A sentence that says which numbers this drive does not have; empty if it has them all."""
+    who = display_name(rollout.label)
+    if rollout.policy is None and rollout.q_values is None:
+        return f"This drive ({who}) has no policy π and no Q: let an agent drive with `agent.as_policy(with_q=True)`."
+    if rollout.q_values is None:
+        return (
+            f"This drive ({who}) has no Q, so there is no optimum. Agents of PPO and behaviour cloning have no Q; "
+            "other agents record theirs with `agent.as_policy(with_q=True)`."
+        )
+    return "" if rollout.policy is not None else f"This drive ({who}) has no policy π."
+
+
+def action_table(seen: PolicyNumbers, p: float, xi: float, alpha: float, who: str, colour: str) -> list[str]:
+    """The nine actions as rows of bars and numbers; who drove, in which colour."""
+    rows = [ROWS + action * ROW for action in range(N_ACTIONS)]
+    parts = [line(0, y, WIDTH, y, GRID) for y in (*rows[::3], BOTTOM)]
+    parts += [text(20, y + 15, action, size=12.5) for y, action in zip(rows, ACTION_NAMES, strict=True)]
+    columns = (
+        (seen.policy, colour, "π", f"the policy: {who}" if seen.policy is not None else "no π"),
+        (seen.rule, GREEN, "π̃", f"the rule, p = {p:g}"),
+        (seen.optimum, INK, "optimum", f"ξ = {xi:g}, α = {alpha:.3g}" if seen.optimum is not None else "needs Q"),
+    )
+    for x, (values, bar, symbol, words) in zip(COLUMNS, columns, strict=True):
+        parts += heading(x, symbol, words, bar)
+        for y, value in zip(rows, values if values is not None else (), strict=values is not None):
+            parts.append(rect(x, y + 4, BAR * value, ROW - 8, bar, 'rx="1.5"'))
+            parts.append(text(x + BAR * value + 5, y + 15, f"{value:.3f}", fill=QUIET, size=11))
+    if seen.shares is not None:
+        parts += heading(SHARE - 8, "π log(π/π̃)", "they add up to the KL", colour)
+        for y, share in zip(rows, seen.shares, strict=True):
+            left, right = (PER_NAT * min(max(part, 0), MOST_NATS) for part in (-share, share))
+            parts.append(rect(SHARE - left, y + 4, left + right, ROW - 8, colour if share >= 0 else GREEN))
+            parts.append(text(SHARE + right + 5, y + 15, two_digits(share), fill=QUIET, size=11))
+        parts.append(line(SHARE, ROWS, SHARE, BOTTOM, QUIET))
+    for x, symbol, values, otherwise in ((Q, "Q", seen.q, "no Q"), (WORTH, "Q + ξ log π̃", seen.worth, "needs Q")):
+        parts.append(text(x, ROWS - 25, symbol, "end", bold=True, size=13))
+        if values is None:
+            parts.append(text(x, ROWS - 9, otherwise, "end", QUIET, 11))
+            continue
+        parts += [text(x, y + 15, two_digits(value), "end", size=12) for y, value in zip(rows, values, strict=True)]
+    own, other = seen.price.min(), seen.price.max()
+    price = f"Price of an action, −log π̃: {own:.2f} nats for the rule's own, {other:.2f} nats for any other."
+    formula = "optimum: the policy with the most Q + α·entropy − ξ·KL."
+    return [*parts, text(0, BOTTOM + 20, price, bold=True), text(0, BOTTOM + 39, formula, fill=QUIET)]
+
+
+def heading(x: float, symbol: str, words: str, colour: str) -> list[str]:
+    """A column's symbol, and below it what the symbol stands for."""
+    square = rect(x, ROWS - 35, 10, 10, colour, 'rx="1.5"')
+    return [square, text(x + 15, ROWS - 25, symbol, size=13, bold=True), text(x, ROWS - 9, words, fill=QUIET, size=11)]
+
+
+def two_digits(value: float) -> str:
+    words = f"{round(float(value), 2) + 0.0:.2f}" if abs(value) < 1e4 else f"{value:.1e}"
+    return words.replace("-", "−")
 
 
 def policy_panel(rollout: Rollout, p: float | None = None, xi: float = 2.0, alpha: float | None = None) -> PolicyPanel:
     """See π, π̃ and their best compromise at each decision of a drive, while you move p, ξ and α.
 
-    rollout: a recorded drive; only an agent with `with_q=True` records all that is shown. p: the drive's own
+    rollout: a recorded drive; only an agent with Q and `with_q=True` gives all that is shown. p: the drive's own
     `rule_p` if None. alpha: the paper's start value, 0.01, if None. xi: the paper's 200 α, 2.
     Raises BootcourseError for anything but a recorded drive, and for values out of range.
     """
     one_drive(rollout, "rollout")
     p = rollout.rule_p if p is None else p
     alpha = Settings().alpha_init if alpha is None else alpha
-    for called, value in (("p", p), ("xi", xi), ("alpha", alpha)):
-        a_number(value, called)
+    for symbol, value in (("p", p), ("xi", xi), ("alpha", alpha)):
+        a_number(value, symbol)
     check_p(p)
     check_weights(xi, alpha)
     return PolicyPanel(rollout, p, xi, alpha)

@@ -1,6 +1,6 @@
 """The soft constraint in one state: π, π̃, the KL between them, and the policy that is best under it.
 
-`policy_view.py` draws these numbers, `policy.py` lets you move them. π̃ is the paper's stochastic rule and ξ the
+`policy.py` draws these numbers and lets you move them. π̃ is the paper's stochastic rule and ξ the
 weight of its KL (Section IV-A); the formulas stand in `bootcourse.learn.bootstrap`.
 """
 
@@ -19,7 +19,7 @@ from bootcourse.scenario import check_p
 
 @dataclass(frozen=True)
 class PolicyNumbers:
-    """The nine actions in one state, each (9,); None where the drive did not record π or Q."""
+    """The nine actions in one state, each (9,); None where the driver has no π or no Q."""
 
     rule: np.ndarray  # π̃(a|s)
     price: np.ndarray  # -log π̃(a|s), nats: what the KL charges for the action

@@ -176,7 +176,7 @@ class TrainPanel(Panel):
                 self._buttons(running=False)
 
     def _show_end(self, background: Background, label: str) -> None:
-        result, told = background.result, [background.error]
+        result, wrong = background.result, [background.error] if background.error else []
         if result is None:
             self._show_progress("Nothing was trained.", 0.0)
         else:
@@ -188,13 +188,13 @@ class TrainPanel(Panel):
             self._show_progress(words, driven / total)
             for i, decision in sorted(result.stopped.items()):
                 agent = result.agents[i].settings
-                told.append(
+                wrong.append(
                     f"{display_name(agent.method)}, seed {agent.seed}, diverged: its loss was not finite at decision "
                     f"{decision}. Its last finite snapshot is kept."
                 )
             self.drawn = [*self.drawn, Drawn(label, method, result.curves, background.training.episodes)]
-        if any(told):
-            self.say(" ".join(filter(None, told)), wrong=True)
+        if wrong:
+            self.say(" ".join(wrong), wrong=True)
         self._draw()
 
     def _say_from_thread(self, sentence: str) -> None:

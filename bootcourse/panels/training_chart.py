@@ -3,6 +3,7 @@
 A pure function of `Result.curves` (or of the curves of a training that still runs): nothing here knows a widget.
 """
 
+import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 
@@ -18,6 +19,7 @@ SHOWN = ("success", "return", "speed", "distance", "alpha", "xi", "beta", "entro
 WIDTH, HEIGHT, HEAD = 1040, 400, 42
 COLUMNS, CHART, GAP = 4, (196, 108), (60, 66)  # charts in a row; a chart's size; between two charts
 EARLIER = 7  # trainings that stay behind the last
+SYMBOLS = {"rule_p": "p", "gamma": "γ", "xi_multiplier": "ξ/α", "bonus": "c", "beta_start": "β"}
 
 
 @dataclass(frozen=True)
@@ -32,12 +34,11 @@ class Drawn:
 
 def label_of(settings: Settings) -> str:
     """The method's name, and the settings in which it differs from what the method usually has."""
-    usual, symbols = settings_for(settings.method), {"rule_p": "p", "gamma": "γ", "xi_multiplier": "ξ/α", "bonus": "c"}
-    symbols |= {"beta_start": "β"}
+    usual = settings_for(settings.method)
     own = [f.name for f in fields(settings) if f.name not in ("method", "seed", *shared_fields(type(settings)))]
     changed = [each for each in own if getattr(settings, each) != getattr(usual, each)]
-    told = [f"{symbols.get(each, each)} = {getattr(settings, each):g}" for each in changed]
-    return ", ".join([display_name(settings.method), *told])
+    numbers = [f"{SYMBOLS.get(each, each)} = {getattr(settings, each):g}" for each in changed]
+    return ", ".join([display_name(settings.method), *numbers])
 
 
 def training_chart(trainings: Sequence[Drawn]) -> str:
@@ -47,13 +48,13 @@ def training_chart(trainings: Sequence[Drawn]) -> str:
     episodes, window = max((each.episodes for each in trainings), default=1000), window_of(curves)
     parts = _head(trainings, window if any(map(finished, curves)) else 0)
     for i, name in enumerate(SHOWN):
-        its = MEASURES[name]
-        rolled = [rolling_means(each[name] * its.factor, window) for each in curves]
+        measure = MEASURES[name]
+        rolled = [rolling_means(each[name] * measure.factor, window) for each in curves]
         left = 50 + (i % COLUMNS) * (CHART[0] + GAP[0])
         top = HEAD + 26 + (i // COLUMNS) * (CHART[1] + GAP[1])
         seen = [mean for _, means in rolled for mean in means.ravel()]
-        axes = SvgAxes(left, top, *CHART, (0, max(episodes, 1)), its.limits or span(seen, its.least))
-        axes.frame(its.label, "episode" if i >= COLUMNS else "")
+        axes = SvgAxes(left, top, *CHART, (0, max(episodes, 1)), measure.limits or span(seen, measure.least))
+        axes.frame(measure.label, "episode" if i >= COLUMNS else "")
         for each, (at, means) in zip(trainings, rolled, strict=True):
             last = each is trainings[-1]
             end = draw_training(axes, at, means, style(each.method), seeds=last)
@@ -80,7 +81,7 @@ def _rounded(value: float) -> str:
 def _head(trainings: Sequence[Drawn], window: int) -> list[str]:
     """Who is drawn, four in a row; how the curves were smoothed."""
     if not window:
-        words = "The first episodes are on their way." if trainings else "Nothing has been trained yet: press Train."
+        words = "No agent has finished an episode yet." if trainings else "Nothing has been trained yet: press Train."
         return [text(WIDTH / 2, 20, words, "middle", QUIET, 13)]
     parts = []
     for i, each in enumerate(trainings):
@@ -88,7 +89,9 @@ def _head(trainings: Sequence[Drawn], window: int) -> list[str]:
         look = style(each.method)
         faint = "" if last else 'opacity="0.45"'
         parts.append(line(x, y - 4, x + 22, y - 4, look.colour, 3 if last else 2, faint))
-        parts.append(text(x + 28, y, _short(each.label), fill=INK if last else QUIET, bold=last))
+        parts.append(
+            text(x + 28, y, textwrap.shorten(each.label, 36, placeholder=" …"), fill=INK if last else QUIET, bold=last)
+        )
     each = "each episode" if window == 1 else f"means of the last {window} episodes"
     if len(trainings) <= COLUMNS:
         words = f"Thin: one seed. Thick: their interquartile mean. All are {each}."
@@ -96,22 +99,14 @@ def _head(trainings: Sequence[Drawn], window: int) -> list[str]:
     return parts
 
 
-def _short(label: str, longest: int = 36) -> str:
-    return label if len(label) <= longest else label[: longest - 1] + "…"
-
-
-EMPTY = (
-    "Training curves, still empty: after Train, success, return, speed, distance and what steers the learner "
-    "grow here by episode."
-)
-
-
 def alt_text(trainings: Sequence[Drawn]) -> str:
-    """What a reader who sees nothing should know."""
-    told = []
+    """How far each training got, for those who cannot see it."""
+    sentences = ["Training curves."]
     for each in trainings:
         count = finished(each.curves)
         if count:
             success, returns = (np.nanmean(rolling_means(each.curves[name], WINDOW)[1][:, -1]) for name in SHOWN[:2])
-            told.append(f"{each.label}, after {count} episodes: success {100 * success:.0f} %, return {returns:.1f}.")
-    return " ".join(["Training curves.", *told]) if told else EMPTY
+            sentences.append(
+                f"{each.label}, after {count} episodes: success {100 * success:.0f} %, return {returns:.1f}."
+            )
+    return " ".join(sentences) if len(sentences) > 1 else "Training curves: empty until agents have finished episodes."

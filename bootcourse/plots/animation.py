@@ -1,4 +1,4 @@
-"""A drive as a moving picture: a small GIF for a README or a slide.
+"""Drives from above, below each other: one moment as a figure, or a small GIF for a README or a slide.
 
 The camera keeps the ego and trap 1 in view, half-way between them, so that you see the one fall back
 and come again. Between two simulation steps every car moves in a straight line.
@@ -17,11 +17,11 @@ from bootcourse.colours import ALARM
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.episodes.words import cars_at, doing, outcome, overtaken, sentence
 from bootcourse.errors import BootcourseError
-from bootcourse.files import write_bytes
+from bootcourse.files import check_replaceable, write_bytes
 from bootcourse.methods import display_name, style
-from bootcourse.plots.figure import INK, QUIET, WIDTH, as_written, new_figure
+from bootcourse.plots.figure import INK, QUIET, WIDTH, as_written, axes_at, new_figure
 from bootcourse.plots.top_view import draw_moment
-from bootcourse.road.state import EGO, SPEED, TRAP_1, X
+from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, X
 
 SPEED_UP = 3.0  # the clip is so many times faster than the road
 FRAME = 0.07  # s of clip that a frame is shown
@@ -42,13 +42,13 @@ def frame(rollouts: Sequence[Rollout], time: float) -> Figure:
     for i, rollout in enumerate(rollouts):
         now = min(time, float(rollout.times[-1]))
         cars = cars_at(rollout, now)
-        bottom = total - (i + 1) * (row + head)
-        ax = figure.add_axes((side / WIDTH, bottom / total, width / WIDTH, row / total))
+        top = i * (row + head) + head
+        ax = axes_at(figure, side, top, width, row)
         ax.set_axis_off()
         middle = (cars[EGO, X] + cars[TRAP_1, X]) / 2
         draw_moment(ax, rollout, now, -VIEW / 2, VIEW / 2, origin=middle)
         over = rollout.accident and now == rollout.times[-1]
-        write = {"y": (bottom + row + 0.1) / total, "va": "baseline"}
+        write = {"y": 1 - (top - 0.1) / total, "va": "baseline"}
         bold, driver = {"fontsize": 10.5, "fontweight": "bold"} | write, sentence(display_name(rollout.label))
         figure.text(side / WIDTH, s=driver, color=style(rollout.label).colour, **bold)
         figure.text(0.37, s=doing(rollout, now), fontsize=9, color=ALARM if over else INK, **write)
@@ -59,9 +59,20 @@ def frame(rollouts: Sequence[Rollout], time: float) -> Figure:
 
 
 def alt(rollouts: Sequence[Rollout]) -> str:
-    """What somebody who cannot see the clip should know."""
-    told = "; ".join(f"{display_name(rollout.label)}: {outcome(rollout)}" for rollout in rollouts)
-    return f"The road from above, the same start for every driver. {sentence(told)}."
+    """How each drive ends, for those who cannot see it."""
+    ends = "; ".join(f"{display_name(rollout.label)}: {outcome(rollout)}" for rollout in rollouts)
+    start = ", the same start for every driver" if len(rollouts) > 1 else ""
+    return f"The road from above{start}. {sentence(ends)}."
+
+
+def key_frame(rollouts: Sequence[Rollout]) -> Figure:
+    """The `frame` at the moment that says most of the last drive: its accident, else its first new lane, else half."""
+    last = rollouts[-1]
+    if last.accident:
+        return frame(rollouts, float(last.times[-1]))
+    lanes = last.states[:, EGO, LANE]
+    changed = np.flatnonzero(lanes != lanes[0])
+    return frame(rollouts, float(last.times[changed[0]] if changed.size else last.times[-1] / 2))
 
 
 def frame_times(rollouts: Sequence[Rollout], until: float | None = None) -> list[float]:
@@ -96,8 +107,9 @@ def animate(rollouts: Rollout | Sequence[Rollout], path: Path, until: float | No
     """Write a GIF of one drive, or of several below each other, up to `until` seconds. Returns the path.
 
     until: None for some seconds after the last overtaking. The same drives give the same bytes.
-    Raises BootcourseError if there is no drive, or no second.
+    Raises BootcourseError if there is no drive or no second, and for a path that does not end in .gif.
     """
+    check_replaceable(path, ".gif")
     drives = [rollouts] if isinstance(rollouts, Rollout) else list(rollouts)
     if not drives:
         raise BootcourseError("There is no drive to animate: give a rollout, or a list of them.")

@@ -129,6 +129,8 @@ def _choice(timeline: Timeline, t: float) -> Markup:
     page = html("<table>{}</table>", joined(rows))
     if len(bars) == 2:
         page += html("<div>KL(π‖π̃) = <b>{:.2f}</b> nats</div>", kl(*(numbers for _, numbers in bars)))
+    if rollout.policy is not None and rollout.q_values is None:
+        page += Markup('<div class="dim">No Q: this agent has none, or it was not recorded.</div>')
     return page + _why(timeline, k)
 
 

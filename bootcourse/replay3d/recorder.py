@@ -11,14 +11,14 @@ from pathlib import Path
 
 from viser import _messages
 
-from bootcourse.episodes.rollout import Rollout
-from bootcourse.episodes.words import outcome, sentence, transcripts
+from bootcourse.episodes.words import transcripts
 from bootcourse.files import check_replaceable, write_bytes
 from bootcourse.markup import Markup, html
 from bootcourse.methods import display_name
+from bootcourse.plots.animation import key_frame
+from bootcourse.plots.figure import png
 from bootcourse.replay3d import hud, scene, server
 from bootcourse.replay3d.camera import BIRD, CHASE, SIDE, pose
-from bootcourse.replay3d.pictures import png_bytes
 from bootcourse.replay3d.stage import Options, Stage
 from bootcourse.replay3d.timeline import Timeline
 
@@ -139,8 +139,8 @@ def export(rollouts, path: Path, options: Options | None = None) -> Path:
 class Recording:
     """A replay that is saved in the notebook: it plays without a kernel, also in the book.
 
-    In a notebook that is not trusted Jupyter removes the scripts, and the picture `poster` stays. Below it the drives
-    are described in words, for readers who cannot see it.
+    In a notebook that is not trusted Jupyter removes the scripts, and the picture `poster` (PNG) stays: the drives from
+    above at one moment. Below it the drives are described in words, for readers who cannot see it.
     """
 
     def __init__(self, html: str, poster: bytes, height: int, alt: str, words: str = ""):
@@ -154,7 +154,7 @@ class Recording:
         """The recording over its poster, as HTML to put into a page."""
         page = (
             '<div style="position:relative;height:{}px;overflow:hidden">'
-            '<img src="data:image/png;base64,{}" alt="{}" style="width:100%;height:100%;object-fit:cover">'
+            '<img src="data:image/png;base64,{}" alt="{}" style="width:100%;height:100%;object-fit:contain">'
             '<iframe title="Replay in 3D" sandbox="allow-scripts" srcdoc="{}" '
             'style="position:absolute;inset:0;width:100%;height:100%;border:0"></iframe></div>'
         )
@@ -162,8 +162,8 @@ class Recording:
 
     def _repr_mimebundle_(self, include=None, exclude=None) -> dict:
         page = '<details><summary>In words</summary><pre style="white-space:pre-wrap">{}</pre></details>'
-        told = html(page, self.words) if self.words else ""
-        return {"text/html": str(self.html_with_poster() + told), "text/plain": self.alt}
+        in_words = html(page, self.words) if self.words else ""
+        return {"text/html": str(self.html_with_poster() + in_words), "text/plain": self.alt}
 
 
 def recording(
@@ -171,12 +171,7 @@ def recording(
 ) -> Recording:
     """Like `replay`, but as a recording that is saved in the notebook (about 1.5 MB for each drive)."""
     options = Options(layout=layout, follow=follow, dark=dark, rule=rule)
-    poster = png_bytes(rollouts, options=options, size=(960, 540))
     drives = [timeline.rollout for timeline in scene.timelines_of(rollouts)]
-    return Recording(to_html(rollouts, options), poster, height, alt(drives), transcripts(drives))
-
-
-def alt(drives: list[Rollout]) -> str:
-    """A sentence for readers who cannot see the replay: how each drive ends."""
-    told = (f"{display_name(drive.label)}: {outcome(drive)}" for drive in drives)
-    return f"One moment of a replay in 3D. {sentence('; '.join(told))}."
+    picture = key_frame(drives)
+    alt = f"A replay in 3D; where it cannot play, one moment of it from above. {picture.alt}"
+    return Recording(to_html(drives, options), png(picture), height, alt, transcripts(drives))

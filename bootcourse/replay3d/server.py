@@ -11,7 +11,6 @@ import os
 import re
 import socket
 import threading
-from unittest import mock
 
 import viser
 import websockets.asyncio.server
@@ -22,10 +21,48 @@ from bootcourse.errors import BootcourseError
 HOST = "127.0.0.1"
 OWN_NAME = re.compile(r"(127\.0\.0\.1|localhost|\[::1\])(:\d+)?")  # of this machine, also through a tunnel to it
 REFUSAL = "This replay answers only the page at its own address: open http://127.0.0.1 with its port.\n"
+PLAIN = websockets.asyncio.server.serve
+
+
+class OwnPagesOnly(PLAIN):
+    """A websocket server that refuses foreign requests, of HTTP and of WebSockets, before it does anything else."""
+
+    def __init__(self, *args, process_request, **options):
+        def check_first(connection, request):
+            if is_foreign(request.headers):
+                return connection.respond(http.HTTPStatus.FORBIDDEN, REFUSAL)
+            return process_request(connection, request)
+
+        super().__init__(*args, process_request=check_first, **options)
+
+
+def is_foreign(headers) -> bool:
+    """Does a request come from another site's page? headers: "Host", and the "Origin" that browsers add.
+
+    Behind a hub, jupyter-server-proxy has checked who asks, and passes the hub's own name on, which we cannot know.
+    """
+    host, origin = headers.get("Host", ""), headers.get("Origin")
+    if origin not in (None, f"http://{host}", f"https://{host}"):
+        return True
+    return "JUPYTERHUB_SERVICE_PREFIX" not in os.environ and not OWN_NAME.fullmatch(host)
 
 
 class LocalServer(viser.ViserServer):
-    """In viser any viewer can ask the server to open a tunnel to the internet. This server opens none."""
+    """A viser server on this machine that any of its viewers may use and nobody else.
+
+    Any viewer of a plain viser server can make it open a tunnel to the internet; this one opens none.
+    """
+
+    _starting = threading.Lock()
+
+    def __init__(self, port: int):
+        # viser has no setting for its websocket server and takes the class by this name, once, while it starts.
+        with self._starting, quiet():
+            websockets.asyncio.server.serve = OwnPagesOnly
+            try:
+                super().__init__(host=HOST, port=port, label="bootcourse replay", verbose=False)
+            finally:
+                websockets.asyncio.server.serve = PLAIN
 
     def request_share_url(self, verbose: bool = True) -> None:
         """Open nothing, and return None."""
@@ -47,62 +84,23 @@ def quiet():
         console.quiet = before
 
 
-def is_foreign(headers) -> bool:
-    """Does a request come from another site's page? headers: "Host", and the "Origin" that browsers add.
-
-    Behind a hub, jupyter-server-proxy has checked who asks, and passes the hub's own name on, which we cannot know.
-    """
-    host, origin = headers.get("Host", ""), headers.get("Origin")
-    if origin not in (None, f"http://{host}", f"https://{host}"):
-        return True
-    return "JUPYTERHUB_SERVICE_PREFIX" not in os.environ and not OWN_NAME.fullmatch(host)
-
-
-_starting = threading.Lock()
-
-
-@contextlib.contextmanager
-def guarded():
-    """Let viser's servers that start in this block refuse foreign requests; viser has no setting for that."""
-    serve = websockets.asyncio.server.serve
-
-    def guarded_serve(*args, process_request, **options):
-        def check_first(connection, request):
-            if is_foreign(request.headers):
-                return connection.respond(http.HTTPStatus.FORBIDDEN, REFUSAL)
-            return process_request(connection, request)
-
-        return serve(*args, process_request=check_first, **options)
-
-    with _starting, mock.patch.object(websockets.asyncio.server, "serve", guarded_serve):
-        yield
-
-
 def start(port: int = 0) -> LocalServer:
     """A running server. port 0 lets the system choose. Raises BootcourseError if the port is taken."""
     if not 0 <= port <= 65535:
         raise BootcourseError(f"Port {port} does not exist: choose one from 1024 to 65535, or 0 for any that is free.")
+    taken = f"Port {port} is in use: choose another one, or leave it out to take any that is free."
     if port:
-        _check_free(port)
-    with quiet(), guarded():
-        server = LocalServer(host=HOST, port=port, label="bootcourse replay", verbose=False)
+        with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as probe:
+            if os.name == "posix":  # so that a port that was closed a moment ago counts as free
+                probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            try:
+                probe.bind((HOST, port))
+            except PermissionError:
+                raise BootcourseError(f"Port {port} belongs to the system: choose one from 1024 to 65535.") from None
+            except OSError:
+                raise BootcourseError(taken) from None
+    server = LocalServer(port)
     if port and server.get_port() != port:  # taken meanwhile, and viser went on to the next port
         server.stop()
-        raise BootcourseError(_taken(port))
+        raise BootcourseError(taken)
     return server
-
-
-def _check_free(port: int) -> None:
-    with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as probe:
-        if os.name == "posix":  # so that a port that was closed a moment ago counts as free
-            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        try:
-            probe.bind((HOST, port))
-        except PermissionError:
-            raise BootcourseError(f"Port {port} belongs to the system: choose one from 1024 to 65535.") from None
-        except OSError:
-            raise BootcourseError(_taken(port)) from None
-
-
-def _taken(port: int) -> str:
-    return f"Port {port} is in use: choose another one, or leave it out to take any that is free."

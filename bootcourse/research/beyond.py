@@ -1,7 +1,6 @@
 """What the learners beyond the paper reached, and every method at an equal budget of decisions or seconds."""
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
 
 import numpy as np
 
@@ -20,7 +19,7 @@ ASIDE = ("sensitivity", "clocks", "ablations", "teachers")  # they vary the meth
 def lengths(curves: dict[str, np.ndarray]) -> np.ndarray | None:
     """Decisions of each training episode, (agents, episodes); None if no curve tells.
 
-    Files of earlier versions hold the distance and the mean speed instead. Their quotient is within 1 % of the sum.
+    Curves without decisions have the distance and the mean speed. Their quotient is within 1 % of the sum.
     """
     if "decisions" in curves:
         return curves["decisions"]
@@ -77,12 +76,12 @@ def at_budget(curves: dict[str, np.ndarray], decisions: float | np.ndarray) -> n
     episodes, returns = lengths(curves), curves.get("return")
     if episodes is None or returns is None:
         return np.full(len(next(iter(curves.values()), [0])), np.nan)
-    found, totals = np.full(len(returns), np.nan), np.nansum(episodes, axis=1, dtype=float)
+    means, totals = np.full(len(returns), np.nan), np.nansum(episodes, axis=1, dtype=float)
     for i, budget in enumerate(np.broadcast_to(decisions, len(returns))):
         ended = np.searchsorted(np.cumsum(episodes[i], dtype=float), budget, side="right")
         if totals[i] >= budget and ended >= WINDOW:
-            found[i] = returns[i, ended - WINDOW : ended].mean(dtype=float)
-    return found
+            means[i] = returns[i, ended - WINDOW : ended].mean(dtype=float)
+    return means
 
 
 def after_seconds(curves: dict[str, np.ndarray], seconds: float, took: np.ndarray) -> np.ndarray:
@@ -91,36 +90,27 @@ def after_seconds(curves: dict[str, np.ndarray], seconds: float, took: np.ndarra
     return at_budget(curves, np.nan if episodes is None else seconds / took * np.nansum(episodes, axis=1, dtype=float))
 
 
-class Within(NamedTuple):
-    """What agents of a method earned within a budget."""
+def at_a_budget(returns: np.ndarray) -> tuple[float, str]:
+    """(24.1, "24 [18, 26], 9 of 10"): the interquartile mean of agents' returns at a budget, and it in words.
 
-    agents: int  # that trained as long
-    returns: float  # interquartile mean over them
-    limits: tuple[float, float] | None  # its 95 % interval; one agent has none
-
-    def words(self, agents: int) -> str:
-        """ "24 [18, 26], 9 of 10". agents: of the method."""
-        there = "" if self.agents == agents else f", {self.agents} of {agents}"
-        return bracketed((self.returns, *(self.limits or (np.nan, np.nan)))) + there
-
-
-def within(returns: np.ndarray) -> Within | None:
-    """Of agents' returns at a budget (agents,), NaN where they did not get there; None if none did."""
+    returns: (agents,), NaN for those that did not get there; (-inf, "–") if none did.
+    """
     there = returns[np.isfinite(returns)]
     if not len(there):
-        return None
-    value, *limits = interval(there)
-    return Within(len(there), value, tuple(limits) if len(there) > 1 else None)
+        return -np.inf, "–"
+    estimate = interval(there)
+    counted = "" if len(there) == len(returns) else f", {len(there)} of {len(returns)}"
+    return estimate.value, bracketed(estimate) + counted
 
 
-def entries(found: StudyResults) -> list[tuple[str, Results]]:
+def entries(study: StudyResults) -> list[tuple[str, Results]]:
     """(setting, results) of the studies on the default scenario and of each experiment there that is not `ASIDE`."""
     parts = [
         ("quick" if name == "default" else name, results)
-        for name, results in found.results.items()
+        for name, results in study.results.items()
         if STUDIES[name].scenario == DEFAULT
     ]
-    for name, varied in found.experiments.items():
+    for name, varied in study.experiments.items():
         for variation, results in varied.items():
             if name not in ASIDE and EXPERIMENTS[name].variations[variation].scenario == DEFAULT:
                 parts.append((name if variation in METHODS else f"{name}: {variation}", results))
@@ -136,11 +126,11 @@ def budget_rows(parts: Sequence[tuple[str, Results]]) -> tuple[list[str], list[l
     for setting, results in parts:
         for method in results.methods:
             mine = results.of(method)
-            found = [within(at_budget(mine.curves, budget)) for budget in DECISIONS]
-            found += [within(after_seconds(mine.curves, budget, mine.seconds)) for budget in SECONDS]
-            if any(found):
-                cells = [one.words(len(mine)) if one else "–" for one in found]
-                rows.append((found[0].returns if found[0] else -np.inf, [display_name(method), setting, *cells]))
+            each = [at_budget(mine.curves, budget) for budget in DECISIONS]
+            each += [after_seconds(mine.curves, budget, mine.seconds) for budget in SECONDS]
+            values, cells = zip(*map(at_a_budget, each), strict=True)
+            if max(values) > -np.inf:
+                rows.append((values[0], [display_name(method), setting, *cells]))
     rows.sort(key=lambda row: -row[0])
     headings = [f"{budget:,} decisions" for budget in DECISIONS] + [f"{budget} s of one core" for budget in SECONDS]
     return ["method", "setting", *headings], [cells for _, cells in rows]

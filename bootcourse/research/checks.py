@@ -32,8 +32,7 @@ from gymnasium.vector import AutoresetMode, SyncVectorEnv
 from bootcourse.episodes.driving import steps
 from bootcourse.errors import BootcourseError, check_known
 from bootcourse.files import write_bytes
-from bootcourse.learn.agent import sample_actions
-from bootcourse.learn.learner import SACLearner
+from bootcourse.learn.agent import Agent
 from bootcourse.learn.replay_buffer import encode_transitions
 from bootcourse.learn.settings import Settings, settings_for, with_seeds
 from bootcourse.learn.training import MOST_EPISODES, Training
@@ -111,30 +110,22 @@ def train(
     decisions: int,
     demonstrations: torch.Tensor | None = None,
     progress: bool = False,
-) -> SACLearner:
+) -> list[Agent]:
     """Train agents for `decisions` decisions each."""
     most = min(decisions, MOST_EPISODES)
     training = Training(settings, most, demonstrations=demonstrations, make_env=several(make_env), first_seed=SEED)
-    training.run(progress, stop=lambda: training.decisions >= decisions * len(settings))
-    return training.learner
+    return training.run(progress, stop=lambda: training.decisions >= decisions * len(settings)).agents
 
 
-def actor_of(learner: SACLearner, agent: int, rng: np.random.Generator | None = None) -> Actor:
-    """Agent's most probable action; with an rng, an action drawn from its policy."""
-
-    def act(states):
-        everyone = torch.from_numpy(states).float().expand(learner.agents, *states.shape)
-        pi = learner.probabilities(everyone)[agent].double().numpy()
-        return pi.argmax(-1) if rng is None else sample_actions(pi, rng.random(len(states)))
-
-    return act
+def actor_of(agent: Agent, rng: np.random.Generator | None = None) -> Actor:
+    """An agent's most probable action; with an rng, an action drawn from its policy."""
+    policy = agent.as_policy(rng)
+    return lambda states: policy(states, None).actions
 
 
-def scores(learner: SACLearner, make_env: MakeEnv, episodes: int = 100) -> np.ndarray:
+def scores(agents: Sequence[Agent], make_env: MakeEnv, episodes: int = 100) -> np.ndarray:
     """Each agent's mean return over test episodes that are the same for all, by its most probable action: (agents,)."""
-    return np.array(
-        [collect(actor_of(learner, i), make_env, episodes, TEST_SEED)[1].mean() for i in range(learner.agents)]
-    )
+    return np.array([collect(actor_of(agent), make_env, episodes, TEST_SEED)[1].mean() for agent in agents])
 
 
 @dataclass(frozen=True)
@@ -167,24 +158,24 @@ def online_check(method: str, make_env: MakeEnv, decisions: int, **changes):
 
 def cql_check(seeds: int, progress: bool) -> Outcome:
     """CQL on 20,000 transitions, half by a half-trained policy, half at random; 5,000 updates."""
-    half_trained = train([usual("sac", 2, seed=10**6, **SAC)], cartpole, 10_000)
+    (half_trained,) = train([usual("sac", 2, seed=10**6, **SAC)], cartpole, 10_000)
     rng = np.random.default_rng(0)
     parts = [
-        collect(actor_of(half_trained, 0, rng), cartpole, 300),
+        collect(actor_of(half_trained, rng), cartpole, 300),
         collect(lambda states: rng.integers(2, size=len(states)), cartpole, 1000),
     ]
     rows = torch.cat([rows[torch.from_numpy(rng.permutation(len(rows))[:10_000])] for rows, _ in parts])
     settings = with_seeds(usual("cql", 2, envs_per_agent=1, cql_weight=10.0, learning_starts=0), seeds)
-    learner = train(settings, cartpole, 5000, rows, progress)
+    agents = train(settings, cartpole, 5000, rows, progress)
     means = [returns.mean() for _, returns in parts]
-    return Outcome(scores(learner, cartpole), f"the data's policies: {means[0]:.0f} and {means[1]:.0f}")
+    return Outcome(scores(agents, cartpole), f"the data's policies: {means[0]:.0f} and {means[1]:.0f}")
 
 
 def gail_check(seeds: int, progress: bool) -> Outcome:
     """GAIL from 60 demonstrations on the CartPole of fixed length."""
     rows, returns = collect(balance, fixed_cartpole, 60)
-    learner = train(with_seeds(usual("gail", 2), seeds), fixed_cartpole, 100_000, rows, progress)
-    return Outcome(scores(learner, fixed_cartpole), f"the demonstrator: {returns.mean():.0f}")
+    agents = train(with_seeds(usual("gail", 2), seeds), fixed_cartpole, 100_000, rows, progress)
+    return Outcome(scores(agents, fixed_cartpole), f"the demonstrator: {returns.mean():.0f}")
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""The study's figures: the paper's training panels, exploration, and final scores. One function each.
+"""The study's figures: the paper's training panels, exploration, final scores.
 
 Every one takes `Results` and returns a matplotlib figure with `figure.alt`. Titles are made from the
 numbers, so they cannot say what the numbers do not.
@@ -22,14 +22,14 @@ TRAINING = {"success": "success", "return": "returns", "speed": "speed", "distan
 
 def of_methods(results: Results, methods: Sequence[str]) -> dict[str, dict[str, np.ndarray]]:
     """{method: {curve: (agents, episodes)}}, without agents that were stopped: they have no curve to their end."""
-    found = {}
+    of_method = {}
     for method in methods:
         if method in results.methods:
             curves = results.of(method).curves
             whole = np.logical_and.reduce([np.isfinite(values).all(axis=1) for values in curves.values()])
             if whole.any():
-                found[method] = {name: values[whole] for name, values in curves.items()}
-    return found
+                of_method[method] = {name: values[whole] for name, values in curves.items()}
+    return of_method
 
 
 def training_panels(results: Results, methods: Sequence[str], title: str, rule: Results | None = None) -> Figure:
@@ -70,9 +70,10 @@ def baselines(results: Results, rule: Results | None = None) -> Figure:
 def exploration(results: Results) -> Figure:
     """The paper's Figure 7: entropy, and e to the power of it, the effective actions (Equations 21 and 22)."""
     curves = of_methods(results, ("sac", "soft", "demos", "bootstrapped"))
-    for its in curves.values():
-        its["effective"] = np.exp(its["entropy"].astype(np.float64))
-    last = {method: its["effective"][:, -max(1, its["effective"].shape[1] // 10) :] for method, its in curves.items()}
+    last = {}
+    for method, of_method in curves.items():
+        effective = of_method["effective"] = np.exp(of_method["entropy"].astype(np.float64))
+        last[method] = effective[:, -max(1, effective.shape[1] // 10) :]
     title = (
         f"In the last tenth of training plain SAC has {last['sac'].mean():.2f} effective actions on average, "
         f"bootstrapped SAC {last['bootstrapped'].mean():.2f}"
@@ -89,13 +90,13 @@ def final_scores(results: Results, methods: Sequence[str], column: str = "return
     scale, words, label = 100 if column in RATES else 1, [], (COLUMNS | {"returns": "return"}).get(column, column)
     middles = {}
     for row, method in enumerate(methods):
-        scores, its = results.of(method).scores(column) * scale, style(method)
+        scores, look = results.of(method).scores(column) * scale, style(method)
         middles[method] = middle = interval(scores)
-        ax.plot(scores, np.full(len(scores), row) + np.linspace(-0.3, 0.3, len(scores)), "o", color=its.colour, ms=4)
-        ax.plot([middle.low, middle.high], [row, row], "-", color=its.colour, linewidth=6, alpha=0.3, zorder=1)
-        ax.plot(middle.value, row, "|", color=its.colour, ms=14, mew=2.5)
+        ax.plot(scores, np.full(len(scores), row) + np.linspace(-0.3, 0.3, len(scores)), "o", color=look.colour, ms=4)
+        ax.plot([middle.low, middle.high], [row, row], "-", color=look.colour, linewidth=6, alpha=0.3, zorder=1)
+        ax.plot(middle.value, row, "|", color=look.colour, ms=14, mew=2.5)
         if method in PRINTED and column in COLUMNS:
-            ax.plot(PRINTED[method][column].mean, row, "D", mfc="white", mec=its.colour, ms=5, zorder=4)
+            ax.plot(PRINTED[method][column].mean, row, "D", mfc="white", mec=look.colour, ms=5, zorder=4)
         words.append(f"{display_name(method)} {middle.value:.3g} [{middle.low:.3g}, {middle.high:.3g}]")
     plain_axes(ax, "", grid="x")
     ax.set_yticks(range(len(methods)), [display_name(method) for method in methods])

@@ -1,18 +1,20 @@
 """A job is a piece of a study that is computed in one go. A finished job is not computed again.
 
     DIR/unfinished/NAME   while it is computed: `checkpoint.npz`, from which a killed job continues
-    DIR/jobs/NAME         when it is done: `results.npz`, `runs/`, and `job.json` with what was asked for, the
-                          fingerprints of the code that computed it, and the hash of every file
+    DIR/jobs/NAME         when it is done: `results.npz`, `runs/`, and `job.json` with what was asked for, the versions
+                          that computed it, and the hash of every file
 
 The folder is moved in one step, so every folder in `jobs` is complete.
 """
 
+import importlib
 import json
 import os
 import shutil
 import tempfile
 import time
-from dataclasses import asdict, dataclass
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -22,20 +24,17 @@ from msgspec import Meta, Struct, convert
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.errors import BootcourseError
 from bootcourse.files import decoding, provenance, sha256, write_arrays, write_json
-from bootcourse.learn.settings import Settings, stored_settings
+from bootcourse.learn.settings import Settings
 from bootcourse.learn.training import Result, Training
-from bootcourse.research.fingerprint import behind, fingerprints
 from bootcourse.research.planner import Search, is_staying_optimal, plan_episodes
 from bootcourse.research.teachers import RULE, teacher_named
 from bootcourse.scenario import Scenario
-from bootcourse.storage.checkpoint import DamagedCheckpoint
-from bootcourse.storage.runs import load_checkpoint, save_checkpoint, save_runs
+from bootcourse.storage.checkpoint import DamagedCheckpoint, load_checkpoint, save_checkpoint
+from bootcourse.storage.runs import save_runs
 from bootcourse.storage.sealed import is_file_with, read_sealed, write_sealed
 from bootcourse.storage.work import Checkpoints
 
-FORMAT = "bootcourse job 2"
-FORMER_FORMAT = "bootcourse job 1"  # its job.json has no hash of its own
-FORMER = {"teacher": RULE}  # what a job.json of an earlier version does not say
+FORMAT = "bootcourse job 3"
 CHECKPOINT = "checkpoint.npz"
 HELD_OUT = 1  # the block of held-out roads that every method of every study is tested on
 SECONDS_BETWEEN = 60.0  # of checkpoints
@@ -45,16 +44,15 @@ PARENT = os.getppid()  # read at import: a worker may be busy compiling when the
 class Provenance(Struct):
     """The entry of a job's provenance that is a number; the others, the packages' versions, are for people."""
 
-    seconds: Annotated[float, Meta(ge=0)] = 0.0
+    seconds: Annotated[float, Meta(ge=0)]
 
 
-class Made(Struct):
+class Description(Struct):
     """The entries of job.json that are read."""
 
     asked: dict[str, Any]  # compared with what is asked for, see `finished`
     sha256: dict[str, str]  # {file: its hash}
     provenance: Provenance
-    behaviour: dict[str, list[float]] = {}  # {name: fingerprint}; absent in files of earlier versions
 
 
 class Interrupted(Exception):
@@ -80,15 +78,11 @@ class Job:
     def __post_init__(self):
         teacher_named(self.teacher)
 
-    @property
-    def behaviours(self) -> tuple[str, ...]:
-        return behind(self.settings, self.scenario, self.teacher)
-
     def compute(self, folder: Path) -> float:
         """Train, or continue a training, and test. Returns the seconds of earlier attempts. Raises Interrupted."""
         training, checkpoint = self._training(folder), folder / CHECKPOINT
         earlier = training.seconds
-        result = training.run(progress=False, callback=Checkpoints(checkpoint, SECONDS_BETWEEN), stop=_orphaned)
+        result = training.run(progress=False, callback=Checkpoints(checkpoint, SECONDS_BETWEEN), stop=orphaned)
         if result.interrupted:
             save_checkpoint(training, checkpoint)
             raise Interrupted(self.name)
@@ -114,10 +108,22 @@ class Job:
         tested = {name: np.stack([getattr(each, name) for each in episodes]) for name in vars(episodes[0])}
         return {
             "agents": np.array(json.dumps([asdict(a.settings) | {"teacher": self.teacher} for a in result.agents])),
-            "stopped": np.array([getattr(result, "stopped", {}).get(i, -1) for i in range(len(result.agents))]),
-            **{f"tested.{name}": _small(values) for name, values in tested.items()},
+            "stopped": np.array([result.stopped.get(i, -1) for i in range(len(result.agents))]),
+            **{f"tested.{name}": smaller(values) for name, values in tested.items()},
             **{f"curves.{name}": values.astype(np.float32) for name, values in result.curves.items()},
         }
+
+
+@dataclass(frozen=True)
+class LessonJob:
+    """Let a function of a lesson train and test its agents, in a few minutes and without checkpoints."""
+
+    name: str
+    function: str  # "module:function", which returns the arrays of `results.npz` (see `results.as_arrays`)
+    arguments: dict = field(default_factory=dict)
+
+    def compute(self, folder: Path) -> None:
+        write_arrays(folder / "results.npz", named_function(self.function)(**self.arguments))
 
 
 @dataclass(frozen=True)
@@ -129,10 +135,6 @@ class BoundJob:
     first: int  # held-out episode
     episodes: int
     search: Search = Search()
-
-    @property
-    def behaviours(self) -> tuple[str, ...]:
-        return (*behind((), self.scenario), "planner")
 
     def compute(self, folder: Path) -> None:
         seeds = held_out_seeds(HELD_OUT, self.first + self.episodes)[self.first :]
@@ -151,33 +153,32 @@ class StayingJob:
     roads: int = 50  # of the held-out ones
     beam: int = 200
 
-    @property
-    def behaviours(self) -> tuple[str, ...]:
-        return (*behind((), self.scenario), "rule", "planner")
-
     def compute(self, folder: Path) -> None:
         staying = is_staying_optimal(held_out_seeds(HELD_OUT, self.roads), self.scenario, self.gamma, self.beam)
         write_json(folder / "staying.json", vars(staying))
 
 
-AnyJob = Job | BoundJob | StayingJob
+AnyJob = Job | LessonJob | BoundJob | StayingJob
+
+
+def named_function(name: str) -> Callable:
+    """The function of that name, "module:function"."""
+    module, _, function = name.partition(":")
+    return getattr(importlib.import_module(module), function)
 
 
 def asked(job: AnyJob) -> dict:
     """All fields that determine the job's result, as JSON reads them back."""
-    return as_read({name: value for name, value in asdict(job).items() if name not in ("name", "runs")})
+    fields = {name: value for name, value in asdict(job).items() if name not in ("name", "runs")}
+    return json.loads(json.dumps(fields))
 
 
-def as_read(value):
-    """A value as JSON reads it back."""
-    return json.loads(json.dumps(value))
-
-
-def _small(values: np.ndarray) -> np.ndarray:
+def smaller(values: np.ndarray) -> np.ndarray:
+    """The results of tests with the precision that is kept: float32, and int8 for what is counted."""
     return values.astype(np.float32) if values.dtype == np.float64 else values.astype(np.int8)
 
 
-def _orphaned() -> bool:
+def orphaned() -> bool:
     """Has the process that started this one ended?"""
     return os.getppid() != PARENT
 
@@ -187,11 +188,8 @@ def finished(job: AnyJob, root: Path) -> bool:
     folder = root / "jobs" / job.name
     if not folder.exists():
         return False
-    made = FORMER | read_job(folder)["asked"]
-    with decoding(folder / "job.json"):  # what later versions added has its default
-        made["settings"] = as_read([asdict(stored_settings(stored)) for stored in made.get("settings", [])])
-        made["scenario"] = as_read(asdict(Scenario.from_json(json.dumps(made["scenario"]))))
-    different = [name for name, value in asked(job).items() if made.get(name) != value]
+    before = read_job(folder)["asked"]
+    different = [name for name, value in asked(job).items() if before.get(name) != value]
     if different:
         raise OtherQuestion(
             f"{folder} was computed with other {', '.join(different)}: choose another folder for this study."
@@ -201,13 +199,13 @@ def finished(job: AnyJob, root: Path) -> bool:
 
 def read_job(folder: Path) -> dict:
     """The `job.json` of a finished job, after a check of all its files. Raises BootcourseError if one is damaged."""
-    made = read_sealed(folder / "job.json", FORMAT, FORMER_FORMAT)
+    description = read_sealed(folder / "job.json", FORMAT)
     with decoding(folder / "job.json"):
-        convert(made, Made)
-    damaged = [name for name, digest in made["sha256"].items() if not is_file_with(folder / name, digest)]
+        convert(description, Description)
+    damaged = [name for name, digest in description["sha256"].items() if not is_file_with(folder / name, digest)]
     if damaged:
         raise BootcourseError(f"{folder} is damaged ({', '.join(damaged)}).")
-    return made
+    return description
 
 
 def run_job(job: AnyJob, root: Path, recompute: bool = False) -> str:
@@ -243,14 +241,13 @@ def _run(job: AnyJob, root: Path, recompute: bool) -> None:
     seconds = (earlier or 0.0) + time.perf_counter() - started
     (folder / CHECKPOINT).unlink(missing_ok=True)
     files = [path for path in sorted(folder.rglob("*")) if path.is_file() and path.name != "job.json"]
-    made = {
+    description = {
         "format": FORMAT,
         "asked": asked(job),
         "sha256": {path.relative_to(folder).as_posix(): sha256(path) for path in files},
-        "behaviour": fingerprints(*job.behaviours),
         "provenance": provenance(seconds=round(seconds, 1)),
     }
-    write_sealed(folder / "job.json", made)
+    write_sealed(folder / "job.json", description)
     final.parent.mkdir(parents=True, exist_ok=True)
     os.rename(folder, final)
 

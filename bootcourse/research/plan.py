@@ -4,18 +4,19 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from itertools import product
 
-from bootcourse.errors import BootcourseError, check_known, did_you_mean
+from bootcourse.errors import BootcourseError, check_known
 from bootcourse.learn.settings import SETTINGS, Settings, settings_for, with_seeds
-from bootcourse.methods import ABLATION, AFTER, BASELINES, METHODS
-from bootcourse.research.jobs import BoundJob, Job, StayingJob
+from bootcourse.methods import ABLATION, BASELINES, METHODS
+from bootcourse.research.jobs import BoundJob, Job, LessonJob, StayingJob, named_function
 from bootcourse.research.teachers import PLANNER as PLANS
 from bootcourse.research.teachers import RULE, TEACHERS, teacher_named
-from bootcourse.scenario import CALIBRATED, DEFAULT, Scenario, Sight
+from bootcourse.scenario import CALIBRATED, DEFAULT, Scenario
 
 SEEDS, TESTS = 10, 1000  # of training, in a study of all methods; held-out episodes of each agent
 GROUP = 10  # seeds that train side by side: with 5, each costs a third more
 PLANNER, ROADS = "planner", 50  # held-out roads that one job of the planner searches
 VARIED = ("sac", "soft", "demos", "bootstrapped")  # the paper's ablation
+BEYOND = ("ppo", "ppo_cloned", "jsrl", "rlpd", "ibrl")  # the paper trains none of them; DAgger is in `teachers`
 P, XI, C = (0.5, 0.9, 0.99), (0.0, 20.0, 200.0, 2000.0), (0.0, 2.0, 5.0)  # the sweep
 
 
@@ -45,13 +46,9 @@ def methods_named(only: str) -> list[str]:
     everything = (*BASELINES, *ABLATION, PLANNER)  # the longest first
     names = [name.strip() for name in only.split(",") if name.strip()] or everything
     for name in names:
-        if name not in everything:
-            for experiment, its in EXPERIMENTS.items():
-                if (name,) in {variation.methods for variation in its.variations.values()}:
-                    raise BootcourseError(
-                        f"Method '{name}' is not in this study: run `bootcourse study {experiment} --only {name}`."
-                    )
-            raise BootcourseError(f"Method {did_you_mean(name, everything)}.")
+        if name in BEYOND:
+            raise BootcourseError(f"Method '{name}' is not in this study: run `bootcourse study beyond --only {name}`.")
+        check_known("Method", name, everything)
     return [name for name in everything if name in names]
 
 
@@ -60,12 +57,12 @@ def study_jobs(study: str, methods: Sequence[str], seeds: int, tests: int, episo
 
     study: a name of `STUDIES`. episodes: of training, 0 for the study's own number.
     """
-    its = STUDIES[study]
-    scenario, jobs = its.scenario, []
+    plan = STUDIES[study]
+    scenario, jobs = plan.scenario, []
     for method, first in product((m for m in methods if m != PLANNER), range(0, seeds, GROUP)):
-        group = with_seeds(settings_for(method, **its.changes), min(GROUP, seeds - first), first)
+        group = with_seeds(settings_for(method, **plan.changes), min(GROUP, seeds - first), first)
         name = f"{study}/{method}-{first}-{first + len(group) - 1}"
-        jobs.append(Job(name, tuple(group), scenario, episodes or its.episodes, tests))
+        jobs.append(Job(name, tuple(group), scenario, episodes or plan.episodes, tests))
     if PLANNER not in methods or study != scenario.name:  # the bound depends on the scenario alone
         return jobs
     for first in range(0, tests, ROADS):
@@ -123,15 +120,14 @@ def _sensitivity() -> dict[str, Variation]:
 
 def _clocks() -> dict[str, Variation]:
     """ξ = 200 α fades with the updates, β with the episodes: both clocks, and who drives the demonstrations."""
-    found = {}
+    variations = {}
     for updates, changes in UPDATES.items():
-        found[f"{updates} updates, no demonstrations"] = Variation(changes, methods=("sac", "soft"))
+        variations[f"{updates} updates, no demonstrations"] = Variation(changes, methods=("sac", "soft"))
         for driver, stochastic in (("μ", False), ("π̃", True)):
             of_driver = changes | {"stochastic_demonstrations": stochastic}
-            found[f"{updates} updates, demonstrations by {driver}"] = Variation(
-                of_driver, methods=("demos", "bootstrapped")
-            )
-    return found
+            helped = Variation(of_driver, methods=("demos", "bootstrapped"))
+            variations[f"{updates} updates, demonstrations by {driver}"] = helped
+    return variations
 
 
 def _ablations() -> dict[str, Variation]:
@@ -140,7 +136,7 @@ def _ablations() -> dict[str, Variation]:
     return {
         "KL in the actor only": Variation({"kl_in_target": False}, methods=("soft", "bootstrapped")),
         "β over 300 episodes": Variation({"beta_episodes": 300}, methods=helped),
-        "β for ever": Variation({"beta_episodes": 10**9}, methods=helped),
+        "β for ever": Variation({"beta_episodes": None}, methods=helped),
     }
 
 
@@ -153,12 +149,10 @@ def _longer_view() -> dict[str, Variation]:
 def _beyond() -> dict[str, Variation]:
     """Learners that the paper does not train, each with its own settings.
 
-    PPO drives hundreds of roads at once. RLPD makes eight times as many updates for a decision as the others. DAgger is
-    in the experiment `teachers`.
+    PPO drives hundreds of roads at once. RLPD makes eight times as many updates for a decision as the others.
     """
-    episodes = {"rlpd": 250} | {method: METHODS[method].episodes for method in AFTER if METHODS[method].on_policy}
-    methods = [method for method in AFTER if method not in ("dagger", "ppo_safe")]
-    return {method: Variation(methods=(method,), episodes=episodes.get(method, 0)) for method in methods}
+    episodes = {"rlpd": 250} | {method: METHODS[method].episodes for method in BEYOND if METHODS[method].on_policy}
+    return {method: Variation(methods=(method,), episodes=episodes.get(method, 0)) for method in BEYOND}
 
 
 # Of each method in the experiment `teachers`: changes and training episodes. The minutes of one core are those of ten
@@ -184,38 +178,6 @@ def _teachers() -> dict[str, Variation]:
     }
 
 
-RESTARTS = {"restart_share": 0.25, "restart_episodes": 10_000}  # in the first half of the training
-
-# Of the experiment `safe`: what is switched on beside PPO after cloning, whose own agents are in `beyond`. Ten agents
-# took 7 minutes of one core, and 14 for twice as long: two hours for all.
-SAFER = {
-    "accident cost": {"accident_cost": 50.0},
-    "multiplier": {"multiplier_step": 3.0},
-    "learned mask": {"risk_limit": 0.1},
-    "shield by hand": {"shield": True},
-    "accident cost and multiplier": {"accident_cost": 50.0, "multiplier_step": 3.0},
-    "accident cost and shield by hand": {"accident_cost": 50.0, "shield": True},
-    "restarts": RESTARTS,
-    "accident cost and restarts": {"accident_cost": 50.0} | RESTARTS,
-    "γ = 0.995": {"gamma": 0.995},
-    "distributional critic": {"value_quantiles": 32, "worst_share": 0.25},  # shares 0.5 and 1 did worse on other roads
-}
-
-
-def _safe() -> dict[str, Variation]:
-    """What may make PPO after cloning safe: each alone, two together, and some for twice as long."""
-    off = {"accident_cost": 0.0, "multiplier_step": 0.0, "risk_limit": 1.0, "shield": False, "restart_share": 0.0}
-    off["value_quantiles"] = 1
-    found = {name: Variation(off | changes, methods=("ppo_safe",)) for name, changes in SAFER.items()}
-    remembers = replace(DEFAULT, name="memory", sight=Sight(memory=3))
-    found["memory"] = Variation(off, remembers, ("ppo_safe",))
-    found["accident cost, shield by hand and memory"] = replace(
-        found["accident cost and shield by hand"], scenario=remembers
-    )
-    longer = ("accident cost", "accident cost and shield by hand", "accident cost, shield by hand and memory")
-    return found | {f"{name}, twice as long": replace(found[name], episodes=40_000) for name in longer}
-
-
 @dataclass(frozen=True)
 class Experiment:
     """Variations that are run with the same seeds and number of episodes."""
@@ -230,25 +192,19 @@ class Experiment:
 
         words: such as "planner-dagger" or "ppo_cloned, soft"; "" for all. Raises BootcourseError for an unknown name.
         """
-        taught = len({its.teacher for its in self.variations.values()}) > 1
-        names = {
-            variation: {folder(variation), *its.methods[: len(its.methods) == 1], *[its.teacher] * taught}
-            for variation, its in self.variations.items()
-        }
-        wanted, known = {word.strip() for word in words.split(",")} - {""}, sorted(set().union(*names.values()))
-        for word in sorted(wanted):
-            check_known("Part", word, known)
-        kept = {variation: self.variations[variation] for variation in names if not wanted or wanted & names[variation]}
-        return replace(self, variations=kept)
+        names = {}
+        for variation, one in self.variations.items():
+            names[variation] = {folder(variation), one.teacher, *(one.methods if len(one.methods) == 1 else ())}
+        return replace(self, variations=chosen(self.variations, names, words))
 
     def jobs(self, name: str, seeds: int = 0, episodes: int = 0, tests: int = 0) -> list[Job]:
         """One job for each variation, its agents side by side. 0: the experiment's own number."""
         jobs = []
-        for variation, its in self.variations.items():
-            agents = [a for m in its.methods for a in with_seeds(settings_for(m, **its.changes), seeds or self.seeds)]
-            where, trained = f"{name}/{folder(variation)}", episodes or its.episodes or self.episodes
+        for variation, one in self.variations.items():
+            agents = [a for m in one.methods for a in with_seeds(settings_for(m, **one.changes), seeds or self.seeds)]
+            where, trained = f"{name}/{folder(variation)}", episodes or one.episodes or self.episodes
             tested = tests or self.tests
-            jobs.append(Job(where, tuple(agents), its.scenario, trained, tested, runs=False, teacher=its.teacher))
+            jobs.append(Job(where, tuple(agents), one.scenario, trained, tested, runs=False, teacher=one.teacher))
         return sorted(jobs, key=lambda job: -sum(job.settings[0].hidden) * job.settings[0].updates)  # the longest first
 
 
@@ -259,20 +215,56 @@ EXPERIMENTS = {
     "longer-view": Experiment(_longer_view(), seeds=10, episodes=1500),
     "beyond": Experiment(_beyond(), seeds=10, episodes=1500),
     "teachers": Experiment(_teachers(), seeds=10, episodes=1500, tests=200),
-    "safe": Experiment(_safe(), seeds=10, episodes=20_000),
 }
+
+
+@dataclass(frozen=True)
+class LessonExperiment:
+    """Agents that a function of a lesson trains: {variation: the arguments of the function}."""
+
+    function: str  # "module:function", see `jobs.LessonJob`
+    variations: dict[str, dict]
+
+    def only(self, words: str) -> "LessonExperiment":
+        """The variations that are named by their folder; "" for all. Raises BootcourseError for an unknown name."""
+        names = {variation: {folder(variation)} for variation in self.variations}
+        return replace(self, variations=chosen(self.variations, names, words))
+
+    def jobs(self, name: str, seeds: int = 0, episodes: int = 0, tests: int = 0) -> list[LessonJob]:
+        """One job for each variation. Raises BootcourseError for another number of seeds or episodes."""
+        if seeds or episodes or tests:
+            raise BootcourseError(f"The lesson fixes the numbers of {name}: leave out --seeds, --episodes and --tests.")
+        return [
+            LessonJob(f"{name}/{folder(variation)}", self.function, arguments)
+            for variation, arguments in self.variations.items()
+        ]
+
+
+LESSON_EXPERIMENTS = {  # "module:name" of a LessonExperiment, imported when it is used
+    "bug-hunt": "bootcourse.course.lessons.bug_hunt.bugs:EXPERIMENT",
+    "students": "bootcourse.course.lessons.your_teacher.taught_agents:EXPERIMENT",
+    "second-trap": "bootcourse.course.lessons.the_second_trap.ppo_kinds:EXPERIMENT",
+}
+
+
+def experiment_named(name: str) -> Experiment | LessonExperiment:
+    """The experiment of that name. Raises BootcourseError for an unknown one."""
+    check_known("Experiment", name, (*EXPERIMENTS, *LESSON_EXPERIMENTS))
+    return EXPERIMENTS[name] if name in EXPERIMENTS else named_function(LESSON_EXPERIMENTS[name])
+
+
+def chosen(variations: dict, names: dict[str, set[str]], words: str) -> dict:
+    """The variations that words such as "ppo_cloned, soft" name, all for "". names: of each variation."""
+    wanted, known = {word.strip() for word in words.split(",")} - {""}, sorted(set().union(*names.values()))
+    for word in sorted(wanted):
+        check_known("Part", word, known)
+    return {name: one for name, one in variations.items() if not wanted or wanted & names[name]}
 
 
 def folder(name: str) -> str:
     """A name as a folder: "γ = 0.9" -> "gamma-0.9"."""
-    for letter, word in {
-        "γ": "gamma",
-        "β": "beta",
-        "π̃": "stochastic-rule",
-        "μ": "rule",
-        "1/4": "quarter",
-        ",": "",
-    }.items():
+    words = {"γ": "gamma", "β": "beta", "π̃": "stochastic-rule", "μ": "rule", "1/4": "quarter", ",": ""}
+    for letter, word in words.items():
         name = name.replace(letter, word)
     return "-".join(word for word in name.split() if word not in ("=", "x", "at", "m/s"))
 

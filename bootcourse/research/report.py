@@ -1,4 +1,4 @@
-"""The study's report: one Markdown file with its tables, figures and verdicts, made from what is on disk."""
+"""The study's report and the model card: Markdown with tables, figures and verdicts, made from what is on disk."""
 
 from collections import Counter
 from pathlib import Path
@@ -15,13 +15,12 @@ from bootcourse.research import clocks, tables, teacher_worth
 from bootcourse.research import figures as training_figures
 from bootcourse.research.beyond import WINDOW, budget_rows, entries, learner_rows
 from bootcourse.research.fidelity import CLOSE, VERDICTS, fidelity
-from bootcourse.research.frontier import safe_and_fast
 from bootcourse.research.jobs import HELD_OUT
 from bootcourse.research.paper import COLUMNS, PRINTED, ROWS, TABLES, arithmetic
 from bootcourse.research.plan import STUDIES
-from bootcourse.research.results import Results, StudyResults, join
+from bootcourse.research.results import KINDS, Results, StudyResults, join
 from bootcourse.scenario import Scenario
-from bootcourse.statistics import Estimate, mean
+from bootcourse.statistics import ESCAPES, Estimate, mean
 
 FIGURES = {  # name: (function, the methods that it needs)
     "margin-against-bonus": (training_figures.margin_against_bonus, ("margin", "demos")),
@@ -50,7 +49,7 @@ def write_report(found: StudyResults, folder: Path) -> Path:
     text += ["## Fidelity: every number of the paper's two tables\n", FIDELITY.format(close=close()), counted(findings)]
     text += [tables.fidelity_table(findings), "### What each row's own numbers say\n"]
     text += ["\n".join(f"- **{ROWS[method]}.** {arithmetic(method)}" for method in PRINTED) + "\n"]
-    text += [*experiments_part(found.experiments), *budget_part(found), *safe_part(found, folder)]
+    text += [*experiments_part(found.experiments), *budget_part(found)]
     path = folder / "report.md"
     write_bytes(path, "\n".join(text).encode())
     return path
@@ -128,7 +127,7 @@ def experiments_part(experiments: dict[str, dict[str, Results]]) -> list[str]:
     if varied := experiments.get("longer-view"):
         text += ["## A longer view\n", LONGER_VIEW, tables.markdown(*learner_rows(varied))]
     if varied := experiments.get("beyond"):
-        named = {display_name(its.methods[0]): its for its in varied.values()}
+        named = {display_name(method): agents for method, agents in varied.items()}
         text += ["## Other learners with a teacher\n", tables.markdown(*learner_rows(named))]
     if varied := experiments.get("teachers"):
         worth = tables.markdown(*teacher_worth.worth_rows(teacher_worth.cells(varied)))
@@ -146,29 +145,34 @@ def budget_part(found: StudyResults) -> list[str]:
     return ["## All methods at an equal budget\n", tables.markdown(headings, rows), *best, BUDGET]
 
 
-def safe_part(found: StudyResults, folder: Path) -> list[str]:
-    """The experiment on safety: its figure and its table, if it and the planner's bound were computed."""
-    varied, bound = found.experiments.get("safe"), found.bound.get("default")
-    if not varied or bound is None:
-        return []
-    if plain := found.experiments.get("beyond", {}).get("ppo_cloned"):
-        varied = {"nothing more": plain} | varied
-    figure = safe_and_fast(varied, float(np.mean(bound)))
-    save(figure, folder / "figures" / "safe.png")
-    shown = f"![{figure.alt}](figures/safe.png)\n"
-    return ["## Fast and safe\n", SAFE, shown, tables.markdown(*learner_rows(varied))]
-
-
 def close() -> str:
     return ", ".join(f"{COLUMNS[column].split(',')[0]} within {within:g}" for column, within in CLOSE.items())
 
 
 def counted(findings: dict) -> str:
     lines = []
-    for scenario, its in findings.items():
-        count = Counter(finding.verdict for finding in its)
+    for scenario, rows in findings.items():
+        count = Counter(row.verdict for row in rows)
         lines.append(f"- {scenario}: " + ", ".join(f"{count[verdict]} {verdict}" for verdict in VERDICTS) + ".")
     return "\n".join(lines) + "\n"
+
+
+def model_card(results: Results, runs: int) -> str:
+    """The card as markdown. results: of the default scenario; runs: the seeds of each method whose weights ship."""
+    rows = []
+    for method in results.methods:
+        mine = results.of(method)
+        accidents = [f"{100 * mine.episodes(kind).mean():.1f}" for kind in KINDS]
+        escape = tables.k_of_n(mine.scores("success") >= ESCAPES)
+        rows.append([method, escape, tables.bracketed(tables.score(results, method, "returns")), *accidents])
+    headings = ["method", "agents that escape", *(tables.HEADINGS[name] for name in ("returns", *KINDS))]
+    return CARD.format(
+        table=tables.markdown(headings, rows),
+        tests=results.sizes[0],
+        escapes=f"{100 * ESCAPES:g}",
+        hidden=" x ".join(map(str, results.agents[0]["hidden"])),
+        runs=runs,
+    )
 
 
 HEAD = """# The study
@@ -197,11 +201,6 @@ accidents: mean, decisions: median, each with its 95 % interval over training se
 how many agents reached it in their training.
 """
 
-SAFE = """PPO after cloning, with one or two things more against accidents. The shield is written by hand and knows what
-no learner is told; everything else is learned from the agents' own accidents. Restarts: some training episodes begin
-shortly before an accident, fewer and fewer of them.
-"""
-
 BUDGET = f"""These are training returns, with drawn actions: the mean of an agent's last {WINDOW} episodes that ended
 within the budget, then the interquartile mean over agents with its 95 % interval. The returns of the other tables are
 those of most probable actions after the whole training. –: the training ended before, or no file tells its seconds.
@@ -216,4 +215,26 @@ machine with other work, which makes them up to twice as long: small differences
 
 LONGER_VIEW = """The paper's method with two updates per decision, a bonus of 0.5 instead of 2, batches of 128 instead
 of 64, and a γ of 0.95 instead of 0.8.
+"""
+
+CARD = """# Model card
+
+**What they are.** The agents in `runs/`: a folder for each of the first {runs} seeds of each method, trained on the
+default scenario of this course by `bootcourse study`. Each is an actor and two critics with hidden layers of
+{hidden} neurons; it reads 26 numbers and chooses one of 9 actions, once a second. The weights are those at the
+end of training: none was selected.
+
+**What they are for.** Lessons: to be driven, replayed, compared and taken apart. **What they are not for:**
+anything on a road. They have seen one straight road, one kind of trap and eight other cars that are models
+themselves, and some of them crash often.
+
+**How well they drive.** {tests} held-out episodes each, by their most probable action. An agent escapes if at least
+{escapes} % of them end ahead of trap 1. Returns are interquartile means over agents with a 95 % interval. Accident
+rates are means over the agents' episodes: an interquartile mean would leave out the agents that crash most.
+
+{table}
+**Data.** Their own driving in simulation, and for some methods 200 simulated episodes of a rule
+controller. No person and no real car is in it.
+
+**Known faults.** Success counts a crash after overtaking, as the paper does: read it beside the accidents.
 """

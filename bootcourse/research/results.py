@@ -1,6 +1,7 @@
 """What a study found: the scores and curves of every agent, the planner's bound, the experiments.
 
-Read from the jobs of a study's folder, or from what ships.
+Read from the jobs of a study's folder, or from what ships. A file of results holds `agents` and `stopped`, and arrays
+named PART.NAME: see the fields of `Results`.
 """
 
 import json
@@ -14,10 +15,9 @@ import numpy as np
 from bootcourse.episodes.evaluate import Episodes
 from bootcourse.errors import BootcourseError
 from bootcourse.files import check_arrays, decoding, parse, read_arrays, read_json, write_arrays
-from bootcourse.learn.curves import NAMES
-from bootcourse.learn.settings import stored_settings
-from bootcourse.research.jobs import Made
-from bootcourse.research.plan import EXPERIMENTS, STUDIES, folder
+from bootcourse.learn.settings import Settings, stored_settings
+from bootcourse.research.jobs import Description
+from bootcourse.research.plan import EXPERIMENTS, STUDIES, experiment_named, folder
 from bootcourse.research.planner import Staying
 from bootcourse.research.teachers import RULE
 from bootcourse.road.state import Accident
@@ -25,9 +25,10 @@ from bootcourse.statistics import ESCAPES
 from bootcourse.storage.assets import FOLDER
 
 MEASURES = ("success", "returns", "speed", "distance", "collision", "road_departure", "stoppage")
-IN_STUDY, IN_ASSETS = "/results.npz", ".npz"  # after a variation's folder or name
 RUN_AGAIN = "run the study again, or restore it from a copy"
 KINDS = {"collision": Accident.COLLISION, "road_departure": Accident.ROAD_DEPARTURE, "stoppage": Accident.STOPPAGE}
+OF_AGENTS = ("tested", "curves", "notes", "measured")  # the parts with every agent; weights are kept of the first ones
+PARTS = (*OF_AGENTS, "weights")
 
 
 @dataclass(frozen=True)
@@ -36,9 +37,12 @@ class Results:
 
     agents: list[dict]  # each agent's settings, and the name of its teacher
     stopped: np.ndarray  # (agents,) the decision at which the loss was not a number, or -1
-    tested: dict[str, np.ndarray]  # success, returns, speed, distance, accident: (agents, held-out episodes)
-    curves: dict[str, np.ndarray]  # success, return, entropy ...: (agents, training episodes)
-    seconds: np.ndarray | None = None  # (agents,) of one core, training and test; NaN where no file tells
+    tested: dict[str, np.ndarray] = field(default_factory=dict)  # the fields of `Episodes`: (agents, held-out episodes)
+    curves: dict[str, np.ndarray] = field(default_factory=dict)  # success, return ...: (agents, training episodes)
+    seconds: np.ndarray | None = None  # (agents,) of one core, training and test; NaN where they are not known
+    notes: dict[str, np.ndarray] = field(default_factory=dict)  # of a lesson, taken in training: (agents, points)
+    measured: dict[str, np.ndarray] = field(default_factory=dict)  # of a lesson, of trained agents: (agents,)
+    weights: dict[str, np.ndarray] = field(default_factory=dict)  # of a lesson, {"actor.0": (agents kept, ...)}
 
     def __post_init__(self):
         if self.seconds is None:
@@ -48,11 +52,10 @@ class Results:
         return len(self.agents)
 
     def pick(self, which: Iterable[int]) -> "Results":
-        """Some of the agents."""
+        """Some of the agents, without their weights."""
         which = list(which)
-        tested = {name: values[which] for name, values in self.tested.items()}
-        curves = {name: values[which] for name, values in self.curves.items()}
-        return Results([self.agents[i] for i in which], self.stopped[which], tested, curves, self.seconds[which])
+        parts = {part: {name: each[which] for name, each in getattr(self, part).items()} for part in OF_AGENTS}
+        return Results([self.agents[i] for i in which], self.stopped[which], **parts, seconds=self.seconds[which])
 
     def of(self, method: str) -> "Results":
         """The agents of a method, by seed."""
@@ -62,7 +65,7 @@ class Results:
     @property
     def sizes(self) -> tuple[int, int]:
         """(held-out episodes, training episodes) of each agent."""
-        return self.tested["returns"].shape[1], next(iter(self.curves.values())).shape[1]
+        return tuple(next(iter(part.values())).shape[1] if part else 0 for part in (self.tested, self.curves))
 
     @property
     def methods(self) -> list[str]:
@@ -89,64 +92,73 @@ class Results:
 
 
 def join(parts: Sequence[Results]) -> Results:
-    """One `Results` of several. Raises BootcourseError if their episodes differ in number."""
+    """One `Results` of several, without weights. Raises BootcourseError if their episodes differ in number."""
     if not parts:
         raise BootcourseError("There are no results yet: run `bootcourse study --out DIR`.")
+
+    def together(part: str) -> dict[str, np.ndarray]:
+        arrays = [getattr(each, part) for each in parts]
+        return {name: np.concatenate([each[name] for each in arrays]) for name in arrays[0]}
+
     try:
-        tested = {name: np.concatenate([part.tested[name] for part in parts]) for name in parts[0].tested}
-        curves = {name: np.concatenate([part.curves[name] for part in parts]) for name in parts[0].curves}
+        joined = {part: together(part) for part in OF_AGENTS}
     except ValueError:
         raise BootcourseError("These results have different numbers of episodes: they cannot be joined.") from None
-    agents = [agent for part in parts for agent in part.agents]
     stopped, seconds = (np.concatenate([getattr(part, name) for part in parts]) for name in ("stopped", "seconds"))
-    return Results(agents, stopped, tested, curves, seconds)
+    return Results([agent for part in parts for agent in part.agents], stopped, **joined, seconds=seconds)
+
+
+def agent_entries(settings: Sequence[Settings], teacher: str = RULE) -> list[dict]:
+    """`Results.agents` of agents with these settings and this teacher."""
+    return [asdict(one) | {"teacher": teacher} for one in settings]
+
+
+def as_arrays(results: Results) -> dict[str, np.ndarray]:
+    """The arrays of a file of results."""
+    arrays = {"agents": np.array(json.dumps(results.agents)), "stopped": results.stopped, "seconds": results.seconds}
+    return arrays | {f"{part}.{name}": each for part in PARTS for name, each in getattr(results, part).items()}
 
 
 def save_results(results: Results, path: Path, provenance: dict) -> None:
     """Write everything to one `.npz`."""
-    write_arrays(
-        path,
-        {
-            "agents": np.array(json.dumps(results.agents)),
-            "provenance": np.array(json.dumps(provenance)),
-            "stopped": results.stopped,
-            "seconds": results.seconds,
-            **{f"tested.{name}": values for name, values in results.tested.items()},
-            **{f"curves.{name}": values for name, values in results.curves.items()},
-        },
-    )
+    write_arrays(path, as_arrays(results) | {"provenance": np.array(json.dumps(provenance))})
 
 
 def load_results(path: Path) -> Results:
     """Read a job's `results.npz` or what `save_results` wrote. Raises BootcourseError naming the file."""
     arrays = read_arrays(path, RUN_AGAIN)
-    drawn = [values for name, values in arrays.items() if name.startswith("curves.")]
-    if not ({"agents", "stopped", "tested.returns"} <= arrays.keys() and drawn):
+    if not {"agents", "stopped"} <= arrays.keys():
         raise BootcourseError(f"{path} does not hold a study's results: {RUN_AGAIN}.")
     arrays.pop("provenance", None)
     with decoding(path, RUN_AGAIN):
         stored = parse(str(arrays.pop("agents")), list[dict[str, Any]], path, RUN_AGAIN)
-        teachers = [agent.pop("teacher", RULE) for agent in stored]  # files of earlier versions do not say
-        agents = [asdict(stored_settings(a)) | {"teacher": name} for a, name in zip(stored, teachers, strict=True)]
-        tests, episodes = arrays["tested.returns"].shape[1], drawn[0].shape[1]
-    tested = {f"tested.{f.name}": (len(agents), tests) for f in fields(Episodes)}
-    curves = {f"curves.{name}": (len(agents), episodes) for name in NAMES if f"curves.{name}" in arrays}
-    each = {name: (len(agents),) for name in ("stopped", "seconds") if name in arrays}
-    check_arrays(arrays, each | tested | curves, path, RUN_AGAIN)
-    return Results(agents, arrays["stopped"], _named(arrays, tested), _named(arrays, curves), arrays.get("seconds"))
+        agents = []
+        for agent in stored:
+            teacher = str(agent.pop("teacher"))
+            agents += agent_entries([stored_settings(agent)], teacher)
+    parts = {part: _part(arrays, part) for part in PARTS}
+    n, tests = len(agents), [each.shape[1:2] for each in parts["tested"].values()][:1]
+    shapes = {f"tested.{f.name}": (n, *tests[0]) for f in fields(Episodes)} if tests else {}
+    for part in ("curves", "notes"):
+        points = [each.shape[1:2] for each in parts[part].values()][:1]
+        shapes |= {f"{part}.{name}": (n, *points[0]) for name in parts[part]}
+    shapes |= {f"measured.{name}": (n,) for name in parts["measured"]}
+    shapes |= {f"weights.{name}": each.shape for name, each in parts["weights"].items()}
+    check_arrays(arrays, shapes | {name: (n,) for name in ("stopped", "seconds") if name in arrays}, path, RUN_AGAIN)
+    return Results(agents, arrays["stopped"], **parts, seconds=arrays.get("seconds"))
 
 
-def _named(arrays: dict[str, np.ndarray], names: Iterable[str]) -> dict[str, np.ndarray]:
-    """The arrays KIND.NAME by NAME, float32 instead of the float16 of a file."""
-    found = {name.partition(".")[2]: arrays[name] for name in names}
-    return {name: values.astype(np.float32) if values.dtype == np.float16 else values for name, values in found.items()}
+def _part(arrays: dict[str, np.ndarray], part: str) -> dict[str, np.ndarray]:
+    """The arrays PART.NAME by NAME, float32 instead of the float16 of a file."""
+    named = {name.removeprefix(f"{part}."): each for name, each in arrays.items() if name.startswith(f"{part}.")}
+    return {name: each.astype(np.float32) if each.dtype == np.float16 else each for name, each in named.items()}
 
 
 def load_job(folder: Path) -> Results:
     """The agents of a finished job, with its seconds shared among them. Raises BootcourseError naming the file."""
-    found = load_results(folder / "results.npz")
-    seconds = read_json(folder / "job.json", Made, RUN_AGAIN).provenance.seconds
-    return replace(found, seconds=np.full(len(found), seconds / len(found)))
+    results = load_results(folder / "results.npz")
+    seconds = read_json(folder / "job.json", Description, RUN_AGAIN).provenance.seconds
+    return replace(results, seconds=np.full(len(results), seconds / len(results)))
 
 
 def load_jobs(root: Path, part: str) -> Results:
@@ -154,9 +166,9 @@ def load_jobs(root: Path, part: str) -> Results:
 
     A study that was begun with fewer seeds leaves jobs that the larger ones hold again: each agent counts once.
     """
-    found = join([load_job(path.parent) for path in sorted((Path(root) / "jobs" / part).glob("*/results.npz"))])
-    once = {json.dumps(agent, sort_keys=True): i for i, agent in enumerate(found.agents)}
-    return found.pick(sorted(once.values()))
+    everyone = join([load_job(path.parent) for path in sorted((Path(root) / "jobs" / part).glob("*/results.npz"))])
+    once = {json.dumps(agent, sort_keys=True): i for i, agent in enumerate(everyone.agents)}
+    return everyone.pick(sorted(once.values()))
 
 
 @dataclass(frozen=True)
@@ -171,41 +183,45 @@ class StudyResults:
 
 def in_study(root: Path) -> StudyResults:
     """What the finished jobs of a study's folder hold."""
-    root = Path(root)
-    results = {name: load_jobs(root, name) for name in STUDIES if list(root.glob(f"jobs/{name}/*/results.npz"))}
-    bounds = {name: _bound(root, name, found.sizes[0]) for name, found in results.items()}
-    staying = {name: root / f"jobs/staying-{name}/gamma-0.8/staying.json" for name in results}
+    jobs = Path(root) / "jobs"
+    results = {name: load_jobs(root, name) for name in STUDIES if list(jobs.glob(f"{name}/*/results.npz"))}
+    bounds = {name: _bound(jobs / f"bound-{name}", each.sizes[0]) for name, each in results.items()}
     return StudyResults(
         results,
         {name: bound for name, bound in bounds.items() if bound is not None},
-        {name: vars(read_json(path, Staying, RUN_AGAIN)) for name, path in staying.items() if path.exists()},
-        {name: _experiment(root / "jobs", name, IN_STUDY) for name in EXPERIMENTS},
+        _staying({name: jobs / f"staying-{name}/gamma-0.8/staying.json" for name in results}),
+        {name: experiment(name, root) for name in EXPERIMENTS},
     )
 
 
 def in_assets(root: Path) -> StudyResults:
     """The results in an assets folder: what ships, or what is prepared for shipping."""
     root = Path(root)
-    bounds = {name: root / f"bound-{name}.npz" for name in STUDIES}
-    staying = {name: root / f"staying-{name}.json" for name in STUDIES}
-    studies = {name: root / f"study-{name}.npz" for name in STUDIES}
+    studies, bounds = ({name: root / f"{kind}-{name}.npz" for name in STUDIES} for kind in ("study", "bound"))
     return StudyResults(
         {name: load_results(path) for name, path in studies.items() if path.exists()},
         {name: load_bound(path) for name, path in bounds.items() if path.exists()},
-        {name: vars(read_json(path, Staying, RUN_AGAIN)) for name, path in staying.items() if path.exists()},
-        {name: _experiment(root, name, IN_ASSETS) for name in EXPERIMENTS},
+        _staying({name: root / f"staying-{name}.json" for name in STUDIES}),
+        {name: _variations(name, root, ".npz") for name in EXPERIMENTS},
     )
 
 
 def experiment(name: str, study: Path | str = "") -> dict[str, Results]:
     """The variations of one experiment that were computed: in a study's folder, by default those that ship."""
-    return _experiment(Path(study) / "jobs", name, IN_STUDY) if study else _experiment(FOLDER, name, IN_ASSETS)
+    if study:
+        return _variations(name, Path(study) / "jobs", "/results.npz")
+    return _variations(name, FOLDER, ".npz")
 
 
-def _experiment(root: Path, name: str, ending: str) -> dict[str, Results]:
+def _variations(name: str, root: Path, ending: str) -> dict[str, Results]:
     """The variations that were computed, root/EXPERIMENT/VARIATION + ending."""
-    paths = {variation: root / name / f"{folder(variation)}{ending}" for variation in EXPERIMENTS[name].variations}
+    variations = experiment_named(name).variations
+    paths = {variation: root / name / f"{folder(variation)}{ending}" for variation in variations}
     return {variation: load_results(path) for variation, path in paths.items() if path.exists()}
+
+
+def _staying(paths: dict[str, Path]) -> dict[str, dict]:
+    return {name: vars(read_json(path, Staying, RUN_AGAIN)) for name, path in paths.items() if path.exists()}
 
 
 def load_bound(path: Path) -> np.ndarray:
@@ -213,11 +229,11 @@ def load_bound(path: Path) -> np.ndarray:
     return _returns(path)["returns"]
 
 
-def _bound(root: Path, name: str, tests: int) -> np.ndarray | None:
+def _bound(folder: Path, tests: int) -> np.ndarray | None:
     """The planner's return on each episode; None until all of them are computed."""
-    jobs = [_returns(path, "first", "success") for path in root.glob(f"jobs/bound-{name}/*/results.npz")]
-    found = {int(job["first"]) + i: value for job in jobs for i, value in enumerate(job["returns"])}
-    return np.array([found[i] for i in range(tests)]) if set(range(tests)) <= set(found) else None
+    jobs = [_returns(path, "first", "success") for path in folder.glob("*/results.npz")]
+    of_road = {int(job["first"]) + i: value for job in jobs for i, value in enumerate(job["returns"])}
+    return np.array([of_road[i] for i in range(tests)]) if set(range(tests)) <= set(of_road) else None
 
 
 def _returns(path: Path, *others: str) -> dict[str, np.ndarray]:

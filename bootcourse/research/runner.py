@@ -1,7 +1,6 @@
-"""Compute jobs on this machine's cores, or on a dask or ray cluster, through joblib."""
+"""Compute jobs on this machine's cores, or on a dask cluster, through joblib."""
 
 import os
-import socket
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -13,7 +12,7 @@ from bootcourse.files import write_json
 from bootcourse.research.jobs import OtherQuestion, aside, finished, run_job
 from bootcourse.storage.work import locked
 
-BACKENDS = ("loky", "dask", "ray")
+BACKENDS = ("loky", "dask")
 CONNECT = 10.0  # s until a scheduler must answer
 
 
@@ -28,15 +27,15 @@ def run_jobs(
 ) -> list[str]:
     """Compute the jobs that are not done yet. Returns what went wrong, a sentence each.
 
-    backend: one of `BACKENDS`; loky uses this machine's cores. scheduler: the address of a dask scheduler or a ray
-    cluster; without one, dask and ray start their own on this machine. workers: processes, by default one for each
-    core. recompute: compute damaged jobs again. after: called with what went wrong, while the folder is still locked.
-    Raises BootcourseError, before anything is computed, for a mistyped argument, a folder in use or with the runs of a
-    training, and a damaged job without `recompute`.
+    backend: one of `BACKENDS`; loky uses this machine's cores. scheduler: the address of a dask scheduler; without one,
+    dask starts its own on this machine. workers: processes, by default one for each core. recompute: compute damaged
+    jobs again. after: called with what went wrong, while the folder is still locked. Raises BootcourseError, before
+    anything is computed, for a mistyped argument, a folder in use or with the runs of a training, and a damaged job
+    without `recompute`.
     """
     check_known("Backend", backend, BACKENDS)
     if scheduler and backend == "loky":
-        raise BootcourseError("--scheduler needs --backend dask or --backend ray: loky uses this machine's cores.")
+        raise BootcourseError("--scheduler needs --backend dask: loky uses this machine's cores.")
     if any(root.glob("*/provenance.json")):
         raise BootcourseError(f"{root} holds runs of `bootcourse train`: choose another folder for a study.")
     with locked(root):
@@ -47,18 +46,17 @@ def run_jobs(
         if waiting:
             write_json(root / "study.json", {"jobs": [job.name for job in jobs]})
             with connected(backend, scheduler, workers):
-                problems = _compute(waiting, root.resolve(), backend, recompute)
+                problems = _compute(waiting, root.resolve(), recompute)
         after(problems)
         return problems
 
 
-def _compute(waiting: list, root: Path, backend: str, recompute: bool) -> list[str]:
+def _compute(waiting: list, root: Path, recompute: bool) -> list[str]:
     from tqdm.auto import tqdm
 
-    how = "list" if backend == "ray" else "generator_unordered"  # ray returns its answers all at once
     calls = (joblib.delayed(run_job)(job, root, recompute) for job in waiting)
     try:
-        answers = joblib.Parallel(batch_size=1, pre_dispatch="all", return_as=how)(calls)
+        answers = joblib.Parallel(batch_size=1, pre_dispatch="all", return_as="generator_unordered")(calls)
         return [answer for answer in tqdm(answers, total=len(waiting), unit="job", smoothing=0) if answer]
     except joblib.externals.loky.process_executor.TerminatedWorkerError:
         return ["A process was killed, perhaps for lack of memory: start the same command again, with fewer --workers."]
@@ -86,16 +84,12 @@ def to_do(jobs: Sequence, root: Path, recompute: bool) -> list:
 
 @contextmanager
 def connected(backend: str, scheduler: str | None, workers: int | None) -> Iterator[None]:
-    """joblib's processes: loky's on this machine, or those of a dask or ray cluster."""
+    """joblib's processes: loky's on this machine, or those of a dask cluster."""
     if backend == "loky":
         with joblib.parallel_config("loky", n_jobs=workers or -1, inner_max_num_threads=1):
             yield
-    elif backend == "dask":
-        with _dask_client(scheduler, workers), joblib.parallel_config("dask", n_jobs=workers or -1):
-            yield
     else:
-        _connect_to_ray(scheduler, workers)
-        with joblib.parallel_config("ray", n_jobs=workers or -1):
+        with _dask_client(scheduler, workers), joblib.parallel_config("dask", n_jobs=workers or -1):
             yield
 
 
@@ -110,27 +104,3 @@ def _dask_client(scheduler: str | None, workers: int | None):
         return Client(scheduler, timeout=CONNECT)
     except (OSError, ValueError):
         raise BootcourseError(f"No dask scheduler answers at {scheduler}: start one, or check the address.") from None
-
-
-def _connect_to_ray(scheduler: str | None, workers: int | None) -> None:
-    try:
-        import ray
-        from ray.util.joblib import register_ray
-    except ModuleNotFoundError:
-        raise BootcourseError("ray is not installed: pip install 'bootcourse[ray]'.") from None
-    if scheduler and not _answers(scheduler):  # ray itself would end the whole process after a minute
-        raise BootcourseError(f"No ray cluster answers at {scheduler}: start one, or check the address.")
-    if not ray.is_initialized():
-        ray.init(scheduler, num_cpus=None if scheduler else workers, include_dashboard=False)
-    register_ray()
-
-
-def _answers(address: str) -> bool:
-    """Does anything listen at HOST:PORT? ("auto" is left to ray.)"""
-    host, _, port = address.rpartition("://")[2].partition(":")
-    try:
-        if port:
-            socket.create_connection((host, int(port)), timeout=CONNECT).close()
-    except (OSError, ValueError):
-        return False
-    return True

@@ -1,7 +1,7 @@
-"""Make what ships, `assets/`, from a study's folder: results, weights, demonstrations, rollouts, report and model card.
+"""Make what ships, `assets/`, from a study's folder: results, weights, rollouts, report and model card.
 
-Each file is listed in the manifest with the command that makes it and the fingerprints of the behaviours that it
-depends on. `bootcourse.storage.assets` checks the files, `bootcourse.research.fingerprint` the behaviours.
+Each file is listed in the manifest with its size, its hash, the command that makes it and the versions that made it.
+`bootcourse.storage.assets` checks the files. Files that the study has not computed stay as they are.
 """
 
 import os
@@ -16,23 +16,11 @@ from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError
 from bootcourse.files import provenance, sha256, write_arrays, write_bytes, write_json
-from bootcourse.methods import METHODS
 from bootcourse.policies import rule_policy
-from bootcourse.research.card import model_card
-from bootcourse.research.fingerprint import alike, fingerprints, key
 from bootcourse.research.jobs import HELD_OUT, read_job
-from bootcourse.research.plan import EXPERIMENTS
-from bootcourse.research.report import write_report
-from bootcourse.research.results import (
-    Results,
-    in_assets,
-    in_study,
-    join,
-    load_job,
-    load_jobs,
-    load_results,
-    save_results,
-)
+from bootcourse.research.plan import EXPERIMENTS, LESSON_EXPERIMENTS, STUDIES
+from bootcourse.research.report import model_card, write_report
+from bootcourse.research.results import Results, in_assets, in_study, load_job, load_jobs, load_results, save_results
 from bootcourse.scenario import DEFAULT
 from bootcourse.storage.assets import FOLDER, FORMAT, LIMIT, MANIFEST, put_back, read_manifest, unfinished
 from bootcourse.storage.runs import load_run
@@ -41,75 +29,53 @@ from bootcourse.storage.work import locked
 
 CURVES = ("success", "return", "speed", "distance", "accident", "entropy")  # the others are in runs/
 VARIED_CURVES = ("success", "return", "xi", "decisions")  # of the experiments
-FEWER = dict.fromkeys(("teachers", "safe"), ("success", "decisions"))  # of those with many agents, for their size
+FEWER_CURVES = {"sweep": ("success", "return"), "teachers": ("success", "decisions")}  # many agents
 RUNS = 5  # training seeds whose weights ship; curves and scores ship of all
 BUILD = "bootcourse assets build --study DIR"
 STUDY = f"bootcourse study --out DIR && {BUILD}"
+COMMANDS = {
+    "default": STUDY,
+    "calibrated": f"bootcourse study calibrated --out DIR && {BUILD}",
+    "paper": f"bootcourse study paper --out DIR && {BUILD}",
+    "sweep": f"bootcourse study sweep --out DIR && {BUILD}",
+}
+ELSEWHERE = {  # what no study makes, and the command that does
+    "checks.md": "python -m bootcourse.research.checks --out assets/checks.md",
+    "readme/*": "python -m bootcourse.plots.readme_picture",
+}
 
 
 class Shipment:
     """The new folder while it is filled. Files that the study has not computed are taken from today's folder."""
 
-    def __init__(self, study: Path | None, now: Path, new: Path, replace_larger: bool):
+    def __init__(self, study: Path | None, today: Path, new: Path, replace_larger: bool):
         self.study, self.new, self.replace_larger = study or new / "no study", new, replace_larger
-        self.entries: dict[str, dict] = {}
-        self.behaviours: dict[str, dict[str, list[float]]] = {}  # {name: {key: fingerprint}}
-        if (now / MANIFEST).exists():
-            shutil.copytree(now, new)
-            manifest = read_manifest(now)
-            self.entries = {entry["file"]: entry for entry in manifest["files"]}
-            self.behaviours = manifest["behaviours"]
+        self.entries: dict[str, dict] = {}  # of the manifest, by file
+        if (today / MANIFEST).exists():
+            shutil.copytree(today, new)
+            self.entries = {entry["file"]: entry for entry in read_manifest(today)["files"]}
 
     def has(self, part: str) -> bool:
         """Has the study finished any job of this part?"""
         return any((self.study / "jobs" / part).rglob("job.json"))
 
-    def name_of(self, path: Path) -> str:
-        """A file's name in the manifest."""
-        return path.relative_to(self.new).as_posix()
-
-    def behaviour_of(self, name: str) -> dict[str, list[float]]:
-        """The fingerprints of the code that made a file that is listed, by name."""
-        return {each: self.behaviours[each][made] for each, made in self.entries[name]["behaviour"].items()}
-
-    def made(self, part: str) -> tuple[dict[str, list[float]], dict]:
-        """(behaviour, versions) of the study's jobs of a part. Raises BootcourseError if there are none."""
+    def versions(self, part: str) -> dict:
+        """The versions that made the study's jobs of a part. Raises BootcourseError for a damaged job."""
         jobs = [read_job(path.parent) for path in sorted((self.study / "jobs" / part).rglob("job.json"))]
-        if not jobs:
-            raise BootcourseError(f"{self.study} has no finished jobs in jobs/{part}: compute them first.")
-        versions = {name: value for name, value in jobs[0]["provenance"].items() if name != "seconds"}
-        return agreed([job.get("behaviour", {"unrecorded behaviour": []}) for job in jobs]), versions
-
-    def ships(self, path: Path) -> Results | None:
-        """The results that ship in a file; None if it is absent or not as the manifest lists it."""
-        entry = self.entries.get(self.name_of(path))
-        return load_results(path) if entry and is_file_with(path, entry["sha256"]) else None
-
-    def completed(self, results: Results, path: Path, behaviour: dict[str, list[float]]) -> tuple[Results, dict]:
-        """(results, behaviour) with the shipped agents of the methods that the study has not computed.
-
-        Results with other numbers of episodes are not joined: `check_size` judges them.
-        """
-        ships = self.ships(path)
-        if ships is None or ships.sizes != results.sizes or not (missing := set(ships.methods) - set(results.methods)):
-            return results, behaviour
-        kept = [ships.of(method) for method in missing]
-        names = results.curves.keys() & ships.curves.keys()
-        joined = join([replace(part, curves={name: part.curves[name] for name in names}) for part in (results, *kept)])
-        order = sorted(range(len(joined)), key=lambda i: (joined.agents[i]["method"], joined.agents[i]["seed"]))
-        return joined.pick(order), agreed([behaviour, self.behaviour_of(self.name_of(path))])
+        return {name: value for name, value in jobs[0]["provenance"].items() if name != "seconds"}
 
     def check_size(self, results: Results, path: Path) -> None:
         """Raise BootcourseError if `path` holds more agents or episodes than the results that would replace it."""
-        ships = self.ships(path)
-        if self.replace_larger or ships is None:
+        entry = self.entries.get(path.relative_to(self.new).as_posix())
+        if self.replace_larger or entry is None or not is_file_with(path, entry["sha256"]):
             return
+        ships = load_results(path)
         sizes = [(f"agents of {method}", len(ships.of(method)), len(results.of(method))) for method in ships.methods]
         sizes += zip(("held-out episodes", "training episodes"), ships.sizes, results.sizes, strict=True)
-        smaller = [f"{after} {name} instead of {before}" for name, before, after in sizes if after < before]
-        if smaller:
+        fewer = [f"{after} {name} instead of {before}" for name, before, after in sizes if after < before]
+        if fewer:
             raise BootcourseError(
-                f"{self.study} would replace {path.name} by a smaller one ({', '.join(smaller)}): "
+                f"{self.study} would replace {path.name} by a smaller one ({', '.join(fewer)}): "
                 "compute the whole study, or add --replace-larger."
             )
 
@@ -117,28 +83,26 @@ class Shipment:
         """Remove the files that are made again."""
         for path in [path for path in self.new.glob(pattern) if path.is_file()]:
             path.unlink()
-            self.entries.pop(self.name_of(path), None)
+            self.entries.pop(path.relative_to(self.new).as_posix(), None)
 
-    def add(self, path: Path, how: str, behaviour: dict[str, list[float]], versions: dict) -> None:
-        """List a file that was just made. behaviour: the fingerprints of the code that made it, by name."""
-        name, made = self.name_of(path), {each: self.known(each, values) for each, values in behaviour.items()}
-        entry = {"file": name, "sha256": sha256(path), "bytes": path.stat().st_size}
-        self.entries[name] = entry | {"command": how, "behaviour": made, "versions": versions}
+    def add(self, path: Path, command: str, versions: dict) -> None:
+        """List a file that was just made."""
+        name = path.relative_to(self.new).as_posix()
+        size = path.stat().st_size
+        entry = {"file": name, "sha256": sha256(path), "bytes": size, "command": command, "versions": versions}
+        self.entries[name] = entry
 
-    def known(self, name: str, values: list[float]) -> str:
-        """The key of a fingerprint in the manifest. One that is there already stands for all that are alike."""
-        listed = self.behaviours.setdefault(name, {})
-        made = next((made for made, its in listed.items() if alike(name, values, its)), key(values))
-        listed.setdefault(made, values)
-        return made
+    def add_results(self, results: Results, path: Path, command: str, part: str, curves: Sequence[str]) -> None:
+        """Write and list the results of a part of the study, with these curves."""
+        self.check_size(results, path)
+        versions = self.versions(part)
+        save_results(lighter(results, curves, half=part not in STUDIES), path, versions)
+        self.add(path, command, versions)
 
     def write_manifest(self) -> None:
-        """List every file, and the fingerprints that they name."""
+        """List every file."""
         files = [self.entries[name] for name in sorted(self.entries)]
-        used = {name: {entry["behaviour"].get(name) for entry in files} for name in self.behaviours}
-        for name, known in self.behaviours.items():
-            self.behaviours[name] = {made: values for made, values in known.items() if made in used[name]}
-        write_sealed(self.new / MANIFEST, {"format": FORMAT, "behaviours": self.behaviours, "files": files})
+        write_sealed(self.new / MANIFEST, {"format": FORMAT, "files": files})
 
 
 def build(study: Path | None, folder: Path = FOLDER, replace_larger: bool = False) -> None:
@@ -170,9 +134,12 @@ def build(study: Path | None, folder: Path = FOLDER, replace_larger: bool = Fals
 
 
 def _fill(shipment: Shipment, folder: Path) -> None:
-    for part in (add_results, add_experiments, add_runs, add_demonstrations, add_rollouts, add_report, add_card):
-        part(shipment)
-    add_kept(shipment, folder)
+    add_studies(shipment)
+    add_experiments(shipment)
+    add_runs(shipment)
+    add_rollouts(shipment)
+    add_report(shipment)
+    add_elsewhere(shipment, folder)
     shipment.write_manifest()
     size = sum(entry["bytes"] for entry in shipment.entries.values())
     if size >= LIMIT:
@@ -181,105 +148,56 @@ def _fill(shipment: Shipment, folder: Path) -> None:
         )
 
 
-def agreed(behaviours: Sequence[dict[str, list[float]]]) -> dict[str, list[float]]:
-    """The fingerprints of several results together; one on which they differ is [], never current."""
-    found: dict[str, list[float]] = {}
-    for behaviour in behaviours:
-        for name, values in behaviour.items():
-            if not alike(name, found.setdefault(name, values), values):
-                found[name] = []
-    return found
-
-
-COMMANDS = {
-    "default": "bootcourse study --out DIR",
-    "calibrated": "bootcourse study calibrated --out DIR",
-    "paper": "bootcourse study paper --out DIR",
-    "sweep": "bootcourse sweep --out DIR",
-}
-
-
-def add_results(to: Shipment) -> None:
-    """Curves and scores of both scenarios and of the sweep, the planner's bound and its answer."""
-    found = in_study(to.study)
-    for part, how in COMMANDS.items():
-        path, how = to.new / ("sweep.npz" if part == "sweep" else f"study-{part}.npz"), f"{how} && {BUILD}"
+def add_studies(to: Shipment) -> None:
+    """Curves and scores of each study and of the sweep, the planner's bound and its answer."""
+    study = in_study(to.study)
+    for part, command in COMMANDS.items():
+        path = to.new / ("sweep.npz" if part == "sweep" else f"study-{part}.npz")
         if not to.has(part):
             if part == "default" and not path.exists():
                 raise BootcourseError(f"{to.study} has no finished jobs in jobs/default: compute them first.")
-            if to.study.exists():
-                what = "stays as it is" if path.exists() else "is left out"
-                print(f"{path.name} {what}: {to.study} has no such jobs.")
             continue
-        behaviour, versions = to.made(part)
-        results, behaviour = to.completed(load_jobs(to.study, part), path, behaviour)
-        to.check_size(results, path)
-        save_results(lighter(results, CURVES[:2] if part == "sweep" else CURVES), path, versions)
-        to.add(path, how, behaviour, versions)
-        if part in found.bound:
+        to.add_results(load_jobs(to.study, part), path, command, part, FEWER_CURVES.get(part, CURVES))
+        if part in study.bound:
             best = to.new / f"bound-{part}.npz"
-            write_arrays(best, {"returns": found.bound[part].astype(np.float32)})
-            to.add(best, how, *to.made(f"bound-{part}"))
-        if part in found.staying:
+            write_arrays(best, {"returns": study.bound[part].astype(np.float32)})
+            to.add(best, command, to.versions(f"bound-{part}"))
+        if part in study.staying:
             answer = to.new / f"staying-{part}.json"
-            write_json(answer, found.staying[part])
-            to.add(answer, how, *to.made(f"staying-{part}"))
+            write_json(answer, study.staying[part])
+            to.add(answer, command, to.versions(f"staying-{part}"))
 
 
 def add_experiments(to: Shipment) -> None:
     """Scores and curves of every variation that was run, a file each."""
-    for name in EXPERIMENTS:
-        how = f"bootcourse study {name} --out DIR && {BUILD}"
+    for name in (*EXPERIMENTS, *LESSON_EXPERIMENTS):
         for job in sorted(to.study.glob(f"jobs/{name}/*/results.npz")):
-            behaviour, versions = to.made(f"{name}/{job.parent.name}")
-            path = to.new / name / f"{job.parent.name}.npz"
-            results = load_job(job.parent)
-            to.check_size(results, path)
-            save_results(lighter(results, FEWER.get(name, VARIED_CURVES)), path, versions)
-            to.add(path, how, behaviour, versions)
+            results, path = load_job(job.parent), to.new / name / f"{job.parent.name}.npz"
+            curves = FEWER_CURVES.get(name, VARIED_CURVES) if name in EXPERIMENTS else tuple(results.curves)
+            command = f"bootcourse study {name} --out DIR && {BUILD}"
+            to.add_results(results, path, command, f"{name}/{job.parent.name}", curves)
 
 
-def add_report(to: Shipment) -> None:
-    """The report with its figures, made from the files that ship."""
-    to.clear("report/**/*")
-    write_report(in_assets(to.new), to.new / "report")
-    for path in sorted((to.new / "report").rglob("*")):
-        if path.is_file():
-            to.add(path, STUDY, fingerprints("road", "rule", "statistics"), provenance())
+def lighter(results: Results, curves: Sequence[str], half: bool) -> Results:
+    """The same results with these curves only, in half precision: a figure shows fewer than its 3 digits.
 
-
-def lighter(results, curves: Sequence[str]):
-    """The same results with these curves only, in half precision: a figure shows fewer than its 3 digits."""
-    return replace(
-        results, curves={name: results.curves[name].astype(np.float16) for name in curves if name in results.curves}
-    )
+    half: the tests' speeds and distances, too, for results of which no table shows them.
+    """
+    names = ("speed", "distance") if half else ()
+    tested = {name: each.astype(np.float16) if name in names else each for name, each in results.tested.items()}
+    kept = {name: results.curves[name].astype(np.float16) for name in curves if name in results.curves}
+    return replace(results, curves=kept, tested=tested)
 
 
 def add_runs(to: Shipment) -> None:
     """The first agents of every method on the default scenario, as `load_run` reads them."""
     for run in sorted(to.study.glob("jobs/default/*/runs/*")):
-        method, _, seed = run.name.rpartition("-")
-        if int(seed) >= RUNS:
-            continue
-        to.clear(f"runs/{run.name}/*")
-        shutil.copytree(run, to.new / "runs" / run.name, dirs_exist_ok=True)
-        behaviour, versions = to.made(f"default/{run.parent.parent.name}")
-        for path in sorted((to.new / "runs" / run.name).iterdir()):
-            to.add(path, STUDY, only(behaviour, method), versions)
-
-
-def only(behaviour: dict[str, list[float]], method: str) -> dict[str, list[float]]:
-    """The behaviours that one method's agents depend on, of those that several methods do."""
-    return {name: values for name, values in behaviour.items() if name == method or name not in METHODS}
-
-
-def add_demonstrations(to: Shipment) -> None:
-    """The 200 demonstrations, as rows for a `ReplayBuffer`."""
-    from bootcourse.learn.demonstrations import collect
-
-    path = to.new / "demonstrations.npz"
-    write_arrays(path, {"rows": collect().numpy()})
-    to.add(path, BUILD, fingerprints("road", "rule", "demonstrations"), provenance())
+        if int(run.name.rpartition("-")[2]) < RUNS:
+            to.clear(f"runs/{run.name}/*")
+            shutil.copytree(run, to.new / "runs" / run.name, dirs_exist_ok=True)
+            versions = to.versions(f"default/{run.parent.parent.name}")
+            for path in sorted((to.new / "runs" / run.name).iterdir()):
+                to.add(path, STUDY, versions)
 
 
 def add_rollouts(to: Shipment) -> None:
@@ -297,51 +215,35 @@ def add_rollouts(to: Shipment) -> None:
     drives = {"rule": record(rule_policy(DEFAULT), [roads[0]], DEFAULT, "rule")[0]}
     for name, (method, fits) in wanted.items():
         mine = np.array([agent["method"] == method for agent in results.agents])
-        found = [(int(agent), int(road)) for agent, road in np.argwhere(fits & mine[:, None])]
-        if not found:
+        candidates = [(int(agent), int(road)) for agent, road in np.argwhere(fits & mine[:, None])]
+        if not candidates:
             print(f"No agent of '{method}' drove a rollout for {name}: none is made.")
             continue
-        agent, road = max(found, key=lambda place: results.tested["returns"][place])
+        agent, road = max(candidates, key=lambda place: results.tested["returns"][place])
         run = next(to.study.glob(f"jobs/default/*/runs/{method}-{results.agents[agent]['seed']}"))
         driver = load_run(run).agent.as_policy(with_q=True)
         drives[name] = record(driver, [roads[road]], DEFAULT, method)[0]
-    behaviour, _ = to.made("default")
     for name, rollout in drives.items():
-        path = rollout.save(to.new / "rollouts" / f"{name}.npz")
-        to.add(path, STUDY, fingerprints("road", "rule") | only(behaviour, rollout.label), provenance())
+        to.add(rollout.save(to.new / "rollouts" / f"{name}.npz"), STUDY, provenance())
 
 
-KEPT = {  # what no study makes: the command that does, and the behaviours that it depends on
-    "bug_hunt.npz": (
-        "python -m bootcourse.course.lessons.bug_hunt.bugs --out assets/bug_hunt.npz",
-        ("road", "rule", "bootstrapped"),
-    ),
-    "students.npz": (
-        "python -m bootcourse.research.teacher_reference --out assets/students.npz",
-        ("road", "rule", "sac", "bootstrapped"),
-    ),
-    "ppo.npz": (
-        "python -m bootcourse.research.ppo_reference --out assets/ppo.npz",
-        ("road", "rule", "demonstrations", "ppo", "ppo_cloned"),
-    ),
-    "checks.md": ("python -m bootcourse.research.checks --out assets/checks.md", ("sac", "cql", "gail", "ppo")),
-    "readme/*": ("python -m bootcourse.plots.readme_picture", ("road", "rule")),
-}
+def add_report(to: Shipment) -> None:
+    """The report with its figures and the model card, made from the files that ship."""
+    to.clear("report/**/*")
+    write_report(in_assets(to.new), to.new / "report")
+    card = model_card(load_results(to.new / "study-default.npz"), RUNS)
+    write_bytes(to.new / "MODEL_CARD.md", card.encode())
+    for path in (to.new / "MODEL_CARD.md", *sorted((to.new / "report").rglob("*"))):
+        if path.is_file():
+            to.add(path, STUDY, provenance())
 
 
-def add_kept(to: Shipment, now: Path) -> None:
-    """The bug hunt's agents, the independent checks and the README's pictures stay as they are; new ones are listed."""
-    for pattern, (command, behaviours) in KEPT.items():
-        for path in sorted(now.glob(pattern)):
-            name = path.relative_to(now).as_posix()
+def add_elsewhere(to: Shipment, today: Path) -> None:
+    """The independent checks and the README's pictures stay as they are; new ones are listed."""
+    for pattern, command in ELSEWHERE.items():
+        for path in sorted(today.glob(pattern)):
+            name = path.relative_to(today).as_posix()
             if to.entries.get(name, {}).get("sha256") != sha256(path):
                 (to.new / name).parent.mkdir(parents=True, exist_ok=True)
                 shutil.copy2(path, to.new / name)
-                to.add(to.new / name, command, fingerprints(*behaviours), provenance())
-
-
-def add_card(to: Shipment) -> None:
-    """The model card."""
-    write_bytes(to.new / "MODEL_CARD.md", model_card(load_results(to.new / "study-default.npz"), RUNS).encode())
-    behaviour, versions = to.behaviour_of("study-default.npz"), to.entries["study-default.npz"]["versions"]
-    to.add(to.new / "MODEL_CARD.md", STUDY, behaviour | fingerprints("statistics"), versions)
+                to.add(to.new / name, command, provenance())

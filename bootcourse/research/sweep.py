@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from bootcourse.errors import BootcourseError
-from bootcourse.research.results import Results, load_results
+from bootcourse.files import provenance
+from bootcourse.research.results import Results, load_jobs, load_results, save_results
 from bootcourse.research.tables import bracketed, markdown
 from bootcourse.scenario import check_p
 from bootcourse.statistics import Estimate, interval
@@ -53,6 +54,14 @@ class SweepResult:
 def load_sweep(path: Path = SHIPPED) -> Results:
     """The sweep's results, by default those that are shipped. Raises BootcourseError if they are not there."""
     return load_results(path)
+
+
+def write_sweep(study: Path) -> Path:
+    """Write the finished sweep in a study's folder to one file, for `load_sweep`, and print its table."""
+    results, path = load_jobs(study, "sweep"), study / "sweep.npz"
+    save_results(results, path, provenance(command="bootcourse study sweep"))
+    print(sweep_table(results))
+    return path
 
 
 def settings_run(sweep: Results) -> list[tuple[float, float, float]]:

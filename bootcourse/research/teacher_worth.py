@@ -25,8 +25,8 @@ Cells = dict[tuple[str, str], Results]  # {(teacher, method): its agents}
 
 def cells(varied: dict[str, Results]) -> Cells:
     """The variations that were computed, by (teacher, method), in the orders of `TEACHERS` and `TAUGHT`."""
-    found = {(agents.agents[0]["teacher"], agents.agents[0]["method"]): agents for agents in varied.values()}
-    return {(t, m): found[t, m] for t in TEACHERS for m in TAUGHT if (t, m) in found}
+    of = {(agents.agents[0]["teacher"], agents.agents[0]["method"]): agents for agents in varied.values()}
+    return {(t, m): of[t, m] for t in TEACHERS for m in TAUGHT if (t, m) in of}
 
 
 def taught(study: Path | str = "") -> Cells:
@@ -48,7 +48,6 @@ class Quantity:
     label: str
     of_agents: Callable[[Results], np.ndarray]  # -> (agents,)
     estimate: Callable[[np.ndarray], Estimate]  # (agents,) -> with its 95 % interval over seeds
-    colours: tuple[str, str]  # of the lowest and of the highest value
     logarithmic: bool = False  # scale of figures
 
 
@@ -57,20 +56,17 @@ QUANTITIES = {
         "agents that escape (%)",
         lambda results: 100 * results.scores("success"),
         lambda success: Estimate(*(100 * part for part in escapes(success / 100))),
-        ("#EAF2F8", "#08447A"),
     ),
-    "return": Quantity("return", lambda results: results.scores("returns"), interval, ("#EFF5EC", "#15532D")),
+    "return": Quantity("return", lambda results: results.scores("returns"), interval),
     "accidents": Quantity(
         "accidents (% of drives)",
         lambda results: 100 * results.scores("accident"),
         lambda rates: interval(rates, np.mean),
-        ("#FBF1EE", "#7A1F1F"),
     ),
     "decisions": Quantity(
         f"thousand decisions until {100 * SHARE:g} % of the last {WINDOW} roads in training escape",
         lambda results: spent(results) / 1000,
         median,
-        ("#F6F1FA", "#4A2A6B"),
         logarithmic=True,
     ),
 }

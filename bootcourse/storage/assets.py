@@ -1,8 +1,7 @@
 """The shipped files in `assets/`, and their check against the manifest.
 
-`manifest.json` lists the size of every file, its hash, the command and the package versions that made it, and the
-behaviours that it depends on. `bootcourse.research.fingerprint` checks the behaviours; `bootcourse.research.ship` makes
-the files.
+`manifest.json` lists the size of every file, its hash, and the command and the package versions that made it.
+`bootcourse.research.ship` makes the files.
 """
 
 import os
@@ -17,8 +16,8 @@ from bootcourse.storage.sealed import is_file_with, read_sealed
 
 FOLDER = Path(__file__).resolve().parent.parent.parent / "assets"
 MANIFEST = "manifest.json"
-FORMAT = "bootcourse assets 1"
-LIMIT = 30_000_000  # bytes in total
+FORMAT = "bootcourse assets 2"
+LIMIT = 22_000_000  # bytes in total
 
 
 class Entry(TypedDict):
@@ -28,13 +27,11 @@ class Entry(TypedDict):
     sha256: Annotated[str, Meta(pattern="^[0-9a-f]{64}$")]
     bytes: Annotated[int, Meta(ge=0, le=LIMIT)]
     command: str  # that makes it
-    behaviour: dict[str, str]  # {name: key of a fingerprint}
     versions: dict[str, str]  # {package: version}
 
 
 class Manifest(TypedDict):
     files: list[Entry]
-    behaviours: dict[str, dict[str, list[float]]]  # {name: {key: fingerprint}}
 
 
 def read_manifest(folder: Path) -> Manifest:
@@ -42,7 +39,7 @@ def read_manifest(folder: Path) -> Manifest:
     path = folder / MANIFEST
     if not path.exists():
         raise BootcourseError(f"{folder} holds no shipped results: work in a whole copy of the course's repository.")
-    content = read_sealed(path, FORMAT, None)
+    content = read_sealed(path, FORMAT)
     with decoding(path):
         return convert(content, Manifest)
 

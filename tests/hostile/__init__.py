@@ -1,1 +1,1 @@
-"""Hostile tests: damaged files, killed commands, foreign pages. `python -m tests.hostile` runs all of them."""
+"""Pages that show what somebody else wrote."""

@@ -3,7 +3,7 @@
     python -m tests.hostile.payloads
 
 The exported page, the live replay and the recording in a notebook's page are tried. The fields are set behind the
-checks of `Rollout`, so that what makes the pages is tested alone; `damage.py` tries the same payload in files.
+checks of `Rollout`, so that what makes the pages is tested alone; the same payload in files: test_hostile_files.py.
 """
 
 import dataclasses

@@ -7,40 +7,58 @@ cells that it uses: such a text can be judged by itself.
 import ast
 import builtins
 import re
-from collections.abc import Iterable
+from typing import Any
+
+from msgspec import Struct
 
 from bootcourse.course.lessons import registry
-from bootcourse.course.order import names_made, names_used
+from bootcourse.course.names import names_made, names_used
 
 BUILT_IN = frozenset(vars(builtins))
 COMMAND = re.compile(r"^\s*[%!].*$", re.M)  # %time, !pip: no Python
 NO_PYTHON = (SyntaxError, ValueError, RecursionError, MemoryError)  # what a text raises that cannot be parsed
 
 
-def code_cells(notebook: dict) -> list[dict]:
-    """The code cells of a notebook that was read from JSON; cells of another form are left out."""
-    cells = notebook.get("cells") if isinstance(notebook, dict) else None
-    found = [cell for cell in cells if isinstance(cell, dict)] if isinstance(cells, list) else []
-    return [cell for cell in found if cell.get("cell_type") == "code"]
+class Output(Struct):
+    output_type: str = ""
 
 
-def joined(text: object) -> str:
-    """A text of a notebook, which may be a list of lines."""
-    parts = text if isinstance(text, list) else [text]
-    return "".join(part for part in parts if isinstance(part, str))
+class Cell(Struct):
+    cell_type: str
+    source: str | list[str]  # a text, or its lines
+    outputs: list[Output] = []
+
+    @property
+    def text(self) -> str:
+        return self.source if isinstance(self.source, str) else "".join(self.source)
 
 
-def answers_in(notebook: dict) -> dict[str, str]:
+class Notebook(Struct):
+    """What is read of a notebook's file."""
+
+    cells: list[Cell]
+    metadata: dict[str, Any] = {}
+
+    @property
+    def code(self) -> list[Cell]:
+        return [cell for cell in self.cells if cell.cell_type == "code"]
+
+    @property
+    def errors(self) -> int:
+        """How many cells ended with an error when they last ran."""
+        return sum(any(output.output_type == "error" for output in cell.outputs) for cell in self.code)
+
+
+def answers_in(notebook: Notebook) -> dict[str, str]:
     """Exercise -> the text of its answer, stubs included, for every exercise that the notebook defines."""
-    texts = [COMMAND.sub("", joined(cell.get("source"))) for cell in code_cells(notebook)]
-    statements = [statement for text in texts for statement in pieces(text)]
-    made = [names_in(text) for text in statements]
-    found = {}
+    statements = [statement for cell in notebook.code for statement in pieces(COMMAND.sub("", cell.text))]
+    defined = [names_in(text) for text in statements]
+    answers = {}
     for name in registry():
-        places = [place for place, names in enumerate(made) if name in names and defines(statements[place], name)]
+        places = [place for place, names in enumerate(defined) if name in names and defines(statements[place], name)]
         if places:
-            found[name] = with_needs(places[-1], statements, made)
-    return found
+            answers[name] = with_needs(places[-1], statements, defined)
+    return answers
 
 
 def pieces(text: str) -> list[str]:
@@ -64,7 +82,7 @@ def names_in(text: str) -> set[str]:
     return names_made(text) or set(re.findall(r"^(?:def|class) (\w+)", text, re.M))
 
 
-def with_needs(answer: int, statements: list[str], made: list[set[str]]) -> str:
+def with_needs(answer: int, statements: list[str], defined: list[set[str]]) -> str:
     """The answer's statement after the statements that make what it uses, in the notebook's order."""
     taken, todo = {answer}, [answer]
     while todo:
@@ -73,39 +91,12 @@ def with_needs(answer: int, statements: list[str], made: list[set[str]]) -> str:
         except NO_PYTHON:
             continue
         for name in used:
-            makers = [place for place, names in enumerate(made) if name in names]
+            makers = [place for place, names in enumerate(defined) if name in names]
             before = [place for place in makers if place < answer] or makers
             if before and before[-1] not in taken:
                 taken.add(before[-1])
                 todo.append(before[-1])
     return "\n\n".join(statements[place] for place in [*sorted(taken - {answer}), answer]) + "\n"
-
-
-def verdicts_in(notebook: dict) -> dict[str, str]:
-    """Exercise -> what its check said when the student last ran it."""
-    found = {}
-    for cell in code_cells(notebook):
-        for name in re.findall(r"^check\.(\w+)\(", joined(cell.get("source")), re.M):
-            said = [text for text in map(printed, outputs(cell)) if text]
-            if name in registry() and said:
-                found[name] = said[-1][:2000]
-    return found
-
-
-def outputs(cell: dict) -> Iterable[dict]:
-    found = cell.get("outputs")
-    return [output for output in found if isinstance(output, dict)] if isinstance(found, list) else []
-
-
-def printed(output: dict) -> str:
-    """The plain text of an output."""
-    data = output.get("data")
-    return joined(data.get("text/plain")) if isinstance(data, dict) else ""
-
-
-def errors_in(notebook: dict) -> int:
-    """How many cells ended with an error when they last ran."""
-    return sum(any(o.get("output_type") == "error" for o in outputs(cell)) for cell in code_cells(notebook))
 
 
 def unfinished(text: str) -> bool:
@@ -114,5 +105,5 @@ def unfinished(text: str) -> bool:
         tree = ast.parse(text)
     except NO_PYTHON:
         return False
-    found = [node.value for node in ast.walk(tree) if isinstance(node, ast.Expr)]
-    return any(isinstance(value, ast.Constant) and value.value is ... for value in found)
+    values = [node.value for node in ast.walk(tree) if isinstance(node, ast.Expr)]
+    return any(isinstance(value, ast.Constant) and value.value is ... for value in values)

@@ -4,7 +4,6 @@ Two students with the same text get the same verdict from one judging.
 """
 
 import hashlib
-import json
 import threading
 from collections import defaultdict
 from collections.abc import Sequence
@@ -12,9 +11,10 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 from pathlib import Path
 
+import msgspec
 from tqdm import tqdm
 
-from bootcourse.course.classroom.judging import Judge
+from bootcourse.course.classroom.judging import Judge, Judged
 from bootcourse.course.classroom.submission import Submission, fingerprint
 from bootcourse.course.lessons import registry
 from bootcourse.episodes.evaluate import drive_episodes
@@ -22,37 +22,17 @@ from bootcourse.policies import rule_policy
 from bootcourse.scenario import DEFAULT
 
 LONGER = 3  # times an exercise's own limit: here the imports count, too, and all cores are busy
+MISSING = Judged("missing", "")
 
 
-@dataclass(frozen=True)
-class Graded:
-    """One answer of one student."""
+class Kept(msgspec.Struct, frozen=True):
+    """A line of the file of verdicts."""
 
-    exercise: str
-    kind: str  # of the verdict (passed, wrong, did_not_run, todo), missing, or unjudged
-    points: float
-    sentence: str = ""
-    details: tuple[str, ...] = ()
-    known: bool = False  # is the sentence that of a mistake which the exercise knows?
-
-    @property
-    def passed(self) -> bool:
-        return self.kind == "passed"
+    key: str  # see `key_of`
+    judged: Judged
 
 
-@dataclass(frozen=True)
-class Graduate:
-    """A student's submission with its grades, one for each exercise, in the order of the lessons."""
-
-    submission: Submission
-    grades: tuple[Graded, ...]
-
-    @property
-    def points(self) -> float:
-        return sum(grade.points for grade in self.grades)
-
-
-def key(exercise: str, source: str) -> str:
+def key_of(exercise: str, source: str) -> str:
     """The same for the same text judged by the same exercises."""
     return hashlib.sha256(f"{fingerprint()} {exercise} {source}".encode("utf-8", "replace")).hexdigest()[:24]
 
@@ -62,21 +42,21 @@ class Verdicts:
 
     def __init__(self, path: Path):
         self.path, self.lock = path, threading.Lock()
-        self.known: dict[str, dict] = {}
-        for line in path.read_text(encoding="utf-8").splitlines() if path.exists() else ():
+        self.known: dict[str, Judged] = {}
+        for line in path.read_bytes().splitlines() if path.exists() else ():
             try:
-                told = json.loads(line)
-                self.known[told["key"]] = told
-            except (ValueError, KeyError, TypeError):
+                kept = msgspec.json.decode(line, type=Kept)
+            except msgspec.MsgspecError:
                 continue
+            self.known[kept.key] = kept.judged
 
-    def add(self, key: str, verdict: dict) -> None:
+    def add(self, key: str, judged: Judged) -> None:
         with self.lock:
-            self.known[key] = verdict | {"key": key}
-            if verdict["kind"] == "unjudged":
+            self.known[key] = judged
+            if judged.kind == "unjudged":
                 return  # the next grading tries again
-            with self.path.open("a", encoding="utf-8") as file:
-                file.write(json.dumps(self.known[key]) + "\n")
+            with self.path.open("ab") as file:
+                file.write(msgspec.json.encode(Kept(key, judged)) + b"\n")
 
 
 def judge_all(
@@ -86,53 +66,55 @@ def judge_all(
 
     Raises BootcourseError if no process starts.
     """
-    todo = {
-        place: (name, text)
-        for one in submissions for name, text in one.answers.items()
-        if name in wanted and (place := key(name, text)) not in verdicts.known
-    }  # fmt: skip
+    answers = {(name, text) for one in submissions for name, text in one.answers.items() if name in wanted}
+    todo = [pair for pair in sorted(answers) if key_of(*pair) not in verdicts.known]
     if not todo:
         return []
     drive_episodes(rule_policy(DEFAULT), [0])  # compiles the road, of which each judging process gets a copy
     judges = [Judge() for _ in range(min(workers, len(todo)))]
 
-    def judged(place: str, name: str, text: str) -> set[str]:
-        judge = judges.pop()  # there is one for each thread
+    def judge(name: str, text: str) -> set[str]:
+        mine = judges.pop()  # there is one for each thread
         try:
-            verdicts.add(place, judge.ask(name, text, LONGER * registry()[name].seconds))
-            return set(judge.holds)
+            verdicts.add(key_of(name, text), mine.ask(name, text, LONGER * registry()[name].seconds))
+            return set(mine.holds)
         finally:
-            judges.append(judge)
+            judges.append(mine)
 
     pool = ThreadPoolExecutor(len(judges))
     try:
-        asked = [pool.submit(judged, place, *pair) for place, pair in todo.items()]
+        asked = [pool.submit(judge, *pair) for pair in todo]
         done = tqdm(as_completed(asked), total=len(asked), desc="answers", unit="", disable=not progress)
         return sorted(set.intersection(*(each.result() for each in done)))
     finally:  # also after Ctrl-C: each judge finishes its answer
         pool.shutdown(cancel_futures=True)
-        for judge in judges:
-            judge.close()
+        for each in judges:
+            each.close()
 
 
-def graded(submission: Submission, points: dict[str, float], verdicts: Verdicts) -> Graduate:
-    """A student's grades."""
-    found = []
-    for name, worth in points.items():
-        source = submission.answers.get(name)
-        if source is None:
-            found.append(Graded(name, "missing", 0.0))
-            continue
-        told = verdicts.known[key(name, source)]
-        passed, sentence = told["kind"] == "passed", str(told["sentence"])
-        details = tuple(map(str, told["details"]))
-        found.append(Graded(name, told["kind"], worth * passed, sentence, details, told["known"]))
-    return Graduate(submission, tuple(found))
+@dataclass(frozen=True)
+class Graduate:
+    """A student's submission with a verdict on each exercise, in the order of the lessons."""
+
+    submission: Submission
+    verdicts: dict[str, Judged]
+    worth: dict[str, float]  # the points of each exercise
+
+    @property
+    def points(self) -> dict[str, float]:
+        """Those of each exercise that the student gets."""
+        return {name: self.worth[name] * (judged.kind == "passed") for name, judged in self.verdicts.items()}
+
+    @property
+    def total(self) -> float:
+        return sum(self.points.values())
 
 
-def did_not_run(graduate: Graduate) -> list[str]:
-    """The exercises whose answer raised an error, took too long, or ended its process."""
-    return [g.exercise for g in graduate.grades if g.kind == "did_not_run"]
+def graded(submission: Submission, worth: dict[str, float], verdicts: Verdicts) -> Graduate:
+    """A student's verdicts, once `judge_all` has judged the answers."""
+    answers = submission.answers
+    judged = {name: verdicts.known[key_of(name, answers[name])] if name in answers else MISSING for name in worth}
+    return Graduate(submission, judged, worth)
 
 
 def identical(submissions: Sequence[Submission]) -> list[list[str]]:
@@ -143,8 +125,3 @@ def identical(submissions: Sequence[Submission]) -> list[list[str]]:
             bare = sorted((name, "".join(text.split())) for name, text in one.written.items())
             groups[tuple(bare)].append(one.student)
     return [students for students in groups.values() if len(students) > 1]
-
-
-def other_versions(submissions: Sequence[Submission]) -> list[str]:
-    """The students whose answers were written with other exercises than those of this kit."""
-    return [one.student for one in submissions if one.exercises not in ("", fingerprint())]

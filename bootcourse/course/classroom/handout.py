@@ -7,20 +7,38 @@ import io
 import json
 import re
 import zipfile
-from datetime import UTC, date, datetime
+from datetime import date
 from pathlib import Path
+from typing import ClassVar
+
+import msgspec
+from msgspec import Struct
 
 import bootcourse
 from bootcourse.course.classroom.merge import hashed, merge, texts
-from bootcourse.course.classroom.submission import fingerprint
+from bootcourse.course.classroom.submission import MADE_WITH, fingerprint
 from bootcourse.course.edition import HANDOUT
 from bootcourse.errors import BootcourseError
 from bootcourse.files import read_bytes, read_json, write_bytes
 
 KIT = Path(bootcourse.__file__).resolve().parent.parent
-FORMAT = "bootcourse handout 1"
 COPIED = ("bootcourse", "assets", "tools/install.sh", "pyproject.toml", "LICENSE")
 TARGETS = ("lab", "doctor", "clean")  # of the Makefile; the others need what is not handed out
+
+
+class Handout(Struct):
+    """The content of `handout.json`."""
+
+    FORMAT: ClassVar[str] = "bootcourse handout 2"
+
+    lessons: list[int]
+    deadline: str  # as 2030-05-31, or ""
+    solutions: bool  # may `check.solution` show them?
+    files: dict[str, str]  # name -> `hashed`
+    cells: dict[str, dict[str, str]]  # notebook -> `texts`
+    format: str = FORMAT
+
+
 README = """# Lessons to work in
 
 {deadline}**To begin**, open a terminal in this folder and type `make lab` (Python 3.11 or newer; it takes a few minutes
@@ -68,27 +86,27 @@ def update(folder: Path, lessons: set[int] | None, deadline: str, solutions: boo
     """
     if not (folder / HANDOUT).is_file():
         raise BootcourseError(f"{folder} is no handout: it has no {HANDOUT}. Leave out --update to write a new one.")
-    old = read_json(folder / HANDOUT, dict)
-    lessons = lessons or set(old["lessons"])
-    solutions = old["solutions"] if solutions is None else solutions
-    parts, said = content(lessons, checked(deadline) or old["deadline"], solutions), []
+    old = read_json(folder / HANDOUT, Handout)
+    lessons = lessons or set(old.lessons)
+    solutions = old.solutions if solutions is None else solutions
+    parts, said = content(lessons, checked(deadline) or old.deadline, solutions), []
     for name, data in parts.items():
         said += place(folder / name, name, data, old)
     return [*said, zipped(folder, parts)]
 
 
-def place(path: Path, name: str, data: bytes, old: dict) -> list[str]:
+def place(path: Path, name: str, data: bytes, old: Handout) -> list[str]:
     """Put one file of an update in its place. Returns a sentence if anything of it is a student's, or is new."""
     if not path.exists():
         write_bytes(path, data)
         return [f"{name}: new."] if path.suffix == ".ipynb" else []
     mine = read_bytes(path)
-    if mine == data or name == HANDOUT or hashed(mine) == old["files"].get(name):
+    if mine == data or name == HANDOUT or hashed(mine) == old.files.get(name):
         write_bytes(path, data)
         return [f"{name}: replaced; nobody had changed it."] if mine != data and path.suffix == ".ipynb" else []
     if path.suffix == ".ipynb":
         try:
-            merged = merge(read_json(path, dict), old["cells"].get(name, {}), json.loads(data))
+            merged = merge(read_json(path, dict), old.cells.get(name, {}), json.loads(data))
         except (BootcourseError, KeyError, TypeError, AttributeError):
             write_bytes(path.with_suffix(".new.ipynb"), data)
             return [f"{name}: damaged, and left as it is; the new version is {path.stem}.new.ipynb."]
@@ -105,8 +123,7 @@ def content(lessons: set[int] | None, deadline: str, solutions: bool) -> dict[st
     for path in sorted((KIT / "notebooks").glob("[0-9][0-9]_*.ipynb")):
         if lessons is None or int(path.name[:2]) in lessons:
             notebook = read_json(path, dict)
-            made = {"version": bootcourse.__version__, "exercises": fingerprint()}
-            notebook["metadata"]["bootcourse"] = made
+            notebook["metadata"][MADE_WITH] = fingerprint()
             name = f"notebooks/{path.name}"
             files[name], cells[name] = dumped(notebook), texts(notebook)
             titles.append(f"- [{title_of(notebook)}]({name})")
@@ -123,11 +140,11 @@ def content(lessons: set[int] | None, deadline: str, solutions: bool) -> dict[st
         lessons="\n".join(titles),
         solutions='`check.solution("NAME")` shows a solution.' if solutions else "solutions are closed.",
     ).encode()
-    told = {"format": FORMAT, "version": bootcourse.__version__, "exercises": fingerprint(), "deadline": deadline}
-    told |= {"made": datetime.now(UTC).isoformat(timespec="seconds"), "solutions": solutions, "cells": cells}
-    told |= {"lessons": sorted(int(Path(name).name[:2]) for name in cells)}
-    told |= {"files": {name: hashed(data) for name, data in files.items()}}
-    return files | {HANDOUT: (json.dumps(told, indent=1, sort_keys=True) + "\n").encode()}
+    record = Handout(
+        lessons=sorted(int(Path(name).name[:2]) for name in cells), deadline=deadline, solutions=solutions,
+        files={name: hashed(data) for name, data in files.items()}, cells=cells,
+    )  # fmt: skip
+    return files | {HANDOUT: msgspec.json.format(msgspec.json.encode(record), indent=1)}
 
 
 def dumped(notebook: dict) -> bytes:
@@ -153,8 +170,8 @@ def makefile(text: str) -> str:
     gone = [target for target in targets if target not in (*TARGETS, "help")]
     head, *paragraphs = text.split("\n\n")
     head = "\n".join(line for line in head.splitlines() if not re.match(rf"# make ({'|'.join(gone)})\b", line))
-    kept = [part for part in paragraphs if not re.search(rf"^({'|'.join(gone)}|\.venv/bench):", part, re.M)]
-    return "\n\n".join([head, *kept]).rstrip() + "\n"
+    possible = [part for part in paragraphs if not re.search(rf"^({'|'.join(gone)}|\.venv/bench):", part, re.M)]
+    return "\n\n".join([head, *possible]).rstrip() + "\n"
 
 
 def zipped(folder: Path, parts: dict[str, bytes]) -> str:

@@ -1,9 +1,8 @@
 """A process that judges answers, shut in, and the `Judge` that starts it, asks it, and starts it anew when it dies.
 
 `python -m bootcourse.course.classroom.judging FOLDER` reads one JSON object a line, {"exercise": name, "source": text,
-"seconds": limit}, and answers each with one line, {"kind": ..., "sentence": ..., "details": [...],
-"known": is it one of the exercise's mistakes?}. `lessons.judge`
-runs the text in a process of its own again, with limits of time and memory.
+"seconds": limit}, and answers each with one line, a `Judged`. `course.judge` runs the text in a process of its own
+again, with limits of time and memory.
 """
 
 import contextlib
@@ -16,11 +15,23 @@ import tempfile
 import threading
 from pathlib import Path
 
+import msgspec
+
 from bootcourse.errors import BootcourseError
 
 START, SLACK = 180.0, 120.0  # s that a process has to start, and to answer beyond an exercise's own limit
-HELPERS = ("the server that forks", "the tracker of `multiprocessing`")  # children that `runner.py` has
-UNJUDGED = "Your answer could not be judged: the process that judges it ended, or gave no verdict in time."
+
+
+class Judged(msgspec.Struct, frozen=True):
+    """What the check says about an answer."""
+
+    kind: str  # of a Verdict: passed, wrong, did_not_run or todo; or unjudged
+    sentence: str
+    details: tuple[str, ...] = ()
+    is_known: bool = False  # is it one of the exercise's known mistakes?
+
+
+UNJUDGED = Judged("unjudged", "Your answer could not be judged: the process that judges it ended.")
 
 
 def main() -> None:
@@ -31,24 +42,26 @@ def main() -> None:
     nowhere = os.open(os.devnull, os.O_RDWR)
     for descriptor in (0, 1):
         os.dup2(nowhere, descriptor)
-    print(json.dumps(shut_in(Path(sys.argv[1]))), file=replies, flush=True)
+    holds = shut_in(Path(sys.argv[1]))
     from bootcourse.course.judge import judge_source
     from bootcourse.course.lessons import registry
 
+    first = next(iter(registry().values()))
+    judge_source(first, f"def {first.call}:\n    1 / 0\n")  # starts the processes that run answers
+    ours = children()
+    print(json.dumps(holds), file=replies, flush=True)
     for line in questions:
         asked = json.loads(line)
         verdict = judge_source(registry()[asked["exercise"]], asked["source"], asked["seconds"])
-        told = {"kind": verdict.kind, "sentence": verdict.sentence, "details": verdict.details,
-                "known": verdict.mistake is not None}  # fmt: skip
-        print(json.dumps(told), file=replies, flush=True)
-        if left_behind():
+        judged = Judged(verdict.kind, verdict.sentence, verdict.details, verdict.mistake is not None)
+        print(msgspec.json.encode(judged).decode(), file=replies, flush=True)
+        if children() > ours:  # an answer has left processes that run on
             return  # and with this process they end
 
 
-def left_behind() -> bool:
-    """Linux: has an answer left processes that run on? Those of `runner.py` are known: they wait for the next one."""
-    children = [path.read_text().split() for path in Path("/proc/self/task").glob("*/children")]
-    return sum(map(len, children)) > len(HELPERS)
+def children() -> int:
+    """Linux: how many child processes this process has."""
+    return sum(len(path.read_text().split()) for path in Path("/proc/self/task").glob("*/children"))
 
 
 class Judge:
@@ -59,20 +72,20 @@ class Judge:
         self.holds: list[str] = []  # what shuts it in: network, processes, files
         self.folder: str | None = None
 
-    def ask(self, exercise: str, source: str, seconds: float) -> dict:
-        """The verdict on an answer: kind, sentence, details. A process that dies is started anew, for a second try.
+    def ask(self, exercise: str, source: str, seconds: float) -> Judged:
+        """The verdict on an answer. A process that dies is started anew, for a second try.
 
         Raises BootcourseError if no process starts.
         """
         asked = json.dumps({"exercise": exercise, "source": source, "seconds": seconds})
         for _ in range(2):
             self.start()
-            with contextlib.suppress(OSError, ValueError):  # it died: nobody reads, or the line is cut
+            with contextlib.suppress(OSError, msgspec.MsgspecError):  # it died: nobody reads, or the line is cut
                 self.process.stdin.write(asked + "\n")
                 self.process.stdin.flush()
-                return json.loads(self.line(2 * seconds + SLACK))
+                return msgspec.json.decode(self.line(2 * seconds + SLACK), type=Judged)
             self.close()
-        return {"kind": "unjudged", "sentence": UNJUDGED, "details": [], "known": False}
+        return UNJUDGED
 
     def start(self) -> None:
         """Start the process, unless it runs. Raises BootcourseError where it does not start."""
@@ -84,11 +97,11 @@ class Judge:
             command, env=environment(self.folder), stdin=subprocess.PIPE, stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL, encoding="utf-8", start_new_session=True,
         )  # fmt: skip
-        told = self.line(START)
-        if not told:
+        holds = self.line(START)
+        if not holds:
             self.close()
             raise BootcourseError("The process that judges answers does not start: run `bootcourse doctor`.")
-        self.holds = json.loads(told)
+        self.holds = json.loads(holds)
 
     def line(self, seconds: float) -> str:
         """The process's next line; it is killed if none comes in time."""
@@ -115,14 +128,10 @@ def environment(folder: str) -> dict[str, str]:
     caches = Path(folder) / "numba"
     if CACHE_FOLDER is not None:  # a copy: what a stranger may write to is not executed by anybody else
         shutil.copytree(CACHE_FOLDER, caches / CACHE_FOLDER.name)
-    kept = {name: os.environ[name] for name in ("PATH", "LANG", "LC_ALL", "SYSTEMROOT") if name in os.environ}
-    own = {"HOME": folder, "TMPDIR": folder, "TEMP": folder, "TMP": folder, "MPLCONFIGDIR": folder}
-    own |= {
-        "NUMBA_CACHE_DIR": str(caches),
-        "OMP_NUM_THREADS": "1",
-        "PYTHONPATH": os.pathsep.join(filter(None, sys.path)),
-    }
-    return kept | own | {"PYTHONDONTWRITEBYTECODE": "1"}
+    system = {name: os.environ[name] for name in ("PATH", "LANG", "LC_ALL", "SYSTEMROOT") if name in os.environ}
+    own = dict.fromkeys(("HOME", "TMPDIR", "TEMP", "TMP", "MPLCONFIGDIR"), folder)
+    python = {"PYTHONPATH": os.pathsep.join(filter(None, sys.path)), "PYTHONDONTWRITEBYTECODE": "1"}
+    return system | own | python | {"NUMBA_CACHE_DIR": str(caches), "OMP_NUM_THREADS": "1"}
 
 
 if __name__ == "__main__":

@@ -7,28 +7,29 @@ it stands in that cell's place. All other cells are the new version's.
 import hashlib
 from dataclasses import dataclass
 
-from bootcourse.course.classroom.answers import joined
-
 
 @dataclass(frozen=True)
 class Merged:
-    """The merged notebook, and how many cells are the student's, are new, and were changed in the lesson."""
+    """The merged notebook, how many of its cells are the student's, and those of them that the lesson changed, too."""
 
     notebook: dict
-    kept: int
-    new: int
-    changed: int
-    both: tuple[str, ...]  # the first lines of cells that the student and the lesson have changed
+    own: int
+    both: tuple[str, ...]  # their first lines
 
     def __str__(self) -> str:
-        told = f"{self.kept} cells of the student's kept, {self.new} new, {self.changed} changed"
         also = "".join(f"; changed in the lesson, too, and kept: “{line}”" for line in self.both)
-        return f"{told}{also}."
+        return f"{self.own} cells of the student's kept{also}."
+
+
+def text_of(cell: dict) -> str:
+    """A cell's text, which may be a list of lines."""
+    source = cell.get("source", "")
+    return source if isinstance(source, str) else "".join(source)
 
 
 def digest(cell: dict) -> str:
     """The same for cells of the same text."""
-    return hashed(joined(cell.get("source")).encode("utf-8", "replace"))
+    return hashed(text_of(cell).encode("utf-8", "replace"))
 
 
 def hashed(data: bytes) -> str:
@@ -42,38 +43,20 @@ def texts(notebook: dict) -> dict[str, str]:
 
 def merge(mine: dict, base: dict[str, str], new: dict) -> Merged:
     """mine: the student's notebook; base: `texts` of the one that was handed out; new: the one to hand out now."""
-    handed = set(base.values())
-    own = {place for place, cell in enumerate(mine["cells"]) if digest(cell) not in handed}
-    ids = [str(cell.get("id", place)) for place, cell in enumerate(mine["cells"])]
-    by_id = {ids[place]: mine["cells"][place] for place in own}
-    ran = {digest(cell): cell for place, cell in enumerate(mine["cells"]) if place not in own}
-    cells, fresh = [], {str(cell["id"]): cell for cell in new["cells"]}
-    changed = [name for name, cell in fresh.items() if base.get(name, digest(cell)) != digest(cell)]
-    for name, cell in fresh.items():
-        if name in by_id:
-            cells.append(by_id[name])
-        elif name in ids or base.get(name) != digest(cell):  # else the student has deleted it
-            cells.append(cell | outputs(ran.get(digest(cell), {}), cell))
-    for place in sorted(own):  # what the student added stands behind what stood before it
-        if ids[place] not in fresh:
-            cells.insert(after(mine["cells"], place, cells), mine["cells"][place])
-    both = [by_id[name] for name in changed if name in by_id]
+    own = {place: cell for place, cell in enumerate(mine["cells"]) if digest(cell) not in base.values()}
+    in_place = {str(cell.get("id")): cell for cell in own.values()}
+    ran = {digest(cell): cell for cell in mine["cells"]}
+    lesson, cells = {str(cell["id"]): cell for cell in new["cells"]}, []
+    for name, cell in lesson.items():
+        outputs = {key: ran[digest(cell)][key] for key in ("outputs", "execution_count")
+                   if key in cell and key in ran.get(digest(cell), {})}  # fmt: skip
+        cells.append(in_place.get(name, cell | outputs))
+    for place, cell in own.items():  # what the student added stands behind what stood before it
+        if str(cell.get("id")) not in lesson:
+            there = [digest(other) for other in cells]
+            above = [there.index(digest(other)) for other in mine["cells"][:place] if digest(other) in there]
+            cells.insert(above[-1] + 1 if above else 0, cell)
+    both = [cell for name, cell in in_place.items() if name in lesson and base.get(name) != digest(lesson[name])]
     return Merged(
-        new | {"cells": cells},
-        kept=len(own),
-        new=sum(name not in base for name in fresh),
-        changed=len(changed),
-        both=tuple(joined(cell.get("source")).strip().partition("\n")[0][:80] for cell in both),
+        new | {"cells": cells}, len(own), tuple(text_of(cell).strip().partition("\n")[0][:80] for cell in both)
     )
-
-
-def outputs(old: dict, cell: dict) -> dict:
-    """The outputs of a cell that the student ran and did not change."""
-    return {key: old[key] for key in ("outputs", "execution_count") if key in old and key in cell}
-
-
-def after(before: list[dict], place: int, cells: list[dict]) -> int:
-    """Where a student's cell belongs in the merged ones: behind the nearest cell above it that is there."""
-    there = {digest(cell): number for number, cell in enumerate(cells)}
-    above = [there[digest(cell)] for cell in before[:place] if digest(cell) in there]
-    return above[-1] + 1 if above else 0

@@ -1,42 +1,60 @@
-"""What a student hands in, as one JSON file: answers, verdicts, predictions, versions, a name. Nothing is run."""
+"""What a student hands in, as one JSON file: answers, predictions, versions, a name. Nothing is run.
+
+Such a file may come from anybody: one reader checks every field, and what it returns is only text.
+"""
 
 import hashlib
 import os
 import re
-from dataclasses import asdict, dataclass, field
 from datetime import UTC, datetime
 from functools import cache
 from pathlib import Path
+from typing import Annotated, ClassVar
+
+from msgspec import Meta, Struct, convert, to_builtins
+from msgspec.structs import replace
 
 from bootcourse.course import lessons as exercises
-from bootcourse.course.classroom.answers import answers_in, errors_in, unfinished, verdicts_in
+from bootcourse.course.classroom.answers import Notebook, answers_in, unfinished
 from bootcourse.course.edition import HANDOUT
 from bootcourse.course.lessons import registry
 from bootcourse.course.predictions import predictions
 from bootcourse.errors import BootcourseError
-from bootcourse.files import provenance, read_bytes, read_json, write_json
-
-FORMAT = "bootcourse submission 1"
+from bootcourse.files import decoding, provenance, read_bytes, read_json, write_json
 
 ASK = "ask for it again"  # the remedy for a damaged file
 LONGEST = 50_000  # characters of an answer
+MADE_WITH = "bootcourse_exercises"  # in the metadata of a handout's notebooks: the `fingerprint` of its exercises
 SOLVED = "solved"  # the folder, beside the lessons, with the course's own answers
 
+Words = Annotated[str, Meta(max_length=200)]
+Long = Annotated[str, Meta(max_length=2000)]
+Answer = Annotated[str, Meta(max_length=LONGEST)]
 
-@dataclass(frozen=True)
-class Submission:
-    """student: the name of its file or folder, which the student did not choose; name: what the student calls it."""
 
-    student: str = ""
-    name: str = ""
-    made: str = ""  # the time, UTC
-    deadline: str = ""  # of the handout
-    exercises: str = ""  # `fingerprint()` of the kit that made it
-    versions: dict[str, str] = field(default_factory=dict)  # package -> version
-    answers: dict[str, str] = field(default_factory=dict)  # exercise -> text
-    verdicts: dict[str, str] = field(default_factory=dict)  # exercise -> what the check said to the student
-    predictions: dict[str, dict] = field(default_factory=dict)
-    problems: tuple[str, ...] = ()  # what could not be read, and cells that ended with an error
+class Prediction(Struct, frozen=True):
+    """One that the student committed to."""
+
+    answer: float | Long
+    question: Long = ""
+    unit: Words | None = None
+
+
+class Submission(Struct, frozen=True, kw_only=True):
+    """A student's work: the content of the file that `submit` writes, or of a notebook or a folder of notebooks."""
+
+    FORMAT: ClassVar[str] = "bootcourse submission 2"
+
+    format: str = FORMAT
+    student: str = ""  # the name of the file or folder, which the student did not choose
+    name: Words = ""  # what the student gave as name
+    made: Words = ""  # the time, UTC
+    deadline: Words = ""  # of the handout
+    exercises: Words = ""  # `fingerprint()` of the kit that made it
+    versions: dict[Words, Words] = {}  # package -> version
+    answers: dict[Words, Answer] = {}  # exercise -> text
+    predictions: dict[Words, Prediction] = {}
+    problems: tuple[Long, ...] = ()  # what could not be read, and cells that ended with an error
 
     @property
     def late(self) -> bool:
@@ -52,76 +70,124 @@ class Submission:
 @cache
 def fingerprint() -> str:
     """A hash of the exercises: two kits with the same one judge the same answers alike."""
-    files = sorted(Path(exercises.__file__).parent.glob("*.py"))
+    files = sorted(Path(exercises.__file__).parent.rglob("exercises.py"))
     return hashlib.sha256(b"".join(file.read_bytes() for file in files)).hexdigest()[:12]
 
 
-def from_folder(folder: Path, name: str = "") -> Submission:
-    """All that a student's folder holds: notebooks, kept answers, predictions. Raises BootcourseError if it is empty.
-
-    A notebook that is damaged becomes one of the `problems`. What stands in a notebook goes before a kept answer.
-    """
-    notebooks = notebooks_in(folder)
-    found, said, problems = {}, {}, []
-    for path in sorted(folder.rglob("answers/*.py")):
-        if path.stem in registry() and path.is_file() and not path.is_symlink():
-            found[path.stem] = read_bytes(path).decode("utf-8", "replace")[:LONGEST]
-    kept, made_by = dict(found), ""
-    for path in notebooks:
-        try:
-            notebook = read_json(path, dict, ASK)
-        except BootcourseError as error:
-            problems.append(str(error).replace(f"{folder}{os.sep}", ""))
-            continue
-        here = {n: text[:LONGEST] for n, text in answers_in(notebook).items()}
-        found |= {n: text for n, text in here.items() if n not in kept or not unfinished(text)}
-        said |= verdicts_in(notebook)
-        if wrong := errors_in(notebook):
-            problems.append(f"{path.name}: {wrong} cell{'s' * (wrong > 1)} ended with an error.")
-        told = notebook.get("metadata", {}).get("bootcourse", {}) if isinstance(notebook.get("metadata"), dict) else {}
-        made_by = str(told.get("exercises", made_by))[:40] if isinstance(told, dict) else made_by
-    if not (notebooks or found):
-        raise BootcourseError(f"{folder} holds no notebook: run `bootcourse submit` in the folder of your notebooks.")
-    try:
-        places = [path.parents[1] for path in folder.rglob("answers/predictions.json") if not path.is_symlink()]
-        foretold = predictions(places[0]) if places else {}
-    except BootcourseError as error:
-        foretold, problems = {}, [*problems, str(error)]
-    return Submission(
-        name=name, exercises=made_by, answers=found, verdicts=said, predictions=foretold, problems=tuple(problems),
-        deadline=deadline_of(folder),
-    )  # fmt: skip
-
-
-def notebooks_in(folder: Path) -> list[Path]:
-    """The notebooks of a folder and of those in it, in the order of their names.
-
-    Hidden ones, links, and those that the course has solved are left out.
-    """
-
-    def left_out(path: Path) -> bool:
-        return any(part.startswith(".") or part == SOLVED for part in path.relative_to(folder).parts)
-
-    found = [path for path in Path(folder).rglob("*.ipynb") if path.is_file() and not path.is_symlink()]
-    return sorted(path for path in found if not left_out(path))
-
-
-def deadline_of(folder: Path) -> str:
-    """The deadline that the handout in this folder, or in the one above, was given."""
-    for path in (folder / HANDOUT, folder.parent / HANDOUT):
-        if path.is_file():
-            return str(read_json(path, dict).get("deadline", ""))[:40]
-    return ""
+# Written by a student -------------------------------------------------------------------------------
 
 
 def submit(folder: Path, name: str, out: Path | None = None) -> tuple[Path, Submission]:
     """Write a submission. Returns its file and what it holds. Raises BootcourseError for an empty name or folder."""
     if not name.strip():
         raise BootcourseError("The name is empty: give your name or student number, as in --name 'Ada Lovelace'.")
-    made = from_folder(folder, " ".join(name.split())[:100])
     now = datetime.now(UTC).isoformat(timespec="seconds")
-    told = asdict(made) | {"format": FORMAT, "made": now, "versions": provenance(), "exercises": fingerprint()}
-    told.pop("student")
+    own = {"name": " ".join(name.split())[:100], "made": now, "versions": provenance(), "exercises": fingerprint()}
+    submission = replace(from_notebooks(folder), **own)
     path = out or folder / f"submission-{re.sub(r'[^A-Za-z0-9]+', '-', name).strip('-').lower() or 'mine'}.json"
-    write_json(path, told)
-    return path, made
+    write_json(path, to_builtins(submission))
+    return path, submission
+
+
+def from_notebooks(path: Path) -> Submission:
+    """What a notebook holds, or a student's folder: notebooks, kept answers, predictions.
+
+    A notebook that is damaged becomes one of the `problems`. What stands in a notebook goes before a kept answer.
+    Raises BootcourseError for a folder without any.
+    """
+    folder = path if path.is_dir() else path.parent
+    notebooks, kept = (notebooks_in(folder), kept_answers(folder)) if path.is_dir() else ([path], {})
+    if not (notebooks or kept):
+        raise BootcourseError(f"{path} holds no notebook: run `bootcourse submit` in the folder of your notebooks.")
+    answers, predicted, problems, version = dict(kept), {}, [], ""
+    for place in notebooks:
+        try:
+            notebook = read_json(place, Notebook, ASK)
+        except BootcourseError as error:
+            problems.append(within(folder, error))
+            continue
+        written = {name: text[:LONGEST] for name, text in answers_in(notebook).items()}
+        answers |= {name: text for name, text in written.items() if name not in kept or not unfinished(text)}
+        if notebook.errors:
+            problems.append(f"{place.name}: {notebook.errors} cell(s) ended with an error.")
+        version = str(notebook.metadata.get(MADE_WITH, version))[:40]
+    try:
+        predicted = committed(folder) if path.is_dir() else {}
+    except BootcourseError as error:
+        problems.append(within(folder, error))
+    return Submission(answers=answers, predictions=predicted, problems=tuple(problems), exercises=version,
+                      deadline=deadline_of(folder))  # fmt: skip
+
+
+def notebooks_in(folder: Path) -> list[Path]:
+    """The notebooks below a folder, without hidden ones, links, and those that the course has solved."""
+    return [
+        path for path in files(folder, "*.ipynb")
+        if not any(part[0] == "." or part == SOLVED for part in path.relative_to(folder).parts)
+    ]  # fmt: skip
+
+
+def files(folder: Path, pattern: str) -> list[Path]:
+    """The files below a folder, in the order of their names; links are left out."""
+    return [path for path in sorted(folder.rglob(pattern)) if path.is_file() and not path.is_symlink()]
+
+
+def kept_answers(folder: Path) -> dict[str, str]:
+    """Exercise -> text, of the answers that passed their check in a notebook (see own_code.py)."""
+    paths = [path for path in files(folder, "answers/*.py") if path.stem in registry()]
+    return {path.stem: read_bytes(path).decode("utf-8", "replace")[:LONGEST] for path in paths}
+
+
+def committed(folder: Path) -> dict[str, Prediction]:
+    """The student's predictions. Raises BootcourseError for a damaged file."""
+    for path in files(folder, "answers/predictions.json"):
+        with decoding(path, ASK):
+            return convert(predictions(path.parents[1]), dict[str, Prediction])
+    return {}
+
+
+def deadline_of(folder: Path) -> str:
+    """The deadline of the handout in this folder, or in the one above; "" without one."""
+    handouts = [path / HANDOUT for path in (folder, folder.parent) if (path / HANDOUT).is_file()]
+    return str(read_json(handouts[0], dict).get("deadline", ""))[:40] if handouts else ""
+
+
+def within(folder: Path, error: BootcourseError) -> str:
+    """The sentence, with the names of files as the student sees them."""
+    return str(error).replace(f"{folder}{os.sep}", "")[:500]
+
+
+# Read by a lecturer ---------------------------------------------------------------------------------
+
+
+def collect(folder: Path) -> list[Submission]:
+    """The submissions of a class: each file or folder in `folder` is one student's. Raises BootcourseError if none is.
+
+    What cannot be read is a submission with a problem and no answers.
+    """
+    if not Path(folder).is_dir():
+        raise BootcourseError(f"{folder} is no folder: give the one with a file or folder for each student.")
+    places = [path for path in sorted(Path(folder).iterdir()) if path.name[0] != "." and not path.is_symlink()]
+    places = [path for path in places if path.is_dir() or path.suffix in (".json", ".ipynb")]
+    if not places:
+        raise BootcourseError(f"{folder} holds no submissions: put in a .json file, a notebook or a folder a student.")
+    stems = [path.stem if path.is_file() else path.name for path in places]
+    return [read(path, stem if stems.count(stem) == 1 else path.name) for path, stem in zip(places, stems, strict=True)]
+
+
+def read(path: Path, student: str) -> Submission:
+    """One student's submission: a file that `submit` wrote, a notebook, or a folder with either."""
+    try:
+        written = [path] if path.suffix == ".json" else [file for file in files(path, "*.json") if is_submission(file)]
+        submission = read_json(written[-1], Submission, ASK) if written else from_notebooks(path)
+        return replace(submission, student=student)
+    except BootcourseError as error:
+        return Submission(student=student, problems=(within(path.parent, error),))
+
+
+def is_submission(path: Path) -> bool:
+    """Did `submit` write this file?"""
+    try:
+        return read_json(path, dict, ASK).get("format") == Submission.FORMAT
+    except BootcourseError:
+        return False

@@ -1,4 +1,4 @@
-"""Figures of the ablation: each agent's success after training, and each agent's success while it trains."""
+"""Figures of the ablation: each agent's success after training and while it trains, and the two clocks."""
 
 from collections.abc import Sequence
 
@@ -7,7 +7,9 @@ from matplotlib.figure import Figure
 
 from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, finish, new_figure, plain_axes
-from bootcourse.plots.training_curves import WINDOW
+from bootcourse.plots.training_curves import WINDOW, training_curves
+from bootcourse.research.clocks import faded
+from bootcourse.research.figures import of_methods
 from bootcourse.research.results import Results
 from bootcourse.research.tables import escaped
 from bootcourse.statistics import ESCAPES, rolling_means
@@ -70,3 +72,14 @@ def seed_by_seed(results: Results, methods: Sequence[str], title: str, mark: int
     each = f"Success in the last {WINDOW} episodes (%). Thin: agents. Thick: their mean"
     figure.text(0.012, 0.1 / height, f"{each}.", fontsize=SMALL, color=QUIET)
     return finish(figure, title, f"{each}: {'; '.join(told)}.")
+
+
+def two_clocks(results: Results, updates: str) -> Figure:
+    """ξ, which fades with the updates, and success, of four methods with so many updates per decision.
+
+    results: a cell of `clocks.cells`. The title says when ξ is down to a tenth and when β is 0.
+    """
+    xi, beta = faded(results.of("soft").curves["xi"]), results.of("demos").agents[0]["beta_episodes"]
+    title = f"{updates} updates per decision: ξ is down to a tenth after {xi:.0f} episodes, β is 0 after {beta:,}"
+    curves = of_methods(results, ("sac", "soft", "demos", "bootstrapped"))
+    return training_curves(curves, title, measures=("xi", "success"))

@@ -3,16 +3,12 @@
 Each bug is a `SACLearner` whose update is wrong in one place. No error is raised, no number is NaN, and the
 curves look plausible.
 
-    python -m bootcourse.course.lessons.bug_hunt.bugs --out assets/bug_hunt.npz    # trains all seven in some minutes
+    bootcourse study bug-hunt --out DIR    # trains all seven in some minutes
 
-The file holds curves, probes and weights; `Hunt` reads it and calls the agents A to F.
+The results that ship hold curves, probes and weights; `Hunt` reads them and calls the agents A to F.
 """
 
-import argparse
-import json
 import math
-import sys
-from pathlib import Path
 
 import numpy as np
 import torch
@@ -20,7 +16,6 @@ from torch import Tensor
 
 from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError, check_known
-from bootcourse.files import parse, provenance, read_arrays, write_arrays
 from bootcourse.learn import bootstrap, sac
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.learner import SACLearner
@@ -28,9 +23,10 @@ from bootcourse.learn.replay_buffer import Batch, decode_transitions
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
 from bootcourse.policies import rule_policy
+from bootcourse.research.plan import LessonExperiment
+from bootcourse.research.results import Results, agent_entries, as_arrays, experiment
 from bootcourse.scenario import DEFAULT, RULE_P
 from bootcourse.statistics import rolling_means
-from bootcourse.storage.assets import FOLDER
 
 # The six bugs ----------------------------------------------------------------------------------------
 
@@ -102,8 +98,8 @@ SEEDS, UPDATES, EVERY = 2, 10_000, 250  # agents with each bug; updates of each;
 ROADS = range(900, 908)  # whose drives by the rule give the states of the probes
 PROBES = ("kl", "entropy", "alike", "late", "rarest", "promise", "end")
 CURVES = ("success", "return", "accident", "alpha")
-FILE = FOLDER / "bug_hunt.npz"
-COMMAND = "python -m bootcourse.course.lessons.bug_hunt.bugs --out assets/bug_hunt.npz"
+PARTS = ("actor", "critics")  # of an agent
+EXPERIMENT = LessonExperiment(f"{__name__}:train_bug", {bug: {"bug": bug} for bug in LEARNERS})
 
 # Training them ---------------------------------------------------------------------------------------
 
@@ -157,34 +153,27 @@ class Probe:
         return float(q.gather(-1, own.actions[ended][:, None]).mean())
 
 
-def trained(bug: str, updates: int = UPDATES) -> dict[str, np.ndarray]:
-    """Train the paper's method with a bug, "none" for none. Kept are curves, probes, and the first agent's weights."""
-    training, probe = Training(with_seeds(settings_for("bootstrapped"), SEEDS), 4000), Probe()
-    training.learner = LEARNERS[bug](training.settings, training.scenario.observation_size)
+def train_bug(bug: str, updates: int = UPDATES) -> dict[str, np.ndarray]:
+    """Train the paper's method with a bug, "none" for none: the arrays of a file of results.
+
+    They are curves, probes, and the weights of the first agent.
+    """
+    settings, probe = with_seeds(settings_for("bootstrapped"), SEEDS), Probe()
+    training = Training(settings, 4000, make_learner=LEARNERS[bug])
     result = training.run(progress=False, callback=probe, stop=lambda: training.updates >= updates)
     episodes = int(training.curves.finished.max())
-    kept = {f"{bug}/{name}": result.curves[name][:, :episodes].astype(np.float16) for name in CURVES}
-    kept[f"{bug}/probes"] = np.array(probe.found, dtype=np.float32).reshape(-1, SEEDS, len(PROBES))
+    probes = np.array(probe.found, dtype=np.float32).reshape(-1, SEEDS, len(PROBES)).transpose(2, 1, 0)
     first = result.agents[0]
-    kept |= {f"{bug}/actor-{i}": weights.numpy() for i, weights in enumerate(first.actor)}
-    kept |= {f"{bug}/critics-{i}": weights.numpy() for i, weights in enumerate(first.critics)}
-    kept[f"{bug}/final_alpha"] = np.array(first.alpha)
-    return kept | {"updates": np.array(probe.updates)}
-
-
-def main(arguments: list[str] | None = None) -> int:
-    program = "python -m bootcourse.course.lessons.bug_hunt.bugs"
-    parser = argparse.ArgumentParser(prog=program, description=__doc__.split("\n")[0])
-    parser.add_argument("--out", type=Path, default=FILE, help="the file to write (default: assets/bug_hunt.npz)")
-    parser.add_argument("--updates", type=int, default=UPDATES, help=f"of each agent (default: {UPDATES})")
-    options = parser.parse_args(arguments)
-    arrays = {}
-    for bug in LEARNERS:
-        print(f"training with {bug} ...", flush=True)
-        arrays |= trained(bug, options.updates)
-    made = provenance(command=COMMAND, updates=options.updates, seeds=SEEDS)
-    write_arrays(options.out, arrays | {"provenance": np.array(json.dumps(made))})
-    return 0
+    weights = {f"{part}.{i}": layer.numpy() for part in PARTS for i, layer in enumerate(getattr(first, part))}
+    results = Results(
+        agent_entries(training.settings),
+        np.full(SEEDS, -1),
+        curves={name: result.curves[name][:, :episodes].astype(np.float16) for name in CURVES},
+        notes={"updates": np.tile(probe.updates, (SEEDS, 1)), **dict(zip(PROBES, probes, strict=True))},
+        measured={"alpha": np.array([agent.alpha for agent in result.agents])},
+        weights=weights,
+    )
+    return as_arrays(results)
 
 
 # Reading them ----------------------------------------------------------------------------------------
@@ -193,42 +182,41 @@ def main(arguments: list[str] | None = None) -> int:
 class Hunt:
     """The trained agents under the names that the student sees: "healthy", and A to F with one bug each.
 
-    Raises BootcourseError if the file is missing or damaged, or for another name.
+    Raises BootcourseError if some agents are missing or damaged, or for another name.
     """
 
-    def __init__(self, path: Path = FILE):
-        self._arrays = read_arrays(path)
-        if any(f"{bug}/probes" not in self._arrays for bug in LEARNERS):
-            raise BootcourseError(f"{path} does not hold the seven agents: make it again with `{COMMAND}`.")
+    def __init__(self):
+        self._results = experiment("bug-hunt")
+        if missing := LEARNERS.keys() - self._results.keys():
+            raise BootcourseError(f"No agents of {', '.join(missing)} ship: run `bootcourse study bug-hunt --out DIR`.")
         bugs = np.random.default_rng(SHUFFLE).permutation(list(BUGS)).tolist()
         self._bug_of = {"healthy": "none", **dict(zip(LETTERS, bugs, strict=True))}
         self.names = tuple(self._bug_of)
-        self.updates = self._arrays["updates"]  # (points,)
-        self.provenance = parse(str(self._arrays["provenance"]), dict, path)
+        self.updates = self._results["none"].notes["updates"][0]  # (points,)
 
-    def _of(self, name: str, what: str) -> np.ndarray:
+    def _of(self, name: str) -> Results:
         check_known("The agent", name, self.names)
-        return self._arrays[f"{self._bug_of[name]}/{what}"]
+        return self._results[self._bug_of[name]]
 
     def curve(self, name: str, what: str) -> np.ndarray:
         """success, return, accident (0 to 3) or alpha of every training episode: (2 seeds, episodes)."""
-        return self._of(name, what).astype(float)
+        return self._of(name).curves[what].astype(float)
 
     def probe(self, name: str, what: str) -> np.ndarray:
         """One of `PROBES` after each of `updates`: (2 seeds, points)."""
-        return self._of(name, "probes")[:, :, PROBES.index(what)].T.astype(float)
+        return self._of(name).notes[what].astype(float)
 
     def curves(self, what: str, window: int = 30) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         """A curve of every agent, for a picture: {name: (episode (points,), rolling means (2, points))}.
 
         The seeds made as many updates, and not as many episodes: a shorter curve is NaN where it has ended.
         """
-        found = {}
+        curves = {}
         for name in self.names:
             curve = self.curve(name, what)
             longest = int(np.isfinite(curve).sum(axis=1).max())
-            found[name] = rolling_means(curve[:, :longest], window, longest)
-        return found
+            curves[name] = rolling_means(curve[:, :longest], window, longest)
+        return curves
 
     def at_the_end(self, what: str, window: int = 30) -> dict[str, np.ndarray]:
         """The mean of the last episodes of every seed: {name: (2,)}."""
@@ -244,15 +232,9 @@ class Hunt:
 
     def agent(self, name: str) -> Agent:
         """The agent of the first seed at the end of its training."""
-        parts = {part: [] for part in ("actor", "critics")}
-        for part, weights in parts.items():
-            while f"{self._bug_of.get(name)}/{part}-{len(weights)}" in self._arrays:
-                weights.append(torch.from_numpy(self._of(name, f"{part}-{len(weights)}")))
-        return Agent(settings_for("bootstrapped"), **parts, alpha=float(self._of(name, "final_alpha")))
-
-
-if __name__ == "__main__":
-    try:
-        sys.exit(main())
-    except BootcourseError as error:
-        sys.exit(str(error))
+        results = self._of(name)
+        networks = {
+            part: [torch.from_numpy(layer) for key, layer in results.weights.items() if key.startswith(part)]
+            for part in PARTS
+        }
+        return Agent(settings_for("bootstrapped"), **networks, alpha=float(results.measured["alpha"][0]))

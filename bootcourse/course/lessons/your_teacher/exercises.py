@@ -3,10 +3,10 @@
 import numpy as np
 
 from bootcourse.course.exercise import Exercise, Mistake
+from bootcourse.course.lessons.your_teacher import taught_agents
 from bootcourse.course.lessons.your_teacher.driven_out import OUT, drive_out, explain_rule
 from bootcourse.course.lessons.your_teacher.example_teachers import DENSE, careful, dense_road, watchful
 from bootcourse.learn import teachers as teacher
-from bootcourse.research import teacher_reference
 from bootcourse.road.state import EGO, LANE, SPEED, X, Y
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, N_ACTIONS
@@ -278,7 +278,7 @@ def scaled(p, order):
 
 
 holm = Exercise(
-    "holm(p)", solution=teacher_reference.holm,
+    "holm(p)", solution=taught_agents.holm,
     # one test, equal ones, some that fall below their predecessor when scaled, large ones; then 40 at random
     cases=lambda rng: [(np.array([0.03]),), (np.array([0.02, 0.02, 0.02]),), (np.array([0.04, 0.01, 0.021, 0.9]),),
                        (np.array([0.9, 0.6, 0.7]),),
@@ -292,7 +292,7 @@ holm = Exercise(
             "You multiply every p by the number of tests. That is Bonferroni's correction: it is right, too, but "
             "Holm's multiplies only the smallest by m, the next by m - 1, and finds more.",
             "All p-values are corrected alike."),
-        Mistake(lambda p: np.sort(teacher_reference.holm(p)),
+        Mistake(lambda p: np.sort(taught_agents.holm(p)),
             "Your numbers are right, but sorted. Return them in the order of the tests.",
             "The order of the answer does not matter."),
         Mistake(lambda p: scaled(p, p),

@@ -1,0 +1,71 @@
+"""Commands for a class: handout, submit, grade."""
+
+import os
+import sys
+from datetime import date
+from pathlib import Path
+
+import typer
+
+from bootcourse.cli.training import INTERRUPTED
+
+
+def submit(
+    name: str = typer.Option(..., prompt="Your name or student number", help="Your name or student number."),
+    folder: Path = typer.Argument(Path("."), help="The folder with your notebooks."),
+    out: Path | None = typer.Option(None, help="The file to write; by default submission-NAME.json in the folder."),
+) -> None:
+    """Put your answers and predictions into one file to hand in. Nothing is run."""
+    from bootcourse.course.classroom.submission import submit as write
+
+    path, submission = write(folder, name, out)
+    written = submission.written
+    print(path)
+    print(f"{len(written)} answers, {len(submission.predictions)} predictions.", end=" ")
+    print("Hand in this file." if written else "No exercise is answered yet.")
+    print(*submission.problems, sep="\n", end="\n" * bool(submission.problems))
+
+
+def grade(
+    folder: Path = typer.Argument(..., help="A file or a folder for each student: submissions or notebooks."),
+    out: Path = typer.Option(Path("grades.csv"), help="The table to write; more is written beside it."),
+    points: Path | None = typer.Option(None, help="A TOML file with the points; by default an exercise's difficulty."),
+    lessons: str = typer.Option("", help="Only these lessons, such as 4-8 or 1,5,7."),
+    workers: int = typer.Option(0, min=0, help="Answers judged at once; 0: one for each core."),
+) -> None:
+    """Judge every answer of a class again; write tables, a page for each student and one for the class."""
+    from bootcourse.course.classroom.grading import Verdicts, graded, judge_all
+    from bootcourse.course.classroom.pages import write_report
+    from bootcourse.course.classroom.points import read_lessons, read_points
+    from bootcourse.course.classroom.submission import collect
+
+    worth, submissions = read_points(points, read_lessons(lessons)), collect(folder)
+    verdicts = Verdicts(out.with_name(f"{out.stem}-verdicts.jsonl"))
+    try:
+        holds = judge_all(submissions, list(worth), verdicts, workers or os.cpu_count() or 1)
+    except KeyboardInterrupt:
+        print("Interrupted. Verdicts are kept: start the same command again to continue.", file=sys.stderr)
+        raise typer.Exit(INTERRUPTED) from None
+    for path in write_report([graded(one, worth, verdicts) for one in submissions], out, holds):
+        print(path)
+
+
+def handout(
+    folder: Path = typer.Argument(..., help="The folder to write; FOLDER.zip is written beside it."),
+    lessons: str = typer.Option("", help="Only these lessons, such as 4-8 or 1,5,7."),
+    deadline: str = typer.Option("", help="A date, such as 2030-05-31: submissions after it are marked."),
+    solutions: bool | None = typer.Option(None, help="Let `check.solution` show solutions; by default it does not."),
+    update: bool = typer.Option(False, "--update", help="Bring this handout up to date; what students wrote stays."),
+) -> None:
+    """Write what students get: lessons, the kit, a lock and one page, without solutions."""
+    from bootcourse.course.classroom import handout
+    from bootcourse.course.classroom.points import read_lessons
+
+    chosen = read_lessons(lessons)
+    if update:
+        said = handout.update(folder, chosen, deadline, solutions)
+    else:
+        said = handout.write(folder, chosen, deadline, bool(solutions))
+    print(*said, sep="\n")
+    if deadline and deadline < date.today().isoformat():
+        print(f"The deadline {deadline} has passed: every submission will be marked as late.")

@@ -1,0 +1,124 @@
+"""Ten PPO agents of each kind in this lesson, trained, tested and kept with their networks: an experiment of the study.
+
+    bootcourse study second-trap --out DIR    # some minutes
+
+One training depends on the processor's rounding; the lesson's text rests on the results that ship.
+"""
+
+from collections.abc import Callable
+from functools import cache, partial
+from typing import NamedTuple
+
+import numpy as np
+import torch
+
+from bootcourse.course.lessons.the_second_trap.second_trap import Repaid, concave_pay, left_of, shaped_pay
+from bootcourse.course.lessons.your_teacher.taught_agents import alike
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
+from bootcourse.errors import BootcourseError
+from bootcourse.learn.agent import Agent
+from bootcourse.learn.settings import Settings, settings_for
+from bootcourse.learn.teachers import course_rule
+from bootcourse.learn.training import MOST_EPISODES, Training
+from bootcourse.research.plan import LessonExperiment
+from bootcourse.research.results import Results, agent_entries, as_arrays, experiment
+
+SEEDS, EVERY = 10, 50_000  # agents of each kind; decisions between two points of a curve
+ROADS = held_out_seeds(14, 200)  # that every agent is tested on
+QUICK = {"hidden": (32, 32), "actor_lr": 2e-3, "critic_lr": 2e-3, "epochs": 3}  # in place of the settings of `ppo`
+GAMMA = settings_for("ppo").gamma
+
+
+class Kind(NamedTuple):
+    """How the agents of a kind are trained."""
+
+    method: str
+    decisions: int
+    make_env: Callable | None = None  # of roads that pay otherwise
+
+
+KINDS = {
+    "alone": Kind("ppo", 800_000),
+    "shaped": Kind("ppo", 500_000, partial(Repaid, pay=shaped_pay(left_of, GAMMA))),
+    "concave": Kind("ppo", 800_000, partial(Repaid, pay=concave_pay)),
+    "cloned": Kind("ppo_cloned", 300_000),
+}
+EXPERIMENT = LessonExperiment(f"{__name__}:train_kind", {kind: {"kind": kind} for kind in KINDS})
+
+
+class Trained(NamedTuple):
+    """One finished training: the agent, and how it did while it learned."""
+
+    agent: Agent
+    at: np.ndarray  # (points,) decisions
+    returns: np.ndarray  # (points,) mean of the last 300 training episodes, as its road pays them
+    escapes: np.ndarray  # (points,) share of these episodes
+
+
+def settings_of(kind: str, seed: int = 0) -> Settings:
+    """The settings of an agent of a kind."""
+    return settings_for(KINDS[kind].method, seed=seed, **QUICK)
+
+
+def train(training: Training, decisions: int) -> Trained:
+    """Train one agent for a number of decisions, and note its return and escapes every `EVERY` decisions."""
+    notes = []
+
+    def note(training: Training) -> None:
+        if training.decisions // EVERY > len(notes):
+            recent = (training.curves.recent(name, 300)[0] for name in ("return", "success"))
+            notes.append([training.decisions, *recent])
+
+    result = training.run(progress=False, callback=note, stop=lambda: training.decisions >= decisions)
+    return Trained(result.agents[0], *np.array(notes).T)
+
+
+def tested(agent: Agent) -> dict[str, float]:
+    """Means of an agent's drives on `ROADS`: success, return (as the road of the course pays), accidents, likeness."""
+    drives = drive_episodes(agent.as_policy(), ROADS)
+    means = {"success": drives.success.mean(), "returns": drives.returns.mean()}
+    return means | {"accident": np.mean(drives.accident > 0), "alike": alike([agent], course_rule)[0]}
+
+
+def train_kind(kind: str, seeds: int = SEEDS) -> dict[str, np.ndarray]:
+    """Train and test the agents of a kind, one after the other: the arrays of a file of results."""
+    settings = [settings_of(kind, seed) for seed in range(seeds)]
+    each = []
+    for one in settings:
+        training = Training([one], MOST_EPISODES, make_env=KINDS[kind].make_env)
+        each.append(train(training, KINDS[kind].decisions))
+    measures = [tested(one.agent) for one in each]
+    layers = zip(*(one.agent.actor for one in each), strict=True)
+    results = Results(
+        agent_entries(settings),
+        np.full(seeds, -1),
+        notes={
+            "at": np.stack([one.at for one in each]),
+            "curve": np.stack([one.returns for one in each]),
+            "escapes": np.stack([one.escapes for one in each]),
+        },  # fmt: skip
+        measured={name: np.array([one[name] for one in measures]) for name in measures[0]},
+        weights={f"actor.{i}": np.concatenate(layer) for i, layer in enumerate(layers)},
+    )
+    return as_arrays(results)
+
+
+@cache
+def shipped_kinds() -> dict[str, Results]:
+    """{kind: its agents}, as they ship. Raises BootcourseError if a kind is missing."""
+    kinds = experiment("second-trap")
+    if missing := KINDS.keys() - kinds.keys():
+        raise BootcourseError(f"No agents of {', '.join(missing)} ship: run `bootcourse study second-trap --out DIR`.")
+    return kinds
+
+
+def reference() -> dict[str, dict[str, np.ndarray]]:
+    """{kind: what `tested` and `train` say of its agents}, as they ship, each (agents, ...)."""
+    return {kind: results.measured | results.notes for kind, results in shipped_kinds().items()}
+
+
+def agent_of(kind: str, seed: int = 0) -> Agent:
+    """One of the agents of a kind that ship."""
+    weights = shipped_kinds()[kind].weights
+    actor = [torch.from_numpy(weights[f"actor.{i}"][seed])[None] for i in range(len(weights))]
+    return Agent(settings_of(kind, seed), actor, [], 0.0)

@@ -1,0 +1,115 @@
+"""Ten students of each of this lesson's teachers and ten agents that learn alone: an experiment of the study.
+
+    bootcourse study students --out DIR    # some minutes
+
+One training depends on the processor's rounding; the lesson's text rests on the results that ship.
+"""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+import scipy
+
+from bootcourse.course.lessons.your_teacher.example_teachers import careful, racer, reckless, timid
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
+from bootcourse.episodes.record import record
+from bootcourse.errors import BootcourseError
+from bootcourse.learn.agent import Agent
+from bootcourse.learn.settings import Settings, settings_for, with_seeds
+from bootcourse.learn.teachers import Rule, course_rule, teacher_of
+from bootcourse.learn.training import Training
+from bootcourse.research.plan import LessonExperiment
+from bootcourse.research.results import Results, agent_entries, as_arrays, experiment
+from bootcourse.research.teachers import RULE
+
+SEEDS, UPDATES, EVERY = 10, 3500, 250  # students of each teacher; updates of each; updates between two notes
+ROADS = held_out_seeds(13, 200)  # that every student is tested on
+TEACHERS = {"the rule": course_rule} | {teacher.__name__: teacher for teacher in (careful, timid, reckless, racer)}
+ALONE = "alone"  # agents without a teacher, as plain SAC
+EXPERIMENT = LessonExperiment(f"{__name__}:train_group", {name: {"group": name} for name in (ALONE, *TEACHERS)})
+
+
+class Taught(NamedTuple):
+    """A finished training: each agent's escapes while it learned, and what was left of the two helps at the end."""
+
+    agents: list[Agent]
+    updates: np.ndarray  # (points,)
+    escapes: np.ndarray  # (agents, points) share of the last 30 training episodes
+    beta: np.ndarray  # (agents,) share of demonstrations in a batch
+    xi: np.ndarray  # (agents,) weight of the KL
+
+
+def teach(teacher: Rule, settings: list[Settings], updates: int = UPDATES) -> Taught:
+    """Train agents from a teacher for a number of updates, and note their escapes every `EVERY` updates."""
+    training, notes = Training(settings, episodes=10**4, teacher=teacher), []
+
+    def note(training: Training) -> None:
+        if training.updates and training.updates % EVERY == 0:
+            notes.append([training.updates, *training.curves.recent("success", 30)])
+
+    result = training.run(progress=False, callback=note, stop=lambda: training.updates >= updates)
+    table = np.array(notes)
+    xi = np.array([agent.settings.xi_multiplier * agent.alpha for agent in result.agents])
+    return Taught(result.agents, table[:, 0], table[:, 1:].T, training.beta, xi)
+
+
+def tested(agents: list[Agent]) -> dict[str, np.ndarray]:
+    """Each agent's share of escapes, by its most probable actions and by drawn ones; its return and accidents."""
+    greedy = [drive_episodes(agent.as_policy(), ROADS) for agent in agents]
+    drawn = [drive_episodes(agent.as_policy(np.random.default_rng(0)), ROADS) for agent in agents]
+    return {
+        "success": np.array([each.success.mean() for each in greedy]),
+        "drawn": np.array([each.success.mean() for each in drawn]),
+        "returns": np.array([each.returns.mean() for each in greedy]),
+        "accident": np.array([np.mean(each.accident > 0) for each in greedy]),
+    }
+
+
+def alike(agents: list[Agent], teacher: Rule, roads: int = 4) -> np.ndarray:
+    """The share of each agent's decisions, on its own drives, in which its teacher would do the same: (agents,)."""
+    shares, ask = [], teacher_of(teacher)
+    for agent in agents:
+        drives = record(agent.as_policy(), ROADS[:roads])
+        asked = ask(np.concatenate([drive.cars for drive in drives]))
+        shares.append(np.mean(asked == np.concatenate([drive.actions for drive in drives])))
+    return np.array(shares)
+
+
+def train_group(group: str, seeds: int = SEEDS, updates: int = UPDATES) -> dict[str, np.ndarray]:
+    """Train and test the students of a teacher, or the agents that learn alone: the arrays of a file of results."""
+    teacher, method = TEACHERS.get(group, course_rule), "sac" if group == ALONE else "bootstrapped"
+    settings = with_seeds(settings_for(method), seeds)
+    taught = teach(teacher, settings, updates)
+    measured = tested(taught.agents) | {"beta": taught.beta, "xi": taught.xi, "alike": alike(taught.agents, teacher)}
+    notes = {"updates": np.tile(taught.updates, (seeds, 1)), "escapes": taught.escapes}
+    agents = agent_entries(settings, group if group in TEACHERS else RULE)
+    return as_arrays(Results(agents, np.full(seeds, -1), notes=notes, measured=measured))
+
+
+def reference() -> dict[str, dict[str, np.ndarray]]:
+    """{teacher or "alone": what `tested` and `teach` say of its ten students}, as it ships.
+
+    Raises BootcourseError if the students of a teacher are missing.
+    """
+    groups = experiment("students")
+    if missing := EXPERIMENT.variations.keys() - groups.keys():
+        raise BootcourseError(f"No students of {', '.join(missing)} ship: run `bootcourse study students --out DIR`.")
+    return {
+        name: group.measured | {"updates": group.notes["updates"][0], "escapes": group.notes["escapes"]}
+        for name, group in groups.items()
+    }
+
+
+def p_value(taught: np.ndarray, alone: np.ndarray) -> float:
+    """Mann and Whitney's two-sided p-value of the scores of two groups of agents, (m,) and (n,)."""
+    return float(scipy.stats.mannwhitneyu(taught, alone).pvalue)
+
+
+def holm(p: Sequence[float]) -> np.ndarray:
+    """Holm's adjusted p-values (Holm 1979), in the order of p: (tests,) -> (tests,)."""
+    order, m = np.argsort(p), len(p)
+    scaled = np.asarray(p)[order] * (m - np.arange(m))
+    adjusted = np.empty(m)
+    adjusted[order] = np.minimum(np.maximum.accumulate(scaled), 1)
+    return adjusted

@@ -1,0 +1,100 @@
+"""What a teacher is worth, and the frontier of return against accidents: the numbers and their figures."""
+
+import numpy as np
+import pytest
+
+from bootcourse.course.lessons.ablation.figures import two_clocks
+from bootcourse.course.lessons.beyond_the_paper.figures import frontier, safe_and_fast, teacher_value
+from bootcourse.course.shipped import shipped_experiment, shipped_teachers
+from bootcourse.errors import BootcourseError
+from bootcourse.learn.settings import settings_for, with_seeds
+from bootcourse.research import clocks
+from bootcourse.research.results import Results, agent_entries, save_results
+from bootcourse.research.teacher_worth import QUANTITIES, cells, in_words, worth_rows
+
+EPISODES, TESTS = 120, 20
+
+
+def ten_agents(teacher: str, method: str, escaping: int) -> Results:
+    """Ten agents, of which some escape on every road from training episode 30 on and earn 100, the others 20.
+
+    An episode of training takes 150 decisions. Each agent has an accident in one of its twenty drives.
+    """
+    escapes = (np.arange(10) < escaping)[:, None]
+    success = np.broadcast_to(escapes, (10, TESTS)).astype(np.int8)
+    accident = np.tile((np.arange(TESTS) == 3).astype(np.int8), (10, 1))
+    tested = {"success": success, "returns": 20.0 + 80.0 * success, "accident": accident}
+    tested |= dict.fromkeys(("speed", "distance"), np.zeros((10, TESTS)))
+    curves = {"success": (escapes & (np.arange(EPISODES) >= 30)).astype(np.float64)}
+    agents = agent_entries(with_seeds(settings_for(method), 10), teacher)
+    return Results(agents, np.full(10, -1), tested, curves | {"decisions": np.full((10, EPISODES), 150.0)})
+
+
+ESCAPING = {("planner", "rlpd"): 10, ("rule", "soft"): 7, ("random-50", "soft"): 0, ("random-50", "rlpd"): 3}
+
+
+@pytest.fixture(scope="module")
+def worth():
+    return cells({f"{t}, {m}": ten_agents(t, m, escaping) for (t, m), escaping in ESCAPING.items()})
+
+
+@pytest.mark.parametrize(
+    ("place", "quantity", "words"),
+    [
+        (("rule", "soft"), "escape", ("70", "[35, 93]")),  # Clopper-Pearson, 7 of 10
+        (("rule", "soft"), "return", ("87", "[47, 100]")),  # the middle six: (5 x 100 + 20) / 6
+        (("planner", "rlpd"), "accidents", ("5.00", "[5.00, 5.00]")),  # one of twenty
+        (("rule", "soft"), "decisions", ("12", "[12, –]")),  # thousands; the ninth agent does not get there
+        (("random-50", "rlpd"), "decisions", ("not reached", "[12, –]")),
+        (("random-50", "soft"), "decisions", ("not reached", "")),
+    ],
+)
+def test_each_number_of_a_cell_is_that_of_its_agents(worth, place, quantity, words):
+    number = QUANTITIES[quantity]
+    assert in_words(number.estimate(number.of_agents(worth[place]))) == words
+
+
+def test_the_table_has_a_row_for_each_cell_with_teachers_from_bad_to_perfect(worth):
+    headings, rows = worth_rows(worth)
+    assert [row[0] for row in rows] == ["rule, half at random", "rule, half at random", "rule", "planner"]
+    assert len(rows[2]) == len(headings) and rows[2][2] == "7 of 10 (35 to 93\u00a0%)" and "(7 of 10)" in rows[2][-1]
+
+
+@pytest.mark.parametrize("name", QUANTITIES)
+def test_the_figure_has_a_dot_for_each_agent_and_says_what_it_shows(worth, name):
+    figure = teacher_value(worth, name)
+    dots = [len(each.get_offsets()) for ax in figure.axes for each in ax.collections]
+    assert sum(dots) == 40 and "planner, RLPD" in figure.alt and "nan" not in figure.alt
+
+
+def test_a_study_s_folder_is_read_and_one_without_such_jobs_says_what_to_run(tmp_path):
+    with pytest.raises(BootcourseError, match="no results of the experiment teachers yet: run `bootcourse study teach"):
+        shipped_teachers(tmp_path)
+    save_results(ten_agents("rule", "soft", 4), tmp_path / "jobs/teachers/rule-soft/results.npz", {})
+    assert list(shipped_teachers(tmp_path)) == [("rule", "soft")]
+
+
+def crashing(accidents, returns) -> Results:
+    """Agents with these shares of accidents and these returns, in 200 drives each."""
+    happened = np.arange(200) < 200 * np.array(accidents)[:, None]
+    tested = {"accident": happened * (1 + np.arange(200) % 3)}
+    tested["returns"] = np.repeat(np.array(returns, dtype=float)[:, None], 200, axis=1)
+    return Results([{"method": "ppo", "seed": i} for i in range(len(returns))], np.full(len(returns), -1), tested)
+
+
+def test_the_frontier_is_what_nothing_beats_in_both_from_safest_to_fastest_and_the_figure_says_so():
+    varied = {
+        "plain": crashing([0.01, 0.02, 0.03], [134.0, 135.0, 136.0]),
+        "slow": crashing([0.0, 0.0, 0.01], [120.0, 121.0, 122.0]),
+        "best": crashing([0.0, 0.0, 0.0], [133.0, 134.0, 135.0]),
+    }
+    assert frontier(varied) == ["best", "plain"]
+    alt = safe_and_fast(varied, bound=140.6).alt
+    assert alt.startswith("The 2 filled dots are the frontier") and "On the frontier: best, plain." in alt
+    assert all(f"{name} (3 agents)" in alt for name in varied) and "140.6" in alt
+
+
+def test_the_figure_of_the_clocks_says_when_each_help_has_faded():
+    figure = two_clocks(clocks.cells(shipped_experiment("clocks"))["2", "π̃"], "2")
+    assert figure.alt.startswith("2 updates per decision: ξ is down to a tenth after ")
+    assert "β is 0 after 1,000" in figure.alt
