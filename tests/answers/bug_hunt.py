@@ -186,5 +186,5 @@ wrong_lines("""unmasks
     positive rewards only: rng = np.random.default_rng(1)
         rows = [rng.uniform(0, 3, 20), rng.integers(0, 2, 20), 1.7, rng.integers(0, 2, 20), rng.normal(0, 3, 20), 0.6]
         not np.allclose(target(*rows), right_y(*rows))
-    the answers inverted: not solution(target)  # accuses a target function that is right
+    the answers inverted: not solution(target)  # the other way round
 """)

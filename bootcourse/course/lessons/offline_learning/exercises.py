@@ -84,7 +84,7 @@ NO_SLOPE = torch.zeros(1, 9)
     ],
     hints=(
         "Three pieces: the next value (`next_q` chooses the action, `next_target` values it), the target y without "
-        "gradient, and (Q - y)² plus the weighted term of exercise 11.1.",
+        "gradient, and (Q - y)² plus the weighted term of `conservative_loss`.",
         "`next_target.gather(-1, next_q.argmax(-1, keepdim=True)).squeeze(-1)` is the next value. What multiplies it?",
     ),
     mistakes={
