@@ -186,5 +186,12 @@ wrong_lines("""unmasks
     positive rewards only: rng = np.random.default_rng(1)
         rows = [rng.uniform(0, 3, 20), rng.integers(0, 2, 20), 1.7, rng.integers(0, 2, 20), rng.normal(0, 3, 20), 0.6]
         not np.allclose(target(*rows), right_y(*rows))
+    without the end in its own y: reward, end = np.array([1.0, -10.0]), np.array([0.0, 1.0])
+        not np.allclose(target(reward, 0 * end, 3.0, end, 4 + end, 0.5), reward + 0.5 * (4 + end))  # by hand once more
+    to the last digit: rng = np.random.default_rng(1)
+        rows = [rng.normal(0, 3, 20), rng.integers(0, 2, 20), 1.7, rng.integers(0, 2, 20), rng.normal(0, 3, 20), 0.6]
+        bool((target(*rows) != right_y(*rows)).any())  # compare with `np.allclose`
+    drawn anew each time: rng = np.random.default_rng()
+        rng.random() < 0.5  # differently each time
     the answers inverted: not solution(target)  # the other way round
 """)
