@@ -1,6 +1,5 @@
 """Answers to the exercises of the lesson beyond the paper."""
 
-import numpy as np
 import torch
 
 from tests.answers import equivalent, right, right_lines, wrong_lines
@@ -58,18 +57,3 @@ def with_where(pi, q, rule_actions):
     at_rule = torch.nn.functional.one_hot(rule_actions, pi.shape[1])
     kept = torch.where(q > (at_rule * q).sum(-1, keepdim=True), pi, torch.zeros_like(pi))
     return kept + at_rule * (1 - kept.sum(-1, keepdim=True))
-
-
-@right("better_of_two")
-def in_numpy_s_order(pi, q, rule_actions):
-    rows = torch.arange(len(pi))
-    found = pi * (q > q[rows, rule_actions, None])
-    found[rows, rule_actions] = 1 - found.sum(-1)
-    return found
-
-
-@right("guide_shrinks")
-def in_sentences(returns, best, window, tolerance):
-    if len(returns) < window:
-        return False
-    return float(np.mean(np.array(returns)[-window:])) >= best - abs(tolerance * best)

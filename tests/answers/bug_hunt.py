@@ -11,9 +11,6 @@ right_lines("""end_error
         sum(errors) / len(errors) if errors else 0
     with weights: taken = np.take_along_axis(q, actions[:, None], 1)[:, 0]
         ((taken - rewards) * terminated).sum() / max(terminated.sum(), 1)
-    q action by action:
-        errors = [q[i, a] - rewards[i] for a in range(9) for i in range(len(q)) if actions[i] == a and terminated[i]]
-        sum(errors) / max(1, len(errors))
 """)
 
 
@@ -33,14 +30,8 @@ wrong_lines("""end_error
 """)
 
 
-TRUE = {
-    "A": "flipped_kl",
-    "B": "sampled",
-    "C": "shifted_labels",
-    "D": "no_end",
-    "E": "bonus_for_all",
-    "F": "no_stop",
-}
+BUGS = ("flipped_kl", "sampled", "shifted_labels", "no_end", "bonus_for_all", "no_stop")
+TRUE = dict(zip("ABCDEF", BUGS, strict=True))
 CALLS = itertools.count()
 
 
@@ -60,7 +51,7 @@ wrong_lines("""diagnose
         # Not all six verdicts are right
     one for all: "no_stop"  # Not all six verdicts are right
     in words: TRUE[agent].replace("_", " ")  # the six names are
-    five of them: {letter: bug for letter, bug in TRUE.items() if letter != "F"}[agent]  # raises an error
+    five of them: {letter: TRUE[letter] for letter in "ABCDE"}[agent]  # raises an error
     another answer each time: list(TRUE.values())[next(CALLS) % 6]
 """)
 
@@ -81,10 +72,6 @@ right_lines("""fixed_value
     entropy apart: pi = log_pi.exp(); (pi * q).sum(-1) + alpha * -(pi * log_pi).sum(-1)
     with einsum: torch.einsum("na,na->n", log_pi.exp(), q - alpha * log_pi)
     with q held fixed: (log_pi.exp() * (q.detach() - alpha * log_pi)).sum(-1)
-    action by action: value = 0
-        for a in range(9):
-            value = value + log_pi[:, a].exp() * (q[:, a] - alpha * log_pi[:, a])
-        value
 """)
 
 wrong_lines("""fixed_value
@@ -108,11 +95,6 @@ right_lines("""fixed_loss
     with torch's own: policy = torch.distributions.Categorical(logits=log_pi)
         kl = torch.distributions.kl_divergence(policy, torch.distributions.Categorical(logits=log_rule))
         -((policy.probs * q.detach()).sum(-1) + alpha * policy.entropy() - xi * kl).mean()
-    loss action by action: loss = 0
-        for a in range(9):
-            price = alpha * log_pi[:, a] + xi * (log_pi[:, a] - log_rule[:, a])
-            loss = loss + (log_pi[:, a].exp() * (price - q[:, a].detach())).mean()
-        loss
 """)
 
 

@@ -83,12 +83,3 @@ wrong_lines("""episodes_needed
             n += 1
         n  # one of 95 %
 """)
-
-
-@right("episodes_needed")
-def by_halving(rate):
-    low, high = 0, 1_000_000  # too few, enough
-    while high - low > 1:
-        middle = (low + high) // 2
-        low, high = (low, middle) if (1 - rate) ** middle <= 0.05 else (middle, high)
-    return high
