@@ -22,7 +22,7 @@ import torch
 from nbclient import NotebookClient
 
 from bootcourse.course import check, runner, values
-from bootcourse.course.judge import judge, judge_source
+from bootcourse.course.judge import judge
 from bootcourse.course.lessons import registry
 from bootcourse.learn import sac
 from tests.answers import one_sentence
@@ -218,7 +218,7 @@ def test_a_cache_no_return_a_stub_that_is_begun_a_path_and_float64_are_what_they
     ],
 )
 def test_a_text_is_judged_like_a_function(text, kind, words):
-    verdict = judge_source(TARGET, text, seconds=0.5)
+    verdict = judge(TARGET, text, seconds=0.5)
     assert verdict.kind == kind and words in verdict.sentence and one_sentence(verdict), verdict
 
 

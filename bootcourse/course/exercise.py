@@ -1,4 +1,4 @@
-'''An exercise: the right answer, tiny cases worked out by hand, hidden cases, hints, and the mistakes that students make.
+'''An exercise: a right answer, cases worked out by hand, hidden cases, hints, and the mistakes that students make.
 
 It is written on its solution, in `lessons/NAME/exercises.py`; `judge.py` judges answers.
 
@@ -27,15 +27,6 @@ A key of `mistakes` is
 - where none of this will do, a function or class of its own, which makes the mistake.
 A change that does not fit raises BootcourseError when the lessons are loaded. A changed solution may use all names of
 its file. Tensors of hidden and worked cases are given in float32, as training gives them.
-
-How to migrate an old `Exercise(...)`:
-1. Rename its solution to the exercise's name, and decorate it: `call`, `solution` and each `belief` go.
-2. Turn each `Mistake` into a change that gives the same answers; its sentence stays as it is.
-3. Keep two hints: the last one is no longer the solution, which `check.solution` shows.
-4. Delete helpers that nothing uses any more, and `.double()`.
-5. Mark log-probabilities among the `slopes`: `logits("log_pi")`.
-6. Run `pytest tests/test_lessons_checks.py tests/test_mutants.py -k "NAME or NAME"` and `python -m tests.mutants NAME`.
-   A change that `tests/answers/LESSON.py` lists as equivalent may have another text now: correct it there.
 '''
 
 import ast
@@ -187,14 +178,14 @@ def mistake_of(solution: Callable, text: str, change, says: str) -> Mistake:
     """The mistake that a key of `mistakes` describes. text: the solution's."""
     if callable(change):
         return Mistake(change, says)
-    changes, space = (change,) if isinstance(change, str) else change, {}
+    changes, space, name = (change,) if isinstance(change, str) else change, {}, solution.__name__
     try:
         for each in changes:
             text = edited(text, each) if "->" in each else with_end(text, each)
         exec(text, vars(inspect.getmodule(solution)), space)
     except (ValueError, SyntaxError) as error:
-        raise BootcourseError(f"{solution.__name__}: the mistake {change!r} does not fit its solution: {error}.") from None
-    return Mistake(space[solution.__name__], says, change="; ".join(changes))
+        raise BootcourseError(f"{name}: the mistake {change!r} does not fit its solution: {error}.") from None
+    return Mistake(space[name], says, change="; ".join(changes))
 
 
 def edited(text: str, change: str) -> str:
