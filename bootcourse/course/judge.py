@@ -53,7 +53,7 @@ def judge(exercise: Exercise, answer: Callable | str, seconds: float | None = No
         seconds = exercise.seconds if seconds is None else seconds
         report = runner.run(exercise, answer, seconds)
         if not is_unfinished(report, answer):
-            verdict = not_answered(exercise, answer, report, seconds) or compared(exercise, answer, report, seconds)
+            verdict = not_answered(exercise, answer, report) or compared(exercise, answer, report, seconds)
             printed = report.printed.strip()
     if verdict.passed:
         return verdict
@@ -88,7 +88,7 @@ def is_unfinished(report: runner.Report, answer: Callable | str) -> bool:
     return bool(returns_nothing) and re.search(r"^\s*(\.\.\.|pass)\s*$", text, re.M) is not None
 
 
-def not_answered(exercise: Exercise, answer: Callable | str, report: runner.Report, seconds: float) -> Verdict | None:
+def not_answered(exercise: Exercise, answer: Callable | str, report: runner.Report) -> Verdict | None:
     """The verdict on a function that did not answer every case, or changed its arguments; None if it did well."""
     cases = exercise.all_arguments
     here = given(exercise, cases[min(len(report.answers), len(cases) - 1)])
@@ -105,7 +105,7 @@ def not_answered(exercise: Exercise, answer: Callable | str, report: runner.Repo
             return Verdict("wrong", report.error[1], here)
         return Verdict("did_not_run", error_in_words(answer, *report.error), here)
     if report.ended != "":
-        return Verdict("did_not_run", end_in_words(report.ended, seconds), here)
+        return Verdict("did_not_run", end_in_words(report.ended, report.seconds), here)
     if report.changed is not None:
         argument = exercise.case_names[report.changed[1]]
         return Verdict("wrong", f"Your function changes its argument `{argument}`, which the caller still needs: "

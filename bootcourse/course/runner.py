@@ -27,6 +27,7 @@ import traceback
 import types
 import warnings
 from collections.abc import Callable
+from multiprocessing import forkserver
 
 import cloudpickle
 import msgspec
@@ -46,6 +47,7 @@ LONGEST_PRINT = 500  # characters of a function's prints that are shown
 LONGEST_MESSAGE = 64 * 2**20  # bytes
 PR_SET_PDEATHSIG = 1  # of Linux's prctl: the signal that a process gets when its parent ends
 READY = b"ready"
+PRELOADED = ["bootcourse.course.preloaded"]
 SOURCE = "your answer"  # the file name of a function that came as text
 PATH = re.compile(r"(?<![\w./])(?:[A-Za-z]:)?(?:[\\/][^\\/\s'\"():,;]+)+[\\/]([^\\/\s'\"():,;]+)")
 NOT_SENT = (
@@ -64,6 +66,7 @@ class Report(msgspec.Struct):
     ended: str | int = ""  # "time", "size", or how the process ended before its time: an exit code, minus a signal
     printed: str = ""
     warned: dict[int, str] = {}  # case -> NumPy's first warning
+    seconds: float = 0.0  # that it had
     is_last: bool = False
 
     def add(self, message: "Report") -> None:
@@ -131,12 +134,19 @@ def run(exercise: Exercise, answer: Callable | str, seconds: float, times: int =
                 _waiting.append(Process())
 
 
+def get_ready() -> None:
+    """Begin to load what the first check needs, and do not wait for it."""
+    if FORKS:
+        forkserver.set_forkserver_preload(PRELOADED)
+        forkserver.ensure_running()
+
+
 class Process:
     """A process that waits for one job."""
 
     def __init__(self):
         context = multiprocessing.get_context("forkserver" if FORKS else "spawn")
-        context.set_forkserver_preload(["bootcourse.course.preloaded"])
+        context.set_forkserver_preload(PRELOADED)
         self.connection, theirs = context.Pipe()
         self.process = context.Process(target=serve, args=(theirs,), daemon=True)
         self.error: Exception | None = None
@@ -167,7 +177,8 @@ class Process:
                 raise broken("it did not answer")
             self.connection.send_bytes(job)
             now = time.monotonic()
-            end = now + seconds if seconds > WALL else min(now + seconds, max(begin + WALL, now + LEAST))
+            report.seconds = time_left(seconds, now - begin)
+            end = now + report.seconds
             while self.connection.poll(max(0.0, end - time.monotonic())):
                 message = decoder.decode(self.connection.recv_bytes(LONGEST_MESSAGE))
                 report.add(message)
@@ -190,13 +201,18 @@ class Process:
         self.connection.close()
 
 
+def time_left(seconds: float, waited: float) -> float:
+    """The seconds that a function has, whose process took `waited` seconds to start."""
+    return seconds if seconds > WALL else min(seconds, max(LEAST, WALL - waited))
+
+
 def end_server() -> None:
     """Kill the process that forks the others, which is stopped or stuck; the next check starts another."""
-    from multiprocessing.forkserver import _forkserver
-
-    if _forkserver._forkserver_pid is not None:
-        with contextlib.suppress(ProcessLookupError):
-            os.kill(_forkserver._forkserver_pid, signal.SIGKILL)
+    server = forkserver._forkserver._forkserver_pid if FORKS else None
+    if server is not None:
+        with contextlib.suppress(ProcessLookupError, ChildProcessError):
+            os.kill(server, signal.SIGKILL)
+            os.waitid(os.P_PID, server, os.WEXITED | os.WNOWAIT)  # `multiprocessing` sees it, too
 
 
 def broken(why: object) -> BootcourseError:
