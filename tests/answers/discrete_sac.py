@@ -39,8 +39,8 @@ wrong_lines("""entropy
     each action's: -log_pi * log_pi.exp()  # shape
 """)
 
+right("soft_value")(sac.soft_value)
 right_lines("""soft_value
-    the library's: sac.soft_value(log_pi, q, alpha)
     value and entropy: pi = log_pi.exp(); (pi * q).sum(-1) + alpha * torch.special.entr(pi).sum(-1)
     as a product: torch.einsum("ba,ba->b", torch.exp(log_pi), q - alpha * log_pi)
 """)

@@ -10,7 +10,6 @@ from bootcourse.course.drawing import drawn_apart, drawn_evenly
 from bootcourse.course.exercise import NotAsAsked, exercise
 from bootcourse.course.values import NUMERIC, plain, shape_words
 
-
 DRAWS = 300  # of each row that a buffer should hold
 COPIES = (
     "Your buffer is right but slow: it copies all its rows to add one or to draw one, and training does both thousands "
@@ -24,7 +23,8 @@ def filled_and_drawn(answer, size, added, batch):
 
     Returns the shape of a batch; the rows that are ever drawn, as in "2 3"; whether each is drawn about equally often;
     whether they come back unchanged; whether two equal generators give the same batch; whether the rows of a batch are
-    independent of each other; whether a row comes twice in some batch; whether adding and drawing leave the table where it is (all 1 or 0).
+    independent of each other; whether a row comes twice in some batch; whether adding and drawing leave the table
+    where it is (all 1 or 0).
     """
     buffer = answer(size)
     if not (hasattr(buffer, "add") and hasattr(buffer, "sample")):
@@ -35,7 +35,9 @@ def filled_and_drawn(answer, size, added, batch):
     try:
         first, again = (buffer.sample(batch, np.random.default_rng(1)) for _ in range(2))
     except ValueError as error:
-        raise NotAsAsked(ONCE) if "larger" in str(error) else error  # than the number of rows
+        if "larger" in str(error):  # than the number of rows, as NumPy and Python say it
+            raise NotAsAsked(ONCE) from None
+        raise
     if first is None:
         return None
     if not isinstance(first, torch.Tensor) or first.dim() != 2 or first.shape[1] != 3:
