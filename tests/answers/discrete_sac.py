@@ -153,6 +153,12 @@ class StackedAtEachDraw(WithADeque):
         return torch.stack(list(self.rows))[rng.integers(len(self.rows), size=batch)]
 
 
+@wrong("ReplayBuffer", "in float64: keep them in float32")
+class WithATableOfNumPy(WithATable):
+    def sample(self, batch, rng):
+        return super().sample(batch, rng).double()
+
+
 @wrong("ReplayBuffer", "again and again")
 class OneRowManyTimes(WithADeque):
     def sample(self, batch, rng):

@@ -50,6 +50,8 @@ wrong_lines("""mixed_batch
         rows, 2 * marks - 1  # else 0
     too many rows: theirs, _ = with_choice(own, demonstrations, size, beta, bonus, rng)
         torch.cat([theirs, own.sample(1, rng)]), torch.ones(size + 1)
+    in double precision: rows, marks = with_choice(own, demonstrations, size, beta, bonus, rng)
+        rows.double(), marks  # in float64
     without rng: with_choice(own, demonstrations, size, beta, bonus, np.random.default_rng())
     the column counted from the left: rows, marks = with_choice(own, demonstrations, size, beta, 0.0, rng)
         rows[:, 4] += bonus * marks

@@ -6,7 +6,7 @@ import time
 import numpy as np
 import torch
 
-from bootcourse.course.drawing import drawn_apart, drawn_evenly
+from bootcourse.course.drawing import drawn_apart, drawn_evenly, in_float32
 from bootcourse.course.exercise import NotAsAsked, exercise
 from bootcourse.course.values import NUMERIC, plain, shape_words
 
@@ -44,6 +44,7 @@ def filled_and_drawn(answer, size, added, batch):
         found = plain(first)
         shape = f" of shape {shape_words(found)}" if found.kind in NUMERIC else ""
         raise NotAsAsked(f"Your `sample` returns {found.words}{shape}: the exercise asks for a tensor (batch, n).")
+    in_float32(first)
     rng, held = np.random.default_rng(0), min(size, added)
     drawn = torch.stack([buffer.sample(batch, rng) for _ in range(DRAWS * held // batch + 1)])  # (times, batch, 3)
     number = drawn[..., 0].long().clamp(0, added)

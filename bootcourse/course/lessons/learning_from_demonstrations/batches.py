@@ -3,7 +3,7 @@
 import numpy as np
 import torch
 
-from bootcourse.course.drawing import drawn_apart, drawn_evenly
+from bootcourse.course.drawing import drawn_apart, drawn_evenly, in_float32
 from bootcourse.course.exercise import exercise, refuse
 from bootcourse.learn.replay_buffer import REWARD
 
@@ -53,6 +53,7 @@ def mixed_many_times(answer, demonstrations, size, beta, bonus):
         if pair[0].dim() != 2 or pair[0].shape[1] != width or pair[1].shape != pair[0].shape[:1]:
             shapes = " and ".join(str(tuple(part.shape)) for part in pair)
             return refuse(pair, f"({size}, {width}) rows and ({size},) marks; yours have the shapes {shapes}")
+        in_float32(pair[0])
         pairs.append(pair)
     rows, marks = pairs[-1]
     theirs, added = rows[:, 0] < OWN, rows[:, REWARD] - rows[:, 0] / 10
