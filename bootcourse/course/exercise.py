@@ -17,7 +17,8 @@ It is written on its solution, in `lessons/NAME/exercises.py`; `judge.py` judges
         return (log_pi.exp() * (log_pi - log_rule)).sum(-1)
 
 The function's name and arguments are those that the student writes. A class is decorated in the same way. A solution
-that the library has is passed on: `q_filter = exercise(...)(bootstrap.q_filter)`, if its arguments have these names.
+that the library has is passed on, if its arguments have these names: `q_filter = exercise(...)(bootstrap.q_filter)`,
+with `name=` if it has another name itself.
 
 A key of `mistakes` is
 - "old -> new": `old` stands once in the solution's body and is replaced. It begins and ends with whole names, and a
@@ -147,18 +148,18 @@ def as_in_training(value):
     return value.item() if isinstance(value, np.generic) else value
 
 
-def exercise(equation: str, *, worked, mistakes: dict, hints, slopes=(), **more) -> Callable[[Callable], Exercise]:
-    """The decorator of a solution (see above). more: other fields of `Exercise`.
+def exercise(equation: str, *, worked, mistakes: dict, hints, slopes=(), name="", **more) -> Callable:
+    """The decorator of a solution (see above). name: the student's, if not the solution's. more: fields of `Exercise`.
 
     Raises BootcourseError for a mistake that does not fit the solution, and for more than two hints.
     """
 
     def register(solution: Callable) -> Exercise:
-        name, text = solution.__name__, source_of(solution)
+        called, text = name or solution.__name__, source_of(solution)
         if isinstance(hints, str) or len(hints) > 2:
-            raise BootcourseError(f"{name}: `hints` is a tuple of one or two; `check.solution` shows the solution.")
+            raise BootcourseError(f"{called}: `hints` is a tuple of one or two; `check.solution` shows the solution.")
         known = tuple(mistake_of(solution, text, change, says) for change, says in mistakes.items())
-        call = f"{name}({', '.join(inspect.signature(solution).parameters)})"
+        call = f"{called}({', '.join(inspect.signature(solution).parameters)})"
         return Exercise(call, solution, tuple(worked), mistakes=known, hints=tuple(hints), equation=equation,
                         slopes=tuple(slopes), **more)  # fmt: skip
 

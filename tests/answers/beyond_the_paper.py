@@ -1,16 +1,11 @@
 """Answers to the exercises of the lesson beyond the paper."""
 
-import numpy as np
 import torch
 
 from tests.answers import equivalent, right, right_lines, wrong_lines
 
-BETTER = "pi * (q {} q.gather(-1, rule_actions[:, None]))"
-equivalent(
-    "better_of_two",
-    f"{BETTER.format('>')}  ->  {BETTER.format('>=')}",
-    "of two actions with the same value, either is the better one",
-)
+EITHER = "of two actions with the same value, either is the better one"
+equivalent("better_of_two", "pi * (q > q_rule)  ->  pi * (q >= q_rule)", EITHER)
 
 right_lines("""smallest_of
     one after the other: torch.stack([q[int(i)] for i in chosen]).min(0).values
@@ -22,20 +17,6 @@ right_lines("""guide_shrinks
     step by step: last = returns[-window:]; bool(len(last) == window and sum(last) / window + tolerance * abs(best) >= best)
     never worse than the best: mean = np.mean(returns[-window:] or [0.0]); top = max(mean, best); bool(len(returns) >= window and mean >= top - tolerance * abs(top))
 """)  # noqa: E501
-
-right_lines("""multiplier_step
-    clipped: float(np.clip(multiplier + (0.0 if np.isnan(rate) else step * (rate - budget)), 0.0, None))
-    the excess first: excess = rate - budget; multiplier if excess != excess else max(multiplier + excess * step, 0)
-    nan_to_num: max(0.0, multiplier + step * float(np.nan_to_num(rate - budget)))
-""")
-
-wrong_lines("""multiplier_step
-    in one direction: multiplier if np.isnan(rate) or rate <= budget else multiplier + step * (rate - budget)
-    times instead of plus: multiplier if np.isnan(rate) else max(0.0, multiplier * (1 + step * (rate - budget)))
-    nan as no accident: max(0.0, multiplier + step * (float(np.nan_to_num(rate)) - budget))
-    a step of fixed size: multiplier if np.isnan(rate) else max(0.0, multiplier + step * float(np.sign(rate - budget)))
-    relative: multiplier if np.isnan(rate) else max(0.0, multiplier + step * (rate / max(budget, 1e-9) - 1))
-""")
 
 wrong_lines("""smallest_of
     one number: q[chosen].min()
@@ -53,10 +34,10 @@ wrong_lines("""better_of_two
 """)  # noqa: E501
 
 wrong_lines("""guide_shrinks
-    no tolerance: bool(len(returns) >= window and np.mean(returns[-window:]) >= best)
+    no tolerance: bool(len(returns) >= window and np.mean(returns[-window:]) >= best)  # leave out the tolerance
     a median: bool(len(returns) >= window and np.median(returns[-window:]) >= best - tolerance * abs(best))
     the last one alone: bool(len(returns) >= window and returns[-1] >= best - tolerance * abs(best))
-    one too many: bool(len(returns) > window and np.mean(returns[-window:]) >= best - tolerance * abs(best))
+    one too many: bool(len(returns) > window and np.mean(returns[-window:]) >= best - tolerance * abs(best))  # one return too many
     the mean's share: m = np.mean(returns[-window:] or [0.0]); bool(len(returns) >= window and m >= best - tolerance * abs(m))
 """)  # noqa: E501
 
@@ -76,18 +57,3 @@ def with_where(pi, q, rule_actions):
     at_rule = torch.nn.functional.one_hot(rule_actions, pi.shape[1])
     kept = torch.where(q > (at_rule * q).sum(-1, keepdim=True), pi, torch.zeros_like(pi))
     return kept + at_rule * (1 - kept.sum(-1, keepdim=True))
-
-
-@right("better_of_two")
-def in_numpy_s_order(pi, q, rule_actions):
-    rows = torch.arange(len(pi))
-    found = pi * (q > q[rows, rule_actions, None])
-    found[rows, rule_actions] = 1 - found.sum(-1)
-    return found
-
-
-@right("guide_shrinks")
-def in_sentences(returns, best, window, tolerance):
-    if len(returns) < window:
-        return False
-    return float(np.mean(np.array(returns)[-window:])) >= best - abs(tolerance * best)

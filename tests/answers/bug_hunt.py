@@ -11,9 +11,6 @@ right_lines("""end_error
         sum(errors) / len(errors) if errors else 0
     with weights: taken = np.take_along_axis(q, actions[:, None], 1)[:, 0]
         ((taken - rewards) * terminated).sum() / max(terminated.sum(), 1)
-    q action by action:
-        errors = [q[i, a] - rewards[i] for a in range(9) for i in range(len(q)) if actions[i] == a and terminated[i]]
-        sum(errors) / max(1, len(errors))
 """)
 
 
@@ -33,14 +30,8 @@ wrong_lines("""end_error
 """)
 
 
-TRUE = {
-    "A": "flipped_kl",
-    "B": "sampled",
-    "C": "shifted_labels",
-    "D": "no_end",
-    "E": "bonus_for_all",
-    "F": "no_stop",
-}
+BUGS = ("flipped_kl", "sampled", "shifted_labels", "no_end", "bonus_for_all", "no_stop")
+TRUE = dict(zip("ABCDEF", BUGS, strict=True))
 CALLS = itertools.count()
 
 
@@ -60,7 +51,7 @@ wrong_lines("""diagnose
         # Not all six verdicts are right
     one for all: "no_stop"  # Not all six verdicts are right
     in words: TRUE[agent].replace("_", " ")  # the six names are
-    five of them: {letter: bug for letter, bug in TRUE.items() if letter != "F"}[agent]  # raises an error
+    five of them: {letter: TRUE[letter] for letter in "ABCDE"}[agent]  # raises an error
     another answer each time: list(TRUE.values())[next(CALLS) % 6]
 """)
 
@@ -81,10 +72,6 @@ right_lines("""fixed_value
     entropy apart: pi = log_pi.exp(); (pi * q).sum(-1) + alpha * -(pi * log_pi).sum(-1)
     with einsum: torch.einsum("na,na->n", log_pi.exp(), q - alpha * log_pi)
     with q held fixed: (log_pi.exp() * (q.detach() - alpha * log_pi)).sum(-1)
-    action by action: value = 0
-        for a in range(9):
-            value = value + log_pi[:, a].exp() * (q[:, a] - alpha * log_pi[:, a])
-        value
 """)
 
 wrong_lines("""fixed_value
@@ -108,11 +95,6 @@ right_lines("""fixed_loss
     with torch's own: policy = torch.distributions.Categorical(logits=log_pi)
         kl = torch.distributions.kl_divergence(policy, torch.distributions.Categorical(logits=log_rule))
         -((policy.probs * q.detach()).sum(-1) + alpha * policy.entropy() - xi * kl).mean()
-    loss action by action: loss = 0
-        for a in range(9):
-            price = alpha * log_pi[:, a] + xi * (log_pi[:, a] - log_rule[:, a])
-            loss = loss + (log_pi[:, a].exp() * (price - q[:, a].detach())).mean()
-        loss
 """)
 
 
@@ -186,5 +168,12 @@ wrong_lines("""unmasks
     positive rewards only: rng = np.random.default_rng(1)
         rows = [rng.uniform(0, 3, 20), rng.integers(0, 2, 20), 1.7, rng.integers(0, 2, 20), rng.normal(0, 3, 20), 0.6]
         not np.allclose(target(*rows), right_y(*rows))
-    the answers inverted: not solution(target)  # accuses a target function that is right
+    without the end in its own y: reward, end = np.array([1.0, -10.0]), np.array([0.0, 1.0])
+        not np.allclose(target(reward, 0 * end, 3.0, end, 4 + end, 0.5), reward + 0.5 * (4 + end))  # by hand once more
+    to the last digit: rng = np.random.default_rng(1)
+        rows = [rng.normal(0, 3, 20), rng.integers(0, 2, 20), 1.7, rng.integers(0, 2, 20), rng.normal(0, 3, 20), 0.6]
+        bool((target(*rows) != right_y(*rows)).any())  # compare with `np.allclose`
+    drawn anew each time: rng = np.random.default_rng()
+        rng.random() < 0.5  # differently each time
+    the answers inverted: not solution(target)  # the other way round
 """)

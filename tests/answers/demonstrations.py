@@ -128,6 +128,13 @@ wrong_lines("""dagger
     a number of drivers: len(cloning.dagger(rows, train, drive, rounds))
     the newest alone: cloning.dagger(rows, train, drive, rounds)[-1]  # the last driver alone
     the rows: rows  # a list of drivers
+    all columns from the action on: drivers = [train(rows)]
+        for _ in range(rounds):
+            own = drive(drivers[-1])
+            own[:, ACTION:] = own[:, RULE_ACTION, None]
+            rows = torch.cat([rows, own])
+            drivers.append(train(rows))
+        drivers  # column `ACTION` alone
     relabelled after the training: drivers = [train(rows)]
         for _ in range(rounds):
             own = drive(drivers[-1])

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tests.answers import equivalent, right, right_lines, wrong, wrong_lines
+from tests.answers import equivalent, right_lines, wrong, wrong_lines
 
 for _value in (1.01, 1.1):
     _change = f"np.where(policy > 0, policy, 1.0)  ->  np.where(policy > 0, policy, {_value})"
@@ -32,11 +32,6 @@ right_lines("""where_explored
     with histogram: np.histogram(place, bins=edges, weights=entropy)[0] / np.sum(entropy)
     bin by bin: pairs = zip(edges[:-1], edges[1:], strict=True)
         np.array([entropy[(place >= low) & (place < high)].sum() for low, high in pairs]) / entropy.sum()
-    one by one: spent = [0.0] * (len(edges) - 1)
-        for x, h in zip(place, entropy, strict=True):
-            for k in range(len(spent)):
-                spent[k] += h * bool(edges[k] <= x < edges[k + 1])
-        [part / sum(entropy) for part in spent]
 """)
 
 
@@ -68,12 +63,6 @@ right_lines("""coverage
         seen = {(c, k) for c, k in zip(columns, lane, strict=True) if 0 <= c < len(edges) - 1}
         len(seen) / (lanes * (len(edges) - 1))
     as a map: found, _, _ = np.histogram2d(place, lane, bins=[edges, np.arange(lanes + 1) - 0.5]); np.mean(found > 0)
-    cell by cell: visited = [
-            any(edges[i] <= x < edges[i + 1] and k == j for x, k in zip(place, lane, strict=True))
-            for i in range(len(edges) - 1)
-            for j in range(lanes)
-        ]
-        sum(visited) / len(visited)
 """)
 
 wrong_lines("""coverage
@@ -104,15 +93,6 @@ wrong_lines("""ever_tries
 """)
 
 
-@right("ever_tries")
-def first_at_each_second(policy):
-    """Something else for the first time at second t: never before, and then."""
-    favourite, so_far, never = policy.max(axis=1), 0.0, 1.0
-    for p in favourite.tolist():
-        so_far, never = so_far + never * (1 - p), never * p
-    return so_far
-
-
 PADDED = "np.pad(np.asarray(success{0}), ((0, 0), (1, 0)))"
 equivalent("forgetting", f"{PADDED.format(', dtype=float')}  ->  {PADDED.format('')}", "sums of 0 and 1 are exact")
 
@@ -127,12 +107,6 @@ right_lines("""forgetting
             good = [i + window for i, mean in enumerate(means) if mean >= 0.5]
             rows.append([max(means), means[-1], good[-1] if good else 0])
         np.array(rows, dtype=float)
-    with convolve: rows = []
-        for agent in np.asarray(success, dtype=float):
-            means = np.convolve(agent, np.full(window, 1 / window), mode="valid")
-            good = np.flatnonzero(means >= 0.5 - 1e-9)
-            rows.append((means.max(), means[-1], good.max() + window if good.size else 0))
-        np.array(rows)
 """)
 
 wrong_lines("""forgetting

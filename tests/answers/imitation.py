@@ -2,11 +2,6 @@
 
 from tests.answers import equivalent, right, right_lines, wrong_lines
 
-for _name in ("-expert_logits", "own_logits"):
-    _change = f"F.softplus({_name}).mean(-1)  ->  F.softplus({_name}).mean(0)"
-    equivalent("discriminator_loss", _change, "the batch is the only axis")
-
-
 right_lines("""discriminator_loss
     as two classes: ones, zeros = torch.ones_like(rule_logits), torch.zeros_like(own_logits)
         of_the_rule = functional.binary_cross_entropy_with_logits(rule_logits, ones)
@@ -64,10 +59,6 @@ wrong_lines("""deviation_of_a_rate
 """)
 
 
-NEEDED = "np.ceil(np.log(0.05) / np.log(1 - rate))"
-equivalent("episodes_needed", f"return int({NEEDED})  ->  return {NEEDED}", "the same whole number, as a float")
-
-
 @right("episodes_needed")
 def by_trying(rate):
     n = 1
@@ -92,12 +83,3 @@ wrong_lines("""episodes_needed
             n += 1
         n  # one of 95 %
 """)
-
-
-@right("episodes_needed")
-def by_halving(rate):
-    low, high = 0, 1_000_000  # too few, enough
-    while high - low > 1:
-        middle = (low + high) // 2
-        low, high = (low, middle) if (1 - rate) ** middle <= 0.05 else (middle, high)
-    return high

@@ -91,9 +91,3 @@ wrong_lines("""share_of_the_bound
     of the middle road: np.median(returns, axis=1) / np.median(bound)
     in percent: 100 * returns.mean(axis=1) / bound.mean()
 """)
-
-right_lines("""offline_loss
-    action by action: own, best = functional.one_hot(actions, 9), functional.one_hot(next_q.argmax(-1), 9)
-        y = rewards + gamma * (1 - terminated) * (best * next_target.detach()).sum(-1)
-        (((own * q).sum(-1) - y) ** 2).mean() + weight * functional.cross_entropy(q, actions)
-""")

@@ -41,14 +41,6 @@ def road_by_road(rewards, values, next_values, terminated, ended, gamma, lam):
     return found
 
 
-right_lines("""advantages
-    as a list: delta = rewards - values + torch.where(terminated > 0, torch.zeros_like(values), gamma * next_values)
-        found = [delta[-1]]
-        for surprise, end in zip(reversed(delta[:-1]), reversed(ended[:-1]), strict=True):
-            found.append(surprise + torch.where(end > 0, torch.zeros_like(surprise), lam * gamma * found[-1]))
-        torch.stack(found[::-1])
-""")
-
 wrong_lines("""advantages
     with the values added: as_sums(rewards, values, next_values, terminated, ended, gamma, lam) + values
     normalised: found = as_sums(rewards, values, next_values, terminated, ended, gamma, lam)
@@ -74,10 +66,6 @@ right_lines("""clipped_loss
         -(torch.where(beyond, limit, ratio) * advantage).mean()
     as a maximum of losses: both = torch.stack([-ratio * advantage, -torch.clip(ratio, 1 - clip, 1 + clip) * advantage])
         both.amax(0).mean()
-    one by one: total = 0.0
-        for r, a in zip(ratio, advantage, strict=True):
-            total = total + torch.minimum(r * a, torch.clamp(r, min=1 - clip, max=1 + clip) * a)
-        -total / len(ratio)
 """)
 
 wrong_lines("""clipped_loss

@@ -45,18 +45,6 @@ def the_course_s(cars, scenario):
     return teacher.course_rule(cars[None], scenario)[0]
 
 
-@right("my_rule")
-def slow_then_left(cars, scenario):
-    """Falls back at 8 m/s, then one lane at a time, then 13 m/s with a distance of 20 m."""
-    lane = int(cars[EGO, LANE])
-    middle = abs(cars[EGO, Y] - 4 * lane) < 0.5
-    if lane > 0:
-        room = teacher.ahead(cars, lane - 1)[0] > 6
-        return teacher.toward(cars, 8.0, lane - 1 if room and middle else lane)
-    gap, speed = teacher.ahead(cars, 0)
-    return teacher.toward(cars, 13.0 if gap > 20 else speed - 1, 0)
-
-
 wrong_lines("""my_rule
     a float: float(the_course_s(cars, scenario))  # whole number
     left at once: teacher.toward(cars, 10.0, max(int(cars[EGO, LANE]) - 1, 0), scenario)  # collides
@@ -142,11 +130,6 @@ def very_patient(cars, scenario):
     return teacher.toward(cars, 9.0, lane if late or not free else lane - 1, scenario)
 
 
-right_lines("""watchful_rule
-    the library's with other names: watchful(cars, scenario)
-""")
-
-
 @wrong("watchful_rule", "branch without `return`")
 def nothing_in_the_middle_lane(cars, scenario):
     if cars[EGO, LANE] != 1:
@@ -188,11 +171,6 @@ right_lines("""holm
         ranks = np.argsort(np.argsort(p, kind="stable"), kind="stable")
         scaled = np.minimum((len(p) - ranks) * p, 1)
         np.array([scaled[ranks <= rank].max() for rank in ranks])
-    with a table: p = np.asarray(p, dtype=float)
-        order = np.lexsort((np.arange(len(p)), p))
-        scaled = np.minimum(p[order] * np.arange(len(p), 0, -1), 1)
-        larger = np.tril(np.ones((len(p), len(p)), dtype=bool))
-        np.where(larger, scaled, 0).max(axis=1)[np.argsort(order)]
     step by step: found, before = [0.0] * len(p), 0.0
         for k, i in enumerate(sorted(range(len(p)), key=lambda i: p[i])):
             before = found[i] = max(before, min(1.0, (len(p) - k) * p[i]))

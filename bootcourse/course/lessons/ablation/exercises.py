@@ -3,14 +3,7 @@
 import numpy as np
 import scipy
 
-from bootcourse.course.exercise import Exercise, Mistake
-from bootcourse.statistics import iqm
-
-
-def exact_interval_solution(k, n):
-    low = scipy.stats.beta.ppf(0.025, k, n - k + 1) if k > 0 else 0.0
-    high = scipy.stats.beta.ppf(0.975, k + 1, n - k) if k < n else 1.0
-    return np.array([low, high])
+from bootcourse.course.exercise import exercise
 
 
 def count_cases(rng):
@@ -21,88 +14,73 @@ def count_cases(rng):
         yield rng.integers(0, n + 1), n
 
 
-exact_interval = Exercise(
-    "exact_interval(k, n)", solution=exact_interval_solution, cases=count_cases,
-    worked=(((1, 1), np.array([0.025, 1.0])), ((0, 1), np.array([0.0, 0.975]))),  # rate ** 1 = 0.025
-    mistakes=(
-        Mistake(lambda k, n: k / n + 1.96 * np.array([-1, 1]) * np.sqrt(k / n * (1 - k / n) / n),
-            "This is the normal approximation. At 0 of 10 its interval has length 0, as if the rate were known "
-            "exactly.",
-            "1.96 standard errors are always 95 %."),
-        Mistake(lambda k, n: np.array([*scipy.stats.binomtest(k, n).proportion_ci(0.9, method="exact")]),
-            "You leave 5 % at each end. Both ends together may miss in 5 % of the cases: 2.5 % each.",
-            "95 % means that 0.05 goes into the formula."),
-        Mistake(lambda k, n: exact_interval_solution(n - k, n),
-            "This is the interval of the failures: k and n - k are swapped.",
-            "The order of a beta distribution's two parameters does not matter."),
-        Mistake(lambda k, n: scipy.stats.beta.ppf([0.025, 0.975], k + 1, n - k + 1),
-            "You take both ends from one beta distribution, as in a Bayesian interval. The exact ends come from two "
-            "different ones.",
-            "An interval is two quantiles of one distribution."),
-        Mistake(lambda k, n: np.array([*scipy.stats.binomtest(k, n).proportion_ci(method="wilson")]),
-            "This is Wilson's interval: it is shorter, and holds the true rate in about 95 % of the cases. The exact "
-            "one does so in at least 95 %.",
-            "All good intervals of a rate agree."),
-        Mistake(lambda k, n: scipy.stats.beta.ppf([0.025, 0.975], [k, k + 1], [n - k + 1, n - k]),
-            "At k = 0 and at k = n one of your ends is not a number (NaN): a beta distribution has no parameter 0. "
-            "There the low end is 0, and the high end is 1.",
-            "The formula holds for every k."),
-    ),
+@exercise(
+    "the exact (Clopper-Pearson) 95 % interval of k out of n", minutes=8, difficulty=2, cases=count_cases,
+    worked=[((1, 1), np.array([0.025, 1.0])), ((0, 1), np.array([0.0, 0.975]))],  # rate ** 1 = 0.025
     hints=(
         "The low end is the rate at which k or more of n has a chance of 2.5 %; at the high end, k or fewer has it.",
         "`scipy.stats.beta.ppf(0.025, k, n - k + 1)` solves the first. For the second, 0.975 with k + 1 and n - k.",
-        "Where k = 0 the low end is 0, where k = n the high end is 1. Return `np.array([low, high])`.",
     ),
-    minutes=8, difficulty=2, equation="the exact (Clopper-Pearson) 95 % interval of k out of n",
+    mistakes={
+        "return k / n + 1.96 * np.array([-1, 1]) * np.sqrt(k / n * (1 - k / n) / n)":
+            "This is the normal approximation. At 0 of 10 its interval has length 0, as if the rate were known "
+            "exactly.",
+        ("0.025 -> 0.05", "0.975 -> 0.95"):
+            "You leave 5 % at each end. Both ends together may miss in 5 % of the cases: 2.5 % each.",
+        "return np.array([1 - high, 1 - low])":
+            "This is the interval of the failures: k and n - k are swapped.",
+        "return scipy.stats.beta.ppf([0.025, 0.975], k + 1, n - k + 1)":
+            "You take both ends from one beta distribution, as in a Bayesian interval. The exact ends come from two "
+            "different ones.",
+        "return np.array(scipy.stats.binomtest(k, n).proportion_ci(method='wilson'))":
+            "This is Wilson's interval: it is shorter, and holds the true rate in about 95 % of the cases. The exact "
+            "one does so in at least 95 %.",
+        ("if k > 0 else 0.0 ->", "if k < n else 1.0 ->"):
+            "At k = 0 and at k = n one of your ends is not a number (NaN): a beta distribution has no parameter 0. "
+            "There the low end is 0, and the high end is 1.",
+    },
 )  # fmt: skip
+def exact_interval(k, n):
+    low = scipy.stats.beta.ppf(0.025, k, n - k + 1) if k > 0 else 0.0
+    high = scipy.stats.beta.ppf(0.975, k + 1, n - k) if k < n else 1.0
+    return np.array([low, high])
 
 
-def interquartile_mean_solution(scores):
-    cut = len(scores) // 4
-    return np.sort(scores)[cut : len(scores) - cut].mean()
+def score_cases(rng):
+    """Two extremes, all equal, three seeds; then 40 at random."""
+    yield (np.array([128.0, -10.0, 120.0, 125.0, 126.0, 127.0, -6.0, 129.0]),)
+    yield (np.full(10, 23.4375),)
+    yield (np.array([3.0, 1.0, 8.0]),)
+    yield from ((rng.exponential(20, rng.integers(2, 21)) - 10,) for _ in range(40))
 
 
-interquartile_mean = Exercise(
-    "interquartile_mean(scores)", solution=interquartile_mean_solution,
-    # two extremes, all equal, three seeds; then 40 at random
-    cases=lambda rng: [(np.array([128.0, -10.0, 120.0, 125.0, 126.0, 127.0, -6.0, 129.0]),), (np.full(10, 23.4375),),
-                       (np.array([3.0, 1.0, 8.0]),),
-                       *((rng.exponential(20, rng.integers(2, 21)) - 10,) for _ in range(40))],
-    worked=(((np.array([9.0, 1.0, 2.0, 100.0]),), 5.5), ((np.array([4.0, 0.0, 2.0]),), 2.0)),
-    mistakes=(
-        Mistake(np.mean,
-            "This is the mean of all scores. One agent that crashes at once changes it a lot: leave out the outer "
-            "quarters.",
-            "IQM is another word for mean."),
-        Mistake(np.median,
-            "This is the median, the score of one or two agents. Average the middle *half*.",
-            "A robust mean is a median."),
-        Mistake(lambda scores: scores[len(scores) // 4 : len(scores) - len(scores) // 4].mean(),
-            "You cut by position, not by size: sort the scores first.",
-            "The scores are sorted already."),
-        Mistake(lambda scores: np.percentile(scores, [25, 75]).mean(),
-            "This is the mean of the two quartiles. Average all scores that lie between them.",
-            "The interquartile mean is the mean of the quartiles."),
-        Mistake(lambda scores: np.sort(scores)[len(scores) // 4 :].mean(),
-            "You leave out the lowest quarter only. Leave out the highest quarter, too.",
-            "Only failures are outliers."),
-        Mistake(lambda scores: np.sort(scores)[len(scores) // 4 : -(len(scores) // 4)].mean(),
-            "With fewer than four scores your slice `[cut:-cut]` is `[0:0]`, which is empty, and its mean is not a "
-            "number (NaN). Let it end at `len(scores) - cut`.",
-            "`[:-cut]` leaves out the last `cut` scores, for every `cut`."),
-    ),
+@exercise(
+    "the interquartile mean, Agarwal et al. (arXiv 2108.13264)", minutes=5, difficulty=1, cases=score_cases,
+    worked=[((np.array([9.0, 1.0, 2.0, 100.0]),), 5.5), ((np.array([4.0, 0.0, 2.0]),), 2.0)],
     hints=(
         "Sort. Then leave out a quarter of the scores at each end; `len(scores) // 4` rounds down.",
         "`np.sort(scores)[cut : len(scores) - cut]` is what is left (with cut = 0, `[:-cut]` would be empty).",
-        "`np.sort(scores)[cut : len(scores) - cut].mean()`",
     ),
-    minutes=5, difficulty=1, equation="the interquartile mean, Agarwal et al. (arXiv 2108.13264)",
+    mistakes={
+        "return np.mean(scores)":
+            "This is the mean of all scores. One agent that crashes at once changes it a lot: leave out the outer "
+            "quarters.",
+        "return np.median(scores)":
+            "This is the median, the score of one or two agents. Average the middle *half*.",
+        "np.sort(scores) -> scores":
+            "You cut by position, not by size: sort the scores first.",
+        "return np.percentile(scores, [25, 75]).mean()":
+            "This is the mean of the two quartiles. Average all scores that lie between them.",
+        "cut : len(scores) - cut -> cut:":
+            "You leave out the lowest quarter only. Leave out the highest quarter, too.",
+        "len(scores) - cut -> -cut":
+            "With fewer than four scores your slice `[cut:-cut]` is `[0:0]`, which is empty, and its mean is not a "
+            "number (NaN). Let it end at `len(scores) - cut`.",
+    },
 )  # fmt: skip
-
-
-def bootstrap_interval_solution(scores, draws):
-    means = scores[draws].mean(axis=1)
-    return np.percentile(means, [2.5, 97.5])
+def interquartile_mean(scores):
+    cut = len(scores) // 4
+    return np.sort(scores)[cut : len(scores) - cut].mean()
 
 
 def draw_cases(rng):
@@ -114,46 +92,35 @@ def draw_cases(rng):
         yield scores, rng.integers(len(scores), size=(rng.integers(50, 300), len(scores)))
 
 
-bootstrap_interval = Exercise(
-    "bootstrap_interval(scores, draws)", solution=bootstrap_interval_solution, cases=draw_cases,
-    worked=(
+@exercise(
+    "the percentile bootstrap: Efron (1979); over whole seeds", minutes=7, difficulty=2, cases=draw_cases,
+    worked=[
         ((np.array([0.0, 8.0]), np.array([[0, 0], [0, 1], [1, 1]])), np.array([0.2, 7.8])),  # of the means 0, 4, 8
         ((np.array([2.0, 2.0]), np.array([[0, 1], [1, 1]])), np.array([2.0, 2.0])),
-    ),
-    mistakes=(
-        Mistake(lambda scores, draws: np.percentile(scores[draws].mean(axis=1), [5, 95]),
-            "You leave 5 % on each side: that is a 90 % interval. 95 % leaves 2.5 on each.",
-            "95 % means the 95th percentile."),
-        Mistake(lambda scores, draws: np.percentile(scores[draws], [2.5, 97.5]),
-            "This is the spread of single agents. Average within each draw first: the interval is that of the *mean*.",
-            "An interval holds 95 % of the agents."),
-        Mistake(lambda scores, draws: np.percentile(scores[draws].mean(axis=0), [2.5, 97.5]),
-            "You average over the draws. Average within each draw, over its agents: axis 1.",
-            "A mean runs over the first axis."),
-        Mistake(lambda scores, draws: scores.mean() + 1.96 * np.array([-1, 1]) * scores[draws].mean(axis=1).std(),
-            "You replace the draws by a normal distribution. Take the percentiles of the means themselves.",
-            "The means of ten numbers are normally distributed."),
-        Mistake(lambda scores, draws:
-            np.sort(scores[draws].mean(axis=1))[[int(0.025 * len(draws)), int(0.975 * len(draws))]],
-            "You take single means at the two ends. `np.percentile` goes on between two of them, so that yours and "
-            "ours agree: `np.percentile(means, [2.5, 97.5])`.",
-            "A percentile is one of the numbers."),
-        Mistake(lambda scores, draws: np.percentile(np.median(scores[draws], axis=1), [2.5, 97.5]),
-            "You took the median of each draw. Here you need the interval of the mean.",
-            "The statistic does not matter to the bootstrap."),
-    ),
+    ],
     hints=(
         "`scores[draws]` has a row for each draw: the scores of the agents that it drew.",
         "One mean for each row; then the 2.5th and the 97.5th percentile of all the means.",
-        "`np.percentile(scores[draws].mean(axis=1), [2.5, 97.5])`",
     ),
-    minutes=7, difficulty=2, equation="the percentile bootstrap: Efron (1979); over whole seeds",
+    mistakes={
+        "[2.5, 97.5] -> [5, 95]":
+            "You leave 5 % on each side: that is a 90 % interval. 95 % leaves 2.5 on each.",
+        ".mean(axis=1) ->":
+            "This is the spread of single agents. Average within each draw first: the interval is that of the *mean*.",
+        "axis=1 -> axis=0":
+            "You average over the draws. Average within each draw, over its agents: axis 1.",
+        "return scores.mean() + 1.96 * np.array([-1, 1]) * means.std()":
+            "You replace the draws by a normal distribution. Take the percentiles of the means themselves.",
+        "return np.sort(means)[[int(0.025 * len(means)), int(0.975 * len(means))]]":
+            "You take single means at the two ends. `np.percentile` goes on between two of them, so that yours and "
+            "ours agree: `np.percentile(means, [2.5, 97.5])`.",
+        "scores[draws].mean(axis=1) -> np.median(scores[draws], axis=1)":
+            "You took the median of each draw. Here you need the interval of the mean.",
+    },
 )  # fmt: skip
-
-
-def chance_of_improvement_solution(x, y):
-    x, y = x[:, None], y[None, :]
-    return np.mean((x > y) + 0.5 * (x == y))
+def bootstrap_interval(scores, draws):
+    means = scores[draws].mean(axis=1)
+    return np.percentile(means, [2.5, 97.5])
 
 
 def rival_cases(rng):
@@ -168,53 +135,30 @@ def rival_cases(rng):
     yield np.array([6.0, 1.0, 5.0]), np.array([4.0])
 
 
-chance_of_improvement = Exercise(
-    "chance_of_improvement(x, y)", solution=chance_of_improvement_solution, cases=rival_cases,
-    worked=(((np.array([1.0, 3.0]), np.array([2.0, 2.0])), 0.5), ((np.array([2.0, 3.0]), np.array([2.0, 0.0])), 0.875)),
-    mistakes=(
-        Mistake(lambda x, y: np.mean(x[:, None] > y),
-            "A tie counts half. With your count, two equal methods would both be worse than each other.",
-            "A score that is not higher is lower."),
-        Mistake(lambda x, y: np.mean(x[:, None] >= y),
-            "A tie counts half. With your count, two equal methods would both be better than each other.",
-            "At least as good means better."),
-        Mistake(lambda x, y: np.mean((x > y) + 0.5 * (x == y)),
-            "You compare agent 0 with agent 0 only. The seeds of two methods have nothing in common: compare every "
-            "pair.",
-            "The same seed means the same luck for both methods."),
-        Mistake(lambda x, y: chance_of_improvement_solution(y, x),
-            "This is how often the *other* method is better: x and y are swapped.",
-            "The order of x and y does not matter."),
-        Mistake(lambda x, y: float(x.mean() > y.mean()),
-            "You compare two means and answer with yes or no. Count in how many pairs of agents x is ahead.",
-            "The method with the higher mean is better."),
-    ),
+@exercise(
+    "P(X > Y) + P(X = Y) / 2, the Mann-Whitney statistic U / (m n)", minutes=6, difficulty=2, cases=rival_cases,
+    worked=[((np.array([1.0, 3.0]), np.array([2.0, 2.0])), 0.5), ((np.array([2.0, 3.0]), np.array([2.0, 0.0])), 0.875)],
     hints=(
         "Every agent of x against every agent of y: `x[:, None]` and `y[None, :]` make a table of all pairs.",
         "1 where x is above, 0.5 where they are equal, 0 elsewhere; then the mean of the table.",
-        "`np.mean((x[:, None] > y) + 0.5 * (x[:, None] == y))`",
     ),
-    minutes=6, difficulty=2, equation="P(X > Y) + P(X = Y) / 2, the Mann-Whitney statistic U / (m n)",
+    mistakes={
+        "return np.mean(x > y)":
+            "A tie counts half. With your count, two equal methods would both be worse than each other.",
+        "return np.mean(x >= y)":
+            "A tie counts half. With your count, two equal methods would both be better than each other.",
+        "x, y = x[:, None], y[None, :] ->":
+            "You compare agent 0 with agent 0 only. The seeds of two methods have nothing in common: compare every "
+            "pair.",
+        "x > y -> x < y":
+            "This is how often the *other* method is better: x and y are swapped.",
+        "return float(x.mean() > y.mean())":
+            "You compare two means and answer with yes or no. Count in how many pairs of agents x is ahead.",
+    },
 )  # fmt: skip
-
-
-def difference_interval_solution(x, y, draws_x, draws_y):
-    def iqm(scores):  # over the last axis
-        cut = scores.shape[-1] // 4
-        return np.sort(scores, axis=-1)[..., cut : scores.shape[-1] - cut].mean(axis=-1)
-
-    differences = iqm(x[draws_x]) - iqm(y[draws_y])
-    return np.array([iqm(x) - iqm(y), *np.percentile(differences, [2.5, 97.5])])
-
-
-def of_differences(x, y, differences, ends=(2.5, 97.5)):
-    return np.array([iqm(x) - iqm(y), *np.percentile(differences, ends)])
-
-
-def of_two_intervals(x, y, draws_x, draws_y, turn=1):
-    """The low end less the low end, the high end less the high end; with turn=-1 each less the other end."""
-    ends = [np.percentile(iqm(scores[draws]), [2.5, 97.5]) for scores, draws in ((x, draws_x), (y, draws_y))]
-    return np.array([iqm(x) - iqm(y), *(ends[0] - ends[1][::turn])])
+def chance_of_improvement(x, y):
+    x, y = x[:, None], y[None, :]
+    return np.mean((x > y) + 0.5 * (x == y))
 
 
 def group_cases(rng):
@@ -227,42 +171,41 @@ def group_cases(rng):
         yield x, y, rng.integers(m, size=(resamples, m)), rng.integers(n, size=(resamples, n))
 
 
-difference_interval = Exercise(
-    "difference_interval(x, y, draws_x, draws_y)", solution=difference_interval_solution, cases=group_cases,
-    worked=(
+@exercise(
+    "the percentile bootstrap of IQM(x) - IQM(y), both groups resampled", minutes=20, difficulty=3, cases=group_cases,
+    worked=[
         ((np.array([0.0, 8.0]), np.array([1.0, 1.0]), np.array([[0, 0], [0, 1], [1, 1]]), np.array([[0, 1]] * 3)),
          np.array([3.0, -0.8, 6.8])),  # means 0, 4, 8, each less 1
         ((np.array([0.0, 2.0, 4.0, 90.0]), np.zeros(2), np.array([[0, 1, 2, 3]]), np.array([[0, 0]])),
          np.array([3.0, 3.0, 3.0])),  # 2 and 4 are left of the four
-    ),
-    mistakes=(
-        Mistake(lambda x, y, draws_x, draws_y: difference_interval_solution(y, x, draws_y, draws_x),
-            "Your sign is turned: the first group less the second.",
-            "The sign of a difference does not matter."),
-        Mistake(of_two_intervals,
-            "You subtract the ends of two intervals. Subtract in each resample, and take the percentiles of these "
-            "differences.",
-            "The interval of a difference is the difference of the intervals."),
-        Mistake(lambda *case: of_two_intervals(*case, turn=-1),
-            "You take the worst case at both ends: that both groups are unlucky in opposite directions is rarer than "
-            "5 %. Take the percentiles of the resampled differences.",
-            "An interval has to allow for the worst case."),
-        Mistake(lambda x, y, draws_x, draws_y: np.array([x.mean() - y.mean(), *np.percentile(
-                x[draws_x].mean(-1) - y[draws_y].mean(-1), [2.5, 97.5])]),
-            "You compare means. Take the interquartile mean, of the groups and of each resample.",
-            "The statistic does not matter."),
-        Mistake(lambda x, y, draws_x, draws_y: of_differences(x, y, np.sort(x)[draws_x].mean(-1) - np.sort(y)[
-                draws_y].mean(-1)),
-            "In the resamples you take the mean. Sort each resample and leave out its own quarters.",
-            "Sorting once is enough."),
-        Mistake(lambda x, y, draws_x, draws_y: of_differences(x, y, iqm(x[draws_x]) - iqm(y[draws_y]), (5, 95)),
-            "You leave 5 % at each end. Both ends together may miss in 5 % of the cases.",
-            "95 % means the 95th percentile."),
-    ),
+    ],
     hints=(
         "`x[draws_x]` has a row for each resample. Write an `iqm` along the last axis: `np.sort(..., axis=-1)`.",
         "One difference for each resample: `iqm(x[draws_x]) - iqm(y[draws_y])`.",
-        "`np.array([iqm(x) - iqm(y), *np.percentile(differences, [2.5, 97.5])])`",
     ),
-    minutes=20, difficulty=3, equation="the percentile bootstrap of IQM(x) - IQM(y), both groups resampled",
+    mistakes={
+        "return np.array([iqm(y) - iqm(x), *np.percentile(-differences, [2.5, 97.5])])":
+            "Your sign is turned: the first group less the second.",
+        "of_x, of_y = (np.percentile(iqm(drawn), [2.5, 97.5]) for drawn in (x[draws_x], y[draws_y]))\n"
+        "return np.array([iqm(x) - iqm(y), *(of_x - of_y)])":
+            "You subtract the ends of two intervals. Subtract in each resample, and take the percentiles of these "
+            "differences.",
+        "of_x, of_y = (np.percentile(iqm(drawn), [2.5, 97.5]) for drawn in (x[draws_x], y[draws_y]))\n"
+        "return np.array([iqm(x) - iqm(y), *(of_x - of_y[::-1])])":
+            "You take the worst case at both ends: that both groups are unlucky in opposite directions is rarer than "
+            "5 %. Take the percentiles of the resampled differences.",
+        "np.sort(scores, axis=-1)[..., cut : scores.shape[-1] - cut] -> scores":
+            "You compare means. Take the interquartile mean, of the groups and of each resample.",
+        "iqm(x[draws_x]) - iqm(y[draws_y]) -> np.sort(x)[draws_x].mean(-1) - np.sort(y)[draws_y].mean(-1)":
+            "In the resamples you take the mean. Sort each resample and leave out its own quarters.",
+        "[2.5, 97.5] -> [5, 95]":
+            "You leave 5 % at each end. Both ends together may miss in 5 % of the cases.",
+    },
 )  # fmt: skip
+def difference_interval(x, y, draws_x, draws_y):
+    def iqm(scores):  # over the last axis
+        cut = scores.shape[-1] // 4
+        return np.sort(scores, axis=-1)[..., cut : scores.shape[-1] - cut].mean(axis=-1)
+
+    differences = iqm(x[draws_x]) - iqm(y[draws_y])
+    return np.array([iqm(x) - iqm(y), *np.percentile(differences, [2.5, 97.5])])

@@ -2,15 +2,15 @@
 
 import numpy as np
 
-from bootcourse.course.exercise import Exercise, Mistake
+from bootcourse.course.exercise import exercise
 
 
-def standard_target(reward, is_demonstration, bonus, terminated, next_value, gamma):
+def fixed_target(reward, is_demonstration, bonus, terminated, next_value, gamma):
     return reward + bonus * is_demonstration + gamma * (1 - terminated) * next_value
 
 
 TARGETS = {  # what a learner might compute; the first three are right
-    "as it is printed": standard_target,
+    "as it is printed": fixed_target,
     "with where": lambda r, demo, c, end, v, gamma: np.where(demo > 0, r + c, r) + np.where(end > 0, 0, gamma * v),
     "in another order": lambda r, demo, c, end, v, gamma: gamma * (v - v * end) + demo * c + r,
     "no end": lambda r, demo, c, end, v, gamma: r + c * demo + gamma * v,
@@ -24,9 +24,7 @@ TARGETS = {  # what a learner might compute; the first three are right
     "a discounted reward": lambda r, demo, c, end, v, gamma: gamma * (r + (1 - end) * v) + c * demo,
     "no discount": lambda r, demo, c, end, v, gamma: r + c * demo + (1 - end) * v,
     "only gains": lambda r, demo, c, end, v, gamma: np.maximum(r, 0) + c * demo + gamma * (1 - end) * v,
-    "a mean over the batch": lambda r, demo, c, end, v, gamma: standard_target(
-        r, demo, c, end, np.mean(v) + 0 * v, gamma
-    ),
+    "a mean over the batch": lambda r, demo, c, end, v, gamma: fixed_target(r, demo, c, end, v.mean() + 0 * v, gamma),
 }
 RIGHT_TARGETS = tuple(TARGETS)[:3]
 
@@ -41,60 +39,50 @@ def is_unmasked(answer, name):
     return answer(target)
 
 
-def unmasks_solution(target):
+def explain_probe(cases, answers):
+    """Which target function the probe judged wrongly."""
+    said = {name: set() for name in TARGETS}
+    for (name,), answer in zip(cases, answers, strict=True):
+        said[name].add(bool(answer))
+    if any(len(verdicts) == 2 for verdicts in said.values()):
+        return "Your probe judges the same function differently each time: draw its numbers once, with a fixed seed."
+    if True in said["as it is printed"]:
+        return "Your probe accuses the right target function: work out the y of your transitions by hand once more."
+    if any(True in said[name] for name in RIGHT_TARGETS):
+        return (
+            "Your probe accuses a target function that is right, only written in another way: the last digit of a "
+            "number may differ, so compare with `np.allclose`."
+        )
+    wrong = [name for name in TARGETS if name not in RIGHT_TARGETS]
+    missed = [name for name in wrong if False in said[name]]
+    return f"Your probe lets {len(missed)} of {len(wrong)} wrong target functions pass. One is '{missed[0]}'."
+
+
+@exercise(
+    "y = r + c·1[demonstration] + γ (1 - terminated) V(s'), tested from outside", minutes=20, difficulty=3,
+    cases=lambda rng: [(name,) for name in TARGETS] * 2, run=is_unmasked, explain=explain_probe,
+    worked=[(("as it is printed",), False), (("no end",), True)],
+    hints=(
+        "Work out y by hand for four transitions: the agent's own or a demonstration, going on or ended.",
+        "Choose numbers that no mistake can hit by chance: a bonus that is not 2, a γ that is not 0.8, next values "
+        "that differ, one of them negative. Compare with `np.allclose`.",
+    ),
+    mistakes={
+        "return False":
+            "Your probe calls every target function right, the one without (1 - terminated) too.",
+        "return True":
+            "Your probe accuses every target function, the right one too.",
+        "not np.allclose -> np.allclose":
+            "Your answers are the other way round: return True for a target function that is wrong.",
+        ("right = -> reward[1] = 1.0; right =",
+         "return not np.allclose(target(reward[1:2], demo[1:2], 3.0, end[1:2], value[1:2], 0.5), right[1:2])"):
+            "You look at one transition, an accident of the agent's own. It tests neither the bonus nor the discount.",
+        "return not np.allclose(target(reward[:1], demo[:1], 3.0, end[:1], value[:1], 0.5), right[:1])":
+            "You look at one transition that goes on. A target without (1 - terminated) is right there.",
+    },
+)  # fmt: skip
+def unmasks(target):
     reward, value = np.array([1.0, -10.0, 0.5, -3.0]), np.array([4.0, 2.0, 7.0, -1.0])
     demo, end = np.array([0.0, 0.0, 1.0, 1.0]), np.array([0.0, 1.0, 0.0, 1.0])
     right = reward + 3.0 * demo + 0.5 * (1 - end) * value
     return not np.allclose(target(reward, demo, 3.0, end, value, 0.5), right)
-
-
-def explain_probe(cases, answers):
-    """Which target function the probe judged wrongly."""
-    said = dict(zip([name for (name,) in cases], answers, strict=True))
-    if any(bool(said[name]) for name in RIGHT_TARGETS):
-        return "Your probe accuses a target function that is right, only written in another way: compare numbers."
-    missed = [name for name, found in said.items() if name not in RIGHT_TARGETS and not found]
-    return (
-        f"Your probe lets {len(missed)} of {len(TARGETS) - len(RIGHT_TARGETS)} wrong target functions pass. One "
-        f"is '{missed[0]}'."
-        if missed
-        else "Your probe judges the same function differently each time."
-    )
-
-
-def one_row(demo, end):
-    """A probe that looks at one transition only."""
-
-    def answer(target):
-        got = target(np.array([1.0]), np.array([demo]), 3.0, np.array([end]), np.array([4.0]), 0.5)
-        return not np.allclose(got, 1.0 + 3.0 * demo + 0.5 * (1 - end) * 4.0)
-
-    return answer
-
-
-unmasks = Exercise(
-    "unmasks(target)", solution=unmasks_solution, cases=lambda rng: [(name,) for name in TARGETS] * 2,
-    run=is_unmasked, explain=explain_probe,
-    worked=((("as it is printed",), False), (("no end",), True)),
-    mistakes=(
-        Mistake(lambda target: False,
-            "Your probe calls every target function right, the one without (1 - terminated) too.",
-            "If nothing raises an error, it works."),
-        Mistake(lambda target: True,
-            "Your probe accuses every target function, the right one too.",
-            "A test is there to find something."),
-        Mistake(one_row(0.0, 1.0),
-            "You look at one transition, an accident of the agent's own. It tests neither the bonus nor the discount.",
-            "A bug at the end shows at the end, and there are no others."),
-        Mistake(one_row(0.0, 0.0),
-            "You look at one transition that goes on. A target without (1 - terminated) is right there.",
-            "A typical transition is a good test."),
-    ),
-    hints=(
-        "Work out y by hand for four transitions: the agent's own or a demonstration, going on or ended.",
-        "Choose numbers that no mistake can hit by chance: a bonus that is not 2, a γ that is not 0.8, next values "
-        "that differ, one of them negative.",
-        "`target(reward, demo, 3.0, end, value, 0.5)` with arrays of four; compare with `np.allclose`.",
-    ),
-    minutes=20, difficulty=3, equation="y = r + c·1[demonstration] + γ (1 - terminated) V(s'), tested from outside",
-)  # fmt: skip

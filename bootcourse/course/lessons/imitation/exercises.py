@@ -4,120 +4,98 @@ import math
 
 import numpy as np
 import torch
-from torch.nn import functional
+import torch.nn.functional as F
 
-from bootcourse.course.exercise import Exercise, Mistake
+from bootcourse.course.exercise import exercise
 from bootcourse.learn import gail
 
 
 def judged_cases(rng):
-    """D near 1/2, right and wrong, very certain in both precisions, batches of two lengths; then 30 at random."""
-    yield torch.tensor([0.01, -0.01]).double(), torch.tensor([0.01, 0.0, -0.01]).double()
-    yield torch.tensor([3.0, 1.0]).double(), torch.tensor([-2.0, -4.0]).double()
-    yield torch.tensor([-3.0, -1.0]).double(), torch.tensor([2.0, 4.0]).double()
-    yield torch.tensor([60.0, -60.0]).double(), torch.tensor([-60.0, 60.0, 0.0]).double()
-    yield torch.tensor([100.0, -100.0]), torch.tensor([-100.0, 100.0, 0.0])
+    """D near 1/2, right and wrong, very certain, batches of two lengths; then 30 at random."""
+    yield torch.tensor([0.01, -0.01]), torch.tensor([0.01, 0.0, -0.01])
+    yield torch.tensor([3.0, 1.0]), torch.tensor([-2.0, -4.0])
+    yield torch.tensor([-3.0, -1.0]), torch.tensor([2.0, 4.0])
+    yield torch.tensor([60.0, -60.0]), torch.tensor([-60.0, 60.0, 0.0])
+    yield torch.tensor([100.0, -100.0]), torch.tensor([-100.0, 100.0, 0.0])  # e^100 is infinite
     for _ in range(30):
         yield tuple(torch.tensor(rng.normal(0, 3, n)) for n in rng.integers(1, 8, 2))
 
 
-discriminator_loss = Exercise(
-    "discriminator_loss(rule_logits, own_logits)",
-    solution=gail.discriminator_loss, cases=judged_cases, slopes=("rule_logits", "own_logits"),
-    worked=(
+@exercise(
+    "-E_rule[log D] - E_own[log (1 - D)], Ho & Ermon, arXiv 1606.03476, Equation 17, with D for 1 - D",
+    minutes=15, difficulty=3, cases=judged_cases, slopes=["rule_logits", "own_logits"],
+    worked=[
         # D = 3/4 for the rule, 1/4 for the agent: twice -log 3/4; the slopes are D - 1 and D
-        ((torch.tensor([math.log(3)]).double(), torch.tensor([-math.log(3)]).double()),
+        ((torch.tensor([math.log(3)]), torch.tensor([-math.log(3)])),
          (torch.tensor(2 * math.log(4 / 3)), torch.tensor([-0.25]), torch.tensor([0.25]))),
         # the rule's D are 3/4 and 1/4, the agent's 1/4; each term is a mean over its batch
-        ((torch.tensor([math.log(3), -math.log(3)]).double(), torch.tensor([-math.log(3)]).double()),
+        ((torch.tensor([math.log(3), -math.log(3)]), torch.tensor([-math.log(3)])),
          (torch.tensor((math.log(4 / 3) + math.log(4)) / 2 + math.log(4 / 3)),
           torch.tensor([-1 / 8, -3 / 8]), torch.tensor([1 / 4]))),
-    ),
-    mistakes=(
-        Mistake(lambda rule_logits, own_logits: gail.discriminator_loss(own_logits, rule_logits),
-            "You have taken the two batches for each other: this discriminator learns to give the *agent* a high D.",
-            "D is the probability that it is the agent's own driving (in the paper that introduced GAIL it is)."),
-        Mistake(lambda rule_logits, own_logits: -gail.discriminator_loss(rule_logits, own_logits),
-            "Your sign is wrong: gradient descent on this makes the discriminator take each for the other.",
-            "A log-likelihood is minimised."),
-        Mistake(lambda rule_logits, own_logits:
-                -torch.log(torch.sigmoid(rule_logits)).mean() - torch.log(1 - torch.sigmoid(own_logits)).mean(),
-            "This is right on paper, but infinite where the discriminator is certain and wrong: in floating point "
-            "σ(100) is exactly 1. -log σ(x) is log (1 + e⁻ˣ), which is called softplus.",
-            "A formula that is right can be computed as it is printed."),
-        Mistake(lambda rule_logits, own_logits:
-                torch.log(1 + torch.exp(-rule_logits)).mean() + torch.log(1 + torch.exp(own_logits)).mean(),
-            "e¹⁰⁰ is too large for a float32, so your loss is infinite there. `softplus` computes log (1 + eˣ) safely.",
-            "Only the logarithm of 0 has to be avoided."),
-        Mistake(lambda rule_logits, own_logits:
-                functional.softplus(-rule_logits).sum() + functional.softplus(own_logits).sum(),
-            "Both terms are expectations: take the mean over each batch, so that a longer batch does not count more.",
-            "A loss is a sum over the data."),
-        Mistake(lambda rule_logits, own_logits: functional.softplus(own_logits).mean(),
-            "The rule's half is missing: nothing keeps D high where the rule drives, so D = 0 everywhere is the best.",
-            "The discriminator only has to find out the agent."),
-    ),
+    ],
     hints=(
         "With D = σ(x): log D = -log (1 + e⁻ˣ), and log (1 - D) = -log (1 + eˣ).",
         "`torch.nn.functional.softplus(x)` is log (1 + eˣ), safe for every x. Mind the sign of each x.",
-        "`softplus(-rule_logits).mean() + softplus(own_logits).mean()`",
     ),
-    minutes=15, difficulty=3,
-    equation="-E_rule[log D] - E_own[log (1 - D)], Ho & Ermon, arXiv 1606.03476, Equation 17, with D for 1 - D",
+    mistakes={
+        "return F.softplus(-own_logits).mean() + F.softplus(rule_logits).mean()":
+            "You have taken the two batches for each other: this discriminator learns to give the *agent* a high D.",
+        "return -F.softplus(-rule_logits).mean() - F.softplus(own_logits).mean()":
+            "Your sign is wrong: gradient descent on this makes the discriminator take each for the other.",
+        "return -torch.log(torch.sigmoid(rule_logits)).mean() - torch.log(1 - torch.sigmoid(own_logits)).mean()":
+            "This is right on paper, but infinite where the discriminator is certain and wrong: in floating point "
+            "σ(100) is exactly 1. -log σ(x) is log (1 + e⁻ˣ), which is called softplus.",
+        "return torch.log(1 + torch.exp(-rule_logits)).mean() + torch.log(1 + torch.exp(own_logits)).mean()":
+            "e¹⁰⁰ is too large for a float32, so your loss is infinite there. `softplus` computes log (1 + eˣ) safely.",
+        "mean -> sum [2 times]":
+            "Both terms are expectations: take the mean over each batch, so that a longer batch does not count more.",
+        "F.softplus(-rule_logits).mean() + ->":
+            "The rule's half is missing: nothing keeps D high where the rule drives, so D = 0 everywhere is the best.",
+    },
 )  # fmt: skip
+def discriminator_loss(rule_logits, own_logits):
+    return F.softplus(-rule_logits).mean() + F.softplus(own_logits).mean()
 
 
-imitation_reward = Exercise(
-    "imitation_reward(own_logits)", solution=gail.imitation_reward,
-    # D = 1/2, near 0 and 1, D = 1 in floating point, e^x infinite in float32; then 40 at random
-    cases=lambda rng: [(torch.zeros(1).double(),), (torch.tensor([5.0, -5.0]).double(),),
-                       (torch.tensor([60.0, -60.0, 1.0]).double(),), (torch.tensor([100.0, -100.0, 2.0]),),
-                       *((torch.tensor(rng.normal(0, 3, rng.integers(1, 8))),) for _ in range(40))],
-    worked=(
-        ((torch.tensor([0.0]).double(),), torch.tensor([math.log(2)])),  # D = 1/2
+def own_cases(rng):
+    """D = 1/2, near 0 and 1, D = 1 in floating point, e^x infinite; then 40 at random."""
+    yield from ((torch.tensor(x),) for x in ([0.0], [5.0, -5.0], [60.0, -60.0, 1.0], [100.0, -100.0, 2.0]))
+    yield from ((torch.tensor(rng.normal(0, 3, rng.integers(1, 8))),) for _ in range(40))
+
+
+imitation_reward = exercise(
+    "r(s,a) = -log (1 - D(s,a)), Ho & Ermon, arXiv 1606.03476; D as in bootcourse.learn.gail",
+    minutes=6, difficulty=2, cases=own_cases,
+    worked=[
+        ((torch.tensor([0.0]),), torch.tensor([math.log(2)])),  # D = 1/2
         # D = 3/4 and 1/4
-        ((torch.tensor([math.log(3), -math.log(3)]).double(),), torch.tensor([math.log(4), math.log(4 / 3)])),
-    ),
-    mistakes=(
-        Mistake(lambda own_logits: functional.logsigmoid(own_logits),
-            "This is log D. It grows with D as it should, but it is at most 0: each second on the road costs "
-            "something, so the agent gains by crashing early.",
-            "The reward is the log-probability of the discriminator."),
-        Mistake(lambda own_logits: -functional.softplus(own_logits),
-            "This is log (1 - D): it is largest where the discriminator recognises the agent. A minus is missing.",
-            "The reward is the agent's term of the discriminator's loss."),
-        Mistake(lambda own_logits: functional.softplus(-own_logits),
-            "This is -log D: it is largest for what the demonstrator would not do.",
-            "D is the probability that it is the agent's own driving (in some papers it is)."),
-        Mistake(lambda own_logits: torch.sigmoid(own_logits),
-            "This is D itself. Take minus the logarithm of 1 - D.",
-            "The discriminator's probability is the reward."),
-        Mistake(lambda own_logits: own_logits,
-            "This is the logit, log D - log (1 - D), which another method (AIRL) pays. It is negative where the "
-            "discriminator recognises the agent.",
-            "The network's output is the reward."),
-        Mistake(lambda own_logits: -torch.log(1 - torch.sigmoid(own_logits)),
-            "This is right on paper, but infinite where the discriminator is very certain: in floating point σ(60) is "
-            "exactly 1. -log (1 - σ(x)) is log (1 + e^x), which is called softplus.",
-            "A formula that is right can be computed as it is printed."),
-        Mistake(lambda own_logits: torch.log(1 + torch.exp(own_logits)),
-            "This is right on paper, but in float32 e^x is infinite (and σ(-x) is 0) from x = 89 on, so your reward is "
-            "infinite there. `softplus` computes log (1 + e^x) safely.",
-            "Only σ(x) = 1 has to be avoided."),
-    ),
+        ((torch.tensor([math.log(3), -math.log(3)]),), torch.tensor([math.log(4), math.log(4 / 3)])),
+    ],
     hints=(
         "With D = σ(x): 1 - D = 1 / (1 + e^x). What is minus the logarithm of that?",
         "log (1 + e^x) has a name and a function that is safe for a large x: `torch.nn.functional.softplus`.",
-        "`torch.nn.functional.softplus(own_logits)`",
     ),
-    minutes=6, difficulty=2,
-    equation="r(s,a) = -log (1 - D(s,a)), Ho & Ermon, arXiv 1606.03476; D as in bootcourse.learn.gail",
-)  # fmt: skip
-
-
-def deviation_of_a_rate_solution(k, n):
-    outcomes = np.repeat([100.0, 0.0], [k, n - k])
-    return outcomes.std(ddof=1)
+    mistakes={
+        "return F.logsigmoid(own_logits)":
+            "This is log D. It grows with D as it should, but it is at most 0: each second on the road costs "
+            "something, so the agent gains by crashing early.",
+        "return -F.softplus(own_logits)":
+            "This is log (1 - D): it is largest where the discriminator recognises the agent. A minus is missing.",
+        "return F.softplus(-own_logits)":
+            "This is -log D: it is largest for what the demonstrator would not do.",
+        "return torch.sigmoid(own_logits)":
+            "This is D itself. Take minus the logarithm of 1 - D.",
+        "return own_logits":
+            "This is the logit, log D - log (1 - D), which another method (AIRL) pays. It is negative where the "
+            "discriminator recognises the agent.",
+        "return -torch.log(1 - torch.sigmoid(own_logits))":
+            "This is right on paper, but infinite where the discriminator is very certain: in floating point σ(60) is "
+            "exactly 1. -log (1 - σ(x)) is log (1 + e^x), which is called softplus.",
+        "return torch.log(1 + torch.exp(own_logits))":
+            "This is right on paper, but in float32 e^x is infinite (and σ(-x) is 0) from x = 89 on, so your reward is "
+            "infinite there. `softplus` computes log (1 + e^x) safely.",
+    },
+)(gail.imitation_reward)  # fmt: skip
 
 
 def rate_cases(rng):
@@ -128,73 +106,62 @@ def rate_cases(rng):
         yield rng.integers(1, n), n
 
 
-deviation_of_a_rate = Exercise(
-    "deviation_of_a_rate(k, n)", solution=deviation_of_a_rate_solution, cases=rate_cases,
-    worked=(((1, 2), 100 / math.sqrt(2)), ((2, 2), 0.0), ((1, 4), 50.0)),  # √((75² + 3 · 25²) / 3) = 50
-    mistakes=(
-        Mistake(lambda k, n: 100 * math.sqrt(k / n * (1 - k / n)),
-            "You divide by n. The deviation of a *sample* divides by n - 1, which NumPy calls `ddof=1`; with n, one of "
-            "20 would give 21.79.",
-            "A standard deviation is what `np.std` returns."),
-        Mistake(lambda k, n: deviation_of_a_rate_solution(k, n) / math.sqrt(n),
-            "This is the standard error: how far the *rate* may be off. A table's ± SD says how far single episodes "
-            "lie apart.",
-            "± always stands for the error of the mean."),
-        Mistake(lambda k, n: deviation_of_a_rate_solution(k, n) / 100,
-            "This is the deviation of zeros and ones. In percent it is a hundred times as large.",
-            "A deviation has no unit."),
-        Mistake(lambda k, n: deviation_of_a_rate_solution(k, n) ** 2,
-            "This is the variance: take its root, so that it has the unit of the rate.",
-            "Variance and deviation are two words for one thing."),
-        Mistake(lambda k, n: 100 * math.sqrt(k) / n,
-            "This is the error of a count, √k. It says how much k would vary, not how far single episodes lie apart.",
-            "Rare events have a deviation of √k."),
-    ),
+@exercise(
+    "100 √(p (1 - p) n / (n - 1)) with p = k / n: what a table of rates prints behind its ±",
+    minutes=5, difficulty=1, cases=rate_cases,
+    worked=[((1, 2), 100 / math.sqrt(2)), ((2, 2), 0.0), ((1, 4), 50.0)],  # √((75² + 3 · 25²) / 3) = 50
     hints=(
         "Write down what is averaged: n numbers, k of them 100 and the others 0.",
         "`np.repeat([100.0, 0.0], [k, n - k])` are these numbers. A sample's deviation divides by n - 1.",
-        "`np.repeat([100.0, 0.0], [k, n - k]).std(ddof=1)`",
     ),
-    minutes=5, difficulty=1,
-    equation="100 √(p (1 - p) n / (n - 1)) with p = k / n: what a table of rates prints behind its ±",
+    mistakes={
+        "ddof=1 -> ddof=0":
+            "You divide by n. The deviation of a *sample* divides by n - 1, which NumPy calls `ddof=1`; with n, one of "
+            "20 would give 21.79.",
+        "return outcomes.std(ddof=1) / math.sqrt(n)":
+            "This is the standard error: how far the *rate* may be off. A table's ± SD says how far single episodes "
+            "lie apart.",
+        "100.0 -> 1.0":
+            "This is the deviation of zeros and ones. In percent it is a hundred times as large.",
+        "std -> var":
+            "This is the variance: take its root, so that it has the unit of the rate.",
+        "return 100 * math.sqrt(k) / n":
+            "This is the error of a count, √k. It says how much k would vary, not how far single episodes lie apart.",
+    },
 )  # fmt: skip
+def deviation_of_a_rate(k, n):
+    outcomes = np.repeat([100.0, 0.0], [k, n - k])
+    return outcomes.std(ddof=1)
 
 
-def episodes_needed_solution(rate):
-    return int(np.ceil(np.log(0.05) / np.log(1 - rate)))
+def accident_rates(rng):
+    """Nearly always, one in two, one in twenty, one in a thousand; then 40 at random."""
+    yield from ((0.97,), (0.5,), (0.05,), (0.01,), (0.001,))
+    yield from ((np.exp(rng.uniform(np.log(0.002), np.log(0.6))),) for _ in range(40))
 
 
-episodes_needed = Exercise(
-    "episodes_needed(rate)", solution=episodes_needed_solution,
-    # nearly always, one in two, one in twenty, one in a thousand; then 40 at random
-    cases=lambda rng: [(0.97,), (0.5,), (0.05,), (0.01,), (0.001,),
-                       *((np.exp(rng.uniform(np.log(0.002), np.log(0.6))),) for _ in range(40))],
-    worked=(((0.5,), 5), ((0.9,), 2)),  # 1/2^5 = 1/32 is under 1/20, 1/2^4 is not; 1/10^2 is, 1/10 is not
-    mistakes=(
-        Mistake(lambda rate: math.ceil(3 / rate),
-            "This is the rule of three, a good estimate for small rates. The exact number is a little smaller.",
-            "The rule of three is the definition."),
-        Mistake(lambda rate: max(1, math.floor(math.log(0.05) / math.log(1 - rate))),
-            "You rounded down: after that many episodes the chance is still above 5 %.",
-            "Rounding down is rounding."),
-        Mistake(lambda rate: math.log(0.05) / math.log(1 - rate),
-            "Episodes are whole numbers: round up to the first one that is enough.",
-            "The solution of the equation is the answer."),
-        Mistake(lambda rate: math.ceil(math.log(0.95) / math.log(1 - rate)),
-            "After that many episodes an accident has had a chance of 5 %. It must have had one of 95 %.",
-            "95 % means that 0.95 goes into the formula."),
-        Mistake(lambda rate: math.ceil(1 / rate),
-            "After that many episodes *one* accident is expected, but about one driver in three has had none by then.",
-            "A rate of one in twenty shows in twenty episodes."),
-        Mistake(lambda rate: math.ceil(math.log(0.05) / math.log(rate)),
-            "You multiply the chances of accidents. Multiply the chances that an episode goes *well*.",
-            "The accident rate is multiplied."),
-    ),
+@exercise(
+    "the smallest n with (1 - rate)^n ≤ 0.05; for small rates 3 / rate, the rule of three",
+    minutes=5, difficulty=2, cases=accident_rates,
+    worked=[((0.5,), 5), ((0.9,), 2)],  # 1/2^5 = 1/32 is under 1/20, 1/2^4 is not; 1/10^2 is, 1/10 is not
     hints=(
         "The chance that n episodes all go well is (1 - rate)^n. It must be 5 % or less.",
         "n · log (1 - rate) ≤ log 0.05, and log (1 - rate) is negative. Round up.",
-        "`int(np.ceil(np.log(0.05) / np.log(1 - rate)))`",
     ),
-    minutes=5, difficulty=2,
-    equation="the smallest n with (1 - rate)^n ≤ 0.05; for small rates 3 / rate, the rule of three",
+    mistakes={
+        "return math.ceil(3 / rate)":
+            "This is the rule of three, a good estimate for small rates. The exact number is a little smaller.",
+        "return max(1, math.floor(math.log(0.05) / math.log(1 - rate)))":
+            "You rounded down: after that many episodes the chance is still above 5 %.",
+        "math.ceil ->":
+            "Episodes are whole numbers: round up to the first one that is enough.",
+        "0.05 -> 0.95":
+            "After that many episodes an accident has had a chance of 5 %. It must have had one of 95 %.",
+        "return math.ceil(1 / rate)":
+            "After that many episodes *one* accident is expected, but about one driver in three has had none by then.",
+        "1 - rate -> rate":
+            "You multiply the chances of accidents. Multiply the chances that an episode goes *well*.",
+    },
 )  # fmt: skip
+def episodes_needed(rate):
+    return math.ceil(math.log(0.05) / math.log(1 - rate))

@@ -5,18 +5,14 @@ import math
 import numpy as np
 import torch
 
-from bootcourse.course.exercise import Exercise, Mistake
+from bootcourse.course.exercise import exercise
 from bootcourse.learn import sac
-
-
-def of_the_data(q, actions):
-    return q.gather(-1, actions.unsqueeze(-1)).squeeze(-1)
 
 
 def offline_cases(rng):
     """All equal, the data's action far ahead, far behind; then 40 at random."""
-    ahead = 8.0 * torch.eye(9).double()[[2, 5]]
-    yield torch.zeros(3, 9).double(), torch.tensor([0, 4, 8])
+    ahead = 8.0 * torch.eye(9)[[2, 5]]
+    yield torch.zeros(3, 9), torch.tensor([0, 4, 8])
     yield ahead, torch.tensor([2, 5])
     yield ahead, torch.tensor([5, 2])
     for _ in range(40):
@@ -24,71 +20,39 @@ def offline_cases(rng):
         yield torch.tensor(rng.normal(0, 2, (n, 9))), torch.tensor(rng.integers(0, 9, n))
 
 
-conservative_loss = Exercise(
-    "conservative_loss(q, actions)", solution=sac.conservative_loss, cases=offline_cases, slopes=("q",),
-    worked=(
+conservative_loss = exercise(
+    "E_s[log Σ_a exp Q(s,a) - Q(s,a_data)], Kumar et al., arXiv 2006.04779, Equation 4",
+    minutes=6, difficulty=2, cases=offline_cases, slopes=["q"],
+    worked=[
         # e^Q is 8 for the data's action and 1 for the other eight, so log Σ is log 16; the data's Q is log 8
-        ((math.log(8) * torch.eye(9).double()[[1]], torch.tensor([1])), torch.tensor(math.log(2))),
+        ((math.log(8) * torch.eye(9)[[1]], torch.tensor([1])), torch.tensor(math.log(2))),
         # log 9 - 0, and log (8 + 8) - 0
-        ((math.log(8) * torch.eye(9).double()[[2]] * torch.tensor([[0.0], [1.0]]), torch.tensor([0, 1])),
+        ((math.log(8) * torch.eye(9)[[2]] * torch.tensor([[0.0], [1.0]]), torch.tensor([0, 1])),
          torch.tensor((math.log(9) + math.log(16)) / 2)),
-    ),
-    mistakes=(
-        Mistake(lambda q, actions: (of_the_data(q, actions) - q.logsumexp(-1)).mean(),
-            "Your sign is wrong: gradient descent on this raises the Q of untried actions and lowers the Q of the "
-            "data's action.",
-            "The data's Q comes first in the difference."),
-        Mistake(lambda q, actions: (q.amax(-1) - of_the_data(q, actions)).mean(),
-            "You push down the highest Q only. log Σ exp also pushes down the Q that come close to it, and it raises "
-            "the data's Q even where that is the highest.",
-            "log Σ exp is the maximum."),
-        Mistake(lambda q, actions: (q.mean(-1) - of_the_data(q, actions)).mean(),
-            "You push down the mean of all nine, so your loss can fall without limit. log Σ exp pushes the *highest* "
-            "most.",
-            "A conservative loss lowers every value by the same amount."),
-        Mistake(lambda q, actions: q.logsumexp(-1).mean(),
-            "You push every Q down and raise none: subtract the Q of the data's action.",
-            "Conservative means that all values are low."),
-        Mistake(lambda q, actions: q.logsumexp(-1) - of_the_data(q, actions),
-            "This is the term of each state: take the mean over the batch.",
-            "The optimiser takes the mean."),
-        Mistake(lambda q, actions: (q.exp().mean(-1).log() - of_the_data(q, actions)).mean(),
-            "You took the mean of e^Q over the actions. With the *sum* the term is always above 0; yours can be "
-            "negative.",
-            "A mean and a sum over nine actions are the same but for a factor."),
-    ),
+    ],
     hints=(
         "In each state two numbers: log Σ_a exp Q(s,a), and the Q of the action that the data holds.",
         "`q.logsumexp(-1)`, and `q.gather(-1, actions.unsqueeze(-1)).squeeze(-1)`; their difference, then the mean.",
-        "`(q.logsumexp(-1) - q.gather(-1, actions.unsqueeze(-1)).squeeze(-1)).mean()`",
     ),
-    minutes=6, difficulty=2,
-    equation="E_s[log Σ_a exp Q(s,a) - Q(s,a_data)], Kumar et al., arXiv 2006.04779, Equation 4",
-)  # fmt: skip
-
-
-def offline_loss_solution(q, next_q, next_target, actions, rewards, terminated, gamma, weight):
-    next_value = next_target.gather(-1, next_q.argmax(-1, keepdim=True)).squeeze(-1)
-    target = (rewards + gamma * (1 - terminated) * next_value).detach()
-    taken = q.gather(-1, actions.unsqueeze(-1)).squeeze(-1)
-    return (taken - target).square().mean() + weight * (q.logsumexp(-1) - taken).mean()
-
-
-def changed_offline(value=lambda n, t: of_the_data(t, n.argmax(-1)), loss=lambda error, term, w: error + w * term):
-    """The solution with one piece replaced, for the known mistakes."""
-
-    def answer(q, next_q, next_target, actions, rewards, terminated, gamma, weight):
-        target = rewards + gamma * (1 - terminated) * value(next_q, next_target)
-        error = (of_the_data(q, actions) - target.detach()).square().mean()
-        return loss(error, sac.conservative_loss(q, actions), weight)
-
-    return answer
-
-
-def without_stop(q, next_q, next_target, actions, rewards, terminated, gamma, weight):
-    next_value = of_the_data(next_target, next_q.argmax(-1))
-    error = of_the_data(q, actions) - rewards - gamma * (1 - terminated) * next_value
-    return error.square().mean() + weight * sac.conservative_loss(q, actions)
+    mistakes={
+        "return -> return -":
+            "Your sign is wrong: gradient descent on this raises the Q of untried actions and lowers the Q of the "
+            "data's action.",
+        "q.logsumexp(-1) -> q.amax(-1)":
+            "You push down the highest Q only. log Σ exp also pushes down the Q that come close to it, and it raises "
+            "the data's Q even where that is the highest.",
+        "q.logsumexp(-1) -> q.mean(-1)":
+            "You push down the mean of all nine, so your loss can fall without limit. log Σ exp pushes the *highest* "
+            "most.",
+        "- q.gather(-1, actions.unsqueeze(-1)).squeeze(-1) ->":
+            "You push every Q down and raise none: subtract the Q of the data's action.",
+        ".mean(-1) ->":
+            "This is the term of each state: take the mean over the batch.",
+        "q.logsumexp(-1) -> q.exp().mean(-1).log()":
+            "You took the mean of e^Q over the actions. With the *sum* the term is always above 0; yours can be "
+            "negative.",
+    },
+)(sac.conservative_loss)  # fmt: skip
 
 
 def critic_cases(rng):
@@ -102,62 +66,53 @@ def critic_cases(rng):
         yield q, next_q, next_target, actions, rewards, terminated, gamma, weight
 
 
-ONE = (torch.zeros(1, 9).double(), torch.tensor([[0.0, 2.0] + [1.0] * 7]).double(),
-       torch.tensor([[3.0, 4.0] + [9.0] * 7]).double(), torch.tensor([0]), torch.tensor([1.0]).double())  # fmt: skip
+ONE = (torch.zeros(1, 9), torch.tensor([[0.0, 2.0] + [1.0] * 7]), torch.tensor([[3.0, 4.0] + [9.0] * 7]),
+       torch.tensor([0]), torch.tensor([1.0]))  # fmt: skip
 NO_SLOPE = torch.zeros(1, 9)
-offline_loss = Exercise(
-    "offline_loss(q, next_q, next_target, actions, rewards, terminated, gamma, weight)",
-    solution=offline_loss_solution, cases=critic_cases, slopes=("q", "next_q", "next_target"),
-    worked=(
+
+
+@exercise(
+    "E[(Q(s,a) - y)²] + w E[log Σ_a exp Q(s,a) - Q(s,a_data)], y = r + γ Q'(s', argmax_a Q(s',a))",
+    minutes=20, difficulty=3, cases=critic_cases, slopes=["q", "next_q", "next_target"],
+    worked=[
         # the critic's best next action is 1, which the target critic values at 4: y = 1 + 4/2 = 3, (0 - 3)² + log 9
-        ((*ONE, torch.zeros(1).double(), 0.5, 1.0),
+        ((*ONE, torch.zeros(1), 0.5, 1.0),
          (torch.tensor(9 + math.log(9)), torch.tensor([[-6 - 8 / 9] + [1 / 9] * 8]), NO_SLOPE, NO_SLOPE)),
         # after an accident y = r = 1, and without a weight the term is gone
-        ((*ONE, torch.ones(1).double(), 0.5, 0.0),
+        ((*ONE, torch.ones(1), 0.5, 0.0),
          (torch.tensor(1.0), torch.tensor([[-2.0] + [0.0] * 8]), NO_SLOPE, NO_SLOPE)),
-    ),
-    mistakes=(
-        Mistake(changed_offline(value=lambda n, t: t.amax(-1)),
-            "You take the target critic's own best action, which is ordinary Q-learning: its largest guess is chosen "
-            "and believed by the same network. Double Q-learning lets `next_q` choose and `next_target` value.",
-            "The maximum over the next actions is taken by the network that values them."),
-        Mistake(changed_offline(value=lambda n, t: n.amax(-1)),
-            "You value the next action by the network that is being trained. `next_q` only chooses it; `next_target` "
-            "says what it is worth.",
-            "There is one critic."),
-        Mistake(changed_offline(value=lambda n, t: of_the_data(n, t.argmax(-1))),
-            "The two are swapped: `next_q` chooses the next action, and `next_target` says what it is worth.",
-            "The slower network decides, the faster one values."),
-        Mistake(changed_offline(value=lambda n, t: t.mean(-1)),
-            "You take the mean over the next actions. The agent will take one of them: the one that `next_q` prefers.",
-            "A state's value is the mean of its actions' values."),
-        Mistake(lambda q, next_q, next_target, actions, rewards, terminated, gamma, weight: offline_loss_solution(
-                q, next_q, next_target, actions, rewards, 0 * terminated, gamma, weight),
-            "Where an accident ended the episode, nothing comes after it: multiply the next value by 1 - terminated.",
-            "The data hold a next state, so it has a value."),
-        Mistake(without_stop,
-            "The target is a constant for the gradient: nothing may flow into `next_target`. Use `.detach()`.",
-            "A target that comes from another network has no gradient."),
-        Mistake(changed_offline(loss=lambda error, term, w: error + term),
-            "The weight of the conservative term is missing.",
-            "The two terms of the loss count the same."),
-        Mistake(changed_offline(loss=lambda error, term, w: error - w * term),
-            "You subtract the conservative term: this *rewards* high values of actions that nobody tried.",
-            "Conservative means minus."),
-    ),
+    ],
     hints=(
         "Three pieces: the next value (`next_q` chooses the action, `next_target` values it), the target y without "
-        "gradient, and (Q - y)² plus the weighted term of exercise 11.1.",
+        "gradient, and (Q - y)² plus the weighted term of `conservative_loss`.",
         "`next_target.gather(-1, next_q.argmax(-1, keepdim=True)).squeeze(-1)` is the next value. What multiplies it?",
-        "`target = (rewards + gamma * (1 - terminated) * next_value).detach()`",
     ),
-    minutes=20, difficulty=3,
-    equation="E[(Q(s,a) - y)²] + w E[log Σ_a exp Q(s,a) - Q(s,a_data)], y = r + γ Q'(s', argmax_a Q(s',a))",
+    mistakes={
+        "next_q.argmax -> next_target.argmax":
+            "You take the target critic's own best action, which is ordinary Q-learning: its largest guess is chosen "
+            "and believed by the same network. Double Q-learning lets `next_q` choose and `next_target` value.",
+        "next_target.gather -> next_q.gather":
+            "You value the next action by the network that is being trained. `next_q` only chooses it; `next_target` "
+            "says what it is worth.",
+        ("next_target.gather -> next_q.gather", "next_q.argmax -> next_target.argmax"):
+            "The two are swapped: `next_q` chooses the next action, and `next_target` says what it is worth.",
+        "next_target.gather(-1, next_q.argmax(-1, keepdim=True)).squeeze(-1) -> next_target.mean(-1)":
+            "You take the mean over the next actions. The agent will take one of them: the one that `next_q` prefers.",
+        "(1 - terminated) * ->":
+            "Where an accident ended the episode, nothing comes after it: multiply the next value by 1 - terminated.",
+        ".detach() ->":
+            "The target is a constant for the gradient: nothing may flow into `next_target`. Use `.detach()`.",
+        "weight * ->":
+            "The weight of the conservative term is missing.",
+        "+ weight -> - weight":
+            "You subtract the conservative term: this *rewards* high values of actions that nobody tried.",
+    },
 )  # fmt: skip
-
-
-def share_of_the_bound_solution(returns, bound):
-    return returns.mean(axis=1) / bound.mean()
+def offline_loss(q, next_q, next_target, actions, rewards, terminated, gamma, weight):
+    next_value = next_target.gather(-1, next_q.argmax(-1, keepdim=True)).squeeze(-1)
+    target = (rewards + gamma * (1 - terminated) * next_value).detach()
+    taken = q.gather(-1, actions.unsqueeze(-1)).squeeze(-1)
+    return (taken - target).square().mean() + weight * (q.logsumexp(-1) - taken).mean()
 
 
 def bound_cases(rng):
@@ -172,38 +127,32 @@ def bound_cases(rng):
         yield bound * rng.uniform(-0.3, 1, (agents, episodes)), bound
 
 
-share_of_the_bound = Exercise(
-    "share_of_the_bound(returns, bound)", solution=share_of_the_bound_solution, cases=bound_cases,
-    worked=(
+@exercise(
+    "Σ R / Σ R*, over the same episodes, R* the planner's return", minutes=4, difficulty=1, cases=bound_cases,
+    worked=[
         ((np.array([[10.0, 30.0], [-5.0, -5.0]]), np.array([20.0, 100.0])), np.array([1 / 3, -1 / 12])),
         ((np.array([[70.0, 70.0, 70.0]]), np.array([140.0, 140.0, 140.0])), np.array([0.5])),
-    ),
-    mistakes=(
-        Mistake(lambda returns, bound: (returns / bound).mean(axis=1),
-            "This is the mean of each road's own share: a road where little can be earned counts as much as any other. "
-            "Return the share of *all* that could be earned.",
-            "The mean of ratios is the ratio of means."),
-        Mistake(lambda returns, bound: np.clip(returns.mean(axis=1) / bound.mean(), 0, 1),
-            "You clip at 0. An agent that crashes at once has a negative return, so its share is negative, too.",
-            "A share lies between 0 and 1."),
-        Mistake(lambda returns, bound: np.minimum(returns.mean(axis=1) / bound.mean(), 1),
-            "You clip at 1. The planner's return is what a search found, not the most that is possible: an agent may "
-            "beat it.",
-            "Nothing can be above a bound."),
-        Mistake(lambda returns, bound: returns.mean() / bound.mean(),
-            "You average over the agents, too. Each has a share of its own: return one number for each agent.",
-            "A method has one score."),
-        Mistake(lambda returns, bound: returns.mean(axis=1) / bound.max(),
-            "You divide by the bound of the best road. Divide by the mean of all bounds.",
-            "A bound is a maximum."),
-        Mistake(lambda returns, bound: returns.max(axis=1) / bound.mean(),
-            "You take each agent's best drive. A score is the mean over all of its roads.",
-            "A bound is compared with an agent's best drive."),
-    ),
+    ],
     hints=(
         "Divide what was earned on all roads together by what could be earned on all roads together.",
         "Agents stand in rows: `returns.mean(axis=1)` has one number for each.",
-        "`returns.mean(axis=1) / bound.mean()`",
     ),
-    minutes=4, difficulty=1, equation="Σ R / Σ R*, over the same episodes, R* the planner's return",
+    mistakes={
+        "return (returns / bound).mean(axis=1)":
+            "This is the mean of each road's own share: a road where little can be earned counts as much as any other. "
+            "Return the share of *all* that could be earned.",
+        "return np.clip(returns.mean(axis=1) / bound.mean(), 0, 1)":
+            "You clip at 0. An agent that crashes at once has a negative return, so its share is negative, too.",
+        "return np.minimum(returns.mean(axis=1) / bound.mean(), 1)":
+            "You clip at 1. The planner's return is what a search found, not the most that is possible: an agent may "
+            "beat it.",
+        "axis=1 ->":
+            "You average over the agents, too. Each has a share of its own: return one number for each agent.",
+        "bound.mean() -> bound.max()":
+            "You divide by the bound of the best road. Divide by the mean of all bounds.",
+        "returns.mean -> returns.max":
+            "You take each agent's best drive. A score is the mean over all of its roads.",
+    },
 )  # fmt: skip
+def share_of_the_bound(returns, bound):
+    return returns.mean(axis=1) / bound.mean()

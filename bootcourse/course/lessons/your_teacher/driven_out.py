@@ -57,5 +57,5 @@ def explain_rule(cases, answers):
         return f"Your rule sometimes returns a number that is not an action: give a whole number, 0 to {N_ACTIONS - 1}."
     if NOT_SAME in ends:
         return "Your rule answers the same road differently each time. The label of a state must not change."
-    told = ", on ".join(f"{ends.count(end)} it {words}" for end, words in ENDINGS.items() if end in ends)
-    return f"Your rule gets out on {ends.count(OUT)} of {len(ends)} roads; on {told}."
+    failures = ", on ".join(f"{ends.count(end)} it {words}" for end, words in ENDINGS.items() if end in ends)
+    return f"Your rule gets out on {ends.count(OUT)} of {len(ends)} roads; on {failures}."
