@@ -13,6 +13,7 @@ import torch
 
 from bootcourse.course import check, runner, values
 from bootcourse.course.exercise import call_it, logits
+from bootcourse.course.exercise import exercise as exercise_of
 from bootcourse.course.judge import judge, outcomes
 from bootcourse.course.lessons import registry
 from bootcourse.course.verdict import Verdict
@@ -294,15 +295,12 @@ def entropy_of(log_pi):
     return -(log_pi.exp() * log_pi).sum(-1).mean()
 
 
-SLOPES = dataclasses.replace(
-    TARGET,
-    call="loss(log_pi, q)",
-    solution=lambda log_pi, q: -(log_pi.exp() * q.detach()).sum(-1).mean() - entropy_of(log_pi),
-    slopes=(logits("log_pi"), "q"),
-    worked=(),
-    cases=lambda rng: [[torch.tensor(rng.normal(size=(2, 9))).log_softmax(-1), torch.ones(2, 9).double()]] * 20,
-    mistakes=(),
-)
+@exercise_of(
+    "a loss", minutes=1, difficulty=1, worked=(), mistakes={}, hints=("Look.",), slopes=[logits("log_pi"), "q"],
+    cases=lambda rng: [[torch.tensor(rng.normal(size=(2, 9))).log_softmax(-1), torch.ones(2, 9)]] * 20,
+)  # fmt: skip
+def SLOPES(log_pi, q):
+    return -(log_pi.exp() * q.detach()).sum(-1).mean() - entropy_of(log_pi)
 
 
 @pytest.mark.parametrize(

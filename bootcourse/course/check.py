@@ -6,9 +6,11 @@ that does not pass raises `NotPassed`.
 """
 
 import functools
+import sys
 from collections.abc import Callable
 from dataclasses import replace
 
+from bootcourse.course import runner
 from bootcourse.course.answer_files import PARTS
 from bootcourse.course.edition import need_open_solutions, solutions_are_open
 from bootcourse.course.exercise import Exercise, source_of
@@ -19,6 +21,8 @@ from bootcourse.errors import BootcourseError, check_known, did_you_mean
 
 _hints_given: dict[str, int] = {}
 _strict = False
+if "ipykernel" in sys.modules:  # in a notebook the first check comes soon
+    runner.get_ready()
 
 
 class NotPassed(BootcourseError):

@@ -2,6 +2,15 @@
 
 import torch
 
+from bootcourse.course.exercise import NotAsAsked
+
+
+def in_float32(rows: torch.Tensor) -> None:
+    """Raises NotAsAsked for rows in another type: a network could not read them."""
+    if rows.dtype != torch.float32:
+        name = str(rows.dtype).removeprefix("torch.")
+        raise NotAsAsked(f"Your rows are in {name}: keep them in float32, as they come, because the networks need it.")
+
 
 def drawn_evenly(numbers: torch.Tensor, held: int) -> bool:
     """Are `held` numbers drawn, each about as often as chance would?"""

@@ -1,4 +1,4 @@
-'''An exercise: the right answer, tiny cases worked out by hand, hidden cases, hints, and the mistakes that students make.
+'''An exercise: a right answer, cases worked out by hand, hidden cases, hints, and the mistakes that students make.
 
 It is written on its solution, in `lessons/NAME/exercises.py`; `judge.py` judges answers.
 
@@ -28,15 +28,6 @@ A key of `mistakes` is
 - where none of this will do, a function or class of its own, which makes the mistake.
 A change that does not fit raises BootcourseError when the lessons are loaded. A changed solution may use all names of
 its file. Tensors of hidden and worked cases are given in float32, as training gives them.
-
-How to migrate an old `Exercise(...)`:
-1. Rename its solution to the exercise's name, and decorate it: `call`, `solution` and each `belief` go.
-2. Turn each `Mistake` into a change that gives the same answers; its sentence stays as it is.
-3. Keep two hints: the last one is no longer the solution, which `check.solution` shows.
-4. Delete helpers that nothing uses any more, and `.double()`.
-5. Mark log-probabilities among the `slopes`: `logits("log_pi")`.
-6. Run `pytest tests/test_lessons_checks.py tests/test_mutants.py -k "NAME or NAME"` and `python -m tests.mutants NAME`.
-   A change that `tests/answers/LESSON.py` lists as equivalent may have another text now: correct it there.
 '''
 
 import ast
@@ -45,7 +36,7 @@ import inspect
 import re
 import textwrap
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 import torch
@@ -64,7 +55,6 @@ class Mistake:
 
     answer: Callable  # a function that makes this mistake
     says: str  # what the check says about it, one or two sentences
-    belief: str = ""  # of exercises in the old form; it goes with them
     change: str = ""  # of the solution, that makes the mistake; "" if `answer` was written out
 
 
@@ -89,17 +79,17 @@ def call_it(answer: Callable, *arguments):
 class Exercise:
     """A function to write, and all that is needed to judge it. Two are equal only if they are one and the same."""
 
-    call: str  # the student's function with the names of its arguments: "f(reward, gamma)"
+    name: str  # of the student's function
     solution: Callable
+    equation: str  # what is computed and where it stands, as in "D_KL(π ‖ π̃), Equation 9"
     worked: tuple  # tiny cases worked out by hand: ((arguments, answer), ...)
     cases: Callable[[np.random.Generator], Iterable[tuple]]  # the arguments of the hidden cases, corner cases first
     mistakes: tuple[Mistake, ...]
-    hints: tuple[str, ...]
+    hints: tuple[str, ...]  # one or two
     minutes: int
     difficulty: int  # 1, 2 or 3
-    equation: str  # what is computed and where it stands, as in "D_KL(π ‖ π̃), Equation 9"
     lesson: str = ""  # "07_soft_constraint"; the registry sets it
-    run: Callable = field(default=call_it)  # run(answer, *case) gives the value to compare, if not what is returned
+    run: Callable = call_it  # run(answer, *case) gives the value to compare, if not what is returned
     # Of a loss: the arguments (tensors) in which its slopes are compared, too. Name all that have a gradient in
     # training, also those that the loss must not change: their slope is 0. Mark log-probabilities as `logits`.
     slopes: tuple[str, ...] = ()
@@ -108,8 +98,8 @@ class Exercise:
     seconds: float = 6.0  # of wall clock, for all cases together; a right answer needs a fraction of a second
 
     def __post_init__(self):
-        if not self.hints or self.difficulty not in (1, 2, 3):
-            raise BootcourseError(f"{self.name}: give one or two hints, and a difficulty of 1, 2 or 3.")
+        if self.difficulty not in (1, 2, 3) or isinstance(self.hints, str) or len(self.hints) not in (1, 2):
+            raise BootcourseError(f"{self.name}: give a tuple of one or two hints, and a difficulty of 1, 2 or 3.")
 
     def __call__(self, *arguments):
         return self.solution(*arguments)
@@ -126,12 +116,13 @@ class Exercise:
         return functools.partial(loss_and_slopes, places, through)
 
     @property
-    def name(self) -> str:
-        return self.call.partition("(")[0]
+    def arguments(self) -> list[str]:
+        return list(inspect.signature(self.solution).parameters)
 
     @property
-    def arguments(self) -> list[str]:
-        return re.findall(r"\w+", self.call)[1:]
+    def call(self) -> str:
+        """The student's function with the names of its arguments: "f(reward, gamma)"."""
+        return f"{self.name}({', '.join(self.arguments)})"
 
     @property
     def case_names(self) -> list[str]:
@@ -160,16 +151,13 @@ def as_in_training(value):
 def exercise(equation: str, *, worked, mistakes: dict, hints, slopes=(), name="", **more) -> Callable:
     """The decorator of a solution (see above). name: the student's, if not the solution's. more: fields of `Exercise`.
 
-    Raises BootcourseError for a mistake that does not fit the solution, and for more than two hints.
+    Raises BootcourseError for a mistake that does not fit the solution.
     """
 
     def register(solution: Callable) -> Exercise:
-        called, text = name or solution.__name__, source_of(solution)
-        if isinstance(hints, str) or len(hints) > 2:
-            raise BootcourseError(f"{called}: `hints` is a tuple of one or two; `check.solution` shows the solution.")
+        text = source_of(solution)
         known = tuple(mistake_of(solution, text, change, says) for change, says in mistakes.items())
-        call = f"{called}({', '.join(inspect.signature(solution).parameters)})"
-        return Exercise(call, solution, tuple(worked), mistakes=known, hints=tuple(hints), equation=equation,
+        return Exercise(name or solution.__name__, solution, equation, tuple(worked), mistakes=known, hints=hints,
                         slopes=tuple(slopes), **more)  # fmt: skip
 
     return register
@@ -188,14 +176,14 @@ def mistake_of(solution: Callable, text: str, change, says: str) -> Mistake:
     """The mistake that a key of `mistakes` describes. text: the solution's."""
     if callable(change):
         return Mistake(change, says)
-    changes, space = (change,) if isinstance(change, str) else change, {}
+    changes, space, name = (change,) if isinstance(change, str) else change, {}, solution.__name__
     try:
         for each in changes:
             text = edited(text, each) if "->" in each else with_end(text, each)
         exec(text, vars(inspect.getmodule(solution)), space)
     except (ValueError, SyntaxError) as error:
-        raise BootcourseError(f"{solution.__name__}: the mistake {change!r} does not fit its solution: {error}.") from None
-    return Mistake(space[solution.__name__], says, change="; ".join(changes))
+        raise BootcourseError(f"{name}: the mistake {change!r} does not fit its solution: {error}.") from None
+    return Mistake(space[name], says, change="; ".join(changes))
 
 
 def edited(text: str, change: str) -> str:

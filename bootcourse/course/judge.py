@@ -22,12 +22,12 @@ from dataclasses import replace
 import numpy as np
 
 from bootcourse.course import runner
-from bootcourse.course.exercise import Exercise, Mistake, NotAsAsked
+from bootcourse.course.exercise import Exercise, NotAsAsked
 from bootcourse.course.values import (
     NUMERIC,
     SEVERAL,
     Plain,
-    first_difference,
+    close,
     fitted,
     has_nan,
     like,
@@ -41,26 +41,27 @@ from bootcourse.course.verdict import Verdict
 
 
 def judge(exercise: Exercise, answer: Callable | str, seconds: float | None = None) -> Verdict:
-    """The verdict on a student's function. An error in the function is part of the verdict and is not raised."""
-    if does_nothing(answer):  # an untouched stub needs no process
-        return todo(exercise)
-    seconds = exercise.seconds if seconds is None else seconds
-    report = runner.run(exercise, answer, seconds)
-    verdict = not_answered(exercise, answer, report, seconds) or compared(exercise, answer, report, seconds)
-    if report.printed and not verdict.passed:
-        verdict = replace(verdict, details=(*verdict.details, f"printed: {report.printed.strip()}"))
-    return verdict
+    """The verdict on a student's function, or on a text that defines it, such as a cell that was handed in.
 
-
-def judge_source(exercise: Exercise, source: str, seconds: float | None = None) -> Verdict:
-    """The verdict on a text that defines the function, for instance a cell of a notebook that was handed in.
-
-    The text is executed only in the process that also runs the function (see `runner.py` for what is guarded), within
-    the same `seconds` (the exercise's own if None). Put the imports and the helpers that the function needs before it
-    in the same text. A text that cannot be executed, or does not define the function, gets a verdict, too: no text
-    raises an error here.
+    Whatever the function or the text does is part of the verdict: no error is raised. A text is executed only in the
+    process that also runs the function (see `runner.py` for what is guarded); its imports and helpers stand in it.
+    seconds: the exercise's own if None.
     """
-    return judge(exercise, source, seconds)
+    todo = f"Nothing to check yet: write `{exercise.name}` where the `...` stands, and end with `return`."
+    verdict, printed = Verdict("todo", todo), ""
+    if not does_nothing(answer):  # an untouched stub needs no process
+        seconds = exercise.seconds if seconds is None else seconds
+        report = runner.run(exercise, answer, seconds)
+        if not is_unfinished(report, answer):
+            verdict = not_answered(exercise, answer, report) or compared(exercise, answer, report, seconds)
+            printed = report.printed.strip()
+    if verdict.passed:
+        return verdict
+    details = (*verdict.details, *([f"printed: {printed}"] if printed else []))
+    return replace(verdict, details=details, footer=f'Stuck? `check.hint("{exercise.name}")`')
+
+
+# Did it answer? ---------------------------------------------------------------------------------------
 
 
 def does_nothing(answer) -> bool:
@@ -75,59 +76,53 @@ def does_nothing(answer) -> bool:
     )
 
 
-def not_answered(exercise: Exercise, answer: Callable | str, report: runner.Report, seconds: float) -> Verdict | None:
+def is_unfinished(report: runner.Report, answer: Callable | str) -> bool:
+    """Does it return nothing and still have the `...` of a stub, or raise NotImplementedError?"""
+    if report.error is not None and report.error[0] == NotImplementedError.__name__:
+        return True
+    try:
+        text = answer if isinstance(answer, str) else inspect.getsource(answer)
+    except (OSError, TypeError):
+        return False
+    returns_nothing = report.answers[:1] and report.answers[0].kind == "NoneType"
+    return bool(returns_nothing) and re.search(r"^\s*(\.\.\.|pass)\s*$", text, re.M) is not None
+
+
+def not_answered(exercise: Exercise, answer: Callable | str, report: runner.Report) -> Verdict | None:
     """The verdict on a function that did not answer every case, or changed its arguments; None if it did well."""
     cases = exercise.all_arguments
     here = given(exercise, cases[min(len(report.answers), len(cases) - 1)])
     nothing = [case for case, value in enumerate(report.answers) if value.kind == "NoneType"]
     if report.refused:
-        return wrong(exercise, report.refused)
+        return Verdict("wrong", report.refused)
     if nothing[:1] == [0]:
-        return todo(exercise) if is_begun(answer) else wrong(exercise, RETURNS_NOTHING)
+        return Verdict("wrong", "Your function returns nothing: end it with `return` and what the exercise asks for.")
     if nothing:
         sentence = "Your function returns nothing in this case: look for a branch without `return`."
-        return wrong(exercise, sentence, given(exercise, cases[nothing[0]]))
+        return Verdict("wrong", sentence, given(exercise, cases[nothing[0]]))
     if report.error is not None:
-        kind, text, line = report.error
-        if kind == NotImplementedError.__name__:
-            return todo(exercise)
-        if kind == NotAsAsked.__name__:
-            return wrong(exercise, text, here)
-        return wrong(exercise, error_in_words(kind, text, place(answer, line)), here, kind="did_not_run")
+        if report.error[0] == NotAsAsked.__name__:
+            return Verdict("wrong", report.error[1], here)
+        return Verdict("did_not_run", error_in_words(answer, *report.error), here)
     if report.ended != "":
-        return wrong(exercise, end_in_words(report.ended, seconds), here, kind="did_not_run")
+        return Verdict("did_not_run", end_in_words(report.ended, report.seconds), here)
     if report.changed is not None:
         argument = exercise.case_names[report.changed[1]]
-        return wrong(exercise, f"Your function changes its argument `{argument}`, which the caller still needs: "
-                               "compute a new value instead of writing into it.")  # fmt: skip
+        return Verdict("wrong", f"Your function changes its argument `{argument}`, which the caller still needs: "
+                                "compute a new value instead of writing into it.")  # fmt: skip
     return None
 
 
-RETURNS_NOTHING = "Your function returns nothing: end it with `return` and what the exercise asks for."
-
-
-def is_begun(answer: Callable | str) -> bool:
-    """Does its text still have the `...` of a stub?"""
-    try:
-        text = answer if isinstance(answer, str) else inspect.getsource(answer)
-    except (OSError, TypeError):
-        return False
-    return re.search(r"^\s*(\.\.\.|pass)\s*$", text, re.M) is not None
-
-
-def place(answer: Callable | str, line: int | None) -> str:
-    """The student's line that raised the error, as in " in line 4, `return x + y`"; empty if none of theirs did."""
-    if line is None:
-        return ""
-    lines = answer.splitlines() if isinstance(answer, str) else linecache.getlines(runner.file_of(answer))
-    text = lines[line - 1].strip() if 0 < line <= len(lines) else ""
-    return f" in line {line}" + (f", `{text}`" if text else "")
-
-
-def error_in_words(kind: str, text: str, where: str) -> str:
-    """One sentence about an error that the function raised."""
+def error_in_words(answer: Callable | str, kind: str, text: str, line: int | None) -> str:
+    """One sentence about an error that the function raised, with its line if it is the student's."""
+    where = ""
+    if line is not None:
+        lines = answer.splitlines() if isinstance(answer, str) else linecache.getlines(runner.file_of(answer))
+        code = lines[line - 1].strip() if 0 < line <= len(lines) else ""
+        where = f" in line {line}" + (f", `{code}`" if code else "")
     if kind == "MemoryError" or "can't allocate memory" in text:
-        return f"Your function asks for more memory{where} than the {runner.MEMORY / 2**30:.0f} GiB that a check allows."
+        limit = f"{runner.MEMORY / 2**30:.0f} GiB"
+        return f"Your function asks for more memory{where} than the {limit} that a check allows."
     return f"Your function raises an error{where}: {f'{kind}: {text}'.strip(' :').rstrip('.')}."
 
 
@@ -144,6 +139,9 @@ def end_in_words(ended: str | int, seconds: float) -> str:
     return f"Your function ended Python itself (exit code {ended}): take out `os._exit` and the like."
 
 
+# Is it right? -----------------------------------------------------------------------------------------
+
+
 def compared(exercise: Exercise, answer: Callable | str, report: runner.Report, seconds: float) -> Verdict:
     """The verdict on the answers to all cases: first the values, then the slopes of a loss."""
     cases, rights = exercise.all_arguments, outcomes(exercise, exercise.solution)
@@ -151,28 +149,33 @@ def compared(exercise: Exercise, answer: Callable | str, report: runner.Report, 
     if all_same(mine, rights, exercise.tolerance):
         sentence = f"Right. Your `{exercise.name}` agrees in all {len(cases)} cases, corner cases included."
         return Verdict("passed", sentence)
-    of = (lambda each: each.data[0]) if exercise.slopes else (lambda each: each)
-    values, right_values = list(map(of, mine)), list(map(of, rights))
-    pairs = zip(values, right_values, strict=True)
-    fails = [case for case, pair in enumerate(pairs) if not same(*pair, exercise.tolerance)]
-    for part in (lambda each: each, of) if fails else (lambda each: each,):
+    values, right_values = (value_part(exercise, each) for each in (mine, rights))
+    fails = [case for case in range(len(cases)) if not same(values[case], right_values[case], exercise.tolerance)]
+    for is_whole in (True, False) if fails else (True,):  # a mistake counts by its values alone, too
         for mistake in exercise.mistakes:
-            theirs = (part(fitted(each, right)) for each, right in zip(outcomes(exercise, mistake.answer), rights, strict=True))
-            if all_same(map(part, mine), theirs, exercise.tolerance):
-                return wrong(exercise, mistake.says, mistake=mistake)
+            theirs = list(map(fitted, outcomes(exercise, mistake.answer), rights))
+            pair = (mine, theirs) if is_whole else (values, value_part(exercise, theirs))
+            if all_same(*pair, exercise.tolerance):
+                return Verdict("wrong", mistake.says, mistake=mistake)
     if not fails:
-        return wrong(exercise, *slopes_in_words(exercise, mine, rights))
+        return slopes_in_words(exercise, mine, rights)
     comparable = [like(*pair) and same_shape(*pair) for pair in zip(values, right_values, strict=True)]
     if exercise.explain and all(comparable):
-        return wrong(exercise, exercise.explain(cases, [each.data for each in values]))
+        return Verdict("wrong", exercise.explain(cases, [each.data for each in values]))
     case = fails[0]
-    if comparable[case] and changes_its_mind(exercise, answer, seconds):
-        sentence = (
-            "For the same arguments your function answers differently each time: it draws at random, or keeps a value "
-            "from one call to the next."
-        )
-        return wrong(exercise, sentence, given(exercise, cases[case]))
-    return wrong(exercise, *unknown(exercise, cases[case], values[case], right_values[case], report.warned.get(case)))
+    if comparable[case]:  # run all cases twice in one process: one case alone could agree by chance
+        twice = runner.run(exercise, answer, seconds, times=2).answers
+        first, again = twice[: len(cases)], twice[len(cases) :]
+        if len(again) == len(cases) and not all_same(first, again, exercise.tolerance):
+            sentence = ("For the same arguments your function answers differently each time: it draws at random, or "
+                        "keeps a value from one call to the next.")  # fmt: skip
+            return Verdict("wrong", sentence, given(exercise, cases[case]))
+    return unknown(exercise, cases[case], values[case], right_values[case], report.warned.get(case))
+
+
+def value_part(exercise: Exercise, answers: list[Plain]) -> list[Plain]:
+    """The answers without the slopes that follow a loss's value."""
+    return [each.parts[0] for each in answers] if exercise.slopes else answers
 
 
 def all_same(answers: Iterable[Plain], others: Iterable[Plain], tolerance: float) -> bool:
@@ -188,64 +191,56 @@ def outcomes(exercise: Exercise, function: Callable) -> list[Plain]:
         return [plain(exercise.outcome(function, *deepcopy(case))) for case in exercise.all_arguments]
 
 
-def changes_its_mind(exercise: Exercise, answer: Callable | str, seconds: float) -> bool:
-    """Does it answer differently when the same process runs all cases twice? (One case could agree by chance.)"""
-    answers, cases = runner.run(exercise, answer, seconds, times=2).answers, len(exercise.all_arguments)
-    return len(answers) == 2 * cases and not all_same(answers[:cases], answers[cases:], exercise.tolerance)
-
-
-def slopes_in_words(exercise: Exercise, answers: list[Plain], rights: list[Plain]) -> tuple[str, tuple[str, ...]]:
-    """(sentence, details) about a loss whose values are right, and a slope is not."""
-    but = f"Your `{exercise.name}` has the right value, but"
-    for place, name in enumerate(exercise.slopes, 1):
-        pairs = [(a.data[place], right.data[place]) for a, right in zip(answers, rights, strict=True)]
-        fails = [case for case, pair in enumerate(pairs) if not same(*pair, exercise.tolerance)]
-        if fails:
-            break
-    mine, right = pairs[fails[0]]
+def slopes_in_words(exercise: Exercise, answers: list[Plain], rights: list[Plain]) -> Verdict:
+    """The verdict on a loss whose values are right, and a slope is not."""
+    slopes = {
+        name: [(a.parts[place], right.parts[place]) for a, right in zip(answers, rights, strict=True)]
+        for place, name in enumerate(exercise.slopes, 1)
+    }
+    differ = ((name, k) for name in slopes for k, s in enumerate(slopes[name]) if not same(*s, exercise.tolerance))
+    name, case = next(differ)
+    pairs = slopes[name]
+    mine, right = pairs[case]
+    details = ()
     if mine.kind == "text":
-        why = "use torch's functions" if "numpy" in mine.data else " ".join(mine.data.split()).rstrip(".")
-        return f"{but} no gradient can pass through it: {why}.", ()
-    if not any(right.data.any() for _, right in pairs):
-        return f"{but} a gradient flows into `{name}`, which must not change: use `{name}.detach()`.", ()
-    if not any(mine.data.any() for mine, _ in pairs):
-        return f"{but} no gradient reaches `{name}`: look for `.detach()`, `.item()`, `float()` or NumPy.", ()
-    what = "is wrong: look for a part that is detached."
-    if has_nan(mine):
-        what = "is not a number (NaN): is something infinite, perhaps in a branch that `torch.where` drops?"
-    details = (f"your slope = {numbers(mine)}", f"right = {numbers(right)}")
-    return f"{but} its slope in `{name}` {what}", (*given(exercise, exercise.all_arguments[fails[0]]), *details)
+        why = "use torch's functions" if "numpy" in mine.text else " ".join(mine.text.split()).rstrip(".")
+        wrong = f"no gradient can pass through it: {why}."
+    elif not any(right.array.any() for _, right in pairs):
+        wrong = f"a gradient flows into `{name}`, which must not change: use `{name}.detach()`."
+    elif not any(mine.array.any() for mine, _ in pairs):
+        wrong = f"no gradient reaches `{name}`: look for `.detach()`, `.item()`, `float()` or NumPy."
+    else:
+        details = (f"your slope = {numbers(mine)}", f"right = {numbers(right)}")
+        details = (*given(exercise, exercise.all_arguments[case]), *details)
+        wrong = f"its slope in `{name}` is wrong: look for a part that is detached."
+        if has_nan(mine):
+            what = "is not a number (NaN): is something infinite, perhaps in a branch that `torch.where` drops?"
+            wrong = f"its slope in `{name}` {what}"
+    return Verdict("wrong", f"Your `{exercise.name}` has the right value, but {wrong}", details)
 
 
-def unknown(exercise: Exercise, case: tuple, mine: Plain, right: Plain, warned: str | None) -> tuple[str, tuple]:
-    """(sentence, details) about a wrong value that is none of the exercise's known mistakes."""
+def unknown(exercise: Exercise, case: tuple, mine: Plain, right: Plain, warned: str | None) -> Verdict:
+    """The verdict on a wrong value that is none of the exercise's known mistakes."""
+    details = given(exercise, case)
     if not like(mine, right):
         why = ", because training needs one" if right.kind == "tensor" and mine.kind in ("array", *SEVERAL) else ""
-        return f"Your function returns {mine.words}: the exercise asks for {right.words}{why}.", ()
+        return Verdict("wrong", f"Your function returns {mine.words}: the exercise asks for {right.words}{why}.")
     if not same_shape(mine, right):
         shapes = f"Your answer has shape {shape_words(mine)}: the right one has shape {shape_words(right)}."
-        return shapes, given(exercise, case)
+        return Verdict("wrong", shapes, details)
     if has_nan(mine) and not has_nan(right):
         why = f": NumPy says '{warned}'" if warned else ""
-        return f"Your answer is not a number (NaN) in this case{why}.", given(exercise, case)
-    place = first_difference(mine, right, exercise.tolerance)
-    at = f" at [{', '.join(map(str, place))}]" if place else ""
-    small = right.kind not in NUMERIC or right.data.size <= 36
-    values = (numbers(mine), numbers(right)) if small else (f"{mine.data[place]:.6g}", f"{right.data[place]:.6g}")
-    details = (*given(exercise, case), f"yours = {values[0]}", f"right = {values[1]}")
-    return f"Not right yet: here your answer and the right one differ{at}.", details
+        return Verdict("wrong", f"Your answer is not a number (NaN) in this case{why}.", details)
+    at, values = "", (numbers(mine), numbers(right))
+    if right.kind in NUMERIC and right.shape:
+        place = tuple(np.argwhere(~close(mine, right, exercise.tolerance))[0].tolist())
+        at = f" at [{', '.join(map(str, place))}]"
+        if right.array.size > 36:  # `numbers` gives only the shape
+            values = f"{mine.array[place]:.6g}", f"{right.array[place]:.6g}"
+    details = (*details, f"yours = {values[0]}", f"right = {values[1]}")
+    return Verdict("wrong", f"Not right yet: here your answer and the right one differ{at}.", details)
 
 
 def given(exercise: Exercise, case: tuple) -> tuple[str, ...]:
     """The arguments of a case, one line each."""
     return tuple(f"{name} = {numbers(plain(value))}" for name, value in zip(exercise.case_names, case, strict=True))
-
-
-def todo(exercise: Exercise) -> Verdict:
-    sentence = f"Nothing to check yet: write `{exercise.name}` where the `...` stands, and end with `return`."
-    return wrong(exercise, sentence, kind="todo")
-
-
-def wrong(exercise: Exercise, sentence: str, details: tuple = (), kind: str = "wrong", mistake: Mistake | None = None):
-    """The verdict with this sentence, and where there is help."""
-    return Verdict(kind, sentence, details, f'Stuck? `check.hint("{exercise.name}")`', mistake)

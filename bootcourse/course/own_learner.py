@@ -78,8 +78,8 @@ class Own:
         return part(self.own, name)
 
     def each(self, compute: Callable[[int], Tensor]) -> Tensor:
-        """The values of compute(i) for all agents i: (agents, ...)."""
-        return torch.stack([compute(i) for i in range(self.agents)])
+        """The values of compute(i) for all agents i: (agents, ...), in float32 also if a part computes in float64."""
+        return torch.stack([compute(i) for i in range(self.agents)]).float()
 
 
 class OwnSAC(Own, SACLearner):
@@ -249,8 +249,17 @@ class OwnReplay:
         return decode_transitions(rows, self.observation_size, is_demonstration.float())
 
     def draw(self, i: int, batch: int, beta: float, rng: np.random.Generator) -> tuple[Tensor, Tensor]:
-        """Agent i's rows (batch, row), and which of them are demonstrations (batch,)."""
+        """Agent i's rows (batch, row), and which of them are demonstrations (batch,).
+
+        Raises BootcourseError for rows that are not float32.
+        """
+        name, marks = "ReplayBuffer", torch.zeros(batch)
         if self.demonstrations is None:
-            return self.buffers[i].sample(batch, rng), torch.zeros(batch)
-        mixed_batch = part(self.own, "mixed_batch")
-        return mixed_batch(self.buffers[i], self.demonstrations, batch, beta, self.bonuses[i], rng)
+            rows = self.buffers[i].sample(batch, rng)
+        else:
+            name, mixed_batch = "mixed_batch", part(self.own, "mixed_batch")
+            rows, marks = mixed_batch(self.buffers[i], self.demonstrations, batch, beta, self.bonuses[i], rng)
+        if rows.dtype != torch.float32:
+            kind = str(rows.dtype).removeprefix("torch.")
+            raise BootcourseError(f"Your `{name}` gives rows in {kind}: training needs float32, as the rows came.")
+        return rows, marks

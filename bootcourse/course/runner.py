@@ -2,7 +2,7 @@
 
 On Linux the process is a fork of a clean, warm one (`multiprocessing`'s forkserver), elsewhere a new one; one waits
 ahead for the next check. Nothing that the function changes there outlives the check; endless loops, crashes,
-`os._exit`, threads and prints end with it. What comes back is JSON, never a pickle.
+`os._exit`, threads and prints end with it. What comes back are messages of plain numbers, never a pickle.
 
 What is guarded: time, everywhere. Memory, on Linux only. Files, network and other processes, nowhere: the function runs
 with your rights.
@@ -15,7 +15,6 @@ import faulthandler
 import functools
 import inspect
 import io
-import json
 import multiprocessing
 import os
 import pickle
@@ -28,25 +27,27 @@ import traceback
 import types
 import warnings
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from multiprocessing import forkserver
 
 import cloudpickle
+import msgspec
 import torch
 
 from bootcourse.course.exercise import Exercise
-from bootcourse.course.lessons import LESSONS
-from bootcourse.course.values import Plain, as_json, from_json, plain, same
+from bootcourse.course.values import Plain, decode_array, encode_array, plain, same
 from bootcourse.errors import BootcourseError
 
 FORKS = sys.platform == "linux"  # on macOS system libraries may break in a fork, and Windows has none
 MEMORY = 2 * 2**30  # bytes that a function may use
 START = 60  # seconds in which a process has to be ready
-LONGEST_PRINT = 500  # characters of a function's prints that are shown
-LONGEST_ANSWER = 64 * 2**20  # bytes of one case
+WALL = 10  # seconds after which a check is over, its process's start included, if its function's limit is no longer
+LEAST = 2  # seconds that a function has in any case
 SLACK = 5  # seconds after which the process ends by itself
+LONGEST_PRINT = 500  # characters of a function's prints that are shown
+LONGEST_MESSAGE = 64 * 2**20  # bytes
 PR_SET_PDEATHSIG = 1  # of Linux's prctl: the signal that a process gets when its parent ends
 READY = b"ready"
-PRELOADED = ["torch", *(f"bootcourse.course.lessons.{name}.exercises" for name in LESSONS[1:])]
+PRELOADED = ["bootcourse.course.preloaded"]
 SOURCE = "your answer"  # the file name of a function that came as text
 PATH = re.compile(r"(?<![\w./])(?:[A-Za-z]:)?(?:[\\/][^\\/\s'\"():,;]+)+[\\/]([^\\/\s'\"():,;]+)")
 NOT_SENT = (
@@ -55,43 +56,26 @@ NOT_SENT = (
 )
 
 
-def without_paths(text: str) -> str:
-    """The text with the name alone of each file of this machine."""
-    return PATH.sub(r"\1", text)
-
-
-@dataclass
-class Report:
+class Report(msgspec.Struct):
     """What the function did, case by case, up to the first case that raised an error or took too long."""
 
-    answers: list[Plain] = field(default_factory=list)
+    answers: list[Plain] = []
     refused: str = ""  # why it cannot be called at all
     error: tuple[str, str, int | None] | None = None  # (type, text, line of the student's file)
     changed: tuple[int, int] | None = None  # (case, index of the argument) of the first argument changed in place
     ended: str | int = ""  # "time", "size", or how the process ended before its time: an exit code, minus a signal
     printed: str = ""
-    warned: dict[int, str] = field(default_factory=dict)  # case -> NumPy's first warning
+    warned: dict[int, str] = {}  # case -> NumPy's first warning
+    seconds: float = 0.0  # that it had
+    is_last: bool = False
 
-    def take(self, told: dict) -> bool:
-        """Note a message of the process; False if it is the last. Raises ValueError for one that it cannot have sent."""
-        match told:
-            case {"answer": list() as answer, "changed": None | int() as place}:
-                if place is not None and self.changed is None:
-                    self.changed = len(self.answers), place
-                self.answers.append(from_json(answer))
-            case {"printed": str() as text}:
-                self.printed = (self.printed + without_paths(text))[:LONGEST_PRINT]
-            case {"warned": str() as text}:
-                self.warned.setdefault(len(self.answers), text)
-            case {"error": [str() as kind, str() as text, None | int() as line]}:
-                self.error = kind, without_paths(text), line
-            case {"refused": str() as text}:
-                self.refused = text
-            case {"done": True}:
-                return False
-            case _:
-                raise ValueError("no message")
-        return True
+    def add(self, message: "Report") -> None:
+        """Take over what a message of the process says."""
+        self.answers += message.answers
+        self.refused, self.error = message.refused, message.error
+        self.changed = self.changed or message.changed
+        self.printed = (self.printed + message.printed)[:LONGEST_PRINT]
+        self.warned = message.warned | self.warned
 
 
 # Here -------------------------------------------------------------------------------------------------
@@ -133,64 +117,102 @@ def run(exercise: Exercise, answer: Callable | str, seconds: float, times: int =
 
     Raises BootcourseError where the process cannot be started.
     """
+    begin = time.monotonic()
     try:
         job = pickled(answer, times, seconds)
     except Exception as error:  # whatever an object's own pickling raises
-        return Report(refused=NOT_SENT.format(without_paths(" ".join(str(error).split())[:200])))
+        return Report(refused=NOT_SENT.format(PATH.sub(r"\1", " ".join(str(error).split()))[:200]))
     with _one_at_a_time:
         process = _waiting.pop() if _waiting else Process()
         if not process.process.is_alive():
             process = Process()
         try:
-            return process.work(packed(exercise), job, seconds)
+            return process.work(packed(exercise), job, seconds, begin)
         finally:  # also after the notebook's stop button
             process.end()
-            _waiting.append(Process())
+            with contextlib.suppress(BootcourseError):  # the next check says so
+                _waiting.append(Process())
+
+
+def get_ready() -> None:
+    """Begin to load what the first check needs, and do not wait for it."""
+    if FORKS:
+        forkserver.set_forkserver_preload(PRELOADED)
+        forkserver.ensure_running()
 
 
 class Process:
     """A process that waits for one job."""
 
     def __init__(self):
-        method = "forkserver" if FORKS else "spawn"
-        context = multiprocessing.get_context(method)
+        context = multiprocessing.get_context("forkserver" if FORKS else "spawn")
         context.set_forkserver_preload(PRELOADED)
         self.connection, theirs = context.Pipe()
         self.process = context.Process(target=serve, args=(theirs,), daemon=True)
+        self.error: Exception | None = None
         main, sys.modules["__main__"] = sys.modules["__main__"], types.ModuleType("__main__")
         try:  # `multiprocessing` would run the script in `__main__` again
-            self.process.start()
-        except (OSError, EOFError) as error:
-            raise broken(error) from None
+            starting = threading.Thread(target=self.start, daemon=True)  # it waits for its server without a limit
+            starting.start()
+            starting.join(START)
         finally:
             sys.modules["__main__"] = main
+        if starting.is_alive() or self.error:
+            end_server()
+            raise broken(self.error or "its server does not answer")
         theirs.close()
 
-    def work(self, exercise: bytes, job: bytes, seconds: float) -> Report:
-        """The report on a job."""
+    def start(self) -> None:
+        try:
+            self.process.start()
+        except (OSError, EOFError) as error:
+            self.error = error
+
+    def work(self, exercise: bytes, job: bytes, seconds: float, begin: float) -> Report:
+        """The report on a job. begin: when the check began."""
         report = Report()
         try:
             self.connection.send_bytes(exercise)
             if not self.connection.poll(START) or self.connection.recv_bytes() != READY:
                 raise broken("it did not answer")
             self.connection.send_bytes(job)
-            end = time.monotonic() + seconds
+            now = time.monotonic()
+            report.seconds = time_left(seconds, now - begin)
+            end = now + report.seconds
             while self.connection.poll(max(0.0, end - time.monotonic())):
-                if not report.take(json.loads(self.connection.recv_bytes(LONGEST_ANSWER))):
+                message = decoder.decode(self.connection.recv_bytes(LONGEST_MESSAGE))
+                report.add(message)
+                if message.is_last:
                     return report
             report.ended = "time"
-        except (EOFError, OSError, ValueError, RecursionError) as error:  # it ended, or somebody else wrote
+        except (EOFError, OSError, msgspec.MsgspecError) as error:  # it ended, or somebody else wrote
             self.process.join(1)
             report.ended = "size" if "bad message length" in str(error) else self.process.exitcode or 0
         return report
 
     def end(self) -> None:
-        """Kill it, with all processes that it started."""
+        """Kill it, with all processes that it started; a server that the answer stopped goes on."""
         with contextlib.suppress(ProcessLookupError, PermissionError, AttributeError):  # AttributeError: Windows
             os.killpg(self.process.pid, signal.SIGKILL)
         self.process.kill()
-        self.process.join()
+        self.process.join(1)
+        if self.process.is_alive():
+            end_server()
         self.connection.close()
+
+
+def time_left(seconds: float, waited: float) -> float:
+    """The seconds that a function has, whose process took `waited` seconds to start."""
+    return seconds if seconds > WALL else min(seconds, max(LEAST, WALL - waited))
+
+
+def end_server() -> None:
+    """Kill the process that forks the others, which is stopped or stuck; the next check starts another."""
+    server = forkserver._forkserver._forkserver_pid if FORKS else None
+    if server is not None:
+        with contextlib.suppress(ProcessLookupError, ChildProcessError):
+            os.kill(server, signal.SIGKILL)
+            os.waitid(os.P_PID, server, os.WEXITED | os.WNOWAIT)  # `multiprocessing` sees it, too
 
 
 def broken(why: object) -> BootcourseError:
@@ -226,36 +248,36 @@ def serve(connection) -> None:
         pickle.loads(exercise)  # imports what it needs
         connection.send_bytes(READY)
         job = connection.recv_bytes()
-        limit_memory()
-        work(exercise, job, lambda **told: connection.send_bytes(json.dumps(told).encode()))
+        if FORKS:
+            limit_memory()
+        work(exercise, job, lambda message: connection.send_bytes(encoder.encode(message)))
         time.sleep(START)  # it is killed: nothing that the function left to do at the end is done
 
 
 def limit_memory() -> None:
-    if FORKS:
-        import resource
+    import resource
 
-        with open("/proc/self/statm") as file:
-            size = int(file.read().split()[0]) * resource.getpagesize()
-        resource.setrlimit(resource.RLIMIT_AS, (size + MEMORY, size + MEMORY))
+    with open("/proc/self/statm") as file:
+        size = int(file.read().split()[0]) * resource.getpagesize()
+    resource.setrlimit(resource.RLIMIT_AS, (size + MEMORY, size + MEMORY))
 
 
 class Printed(io.TextIOBase):
     """Sends on the beginning of what is printed."""
 
-    def __init__(self, send: Callable):
+    def __init__(self, send: Callable[[Report], None]):
         self.send, self.room = send, LONGEST_PRINT
 
     def write(self, text: str) -> int:
-        begin, self.room = text[: self.room], max(0, self.room - len(text))
+        begin, self.room = PATH.sub(r"\1", text[: self.room]), max(0, self.room - len(text))
         if begin:
-            self.send(printed=begin)
+            self.send(Report(printed=begin))
         return len(text)
 
 
-def work(exercise: bytes, job: bytes, send: Callable) -> None:
+def work(exercise: bytes, job: bytes, send: Callable[[Report], None]) -> None:
     """Send, message by message, what the student's function answers in each case, and which argument it changed."""
-    answer = None
+    last, answer, number, warned = Report(is_last=True), None, 0, {}
     outcome, cases, *asked = pickle.loads(exercise)
     sys.stdout = sys.stderr = Printed(send)
     try:
@@ -263,21 +285,19 @@ def work(exercise: bytes, job: bytes, send: Callable) -> None:
         faulthandler.dump_traceback_later(seconds + SLACK, exit=True, file=open(os.devnull, "w"))
         warnings.simplefilter("ignore")
         warnings.simplefilter("always", RuntimeWarning)
-        warnings.showwarning = lambda text, *_: send(warned=f"{text}")
+        warnings.showwarning = lambda text, *_: warned.setdefault(number, str(text))
         if isinstance(answer, str):
             answer = defined_in(answer, asked[0])
-        if refused := no_answer(answer, *asked):
-            send(refused=refused)
-        else:
-            copies = (case for _ in range(times) for case in pickle.loads(exercise)[1])
-            for case, given in zip(cases * times, copies, strict=True):
-                value = as_json(plain(outcome(answer, *given)))
-                pairs = enumerate(zip(map(plain, given), map(plain, case), strict=True))
-                changed = next((place for place, pair in pairs if not same(*pair, nan_too=True)), None)
-                send(answer=value, changed=changed)
+        last.refused = why_not_called(answer, *asked)
+        copies = [case for _ in range(times) for case in pickle.loads(exercise)[1]]
+        for number, (case, copy) in enumerate(zip(cases * times, copies, strict=True) if not last.refused else ()):
+            value = plain(outcome(answer, *copy))
+            pairs = enumerate(zip(map(plain, copy), map(plain, case), strict=True))
+            changed = next(((number, place) for place, pair in pairs if not same(*pair, nan_too=True)), None)
+            send(Report(answers=[value], changed=changed, warned=warned))
     except BaseException as error:  # also SystemExit and KeyboardInterrupt
-        send(error=in_words(error, answer))
-    send(done=True)
+        last.error = in_words(error, answer)
+    send(last)
 
 
 def defined_in(source: str, name: str):
@@ -287,8 +307,8 @@ def defined_in(source: str, name: str):
     return space.get(name, f"There is no function `{name}` in this text.")
 
 
-def no_answer(answer, name: str, call: str, arguments: int) -> str | None:
-    """Why this cannot be called as the exercise asks; None if it can."""
+def why_not_called(answer, name: str, call: str, arguments: int) -> str:
+    """Why this cannot be called as the exercise asks; "" if it can."""
     if isinstance(answer, str):
         return answer
     if not callable(answer):
@@ -299,7 +319,19 @@ def no_answer(answer, name: str, call: str, arguments: int) -> str | None:
             signature.bind(*[None] * arguments)
         except TypeError:
             return f"Your function takes {signature}: the check calls `{call}`."
-    return None
+    return ""
+
+
+def in_words(error: BaseException, answer) -> tuple[str, str, int | None]:
+    """An error's type, its text without paths of this machine, and the last line of the student's file it passed."""
+    try:
+        text = PATH.sub(r"\1", " ".join(str(error).split()))[:LONGEST_PRINT]
+    except BaseException:  # an error may come with a text that cannot be made
+        text = ""
+    if isinstance(error, SyntaxError) and error.filename == SOURCE:
+        return type(error).__name__, error.msg, error.lineno
+    lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == file_of(answer)]
+    return type(error).__name__[:80], text, lines[-1] if lines else None
 
 
 def file_of(answer) -> str:
@@ -313,14 +345,5 @@ def code_of(function) -> types.CodeType | None:
     return getattr(inspect.unwrap(function) if callable(function) else None, "__code__", None)
 
 
-def in_words(error: BaseException, answer) -> tuple[str, str, int | None]:
-    """An error's type, its text, and the last line of the student's file that it passed."""
-    try:
-        text = " ".join(str(error).split())[:LONGEST_PRINT]
-    except BaseException:  # an error may come with a text that cannot be made
-        text = ""
-    if isinstance(error, SyntaxError) and error.filename == SOURCE:
-        return type(error).__name__, error.msg, error.lineno
-    file = file_of(answer)
-    lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == file]
-    return type(error).__name__[:80], text, lines[-1] if lines else None
+encoder = msgspec.msgpack.Encoder(enc_hook=encode_array)
+decoder = msgspec.msgpack.Decoder(Report, dec_hook=decode_array)

@@ -1,11 +1,8 @@
-"""Answers as plain numbers, so that tensors, arrays and numbers can be compared and printed in one way.
+"""Answers as plain numbers, so that tensors, arrays and numbers can be compared, printed and sent in one way."""
 
-`plain` makes a copy, so that nothing a student's function does later changes its answer. `as_json` and `from_json`
-carry it from one process to another.
-"""
+from __future__ import annotations
 
-from dataclasses import dataclass
-
+import msgspec
 import numpy as np
 
 NUMERIC, SEVERAL = ("tensor", "array", "number"), ("tuple", "list")
@@ -13,35 +10,46 @@ LARGEST = 2**20  # numbers in an array that is compared
 MOST = 10**308  # about the largest number that a float holds
 
 
-@dataclass(frozen=True)
-class Plain:
+class Plain(msgspec.Struct, frozen=True, eq=False):
     """kind: tensor, array, number, text, tuple, list, or for everything else the name of its type."""
 
     kind: str
-    data: object = None  # an array of float64 or bool, a str, a tuple of Plain, or nothing
+    array: np.ndarray | None = None  # of float64 or bool, for the numeric kinds
+    parts: tuple[Plain, ...] | None = None  # of a tuple or a list
+    text: str | None = None
+
+    def __post_init__(self):
+        fields = (self.array is None, self.parts is None)
+        if fields != (self.kind not in NUMERIC, self.kind not in SEVERAL):
+            raise ValueError(f"'{self.kind}' does not hold this.")  # only a forged message can say so
+
+    @property
+    def data(self) -> np.ndarray | tuple[Plain, ...] | str | None:
+        """Numbers, parts or text; None for an object of another type."""
+        return self.array if self.kind in NUMERIC else self.parts if self.kind in SEVERAL else self.text
 
     @property
     def shape(self) -> tuple:
-        return self.data.shape if self.kind in NUMERIC else ()
+        return self.array.shape if self.kind in NUMERIC else ()
 
     @property
     def words(self) -> str:
         """Its kind, to put into a sentence."""
         if self.kind == "tuple":
-            return f"{len(self.data)} value{'s' * (len(self.data) != 1)}"
+            return f"{len(self.parts)} value{'s' * (len(self.parts) != 1)}"
         if self.kind == "list":
-            return f"a list of {len(self.data)}"
+            return f"a list of {len(self.parts)}"
         known = {"tensor": "a torch tensor", "array": "a NumPy array", "number": "a number", "text": "a text"}
         return known.get(self.kind, f"an object of type {self.kind}")
 
 
 def plain(value) -> Plain:
-    """A copy of the value as a `Plain`."""
+    """A copy of the value as a `Plain`: nothing that a student's function does later changes it."""
     name = type(value).__name__[:80]
     if isinstance(value, str):
-        return Plain("text", str(value))
+        return Plain("text", text=str(value))
     if isinstance(value, (tuple, list)):
-        return Plain("tuple" if isinstance(value, tuple) else "list", tuple(map(plain, value)))
+        return Plain("tuple" if isinstance(value, tuple) else "list", parts=tuple(map(plain, value)))
     if isinstance(value, (bool, int, float, np.number, np.bool_)):
         kind = "number"
     elif isinstance(value, np.ndarray):
@@ -49,7 +57,7 @@ def plain(value) -> Plain:
     elif type(value).__module__.partition(".")[0] == "torch" and hasattr(value, "detach"):
         kind, value = "tensor", value.detach().cpu().numpy()
     else:
-        return Plain(name)
+        return Plain(name if name not in (*NUMERIC, *SEVERAL) else f"{name} of yours")
     if isinstance(value, int) and abs(value) > MOST:
         value = float("inf") if value > 0 else -float("inf")
     array = np.asarray(value)
@@ -60,25 +68,18 @@ def plain(value) -> Plain:
     return Plain(kind, np.array(array, dtype=bool if array.dtype.kind == "b" else np.float64))
 
 
-def as_json(value: Plain) -> list:
-    """What `from_json` reads: [kind, text or None], [kind, parts], or [kind, is it bool?, shape, numbers]."""
-    if value.kind in SEVERAL:
-        return [value.kind, list(map(as_json, value.data))]
-    if value.kind in NUMERIC:
-        return [value.kind, value.data.dtype == bool, value.shape, value.data.ravel().tolist()]
-    return [value.kind, value.data]
+def encode_array(array: np.ndarray) -> tuple[bool, tuple, bytes]:
+    """For msgspec: is it of truth values?, its shape, its numbers."""
+    return array.dtype == bool, array.shape, array.tobytes()
 
 
-def from_json(value: list) -> Plain:
-    """The Plain again. Raises ValueError or TypeError for what `as_json` did not write."""
-    match value:
-        case [str() as kind, list() as parts] if kind in SEVERAL:
-            return Plain(kind, tuple(map(from_json, parts)))
-        case [str() as kind, bool() as truth, list() as shape, list() as flat] if kind in NUMERIC:
-            return Plain(kind, np.array(flat, dtype=bool if truth else np.float64).reshape(shape))
-        case [str() as kind, None | str() as text] if kind not in (*NUMERIC, *SEVERAL):
-            return Plain(kind, text)
-    raise ValueError(f"This is no answer: {str(value)[:80]}")
+def decode_array(_: type, sent: tuple) -> np.ndarray:
+    """The array again. Raises ValueError or TypeError for what `encode_array` did not write."""
+    truth, shape, numbers = sent
+    return np.frombuffer(numbers, bool if truth else np.float64).reshape(shape)
+
+
+# Comparison -------------------------------------------------------------------------------------------
 
 
 def fitted(answer: Plain, right: Plain) -> Plain:
@@ -87,37 +88,38 @@ def fitted(answer: Plain, right: Plain) -> Plain:
     What has to be a tensor stays as it is: training needs the tensor itself.
     """
     if right.kind == "array" and answer.kind in SEVERAL:
-        parts = [fitted(part, right) for part in answer.data]
+        parts = [fitted(part, right) for part in answer.parts]
         if parts and all(part.kind in NUMERIC and part.shape == parts[0].shape for part in parts):
-            return Plain("array", np.array([part.data for part in parts]))
+            return Plain("array", np.array([part.array for part in parts]))
     if right.kind == "array" and answer.kind == "tensor":
-        return Plain("array", answer.data)
+        return Plain("array", answer.array)
     if right.kind == "tuple":
-        if answer.kind in ("array", "tensor") and len(answer.shape) > 0:
-            answer = Plain("tuple", tuple(Plain(answer.kind, part) for part in answer.data))
-        if answer.kind in SEVERAL and len(answer.data) == len(right.data):
-            return Plain("tuple", tuple(map(fitted, answer.data, right.data)))
+        if answer.kind in ("array", "tensor") and answer.shape:
+            answer = Plain("tuple", parts=tuple(Plain(answer.kind, np.asarray(part)) for part in answer.array))
+        if answer.kind in SEVERAL and len(answer.parts) == len(right.parts):
+            return Plain("tuple", parts=tuple(map(fitted, answer.parts, right.parts)))
     return answer
 
 
 def like(answer: Plain, right: Plain) -> bool:
     """Is it of the right kind? A number and a tensor or an array that holds one number count as the same kind."""
     if right.kind in SEVERAL:
-        same_length = answer.kind == right.kind and len(answer.data) == len(right.data)
-        return same_length and all(map(like, answer.data, right.data))
+        same_length = answer.kind == right.kind and len(answer.parts) == len(right.parts)
+        return same_length and all(map(like, answer.parts, right.parts))
     single = all(value.kind in NUMERIC and value.shape == () for value in (answer, right))
     return answer.kind == right.kind or single
 
 
 def same_shape(answer: Plain, right: Plain) -> bool:
     if right.kind in SEVERAL:
-        return all(map(same_shape, answer.data, right.data))
+        return all(map(same_shape, answer.parts, right.parts))
     return answer.shape == right.shape
 
 
-def absolute(tolerance: float, right: Plain) -> float:
-    """The absolute tolerance that belongs to a relative one. A tensor is float32, so its sums are rounded earlier."""
-    return tolerance / (10 if right.kind == "tensor" else 100)
+def close(answer: Plain, right: Plain, tolerance: float, nan_too: bool = False) -> np.ndarray:
+    """Which numbers agree. tolerance: relative; its absolute one is larger for a tensor, whose sums are float32."""
+    absolute = tolerance / (10 if right.kind == "tensor" else 100)
+    return np.isclose(answer.array, right.array, rtol=tolerance, atol=absolute, equal_nan=nan_too)
 
 
 def same(answer: Plain, right: Plain, tolerance: float = 0.0, nan_too: bool = False) -> bool:
@@ -125,47 +127,40 @@ def same(answer: Plain, right: Plain, tolerance: float = 0.0, nan_too: bool = Fa
     if not (like(answer, right) and same_shape(answer, right)):
         return False
     if right.kind in SEVERAL:
-        return all(same(a, r, tolerance, nan_too) for a, r in zip(answer.data, right.data, strict=True))
+        return all(same(a, r, tolerance, nan_too) for a, r in zip(answer.parts, right.parts, strict=True))
     if right.kind not in NUMERIC:
-        return answer.data == right.data
-    if tolerance == 0:  # np.allclose takes more than twice as long
-        alike = nan_too and answer.data.tobytes() == right.data.tobytes()  # a fifth of the time of the next line
-        return alike or np.array_equal(answer.data, right.data, equal_nan=nan_too)
-    atol = absolute(tolerance, right)
-    return np.allclose(answer.data, right.data, rtol=tolerance, atol=atol, equal_nan=nan_too)
+        return answer.text == right.text
+    if nan_too and answer.array.tobytes() == right.array.tobytes():  # a fifth of the time of what follows
+        return True
+    return bool(close(answer, right, tolerance, nan_too).all())
 
 
 def has_nan(value: Plain) -> bool:
     if value.kind in SEVERAL:
-        return any(map(has_nan, value.data))
-    return value.kind in NUMERIC and bool(np.isnan(value.data).any())
+        return any(map(has_nan, value.parts))
+    return value.kind in NUMERIC and bool(np.isnan(value.array).any())
+
+
+# Words ------------------------------------------------------------------------------------------------
 
 
 def shape_words(value: Plain) -> str:
     """The shape, in a sentence; a tuple has several."""
-    return " and ".join(map(shape_words, value.data)) if value.kind in SEVERAL else str(value.shape)
+    return " and ".join(map(shape_words, value.parts)) if value.kind in SEVERAL else str(value.shape)
 
 
 def numbers(value: Plain, longest: int = 36) -> str:
     """The value in one line; of a value with more than `longest` numbers the shape."""
     if value.kind in SEVERAL:
-        return ", ".join(numbers(part, longest) for part in value.data)
+        return ", ".join(numbers(part, longest) for part in value.parts)
     if value.kind == "text":
-        return repr(value.data)
+        return repr(value.text)
     if value.kind not in NUMERIC:
         return value.words
-    if value.data.size > longest:
+    if value.array.size > longest:
         return f"{value.words} of shape {value.shape}"
-    if value.data.dtype == bool:
-        return str(value.data.tolist())
+    if value.array.dtype == bool:
+        return str(value.array.tolist())
     if value.shape == ():
-        return f"{float(value.data):.6g}"
-    return np.array2string(value.data, separator=", ", max_line_width=10_000, formatter={"all": "{:.4g}".format})
-
-
-def first_difference(answer: Plain, right: Plain, tolerance: float) -> tuple[int, ...] | None:
-    """The index of the first difference between two arrays of one shape; None for numbers, texts and tuples."""
-    if right.kind not in ("tensor", "array") or right.shape == ():
-        return None
-    close = np.isclose(answer.data, right.data, rtol=tolerance, atol=absolute(tolerance, right))
-    return tuple(int(i) for i in np.argwhere(~close)[0])
+        return f"{float(value.array):.6g}"
+    return np.array2string(value.array, separator=", ", max_line_width=10_000, formatter={"all": "{:.4g}".format})

@@ -18,7 +18,6 @@ is the exercise's own. The words, after " # ", come last.
 import ast
 import faulthandler
 import importlib
-import json
 import linecache
 import pkgutil
 import re
@@ -112,14 +111,10 @@ def here(exercise, answer, seconds, times=1):
     """What a function answers in this process: faster than one of its own, for answers that do no harm."""
     report, settings = runner.Report(), (sys.stdout, sys.stderr)
     with warnings.catch_warnings():
-        runner.work(runner.packed(exercise), runner.pickled(answer, times, 600), lambda **told: note(report, told))
+        runner.work(runner.packed(exercise), runner.pickled(answer, times, 600), report.add)
     faulthandler.cancel_dump_traceback_later()
     sys.stdout, sys.stderr = settings
     return report
-
-
-def note(report, told: dict) -> None:
-    report.take(json.loads(json.dumps(told)))
 
 
 def one_sentence(verdict) -> bool:

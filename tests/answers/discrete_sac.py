@@ -4,13 +4,9 @@ import collections
 
 import torch
 
+from bootcourse.learn import sac
 from tests.answers import equivalent, right, right_lines, wrong, wrong_lines
 
-ONE = "α is one number"
-equivalent("soft_value", "alpha.unsqueeze(-1) * log_pi  ->  alpha * log_pi", ONE)
-equivalent("soft_value", "alpha.unsqueeze(-1)  ->  alpha.unsqueeze(0)", ONE)
-VALUE = "return (log_pi.exp() * (q - alpha.unsqueeze(-1) * log_pi)).sum(-1)"
-equivalent("soft_value", f"{VALUE} - constraint  ->  {VALUE} + constraint", "the exercise has no constraint")
 equivalent("actor_loss", "alpha * log_pi  ->  alpha * log_pi.detach()", "its slope, -α, is the same for all actions")
 MEAN = "state_entropy.detach().mean"
 equivalent("temperature_loss", f"{MEAN}(-1)  ->  {MEAN}(0)", "the batch is the only axis")
@@ -43,6 +39,7 @@ wrong_lines("""entropy
     each action's: -log_pi * log_pi.exp()  # shape
 """)
 
+right("soft_value")(sac.soft_value)
 right_lines("""soft_value
     value and entropy: pi = log_pi.exp(); (pi * q).sum(-1) + alpha * torch.special.entr(pi).sum(-1)
     as a product: torch.einsum("ba,ba->b", torch.exp(log_pi), q - alpha * log_pi)
@@ -101,8 +98,10 @@ def with_a_one_hot_mask(q_pair, action, target):
 
 wrong_lines("""critic_loss
     mean of both: rows = torch.arange(len(action))
-        sum(((q[rows, action] - target.detach()) ** 2).mean() for q in q_pair) / 2  # mean over the two critics
+        sum(((q[rows, action] - target.detach()) ** 2).mean() for q in q_pair) / 2  # half of the right one
     summed over states: sum(((q.gather(1, action[:, None])[:, 0] - target.detach()) ** 2).sum() for q in q_pair)
+    half squares: 0.5 * sum(functional.mse_loss(q.gather(1, action[:, None])[:, 0], target.detach()) for q in q_pair)
+        # factor ½
     absolute: sum((q.gather(1, action[:, None])[:, 0] - target.detach()).abs().mean() for q in q_pair)
     a broadcast: sum(((q.gather(1, action[:, None]) - target.detach()) ** 2).mean() for q in q_pair)
 """)
@@ -154,6 +153,12 @@ class StackedAtEachDraw(WithADeque):
         return torch.stack(list(self.rows))[rng.integers(len(self.rows), size=batch)]
 
 
+@wrong("ReplayBuffer", "in float64: keep them in float32")
+class WithATableOfNumPy(WithATable):
+    def sample(self, batch, rng):
+        return super().sample(batch, rng).double()
+
+
 @wrong("ReplayBuffer", "again and again")
 class OneRowManyTimes(WithADeque):
     def sample(self, batch, rng):
@@ -164,6 +169,19 @@ class OneRowManyTimes(WithADeque):
 class ANumberTooMany(WithADeque):
     def sample(self, batch, rng):
         return super().sample(batch, rng)[batch]
+
+
+@wrong("ReplayBuffer", "without replacement")
+class EachRowOnce(WithADeque):
+    def sample(self, batch, rng):
+        return torch.stack([self.rows[i] for i in rng.choice(len(self.rows), batch, replace=False)])
+
+
+@wrong("ReplayBuffer", "without replacement")
+class EachRowOnceWhereThatIsPossible(WithADeque):
+    def sample(self, batch, rng):
+        places = [i for _ in range(batch) for i in rng.permutation(len(self.rows))]
+        return torch.stack([self.rows[i] for i in places[:batch]])
 
 
 @wrong("ReplayBuffer", "keeps every row")

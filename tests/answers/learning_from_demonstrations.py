@@ -2,15 +2,18 @@
 
 import torch
 
+from bootcourse.learn import bootstrap
 from bootcourse.learn.replay_buffer import REWARD
 from tests.answers import equivalent, right, right_lines, wrong, wrong_lines
 
 PLACES = "rng.integers(len(demonstrations), size=n)"
 TORCH_PLACES = f"demonstrations[torch.from_numpy({PLACES})]"
 equivalent("mixed_batch", f"{TORCH_PLACES}  ->  demonstrations[{PLACES}]", "either library's numbers index a tensor")
-ACTIONS = "torch.arange(q.shape[-1], device=q.device)"
 equivalent("large_margin_loss", "q.shape[-1]  ->  q.detach().shape[-1]", "only its shape")
-equivalent("large_margin_loss", f"{ACTIONS}  ->  {ACTIONS.replace('q.device', 'q.detach().device')}", "only its device")
+
+
+for _name in ("large_margin_loss", "paper_q_filter", "q_filter"):
+    right(_name)(getattr(bootstrap, _name))
 
 
 @right("mixed_batch")
@@ -41,8 +44,14 @@ def paid_in_the_table(own, demonstrations, size, beta, bonus, rng):
 
 wrong_lines("""mixed_batch
     bonus of the course: with_choice(own, demonstrations, size, beta, 2.0, rng)
+    the bonus as a mark: rows, marks = with_choice(own, demonstrations, size, beta, bonus, rng)
+        rows, bonus * marks  # else 0
+    minus one for the own rows: rows, marks = with_choice(own, demonstrations, size, beta, bonus, rng)
+        rows, 2 * marks - 1  # else 0
     too many rows: theirs, _ = with_choice(own, demonstrations, size, beta, bonus, rng)
         torch.cat([theirs, own.sample(1, rng)]), torch.ones(size + 1)
+    in double precision: rows, marks = with_choice(own, demonstrations, size, beta, bonus, rng)
+        rows.double(), marks  # in float64
     without rng: with_choice(own, demonstrations, size, beta, bonus, np.random.default_rng())
     the column counted from the left: rows, marks = with_choice(own, demonstrations, size, beta, 0.0, rng)
         rows[:, 4] += bonus * marks

@@ -1,15 +1,15 @@
 """Answers to the exercises of the lesson on the rule controller."""
 
-from tests.answers import equivalent, right_lines, wrong_lines
+from bootcourse import rule
+from tests.answers import equivalent, right, right_lines, wrong_lines
 
-equivalent("target_speed", "range(1, n)  ->  range(0, n)", "the slowest speed is v_min, which is taken anyway")
-for _after in ("pass", "p", "check_p(0.9)"):
-    equivalent("stochastic_rule", f"check_p(p)  ->  {_after}", "the exercise gives no p outside [1/9, 1)")
-equivalent("stochastic_rule", "rule_actions = np.asarray(rule_actions)  ->  pass", "the exercise gives an array")
+SPEEDS = "speeds = np.linspace"
+equivalent("target_speed", f"{SPEEDS}(v_min, v_max, n)  ->  {SPEEDS}(v_max, v_min, n)", "the same speeds, turned round")
 
+for _name in ("target_speed", "safety_distance", "stochastic_rule"):
+    right(_name)(getattr(rule, _name))
 
 right_lines("""safety_distance
-    in one line: max(floor, (v_ego - min(v_current, v_new)) * t_safe)
     with numpy: np.maximum(floor, t_safe * np.subtract(v_ego, [v_current, v_new]).max())
     for each car: max([floor] + [t_safe * (v_ego - v) for v in (v_current, v_new)])
     the longer of two: distance = max((v_ego - v_current) * t_safe, (v_ego - v_new) * t_safe)
@@ -33,7 +33,6 @@ wrong_lines("""safety_distance
 """)
 
 right_lines("""target_speed
-    by a list: max([v for v in np.linspace(v_min, v_max, n) if v < v_current and v < v_new], default=v_min)
     by a mask: grid = np.linspace(v_min, v_max, n)
         slow = (grid < v_current) & (grid < v_new)
         np.max(grid, where=slow, initial=v_min)
@@ -115,7 +114,6 @@ wrong_lines("""best_first_step
 """)
 
 right_lines("""stochastic_rule
-    filled: pi = np.full((len(rule_actions), 9), (1 - p) / 8); pi[np.arange(len(rule_actions)), rule_actions] = p; pi
     with an identity: own = np.eye(9)[rule_actions]; p * own + (1 - p) / 8 * (1 - own)
     row by row in lists: [[p if a == own else (1 - p) / 8 for a in range(9)] for own in rule_actions]
     one hot: own = torch.nn.functional.one_hot(torch.from_numpy(rule_actions), 9); torch.where(own == 1, p, (1 - p) / 8)

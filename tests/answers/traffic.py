@@ -66,41 +66,6 @@ def as_lists(leader, v, gap, dt, *driver):
     return [list(state) for state in zip(gaps, speeds, strict=True)]
 
 
-@right("drive_behind")
-def step_after_step(leader, v, gap, dt, *driver):
-    if len(leader) == 0:
-        return np.array([[gap, v]])
-    *others, limit = driver
-    a = max(acceleration(v, v - leader[0], gap, *others), -limit)
-    rest = step_after_step(leader[1:], max(v + a * dt, 0.0), gap + (leader[0] - v) * dt, dt, *driver)
-    return np.vstack([[gap, v], rest])
-
-
-@wrong("drive_behind", "shape")
-def without_its_start(leader, v, gap, dt, *driver):
-    return into_an_array(leader, v, gap, dt, *driver)[1:]
-
-
-@wrong("drive_behind")
-def two_rows(leader, v, gap, dt, *driver):
-    return into_an_array(leader, v, gap, dt, *driver).T.copy()
-
-
-@wrong("drive_behind")
-def half_a_second(leader, v, gap, dt, *driver):
-    return into_an_array(leader, v, gap, 0.5, *driver)
-
-
-@wrong("drive_behind")
-def six_metres_per_second_squared(leader, v, gap, dt, *driver):
-    return into_an_array(leader, v, gap, dt, *driver[:-1], 6.0)
-
-
-@wrong("drive_behind", "NaN")
-def divided_by_the_leader(leader, v, gap, dt, *driver):
-    return into_an_array(leader, v, gap, dt, *driver) * np.where(leader[0] == leader[0], np.nan, 1)
-
-
 @wrong("drive_behind", "*new* gap")
 def moves_first(leader, v, gap, dt, *driver):
     states = [(gap, v)]
@@ -121,33 +86,22 @@ def clipped_on_both_sides(leader, v, gap, dt, *driver):
     return np.array(states)
 
 
-@wrong("drive_behind")
-def the_next_speed_of_the_leader(leader, v, gap, dt, *driver):
-    return into_an_array(np.append(leader[1:], leader[-1]), v, gap, dt, *driver)
-
-
-@wrong("drive_behind")
-def with_the_mean_speed_of_a_step(leader, v, gap, dt, *driver):
-    states = into_an_array(leader, v, gap, dt, *driver)
-    mean = (states[1:, 1] + states[:-1, 1]) / 2
-    states[1:, 0] = gap + np.cumsum(leader - mean) * dt
-    return states
-
-
-@wrong("drive_behind")
-def into_whole_numbers(leader, v, gap, dt, *driver):
-    return into_an_array(leader, v, gap, dt, *driver).astype(int)
-
-
-@wrong("drive_behind")
-def the_leader_stands(leader, v, gap, dt, *driver):
-    return into_an_array(np.zeros(len(leader)), v, gap, dt, *driver)
-
-
-@wrong("drive_behind")
-def never_brakes(leader, v, gap, dt, *driver):
-    return into_an_array(leader, v, gap, dt, *driver[:-1], 0.0)
-
+DRIVER = "v_desired, s0, time_gap, a_max, b, delta"
+wrong_lines(f"""drive_behind
+    without its start: solution(leader, v, gap, dt, {DRIVER}, limit)[1:]  # shape
+    two rows: solution(leader, v, gap, dt, {DRIVER}, limit).T.copy()
+    half a second: solution(leader, v, gap, 0.5, {DRIVER}, limit)
+    six metres per second squared: solution(leader, v, gap, dt, {DRIVER}, 6.0)
+    never brakes: solution(leader, v, gap, dt, {DRIVER}, 0.0)
+    not a number: solution(leader, v, gap, dt, {DRIVER}, limit) * np.nan  # NaN
+    into whole numbers: solution(leader, v, gap, dt, {DRIVER}, limit).astype(int)
+    the next speed of the leader: solution(np.append(leader[1:], leader[-1]), v, gap, dt, {DRIVER}, limit)
+    the leader stands: solution(0 * leader, v, gap, dt, {DRIVER}, limit)
+    with the mean speed of a step: states = solution(leader, v, gap, dt, {DRIVER}, limit)
+        mean = (states[1:, 1] + states[:-1, 1]) / 2
+        states[1:, 0] = gap + np.cumsum(leader - mean) * dt
+        states
+""")
 
 right_lines("""equilibrium_gap
     solved: (s0 + time_gap * v) * (1 - (v / v_desired) ** delta) ** -0.5

@@ -43,16 +43,16 @@ def main() -> None:
     for descriptor in (0, 1):
         os.dup2(nowhere, descriptor)
     holds = shut_in(Path(sys.argv[1]))
-    from bootcourse.course.judge import judge_source
+    from bootcourse.course.judge import judge
     from bootcourse.course.lessons import registry
 
     first = next(iter(registry().values()))
-    judge_source(first, f"def {first.call}:\n    1 / 0\n")  # starts the processes that run answers
+    judge(first, f"def {first.call}:\n    1 / 0\n")  # starts the processes that run answers
     ours = children()
     print(json.dumps(holds), file=replies, flush=True)
     for line in questions:
         asked = json.loads(line)
-        verdict = judge_source(registry()[asked["exercise"]], asked["source"], asked["seconds"])
+        verdict = judge(registry()[asked["exercise"]], asked["source"], asked["seconds"])
         judged = Judged(verdict.kind, verdict.sentence, verdict.details, verdict.mistake is not None)
         print(msgspec.json.encode(judged).decode(), file=replies, flush=True)
         if children() > ours:  # an answer has left processes that run on

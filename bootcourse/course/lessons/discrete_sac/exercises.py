@@ -4,7 +4,7 @@ import math
 
 import torch
 
-from bootcourse.course.exercise import Exercise, Mistake, logits
+from bootcourse.course.exercise import exercise, logits
 from bootcourse.course.lessons.discrete_sac import replay_buffer
 from bootcourse.learn import sac
 
@@ -13,46 +13,39 @@ LOG_2 = math.log(2)
 
 def policies(rng):
     """log π of a few states: even ones, nearly sure ones, one state, as many states as actions; then 40 at random."""
-    yield torch.full((2, 9), -math.log(9)).double()
+    yield torch.full((2, 9), -math.log(9))
     yield torch.tensor(rng.normal(0, 8, (3, 9))).log_softmax(-1)
     yield torch.tensor(rng.normal(0, 1, (1, 9))).log_softmax(-1)
     for size in (9, *rng.integers(1, 6, 40)):
         yield torch.tensor(rng.normal(0, rng.uniform(0.3, 3), (size, 9))).log_softmax(-1)
 
 
-entropy = Exercise(
-    "entropy(log_pi)", solution=sac.entropy, cases=lambda rng: ((log_pi,) for log_pi in policies(rng)),
-    worked=(
+entropy = exercise(
+    "H(π(·|s)) = -Σ_a π(a|s) log π(a|s), Section III-C",
+    minutes=3, difficulty=1, cases=lambda rng: ((log_pi,) for log_pi in policies(rng)),
+    worked=[
         ((torch.tensor([[0.5, 0.5], [0.75, 0.25]]).log(),), torch.tensor([LOG_2, 2 * LOG_2 - 0.75 * math.log(3)])),
-    ),
-    mistakes=(
-        Mistake(lambda log_pi: (log_pi.exp() * log_pi).sum(-1),
-            "Your sign is wrong: log π is at most 0, so the entropy, *minus* the sum, is at least 0.",
-            "Entropy is the sum of p log p; the minus is a convention."),
-        Mistake(lambda log_pi: -log_pi.mean(-1),
-            "You give every action the same weight. The mean of -log π is taken under π: weigh each action with its "
-            "probability.",
-            "The expectation over actions is the mean over actions."),
-        Mistake(lambda log_pi: -log_pi.sum(-1),
-            "You add up -log π without the weights: an action that is never taken would count most.",
-            "The sum over actions is the expectation."),
-        Mistake(lambda log_pi: -(log_pi.exp() * log_pi).sum(-1) / LOG_2,
-            "Your entropy is in bits. Here it is in nats: use the natural logarithm, which is given.",
-            "Entropy is measured in bits."),
-        Mistake(lambda log_pi: -(log_pi.exp() * log_pi).sum(-1).mean(),
-            "You took the mean over the batch. Each state has an entropy of its own; the loss takes the mean later.",
-            "A policy has one entropy."),
-        Mistake(lambda log_pi: (-(log_pi.exp() * log_pi).sum(-1)).exp(),
-            "This is e to the power of the entropy, the effective number of actions. Return the entropy itself.",
-            "The effective number of actions is the entropy."),
-    ),
+    ],
     hints=(
         "Entropy is the mean of -log π(a) over actions a that are drawn from π.",
         "A mean under π: weigh each action's -log π with π. The probabilities are `log_pi.exp()`.",
-        "`-(log_pi.exp() * log_pi).sum(-1)`",
     ),
-    minutes=3, difficulty=1, equation="H(π(·|s)) = -Σ_a π(a|s) log π(a|s), Section III-C",
-)  # fmt: skip
+    mistakes={
+        "return (log_pi.exp() * log_pi).sum(-1)":
+            "Your sign is wrong: log π is at most 0, so the entropy, *minus* the sum, is at least 0.",
+        "return -log_pi.mean(-1)":
+            "You give every action the same weight. The mean of -log π is taken under π: weigh each action with its "
+            "probability.",
+        "return -log_pi.sum(-1)":
+            "You add up -log π without the weights: an action that is never taken would count most.",
+        "log_pi.exp() * log_pi -> log_pi.exp() * log_pi.exp().log2()":
+            "Your entropy is in bits. Here it is in nats: use the natural logarithm, which is given.",
+        ".sum(-1) -> .sum(-1).mean()":
+            "You took the mean over the batch. Each state has an entropy of its own; the loss takes the mean later.",
+        "return (-(log_pi.exp() * log_pi).sum(-1)).exp()":
+            "This is e to the power of the entropy, the effective number of actions. Return the entropy itself.",
+    },
+)(sac.entropy)  # fmt: skip
 
 
 def value_cases(rng):
@@ -63,93 +56,76 @@ def value_cases(rng):
 
 
 HALF = torch.full((1, 2), -LOG_2)
-soft_value = Exercise(
-    "soft_value(log_pi, q, alpha)", solution=sac.soft_value, cases=value_cases,
-    worked=(
+
+
+@exercise(
+    "V(s) = Σ_a π(a|s) (Q(s,a) - α log π(a|s)), Section III-C", minutes=5, difficulty=1, cases=value_cases,
+    worked=[
         ((HALF, torch.tensor([[1.0, 3.0]]), torch.tensor(0.5)), torch.tensor([2 + 0.5 * LOG_2])),
         # sure of the second action: its Q and nothing else
         ((torch.tensor([[-40.0, 0.0]]), torch.tensor([[1.0, 3.0]]), torch.tensor(0.5)), torch.tensor([3.0])),
-    ),
-    mistakes=(
-        Mistake(lambda log_pi, q, alpha: (log_pi.exp() * (q + alpha * log_pi)).sum(-1),
-            "You penalise entropy: log π is negative, so α log π is *subtracted* from Q.",
-            "The entropy is added, so α log π is added."),
-        Mistake(lambda log_pi, q, alpha: q.amax(-1) + alpha * sac.entropy(log_pi),
-            "You take the best action's value. The actor draws its action from π, so it gets the mean of Q under π.",
-            "V is the maximum of Q, as in Q-learning."),
-        Mistake(lambda log_pi, q, alpha: (log_pi.exp() * q).sum(-1),
-            "Your value has no entropy term: this is the value of ordinary actor-critic, α = 0.",
-            "The entropy belongs in the actor's loss only."),
-        Mistake(lambda log_pi, q, alpha: (log_pi.exp() * q - alpha * log_pi).sum(-1),
-            "You add up log π without weighing it by π: both terms are expectations under π.",
-            "The brackets around Q - α log π do not matter."),
-        Mistake(lambda log_pi, q, alpha: (log_pi.exp() * q).mean(-1) + alpha * sac.entropy(log_pi),
-            "You divide by the number of actions: π adds up to 1 already, so the expectation is a *sum* of π Q.",
-            "An expectation is a mean."),
-        Mistake(lambda log_pi, q, alpha: sac.soft_value(log_pi, q, alpha).mean(),
-            "You took the mean over the batch. Each state has its own value; the loss takes the mean later.",
-            "Losses end in a mean, so values do."),
-    ),
+    ],
     hints=(
         "What is the mean of Q if the action is drawn from π? And how much does the entropy add?",
         "Both are expectations under π: of Q, and of -α log π.",
-        "`(log_pi.exp() * (q - alpha * log_pi)).sum(-1)`",
     ),
-    minutes=5, difficulty=1, equation="V(s) = Σ_a π(a|s) (Q(s,a) - α log π(a|s)), Section III-C",
+    mistakes={
+        "q - alpha -> q + alpha":
+            "You penalise entropy: log π is negative, so α log π is *subtracted* from Q.",
+        "return q.amax(-1) + alpha * sac.entropy(log_pi)":
+            "You take the best action's value. The actor draws its action from π, so it gets the mean of Q under π.",
+        "(q - alpha * log_pi) -> q":
+            "Your value has no entropy term: this is the value of ordinary actor-critic, α = 0.",
+        "return (log_pi.exp() * q - alpha * log_pi).sum(-1)":
+            "You add up log π without weighing it by π: both terms are expectations under π.",
+        "return (log_pi.exp() * q).mean(-1) + alpha * sac.entropy(log_pi)":
+            "You divide by the number of actions: π adds up to 1 already, so the expectation is a *sum* of π Q.",
+        ".sum(-1) -> .sum(-1).mean()":
+            "You took the mean over the batch. Each state has its own value; the loss takes the mean later.",
+    },
 )  # fmt: skip
+def soft_value(log_pi, q, alpha):
+    return (log_pi.exp() * (q - alpha * log_pi)).sum(-1)
 
 
-def cases(rng):
+def target_cases(rng):
     """All ended, none ended, a batch of one, γ = 1 and γ = 0; then 60 at random."""
 
     def batch(size, ended, gamma):
         reward, value = torch.tensor(rng.normal(0, 3, (2, size)))
-        return reward, torch.tensor(rng.random(size) < ended).double(), value, gamma
+        return reward, torch.tensor(rng.random(size) < ended).float(), value, gamma
 
     yield from (batch(4, 1.0, 0.8), batch(4, 0.0, 0.8), batch(1, 0.0, 0.9), batch(3, 0.5, 1.0), batch(3, 0.5, 0.0))
     yield from (batch(rng.integers(1, 7), 0.4, rng.uniform(0.1, 0.99)) for _ in range(60))
 
 
-critic_target = Exercise(
-    "critic_target(reward, terminated, next_value, gamma)", solution=sac.critic_target, cases=cases,
-    worked=(
+critic_target = exercise(
+    "y = r + γ (1 - terminated) V(s'), Section III-C", minutes=5, difficulty=1, cases=target_cases,
+    worked=[
         # it goes on: 1 + 0.8 · 10; it ended: -10 and nothing after it
         ((torch.tensor([1.0, -10.0]), torch.tensor([0.0, 1.0]), torch.tensor([10.0, 10.0]), 0.8),
          torch.tensor([9.0, -10.0])),
-    ),
-    mistakes=(
-        Mistake(lambda reward, terminated, next_value, gamma: reward + gamma * next_value,
-            "Your target adds a future after the accident. Where an episode ended, the target is the reward alone.",
-            "The mask makes no difference on average. (It does: -10 plus a high V' is no warning.)"),
-        Mistake(lambda reward, terminated, next_value, gamma: reward + gamma * terminated * next_value,
-            "Your mask is inverted: `terminated` is 1 where the episode ended, and there the next value must be left "
-            "out.",
-            "`terminated` is taken for 'still alive'."),
-        Mistake(lambda reward, terminated, next_value, gamma: (1 - terminated) * (reward + gamma * next_value),
-            "You also mask the reward. The last reward, here the -10 of the accident, belongs in the target.",
-            "A terminated transition is to be ignored."),
-        Mistake(lambda reward, terminated, next_value, gamma: reward + (1 - terminated) * next_value,
-            "Your future is not discounted: a reward one second later counts γ times as much.",
-            "γ is already inside the value. (It is, but only from the second step on.)"),
-        Mistake(lambda reward, terminated, next_value, gamma: gamma * (reward + (1 - terminated) * next_value),
-            "You discount this second's reward, too. γ multiplies only what comes later.",
-            "γ multiplies everything on the right-hand side."),
-        Mistake(lambda reward, terminated, next_value, gamma: (reward + gamma * (1 - terminated) * next_value).mean(),
-            "You took the mean over the batch. Each transition has its own target; the loss takes the mean later.",
-            "Losses end in a mean, so targets do."),
-    ),
+    ],
     hints=(
         "What is the target of a transition that ended the episode? And of one that did not?",
         "`1 - terminated` is 1 where the episode goes on, and 0 where it ended.",
-        "`reward + gamma * (1 - terminated) * ...`",
     ),
-    minutes=5, difficulty=1, equation="y = r + γ (1 - terminated) V(s'), Section III-C",
-)  # fmt: skip
-
-
-def critic_loss_solution(q_pair, action, target):
-    q_taken = q_pair.gather(-1, action.expand(2, -1).unsqueeze(-1)).squeeze(-1)
-    return (q_taken - target.detach()).square().mean(-1).sum()
+    mistakes={
+        "(1 - terminated) * ->":
+            "Your target adds a future after the accident. Where an episode ended, the target is the reward alone.",
+        "(1 - terminated) -> terminated":
+            "Your mask is inverted: `terminated` is 1 where the episode ended, and there the next value must be left "
+            "out.",
+        "return (1 - terminated) * (reward + gamma * next_value)":
+            "You also mask the reward. The last reward, here the -10 of the accident, belongs in the target.",
+        "gamma * ->":
+            "Your future is not discounted: a reward one second later counts γ times as much.",
+        "return gamma * (reward + (1 - terminated) * next_value)":
+            "You discount this second's reward, too. γ multiplies only what comes later.",
+        "return (reward + gamma * (1 - terminated) * next_value).mean()":
+            "You took the mean over the batch. Each transition has its own target; the loss takes the mean later.",
+    },
+)(sac.critic_target)  # fmt: skip
 
 
 def pair_cases(rng):
@@ -166,91 +142,70 @@ def pair_cases(rng):
         yield case(rng.integers(2, 8))
 
 
-def errors(q_pair, action, target):
-    """Q(s,a) - y of both critics: (2, batch)."""
-    return q_pair.gather(-1, action.expand(2, -1).unsqueeze(-1)).squeeze(-1) - target
-
-
-critic_loss = Exercise(
-    "critic_loss(q_pair, action, target)", solution=critic_loss_solution, cases=pair_cases, slopes=("q_pair", "target"),
-    worked=(
+@exercise(
+    "the sum over both critics of mean (Q(s,a) - y)², Section III-C",
+    minutes=8, difficulty=2, cases=pair_cases, slopes=["q_pair", "target"],
+    worked=[
         # critic 1 is 1 too high for the first action, critic 2 is 2 too low; the second action was not taken
         ((torch.tensor([[[4.0, 9.0]], [[1.0, 9.0]]]), torch.tensor([0]), torch.tensor([3.0])), torch.tensor(5.0)),
-    ),
-    mistakes=(
-        Mistake(lambda q_pair, action, target: errors(q_pair, action, target).square().mean(-1).sum(),
-            "Your value is right, but the gradient flows into the target, too: the target is held fixed. Use "
-            "`target.detach()`.",
-            "Both sides of Q = y may move towards each other."),
-        Mistake(lambda q_pair, action, target: errors(q_pair, action, target.detach()).square().mean(),
-            "You took the mean over the two critics, too: each critic's own mean counts in full, so add the two.",
-            "`.mean()` does everything at once."),
-        Mistake(lambda q_pair, action, target: (q_pair - target.detach().unsqueeze(-1)).square().mean(1).sum(),
-            "You compare all actions with the target. Only the action that was taken led to this reward.",
-            "The target belongs to the state."),
-        Mistake(lambda q_pair, action, target: (q_pair[:, :, action] - target.detach()).square().mean((1, 2)).sum(),
-            "`q_pair[:, :, action]` takes these actions in *every* state. Each state has one action: use `gather`, or "
-            "give the number of the state as well, `q_pair[:, torch.arange(len(action)), action]`.",
-            "A list of columns is used row by row."),
-        Mistake(lambda q_pair, action, target: (q_pair.amax(-1) - target.detach()).square().mean(-1).sum(),
-            "You compare the largest Q with the target. The reward came from the action that was *taken*.",
-            "The agent always takes the best action."),
-        Mistake(lambda q_pair, action, target:
-            errors(q_pair.min(0).values.expand_as(q_pair), action, target.detach()).square().mean(-1)[0],
-            "You train the smaller value of the two. The minimum is for the target: here each critic has an "
-            "error of its own.",
-            "Twin critics act as one, their minimum."),
-        Mistake(lambda q_pair, action, target: errors(q_pair, action, target.detach()).square().mean(-1)[0],
-            "You train the first critic only. The second has an error of its own: add it.",
-            "The second critic is a copy."),
-        Mistake(lambda q_pair, action, target: errors(q_pair, action, target.detach()).mean(-1).sum(),
-            "You forgot the square: errors of opposite sign would cancel.",
-            "The error is the loss."),
-    ),
+    ],
     hints=(
         "First, Q of the action that was taken, for both critics: (2, batch). Then the error, squared.",
         "`gather` needs an index of as many axes as `q_pair`: `action.expand(2, -1).unsqueeze(-1)`.",
-        "`(q_taken - target.detach()).square().mean(-1).sum()`",
     ),
-    minutes=8, difficulty=2, equation="the sum over both critics of mean (Q(s,a) - y)², Section III-C",
+    mistakes={
+        "target.detach() -> target":
+            "Your value is right, but the gradient flows into the target, too: the target is held fixed. Use "
+            "`target.detach()`.",
+        ".mean(-1).sum() -> .mean()":
+            "Your loss is half of the right one: each critic's own mean counts in full. Add the two, without a mean "
+            "over the critics and without a factor ½.",
+        "return (q_pair - target.detach().unsqueeze(-1)).square().mean(1).sum()":
+            "You compare all actions with the target. Only the action that was taken led to this reward.",
+        "return (q_pair[:, :, action] - target.detach()).square().mean((1, 2)).sum()":
+            "`q_pair[:, :, action]` takes these actions in *every* state. Each state has one action: use `gather`, or "
+            "give the number of the state as well, `q_pair[:, torch.arange(len(action)), action]`.",
+        "return (q_pair.amax(-1) - target.detach()).square().mean(-1).sum()":
+            "You compare the largest Q with the target. The reward came from the action that was *taken*.",
+        ("q_pair.gather -> q_pair.amin(0, keepdim=True).expand_as(q_pair).gather", ".sum() -> [0]"):
+            "You train the smaller value of the two. The minimum is for the target: here each critic has an "
+            "error of its own.",
+        ".sum() -> [0]":
+            "You train the first critic only. The second has an error of its own: add it.",
+        ".square() ->":
+            "You forgot the square: errors of opposite sign would cancel.",
+    },
 )  # fmt: skip
+def critic_loss(q_pair, action, target):
+    q_taken = q_pair.gather(-1, action.expand(2, -1).unsqueeze(-1)).squeeze(-1)
+    return (q_taken - target.detach()).square().mean(-1).sum()
 
 
-def actor_loss_solution(log_pi, q, alpha):
-    value = (log_pi.exp() * (q.detach() - alpha * log_pi)).sum(-1)
-    return -value.mean()
-
-
-actor_loss = Exercise(
-    "actor_loss(log_pi, q, alpha)", solution=actor_loss_solution, cases=value_cases, slopes=(logits("log_pi"), "q"),
-    worked=(
-        ((HALF, torch.tensor([[1.0, 3.0]]), torch.tensor(0.5)), torch.tensor(-(2 + 0.5 * LOG_2))),
-    ),
-    mistakes=(
-        Mistake(lambda log_pi, q, alpha: -sac.soft_value(log_pi, q, alpha).mean(),
-            "Your value is right, but the gradient flows into Q, too: the actor's step would change the critic. Use "
-            "`q.detach()`.",
-            "The actor's step cannot change the critic. (Here one optimiser holds both networks.)"),
-        Mistake(lambda log_pi, q, alpha: sac.soft_value(log_pi, q.detach(), alpha).mean(),
-            "This is the value, and training would make it *small*. A loss is minimised: return -V.",
-            "The objective is maximised, and a loss is the objective."),
-        Mistake(lambda log_pi, q, alpha: -sac.soft_value(log_pi.detach(), q.detach(), alpha).mean(),
-            "Your loss has the right value but no gradient: it should change π. Detach Q only.",
-            "Detaching is always safe."),
-        Mistake(lambda log_pi, q, alpha: -((log_pi.exp() * (q.detach() + alpha * log_pi)).sum(-1)).mean(),
-            "You penalise entropy: log π is negative, so α log π is *subtracted* from Q.",
-            "The entropy is added, so α log π is added."),
-        Mistake(lambda log_pi, q, alpha: -(log_pi.exp() * (q.detach() - alpha * log_pi)).mean(),
-            "You took the mean over actions, too. Sum over the actions, then take the mean over the batch.",
-            "`.mean()` does both at once. (The slopes are then a ninth of what they should be.)"),
-    ),
+@exercise(
+    "-E_s[Σ_a π (Q - α log π)], Section III-C",
+    minutes=8, difficulty=2, cases=value_cases, slopes=[logits("log_pi"), "q"],
+    worked=[((HALF, torch.tensor([[1.0, 3.0]]), torch.tensor(0.5)), torch.tensor(-(2 + 0.5 * LOG_2)))],
     hints=(
         "The soft value should become large, and a loss is made small.",
         "Minus the mean over the batch of V. Through which of `log_pi` and `q` may the gradient flow?",
-        "`-(log_pi.exp() * (q.detach() - alpha * log_pi)).sum(-1).mean()`",
     ),
-    minutes=8, difficulty=2, equation="-E_s[Σ_a π (Q - α log π)], Section III-C",
+    mistakes={
+        "q.detach() -> q":
+            "Your value is right, but the gradient flows into Q, too: the actor's step would change the critic. Use "
+            "`q.detach()`.",
+        "-value -> value":
+            "This is the value, and training would make it *small*. A loss is minimised: return -V.",
+        "log_pi -> log_pi.detach() [2 times]":
+            "Your loss has the right value but no gradient: it should change π. Detach Q only.",
+        "- alpha -> + alpha":
+            "You penalise entropy: log π is negative, so α log π is *subtracted* from Q.",
+        ".sum(-1) ->":
+            "You took the mean over actions, too. Sum over the actions, then take the mean over the batch.",
+    },
 )  # fmt: skip
+def actor_loss(log_pi, q, alpha):
+    value = (log_pi.exp() * (q.detach() - alpha * log_pi)).sum(-1)
+    return -value.mean()
 
 
 def temperature_cases(rng):
@@ -262,41 +217,33 @@ def temperature_cases(rng):
         yield torch.tensor(rng.uniform(-5, 0.5)), state_entropy, torch.tensor(target)
 
 
-temperature_loss = Exercise(
-    "temperature_loss(log_alpha, state_entropy, target_entropy)",
-    solution=sac.temperature_loss, cases=temperature_cases, slopes=("log_alpha", "state_entropy"),
-    worked=(
+temperature_loss = exercise(
+    "α (H(π) - η), η the target entropy, Table of RL hyper-parameters",
+    minutes=5, difficulty=2, cases=temperature_cases, slopes=["log_alpha", "state_entropy"],
+    worked=[
         # α = 1/2, mean entropy 1, target 0.6: 0.5 · 0.4
         ((torch.tensor(-LOG_2), torch.tensor([0.5, 1.5]), torch.tensor(0.6)), torch.tensor(0.2)),
-    ),
-    mistakes=(
-        Mistake(lambda log_alpha, h, target: log_alpha.exp() * (target - h.detach().mean()),
-            "Your sign is wrong: this α grows while the policy is *more* random than it should be.",
-            "The error of a controller is target minus measured."),
-        Mistake(lambda log_alpha, h, target: log_alpha.exp() * (h.mean() - target),
-            "Your loss also changes the policy's entropy. It should change only the temperature: detach the entropy.",
-            "It does no harm that the policy gets a gradient here, too."),
-        Mistake(lambda log_alpha, h, target: log_alpha * (h.detach().mean() - target),
-            "You multiply by log α. Here the factor is α itself. Some libraries use log α, which gives other steps.",
-            "log α is the parameter, so it stands in the loss."),
-        Mistake(lambda log_alpha, h, target: log_alpha.exp() * (h.detach().mean() + target),
-            "You add the target. It is H - target; the sum only looks familiar from continuous SAC, whose target is "
-            "negative.",
-            "The continuous formula has + target, because there log π stands for -H."),
-        Mistake(lambda log_alpha, h, target: log_alpha.exp().detach() * (h.detach().mean() - target),
-            "Your loss has the right value but no gradient: it should change log α.",
-            "Detaching is always safe."),
-        Mistake(lambda log_alpha, h, target: log_alpha.exp() * (h.detach() - target),
-            "You return one number for each state. There is one temperature for all states: take the mean over the "
-            "batch.",
-            "The mean over the batch is taken somewhere else."),
-    ),
+    ],
     hints=(
         "If the entropy is above its target, α has to fall: which sign does the slope of the loss need?",
         "α times (mean entropy - target). Only log α may receive a gradient.",
-        "`log_alpha.exp() * (state_entropy.detach().mean() - target_entropy)`",
     ),
-    minutes=5, difficulty=2, equation="α (H(π) - η), η the target entropy, Table of RL hyper-parameters",
-)  # fmt: skip
+    mistakes={
+        "log_alpha.exp() -> -log_alpha.exp()":
+            "Your sign is wrong: this α grows while the policy is *more* random than it should be.",
+        ".detach() ->":
+            "Your loss also changes the policy's entropy. It should change only the temperature: detach the entropy.",
+        "log_alpha.exp() -> log_alpha":
+            "You multiply by log α. Here the factor is α itself. Some libraries use log α, which gives other steps.",
+        "- target_entropy -> + target_entropy":
+            "You add the target. It is H - target; the sum only looks familiar from continuous SAC, whose target is "
+            "negative.",
+        "log_alpha.exp() -> log_alpha.exp().detach()":
+            "Your loss has the right value but no gradient: it should change log α.",
+        ".mean(-1) ->":
+            "You return one number for each state. There is one temperature for all states: take the mean over the "
+            "batch.",
+    },
+)(sac.temperature_loss)  # fmt: skip
 
 ReplayBuffer = replay_buffer.ReplayBuffer

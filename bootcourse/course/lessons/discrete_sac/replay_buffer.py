@@ -6,35 +6,16 @@ import time
 import numpy as np
 import torch
 
-from bootcourse.course.drawing import drawn_apart, drawn_evenly
-from bootcourse.course.exercise import Exercise, Mistake, NotAsAsked
+from bootcourse.course.drawing import drawn_apart, drawn_evenly, in_float32
+from bootcourse.course.exercise import NotAsAsked, exercise
 from bootcourse.course.values import NUMERIC, plain, shape_words
-
-
-class ReplayBufferSolution:
-    def __init__(self, size):
-        """size: the most rows that it holds."""
-        self.size, self.rows, self.next = size, [], 0
-
-    def add(self, row):
-        """Keep a row, a tensor (n,). A full buffer forgets its oldest row."""
-        if len(self.rows) < self.size:
-            self.rows.append(row)
-        else:
-            self.rows[self.next] = row
-        self.next = (self.next + 1) % self.size
-
-    def sample(self, batch, rng):
-        """Rows drawn at random: (batch, n). rng: a NumPy generator."""
-        drawn = rng.integers(len(self.rows), size=batch)
-        return torch.stack([self.rows[i] for i in drawn])
-
 
 DRAWS = 300  # of each row that a buffer should hold
 COPIES = (
     "Your buffer is right but slow: it copies all its rows to add one or to draw one, and training does both thousands "
     "of times. Overwrite one row of a list or of a table, and pick the drawn rows only."
 )
+ONCE = "Your buffer draws without replacement. Each draw is made from all rows: a row may come twice in a batch."
 
 
 def filled_and_drawn(answer, size, added, batch):
@@ -42,7 +23,8 @@ def filled_and_drawn(answer, size, added, batch):
 
     Returns the shape of a batch; the rows that are ever drawn, as in "2 3"; whether each is drawn about equally often;
     whether they come back unchanged; whether two equal generators give the same batch; whether the rows of a batch are
-    independent of each other; whether adding and drawing leave the table where it is (all 1 or 0).
+    independent of each other; whether a row comes twice in some batch; whether adding and drawing leave the table
+    where it is (all 1 or 0).
     """
     buffer = answer(size)
     if not (hasattr(buffer, "add") and hasattr(buffer, "sample")):
@@ -50,20 +32,27 @@ def filled_and_drawn(answer, size, added, batch):
     rows = torch.arange(1.0, added + 1)[:, None] * torch.tensor([1.0, 0.5, -2.0])  # (added, 3)
     for row in rows:
         buffer.add(row.clone())
-    first, again = (buffer.sample(batch, np.random.default_rng(1)) for _ in range(2))
+    try:
+        first, again = (buffer.sample(batch, np.random.default_rng(1)) for _ in range(2))
+    except ValueError as error:
+        if "larger" in str(error):  # than the number of rows, as NumPy and Python say it
+            raise NotAsAsked(ONCE) from None
+        raise
     if first is None:
         return None
     if not isinstance(first, torch.Tensor) or first.dim() != 2 or first.shape[1] != 3:
         found = plain(first)
         shape = f" of shape {shape_words(found)}" if found.kind in NUMERIC else ""
         raise NotAsAsked(f"Your `sample` returns {found.words}{shape}: the exercise asks for a tensor (batch, n).")
+    in_float32(first)
     rng, held = np.random.default_rng(0), min(size, added)
     drawn = torch.stack([buffer.sample(batch, rng) for _ in range(DRAWS * held // batch + 1)])  # (times, batch, 3)
     number = drawn[..., 0].long().clamp(0, added)
     known = number > 0
     intact = torch.equal(drawn[known], rows[number[known] - 1])
     kept, same = " ".join(map(str, number.unique().tolist())), torch.equal(first, again)
-    judged = drawn_evenly(number, held), intact, same, drawn_apart(number, held), not copies_the_table(answer)
+    twice = bool((number.sort().values.diff() == 0).any())
+    judged = drawn_evenly(number, held), intact, same, drawn_apart(number, held), twice, not copies_the_table(answer)
     return np.array(first.shape), kept, *map(float, judged)
 
 
@@ -94,8 +83,8 @@ def copies_the_table(answer) -> bool:
 
 
 def buffer_cases(rng):
-    """Half full, just full, one more than full, overwritten twice; then 16 at random."""
-    yield from ((6, 3, 8), (6, 6, 8), (6, 7, 8), (5, 13, 8))
+    """Half full, just full, one more than full, overwritten twice, more rows than are drawn; then 16 at random."""
+    yield from ((6, 3, 8), (6, 6, 8), (6, 7, 8), (5, 13, 8), (8, 8, 4))
     for _ in range(16):
         size = rng.integers(3, 9)
         yield size, rng.integers(3, 3 * size), rng.integers(2, 33)
@@ -104,7 +93,7 @@ def buffer_cases(rng):
 def of_the_buffer(cases, answers):
     """A sentence on a buffer that gives back the wrong rows."""
     for (size, added, batch), answer in zip(cases, answers, strict=True):
-        shape, kept, even, intact, same, apart, _ = (part.data for part in answer)
+        shape, kept, even, intact, same, apart, twice, _ = (part.data for part in answer)
         if shape[0] != batch:
             return f"A batch of {batch} rows was asked for, and your buffer gave {shape[0]:.0f}."
         if kept != " ".join(map(str, range(max(added - size, 0) + 1, added + 1))):
@@ -115,71 +104,57 @@ def of_the_buffer(cases, answers):
             return "Two equal generators give different batches: draw with `rng`, so that a training can be repeated."
         if not apart:
             return "The rows of your batch are neighbours, or one row again and again: draw each row for itself."
+        if not twice:
+            return ONCE
         if not even:
             return "Your buffer draws some rows more often than others: each row has the same chance."
     return COPIES
 
 
-def buffer_with(**methods):
-    """The right buffer with other methods."""
-    return type("ReplayBuffer", (ReplayBufferSolution,), methods)
-
-
-def buffer_that_draws(numbers):
-    """A buffer whose batches are other rows: numbers(rows, batch, rng)."""
-    return buffer_with(
-        sample=lambda self, batch, rng: torch.stack([self.rows[i] for i in numbers(self.rows, batch, rng)])
-    )
-
-
-def add_in_front(self, row):
-    self.rows = [row, *self.rows[: self.size - 1]] if len(self.rows) < self.size else [row, *self.rows[1:]]
-
-
-def add_by_copying(self, row):
-    self.rows = [other.clone() for other in [*self.rows, row][-self.size :]]
-
-
-def draw_from_the_whole_table(self, batch, rng):
-    table = [*self.rows, *[torch.zeros_like(self.rows[0])] * (self.size - len(self.rows))]
-    return torch.stack([table[i] for i in rng.integers(self.size, size=batch)])
-
-
-ReplayBuffer = Exercise(
-    "ReplayBuffer(size)",
-    solution=ReplayBufferSolution, cases=buffer_cases, run=filled_and_drawn, explain=of_the_buffer,
-    worked=(
-        ((2, 3, 4), (np.array([4, 3]), "2 3", 1.0, 1.0, 1.0, 1.0, 1.0)),  # the oldest of three rows is gone
-    ),
-    mistakes=(
-        Mistake(buffer_with(add=lambda self, row: self.rows.append(row)),
-            "Your buffer keeps every row. Once it holds `size` rows, the oldest one has to go for each new one.",
-            "Memory is cheap. (Old policies' transitions also show states that the agent no longer meets.)"),
-        Mistake(buffer_with(add=lambda self, row: self.rows.extend([row] * (len(self.rows) < self.size))),
-            "Your full buffer ignores new rows: the agent would learn from its first policy for ever.",
-            "When the buffer is full, it is finished."),
-        Mistake(buffer_with(add=add_in_front),
-            "Your full buffer throws out the wrong row: a new row replaces the *oldest* one.",
-            "Any row may go."),
-        Mistake(buffer_with(add=add_by_copying), COPIES,
-            "Speed does not matter here. (A buffer of this course holds up to 50,000 rows.)"),
-        Mistake(buffer_that_draws(lambda rows, batch, rng: rng.integers(max(len(rows) - 1, 1), size=batch)),
-            "One row is never drawn: `rng.integers(n)` already stops at n - 1.",
-            "The upper end is included, as in `random.randint`."),
-        Mistake(buffer_that_draws(lambda rows, batch, rng: [-1] * batch),
-            "You always give the newest row. Draw each row of the batch at random from all rows.",
-            "The newest transition is the most useful one."),
-        Mistake(buffer_with(sample=draw_from_the_whole_table),
-            "You also draw places that nobody has written yet: draw among the rows that are filled.",
-            "An empty row does no harm. (It is a state of zeros with a reward of 0.)"),
-        Mistake(buffer_that_draws(lambda rows, batch, rng: torch.randint(len(rows), (batch,))),
-            "Two equal generators give different batches: draw with `rng`, so that a training can be repeated.",
-            "One source of random numbers is as good as another."),
-    ),
+@exercise(
+    "the last D transitions, of which N are drawn, Table of RL hyper-parameters",
+    minutes=20, difficulty=3, cases=buffer_cases, run=filled_and_drawn, explain=of_the_buffer,
+    worked=[
+        ((2, 3, 4), (np.array([4, 3]), "2 3", 1.0, 1.0, 1.0, 1.0, 1.0, 1.0)),  # the oldest of three rows is gone
+    ],
     hints=(
         "Keep a list and the place of the oldest row. While the list is short, append; then overwrite at that place.",
         "The place moves on by one with each row and starts again at 0: `self.next = (self.next + 1) % self.size`.",
-        "`drawn = rng.integers(len(self.rows), size=batch)`, then `torch.stack([self.rows[i] for i in drawn])`",
     ),
-    minutes=20, difficulty=3, equation="the last D transitions, of which N are drawn, Table of RL hyper-parameters",
+    mistakes={
+        "len(self.rows) < self.size -> True":
+            "Your buffer keeps every row. Once it holds `size` rows, the oldest one has to go for each new one.",
+        "self.rows[self.next] = row -> pass":
+            "Your full buffer ignores new rows: the agent would learn from its first policy for ever.",
+        "self.rows[self.next] = row -> self.rows[-1] = row":
+            "Your full buffer throws out the wrong row: a new row replaces the *oldest* one.",
+        "% self.size -> % self.size; self.rows = [each.clone() for each in self.rows]": COPIES,
+        "rng.integers(len(self.rows), -> rng.integers(max(len(self.rows) - 1, 1),":
+            "One row is never drawn: `rng.integers(n)` already stops at n - 1.",
+        "return torch.stack([self.rows[self.next - 1]] * batch)":
+            "You always give the newest row. Draw each row of the batch at random from all rows.",
+        "[], 0 -> [torch.zeros(3)] * size, 0":
+            "You also draw places that nobody has written yet: draw among the rows that are filled.",
+        "rng.integers(len(self.rows), size=batch) -> torch.randint(len(self.rows), (batch,))":
+            "Two equal generators give different batches: draw with `rng`, so that a training can be repeated.",
+        "rng.integers(len(self.rows), size=batch) -> "
+        "rng.choice(len(self.rows), batch, replace=batch > len(self.rows))": ONCE,
+    },
 )  # fmt: skip
+class ReplayBuffer:
+    def __init__(self, size):
+        """size: the most rows that it holds."""
+        self.size, self.rows, self.next = size, [], 0
+
+    def add(self, row):
+        """Keep a row, a tensor (n,). A full buffer forgets its oldest row."""
+        if len(self.rows) < self.size:
+            self.rows.append(row)
+        else:
+            self.rows[self.next] = row
+        self.next = (self.next + 1) % self.size
+
+    def sample(self, batch, rng):
+        """Rows drawn at random: (batch, n). rng: a NumPy generator."""
+        drawn = rng.integers(len(self.rows), size=batch)
+        return torch.stack([self.rows[i] for i in drawn])

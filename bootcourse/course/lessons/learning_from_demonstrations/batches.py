@@ -3,8 +3,8 @@
 import numpy as np
 import torch
 
-from bootcourse.course.drawing import drawn_apart, drawn_evenly
-from bootcourse.course.exercise import Exercise, Mistake, refuse
+from bootcourse.course.drawing import drawn_apart, drawn_evenly, in_float32
+from bootcourse.course.exercise import exercise, refuse
 from bootcourse.learn.replay_buffer import REWARD
 
 
@@ -16,14 +16,6 @@ class TableBuffer:
 
     def sample(self, batch, rng):
         return self.rows[torch.from_numpy(rng.integers(len(self.rows), size=batch))]
-
-
-def mixed_batch_solution(own, demonstrations, size, beta, bonus, rng):
-    n = round(beta * size)
-    theirs = demonstrations[torch.from_numpy(rng.integers(len(demonstrations), size=n))]
-    theirs[:, REWARD] += bonus
-    rows = torch.cat([theirs, own.sample(size - n, rng)])
-    return rows, (torch.arange(size) < n).float()
 
 
 def numbered(first, count, width=8):
@@ -61,11 +53,12 @@ def mixed_many_times(answer, demonstrations, size, beta, bonus):
         if pair[0].dim() != 2 or pair[0].shape[1] != width or pair[1].shape != pair[0].shape[:1]:
             shapes = " and ".join(str(tuple(part.shape)) for part in pair)
             return refuse(pair, f"({size}, {width}) rows and ({size},) marks; yours have the shapes {shapes}")
+        in_float32(pair[0])
         pairs.append(pair)
     rows, marks = pairs[-1]
     theirs, added = rows[:, 0] < OWN, rows[:, REWARD] - rows[:, 0] / 10
     paid = [float(added[who].mean()) if who.any() else 0.0 for who in (theirs, ~theirs)]
-    right = float((marks.bool() == theirs).float().mean())
+    right = float((marks == theirs).float().mean())
     drawn = [each[:, 0][each[:, 0] < OWN] for each, _ in pairs]
     equal = len({len(each) for each in drawn}) == 1
     even = not (small and equal) or drawn_evenly(torch.stack(drawn), len(demonstrations))
@@ -104,7 +97,7 @@ def of_the_batches(cases, answers):
                 f"yours has {theirs.data:.0f} and {shape.data[0] - theirs.data:.0f}."
             )
         if abs(right.data - 1) > 1e-6:
-            return "Some of your marks are wrong: each must say whether *its* row is a demonstration."
+            return "Some of your marks are wrong: each is 1 if *its* row is a demonstration, else 0."
         if abs(own_paid.data) > 1e-3 or abs(paid.data - (bonus if wanted else 0)) > 1e-3:
             return (
                 f"With a bonus of {bonus:.3g}, your batch adds {paid.data:.3g} to the rewards of the demonstrations "
@@ -123,59 +116,40 @@ def of_the_batches(cases, answers):
     return "Your batches are not drawn as they should be."
 
 
-def mixed(n=None, pay=None, marks=None, rows=None):
-    """A wrong mixture: another number of demonstrations, other rewards, other marks, or other rows."""
-
-    def answer(own, demonstrations, size, beta, bonus, rng):
-        k = round(beta * size) if n is None else n(beta, size)
-        theirs = demonstrations[torch.from_numpy(rng.integers(len(demonstrations), size=k))]
-        theirs = theirs if rows is None else rows(demonstrations, k)
-        both = torch.cat([theirs, own.sample(size - k, rng)])
-        is_theirs = (torch.arange(size) < k).float()
-        both[:, REWARD] += bonus * (is_theirs if pay is None else pay(is_theirs))
-        return both, is_theirs if marks is None else marks(is_theirs)
-
-    return answer
-
-
-mixed_batch = Exercise(
-    "mixed_batch(own, demonstrations, size, beta, bonus, rng)",
-    solution=mixed_batch_solution, cases=batch_cases, run=mixed_many_times, explain=of_the_batches,
-    worked=(
+@exercise(
+    "a share β of a batch are demonstrations, with r + c, Section IV-B",
+    minutes=20, difficulty=3, cases=batch_cases, run=mixed_many_times, explain=of_the_batches,
+    worked=[
         # half of four rows are demonstrations, paid 2 more
         ((numbered(0, 50), 4, 0.5, 2.0), (np.array([4, 8, 4]), 2.0, 1.0, 2.0, 0.0, 1.0, 1.0, 1.0, 1.0)),
-    ),
-    mistakes=(
-        Mistake(mixed(pay=lambda is_theirs: 1),
-            "You add the bonus to every reward, even where the agent stays behind the trap: only demonstrations get "
-            "it.",
-            "The bonus is a new reward function."),
-        Mistake(mixed(pay=lambda is_theirs: -is_theirs),
-            "Your bonus is subtracted: the critic would learn to avoid what the rule did.",
-            "c is a cost."),
-        Mistake(mixed(pay=lambda is_theirs: 1 - is_theirs),
-            "Your bonus goes to the agent's own driving. It belongs to the rows of the *demonstrations*.",
-            "The bonus encourages the agent, so its own driving gets it."),
-        Mistake(mixed(pay=lambda is_theirs: 0 * is_theirs),
-            "You pay no bonus: add it to the reward of each demonstration, in the column `REWARD`.",
-            "The critic's target adds the bonus."),
-        Mistake(mixed(marks=lambda is_theirs: 1 - is_theirs),
-            "Your marks are the wrong way round: 1 says that a row is a demonstration.",
-            "1 marks the agent's own rows."),
-        Mistake(mixed(n=lambda beta, size: size - round(beta * size)),
-            "You swapped the shares: β is the share of the demonstrations.",
-            "β is the share of the agent's own rows."),
-        Mistake(mixed(n=lambda beta, size: int(beta * size)),
-            "Your number of demonstrations is cut off, not rounded: use `round(beta * size)`.",
-            "`int` rounds."),
-        Mistake(mixed(rows=lambda demonstrations, k: demonstrations[:k].clone()),
-            "You always take the same demonstrations. Draw them at random, with `rng`.",
-            "The table is in random order. (It holds one drive after the other.)"),
-    ),
+    ],
     hints=(
         "How many rows come from the demonstrations? Draw that many row numbers with `rng.integers`, and index.",
         "Indexing with a tensor of row numbers makes a copy, so `theirs[:, REWARD] += bonus` leaves the table alone.",
-        "`rows = torch.cat([theirs, own.sample(size - n, rng)])` and `(torch.arange(size) < n).float()`",
     ),
-    minutes=20, difficulty=3, equation="a share β of a batch are demonstrations, with r + c, Section IV-B",
+    mistakes={
+        ("theirs[:, REWARD] += bonus ->", "return rows, -> rows[:, REWARD] += bonus; return rows,"):
+            "You add the bonus to every reward, even where the agent stays behind the trap: only demonstrations get "
+            "it.",
+        "+= bonus -> -= bonus":
+            "Your bonus is subtracted: the critic would learn to avoid what the rule did.",
+        ("theirs[:, REWARD] += bonus ->", "return rows, -> rows[n:, REWARD] += bonus; return rows,"):
+            "Your bonus goes to the agent's own driving. It belongs to the rows of the *demonstrations*.",
+        "theirs[:, REWARD] += bonus ->":
+            "You pay no bonus: add it to the reward of each demonstration, in the column `REWARD`.",
+        "< n -> >= n":
+            "Your marks are the wrong way round: 1 says that a row is a demonstration.",
+        "round(beta * size) -> size - round(beta * size)":
+            "You swapped the shares: β is the share of the demonstrations.",
+        "round -> int":
+            "Your number of demonstrations is cut off, not rounded: use `round(beta * size)`.",
+        "rng.integers(len(demonstrations), size=n) -> np.arange(n)":
+            "You always take the same demonstrations. Draw them at random, with `rng`.",
+    },
 )  # fmt: skip
+def mixed_batch(own, demonstrations, size, beta, bonus, rng):
+    n = round(beta * size)
+    theirs = demonstrations[torch.from_numpy(rng.integers(len(demonstrations), size=n))]
+    theirs[:, REWARD] += bonus
+    rows = torch.cat([theirs, own.sample(size - n, rng)])
+    return rows, (torch.arange(size) < n).float()

@@ -12,7 +12,8 @@ ROADS = (7, 3, 5, 8, 11, 12, 13, 15)  # on each of them trap 2 starts 4.85 m ahe
 EARLY = 15  # s; an accident until then is the plan's own, not the traffic's
 
 
-def direct_solution():
+def direct_plan():
+    """Our own plan, in words."""
     steering = [("keep left", 2), "keep right", "keep left", ("keep right", 3), "keep left"]
     return [*steering, ("accelerate straight", 5)]
 
