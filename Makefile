@@ -41,8 +41,7 @@ bench: .venv/bench
 	@OMP_NUM_THREADS=1 $(BIN)/python -m tests.bench
 
 notebooks: .venv/installed
-	@$(WITH_PATH) OMP_NUM_THREADS=1 $(BIN)/python tools/notebooks.py
-	@$(BIN)/python -m tools.course.paper_map
+	@$(WITH_PATH) $(BIN)/python tools/notebooks.py
 
 book: .venv/installed
 	@$(BIN)/python tools/book.py $(EDITION)

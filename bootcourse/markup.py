@@ -1,7 +1,7 @@
 """The one place where text becomes HTML.
 
-Markup is text that is HTML already; `html` puts values into a template and escapes each that is not. What reads a
-file or a student's answer needs no care of its own, so long as every page is made with these two.
+Markup is text that is HTML already; `html` puts values into a template and escapes each that is not. Text from a file
+or from a student's answer needs no other escaping, because every page is made with these functions.
 """
 
 from collections.abc import Iterable

@@ -1,6 +1,7 @@
 """The registry of methods: settings, learner, name and style of each.
 
-To add a method, write its learner (one file: see learn/learner.py for what may be overridden) and one entry:
+To add a method, write its learner (one file: see learn/learner.py for what may be overridden; settings of its own stand
+there, too) and one entry:
 
     METHODS["mine"] = Method("my method", Style("#117733"), {"xi_multiplier": 0.0}, "my_package.mine:MyLearner")
 
@@ -13,35 +14,45 @@ from dataclasses import dataclass, field
 from bootcourse.colours import OTHER, Style
 
 SAC = "bootcourse.learn.learner:SACLearner"
+SETTINGS = "bootcourse.learn.settings:Settings"
 
 
 @dataclass(frozen=True)
 class Method:
-    """One method of the registry."""
+    """One method of the registry. Classes are given as "module:class" and imported when they are needed: torch is slow.
+
+    A method that is `taught` asks the teacher while it trains, apart from demonstrations and the KL of weight ξ.
+    """
 
     name: str  # in text and figures
     style: Style  # in figures
     settings: dict = field(default_factory=dict)  # those that differ from `bootstrapped`, whose values are the defaults
-    learner: str | type = SAC  # the class, or "module:class", which is imported only for training (torch is slow)
+    learner: str | type = SAC
     unused: dict[str, str] = field(default_factory=dict)  # {setting without effect: reason}
-    kind: str = "Settings"  # the class of its settings, one of `bootcourse.learn.settings.KINDS`
+    kind: str | type = SETTINGS  # the class of its settings
     on_policy: bool = False  # learns from its own last decisions alone
     episodes: int = 1000  # of training of each agent, by default
-    taught: bool = (
-        False  # its agents ask the teacher while they train, apart from demonstrations and the KL of weight ξ
-    )
+    taught: bool = False
 
     def learner_class(self) -> type:
-        """The learner's class, imported."""
-        if isinstance(self.learner, type):
-            return self.learner
-        module, _, name = self.learner.partition(":")
-        return getattr(importlib.import_module(module), name)
+        """The learner's class."""
+        return _imported(self.learner)
+
+    def settings_class(self) -> type:
+        """The class of the settings."""
+        return _imported(self.kind)
+
+
+def _imported(place: str | type) -> type:
+    if isinstance(place, type):
+        return place
+    module, _, name = place.partition(":")
+    return getattr(importlib.import_module(module), name)
 
 
 # The baselines learn from demonstrations without the soft constraint and the bonus. Their share of demonstrations is
 # constant: 1 for offline methods, 0.5 for GAIL, whose discriminator compares the two halves of a batch, and for DAgger.
-_BASELINE = {"xi_multiplier": 0.0, "bonus": 0.0, "beta_episodes": 10**9}
+_BASELINE = {"xi_multiplier": 0.0, "bonus": 0.0, "beta_episodes": None}
 
 # Methods that the paper does not train, with a replay buffer and a teacher. Their γ (§) is above the paper's 0.8.
 _LATER = {"gamma": 0.97, "xi_multiplier": 0.0, "bonus": 0.0, "batch": 128}
@@ -58,9 +69,8 @@ _PPO = {
     "actor_lr": 7e-4,
     "critic_lr": 7e-4,
     "buffer_size": 2048,
-    "kl_weight": 0.0,
 }
-_ON_POLICY = {"kind": "PPOSettings", "on_policy": True, "episodes": 20_000}
+_ON_POLICY = {"kind": "bootcourse.learn.ppo:PPOSettings", "on_policy": True, "episodes": 20_000}
 
 METHODS = {
     "sac": Method("plain SAC", Style("#0072B2"), {"xi_multiplier": 0.0, "beta_start": 0.0}),
@@ -90,6 +100,7 @@ METHODS = {
         Style("#882255", marker="^"),
         _BASELINE | {"beta_start": 0.5, "batch": 128},
         "bootcourse.learn.gail:GAILLearner",
+        kind="bootcourse.learn.gail:GAILSettings",
     ),
     "ppo": Method("PPO", Style("#44AA99", ":"), _PPO, "bootcourse.learn.ppo:PPOLearner", **_ON_POLICY),
     "ppo_cloned": Method(
@@ -98,30 +109,6 @@ METHODS = {
         _PPO | {"cloning_updates": 400, "stochastic_demonstrations": True},
         "bootcourse.learn.ppo:PPOLearner",
         **_ON_POLICY,
-    ),
-    "ppo_kl": Method(
-        "PPO with a fading KL",
-        Style("#44AA99", "-."),
-        _PPO | {"kl_weight": 1.0, "rule_p": 0.9},
-        "bootcourse.learn.kickstart:KickstartLearner",
-        unused={"xi_multiplier": "has another weight of its KL, kl_weight, which fades"},
-        taught=True,
-        **_ON_POLICY,
-    ),
-    "ppo_residual": Method(
-        "residual PPO",
-        Style("#44AA99", "--"),
-        _PPO | {"rule_p": 0.9},
-        "bootcourse.learn.residual:ResidualLearner",
-        taught=True,
-        **_ON_POLICY,
-    ),
-    "ppo_safe": Method(
-        "safe PPO",
-        Style("#44AA99", width=2.0, marker="o"),
-        _PPO | {"cloning_updates": 400, "stochastic_demonstrations": True} | {"accident_cost": 50.0},
-        "bootcourse.learn.safe:SafeLearner",
-        **_ON_POLICY | {"kind": "SafeSettings"},
     ),
     "dagger": Method(
         "DAgger",
@@ -136,42 +123,23 @@ METHODS = {
         Style("#AA4499", marker="v"),
         _LATER | {"beta_start": 0.0, "target_entropy": 0.3},  # keeps α up while h shrinks
         "bootcourse.learn.jsrl:JSRLLearner",
-        kind="JSRLSettings",
+        kind="bootcourse.learn.jsrl:JSRLSettings",
         taught=True,
     ),
     "rlpd": Method(
         "RLPD",
         Style("#AA4499", "--", marker="D"),
-        _LATER | {"beta_start": 0.5, "beta_episodes": 10**9, "envs_per_agent": 2, "updates": 4},
+        _LATER | {"beta_start": 0.5, "beta_episodes": None, "envs_per_agent": 2, "updates": 4},
         "bootcourse.learn.rlpd:RLPDLearner",
-        kind="RLPDSettings",
+        kind="bootcourse.learn.rlpd:RLPDSettings",
     ),
     "ibrl": Method(
         "IBRL", Style("#AA4499", "-.", marker="P"), _LATER, "bootcourse.learn.ibrl:IBRLLearner", taught=True
     ),
-    "pex": Method(
-        "policy expansion",
-        Style("#AA4499", ":", marker="X"),
-        _LATER,
-        "bootcourse.learn.ibrl:PEXLearner",
-        kind="PEXSettings",
-        taught=True,
-    ),
 }
 ABLATION = ("sac", "soft", "demos", "bootstrapped", "margin", "margin_soft")  # the paper's method and its parts
 BASELINES = ("bc", "cql", "cql_sac", "gail")
-AFTER = (
-    "ppo",
-    "ppo_cloned",
-    "ppo_kl",
-    "ppo_residual",
-    "ppo_safe",
-    "dagger",
-    "jsrl",
-    "rlpd",
-    "ibrl",
-    "pex",
-)  # the paper trains none of them
+AFTER = tuple(method for method in METHODS if method not in ABLATION + BASELINES)  # the paper trains none of them
 DRIVERS = {  # name and style of the drivers that are not trained
     "rule": ("rule controller", Style("#009E73", width=1.0)),
     "planner": ("planner", Style("#000000", (0, (8, 4)))),

@@ -199,16 +199,14 @@ class Reward:
 
 @dataclass(frozen=True)
 class Sight:
-    """The observation: the ego and its nearest neighbours, now and at the decisions before."""
+    """The observation: the ego and its nearest neighbours."""
 
     neighbours: int = 4  # † cars
     distance: float = 200.0  # m § range of the observation and of the rule
-    memory: int = 1  # † decisions whose observations the driver has, this one included
 
     def __post_init__(self):
         _check_numbers(self)
         _positive(self, "neighbours", "distance")
-        _check(1 <= self.memory <= 20, f"Sight.memory = {self.memory}: between 1 and 20.")
 
     @property
     def numbers(self) -> int:
@@ -306,8 +304,8 @@ class Scenario:
 
     @property
     def observation_size(self) -> int:
-        """Numbers in an observation, those of the remembered decisions included (26 by default)."""
-        return self.sight.memory * self.sight.numbers
+        """Numbers in an observation (26 by default)."""
+        return self.sight.numbers
 
     def to_json(self) -> str:
         """The scenario as JSON text, for `from_json`."""
@@ -322,17 +320,11 @@ class Scenario:
             raise BootcourseError(f"This is not a scenario that bootcourse wrote ({error}).") from None
 
 
-LATER_FIELDS = {"Sight": {"memory"}}  # not in files of earlier versions: they have the default
-FORMER_FIELDS = {"Rule": ("p",)}  # in files of earlier versions; p is now the learner's setting rule_p
-
-
 def _build(cls, data: dict):
     if not isinstance(data, dict):
         raise TypeError(f"{cls.__name__} is {data!r}")
     known = {f.name: f for f in fields(cls)}
-    data = {name: value for name, value in data.items() if name not in FORMER_FIELDS.get(cls.__name__, ())}
-    optional = LATER_FIELDS.get(cls.__name__, set())
-    unknown, missing = sorted(set(data) - set(known)), sorted(set(known) - set(data) - optional)
+    unknown, missing = sorted(set(data) - set(known)), sorted(set(known) - set(data))
     _check(not unknown, f"{cls.__name__} has no field {', '.join(unknown)}: it was written by another version.")
     _check(not missing, f"{cls.__name__} has no {', '.join(missing)}: it was written by another version.")
     values = {}

@@ -40,7 +40,7 @@ SCENARIOS = {
         "crowded",
         road=Road(lanes=4),
         traffic=replace(_traffic, cars=16, lead=20.0, headway=20.0, politeness=0.0, a_threshold=0.05),
-        sight=Sight(neighbours=7, distance=60.0, memory=3),
+        sight=Sight(neighbours=7, distance=60.0),
     ),
     "two lanes": Scenario("two lanes", road=Road(lanes=2), traffic=replace(_traffic, cars=3, delta=3.7)),
     "empty": Scenario("empty", traffic=replace(_traffic, cars=0)),

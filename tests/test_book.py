@@ -6,13 +6,14 @@ import shutil
 import pytest
 
 import bootcourse as bc
+from bootcourse.course.lessons import LESSONS, stem
 from bootcourse.course.shipped import shipped_drive
 from bootcourse.research.sweep import load_sweep, nearest_setting
 from tests.browser import ARTEFACTS, is_blank, needs_browser, open_browser
 from tools import book
-from tools.course.source import NOTEBOOKS
+from tools.course.source import sources
 
-LESSONS = sorted(path.stem for path in NOTEBOOKS.glob("*.ipynb"))
+FILES = [stem(name) for name in LESSONS]
 # What sticks out of the screen, and what scrolls sideways without a line that says so. Code is known to scroll.
 TOO_WIDE = """() => {
   const scrolls = e => ["auto", "scroll"].includes(getComputedStyle(e).overflowX);
@@ -43,40 +44,35 @@ def new_page(made):
         yield new_page
 
 
-def test_every_lesson_and_every_page_to_look_things_up_is_in_it(made):
-    pages = {path.relative_to(made).with_suffix("").as_posix() for path in made.rglob("*.html")}
-    assert {f"lessons/{name}" for name in LESSONS} | {f"lessons/instructor/{name}" for name in LESSONS} <= pages
-    assert {
-        "glossary",
-        "api",
-        "paper_map",
-        "left_open",
-        "bibliography",
-        "cloud",
-        "claims",
-        "replays",
-        "checks",
-        "report/report",
-        "teaching/slides",
-    } <= pages
-    assert {f"slides/{name}" for name in LESSONS} <= pages
+def test_every_lesson_has_its_pages_and_its_slides(made):
+    for name in FILES:
+        assert all((made / f"{folder}/{name}.html").exists() for folder in ("lessons", "lessons/instructor", "slides"))
+    listed = re.findall(r'href="lessons/(\w+)\.html"', (made / "index.html").read_text(encoding="utf-8"))
+    assert [name for name in dict.fromkeys(listed) if name != stem("start")] == FILES[1:]
 
 
-def test_the_student_s_edition_has_no_instructor_s_page_and_does_not_speak_of_one(tmp_path, monkeypatch):
-    monkeypatch.setattr(book, "replays", lambda: "# Replays\n")
-    book.gather(tmp_path / "source")
-    assert list((tmp_path / "source/lessons/instructor").iterdir()) == []
-    index = (tmp_path / "source/index.md").read_text(encoding="utf-8")
-    assert "instructor" not in index and "lessons/[0-9]*" in index
+def test_a_word_and_a_reference_are_found_from_the_lessons(made):
+    glossary, references = (
+        (made / f"{name}.html").read_text(encoding="utf-8") for name in ("glossary", "bibliography")
+    )
+    assert 'id="term-barrier"' in glossary and f"lessons/{stem('the_barrier')}.html" in glossary
+    assert "Treiber" in references and "https://arxiv.org/abs/1801.01290" in references
+
+
+@pytest.mark.parametrize("path", sources(), ids=lambda path: path.stem)
+def test_what_a_lesson_cites_is_in_the_bibliography(path):
+    known = re.findall(r"eprint = \{([\d.]+)\}", (book.ROOT / "book/references.bib").read_text(encoding="utf-8"))
+    cited = re.findall(r"\barXiv[\s:#]+(\d{4}\.\d{4,5})", path.read_text(encoding="utf-8"))
+    assert [number for number in cited if number not in known] == []
 
 
 def test_a_dead_link_stops_the_book(tmp_path, capfd):
     shutil.copy(book.ROOT / "book/conf.py", tmp_path)
     shutil.copy(book.ROOT / "book/style.css", tmp_path)
-    (tmp_path / "index.md").write_text("# A\n\n[see](lessons/99_nothing.ipynb) and [see](#nothing)\n", encoding="utf-8")
+    (tmp_path / "index.md").write_text("# A\n\n[see](lessons/nothing.ipynb) and [see](#nothing)\n", encoding="utf-8")
     assert book.build(tmp_path, tmp_path / "html") != 0
     said = capfd.readouterr().err
-    assert "not found: 'lessons/99_nothing.ipynb'" in said and "not found: 'nothing'" in said
+    assert "not found: 'lessons/nothing.ipynb'" in said and "not found: 'nothing'" in said
 
 
 def test_no_page_asks_the_network_for_anything(made):
@@ -84,13 +80,6 @@ def test_no_page_asks_the_network_for_anything(made):
         text = re.sub(r"<iframe .*?</iframe>", "", path.read_text(encoding="utf-8"), flags=re.S)
         loaded = re.findall(r"<(?:script|img|link|iframe|source)[^>]*?\b(?:src|href)=\"(https?:[^\"]*)", text)
         assert loaded == [], path.name
-
-
-def test_the_solved_notebooks_stay_in_the_repository(made):
-    assert not list(made.rglob("*solved*"))
-    assert not any(
-        "solved/" in link for path in made.rglob("*.html") for link in links(path.read_text(encoding="utf-8"))
-    )
 
 
 def test_the_api_page_has_every_public_name_with_its_signature_and_what_it_does(made):
@@ -101,13 +90,9 @@ def test_the_api_page_has_every_public_name_with_its_signature_and_what_it_does(
     assert "lane_width : m" in text, "a field without its unit"
 
 
-def links(text: str) -> list[str]:
-    return re.findall(r"<a [^>]*href=\"([^\"]*)", text)
-
-
 @needs_browser
 @pytest.mark.parametrize(
-    "name", ["index", "report/report", "glossary", "paper_map", *(f"lessons/{n}" for n in LESSONS)]
+    "name", ["index", "report/report", "glossary", "paper_map", *(f"lessons/{name}" for name in FILES)]
 )
 def test_a_page_shows_its_pictures_its_equations_and_its_tables(made, new_page, name):
     page = new_page()
@@ -131,7 +116,7 @@ def test_a_page_shows_its_pictures_its_equations_and_its_tables(made, new_page, 
 
 @needs_browser
 @pytest.mark.parametrize(
-    "name", ["index", "cloud", "report/report", "teaching/plans", "teaching/exam", "lessons/01_the_trap"]
+    "name", ["index", "cloud", "report/report", "teaching/plans", "teaching/exam", f"lessons/{stem('the_trap')}"]
 )
 def test_on_a_phone_what_is_wider_than_the_screen_scrolls_inside_itself_and_says_so(made, new_page, name):
     page = new_page()
@@ -149,33 +134,24 @@ def test_on_a_phone_what_is_wider_than_the_screen_scrolls_inside_itself_and_says
 
 
 @needs_browser
-def test_a_cell_that_only_draws_is_folded_and_a_click_shows_its_code(made, new_page):
+def test_equations_are_drawn_as_mathematics_and_a_cell_that_only_draws_is_folded(made, new_page):
     page = new_page()
-    page.page.goto((made / "lessons/04_discrete_sac.html").as_uri())
-    fold = page.page.locator("details.hide").first
-    assert not fold.locator("pre").is_visible() and "Show the code" in fold.inner_text()
+    page.page.goto((made / f"lessons/{stem('discrete_sac')}.html").as_uri())
+    tall = page.page.evaluate(
+        "() => [...document.querySelectorAll('div.math math')].map(m => m.getBoundingClientRect().height)"
+    )
+    assert len(tall) >= 4 and min(tall) > 12
+    fold = page.page.locator("details.hide").first  # a cell that only draws
+    assert not fold.locator("pre").is_visible()
     fold.locator("summary").click()
     assert "bc.show(" in fold.locator("pre").inner_text()
     page.page.close()
 
 
 @needs_browser
-def test_equations_are_drawn_as_mathematics(made, new_page):
-    page = new_page()
-    page.page.goto((made / "lessons/04_discrete_sac.html").as_uri())
-    tall = page.page.evaluate(
-        "() => [...document.querySelectorAll('div.math math')].map(m => m.getBoundingClientRect().height)"
-    )
-    assert len(tall) >= 4 and min(tall) > 12
-    page.page.locator("div.math").first.scroll_into_view_if_needed()
-    page.page.screenshot(path=ARTEFACTS / "book-equations.png")
-    page.page.close()
-
-
-@needs_browser
 def test_a_replay_plays_in_the_book(made, new_page):
     page = new_page()
-    page.page.goto((made / "lessons/00_start.html").as_uri())
+    page.page.goto((made / f"lessons/{stem('start')}.html").as_uri())
     frame = page.page.frames[1]  # sandboxed: the page itself cannot look into it
     frame.wait_for_function("() => window.__viserMutable?.nodeRefFromName['/drive0/car0/paint']")
     page.page.locator("iframe").first.scroll_into_view_if_needed()  # out of sight it is not laid out
@@ -223,9 +199,3 @@ def test_the_front_page_s_drive_plays_pauses_and_shows_the_agent_s_policy(made, 
     )
     assert [width / 468 for width in widths] == pytest.approx(drive.policy[decision].tolist(), abs=0.001)
     page.page.close()
-
-
-def test_each_figure_of_the_front_page_is_small(made):
-    page = (made / "index.html").read_text(encoding="utf-8")
-    parts = re.findall(r'<section id="bc-.*?</script>', page, flags=re.S)
-    assert len(parts) == 2 and all(len(part) < 300_000 for part in parts) and "{{ data }}" not in page

@@ -3,93 +3,23 @@
 That the lessons themselves are made from what the expressions yield now is tested in test_course.py.
 """
 
-from functools import cache
-
 import pytest
 
-from tools.course import claims, known
-from tools.course.claims import claims_page, fill_in, filled, unclaimed
-from tools.course.problems import problems
-from tools.course.products import documents, instructor_file, refresh_prose, student_file, write
-from tools.course.source import read, sources
+from tools.course.claims import check_claims, claims_page, fill_in, value
+from tools.course.source import sources
 
 TEXT = """\
-# %% [markdown]
-# # 3 · A lesson
-#
-# The rule falls back at {{ SPEED | .2f }} m/s, and pays {{ 999.6 | ,.0f }} times,
-# {{ -10.0 }} each. It has nine actions. It never stops.
-# <!-- claim: SPEED > 8 -->
-# <!-- claim: len(range(9)) ==
-#   9 -->
-#
-# - Nobody overtakes it. No? It is a [rule](03_the_rule.ipynb).
-
-# %% [markdown] tags=["instructor"]
-# > **Predict.** Are all of {{ 3 * 4 }} enough?
+The rule falls back at {{ 8.2479 | .2f }} m/s, and pays {{ 999.6 | ,.0f }} times,
+{{ -10.0 }} each. It never stops.
+<!-- claim: len(range(9)) ==
+  9 -->
 """
 
 
-@pytest.fixture
-def lesson(tmp_path, monkeypatch):
-    """Write a tiny lesson's source and give its path; expressions know SPEED."""
-    monkeypatch.setattr(known, "SPEED", 8.2479, raising=False)
-    monkeypatch.setattr(claims, "value", cache(claims.value.__wrapped__))  # the real lessons' values are kept
-
-    def written(text=TEXT):
-        path = tmp_path / "notebooks/source/03_tiny.py"
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8")
-        return path
-
-    return written
-
-
-def test_numbers_are_filled_in_and_claims_taken_out(lesson):
-    first, second = filled(lesson())
-    assert first.student == first.solved
-    assert first.student == (
-        "# 3 · A lesson\n\nThe rule falls back at 8.25 m/s, and pays 1,000 times,\n−10 each. It has nine actions. "
-        "It never stops.\n\n- Nobody overtakes it. No? It is a [rule](03_the_rule.ipynb)."
-    )
-    assert "all of 12 enough" in second.student
-
-
-def test_the_notebook_and_the_instructor_s_page_have_the_numbers(lesson):
-    path = lesson()
-    write(path, documents(path))
-    for file, words in ((student_file(path), "back at 8.25 m/s"), (instructor_file(path), "all of 12 enough")):
-        text = file.read_text(encoding="utf-8")
-        assert words in text and "{{" not in text and "claim" not in text
-    assert problems(path) == []
-
-
-def test_a_result_that_has_changed_is_found_and_prose_takes_it_over(lesson, monkeypatch):
-    path = lesson()
-    write(path, documents(path))
-    monkeypatch.setattr(known, "SPEED", 8.5)
-    claims.value.cache_clear()
-    assert problems(path) == ["notebooks/03_tiny.ipynb is out of date: run make notebooks."]
-    assert refresh_prose(path) and problems(path) == []
-    assert "back at 8.50 m/s" in student_file(path).read_text(encoding="utf-8")
-
-
-SPOILT = {
-    "a claim is false": ("SPEED > 8", "SPEED > 9", "`SPEED > 9` is False"),
-    "a claim compares nothing": ("SPEED > 8", "SPEED", "`SPEED` is 8.2479"),
-    "a name is unknown": ("{{ SPEED", "{{ SPED", "`SPED` has no value (NameError"),
-    "an expression is none": ("{{ SPEED", "{{ (SPEED", "`(SPEED` has no value (SyntaxError"),
-    "a format is none": ("| .2f", "| .2q", "`SPEED` cannot be printed as .2q"),
-    "a number is not closed": ("-10.0 }}", "-10.0 }", "neither a number nor a claim"),
-    "a claim has no colon": ("claim: SPEED", "claim SPEED", "neither a number nor a claim"),
-}  # fmt: skip
-
-
-@pytest.mark.parametrize("old, new, words", SPOILT.values(), ids=SPOILT)
-def test_it_is_found_when(lesson, old, new, words):
-    assert old in TEXT
-    (problem,) = problems(lesson(TEXT.replace(old, new)))
-    assert words in problem
+def test_numbers_are_filled_in_and_claims_taken_out():
+    check_claims(TEXT)
+    filled = "The rule falls back at 8.25 m/s, and pays 1,000 times,\n−10 each. It never stops."
+    assert fill_in(TEXT).strip() == filled
 
 
 @pytest.mark.parametrize(
@@ -101,26 +31,26 @@ def test_a_value_is_printed_as_its_format_says(text, printed):
     assert fill_in(text) == printed
 
 
-def test_sentences_about_all_cases_are_reported_where_their_paragraph_has_no_claim(lesson):
-    assert unclaimed(lesson()) == ["- Nobody overtakes it."]
-    without = TEXT.replace("# <!-- claim: SPEED > 8 -->\n", "").replace(
-        "# <!-- claim: len(range(9)) ==\n#   9 -->\n", ""
-    )
-    assert unclaimed(lesson(without)) == ["It never stops.", "- Nobody overtakes it."]
+@pytest.mark.parametrize(
+    "text, words",
+    [
+        ("<!-- claim: 8 > 9 -->", "`8 > 9` is False"),
+        ("<!-- claim: 8 -->", "`8` is 8"),
+        ("{{ SPED }}", r"`SPED` has no value \(NameError"),
+        ("{{ (3 }}", r"`\(3` has no value \(SyntaxError"),
+        ("{{ 3 | .2q }}", "`3` cannot be printed as .2q"),
+        ("{{ 3 }", "neither a number nor a claim"),
+        ("<!-- claim 3 -->", "neither a number nor a claim"),
+    ],
+)
+def test_what_is_wrong_with_an_expression_is_said(text, words):
+    with pytest.raises(ValueError, match=words):
+        check_claims(text)
+        fill_in(text)
 
 
-@pytest.mark.parametrize("path", sources(), ids=lambda path: path.stem)
-def test_a_sentence_about_all_cases_has_a_claim_in(path):
-    assert unclaimed(path) == [], "give each a claim, or say what was seen: see notebooks/source/README.md"
-
-
-def test_the_page_has_every_paragraph_with_a_number_or_a_claim_and_what_it_comes_from(lesson):
-    page = claims_page(lesson().parent.parent)
-    assert "## 3 · A lesson" in page and "> −10 each. It has nine actions. It never stops.\n" in page
-    assert "- `SPEED` = 8.25\n" in page and "- `len(range(9)) == 9` is true\n" in page
-    assert "Nobody" not in page and "](03" not in page
-
-
-def test_numbers_and_claims_are_not_searched_for_words(lesson):
-    assert read(lesson())[0].words.startswith("# 3 · A lesson\n\nThe rule falls back at … m/s")
-    assert "range" not in read(lesson())[0].words
+def test_the_page_has_each_paragraph_with_what_it_comes_from(monkeypatch):
+    monkeypatch.setattr("tools.course.claims.sources", lambda: sources(["start"]))
+    page = claims_page()
+    assert "- `N_ACTIONS == 9` is true\n" in page and f"- `100 * ESCAPES` = {100 * value('ESCAPES'):.0f}\n" in page
+    assert "{{" not in page and "](" not in page

@@ -63,8 +63,8 @@ def formats(tmp_path_factory) -> dict[str, Format]:
     drive = record(rule_policy(DEFAULT), [1], DEFAULT, "rule")[0].save(folder / "drive.npz")
     save_results(load_results(FOLDER / "study-default.npz").pick(range(3)), folder / "results.npz", provenance())
     shutil.copy(FOLDER / MANIFEST, folder / MANIFEST)
-    made = {"behaviour": {"road": [1.0]}, "provenance": provenance(seconds=1.5), "sha256": {}}
-    write_sealed(folder / "job" / "job.json", {"format": JOB, "asked": {}} | made)
+    job = {"format": JOB, "asked": {}, "provenance": provenance(seconds=1.5), "sha256": {}}
+    write_sealed(folder / "job" / "job.json", job)
     handout = {"format": Handout.FORMAT, "lessons": [5], "deadline": "", "solutions": True, "files": {}, "cells": {}}
     write_json(folder / "handout.json", handout)
     answers = folder / "answers" / "predictions.json"
@@ -93,7 +93,7 @@ DAMAGE = {
     "cut short": lambda data: data[: len(data) * 2 // 3],
     "a list instead": lambda data: b"[]",
     "zeros": lambda data: bytes(len(data)),
-    "a piece left out": lambda data: data[: len(data) // 2] + data[len(data) // 2 + 7 :],
+    "a piece left out": lambda data: data[: len(data) // 2] + data[len(data) // 2 + 40 :],
 }
 WITHOUT_HASH = {("handout", "a piece left out"), ("predictions", "a piece left out")}  # written by hand, too
 

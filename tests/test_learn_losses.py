@@ -74,11 +74,6 @@ def test_the_critic_loss_is_the_mean_squared_error():
     close(sac.critic_loss(torch.tensor([[1.0, 2.0, 3.0]]), torch.tensor([[0.0, 2.0, 5.0]])), [5 / 3])
 
 
-def test_the_actor_loss_is_minus_the_mean_soft_value(q, log_pi):
-    alpha, constraint = torch.full((AGENTS, 1), 0.5), torch.rand(AGENTS, BATCH)
-    close(sac.actor_loss(log_pi, q, alpha, constraint), -sac.soft_value(log_pi, q, alpha, constraint).mean(-1))
-
-
 def test_the_actor_loss_gives_the_critic_no_gradient(q, log_pi):
     q, log_pi = q.requires_grad_(), log_pi.requires_grad_()
     sac.actor_loss(log_pi, q, torch.ones(AGENTS, 1)).sum().backward()
@@ -92,13 +87,6 @@ def test_alpha_rises_while_the_entropy_is_under_its_target_and_falls_while_above
     close(loss.detach(), [math.exp(-1) * (entropy - 1)])
     loss.sum().backward()
     assert np.sign(-log_alpha.grad.item()) == moves
-
-
-def test_at_target_entropy_minus_one_alpha_can_only_fall():
-    for entropy in (0.0, 1.0, math.log(9)):
-        log_alpha = torch.tensor([-1.0], requires_grad=True)
-        sac.temperature_loss(log_alpha, torch.full((1, 4), entropy), torch.tensor([-1.0])).sum().backward()
-        assert log_alpha.grad.item() > 0
 
 
 def test_the_temperature_loss_gives_the_policy_no_gradient():
@@ -115,12 +103,6 @@ def test_the_smaller_critic_is_taken_for_each_action():
 def test_the_stochastic_rule_gives_p_to_the_rules_action_and_shares_the_rest():
     rule = bootstrap.log_stochastic_rule(torch.tensor([[4]]), torch.tensor([0.9])).exp()
     close(rule[0, 0], [0.0125] * 4 + [0.9] + [0.0125] * 4)
-
-
-def test_each_agent_has_its_own_p(chosen):
-    together = bootstrap.log_stochastic_rule(chosen, torch.tensor([0.5, 0.99]))
-    for i, p in enumerate((0.5, 0.99)):
-        close(together[i], bootstrap.log_stochastic_rule(chosen[i], torch.tensor(p)))
 
 
 def test_the_kl_is_what_its_sum_says(log_pi, chosen):
@@ -147,11 +129,6 @@ def test_a_policy_that_is_sure_of_another_action_pays_log_of_eight_over_one_minu
     kl = bootstrap.kl_to_rule(sure, torch.tensor([1]), torch.tensor(p))
     close(kl, [math.log(8 / (1 - p))])
     assert kl.item() == pytest.approx(pull, abs=1e-3)
-
-
-def test_the_uniform_policy_pays_what_is_worked_out_by_hand():
-    kl = bootstrap.kl_to_rule(torch.full((1, 9), -math.log(9)), torch.tensor([0]), P)
-    assert kl.item() == pytest.approx(-math.log(9) - (math.log(0.9) + 8 * math.log(0.0125)) / 9)
 
 
 def test_it_costs_little_to_be_surer_than_the_rule_though_the_other_direction_would_charge_much():
@@ -181,7 +158,7 @@ def test_nothing_scores_higher_than_the_regularised_policy(q, chosen, rng):
 
 def test_xi_is_200_alpha_unless_it_is_fixed():
     alpha = torch.tensor([0.01, 0.01, 0.01])
-    xi = bootstrap.constraint_strength(alpha, torch.full((3,), 200.0), torch.tensor([-1.0, 0.0, 0.7]))
+    xi = bootstrap.constraint_strength(alpha, torch.full((3,), 200.0), torch.tensor([math.nan, 0.0, 0.7]))
     close(xi, [2.0, 0.0, 0.7])  # 2: w_kl of the paper's table
 
 
@@ -189,6 +166,7 @@ def test_xi_is_200_alpha_unless_it_is_fixed():
 def test_beta_falls_from_0_6_to_0_in_1000_episodes(episode, beta):
     assert bootstrap.demonstration_share(episode, 0.6, 1000) == pytest.approx(beta)
     assert bootstrap.demonstration_share(np.array([episode]), np.array([0.6]), np.array([1000])) == pytest.approx(beta)
+    assert bootstrap.demonstration_share(episode, 0.6, None) == 0.6  # it stays
 
 
 def test_the_bonus_goes_to_demonstrations_only():
@@ -219,15 +197,6 @@ def test_the_papers_filter_is_on_only_where_the_demonstrators_action_is_greedy_a
         assert keep[i, j] == float(q[i, j].argmax() == chosen[i, j])
     assert bootstrap.paper_q_filter(q, q.argmax(-1)).all()
     assert bootstrap.paper_q_filter(torch.zeros(1, 9), torch.tensor([5])).item() == 1.0  # a tie is on
-
-
-def test_so_the_papers_filtered_margin_loss_never_exceeds_the_margin(rng):
-    q = 10 * torch.randn(1000, 9, generator=rng)
-    expert = torch.randint(9, (1000,), generator=rng)
-    loss = bootstrap.large_margin_loss(q, expert)
-    filtered = loss * bootstrap.paper_q_filter(q, expert)
-    assert filtered.max() <= 1.0 and loss.max() > 10.0
-    assert filtered[q.argmax(-1) != expert].abs().max() == 0.0
 
 
 def test_the_usual_filter_is_on_where_the_demonstrators_action_beats_the_policy(q, chosen, log_pi):

@@ -97,8 +97,8 @@ def test_an_agent_learns_the_same_alone_and_beside_others():
     for _ in range(8):
         alone.step()
         beside.step()
-    for mine, its in zip(alone.agent(0).actor, beside.agent(1).actor, strict=True):
-        assert torch.allclose(mine, its, atol=1e-5)
+    for mine, other in zip(alone.agent(0).actor, beside.agent(1).actor, strict=True):
+        assert torch.allclose(mine, other, atol=1e-5)
 
 
 def test_a_clone_begins_with_the_teacher_s_actions():

@@ -55,12 +55,6 @@ def test_the_oldest_is_overwritten_and_nothing_else():
         assert set(batch.rewards[agent].tolist()) == {1000.0 * agent + k for k in range(18, 28)}
 
 
-def test_only_what_has_been_written_is_drawn():
-    replay = ReplayBuffer(1, 1000, INPUTS)
-    replay.add(numbered(1, 4, 1))
-    assert set(replay.sample(200, np.zeros(1), generators(0)).rewards[0].tolist()) == {1.0, 2.0, 3.0, 4.0}
-
-
 def test_every_transition_is_drawn_equally_often():
     replay = ReplayBuffer(1, 10, INPUTS)
     replay.add(numbered(1, 10, 0))

@@ -20,7 +20,8 @@ from bootcourse.methods import METHODS, Method, display_name, style
 from bootcourse.panels import train_panel
 from bootcourse.plots.training_curves import training_curves
 from bootcourse.scenario import IDLE
-from bootcourse.storage.runs import load_checkpoint, load_run, save_checkpoint, save_runs
+from bootcourse.storage.checkpoint import load_checkpoint, save_checkpoint
+from bootcourse.storage.runs import load_run, save_runs
 
 SMALL = {"hidden": (8,), "demonstration_episodes": 2, "learning_starts": 16}
 
@@ -37,7 +38,11 @@ class Follower(SACLearner):
 
     needs_teacher = True
 
-    def driving_policy(self, states, rule_actions):
+    def acting_policy(self, states, rule_actions, decided):
+        return self.driving_policy(self.actor, self.critics, states, rule_actions)
+
+    @classmethod
+    def driving_policy(cls, actor, critics, states, rule_actions):
         return torch.nn.functional.one_hot(rule_actions, 9).float()
 
 
@@ -135,10 +140,10 @@ def test_the_command_line_takes_the_teacher_of_such_a_run(follower, tmp_path):
     assert json.loads(found.output)["follower-0"]["collision"]["value"] == 1.0, found.output
 
 
-@pytest.mark.parametrize("method", [name for name, its in METHODS.items() if its.on_policy])
+@pytest.mark.parametrize("method", [name for name, entry in METHODS.items() if entry.on_policy])
 def test_an_on_policy_method_s_own_episodes_are_more_than_one_round_of_decisions_can_hold(method):
-    its = settings_for(method)
-    assert METHODS[method].episodes > its.envs_per_agent * its.horizon
+    settings = settings_for(method)
+    assert METHODS[method].episodes > settings.envs_per_agent * settings.horizon
 
 
 def test_a_label_that_names_no_method_keeps_its_words():

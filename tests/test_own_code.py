@@ -182,21 +182,6 @@ def test_the_solution_shrinks_the_guide_of_jump_start_rl_as_the_library_does():
     assert torch.equal(mine.learner.returns, library.learner.returns)
 
 
-def test_the_solution_sets_the_price_of_accidents_as_the_library_does():
-    small = {"hidden": (8,), "envs_per_agent": 4, "horizon": 16, "batch": 64, "cloning_updates": 0}
-    settings = with_seeds(settings_for("ppo_safe", multiplier_step=3.0, accident_budget=0.3, **small), 2)
-    own_code._own.update(solutions())
-    mine, library = own_code.training(settings, 40), Training(settings, 40)
-    for training in (mine, library):
-        training.run(progress=False)
-    assert torch.allclose(mine.learner.multiplier, library.learner.multiplier) and mine.learner.multiplier.min() > 0
-
-
-def test_without_a_multiplier_no_part_of_an_exercise_trains_the_safe_driver():
-    assert parts_of([settings_for("ppo_safe")], {}) == []
-    assert parts_of([settings_for("ppo_safe", multiplier_step=1.0)], {}) == ["multiplier_step"]
-
-
 def test_a_later_part_replaces_the_earlier_ones_where_there_is_a_constraint():
     sac, soft = [settings_for("sac")], [settings_for("soft")]
     target = {"constrained_target": None, "critic_target": None}

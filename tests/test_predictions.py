@@ -5,6 +5,7 @@ import json
 import pytest
 
 from bootcourse.course import compare_predictions, predict
+from bootcourse.course.lessons import number
 from bootcourse.course.prediction_form import PredictionForm
 from bootcourse.course.predictions import FILE, NOTHING, predictions
 from bootcourse.errors import BootcourseError
@@ -21,7 +22,7 @@ def folder(tmp_path, monkeypatch, raise_in_callbacks):  # noqa: F811
 
 
 def ask(**more) -> PredictionForm:
-    return predict("5.1", "What does it do?", CHOICES, **more)
+    return predict("the_barrier.1", "What does it do?", CHOICES, **more)
 
 
 def test_a_form_without_a_click_writes_nothing(folder):
@@ -33,7 +34,7 @@ def test_a_click_keeps_the_answer_with_its_question_and_the_time_and_locks_the_f
     form = ask()
     form.field.value = "it stays"
     form.button.click()
-    kept = json.loads(FILE.read_text())["5.1"]
+    kept = json.loads(FILE.read_text())["the_barrier.1"]
     assert (kept["answer"], kept["question"], kept["choices"]) == ("it stays", "What does it do?", CHOICES)
     assert kept["time"].endswith("+00:00")
     assert form.field.disabled and form.button.disabled and "You predict: it stays." in words(form)
@@ -59,12 +60,12 @@ def test_the_first_answer_stays():
     ask(answer="it stays")
     again = ask(answer="it escapes")
     assert "committed to “it stays” before" in again.sentence
-    assert predictions()["5.1"]["answer"] == "it stays"
+    assert predictions()["the_barrier.1"]["answer"] == "it stays"
 
 
 def test_numbers_are_kept_as_numbers_and_words_as_words():
-    predict("5.2", "How far?", unit="m", answer="12.5 m")
-    predict("5.3", "Why?", answer=" because  it\n is slow ")
+    predict("the_barrier.2", "How far?", unit="m", answer="12.5 m")
+    predict("the_barrier.3", "Why?", answer=" because  it\n is slow ")
     assert [one["answer"] for one in predictions().values()] == [12.5, "because it is slow"]
 
 
@@ -76,12 +77,12 @@ def test_numbers_are_kept_as_numbers_and_words_as_words():
         ({"unit": "", "answer": "inf"}, "give a number"),
         ({"answer": "  "}, "is empty: write an answer"),
         ({"answer": "x" * 3000}, "3000 characters"),
-        ({"number": "five"}, 'such as "5.1"'),
+        ({"name": "5.1"}, 'as "the_barrier.1"'),
     ],
 )
 def test_what_is_no_answer_is_refused_in_one_sentence(how, sentence):
     with pytest.raises(BootcourseError, match=sentence):
-        predict(**{"number": "5.1", **how})
+        predict(**{"name": "the_barrier.1", **how})
     assert predictions() == {}
 
 
@@ -93,7 +94,7 @@ def test_the_form_says_what_is_wrong_and_keeps_nothing():
 
 def test_a_damaged_file_is_named_and_not_overwritten():
     FILE.parent.mkdir()
-    for text in ("{", "[]", '{"5.1": 3}'):
+    for text in ("{", "[]", '{"the_barrier.1": 3}'):
         FILE.write_text(text)
         assert "predictions.json is damaged" in words(ask())
         with pytest.raises(BootcourseError, match="damaged"):
@@ -103,9 +104,9 @@ def test_a_damaged_file_is_named_and_not_overwritten():
 
 def test_the_end_of_a_lesson_compares_and_escapes_what_a_student_wrote():
     ask(answer="it stays")
-    predict("5.2", "How far?", unit="m", answer=80)
-    predict("5.3", "Why?", answer="<script>alert(1)</script>")
-    shown = compare_predictions("05", {"5.1": "it `stays`", "5.2": 31.25, "5.3": "traps", "5.4": "nothing"})
+    predict("the_barrier.2", "How far?", unit="m", answer=80)
+    predict("the_barrier.3", "Why?", answer="<script>alert(1)</script>")
+    shown = compare_predictions("the_barrier", {1: "it `stays`", 2: 31.25, 3: "traps", 4: "nothing"})
     assert [row[2:] for row in shown.rows[:2]] == [("it stays", "it `stays`"), ("80 m", "31.25 m")]
     html = shown._repr_html_()
     assert "<script" not in html and "&lt;script&gt;" in html and "<code>stays</code>" in html
@@ -113,9 +114,14 @@ def test_the_end_of_a_lesson_compares_and_escapes_what_a_student_wrote():
 
 
 def test_who_committed_to_nothing_is_told_so():
-    assert repr(compare_predictions("05", {"5.1": "it stays"})) == NOTHING
+    assert repr(compare_predictions("the_barrier", {1: "it stays"})) == NOTHING
 
 
-def test_a_prediction_of_another_lesson_is_refused():
-    with pytest.raises(BootcourseError, match="1.1 is no prediction of lesson 11"):
-        compare_predictions("11", {"1.1": "yes"})
+def test_a_prediction_keeps_its_name_and_shows_its_number():
+    assert list(predictions()) == [] and ask(answer="it stays") and list(predictions()) == ["the_barrier.1"]
+    assert f"Prediction {number('the_barrier')}.1" in ask()._repr_mimebundle_()["text/html"]
+
+
+def test_the_predictions_of_what_is_no_lesson_are_refused():
+    with pytest.raises(BootcourseError, match="the_barier"):
+        compare_predictions("the_barier", {1: "yes"})

@@ -1,7 +1,5 @@
 """The observation, held to a second implementation that shares no line with the first."""
 
-from dataclasses import replace
-
 import gymnasium as gym
 import numpy as np
 import pytest
@@ -10,7 +8,7 @@ from gymnasium.vector import AutoresetMode
 import bootcourse  # noqa: F401  registers the road
 from bootcourse.road.observation import names, scales
 from bootcourse.road.state import EGO, SPEED, X, Y
-from bootcourse.scenario import DEFAULT, Sight
+from bootcourse.scenario import DEFAULT
 from tests.agreement import DRIVERS, SCENARIOS
 
 
@@ -37,49 +35,12 @@ def test_every_observation_is_what_numpy_makes_of_the_cars_and_stays_within_its_
     ).unwrapped
     space = env.single_observation_space
     observations, _ = env.reset(seed=0)
-    start = np.stack([observation_in_numpy(cars, scenario) for cars in env.cars])
-    remembered = scenario.sight.memory * [start]
     while not env.asleep.all():
+        expected = np.stack([observation_in_numpy(cars, scenario) for cars in env.cars])
         assert all(space.contains(observation) for observation in observations)
-        assert observations[~env.asleep] == pytest.approx(np.hstack(remembered)[~env.asleep], abs=1e-5)
+        assert observations[~env.asleep] == pytest.approx(expected[~env.asleep], abs=1e-5)
         actions = [DRIVERS[seed % len(DRIVERS)](env.cars[seed], scenario, rng) for seed in seeds]
         observations, *_ = env.step(np.array(actions))
-        remembered = [np.stack([observation_in_numpy(cars, scenario) for cars in env.cars]), *remembered[:-1]]
-
-
-REMEMBERS = replace(DEFAULT, sight=Sight(memory=3), clock=replace(DEFAULT.clock, decisions=5))
-
-
-def test_a_memory_begins_with_the_start_and_holds_the_last_decisions_newest_first():
-    env, now = gym.make("bootcourse:Trap-v0", scenario=REMEMBERS), DEFAULT.sight.numbers
-    (first, _), seen = env.reset(seed=0), []
-    assert (first.reshape(3, now) == first[:now]).all()
-    seen = [env.step(action)[0] for action in (7, 7, 8)]
-    assert (seen[-1] == np.concatenate([each[:now] for each in reversed(seen)])).all()
-    assert (seen[0] == np.concatenate([seen[0][:now], first[: 2 * now]])).all()
-    again, _ = env.reset(seed=0)
-    assert (again == first).all(), "an episode remembers nothing of the one before"
-    meaning = names(REMEMBERS)
-    assert len(meaning) == len(set(meaning)) == len(scales(REMEMBERS)) == 3 * now
-    assert meaning[now + 3] == "v_lon, 1 decision ago" and meaning[-1] == "car 4 dv_lat, 2 decisions ago"
-
-
-def test_a_road_that_begins_anew_beside_others_forgets_and_the_others_do_not():
-    env, now = gym.make_vec("bootcourse:Trap-v0", num_envs=2, scenario=REMEMBERS).unwrapped, DEFAULT.sight.numbers
-    env.reset(seed=[0, 1])
-    alone = gym.make("bootcourse:Trap-v0", scenario=REMEMBERS)
-    alone.reset(seed=0)
-    env.step(np.array([4, 4]))
-    env.reset(seed=[None, 2], options={"reset_mask": np.array([False, True])})
-    alone.step(4)
-    for _ in range(4):
-        observations, _, _, truncated, infos = env.step(np.array([4, 4]))
-        last = alone.step(4)[0]
-    assert truncated.tolist() == [True, False]
-    assert infos["final_obs"][0] == pytest.approx(last, abs=1e-6), "the last of the old episode, with its memory"
-    assert (observations[0].reshape(3, now) == observations[0, :now]).all(), "the first of the new one"
-    assert len(np.unique(observations[1].reshape(3, now), axis=0)) == 3
-    assert (env.observe(np.array([False, True]))[1].reshape(3, now) == observations[1, :now]).all()
 
 
 def test_a_start_has_the_numbers_of_the_paper_in_order():

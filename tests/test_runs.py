@@ -13,7 +13,8 @@ from bootcourse.files import sha256, write_json
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
 from bootcourse.scenario import DEFAULT, Sight
-from bootcourse.storage.runs import find_runs, load_checkpoint, load_run, save_checkpoint, save_runs
+from bootcourse.storage.checkpoint import load_checkpoint, save_checkpoint
+from bootcourse.storage.runs import find_runs, load_run, save_runs
 from bootcourse.storage.sealed import write_sealed
 
 
@@ -38,11 +39,6 @@ def test_a_run_reads_back_as_it_was_written(result, run):
     np.testing.assert_array_equal(back.curves["return"], result.curves["return"][0])
     assert back.agent.settings == result.agents[0].settings and back.scenario == result.scenario
     assert back.provenance["seed"] == 0 and "torch" in back.provenance
-
-
-def test_every_seed_has_its_own_run(result, run):
-    assert [path.name for path in find_runs(run.parent)] == ["bootstrapped-0", "bootstrapped-1"]
-    assert find_runs(run) == [run]
 
 
 def test_a_run_is_never_overwritten(result, run):
@@ -75,17 +71,6 @@ def test_weights_that_are_not_numbers_are_refused_even_with_the_right_hash(run):
     write_sealed(run / "provenance.json", made)
     with pytest.raises(BootcourseError, match="NaN or infinity"):
         load_run(run)
-
-
-def test_a_hash_that_lost_its_name_is_missed_except_in_files_of_earlier_versions(run):
-    path = run / "provenance.json"
-    made = path.read_text()
-    path.write_text(made.replace('"seal"', '"sea|"'))
-    with pytest.raises(BootcourseError, match="does not fit its own hash"):
-        load_run(run)
-    former = {name: value for name, value in json.loads(made).items() if name not in ("seal", "teacher")}
-    write_json(path, former)
-    assert load_run(run).provenance == former
 
 
 def test_two_agents_of_one_method_and_seed_cannot_be_saved_together(result, tmp_path):
@@ -142,7 +127,9 @@ def test_an_agent_that_sees_another_number_of_neighbours_is_refused(run):
 def test_a_changed_provenance_is_noticed(run):
     text = (run / "provenance.json").read_text()
     (run / "provenance.json").write_text(text.replace('"seed": 0', '"seed": 1'))
-    with pytest.raises(BootcourseError, match="provenance.json is damaged: it does not fit its own hash"):
+    with pytest.raises(
+        BootcourseError, match=r"provenance.json is damaged \(it does not fit its own hash\): train this run again"
+    ):
         load_run(run)
 
 
@@ -166,16 +153,6 @@ def test_the_runs_of_a_folder_are_found_beside_a_folder_with_others(tmp_path):
     assert find_runs(tmp_path / "mine") == [tmp_path / "mine" / "sac-0"]
     with pytest.raises(BootcourseError, match=r"holds no run itself: name a folder in it, such as .*mine\.$"):
         find_runs(tmp_path)
-
-
-def test_a_finished_agent_is_kept_as_it_was_after_its_last_episode(tmp_path):
-    training = small_training("sac", episodes=3)
-    while not training.finished_agents:
-        training.step()
-    save_checkpoint(training, tmp_path / "checkpoint.npz")
-    first = next(iter(training.finished_agents))
-    restored = load_checkpoint(tmp_path / "checkpoint.npz").finished_agents[first]
-    assert (restored.actor[0] == training.finished_agents[first].actor[0]).all()
 
 
 def test_a_damaged_checkpoint_is_refused(tmp_path):

@@ -61,8 +61,7 @@ IMPOSSIBLE = [
     (lambda: Reward(w_v=-1.5), "Reward.w_v = -1.5"),
     (lambda: Reward(w_v=0.0, w_y=0.0, w_theta=0.0), "at least one weight must be above 0"),
     (lambda: Sight(neighbours=0), "Sight.neighbours = 0"),
-    (lambda: Sight(memory=0), "Sight.memory = 0: between 1 and 20"),
-    (lambda: Sight(memory=1.5), "Sight.memory = 1.5: give a whole number"),
+    (lambda: Sight(neighbours=1.5), "Sight.neighbours = 1.5: give a whole number"),
     (lambda: Sight(distance=-200.0), "Sight.distance = -200.0"),
     (lambda: Rule(v_max=6.0), "Rule.v_max = 6.0 m/s must be above v_min (6.0)"),
     (lambda: Rule(n=1), "Rule.n = 1"),
@@ -145,10 +144,6 @@ def test_json_that_is_no_scenario_is_refused_in_one_sentence(text, words):
     with pytest.raises(BootcourseError) as refusal:
         Scenario.from_json(text)
     assert words in str(refusal.value) and "\n" not in str(refusal.value)
-
-
-def test_a_scenario_of_an_earlier_version_has_no_memory_of_earlier_decisions():
-    assert Scenario.from_json(DEFAULT.to_json().replace('"memory": 1, ', "")) == DEFAULT
 
 
 def test_a_scenario_cannot_be_changed_behind_ones_back():

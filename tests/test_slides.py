@@ -5,10 +5,11 @@ import re
 
 import pytest
 
+from bootcourse.course.lessons import stem
 from tests.browser import needs_browser, open_browser
 from tools.book import ROOT
 from tools.course import slides
-from tools.course.source import NOTEBOOKS
+from tools.course.numbering import NOTEBOOKS
 
 LESSONS = sorted(NOTEBOOKS.glob("*.ipynb"))
 FIGURE = re.compile(r'<img [^>]*class="bc-figure"[^>]*alt="([^"]*)"')
@@ -44,7 +45,7 @@ def deck(book, path):
 
 
 @pytest.mark.parametrize("path", LESSONS, ids=lambda path: path.stem)
-def test_every_figure_of_a_lesson_is_on_a_slide_with_its_alt_text_and_every_prediction_stands_where_it_did(book, path):
+def test_a_lesson_s_slides_are_one_file_with_each_figure_and_prediction_in_its_place(book, path):
     page, pages = deck(book, path), outputs(path)
     wanted = [alt for html in pages for alt in FIGURE.findall(html)]
     shown = ALT.findall(page)
@@ -53,11 +54,6 @@ def test_every_figure_of_a_lesson_is_on_a_slide_with_its_alt_text_and_every_pred
     there = re.findall(r"(Prediction \d+\.\d+)\.</strong>|" + ALT.pattern, page)
     assert [each for each in there if each[0] or each[1] in wanted] == re.findall(order, "".join(
         html for html in pages if "bc-prediction" in html or "bc-figure" in html))  # fmt: skip
-
-
-@pytest.mark.parametrize("path", LESSONS, ids=lambda path: path.stem)
-def test_a_lesson_s_slides_are_one_file_of_less_than_a_megabyte_without_an_address(book, path):
-    page = deck(book, path)
     assert len(page) < 1_000_000 and "{{" not in page
     assert re.findall(r"\b(?:src|href)=[\"'](?!data:)[^\"']*", page) == []
     assert f"../slides/{path.stem}.html" in (book / "teaching/slides.md").read_text(encoding="utf-8")
@@ -79,7 +75,7 @@ def test_a_slide_s_words_come_from_the_notebook_escaped():
 @needs_browser
 def test_keys_turn_the_slides_and_each_fits_on_the_screen(book, new_page):
     page = new_page()
-    page.page.goto((book / "whole/slides/01_the_trap.html").as_uri())
+    page.page.goto((book / f"whole/slides/{stem('the_trap')}.html").as_uri())
     count = page.page.locator("section").count()
     assert all("Round 5" in text for text in page.page.evaluate(TALL)), "only the traces are taller, and scroll"
     seen = [page.page.evaluate(HERE)]
@@ -95,7 +91,7 @@ def test_on_a_phone_nothing_is_wider_than_the_screen_but_what_says_that_it_scrol
     page = new_page()
     page.page.set_viewport_size({"width": 390, "height": 844})
     page.page.emulate_media(color_scheme="dark")
-    page.page.goto((book / "whole/slides/03_the_rule.html").as_uri())
+    page.page.goto((book / f"whole/slides/{stem('the_rule')}.html").as_uri())
     assert page.page.evaluate("document.documentElement.scrollWidth") == 390
     assert page.page.evaluate(SILENT) == 0 and page.page.locator(".scrolls").count() > 3
     assert page.page.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(18, 18, 18)"

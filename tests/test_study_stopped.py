@@ -6,7 +6,8 @@ import torch
 
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
-from bootcourse.storage.runs import load_checkpoint, load_run, save_checkpoint, save_runs
+from bootcourse.storage.checkpoint import load_checkpoint, save_checkpoint
+from bootcourse.storage.runs import load_run, save_runs
 
 pytestmark = pytest.mark.filterwarnings("ignore:sac, seed 1")
 

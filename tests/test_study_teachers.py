@@ -26,7 +26,7 @@ from bootcourse.research.teachers import (
 from bootcourse.road.state import ACCELERATION, EGO, HEADING, LANE, SPEED, TRAP_1, X, Y
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT
-from bootcourse.storage.runs import save_checkpoint
+from bootcourse.storage.checkpoint import save_checkpoint
 
 TINY = {"learning_starts": 16, "hidden": (8,), "buffer_size": 2000, "demonstration_episodes": 2}
 NAME = "teachers/mirrored-soft"

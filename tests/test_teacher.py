@@ -23,7 +23,8 @@ from bootcourse.road.state import EGO, LANE, TRAP_1, X
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.rule import rule
 from bootcourse.scenario import DEFAULT, IDLE
-from bootcourse.storage.runs import load_checkpoint, load_run, save_checkpoint, save_runs
+from bootcourse.storage.checkpoint import load_checkpoint, save_checkpoint
+from bootcourse.storage.runs import load_run, save_runs
 
 SMALL = {"hidden": (8,), "buffer_size": 2000, "demonstration_episodes": 20}
 TWO = with_seeds(settings_for("bootstrapped", **SMALL), 2)

@@ -4,14 +4,16 @@ import re
 
 import pytest
 
+from bootcourse.course.lessons import LESSONS, number, stem
 from tools import book
 from tools.course import claims, front_page
 from tools.course.known import minutes
-from tools.course.reference import lessons
+from tools.course.numbering import resolved
 
 TEACHING = book.ROOT / "book/teaching"
 EXAM = (TEACHING / "exam.md").read_text(encoding="utf-8")
-PLANS = claims.fill_in(book.INSTRUCTOR.sub("", (TEACHING / "plans.md").read_text(encoding="utf-8")))
+PLANS = (TEACHING / "plans.md").read_text(encoding="utf-8")
+PLANS = resolved(claims.fill_in(book.INSTRUCTOR.sub("", PLANS)), "../lessons/")
 
 
 def rows(heading: str) -> list[list[str]]:
@@ -20,8 +22,9 @@ def rows(heading: str) -> list[list[str]]:
     return [[cell.strip(" *") for cell in line.strip("|").split("|")] for line in lines if line.startswith("|")][2:]
 
 
-def lessons_in(text: str) -> list[int]:
-    return [int(number) for number in re.findall(r"\[(?:Lesson )?\d+\]\(\.\./lessons/(\d\d)_", text)]
+def lessons_in(text: str) -> list[str]:
+    files = {stem(name): name for name in LESSONS}
+    return [files[file] for file in re.findall(r"\(\.\./lessons/(\w+)\.ipynb\)", text)]
 
 
 @pytest.mark.parametrize(("heading", "cell"), [("One week", 1), ("One term", 2)])
@@ -30,7 +33,7 @@ def test_a_plan_has_every_lesson_once_and_its_minutes(heading, cell):
     for part in parts:
         assert int(part[cell + 1]) == minutes(*lessons_in(part[cell])), part
     assert sum(int(part[cell + 1]) for part in parts) == int(total[cell + 1])
-    assert sorted(number for part in parts for number in lessons_in(part[cell])) == sorted(lessons())
+    assert sorted(name for part in parts for name in lessons_in(part[cell])) == sorted(LESSONS)
 
 
 def test_the_evening_and_the_homework_add_up_and_a_meeting_fits_into_90_minutes():
@@ -41,10 +44,10 @@ def test_the_evening_and_the_homework_add_up_and_a_meeting_fits_into_90_minutes(
     assert [week[0] for week in weeks if int(week[3]) - int(week[4]) > 90] == []
 
 
-def test_the_board_has_a_sketch_for_every_lesson():
-    assert [lessons_in(row[0]) for row in rows("The board and one question for each lesson")] == [
-        [n] for n in lessons()
-    ]
+def test_the_board_has_a_sketch_for_every_lesson_in_their_order():
+    sketches = rows("The board and one question for each lesson")
+    assert [lessons_in(row[0]) for row in sketches] == [[name] for name in LESSONS]
+    assert sketches[0][0].startswith(f"[{number(LESSONS[0])}]")
 
 
 def test_each_of_twenty_questions_has_an_answer_and_five_points():
@@ -57,8 +60,8 @@ def test_each_of_twenty_questions_has_an_answer_and_five_points():
 def test_what_the_exam_quotes_from_the_report_stands_there():
     report = (book.ROOT / "assets/report/report.md").read_text(encoding="utf-8")
     quoted = re.search(r"^### 3\..*?^### 4\.", EXAM, re.M | re.S)[0]
-    found = re.findall(r"^(\| [a-z].*?\| \d\.\d\d) \|$", quoted, re.M)
-    assert len(found) == 4 and all(f"\n{row} [" in report.split("## Scenario: calibrated")[0] for row in found)
+    quotes = re.findall(r"^(\| [a-z].*?\| \d\.\d\d) \|$", quoted, re.M)
+    assert len(quotes) == 4 and all(f"\n{row} [" in report.split("## Scenario: calibrated")[0] for row in quotes)
 
 
 @pytest.mark.parametrize("edition", ["student", "instructor"])
@@ -72,5 +75,5 @@ def test_the_exam_and_what_leads_to_solutions_are_in_the_instructor_s_edition_al
     text = "".join(page.read_text(encoding="utf-8") for page in there if page.name != "exam.md")
     of_the_instructor = edition == "instructor"
     assert (tmp_path / "source/teaching/exam.md").exists() == of_the_instructor
-    assert ("teaching/exam" in text) == ("](../lessons/instructor/" in text) == of_the_instructor
+    assert ("teaching/exam" in text) == ("lessons/instructor/" in text) == of_the_instructor
     assert "<!-- instructor -->" not in text

@@ -20,9 +20,9 @@ SOLVED = re.compile(r"\[([^]]*)\]\(\.\./solved/([^)]*)\)")
 
 def gather(to: Path, edition: str = "student") -> None:
     """Put all that the book is made of into the folder `to`. edition: student, or instructor with the solutions."""
-    from tools.course import front_page, slides
+    from tools.course import front_page, paper_map, slides
     from tools.course.claims import claims_page, fill_in
-    from tools.course.folding import folded
+    from tools.course.numbering import resolved
 
     shutil.rmtree(to, ignore_errors=True)
     shutil.copytree(ROOT / "book", to)
@@ -33,12 +33,14 @@ def gather(to: Path, edition: str = "student") -> None:
     slides.fill(to)
     if edition != "instructor":
         (to / "teaching/exam.md").unlink()
-    for page, fill in ((to / "index.md", str), (to / "teaching/plans.md", fill_in)):
+    (to / "paper_map.md").write_text(paper_map.page(), encoding="utf-8")
+    for page in (*to.glob("*.md"), *to.glob("teaching/*.md")):
         text = INSTRUCTOR.sub(r"\1" if edition == "instructor" else "", page.read_text(encoding="utf-8"))
-        page.write_text(fill(text), encoding="utf-8")
+        folder = "lessons/" if page.parent == to else "../lessons/"
+        page.write_text(resolved(fill_in(text), folder), encoding="utf-8")
     (to / "lessons/instructor").mkdir(parents=True)
     for notebook in sorted((ROOT / "notebooks").glob("*.ipynb")):
-        (to / "lessons" / notebook.name).write_text(folded(notebook.read_text(encoding="utf-8")), encoding="utf-8")
+        shutil.copy(notebook, to / "lessons")
         if edition != "instructor":
             continue
         page = (ROOT / "notebooks/instructor" / notebook.name).with_suffix(".md")

@@ -47,8 +47,7 @@ def train(
     from bootcourse.learn.settings import settings_for, with_seeds
     from bootcourse.learn.training import Training
     from bootcourse.scenario import named
-    from bootcourse.storage.checkpoint import DamagedCheckpoint
-    from bootcourse.storage.runs import load_checkpoint, save_checkpoint
+    from bootcourse.storage.checkpoint import DamagedCheckpoint, load_checkpoint, save_checkpoint
     from bootcourse.storage.work import locked
 
     settings, road = with_seeds(settings_for(method, setting), seeds, first_seed), named(scenario)
@@ -131,7 +130,8 @@ def finish_training(training, out: Path, progress: bool) -> int:
 
     training: None if it is over and its runs are complete, but not all in their places.
     """
-    from bootcourse.storage.runs import save_checkpoint, save_runs
+    from bootcourse.storage.checkpoint import save_checkpoint
+    from bootcourse.storage.runs import save_runs
     from bootcourse.storage.work import Checkpoints
 
     work = out / UNFINISHED

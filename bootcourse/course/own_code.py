@@ -9,6 +9,7 @@ An answer that passes its check in a notebook is kept in the folder `answers/` b
 these files, and only a cell of a notebook calls it. `own_learner.py` puts the parts together.
 """
 
+import functools
 from collections.abc import Callable, Sequence
 
 import torch
@@ -17,15 +18,16 @@ from bootcourse.course import answer_files
 from bootcourse.course.answer_files import PARTS
 from bootcourse.course.judge import judge
 from bootcourse.course.lessons import registry
-from bootcourse.course.own_learner import BUFFER, OwnReplay, own_learner, part, parts_of
+from bootcourse.course.own_learner import ALONE, BUFFER, own_learner, part, parts_of
 from bootcourse.course.verdict import Verdict
 from bootcourse.errors import BootcourseError, check_known
-from bootcourse.learn.learner import SACLearner
+from bootcourse.learn.learner import SACLearner, learner_for
 from bootcourse.learn.replay_buffer import Batch
 from bootcourse.learn.settings import Settings, settings_for
 from bootcourse.learn.training import Training
 
-APART = PARTS[-10:]  # they are parts of other learners than SAC, and of a reward
+APART = {name for names in ALONE.values() for name in names}  # parts of other learners than SAC
+APART |= {"advantages", "clipped_loss", "shaping_reward"}
 NONE = "No part is yours yet: agents train with the library's own."
 TOLERANCE = 1e-3  # relative difference of a loss or a gradient; rounding gives about 1e-6
 _own: dict[str, Callable] = {}  # the student's parts in this kernel
@@ -74,20 +76,10 @@ def training(settings: Sequence[Settings], episodes: int = 1000, **more) -> Trai
     own = {name: _own[name] for name in names if name in _own}
     if own and more.get("device", "cpu") != "cpu":
         raise BootcourseError(f"Your own code trains on the CPU: leave out device={more['device']!r}.")
-    made = Training(settings, episodes, **more)
-    size = made.env.single_observation_space.shape[0]
-    if own:
-        begun, made.learner = made.learner, own_learner(own, settings, size, int(made.env.single_action_space.n))
-        made.learner.curves = made.curves
-        with torch.no_grad():  # a learner may begin as a clone
-            for name, tensors in made.learner.tensors().items():
-                torch._foreach_copy_(tensors, begun.tensors()[name])
-    if any(name in own for name in BUFFER):
-        rows = made.replay.table[: made.replay.demonstrations] if made.replay.demonstrations else None
-        made.replay = OwnReplay(own, settings, size, rows)
-        made.learner.bonus.zero_()  # it is in the batch's rewards
+    make_learner = functools.partial(own_learner, own) if own else learner_for
+    mine = Training(settings, episodes, make_learner=make_learner, **more)
     print(f"Training with {whose(names) or 'no part that an exercise writes'}.".replace("`", ""))
-    return made
+    return mine
 
 
 def yours_or_ours(name: str) -> Callable:

@@ -23,7 +23,6 @@ from bootcourse.learn.networks import mlp
 from bootcourse.learn.ppo import PPOLearner
 from bootcourse.learn.replay_buffer import Batch, decode_transitions
 from bootcourse.learn.rlpd import RLPDLearner
-from bootcourse.learn.safe import SafeLearner
 from bootcourse.learn.settings import Settings
 from bootcourse.methods import METHODS
 
@@ -36,7 +35,6 @@ ALONE = {  # the parts of a method that shares none with SAC's exercises
     "rlpd": ["smallest_of"],
     "ibrl": ["better_of_two"],
     "jsrl": ["guide_shrinks"],
-    "ppo_safe": ["multiplier_step"],
 }
 
 
@@ -52,12 +50,11 @@ def parts_of(settings: Sequence[Settings], own: Parts) -> list[str]:
     """
     method = settings[0].method
     if method in ALONE:
-        unpriced = method == "ppo_safe" and not any(s.multiplier_step for s in settings)
-        return [] if unpriced else ALONE[method]
+        return ALONE[method]
     if METHODS[method].on_policy:
         return ["advantages", "clipped_loss"]
     names = ["soft_value", "critic_target", "critic_loss", "actor_loss", "temperature_loss", "ReplayBuffer"]
-    if any(s.xi_multiplier > 0 or s.xi_fixed > 0 for s in settings):
+    if any(s.asks_teacher for s in settings):
         names.append("soft_constraint")
         for later, earlier in LATER.items():
             if later in own or not any(name in own for name in earlier):
@@ -70,13 +67,14 @@ def parts_of(settings: Sequence[Settings], own: Parts) -> list[str]:
 
 
 class Own:
-    """Comes before a method's learner: its parts are functions of one agent. All other arguments as the learner's."""
+    """Comes before a method's learner, whose parts it makes of functions of one agent."""
 
     def __init__(self, own: Parts, *arguments):
         self.own = own
         super().__init__(*arguments)
 
     def part(self, name: str) -> Callable:
+        """The given part, or the exercise's solution."""
         return part(self.own, name)
 
     def each(self, compute: Callable[[int], Tensor]) -> Tensor:
@@ -91,6 +89,12 @@ class OwnSAC(Own, SACLearner):
         super().__init__(own, *arguments)
         if "margin_loss" in own and (self.margin * (1 - self.paper_q_filter)).any():
             raise BootcourseError("Your `margin_loss` has the printed Q-filter: leave paper_q_filter at True.")
+
+    def make_buffer(self, observation_size: int, demonstrations: Tensor | None):
+        if not any(name in self.own for name in BUFFER):
+            return super().make_buffer(observation_size, demonstrations)
+        self.bonus.zero_()  # it is in the rewards of the batches
+        return OwnReplay(self.own, self.settings, observation_size, demonstrations)
 
     def critic_target(self, batch: Batch) -> Tensor:
         next_log_pi = sac.log_policy(mlp(self.actor, batch.next_states))  # (agents, batch, 9)
@@ -202,15 +206,6 @@ class OwnJSRL(Own, JSRLLearner):
         return bool(self.part("guide_shrinks")(returns, best, shared.window, shared.tolerance))
 
 
-class OwnSafe(Own, SafeLearner):
-    """PPO with a price of accidents: the price's next value."""
-
-    def next_multiplier(self, rate: Tensor) -> Tensor:
-        columns = (self.multiplier, rate, self.accident_budget, self.multiplier_step)  # (agents, 1) each
-        step = self.part("multiplier_step")
-        return torch.tensor([[float(step(*row))] for row in torch.cat(columns, dim=1).tolist()])
-
-
 LEARNERS = {
     SACLearner: OwnSAC,
     CQLLearner: OwnCQL,
@@ -219,7 +214,6 @@ LEARNERS = {
     RLPDLearner: OwnRLPD,
     IBRLLearner: OwnIBRL,
     JSRLLearner: OwnJSRL,
-    SafeLearner: OwnSafe,
 }  # the library's learner -> the one that is made of parts
 
 

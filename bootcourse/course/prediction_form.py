@@ -42,7 +42,7 @@ class PredictionForm(Panel):
         text = widgets.HTML(Markup(STYLE) + html("<div>{}</div>{}", marked(question.text), keys))
         super().__init__(f"Prediction {question.number}", text, self.field, self.button)
         with self.saying_what_is_wrong():
-            kept = predictions().get(question.number)
+            kept = predictions().get(question.name)
             if kept is not None:
                 self._lock(kept)
 

@@ -1,7 +1,8 @@
 """Predictions: a student commits to an answer before the cell that shows it, and the lesson's end compares.
 
-They are kept in `answers/predictions.json` beside the notebooks, each with its question and the time. The first answer
-to a question stays. `prediction_form.py` is the form that a notebook shows.
+They are kept in `answers/predictions.json` beside the notebooks, each with its question and the time, under a name such
+as "the_barrier.1" that stays when a lesson gets another number. The first answer to a question stays.
+`prediction_form.py` is the form that a notebook shows.
 """
 
 import math
@@ -11,6 +12,7 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
+from bootcourse.course.lessons import LESSONS, number
 from bootcourse.course.verdict import marked
 from bootcourse.errors import BootcourseError, check_known
 from bootcourse.files import read_json, write_json
@@ -18,21 +20,27 @@ from bootcourse.markup import html
 
 FILE = Path("answers/predictions.json")  # in the folder of the notebooks, where a kernel works
 LONGEST = 2000  # characters of an answer
+NAME = re.compile(rf"({'|'.join(LESSONS)})\.\d{{1,2}}")
 NOTHING = "You committed to no prediction in this lesson."
 
 
 @dataclass(frozen=True)
 class Question:
-    """What a lesson asks. number: "5.1"; choices: empty for a free answer; unit: None for an answer in words."""
+    """What a lesson asks. name: "the_barrier.1"; choices: () for a free answer; unit: None for an answer in words."""
 
-    number: str
+    name: str
     text: str = ""
     choices: tuple[str, ...] = ()
     unit: str | None = None
 
     def __post_init__(self):
-        if not re.fullmatch(r"\d{1,2}\.\d{1,2}", str(self.number)):
-            raise BootcourseError(f'The prediction {self.number!r}: give its number as text, such as "5.1".')
+        if not NAME.fullmatch(str(self.name)):
+            raise BootcourseError(f'The prediction {self.name!r}: give its lesson and its place, as "the_barrier.1".')
+
+    @property
+    def number(self) -> str:
+        """As the page shows it, such as "5.1"."""
+        return number_of(self.name)
 
     def read(self, answer: object) -> str | float:
         """The answer as it is kept. Raises BootcourseError if it is empty, no choice, or no number where one is due."""
@@ -56,8 +64,14 @@ class Question:
         return value
 
 
+def number_of(name: str) -> str:
+    """The number of a prediction as the page shows it: "the_barrier.1" -> "5.1"; what is no lesson's stays."""
+    lesson, _, place = name.partition(".")
+    return f"{number(lesson)}.{place}" if lesson in LESSONS else name
+
+
 def predictions(folder: Path | None = None) -> dict[str, dict]:
-    """What a student has committed to: number -> question, choices, unit, answer, time (UTC). {} if nothing.
+    """What a student has committed to: name -> question, choices, unit, answer, time (UTC). {} if nothing.
 
     folder: that of the notebooks; by default the present one. Raises BootcourseError for a damaged file.
     """
@@ -73,8 +87,8 @@ def predictions(folder: Path | None = None) -> dict[str, dict]:
 def commit(question: Question, answer: object) -> dict:
     """Keep the answer, unless the question has one already. Returns what is kept. Raises BootcourseError."""
     kept = predictions()
-    if question.number not in kept:
-        kept[question.number] = {
+    if question.name not in kept:
+        kept[question.name] = {
             "question": question.text,
             "choices": list(question.choices),
             "unit": question.unit,
@@ -82,18 +96,19 @@ def commit(question: Question, answer: object) -> dict:
             "time": datetime.now(UTC).isoformat(timespec="seconds"),
         }
         write_json(FILE, kept)
-    return kept[question.number]
+    return kept[question.name]
 
 
 def predict(
-    number: str, question: str = "", choices: Sequence[str] = (), *, unit: str | None = None, answer: object = None
+    name: str, question: str = "", choices: Sequence[str] = (), *, unit: str | None = None, answer: object = None
 ):
     """A form to commit to a prediction: radio buttons for `choices`, a number field for a `unit`, else a text field.
 
-    unit: of the number, "" for one without a unit. answer: commit to this and show no form, where a notebook shows no
-    widgets. Raises BootcourseError for a wrong number of the question, or an answer that is not accepted.
+    name: the lesson and the question's place in it, "the_barrier.1". unit: of the number, "" for one without a unit.
+    answer: commit to this and show no form, where a notebook shows no widgets. Raises BootcourseError for a wrong name,
+    or an answer that is not accepted.
     """
-    asked = Question(number, question, tuple(map(str, choices)), unit)
+    asked = Question(name, question, tuple(map(str, choices)), unit)
     if answer is None:
         from bootcourse.course.prediction_form import PredictionForm
 
@@ -115,22 +130,20 @@ def worded(answer: object, unit: str | None = None) -> str:
     return f"{words} {unit}" if unit else words
 
 
-def compare_predictions(lesson: str, answers: Mapping[str, object]):
+def compare_predictions(lesson: str, answers: Mapping[int, object]):
     """A table of what the student predicted and what the lesson found, for the lesson's last cell.
 
-    lesson: its number, such as "05"; answers: {"5.1": what the lesson found, in words or a number}. Raises
-    BootcourseError where a number belongs to another lesson, and for a damaged file.
+    lesson: its name; answers: {1: what the lesson found for the prediction LESSON.1, in words or a number}. Raises
+    BootcourseError for no lesson, and for a damaged file.
     """
-    chapter = str(lesson).lstrip("0") or "0"
-    strange = [number for number in answers if str(number).partition(".")[0] != chapter]
-    if strange:
-        raise BootcourseError(f"{strange[0]} is no prediction of lesson {lesson}: its numbers begin with {chapter}.")
-    kept = predictions()
-    rows = [
-        (number, kept[number].get("question", ""), worded(kept[number]["answer"], kept[number].get("unit")),
-         worded(found, kept[number].get("unit") if isinstance(found, (int, float)) else None))
-        for number, found in answers.items() if number in kept
-    ]  # fmt: skip
+    check_known("The lesson", lesson, LESSONS)
+    predicted, rows = predictions(), []
+    for place, result in answers.items():
+        one = predicted.get(f"{lesson}.{place}")
+        if one is not None:
+            unit = one.get("unit")
+            answer = worded(one["answer"], unit), worded(result, unit if isinstance(result, (int, float)) else None)
+            rows.append((f"{number(lesson)}.{place}", one.get("question", ""), *answer))
     return Comparison(tuple(rows), len(answers)) if rows else Note(NOTHING)
 
 

@@ -32,7 +32,7 @@ class Header(msgspec.Struct, forbid_unknown_fields=True):
     seed: Annotated[int, msgspec.Meta(ge=0, le=2**63 - 1)]
     accident: Accident
     provenance: dict[str, Any]
-    rule_p: float = RULE_P  # absent in files of earlier versions
+    rule_p: float  # checked by `Rollout`
 
 
 @dataclass(frozen=True)

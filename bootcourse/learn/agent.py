@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 import torch
@@ -20,22 +19,14 @@ class Agent:
 
     settings: Settings
     actor: list[Tensor]  # weights and biases, [(1, inputs, outputs), (1, 1, outputs), ...]
-    critics: list[Tensor]  # those of the critics, mostly two, [(2, inputs, outputs), (2, 1, outputs), ...]
-    alpha: float  # the entropy coefficient at the end of the training
+    critics: list[Tensor]  # those of the critics, mostly two, [(2, inputs, outputs), (2, 1, outputs), ...]; or none, []
+    alpha: float  # the entropy coefficient at the end of the training; 0 for a method without one
     teach: Callable[[np.ndarray], np.ndarray] | None = None  # μ, for a method that drives with it: see `taught_by`
 
     @property
     def needs_teacher(self) -> bool:
         """Whether the agent needs its teacher to drive."""
         return METHODS[self.settings.method].learner_class().needs_teacher
-
-    @cached_property
-    def learner(self):
-        """The method's learner, a `SACLearner`, with this agent's networks: it knows how they decide."""
-        kind = METHODS[self.settings.method].learner_class()
-        learner = kind([self.settings], self.actor[0].shape[1], self.actor[-1].shape[-1])
-        learner.actor, learner.critics, learner.target_critics = self.actor, self.critics, self.critics
-        return learner
 
     def taught_by(self, teach: Callable[[np.ndarray], np.ndarray]) -> "Agent":
         """The agent with a teacher (see `teachers.teacher_of`): cars (roads, vehicles, 10) -> μ(s) (roads,)."""
@@ -52,19 +43,24 @@ class Agent:
             raise BootcourseError(f"This agent observes {size} numbers, not {given}: drive the scenario it trained on.")
         if rule_actions is None and self.needs_teacher:
             raise BootcourseError(f"Method '{self.settings.method}' decides with its teacher's actions: give them.")
-        states = torch.as_tensor(observations, dtype=torch.float32)[None]
         rule_actions = np.zeros(len(observations)) if rule_actions is None else rule_actions
-        return self.learner.driving_policy(states, torch.as_tensor(rule_actions, dtype=torch.int64)[None])[0].numpy()
+        states, taught = _tensor(observations, torch.float32), _tensor(rule_actions, torch.int64)
+        kind = METHODS[self.settings.method].learner_class()
+        return kind.driving_policy(self.actor, self.critics, states, taught)[0].numpy()
 
     @torch.no_grad()
-    def q_values(self, observations: np.ndarray) -> np.ndarray:
-        """Q(s,a), the smaller of two critics' or what the method has instead: (batch, observation) -> (batch, 9)."""
-        return self.learner.q_values(torch.as_tensor(observations, dtype=torch.float32)[None])[0].numpy()
+    def q_values(self, observations: np.ndarray) -> np.ndarray | None:
+        """Q(s,a), mostly the smaller of two critics': (batch, observation) -> (batch, 9); None without critics."""
+        if not self.critics:
+            return None
+        kind = METHODS[self.settings.method].learner_class()
+        return kind.q_values(self.critics, _tensor(observations, torch.float32))[0].numpy()
 
     def as_policy(self, rng: np.random.Generator | None = None, with_q: bool = False) -> Policy:
         """The agent as a policy: its most probable action or, with an rng, an action drawn from π.
 
-        with_q: whether the policy's outputs contain Q. Raises BootcourseError if the agent lacks its teacher.
+        with_q: whether the policy's outputs contain Q, if the agent has critics. Raises BootcourseError if the agent
+        lacks its teacher.
         """
         if self.needs_teacher and self.teach is None:
             raise BootcourseError(f"Method '{self.settings.method}' drives with its teacher: give it by `taught_by`.")
@@ -75,6 +71,11 @@ class Agent:
             return PolicyOutput(actions, pi, self.q_values(observations) if with_q else None)
 
         return drive
+
+
+def _tensor(values: np.ndarray, kind: torch.dtype) -> Tensor:
+    """The values with an agents axis of length 1 in front."""
+    return torch.as_tensor(values, dtype=kind)[None]
 
 
 def sample_actions(pi: np.ndarray, uniforms: np.ndarray) -> np.ndarray:

@@ -41,13 +41,16 @@ def regularised_policy(q: Tensor, log_rule: Tensor, alpha: float, xi: float) -> 
 
 
 def constraint_strength(alpha: Tensor, xi_multiplier: Tensor, xi_fixed: Tensor) -> Tensor:
-    """ξ = 200 α (Equation 15, Section IV-A), or xi_fixed where that is 0 or more. All tensors have one shape."""
-    return torch.where(xi_fixed >= 0, xi_fixed, xi_multiplier * alpha)
+    """ξ = 200 α (Equation 15, Section IV-A), or xi_fixed where that is not NaN. All tensors have one shape."""
+    return torch.where(xi_fixed.isnan(), xi_multiplier * alpha, xi_fixed)
 
 
 def demonstration_share(episode, beta_start, beta_episodes):
-    """β after `episode` finished episodes: it decreases linearly from beta_start to 0 (Section IV-B)."""
-    return beta_start * np.clip(1 - episode / beta_episodes, 0, 1)
+    """β after `episode` finished episodes: it decreases linearly from beta_start to 0 (Section IV-B).
+
+    Numbers or arrays; with beta_episodes = None or infinity it stays at beta_start.
+    """
+    return beta_start * np.clip(1 - episode / (np.inf if beta_episodes is None else beta_episodes), 0, 1)
 
 
 def augmented_reward(reward: Tensor, is_demonstration: Tensor, bonus: Tensor) -> Tensor:

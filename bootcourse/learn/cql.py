@@ -29,7 +29,7 @@ class CQLLearner(SACLearner):
 
     def __init__(self, settings: Sequence[Settings], observation_size: int, n_actions: int = N_ACTIONS):
         super().__init__(settings, observation_size, n_actions)
-        self._copy_critic_to_actor()
+        self.copy_critic_to_actor()
 
     def critic_target(self, batch: Batch) -> Tensor:
         """Double Q-learning's target, without entropy or KL: (agents, batch)."""
@@ -49,11 +49,11 @@ class CQLLearner(SACLearner):
     def update(self, batch: Batch) -> dict[str, Tensor]:
         """One gradient step of the critics, which also sets the actor. Returns `losses`, each (agents,)."""
         terms = super().update(batch)
-        self._copy_critic_to_actor()
+        self.copy_critic_to_actor()
         return terms
 
     @torch.no_grad()
-    def _copy_critic_to_actor(self) -> None:
+    def copy_critic_to_actor(self) -> None:
         """Set the actor to π = softmax(Q₁/α): the first critic's weights, with the last layer divided by α."""
         first = [parameter[: self.agents] for parameter in self.critics]
         alpha = self.log_alpha.exp()[:, None, None]

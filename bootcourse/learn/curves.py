@@ -11,19 +11,15 @@ NAMES = (
     "distance",  # m
     "accident",  # the number of an `Accident`
     "entropy",  # nats, mean of H(π) over the episode
-    "alpha",  # α at the episode's end
+    "alpha",  # α at the episode's end; 0 for a method without it, as ξ
     "xi",  # ξ at the episode's end
     "beta",  # β at the episode's end
-    "decisions",  # length of the episode, and of the agent's restarted ones that ended since its last
+    "decisions",  # length of the episode
 )
 
 
 class Curves:
-    """The finished episodes of all agents: `values[name]` is (agents, episodes), NaN for episodes to come.
-
-    An episode that began before an accident (restarts.py) is not among them, because its success, return and accident
-    say nothing about an episode from the start. Its decisions are counted: with those of the agent's next episode.
-    """
+    """The finished episodes of all agents: `values[name]` is (agents, episodes), NaN for episodes to come."""
 
     def __init__(self, agents: int, roads: int, episodes: int):
         self.agents, self.roads, self.episodes = agents, roads, episodes
@@ -31,8 +27,6 @@ class Curves:
         self.finished = np.zeros(agents, dtype=np.int64)  # episodes, including those after the last that is recorded
         self.unknown = np.full(agents * roads, np.nan)
         self.running = np.zeros((4, agents * roads))  # return, decisions, speed, entropy of the running episodes
-        self.restarted = np.zeros(agents * roads, dtype=bool)  # those of them that began before an accident
-        self.unrecorded = np.zeros(agents)  # decisions of such episodes that ended since the agent's last other one
 
     def note(self, rewards, entropies, done, infos, now: dict[str, np.ndarray]) -> None:
         """Record a decision: rewards, entropies, done (agents x envs,), env.step's infos, now {name: (agents,)}.
@@ -46,9 +40,6 @@ class Curves:
             agent, episode = road // self.roads, self.finished[road // self.roads]
             total, decisions, speed, entropy = self.running[:, road]
             self.running[:, road] = 0.0
-            if self.restarted[road]:
-                self.unrecorded[agent] += decisions
-                continue
             self.finished[agent] += 1
             if episode >= self.episodes:
                 continue
@@ -59,9 +50,8 @@ class Curves:
                 "distance": ended["distance"][road],
                 "accident": ended["accident"][road],
                 "entropy": entropy / decisions,
-                "decisions": decisions + self.unrecorded[agent],
+                "decisions": decisions,
             }
-            self.unrecorded[agent] = 0.0
             for name, value in values.items():
                 self.values[name][agent, episode] = value
             for name, value in now.items():

@@ -5,7 +5,9 @@ its absorbing states: a discriminator learns to distinguish demonstrations from 
 SAC maximises a reward that is high for transitions classified as demonstrations. The road's reward is not used.
 """
 
+import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import torch
 import torch.nn.functional as F
@@ -14,9 +16,22 @@ from torch import Tensor
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.networks import init_mlp, mlp
+from bootcourse.learn.protocol import generators_of
 from bootcourse.learn.replay_buffer import Batch
-from bootcourse.learn.settings import Settings
+from bootcourse.learn.settings import Settings, check_range, shared
 from bootcourse.scenario import N_ACTIONS
+
+
+@dataclass(frozen=True)
+class GAILSettings(Settings):
+    """The settings of GAIL. Half of a batch must be demonstrations."""
+
+    discriminator_lr: float = shared(3e-4)  # § learning rate of the discriminator
+    gradient_penalty: float = shared(1.0)  # § weight of its gradient penalty
+
+    def __post_init__(self):
+        super().__post_init__()
+        check_range(self, 0.0, math.inf, "discriminator_lr", "gradient_penalty")
 
 
 def discriminator_loss(expert_logits: Tensor, own_logits: Tensor) -> Tensor:
@@ -48,11 +63,11 @@ class GAILLearner(SACLearner):
     The first half of a batch must be demonstrations, the second half the agent's transitions.
     """
 
-    def __init__(self, settings: Sequence[Settings], observation_size: int, n_actions: int = N_ACTIONS):
+    def __init__(self, settings: Sequence[GAILSettings], observation_size: int, n_actions: int = N_ACTIONS):
         super().__init__(settings, observation_size, n_actions)
         self.n_actions, shared = n_actions, self.settings[0]
-        generators = [torch.Generator().manual_seed(s.seed + 2**32) for s in settings]  # not the actors' seeds
-        self.discriminator = init_mlp((observation_size + n_actions, *shared.hidden, 1), generators)
+        inputs = observation_size + n_actions
+        self.discriminator = init_mlp((inputs, *shared.hidden, 1), generators_of(settings, 2**32))
         for parameter in self.discriminator:
             parameter.requires_grad_()
         self.optimiser.add_param_group({"params": self.discriminator, "lr": shared.discriminator_lr})

@@ -3,9 +3,10 @@
 Read `textbook.py` first: it is the same for one agent, in plain torch. Here every parameter has a leading agents axis,
 so that one batched matrix product computes all agents. `batch` is a `Batch`, with fields (agents, batch, ...).
 
-Your own method overrides the parts that differ: `losses` as a whole, or `critic_target`,
-`critic_loss` (or its parts), `actor_loss`, `temperature_loss`, `kl`, `soft_value`; and how agents decide:
-`acting_policy` while they train, `driving_policy` in general. See bc.py, cql.py, gail.py, jsrl.py, rlpd.py, ibrl.py.
+Your own method overrides the parts that differ: `losses` as a whole, or `critic_target`, `critic_loss` (or its parts),
+`actor_loss`, `temperature_loss`, `kl`, `soft_value`; and how agents decide: `acting_policy` while they train,
+`driving_policy` in general. See cql.py, gail.py, jsrl.py, rlpd.py, ibrl.py. protocol.py says what a training asks of
+any learner.
 """
 
 from collections.abc import Sequence
@@ -17,75 +18,69 @@ from torch import Tensor
 from bootcourse.errors import BootcourseError
 from bootcourse.learn import bootstrap, sac
 from bootcourse.learn.agent import Agent
-from bootcourse.learn.curves import Curves
 from bootcourse.learn.networks import init_mlp, mlp
+from bootcourse.learn.protocol import Learner, adam, check_shared, generators_of, of_agent, per_agent, total_loss
 from bootcourse.learn.replay_buffer import Batch, ReplayBuffer
-from bootcourse.learn.settings import Settings, shared_fields
+from bootcourse.learn.settings import Settings
 from bootcourse.methods import METHODS
 from bootcourse.scenario import N_ACTIONS
-
-PER_AGENT = ("gamma", "target_entropy", "xi_multiplier", "xi_fixed", "kl_in_target", "rule_p", "bonus", "margin")
-PER_AGENT += ("paper_q_filter", "cql_weight")  # settings that the losses need, each of shape (agents, 1)
 
 
 class SACLearner:
     """Actors, twin critics and temperatures of several agents, and their update.
 
-    settings: one for each agent; the settings that are `shared` must be equal. Each name in `PER_AGENT` is an
-    attribute (agents, 1); `alpha` and `xi` (agents, 1) are those of the present update. Raises BootcourseError for
-    agents whose shared settings differ.
+    settings: one for each agent; the settings that are `shared` must be equal. `alpha` and `xi` (ξ), each (agents, 1),
+    are those of the present update. Raises BootcourseError for agents whose shared settings differ.
     """
 
-    needs_teacher = False  # whether `driving_policy` depends on μ(s)
-    curves: Curves | None = None  # of the training, which sets it
-    device = torch.device("cpu")  # of all tensors: see `to`
+    needs_teacher = False
+    device = torch.device("cpu")
 
     def __init__(self, settings: Sequence[Settings], observation_size: int, n_actions: int = N_ACTIONS):
-        self.settings = list(settings)
-        for name in shared_fields(type(settings[0])):
-            if len({getattr(s, name, None) for s in settings}) > 1:
-                raise BootcourseError(f"Agents that train side by side need the same {name}: train these apart.")
-        shared, self.agents = self.settings[0], len(self.settings)
-        generators = [torch.Generator().manual_seed(s.seed) for s in settings]
+        self.settings, self.agents = check_shared(settings), len(settings)
+        shared, generators = self.settings[0], generators_of(settings)
         sizes = (observation_size, *shared.hidden, n_actions)
         self.actor = init_mlp(sizes, generators)
-        each = [init_mlp(sizes, generators) for _ in range(shared.n_critics)]
+        each = [init_mlp(sizes, generators) for _ in range(self.n_critics(shared))]
         self.critics = [torch.cat(parts) for parts in zip(*each, strict=True)]  # (2 x agents, ...), first critics first
         self.target_critics = [parameter.clone() for parameter in self.critics]
         self.log_alpha = torch.tensor([s.alpha_init for s in settings]).log()  # (agents,)
-        groups = [
-            {"params": self.actor, "lr": shared.actor_lr},
-            {"params": self.critics, "lr": shared.critic_lr},
-            {"params": [self.log_alpha], "lr": shared.alpha_lr},
-        ]
-        for group in groups:
-            for parameter in group["params"]:
-                parameter.requires_grad_()
-        self.optimiser = torch.optim.Adam(groups, fused=True)
-        for name in PER_AGENT:
-            setattr(self, name, torch.tensor([[float(getattr(s, name))] for s in settings]))
+        self.optimiser = adam(
+            (self.actor, shared.actor_lr), (self.critics, shared.critic_lr), ([self.log_alpha], shared.alpha_lr)
+        )
+        self.gamma = per_agent(settings, "gamma")  # (agents, 1), as all that follow
+        self.target_entropy = per_agent(settings, "target_entropy")
+        self.xi_multiplier = per_agent(settings, "xi_multiplier")
+        self.xi_fixed = per_agent(settings, "xi_fixed")  # NaN where ξ follows α
+        self.kl_in_target = per_agent(settings, "kl_in_target")
+        self.rule_p = per_agent(settings, "rule_p")
+        self.bonus = per_agent(settings, "bonus")
+        self.margin = per_agent(settings, "margin")
+        self.paper_q_filter = per_agent(settings, "paper_q_filter")
+        self.cql_weight = per_agent(settings, "cql_weight")
         self.note_temperature()
 
-    def to(self, device: torch.device) -> None:
-        """Move all tensors to a device, before the first update. The agents of `agent` are on the CPU all the same."""
-        self.device = device
-        for value in vars(self).values():
-            for tensor in value if isinstance(value, list) else [value]:
-                if isinstance(tensor, Tensor):
-                    moved = tensor.detach().to(device).requires_grad_(tensor.requires_grad)
-                    torch.utils.swap_tensors(tensor, moved)  # the optimiser knows the tensor itself
+    @staticmethod
+    def n_critics(settings: Settings) -> int:
+        """Two critics, whose smaller value counts."""
+        return 2
 
     def note_temperature(self) -> None:
         """Set `alpha` and `xi` (Equation 15), each (agents, 1), from the present `log_alpha`."""
         self.alpha = self.log_alpha.detach().exp()[:, None]
         self.xi = bootstrap.constraint_strength(self.alpha, self.xi_multiplier, self.xi_fixed)
 
+    def coefficients(self) -> dict[str, np.ndarray]:
+        """The present α and ξ of each agent, (agents,)."""
+        self.note_temperature()
+        return {"alpha": self.alpha[:, 0].cpu().numpy(), "xi": self.xi[:, 0].cpu().numpy()}
+
     def make_buffer(self, observation_size: int, demonstrations: Tensor | None) -> ReplayBuffer:
-        """The buffer that a training fills and samples; demonstrations: rows (transitions, row), or None."""
+        """A replay buffer; demonstrations: rows (transitions, row), or None."""
         return ReplayBuffer(self.agents, self.settings[0].buffer_size, observation_size, demonstrations, self.device)
 
     def updates_due(self, replay: ReplayBuffer, decisions: int) -> int:
-        """How many updates follow a decision on every road; decisions: of each agent so far."""
+        """A fixed number of updates after each decision, once `learning_starts` decisions are made."""
         return self.settings[0].updates if decisions >= self.settings[0].learning_starts else 0
 
     def update(self, batch: Batch) -> dict[str, Tensor]:
@@ -96,7 +91,7 @@ class SACLearner:
         self.note_temperature()
         terms = self.losses(batch)
         self.optimiser.zero_grad()
-        sum(loss for name, loss in terms.items() if name.endswith("loss")).sum().backward()
+        total_loss(terms).backward()
         self.optimiser.step()
         with torch.no_grad():  # polyak averaging
             torch._foreach_lerp_(self.target_critics, self.critics, self.settings[0].tau)
@@ -179,11 +174,13 @@ class SACLearner:
     one_q = staticmethod(sac.min_q)  # the value that the actor maximises: (2, ..., batch, 9) -> (..., batch, 9)
     critic_network = staticmethod(mlp)
 
-    def q_pair(self, critics: list[Tensor], states: Tensor) -> Tensor:
+    @classmethod
+    def q_pair(cls, critics: list[Tensor], states: Tensor) -> Tensor:
         """Q(s,a) of both critics: (agents, batch, observation) -> (2, agents, batch, actions)."""
-        n = self.settings[0].n_critics
-        q = self.critic_network(critics, states.repeat(n, 1, 1))
-        return q.view(n, self.agents, *q.shape[1:])
+        agents = len(states)
+        n = len(critics[0]) // agents
+        q = cls.critic_network(critics, states.repeat(n, 1, 1))
+        return q.view(n, agents, *q.shape[1:])
 
     def target_q(self, states: Tensor) -> Tensor:
         """The target critics' Q(s,a): (agents, batch, observation) -> (agents, batch, actions)."""
@@ -194,42 +191,38 @@ class SACLearner:
         """π(a|s): (agents, batch, observation) -> (agents, batch, actions)."""
         return mlp(self.actor, states).softmax(-1)
 
-    def driving_policy(self, states: Tensor, rule_actions: Tensor) -> Tensor:
-        """The distribution from which a trained agent's actions come: (agents, batch, actions).
-
-        states (agents, batch, observation); rule_actions μ(s), (agents, batch) int64. A method that uses the latter
-        sets `needs_teacher`: its agents compute μ(s) while they drive.
-        """
+    def acting_policy(self, states: Tensor, rule_actions: Tensor, decided: Tensor) -> Tensor:
+        """π(a|s): (agents, roads, actions). See `Learner`."""
         return self.probabilities(states)
 
-    def acting_policy(self, states: Tensor, rule_actions: Tensor, decided: Tensor) -> Tensor:
-        """The distribution from which a training draws the next actions: (agents, roads, actions).
-
-        As of `driving_policy`; decided (agents, roads): how many decisions each road's episode has lasted.
-        """
-        return self.driving_policy(states, rule_actions)
-
     def note_episodes(self, ended: np.ndarray, returns: np.ndarray) -> None:
-        """Called after each decision: which episodes it ended (agents, roads), and the sums of rewards so far."""
+        """SAC has no use for whole episodes."""
 
-    @torch.no_grad()
-    def q_values(self, states: Tensor) -> Tensor:
+    @classmethod
+    def driving_policy(cls, actor: list[Tensor], critics: list[Tensor], states: Tensor, rule_actions: Tensor) -> Tensor:
+        """π(a|s): (agents, batch, observation) -> (agents, batch, actions).
+
+        A method that uses rule_actions, μ(s) (agents, batch), sets `needs_teacher`: its agents ask while they drive.
+        """
+        return mlp(actor, states).softmax(-1)
+
+    @classmethod
+    def q_values(cls, critics: list[Tensor], states: Tensor) -> Tensor:
         """The smaller of the two critics' Q(s,a): (agents, batch, observation) -> (agents, batch, actions)."""
-        return self.one_q(self.q_pair(self.critics, states))
+        return cls.one_q(cls.q_pair(critics, states))
 
     def agent(self, i: int) -> Agent:
         """A snapshot of agent i: it stays as it is when the learner goes on."""
-        actor = [parameter.detach()[i : i + 1].clone().cpu() for parameter in self.actor]
-        critics = [parameter.detach()[i :: self.agents].clone().cpu() for parameter in self.critics]
+        actor, critics = (of_agent(parameters, i, self.agents) for parameters in (self.actor, self.critics))
         return Agent(self.settings[i], actor, critics, float(self.log_alpha[i].detach().exp()))
 
     def tensors(self) -> dict[str, list[Tensor]]:
-        """The tensors of a checkpoint: all of the learner's state apart from the optimiser's."""
+        """The networks and the temperatures."""
         networks = {"actor": self.actor, "critics": self.critics, "targets": self.target_critics}
         return networks | {"log_alpha": [self.log_alpha]}
 
 
-def learner_for(settings: Sequence[Settings], observation_size: int, n_actions: int = N_ACTIONS) -> SACLearner:
+def learner_for(settings: Sequence[Settings], observation_size: int, n_actions: int = N_ACTIONS) -> Learner:
     """The learner of the agents' methods; settings: one for each agent.
 
     Raises BootcourseError if the methods have different learners, or the shared settings differ.

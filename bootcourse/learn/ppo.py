@@ -6,10 +6,13 @@ bootstrapped with the value of its last state; an accident is worth nothing afte
 the advantages of each minibatch are given mean 0 and deviation 1, and each network's gradient is clipped to a norm of
 0.5. Both are common in implementations; the clipped value loss that some of them have is left out.
 
-Many agents side by side, as in learner.py: the first axis of every parameter is the agents.
+Many agents side by side, as in learner.py: the first axis of every parameter is the agents. There are no critics: a
+value network V(s) takes their place in training.
 """
 
+import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -18,11 +21,38 @@ import torch.nn.functional as F
 from torch import Tensor
 
 from bootcourse.learn import sac
-from bootcourse.learn.bc import BCLearner
+from bootcourse.learn.agent import Agent
 from bootcourse.learn.networks import init_mlp, mlp
-from bootcourse.learn.replay_buffer import Batch, decode_transitions
-from bootcourse.learn.settings import PPOSettings
+from bootcourse.learn.protocol import adam, check_shared, generators_of, of_agent, per_agent, total_loss
+from bootcourse.learn.replay_buffer import decode_transitions
+from bootcourse.learn.settings import Settings, check_range, shared
 from bootcourse.scenario import N_ACTIONS
+
+
+@dataclass(frozen=True)
+class PPOSettings(Settings):
+    """The settings of PPO, which shares γ, the network and the roads with the other methods. All are our choice §."""
+
+    horizon: int = shared(32)  # decisions on every road between two rounds of updates
+    epochs: int = shared(4)  # passes over these decisions
+    clip: float = shared(0.2)  # ε: how far the ratio of new to old probabilities counts
+    gae_lambda: float = shared(0.95)  # λ of the advantages
+    entropy_weight: float = shared(0.01)  # of the entropy bonus
+    anneal_decisions: int | None = shared(None)  # of each agent, until both learning rates are 0; None: they stay
+    cloning_updates: int = shared(0)  # before the first drive: clone the teacher; 0 for PPO alone
+    label_smoothing: float = shared(0.1)  # of the cloned actions
+
+    def __post_init__(self):
+        super().__post_init__()
+        check_range(self, 1, math.inf, "horizon", "epochs", "anneal_decisions", whole=True)
+        check_range(self, 0, math.inf, "cloning_updates", whole=True)
+        check_range(self, 0.0, 1.0, "clip", "gae_lambda", "label_smoothing")
+        check_range(self, 0.0, math.inf, "entropy_weight")
+
+    @property
+    def needs_demonstrations(self) -> bool:
+        """Whether the agent begins as a clone of the teacher."""
+        return self.cloning_updates > 0
 
 
 def advantages(
@@ -34,10 +64,10 @@ def advantages(
     arXiv 1506.02438. ended: terminated or out of time.
     """
     delta = rewards + gamma * (1 - terminated) * next_values - values
-    found, following = torch.empty_like(delta), torch.zeros_like(delta[0])
+    advantage, following = torch.empty_like(delta), torch.zeros_like(delta[0])
     for t in reversed(range(len(delta))):
-        found[t] = following = delta[t] + gamma * lam * (1 - ended[t]) * following
-    return found
+        advantage[t] = following = delta[t] + gamma * lam * (1 - ended[t]) * following
+    return advantage
 
 
 def clipped_loss(ratio: Tensor, advantage: Tensor, clip: float) -> Tensor:
@@ -53,7 +83,6 @@ class Minibatch(NamedTuple):
     log_pi: Tensor  # (agents, batch) log π_old(a|s)
     advantages: Tensor  # (agents, batch)
     returns: Tensor  # (agents, batch) what V(s) should be
-    rule_actions: Tensor  # (agents, batch) int64, μ(s)
 
 
 class RolloutBuffer:
@@ -92,7 +121,7 @@ class RolloutBuffer:
         chosen = torch.from_numpy(self.order[:, self.drawn : self.drawn + batch])  # (agents, batch)
         self.drawn += batch
         agents = torch.arange(len(self.order))[:, None]
-        return type(self.columns)(*(column[agents, chosen] for column in self.columns))
+        return Minibatch(*(column[agents, chosen] for column in self.columns))
 
     def state(self) -> dict[str, np.ndarray]:
         """What a checkpoint keeps: the decisions of an unfinished round."""
@@ -106,22 +135,25 @@ class RolloutBuffer:
         self.ended[: self.filled] = torch.from_numpy(state["ended"])
 
 
-class PPOLearner(BCLearner):
-    """Actors and value functions of several agents. There are no Q values: all weights of the critics are zero."""
+class PPOLearner:
+    """Actors and value networks of several agents. See `Learner` for what each method does."""
 
-    settings: list[PPOSettings]
+    needs_teacher = False
+    device = torch.device("cpu")
 
     def __init__(self, settings: Sequence[PPOSettings], observation_size: int, n_actions: int = N_ACTIONS):
-        super().__init__(settings, observation_size, n_actions)
-        shared, generators = self.settings[0], [torch.Generator().manual_seed(s.seed + 2**32) for s in settings]
-        self.value = init_mlp((observation_size, *shared.hidden, shared.value_outputs), generators)
-        with torch.no_grad():
-            self.actor[-2] *= 0.01  # begin with nearly equal probabilities
-        self.trained = [(self.actor, shared.actor_lr), (self.value, shared.critic_lr)]  # networks and learning rates
-        for parameter in self.value:
-            parameter.requires_grad_()
-        groups = [{"params": network, "lr": rate} for network, rate in self.trained]
-        self.optimiser = torch.optim.Adam(groups, fused=True)
+        self.settings, self.agents = check_shared(settings), len(settings)
+        shared, inputs = self.settings[0], (observation_size, *self.settings[0].hidden)
+        self.actor = init_mlp((*inputs, n_actions), generators_of(settings))
+        self.actor[-2] *= 0.01  # begin with nearly equal probabilities
+        self.value = init_mlp((*inputs, 1), generators_of(settings, 2**32))
+        self.rates = shared.actor_lr, shared.critic_lr  # of the actor and of the value network
+        self.optimiser = adam(*zip((self.actor, self.value), self.rates, strict=True))
+        self.gamma = per_agent(settings, "gamma")
+
+    @staticmethod
+    def n_critics(settings: Settings) -> int:
+        return 0
 
     def make_buffer(self, observation_size: int, demonstrations: Tensor | None) -> RolloutBuffer:
         """An empty rollout buffer. With demonstrations, the actors are cloned from them first."""
@@ -155,26 +187,26 @@ class PPOLearner(BCLearner):
 
     def anneal(self, decisions: int) -> None:
         """Set both learning rates, which fall linearly to 0 if `anneal_decisions` is set; decisions: of each agent."""
-        shared = self.settings[0]
-        share = max(1 - decisions / shared.anneal_decisions, 0.0) if shared.anneal_decisions else 1.0
-        for group, (_, rate) in zip(self.optimiser.param_groups, self.trained, strict=True):
+        last = self.settings[0].anneal_decisions
+        share = 1.0 if last is None else max(1 - decisions / last, 0.0)
+        for group, rate in zip(self.optimiser.param_groups, self.rates, strict=True):
             group["lr"] = rate * share
 
     @torch.no_grad()
     def prepare(self, replay: RolloutBuffer) -> None:
         """Compute the advantages and returns of the stored decisions."""
         taken = decode_transitions(replay.table, replay.observation_size, replay.ended)
-        values, next_values = (self._values(self.value, states) for states in (taken.states, taken.next_states))
-        found = self.advantages(self.rewards(taken), values, next_values, taken.terminated, replay.ended)
-        states, actions, rule_actions = map(agents_first, (taken.states, taken.actions, taken.rule_actions))
-        log_pi = self.log_pi(states, rule_actions).gather(-1, actions[..., None])[..., 0]
-        columns = (taken.states, taken.actions, None, found, found + values, taken.rule_actions)
-        replay.columns = Minibatch(*(log_pi if column is None else agents_first(column) for column in columns))
+        values, next_values = self.state_values(taken.states), self.state_values(taken.next_states)
+        advantage = self.advantages(taken.rewards, values, next_values, taken.terminated, replay.ended)
+        states, actions = agents_first(taken.states), agents_first(taken.actions)
+        log_pi = sac.log_policy(mlp(self.actor, states)).gather(-1, actions[..., None])[..., 0]
+        replay.columns = Minibatch(states, actions, log_pi, agents_first(advantage), agents_first(advantage + values))
         replay.drawn = 0
 
-    def rewards(self, taken: Batch) -> Tensor:
-        """What the learner maximises: the road's rewards, (horizon, agents, roads)."""
-        return taken.rewards
+    def state_values(self, states: Tensor) -> Tensor:
+        """V(s): (horizon, agents, roads, observation) -> (horizon, agents, roads)."""
+        horizon, agents, roads, _ = states.shape
+        return mlp(self.value, agents_first(states))[..., 0].view(agents, horizon, roads).transpose(0, 1)
 
     def advantages(self, *columns: Tensor) -> Tensor:
         """The advantages of decisions, all (horizon, agents, roads); columns as of `advantages`, without γ and λ."""
@@ -186,21 +218,13 @@ class PPOLearner(BCLearner):
 
     def losses(self, batch: Minibatch) -> dict[str, Tensor]:
         """The clipped objective with its entropy bonus, and the values' squared error: each (agents,)."""
-        log_pi = self.log_pi(batch.states, batch.rule_actions)  # (agents, batch, 9)
+        log_pi = sac.log_policy(mlp(self.actor, batch.states))  # (agents, batch, 9)
         policy_loss, entropy = self.policy_loss(log_pi, batch), sac.entropy(log_pi).mean(-1)
         return {
             "actor_loss": policy_loss - self.settings[0].entropy_weight * entropy,
-            "value_loss": self.value_loss(mlp(self.value, batch.states), batch.returns),
+            "value_loss": sac.critic_loss(mlp(self.value, batch.states)[..., 0], batch.returns) / 2,
             "entropy": entropy,
         }
-
-    def value_loss(self, outputs: Tensor, returns: Tensor) -> Tensor:
-        """Half the mean (V(s) - R)²: (agents, batch, 1), (agents, batch) -> (agents,)."""
-        return sac.critic_loss(outputs[..., 0], returns) / 2
-
-    def state_value(self, outputs: Tensor) -> Tensor:
-        """V(s), given the value network's outputs: (..., 1) -> (...)."""
-        return outputs[..., 0]
 
     def policy_loss(self, log_pi: Tensor, batch: Minibatch) -> Tensor:
         """The clipped objective, with advantages of mean 0 and deviation 1: log_pi (agents, batch, 9) -> (agents,)."""
@@ -213,27 +237,37 @@ class PPOLearner(BCLearner):
         """One gradient step of all agents on a minibatch, each network's gradient clipped to a norm of 0.5."""
         terms = self.losses(batch)
         self.optimiser.zero_grad()
-        sum(loss for name, loss in terms.items() if name.endswith("loss")).sum().backward()
-        for network, _ in self.trained:
+        total_loss(terms).backward()
+        for network in (self.actor, self.value):
             norm = sum(p.grad.square().flatten(1).sum(1) for p in network).sqrt()  # (agents,)
             for parameter in network:
                 parameter.grad *= (0.5 / (norm + 1e-6)).clamp(max=1.0)[:, None, None]
         self.optimiser.step()
         return {name: values.detach() for name, values in terms.items()}
 
+    @torch.no_grad()
+    def probabilities(self, states: Tensor) -> Tensor:
+        """π(a|s): (agents, batch, observation) -> (agents, batch, actions)."""
+        return mlp(self.actor, states).softmax(-1)
+
+    def acting_policy(self, states: Tensor, rule_actions: Tensor, decided: Tensor) -> Tensor:
+        return self.probabilities(states)
+
+    def note_episodes(self, ended: np.ndarray, returns: np.ndarray) -> None:
+        """PPO has no use for whole episodes."""
+
+    def coefficients(self) -> dict[str, np.ndarray]:
+        return {"alpha": np.zeros(self.agents), "xi": np.zeros(self.agents)}
+
+    @classmethod
+    def driving_policy(cls, actor: list[Tensor], critics: list[Tensor], states: Tensor, rule_actions: Tensor) -> Tensor:
+        return mlp(actor, states).softmax(-1)
+
+    def agent(self, i: int) -> Agent:
+        return Agent(self.settings[i], of_agent(self.actor, i, self.agents), critics=[], alpha=0.0)
+
     def tensors(self) -> dict[str, list[Tensor]]:
-        """The actor's and the critics' tensors, and the values'."""
-        return super().tensors() | {"value": self.value}
-
-    def log_pi(self, states: Tensor, rule_actions: Tensor) -> Tensor:
-        """log π(a|s): (agents, batch, actions). A policy without the teacher does not use μ(s), (agents, batch)."""
-        return sac.log_policy(mlp(self.actor, states))
-
-    def _values(self, network: list[Tensor], states: Tensor) -> Tensor:
-        """V(s) of a network: (horizon, agents, roads, observation) -> (horizon, agents, roads)."""
-        horizon, agents, roads, _ = states.shape
-        values = self.state_value(mlp(network, agents_first(states)))
-        return values.view(agents, horizon, roads).transpose(0, 1)
+        return {"actor": self.actor, "value": self.value}
 
 
 def agents_first(column: Tensor) -> Tensor:

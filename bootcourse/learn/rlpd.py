@@ -10,7 +10,9 @@ Where we differ: the actor and the temperature take a step at every update, not 
 normalisation has no gain and offset of its own to learn.
 """
 
+import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 import torch
@@ -19,8 +21,21 @@ from torch import Tensor
 
 from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.replay_buffer import Batch
-from bootcourse.learn.settings import RLPDSettings
+from bootcourse.learn.settings import Settings, check_range, shared
 from bootcourse.scenario import N_ACTIONS
+
+
+@dataclass(frozen=True)
+class RLPDSettings(Settings):
+    """The settings of RLPD, whose authors have 10 critics and make 20 updates for each decision."""
+
+    critics: int = shared(5)  # § in the ensemble
+    target_critics: int = shared(2)  # ‡ of them, drawn for each update, smallest value in the target; the authors' code
+
+    def __post_init__(self):
+        super().__post_init__()
+        check_range(self, 1, math.inf, "critics", whole=True)
+        check_range(self, 1, self.critics, "target_critics", whole=True)
 
 
 def normalised_mlp(parameters: Sequence[Tensor], x: Tensor) -> Tensor:
@@ -48,6 +63,11 @@ class RLPDLearner(SACLearner):
     def __init__(self, settings: Sequence[RLPDSettings], observation_size: int, n_actions: int = N_ACTIONS):
         super().__init__(settings, observation_size, n_actions)
         self.updates_made = torch.zeros((), dtype=torch.int64)
+
+    @staticmethod
+    def n_critics(settings: RLPDSettings) -> int:
+        """The size of the ensemble."""
+        return settings.critics
 
     @staticmethod
     def one_q(q: Tensor) -> Tensor:

@@ -85,7 +85,7 @@ class TextbookSAC:
     def update(self, batch: Batch) -> None:
         """One gradient step of critics, actor and temperature; all losses are computed before the first step."""
         alpha = self.log_alpha.exp().item()
-        xi = self.s.xi_fixed if self.s.xi_fixed >= 0 else self.s.xi_multiplier * alpha  # ξ = 200 α
+        xi = self.s.xi_multiplier * alpha if self.s.xi_fixed is None else self.s.xi_fixed  # ξ = 200 α
         with torch.no_grad():
             target = self.critic_target(batch, alpha, xi)  # (batch,)
         log_pi = F.log_softmax(self.actor(batch.states), dim=1)  # (batch, 9)

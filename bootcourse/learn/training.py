@@ -29,11 +29,10 @@ from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.curves import Curves
 from bootcourse.learn.demonstrations import collect, demonstration_rows
 from bootcourse.learn.learner import learner_for
+from bootcourse.learn.protocol import Learner, move_to
 from bootcourse.learn.replay_buffer import encode_transitions
-from bootcourse.learn.restarts import Restarts
 from bootcourse.learn.settings import Settings
 from bootcourse.learn.teachers import Rule, course_rule, teacher_name, teacher_of
-from bootcourse.methods import METHODS
 from bootcourse.policies import stochastic_policy
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, Scenario
@@ -64,8 +63,10 @@ class Training:
     demonstrations: recorded drives, or rows (transitions, row), instead of the teacher's.
     make_env: makes a vector environment of n copies with same-step autoreset, by default the trap. Other
     environments have no teacher: its actions are 0 in the replay buffer. first_seed: of the copies. device: where the
-    networks learn, as torch names it, such as "cuda"; the roads stay on the CPU. Raises BootcourseError for settings
-    that cannot train side by side, for demonstrations that do not fit, and for a device that torch does not find.
+    networks learn, as torch names it, such as "cuda"; the roads stay on the CPU. make_learner: makes the learner from
+    (settings, observation size, actions); by default that of the agents' method.
+    Raises BootcourseError for settings that cannot train side by side, or that ask for a teacher where there is none,
+    for demonstrations that do not fit, and for a device that torch does not find.
     """
 
     def __init__(
@@ -78,6 +79,7 @@ class Training:
         make_env: Callable[[int], VectorEnv] | None = None,
         first_seed: int = FIRST_SEED,
         device: str = "cpu",
+        make_learner: Callable[[Sequence[Settings], int, int], Learner] = learner_for,
     ):
         if not settings:
             raise BootcourseError("There are no agents: give the settings of at least one.")
@@ -87,29 +89,26 @@ class Training:
         n_envs = self.n_agents * self.envs_per_agent
         self.env = TrapVectorEnv(n_envs, scenario) if make_env is None else make_env(n_envs)
         self.on_the_trap = hasattr(self.env, "cars")
-        if not self.on_the_trap and any(METHODS[s.method].taught for s in settings):
+        if not self.on_the_trap and any(s.asks_teacher for s in settings):
             raise BootcourseError(
-                f"Method '{settings[0].method}' asks a teacher, which drives only on the trap's roads."
+                f"Method '{next(s.method for s in settings if s.asks_teacher)}' asks a teacher, which drives only on "
+                "the trap's roads: leave out make_env, or choose a method without a teacher, such as 'sac'."
             )
         size, n_actions = self.env.single_observation_space.shape[0], int(self.env.single_action_space.n)
-        self.learner = learner_for(self.settings, size, n_actions)
+        self.learner = make_learner(self.settings, size, n_actions)
         if device != "cpu":
-            self.learner.to(device_named(device))
+            move_to(self.learner, device_named(device))
         self._teach = teacher_of(teacher, scenario)
         needed = any(s.asks_teacher for s in settings) or not getattr(teacher, "is_slow", False)
         self.asks = self.on_the_trap and needed
-        rows = self._demonstration_rows(demonstrations)
-        self.replay = self.learner.make_buffer(size, rows)
-        self.curves = self.learner.curves = Curves(self.n_agents, self.envs_per_agent, self.episodes)
+        self.replay = self.learner.make_buffer(size, self._demonstration_rows(demonstrations))
+        self.curves = Curves(self.n_agents, self.envs_per_agent, self.episodes)
         streams = [np.random.SeedSequence([s.seed]).spawn(2) for s in settings]
         self.act_rngs = [np.random.default_rng(act) for act, _ in streams]
         self.sample_rngs = [np.random.default_rng(sample) for _, sample in streams]
         first = whole(first_seed, "first_seed")
         seeds = [first + s.seed * 1000 + env for s in settings for env in range(self.envs_per_agent)]
         self.states, _ = self.env.reset(seed=seeds)
-        if any(s.restarts for s in settings) and not self.on_the_trap:
-            raise BootcourseError("Only the trap's roads can restart before an accident: give restart_share=0.")
-        self.restarts = Restarts(settings, self.env) if any(s.restarts for s in settings) else None
         self.rule_actions = self.taught()  # μ(s), (envs,)
         self.decisions, self.updates, self.seconds = 0, 0, 0.0
         self.losses: dict[str, Tensor] = {}  # of the last update, each (agents,)
@@ -117,7 +116,7 @@ class Training:
         self.stopped: dict[int, int] = {}  # {agent: the decision at which its loss was not finite}
         self.last_finite: dict[int, Agent] = {}  # {agent: a snapshot from an update with a finite loss}
         self.beta_start = np.array([s.beta_start for s in settings])
-        self.beta_episodes = np.array([s.beta_episodes for s in settings])
+        self.beta_episodes = np.array([np.inf if s.beta_episodes is None else s.beta_episodes for s in settings])
 
     def _demonstration_rows(self, given: Sequence[Rollout] | Tensor | None) -> Tensor | None:
         """The demonstrations for the replay buffer, (transitions, row); None if no agent needs any."""
@@ -188,9 +187,7 @@ class Training:
         )
         self.replay.add(rows.view(*shape, -1), done.reshape(shape))
         self.learner.note_episodes(done.reshape(shape), (self.curves.running[0] + rewards).reshape(shape))
-        self.curves.note(rewards, entropies, done, infos, self._coefficients())
-        if self.restarts and self.restarts.begin(self.env, self.curves, done, terminated, self.act_rngs):
-            next_states, next_rule_actions = self.env.observe(done), self.taught()
+        self.curves.note(rewards, entropies, done, infos, self.learner.coefficients() | {"beta": self.beta})
         self.states, self.rule_actions = next_states, next_rule_actions
         self.decisions += len(actions)
         for _ in range(self.learner.updates_due(self.replay, self.decisions // self.n_agents)):
@@ -259,12 +256,6 @@ class Training:
     def agent(self, i: int) -> Agent:
         """A snapshot of agent i."""
         return self.learner.agent(i).taught_by(self._teach)
-
-    def _coefficients(self) -> dict[str, np.ndarray]:
-        """α, ξ and β of each agent now, for the curves: {name: (agents,)}."""
-        self.learner.note_temperature()
-        alpha, xi = (tensor[:, 0].cpu().numpy() for tensor in (self.learner.alpha, self.learner.xi))
-        return {"alpha": alpha, "xi": xi, "beta": self.beta}
 
 
 def _success(curves: Curves) -> str:

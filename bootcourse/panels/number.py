@@ -1,6 +1,5 @@
 """A number to drag or to type, with a symbol, a unit and a sentence of help. It refuses what the library refuses."""
 
-import contextlib
 import math
 from collections.abc import Callable
 
@@ -11,38 +10,7 @@ from bootcourse.errors import BootcourseError
 from bootcourse.markup import html
 
 
-class Entry(widgets.VBox):
-    """A slider and a field for the same number, under a symbol; below them a sentence.
-
-    widths: of the symbol, the slider, the field and the whole, pixels.
-    """
-
-    def __init__(self, symbol: str, unit: str, help: str, slider, field: widgets.FloatText, widths, **traits):
-        self.slider, self.field, self.help = slider, field, widgets.HTML()
-        self.sentence, self._busy = help, False
-        slider.tooltip, field.tooltip = f"{symbol}: {help}", f"{symbol}, typed: {help}"
-        label = widgets.HTML(html("<b>{}</b>{}", symbol, f" ({unit})" if unit else ""))
-        row = widgets.HBox([label, slider, field], layout={"align_items": "center"})
-        super().__init__([row, self.help], **traits)
-        for part, width in zip((label, slider, field, self), widths, strict=True):
-            part.layout.width = f"{width}px"
-        self._tell()
-
-    @contextlib.contextmanager
-    def _showing(self):
-        """What the block writes into the controls is not an entry."""
-        self._busy = True
-        try:
-            yield
-        finally:
-            self._busy = False
-
-    def _tell(self, words: str = "", wrong: bool = False) -> None:
-        page = '<div class="bc-quiet bc-wrong" role="alert">{}</div>' if wrong else '<div class="bc-quiet">{}</div>'
-        self.help.value = html(page, words or self.sentence)
-
-
-class Number(Entry):
+class Number(widgets.VBox):
     """`value` is always accepted by `check`; a refused number changes nothing but the sentence.
 
     check: the library's validation, raises BootcourseError. low, high, step: of the slider; a typed
@@ -55,34 +23,40 @@ class Number(Entry):
         self, symbol: str, value: float, low: float, high: float, step: float, help: str, unit: str = "",
         check: Callable[[float], object] = lambda value: None, logarithmic: bool = False,
     ):  # fmt: skip
-        self.check, self.symbol, self.purpose = check, symbol, help
-        self.refused: float | None = None  # the number entered last, if it was refused,
-        self.wrong = ""  # and why it was
+        self.check, self.symbol, self.purpose, self.sentence = check, symbol, help, help
+        self.refused: float | None = None  # the number entered last, if it was refused
+        self._showing = False  # what `show` writes into the controls is not an entry
         make = widgets.FloatLogSlider if logarithmic else widgets.FloatSlider
-        slider = make(value=value, min=low, max=high, step=step, readout=False)
-        field = widgets.FloatText(value=value, step=step)
-        super().__init__(symbol, unit, help, slider, field, (92, 210, 88, 420), value=float(value))
+        self.slider = make(value=value, min=low, max=high, step=step, readout=False, tooltip=f"{symbol}: {help}")
+        self.field = widgets.FloatText(value=value, step=step, tooltip=f"{symbol}, typed: {help}")
+        self.help = widgets.HTML()
+        label = widgets.HTML(html("<b>{}</b>{}", symbol, f" ({unit})" if unit else ""))
+        row = widgets.HBox([label, self.slider, self.field], layout={"align_items": "center"})
+        super().__init__([row, self.help], value=float(value))
+        for part, width in ((label, 92), (self.slider, 210), (self.field, 88), (self, 420)):
+            part.layout.width = f"{width}px"
+        self._write()
         self.slider.observe(lambda change: self._enter(change["new"]), "value")
         self.field.observe(lambda change: self._enter(change["new"]), "value")
         self.observe(lambda change: self.show(), "value")
 
+    def _write(self, wrong: str = "") -> None:
+        """Write below the number what is wrong, or what it is for."""
+        page = '<div class="bc-quiet bc-wrong" role="alert">{}</div>' if wrong else '<div class="bc-quiet">{}</div>'
+        self.help.value = html(page, wrong or self.sentence)
+
     def _enter(self, value: float) -> None:
-        if self._busy:
+        if self._showing:
             return
         value = round(float(value), 10)
         try:
             self._refuse(value)
         except BootcourseError as error:
-            self.refused, self.wrong = value, str(error)
-            self._tell(self.wrong, wrong=True)
+            self.refused = value
+            self._write(str(error))
         else:
             self.value = value
             self.show()
-
-    def retry(self) -> None:
-        """Enter a refused number again, after another number has changed."""
-        if self.refused is not None:
-            self._enter(self.refused)
 
     def _refuse(self, value: float) -> None:
         """Raise BootcourseError unless the value is finite and `check` accepts it."""
@@ -97,20 +71,23 @@ class Number(Entry):
 
     def show(self) -> None:
         """Show the value, in place of a refused number; one beyond the slider's range puts it at its end."""
-        self.refused, self.wrong = None, ""
-        self._tell()
-        with self._showing():
-            low, high = self.slider.min, self.slider.max
-            if isinstance(self.slider, widgets.FloatLogSlider):
-                low, high = self.slider.base**low, self.slider.base**high
+        self.refused = None
+        self._write()
+        low, high = self.slider.min, self.slider.max
+        if isinstance(self.slider, widgets.FloatLogSlider):
+            low, high = self.slider.base**low, self.slider.base**high
+        self._showing = True
+        try:
             self.slider.value = min(max(self.value, low), high)
             self.field.value = self.value
+        finally:
+            self._showing = False
 
     def lock(self, why: str = "") -> None:
         """Switch it off and say why; without a reason, switch it on again."""
         self.slider.disabled = self.field.disabled = bool(why)
         self.sentence = why or self.purpose
-        self._tell()
+        self._write()
 
 
 def moment(decisions: int, rate: float, help: str, drive: str) -> Number:

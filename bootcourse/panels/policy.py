@@ -151,7 +151,8 @@ def action_table(seen: PolicyNumbers, p: float, xi: float, alpha: float, who: st
 
 def heading(x: float, symbol: str, words: str, colour: str) -> list[str]:
     """A column's symbol, and below it what the symbol stands for."""
-    return [text(x, ROWS - 25, symbol, fill=colour, size=13, bold=True), text(x, ROWS - 9, words, fill=QUIET, size=11)]
+    square = rect(x, ROWS - 35, 10, 10, colour, 'rx="1.5"')
+    return [square, text(x + 15, ROWS - 25, symbol, size=13, bold=True), text(x, ROWS - 9, words, fill=QUIET, size=11)]
 
 
 def two_digits(value: float) -> str:

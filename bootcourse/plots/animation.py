@@ -19,7 +19,7 @@ from bootcourse.episodes.words import cars_at, doing, outcome, overtaken, senten
 from bootcourse.errors import BootcourseError
 from bootcourse.files import check_replaceable, write_bytes
 from bootcourse.methods import display_name, style
-from bootcourse.plots.figure import INK, QUIET, WIDTH, as_written, new_figure
+from bootcourse.plots.figure import INK, QUIET, WIDTH, as_written, axes_at, new_figure
 from bootcourse.plots.top_view import draw_moment
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, X
 
@@ -42,13 +42,13 @@ def frame(rollouts: Sequence[Rollout], time: float) -> Figure:
     for i, rollout in enumerate(rollouts):
         now = min(time, float(rollout.times[-1]))
         cars = cars_at(rollout, now)
-        bottom = total - (i + 1) * (row + head)
-        ax = figure.add_axes((side / WIDTH, bottom / total, width / WIDTH, row / total))
+        top = i * (row + head) + head
+        ax = axes_at(figure, side, top, width, row)
         ax.set_axis_off()
         middle = (cars[EGO, X] + cars[TRAP_1, X]) / 2
         draw_moment(ax, rollout, now, -VIEW / 2, VIEW / 2, origin=middle)
         over = rollout.accident and now == rollout.times[-1]
-        write = {"y": (bottom + row + 0.1) / total, "va": "baseline"}
+        write = {"y": 1 - (top - 0.1) / total, "va": "baseline"}
         bold, driver = {"fontsize": 10.5, "fontweight": "bold"} | write, sentence(display_name(rollout.label))
         figure.text(side / WIDTH, s=driver, color=style(rollout.label).colour, **bold)
         figure.text(0.37, s=doing(rollout, now), fontsize=9, color=ALARM if over else INK, **write)

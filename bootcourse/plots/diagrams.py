@@ -8,7 +8,7 @@ from bootcourse.markup import html
 from bootcourse.plots.figure import Picture
 from bootcourse.plots.svg import FONT
 
-TINTS = {"world": "#009E73", "learned": "#0072B2", "kept": "#E69F00"}  # of a box's border and, faintly, of its inside
+TINTS = {"world": "#009E73", "learned": "#0072B2", "stored": "#E69F00"}  # of a box's border and, faintly, of its inside
 TIP = 9  # length of an arrow's head, pixels
 
 
@@ -84,14 +84,14 @@ SAC_PARTS: Mapping[str, tuple] = {  # name -> left, top, lines, tint; each 140 w
     "world": (8, 30, ("world", "road or pole"), "world"),
     "actor": (230, 30, ("actor π", "chooses actions"), "learned"),
     "temperature": (452, 30, ("temperature α", "worth of a nat"), "learned"),
-    "buffer": (8, 220, ("replay buffer", "what happened"), "kept"),
+    "buffer": (8, 220, ("replay buffer", "what happened"), "stored"),
     "critics": (230, 220, ("critics Q₁, Q₂", "judge actions"), "learned"),
-    "targets": (452, 220, ("target critics", "slow copies"), "kept"),
+    "targets": (452, 220, ("target critics", "slow copies"), "stored"),
 }
 
 
 def sac_diagram() -> Diagram:
-    """Soft actor-critic: what acts, what is learned, what is kept, and what passes between them."""
+    """Soft actor-critic: what acts, what is learned, what is stored, and what passes between them."""
     parts = [box(left, top, 140, 64, lines, tint) for left, top, lines, tint in SAC_PARTS.values()]
     parts += [
         arrow(230, 50, 150, 50), label(190, 42, "action"),

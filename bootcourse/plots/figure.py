@@ -48,6 +48,13 @@ def new_figure(height: float = 4.0, width: float = WIDTH) -> Figure:
     return Figure(figsize=(width, height), dpi=DPI, facecolor="white")
 
 
+def axes_at(figure: Figure, left: float, top: float, width: float, height: float) -> Axes:
+    """New axes of that size in a figure, their top left corner at (left, top) from the figure's; inches."""
+    whole_width, whole_height = figure.get_size_inches()
+    below = 1 - (top + height) / whole_height
+    return figure.add_axes((left / whole_width, below, width / whole_width, height / whole_height))
+
+
 def finish(figure: Figure, title: str, alt: str) -> Figure:
     """Write the title at the top left and attach the alt text. Each line of the title is a sentence."""
     top = 1 - 0.1 / figure.get_figheight()

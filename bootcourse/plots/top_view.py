@@ -15,7 +15,7 @@ from bootcourse.episodes.words import cars_at, doing, outcome, overtaken, senten
 from bootcourse.errors import BootcourseError
 from bootcourse.methods import display_name, style
 from bootcourse.plots.canvas import MplAxes
-from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, WIDTH, finish, new_figure
+from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, WIDTH, axes_at, finish, new_figure
 from bootcourse.plots.road import draw_cars, draw_road, edges_of
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, X, Y
 from bootcourse.scenario import Scenario
@@ -60,7 +60,7 @@ def top_view(rollout: Rollout, time: float = 0.0, distances: bool = False, title
     below = 6.2 if distances else 0.0  # m of room for the two arrows
     height = (road + below) * width / (right - left)
     figure = new_figure(height + 0.86)
-    ax = figure.add_axes((0.6 / WIDTH, 0.46 / (height + 0.86), width / WIDTH, height / (height + 0.86)))
+    ax = axes_at(figure, 0.6, 0.4, width, height)
     draw_moment(ax, rollout, time, left, right)
     ax.set_ylim(ax.get_ylim()[0] + below, ax.get_ylim()[1])
     _metres(ax)
@@ -96,8 +96,8 @@ def top_view_over_time(rollout: Rollout, times: Sequence[float] | None = None, t
     total = head + len(times) * (row + gap) + foot
     figure = new_figure(total)
     for i, time in enumerate(times):
-        bottom = total - head - (i + 1) * (row + gap)
-        ax = figure.add_axes((margin / WIDTH, bottom / total, width / WIDTH, row / total))
+        top = head + i * (row + gap) + gap
+        ax = axes_at(figure, margin, top, width, row)
         draw_moment(ax, rollout, time, left, right)
         ax.set_yticks([])
         _metres(ax, last=i == len(times) - 1)
@@ -111,7 +111,7 @@ def top_view_over_time(rollout: Rollout, times: Sequence[float] | None = None, t
             (-0.14, f"{cars[EGO, SPEED]:.1f} m/s", {"fontsize": SMALL, "color": QUIET}),
         )
         for higher, text, letters in lines:
-            figure.text(0.012, (bottom + row / 2 + higher) / total, text, va="center", **letters)
+            figure.text(0.012, 1 - (top + row / 2 - higher) / total, text, va="center", **letters)
     story = "; ".join(f"at {t:.3g} s: {doing(rollout, t)}, {_gap_in_words(rollout, t)}" for t in times)
     words = sentence(f"{display_name(rollout.label)}: {outcome(rollout)}")
     return finish(figure, title or words, f"The road from above at {len(times)} moments. {sentence(story)}.")
@@ -133,11 +133,11 @@ def key_moments(rollout: Rollout, most: int = 6) -> list[float]:
         lanes = np.flatnonzero(np.diff(states[:, EGO, LANE])) + 1
         moments += [until, passes, *times[lanes[times[lanes] < passes]][:2], times[np.argmin(ahead)]]
     moments += list(np.round(np.linspace(0, until, most if moments[1:] else 4)))
-    kept = []
-    for moment in moments:
-        if len(kept) < most and moment <= end and all(abs(moment - other) >= 1 for other in kept):
-            kept.append(float(moment))
-    return sorted(kept)
+    chosen: list[float] = []
+    for moment in moments:  # the first ones matter most
+        if len(chosen) < most and moment <= end and all(abs(moment - other) >= 1 for other in chosen):
+            chosen.append(float(moment))
+    return sorted(chosen)
 
 
 def _within(rollout: Rollout, times: Sequence[float]) -> list[float]:

@@ -16,6 +16,7 @@ from bootcourse.plots.figure import (
     SMALL,
     TEXT,
     WIDTH,
+    axes_at,
     finish,
     in_front,
     label_ends,
@@ -71,10 +72,10 @@ def traces(
     heights = [PANELS[panel][1] for panel, _ in panels]
     head = HEAD + LINE * len(wrapped(title).splitlines())
     total = head + sum(heights) + GAP * (len(heights) - 1) + FOOT
-    figure, top = new_figure(total), total - head
+    figure, top = new_figure(total), head
     for k, ((panel, i), height) in enumerate(zip(panels, heights, strict=True)):
-        ax = figure.add_axes((LEFT / WIDTH, (top - height) / total, (WIDTH - LEFT - RIGHT) / WIDTH, height / total))
-        top -= height + GAP
+        ax = axes_at(figure, LEFT, top, WIDTH - LEFT - RIGHT, height)
+        top += height + GAP
         label = PANELS[panel][0] if i is None else f"actions: {names[i]}"
         plain_axes(ax, label)
         ax.set_xlim(0, until)
@@ -89,12 +90,12 @@ def traces(
         ax.tick_params(axis="x", labelbottom=last)
         if last:
             ax.set_xlabel("time (s)", fontsize=TEXT, color=INK)
-    told = []
+    stories = []
     for each, drive in zip(names, drives, strict=True):
-        ends = outcome(drive)
-        told.append(f"{each}: {_numbers(drive)}" if ends in title else f"{each}: {ends}, {_numbers(drive)}")
+        end = outcome(drive)
+        stories.append(f"{each}: {_numbers(drive)}" if end in title else f"{each}: {end}, {_numbers(drive)}")
     drawn = ", ".join(panel for panel in PANELS if panel in what)
-    alt = f"Over {until:g} s, below each other: {drawn}. Whole drives: {'; '.join(told)}."
+    alt = f"Over {until:g} s, below each other: {drawn}. Whole drives: {'; '.join(stories)}."
     return finish(figure, title, alt)
 
 

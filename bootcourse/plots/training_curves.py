@@ -12,7 +12,18 @@ from bootcourse.episodes.words import sentence
 from bootcourse.errors import BootcourseError
 from bootcourse.methods import display_name, style
 from bootcourse.plots.canvas import Canvas, MplAxes
-from bootcourse.plots.figure import QUIET, SMALL, finish, in_front, label_ends, new_figure, plain_axes, styles, wrapped
+from bootcourse.plots.figure import (
+    QUIET,
+    SMALL,
+    axes_at,
+    finish,
+    in_front,
+    label_ends,
+    new_figure,
+    plain_axes,
+    styles,
+    wrapped,
+)
 from bootcourse.plots.svg import number
 from bootcourse.statistics import band, iqm, rolling_means
 
@@ -102,8 +113,7 @@ def training_curves(
     figure = new_figure(total, 9.0)
     ends: dict[str, dict[str, float]] = {}
     for i, measure in enumerate(measures):
-        bottom = total - head - (i // 2 + 1) * row + 0.85
-        ax = figure.add_axes((0.05 + 0.49 * (i % 2), bottom / total, 0.32, (row - 0.85) / total))
+        ax = axes_at(figure, 0.45 + 4.41 * (i % 2), head + (i // 2) * row, 2.88, row - 0.85)
         plain_axes(ax, MEASURES[measure].label)
         ax.set_xlim(0, max(episodes, 1))
         ax.set_xlabel("training episode", fontsize=SMALL, color=QUIET)
@@ -117,26 +127,26 @@ def training_curves(
     return finish(figure, title, _alt(curves, ends))
 
 
-def _draw(ax, measure: str, curves, looks, window: int, constants, paper) -> dict[str, float]:
+def _draw(ax, name: str, curves, looks, window: int, constants, paper) -> dict[str, float]:
     """One measure of all methods; returns where each method's line ends."""
-    its, canvas, ends, labels = MEASURES[measure], MplAxes(ax), {}, []
+    measure, canvas, ends, labels = MEASURES[name], MplAxes(ax), {}, []
     for method in sorted(curves, key=in_front):
-        at, means = rolling_means(_values(curves, method, measure) * its.factor, window, POINTS)
+        at, means = rolling_means(_values(curves, method, name) * measure.factor, window, POINTS)
         draw_band(canvas, at, means, looks[method].colour)
         end = draw_training(canvas, at, means, looks[method])
         ends[method] = end if np.isfinite(end) else float(np.nanmean(means))
         labels.append((ends[method], display_name(method), looks[method].colour))
     for method, values in constants.items():
-        if measure in values:
-            look, level = style(method), values[measure] * its.factor
+        if name in values:
+            look, level = style(method), values[name] * measure.factor
             ax.axhline(level, color=look.colour, linestyle=look.line, linewidth=look.width, zorder=1.5)
             labels.append((level, display_name(method), look.colour))
     for method, values in paper.items():
-        if measure in values:
-            place, look = values[measure] * its.factor, {"mfc": "white", "mec": style(method).colour, "ms": 5}
+        if name in values:
+            place, look = values[name] * measure.factor, {"mfc": "white", "mec": style(method).colour, "ms": 5}
             ax.plot(1.0, place, "D", **look, transform=ax.get_yaxis_transform(), clip_on=False, zorder=6)
-    low, high = its.limits or ax.get_ylim()
-    air = 0.03 * (high - low) if its.limits else max(0.0, its.least - (high - low)) / 2
+    low, high = measure.limits or ax.get_ylim()
+    air = 0.03 * (high - low) if measure.limits else max(0.0, measure.least - (high - low)) / 2
     ax.set_ylim(low - air, high + air)
     label_ends(ax, labels, size=SMALL, wrap=22, gap=0.035)
     return ends
@@ -157,9 +167,9 @@ def _values(curves: Mapping, method: str, measure: str) -> np.ndarray:
 
 
 def _alt(curves: Mapping, ends: Mapping[str, Mapping[str, float]]) -> str:
-    told = []
+    ends_of_methods = []
     for method in curves:
         agents = len(next(iter(curves[method].values())))
         values = ", ".join(f"{MEASURES[measure].label} {ends[measure][method]:.3g}" for measure in ends)
-        told.append(f"{display_name(method)} ({agents} agent{'s' * (agents > 1)}) ends at {values}")
-    return f"Curves over the episodes of training. {sentence('; '.join(told))}."
+        ends_of_methods.append(f"{display_name(method)} ({agents} agent{'s' * (agents > 1)}) ends at {values}")
+    return f"Curves over the episodes of training. {sentence('; '.join(ends_of_methods))}."

@@ -162,8 +162,8 @@ class Recording:
 
     def _repr_mimebundle_(self, include=None, exclude=None) -> dict:
         page = '<details><summary>In words</summary><pre style="white-space:pre-wrap">{}</pre></details>'
-        told = html(page, self.words) if self.words else ""
-        return {"text/html": str(self.html_with_poster() + told), "text/plain": self.alt}
+        in_words = html(page, self.words) if self.words else ""
+        return {"text/html": str(self.html_with_poster() + in_words), "text/plain": self.alt}
 
 
 def recording(

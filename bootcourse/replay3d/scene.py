@@ -120,31 +120,27 @@ def view(timelines: list[Timeline], t: float, layout: str = ROADS, follow: int =
     shifts = offsets(len(timelines), road.lanes, road.lane_width, layout)
     moments = [timeline.at(t) for timeline in timelines]
     views = []
-    for k, (timeline, moment) in enumerate(zip(timelines, moments, strict=True)):
+    for timeline, moment, offset in zip(timelines, moments, shifts, strict=True):
         leader = moment if layout == ROADS else moments[follow]
-        views.append(_drive(timeline, moment, t, float(leader.x[EGO]), shifts[k]))
+        anchor, ended = float(leader.x[EGO]), t >= timeline.duration
+        x, y = to_world(moment.x - anchor, moment.y)
+        marked = moment.crashed.copy()
+        marked[EGO] |= ended and timeline.rollout.accident != Accident.NONE
+        view = DriveView(
+            anchor=anchor,
+            offset=offset,
+            x=x,
+            y=y,
+            yaw=to_yaw(moment.heading),
+            lamps=tuple("brake" if a < BRAKES else "power" if a > PUSHES else "off" for a in moment.acceleration),
+            marked=marked,
+            crumbs=crumbs(timeline, t),
+            rule=_rule_marks(timeline, moment, t, anchor),
+            labels=_labels(timeline, moment, ended),
+            ended=ended,
+        )
+        views.append(view)
     return views
-
-
-def _drive(timeline: Timeline, moment: Moment, t: float, anchor: float, offset: float) -> DriveView:
-    x, y = to_world(moment.x - anchor, moment.y)
-    ended = t >= timeline.duration
-    marked = moment.crashed.copy()
-    if ended and timeline.rollout.accident != Accident.NONE:
-        marked[EGO] = True
-    return DriveView(
-        anchor=anchor,
-        offset=offset,
-        x=x,
-        y=y,
-        yaw=to_yaw(moment.heading),
-        lamps=tuple("brake" if a < BRAKES else "power" if a > PUSHES else "off" for a in moment.acceleration),
-        marked=marked,
-        crumbs=crumbs(timeline, t),
-        rule=_rule_marks(timeline, moment, t, anchor),
-        labels=_labels(timeline, moment, ended),
-        ended=ended,
-    )
 
 
 def crumbs(timeline: Timeline, t: float) -> np.ndarray:

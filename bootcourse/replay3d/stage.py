@@ -11,7 +11,7 @@ import numpy as np
 
 from bootcourse.colours import ALARM, rgb
 from bootcourse.errors import BootcourseError
-from bootcourse.methods import style
+from bootcourse.methods import display_name, style
 from bootcourse.replay3d import scene
 from bootcourse.replay3d.camera import CHASE, FIELD_OF_VIEW, pose
 from bootcourse.replay3d.car import CRUMB, DARK, LAMPS, LIGHT, Mesh, car_parts, paint, quads, ring
@@ -46,7 +46,7 @@ class Options:
 class Drive:
     """The nodes of one drive."""
 
-    label: str
+    name: str  # of the driver
     road: object = None
     cars: dict = field(default_factory=dict)  # car -> its frame
     lamps: dict = field(default_factory=dict)
@@ -115,7 +115,12 @@ class Stage:
     def _surroundings(self) -> None:
         colours, api = THEMES[self.options.dark], self.server.scene
         self.server.gui.configure_theme(dark_mode=self.options.dark, show_logo=False, show_share_button=False)
-        self._lights(api)
+        # Two plain lights and no environment map, so that a car has the same colour as in a figure. Without a graphics
+        # card, more lights and finer materials cost time at every pixel.
+        api.configure_default_lights(enabled=False)
+        api.configure_environment_map(None)
+        api.add_light_ambient("/lights/ambient", intensity=1.5)
+        api.add_light_directional("/lights/sun", position=(-30.0, -25.0, 60.0), intensity=1.3)
         api.configure_fog(150.0, 420.0, color=_linear(colours.horizon))
         api.set_background_image(_sky(colours.sky, colours.horizon), format="png")
         api.world_axes.visible = False
@@ -123,16 +128,6 @@ class Stage:
         camera, place = self.server.initial_camera, pose(CHASE, self.span)
         camera.position, camera.look_at, camera.fov = place.position, place.look_at, FIELD_OF_VIEW
         camera.near, camera.far = 0.5, 2000.0
-
-    def _lights(self, api) -> None:
-        """Two plain lights and no environment map, so that a car has the same colour as in a figure.
-
-        Without a graphics card, more lights and finer materials cost time at every pixel.
-        """
-        api.configure_default_lights(enabled=False)
-        api.configure_environment_map(None)
-        api.add_light_ambient("/lights/ambient", intensity=1.5)
-        api.add_light_directional("/lights/sun", position=(-30.0, -25.0, 60.0), intensity=1.3)
 
     def _drive(self, k: int) -> Drive:
         timeline, options, api = self.timelines[k], self.options, self.server.scene
@@ -142,7 +137,7 @@ class Stage:
         base = f"/drive{k}"
         views = scene.view(self.timelines, 0.0, options.layout, options.follow)
         api.add_frame(base, show_axes=False, position=(0.0, views[k].offset, 0.0))
-        drive = Drive(rollout.label)
+        drive = Drive(display_name(rollout.label))
         drive.road = api.add_frame(f"{base}/road", show_axes=False)
         if not ghost:
             self._road(f"{base}/road", rollout, colours)
@@ -222,7 +217,7 @@ class Stage:
         for car, label in drive.labels.items():
             text = view.labels.get(car, "")
             if car == EGO and names:
-                text = f"{drive.label}: {text}" if text else drive.label
+                text = f"{drive.name}: {text}" if text else drive.name
             if text:
                 self._set(label, text=text)
             self._set(label, visible=bool(text) and (options.labels or car == EGO))

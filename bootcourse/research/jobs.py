@@ -29,8 +29,8 @@ from bootcourse.learn.training import Result, Training
 from bootcourse.research.planner import Search, is_staying_optimal, plan_episodes
 from bootcourse.research.teachers import RULE, teacher_named
 from bootcourse.scenario import Scenario
-from bootcourse.storage.checkpoint import DamagedCheckpoint
-from bootcourse.storage.runs import load_checkpoint, save_checkpoint, save_runs
+from bootcourse.storage.checkpoint import DamagedCheckpoint, load_checkpoint, save_checkpoint
+from bootcourse.storage.runs import save_runs
 from bootcourse.storage.sealed import is_file_with, read_sealed, write_sealed
 from bootcourse.storage.work import Checkpoints
 

@@ -1,8 +1,7 @@
 """The observation: 26 numbers (Section III-C, "State"), scaled to order one.
 
 (p, x, y, v_lon, v_lat, d_e) of the ego, then (p, Δx, Δy, Δv_lon, Δv_lat) of the four nearest cars within 200 m,
-nearest first; a missing car is five zeros. With a memory the numbers of the decisions before follow, the newest first.
-At an episode's start the memory is filled with the start.
+nearest first; a missing car is five zeros.
 """
 
 import math
@@ -30,15 +29,13 @@ NEIGHBOUR_SCALES = (1.0, DX_SCALE, Y_SCALE, DV_SCALE, V_LAT_SCALE)
 
 def scales(scenario: Scenario) -> np.ndarray:
     """The scale that each number of an observation is divided by, (observation_size,)."""
-    return np.array(scenario.sight.memory * (EGO_SCALES + scenario.sight.neighbours * NEIGHBOUR_SCALES))
+    return np.array(EGO_SCALES + scenario.sight.neighbours * NEIGHBOUR_SCALES)
 
 
 def names(scenario: Scenario) -> list[str]:
-    """A name for each number of an observation, such as "x", "car 2 dx" and "x, 1 decision ago"."""
+    """A name for each number of an observation, such as "x" and "car 2 dx"."""
     cars = range(1, scenario.sight.neighbours + 1)
-    now = [*EGO_NAMES, *(f"car {n} {name}" for n in cars for name in NEIGHBOUR_NAMES)]
-    ago = [f"{name}, {k} decision{'s' * (k > 1)} ago" for k in range(1, scenario.sight.memory) for name in now]
-    return now + ago
+    return [*EGO_NAMES, *(f"car {n} {name}" for n in cars for name in NEIGHBOUR_NAMES)]
 
 
 def bounds(scenario: Scenario) -> tuple[np.ndarray, np.ndarray]:
@@ -50,7 +47,7 @@ def bounds(scenario: Scenario) -> tuple[np.ndarray, np.ndarray]:
     across = s.road.lanes * s.road.lane_width + overshoot
     ego = [1, s.road.length + overshoot, across, fastest, fastest, across]
     neighbour = [1, s.sight.distance, s.sight.distance, 2 * fastest, 2 * fastest]
-    high = np.array(s.sight.memory * (ego + s.sight.neighbours * neighbour)) / scales(s)
+    high = np.array(ego + s.sight.neighbours * neighbour) / scales(s)
     low = np.where(["presence" in name for name in names(s)], 0.0, -high)
     return low.astype(np.float32), high.astype(np.float32)
 

@@ -103,7 +103,6 @@ class TrapEnv(AbstractEnv):
         self.accident = Accident.NONE
         self._terms = (0.0, 0.0, 0.0)
         self.trace: list[np.ndarray] = []  # the state after each simulation step of the last decision
-        self._seen = np.zeros((scenario.sight.memory, scenario.sight.numbers), dtype=np.float32)  # newest first
         super().__init__(config, render_mode)
         self.update_metadata()
 
@@ -144,9 +143,7 @@ class TrapEnv(AbstractEnv):
         self._reset()
         if self.render_mode == "human":
             self.render()
-        self._observe(self.cars())
-        self._seen[1:] = self._seen[0]
-        return self._seen.flatten(), self._info()
+        return self._observe(self.cars()), self._info()
 
     def _reset(self) -> None:
         start = twin.empty_cars(1, self.scenario.vehicles)[0]
@@ -209,9 +206,9 @@ class TrapEnv(AbstractEnv):
         return cars
 
     def _observe(self, cars: np.ndarray) -> np.ndarray:
-        self._seen[1:] = self._seen[:-1]
-        observe(cars, self.constants, self._seen[0])
-        return self._seen.flatten()
+        observation = np.empty(self.scenario.observation_size, dtype=np.float32)
+        observe(cars, self.constants, observation)
+        return observation
 
     def _reward(self, action: int) -> float:
         weights = self.scenario.reward

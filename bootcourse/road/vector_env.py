@@ -65,7 +65,6 @@ class TrapVectorEnv(VectorEnv):
         self.placed = np.zeros(n, dtype=bool)  # roads that were reset
         self._uniforms = twin.uniforms_needed(vehicles)
         self._generators = [seeding.np_random()[0] for _ in range(n)]
-        self.seen = np.zeros((scenario.sight.memory, n, scenario.sight.numbers), dtype=np.float32)  # newest first
         self._rewards, self._terms = np.zeros(n), np.zeros((n, 3))
         self._accidents = np.zeros(n, dtype=np.int64)
 
@@ -92,7 +91,7 @@ class TrapVectorEnv(VectorEnv):
                     self._generators[i] = seeding.np_random(seeds[i])[0]
         self._start(mask)
         self._rewards[mask], self._terms[mask], self._accidents[mask] = 0.0, 0.0, 0
-        return self.observe(mask), self._infos(mask)
+        return self.observe(), self._infos(mask)
 
     def step(self, actions):
         """One decision on every road, actions (num_envs,).
@@ -116,7 +115,6 @@ class TrapVectorEnv(VectorEnv):
         terminated = self._accidents != 0
         truncated = ~terminated & (self.decisions >= self.scenario.clock.decisions)
         rewards = self._rewards.copy()
-        self.seen[1:] = self.seen[:-1]
         observations, infos = self.observe(), self._infos(~self.asleep)
         done = terminated | truncated
         if self.metadata["autoreset_mode"] is AutoresetMode.DISABLED:
@@ -124,15 +122,14 @@ class TrapVectorEnv(VectorEnv):
         elif done.any():
             self.final_cars = self.cars.copy()
             infos = self._restart(done, observations, infos)
-            observations = self.observe(done)
+            observations = self.observe()
         return observations, rewards, terminated, truncated, infos
 
-    def observe(self, began: np.ndarray | None = None) -> np.ndarray:
-        """The present observations, (num_envs, 26); began (num_envs,) bool: roads that remember only the present."""
-        observe_all(self.cars, self.constants, self.seen[0])
-        if began is not None:
-            self.seen[1:, began] = self.seen[0, began]
-        return np.hstack(self.seen)
+    def observe(self) -> np.ndarray:
+        """The present observations, (num_envs, 26)."""
+        observations = np.empty((self.num_envs, self.scenario.observation_size), dtype=np.float32)
+        observe_all(self.cars, self.constants, observations)
+        return observations
 
     def _start(self, mask: np.ndarray) -> None:
         for i in np.flatnonzero(mask):

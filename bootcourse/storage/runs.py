@@ -21,12 +21,11 @@ import torch
 from msgspec import Meta, Struct, convert
 from safetensors.torch import save
 
-from bootcourse.errors import BootcourseError, RuleFailed
+from bootcourse.errors import BootcourseError
 from bootcourse.files import (
     TEMPORARY,
     check_arrays,
     decoding,
-    parse,
     provenance,
     read_arrays,
     read_json,
@@ -40,16 +39,14 @@ from bootcourse.learn.agent import Agent
 from bootcourse.learn.curves import NAMES
 from bootcourse.learn.settings import Settings, stored_settings
 from bootcourse.learn.teachers import Rule, course_rule, teacher_name, teacher_of
-from bootcourse.learn.training import Result, Training, device_named
+from bootcourse.learn.training import Result
+from bootcourse.methods import METHODS
 from bootcourse.scenario import N_ACTIONS, Scenario
-from bootcourse.storage.checkpoint import DamagedCheckpoint, restored, state_of
-from bootcourse.storage.sealed import seal, write_sealed
+from bootcourse.storage.sealed import read_sealed, write_sealed
 
 FORMAT = "bootcourse run 1"
-CHECKPOINT_FORMAT = "bootcourse checkpoint 2"
 UNFINISHED = "unfinished"  # the folder of a training that is not over, beside the runs
 HASHED = ("config.json", "weights.safetensors", "curves.npz")
-BEGIN_AGAIN = "begin again in a new folder, or restore it from a copy"
 TRAIN_AGAIN = "train this run again, or restore it from a copy"
 
 
@@ -71,19 +68,8 @@ class Provenance(Struct):
     seed: Annotated[int, Meta(ge=0)]
     seconds: Annotated[float, Meta(ge=0)]
     agents: Annotated[int, Meta(ge=1)]
-    stopped_at_decision: Annotated[int, Meta(ge=0)] | None = None
-    teacher: str = "rule"  # absent in files of earlier versions
-
-
-class CheckpointConfig(Struct, forbid_unknown_fields=True):
-    """What a checkpoint holds beside the state of the training."""
-
-    FORMAT: ClassVar[str] = CHECKPOINT_FORMAT
-    format: str
-    settings: list[dict[str, Any]]
-    scenario: dict[str, Any]
-    episodes: Annotated[int, Meta(ge=1)]
-    teacher: str
+    stopped_at_decision: Annotated[int, Meta(ge=0)] | None
+    teacher: str  # see `teacher_name`
 
 
 @dataclass(frozen=True)
@@ -161,13 +147,7 @@ def load_run(path: Path, teacher: Rule = course_rule) -> Run:
     path = Path(path)
     if not (path / "provenance.json").is_file():
         raise BootcourseError(f"{path} is not a run: train one with `bootcourse train --out {path}`.")
-    made = read_json(path / "provenance.json", dict[str, Any], TRAIN_AGAIN)
-    sealed = made.pop("seal", None)
-    former = sealed is None and "teacher" not in made  # files of earlier versions have neither
-    if not former and sealed != seal(made):
-        raise BootcourseError(
-            f"{path / 'provenance.json'} is damaged: it does not fit its own hash. Train this run again."
-        )
+    made = read_sealed(path / "provenance.json", remedy=TRAIN_AGAIN)
     with decoding(path / "provenance.json", TRAIN_AGAIN):
         stored = convert(made, Provenance)
     for name in HASHED:
@@ -180,7 +160,9 @@ def load_run(path: Path, teacher: Rule = course_rule) -> Run:
     check_arrays(
         curves, dict.fromkeys(curves.keys() & set(NAMES), (config.episodes,)), path / "curves.npz", TRAIN_AGAIN
     )
-    weights, shapes = read_tensors(path / "weights.safetensors", TRAIN_AGAIN), _shapes(settings, scenario)
+    kind = METHODS[settings.method].learner_class()
+    shapes = _shapes(settings, scenario, kind.n_critics(settings))
+    weights = read_tensors(path / "weights.safetensors", TRAIN_AGAIN)
     check_arrays(weights, shapes, path / "weights.safetensors", TRAIN_AGAIN)
     if not all(np.isfinite(values).all() for values in weights.values()):
         raise BootcourseError(f"{path / 'weights.safetensors'} holds NaN or infinity: {TRAIN_AGAIN}.")
@@ -195,12 +177,12 @@ def load_run(path: Path, teacher: Rule = course_rule) -> Run:
     return Run(agent, curves, scenario, made)
 
 
-def _shapes(settings: Settings, scenario: Scenario) -> dict[str, tuple[int, int, int]]:
+def _shapes(settings: Settings, scenario: Scenario, critics: int) -> dict[str, tuple[int, int, int]]:
     """The shapes of an agent's weights and biases (see networks.py), by their names in the file."""
     layers = list(pairwise((scenario.observation_size, *settings.hidden, N_ACTIONS)))
     rows = [(inputs, outputs) for n_in, outputs in layers for inputs in (n_in, 1)]
-    parts = (("actor", 1), ("critics", settings.n_critics))
-    return {f"{part}.{i}": (n, *row) for part, n in parts for i, row in enumerate(rows)}
+    parts = (("actor", 1), ("critics", critics))
+    return {f"{part}.{i}": (n, *row) for part, n in parts if n for i, row in enumerate(rows)}
 
 
 def find_runs(folder: Path) -> list[Path]:
@@ -219,42 +201,6 @@ def find_runs(folder: Path) -> list[Path]:
     if deeper := sorted(folder.glob("[!.]*/[!.]*/config.json")):
         raise BootcourseError(f"{folder} holds no run itself: name a folder in it, such as {deeper[0].parents[1]}.")
     raise BootcourseError(f"{folder} holds no run: train one with `bootcourse train --out {folder}`.")
-
-
-def save_checkpoint(training: Training, path: Path) -> None:
-    """Write a training in progress to one file. Raises BootcourseError off the trap, or if it cannot be written."""
-    config = {
-        "format": CHECKPOINT_FORMAT,
-        "settings": [asdict(settings) for settings in training.settings],
-        "episodes": training.episodes,
-        "scenario": json.loads(training.scenario.to_json()),
-        "teacher": teacher_name(training.teacher),
-    }
-    write_arrays(path, {**state_of(training), "config": np.array(json.dumps(config))}, compress=False)
-
-
-def load_checkpoint(path: Path, teacher: Rule = course_rule, device: str = "cpu") -> Training:
-    """The training that `save_checkpoint` wrote, to be continued with the same teacher, on any device.
-
-    Raises DamagedCheckpoint if the file cannot be read, BootcourseError for another teacher, for a device that torch
-    does not find, and, as RuleFailed, for a teacher that fails.
-    """
-    device_named(device)
-    try:
-        arrays = read_arrays(path, BEGIN_AGAIN)
-        with decoding(path, BEGIN_AGAIN):
-            config = parse(str(arrays.pop("config")), CheckpointConfig, path, BEGIN_AGAIN)
-            settings = [stored_settings(stored) for stored in config.settings]
-            scenario = Scenario.from_json(json.dumps(config.scenario))
-            if teacher_name(teacher) == config.teacher:
-                return restored(settings, config.episodes, scenario, teacher, arrays, device)
-    except RuleFailed:
-        raise
-    except BootcourseError as error:
-        raise DamagedCheckpoint(str(error)) from None
-    raise BootcourseError(
-        f"{path} began with the teacher '{config.teacher}', not '{teacher_name(teacher)}': give the same teacher."
-    )
 
 
 def _commit() -> str:

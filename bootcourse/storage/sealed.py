@@ -5,7 +5,7 @@ import json
 from pathlib import Path
 
 from bootcourse.errors import BootcourseError
-from bootcourse.files import read_json, sha256, write_json
+from bootcourse.files import COPY, read_json, sha256, write_json
 
 
 def write_sealed(path: Path, content: dict) -> None:
@@ -13,18 +13,14 @@ def write_sealed(path: Path, content: dict) -> None:
     write_json(path, content | {"seal": seal(content)})
 
 
-def read_sealed(path: Path, format: str, *former: str | None) -> dict:
-    """The object that `write_sealed` wrote, with the given "format". former: formats that have no seal yet.
+def read_sealed(path: Path, format: str | None = None, remedy: str = COPY) -> dict:
+    """The object that `write_sealed` wrote. format: the text that its "format" must be; None: it has no such entry.
 
     Raises BootcourseError if the file is missing, damaged, or of another version.
     """
-    content = read_json(path)
-    if not isinstance(content, dict):
-        raise BootcourseError(f"{path} is damaged: it is not a JSON object.")
-    if content.get("format") in former and "seal" not in content:
-        return content
+    content = read_json(path, dict, remedy)
     if content.pop("seal", None) != seal(content):
-        raise BootcourseError(f"{path} is damaged: it does not fit its own hash.")
+        raise BootcourseError(f"{path} is damaged (it does not fit its own hash): {remedy}.")
     if content.get("format") != format:
         raise BootcourseError(f"{path} has the format {content.get('format')!r}, this version reads {format!r}.")
     return content

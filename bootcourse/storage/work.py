@@ -18,7 +18,7 @@ from filelock import FileLock, Timeout
 from bootcourse.errors import BootcourseError
 from bootcourse.files import remove_temporary, write_json
 from bootcourse.learn.training import Training
-from bootcourse.storage.runs import save_checkpoint
+from bootcourse.storage.checkpoint import save_checkpoint
 
 LOCK, HOLDER = ".lock", ".holder.json"
 

@@ -23,13 +23,13 @@ PACE = 6  # s of the drive in a second
 def sweep_data() -> dict:
     """Every setting of p, ξ and c that was run, and what each of its agents did."""
     sweep, paper = load_sweep(), settings_for("bootstrapped")
-    found = [nearest_setting(sweep, *setting) for setting in settings_run(sweep)]
+    settings = [nearest_setting(sweep, *setting) for setting in settings_run(sweep)]
     rule = rule_results(DEFAULT, shipped_results().sizes[0])
     returns = sweep.scores("returns")
     return {
-        "p": sorted({each.p for each in found}),
-        "xi": sorted({each.xi_multiplier for each in found}),
-        "c": sorted({each.c for each in found}),
+        "p": sorted({each.p for each in settings}),
+        "xi": sorted({each.xi_multiplier for each in settings}),
+        "c": sorted({each.c for each in settings}),
         "paper": {"p": paper.rule_p, "xi": paper.xi_multiplier, "c": paper.bonus},
         "settings": [
             {
@@ -40,7 +40,7 @@ def sweep_data() -> dict:
                 "returns": _rounded(each.results.scores("returns"), 1),
                 "accidents": _rounded(each.results.scores("accident"), 3),
             }
-            for each in found
+            for each in settings
         ],
         "low": 10 * int(np.floor(returns.min() / 10)),
         "high": 10 * int(np.ceil(returns.max() / 10)),

@@ -8,7 +8,7 @@ import re
 from pathlib import Path
 
 from bootcourse.course.exercise import Exercise
-from bootcourse.course.lessons import registry
+from bootcourse.course.lessons import registry, stem
 from tools.course.claims import filled
 from tools.course.source import Cell, one_folder_down, title
 
@@ -16,10 +16,11 @@ from tools.course.source import Cell, one_folder_down, title
 def page(path: Path) -> str:
     """The whole page, as markdown."""
     cells = filled(path)
-    solved = f" · [solved](../solved/{path.stem}.ipynb)" if any(cell.is_exercise for cell in cells) else ""
+    file = f"{stem(path.stem)}.ipynb"
+    solved = f" · [solved](../solved/{file})" if any(cell.is_exercise for cell in cells) else ""
     parts = [
         f"# For the instructor: {title(cells)}",
-        f"[Notebook](../{path.stem}.ipynb){solved}. Made from `source/{path.name}`: change it there.",
+        f"[Notebook](../{file}){solved}. Made from `source/{path.name}`: change it there.",
         timings(cells),
     ]
     for heading, inside in sections(cells):
@@ -31,13 +32,13 @@ def page(path: Path) -> str:
 
 def sections(cells: list[Cell]) -> list[tuple[str, list[Cell]]]:
     """The cells under each `##` heading; what comes before the first is called the beginning."""
-    found = [("The beginning", [])]
+    parts = [("The beginning", [])]
     for cell in cells:
         heading = re.search(r"^## (.+)", cell.text, re.M)
         if heading:
-            found.append((heading[1], []))
-        found[-1][1].append(cell)
-    return found
+            parts.append((heading[1], []))
+        parts[-1][1].append(cell)
+    return parts
 
 
 def timings(cells: list[Cell]) -> str:

@@ -1,4 +1,4 @@
-"""What is wrong with a lesson, as sentences: its numbers, exercises, order, references to code, pictures, freshness.
+"""What is wrong with a lesson, as sentences: its exercises, predictions, names of code, pictures, freshness.
 
 That no link is dead is for the book's build to find.
 """
@@ -8,19 +8,16 @@ import inspect
 import pkgutil
 import re
 import textwrap
-from collections.abc import Iterator
 from pathlib import Path
 
 import nbformat
 
-from bootcourse.course.lessons import registry
+from bootcourse.course.lessons import registry, stem
 from tools.course.claims import filled
-from tools.course.products import IMPORTS_CHECK, out_of_date, solved_file, student_file
+from tools.course.products import out_of_date, solved_file, student_file
 from tools.course.source import Cell, arguments_of, body, function_in
 
 LONGEST_CELL = 25  # lines
-MOST_IMPORTS = 5  # lines, at the top
-CHANGES = {"append", "extend", "insert", "pop", "remove", "update"}  # methods
 SHORTEST_ALT = 40  # letters: what a reader should see does not fit into fewer
 
 
@@ -30,16 +27,15 @@ def problems(path: Path) -> list[str]:
         cells = filled(path)
     except ValueError as error:
         return [f"{error}."]
-    found = [
+    wrong = [
         *of_length(cells),
         *of_imports(cells),
         *of_exercises(cells, path.stem),
         *of_predictions(cells, path.stem),
         *of_references(cells),
-        *of_order(cells),
     ]
-    if found:
-        return found
+    if wrong:
+        return wrong
     late = [f"{target.parent.name}/{target.name} is out of date: run make notebooks." for target in out_of_date(path)]
     return late or of_pictures(path)
 
@@ -54,56 +50,54 @@ def of_length(cells: list[Cell]) -> list[str]:
 
 
 def of_imports(cells: list[Cell]) -> list[str]:
-    """All imports stand in the first code cell, and they are few: most names come through the front door."""
-    each = [len(re.findall(r"^(?:from|import) ", cell.solved, re.M)) for cell in cells if cell.is_code]
-    found = [f"The lesson begins with more than {MOST_IMPORTS} imports."] * (each[:1] > [MOST_IMPORTS])
-    return found + ["A later cell imports something: do it in the first."] * any(each[1:])
+    """All imports stand in the first code cell."""
+    later = [cell for cell in cells if cell.is_code][1:]
+    imports = any(re.search(r"^(?:from|import) ", cell.solved, re.M) for cell in later)
+    return ["A later cell imports something: do it in the first."] * imports
 
 
 # Exercises ------------------------------------------------------------------------------------------
 
 
 def of_exercises(cells: list[Cell], lesson: str) -> list[str]:
-    """Used and registered exercises are the same; each stands as its lesson writers' README says."""
+    """Used and registered exercises are the same; each stands as the writers' README says."""
     used = [name for cell in cells for name in cell.checks]
-    own = [exercise.name for exercise in registry().values() if exercise.lesson == lesson]
-    found = [f"check.{name}: no such exercise is registered." for name in used if name not in registry()]
-    found += [f"check.{name} belongs to lesson {registry()[name].lesson}." for name in used
+    own = [exercise.name for exercise in registry().values() if exercise.lesson == stem(lesson)]
+    wrong = [f"check.{name}: no such exercise is registered." for name in used if name not in registry()]
+    wrong += [f"check.{name} belongs to lesson {registry()[name].lesson}." for name in used
               if name in registry() and name not in own]  # fmt: skip
-    found += [f"The exercise {name} of this lesson is not used in it." for name in own if name not in used]
-    if used and not any(cell.is_code and IMPORTS_CHECK.search(cell.solved) for cell in cells):
-        found.append("The lesson uses check but has no `from bootcourse.course import check`.")
+    wrong += [f"The exercise {name} of this lesson is not used in it." for name in own if name not in used]
     for before, cell in zip([None, *cells], cells, strict=False):
         if cell.is_exercise and len(cell.checks) != 1:
-            found.append(f"{begins(cell.solved)} has a solution but not exactly one check.")
+            wrong.append(f"{begins(cell.solved)} has a solution but not exactly one check.")
         for name in cell.checks:
             if name in own:
-                found += of_exercise(name, cell, before)
-    return found
+                wrong += of_exercise(name, cell, before)
+    return wrong
 
 
 def of_exercise(name: str, cell: Cell, before: Cell | None) -> list[str]:
     """The announcement, the stub and the solution of one exercise."""
-    exercise, found = registry()[name], []
+    exercise, wrong = registry()[name], []
     heading = f"({exercise.minutes} min, {exercise.dots})"
     if before is None or "**Exercise" not in before.student or heading not in before.student:
-        found.append(f"{name}: the markdown cell above has to announce it, **Exercise N.N {heading}.**")
+        wrong.append(f"{name}: the markdown cell above has to announce it, **Exercise {heading}.**")
     stub, solved = function_in(cell.student, name), function_in(cell.solved, name)
     if stub is None or solved is None:
-        return [*found, f"{name}: its cell defines no function of that name."]
+        return [*wrong, f"{name}: its cell defines no function of that name."]
     if arguments_of(stub) != exercise.arguments:
-        found.append(f"{name}: its stub takes other arguments than `{exercise.call}`.")
+        wrong.append(f"{name}: its stub takes other arguments than `{exercise.call}`.")
     if not ast.get_docstring(stub):
-        found.append(f"{name}: its stub has no docstring with shapes and units.")
+        wrong.append(f"{name}: its stub has no docstring with shapes and units.")
     if not cell.is_exercise:
-        found.append(f"{name}: its cell has no `# solution` ... `# end solution`.")
-    return found + of_solution(exercise, solved)
+        wrong.append(f"{name}: its cell has no `# solution` ... `# end solution`.")
+    return wrong + of_solution(exercise, solved)
 
 
 def of_solution(exercise, solved: ast.FunctionDef | ast.ClassDef) -> list[str]:
     """A solution that stands beside the exercise, and is shown on request, is the one in the source."""
-    if not exercise.solution.__module__.startswith("bootcourse.course.lessons"):
-        return []  # the library's own
+    if not exercise.solution.__module__.endswith(".exercises"):
+        return []  # the library's own, or a helper's
     shown = ast.parse(textwrap.dedent(inspect.getsource(exercise.solution))).body[0]
     if not isinstance(shown, (ast.FunctionDef, ast.ClassDef)):
         return [f"{exercise.name}: write its solution with def or class, so that it can be shown."]
@@ -116,48 +110,15 @@ def of_solution(exercise, solved: ast.FunctionDef | ast.ClassDef) -> list[str]:
 
 
 def of_predictions(cells: list[Cell], lesson: str) -> list[str]:
-    """Each prediction has a number of its own that begins with the lesson's, and the lesson's end compares them all."""
+    """Each prediction has a name of its own that begins with the lesson's, and the lesson's end compares them all."""
     code = "\n".join(cell.solved for cell in cells if cell.is_code)
     asked = re.findall(r"(?<![\w.])predict\(\s*[\"']([^\"']*)", code)
     compared = code.rpartition("compare_predictions(")[2] if "compare_predictions(" in code else ""
-    chapter = str(int(lesson[:2]))
-    found = [f"The prediction {n} does not begin with {chapter}." for n in asked if n.partition(".")[0] != chapter]
-    found += [f"There are two predictions {number}." for number in sorted(set(asked)) if asked.count(number) > 1]
-    return found + [f"No compare_predictions answers {number}." for number in asked if f'"{number}":' not in compared]
-
-
-# Order ----------------------------------------------------------------------------------------------
-
-
-def of_order(cells: list[Cell]) -> list[str]:
-    """May a cell run twice? Not if it changes what another cell made: the second time it would change it again."""
-    found = []
-    for cell in (cell for cell in cells if cell.is_code):
-        nodes = list(outside_functions(ast.parse(cell.solved)))
-        grown = [
-            node.target for node in nodes if isinstance(node, ast.AugAssign) and not isinstance(node.op, ast.BitOr)
-        ]
-        grown += [node.func.value for node in nodes if isinstance(node, ast.Call) and changes(node)]
-        names = [node for node in nodes if isinstance(node, ast.Name) and node not in grown]
-        own = {node.id for node in names if isinstance(node.ctx, ast.Store)}
-        found += [
-            f"A cell changes `{name}`, which another cell made: run twice, it does so twice. Make it in the same cell."
-            for name in sorted({node.id for node in grown if isinstance(node, ast.Name)} - own)
-        ]
-    return found
-
-
-def outside_functions(tree: ast.AST) -> Iterator[ast.AST]:
-    """Every node that runs when the cell does: what is inside a function waits for its call."""
-    for node in ast.iter_child_nodes(tree):
-        if not isinstance(node, ast.FunctionDef | ast.Lambda):
-            yield node
-            yield from outside_functions(node)
-
-
-def changes(call: ast.Call) -> bool:
-    """`rows.append(1)` or `learner.update(batch)`; `settings.update(a=1)` does the same each time."""
-    return isinstance(call.func, ast.Attribute) and call.func.attr in CHANGES and not call.keywords
+    problems = [f"The prediction {name} does not begin with {lesson}." for name in asked
+                if name.partition(".")[0] != lesson]  # fmt: skip
+    problems += [f"There are two predictions {name}." for name in sorted(set(asked)) if asked.count(name) > 1]
+    return problems + [f"No compare_predictions answers {name}." for name in asked
+                       if not re.search(rf"\b{name.partition('.')[2]}: ", compared)]  # fmt: skip
 
 
 # References -----------------------------------------------------------------------------------------
@@ -179,11 +140,11 @@ def dead_names(text: str) -> list[str]:
 
 def shown_sources(code: str) -> list[str]:
     """source("a", "b", "c") -> a.b, a.c"""
-    found = []
+    wrong = []
     for call in re.findall(r"(?<![\w.])source\(([^)]*)\)", code):
         module, *functions = re.findall(r'"([\w.]+)"', call) or [""]
-        found += [f"{module}.{function}" for function in functions]
-    return found
+        wrong += [f"{module}.{function}" for function in functions]
+    return wrong
 
 
 def exists(name: str) -> bool:
@@ -200,16 +161,16 @@ def exists(name: str) -> bool:
 
 def of_pictures(path: Path) -> list[str]:
     """Every picture says what a reader should see, in the text and in the outputs."""
-    found = []
+    wrong = []
     for file in (student_file(path), solved_file(path)):
         for cell in nbformat.read(file, as_version=4).cells if file.exists() else []:
             text = cell.source if cell.cell_type == "markdown" else ""
             if re.search(r"!\[\s*\]\(", text):
-                found.append(f"{begins(text)} has a picture without alt text.")
+                wrong.append(f"{begins(text)} has a picture without alt text.")
             for output in cell.get("outputs", []):
                 if not has_alt(output.get("data", {})):
-                    found.append(f"{begins(cell.source)} shows a picture without alt text.")
-    return found
+                    wrong.append(f"{begins(cell.source)} shows a picture without alt text.")
+    return wrong
 
 
 def has_alt(data: dict) -> bool:

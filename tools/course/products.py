@@ -12,9 +12,11 @@ from pathlib import Path
 import nbformat
 from nbclient import NotebookClient
 
+from bootcourse.course.lessons import stem
 from tools.course.claims import filled
 from tools.course.instructor import page
-from tools.course.source import Cell, one_folder_down, read
+from tools.course.numbering import NOTEBOOKS
+from tools.course.source import Cell, one_folder_down, read, sources
 
 WIDGET = "application/vnd.jupyter.widget-view+json"
 SOLVED_NOTE = (
@@ -29,29 +31,29 @@ IMPORTS_CHECK = re.compile(r"^from bootcourse\.course import (?:.*|\([^)]*)\bche
 
 
 def student_file(path: Path) -> Path:
-    return path.parent.parent / f"{path.stem}.ipynb"
+    return path.parent.parent / f"{stem(path.stem)}.ipynb"
 
 
 def solved_file(path: Path) -> Path:
-    return path.parent.parent / "solved" / f"{path.stem}.ipynb"
+    return path.parent.parent / "solved" / f"{stem(path.stem)}.ipynb"
 
 
 def instructor_file(path: Path) -> Path:
-    return path.parent.parent / "instructor" / f"{path.stem}.md"
+    return path.parent.parent / "instructor" / f"{stem(path.stem)}.md"
 
 
 def documents(path: Path) -> dict[Path, nbformat.NotebookNode]:
     """The notebooks that a source describes, without outputs; a source without solutions has no solved one."""
     cells = [cell for cell in filled(path) if not cell.for_instructor]
-    made = {student_file(path): notebook([node(cell, cell.student) for cell in cells])}
+    targets = {student_file(path): notebook([node(cell, cell.student) for cell in cells])}
     if any(cell.is_exercise for cell in cells):
-        made[solved_file(path)] = notebook(solved_nodes(path, cells))
-    return made
+        targets[solved_file(path)] = notebook(solved_nodes(path, cells))
+    return targets
 
 
 def solved_nodes(path: Path, cells: list[Cell]) -> list[nbformat.NotebookNode]:
     """The solved notebook's cells: a note where one is, and strict checks from the import on."""
-    nodes = [nbformat.v4.new_markdown_cell(SOLVED_NOTE.format(path.stem))]
+    nodes = [nbformat.v4.new_markdown_cell(SOLVED_NOTE.format(stem(path.stem)))]
     for cell in cells:
         nodes.append(node(cell, cell.solved if cell.is_code else one_folder_down(cell.solved)))
         if cell.is_code and IMPORTS_CHECK.search(cell.solved):
@@ -79,11 +81,11 @@ def notebook(nodes: list[nbformat.NotebookNode]) -> nbformat.NotebookNode:
 
 def make(path: Path) -> list[Path]:
     """Execute a source and write all that comes from it. Raises what a cell raises, and where a check fails."""
-    made = documents(path)
+    targets = documents(path)
     outputs = execute(path)
-    for document in made.values():
+    for document in targets.values():
         fill_in(document, outputs)
-    return write(path, made)
+    return write(path, targets)
 
 
 def execute(path: Path) -> dict[str, list]:
@@ -94,7 +96,7 @@ def execute(path: Path) -> dict[str, list]:
             steps.append(cell.student)
             if cell.is_exercise:
                 steps += ["check.strict()", cell.solved, "check.strict(False)"]
-    if answers := list(path.parent.parent.glob("answers/*.py")):
+    if answers := list(path.parent.parent.glob("answers/*.*")):
         raise ValueError(f"Move {answers[0].parent} away: the notebooks would be made with these answers.")
     ran = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(step) for step in steps], metadata=PYTHON)
     NotebookClient(ran, timeout=300, resources={"metadata": {"path": path.parent.parent}}).execute()
@@ -121,7 +123,7 @@ def tidy(outputs: list) -> list:
 
     A widget that shows a picture as well keeps the picture: it works only while its kernel runs.
     """
-    kept = []
+    tidied = []
     for output in outputs:
         data = output.get("data", {})
         if "text/html" in data:
@@ -130,46 +132,55 @@ def tidy(outputs: list) -> list:
             continue
         if WIDGET in data and "%|" in data.get("text/plain", ""):
             continue
-        if output.output_type == "stream" and kept and kept[-1].get("name") == output.name:
-            kept[-1].text += output.text
+        if output.output_type == "stream" and tidied and tidied[-1].get("name") == output.name:
+            tidied[-1].text += output.text
         else:
-            kept.append(output)
-    return kept
+            tidied.append(output)
+    return tidied
 
 
-def write(path: Path, made: dict[Path, nbformat.NotebookNode]) -> list[Path]:
-    for target, document in made.items():
+def write(path: Path, targets: dict[Path, nbformat.NotebookNode]) -> list[Path]:
+    for target, document in targets.items():
         target.parent.mkdir(exist_ok=True)
         nbformat.write(document, target)
     instructor_file(path).parent.mkdir(exist_ok=True)
     instructor_file(path).write_text(page(path), encoding="utf-8")
-    return [*made, instructor_file(path)]
+    return [*targets, instructor_file(path)]
 
 
-def refresh_prose(path: Path) -> bool:
-    """Take over a source's text and keep the outputs; False where the code has changed, too."""
-    made = documents(path)
-    for target, document in made.items():
+def remove_strange() -> list[Path]:
+    """Remove what was made under another number, or from a source that is gone. Returns what is removed."""
+    targets = {file(path) for path in sources() for file in (student_file, solved_file, instructor_file)}
+    folders = NOTEBOOKS.glob("*.ipynb"), NOTEBOOKS.glob("solved/*.ipynb"), NOTEBOOKS.glob("instructor/*.md")
+    strange = [path for folder in folders for path in folder if path not in targets]
+    for path in strange:
+        path.unlink()
+    return strange
+
+
+def refresh_prose(path: Path) -> list[Path]:
+    """Take over a source's text and keep the outputs. Returns what is written: [] where the code has changed, too."""
+    targets = documents(path)
+    for target, document in targets.items():
         if not target.exists():
-            return False
+            return []
         old = [cell for cell in nbformat.read(target, as_version=4).cells if cell.cell_type == "code"]
         new = [cell for cell in document.cells if cell.cell_type == "code"]
         if [cell.source for cell in old] != [cell.source for cell in new]:
-            return False
+            return []
         for before, after in zip(old, new, strict=True):
             after.outputs, after.execution_count = before.outputs, before.execution_count
-    write(path, made)
-    return True
+    return write(path, targets)
 
 
 def out_of_date(path: Path) -> list[Path]:
     """The generated files that are not what their source says, or are missing."""
-    made = documents(path)
-    late = [target for target, document in made.items() if not same_cells(target, document)]
+    targets = documents(path)
+    late = [target for target, document in targets.items() if not same_cells(target, document)]
     target = instructor_file(path)
     if not target.exists() or target.read_text(encoding="utf-8") != page(path):
         late.append(target)
-    return late + [target for target in (solved_file(path),) if target not in made and target.exists()]
+    return late + [target for target in (solved_file(path),) if target not in targets and target.exists()]
 
 
 def same_cells(target: Path, document: nbformat.NotebookNode) -> bool:

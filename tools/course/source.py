@@ -1,8 +1,9 @@
 """A lesson's source, notebooks/source/NAME.py in percent format, as cells with a student's and a solved text.
 
-Lines between `# solution` and `# end solution` are the student's to write: the student gets `...` for
-them. `# solution: the exercise's own` stands for the one that the exercise itself holds. A markdown cell tagged
-"instructor" goes to the instructor's page only.
+The title, the exercises and the lessons that a text names get their numbers here (numbering.py). Lines between
+`# solution` and `# end solution` are the student's to write: the student gets `...` for them.
+`# solution: the exercise's own` stands for the one that the exercise itself holds. A markdown cell tagged "instructor"
+goes to the instructor's page only.
 """
 
 import ast
@@ -13,9 +14,9 @@ from pathlib import Path
 
 import jupytext
 
-from bootcourse.course.lessons import registry
+from bootcourse.course.lessons import LESSONS, number, registry
+from tools.course.numbering import NOTEBOOKS, resolved
 
-NOTEBOOKS = Path(__file__).resolve().parent.parent.parent / "notebooks"
 BEGIN, END = "# solution", "# end solution"
 OWN = re.compile(rf"^( +){BEGIN}: the exercise's own$", re.M)
 NUMBER = re.compile(r"\{\{\s+(.+?)(?:\s+\|\s+([\w.,+%]+))?\s+\}\}", re.S)
@@ -53,32 +54,39 @@ class Cell:
         """The text of a markdown cell; of code, none."""
         return "" if self.is_code else self.student
 
-    @property
-    def words(self) -> str:
-        """The text without claims, and with dots in place of the numbers that are computed."""
-        return NUMBER.sub("…", CLAIM.sub("", self.text))
 
-
-def sources(names: list[str] = (), notebooks: Path = NOTEBOOKS) -> list[Path]:
-    """The sources of these names, or all, in the order of the lessons."""
-    found = sorted((notebooks / "source").glob("*.py"))
-    return [path for path in found if not names or path.stem in names]
+def sources(names: list[str] = ()) -> list[Path]:
+    """The sources of these lessons, or of all, in their order. Raises ValueError for what is no lesson."""
+    if strange := set(names) - set(LESSONS):
+        raise ValueError(f"There is no lesson {min(strange)}: choose from {', '.join(LESSONS)}.")
+    return [NOTEBOOKS / f"source/{name}.py" for name in LESSONS if not names or name in names]
 
 
 def read(path: Path) -> list[Cell]:
-    """All cells of a source. Raises ValueError where the marks of a solution do not come in pairs."""
-    cells = []
+    """All cells of a source, numbered. Raises ValueError where the marks of a solution do not come in pairs."""
+    cells, exercises = [], 0
     for cell in jupytext.read(path).cells:
-        both = cell.source, cell.source
         if cell.cell_type == "code":
             text = with_solutions(cell.source)
             both = without_solution(text), without_marks(text)
+        else:
+            text, exercises = numbered(cell.source, path.stem, exercises)
+            both = text, text
         cells.append(Cell(cell.cell_type, *both, dict(cell.metadata)))
     return cells
 
 
+def numbered(text: str, lesson: str, exercises: int) -> tuple[str, int]:
+    """A text with its numbers, and how many exercises the lesson has had so far."""
+    title, *parts = re.split(r"(?<=\*\*Exercise) (?=\()", re.sub(r"^# ", f"# {number(lesson)} · ", text, flags=re.M))
+    for part in parts:
+        exercises += 1
+        title += f" {number(lesson)}.{exercises} {part}"
+    return resolved(title), exercises
+
+
 def title(cells: list[Cell]) -> str:
-    return next(found[1] for cell in cells if (found := re.search(r"^# (.+)", cell.text, re.M)))
+    return next(heading[1] for cell in cells if (heading := re.search(r"^# (.+)", cell.text, re.M)))
 
 
 def with_solutions(text: str) -> str:
@@ -124,8 +132,7 @@ def one_folder_down(text: str) -> str:
 def function_in(text: str, name: str) -> ast.FunctionDef | ast.ClassDef | None:
     """The function or class of that name that a cell defines."""
     kinds = (ast.FunctionDef, ast.ClassDef)
-    found = [node for node in ast.parse(text).body if isinstance(node, kinds) and node.name == name]
-    return found[0] if found else None
+    return next((node for node in ast.parse(text).body if isinstance(node, kinds) and node.name == name), None)
 
 
 def arguments_of(function: ast.FunctionDef | ast.ClassDef) -> list[str]:

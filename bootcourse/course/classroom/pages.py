@@ -16,7 +16,7 @@ from bootcourse.course.classroom.grading import Graduate, identical
 from bootcourse.course.classroom.judging import Judged
 from bootcourse.course.classroom.submission import fingerprint
 from bootcourse.course.lessons import registry
-from bootcourse.course.predictions import worded
+from bootcourse.course.predictions import number_of, worded
 from bootcourse.course.verdict import COLOURS, MARKS, marked
 from bootcourse.files import write_bytes
 from bootcourse.markup import Markup, html, joined
@@ -207,7 +207,7 @@ def prediction_rows(graduates: Sequence[Graduate]) -> list[list]:
             answers.setdefault(name, Counter())[worded(given.answer, given.unit)] += 1
             questions.setdefault(name, given.question)
     rows = []
-    for name in sorted(answers, key=lambda name: [part.zfill(3) for part in name.split(".")]):
+    for name in sorted(answers, key=lambda name: [part.zfill(3) for part in number_of(name).split(".")]):
         shown = [html("{} ({})", answer[:200], count) for answer, count in answers[name].most_common(MOST)]
-        rows.append([name, questions[name], joined(shown, "<br>")])
+        rows.append([number_of(name), questions[name], joined(shown, "<br>")])
     return rows

@@ -1,7 +1,7 @@
 """The lessons in their order, and their exercises: the folder NAME holds all that belongs to the lesson NAME.
 
-A lesson's number is its place in `LESSONS`. Every `Exercise` in NAME/exercises.py is registered, under the name of
-the student's function.
+A lesson's number is its place in `LESSONS` and stands nowhere else: to move a lesson, move its name. File names,
+headings, exercises, predictions, links and tables follow (`make notebooks`, `make book`).
 """
 
 import functools
@@ -11,7 +11,7 @@ from pathlib import Path
 
 from bootcourse.course.exercise import Exercise
 
-LESSONS = (
+COURSE = (
     "start",
     "the_trap",
     "traffic",
@@ -22,6 +22,8 @@ LESSONS = (
     "soft_constraint",
     "learning_from_demonstrations",
     "ablation",
+)
+ELECTIVES = (
     "imitation",
     "offline_learning",
     "exploration",
@@ -30,16 +32,23 @@ LESSONS = (
     "the_second_trap",
     "beyond_the_paper",
 )
+APPENDIX = ()
+LESSONS = COURSE + ELECTIVES + APPENDIX
+
+
+def number(lesson: str) -> int:
+    """A lesson's number. Raises ValueError for no lesson."""
+    return LESSONS.index(lesson)
 
 
 def stem(lesson: str) -> str:
-    """The name of a lesson's files, such as "07_soft_constraint"."""
-    return f"{LESSONS.index(lesson):02d}_{lesson}"
+    """The name of a lesson's files, such as "07_soft_constraint". Raises ValueError for no lesson."""
+    return f"{number(lesson):02d}_{lesson}"
 
 
 @functools.cache
 def registry() -> dict[str, Exercise]:
-    """name -> exercise, in the order of the lessons and of the files' lines."""
+    """name -> exercise, in the order of the lessons and of the files' lines: every `Exercise` of NAME/exercises.py."""
     exercises = {}
     for lesson in LESSONS:
         if not (Path(__file__).parent / lesson / "exercises.py").exists():

@@ -158,8 +158,8 @@ def train_bug(bug: str, updates: int = UPDATES) -> dict[str, np.ndarray]:
 
     They are curves, probes, and the weights of the first agent.
     """
-    training, probe = Training(with_seeds(settings_for("bootstrapped"), SEEDS), 4000), Probe()
-    training.learner = LEARNERS[bug](training.settings, training.scenario.observation_size)
+    settings, probe = with_seeds(settings_for("bootstrapped"), SEEDS), Probe()
+    training = Training(settings, 4000, make_learner=LEARNERS[bug])
     result = training.run(progress=False, callback=probe, stop=lambda: training.updates >= updates)
     episodes = int(training.curves.finished.max())
     probes = np.array(probe.found, dtype=np.float32).reshape(-1, SEEDS, len(PROBES)).transpose(2, 1, 0)

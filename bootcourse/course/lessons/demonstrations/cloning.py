@@ -1,4 +1,4 @@
-"""Clones of a driver, and DAgger: what lesson 6 trains and tests."""
+"""Clones of a driver, and DAgger: what the lesson trains and tests."""
 
 from collections.abc import Callable, Sequence
 

@@ -1,4 +1,4 @@
-"""A barrier of five states, and Q-learning in it: lesson 5's road with everything left out but the detour.
+"""A barrier of five states, and Q-learning in it: the barrier's road with everything left out but the detour.
 
 State 0 is the trap, state 4 the free road. Action 0 stays (in states 1 to 3: goes back to the trap), action 1 goes on.
 """

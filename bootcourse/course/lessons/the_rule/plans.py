@@ -1,4 +1,4 @@
-"""Lesson 3's way out without braking: how a student's plan is driven, and what the check says about it."""
+"""A way out without braking: how a student's plan is driven, and what the check says about it."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Lesson 3's two ways to reach a lane with three steering angles: the nearest angle, and a search."""
+"""Two ways to reach a lane with three steering angles: the nearest angle, and a search."""
 
 import itertools
 

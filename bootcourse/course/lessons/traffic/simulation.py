@@ -1,4 +1,4 @@
-"""The traffic of lesson 2 without lanes: cars that follow each other by IDM, on a ring or behind one leader."""
+"""The lesson's traffic without lanes: cars that follow each other by IDM, on a ring or behind one leader."""
 
 import math
 

@@ -1,0 +1,45 @@
+"""Figures of discrete SAC: a pole as it is balanced."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+
+from bootcourse.episodes.words import sentence
+from bootcourse.methods import style
+from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, finish, new_figure
+from bootcourse.research.checks import CARTPOLE_SCALES
+
+TRACK, POLE = 2.4, 1.8  # m: half the track; the pole as it is drawn
+PICTURES, STEP, ROW = 8, 5.4, 0.85  # in a strip; from one to the next (m); a strip's height (inches)
+
+
+def cartpole_strip(drives: Mapping[str, np.ndarray], title: str) -> Figure:
+    """Each drive as pictures from its first to its last state: {name: observations (T, 4)}.
+
+    The observations are scaled, as the learner sees them.
+    """
+    figure = new_figure(0.45 + ROW * len(drives))
+    told = []
+    for row, (label, observations) in enumerate(drives.items()):
+        height = ROW / figure.get_figheight()
+        ax = figure.add_axes((0.012, 0.01 + (len(drives) - 1 - row) * height, 0.976, height))
+        ax.set(xlim=(-2.5, PICTURES * STEP - 2.9), ylim=(-1.4, 3.6), aspect="equal", anchor="W")
+        ax.axis("off")
+        ax.text(-2.5, 2.6, sentence(label), fontsize=TEXT, color=INK)
+        states = np.asarray(observations) * CARTPOLE_SCALES
+        for picture, t in enumerate(np.linspace(0, len(states) - 1, PICTURES).round().astype(int)):
+            _draw_cart(ax, states[t], STEP * picture, style(label).colour)
+            ax.text(STEP * picture, -1.25, f"push {t + 1}", ha="center", fontsize=SMALL, color=QUIET)
+        told.append(f"{label}: the episode lasts {len(states)} pushes")
+    alt = f"A cart on a track and the pole on it, {PICTURES} pictures from the first push to the last"
+    return finish(figure, title, f"{alt}. {'; '.join(told)}.")
+
+
+def _draw_cart(ax, state: np.ndarray, x: float, colour: str) -> None:
+    cart, angle = x + np.clip(state[0], -TRACK, TRACK), state[2]
+    ax.plot([x - TRACK, x + TRACK], [-0.35, -0.35], color=QUIET, linewidth=1)
+    ax.add_patch(Rectangle((cart - 0.6, -0.35), 1.2, 0.5, facecolor=INK))
+    tip = (cart + POLE * np.sin(angle), 0.15 + POLE * np.cos(angle))
+    ax.plot([cart, tip[0]], [0.15, tip[1]], color=colour, linewidth=3.5, solid_capstyle="round")

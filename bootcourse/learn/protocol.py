@@ -1,0 +1,120 @@
+"""What a training asks of a learner, and the functions that learners share.
+
+A method is one file with a class of these methods, and one entry in `bootcourse/methods.py`. `SACLearner` (learner.py),
+`BCLearner` (bc.py) and `PPOLearner` (ppo.py) stand beside each other; most other methods override a part of one of
+them. Every parameter of a learner has a leading agents axis, so that one batched matrix product computes all agents.
+"""
+
+from collections.abc import Sequence
+from typing import Any, Protocol
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from bootcourse.errors import BootcourseError
+from bootcourse.learn.agent import Agent
+from bootcourse.learn.settings import Settings, shared_fields
+
+
+class Learner(Protocol):
+    """The agents of one training, side by side.
+
+    A class is called with (settings, observation_size, n_actions), with the settings of each agent.
+    """
+
+    needs_teacher: bool  # whether `driving_policy` depends on the teacher's actions μ(s)
+    settings: list[Settings]
+    agents: int
+    device: torch.device  # of all tensors: see `move_to`
+    optimiser: torch.optim.Optimizer
+
+    def make_buffer(self, observation_size: int, demonstrations: Tensor | None) -> Any:
+        """The buffer that the training fills and samples; demonstrations: rows (transitions, row), or None."""
+
+    def acting_policy(self, states: Tensor, rule_actions: Tensor, decided: Tensor) -> Tensor:
+        """The distribution from which a training draws the next actions: (agents, roads, actions).
+
+        states (agents, roads, observation); rule_actions μ(s), (agents, roads) int64; decided (agents, roads): how
+        many decisions each road's episode has lasted.
+        """
+
+    def note_episodes(self, ended: np.ndarray, returns: np.ndarray) -> None:
+        """Called after each decision: which episodes it ended (agents, roads), and the sums of rewards so far."""
+
+    def updates_due(self, replay: Any, decisions: int) -> int:
+        """How many updates follow a decision on every road; decisions: of each agent so far."""
+
+    def update(self, batch: Any) -> dict[str, Tensor]:
+        """One gradient step of all agents on a batch. Returns losses before the step and other numbers, (agents,)."""
+
+    def coefficients(self) -> dict[str, np.ndarray]:
+        """The present `alpha` and `xi` (ξ) of each agent for the curves, (agents,): 0 where the method has none."""
+
+    def agent(self, i: int) -> Agent:
+        """A snapshot of agent i: it stays as it is when the learner goes on."""
+
+    def tensors(self) -> dict[str, list[Tensor]]:
+        """The tensors of a checkpoint: all of the learner's state apart from the optimiser's."""
+
+    @staticmethod
+    def n_critics(settings: Settings) -> int:
+        """How many critics an agent has. 0: it has no Q."""
+
+    @classmethod
+    def driving_policy(cls, actor: list[Tensor], critics: list[Tensor], states: Tensor, rule_actions: Tensor) -> Tensor:
+        """The distribution from which a trained agent's actions come: (agents, batch, actions).
+
+        actor, critics: the agent's weights; states (agents, batch, observation); rule_actions (agents, batch) int64.
+        """
+
+    @classmethod
+    def q_values(cls, critics: list[Tensor], states: Tensor) -> Tensor:
+        """Q(s,a) of these critics: (agents, batch, observation) -> (agents, batch, actions). Not for 0 critics."""
+
+
+def check_shared(settings: Sequence[Settings]) -> list[Settings]:
+    """The settings as a list. Raises BootcourseError if the agents differ in a setting that they must share."""
+    for name in shared_fields(type(settings[0])):
+        if len({getattr(s, name, None) for s in settings}) > 1:
+            raise BootcourseError(f"Agents that train side by side need the same {name}: train these apart.")
+    return list(settings)
+
+
+def generators_of(settings: Sequence[Settings], offset: int = 0) -> list[torch.Generator]:
+    """A random generator for each agent's first weights. Networks that are drawn apart have different offsets."""
+    return [torch.Generator().manual_seed(s.seed + offset) for s in settings]
+
+
+def per_agent(settings: Sequence[Settings], name: str) -> Tensor:
+    """The agents' values of a setting, (agents, 1); NaN for None."""
+    values = [getattr(s, name) for s in settings]
+    return torch.tensor([[float("nan") if value is None else float(value)] for value in values])
+
+
+def adam(*groups: tuple[list[Tensor], float]) -> torch.optim.Adam:
+    """An optimiser of networks with their learning rates; their tensors get gradients from now on."""
+    for parameters, _ in groups:
+        for parameter in parameters:
+            parameter.requires_grad_()
+    return torch.optim.Adam([{"params": parameters, "lr": rate} for parameters, rate in groups], fused=True)
+
+
+def total_loss(terms: dict[str, Tensor]) -> Tensor:
+    """The sum of all agents' losses: of the terms whose names end in "loss"."""
+    return sum(values for name, values in terms.items() if name.endswith("loss")).sum()
+
+
+def of_agent(parameters: Sequence[Tensor], i: int, agents: int) -> list[Tensor]:
+    """Copies of agent i's parameters on the CPU, from (networks x agents, ...): (networks, ...) each."""
+    return [parameter.detach()[i::agents].clone().cpu() for parameter in parameters]
+
+
+def move_to(learner: Learner, device: torch.device) -> None:
+    """Move a learner's tensors to a device, before the first update. Its agents are on the CPU all the same."""
+    learner.device = device
+    for value in vars(learner).values():
+        for tensor in value if isinstance(value, list) else [value]:
+            if isinstance(tensor, Tensor):
+                moved = tensor.detach().to(device).requires_grad_(tensor.requires_grad)
+                torch.utils.swap_tensors(tensor, moved)  # the optimiser knows the tensor itself

@@ -1,0 +1,505 @@
+# ---
+# jupyter:
+#   jupytext:
+#     text_representation:
+#       extension: .py
+#       format_name: percent
+#   kernelspec:
+#     display_name: Python 3 (ipykernel)
+#     language: python
+#     name: python3
+# ---
+
+# %% [markdown]
+# # The bug hunt
+#
+# **What you will be able to do**
+# - find a silent bug in a learner from curves, probes and drives, without reading its code;
+# - write a probe: ask a part of a learner something whose right answer you know;
+# - repair six bugs that are easily made, each in one line.
+#
+# **Time** 95 minutes, under a minute of it the machine's. **It builds on** the losses of lesson
+# [[discrete_sac]], the soft constraint ([[soft_constraint]]) and learning from demonstrations
+# ([[learning_from_demonstrations]]).
+
+# %%
+import bootcourse as bc
+import numpy as np
+import torch
+from bootcourse.course import charts, check, compare_predictions, predict, source, table
+from bootcourse.course.lessons.bug_hunt import bugs
+
+hunt = bugs.Hunt()
+print(f"{len(hunt.names)} agents, 2 seeds each, {bugs.UPDATES} updates of each")
+
+# %% [markdown]
+# ## Look first
+#
+# Seven agents were trained with the paper's method. One is healthy. Each of the others, A to F,
+# has one **silent bug**: a line that is wrong, raises nothing and prints nothing. Training them
+# takes some minutes, so their networks and curves ship with the kit (the line above says how long
+# they trained). The curves are those of the training, and the agents drive here as they learned to.
+# <!-- claim: len(bugs.LEARNERS) == 7 -->
+
+# %%
+ROAD = 10
+healthy, agent_f = (bc.record(hunt.agent(name).as_policy(), [ROAD])[0] for name in ("healthy", "F"))
+bc.show(bc.top_view_over_time(healthy, title="The healthy agent on one road"))
+
+# %%
+bc.show(bc.top_view_over_time(agent_f, title="Agent F on the same road"))
+
+# %% [markdown]
+# > **Predict.** Six bugs: here are their names. Write down for each what it will do to the *share
+# > of escapes* in training: nothing, a little, or a lot.
+# >
+# > - `flipped_kl`: the KL divergence is taken the other way round;
+# > - `no_end`: (1 − terminated) is missing in the critic's target;
+# > - `sampled`: one drawn action stands for the expectation over all nine;
+# > - `no_stop`: the stop-gradient on Q is missing in the actor's loss;
+# > - `bonus_for_all`: the bonus c is paid for the agent's own driving as well;
+# > - `shifted_labels`: the rule was asked after the step, so each label is one second late.
+
+# %%
+choices = ["none", "one or two", "three or four", "five", "all six"]
+predict("bug_hunt.1", "Broken agents that still escape in training", choices)
+
+# %% [markdown] tags=["instructor"] minutes=8
+# Collect the predictions in a table on the board, bugs in rows. If somebody writes "a lot" in each
+# row, ask why. Come back to the table at the end of Round 1, and again after the verdict.
+
+# %% [markdown]
+# ## Round 1: the curves
+#
+# Grey lines are the healthy agent's two seeds, violet lines the two seeds of the agent whose letter
+# stands above the panel. The trainings have the same number of updates. An agent that crashes early
+# has short episodes, so it drives more of them; that is why the axis is logarithmic.
+
+# %%
+episode, share = "training episode", "share of escapes, last 30 episodes"
+curves = hunt.curves("success")
+title = "Escapes in training"
+bc.show(charts.many(curves, title, episode, share, reference="healthy", x_scale="log"))
+
+# %% tags=["hide-input"]
+curves = hunt.curves("return")
+title = "Returns in training"
+words = "return, last 30 episodes"
+bc.show(charts.many(curves, title, episode, words, reference="healthy", x_scale="log"))
+
+# %%
+late, last = hunt.at_the_end("success"), hunt.at_the_end("return")
+rows = [[n, f"{100 * late[n].mean():.0f} %", f"{last[n].mean():.0f}"] for n in hunt.names]
+table(["at the end of training", "escapes", "return"], rows)
+
+# %% [markdown]
+# **See.** Compare with your predictions. Three of the six broken agents escape at the end of
+# training as often as the healthy one, a fourth in over 80 % of its last episodes, and the agent
+# with the highest return has a bug. Code can be wrong although its curve looks right.
+# <!-- claim: sum(hunt().at_the_end('success')[n].mean() >=
+#   hunt().at_the_end('success')['healthy'].mean() for n in 'ABCDEF') == 3 -->
+# <!-- claim: sum(hunt().at_the_end('success')[n].mean() > 0.8 for n in 'ABCDEF') == 4 -->
+# <!-- claim: (lambda last: max(last, key=last.get) != 'healthy')({n: v.mean() for n, v in
+#   hunt().at_the_end('return').items()}) -->
+#
+# **Explain.** We think that the teacher hides the bugs. Its demonstrations and the soft constraint
+# lead the policy out of the trap even if another part of the learner is wrong. To judge one part,
+# you have to ask that part alone.
+
+# %% [markdown]
+# ## Round 2: ask the critic what you know
+#
+# A **probe** asks a network something whose answer is known. For most states we do not know the
+# right Q. We do know it where an accident ends the episode: there $y = r =
+# -{{ -DEFAULT.reward.accident }}$, without a guess of the next value.
+#
+# > **Predict.** Which of the six bugs makes Q wrong exactly there, and in which direction?
+
+# %%
+names = list(bugs.BUGS)
+predict("bug_hunt.2", "Q is wrong at accidents because of", names)
+
+# %% [markdown]
+# **Exercise (6 min, ●●○).** Write the probe: by how much is Q above r, on average, where an
+# episode ended?
+
+
+# %%
+def end_error(q, actions, rewards, terminated):
+    """Mean of Q(s, a) - r where terminated is 1, or 0. q: (batch, 9); the others (batch,)."""
+    # solution: the exercise's own
+
+
+check.end_error(end_error)
+
+# %% [markdown]
+# During training each agent was asked this about its own accidents, every {{ bugs.EVERY }} updates.
+# The picture shows Q itself; right is {{ DEFAULT.reward.accident }}.
+# <!-- claim: set(np.diff(hunt().updates)) == {bugs.EVERY} -->
+
+# %% tags=["hide-input"]
+probes = hunt.probes("end")
+title = "What the critics think of their own accidents"
+bc.show(
+    charts.many(probes, title, "updates", "Q where an accident followed (right: −10)", "healthy")
+)
+
+# %% [markdown]
+# **See.** Even the two healthy seeds are above {{ DEFAULT.reward.accident }} at the end. We think
+# that the network sees few accidents among many other seconds, and smooths its values. So a probe
+# needs a healthy agent beside it. Ask which agent leaves the grey lines, and in which direction.
+# <!-- claim: (hunt().probe('healthy', 'end')[:, -1] > DEFAULT.reward.accident + 1).all() -->
+#
+# > **Predict.** The road pays at most about 1 a second, and γ = 0.8 counts about 5 seconds.
+# > The value that a critic gives to a state is what it *promises*. What is the most that a correct
+# > critic may promise? And the most if c = 2 is added in *every* second?
+
+# %%
+predict("bug_hunt.3", "The most that a correct critic may promise", unit="")
+
+# %%
+gamma, c = 0.8, 2.0
+print(f"honest: {1 / (1 - gamma):.0f}; with the bonus in every second: {(1 + c) / (1 - gamma):.0f}")
+probes = hunt.probes("promise")
+title = "What the critics promise for the seconds of the rule's drives"
+bc.show(
+    charts.many(
+        probes, title, "updates", "promise Σ π Q, cut off at 20", "healthy", limits=(-2, 20)
+    )
+)
+
+# %% [markdown]
+# **Explain.** An honest critic, one that is right, promises at most 5. The healthy promise may lie
+# a little over 5: part of each batch is demonstrations, and they do get the bonus (lesson
+# [[learning_from_demonstrations]]). In two panels the promise is far above that: in one it rises
+# slowly, in one at once. You can ask the same of one drive: what did Q promise, and what did the
+# road then pay?
+# <!-- claim: {n for n in 'ABCDEF' if hunt().probe(n, 'promise').max() > 10} == {'E', 'F'} -->
+
+# %%
+rows = []
+for name in hunt.names:
+    drive = bc.record(hunt.agent(name).as_policy(with_q=True), [ROAD])[0]
+    paid = 0.0
+    for reward in drive.rewards[::-1]:  # from the end to the start
+        paid = reward + gamma * paid
+    rows.append([name, f"{drive.q_values[0, drive.actions[0]]:.1f}", f"{paid:.1f}"])
+table(["one road, from the start", "Q promised", "the road paid"], rows)
+
+# %% [markdown] tags=["instructor"] minutes=8
+# At the start the car is behind the trap, so a correct promise is small there; the healthy agent's
+# contains bonuses of demonstrations. Ask which of the two probes one should watch during training:
+# Q at accidents, or the promise. A wrong promise shows without an accident.
+
+# %% [markdown]
+# ## Round 3: ask the actor about the rule
+#
+# The other probes look at the policy, on seconds that the *rule* drove, the same seconds for each
+# agent.
+#
+# - **entropy** of π, in nats: 0 is sure of one action, log {{ N_ACTIONS }} ≈
+#   {{ math.log(N_ACTIONS) | .1f }} is the same probability for each action;
+# - **alike**: the share of seconds in which the likeliest action is the rule's;
+# - **late**: the same with what the rule does *one second later*;
+# - **rarest**: the logarithm of the smallest of the nine probabilities.
+#
+# Two more kinds of curves are in the file, if you need them: `hunt.probes("kl")`, and the
+# temperature, `hunt.curves("alpha")`.
+
+# %% tags=["hide-input"]
+probes = hunt.probes("entropy")
+title = "How undecided are the policies?"
+bc.show(charts.many(probes, title, "updates", "entropy of π (nats)", reference="healthy"))
+
+# %%
+early, rows = slice(2, 6), []  # after 500 to 1,250 updates
+for name in hunt.names:
+    seeds = [hunt.probe(name, what)[:, early].mean(1) for what in ("alike", "late")]
+    cells = [" and ".join(f"{100 * s:.0f} %" for s in values) for values in seeds]
+    least = " and ".join(f"{v:.1f}" for v in hunt.probe(name, "rarest")[:, -1])
+    rows.append([name, *cells, least])
+headings = ["early, both seeds", "as the rule now", "as one second later"]
+table([*headings, "rarest action, log π, at the end"], rows)
+
+# %% tags=["hide-input"]
+probes = hunt.probes("alike")
+title = "How often the likeliest action is the rule's"
+bc.show(charts.many(probes, title, "updates", "likeliest action is the rule's (share)", "healthy"))
+
+# %% tags=["hide-input"]
+probes = hunt.probes("rarest")
+title = "How unlikely is the least likely action?"
+bc.show(charts.many(probes, title, "updates", "log of the rarest action's probability", "healthy"))
+
+# %% [markdown]
+# > **Predict.** KL(π‖π̃) charges the policy for going where the rule would not. The flipped one
+# > charges it for *not* going where the rule might. The rule's noise gives every action a little
+# > probability. What does each of the two do to an action that the rule would hardly ever take?
+
+# %%
+choices = ["it drops it", "it keeps it a little likely", "it makes it the favourite"]
+predict("bug_hunt.4", "With the flipped KL the policy treats such an action so:", choices)
+
+# %% [markdown]
+# **Explain.** Read the table and the last picture with that question. The stochastic rule gives
+# one in eighty to each action that the rule does not take. With the right KL the policy may drop
+# such an action: dropping it costs little. The flipped KL grows without bound when the probability
+# of one of the nine goes to zero. So the two policies agree
+# with the rule about as often, and differ in what they do with rare actions.
+# <!-- claim: math.isclose((1 - RULE_P) / (N_ACTIONS - 1), 1 / 80) -->
+
+# %% [markdown]
+# ## Round 4: watch them drive
+#
+# In training the agents draw their actions from π. With the most probable action alone they may
+# drive better, or worse. Here the first seed of each agent drives both ways, on 200 roads that it
+# has not seen.
+
+# %%
+rows = []
+for name in hunt.names:
+    agent = hunt.agent(name)
+    greedy = bc.evaluate(agent.as_policy(), 200, seed=12)
+    drawn = bc.evaluate(agent.as_policy(np.random.default_rng(0)), 200, seed=12)
+    accidents = greedy.collision.value + greedy.road_departure.value + greedy.stoppage.value
+    shares = [f"{100 * share:.1f}" for share in (greedy.success.value, drawn.success.value)]
+    rows.append([name, *shares, f"{greedy.returns.value:.1f}", f"{100 * accidents:.1f}"])
+headings = ["200 roads", "escapes, most probable, %", "escapes, drawn, %", "return", "accidents, %"]
+table(headings, rows)
+
+# %% [markdown]
+# **See.** In these 200 drives one agent escapes nearly always with its most probable action, and in
+# less than half of the drives with drawn ones. It seems to have learned the rule and the rule's
+# noise, and nothing from Q. Which bug would keep Q out of the actor's gradient? (And read escapes
+# beside accidents: a crash after overtaking counts as both.)
+# <!-- claim: drive_episodes(hunt().agent('B').as_policy(), held_out_seeds(12, 200)).success.mean()
+#   > 0.9 -->
+# <!-- claim: drive_episodes(hunt().agent('B').as_policy(np.random.default_rng(0)),
+#   held_out_seeds(12, 200)).success.mean() < 0.5 -->
+#
+# **Exercise (15 min, ●●●).** The verdict. For each agent one of the six names. The check
+# judges the six together: it does not say how many are right, or which. Find a picture that decides
+# each.
+
+
+# %%
+def diagnose(agent):
+    """The bug of an agent, "A" to "F": flipped_kl, no_end, sampled, no_stop, bonus_for_all, ..."""
+    # solution: the exercise's own
+
+
+check.diagnose(diagnose)
+
+# %% [markdown] tags=["instructor"] minutes=12
+# The order that works: F (promise leaves the scale), B (undecided, fails when drawn), D
+# (accidents), E (promise too high, the *best* return), C (slow start, later rather than now), A
+# (what is left: the rarest action). Let each group defend its verdict with a single picture. If a
+# group is stuck on A and C, ask which of the two is like the healthy agent in the first thousand
+# updates.
+
+# %% [markdown]
+# ## Round 5: six repairs
+#
+# Now the code. Each piece is shown with its bugs. First the critic's target:
+#
+# ```python
+# target = reward + bonus + gamma * next_value
+# ```
+#
+# **Exercise (4 min, ●○○).** Two of the six bugs are in that line. Write it without them.
+
+
+# %%
+def fixed_target(reward, is_demonstration, bonus, terminated, next_value, gamma):
+    """y, (batch,). is_demonstration, terminated: 0 or 1; bonus, gamma: floats."""
+    # solution: the exercise's own
+
+
+check.fixed_target(fixed_target)
+
+# %% [markdown]
+# Without the factor (1 − terminated), the target of an accident contains the value that the critic
+# gives to a car that has just crashed. That state looks like the seconds before an accident, so its
+# value is low, and the {{ DEFAULT.reward.accident }} is counted again and again. (An episode that
+# runs out of time after 150 s is *truncated*, not terminated: its target keeps the next value.)
+
+# %%
+print(f"an accident: {-10:.0f}; an accident for ever, γ = 0.8: {-10 / (1 - gamma):.0f}")
+
+# %% [markdown]
+# On this road the bug makes an accident look worse than it is. In a task whose episodes end at a
+# goal, the reward of the goal would be counted again and again.
+# <!-- claim: any((hunt().probe(n, 'end')[:, -1] < DEFAULT.reward.accident).all() for n in
+#   'ABCDEF') -->
+#
+# Next the value of a state. SAC for continuous actions draws one action instead of summing over
+# them. The buggy learner does the same with its nine actions:
+#
+# ```python
+# action = torch.multinomial(log_pi.exp(), 1)
+# value = (q - alpha * log_pi).gather(-1, action).squeeze(-1)
+# ```
+#
+# In the critic's target the draw adds noise and leaves the mean as it is. In the actor's loss it is
+# fatal: the gradient does not pass through the draw, and Q is held fixed, so Q drops out of the
+# actor's gradient. The next cell shows it.
+
+# %%
+torch.manual_seed(0)
+logits = torch.zeros(1, 9, requires_grad=True)
+q = torch.tensor([[0.0, 0, 0, 0, 0, 0, 0, 5, 0]])
+slopes = {"expected": torch.zeros(9), "drawn": torch.zeros(9)}
+for _ in range(1000):
+    log_pi = logits.log_softmax(-1)
+    action = torch.multinomial(log_pi.exp(), 1)
+    values = q - 0.01 * log_pi
+    both = {"expected": (log_pi.exp() * values).sum(), "drawn": values.gather(-1, action).sum()}
+    for name, value in both.items():
+        slopes[name] += torch.autograd.grad(value, logits, retain_graph=True)[0][0] / 1000
+for name, slope in slopes.items():
+    print(f"{name:9} mean slope towards action 7, which is worth 5 more: {slope[7]:.4f}")
+
+# %% [markdown]
+# **Exercise (4 min, ●○○).** Write the value without drawing.
+
+
+# %%
+def fixed_value(log_pi, q, alpha):
+    """V(s), (batch,). log_pi, q: (batch, 9); alpha: a float."""
+    # solution: the exercise's own
+
+
+check.fixed_value(fixed_value)
+
+# %% [markdown]
+# The actor's loss. Two bugs:
+#
+# ```python
+# pi, rule = log_pi.exp(), log_rule.exp()
+# kl = (rule * (log_rule - log_pi)).sum(-1)
+# loss = -((pi * (q - alpha * log_pi)).sum(-1) - xi * kl).mean()
+# ```
+#
+# **Exercise (6 min, ●●○).** Write it without them. The check looks at where your loss sends
+# a gradient.
+
+
+# %%
+def fixed_loss(log_pi, q, log_rule, alpha, xi):
+    """The actor's loss, a scalar. log_pi, q, log_rule: (batch, 9); alpha, xi: floats."""
+    # solution: the exercise's own
+
+
+check.fixed_loss(fixed_loss)
+
+# %% [markdown]
+# ### A probe without training
+#
+# You found these bugs in agents that took minutes to train. The target can be tested in a
+# millisecond, from outside, with a few transitions whose right y you work out by hand.
+#
+# **Exercise (20 min, ●●●).** Write that test. You are given a function
+# `target(reward, demo, bonus, end, next_value, gamma)`, of which you do not see the code. It takes
+# NumPy arrays of shape (batch,), and two floats: bonus and gamma. Say whether it is wrong. The
+# check gives it three functions that are right and twelve that are wrong, each in another way.
+# <!-- claim: (lambda e: len(e.TARGETS) - len(e.RIGHT_TARGETS) == 12 and len(e.RIGHT_TARGETS) ==
+#   3)(__import__('bootcourse.course.lessons.bug_hunt.target_probe', fromlist=['x'])) -->
+
+
+# %%
+def unmasks(target):
+    """True if target(reward, demo, bonus, end, next_value, gamma) is not y, False if it is."""
+    # solution: the exercise's own
+
+
+check.unmasks(unmasks)
+
+# %% [markdown]
+# Last, the labels. After a drive the rule was asked about its T + 1 states, in order. The buggy
+# version began one state too late:
+#
+# ```python
+# labels = asked[1:]
+# ```
+#
+# **Exercise (4 min, ●○○).** For each of the T decisions: the label of the state in which it
+# was made, and the label of the state to which it led.
+
+
+# %%
+def label_pairs(asked):
+    """(μ(s), μ(s')) of each decision: whole numbers (T + 1,) -> (T, 2)."""
+    # solution: the exercise's own
+
+
+check.label_pairs(label_pairs)
+
+# %% [markdown]
+# Each buggy learner is the right one with one piece exchanged. Here are four of the six:
+
+# %% tags=["nbval-ignore-output"]
+source(
+    "bootcourse.course.lessons.bug_hunt.bugs", "NoEnd", "BonusForAll", "ShiftedLabels", "FlippedKL"
+)
+
+# %% [markdown]
+# > **Predict.** Which of the six would you have found by testing your code, and not by training?
+
+# %%
+choices = ["none", "one or two", "three or four", "all six"]
+predict("bug_hunt.5", "Found by tests of single functions", choices)
+
+# %% [markdown]
+# **Explain.** The six are in the pieces that you have just repaired: two in the target (13.3), one
+# in the value (13.4), two in the actor's loss (13.5), one in the labels (13.7). A test of such a
+# piece takes milliseconds. Some of the bugs do little damage *here*, with a teacher that leads the
+# agents out of the trap: that is one way in which such bugs survive. On another road, with another
+# γ or without a teacher, the same line may do much more. And a bug that raises the return is
+# dangerous: few people search for a mistake in a good result. (With the bonus paid for the agent's
+# own driving, the reward is a different one. It may suit this road, but it is not the method that
+# the paper describes.)
+
+# %% [markdown]
+# ## What you now know
+#
+# 1. A curve of escapes or returns can look right with a broken part behind it.
+# 2. A probe asks one part of a learner something whose answer is known. Compare with a healthy
+#    agent.
+# 3. At an accident, Q is {{ DEFAULT.reward.accident }}; on this road, a promise far above
+#    {{ 1 / (1 - SETTINGS.gamma) }} is wrong.
+# 4. The gradient does not pass through a drawn action. And without the stop-gradient, the actor's
+#    loss changes the critic: here one optimiser step serves both. Many programs have an optimiser
+#    for each network and compute Q anew for the actor. There the critic's optimiser deletes that
+#    gradient before its own step, and the same missing line does not change the critic.
+# 5. Small functions with hand-worked cases find in milliseconds what training can hide for hours.
+#
+# **Three questions to think about**
+# - You may run one probe during your trainings from now on. Which, and at what value does it warn?
+# - Two bugs at once: which pair could hide each other in the pictures above?
+# - A bug raises the return of your method in a paper's table. How would a reader find out?
+
+# %%
+fine = sum(late[name].mean() > 0.8 for name in "ABCDEF")
+compare_predictions(
+    "bug_hunt",
+    {
+        1: f"{fine} of six, on more than 80 % of the last episodes",
+        2: "no_end",
+        3: round(1 / (1 - gamma), 1),
+        4: "it keeps it a little likely",
+        5: "all six",
+    },
+)
+
+# %% [markdown] tags=["instructor"] minutes=3
+# Answers to the three questions. (1) The promise: it costs one pass through the networks, needs
+# neither accidents nor a teacher, and its bound is known, the largest reward of a second divided by
+# 1 − γ, here 5 (7 with room for the bonus). (2) For example `no_end` and `bonus_for_all`: at
+# accidents one pulls Q down and the other up. Ask for more pairs that move the same probe in
+# opposite directions. (3) From the printed text hardly; from the code, if it ships, with tests of
+# single functions; or when somebody else's program of the same method earns less.
+
+# %% [markdown]
+# **Read on**: what goes wrong in deep reinforcement learning, and how little of it is reported:
+# Henderson et al., *Deep Reinforcement Learning that Matters* (arXiv 1709.06560); Engstrom et al.,
+# *Implementation Matters in Deep Policy Gradients* (arXiv 2005.12729).

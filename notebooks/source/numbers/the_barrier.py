@@ -1,0 +1,36 @@
+"""What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
+
+from functools import cache
+
+import numpy as np
+from bootcourse.course.lessons.the_barrier import chain
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
+from bootcourse.policies import random_policy
+from bootcourse.research.planner import Search, discounted_values, plan_episodes
+from bootcourse.scenario import DEFAULT
+from tools.course.known import ROAD, shipped_runs
+
+
+@cache
+def planned(beam: int, gamma: float, keep_lane: bool = False, road: int = ROAD) -> float:
+    """What the planner's best drive on a road is worth."""
+    return plan_episodes([road], search=Search(beam, gamma, keep_lane))[0].value
+
+
+@cache
+def discounted_scores(method: str) -> np.ndarray:
+    """The shipped agents' discounted returns at their own γ, each the mean of 200 held-out roads: (agents,)."""
+    agents, seeds = [run.agent for run in shipped_runs(method)], held_out_seeds(1, 200)
+    return np.array([discounted_values(a.as_policy(), seeds, DEFAULT, a.settings.gamma).mean() for a in agents])
+
+
+@cache
+def by_chance():
+    """The barrier's 5,000 random drives."""
+    return drive_episodes(random_policy(np.random.default_rng(0)), held_out_seeds(6, 5000))
+
+
+def free_road_seen(explore: float, gamma: float, walks: int = 30) -> int:
+    """How many learners of the barrier's chain have been on its free road, of which Q(3, 1) tells."""
+    walked = (chain.learn_chain(chain.chances(explore, 1000, seed), gamma, 0.3, ()) for seed in range(walks))
+    return sum(bool(q[3, 1] > 0) for q in walked)

@@ -1,0 +1,488 @@
+# ---
+# jupyter:
+#   jupytext:
+#     text_representation:
+#       extension: .py
+#       format_name: percent
+#   kernelspec:
+#     display_name: Python 3 (ipykernel)
+#     language: python
+#     name: python3
+# ---
+
+# %% [markdown]
+# # Traffic
+#
+# **What you will be able to do**
+# - write down how the other cars follow (IDM) and change lane (MOBIL), and compute both by hand;
+# - start a traffic jam with one slow driver, and say why it travels backwards;
+# - tell from one number whether a simulated car's steering settles or swings.
+#
+# **Time** 75 minutes, under a minute of it the machine's. **It builds on**
+# [lesson [[the_trap]]](the_trap.ipynb).
+
+# %%
+import dataclasses
+import math
+
+import bootcourse as bc
+import numpy as np
+from bootcourse.course import charts, check, compare_predictions, predict, source, table
+from bootcourse.course.lessons.traffic import figures as figures_traffic
+from bootcourse.course.lessons.traffic import simulation as traffic
+
+# %% [markdown]
+# ## Look first
+#
+# Thirty drivers go round a ring with one lane. Overtaking is not possible, and each driver follows
+# the same formula. One of them begins slower than the others. Each line in the picture is one car;
+# half of the cars are drawn. On the left the cars are 20 m apart on average, on the right 30 m.
+
+# %% tags=["hide-input"]
+rings = {f"{spacing} m apart": traffic.ring(spacing) for spacing in (20, 30)}
+title = "One slow driver starts a jam at 20 m; at 30 m the disturbance dies out"
+bc.show(figures_traffic.space_time(rings, dt=0.5, title=title))
+
+# %% [markdown]
+# > **Predict.** At 20 m each car has four car lengths of road, its own included. Why do cars stop?
+# > And why does the band of standing cars move *backwards* while the cars drive forwards?
+
+# %%
+predict("traffic.1", "Why does the jam move backwards?")
+
+# %% [markdown]
+# Round 2 comes back to it.
+
+# %% [markdown] tags=["instructor"] minutes=8
+# Let them find the band's speed: in the 400 s of the picture it goes back by a little more than
+# one round of the ring, 600 m. The band is a place where cars stop, not a group of cars: cars
+# leave it at its front and join it at its back. A ring of real cars did the same: Sugiyama et al.,
+# *New Journal of Physics* 10 (2008) 033001.
+
+# %% [markdown]
+# ## Round 1: the gap that a driver wants
+#
+# The other cars follow the **Intelligent Driver Model** (IDM). It begins with the gap that a driver
+# wants. The driver's speed is $v$, and $\Delta v$ is how much faster it is than the car ahead:
+#
+# $$ s^*(v, \Delta v) = s_0 + T v + \frac{v\, \Delta v}{2 \sqrt{a_{\max} b}} $$
+#
+# $s_0$ is the gap at a standstill. $T$ is a **time gap**: the driver wants to be $T$ seconds behind
+# the car ahead, which is more metres at a higher speed. The last term asks for more room while the
+# driver closes in; $a_{\max}$ is the strongest acceleration, and $b$ a comfortable braking.
+#
+# > **Predict.** $s_0$ = 10 m, $T$ = 1.5 s, $a_{\max} = b$ = 0.5 m/s². What gap do you want at 10
+# > m/s behind a car at 10 m/s? Behind one at 8 m/s?
+
+# %%
+predict("traffic.2", "The gap that you want behind the car at 8 m/s?", unit="m")
+
+# %% [markdown]
+# **Exercise (4 min, ●○○).** Write the gap $s^*$ that a driver wants.
+
+
+# %%
+def desired_gap(v, dv, s0, time_gap, a_max, b):
+    """s* in m. v and dv (own minus theirs) in m/s, s0 in m, time_gap in s, a_max and b in m/s²."""
+    # solution
+    return s0 + time_gap * v + v * dv / (2 * math.sqrt(a_max * b))
+    # end solution
+
+
+check.desired_gap(desired_gap)
+
+# %% [markdown]
+# <details><summary>Answer</summary>
+#
+# {{ formulas.desired_gap(10, 0, 10, 1.5, 0.5, 0.5) | g }} m behind a car at 10 m/s, and {{
+# formulas.desired_gap(10, 2, 10, 1.5, 0.5, 0.5) | g }} m behind one at 8 m/s. A difference of two
+# metres per second nearly doubles the gap that the driver wants.
+# <!-- claim: 1.7 < formulas.desired_gap(10, 2, 10, 1.5, 0.5, 0.5) / formulas.desired_gap(10, 0, 10,
+#   1.5, 0.5, 0.5) < 2 -->
+#
+# </details>
+#
+# Distances here go from centre to centre, as highway-env measures them: subtract one car's length
+# to get the free space.
+
+# %% [markdown]
+# ## Round 2: how hard to brake
+#
+# The acceleration weighs two wishes: to drive at the desired speed, and to keep the gap. $s$ is the
+# gap that there is. The exponent $\delta$ (here {{ DEFAULT.traffic.delta | g }}) says how late the
+# acceleration fades as the driver nears its desired speed: the larger $\delta$, the later.
+#
+# $$ a = a_{\max} \left[ 1 - \left( \frac{v}{v_\text{desired}} \right)^{\delta} - \left(
+# \frac{s^*}{s} \right)^2 \right] $$
+#
+# > **Predict.** A driver is at exactly its desired speed, and its gap is exactly the $s^*$ that it
+# > wants. Does it accelerate, hold its speed, or brake?
+
+# %%
+predict(
+    "traffic.3",
+    "At its desired speed and its desired gap, what does it do?",
+    ["accelerate", "hold", "brake"],
+)
+
+# %%
+t = bc.DEFAULT.traffic
+title = "A driver at 10 m/s brakes much earlier when it closes in"
+bc.show(figures_traffic.following(10.0, closing=(-2, 0, 2), title=title))
+
+# %% [markdown]
+# <details><summary>Answer</summary>
+#
+# It brakes at $a_{\max}$: the bracket is 1 − 1 − 1. So the gap at which a driver holds its speed is
+# longer than $s^*$. In the picture it is where a line crosses zero.
+# <!-- claim: formulas.idm_acceleration(12.5, 12.5, 25.0, 25.0, 0.5, 4.0) == -0.5 -->
+#
+# </details>
+#
+# A simulation repeats one step. It computes the acceleration a from the present speeds and the
+# present gap. Here a is at least −{{ DEFAULT.traffic.braking_limit | g }} m/s²: no car brakes
+# harder. For dt seconds both cars move at their present speeds. Then the driver's speed changes by
+# a · dt, but it does not fall below 0.
+# <!-- claim: traffic.follow(10.0, 10.0, 0.1) == -DEFAULT.traffic.braking_limit -->
+#
+# **Exercise (20 min, ●●●).** Simulate a driver behind a car whose speeds are given. You need
+# both formulas, a loop, and the right order inside it.
+
+
+# %%
+def drive_behind(leader, v, gap, dt, v_desired, s0, time_gap, a_max, b, delta, limit):
+    """The gap (m) and the speed (m/s) at the start and after each step: (steps,) -> (steps + 1, 2).
+
+    leader: speeds of the car ahead in each step, m/s; v (m/s) and gap (m): at the start; dt in s;
+    limit: the hardest braking, a positive number (m/s²). The other numbers are those of IDM.
+    """
+    # solution: the exercise's own
+
+
+check.drive_behind(drive_behind)
+
+# %% [markdown]
+# Here eight of the library's drivers follow each other, 25 m apart. Their leader drives 10 m/s,
+# then 4 m/s for 20 s, then 10 m/s again. The picture shows the leader and three of the eight.
+
+# %% tags=["hide-input"]
+leader = np.repeat([10.0, 4.0, 10.0], [60, 40, 140])
+rows, ahead = {"leader": leader}, leader
+for k in range(1, 9):
+    ahead = traffic.behind(ahead, v=10.0, gap=25.0)[:-1, 1]
+    if k in (1, 4, 8):
+        rows[f"driver {k}, down to {ahead.min():.1f} m/s"] = ahead
+seconds = 0.5 * np.arange(len(leader))
+title = "Each driver brakes to a lower speed than the one ahead"
+bc.show(charts.lines(seconds, rows, title, "time (s)", "speed (m/s)", looks=figures_traffic.ROW))
+
+# %% [markdown]
+# **See.** The first driver comes too close and has to open the gap again, so for a moment it is
+# slower than its leader. The next one meets a stronger disturbance than the first, and so on: from
+# driver to driver the lowest speed falls.
+# <!-- claim: (np.diff([4.0, *lowest_speeds()]) < 0).all() -->
+#
+# **Exercise (6 min, ●●○).** Which gap does a driver settle at, behind a car that drives $v$ all
+# the time? Set $a = 0$ and $\Delta v = 0$, and solve for $s$.
+
+
+# %%
+def equilibrium_gap(v, v_desired, s0, time_gap, delta):
+    """The gap (m) at which nothing changes, v < v_desired (m/s); s0 in m, time_gap in s."""
+    # solution: the exercise's own
+
+
+check.equilibrium_gap(equilibrium_gap)
+
+# %%
+# NBVAL_CHECK_OUTPUT
+rows = []
+for v in (1.0, 6.0, 9.5, 12.0):
+    wanted = bc.formulas.desired_gap(v, 0.0, t.s0, t.time_gap, t.a_max, t.b)
+    settled = traffic.behind(np.full(20_000, v), v, wanted)[-1, 0]  # 10,000 s behind this speed
+    rows.append([f"{v:g} m/s", f"{wanted:.1f} m", f"{settled:.1f} m"])
+table(["speed", "wants s*", "settles at"], rows)
+
+# %% [markdown]
+# **See.** Read the table from right to left. Cars that settle about 20 m apart drive 6 m/s, and
+# cars that settle about 30 m apart drive 9.5 m/s. That is how fast the two rings are without a
+# disturbance.
+#
+# Where does the jam come from? As you saw, a driver that comes too close brakes below the speed of
+# the car ahead, opens the gap, and accelerates again. It does so slowly, by at most $a_{\max}$ =
+# {{ DEFAULT.traffic.a_max }} m/s², so the driver behind has to brake a little harder. In the ring
+# with 20 m that wave grows from car to car, in the ring with 30 m it shrinks. Cars leave the jam at
+# its front and join it at its back, so the *jam* moves backwards.
+#
+# Is there a jam on your road? In the scenario you can set how far apart, on average, the cars ahead
+# of the traps start.
+
+# %%
+rows = []
+for headway in (20.0, 30.0, 40.0):
+    denser = dataclasses.replace(bc.DEFAULT.traffic, headway=headway, lead=headway)
+    drives = bc.record(bc.idle_policy, range(50), dataclasses.replace(bc.DEFAULT, traffic=denser))
+    slowest = [drive.states[:, bc.state.TRAFFIC :, bc.state.SPEED].min() for drive in drives]
+    rows.append([f"{headway:g} m", f"{np.mean(slowest):.1f} m/s", f"{np.min(slowest):.1f} m/s"])
+table(["mean distance", "slowest car, mean of 50 roads", "slowest of all"], rows)
+
+# %% [markdown]
+# **See.** With three lanes and six cars there is room: the traffic slows down a little, and in
+# these 150 drives it does not stop. The scenario's own distance is the largest of the three.
+# <!-- claim: DEFAULT.road.lanes == 3 -->
+# <!-- claim: DEFAULT.traffic.cars == 6 -->
+# <!-- claim: DEFAULT.traffic.headway == max(20.0, 30.0, 40.0) -->
+
+# %% [markdown] tags=["instructor"] minutes=8
+# Ask for a ring of 25 m: does the jam stay or dissolve? It depends on how slowly the first car
+# begins: in `bootcourse.course.lessons.traffic.simulation.ring`, `v[0] = 5.0` and `v[0] = 1.0` end
+# differently. The ring has two stable states there.
+
+# %% [markdown]
+# ## Round 3: when to change lane
+#
+# **MOBIL** decides about a lane change with the accelerations of IDM: if I change, who can
+# accelerate more, and who less?
+#
+# $$ \Delta a_\text{ego} + p\, (\Delta a_\text{rear} + \Delta a_\text{front}) > a_\text{threshold}
+# $$
+#
+# The first term is the driver's own gain. The other two are the gains of two neighbours (a loss is
+# a negative gain), times a **politeness** $p$. Before that comes safety: a change must not make the
+# new follower brake harder than a limit, whatever the gains are.
+#
+# Which neighbours? The paper names the "trailing and leading vehicles in the target lane". But in
+# IDM a leading car does not react to the car behind it, so its gain is zero. Two cars do react: the
+# **new follower**, behind you in the lane that you change to, and the **old follower**, which you
+# leave behind. MOBIL was published with these two, and `bootcourse.road.traffic.worth_changing`
+# uses them, too. (At exactly the threshold the library changes lane; the formula does not.)
+#
+# **Exercise (7 min, ●●○).** Decide whether the driver changes lane.
+
+
+# %%
+def worth_changing(
+    own_gain, follower_before, follower_after, old_follower_gain, politeness, threshold, limit
+):
+    """True for a change that is safe and worth it. All but politeness in m/s².
+
+    follower_before, follower_after: the new follower's acceleration without and with the change;
+    limit: the hardest braking (a positive number) that a change may impose on it.
+    """
+    # solution: the exercise's own
+
+
+check.worth_changing(worth_changing)
+
+# %% [markdown]
+# You drive 11.5 m/s, 40 m behind a car at 11 m/s. The lane to the left is free ahead; a car comes
+# up in it at 12.5 m/s.
+#
+# > **Predict.** How long must the gap to that car be before a driver with p = 1 changes lane,
+# > compared with an egoist, p = 0?
+
+# %%
+predict(
+    "traffic.4", "The polite driver's gap over the egoist's?", ["the same", "twice", "four times"]
+)
+
+# %%
+own_gain = traffic.follow(11.5, 0.0, math.inf) - traffic.follow(11.5, 0.5, 40.0)
+
+
+def new_follower(gap):
+    """Its acceleration before and after you have changed into its lane (m/s²)."""
+    return traffic.follow(12.5, 0.0, math.inf), traffic.follow(12.5, 12.5 - 11.5, gap)
+
+
+bc.show(figures_traffic.changing(own_gain, new_follower, politeness=(0, 0.5, 1)))
+
+# %% [markdown]
+# **See.** A driver changes lane where its line is above the threshold, outside the red area. The
+# egoist changes as soon as the limit on the new follower's braking allows it. A driver with p = 1
+# waits for a gap almost four times as long: it counts the new follower's braking as its own loss.
+#
+# > **Predict.** Does polite traffic (p = 1) change lane more often or less often than egoists
+# > (p = 0)?
+
+# %%
+predict(
+    "traffic.5", "Polite traffic changes lane …", ["more often", "about as often", "less often"]
+)
+
+# %%
+rows = []
+for p in (0.0, 0.5, 1.0):
+    kind = dataclasses.replace(bc.DEFAULT.traffic, politeness=p)
+    drives = bc.record(bc.idle_policy, range(100), dataclasses.replace(bc.DEFAULT, traffic=kind))
+    lanes = [drive.states[:, bc.state.TRAFFIC :, bc.state.TARGET_LANE] for drive in drives]
+    changes = [(np.diff(lane, axis=0) != 0).sum() for lane in lanes]
+    error = np.std(changes, ddof=1) / math.sqrt(len(changes))
+    rows.append([f"{p:g}", f"{np.mean(changes):.2f} ± {error:.2f}"])
+table(["politeness", "lane changes a road (100 roads)"], rows)
+
+# %% [markdown]
+# **Explain.** The number after ± is the standard error of the mean. Traffic with $p$ = 1 changes
+# lane more often than the other two, by more than the errors explain. Between $p$ = 0 and 0.5 the
+# difference is smaller than the errors: these 100 roads do not tell which of the two changes more.
+# We explain the result for $p$ = 1 like this. The same $p$ weighs two things: what the new follower
+# loses, and what the *old* follower gains. On this road the other lanes are nearly empty, so often
+# the new follower loses nothing, while the old one gains. A polite driver gets out of the way.
+#
+# The traffic's numbers belong to the scenario, and you can change them: `dataclasses.replace`
+# copies a scenario with other numbers. A scenario whose numbers do not fit together is refused with
+# the reason.
+#
+# > **Predict.** You shorten the road. At about which length will it be refused, and why there?
+
+# %%
+predict("traffic.6", "Below which length is the road refused?", unit="m")
+
+# %%
+for length in (5000.0, 4500.0, 4000.0, 3500.0):  # m: try others
+    road = dataclasses.replace(bc.DEFAULT.road, length=length)
+    try:
+        dataclasses.replace(bc.DEFAULT, name="shorter", road=road)
+        print(f"{length:g} m: accepted")
+    except bc.BootcourseError as error:
+        print(f"{length:g} m: {error}")
+
+# %% [markdown]
+# <details><summary>Answer</summary>
+#
+# The road must be at least {{ 150 * DEFAULT.ego.max_speed | g }} m long. The ego's maximum speed is
+# {{ DEFAULT.ego.max_speed | g }} m/s, so it could drive that far in the 150 s of an episode, and
+# it must not reach the end of the road. Traffic starts further ahead, but drives more slowly.
+# <!-- claim: accepts_road(150 * DEFAULT.ego.max_speed) -->
+# <!-- claim: not accepts_road(150 * DEFAULT.ego.max_speed - 1) -->
+# <!-- claim: DEFAULT.clock.decisions / DEFAULT.clock.decision_rate == 150 -->
+#
+# </details>
+
+# %% [markdown]
+# ## Round 4: two steps a second
+#
+# To change lane, a traffic car turns towards a heading and back. It turns at a rate that is
+# proportional to the error: (wanted heading − heading) / τ, where τ is a **time constant**. Our
+# simulation makes {{ DEFAULT.clock.simulation_rate }} steps a second, as the paper's does: the rate
+# is held for a whole step of dt = {{ DEFAULT.clock.dt }} s.
+#
+# > **Predict.** highway-env's own τ is 0.2 s: quick and precise at its usual 15 Hz. What happens
+# > at 2 Hz to a heading error of 1°?
+
+# %%
+choices = ["it settles in one step", "it swings and settles", "it swings and grows"]
+predict("traffic.7", "What happens to the heading error at 2 Hz?", choices)
+
+# %% [markdown]
+# **Exercise (6 min, ●●○).** Write the heading error after each step of dt.
+
+
+# %%
+def heading_errors(error, tau, dt, steps):
+    """The heading error at the start and after each step: (steps + 1,). tau and dt in s."""
+    # solution: the exercise's own
+
+
+check.heading_errors(heading_errors)
+
+# %%
+bc.show(figures_traffic.swinging(taus=(0.2, 0.3, 0.6), dt=bc.DEFAULT.clock.dt))
+
+# %% [markdown]
+# **Explain.** Each step multiplies the error by $1 - dt/\tau$. With a factor between 0 and 1 the
+# error settles; between −1 and 0 it swings and settles; below −1, that is for **dt / τ above 2**,
+# it swings and grows. The differential equation is stable for every τ, the *simulation* is not.
+# <!-- claim: 0 < 1 - 0.5 / 0.6 < 1 and -1 < 1 - 0.5 / 0.3 < 0 and 1 - 0.5 / 0.2 < -1 and 0.5 / 0.3
+#   < 2 < 0.5 / 0.2 -->
+
+
+# %%
+def broken(tau_heading, tau_lateral, rate=2, roads=100):
+    """Shares of roads on which a traffic car leaves the road, and on which traffic collides."""
+    traffic = dataclasses.replace(
+        bc.DEFAULT.traffic, tau_heading=tau_heading, tau_lateral=tau_lateral
+    )
+    clock = dataclasses.replace(bc.DEFAULT.clock, simulation_rate=rate)
+    scenario, road = dataclasses.replace(bc.DEFAULT, traffic=traffic, clock=clock), bc.DEFAULT.road
+    drives = [drive.states for drive in bc.record(bc.idle_policy, range(roads), scenario)]
+    middle, half = road.lane_width * (road.lanes - 1) / 2, road.lane_width * road.lanes / 2
+    off = [np.any(abs(s[:, bc.state.TRAFFIC :, bc.state.Y] - middle) > half) for s in drives]
+    hit = [s[:, bc.state.TRAFFIC :, bc.state.CRASHED].any() for s in drives]
+    return np.mean(off), np.mean(hit)
+
+
+# %% tags=["hide-input"]
+tried = {"highway-env's, 2 Hz": (0.2, 0.6, 2), "highway-env's, 15 Hz": (0.2, 0.6, 15)}
+tried["ours, 2 Hz"] = (t.tau_heading, t.tau_lateral, 2)
+rows = []
+for name, numbers in tried.items():
+    factor = 1 - 1 / numbers[2] / numbers[0]
+    rows.append([name, f"{factor:.2f}", *(f"{share:.0%}" for share in broken(*numbers))])
+headings = ["factor of a step", "roads where a car leaves the road", "where cars crash"]
+table(["time constants", *headings], rows)
+
+# %% [markdown]
+# **See.** With highway-env's time constants at 2 Hz, traffic cars leave the road although you do
+# nothing to disturb them. An agent that trains there learns to drive among cars that swerve off the
+# road, and its table of results does not show that. So we gave our own cars longer time constants,
+# and tested them as above. Before you believe a simulator, look at each of its cars, and not just
+# at the one that you train. This is the controller of the traffic cars:
+
+# %%
+source("bootcourse.road.formulas", "lane_keeping_steering")
+
+# %% [markdown] tags=["instructor"] minutes=8
+# Ask where else a rate meets a time step: gradient descent with a learning rate times a curvature
+# above 2 diverges in the same way, with the same alternating signs. Draw that on the board.
+# <!-- claim: abs(1 - 1.99) < abs(1 - 2) == 1 < abs(1 - 2.01) -->
+
+# %% [markdown]
+# ## What you now know
+#
+# 1. IDM brakes for the closing speed as well as for the gap, and settles at more than $s^*$.
+# 2. The closer together cars settle, the slower they drive. If they are close enough, a disturbance
+#    can grow into a jam that travels backwards.
+# 3. MOBIL changes lane when that is safe, and when the driver's own gain plus p times the gains of
+#    its new and its old follower exceeds a threshold.
+# 4. On 100 roads traffic with full politeness (p = 1) changed lane more often than egoists.
+# 5. The simulated steering is unstable if dt / τ exceeds 2, even though its differential equation
+#    is stable.
+# <!-- claim: abs(1 - 1.99) < abs(1 - 2) == 1 < abs(1 - 2.01) -->
+#
+# **Three questions to think about**
+# - The traps are IDM cars, too, with a desired speed of 10 m/s. What would trap 1 do if you
+#   stopped behind it? And if you stopped in front of it?
+# - The traffic cars react to your car as to any other. How could a learner take advantage of that?
+# - Does a traffic jam ahead of the traps make it easier or harder to get out?
+#
+# **Read on**: Treiber, Hennecke and Helbing, *Congested traffic states in empirical observations
+# and microscopic simulations* (2000), for IDM; Kesting, Treiber and Helbing, *General
+# lane-changing model MOBIL for car-following models* (2007). Next: [the rule](the_rule.ipynb).
+
+# %%
+backwards = "cars leave it at its front and join it at its back"
+compare_predictions(
+    "traffic",
+    {
+        1: f"{backwards}; it begins where a driver brakes below the speed ahead",
+        2: bc.formulas.desired_gap(10.0, 2.0, 10.0, 1.5, 0.5, 0.5),
+        3: "brake",
+        4: "four times",
+        5: "more often",
+        6: 150 * bc.DEFAULT.ego.max_speed,
+        7: "it swings and grows",
+    },
+)
+
+# %% [markdown] tags=["instructor"] minutes=8
+# *Model answers to the three questions:*
+#
+# - **Trap 1 and you.** Behind it you do not exist for trap 1: IDM looks at the car ahead. In front
+#   of it you are its leader. If you stop there, it brakes, up to {{ DEFAULT.traffic.braking_limit |
+#   g }} m/s², and stops behind you if the gap allows it.
+# - **To take advantage.** A learner can push in just ahead of a traffic car and let it brake, since
+#   IDM avoids the crash for it. What it learns then fails among drivers who react more slowly.
+# - **A jam ahead.** The traps slow down with it, and the jam may reach you. But slower traps are
+#   easier to pass, and the left lane may jam as well. Which effect wins is an experiment:
+#   `dataclasses.replace(bc.DEFAULT.traffic, headway=20.0, lead=20.0)`.
