@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from bootcourse.colours import ALARM, Style
 from bootcourse.course.charts import lines
-from bootcourse.course.lessons.the_rule.plans import direct_solution
+from bootcourse.course.lessons.the_rule.plans import direct_plan
 from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
@@ -54,7 +54,7 @@ def escape_against_d2(plan: Sequence | None, roads: int = 400) -> Figure:
 
     plan: as for `plan_policy`; None for the kit's own.
     """
-    drives = record(plan_policy(plan or direct_solution()), held_out_seeds(1, roads))
+    drives = record(plan_policy(plan or direct_plan()), held_out_seeds(1, roads))
     d2 = np.array([drive.states[0, TRAP_2, X] - drive.states[0, EGO, X] for drive in drives])
     out = np.array([drive.success for drive in drives])
     title = "Where trap 2 starts decides whether one plan gets out"
