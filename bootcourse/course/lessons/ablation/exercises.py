@@ -186,11 +186,11 @@ def group_cases(rng):
     mistakes={
         "return np.array([iqm(y) - iqm(x), *np.percentile(-differences, [2.5, 97.5])])":
             "Your sign is turned: the first group less the second.",
-        "of_x, of_y = (np.percentile(iqm(drawn), [2.5, 97.5]) for drawn in (x[draws_x], y[draws_y]))\n"
+        "of_x, of_y = (np.percentile(iqm(drawn), [2.5, 97.5]) for drawn in (x[draws_x], y[draws_y])); "
         "return np.array([iqm(x) - iqm(y), *(of_x - of_y)])":
             "You subtract the ends of two intervals. Subtract in each resample, and take the percentiles of these "
             "differences.",
-        "of_x, of_y = (np.percentile(iqm(drawn), [2.5, 97.5]) for drawn in (x[draws_x], y[draws_y]))\n"
+        "of_x, of_y = (np.percentile(iqm(drawn), [2.5, 97.5]) for drawn in (x[draws_x], y[draws_y])); "
         "return np.array([iqm(x) - iqm(y), *(of_x - of_y[::-1])])":
             "You take the worst case at both ends: that both groups are unlucky in opposite directions is rarer than "
             "5 %. Take the percentiles of the resampled differences.",

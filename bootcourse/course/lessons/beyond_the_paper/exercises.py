@@ -92,13 +92,13 @@ PI, Q = torch.tensor([[0.5, 0.3, 0.2]]), torch.tensor([[1.0, 2.0, 3.0]])
             "agent draws from π.",
         "return stays":
             "Your probabilities do not add up to 1: where the agent's own action is not better, the rule's is taken.",
-        "shared = stays + one_hot(rule_actions, pi) * pi\n"
+        "shared = stays + one_hot(rule_actions, pi) * pi; "
         "return shared / shared.sum(-1, keepdim=True).clamp_min(1e-12)":
             "You share what is left over among all actions that remain. If a worse action is drawn, the rule's is "
             "taken instead: all of it goes to μ(s).",
         "q > q_rule -> q < q_rule":
             "You keep the own actions that are valued *below* the rule's.",
-        "better = (pi * q).sum(-1) > q_rule[:, 0]\n"
+        "better = (pi * q).sum(-1) > q_rule[:, 0]; "
         "return one_hot(torch.where(better, pi.argmax(-1), rule_actions), pi)":
             "You decide once for each state, by the mean value of π. The choice is made for the action that was drawn: "
             "each of the nine is compared with the rule's.",
