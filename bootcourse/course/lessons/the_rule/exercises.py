@@ -252,7 +252,8 @@ def rule_cases(rng):
         ("(1 - p) / 8 -> p", "= p -> = (1 - p) / 8"):
             "Your two cases are swapped: the rule's own action has the small probability, and each other action has p.",
         "(1 - p) / 8 -> 0.0":
-            "The other eight actions have probability 0, which makes the KL of lesson 7 infinite. They share 1 - p.",
+            "The other eight actions have probability 0, which makes the KL of the soft constraint infinite. They "
+            "share 1 - p.",
         "probabilities[np.arange(len(rule_actions)), rule_actions] -> probabilities[:, rule_actions]":
             "`table[:, rule_actions] = p` writes p into these columns of *every* row. Each row has one p: give the "
             "number of the row as well, `table[np.arange(n), rule_actions]`.",
