@@ -1,80 +1,53 @@
-"""The exercises: a wrong answer never passes, a right one always does, and nothing that it does ends the notebook."""
+"""The exercises: a wrong answer never passes, a right one always does, and a sentence says what is wrong."""
 
-import copy
-import dataclasses
-import inspect
 import itertools
-import sys
 
-import cloudpickle
 import numpy as np
 import pytest
 import torch
 
 from bootcourse.course import check, runner, values
-from bootcourse.course.exercise import call_it, logits
 from bootcourse.course.exercise import exercise as exercise_of
+from bootcourse.course.exercise import logits
 from bootcourse.course.judge import judge, outcomes
 from bootcourse.course.lessons import registry
 from bootcourse.course.verdict import Verdict
 from bootcourse.errors import BootcourseError
 from tests.answers import RIGHT, WRONG, here, one_sentence
 
-EXERCISES = list(registry().values())
-
-
-def of_each(exercises):
-    return pytest.mark.parametrize("exercise", exercises, ids=lambda exercise: exercise.name)
-
-
+EXERCISES = registry()
 NOT_RIGHT = ("wrong", "did_not_run")
-every_exercise = of_each(EXERCISES)
-# A number, an array, a loss, how well an answer drives, and a verdict in the exercise's own words stand for all.
-some_exercises = of_each(
-    [registry()[n] for n in ("target_speed", "stochastic_rule", "cloning_loss", "my_rule", "diagnose")]
-)
-cloudpickle.register_pickle_by_value(sys.modules[__name__])
+every_exercise = pytest.mark.parametrize("exercise", EXERCISES.values(), ids=lambda exercise: exercise.name)
 
 
-@pytest.fixture
+@pytest.fixture(autouse=True)
 def fast(monkeypatch):
+    """Answers run in this process; `test_lessons_guard.py` judges some in processes of their own."""
     monkeypatch.setattr(runner, "run", here)
 
 
 # Every exercise -----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    "name, answer",
-    [(name, answer) for name in RIGHT for answer in RIGHT[name]],
-    ids=lambda x: getattr(x, "__name__", x),
-)
-@pytest.mark.usefixtures("fast")
-def test_a_right_answer_passes(name, answer):
-    verdict = judge(registry()[name], answer)
-    assert verdict.passed, verdict
+@pytest.mark.parametrize("name", RIGHT)
+def test_right_answers_pass(name):
+    for answer in (EXERCISES[name].solution, *RIGHT[name]):
+        verdict = judge(EXERCISES[name], answer)
+        assert verdict.passed, (answer.__name__, verdict)
 
 
-@pytest.mark.parametrize(
-    "name, answer, words",
-    [(name, *pair) for name in WRONG for pair in WRONG[name]],
-    ids=lambda x: getattr(x, "__name__", None) or (x if x in WRONG else "says"),
-)
-@pytest.mark.usefixtures("fast")
-def test_a_wrong_answer_is_rejected_with_its_own_message(name, answer, words):
-    verdict = judge(registry()[name], answer)
-    assert verdict.kind in NOT_RIGHT and words in verdict.sentence and one_sentence(verdict), verdict
-
-
-def test_every_table_of_answers_belongs_to_an_exercise():
-    assert set(RIGHT) | set(WRONG) <= set(registry())
+@pytest.mark.parametrize("name", WRONG)
+def test_wrong_answers_are_rejected_in_one_sentence_with_their_own_words(name):
+    for answer, words in WRONG[name]:
+        verdict = judge(EXERCISES[name], answer)
+        assert verdict.kind in NOT_RIGHT and words in verdict.sentence and one_sentence(verdict), (answer, verdict)
 
 
 @every_exercise
-def test_an_exercise_has_two_right_answers_three_known_mistakes_and_with_them_five_wrong_answers(exercise):
-    assert len(RIGHT[exercise.name]) >= 2
-    assert len(exercise.mistakes) >= 3
-    assert WRONG[exercise.name] and len(WRONG[exercise.name]) + len(exercise.mistakes) >= 5
+def test_a_known_mistake_gets_its_message(exercise):
+    for mistake in exercise.mistakes:
+        verdict = judge(exercise, mistake.answer)
+        assert verdict.sentence == mistake.says and verdict.mistake is mistake and mistake.says.endswith(".")
 
 
 @every_exercise
@@ -86,121 +59,102 @@ def test_the_solution_gives_what_was_worked_out_by_hand(exercise):
         assert values.same(answer, values.plain(by_hand), exercise.tolerance), values.numbers(answer)
 
 
-@every_exercise
-@pytest.mark.usefixtures("fast")
-def test_the_solution_passes_and_the_cases_are_many_and_the_same_each_time(exercise):
-    assert judge(exercise, exercise.solution).passed
-    twins = exercise, dataclasses.replace(exercise)
-    first, again = ([[values.numbers(values.plain(v)) for v in c] for c in each.all_arguments] for each in twins)
-    assert first == again and len(first) >= 20
+def test_an_exercise_has_many_cases_and_right_and_wrong_answers():
+    assert set(RIGHT) | set(WRONG) <= set(EXERCISES)
+    for name, exercise in EXERCISES.items():
+        assert len(exercise.all_arguments) >= 20 and len(exercise.mistakes) >= 3, name
+        assert RIGHT[name] and WRONG[name] and len(WRONG[name]) + len(exercise.mistakes) >= 5, name
 
 
-@every_exercise
-@pytest.mark.usefixtures("fast")
-def test_a_known_mistake_gets_its_message(exercise):
-    for mistake in exercise.mistakes:
-        assert judge(exercise, mistake.answer).sentence == mistake.says
-        assert mistake.says.endswith(".")
+def test_hints_come_one_by_one_and_the_solution_when_asked():
+    for name, exercise in EXERCISES.items():
+        check._hints_given.clear()
+        shown = [check.hint(name) for _ in range(len(exercise.hints) + 1)]
+        assert [hint.sentence.partition(": ")[2] for hint in shown] == [*exercise.hints, exercise.hints[-1]]
+        assert "solution" in shown[-1].footer and ("solution" not in shown[0].footer or len(exercise.hints) == 1)
+        assert "return" in check.solution(name).data
 
 
-@pytest.mark.usefixtures("fast")
+# The engine, on a few exercises -------------------------------------------------------------------
+# A number, an array, a loss, how well an answer drives, and a verdict in the exercise's own words stand for all.
+
+
+@pytest.fixture(params=["target_speed", "stochastic_rule", "cloning_loss", "my_rule", "diagnose"])
+def one(request):
+    return EXERCISES[request.param]
+
+
 @pytest.mark.parametrize("body", ["...", "pass", "return None", "raise NotImplementedError", "'''What it does.'''"])
-@some_exercises
-def test_an_untouched_stub_fails_politely(exercise, body):
+def test_an_untouched_stub_fails_politely(one, body):
     space = {}
-    exec(f"def {exercise.call}:\n    {body}", space)
-    verdict = judge(exercise, space[exercise.name])
+    exec(f"def {one.call}:\n    {body}", space)
+    verdict = judge(one, space[one.name])
     assert verdict.kind == "todo" and "Nothing to check yet" in verdict.sentence and not verdict.passed
 
 
-@some_exercises
-@pytest.mark.usefixtures("fast")
-def test_a_wrong_type_is_said_in_one_sentence(exercise):
+def test_a_wrong_type_is_said_in_one_sentence(one):
     for value in (["a list"], "words", {1: 2}, object(), 1j, torch.nn.Linear(1, 1), (1.0, 2.0)):
-        verdict = judge(exercise, lambda *arguments, value=value: value)
+        verdict = judge(one, lambda *arguments, value=value: value)
         assert verdict.kind in NOT_RIGHT and one_sentence(verdict)
-        assert (
-            "returns" in verdict.sentence or "shape" in verdict.sentence
-        )  # two numbers are an array, of a wrong shape
+        assert "returns" in verdict.sentence or "shape" in verdict.sentence
 
 
-def changed_values(exercise, change):
-    """An answer that computes the right thing and then changes it, a tuple part by part."""
+def test_raising_is_said_in_one_sentence_with_the_line(one):
+    def raises(*arguments):
+        return 1 / (len(arguments) - len(arguments))
 
-    def answer(*arguments):
-        right = exercise.solution(*arguments)
-        return tuple(map(change, right)) if isinstance(right, tuple) else change(right)
-
-    return answer
-
-
-def is_compared_as_it_is(exercise) -> bool:
-    """Numbers that nothing else is computed from before they are compared."""
-    answer = values.plain(exercise.outcome(exercise.solution, *copy.deepcopy(exercise.all_arguments[0])))
-    return exercise.run is call_it and not exercise.slopes and answer.kind in (*values.NUMERIC, "tuple")
+    verdict = judge(one, raises)
+    assert "`return 1 / (len(arguments) - len(arguments))`: ZeroDivisionError" in verdict.sentence
+    assert verdict.kind == "did_not_run" and one_sentence(verdict)
 
 
-@some_exercises
-@pytest.mark.usefixtures("fast")
-def test_a_wrong_shape_is_said_in_one_sentence(exercise):
-    stack = lambda value: torch.stack([value] * 3) if isinstance(value, torch.Tensor) else np.array([value] * 3)  # noqa: E731
-    verdict = judge(exercise, changed_values(exercise, stack))
-    assert verdict.kind in NOT_RIGHT and one_sentence(verdict)
-    assert not is_compared_as_it_is(exercise) or "shape" in verdict.sentence or "returns" in verdict.sentence
+def test_a_wrong_number_of_arguments_is_said_in_one_sentence(one):
+    verdict = judge(one, lambda only, *, too: only)
+    assert f"the check calls `{one.call}`" in verdict.sentence and one_sentence(verdict)
 
 
-@some_exercises
-@pytest.mark.usefixtures("fast")
-def test_nan_is_said_in_one_sentence(exercise):
-    verdict = judge(exercise, changed_values(exercise, lambda value: value * float("nan")))
-    assert verdict.kind in NOT_RIGHT and one_sentence(verdict)
-    assert not is_compared_as_it_is(exercise) or "NaN" in verdict.sentence
-
-
-@of_each([registry()[n] for n in ("stochastic_rule", "cloning_loss", "my_rule")])  # the others ask for no array
-@pytest.mark.usefixtures("fast")
-def test_changing_an_argument_in_place_is_said_in_one_sentence(exercise):
+@pytest.mark.parametrize("name", ["stochastic_rule", "cloning_loss", "my_rule"])  # the others ask for no array
+def test_changing_an_argument_in_place_is_said_in_one_sentence(name):
     def in_place(*arguments):
-        answer = exercise.solution(*arguments)
+        answer = EXERCISES[name].solution(*arguments)
         for argument in arguments:
             if isinstance(argument, (torch.Tensor, np.ndarray)):
                 argument[...] = 0
         return answer
 
-    verdict = judge(exercise, in_place)
-    assert verdict.kind in NOT_RIGHT and "changes its argument `" in verdict.sentence and one_sentence(verdict)
+    verdict = judge(EXERCISES[name], in_place)
+    assert verdict.kind == "wrong" and "changes its argument `" in verdict.sentence and one_sentence(verdict)
 
 
-@some_exercises
-@pytest.mark.usefixtures("fast")
-def test_raising_is_said_in_one_sentence_with_the_line(exercise):
-    def raises(*arguments):
-        return 1 / (len(arguments) - len(arguments))
-
-    verdict = judge(exercise, raises)
-    assert "`return 1 / (len(arguments) - len(arguments))`: ZeroDivisionError" in verdict.sentence
-    assert verdict.kind in NOT_RIGHT and one_sentence(verdict)
+TARGET = EXERCISES["critic_target"]
 
 
-@some_exercises
-@pytest.mark.usefixtures("fast")
-def test_a_wrong_number_of_arguments_is_said_in_one_sentence(exercise):
-    verdict = judge(exercise, lambda only, *, too: only)
-    assert f"the check calls `{exercise.call}`" in verdict.sentence and one_sentence(verdict)
+def half_of_a_target(reward, terminated, next_value, gamma):
+    if gamma < 0.9:
+        return reward + gamma * (1 - terminated) * next_value
 
 
-@every_exercise
-def test_hints_come_one_by_one_and_the_solution_when_asked(exercise):
-    check._hints_given.clear()
-    shown = [check.hint(exercise.name) for _ in range(len(exercise.hints) + 1)]
-    assert [hint.sentence.partition(": ")[2] for hint in shown] == [*exercise.hints, exercise.hints[-1]]
-    assert "return" in check.solution(exercise.name).data
-    assert "solution" in shown[-1].footer and "solution" not in shown[0].footer
+def evil(*arguments):
+    raise ValueError("<script>alert(1)</script>")
 
 
-# The engine, on one exercise ----------------------------------------------------------------------
-
-TARGET = registry()["critic_target"]
+@pytest.mark.parametrize(
+    "name, answer, words",
+    [
+        ("critic_target", lambda *given: np.asarray(TARGET.solution(*given)),
+            "a NumPy array: the exercise asks for a torch tensor, because training needs one"),
+        ("critic_target", lambda *given: torch.stack([TARGET.solution(*given)] * 3), "Your answer has shape (3, "),
+        ("critic_target", lambda *given: TARGET.solution(*given) * float("nan"), "not a number (NaN)"),
+        ("return_to_go", lambda rewards, gamma: (rewards - rewards) / np.zeros(len(rewards)),
+            "not a number (NaN) in this case: NumPy says 'invalid value encountered in divide'"),
+        ("critic_target", lambda reward, *rest: torch.randn_like(reward), "differently each time"),
+        ("critic_target", half_of_a_target, "branch without `return`"),
+        ("critic_target", 3.0, "this is a number"),
+    ],
+)  # fmt: skip
+def test_what_is_wrong_is_said_in_one_sentence(name, answer, words):
+    verdict = judge(EXERCISES[name], answer)
+    assert verdict.kind == "wrong" and words in verdict.sentence and one_sentence(verdict), verdict
 
 
 def test_an_answer_that_is_wrong_in_no_known_way_is_shown_its_first_case():
@@ -214,28 +168,9 @@ def test_truth_values_are_shown_as_true_and_false():
     assert "ended = [False, True, False]" in verdict.details
 
 
-def test_an_array_where_training_needs_a_tensor_is_refused_with_the_reason():
-    verdict = check.critic_target(lambda *arguments: np.asarray(TARGET.solution(*arguments)))
-    assert "a NumPy array: the exercise asks for a torch tensor, because training needs one" in verdict.sentence
-
-
-def test_an_answer_that_is_not_a_number_is_shown_with_numpy_s_own_warning():
-    verdict = check.return_to_go(lambda rewards, gamma: (rewards - rewards) / np.zeros(len(rewards)))
-    assert "not a number (NaN) in this case: NumPy says 'invalid value encountered in divide'" in verdict.sentence
-
-
 def test_an_answer_that_is_right_in_all_but_one_case_does_not_pass():
     seen = itertools.count()
-
-    def nearly(*arguments):
-        return TARGET.solution(*arguments) + (next(seen) == 40)
-
-    assert not judge(TARGET, nearly).passed
-
-
-def test_an_answer_that_draws_at_random_is_told_so():
-    verdict = check.critic_target(lambda reward, *rest: torch.randn_like(reward))
-    assert "differently each time" in verdict.sentence
+    assert not judge(TARGET, lambda *given: TARGET.solution(*given) + (next(seen) == 40)).passed
 
 
 def test_an_answer_that_writes_every_result_into_one_tensor_is_judged_by_what_it_returned():
@@ -247,18 +182,6 @@ def test_an_answer_that_writes_every_result_into_one_tensor_is_judged_by_what_it
         return buffer[: len(right)]
 
     assert judge(TARGET, reuse).passed
-
-
-def test_a_branch_without_return_is_named():
-    def half(reward, terminated, next_value, gamma):
-        if gamma < 0.9:
-            return reward + gamma * (1 - terminated) * next_value
-
-    assert "branch without `return`" in check.critic_target(half).sentence
-
-
-def test_what_is_no_function_is_named():
-    assert "this is a number" in check.critic_target(3.0).sentence
 
 
 def test_strict_raises_what_does_not_pass_and_only_that():
@@ -279,9 +202,6 @@ def test_a_misspelt_exercise_is_one_sentence_with_the_nearest_name():
 
 
 def test_markup_in_a_message_is_shown_and_not_obeyed():
-    def evil(*arguments):
-        raise ValueError("<script>alert(1)</script>")
-
     verdict = check.critic_target(evil)
     assert "<script>" not in verdict._repr_mimebundle_()["text/html"] and "<script>" in repr(verdict)
 
@@ -327,4 +247,3 @@ def test_of_a_loss_the_slopes_are_compared_through_the_logits(answer, words):
 
 def test_check_offers_its_exercises_for_completion():
     assert {"hint", "solution", *registry()} <= set(dir(check))
-    assert inspect.getdoc(check)

@@ -146,6 +146,21 @@ def test_a_part_of_one_s_own_replaces_the_library_s_and_a_line_says_so(capsys):
     assert "our soft_value, your critic_target, our critic_loss" in capsys.readouterr().out
 
 
+def test_a_buffer_in_float64_is_refused_by_the_comparison_and_by_the_training():
+    own_code.use(cell(BUFFER.replace("])\n", "]).double()\n"))["ReplayBuffer"])
+    assert "float32" in str(own_code.compare())
+    training = own_code.training([settings_for("sac", learning_starts=16, batch=16, hidden=(8,))])
+    with pytest.raises(BootcourseError, match="^Your `ReplayBuffer` gives rows in float64: training needs float32"):
+        training.run(progress=False, stop=lambda: training.updates >= 2)
+
+
+def test_a_target_in_float64_trains():
+    own_code.use(cell(RIGHT.replace("t.ones(())", "t.ones(1).double()"))["critic_target"])
+    training = own_code.training([settings_for("sac", learning_starts=16, batch=16, hidden=(8,))])
+    training.run(progress=False, stop=lambda: training.updates >= 2)
+    assert training.learner.critics[0].dtype == torch.float32 and training.updates >= 2
+
+
 @pytest.mark.parametrize("method", ["sac", "soft", "margin_soft", "cql", "gail", "rlpd", "ibrl"])
 @pytest.mark.parametrize("left_out", [(), tuple(LATER)], ids=["with the later parts", "without"])
 def test_the_solutions_make_the_library_s_update(method, left_out):

@@ -51,6 +51,7 @@ def judge(exercise: Exercise, answer: Callable | str, seconds: float | None = No
     verdict, printed = Verdict("todo", todo), ""
     if not does_nothing(answer):  # an untouched stub needs no process
         seconds = exercise.seconds if seconds is None else seconds
+        outcomes(exercise, exercise.solution)  # on a new machine it compiles the road: the answer has its whole time
         report = runner.run(exercise, answer, seconds)
         if not is_unfinished(report, answer):
             verdict = not_answered(exercise, answer, report) or compared(exercise, answer, report, seconds)
