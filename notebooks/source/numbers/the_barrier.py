@@ -3,7 +3,7 @@
 from functools import cache
 
 import numpy as np
-from bootcourse.course.lessons.the_barrier import chain
+from bootcourse.course.lessons.the_barrier import attempts, chain
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.policies import random_policy
 from bootcourse.research.planner import Search, discounted_values, plan_episodes
@@ -31,6 +31,23 @@ def by_chance():
 
 
 def free_road_seen(explore: float, gamma: float, walks: int = 30) -> int:
-    """How many learners of the barrier's chain have been on its free road, of which Q(3, 1) tells."""
+    """How many learners of the barrier's chain have decided on its free road, whose every decision pays 1."""
     walked = (chain.learn_chain(chain.chances(explore, 1000, seed), gamma, 0.3, ()) for seed in range(walks))
-    return sum(bool(q[3, 1] > 0) for q in walked)
+    return sum(bool(q[4].max() > 0) for q in walked)
+
+
+FOUR = "4 random actions, then accelerates"
+UNSKILLED = ("random for 150 s", FOUR, "random lanes and speeds")
+KINDS_OF_ATTEMPTS = (*UNSKILLED, "one plan, then accelerates", "the rule's way")
+
+
+@cache
+def all_tested() -> dict[str, attempts.Outcome]:
+    """The lesson's kinds of attempts on its 500 roads, driven in the same order."""
+    roads = held_out_seeds(7, 500)
+    return {kind: attempts.drive(policy, roads) for kind, policy in attempts.kinds(len(roads)).items()}
+
+
+def tested(kind: str) -> attempts.Outcome:
+    """One kind of them."""
+    return all_tested()[kind]

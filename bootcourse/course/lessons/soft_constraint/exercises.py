@@ -224,7 +224,7 @@ Q_PAIR = torch.tensor([[2.0] * 4 + [9.0] * 5, [5.0] * 4 + [2.0] * 5])[:, None].e
     ],
     hints=(
         "What is the value of s' if each second pays r + α H - ξ KL? Which of these terms belong to s, which to s'?",
-        "The soft value of s' as in lesson 4, of the smaller Q (`next_q_pair.amin(0)`), minus ξ times `next_kl`.",
+        "The soft value of s' as in plain SAC, of the smaller Q (`next_q_pair.amin(0)`), minus ξ times `next_kl`.",
     ),
     mistakes={
         "- xi * next_kl ->":

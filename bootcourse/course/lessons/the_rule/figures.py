@@ -54,9 +54,7 @@ def escape_against_d2(plan: Sequence | None, roads: int = 400) -> Figure:
 
     plan: as for `plan_policy`; None for the kit's own.
     """
-    drives = record(plan_policy(plan or direct_plan()), held_out_seeds(1, roads))
-    d2 = np.array([drive.states[0, TRAP_2, X] - drive.states[0, EGO, X] for drive in drives])
-    out = np.array([drive.success for drive in drives])
+    d2, out = d2_and_success(plan or direct_plan(), roads)
     title = "Where trap 2 starts decides whether one plan gets out"
     figure, ax = one_axes(2.4, title, "D2: trap 2 starts so far ahead (m, centre to centre)", "")
     spread = np.random.default_rng(0).uniform(-0.25, 0.25, roads)
@@ -69,6 +67,13 @@ def escape_against_d2(plan: Sequence | None, roads: int = 400) -> Figure:
         alt += f" Where it gets out D2 is {np.min(d2[out]):.2f} to {np.max(d2[out]):.2f} m, and where it does not "
         alt += f"{np.min(d2[~out]):.2f} to {np.max(d2[~out]):.2f} m."
     return finish(figure, title, alt)
+
+
+def d2_and_success(plan: Sequence, roads: int = 400) -> tuple[np.ndarray, np.ndarray]:
+    """Where trap 2 starts (m ahead, centre to centre) and whether a plan gets out, on held-out roads: each (roads,)."""
+    drives = record(plan_policy(plan), held_out_seeds(1, roads))
+    d2 = np.array([drive.states[0, TRAP_2, X] - drive.states[0, EGO, X] for drive in drives])
+    return d2, np.array([drive.success for drive in drives])
 
 
 def reasons_over_time(rollout: Rollout, title: str) -> Figure:

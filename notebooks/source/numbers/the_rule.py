@@ -1,0 +1,40 @@
+"""What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
+
+import dataclasses
+from functools import cache
+
+import numpy as np
+from bootcourse.course.lessons.the_rule import figures
+from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
+from bootcourse.episodes.record import record
+from bootcourse.policies import rule_policy
+from bootcourse.road.state import EGO, LANE, X
+from bootcourse.scenario import DEFAULT
+
+
+@cache
+def sighted(sight: float, n: int = DEFAULT.rule.n) -> Episodes:
+    """The rule with another sight (m) and n speeds, on the lesson's 200 roads."""
+    rule = dataclasses.replace(DEFAULT.rule, n=n)
+    seen = dataclasses.replace(DEFAULT.sight, distance=sight)
+    driver = rule_policy(dataclasses.replace(DEFAULT, rule=rule, sight=seen))
+    return drive_episodes(driver, held_out_seeds(1, 200))
+
+
+@cache
+def right_first() -> tuple[np.ndarray, np.ndarray]:
+    """Where trap 2 starts, and whether the plan gets out that begins to the right, on the lesson's 400 roads."""
+    turns = ["keep right", ("keep left", 4), ("keep right", 3)]
+    return figures.d2_and_success([*turns, ("accelerate straight", 5)])
+
+
+@cache
+def median_distance(roads: int = 20) -> float:
+    """The median distance (m) to the next car in the left lane, from 30 s on, over the rule's first roads."""
+    distances = []
+    for drive in record(rule_policy(DEFAULT), range(roads)):
+        for cars in drive.states[30 * DEFAULT.clock.steps :: DEFAULT.clock.steps]:
+            ahead = cars[(cars[:, LANE] == 0) & (cars[:, X] > cars[EGO, X]), X]
+            if cars[EGO, LANE] == 0:
+                distances.append(ahead.min() - cars[EGO, X] if len(ahead) else np.inf)
+    return float(np.median(distances))
