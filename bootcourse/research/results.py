@@ -29,6 +29,7 @@ RUN_AGAIN = "run the study again, or restore it from a copy"
 KINDS = {"collision": Accident.COLLISION, "road_departure": Accident.ROAD_DEPARTURE, "stoppage": Accident.STOPPAGE}
 OF_AGENTS = ("tested", "curves", "notes", "measured")  # the parts with every agent; weights are kept of the first ones
 PARTS = (*OF_AGENTS, "weights")
+WINDOW = 50  # training episodes in a row, in which an agent that has found the way out is ahead more often than not
 
 
 @dataclass(frozen=True)
@@ -79,6 +80,15 @@ class Results:
         """How many agents of a method escape."""
         return int((self.of(method).scores("success") >= ESCAPES).sum())
 
+    def found_and_kept(self, method: str) -> tuple[np.ndarray, np.ndarray]:
+        """Which agents of a method found the way out (see `found`), and which of these kept it, each (agents,) bool.
+
+        Kept: after training the agent ends ahead on more than half of its held-out roads.
+        """
+        mine = self.of(method)
+        way_out = found(mine.curves)
+        return way_out, way_out & (mine.scores("success") > 0.5)
+
     def episodes(self, measure: str) -> np.ndarray:
         """A measure in every held-out episode, (agents, episodes); an event is 1 where it happened, else 0.
 
@@ -89,6 +99,19 @@ class Results:
         else:
             values = self.tested["accident"] == KINDS[measure] if measure in KINDS else self.tested[measure]
         return values.astype(np.float64)
+
+
+def found(curves: dict[str, np.ndarray]) -> np.ndarray:
+    """Which agents found the way out: more than half of some `WINDOW` training episodes in a row ended ahead.
+
+    curves: `Results.curves`, whose success is (agents, episodes), NaN for episodes that were not driven. Returns
+    (agents,) bool.
+    """
+    success = np.nan_to_num(curves["success"]).astype(float)
+    if success.shape[1] < WINDOW:
+        return np.zeros(len(success), dtype=bool)
+    windows = np.lib.stride_tricks.sliding_window_view(success, WINDOW, axis=1)  # (agents, windows, WINDOW)
+    return (windows.mean(axis=-1) > 0.5).any(axis=1)
 
 
 def join(parts: Sequence[Results]) -> Results:

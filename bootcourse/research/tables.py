@@ -45,6 +45,12 @@ def escaped(results: Results, method: str) -> str:
     return f"{results.escapers(method)} of {len(results.of(method))}"
 
 
+def found_and_kept(results: Results, method: str) -> str:
+    """ "8, 6 of 10": how many agents of a method found the way out in training, and how many of these kept it."""
+    found, kept = results.found_and_kept(method)
+    return f"{found.sum()}, {kept.sum()} of {len(found)}"
+
+
 def score(results: Results, method: str, measure: str) -> Estimate:
     """Interquartile mean over agents with its interval; of a driver that is not trained, the mean of its episodes."""
     return estimate(results, method, measure, iqm)
