@@ -88,8 +88,8 @@ def reached_cars(env: VectorEnv, reached: np.ndarray, infos: dict) -> np.ndarray
 def same_step(env: VectorEnv) -> VectorEnv:
     """The environment with same-step autoreset: an episode that ends is restarted in the same call of `step`.
 
-    `gym.make_vec` makes environments that restart in the next call. A `SyncVectorEnv` is made again; another raises
-    BootcourseError, and so does one whose actions or observations this library cannot learn with.
+    `gym.make_vec` makes environments that restart in the next call. A `SyncVectorEnv` is made again. Raises
+    BootcourseError for another, and for one whose actions or observations this library cannot learn with.
     """
     name = environment_id(env)
     actions, observations = env.single_action_space, env.single_observation_space
@@ -97,14 +97,14 @@ def same_step(env: VectorEnv) -> VectorEnv:
         raise BootcourseError(f"{name} has actions of {actions}: this library learns discrete ones.")
     if len(observations.shape or ()) != 1:
         raise BootcourseError(f"{name} shows {observations}: flatten it to a vector, as with FlattenObservation.")
-    if env.metadata.get("autoreset_mode") in (AutoresetMode.SAME_STEP, AutoresetMode.DISABLED):
+    if env.metadata.get("autoreset_mode") is AutoresetMode.SAME_STEP:
         return env
     if type(env) is SyncVectorEnv:
         env.close()
         return SyncVectorEnv(env.env_fns, autoreset_mode=AutoresetMode.SAME_STEP)
     raise BootcourseError(
-        f"{name} restarts an episode one step late: make it with vectorization_mode='sync', or with "
-        "vector_kwargs={'autoreset_mode': 'SameStep'}."
+        f"{name} does not restart an episode in the step that ends it: make it with vectorization_mode='sync', or "
+        "with vector_kwargs={'autoreset_mode': 'SameStep'}."
     )
 
 

@@ -1,11 +1,11 @@
 """Independent checks: `python -m bootcourse.research.checks` trains our learners on tasks with published results.
 
 The training loop and the learners of the road (`Training`, `SACLearner`, `CQLLearner`, `GAILLearner`,
-`PPOLearner`) train here on other gymnasium environments, several seeds side by side, without a teacher. The
-target entropy is a share of log |A|, not the paper's -1, a formula for continuous actions. SAC's
-τ is 0.05 and γ = 0.99. CQL's weight is 10, as in the check that it is compared with. The budget of environment steps is at most the published one. PPO has CleanRL's γ, λ, ε
-and entropy weight, and learning rates that fall to 0; CleanRL's figures are of training episodes, whose
-actions are drawn.
+`PPOLearner`) train here on other gymnasium environments, several seeds side by side, without a teacher.
+The target entropy is a share of log |A|, not the paper's -1, a formula for continuous actions. SAC's τ
+is 0.05 and γ = 0.99. CQL's weight is 10, as in the check that it is compared with. The budget of
+environment steps is at most the published one. PPO has CleanRL's γ, λ, ε and entropy weight, and
+learning rates that fall to 0; CleanRL's figures are of training episodes, whose actions are drawn.
 
 CartPole's observations are scaled to order one, as on the road; with raw ones it stays near 300.
 Acrobot's are raw, and it gets one update for each step of its four environments instead of one for all

@@ -92,7 +92,7 @@ AHEAD_X, AHEAD_Y = np.array([1, 0, -1, 0]), np.array([0, 1, 0, -1])  # of each d
 
 
 class DoorKey(Table):
-    """MiniGrid's DoorKey 5x5 (Chevalier-Boisvert et al., arXiv 2306.13831), seen from above, without its unused actions.
+    """MiniGrid's DoorKey 5x5 (Chevalier-Boisvert et al., arXiv 2306.13831), seen from above, without unused actions.
 
     Columns 1 and 3 of rows 1..3 are free, column 2 is a wall with a locked door. The key lies in column 1, the goal is
     cell (3, 3). Actions: turn left, turn right, forward, pick up, toggle the door. It pays 1 - 0.9 t / 100 at the goal.

@@ -62,7 +62,7 @@ class Config(Struct, forbid_unknown_fields=True):
     episodes: Annotated[int, Meta(ge=1)]
     alpha: Annotated[float, Meta(ge=0)]
     environment: str = TRAP  # see `environment_id`
-    sizes: tuple[Size, Size] | None = None  # of an observation, and the number of actions; None: the scenario's
+    sizes: tuple[Size, Size] | None = None  # of an observation, and the number of actions; on the trap the scenario's
 
 
 class Provenance(Struct):
@@ -163,17 +163,17 @@ def load_run(path: Path, teacher: Rule | None = None, environment: str = TRAP) -
     config = read_json(path / "config.json", Config, TRAIN_AGAIN)
     with decoding(path / "config.json", TRAIN_AGAIN):
         settings = stored_settings(config.settings)
-        scenario = None if config.environment != TRAP else Scenario.from_json(json.dumps(config.scenario))
+        scenario = Scenario.from_json(json.dumps(config.scenario)) if config.environment == TRAP else None
+        size, n_actions = (scenario.observation_size, N_ACTIONS) if scenario else config.sizes
     if config.environment != environment:
         there = config.environment
         raise BootcourseError(f"{path} was trained in {there}, not in {environment}: give environment={there!r}.")
-    sizes = config.sizes or (scenario.observation_size, N_ACTIONS)
     curves = read_arrays(path / "curves.npz", TRAIN_AGAIN)
     check_arrays(
         curves, dict.fromkeys(curves.keys() & set(NAMES), (config.episodes,)), path / "curves.npz", TRAIN_AGAIN
     )
     kind = METHODS[settings.method].learner_class()
-    shapes = _shapes(settings, sizes, kind.n_critics(settings))
+    shapes = _shapes(settings, size, n_actions, kind.n_critics(settings))
     weights = read_tensors(path / "weights.safetensors", TRAIN_AGAIN)
     check_arrays(weights, shapes, path / "weights.safetensors", TRAIN_AGAIN)
     if not all(np.isfinite(values).all() for values in weights.values()):
@@ -182,7 +182,7 @@ def load_run(path: Path, teacher: Rule | None = None, environment: str = TRAP) -
         [torch.from_numpy(weights[name]) for name in shapes if name.startswith(part)] for part in ("actor", "critics")
     )
     teacher = course_rule if teacher is None and scenario else teacher
-    taught = None if teacher is None else teacher_of(teacher, scenario, sizes[1])
+    taught = None if teacher is None else teacher_of(teacher, scenario, n_actions)
     agent = Agent(settings, actor, critics, config.alpha, taught)
     if agent.needs_teacher and stored.teacher != teacher_name(teacher):
         raise BootcourseError(
@@ -191,9 +191,9 @@ def load_run(path: Path, teacher: Rule | None = None, environment: str = TRAP) -
     return Run(agent, curves, scenario, made)
 
 
-def _shapes(settings: Settings, sizes: tuple[int, int], critics: int) -> dict[str, tuple[int, int, int]]:
+def _shapes(settings: Settings, size: int, n_actions: int, critics: int) -> dict[str, tuple[int, int, int]]:
     """The shapes of an agent's weights and biases (see networks.py), by their names in the file."""
-    layers = list(pairwise((sizes[0], *settings.hidden, sizes[1])))
+    layers = list(pairwise((size, *settings.hidden, n_actions)))
     rows = [(inputs, outputs) for n_in, outputs in layers for inputs in (n_in, 1)]
     parts = (("actor", 1), ("critics", critics))
     return {f"{part}.{i}": (n, *row) for part, n in parts if n for i, row in enumerate(rows)}
