@@ -93,7 +93,7 @@ ENVIRONMENTS = [
         lambda n: gym.make_vec("CartPole-v1", n),
         "CartPole-v1 does not restart an episode in the step that ends it",
     ),
-    (lambda n: gym.make_vec("Pendulum-v1", n), "Pendulum-v1 has actions of Box.*: this library learns discrete ones"),
+    (lambda n: gym.make_vec("Pendulum-v1", n), r"Pendulum-v1 has actions of Box.*: this library learns Discrete\(n\)"),
     (lambda n: gym.make_vec("Taxi-v4", n), r"Taxi-v4 shows Discrete\(500\): flatten it to a vector"),
 ]
 

@@ -8,10 +8,13 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
+from gymnasium.spaces import Discrete
 from gymnasium.vector import AutoresetMode, SyncVectorEnv, VectorEnv
 
 from bootcourse.errors import BootcourseError, naming
 from bootcourse.policies import Policy, PolicyOutput
+from bootcourse.road.vector_env import TrapVectorEnv
+from bootcourse.scenario import DEFAULT, Scenario
 
 TRAP = "Trap-v0"  # the id of the course's environment
 
@@ -85,6 +88,13 @@ def reached_cars(env: VectorEnv, reached: np.ndarray, infos: dict) -> np.ndarray
     return np.where(infos["_final_obs"][:, None, None], env.final_cars, env.cars) if "final_obs" in infos else env.cars
 
 
+def one_episode_each(n: int, scenario: Scenario | None, make_env: Callable[[int], VectorEnv] | None) -> VectorEnv:
+    """What `steps` drives: n roads that stand still when their episode is over; with make_env, its copies instead."""
+    if make_env is None:
+        return TrapVectorEnv(n, scenario or DEFAULT, AutoresetMode.DISABLED)
+    return same_step(make_env(n))
+
+
 def same_step(env: VectorEnv) -> VectorEnv:
     """The environment with same-step autoreset: an episode that ends is restarted in the same call of `step`.
 
@@ -93,8 +103,8 @@ def same_step(env: VectorEnv) -> VectorEnv:
     """
     name = environment_id(env)
     actions, observations = env.single_action_space, env.single_observation_space
-    if not hasattr(actions, "n"):
-        raise BootcourseError(f"{name} has actions of {actions}: this library learns discrete ones.")
+    if not isinstance(actions, Discrete) or actions.start != 0:
+        raise BootcourseError(f"{name} has actions of {actions}: this library learns Discrete(n), from 0.")
     if len(observations.shape or ()) != 1:
         raise BootcourseError(f"{name} shows {observations}: flatten it to a vector, as with FlattenObservation.")
     if env.metadata.get("autoreset_mode") is AutoresetMode.SAME_STEP:

@@ -4,13 +4,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from gymnasium.vector import AutoresetMode, VectorEnv
+from gymnasium.vector import VectorEnv
 
-from bootcourse.episodes.driving import same_step, steps
+from bootcourse.episodes.driving import one_episode_each, steps
 from bootcourse.errors import whole
 from bootcourse.policies import Policy
 from bootcourse.road.state import Accident
-from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, Scenario
 from bootcourse.statistics import Estimate, interval, mean, rate
 
@@ -63,10 +62,7 @@ def drive_episodes(
     parts = []
     for i in range(0, len(seeds), together):
         part = list(seeds[i : i + together])
-        if make_env is None:
-            env = TrapVectorEnv(len(part), scenario, AutoresetMode.DISABLED)
-        else:
-            env = same_step(make_env(len(part)))
+        env = one_episode_each(len(part), scenario, make_env)
         parts.append(_drive(policy, env, part, (scenario or DEFAULT).clock.decision_rate))
     return Episodes(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))
 

@@ -4,16 +4,15 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 import torch
-from gymnasium.vector import AutoresetMode, VectorEnv
+from gymnasium.vector import VectorEnv
 from torch import Tensor
 
-from bootcourse.episodes.driving import place, same_step, steps
+from bootcourse.episodes.driving import one_episode_each, place, steps
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError, naming
 from bootcourse.learn.replay_buffer import encode_transitions
 from bootcourse.learn.teachers import Rule, all_roads, course_rule, teacher_of
 from bootcourse.policies import Policy, PolicyOutput
-from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, Scenario
 
 FIRST_SEED = 2**34  # seed of the first demonstration's road; training and held-out roads have other seeds
@@ -35,10 +34,7 @@ def collect(
     escapes; at one decision per second both cannot be true, because its random steering takes the car off the road.
     For the stochastic rule give `stochastic_rule_policy`.)
     """
-    if make_env is None:
-        env = TrapVectorEnv(episodes, scenario, AutoresetMode.DISABLED)
-    else:
-        env = same_step(make_env(episodes))
+    env = one_episode_each(episodes, scenario, make_env)
     rows, mu, decisions = [], None, np.zeros(episodes, dtype=np.int64)
     teach = teacher_of(teacher or no_teacher, scenario, int(env.single_action_space.n))
 

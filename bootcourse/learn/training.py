@@ -139,10 +139,9 @@ class Training:
         if isinstance(given, Tensor):
             return given
         if given is not None:
-            rows = demonstration_rows(given, self.teacher)
-            if given[0].scenario != self.scenario:
+            if given and given[0].scenario != self.scenario:
                 raise BootcourseError("The demonstrations are of another scenario: train with their scenario.")
-            return rows
+            return demonstration_rows(given, self.teacher)
         if self.teacher is None:
             raise BootcourseError(
                 f"Method '{shared.method}' needs demonstrations of this environment: give them, or teacher=my_rule."
