@@ -17,6 +17,7 @@ episodes           driving: one recorded drive, many evaluated episodes, a drive
 learn              discrete SAC, the rule's help, the baselines, the training loop
 storage            runs, checkpoints and shipped results on disk
 plots              figures: the road from above, a drive over time, training curves
+comparison         some trainings side by side, in any environment: curves, intervals, a table
 one_per_cell       a notebook cell that runs again replaces what it showed
 replay3d           drives in 3D: in a notebook, in a browser, as one file
 web                the page that drives: the compiled road in a browser, one file without a network
@@ -66,6 +67,8 @@ NAMES = {  # name -> where it is defined
     "ReplayBuffer": "bootcourse.learn.replay_buffer",
     "learner_for": "bootcourse.learn.learner",
     "Agent": "bootcourse.learn.agent",
+    "compare": "bootcourse.comparison",
+    "Success": "bootcourse.episodes.success",
     "save_runs": "bootcourse.storage.runs",
     "load_run": "bootcourse.storage.runs",
     # what ships with the course

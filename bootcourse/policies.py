@@ -1,8 +1,8 @@
 """Policies: functions that decide on an action for each road.
 
 policy(observations (roads, 26), cars (roads, vehicles, 10)) -> PolicyOutput. A trained agent uses the observations,
-the rule uses the cars, which are the true state. A policy with internal state also has a method `reset(roads)`, which
-`episodes/driving.py` calls before each episode.
+the rule uses the cars, which are the true state (off the trap, the observations again). A policy with internal state
+also has a method `reset(roads)`, which `episodes/driving.py` calls before each episode.
 """
 
 import itertools
@@ -47,21 +47,22 @@ def stochastic_rule_policy(scenario: Scenario, rng: np.random.Generator, p: floa
 
 
 def stochastic_policy(
-    decide: Callable[[np.ndarray], np.ndarray], rng: np.random.Generator, p: float = RULE_P
+    decide: Callable[[np.ndarray], np.ndarray], rng: np.random.Generator, p: float = RULE_P, n_actions: int = N_ACTIONS
 ) -> Policy:
     """The same for any rule: decide, cars (roads, vehicles, 10) -> actions (roads,)."""
 
     def drive(observations, cars):
         actions = decide(cars)
-        return PolicyOutput(sample_stochastic_rule(actions, p, rng), stochastic_rule(actions, p))
+        drawn = sample_stochastic_rule(actions, p, rng, n_actions)
+        return PolicyOutput(drawn, stochastic_rule(actions, p, n_actions))
 
     return drive
 
 
-def random_policy(rng: np.random.Generator) -> Policy:
+def random_policy(rng: np.random.Generator, n_actions: int = N_ACTIONS) -> Policy:
     """The uniformly random policy: each of the nine actions has probability 1/9, drawn with `rng`."""
     return lambda observations, cars: PolicyOutput(
-        rng.integers(N_ACTIONS, size=len(observations)), np.full((len(observations), N_ACTIONS), 1 / N_ACTIONS)
+        rng.integers(n_actions, size=len(observations)), np.full((len(observations), n_actions), 1 / n_actions)
     )
 
 

@@ -186,21 +186,23 @@ def rule(cars: np.ndarray, scenario: Scenario) -> RuleDecisions:
     return decisions
 
 
-def stochastic_rule(rule_actions: np.ndarray, p: float) -> np.ndarray:
+def stochastic_rule(rule_actions: np.ndarray, p: float, n_actions: int = N_ACTIONS) -> np.ndarray:
     """π̃(a|s) (Equation 16): p for the rule's action, (1 - p) / 8 for each other. (…,) int -> (…, 9).
 
     Raises BootcourseError if p is outside [1/9, 1).
     """
     check_p(p)
     rule_actions = np.asarray(rule_actions)
-    return np.where(np.arange(N_ACTIONS) == rule_actions[..., None], p, (1 - p) / (N_ACTIONS - 1))
+    return np.where(np.arange(n_actions) == rule_actions[..., None], p, (1 - p) / (n_actions - 1))
 
 
-def sample_stochastic_rule(rule_actions: np.ndarray, p: float, rng: np.random.Generator) -> np.ndarray:
+def sample_stochastic_rule(
+    rule_actions: np.ndarray, p: float, rng: np.random.Generator, n_actions: int = N_ACTIONS
+) -> np.ndarray:
     """Draw an action from π̃ (Equation 16) for each of the rule's actions. (n,) int -> (n,) int.
 
     Raises BootcourseError if p is outside [1/9, 1).
     """
     check_p(p)
-    others = (rule_actions + rng.integers(1, N_ACTIONS, size=np.shape(rule_actions))) % N_ACTIONS
+    others = (rule_actions + rng.integers(1, n_actions, size=np.shape(rule_actions))) % n_actions
     return np.where(rng.random(np.shape(rule_actions)) < p, rule_actions, others)

@@ -237,11 +237,12 @@ RULE_P = 0.9  # † p, the stochastic rule's probability of the rule's action (E
 LARGEST_P = 1 - 2**-24  # the largest number below 1 in float32, in which the networks compute
 
 
-def check_p(p: float, name: str = "p") -> None:
+def check_p(p: float, name: str = "p", n_actions: int = N_ACTIONS) -> None:
     """Raise BootcourseError for a p outside [1/9, LARGEST_P]: at 1/9 π̃ is uniform, at 1 the KL is infinite."""
+    low = f"1/{n_actions}"
     _check(
-        isinstance(p, (int, float)) and 1 / N_ACTIONS <= p < 1,
-        f"{name} = {p!r} is outside [1/9, 1): at 1/9 the rule is uniform, at 1 the KL is infinite.",
+        isinstance(p, (int, float)) and 1 / n_actions <= p < 1,
+        f"{name} = {p!r} is outside [{low}, 1): at {low} the rule is uniform, at 1 the KL is infinite.",
     )
     _check(p <= LARGEST_P, f"{name} = {p!r} is 1 in single precision, and the KL infinite: give at most 0.9999999.")
 

@@ -159,5 +159,5 @@ def test_an_agent_chooses_by_the_target_critics_as_it_did_in_training():
 
 @pytest.mark.parametrize("method", ["soft", "bootstrapped", "dagger", "jsrl", "ibrl"])
 def test_a_method_that_asks_the_teacher_is_not_trained_where_there_is_none(method):
-    with pytest.raises(BootcourseError, match=f"Method '{method}' asks a teacher, .*: leave out make_env"):
+    with pytest.raises(BootcourseError, match=f"Method '{method}' asks a teacher, .*: give teacher=my_rule"):
         Training([settings_for(method, beta_start=0.0)], 2, make_env=several(cartpole))

@@ -1,16 +1,22 @@
 """The loop that drives one episode on each road of an environment; evaluation, recording and demonstrations use it.
 
-The environment is a gymnasium `VectorEnv`, such as `TrapVectorEnv`; only the trap has a true state, `cars`.
+The environment is a gymnasium `VectorEnv`, such as `TrapVectorEnv`. Where it has no true state `cars`, as all but the
+trap, the observations take their place.
 """
 
 from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from gymnasium.vector import VectorEnv
+from gymnasium.spaces import Discrete
+from gymnasium.vector import AutoresetMode, SyncVectorEnv, VectorEnv
 
-from bootcourse.errors import naming
+from bootcourse.errors import BootcourseError, naming
 from bootcourse.policies import Policy, PolicyOutput
+from bootcourse.road.vector_env import TrapVectorEnv
+from bootcourse.scenario import DEFAULT, Scenario
+
+TRAP = "Trap-v0"  # the id of the course's environment
 
 
 class Step(NamedTuple):
@@ -18,13 +24,13 @@ class Step(NamedTuple):
 
     running: np.ndarray  # (roads,) bool: the episode was not over; ignore all other values of roads where it was
     observations: np.ndarray  # (roads, observation), before the decision
-    cars: np.ndarray | None  # (roads, vehicles, 10) the true state before the decision; None off the trap
+    cars: np.ndarray  # (roads, vehicles, 10) the true state before the decision; the observations off the trap
     output: PolicyOutput  # the policy's decision
     rewards: np.ndarray  # (roads,)
     terminated: np.ndarray  # (roads,) bool: the episode ended in an accident or another terminal state
     truncated: np.ndarray  # (roads,) bool: the episode's time is over
     next_observations: np.ndarray  # (roads, observation); of an episode that ended, its last
-    next_cars: np.ndarray | None  # (roads, vehicles, 10), the environment's array, which changes: copy it to keep it
+    next_cars: np.ndarray  # (roads, vehicles, 10), the environment's array, which changes: copy it to keep it
     infos: dict  # the environment's
 
 
@@ -35,17 +41,19 @@ def steps(policy: Policy, env: VectorEnv, seeds: Sequence[int] | int) -> Iterato
     """
     if hasattr(policy, "reset"):
         policy.reset(env.num_envs)
+    on_the_trap = hasattr(env, "cars")
     observations, _ = env.reset(seed=seeds)
-    running = np.ones(env.num_envs, dtype=bool)
+    running, decisions = np.ones(env.num_envs, dtype=bool), np.zeros(env.num_envs, dtype=np.int64)
     while running.any():
-        cars = env.cars.copy() if hasattr(env, "cars") else None
-        with naming(place(seeds, getattr(env, "decisions", None))):
+        cars = env.cars.copy() if on_the_trap else observations
+        with naming(place(seeds, decisions)):
             output = policy(observations, cars)
         seen, rewards, terminated, truncated, infos = env.step(output.actions)
         reached = reached_observations(seen, infos)
+        decisions += running
         yield Step(
             running, observations, cars, output, rewards, terminated, truncated, reached,
-            getattr(env, "cars", None), infos,
+            reached_cars(env, reached, infos), infos,
         )  # fmt: skip
         running = running & ~(terminated | truncated)
         observations = seen
@@ -71,3 +79,48 @@ def reached_observations(observations: np.ndarray, infos: dict) -> np.ndarray:
     reached, ended = observations.copy(), infos["_final_obs"]
     reached[ended] = np.stack(infos["final_obs"][ended])
     return reached
+
+
+def reached_cars(env: VectorEnv, reached: np.ndarray, infos: dict) -> np.ndarray:
+    """The true state that a step led to, as `reached_observations`, which are returned off the trap."""
+    if not hasattr(env, "cars"):
+        return reached
+    return np.where(infos["_final_obs"][:, None, None], env.final_cars, env.cars) if "final_obs" in infos else env.cars
+
+
+def one_episode_each(n: int, scenario: Scenario | None, make_env: Callable[[int], VectorEnv] | None) -> VectorEnv:
+    """What `steps` drives: n roads that stand still when their episode is over; with make_env, its copies instead."""
+    if make_env is None:
+        return TrapVectorEnv(n, scenario or DEFAULT, AutoresetMode.DISABLED)
+    return same_step(make_env(n))
+
+
+def same_step(env: VectorEnv) -> VectorEnv:
+    """The environment with same-step autoreset: an episode that ends is restarted in the same call of `step`.
+
+    `gym.make_vec` makes environments that restart in the next call. A `SyncVectorEnv` is made again. Raises
+    BootcourseError for another, and for one whose actions or observations this library cannot learn with.
+    """
+    name = environment_id(env)
+    actions, observations = env.single_action_space, env.single_observation_space
+    if not isinstance(actions, Discrete) or actions.start != 0:
+        raise BootcourseError(f"{name} has actions of {actions}: this library learns Discrete(n), from 0.")
+    if len(observations.shape or ()) != 1:
+        raise BootcourseError(f"{name} shows {observations}: flatten it to a vector, as with FlattenObservation.")
+    if env.metadata.get("autoreset_mode") is AutoresetMode.SAME_STEP:
+        return env
+    if type(env) is SyncVectorEnv:
+        env.close()
+        return SyncVectorEnv(env.env_fns, autoreset_mode=AutoresetMode.SAME_STEP)
+    raise BootcourseError(
+        f"{name} does not restart an episode in the step that ends it: make it with vectorization_mode='sync', or "
+        "with vector_kwargs={'autoreset_mode': 'SameStep'}."
+    )
+
+
+def environment_id(env: VectorEnv) -> str:
+    """The id under which gymnasium knows an environment; its class where it is not registered."""
+    if hasattr(env, "cars"):
+        return TRAP
+    one = env.unwrapped.envs[0] if hasattr(env.unwrapped, "envs") else env
+    return one.spec.id if one.spec else type(one.unwrapped).__name__

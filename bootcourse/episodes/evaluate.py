@@ -1,16 +1,15 @@
-"""Evaluation of a policy on held-out roads, with 95 % intervals."""
+"""Evaluation of a policy on held-out roads, or in the episodes of another environment, with 95 % intervals."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from gymnasium.vector import AutoresetMode
+from gymnasium.vector import VectorEnv
 
-from bootcourse.episodes.driving import steps
+from bootcourse.episodes.driving import one_episode_each, steps
 from bootcourse.errors import whole
 from bootcourse.policies import Policy
 from bootcourse.road.state import Accident
-from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, Scenario
 from bootcourse.statistics import Estimate, interval, mean, rate
 
@@ -20,7 +19,7 @@ MAX_SEED = 2**32 // BLOCK - 1  # training roads have seeds above 2**32, so held-
 
 @dataclass(frozen=True)
 class Episodes:
-    """The results of some episodes; every array is (episodes,)."""
+    """The results of some episodes; every array is (episodes,), and NaN where the environment does not report it."""
 
     success: np.ndarray  # bool: ahead of trap 1 at the end
     returns: np.ndarray  # sum of rewards
@@ -50,43 +49,71 @@ def held_out_seeds(seed: int, episodes: int) -> range:
 
 
 def drive_episodes(
-    policy: Policy, seeds: Sequence[int], scenario: Scenario = DEFAULT, together: int = 1000
+    policy: Policy,
+    seeds: Sequence[int],
+    scenario: Scenario | None = DEFAULT,
+    together: int = 1000,
+    make_env: Callable[[int], VectorEnv] | None = None,
 ) -> Episodes:
-    """Drive one episode on the compiled road of each seed, `together` at a time: `Episodes` in the order of seeds."""
-    parts = [_drive(policy, list(seeds[i : i + together]), scenario) for i in range(0, len(seeds), together)]
+    """Drive one episode on the compiled road of each seed, `together` at a time: `Episodes` in the order of seeds.
+
+    make_env: makes a vector environment of n copies instead of the roads.
+    """
+    parts = []
+    for i in range(0, len(seeds), together):
+        part = list(seeds[i : i + together])
+        env = one_episode_each(len(part), scenario, make_env)
+        parts.append(_drive(policy, env, part, (scenario or DEFAULT).clock.decision_rate))
     return Episodes(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))
 
 
-def _drive(policy: Policy, seeds: list[int], scenario: Scenario) -> tuple[np.ndarray, ...]:
-    env = TrapVectorEnv(len(seeds), scenario, AutoresetMode.DISABLED)  # after an episode's end its reward is 0
-    returns, accident = np.zeros(len(seeds)), np.zeros(len(seeds), dtype=np.int64)
+def _drive(policy: Policy, env: VectorEnv, seeds: list[int], decision_rate: float) -> tuple[np.ndarray, ...]:
+    returns, decisions = np.zeros(len(seeds)), np.zeros(len(seeds))
+    ends = {name: np.full(len(seeds), np.nan) for name in ("is_success", "distance", "accident")}
     for step in steps(policy, env, seeds):
-        returns += step.rewards
-        accident = np.maximum(accident, step.infos["accident"])
-    seconds, infos = env.decisions / scenario.clock.decision_rate, step.infos
-    return infos["is_success"], returns, infos["distance"] / seconds, infos["distance"], accident
+        returns += step.rewards * step.running
+        decisions += step.running
+        ended = step.running & (step.terminated | step.truncated)
+        reported = step.infos.get("final_info", step.infos)  # where autoreset has restarted, the old episode's
+        for name in ends.keys() & reported.keys():
+            ends[name][ended] = reported[name][ended]
+    success, distance, accident = ends.values()
+    success = success if np.isnan(success).any() else success.astype(bool)
+    accident = accident if np.isnan(accident).any() else accident.astype(np.int64)
+    return success, returns, distance / (decisions / decision_rate), distance, accident
 
 
-def evaluate(policy: Policy, episodes: int = 1000, scenario: Scenario = DEFAULT, seed: int = 1) -> Evaluation:
+def evaluate(
+    policy: Policy,
+    episodes: int = 1000,
+    scenario: Scenario | None = DEFAULT,
+    seed: int = 1,
+    make_env: Callable[[int], VectorEnv] | None = None,
+) -> Evaluation:
     """Drive a policy on the first `episodes` held-out roads of block `seed`: an `Evaluation` with 95 % intervals.
 
-    Raises BootcourseError for a seed, or a number of episodes, that is out of range.
+    make_env: see `drive_episodes`. Raises BootcourseError for a seed, or a number of episodes, that is out of range.
     """
-    return summarise(drive_episodes(policy, held_out_seeds(seed, episodes), scenario))
+    return summarise(drive_episodes(policy, held_out_seeds(seed, episodes), scenario, make_env=make_env))
 
 
 def summarise(episodes: Episodes) -> Evaluation:
     """The `Evaluation` of episodes: rates with Clopper-Pearson intervals, means with Student's t intervals."""
     return Evaluation(
         episodes=len(episodes.success),
-        success=rate(episodes.success),
+        success=_rate(episodes.success, episodes.success == 1),
         returns=mean(episodes.returns),
         speed=mean(episodes.speed),
         distance=mean(episodes.distance),
-        collision=rate(episodes.accident == Accident.COLLISION),
-        road_departure=rate(episodes.accident == Accident.ROAD_DEPARTURE),
-        stoppage=rate(episodes.accident == Accident.STOPPAGE),
+        collision=_rate(episodes.accident, episodes.accident == Accident.COLLISION),
+        road_departure=_rate(episodes.accident, episodes.accident == Accident.ROAD_DEPARTURE),
+        stoppage=_rate(episodes.accident, episodes.accident == Accident.STOPPAGE),
     )
+
+
+def _rate(reported: np.ndarray, hits: np.ndarray) -> Estimate:
+    """The rate of hits (n,) bool; NaN where the environment reports nothing."""
+    return Estimate(*[float("nan")] * 3) if np.isnan(reported).any() else rate(hits)
 
 
 def over_seeds(reports: Sequence[Evaluation]) -> dict[str, Estimate]:

@@ -1,51 +1,64 @@
 """Demonstrations: a teacher's transitions as rows for a `ReplayBuffer` (Section IV-B)."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import torch
-from gymnasium.vector import AutoresetMode
+from gymnasium.vector import VectorEnv
 from torch import Tensor
 
-from bootcourse.episodes.driving import place, steps
+from bootcourse.episodes.driving import one_episode_each, place, steps
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError, naming
 from bootcourse.learn.replay_buffer import encode_transitions
-from bootcourse.learn.teachers import Rule, course_rule, teacher_of
+from bootcourse.learn.teachers import Rule, all_roads, course_rule, teacher_of
 from bootcourse.policies import Policy, PolicyOutput
-from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, Scenario
 
 FIRST_SEED = 2**34  # seed of the first demonstration's road; training and held-out roads have other seeds
 
 
 def collect(
-    episodes: int = 200, scenario: Scenario = DEFAULT, policy: Policy | None = None, teacher: Rule = course_rule
+    episodes: int = 200,
+    scenario: Scenario | None = DEFAULT,
+    policy: Policy | None = None,
+    teacher: Rule | None = course_rule,
+    make_env: Callable[[int], VectorEnv] | None = None,
+    first_seed: int = FIRST_SEED,
 ) -> Tensor:
     """Rows for a `ReplayBuffer` from whole episodes: (transitions, row).
 
-    policy: the driver, by default the teacher; teacher: the rule whose actions are μ(s) and μ(s') in the rows.
+    policy: the driver, by default the teacher; teacher: the rule whose actions are μ(s) and μ(s') in the rows, zeros
+    for None. make_env: makes a vector environment of n copies, by default the trap; with another, scenario is None.
     The default driver is deterministic. (The paper runs the 0.9-stochastic rule and says that every demonstration
     escapes; at one decision per second both cannot be true, because its random steering takes the car off the road.
     For the stochastic rule give `stochastic_rule_policy`.)
     """
-    teach = teacher_of(teacher, scenario)
-    env, rows, mu = TrapVectorEnv(episodes, scenario, AutoresetMode.DISABLED), [], None
+    env = one_episode_each(episodes, scenario, make_env)
+    rows, mu, decisions = [], None, np.zeros(episodes, dtype=np.int64)
+    teach = teacher_of(teacher or no_teacher, scenario, int(env.single_action_space.n))
 
     def follow_teacher(observations, cars):
         return PolicyOutput(teach(cars) if mu is None else mu)  # mu was computed after the last step
 
-    for step in steps(policy or follow_teacher, env, FIRST_SEED):
+    for step in steps(policy or follow_teacher, env, first_seed):
         if mu is None:
-            with naming(place(FIRST_SEED, np.zeros(episodes, dtype=np.int64))):
+            with naming(place(first_seed, decisions)):
                 mu = teach(step.cars)
-        with naming(place(FIRST_SEED, env.decisions)):
+        decisions += step.running
+        with naming(place(first_seed, decisions)):
             next_mu = teach(step.next_cars)
         seen = step.observations, step.next_observations
         each = encode_transitions(*seen, step.output.actions, step.rewards, step.terminated, mu, next_mu)
         rows.append(each[step.running])
         mu = next_mu
     return torch.cat(rows)
+
+
+@all_roads
+def no_teacher(states: np.ndarray, *_) -> np.ndarray:
+    """The actions in the rows where nobody teaches: zeros, which no method without a teacher uses."""
+    return np.zeros(len(states), dtype=np.int64)
 
 
 def demonstration_rows(rollouts: Sequence[Rollout], teacher: Rule = course_rule) -> Tensor:

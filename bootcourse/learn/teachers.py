@@ -7,7 +7,8 @@
     record(teacher_policy(my_rule), [7])  # drive with it
     Training(settings, teacher=my_rule).run()  # train with it
 
-A rule is a deterministic function of a road's true state that returns one of the nine actions.
+A rule is a deterministic function of a road's true state that returns one of the nine actions. Off the trap
+it is a function of one observation, `my_rule(observation)`, that returns one of that environment's actions.
 """
 
 import hashlib
@@ -24,8 +25,7 @@ from bootcourse.road.state import EGO, LANE, SPEED, X
 from bootcourse.rule import rule, track
 from bootcourse.scenario import DEFAULT, N_ACTIONS, Scenario
 
-Rule = Callable[[np.ndarray, Scenario], int]  # one road's cars (vehicles, 10) -> an action, 0..8
-AN_ACTION_IS = f"an action is a whole number from 0 to {N_ACTIONS - 1}"
+Rule = Callable[..., int]  # one road's cars (vehicles, 10) and the scenario -> an action, 0..8
 Teacher = Callable[[np.ndarray], np.ndarray]  # cars (roads, vehicles, 10) -> actions (roads,)
 
 
@@ -66,17 +66,21 @@ def course_rule(cars: np.ndarray, scenario: Scenario) -> np.ndarray:
     return rule(cars, scenario).actions
 
 
-def teacher_of(my_rule: Rule, scenario: Scenario = DEFAULT) -> Teacher:
-    """The rule as a function of many roads.
+def teacher_of(my_rule: Rule, scenario: Scenario | None = DEFAULT, n_actions: int = N_ACTIONS) -> Teacher:
+    """The rule as a function of many roads; with scenario = None, of many observations.
 
-    It raises RuleFailed, a BootcourseError, if your rule raises an exception or returns no action in 0..8.
+    It raises RuleFailed, a BootcourseError, if your rule raises an exception or returns no action.
     """
+    if not callable(my_rule):
+        raise BootcourseError(f"teacher = {my_rule!r:.80}: give a function that returns an action.")
+    given = () if scenario is None else (scenario,)
+    an_action_is = f"an action is a whole number from 0 to {n_actions - 1}"
     name = getattr(my_rule, "__name__", type(my_rule).__name__)
     ours = str(getattr(my_rule, "__module__", "")).startswith("bootcourse.")  # its exception is a bug: it passes
 
     def answer(cars: np.ndarray, road: int | None):
         try:
-            return my_rule(cars, scenario)
+            return my_rule(cars, *given)
         except Exception as error:  # your rule may raise anything
             if ours:
                 raise
@@ -88,34 +92,39 @@ def teacher_of(my_rule: Rule, scenario: Scenario = DEFAULT) -> Teacher:
             if actions.shape != (len(cars),) or actions.dtype.kind not in "iu":
                 found = f"actions of shape {actions.shape} and type {actions.dtype}"
                 raise RuleFailed(name, f"returned {found}, but {len(cars)} roads need a whole number each", None)
-            for road in np.flatnonzero((actions < 0) | (actions >= N_ACTIONS))[:1]:
-                raise RuleFailed(name, f"returned {actions[road]}, but {AN_ACTION_IS}", int(road))
+            for road in np.flatnonzero((actions < 0) | (actions >= n_actions))[:1]:
+                raise RuleFailed(name, f"returned {actions[road]}, but {an_action_is}", int(road))
             return actions
         actions = np.empty(len(cars), dtype=np.int64)
         for road, its in enumerate(cars):
             action = answer(its.copy(), road)
-            if not is_action(action):
-                raise RuleFailed(name, f"returned {action!r:.80}, but {AN_ACTION_IS}", road)
+            if not is_action(action, n_actions):
+                raise RuleFailed(name, f"returned {action!r:.80}, but {an_action_is}", road)
             actions[road] = action
         return actions
 
     return teach
 
 
-def is_action(action) -> bool:
-    """Whether it is a whole number in 0..8, Python's or NumPy's."""
+def is_action(action, n_actions: int = N_ACTIONS) -> bool:
+    """Whether it is a whole number in 0..n_actions - 1, Python's or NumPy's."""
     is_whole = isinstance(action, (int, np.integer)) and not isinstance(action, (bool, np.bool_))
-    return is_whole and 0 <= action < N_ACTIONS
+    return is_whole and 0 <= action < n_actions
 
 
-def teacher_policy(my_rule: Rule, scenario: Scenario = DEFAULT) -> Policy:
-    """The rule as a policy. The policy raises RuleFailed as `teacher_of` says."""
-    teacher = teacher_of(my_rule, scenario)
+def teacher_policy(my_rule: Rule, scenario: Scenario | None = DEFAULT, n_actions: int = N_ACTIONS) -> Policy:
+    """The rule as a policy; scenario: None off the trap. The policy raises RuleFailed as `teacher_of` says."""
+    teacher = teacher_of(my_rule, scenario, n_actions)
     return lambda observations, cars: PolicyOutput(teacher(cars))
 
 
 def teacher_name(my_rule: Rule) -> str:
-    """The teacher's name in a run's files: the function's name and a hash of its source; "rule" for the course's."""
+    """The teacher's name in a run's files: the function's name and a hash of its source.
+
+    "rule" for the course's, "none" for None.
+    """
+    if my_rule is None:
+        return "none"
     if my_rule is course_rule:
         return "rule"
     name = getattr(my_rule, "__qualname__", type(my_rule).__name__)

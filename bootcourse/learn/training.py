@@ -4,6 +4,8 @@
     result = training.run()
     result.agents[0].as_policy()
 
+    Training(settings, make_env=lambda n: gym.make_vec("MountainCar-v0", n), teacher=my_rule)  # on another problem
+
 The agents differ in seed and settings; they share the teacher and the demonstrations. An interrupt (Ctrl-C, the
 notebook's stop button) ends `run` early, with the agents as trained so far.
 """
@@ -21,7 +23,7 @@ import torch
 from gymnasium.vector import VectorEnv
 from torch import Tensor
 
-from bootcourse.episodes.driving import reached_observations
+from bootcourse.episodes.driving import TRAP, environment_id, reached_cars, reached_observations, same_step
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError, naming, whole
 from bootcourse.learn.agent import Agent, sample_actions
@@ -35,7 +37,7 @@ from bootcourse.learn.settings import Settings
 from bootcourse.learn.teachers import Rule, course_rule, teacher_name, teacher_of
 from bootcourse.policies import stochastic_policy
 from bootcourse.road.vector_env import TrapVectorEnv
-from bootcourse.scenario import DEFAULT, Scenario
+from bootcourse.scenario import DEFAULT, Scenario, check_p
 
 SNAPSHOT_EVERY = 200  # updates between snapshots; an agent with a non-finite loss is frozen at its last finite one
 MOST_EPISODES = 100_000  # of each agent, whose curves take 8 MB then
@@ -48,25 +50,26 @@ class Result:
 
     agents: list[Agent]
     curves: dict[str, np.ndarray]  # {name: (agents, episodes)}, NaN for episodes that were not driven
-    scenario: Scenario
+    scenario: Scenario | None  # None off the trap
     seconds: float
     interrupted: bool
     stopped: dict[int, int] = field(default_factory=dict)  # {agent: the decision at which its loss was not finite}
     teacher: str = "rule"  # see `teachers.teacher_name`
+    environment: str = TRAP  # see `driving.environment_id`
 
 
 class Training:
     """A training in progress. `step()` is one decision on every road and the updates after it.
 
     settings: one for each agent (see `with_seeds`). episodes: of each agent.
-    teacher: the rule of the demonstrations and the KL, the course's or your own (teachers.py).
+    teacher: the rule of the demonstrations and the KL (teachers.py); None: the course's on the trap, elsewhere none.
     demonstrations: recorded drives, or rows (transitions, row), instead of the teacher's.
-    make_env: makes a vector environment of n copies with same-step autoreset, by default the trap. Other
-    environments have no teacher: its actions are 0 in the replay buffer. first_seed: of the copies. device: where the
-    networks learn, as torch names it, such as "cuda"; the roads stay on the CPU. make_learner: makes the learner from
-    (settings, observation size, actions); by default that of the agents' method.
+    make_env: makes a vector environment of n copies, by default the trap; another has vector observations and discrete
+    actions (see `driving.same_step`). Without a teacher its actions are 0 in the replay buffer. first_seed: of the
+    copies. device: where the networks learn, as torch names it, such as "cuda"; the roads stay on the CPU.
+    make_learner: makes the learner from (settings, observation size, actions); by default that of the agents' method.
     Raises BootcourseError for settings that cannot train side by side, or that ask for a teacher where there is none,
-    for demonstrations that do not fit, and for a device that torch does not find.
+    for demonstrations or an environment that do not fit, and for a device that torch does not find.
     """
 
     def __init__(
@@ -74,7 +77,7 @@ class Training:
         settings: Sequence[Settings],
         episodes: int = 1000,
         scenario: Scenario = DEFAULT,
-        teacher: Rule = course_rule,
+        teacher: Rule | None = None,
         demonstrations: Sequence[Rollout] | Tensor | None = None,
         make_env: Callable[[int], VectorEnv] | None = None,
         first_seed: int = FIRST_SEED,
@@ -84,23 +87,17 @@ class Training:
         if not settings:
             raise BootcourseError("There are no agents: give the settings of at least one.")
         self.episodes = whole(episodes, "episodes", MOST_EPISODES, low=1)
-        self.settings, self.scenario, self.teacher = list(settings), scenario, teacher
+        self.settings, self.make_env = list(settings), make_env
         self.n_agents, self.envs_per_agent = len(settings), settings[0].envs_per_agent
         n_envs = self.n_agents * self.envs_per_agent
-        self.env = TrapVectorEnv(n_envs, scenario) if make_env is None else make_env(n_envs)
+        self.env = TrapVectorEnv(n_envs, scenario) if make_env is None else same_step(make_env(n_envs))
         self.on_the_trap = hasattr(self.env, "cars")
-        if not self.on_the_trap and any(s.asks_teacher for s in settings):
-            raise BootcourseError(
-                f"Method '{next(s.method for s in settings if s.asks_teacher)}' asks a teacher, which drives only on "
-                "the trap's roads: leave out make_env, or choose a method without a teacher, such as 'sac'."
-            )
-        size, n_actions = self.env.single_observation_space.shape[0], int(self.env.single_action_space.n)
-        self.learner = make_learner(self.settings, size, n_actions)
+        self.scenario = scenario if self.on_the_trap else None
+        size, self.n_actions = self.env.single_observation_space.shape[0], int(self.env.single_action_space.n)
+        self.learner = make_learner(self.settings, size, self.n_actions)
         if device != "cpu":
             move_to(self.learner, device_named(device))
-        self._teach = teacher_of(teacher, scenario)
-        needed = any(s.asks_teacher for s in settings) or not getattr(teacher, "is_slow", False)
-        self.asks = self.on_the_trap and needed
+        self._set_teacher(course_rule if teacher is None and self.on_the_trap else teacher)
         self.replay = self.learner.make_buffer(size, self._demonstration_rows(demonstrations))
         self.curves = Curves(self.n_agents, self.envs_per_agent, self.episodes)
         streams = [np.random.SeedSequence([s.seed]).spawn(2) for s in settings]
@@ -118,6 +115,20 @@ class Training:
         self.beta_start = np.array([s.beta_start for s in settings])
         self.beta_episodes = np.array([np.inf if s.beta_episodes is None else s.beta_episodes for s in settings])
 
+    def _set_teacher(self, teacher: Rule | None) -> None:
+        """Set the teacher, and whether it is asked in the states that the agents reach."""
+        asking = [s for s in self.settings if s.asks_teacher]
+        if asking and teacher is None:
+            raise BootcourseError(
+                f"Method '{asking[0].method}' asks a teacher, and {environment_id(self.env)} has none: give "
+                "teacher=my_rule, or choose a method without a teacher, such as 'sac'."
+            )
+        for settings in asking:
+            check_p(settings.rule_p, "rule_p", self.n_actions)
+        self.teacher = teacher
+        self._teach = None if teacher is None else teacher_of(teacher, self.scenario, self.n_actions)
+        self.asks = teacher is not None and (bool(asking) or not getattr(teacher, "is_slow", False))
+
     def _demonstration_rows(self, given: Sequence[Rollout] | Tensor | None) -> Tensor | None:
         """The demonstrations for the replay buffer, (transitions, row); None if no agent needs any."""
         shared = self.settings[0]
@@ -128,12 +139,13 @@ class Training:
         if isinstance(given, Tensor):
             return given
         if given is not None:
-            rows = demonstration_rows(given, self.teacher)
-            if given[0].scenario != self.scenario:
+            if given and given[0].scenario != self.scenario:
                 raise BootcourseError("The demonstrations are of another scenario: train with their scenario.")
-            return rows
-        if not self.on_the_trap:
-            raise BootcourseError(f"Method '{shared.method}' needs demonstrations of this environment: give them.")
+            return demonstration_rows(given, self.teacher)
+        if self.teacher is None:
+            raise BootcourseError(
+                f"Method '{shared.method}' needs demonstrations of this environment: give them, or teacher=my_rule."
+            )
         policy = None
         if shared.stochastic_demonstrations:
             if len({s.rule_p for s in self.settings}) > 1:
@@ -141,8 +153,8 @@ class Training:
                     "Agents that train side by side share their demonstrations, so with stochastic_demonstrations "
                     "they need the same rule_p: train these apart."
                 )
-            policy = stochastic_policy(self._teach, np.random.default_rng(0), shared.rule_p)
-        return collect(shared.demonstration_episodes, self.scenario, policy, self.teacher)
+            policy = stochastic_policy(self._teach, np.random.default_rng(0), shared.rule_p, self.n_actions)
+        return collect(shared.demonstration_episodes, self.scenario, policy, self.teacher, self.make_env)
 
     @property
     def beta(self) -> np.ndarray:
@@ -158,11 +170,12 @@ class Training:
         """The teacher's actions in the present states, (envs,); zeros where it is not asked."""
         if not self.asks:
             return np.zeros(self.env.num_envs, dtype=np.int64)
-        with naming(lambda road: f"on {self._road(road)}, at decision {self.env.decisions[road]}"):
-            return self._teach(self.env.cars)
+        with naming(lambda road: f"on {self._road(road)}, at decision {self.curves.running[1][road]:.0f}"):
+            return self._teach(self.env.cars if self.on_the_trap else self.states)
 
     def _road(self, road: int) -> str:
-        return f"road {road % self.envs_per_agent} of agent {road // self.envs_per_agent} in training"
+        what = "road" if self.on_the_trap else "copy"
+        return f"{what} {road % self.envs_per_agent} of agent {road // self.envs_per_agent} in training"
 
     def step(self) -> None:
         """One decision in every environment, and the updates that follow it."""
@@ -175,20 +188,18 @@ class Training:
         uniforms = np.stack([rng.random(self.envs_per_agent) for rng in self.act_rngs])
         actions = sample_actions(policy, uniforms).ravel()
         entropies = -(policy * np.log(np.maximum(policy, 1e-30))).sum(-1).ravel()
-        next_states, rewards, terminated, truncated, infos = self.env.step(actions)
-        done, next_rule_actions = terminated | truncated, self.taught()
-        reached_rule_actions = next_rule_actions.copy()
-        if done.any() and self.asks:  # these roads are already reset: μ(s') is of the old episode's last state
-            with naming(lambda i: f"on {self._road(np.flatnonzero(done)[i])}, at an episode's end"):
-                reached_rule_actions[done] = self._teach(self.env.final_cars[done])
-        reached = reached_observations(next_states, infos)
-        rows = encode_transitions(
-            self.states, reached, actions, rewards, terminated, self.rule_actions, reached_rule_actions
-        )
-        self.replay.add(rows.view(*shape, -1), done.reshape(shape))
+        decided_in, taught = self.states, self.rule_actions
+        self.states, rewards, terminated, truncated, infos = self.env.step(actions)
+        done, reached = terminated | truncated, reached_observations(self.states, infos)
         self.learner.note_episodes(done.reshape(shape), (self.curves.running[0] + rewards).reshape(shape))
         self.curves.note(rewards, entropies, done, infos, self.learner.coefficients() | {"beta": self.beta})
-        self.states, self.rule_actions = next_states, next_rule_actions
+        self.rule_actions = self.taught()
+        reached_rule_actions = self.rule_actions.copy()
+        if done.any() and self.asks:  # these roads are already reset: μ(s') is of the old episode's last state
+            with naming(lambda i: f"on {self._road(np.flatnonzero(done)[i])}, at an episode's end"):
+                reached_rule_actions[done] = self._teach(reached_cars(self.env, reached, infos)[done])
+        rows = encode_transitions(decided_in, reached, actions, rewards, terminated, taught, reached_rule_actions)
+        self.replay.add(rows.view(*shape, -1), done.reshape(shape))
         self.decisions += len(actions)
         for _ in range(self.learner.updates_due(self.replay, self.decisions // self.n_agents)):
             self.update()
@@ -251,7 +262,8 @@ class Training:
         """The agents and curves so far."""
         agents = [self.finished_agents.get(i) or self.agent(i) for i in range(self.n_agents)]
         curves, name = {key: values.copy() for key, values in self.curves.values.items()}, teacher_name(self.teacher)
-        return Result(agents, curves, self.scenario, self.seconds, interrupted, dict(self.stopped), name)
+        environment = environment_id(self.env)
+        return Result(agents, curves, self.scenario, self.seconds, interrupted, dict(self.stopped), name, environment)
 
     def agent(self, i: int) -> Agent:
         """A snapshot of agent i."""

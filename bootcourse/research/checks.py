@@ -1,12 +1,11 @@
 """Independent checks: `python -m bootcourse.research.checks` trains our learners on tasks with published results.
 
 The training loop and the learners of the road (`Training`, `SACLearner`, `CQLLearner`, `GAILLearner`,
-`PPOLearner`) train here on other gymnasium environments, several seeds side by side. There is no teacher:
-ξ = 0, and the rule's actions in the buffer are 0. The target entropy is a share of log |A|, not the paper's -1, a
-formula for continuous actions. SAC's τ is 0.05 and γ = 0.99. CQL's weight is 10, as in the check that it
-is compared with. The budget of environment steps is at most the published one. PPO has CleanRL's γ, λ, ε
-and entropy weight, and learning rates that fall to 0; CleanRL's figures are of training episodes, whose
-actions are drawn.
+`PPOLearner`) train here on other gymnasium environments, several seeds side by side, without a teacher.
+The target entropy is a share of log |A|, not the paper's -1, a formula for continuous actions. SAC's τ
+is 0.05 and γ = 0.99. CQL's weight is 10, as in the check that it is compared with. The budget of
+environment steps is at most the published one. PPO has CleanRL's γ, λ, ε and entropy weight, and
+learning rates that fall to 0; CleanRL's figures are of training episodes, whose actions are drawn.
 
 CartPole's observations are scaled to order one, as on the road; with raw ones it stays near 300.
 Acrobot's are raw, and it gets one update for each step of its four environments instead of one for all
@@ -29,17 +28,18 @@ import numpy as np
 import torch
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
 
-from bootcourse.episodes.driving import steps
+from bootcourse.episodes.evaluate import drive_episodes
 from bootcourse.errors import BootcourseError, check_known
 from bootcourse.files import write_bytes
 from bootcourse.learn.agent import Agent
-from bootcourse.learn.replay_buffer import encode_transitions
+from bootcourse.learn.demonstrations import collect
+from bootcourse.learn.replay_buffer import decode_transitions
 from bootcourse.learn.settings import Settings, settings_for, with_seeds
+from bootcourse.learn.teachers import all_roads, teacher_policy
 from bootcourse.learn.training import MOST_EPISODES, Training
-from bootcourse.policies import PolicyOutput
+from bootcourse.policies import Policy, random_policy
 
 MakeEnv = Callable[[], gym.Env]
-Actor = Callable[[np.ndarray], np.ndarray]  # observations (envs, size) -> actions (envs,)
 TEST_SEED, DATA_SEED, SEED = 10**6, 2 * 10**6, 3 * 10**6  # of the first test, data and training environment
 
 
@@ -83,6 +83,7 @@ def acrobot() -> gym.Env:
     return gym.make("Acrobot-v1")
 
 
+@all_roads
 def balance(states: np.ndarray) -> np.ndarray:
     """A hand-written CartPole driver, the demonstrator: it pushes to where the pole falls. (n, 4) -> (n,)."""
     return (states @ np.array([0.1, 0.3, 0.1, 0.3]) > 0).astype(np.int64)
@@ -93,15 +94,11 @@ def several(make_env: MakeEnv) -> Callable[[int], SyncVectorEnv]:
     return lambda count: SyncVectorEnv([make_env] * count, autoreset_mode=AutoresetMode.SAME_STEP)
 
 
-def collect(actor: Actor, make_env: MakeEnv, episodes: int, seed: int = DATA_SEED) -> tuple[torch.Tensor, np.ndarray]:
-    """Whole episodes of an actor as rows for a `ReplayBuffer`, and their returns (episodes,)."""
-    returns, rows, no_teacher = np.zeros(episodes), [], np.zeros(episodes, dtype=np.int64)
-    for step in steps(lambda states, cars: PolicyOutput(actor(states)), several(make_env)(episodes), seed):
-        seen = step.observations, step.next_observations
-        each = encode_transitions(*seen, step.output.actions, step.rewards, step.terminated, no_teacher, no_teacher)
-        rows.append(each[step.running])
-        returns += step.rewards * step.running
-    return torch.cat(rows), returns
+def data(policy: Policy, make_env: MakeEnv, episodes: int, seed: int = DATA_SEED) -> tuple[torch.Tensor, float]:
+    """Whole episodes of a policy as rows for a `ReplayBuffer`, and their mean return."""
+    rows = collect(episodes, None, policy, None, several(make_env), seed)
+    size = make_env().observation_space.shape[0]
+    return rows, float(decode_transitions(rows, size, torch.zeros(len(rows))).rewards.sum()) / episodes
 
 
 def train(
@@ -117,15 +114,10 @@ def train(
     return training.run(progress, stop=lambda: training.decisions >= decisions * len(settings)).agents
 
 
-def actor_of(agent: Agent, rng: np.random.Generator | None = None) -> Actor:
-    """An agent's most probable action; with an rng, an action drawn from its policy."""
-    policy = agent.as_policy(rng)
-    return lambda states: policy(states, None).actions
-
-
 def scores(agents: Sequence[Agent], make_env: MakeEnv, episodes: int = 100) -> np.ndarray:
     """Each agent's mean return over test episodes that are the same for all, by its most probable action: (agents,)."""
-    return np.array([collect(actor_of(agent), make_env, episodes, TEST_SEED)[1].mean() for agent in agents])
+    seeds, envs = range(TEST_SEED, TEST_SEED + episodes), several(make_env)
+    return np.array([drive_episodes(a.as_policy(), seeds, None, make_env=envs).returns.mean() for a in agents])
 
 
 @dataclass(frozen=True)
@@ -160,22 +152,18 @@ def cql_check(seeds: int, progress: bool) -> Outcome:
     """CQL on 20,000 transitions, half by a half-trained policy, half at random; 5,000 updates."""
     (half_trained,) = train([usual("sac", 2, seed=10**6, **SAC)], cartpole, 10_000)
     rng = np.random.default_rng(0)
-    parts = [
-        collect(actor_of(half_trained, rng), cartpole, 300),
-        collect(lambda states: rng.integers(2, size=len(states)), cartpole, 1000),
-    ]
+    parts = [data(half_trained.as_policy(rng), cartpole, 300), data(random_policy(rng, 2), cartpole, 1000)]
     rows = torch.cat([rows[torch.from_numpy(rng.permutation(len(rows))[:10_000])] for rows, _ in parts])
     settings = with_seeds(usual("cql", 2, envs_per_agent=1, cql_weight=10.0, learning_starts=0), seeds)
     agents = train(settings, cartpole, 5000, rows, progress)
-    means = [returns.mean() for _, returns in parts]
-    return Outcome(scores(agents, cartpole), f"the data's policies: {means[0]:.0f} and {means[1]:.0f}")
+    return Outcome(scores(agents, cartpole), f"the data's policies: {parts[0][1]:.0f} and {parts[1][1]:.0f}")
 
 
 def gail_check(seeds: int, progress: bool) -> Outcome:
     """GAIL from 60 demonstrations on the CartPole of fixed length."""
-    rows, returns = collect(balance, fixed_cartpole, 60)
+    rows, theirs = data(teacher_policy(balance, None, 2), fixed_cartpole, 60)
     agents = train(with_seeds(usual("gail", 2), seeds), fixed_cartpole, 100_000, rows, progress)
-    return Outcome(scores(agents, fixed_cartpole), f"the demonstrator: {returns.mean():.0f}")
+    return Outcome(scores(agents, fixed_cartpole), f"the demonstrator: {theirs:.0f}")
 
 
 @dataclass(frozen=True)

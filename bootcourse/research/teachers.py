@@ -23,11 +23,19 @@ REMEMBERED = 1000  # answers of the planner
 def chance(cars: np.ndarray, stream: int) -> np.ndarray:
     """Numbers in [0, 1) that look random and depend on the state alone: cars (roads, vehicles, 10) -> (roads,).
 
-    SplitMix64 (Steele, Lea & Flood 2014) over the places and speeds of the ego and the traps, to a millimetre, so that
-    another processor's rounding changes no draw.
+    They depend on the places and speeds of the ego and the traps, to a millimetre (see `hashed`).
     """
-    seen = np.round(1000 * cars[:, :TRAFFIC, [X, Y, SPEED]]).astype(np.int64).view(np.uint64).reshape(len(cars), -1)
-    mixed = np.full(len(cars), stream, dtype=np.uint64)
+    return hashed(cars[:, :TRAFFIC, [X, Y, SPEED]].reshape(len(cars), -1), stream)
+
+
+def hashed(states: np.ndarray, stream: int) -> np.ndarray:
+    """Numbers in [0, 1) that look random and depend on the states alone: (n, ...) -> (n,).
+
+    SplitMix64 (Steele, Lea & Flood 2014) over the states to three decimals, so that another processor's rounding
+    changes no draw.
+    """
+    seen = np.round(1000 * states.astype(np.float64)).astype(np.int64).view(np.uint64)
+    mixed = np.full(len(states), stream, dtype=np.uint64)
     for column in seen.T:
         mixed = (mixed ^ column) + np.uint64(0x9E3779B97F4A7C15)
         mixed = (mixed ^ (mixed >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)

@@ -1,6 +1,6 @@
 """A run: one trained agent in a folder, written completely or not at all, and checked when it is read.
 
-config.json          settings, scenario, episodes
+config.json          settings, environment and its sizes, scenario, episodes
 weights.safetensors  actor, critics
 curves.npz           the curves of the training episodes (`bootcourse.learn.curves`)
 provenance.json      versions, git commit, seconds, the hash of the three files above, and its own
@@ -21,6 +21,7 @@ import torch
 from msgspec import Meta, Struct, convert
 from safetensors.torch import save
 
+from bootcourse.episodes.driving import TRAP
 from bootcourse.errors import BootcourseError
 from bootcourse.files import (
     TEMPORARY,
@@ -45,6 +46,7 @@ from bootcourse.scenario import N_ACTIONS, Scenario
 from bootcourse.storage.sealed import read_sealed, write_sealed
 
 FORMAT = "bootcourse run 1"
+Size = Annotated[int, Meta(ge=1, le=100_000)]
 UNFINISHED = "unfinished"  # the folder of a training that is not over, beside the runs
 HASHED = ("config.json", "weights.safetensors", "curves.npz")
 TRAIN_AGAIN = "train this run again, or restore it from a copy"
@@ -56,9 +58,11 @@ class Config(Struct, forbid_unknown_fields=True):
     FORMAT: ClassVar[str] = FORMAT
     format: str
     settings: dict[str, Any]  # checked by `Settings`
-    scenario: dict[str, Any]  # checked by `Scenario`
+    scenario: dict[str, Any] | None  # checked by `Scenario`; None off the trap
     episodes: Annotated[int, Meta(ge=1)]
     alpha: Annotated[float, Meta(ge=0)]
+    environment: str = TRAP  # see `environment_id`
+    sizes: tuple[Size, Size] | None = None  # of an observation, and the number of actions; on the trap the scenario's
 
 
 class Provenance(Struct):
@@ -78,7 +82,7 @@ class Run:
 
     agent: Agent
     curves: dict[str, np.ndarray]  # each (episodes,)
-    scenario: Scenario
+    scenario: Scenario | None  # None off the trap
     provenance: dict
 
 
@@ -110,9 +114,11 @@ def _save_run(path: Path, agent: Agent, curves: dict[str, np.ndarray], result: R
     config = {
         "format": FORMAT,
         "settings": asdict(agent.settings),
-        "scenario": json.loads(result.scenario.to_json()),
+        "scenario": result.scenario and json.loads(result.scenario.to_json()),
         "episodes": episodes,
         "alpha": agent.alpha,
+        "environment": result.environment,
+        "sizes": (agent.actor[0].shape[1], agent.actor[-1].shape[2]),
     }
     weights = {f"actor.{i}": tensor for i, tensor in enumerate(agent.actor)}
     weights |= {f"critics.{i}": tensor for i, tensor in enumerate(agent.critics)}
@@ -139,10 +145,11 @@ def _save_run(path: Path, agent: Agent, curves: dict[str, np.ndarray], result: R
         raise
 
 
-def load_run(path: Path, teacher: Rule = course_rule) -> Run:
+def load_run(path: Path, teacher: Rule | None = None, environment: str = TRAP) -> Run:
     """Read and check a run. teacher: the one that it trained with, for a method whose agents drive with it.
 
-    Raises BootcourseError, with the file and the remedy, if a file is missing or damaged, or for another teacher.
+    environment: the id of the one that it trained in. Raises BootcourseError, with the file and the remedy, if a file
+    is missing or damaged, or for another teacher or environment.
     """
     path = Path(path)
     if not (path / "provenance.json").is_file():
@@ -155,13 +162,18 @@ def load_run(path: Path, teacher: Rule = course_rule) -> Run:
             raise BootcourseError(f"{path / name} is damaged: its hash has changed. Train this run again.")
     config = read_json(path / "config.json", Config, TRAIN_AGAIN)
     with decoding(path / "config.json", TRAIN_AGAIN):
-        settings, scenario = stored_settings(config.settings), Scenario.from_json(json.dumps(config.scenario))
+        settings = stored_settings(config.settings)
+        scenario = Scenario.from_json(json.dumps(config.scenario)) if config.environment == TRAP else None
+        size, n_actions = (scenario.observation_size, N_ACTIONS) if scenario else config.sizes
+    if config.environment != environment:
+        there = config.environment
+        raise BootcourseError(f"{path} was trained in {there}, not in {environment}: give environment={there!r}.")
     curves = read_arrays(path / "curves.npz", TRAIN_AGAIN)
     check_arrays(
         curves, dict.fromkeys(curves.keys() & set(NAMES), (config.episodes,)), path / "curves.npz", TRAIN_AGAIN
     )
     kind = METHODS[settings.method].learner_class()
-    shapes = _shapes(settings, scenario, kind.n_critics(settings))
+    shapes = _shapes(settings, size, n_actions, kind.n_critics(settings))
     weights = read_tensors(path / "weights.safetensors", TRAIN_AGAIN)
     check_arrays(weights, shapes, path / "weights.safetensors", TRAIN_AGAIN)
     if not all(np.isfinite(values).all() for values in weights.values()):
@@ -169,7 +181,9 @@ def load_run(path: Path, teacher: Rule = course_rule) -> Run:
     actor, critics = (
         [torch.from_numpy(weights[name]) for name in shapes if name.startswith(part)] for part in ("actor", "critics")
     )
-    agent = Agent(settings, actor, critics, config.alpha, teacher_of(teacher, scenario))
+    teacher = course_rule if teacher is None and scenario else teacher
+    taught = None if teacher is None else teacher_of(teacher, scenario, n_actions)
+    agent = Agent(settings, actor, critics, config.alpha, taught)
     if agent.needs_teacher and stored.teacher != teacher_name(teacher):
         raise BootcourseError(
             f"{path} drives with the teacher '{stored.teacher}', not '{teacher_name(teacher)}': give the same teacher."
@@ -177,9 +191,9 @@ def load_run(path: Path, teacher: Rule = course_rule) -> Run:
     return Run(agent, curves, scenario, made)
 
 
-def _shapes(settings: Settings, scenario: Scenario, critics: int) -> dict[str, tuple[int, int, int]]:
+def _shapes(settings: Settings, size: int, n_actions: int, critics: int) -> dict[str, tuple[int, int, int]]:
     """The shapes of an agent's weights and biases (see networks.py), by their names in the file."""
-    layers = list(pairwise((scenario.observation_size, *settings.hidden, N_ACTIONS)))
+    layers = list(pairwise((size, *settings.hidden, n_actions)))
     rows = [(inputs, outputs) for n_in, outputs in layers for inputs in (n_in, 1)]
     parts = (("actor", 1), ("critics", critics))
     return {f"{part}.{i}": (n, *row) for part, n in parts if n for i, row in enumerate(rows)}

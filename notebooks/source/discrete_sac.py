@@ -45,17 +45,14 @@ from bootcourse.research import checks
 # <!-- claim: gym.spec('CartPole-v1').max_episode_steps == 500 -->
 
 # %%
-rng = np.random.default_rng(0)
-
-
-def at_random(observations):
-    return rng.integers(2, size=len(observations))
-
-
+drivers = {
+    "at random": bc.random_policy(np.random.default_rng(0), 2),  # two actions
+    "rule: push where it falls": bc.teacher_policy(checks.balance, None, 2),
+}
 drives = {}
-for label, driver in (("at random", at_random), ("rule: push where it falls", checks.balance)):
-    rows, returns = checks.collect(driver, checks.cartpole, 1, seed=0)
-    drives[f"{label}: {returns[0]:.0f} pushes"] = rows[:, :4].numpy()
+for label, driver in drivers.items():
+    rows, pushes = checks.data(driver, checks.cartpole, 1, seed=0)
+    drives[f"{label}: {pushes:.0f} pushes"] = rows[:, :4].numpy()
 title = "One line of code balances the pole; chance does not"
 bc.show(figures.cartpole_strip(drives, title))
 
@@ -521,8 +518,8 @@ for i, (agent, score) in enumerate(zip(agents, results, strict=True)):
 best, worst = int(results.argmax()), int(results.argmin())
 drives = {}
 for i in (worst, best):
-    rows, returns = checks.collect(checks.actor_of(training.agent(i)), checks.cartpole, 1, seed=0)
-    name = f"agent {i} (η = {agents[i].target_entropy:.2f}): {returns[0]:.0f} pushes"
+    rows, pushes = checks.data(training.agent(i).as_policy(), checks.cartpole, 1, seed=0)
+    name = f"agent {i} (η = {agents[i].target_entropy:.2f}): {pushes:.0f} pushes"
     drives[name] = rows[:, :4].numpy()
 bc.show(figures.cartpole_strip(drives, "The worst and the best of the six, from the same start"))
 

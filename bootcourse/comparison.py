@@ -1,0 +1,100 @@
+"""Some trainings side by side, in any environment: their curves, and a table of what the trained agents reach.
+
+settings = bc.settings_for("soft", gamma=0.99)
+bc.compare({"soft": settings, "my rule alone": bc.settings_for("bc")}, make_env=my_env, teacher=my_rule)
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from gymnasium.vector import VectorEnv
+from matplotlib.figure import Figure
+
+from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
+from bootcourse.errors import BootcourseError
+from bootcourse.learn.settings import Settings, with_seeds
+from bootcourse.learn.training import Result, Training
+from bootcourse.markup import html
+from bootcourse.plots.training_curves import training_curves
+from bootcourse.statistics import interval
+
+Entry = Settings | Callable[[int], Training]
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """What some trainings reached. As the last line of a cell it shows its table; `bc.show(it.figure())` the curves."""
+
+    results: dict[str, Result]
+    tested: dict[str, list[Episodes]]  # of each agent, with its most probable actions
+
+    def scores(self, name: str, measure: str = "returns") -> np.ndarray:
+        """Each agent's mean over its test episodes, (seeds,). measure: a field of `Episodes`."""
+        return np.array([getattr(episodes, measure).mean() for episodes in self.tested[name]])
+
+    def rows(self) -> list[tuple[str, ...]]:
+        """The table: a heading and a row for each training, with 95 % intervals over its seeds."""
+        table = [("", "agents", "success, % [95 %]", "return [95 %]", "decisions of an agent", "seconds")]
+        for name, result in self.results.items():
+            decisions = np.nansum(result.curves["decisions"], axis=1).mean()
+            success, returns = 100 * self.scores(name, "success"), self.scores(name)
+            cells = _bracketed(success), _bracketed(returns), f"{decisions:,.0f}", f"{result.seconds:.0f}"
+            table.append((name, str(len(result.agents)), *cells))
+        return table
+
+    def figure(self, title: str = "") -> Figure:
+        """The training curves: success, where the environment reports it, and return."""
+        curves = {name: result.curves for name, result in self.results.items()}
+        reported = all(np.isfinite(each["success"]).any() for each in curves.values())
+        return training_curves(curves, title, measures=("success", "return") if reported else ("return",))
+
+    def __str__(self) -> str:
+        widths = [max(map(len, column)) for column in zip(*self.rows(), strict=True)]
+        return "\n".join("  ".join(map(str.ljust, row, widths)).rstrip() for row in self.rows())
+
+    def _repr_html_(self) -> str:
+        head, *rows = ["".join(html("<td>{}</td>", cell) for cell in row) for row in self.rows()]
+        return f"<table><thead><tr>{head}</tr></thead>" + "".join(f"<tr>{row}</tr>" for row in rows) + "</table>"
+
+
+def compare(
+    entries: Mapping[str, Entry],
+    seeds: int = 5,
+    episodes: int = 1000,
+    tests: int = 100,
+    make_env: Callable[[int], VectorEnv] | None = None,
+    progress: bool = True,
+    **training,
+) -> Comparison:
+    """Train each entry with the same number of seeds, and test its agents in the same episodes.
+
+    entries: by name, settings, or a function of the number of seeds that returns a `Training` of your own. A name that
+    begins with a method's has its colour. make_env and training: further arguments of `Training`, such as teacher.
+    Raises BootcourseError for no entries, and for one that is neither.
+    """
+    if not entries:
+        raise BootcourseError('There is nothing to compare: give {"mine": settings}.')
+    results, tested = {}, {}
+    for name, entry in entries.items():
+        if isinstance(entry, Settings):
+            one = Training(with_seeds(entry, seeds), episodes, make_env=make_env, **training)
+        else:
+            one = entry(seeds) if callable(entry) else None
+        if not isinstance(one, Training):
+            raise BootcourseError(f"'{name}' is {entry!r:.80}: give settings, or a function seeds -> Training.")
+        results[name] = result = one.run(progress)
+        if result.interrupted:
+            break
+        held_out = held_out_seeds(1, tests)
+        policies = [agent.as_policy() for agent in result.agents]
+        tested[name] = [drive_episodes(drive, held_out, one.scenario, make_env=one.make_env) for drive in policies]
+    return Comparison({name: results[name] for name in tested}, tested)
+
+
+def _bracketed(scores: np.ndarray) -> str:
+    """ "62.0 [39.1, 83.2]": the interquartile mean of scores (seeds,) with its interval; "–" for unknown ones."""
+    if np.isnan(scores).any():
+        return "–"
+    middle, low, high = interval(scores)
+    return f"{middle:.1f}" if np.isnan(low) else f"{middle:.1f} [{low:.1f}, {high:.1f}]"

@@ -1,0 +1,165 @@
+"""Environments other than the trap: a teacher there, what is asked of the environment, what is saved, comparisons."""
+
+import re
+from pathlib import Path
+
+import gymnasium as gym
+import numpy as np
+import pytest
+import torch
+from gymnasium.vector import AutoresetMode, SyncVectorEnv
+
+import bootcourse as bc
+from bootcourse.learn.demonstrations import collect
+from bootcourse.learn.replay_buffer import decode_transitions
+from bootcourse.learn.teachers import all_roads, teacher_policy
+from bootcourse.research.problems import PROBLEMS, Chain
+from bootcourse.storage.checkpoint import save_checkpoint
+
+QUICK = {"hidden": (8,), "learning_starts": 16, "demonstration_episodes": 2}
+TAUGHT = ("soft", "bootstrapped", "demos", "bc", "dagger", "ibrl", "jsrl", "margin_soft", "ppo_cloned")
+PPO = {"envs_per_agent": 4, "horizon": 8, "batch": 16, "cloning_updates": 5}
+
+
+def mountain_car(n: int) -> SyncVectorEnv:
+    return gym.make_vec("MountainCar-v0", n)
+
+
+def with_the_motion(observation: np.ndarray) -> int:
+    return 2 if observation[1] > 0 else 0
+
+
+def training_of(method: str, make_env=mountain_car, teacher=with_the_motion, **changes) -> bc.Training:
+    changes = QUICK | (PPO if method.startswith("ppo") else {}) | changes
+    return bc.Training([bc.settings_for(method, **changes)], 3, make_env=make_env, teacher=teacher)
+
+
+@pytest.mark.parametrize("method", TAUGHT)
+def test_every_method_trains_with_a_teacher_in_another_environment_and_drives_there(method):
+    training = training_of(method)
+    for _ in range(12):
+        training.step()
+    result = training.result()
+    assert result.environment == "MountainCar-v0" and result.scenario is None and training.losses
+    driven = bc.drive_episodes(result.agents[0].as_policy(), range(2), make_env=mountain_car)
+    assert (driven.returns >= -200).all() and np.isnan(driven.accident).all() and np.isnan(driven.success).all()
+
+
+def test_the_replay_holds_the_teacher_s_actions_in_the_states_before_and_after_each_decision():
+    training, added = training_of("soft", make_env=Chain, teacher=lambda seen: int(seen[-1] * 60) % 2), []
+    add = training.replay.add
+    training.replay.add = lambda rows, ended: (added.append(rows.clone()), add(rows, ended))[1]
+    for _ in range(61):
+        training.step()
+    batch = decode_transitions(torch.stack(added).flatten(0, 2), Chain.size, torch.zeros(61 * 4))
+    for seen, taught in ((batch.states, batch.rule_actions), (batch.next_states, batch.next_rule_actions)):
+        assert torch.equal(taught, (seen[:, -1] * 60).long() % 2)  # at an episode's end, of its last state
+
+
+def test_demonstrations_and_the_stochastic_rule_have_as_many_actions_as_the_environment():
+    rows = collect(3, None, None, with_the_motion, mountain_car)
+    batch = decode_transitions(rows, 2, torch.zeros(len(rows)))
+    assert torch.equal(batch.actions, batch.rule_actions) and batch.terminated.sum() == 3
+    drawn = training_of("demos", stochastic_demonstrations=True).replay.state()["demonstrations"][:, 4]
+    assert set(drawn) == {0.0, 1.0, 2.0}
+    with pytest.raises(bc.BootcourseError, match=r"rule_p = 0.3 is outside \[1/3, 1\)"):
+        training_of("soft", rule_p=0.3)
+
+
+def noise(*_):
+    raise KeyError("speed")
+
+
+WRONG = [
+    (None, "asks a teacher, and MountainCar-v0 has none: give teacher=my_rule"),
+    (noise, "'noise' failed on copy 0 of agent 0 in training, at decision 0: it raised KeyError: 'speed'"),
+    (lambda observation: None, "it returned None, but an action is a whole number from 0 to 2"),
+    (lambda observation: 3, "it returned 3, but an action is a whole number from 0 to 2"),
+    (lambda observation: [0, 1], r"it returned \[0, 1\], but an action"),
+    (all_roads(lambda observations: np.zeros(3, int)), r"returned actions of shape \(3,\)"),
+    (all_roads(lambda observations: np.full(len(observations), 7)), "returned 7, but an action"),
+    ("my_rule", "teacher = 'my_rule': give a function"),
+]
+
+
+@pytest.mark.parametrize(("teacher", "says"), WRONG, ids=range(len(WRONG)))
+def test_a_wrong_teacher_is_one_sentence(teacher, says):
+    with pytest.raises(bc.BootcourseError, match=says):
+        training_of("soft", teacher=teacher)
+
+
+ENVIRONMENTS = [
+    (
+        lambda n: gym.make_vec("CartPole-v1", n),
+        "CartPole-v1 does not restart an episode in the step that ends it",
+    ),
+    (lambda n: gym.make_vec("Pendulum-v1", n), r"Pendulum-v1 has actions of Box.*: this library learns Discrete\(n\)"),
+    (lambda n: gym.make_vec("Taxi-v4", n), r"Taxi-v4 shows Discrete\(500\): flatten it to a vector"),
+]
+
+
+@pytest.mark.parametrize(("make_env", "says"), ENVIRONMENTS)
+def test_an_environment_that_does_not_fit_is_one_sentence(make_env, says):
+    with pytest.raises(bc.BootcourseError, match=says):
+        bc.Training([bc.settings_for("sac")], make_env=make_env)
+
+
+def test_a_method_without_a_teacher_needs_none_and_one_with_demonstrations_says_so():
+    training_of("sac", teacher=None).step()
+    with pytest.raises(bc.BootcourseError, match="needs demonstrations of this environment: give them, or teacher"):
+        training_of("bc", teacher=None)
+
+
+def soon(n: int) -> SyncVectorEnv:
+    """A MountainCar of 5 decisions that succeeds if it earned -5."""
+    one = lambda: bc.Success(gym.make("MountainCar-v0", max_episode_steps=5), lambda earned, over: earned == -5)  # noqa: E731
+    return SyncVectorEnv([one] * n, autoreset_mode=AutoresetMode.SAME_STEP)
+
+
+def test_success_is_what_the_wrapper_says_at_each_episode_s_end():
+    result = training_of("soft", make_env=soon).run(progress=False)
+    assert (result.curves["success"] == 1).all() and (result.curves["decisions"] == 5).all()
+    report = bc.evaluate(teacher_policy(with_the_motion, None, 3), 4, make_env=soon)
+    assert report.success.value == 1 and report.returns.value == -5 and np.isnan(report.collision.value)
+
+
+def test_a_run_knows_its_environment_and_sizes_and_is_refused_elsewhere(tmp_path):
+    result = training_of("ibrl", make_env=soon).run(progress=False)
+    (folder,) = bc.save_runs(result, tmp_path)
+    run = bc.load_run(folder, with_the_motion, "MountainCar-v0")
+    assert run.scenario is None and torch.equal(run.agent.actor[0], result.agents[0].actor[0])
+    drives = [bc.drive_episodes(a.as_policy(), range(2), make_env=soon) for a in (run.agent, result.agents[0])]
+    assert np.array_equal(drives[0].returns, drives[1].returns)
+    with pytest.raises(bc.BootcourseError, match="trained in MountainCar-v0, not in Trap-v0: give environment="):
+        bc.load_run(folder)
+    with pytest.raises(bc.BootcourseError, match="drives with the teacher"):
+        bc.load_run(folder, environment="MountainCar-v0")
+    with pytest.raises(bc.BootcourseError, match="Only a training on the trap can be saved and resumed"):
+        save_checkpoint(training_of("soft"), tmp_path / "checkpoint.npz")
+
+
+def test_a_comparison_trains_each_entry_and_shows_a_table_and_curves():
+    chain = PROBLEMS["chain"]
+
+    def mine(seeds: int) -> bc.Training:
+        return bc.Training(bc.with_seeds(bc.settings_for("sac", **QUICK), seeds), 3, make_env=Chain)
+
+    entries = {"bc": bc.settings_for("bc", **QUICK | {"learning_starts": 0}), "sac, mine": mine}
+    found = bc.compare(entries, 2, 12, tests=3, make_env=Chain, teacher=chain.rule, progress=False)
+    assert found.scores("bc").tolist() == [10, 10] and found.scores("bc", "success").tolist() == [1, 1]
+    head, clones, own = found.rows()
+    assert clones[:4] == ("bc", "2", "100.0 [100.0, 100.0]", "10.0 [10.0, 10.0]") and own[:2] == ("sac, mine", "2")
+    assert "sac, mine" in str(found) and found._repr_html_().count("<tr>") == 3
+    assert "success" in found.figure("Cloning is enough").alt
+    for wrong, says in (({}, "nothing to compare"), ({"x": 3}, "'x' is 3: give settings")):
+        with pytest.raises(bc.BootcourseError, match=says):
+            bc.compare(wrong)
+
+
+def test_the_ten_lines_of_the_readme_run(capsys):
+    readme = (Path(__file__).resolve().parent.parent / "README.md").read_text(encoding="utf-8")
+    (lines,) = [code for code in re.findall(r"```python\n(.*?)```", readme, re.S) if "def my_rule" in code]
+    assert "episodes=100" in lines
+    exec(lines.replace("episodes=100", "episodes=2, tests=2, progress=False"), {})
+    printed = capsys.readouterr().out
+    assert "sac" in printed and "soft" in printed and "success" in printed
