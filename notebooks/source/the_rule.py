@@ -347,7 +347,7 @@ print(f"{driven.success.sum()} of {plans.shape[1]:,} plans get out on road 7.")
 # %%
 after = [("accelerate straight", 5)]
 three = {
-    "ours": figures.direct_solution(),
+    "ours": figures.direct_plan(),
     "left 2, straight 2, right 2": [("keep left", 2), ("keep straight", 2), ("keep right", 2)]
     + after,
     "right 1, left 4, right 3": ["keep right", ("keep left", 4), ("keep right", 3)] + after,
