@@ -1,4 +1,4 @@
-'''An exercise: a right answer, cases worked out by hand, hidden cases, hints, and the mistakes that students make.
+"""An exercise: a right answer, cases worked out by hand, hidden cases, hints, and the mistakes that students make.
 
 It is written on its solution, in `lessons/NAME/exercises.py`; `judge.py` judges answers.
 
@@ -28,7 +28,7 @@ A key of `mistakes` is
 - where none of this will do, a function or class of its own, which makes the mistake.
 A change that does not fit raises BootcourseError when the lessons are loaded. A changed solution may use all names of
 its file. Tensors of hidden and worked cases are given in float32, as training gives them.
-'''
+"""
 
 import ast
 import functools
