@@ -108,8 +108,8 @@ def track(cars, speed, lane, c):
 
     It accelerates or brakes if that reduces the speed error. It steers by searching three decisions ahead: all 27
     sequences of left, straight and right through the bicycle model, then the first step of the cheapest. (Rounding a
-    continuous controller's steering does not work: one decision of full steering at 15 m/s moves the car 1.2 m
-    sideways, and the car leaves the road.)
+    continuous controller's steering works in a narrow range of its time constant only: below it the car leaves the
+    road, above it the car stays behind the traps or collides.)
     """
     error = speed - cars[EGO, SPEED]
     sign = 0 if abs(error) <= c.ego_acceleration / 2 else (1 if error > 0 else -1)

@@ -98,6 +98,7 @@ def sac_diagram() -> Diagram:
         arrow(150, 76, 228, 76), label(190, 96, "state"),
         arrow(78, 96, 78, 218), label(86, 150, "s, a, r, s′,", "start"), label(86, 168, "terminated", "start"),
         arrow(150, 252, 228, 252), label(190, 272, "batch"),
+        line(190, 252, 190, 170), arrow(190, 170, 250, 97), label(198, 190, "batch", "start"),
         arrow(300, 218, 300, 97), label(292, 196, "min Q", "end"),
         arrow(370, 50, 450, 50), label(411, 42, "entropy"),
         arrow(452, 76, 372, 76), label(411, 96, "α"),
@@ -107,8 +108,9 @@ def sac_diagram() -> Diagram:
     ]  # fmt: skip
     alt = (
         "A diagram of soft actor-critic. The actor sends actions to the world and sees its states. The world's "
-        "transitions go into the replay buffer. Batches from the buffer train two critics; the smaller of their values "
-        "trains the actor. Slow copies of the critics, the target critics, give the critics their target, together "
-        "with the actor's policy in the next state. The temperature α follows the actor's entropy."
+        "transitions go into the replay buffer. Batches from the buffer train two critics and the actor, which makes "
+        "the smaller of the critics' values large. Slow copies of the critics, the target critics, give the critics "
+        "their target, together with the actor's policy in the next state. The temperature α follows the actor's "
+        "entropy."
     )
     return Diagram(600, 296, parts, alt)

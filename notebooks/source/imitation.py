@@ -256,8 +256,7 @@ table(headings, rows)
 def discriminator_loss(rule_logits, own_logits):
     """The judge's loss, one number: logits of the rule's pairs (n,) and of the agent's (m,)."""
     # solution
-    softplus = torch.nn.functional.softplus
-    return softplus(-rule_logits).mean() + softplus(own_logits).mean()
+    return F.softplus(-rule_logits).mean() + F.softplus(own_logits).mean()
     # end solution
 
 

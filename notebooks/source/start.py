@@ -30,8 +30,8 @@ from bootcourse.research import report, tables
 #
 # Both drives below are on the same road. Two slow cars, dark red, hold the driver: **trap 1** ahead
 # of it, **trap 2** beside it. The drivers are **agents**: programs that have learned from their own
-# tries. Both have had the same number of training drives. A rule that somebody wrote by hand helped
-# the *bootstrapped* agent while it learned. Press play, and turn the road with the mouse.
+# attempts. Both have had the same number of training drives. A rule that somebody wrote by hand
+# helped the *bootstrapped* agent while it learned. Press play, and turn the road with the mouse.
 # <!-- claim: len({run.curves['success'].shape for method in ('sac', 'bootstrapped') for run in
 #   shipped_runs(method)}) == 1 -->
 
@@ -73,17 +73,17 @@ table(["", *names], rows, below=f"In the end: {'; '.join(ends)}.")
 # <!-- claim: by_rule(10).success -->
 # <!-- claim: N_ACTIONS == 9 -->
 #
-# > **Predict.** How many tries until you are ahead of trap 1?
+# > **Predict.** How many attempts do you need until you are ahead of trap 1?
 
 # %%
-predict("start.1", "How many tries until you are ahead of trap 1?", unit="tries")
+predict("start.1", "How many attempts until you are ahead of trap 1?", unit="attempts")
 
 # %% tags=["nbval-ignore-output"]
 bc.panels.drive_panel(seed=10)
 
 # %% [markdown] tags=["instructor"] minutes=10
 # Open with this page on the wall and let two people drive before you explain anything. Expect
-# crashes into trap 2. Keep the number of tries on the board for lesson [[the_barrier]].
+# crashes into trap 2. Keep the number of attempts on the board for lesson [[the_barrier]].
 
 # %% [markdown]
 # ## What the agents do
@@ -125,7 +125,7 @@ for method in ("sac", "bootstrapped"):
     returns = tables.bracketed(tables.score(study, method, "returns"))
     count = f"{(success >= bc.statistics.ESCAPES).sum()} of {len(mine)}: {share} %"
     rows.append([bc.display_name(method), count, returns, f"{accidents:.0f} %"])
-rule = report.rule_results(bc.DEFAULT, 200)
+rule = report.rule_results(bc.DEFAULT, study.sizes[0])
 accidents = 100 * rule.episodes("accident").mean()
 returns = tables.bracketed(tables.score(rule, "rule", "returns"))
 not_trained = f"not trained: {100 * rule.scores('success')[0]:.0f} % of its drives escape"
@@ -135,12 +135,12 @@ table(headings, rows)
 
 # %% [markdown]
 # **See.** The brackets hold the 95 % *interval*: the range in which the true value may well lie,
-# given how few agents (for the rule: 200 drives) we have measured. The return is that of a typical
-# agent: the mean over the middle half of the agents. The share of accidents is the mean over all
-# drives of all agents. Read the table with three questions; the course is about them. Why do most
-# agents of plain SAC miss a way out that a rule of a few lines finds on each of the {{ roads() | ,
-# }} roads? How many agents does the help bring out, and why not all? Some agents earn more than the
-# rule: do they have more accidents, too?
+# given how few agents (for the rule: {{ roads() | , }} drives) we have measured. The return is that
+# of a typical agent: the mean over the middle half of the agents. The share of accidents is the
+# mean over all drives of all agents. Read the table with three questions; the course is about them.
+# Why do most agents of plain SAC miss a way out that a rule of a few lines finds on each of the {{
+# roads() | , }} roads? How many agents does the help bring out, and why not all? Some agents earn
+# more than the rule: do they have more accidents, too?
 # <!-- claim: escaped('sac') < len(of('sac')) / 2 and of('rule').episodes('success').all() -->
 # <!-- claim: escaped('sac') < escaped('bootstrapped') < len(of('bootstrapped')) -->
 # <!-- claim: of('bootstrapped').scores('returns').max() > of('rule').scores('returns').max() and
@@ -152,8 +152,8 @@ table(headings, rows)
 # same way, and the results that ship with the course, as in the table above, are read from files.
 # Numbers of this kind stand in the text. A training that *you* run is another matter. Processors
 # round the last digit of a sum in different ways. Training changes an agent some thousand times,
-# and with each change such a difference can grow: with the same seed, your agents become other
-# agents than ours. So where a lesson trains, it says that yours will differ, and draws its
+# and with each change such a difference can grow: with the same seed, your agents will end up
+# different from ours. So where a lesson trains, it says that yours will differ, and draws its
 # conclusions from results of more agents, which ship with the course.
 #
 # ## Choose a route

@@ -68,7 +68,8 @@ bc.show(bc.top_view_over_time(planned, times=[0, 2, 4, 6, 8, 12]))
 
 # %% [markdown]
 # **See.** On this road the planner's car does not fall back. It accelerates and changes lane
-# between the two traps, with little room ahead and behind, since it knows where both will be. The
+# between the two traps, with little room ahead and behind, since it knows where both will be. (The
+# grey line shows where it has been; trap 2 comes to the same places later.) The
 # rule takes longer and keeps larger gaps. Both earn more than the car that stays in the trap.
 # <!-- claim: planned(50, 1.0) > by_rule().rewards.sum() > idle().rewards.sum() -->
 
@@ -431,9 +432,8 @@ predict("the_barrier.6", "Leaving the chain's trap pays from this γ on", unit="
 # $$ Q(s, a) \leftarrow Q(s, a)
 # + \text{step} \cdot \big(r + \gamma \max_{a'} Q(s', a') - Q(s, a)\big) $$
 #
-# The bracket is the **temporal difference**. To learn an estimate from an estimate is called
-# **bootstrapping**. (The paper's title uses the word in another sense: to start a learner with a
-# rule's help.)
+# The bracket is the **temporal difference** of lesson [[discrete_sac]]. Its target holds an estimate
+# of the next state: the learner **bootstraps**.
 #
 # **Exercise (20 min, ●●●).** Write this learner. `chain.NEXT[s, a]` and `chain.REWARD[s, a]`
 # hold the table above. The random decisions have been drawn beforehand (`chances`), so that your

@@ -163,7 +163,7 @@ predict("your_teacher.4", "Situations that a rule must tell apart", ["two", "thr
 # as bold or careful as you like. It must answer the same road the same way each time, and leave
 # `cars` as it is. How would you use `ahead`, `toward`, `cars[EGO, LANE]` and `cars[EGO, Y]`?
 # <!-- claim: len(registry()['my_rule'].worked) +
-#   len(registry()['my_rule'].cases(np.random.default_rng(0))) == 24 -->
+#   len([*registry()['my_rule'].cases(np.random.default_rng(0))]) == 24 -->
 
 
 # %%

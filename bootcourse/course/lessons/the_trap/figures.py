@@ -55,6 +55,8 @@ def nine_actions(seconds: int = 2, scenario: Scenario = DEFAULT) -> Figure:
         x, y = path_of(3 * i, seconds, scenario)[-1] + [0, start]
         ax.annotate(words, (x, y), xytext=offset, textcoords="offset points", ha=align,
                     fontsize=TEXT, color=SHADES[i], zorder=7)  # fmt: skip
+    for lane, words in enumerate(("left lane: 0", "middle lane: 1", "right lane: 2")):
+        ax.text(right - 0.5, lane * width, words, ha="right", va="center", fontsize=SMALL, color=QUIET)
     top, bottom = edges_of(scenario.road)
     ax.set(xlim=(left, right), ylim=(bottom + 4.0, top - 0.4), aspect="equal")
     for side in ("top", "right", "left", "bottom"):
