@@ -25,6 +25,7 @@
 import bootcourse as bc
 import numpy as np
 import torch
+import torch.nn.functional as F
 from bootcourse.course import (
     charts,
     check,
