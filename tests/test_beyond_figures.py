@@ -1,10 +1,10 @@
-"""What a teacher is worth, and the frontier of return against accidents: the numbers and their figures."""
+"""What a teacher is worth, and the two clocks: the numbers and their figures."""
 
 import numpy as np
 import pytest
 
 from bootcourse.course.lessons.ablation.figures import two_clocks
-from bootcourse.course.lessons.beyond_the_paper.figures import frontier, safe_and_fast, teacher_value
+from bootcourse.course.lessons.beyond_the_paper.figures import teacher_value
 from bootcourse.course.shipped import shipped_experiment, shipped_teachers
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import settings_for, with_seeds
@@ -72,26 +72,6 @@ def test_a_study_s_folder_is_read_and_one_without_such_jobs_says_what_to_run(tmp
         shipped_teachers(tmp_path)
     save_results(ten_agents("rule", "soft", 4), tmp_path / "jobs/teachers/rule-soft/results.npz", {})
     assert list(shipped_teachers(tmp_path)) == [("rule", "soft")]
-
-
-def crashing(accidents, returns) -> Results:
-    """Agents with these shares of accidents and these returns, in 200 drives each."""
-    happened = np.arange(200) < 200 * np.array(accidents)[:, None]
-    tested = {"accident": happened * (1 + np.arange(200) % 3)}
-    tested["returns"] = np.repeat(np.array(returns, dtype=float)[:, None], 200, axis=1)
-    return Results([{"method": "ppo", "seed": i} for i in range(len(returns))], np.full(len(returns), -1), tested)
-
-
-def test_the_frontier_is_what_nothing_beats_in_both_from_safest_to_fastest_and_the_figure_says_so():
-    varied = {
-        "plain": crashing([0.01, 0.02, 0.03], [134.0, 135.0, 136.0]),
-        "slow": crashing([0.0, 0.0, 0.01], [120.0, 121.0, 122.0]),
-        "best": crashing([0.0, 0.0, 0.0], [133.0, 134.0, 135.0]),
-    }
-    assert frontier(varied) == ["best", "plain"]
-    alt = safe_and_fast(varied, bound=140.6).alt
-    assert alt.startswith("The 2 filled dots are the frontier") and "On the frontier: best, plain." in alt
-    assert all(f"{name} (3 agents)" in alt for name in varied) and "140.6" in alt
 
 
 def test_the_figure_of_the_clocks_says_when_each_help_has_faded():

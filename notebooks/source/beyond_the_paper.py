@@ -15,7 +15,7 @@
 #
 # **What you will be able to do**
 # - write what three other methods take from a teacher: RLPD, IBRL and jump-start RL;
-# - compare learners by what they reach, what it costs, and how often they crash;
+# - say what a table of methods compares: ideas, settings, or budgets;
 # - say what a teacher is worth to a learner, and on what evidence.
 #
 # **Time** 60 minutes, about one of them the machine's. **It builds on** demonstrations (lesson
@@ -27,6 +27,7 @@ import numpy as np
 import torch
 from bootcourse.course import charts, check, compare_predictions, own_code, predict, shipped, table
 from bootcourse.course.lessons.beyond_the_paper import figures
+from bootcourse.learn import ibrl
 from bootcourse.research import beyond
 
 # %% [markdown]
@@ -71,7 +72,7 @@ predict("beyond_the_paper.1", "The fewest decisions until it gets out", learners
 # differently disagree, and the smallest is a careful guess. (Its other remedy normalises what goes
 # through each hidden layer, which bounds a critic's values.)
 # <!-- claim: (lambda s: s.bonus == s.margin == s.xi_multiplier == 0 and s.beta_start == 0.5 and
-#   s.beta_episodes > 10**8)(settings_for('rlpd')) -->
+#   s.beta_episodes is None)(settings_for('rlpd')) -->
 #
 # **Exercise (4 min, ●○○).** Write it: the smallest value of the chosen critics.
 
@@ -152,8 +153,7 @@ check.better_of_two(better_of_two)
 pi, q = torch.tensor([[0.5, 0.3, 0.2]]), torch.tensor([[1.0, 2.0, 3.0]])
 for rule in range(3):
     at_rule = torch.tensor([rule])
-    taken = pi * (q > q[:, rule : rule + 1])
-    chosen = taken.scatter_add(-1, at_rule[:, None], 1 - taken.sum(-1, keepdim=True))
+    chosen = ibrl.better_of_two(pi, q, at_rule)
     print(f"Q = 1, 2, 3; μ(s) is the {rule + 1}.:", *(f"{p:.1f}" for p in chosen[0]))
 
 # %% [markdown]
@@ -186,9 +186,11 @@ bc.show(bc.traces([drives[0]], title="One drive of your agent", what=("speed", "
 # rule, and what has it found itself?
 #
 # **Explain.** A KL or a bonus must fade, because it pulls at what the agent may do. This choice
-# pulls at nothing: as soon as the critic values another action more, the rule is not asked. In
-# return the teacher must come along for ever: a teacher that needs what the car cannot measure is
-# of no use here.
+# need not fade: as soon as the critic values another action more, the rule's is not taken. (Our
+# agents also have demonstrations in their batches, whose share β fades from {{
+# settings_for('ibrl').beta_start }} to 0 over {{ settings_for('ibrl').beta_episodes | , }}
+# episodes, without a bonus.) In return the teacher must come along for ever: a teacher that needs
+# what the car cannot measure is of no use here.
 # <!-- claim: METHODS['ibrl'].learner_class().needs_teacher -->
 
 # %% [markdown] tags=["instructor"] minutes=8
@@ -250,11 +252,29 @@ bc.show(charts.lines(np.arange(20, 121), named, title, "episode", "share"))
 # ## Round 4: ten seeds of each
 #
 # One training says little (lesson [[ablation]]). So ten agents of each method were trained, and
-# each drove {{ roads() | , }} held-out roads. The other methods look further ahead than the paper's
-# γ = 0.8: γ is {{ settings_for('ibrl').gamma | g }}, and {{ settings_for('ppo').gamma | g }} for
-# PPO. The paper's method is the one with two updates for each decision (lesson [[ablation]], round
-# 6).
+# each drove {{ roads() | , }} held-out roads. Before you read the table, read how they were
+# trained. They are our versions of these methods, and they differ from their authors':
 # <!-- claim: {len(later(m)) for m in LATER} == {10} -->
+#
+# | | their authors | our agents |
+# |---|---|---|
+# | RLPD | 10 critics, 20 updates for a decision | {{ settings_for('rlpd').critics }} critics, {{
+# settings_for('rlpd').updates / settings_for('rlpd').envs_per_agent | g }} updates |
+# | IBRL | a trained imitator proposes the second action | the rule does; no imitator is trained |
+# | IBRL | demonstrations stay in the buffer | their share of a batch fades from {{
+# settings_for('ibrl').beta_start }} to 0 |
+# | jump-start RL | h is judged in test episodes | in training episodes, with drawn actions |
+# | all three | continuous actions | nine actions, discrete SAC |
+#
+# The budgets differ, too. The discount factor γ is {{ SETTINGS.gamma }} for the paper's method, {{
+# settings_for('ibrl').gamma | g }} for RLPD, IBRL and jump-start RL, and {{
+# settings_for('ppo').gamma | g }} for PPO. The paper's method is the one with two updates for each
+# decision (lesson [[ablation]], round 6). And there is a handicap: RLPD and IBRL aim at an entropy
+# of {{ settings_for('rlpd').target_entropy | g }} nat, which nine actions cannot have, so their
+# temperature falls until nothing explores (lesson [[discrete_sac]]). Jump-start RL aims at {{
+# settings_for('jsrl').target_entropy | g }}.
+# <!-- claim: settings_for('rlpd').target_entropy == settings_for('ibrl').target_entropy ==
+#   later('ibrl').agents[0]['target_entropy'] == -1 < 0 < settings_for('jsrl').target_entropy -->
 #
 # > **Predict.** Count only the methods whose ten agents all escape. Of 1,000 drives, in how many
 # > does the safest of them crash?
@@ -266,71 +286,71 @@ predict("beyond_the_paper.4", "Accidents of the safest method that escapes", uni
 named = {"bootstrapped SAC": bc.shipped_results("paper").of("bootstrapped")}
 named["the same, γ = 0.95"] = shipped.shipped_experiment("longer-view")["γ = 0.95"]
 named |= {bc.display_name(method): part for method, part in later.items()}
-table(*beyond.learner_rows(named))
+rows = []
+for words, part in named.items():
+    setting, driven = part.agents[0], np.nansum(beyond.lengths(part.curves), axis=1).mean()
+    per_decision = setting["updates"] / setting["envs_per_agent"]
+    numbers = [f"{setting['gamma']:g}", f"{setting['target_entropy']:g}", f"{per_decision:g}"]
+    rows.append([words, f"{driven / 1000:,.0f}", *numbers])
+rows = [row if "PPO" not in row[0] else [*row[:3], "none", "another scheme"] for row in rows]
+headings = ["thousand decisions of an agent", "γ", "target entropy", "updates for a decision"]
+table(["", *headings], rows)
 
 # %%
-bc.show(figures.safe_and_fast(named, shipped.shipped_bound().mean()))
+table(*beyond.learner_rows(named))
 
 # %% [markdown]
-# (The table's return is the interquartile mean, the figure's the mean. In the last column stands
-# the median of the agents that got there, with the smallest and the largest number.)
+# (The return is the interquartile mean. In the last column stands the median of the agents that got
+# there, with the smallest and the largest number.)
 #
-# **See.** All ten agents escape with the paper's method and with PPO after cloning. Of PPO alone
-# none does: its agents are in the second trap of lesson [[the_second_trap]]. They earn
-# {{ iqm(later('ppo').scores('returns')) | .0f }}, a little more than the rule, and have no accident
-# in their {{ later('ppo').episodes('accident').size | , }} test drives. Of IBRL and of jump-start
-# RL {{ escapers(later('ibrl'), 'ibrl') }} each escape, of RLPD
-# {{ escapers(later('rlpd'), 'rlpd') }}. PPO after cloning earns the most. It crashes in
-# {{ accident_percent(later('ppo_cloned')) | .1f }} % of its drives, after
-# {{ driven('ppo_cloned') / 1e6 | .1f }} million decisions. IBRL drove
-# {{ driven('ibrl') / 1e6 | .1f }} million. In the last column the paper's method is ahead of the
-# others: half of its agents know the way out after {{ np.median(papers_cost()) | ,.0f }} decisions.
-# It crashes in {{ accident_percent(shipped_results('paper').of('bootstrapped')) | .1f }} % of its
-# drives.
+# **See.** The first table forbids a ranking by the second. The agents drove between
+# {{ driven('rlpd') / 1000 | .0f }} thousand and {{ driven('ppo_cloned') / 1e6 | .1f }} million
+# decisions. What the second table does show, for these settings and budgets:
+#
+# - With a teacher's aid some of ten agents get out: all ten with the paper's method and with PPO
+#   after cloning, {{ escapers(later('ibrl'), 'ibrl') }} each with IBRL and jump-start RL, {{
+#   escapers(later('rlpd'), 'rlpd') }} with RLPD. Of PPO alone none does: its agents are in the
+#   second trap of lesson [[the_second_trap]]. They have no accident in their {{
+#   later('ppo').episodes('accident').size | , }} test drives.
 # <!-- claim: escapers(later('ibrl'), 'ibrl') == escapers(later('jsrl'), 'jsrl') -->
 # <!-- claim: escapers(later('ppo_cloned'), 'ppo_cloned') == 10 and escaped('bootstrapped',
 #   'paper') == 10 -->
-# <!-- claim: escapers(later('ppo'), 'ppo') == later('ppo').episodes('accident').sum() == 0 and 0 <
-#   iqm(later('ppo').scores('returns')) - of('rule').scores('returns')[0] < 8 -->
-# <!-- claim: max(LATER, key=lambda m: iqm(later(m).scores('returns'))) == 'ppo_cloned' and
-#   iqm(later('ppo_cloned').scores('returns')) >
-#   iqm(shipped_results('paper').of('bootstrapped').scores('returns')) -->
-# <!-- claim: all(np.median(papers_cost()) < np.median(learned(m)) for m in LATER) -->
+# <!-- claim: escapers(later('ppo'), 'ppo') == later('ppo').episodes('accident').sum() == 0 -->
+# - No method whose ten agents escape drives without accidents. PPO after cloning crashes in
+#   {{ accident_percent(later('ppo_cloned')) | .1f }} % of its drives, the paper's method in
+#   {{ accident_percent(shipped_results('paper').of('bootstrapped')) | .1f }} %.
+# <!-- claim: accident_percent(later('ppo_cloned')) > 0 and
+#   accident_percent(shipped_results('paper').of('bootstrapped')) > 0 -->
+# - The budget decides who looks better. PPO after cloning earns the most at the end. In the 50
+#   training episodes before decision 100,000 IBRL earns {{
+# iqm(beyond.at_budget(later('ibrl').curves, 100_000)) | .0f }}, and PPO after cloning {{
+# iqm(beyond.at_budget(later('ppo_cloned').curves, 100_000)) | .0f }} (`bc.board()` has this
+#   column).
+# <!-- claim: iqm(beyond.at_budget(later('ibrl').curves, 100_000)) >
+#   iqm(beyond.at_budget(later('ppo_cloned').curves, 100_000)) and max(LATER, key=lambda m:
+#   iqm(later(m).scores('returns'))) == 'ppo_cloned' -->
 #
-# How much is the idea, and how much its numbers? The second row is the paper's method with
-# γ = 0.95, a bonus c of {{ longer().agents[0]['bonus'] | g }} instead of
-# {{ SETTINGS.bonus | g }}, and batches of {{ longer().agents[0]['batch'] }} instead of
-# {{ SETTINGS.batch }}. It earns {{ iqm(longer().scores('returns')) | .0f }} instead of
-# {{ iqm(shipped_results('paper').of('bootstrapped').scores('returns')) | .0f }}, and of the other
-# methods only PPO after cloning earns more. But its interval overlaps those of the paper's setting,
-# IBRL and jump-start RL.
-# <!-- claim: len(longer()) == longer().escapers('bootstrapped') == 10 and
-#   longer().agents[0]['gamma'] == 0.95 -->
-# <!-- claim: [m for m in LATER if iqm(later(m).scores('returns')) >
-#   iqm(longer().scores('returns'))] == ['ppo_cloned'] -->
+# **What does the target entropy cost?** We trained ten IBRL agents again, with a target of 0.3 nats
+# and everything else as it was. (They do not ship.) Ten of ten escaped instead of
+# {{ escapers(later('ibrl'), 'ibrl') }}, with accidents in 2.7 % of the drives instead of
+# {{ accident_percent(later('ibrl')) | .1f }} %, and a mean return of 130 instead of
+# {{ later('ibrl').scores('returns').mean() | .0f }}. So much of what the table seems to say against
+# IBRL came from one number, which the paper prints for another method. (Of RLPD we trained four so,
+# on fewer roads: all four escaped.)
+# <!-- claim: accident_percent(later('ibrl')) > 8 and later('ibrl').scores('returns').mean() < 120
+#   -->
 #
 # **Explain.** Before you blame a method, look at its agents that fail. One IBRL agent ends {{ 100 *
 # later('ibrl').curves['success'][7, -100:].mean() | .0f }} % of its last 100 training episodes
 # ahead. It crashes in each test drive, and is ahead in none. A likely reason: while it trains, its
 # actions are drawn, and in a test it takes the most probable one. Two RLPD agents stay behind trap
-# 1 in all of their test drives. RLPD trained for {{ later('rlpd').curves['success'].shape[1] }}
-# episodes, since it makes eight times as many updates for a decision, and IBRL and jump-start
-# RL for {{ later('ibrl').curves['success'].shape[1] | , }}. At an equal budget the order is
-# another: in the 50 training episodes before its decision 100,000 IBRL earns {{
-# iqm(beyond.at_budget(later('ibrl').curves, 100_000)) | .0f }}, and PPO after cloning {{
-# iqm(beyond.at_budget(later('ppo_cloned').curves, 100_000)) | .0f }} (`bc.board()` has this
-# column). And we chose each method's settings with a few agents of other seeds. So the table
-# compares these settings, and not the ideas behind them.
-# <!-- claim: max((m for m in LATER if m != 'rlpd'), key=lambda m: iqm(beyond.at_budget(
-#   later(m).curves, 100_000))) == 'ibrl' and max(LATER, key=lambda m: iqm(later(m).scores(
-#   'returns'))) == 'ppo_cloned' -->
+# 1 in all of their test drives. To compare ideas, one would give each method a usable target, the
+# same search for settings (how many, on which seeds and roads, printed beside the result), and the
+# same number of decisions. Until that is done, the table compares these settings.
 # <!-- claim: later('ibrl').curves['success'][7, -100:].mean() > 0.85 and
 #   later('ibrl').scores('success')[7] == 0 and later('ibrl').scores('accident')[7] == 1 -->
 # <!-- claim: (later('rlpd').scores('success') == 0).sum() == 2 and
 #   (later('rlpd').scores('accident')[later('rlpd').scores('success') == 0] < 0.05).all() -->
-# <!-- claim: settings_for('rlpd').updates / settings_for('rlpd').envs_per_agent == 8 *
-#   settings_for('ibrl').updates / settings_for('ibrl').envs_per_agent -->
-# <!-- claim: later('jsrl').curves['success'].shape == later('ibrl').curves['success'].shape -->
 
 # %% [markdown] tags=["instructor"] minutes=10
 # Each group defends one row as the one to use: with a slow car and a safe test track, with a fleet
@@ -352,14 +372,18 @@ bc.show(figures.safe_and_fast(named, shipped.shipped_bound().mean()))
 #   {{ taught('rule').curves['success'].shape[1] | , }} episodes;
 # - *SAC with the soft constraint* is pulled towards the teacher as long as ξ lasts (lesson
 #   [[soft_constraint]]);
-# - *bootstrapped SAC* has demonstrations as well. Both SACs train for
-#   {{ taught('rule', 'soft').curves['success'].shape[1] | , }} episodes, with a quarter of an
-#   update for each decision;
+# - *bootstrapped SAC* has demonstrations as well. Both SACs train for {{ taught('rule',
+#   'soft').curves['success'].shape[1] | , }} episodes, with a quarter of an update for each
+#   decision;
 # - *RLPD* (round 1) trains for {{ taught('rule', 'rlpd').curves['success'].shape[1] }} episodes,
 #   with eight times as many updates for a decision.
 #
-# (The PPO agents of round 4 had {{ later('ppo_cloned').curves['success'].shape[1] | , }} episodes,
-# so they earn more than those here.)
+# These budgets are counted in *episodes*, so compare only within a learner, and with care even
+# there: an agent that crashes early drives little. A PPO agent drove {{ decisions_of('rule',
+# 'ppo_cloned') / 1000 | .0f }} thousand decisions after cloning the rule, and {{
+# decisions_of('planner', 'ppo_cloned') / 1000 | .0f }} thousand after cloning the planner. (The PPO
+# agents of round 4 had {{ later('ppo_cloned').curves['success'].shape[1] | , }} episodes.)
+# <!-- claim: decisions_of('rule', 'ppo_cloned') > 15 * decisions_of('planner', 'ppo_cloned') -->
 #
 # > **Predict.** The teacher that acts at random in a quarter of its decisions crashes in almost all
 # > of its own drives. How many of the ten PPO agents that began as its clones escape?
@@ -397,15 +421,16 @@ bc.show(figures.teacher_value(worth, "escape"))
 # %% [markdown]
 # **See.** *PPO after cloning.* All ten that began as clones of the teacher with a quarter at random
 # escape. They earn {{ iqm(taught('random-25').scores('returns')) | .0f }}, a little less than the
-# clones of the rule ({{ iqm(taught('rule').scores('returns')) | .0f }}). It took them
-# {{ np.median(taught_cost('random-25')) / np.median(taught_cost('rule')) | .0f }} times as many
-# decisions to know the way out. The late teacher crashes in
-# {{ 100 * teachers_accidents('late') | .0f }} % of its own drives, and its agents in
-# {{ 100 * taught('late').episodes('accident').mean() | .1f }} %. With a half at random, left and
-# right exchanged, or a teacher that keeps straight, none of ten escapes. And of the clones of the
-# planner none escapes on 95 % of the roads: they get past trap 1 in
-# {{ 100 * taught('planner').episodes('success').mean() | .0f }} % of their drives, and crash in
-# {{ 100 * taught('planner').episodes('accident').mean() | .0f }} %.
+# clones of the rule ({{ iqm(taught('rule').scores('returns')) | .0f }}). It took them {{
+# np.median(taught_cost('random-25')) / np.median(taught_cost('rule')) | .0f }} times as many
+# decisions to know the way out. The late teacher crashes in {{ 100 * teachers_accidents('late') |
+# .0f }} % of its own drives, and its agents in {{ 100 * taught('late').episodes('accident').mean()
+# | .1f }} %. With a half at random, left and right exchanged, or a teacher that keeps straight,
+# none of ten escapes. And of the clones of the planner none escapes on 95 % of the roads: they get
+# past trap 1 in {{ 100 * taught('planner').episodes('success').mean() | .0f }} % of their drives,
+# and crash in {{ 100 * taught('planner').episodes('accident').mean() | .0f }} %. But they had a
+# seventeenth of the decisions. With 750,000, as many as the clones of the rule, still none escaped
+# when we tried; they crashed in 36 % and earned 87. (Those agents do not ship.)
 # <!-- claim: escapers(taught('planner'), 'ppo_cloned') == 0 and
 #   taught('planner').scores('returns').max() < taught('rule').scores('returns').min() -->
 # <!-- claim: {escapers(taught(t), 'ppo_cloned') for t in ('random-25', 'late', 'rule')} == {10} and
@@ -414,15 +439,14 @@ bc.show(figures.teacher_value(worth, "escape"))
 #   shipped.shipped_teachers()} == {'dagger', 'ppo_cloned', 'bootstrapped', 'soft', 'rlpd'} -->
 # <!-- claim: np.median(taught_cost('rule')) < np.median(taught_cost('random-25')) -->
 #
-# *SAC.* The teacher with a half at random gets ahead in
-# {{ 100 * teachers_success('random-50') | .0f }} % of its own drives. With it all ten agents of
-# bootstrapped SAC escape, and {{ escapers(taught('random-50', 'soft'), 'soft') }} of ten with the
-# soft constraint alone. Ten agents do show this difference: Fisher's p is below 0.001. So with this
-# teacher the paper's two helps together free more agents than one of them. With the rule itself it
-# is {{ escapers(taught('rule', 'bootstrapped'), 'bootstrapped') }} and
-# {{ escapers(taught('rule', 'soft'), 'soft') }} of ten. (That the worse teacher is the better one
-# for bootstrapped SAC, ten agents do not show: p is
-# {{ fisher(10, escapers(taught('rule', 'bootstrapped'), 'bootstrapped')) | .2f }}.) With left and
+# *SAC.* The teacher with a half at random gets ahead in {{ 100 * teachers_success('random-50') |
+# .0f }} % of its own drives. With it all ten agents of bootstrapped SAC escape, and {{
+# escapers(taught('random-50', 'soft'), 'soft') }} of ten with the soft constraint alone. Ten agents
+# do show this difference: Fisher's p is below 0.001. So with this teacher the paper's two aids
+# together free more agents than one of them. With the rule itself it is {{ escapers(taught('rule',
+# 'bootstrapped'), 'bootstrapped') }} and {{ escapers(taught('rule', 'soft'), 'soft') }} of ten.
+# (That the worse teacher is the better one for bootstrapped SAC, ten agents do not show: p is {{
+# fisher(10, escapers(taught('rule', 'bootstrapped'), 'bootstrapped')) | .2f }}.) With left and
 # right exchanged, or a teacher that keeps straight, none escapes, with either SAC.
 # <!-- claim: escapers(taught('random-50', 'bootstrapped'), 'bootstrapped') == 10 and fisher(10,
 #   escapers(taught('random-50', 'soft'), 'soft')) < 0.001 and fisher(10, escapers(taught('rule',
@@ -460,11 +484,12 @@ bc.show(figures.teacher_value(worth, "escape"))
 # settings_for('bootstrapped').demonstration_episodes | .0f }} get ahead. We think that these few
 # show the way, and that the bonus and the critic do the rest. The two teachers that get ahead in
 # none of their drives freed no agent of any learner. A teacher's own crashes need not stay: the
-# learners but DAgger go on learning from the reward. The best driver is not the best teacher here.
-# We think that the planner is hard to copy: it knows what the other cars are going to do, passes
-# close to them, and who follows it roughly has an accident. (Whether the observation tells enough
-# to drive as the planner does, or the labels were too few, these agents do not show.) The paper's
-# title says *sub-optimal policies*. This is how far it goes, for these learners on one road.
+# learners but DAgger go on learning from the reward. The best driver was not the best teacher here.
+# Why not is open. Of one clone of the planner that we took apart, nearly all crashes came within
+# the first five seconds: it repeats one plan on every road, although it observes how far ahead trap
+# 2 starts. Whether more decisions or more labels would mend that, these agents do not show. The
+# paper's title says *sub-optimal policies*. This is how far it goes, for these learners on one
+# road.
 # <!-- claim: teachers_success('mirrored') == teachers_success('timid') == 0 <
 #   teachers_success('random-50') -->
 
@@ -474,23 +499,23 @@ bc.show(figures.teacher_value(worth, "escape"))
 # 1. A teacher can give data, a start, labels, a second opinion or a pull. Some learners need it
 #    once, others to the end.
 # 2. The smallest value of an ensemble is a careful guess where the data say little.
-# 3. The better of two, by the critic: nothing has to fade, and the teacher has to come along.
+# 3. The better of two, by the critic: the choice need not fade, and the teacher has to come along.
 # 4. A curriculum that asks how well it goes depends on the return that it asks about.
 # 5. Of seven teachers three freed all ten PPO agents. One of the three gets past trap 1 in only
 #    {{ 100 * teachers_success('random-25') | .0f }} % of its drives. The best driver freed none of
-#    its ten. A teacher with a half at random freed ten SACs of ten by both of the paper's helps,
+#    its ten. A teacher with a half at random freed ten SACs of ten by both of the paper's aids,
 #    and {{ escapers(taught('random-50', 'soft'), 'soft') }} by the soft constraint alone.
 # <!-- claim: [t for t in TEACHERS if escapers(taught(t), 'ppo_cloned') == 10] == ['random-25',
 #   'late', 'rule'] and len(TEACHERS) == 7 and escapers(taught('planner'), 'ppo_cloned') == 0 -->
-# 6. A ranking needs its columns: agents that escape, return, accidents, and what it cost.
+# 6. A ranking needs equal budgets, an equal search and usable settings for each method. Ours had
+#    none of these, so it compares settings.
 #
 # **Three questions to think about**
 # - Your teacher is a person who can drive for one hour. Which of these methods do you choose? Name
 #   the columns of the tables that say so.
 # - IBRL's critic decides between the rule's action and the agent's own. What happens if the critic
 #   is wrong about the rule's action?
-# - The settings of some of these learners were searched for longer than those of others.
-#   How would you compare them fairly?
+# - How would you compare these learners fairly? Name three things that have to be equal.
 
 # %%
 spent = {name: np.median(beyond.spent(its)) for name, its in named.items()}
@@ -513,12 +538,14 @@ compare_predictions(
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Answers to the three questions. (1) An hour of driving is 3,600 decisions: enough for half of each
-# batch (RLPD), for cloning, and for the paper's demonstrations. IBRL and DAgger want
-# the person beside the learner for as long as it trains. (2) If the critic thinks too little of it,
-# the agent's own action is taken, tried, and its value corrected. If it thinks too much of it, the
+# batch (RLPD), for cloning, and for the paper's demonstrations. IBRL and DAgger want the person
+# beside the learner for as long as it trains. (2) If the critic thinks too little of it, the
+# agent's own action is taken, tried, and its value corrected. If it thinks too much of it, the
 # rule's action is taken, and its value is corrected, too. What is not corrected are the values of
-# actions that neither of the two takes. (3) With the same number of settings tried for each, on
-# roads and seeds that the table does not use, and the search reported beside the result.
+# actions that neither of the two takes. (3) The number of settings tried for each, on roads and
+# seeds that the table does not use and reported beside the result; the number of decisions, or of
+# seconds; and the quality of the implementation, checked on a task on which others have published
+# what it reaches.
 
 # %% [markdown]
 # **Read on**: Ball et al., *Efficient Online Reinforcement Learning with Offline Data* (RLPD, arXiv

@@ -19,8 +19,8 @@
 # - explain why a clone that agrees with its teacher most of the time can still leave the road;
 # - let a clone drive, have the rule label what it meets, and see what that changes.
 #
-# **Time** 65 minutes, under a minute of it the machine's. **It builds on**
-# [lesson [[the_trap]]](the_trap.ipynb) and [lesson [[the_rule]]](the_rule.ipynb).
+# **Time** 65 minutes, under a minute of it the machine's. **It builds on** [lesson
+# [[the_trap]]](the_trap.ipynb) and [lesson [[the_rule]]](the_rule.ipynb).
 
 # %%
 import bootcourse as bc
@@ -146,9 +146,9 @@ bc.show(charts.action_bars({"rule": shares}, title, "share of the decisions"))
 # %% [markdown]
 # **See.** Each of the nine actions occurs. The rule needs {{ way_out()[0] | .0f }} s to get from
 # behind the traps into the free lane, and {{ way_out()[1] | .0f }} s to be ahead of trap 1 (medians
-# of the 60 drives in the figure at the top). So the way to the free lane is
-# {{ 100 * way_out()[0] / 150 | .0f }} % of a demonstration, and that is its weight in a loss that
-# averages over the decisions.
+# of the 60 drives in the figure at the top). So the way to the free lane is {{ 100 * way_out()[0] /
+# 150 | .0f }} % of a demonstration, and that is its weight in a loss that averages over the
+# decisions.
 #
 # What is a demonstration worth, and from which second on? The paper's learners discount: a reward
 # $t$ seconds later counts $\gamma^t$, with γ = {{ SETTINGS.gamma }}. From second t on a drive is
@@ -302,13 +302,13 @@ predict("demonstrations.7", "The worst case grows by a factor of", ["less than 2
 #
 # which grows with $T^2$: about four times as much for twice the length. A driver that is back in
 # the demonstrator's states within $k$ decisions makes at most $k$ wrong ones for each error,
-# together $\epsilon k T$. With ε = 0.01, T = 150 and k = 5 the two bounds are
-# {{ 0.01 * 150 * 151 / 2 | .0f }} and {{ 0.01 * 5 * 150 | .1f }} wrong decisions.
+# together $\epsilon k T$. With ε = 0.01, T = 150 and k = 5 the two bounds are {{ 0.01 * 150 * 151 /
+# 2 | .0f }} and {{ 0.01 * 5 * 150 | .1f }} wrong decisions.
 #
 # </details>
 #
-# Errors that lead to more errors are called **compounding errors**. How well a clone drives depends
-# less on ε than on what comes *after* an error. Do errors compound here?
+# Errors that lead to more errors are called **compounding errors**. In this bound what comes
+# *after* an error counts as much as ε. Do errors compound here?
 #
 # > **Predict.** Take the distance from what a driver sees to the nearest observation in the
 # > demonstrations. For the rule on other roads it is small. How does it change for a clone, from
@@ -335,18 +335,18 @@ def strangeness(driver, seconds, roads=40):
 
 seconds = range(31)
 curves = {"rule itself": strangeness(bc.rule_policy(bc.DEFAULT), seconds)}
-for agent in rule_clones[:2]:
+for agent in rule_clones:
     curves[f"BC clone, seed {agent.settings.seed}"] = strangeness(agent.as_policy(), seconds)
-title = "The clones leave the states that the demonstrations cover"
+title = "How far from the demonstrations the rule and its four clones drive"
 away = "distance to the nearest demonstrated state (scaled numbers of the observation)"
 bc.show(charts.lines(seconds, curves, title, "time (s)", away))
 
 # %% [markdown]
-# Does the clone err on the rule's own states, or because it meets other states? Measure both: its
-# agreement with the rule on what the *rule* sees at some second, and on what the *clone* sees then.
+# Where does the clone err? Measure its agreement with the rule on what the *rule* sees at some
+# second, and on what the *clone* sees then.
 
 # %%
-times, rows = [0, 1, 2, 3, 5, 10, 30], []
+times, rows = [0, 1, 2, 3, 5, 7, 10, 30], []
 for agent in rule_clones:
     own, on_rule, on_own = bc.record(agent.as_policy(), range(40)), [], []
     for t in times:
@@ -369,15 +369,21 @@ table(["seed", "agreement, %, in states of", *(f"{t} s" for t in times)], rows)
 #   the rule begins its lane change here, on most others one second later, and these clones choose
 #   the earlier second too often.
 # <!-- claim: 0.1 < rule_keeps_left(2) < 0.5 and rule_keeps_left(3) > 0.9 -->
-# - **From 5 s on** the two rows differ: the clone agrees with the rule far less often in its own
-#   states than in the rule's. Its states are now far from the demonstrated ones, as the figure
-#   shows. An error brings a clone to such states, it errs more often there, and that brings it
-#   further away. The errors compound (Ross and Bagnell 2010).
+# - **At 5 s** these clones agree with the rule on hardly any road, in their own states. But the
+#   figure shows that these states are still close to demonstrated ones. A few seconds later they
+#   are further away, and some clones agree more often again. So distance alone does not tell where
+#   a clone errs.
+# - **In the worst case** an error brings a clone to states that nobody demonstrated, it errs more
+#   often there, and the errors compound (Ross and Bagnell 2010). The bound of this round allows
+#   that. Our table does not show that it happens here, and the study speaks against it: its ten
+#   clones learned from drives of the rule alone, too, with many more updates, and have an accident
+#   in {{ 100 * accidents('bc') | .1f }} % of their drives. A smaller error was enough.
+# <!-- claim: accidents('bc') < 0.01 and not of('bc').agents[0]['stochastic_demonstrations'] -->
 # - **And yet these clones escape in most of their drives.** Agreement counts each difference as an
 #   error, also one that does little harm, such as keeping the speed where the rule accelerates. A
-#   clone of the study agrees with the rule, after 3 s on its own states, on
-#   {{ 100 * clone_agrees(3, 3) | .0f }} % of 40 roads, and it escapes on
-#   {{ 100 * of('bc').scores('success')[3] | .0f }} % of the {{ roads() | , }} held-out roads.
+#   clone of the study agrees with the rule, after 3 s on its own states, on {{ 100 *
+#   clone_agrees(3, 3) | .0f }} % of 40 roads, and it escapes on {{ 100 *
+#   of('bc').scores('success')[3] | .0f }} % of the {{ roads() | , }} held-out roads.
 # <!-- claim: clone_agrees(3, 3) < 0.5 and of('bc').scores('success')[3] > 0.95 -->
 #
 # So test a clone by driving. A learner that drives while it learns is trained on its own states; a
@@ -476,7 +482,10 @@ shown({f"after {20 * i} drives of its own": three for i, three in enumerate(roun
 # **Explain.** The first column is the agreement on the rule's 20 drives. It can fall while the
 # clone drives better, since the same network now has to be right in other states, too. Compare the
 # last row with the clones of 200 drives in Round 3. They had more labels and as many updates. What
-# differs is *where* the labels are.
+# differs is *where* the labels are. But this is one training, with one seed. We
+# repeated it with five seeds: four last clones had an accident in 1 % of their drives or fewer, and
+# one in 64 %. Repeat it before you trust it: `cloning.clone(rows, seeds=1, first=1)` takes another
+# seed.
 #
 # The reward does not enter the cloning loss, with or without DAgger: the loss asks a clone to be
 # like its teacher, and not to be better. An agent that is to drive better than the rule has to
@@ -498,6 +507,8 @@ shown({f"after {20 * i} drives of its own": three for i, three in enumerate(roun
 # 3. With γ = 0.8 the rule's escape on road 10 is worth *less* at its start than doing nothing.
 # <!-- claim: discounted(by_rule(), 0.8) < discounted(idle(), 0.8) -->
 # 4. A clone is trained on the teacher's states and drives in its own, so its errors can compound.
+#    On this road more updates, and so fewer errors, were enough for ten clones of ten.
+# <!-- claim: escaped('bc') == 10 and accidents('bc') < 0.01 -->
 # 5. With few updates, the states that the data cover can matter more than how well the demonstrator
 #    drove. With many updates, the study's ten clones of the rule itself escape.
 # <!-- claim: escaped('bc') == len(of('bc')) == 10 -->
@@ -510,8 +521,8 @@ shown({f"after {20 * i} drives of its own": three for i, three in enumerate(roun
 # - A demonstrator that crashes at the end of each drive: which of its rows would you keep?
 #
 # **Read on**: Pomerleau, *ALVINN* (1989), an early clone that drove; Ross, Gordon and Bagnell on
-# *DAgger* (arXiv 1011.0686); Laskey et al., *DART* (arXiv 1703.09327). Next:
-# [the soft constraint](soft_constraint.ipynb).
+# *DAgger* (arXiv 1011.0686); Laskey et al., *DART* (arXiv 1703.09327). Next: [the soft
+# constraint](soft_constraint.ipynb).
 
 # %%
 crashed = {name: round(100 * values[:, 2].mean()) for name, values in measured.items()}

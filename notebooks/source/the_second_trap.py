@@ -27,6 +27,7 @@ import numpy as np
 import torch
 from bootcourse.course import charts, check, compare_predictions, own_code, predict, table
 from bootcourse.course.lessons.the_second_trap import ppo_kinds, second_trap
+from bootcourse.learn import ppo
 from bootcourse.road.state import EGO, SPEED
 
 # %% [markdown]
@@ -150,10 +151,17 @@ table(["", "mean speed, m/s", "mean r_v", "r_v at the mean speed", "gap"], rows)
 
 # %% [markdown]
 # **Explain.** The agent is slower on average than the car that keeps straight, and its speed pays
-# more than twice as much. The gap makes the difference. Nothing is wrong with the agent. The reward
-# is meant for a car that drives 15 m/s, and it also pays one that is fast at times and slow at
-# others. To earn a reward in a way that was not meant is called **reward hacking**, and here is its
-# cost: the agent sits in a second trap. Its return says "as good as the rule".
+# more than twice as much. The gap makes the difference. Is that **reward hacking**, earning a
+# reward in a way that was not meant? Ask what the agent maximises: the discounted sum with γ = {{
+# settings_for('ppo').gamma | g }}. By this measure its drive is worth {{ discounted(ppo_drive(),
+# settings_for('ppo').gamma) | .0f }} at the start, and the drive of `careful`, a rule that gets out
+# and then drives on at about 15 m/s, {{ discounted(careful_drive(), settings_for('ppo').gamma) |
+# .0f }}. So the reward prefers the drive that was meant, by far, and the agent has not found it. It
+# sits in a **local optimum**: no small change of its driving earns more. The convex reward makes
+# this optimum a comfortable one. We call it the second trap, and its return says "as good as the
+# rule".
+# <!-- claim: discounted(careful_drive(), settings_for('ppo').gamma) > 2 * discounted(ppo_drive(),
+#   settings_for('ppo').gamma) -->
 # <!-- claim: ppo_speeds().mean() < DEFAULT.traps.speed and np.mean([speed_reward(v) for v in
 #   ppo_speeds()]) > 2 * speed_reward(DEFAULT.traps.speed) -->
 
@@ -238,8 +246,8 @@ check.clipped_loss(clipped_loss)
 # NBVAL_CHECK_OUTPUT
 for ratio, advantage in ((1.5, 2.0), (0.5, 2.0), (1.5, -2.0), (0.5, -2.0)):
     leaf = torch.tensor([ratio], requires_grad=True)
-    clipped = torch.minimum(leaf * advantage, leaf.clamp(0.8, 1.2) * advantage)
-    slope = 0 - torch.autograd.grad(clipped.sum(), leaf)[0].item()
+    loss = ppo.clipped_loss(leaf, torch.tensor([advantage]), 0.2)
+    slope = torch.autograd.grad(loss.sum(), leaf)[0].item()
     way = {True: "nothing", False: "rarer" if slope > 0 else "likelier"}[slope == 0]
     print(f"r = {ratio}, A = {advantage:4}: slope of the loss {slope:4.1f}, the action gets: {way}")
 
@@ -334,10 +342,13 @@ bc.show(charts.lines(seconds, speeds, title, "time (s)", "speed (m/s)"))
 # $$ F = \gamma\, \Phi(s') - \Phi(s) $$
 #
 # Add up a whole drive, discounted: the terms between the first and the last cancel. Whatever the
-# car does in between, the sum is $\gamma^T \Phi(s_T) - \Phi(s_0)$. So a detour earns nothing, and
-# the best policy stays the best (Ng, Harada and Russell 1999). After an accident Φ is 0: the agent
-# gives back what it was lent. Our potential is {{ second_trap.PER_LANE | g }} for each lane that
-# the car has come to the left.
+# car does in between, the sum is $\gamma^T \Phi(s_T) - \Phi(s_0)$. So a detour earns nothing. If a
+# drive goes on for ever, or Φ is 0 at its end, the best policy stays the best (Ng, Harada and
+# Russell 1999). After an accident Φ is 0: the agent gives back what it was lent. At the end of the
+# {{ DEFAULT.clock.decisions }} s the last term remains, {{ settings_for('ppo').gamma **
+# DEFAULT.clock.decisions | .2f }} Φ(s_T). For the agent that is right: time that is over does not
+# terminate, so it learns as if the drive went on. Our potential is {{ second_trap.PER_LANE | g }}
+# for each lane that the car has come to the left.
 #
 # **Exercise (6 min, ●●○).** Write F for many roads at once.
 
@@ -390,15 +401,16 @@ table(["PPO, paid", "each agent's escapes, %, sorted", "the road's return", "acc
 
 # %% [markdown]
 # **See.** Of the {{ ppo_agents() }} agents that ship, trained for {{
-# ppo_kinds.KINDS['shaped'].decisions | , }} decisions, none
-# escapes. On the road's terms they earn less than those without a potential.
-# <!-- claim: ppo_escapes('shaped') == 0 and ppo('shaped')['returns'].mean() <
-#   ppo('alone')['returns'].mean() -->
+# ppo_kinds.KINDS['shaped'].decisions | , }} decisions, none escapes. (Do not compare the returns of
+# the first and the last row: the agents without a potential had {{
+# ppo_kinds.KINDS['alone'].decisions | , }} decisions.)
+# <!-- claim: ppo_escapes('shaped') == 0 and ppo_kinds.KINDS['shaped'].decisions <
+#   ppo_kinds.KINDS['alone'].decisions -->
 #
 # **Explain.** The critic learns the potential, too. Once V is lower by Φ, each δ is what it was
 # without F, and so are the advantages. A potential works like another start of V: it changes what
-# is tried at first. We think that this was not enough here: the first tries to the left crash. The
-# way out takes several right actions in a row, and this potential pays for the last of them. We
+# is tried at first. We think that this was not enough here: the first attempts to the left crash.
+# The way out takes several right actions in a row, and this potential pays for the last of them. We
 # tried one potential and one length of training: another may do better. Can you write one that pays
 # for falling back first?
 
@@ -473,7 +485,7 @@ bc.show(bc.traces(list(fast.values()), title=title, what=("speed", "distance", "
 # learner on the other side of the barrier. From there on the reward was enough: speed pays more on
 # a free road than behind trap 1, and PPO found out how. That is the paper's idea in its shortest
 # form. The soft constraint and the demonstrations of lessons [[soft_constraint]] to [[ablation]] do
-# the same for a learner that needs help for longer.
+# the same for a learner that needs an aid for longer.
 
 # %% [markdown] tags=["instructor"] minutes=6
 # Ask which of the course's figures would have looked the same for the second trap: those that
@@ -517,12 +529,11 @@ compare_predictions(
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Answers to the three questions. (1) The share of episodes that end ahead of trap 1, or the
-# distance to it at the end; the largest speed beside the mean speed would show the sprints. (2)
-# In one respect: their return is that of the idle driver, so it shows that something is missing,
-# where the return of the second trap looks like the rule's. For the road both are the same: the
-# agents stay behind trap 1. (3) One that leads past the traps: the
-# racer. It crashes later, but PPO goes on learning from the reward and can drop that part. `timid`
-# and `reckless` do not lead past them.
+# distance to it at the end; the largest speed beside the mean speed would show the sprints. (2) In
+# one respect: their return is that of the idle driver, so it shows that something is missing, where
+# the return of the second trap looks like the rule's. For the road both are the same: the agents
+# stay behind trap 1. (3) One that leads past the traps: the racer. It crashes later, but PPO goes
+# on learning from the reward and can drop that part. `timid` and `reckless` do not lead past them.
 
 # %% [markdown]
 # **Read on**: Schulman et al., *Proximal Policy Optimization Algorithms* (arXiv 1707.06347) and
@@ -531,5 +542,5 @@ compare_predictions(
 # rolls in and shrinks: Uchendu et al., *Jump-Start Reinforcement Learning* (arXiv 2204.02372).
 #
 # **Try**: `bc.board()` shows the methods of the course on the same {{ roads() | , }} roads, by
-# return, and `bc.board("runs/mine")` puts your own agents among them. Next:
-# [beyond the paper](beyond_the_paper.ipynb), the learners that it does not train.
+# return, and `bc.board("runs/mine")` puts your own agents among them. Next: [beyond the
+# paper](beyond_the_paper.ipynb), the learners that it does not train.

@@ -83,3 +83,8 @@ def driven(method: str) -> float:
 def papers_cost() -> np.ndarray:
     """`learned` of the bootstrapped agents with the paper's setting."""
     return beyond.spent(shipped_results("paper").of("bootstrapped"))
+
+
+def decisions_of(teacher: str, method: str) -> float:
+    """The decisions of the whole training of an agent that a teacher taught, the mean over agents."""
+    return float(np.nansum(beyond.lengths(taught(teacher, method).curves), axis=1, dtype=float).mean())

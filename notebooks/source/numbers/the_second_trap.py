@@ -4,7 +4,9 @@ from functools import cache
 
 import numpy as np
 from bootcourse.course.lessons.the_second_trap import ppo_kinds
+from bootcourse.course.lessons.your_teacher.example_teachers import careful
 from bootcourse.episodes.record import record
+from bootcourse.learn.teachers import teacher_policy
 from bootcourse.road.state import EGO, SPEED, TRAP_1, X
 from bootcourse.statistics import ESCAPES
 from tools.course.known import ROAD
@@ -40,3 +42,9 @@ def ppo_gap(kind: str = "alone") -> np.ndarray:
     """How far (m) it is ahead of trap 1 then, (decisions,)."""
     cars = ppo_drive(kind).states[2::2]
     return cars[:, EGO, X] - cars[:, TRAP_1, X]
+
+
+@cache
+def careful_drive(road: int = ROAD):
+    """The drive of the example teacher `careful` on one road."""
+    return record(teacher_policy(careful), [road])[0]

@@ -1,32 +1,23 @@
-"""Two figures: what a teacher is worth, each agent as a dot; and return against accidents, each method as a dot."""
-
-from collections.abc import Mapping
+"""What a teacher is worth, each agent as a dot."""
 
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 from bootcourse.errors import check_known
-from bootcourse.methods import DRIVERS, display_name, style
+from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import (
-    GRID,
     INK,
     QUIET,
     SMALL,
     TEXT,
     finish,
-    label_ends,
     new_figure,
-    one_axes,
     plain_axes,
-    wrapped,
 )
 from bootcourse.research.plan import TAUGHT
-from bootcourse.research.results import Results
-from bootcourse.research.tables import bracketed
 from bootcourse.research.teacher_worth import QUANTITIES, Cells, in_words
 from bootcourse.research.teachers import TEACHERS
-from bootcourse.statistics import Estimate, interval
 
 ROW, HEAD, FOOT, NAMES = 0.42, 0.85, 0.6, 1.75  # inches
 
@@ -104,57 +95,3 @@ def _title(label: str, estimates: dict) -> str:
     ends = [min(finite, key=finite.get), max(finite, key=finite.get)]
     low, high = (f"{in_words(estimates[place])[0]} ({_named(place)})" for place in ends)
     return f"{name}: from {low} to {high}"
-
-
-def scored(results: Results) -> tuple[Estimate, Estimate]:
-    """Accidents of any kind in % of the held-out episodes, and return: means over agents with 95 % intervals.
-
-    Means, because an interquartile mean would leave out the agents with the most accidents.
-    """
-    return tuple(interval(scale * results.scores(of), np.mean) for of, scale in (("accident", 100), ("returns", 1)))
-
-
-def frontier(varied: Mapping[str, Results]) -> list[str]:
-    """The names that no other beats, with fewer accidents and as much return or the reverse, from safest to fastest."""
-    middles = {name: (of.scores("accident").mean(), of.scores("returns").mean()) for name, of in varied.items()}
-
-    def beaten(name: str) -> bool:
-        accidents, returns = middles[name]
-        others = (other for other in middles.values() if other != middles[name])
-        return any(a <= accidents and r >= returns for a, r in others)
-
-    return sorted((name for name in middles if not beaten(name)), key=middles.get)
-
-
-def safe_and_fast(varied: Mapping[str, Results], bound: float) -> Figure:
-    """Return against accidents of every kind of agent, with their intervals, and the planner's return as a line.
-
-    varied: {what the agents have: their results}; bound: the planner's mean return.
-    """
-    best, colours = frontier(varied), style("ppo_cloned")
-    title = f"Nothing here is both safer and faster than {best[0]}"
-    if len(best) > 1:
-        title = f"The {len(best)} filled dots are the frontier: nothing here is both safer and faster"
-    height = max(3.8, 0.42 * len(varied)) + 0.2 * len(wrapped(title).splitlines())  # room for the labels
-    where = "accidents of any kind (% of held-out drives)"
-    figure, ax = one_axes(height, title, where, "return", width=0.68)
-    points, words = [], []
-    scores = {name: scored(results) for name, results in varied.items()}
-    for name, (accidents, returns) in sorted(scores.items(), key=lambda each: each[1]):
-        ahead = name in best
-        colour, fill = (colours.colour, colours.colour) if ahead else (QUIET, "white")
-        ax.plot([accidents.low, accidents.high], [returns.value] * 2, color=colour, linewidth=1.2, zorder=2)
-        ax.plot([accidents.value] * 2, [returns.low, returns.high], color=colour, linewidth=1.2, zorder=2)
-        ax.plot(accidents.value, returns.value, "o", ms=6, mfc=fill, mec=colour, zorder=3)
-        points.append((accidents.value, returns.value, name, INK if ahead else QUIET))
-        words.append(f"{name} ({len(varied[name])} agents): {bracketed(accidents)} %, return {bracketed(returns)}")
-    name, line = DRIVERS["planner"]
-    ax.axhline(bound, color=line.colour, linewidth=line.width, linestyle=line.line)
-    ax.set_xlim(left=0)
-    places = label_ends(ax, [*(point[1:] for point in points), (bound, f"{name} {bound:.1f}", INK)], SMALL, wrap=24)
-    for (x, y, *_), place in zip(points, places, strict=False):
-        thin = {"arrowstyle": "-", "color": GRID, "linewidth": 0.9, "shrinkA": 0, "shrinkB": 4}
-        ax.annotate("", (x, y), xytext=(1.01, place), textcoords="axes fraction", arrowprops=thin, zorder=1)
-    alt = f"Accidents and return, means over agents with 95 % intervals over training seeds: {'; '.join(words)}. "
-    alt += f"On the frontier: {', '.join(best)}. A line marks the planner's return, {bound:.1f}."
-    return finish(figure, title, alt)
