@@ -432,8 +432,8 @@ predict("the_barrier.6", "Leaving the chain's trap pays from this γ on", unit="
 # $$ Q(s, a) \leftarrow Q(s, a)
 # + \text{step} \cdot \big(r + \gamma \max_{a'} Q(s', a') - Q(s, a)\big) $$
 #
-# The bracket is the **temporal difference** of lesson [[discrete_sac]]. Its target holds an estimate
-# of the next state: the learner **bootstraps**.
+# The bracket is the **temporal difference** of lesson [[discrete_sac]]. Its target holds an
+# estimate of the next state: the learner **bootstraps**.
 #
 # **Exercise (20 min, ●●●).** Write this learner. `chain.NEXT[s, a]` and `chain.REWARD[s, a]`
 # hold the table above. The random decisions have been drawn beforehand (`chances`), so that your
