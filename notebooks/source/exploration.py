@@ -127,18 +127,18 @@ table(["effective actions", "first 100", "200-300", "900-1000", f"last 100 of {e
 
 # %% [markdown]
 # **See.** Read the first two columns. In episodes 200 to 300 plain SAC and demonstrations alone are
-# almost decided: {{ undecided('sac', 200, 300) | .1f }} and
-# {{ undecided('demos', 200, 300) | .1f }} effective actions. With the soft constraint alone it is
-# still {{ undecided('soft', 200, 300) | .1f }}, with both helps
-# {{ undecided('bootstrapped', 200, 300) | .1f }}. At the end all four are nearly certain.
+# almost decided: {{ undecided('sac', 200, 300) | .1f }} and {{ undecided('demos', 200, 300) | .1f
+# }} effective actions. With the soft constraint alone it is still {{ undecided('soft', 200, 300) |
+# .1f }}, with both aids {{ undecided('bootstrapped', 200, 300) | .1f }}. At the end all four are
+# nearly certain.
 # <!-- claim: max(undecided(m, 200, 300) for m in ('sac', 'demos')) < min(undecided(m, 200, 300) for
 #   m in ('soft', 'bootstrapped')) -->
 # <!-- claim: all(undecided(m, -100, None) < 1.1 for m in ('sac', 'soft', 'demos', 'bootstrapped'))
 #   -->
 #
 # **Explain.** Does the KL reward an agent for being undecided, then? No: it pulls towards the
-# stochastic rule, and the stochastic rule has
-# {{ np.exp(-(stochastic_rule(np.array(0), 0.9) * np.log(stochastic_rule(np.array(0), 0.9))).sum())
+# stochastic rule, and the stochastic rule has {{ np.exp(-(stochastic_rule(np.array(0), 0.9) *
+# np.log(stochastic_rule(np.array(0), 0.9))).sum())
 # | .1f }} effective actions. An agent with {{ undecided('soft', 200, 300) | .1f }} has more than
 # its teacher, so a pull towards the teacher pulls its entropy *down*. All agents start near nine
 # actions and come down; with the KL they come down later. A likely reason is that the KL
@@ -151,10 +151,10 @@ table(["effective actions", "first 100", "200-300", "900-1000", f"last 100 of {e
 #   'demos', 'bootstrapped')) -->
 #
 # Why do all of them end nearly certain? The **temperature** α is what a nat of entropy earns. SAC
-# adjusts α to hold the entropy at a target η, and the paper's target is
-# {{ SETTINGS.target_entropy }}. That formula is for continuous actions. With nine actions the
-# entropy is at least 0, and so above {{ SETTINGS.target_entropy }} in each state. Each update
-# therefore lowers α (lesson [[discrete_sac]]). Here it is in the shipped agents:
+# adjusts α to hold the entropy at a target η, and the paper's target is {{ SETTINGS.target_entropy
+# }}. That formula is for continuous actions. With nine actions the entropy is at least 0, and so
+# above {{ SETTINGS.target_entropy }} in each state. Each update therefore lowers α (lesson
+# [[discrete_sac]]). Here it is in the shipped agents:
 # <!-- claim: SETTINGS.target_entropy < 0 -->
 
 # %%
@@ -202,8 +202,8 @@ print(f"{sum(len(v.place) for v in driven.values())} decisions of {len(agents)} 
 # > or on the free road? And where will an agent of plain SAC get to in these drives?
 
 # %%
-choices = ["behind the traps", "beside them", "on the free road"]
-predict("exploration.3", "Where are escaping agents least decided?", choices)
+choices_3 = ["behind the traps", "beside them", "on the free road"]
+predict("exploration.3", "Where are escaping agents least decided, on average?", choices_3)
 
 # %% [markdown]
 # **Exercise (8 min, ●●○).** You get the entropy of some decisions, and where on the road each
@@ -251,10 +251,9 @@ table(headings, rows)
 
 # %% [markdown]
 # **See.** Most fields are close to one effective action: after training these agents hardly try
-# anything where they drive.
-# The digits separate the agents better: compare the rows of those that get ahead with the rows of
-# those that stay behind, which are empty ahead of trap 1. The entropy at the places that an agent
-# reaches says nothing about the places that it does not reach.
+# anything where they drive. The digits separate the agents better: compare the rows of those that
+# get ahead with the rows of those that stay behind, which are empty ahead of trap 1. The entropy at
+# the places that an agent reaches says nothing about the places that it does not reach.
 #
 # > **Predict.** Ten of the twenty agents do not escape after training. How many of these ten
 # > ended an episode ahead of trap 1 at some time in their training?
@@ -296,18 +295,17 @@ headings = ["", f"of {episodes} episodes end ahead", "between episodes"]
 table([*headings, "best 100 in a row, %", "after training, % of all held-out roads"], rows)
 
 # %% [markdown]
-# **See.**
-# {{ sum((ended_ahead(m) > 0).sum() for m in ('sac', 'soft', 'demos', 'bootstrapped')) }} of the 20
-# agents ended training episodes ahead of trap 1. After training
-# {{ sum((of(m).scores('success')[:5] >= ESCAPES).sum() for m in ('sac', 'soft', 'demos',
+# **See.** {{ sum((ended_ahead(m) > 0).sum() for m in ('sac', 'soft', 'demos', 'bootstrapped')) }}
+# of the 20 agents ended training episodes ahead of trap 1. After training {{
+# sum((of(m).scores('success')[:5] >= ESCAPES).sum() for m in ('sac', 'soft', 'demos',
 # 'bootstrapped')) }} escape: they get ahead on at least {{ 100 * ESCAPES | g }} % of the held-out
-# roads. So nine of the ten others had been ahead. Look at demonstrations
-# alone: four of the five ended {{ np.sort(ended_ahead('demos'))[1] | .0f }} to
-# {{ np.sort(ended_ahead('demos'))[-1] | .0f }} episodes ahead, three of them at least 99 of a
-# hundred in a row, and after training none of the five gets ahead on one of the {{ roads() | , }}
-# held-out roads. These four found the way out and *forgot* it. The trapped agents of plain SAC had
-# less to forget: three of the four were ahead {{ np.sort(ended_ahead('sac'))[1] | .0f }} to
-# {{ np.sort(ended_ahead('sac'))[3] | .0f }} times, the fourth not once.
+# roads. So nine of the ten others had been ahead. Look at demonstrations alone: four of the five
+# ended {{ np.sort(ended_ahead('demos'))[1] | .0f }} to {{ np.sort(ended_ahead('demos'))[-1] | .0f
+# }} episodes ahead, three of them at least 99 of a hundred in a row, and after training none of the
+# five gets ahead on one of the {{ roads() | , }} held-out roads. These four found the way out and
+# *forgot* it. The trapped agents of plain SAC had less to forget: three of the four were ahead {{
+# np.sort(ended_ahead('sac'))[1] | .0f }} to {{ np.sort(ended_ahead('sac'))[3] | .0f }} times, the
+# fourth not once.
 # <!-- claim: sum((ended_ahead(m) > 0).sum() for m in ('sac', 'soft', 'demos', 'bootstrapped')) ==
 #   19 and (ended_ahead('sac') == 0).sum() == 1 -->
 # <!-- claim: sum((of(m).scores('success')[:5] >= ESCAPES).sum() for m in ('sac', 'soft', 'demos',
@@ -322,7 +320,8 @@ table([*headings, "best 100 in a row, %", "after training, % of all held-out roa
 # round 5, shows when four of the ten agents with demonstrations alone lose it: as the
 # demonstrations run out. And round 6 shows agents that keep it: with two updates for each decision
 # instead of a quarter, and demonstrations by the stochastic rule, all ten do.
-# <!-- claim: escapers(clocks()['2', 'π̃'], 'demos') == len(clocks()['2', 'π̃'].of('demos')) == 10 -->
+# <!-- claim: escapers(clocks()['2', 'π̃'], 'demos') == len(clocks()['2', 'π̃'].of('demos')) == 10
+#   -->
 
 # %% [markdown] tags=["instructor"] minutes=7
 # Stop at the map and ask what it does not show before they see the table: these are drives after
@@ -418,8 +417,11 @@ for method in methods:
         tries = f"{np.sum(1 - sure):.1f} of {len(sure)}"
         ending = "ahead" if drive.success else "behind"
         label = f"{bc.display_name(method)}, seed {agent.settings.seed}"
-        rows.append([label, ending, f"{100 * (1 - np.prod(sure)):.0f} %", tries])
-table(["one drive", "ends", "tries at all", "tries expected"], rows)
+        rows.append(
+            [label, ending, f"{100 * exploring.chance_of_another(drive.policy):.0f} %", tries]
+        )
+headings = ["one drive", "ends", "another action at all", "other actions expected"]
+table(headings, rows)
 
 # %% [markdown]
 # **See.** The agents differ widely. The last two columns do not tell you who ends ahead: look for
@@ -430,8 +432,8 @@ table(["one drive", "ends", "tries at all", "tries expected"], rows)
 # source of data, and data from the trap give no reason to leave it. For an agent that tries nothing
 # this is likely. But it is not the whole story: nine of these ten agents had data of drives that
 # ended ahead, five of them of more than a hundred, and after training they still stay behind on
-# some or all roads. Looking for new places helps an agent that has not found the way out. An agent
-# that has found it needs values that stay right when the data change.
+# some or all roads. Looking for new places is of use to an agent that has not found the way out. An
+# agent that has found it needs values that stay right when the data change.
 # <!-- claim: sum(((ended_ahead(m) > 100) & (of(m).scores('success')[:5] < ESCAPES)).sum() for m in
 #   ('sac', 'soft', 'demos', 'bootstrapped')) == 5 -->
 
@@ -447,10 +449,9 @@ table(["one drive", "ends", "tries at all", "tries expected"], rows)
 #    reach: look at the places, too.
 # 4. In 24 drives a random driver sees less of the road than the rule does, which has a plan.
 # 5. {{ sum((ended_ahead(m) > 0).sum() for m in ('sac', 'soft', 'demos', 'bootstrapped')) }} of 20
-#    agents ended training episodes ahead of trap 1, and
-#    {{ sum((of(m).scores('success')[:5] >= ESCAPES).sum() for m in ('sac', 'soft', 'demos',
-#    'bootstrapped')) }} escape after training: finding a way out is one problem, keeping it is
-#    another.
+#    agents ended training episodes ahead of trap 1, and {{ sum((of(m).scores('success')[:5] >=
+#    ESCAPES).sum() for m in ('sac', 'soft', 'demos', 'bootstrapped')) }} escape after training:
+#    finding a way out is one problem, keeping it is another.
 #
 # **Three questions to think about**
 # - The paper reads a higher entropy as better exploration. Which measure of this lesson would you
@@ -460,6 +461,12 @@ table(["one drive", "ends", "tries at all", "tries expected"], rows)
 # - Could an agent be paid for cells that it has not seen? What would it do in this traffic?
 
 # %%
+ends, least_decided = [-np.inf, -5, 5, np.inf], dict.fromkeys(choices_3, 0.0)
+for v in driven.values():
+    if v.place.max() > 5:  # it escapes in some of these drives
+        for i, where in enumerate(choices_3):
+            there = (v.place >= ends[i]) & (v.place < ends[i + 1])
+            least_decided[where] += v.entropy[there].mean() if there.any() else 0.0
 was_ahead = [run.curves["success"].any() for m in methods for run in shipped.shipped_runs(m)]
 trapped = [study.of(m).scores("success")[:5] < bc.statistics.ESCAPES for m in methods]
 compare_predictions(
@@ -467,7 +474,7 @@ compare_predictions(
     {
         1: "1.7",
         2: "both are nearly certain",
-        3: "it differs: see each row's darkest field in the map",
+        3: max(least_decided, key=least_decided.get),
         4: f"{np.sum(np.array(was_ahead) & np.concatenate(trapped))} of {np.sum(trapped)}",
         5: "the rule",
         6: "it differs widely between agents",

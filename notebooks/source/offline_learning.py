@@ -528,7 +528,9 @@ table(["", *names], rows)
 #    earn more than their teacher.
 # <!-- claim: len(of('cql')) == escaped('cql') == 10 and of('cql').scores('returns').min() >
 #   of('rule').scores('returns')[0] -->
-# 2. Without the term, offline Q-learning trusts guesses about actions that the data do not hold.
+# 2. Without the term, offline Q-learning trusts guesses about actions that the data do not hold,
+#    and
+#    promises far more than it earns. With it, our agents promised a little less than they earned.
 # 3. Two methods have the name CQL. Of one, ten of our ten agents escape, and of the other none.
 # <!-- claim: escaped('cql') == len(of('cql')) == 10 and escaped('cql_sac') == 0 -->
 # 4. A bound gives returns a scale. It is what a planner found, not the most that is possible.

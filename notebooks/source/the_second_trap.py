@@ -157,8 +157,10 @@ table(["", "mean speed, m/s", "mean r_v", "r_v at the mean speed", "gap"], rows)
 # settings_for('ppo').gamma) | .0f }} at the start, and the drive of `careful`, a rule that gets out
 # and then drives on at about 15 m/s, {{ discounted(careful_drive(), settings_for('ppo').gamma) |
 # .0f }}. So the reward prefers the drive that was meant, by far, and the agent has not found it. It
-# sits in a **local optimum**: no small change of its driving earns more. The convex reward makes
-# this optimum a comfortable one. We call it the second trap, and its return says "as good as the
+# sits in what looks like a **local optimum**, a way to drive that small changes do not improve. (We
+# think so because training no longer changes it much; nobody has tried all small changes.) The
+# convex
+# reward makes it a comfortable one. We call it the second trap, and its return says "as good as the
 # rule".
 # <!-- claim: discounted(careful_drive(), settings_for('ppo').gamma) > 2 * discounted(ppo_drive(),
 #   settings_for('ppo').gamma) -->

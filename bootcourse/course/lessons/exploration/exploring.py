@@ -39,6 +39,11 @@ def cells_seen(seen: Visits, edges: np.ndarray, lanes: int = 3) -> float:
     return float(np.mean(found > 0))
 
 
+def chance_of_another(policy: np.ndarray) -> float:
+    """The chance that in a drive with this policy, (seconds, 9), some drawn action is not the likeliest one."""
+    return float(1 - np.prod(policy.max(axis=-1)))
+
+
 def mean_in_bins(seen: Visits, values: np.ndarray, edges: np.ndarray) -> np.ndarray:
     """The mean of some values (n,) in each stretch of road, (bins,); NaN where no decision was made."""
     total, count = (np.histogram(seen.place, bins=edges, weights=w)[0] for w in (values, np.ones(len(values))))

@@ -104,6 +104,16 @@ def finds(x: np.ndarray, y: np.ndarray, n: int, same_roads: bool) -> float:
     return np.mean(scipy.stats.ttest_ind(x[a], y[b], axis=1, equal_var=False).pvalue < 0.05)
 
 
+def deviation(k: int, n: int) -> float:
+    """The standard deviation, in %, of a sample of n drives of which k count 100 % and the others 0 %."""
+    return float(np.repeat([100, 0], [k, n - k]).std(ddof=1))
+
+
+def drives_needed(rate: float) -> int:
+    """How many drives without an accident rule out this rate of accidents, in (0, 1), at 95 %."""
+    return int(np.ceil(np.log(0.05) / np.log(1 - rate)))
+
+
 def still_going(results: Results, methods: Sequence[str] = ("bc", "cql", "gail"), single: str = "gail") -> Figure:
     """The share of test drives that have not ended, over time: a mean for each method, every agent of one."""
     longest = round(float((results.tested["distance"] / results.tested["speed"]).max()))
