@@ -23,6 +23,8 @@
 # [[demonstrations]]) and the ablation ([[ablation]]).
 
 # %%
+import math
+
 import bootcourse as bc
 import numpy as np
 import torch
