@@ -1,7 +1,7 @@
 """Some trainings side by side, in any environment: their curves, and a table of what the trained agents reach.
 
 settings = bc.settings_for("soft", gamma=0.99)
-bc.compare({"soft": settings, "my rule alone": bc.settings_for("bc")}, make_env=my_env, teacher=my_rule)
+bc.compare({"soft": settings, "a clone of my rule": bc.settings_for("bc")}, make_env=my_env, teacher=my_rule)
 """
 
 from collections.abc import Callable, Mapping
@@ -86,6 +86,8 @@ def compare(
         results[name] = result = one.run(progress)
         if result.interrupted:
             break
+        if not one.updates:
+            raise BootcourseError(f"'{name}' made no update in {one.episodes} episodes: give more episodes.")
         held_out = held_out_seeds(1, tests)
         policies = [agent.as_policy() for agent in result.agents]
         tested[name] = [drive_episodes(drive, held_out, one.scenario, make_env=one.make_env) for drive in policies]

@@ -2,7 +2,7 @@
 
 import contextlib
 import json
-import threading
+import time
 import webbrowser
 from collections.abc import Callable
 from dataclasses import replace
@@ -219,7 +219,8 @@ def replay(
             print(f"Replay at {shown.url} (Ctrl-C ends it)", flush=True)
             if browser:
                 webbrowser.open(shown.url)
-            threading.Event().wait()
+            while True:  # on Windows, Ctrl-C does not end a wait without a limit
+                time.sleep(1)
         return
     from bootcourse.episodes.words import transcripts
     from bootcourse.plots.animation import animate, key_frame

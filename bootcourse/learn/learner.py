@@ -144,7 +144,7 @@ class SACLearner:
 
     def conservative_loss(self, q_pair: Tensor, actions: Tensor) -> Tensor:
         """CQL's term, summed over critics: (2, agents, batch, 9), (agents, batch) -> (agents,)."""
-        return sac.conservative_loss(q_pair, actions.expand(2, -1, -1)).sum(0)
+        return sac.conservative_loss(q_pair, actions.expand(len(q_pair), -1, -1)).sum(0)
 
     def margin_loss(self, q_pair: Tensor, log_pi: Tensor, batch: Batch) -> Tensor:
         """The filtered large-margin loss of the demonstrations (Equations 17 to 19), summed over critics: (agents,)."""

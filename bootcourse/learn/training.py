@@ -94,6 +94,7 @@ class Training:
         self.on_the_trap = hasattr(self.env, "cars")
         self.scenario = scenario if self.on_the_trap else None
         size, self.n_actions = self.env.single_observation_space.shape[0], int(self.env.single_action_space.n)
+        self.make_learner = make_learner
         self.learner = make_learner(self.settings, size, self.n_actions)
         if device != "cpu":
             move_to(self.learner, device_named(device))

@@ -82,7 +82,7 @@ class ReplayControls:
         """Pause a second before the next accident, or before the first one after the last."""
         later = [t for t in accidents if t - 1.0 > self.player.t + 1e-6]
         self.player.pause()
-        self.player.seek((later or accidents)[0] - 1.0 if self.player.t < accidents[-1] - 1.5 else accidents[-1])
+        self.player.seek((later or accidents)[0] - 1.0)
 
     def _switches(self, gui) -> None:
         options = self.stage.options

@@ -51,6 +51,8 @@ def study(
         methods = plan.methods_named(only)
         wanted = plan.study_jobs(name, methods, seeds or plan.SEEDS, tests or plan.TESTS, episodes)
     elif name == "sweep":
+        if only:
+            raise BootcourseError(f"--only {only}: the sweep has no parts. Leave out --only.")
         wanted = plan.sweep_jobs(seeds or 4, episodes or 1500, tests or plan.TESTS)
     else:
         wanted = plan.experiment_named(name).only(only).jobs(name, seeds, episodes, tests)

@@ -56,7 +56,7 @@ class Description(Struct):
 
 
 class Interrupted(Exception):
-    """The study was stopped; the job has written a checkpoint."""
+    """The study was stopped. A `Job` has written a checkpoint; a `LessonJob` begins again."""
 
 
 class OtherQuestion(BootcourseError):

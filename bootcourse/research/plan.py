@@ -6,7 +6,7 @@ from itertools import product
 
 from bootcourse.errors import BootcourseError, check_known
 from bootcourse.learn.settings import SETTINGS, Settings, settings_for, with_seeds
-from bootcourse.methods import ABLATION, BASELINES, METHODS
+from bootcourse.methods import ABLATION, AFTER, BASELINES, METHODS
 from bootcourse.research.jobs import BoundJob, Job, LessonJob, StayingJob, named_function
 from bootcourse.research.teachers import PLANNER as PLANS
 from bootcourse.research.teachers import RULE, TEACHERS, teacher_named
@@ -16,7 +16,7 @@ SEEDS, TESTS = 10, 1000  # of training, in a study of all methods; held-out epis
 GROUP = 10  # seeds that train side by side: with 5, each costs a third more
 PLANNER, ROADS = "planner", 50  # held-out roads that one job of the planner searches
 VARIED = ("sac", "soft", "demos", "bootstrapped")  # the paper's ablation
-BEYOND = ("ppo", "ppo_cloned", "jsrl", "rlpd", "ibrl")  # the paper trains none of them; DAgger is in `teachers`
+BEYOND = tuple(method for method in AFTER if method != "dagger")  # DAgger is in the experiment `teachers`
 P, XI, C = (0.5, 0.9, 0.99), (0.0, 20.0, 200.0, 2000.0), (0.0, 2.0, 5.0)  # the sweep
 
 

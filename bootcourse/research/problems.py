@@ -86,7 +86,7 @@ class Chain(Table):
         return np.hstack([np.eye(self.cells)[states[:, 0]], times[:, None] / self.limit]).astype(np.float32)
 
 
-EAST, SOUTH, WEST, NORTH = range(4)
+EAST, SOUTH, _, NORTH = range(4)
 LEFT, RIGHT, FORWARD, PICK_UP, TOGGLE = range(5)
 AHEAD_X, AHEAD_Y = np.array([1, 0, -1, 0]), np.array([0, 1, 0, -1])  # of each direction; y grows to the south
 

@@ -95,7 +95,8 @@ class Results:
         measure: one of `MEASURES`, or "accident" for one of any kind.
         """
         if measure == "accident":
-            values = self.tested["accident"] != Accident.NONE
+            accident = self.tested["accident"]
+            values = np.where(np.isnan(accident), np.nan, accident != Accident.NONE)
         else:
             values = self.tested["accident"] == KINDS[measure] if measure in KINDS else self.tested[measure]
         return values.astype(np.float64)

@@ -99,7 +99,7 @@ def _dask_client(scheduler: str | None, workers: int | None):
     except ModuleNotFoundError:
         raise BootcourseError("dask is not installed: pip install 'bootcourse[dask]'.") from None
     if not scheduler:
-        return Client(n_workers=workers, threads_per_worker=1, dashboard_address=None)
+        return Client(n_workers=workers or None, threads_per_worker=1, dashboard_address=None)
     try:
         return Client(scheduler, timeout=CONNECT)
     except (OSError, ValueError):

@@ -15,6 +15,7 @@ from msgspec import Meta, MsgspecError, Struct
 from bootcourse.errors import BootcourseError, RuleFailed
 from bootcourse.files import decoding, parse, read_arrays, write_arrays
 from bootcourse.learn.agent import Agent
+from bootcourse.learn.learner import learner_for
 from bootcourse.learn.protocol import Learner
 from bootcourse.learn.settings import stored_settings
 from bootcourse.learn.teachers import Rule, course_rule, teacher_name
@@ -47,9 +48,14 @@ class Header(Struct, forbid_unknown_fields=True):
 
 
 def save_checkpoint(training: Training, path: Path) -> None:
-    """Write a training in progress to one file. Raises BootcourseError off the trap, or if it cannot be written."""
+    """Write a training in progress to one file.
+
+    Raises BootcourseError off the trap, for a learner of your own, which no file can hold, or if it cannot be written.
+    """
     if not training.on_the_trap:
         raise BootcourseError("Only a training on the trap can be saved and resumed: let this one run to its end.")
+    if training.make_learner is not learner_for:
+        raise BootcourseError("A training with a learner of your own cannot be saved: let this one run to its end.")
     header = {
         "format": Header.FORMAT,
         "settings": [asdict(settings) for settings in training.settings],

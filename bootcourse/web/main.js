@@ -82,8 +82,8 @@ class Game {
   begin({ number = this.number, ghost = this.ghostName, driver = this.driverName }) {
     const valid = /^\d{1,9}$/.test(String(number).trim());
     this.number = valid ? Number(number) : this.number ?? FIRST_ROAD;
-    this.ghostName = ghost in this.drivers || ghost === "none" ? ghost : "rule";
-    this.driverName = driver in this.drivers ? driver : "you";
+    this.ghostName = Object.hasOwn(this.drivers, ghost) || ghost === "none" ? ghost : "rule";
+    this.driverName = Object.hasOwn(this.drivers, driver) ? driver : "you";
     [find("number").value, find("ghost").value, find("driver").value] = [this.number, this.ghostName, this.driverName];
     const driving = this.mine ? `&driver=${this.driverName}` : "";
     history.replaceState(null, "", `#road=${this.number}&ghost=${this.ghostName}${driving}`);
@@ -274,6 +274,8 @@ async function open() {
 }
 
 open().catch(error => {
-  find("message").textContent = `This page could not start: ${error.message}. It needs a browser of 2023 or later.`;
+  const old = !globalThis.WebAssembly || !globalThis.DecompressionStream;
+  const remedy = old ? "It needs a browser of 2023 or later." : "";
+  find("message").textContent = `This page could not start: ${error.message}. ${remedy}`;
   throw error;
 });

@@ -560,7 +560,9 @@ predict("imitation.6", "Drives until one in 20 is found out", ["20", "60", "400"
 # %%
 def episodes_needed(rate):
     """How many drives without an accident rule out this rate, in (0, 1), and higher ones: int."""
-    # solution: the exercise's own
+    # solution
+    return math.ceil(math.log(0.05) / math.log(1 - rate))
+    # end solution
 
 
 check.episodes_needed(episodes_needed)

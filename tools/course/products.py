@@ -12,7 +12,7 @@ from pathlib import Path
 import nbformat
 from nbclient import NotebookClient
 
-from bootcourse.course.lessons import stem
+from bootcourse.course.lessons import LESSONS, stem
 from tools.course.claims import filled
 from tools.course.instructor import page
 from tools.course.numbering import NOTEBOOKS
@@ -149,10 +149,11 @@ def write(path: Path, targets: dict[Path, nbformat.NotebookNode]) -> list[Path]:
 
 
 def remove_strange() -> list[Path]:
-    """Remove what was made under another number, or from a source that is gone. Returns what is removed."""
+    """Remove what was made of a lesson under another number. A notebook of somebody's own stays. Returns what goes."""
     targets = {file(path) for path in sources() for file in (student_file, solved_file, instructor_file)}
     folders = NOTEBOOKS.glob("*.ipynb"), NOTEBOOKS.glob("solved/*.ipynb"), NOTEBOOKS.glob("instructor/*.md")
-    strange = [path for folder in folders for path in folder if path not in targets]
+    ours = re.compile(rf"\d\d_({'|'.join(LESSONS)})")
+    strange = [path for folder in folders for path in folder if path not in targets and ours.fullmatch(path.stem)]
     for path in strange:
         path.unlink()
     return strange

@@ -35,8 +35,7 @@ class FlippedKL(SACLearner):
     """The KL divergence is taken the other way round: D_KL(π̃ ‖ π)."""
 
     def kl(self, log_pi: Tensor, rule_actions: Tensor) -> Tensor:
-        log_rule = bootstrap.log_stochastic_rule(rule_actions, self.rule_p[:, 0], log_pi.shape[-1])
-        return (log_rule.exp() * (log_rule - log_pi)).sum(-1)
+        return bootstrap.kl_from_rule(log_pi, rule_actions, self.rule_p[:, 0])
 
 
 class NoEnd(SACLearner):
