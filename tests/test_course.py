@@ -191,7 +191,7 @@ SPOILT = {
     "a claim is false": ("You drive 12 m/s", "<!-- claim: 1 == 2 -->", "`1 == 2` is False"),
     "text has changed": ("how far is safe", "what is safe", "the_rule.ipynb is out of date"),
     "a note for the instructor has changed": ("They say 4 m", "They say 5 m", "the_rule.md is out of date"),
-    "a solution has changed": ("closing_speed", "closing", "the_rule.ipynb is out of date"),
+    "a solution has changed": ("closing_speed", "closing", "the source's solution is not the one"),
 }  # fmt: skip
 
 

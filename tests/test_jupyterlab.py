@@ -71,7 +71,7 @@ def notebook(open_notebook):
         "trainer = train_panel('bootstrapped', seeds=2, episodes=5000)\ntrainer",
         THINKING + "weighed = policy_panel(drive)\nweighed",
         "from bootcourse.panels import bonus_panel\nbonus = bonus_panel()\nbonus",
-        "from bootcourse.course import predict\npredict('5.1', 'Does <b>it</b> stay?', ['<i>yes</i>', 'no'])",
+        "from bootcourse.course import predict\npredict('the_barrier.1', 'Does <b>it</b> stay?', ['<i>yes</i>', 'no'])",
     )
     with open_notebook(*cells) as it:
         it.page.set_default_timeout(20_000)
@@ -188,7 +188,7 @@ def test_the_keyboard_commits_a_prediction(notebook):
         notebook.page.keyboard.press(key)
     waits_for(notebook, 4, "You predict: no.")
     assert "Does <b>it</b> stay?" in shown.inner_text() and "<i>yes</i>" in shown.inner_text()
-    assert json.loads((notebook.folder / FILE).read_text())["5.1"]["answer"] == "no"
+    assert json.loads((notebook.folder / FILE).read_text())["the_barrier.1"]["answer"] == "no"
 
 
 def test_the_panels_fit_their_column_and_the_console_has_no_error(notebook):

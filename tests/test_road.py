@@ -158,6 +158,7 @@ def test_another_scenario_is_driven_and_something_else_is_refused():
 
 
 def test_the_road_works_in_a_spawned_subprocess():
+    before = multiprocessing.active_children()
     envs = AsyncVectorEnv([_spawned], context="spawn")
     try:
         observations, _ = envs.reset(seed=7)
@@ -166,7 +167,7 @@ def test_the_road_works_in_a_spawned_subprocess():
         assert rewards[0] == pytest.approx(0.15625)
     finally:
         envs.close()
-    assert not multiprocessing.active_children()
+    assert set(multiprocessing.active_children()) <= set(before)
 
 
 def _spawned():

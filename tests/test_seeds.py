@@ -49,4 +49,4 @@ def test_the_road_of_a_numpy_seed_is_that_of_the_same_python_seed():
 def test_an_agent_of_numpy_numbers_is_that_of_pythons():
     given = bc.settings_for("sac", seed=np.int64(3), gamma=np.float32(0.5), batch=np.int32(64))
     assert given == bc.settings_for("sac", seed=3, gamma=0.5, batch=64)
-    assert {type(value) for value in vars(given).values()} <= {int, float, bool, str, tuple}
+    assert {type(value) for value in vars(given).values()} <= {int, float, bool, str, tuple, type(None)}
