@@ -84,7 +84,7 @@ def test_no_page_asks_the_network_for_anything(made):
 def test_the_api_page_has_every_public_name_with_its_signature_and_what_it_does(made):
     text = " ".join(re.sub(r"<[^>]*>", " ", (made / "api.html").read_text(encoding="utf-8")).split())
     assert [name for name in bc.__all__ if not re.search(rf"\b{name}\b", text)] == []
-    assert re.search(r"evaluate \( policy : .{,80} episodes : int = 1000 , scenario : Scenario = DEFAULT", text)
+    assert re.search(r"evaluate \( policy : .{,80} episodes : int = 1000 , scenario : Scenario \| None = DEFAULT", text)
     assert "held-out roads of block seed : an Evaluation with 95 % intervals" in text
     assert "lane_width : m" in text, "a field without its unit"
 
