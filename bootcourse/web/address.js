@@ -3,20 +3,18 @@
 const LARGEST_ROAD = 999999999;
 const listed = names => `${names.slice(0, -1).join(", ")} or ${names.at(-1)}`;
 
-// { wanted: { road: "7", ... } with what is valid, faults: [sentences] }. text: without its "#"; drivers: their names.
-function askedFor(text, drivers) {
+// { wanted: { road: "7", ... } with what is valid, faults: [sentences] }. text: without its "#"; drivers: their names;
+// now: { road: "10", ... }, what is used where the address is wrong.
+function askedFor(text, drivers, now) {
   const choices = { ghost: ["none", ...drivers], driver: ["you", ...drivers], pace: ["0", "1", "2", "5"],
     futures: ["0", "1"], view: ["above", "3d"] };
-  const wanted = {}, faults = [];
+  const wanted = {}, faults = [], fault = words => faults.push(words);
   for (const [name, value] of new URLSearchParams(text)) {
-    if (name === "road") {
-      if (isRoad(value)) wanted.road = value;
-      else faults.push(noRoad(value));
-    } else if (!choices[name]) {
-      faults.push(`The address has “${name}”, which is unknown: it takes ${listed(["road", ...Object.keys(choices)])}.`);
-    } else if (!choices[name].includes(value)) {
-      faults.push(`“${value}” is no ${name}: choose ${listed(choices[name])}.`);
-    } else wanted[name] = value;
+    if (name !== "road" && !choices[name]) {
+      fault(`The address has “${name}”, which is unknown: it takes ${listed(["road", ...Object.keys(choices)])}.`);
+    } else if (name === "road" ? isRoad(value) : choices[name].includes(value)) wanted[name] = value;
+    else if (name === "road") fault(noRoad(value));
+    else fault(`“${value}” is not a ${name}, so it is ${now[name]}: choose ${listed(choices[name])}.`);
   }
   return { wanted, faults };
 }

@@ -8,6 +8,7 @@ import argparse
 import base64
 import gzip
 import json
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -16,7 +17,7 @@ import torch
 
 from bootcourse.colours import OTHER, TRAFFIC, TRAP
 from bootcourse.episodes.evaluate import drive_episodes
-from bootcourse.episodes.lookahead import HORIZON, lookahead
+from bootcourse.episodes.lookahead import HORIZON
 from bootcourse.errors import BootcourseError
 from bootcourse.files import read_tensors, write_bytes
 from bootcourse.learn.agent import Agent
@@ -36,9 +37,10 @@ from bootcourse.storage.runs import load_run
 from bootcourse.web.wasm import FREE, road_module
 
 HERE = Path(__file__).resolve().parent
+IN_DEPTH = ("shaders", "webgl", "scene")  # the view in 3D
 SCRIPTS = (
-    "random", "road", "minds", "drive", "drivers", "words", "address", "view", "shaders", "webgl", "scene", "thoughts",
-    "summary", "controls", "main",
+    "random", "road", "minds", "drive", "drivers", "words", "address", "view", *IN_DEPTH, "thoughts", "summary",
+    "controls", "main",
 )  # fmt: skip
 # The agents in the page; of plain SAC also the critics, which the compromise between Q and the rule needs.
 AGENTS = {
@@ -154,7 +156,6 @@ def page_data() -> dict:
         networks[f"critic {member}"] = packed_network(agents["sac"].critics, member, SHORT)
     drivers = {name: agent.as_policy() for name, agent in agents.items()}
     drivers |= {"rule": rule_policy(DEFAULT), "ppo": replace(agents["sac"], actor=ppo, critics=[]).as_policy()}
-    drivers["lookahead"] = lookahead(drivers["ppo"])
     speeds, worth = future_worth(DEFAULT, DEFAULT.clock.decisions, 1.0)[-1]
     return {
         "module": packed(road_module()),
@@ -181,10 +182,15 @@ def page_data() -> dict:
     }
 
 
+def script(name: str) -> str:
+    """A script of this folder without indentation, and without the lines that are comments or empty."""
+    return re.sub(r"^[ \t]*(//.*)?\n?", "", (HERE / f"{name}.js").read_text(encoding="utf-8"), flags=re.M)
+
+
 def page() -> str:
     """The whole page as text."""
     data = json.dumps(page_data(), separators=(",", ":")).replace("<", "\\u003c")
-    scripts = "\n".join([names(), *((HERE / f"{name}.js").read_text(encoding="utf-8") for name in SCRIPTS)])
+    scripts = "\n".join([names(), *map(script, SCRIPTS)])
     text = (HERE / "page.html").read_text(encoding="utf-8")
     parts = {"style": (HERE / "style.css").read_text(encoding="utf-8"), "data": data, "script": scripts}
     for name, part in parts.items():

@@ -38,7 +38,7 @@ function makeDrivers(data, networks, settings) {
       "The same method with another seed.", agent("crashing"), "crashing"),
     ppo: driver("PPO after cloning", "PPO", "ppo", "It imitated the rule, and then learned by PPO.", agent("ppo"), "ppo"),
     lookahead: driver("look-ahead", "the look-ahead", "ppo",
-      "At each decision it imagines nine drives of ten seconds by PPO, and takes the best.", lookAhead, "lookahead"),
+      "At each decision it imagines nine drives of ten seconds by PPO, and takes the best.", lookAhead),
     soft: driver("SAC’s Q with the rule", "the compromise", "soft",
       "It drives by your p, ξ and c: see the sliders.", compromise),
   };

@@ -52,7 +52,7 @@ class Game {
     }
     const other = () => (document.documentElement.dataset.theme === "dark" ? "light" : "dark");
     find("theme").addEventListener("click", () => this.theme(other()));
-    find("view").addEventListener("click", () => this.look(!this.inDepth));
+    find("view").addEventListener("click", () => this.announce(this.look(!this.inDepth)));
     dark.addEventListener("change", () => this.theme(dark.matches ? "dark" : "light"));
     this.theme(dark.matches ? "dark" : "light");
     new ResizeObserver(() => this.fit()).observe(find("road"));
@@ -68,30 +68,42 @@ class Game {
 
   // The address may choose road, ghost, driver, pace, futures and view; what it asks for in vain is answered.
   readAddress() {
-    const { wanted, faults } = askedFor(location.hash.slice(1), Object.keys(this.drivers));
-    if (wanted.pace) this.setPace(Number(wanted.pace));
-    if (wanted.futures) find("futures").checked = wanted.futures === "1";
-    const { road = this.number ?? FIRST_ROAD, ghost = this.ghostName ?? "rule", driver = this.driverName ?? "you" } = wanted;
-    this.inDepth = this.inDepth || wanted.view === "3d";
+    const now = { road: this.number ?? FIRST_ROAD, ghost: this.ghostName ?? "rule", driver: this.driverName ?? "you",
+      pace: this.pace, futures: Number(find("futures").checked), view: this.inDepth ? "3d" : "above" };
+    const { wanted, faults } = askedFor(location.hash.slice(1), Object.keys(this.drivers), now);
+    const { road, ghost, driver, pace, futures, view } = { ...now, ...wanted };
+    this.setPace(Number(pace));
+    find("futures").checked = Number(futures) === 1;
     this.begin({ number: road, ghost, driver });
-    if (wanted.view) this.look(wanted.view === "3d");
-    if (faults.length) this.say(faults.join(" "));
+    const lost = this.look(view === "3d");
+    if (faults.length || lost) this.announce([...faults, lost].join(" "));
   }
 
   // From above, or in 3D where the browser can.
+  // What the browser cannot is returned as a sentence.
   look(inDepth) {
+    let lost = "";
     this.inDepth = inDepth;
     try {
-      if (inDepth) this.scene ??= new Scene(find("scene"), this.view, this.data.scene, () => this.look(false));
+      if (inDepth) this.scene ??= new Scene(find("scene"), this.view, this.data.scene, () => this.announce(this.lose()));
     } catch (error) {
       this.inDepth = false;
-      this.say(`3D needs WebGL 2, which this browser does not offer here (${error.message}): the road is shown from above.`);
+      lost = `The road stays as seen from above: 3D needs WebGL 2, and this browser says “${error.message}”.`;
     }
     find("scene").hidden = !this.inDepth;
     find("view").setAttribute("aria-pressed", this.inDepth);
     find("road").setAttribute("aria-label", this.inDepth ? "The road in 3D, behind the car" : "The road from above");
     this.remember();
     this.fit();
+    return lost;
+  }
+
+  // The graphics card has given up the picture: what was drawn there is gone, so a new scene begins on a new canvas.
+  lose() {
+    find("scene").replaceWith(find("scene").cloneNode());
+    this.scene = null;
+    this.look(false);
+    return "The graphics card gave up the picture in 3D: the road is shown from above. V tries again.";
   }
 
   fit() {
@@ -283,6 +295,13 @@ class Game {
   remark(words) {
     if (words) this.remarkedAt = this.drive.time;
     if (words || this.drive.time - this.remarkedAt > 3) this.say(words);
+  }
+
+  // A sentence for everybody, if there is one.
+  announce(words) {
+    if (!words) return;
+    this.say(words);
+    this.tell(words);
   }
 
   say(words) { find("message").textContent = words; }

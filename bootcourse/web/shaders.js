@@ -39,8 +39,8 @@ void main() {
   float hill = 0.022 + 0.013 * sin(side * 5.0 + 1.0) + 0.008 * sin(side * 13.0) + 0.004 * sin(side * 31.0);
   over = mix(mix(horizon, ground, 0.3 * smoothstep(-0.02, 0.03, to.z)), over,
     smoothstep(-0.001, 0.001, to.z - hill));
-  vec2 star = floor(vec2(side, to.z) * 260.0);
-  over += night * step(0.996, chance(star)) * smoothstep(0.08, 0.3, to.z) * 0.5;
+  vec2 star = floor(vec2(side, to.z) * 420.0);
+  over += night * step(0.9975, chance(star)) * smoothstep(0.08, 0.3, to.z) * 0.5;
   vec3 grass = ground * (0.86 + 0.2 * noise(place * 0.07) + 0.1 * noise(place * 0.6) * exp(-away / 60.0));
   float outside = max(p.y - road.x, road.y - p.y), lane = road.z;
   vec3 tar = asphalt * (0.96 + 0.05 * noise(place * vec2(0.5, 3.0)) * exp(-away / 40.0)
@@ -52,7 +52,7 @@ void main() {
     outside < -lane / 2.0 ? band(divider, paint.z / 2.0, pixel.y) * dashes : 0.0);
   vec3 surface = mix(grass, mix(tar, line, 0.9 * marks), clamp(0.5 - (outside - road.w) / pixel.y, 0.0, 1.0));
   vec2 q = mat2(cos(ego.z), -sin(ego.z), sin(ego.z), cos(ego.z)) * (p - ego.xy);
-  float beam = smoothstep(1.5, 7.0, q.x) * exp(-q.x / 22.0) * smoothstep(1.0, 0.1, abs(q.y) / (1.3 + 0.24 * q.x));
+  float beam = smoothstep(1.5, 7.0, q.x) * exp(-q.x / 22.0) * smoothstep(1.0, 0.1, abs(q.y) / (1.6 + 0.32 * q.x));
   surface *= 1.0 + night * 1.9 * max(beam, 0.0);
   colour = vec4(to.z < 0.0 ? fog(surface, away) : over, 1);
 }`];
@@ -77,7 +77,7 @@ void main() {
   vec3 normal = normalize(cross(dFdx(spot), dFdy(spot))), to = normalize(spot - eye);
   vec3 base = tint[part], sun = normalize(vec3(-0.5, 0.55, 0.8)), back = reflect(to, normal);
   float day = 1.0 - night, lit = max(dot(normal, sun), 0.0), facing = 1.0 + dot(to, normal);
-  vec3 light = mix(vec3(0.62), vec3(0.95), normal.z * 0.5 + 0.5) * mix(0.62, 0.8, day) + lit * 0.42 * mix(0.3, 1.0, day);
+  vec3 light = mix(vec3(0.6), vec3(0.95), normal.z * 0.5 + 0.5) * mix(0.62, 0.72, day) + lit * 0.4 * mix(0.3, 1.0, day);
   vec3 shown = base * light;
   bool glass = part == 1 && own.z > 0.9, coat = part == 0 && opacity < 2.0;
   if (glass || coat) shown = mix(shown, skyAt(normalize(back + vec3(0, 0, 0.2))), (glass ? 0.18 : 0.05) + 0.4 * pow(facing, 4.0));
