@@ -1,0 +1,133 @@
+"""Later methods beside the paper's, at equal numbers of decisions and after the same search: the experiment `beyond`.
+
+    bootcourse study beyond-search --out DIR && bootcourse study beyond --out DIR
+
+The same for all: γ, the network, the scenario, the teacher and its demonstrations; as many tries in the search, on seeds
+and roads that no test uses (`searched`); decisions of its own, which do not count what the teacher drives alone for the
+demonstrations. `CHOSEN` is the try of each method that earned most in the search. RLPD makes twice as many updates for a
+decision as the others with a replay buffer, with five critics; it costs ten times as much, so it has fewer seeds.
+"""
+
+import time
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
+from bootcourse.learn.agent import Agent
+from bootcourse.learn.settings import Settings, settings_for, with_seeds
+from bootcourse.learn.training import Training
+from bootcourse.research.jobs import HELD_OUT, Interrupted, orphaned, smaller
+from bootcourse.research.plan import SEEDS, TESTS, LessonExperiment
+from bootcourse.research.results import Results, agent_entries, as_arrays, join
+
+GAMMA = 0.97
+BUDGETS = (100_000, 200_000)  # decisions of each agent, after which it is tested
+SEARCHED = 100_000  # decisions of each agent of the search
+SEARCH_SEEDS, FIRST_SEARCH_SEED = 3, 500
+SEARCH_ROADS = held_out_seeds(19, 200)
+EPISODES = 50_000  # more than any of these trainings drives
+
+# The paper's method has c = 0.5, since c = 2 at this γ would be worth more than any drive, and β that fades in time.
+COMMON = {
+    "bootstrapped": {"gamma": GAMMA, "batch": 128, "bonus": 0.5, "beta_episodes": 500},
+    "jsrl": {},  # the methods' own settings have the same γ and batch
+    "ibrl": {},
+    "rlpd": {"envs_per_agent": 4, "updates": 2},
+    "ppo_cloned": {"gamma": GAMMA, "batch": 512},
+    "ppo": {"gamma": GAMMA, "batch": 512},
+}
+ENTROPIES = [{"target_entropy": entropy} for entropy in (-1.0, 0.1, 0.3)]
+ROUNDS = [{"envs_per_agent": roads} for roads in (32, 64, 128)]  # PPO has no target entropy
+TRIES = {method: ROUNDS if method.startswith("ppo") else ENTROPIES for method in COMMON}
+CHOSEN = {  # of the tries, by what `beyond-search` measured
+    "bootstrapped": 1,
+    "jsrl": 2,
+    "ibrl": 2,
+    "rlpd": 2,
+    "ppo_cloned": 1,
+    "ppo": 1,
+}
+FEWER = {"rlpd": 5}  # agents in the test
+FEWER_SEARCHED = {"rlpd": 2}  # agents of each try
+LONGER = {"ppo": 800_000, "ppo_cloned": 800_000}  # decisions are cheap for PPO: it has some more, for equal seconds
+
+
+def tries(method: str) -> list[Settings]:
+    """The settings that the search compares."""
+    return [settings_for(method, **COMMON[method], **changes) for changes in TRIES[method]]
+
+
+def searched(method: str, seeds: int = 0, decisions: int = SEARCHED) -> dict[str, np.ndarray]:
+    """Every try with a few seeds, tested on `SEARCH_ROADS`: the arrays of a file of results. Raises Interrupted."""
+    seeds = seeds or FEWER_SEARCHED.get(method, SEARCH_SEEDS)
+    agents = [with_seeds(one, seeds, FIRST_SEARCH_SEED) for one in tries(method)]
+    groups = agents if method.startswith("ppo") else [sum(agents, [])]  # what differs in η alone trains side by side
+    parts = [tested_at(group, (decisions,), SEARCH_ROADS) for group in groups]
+    return as_arrays(parts[0] if len(parts) == 1 else _joined(parts))
+
+
+def compared(
+    method: str, seeds: int = 0, budgets: Sequence[int] = BUDGETS, tests: int = TESTS
+) -> dict[str, np.ndarray]:
+    """The chosen try with all seeds, tested at each budget: the arrays of a file of results. Raises Interrupted.
+
+    `tested` is at the last budget, `measured` has the means at each: returns_100000, success_100000 ...
+    """
+    settings = with_seeds(tries(method)[CHOSEN[method]], seeds or FEWER.get(method, SEEDS))
+    longer = [LONGER[method]] if method in LONGER and tuple(budgets) == BUDGETS else []
+    return as_arrays(tested_at(settings, budgets, held_out_seeds(HELD_OUT, tests), longer))
+
+
+def tested_at(
+    settings: Sequence[Settings], budgets: Sequence[int], roads: Sequence[int], longer: Sequence[int] = ()
+) -> Results:
+    """Train agents side by side, and test each on the roads after each budget of decisions.
+
+    longer: a budget after which the training ends, without a test. The seconds are those that the processor spent on the
+    training, shared among the agents.
+    """
+    training, seconds, measured, tested = Training(settings, EPISODES), 0.0, {}, {}
+    for budget in (*budgets, *longer):
+        started = time.process_time()
+        training.run(progress=False, stop=lambda b=budget: training.decisions >= b * len(settings) or orphaned())
+        seconds += time.process_time() - started
+        if training.decisions < budget * len(settings):
+            raise Interrupted(settings[0].method)
+        if budget in budgets:
+            result = training.result()
+            tested = _tested(result.agents, roads)
+            means = {"returns": tested["returns"], "success": tested["success"], "accident": tested["accident"] > 0}
+            measured |= {f"{name}_{budget}": values.mean(axis=1) for name, values in means.items()}
+            measured[f"seconds_{budget}"] = np.full(len(settings), seconds / len(settings))
+    curves = {name: training.curves.values[name] for name in ("success", "return", "decisions")}
+    driven = int(training.curves.finished.max())
+    return Results(
+        agent_entries(settings),
+        np.array([training.stopped.get(i, -1) for i in range(len(settings))]),
+        {name: smaller(values) for name, values in tested.items()},
+        {name: values[:, :driven].astype(np.float32) for name, values in curves.items()},
+        np.full(len(settings), seconds / len(settings)),
+        measured=measured,
+    )
+
+
+def _tested(agents: Sequence[Agent], roads: Sequence[int]) -> dict[str, np.ndarray]:
+    """The fields of `Episodes`, each (agents, roads)."""
+    each = [drive_episodes(agent.as_policy(), roads) for agent in agents]
+    return {name: np.stack([getattr(one, name) for one in each]) for name in vars(each[0])}
+
+
+def _joined(parts: Sequence[Results]) -> Results:
+    """Parts with curves of different lengths as one, filled up with NaN."""
+    longest = max(part.sizes[1] for part in parts)
+
+    def filled(values: np.ndarray) -> np.ndarray:
+        return np.pad(values, ((0, 0), (0, longest - values.shape[1])), constant_values=np.nan)
+
+    return join([replace(part, curves={name: filled(each) for name, each in part.curves.items()}) for part in parts])
+
+
+SEARCH = LessonExperiment(f"{__name__}:searched", {method: {"method": method} for method in COMMON})
+EXPERIMENT = LessonExperiment(f"{__name__}:compared", {method: {"method": method} for method in COMMON})
