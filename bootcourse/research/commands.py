@@ -39,7 +39,8 @@ def study(
     default, calibrated and paper: the paper's methods and baselines. sweep: the paper's method with many settings of
     p, ξ and c. sensitivity, clocks and ablations: the paper's ablation, varied. longer-view: its method with other
     numbers. teachers: what a teacher is worth. beyond: methods that the paper does not train, at equal numbers of
-    decisions, with the settings that beyond-search found. elsewhere: does one help on other problems? bug-hunt, students and second-trap: the agents of three lessons.
+    decisions, with the settings that beyond-search found. elsewhere: does a teacher help on other problems?
+    bug-hunt, students and second-trap: the agents of three lessons.
     """
     from bootcourse.research import plan
     from bootcourse.research.report import write_report

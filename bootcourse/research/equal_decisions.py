@@ -2,10 +2,10 @@
 
     bootcourse study beyond-search --out DIR && bootcourse study beyond --out DIR
 
-The same for all: γ, the network, the scenario, the teacher and its demonstrations; as many tries in the search, on seeds
-and roads that no test uses (`searched`); decisions of its own, which do not count what the teacher drives alone for the
-demonstrations. `CHOSEN` is the try of each method that earned most in the search. RLPD makes twice as many updates for a
-decision as the others with a replay buffer, with five critics; it costs ten times as much, so it has fewer seeds.
+The same for all: γ, the network, the scenario, the teacher and its demonstrations; as many tries in the search, on
+seeds and roads that no test uses (`searched`); and the agent's own decisions, without those of the teacher alone that
+the demonstrations took. `CHOSEN` is the try of each method that earned most in the search. RLPD makes twice as many
+updates for a decision as the others with a replay buffer, with five critics; it is much slower and has fewer seeds.
 """
 
 import time
@@ -49,9 +49,9 @@ CHOSEN = {  # of the tries, by what `beyond-search` measured
     "ppo_cloned": 1,
     "ppo": 1,
 }
-FEWER = {"rlpd": 5}  # agents in the test
-FEWER_SEARCHED = {"rlpd": 2}  # agents of each try
-LONGER = {"ppo": 800_000, "ppo_cloned": 800_000}  # decisions are cheap for PPO: it has some more, for equal seconds
+LESS = {"rlpd": {"seeds": 5, "budgets": BUDGETS[:1]}}  # of the test, for what is slow
+LESS_SEARCHED = {"rlpd": {"seeds": 2, "decisions": 50_000}}
+LONGER = {"ppo_cloned": 800_000}  # its decisions are cheap: some more of them, for equal seconds
 
 
 def tries(method: str) -> list[Settings]:
@@ -59,25 +59,23 @@ def tries(method: str) -> list[Settings]:
     return [settings_for(method, **COMMON[method], **changes) for changes in TRIES[method]]
 
 
-def searched(method: str, seeds: int = 0, decisions: int = SEARCHED) -> dict[str, np.ndarray]:
+def searched(method: str) -> dict[str, np.ndarray]:
     """Every try with a few seeds, tested on `SEARCH_ROADS`: the arrays of a file of results. Raises Interrupted."""
-    seeds = seeds or FEWER_SEARCHED.get(method, SEARCH_SEEDS)
-    agents = [with_seeds(one, seeds, FIRST_SEARCH_SEED) for one in tries(method)]
+    how = {"seeds": SEARCH_SEEDS, "decisions": SEARCHED} | LESS_SEARCHED.get(method, {})
+    agents = [with_seeds(one, how["seeds"], FIRST_SEARCH_SEED) for one in tries(method)]
     groups = agents if method.startswith("ppo") else [sum(agents, [])]  # what differs in η alone trains side by side
-    parts = [tested_at(group, (decisions,), SEARCH_ROADS) for group in groups]
-    return as_arrays(parts[0] if len(parts) == 1 else _joined(parts))
+    return as_arrays(_joined([tested_at(group, [how["decisions"]], SEARCH_ROADS) for group in groups]))
 
 
-def compared(
-    method: str, seeds: int = 0, budgets: Sequence[int] = BUDGETS, tests: int = TESTS
-) -> dict[str, np.ndarray]:
+def compared(method: str) -> dict[str, np.ndarray]:
     """The chosen try with all seeds, tested at each budget: the arrays of a file of results. Raises Interrupted.
 
     `tested` is at the last budget, `measured` has the means at each: returns_100000, success_100000 ...
     """
-    settings = with_seeds(tries(method)[CHOSEN[method]], seeds or FEWER.get(method, SEEDS))
-    longer = [LONGER[method]] if method in LONGER and tuple(budgets) == BUDGETS else []
-    return as_arrays(tested_at(settings, budgets, held_out_seeds(HELD_OUT, tests), longer))
+    how = {"seeds": SEEDS, "budgets": BUDGETS} | LESS.get(method, {})
+    settings = with_seeds(tries(method)[CHOSEN[method]], how["seeds"])
+    roads, longer = held_out_seeds(HELD_OUT, TESTS), [LONGER[method]] if method in LONGER else []
+    return as_arrays(tested_at(settings, how["budgets"], roads, longer))
 
 
 def tested_at(
@@ -85,8 +83,8 @@ def tested_at(
 ) -> Results:
     """Train agents side by side, and test each on the roads after each budget of decisions.
 
-    longer: a budget after which the training ends, without a test. The seconds are those that the processor spent on the
-    training, shared among the agents.
+    longer: a budget after which the training ends, without a test. The seconds are those that the processor spent on
+    the training, shared among the agents.
     """
     training, seconds, measured, tested = Training(settings, EPISODES), 0.0, {}, {}
     for budget in (*budgets, *longer):

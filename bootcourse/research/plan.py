@@ -6,7 +6,7 @@ from itertools import product
 
 from bootcourse.errors import BootcourseError, check_known
 from bootcourse.learn.settings import SETTINGS, Settings, settings_for, with_seeds
-from bootcourse.methods import ABLATION, AFTER, BASELINES, METHODS
+from bootcourse.methods import ABLATION, AFTER, BASELINES
 from bootcourse.research.jobs import BoundJob, Job, LessonJob, StayingJob, named_function
 from bootcourse.research.teachers import PLANNER as PLANS
 from bootcourse.research.teachers import RULE, TEACHERS, teacher_named
