@@ -18,15 +18,20 @@ from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.settings import Settings, settings_for, with_seeds
 from bootcourse.learn.training import Training
+from bootcourse.methods import display_name
+from bootcourse.research.beyond import after_seconds
 from bootcourse.research.jobs import HELD_OUT, Interrupted, orphaned, smaller
 from bootcourse.research.plan import SEEDS, TESTS, LessonExperiment
 from bootcourse.research.results import Results, agent_entries, as_arrays, join
+from bootcourse.research.tables import bracketed
+from bootcourse.statistics import ESCAPES, interval
 
 GAMMA = 0.97
 BUDGETS = (100_000, 200_000)  # decisions of each agent, after which it is tested
 SEARCHED = 100_000  # decisions of each agent of the search
 SEARCH_SEEDS, FIRST_SEARCH_SEED = 3, 500
 SEARCH_ROADS = held_out_seeds(19, 200)
+SECONDS = 8  # of one core, for each agent of ten side by side
 EPISODES = 50_000  # more than any of these trainings drives
 
 # The paper's method has c = 0.5, since c = 2 at this γ would be worth more than any drive, and β that fades in time.
@@ -64,7 +69,7 @@ def searched(method: str) -> dict[str, np.ndarray]:
     how = {"seeds": SEARCH_SEEDS, "decisions": SEARCHED} | LESS_SEARCHED.get(method, {})
     agents = [with_seeds(one, how["seeds"], FIRST_SEARCH_SEED) for one in tries(method)]
     groups = agents if method.startswith("ppo") else [sum(agents, [])]  # what differs in η alone trains side by side
-    return as_arrays(_joined([tested_at(group, [how["decisions"]], SEARCH_ROADS) for group in groups]))
+    return as_arrays(_joined([trained_and_tested(group, [how["decisions"]], SEARCH_ROADS) for group in groups]))
 
 
 def compared(method: str) -> dict[str, np.ndarray]:
@@ -75,10 +80,10 @@ def compared(method: str) -> dict[str, np.ndarray]:
     how = {"seeds": SEEDS, "budgets": BUDGETS} | LESS.get(method, {})
     settings = with_seeds(tries(method)[CHOSEN[method]], how["seeds"])
     roads, longer = held_out_seeds(HELD_OUT, TESTS), [LONGER[method]] if method in LONGER else []
-    return as_arrays(tested_at(settings, how["budgets"], roads, longer))
+    return as_arrays(trained_and_tested(settings, how["budgets"], roads, longer))
 
 
-def tested_at(
+def trained_and_tested(
     settings: Sequence[Settings], budgets: Sequence[int], roads: Sequence[int], longer: Sequence[int] = ()
 ) -> Results:
     """Train agents side by side, and test each on the roads after each budget of decisions.
@@ -129,3 +134,63 @@ def _joined(parts: Sequence[Results]) -> Results:
 
 SEARCH = LessonExperiment(f"{__name__}:searched", {method: {"method": method} for method in COMMON})
 EXPERIMENT = LessonExperiment(f"{__name__}:compared", {method: {"method": method} for method in COMMON})
+
+
+def _words(settings: dict) -> str:
+    """ "η = 0.1", or of PPO "32 roads at once"."""
+    if settings["method"].startswith("ppo"):
+        return f"{settings['envs_per_agent']} roads at once"
+    return f"η = {settings['target_entropy']:g}"
+
+
+def budget_rows(computed: dict[str, Results]) -> tuple[list[str], list[list[str]]]:
+    """(headings, rows): what each method reached after each of `BUDGETS`, and after the same seconds.
+
+    computed: {method: the results of `compared`}; those without the means at a budget are left out.
+    """
+    headings = ["method", "chosen", "agents"]
+    for budget in BUDGETS:
+        headings += [
+            f"{budget // 1000},000 decisions: agents that escape",
+            "return [95 %]",
+            "accidents, %",
+            "s of a core",
+        ]
+    headings.append(f"return in training after {SECONDS} s of a core")
+    rows = []
+    for method, results in computed.items():
+        if f"returns_{BUDGETS[0]}" in results.measured:
+            row = [display_name(method), _words(results.agents[0]), str(len(results))]
+            row += [cell for budget in BUDGETS for cell in _cells(results, budget)]
+            there = after_seconds(results.curves, SECONDS, results.seconds)
+            rows.append([*row, bracketed(interval(there)) if np.isfinite(there).all() else "–"])
+    return headings, rows
+
+
+def _cells(results: Results, budget: int) -> list[str]:
+    measured = results.measured
+    if f"returns_{budget}" not in measured:
+        return ["–"] * 4
+    success, returns, accident = (measured[f"{name}_{budget}"] for name in ("success", "returns", "accident"))
+    seconds = measured[f"seconds_{budget}"].mean()
+    escape = f"{(success >= ESCAPES).sum()} of {len(results)}"
+    return [escape, bracketed(interval(returns)), f"{100 * accident.mean():.1f}", f"{seconds:.1f}"]
+
+
+def search_rows(computed: dict[str, Results]) -> tuple[list[str], list[list[str]]]:
+    """(headings, rows): each method's tries, with the mean return on `SEARCH_ROADS` over the seeds of the search."""
+    rows = []
+    for method, results in computed.items():
+        means = tried(results)
+        cells = [f"{words}: {value:.1f}" for words, value in means.items()]
+        seeds, decisions = len(results) // len(means), LESS_SEARCHED.get(method, {}).get("decisions", SEARCHED)
+        rows.append([display_name(method), *cells, str(seeds), f"{decisions:,}"])
+    return ["method", "first try: return", "second", "third", "seeds of each", "decisions"], rows
+
+
+def tried(results: Results) -> dict[str, float]:
+    """{what was tried: mean return over its seeds}, of the results of `searched`."""
+    returns: dict[str, list[float]] = {}
+    for agent, value in zip(results.agents, results.tested["returns"].mean(axis=1, dtype=float), strict=True):
+        returns.setdefault(_words(agent), []).append(value)
+    return {words: float(np.mean(values)) for words, values in returns.items()}
