@@ -14,10 +14,9 @@ from bootcourse.course.exercise import Exercise
 COURSE = (
     "start",
     "the_trap",
-    "traffic",
-    "the_rule",
     "discrete_sac",
     "the_barrier",
+    "the_rule",
     "demonstrations",
     "soft_constraint",
     "learning_from_demonstrations",
@@ -32,7 +31,7 @@ ELECTIVES = (
     "the_second_trap",
     "beyond_the_paper",
 )
-APPENDIX = ()
+APPENDIX = ("traffic",)
 LESSONS = COURSE + ELECTIVES + APPENDIX
 
 
