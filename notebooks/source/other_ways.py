@@ -26,7 +26,7 @@ import bootcourse as bc
 import numpy as np
 import torch
 from bootcourse.course import charts, check, compare_predictions, own_code, predict, shipped, table
-from bootcourse.course.lessons.beyond_the_paper import figures
+from bootcourse.course.lessons.other_ways import figures
 from bootcourse.learn import ibrl
 from bootcourse.research import beyond
 
@@ -53,7 +53,7 @@ from bootcourse.research import beyond
 
 # %%
 learners = ["PPO after cloning", "jump-start RL", "RLPD", "IBRL", "bootstrapped SAC"]
-predict("beyond_the_paper.1", "The fewest decisions until it gets out", learners)
+predict("other_ways.1", "The fewest decisions until it gets out", learners)
 
 # %% [markdown] tags=["instructor"] minutes=6
 # Ask for a reason with each vote: a learner can be quick by taking much from the teacher, or by
@@ -90,7 +90,7 @@ check.smallest_of(smallest_of)
 # > How long are the first 50 episodes of an agent that trains like this, on average?
 
 # %%
-predict("beyond_the_paper.2", "RLPD's first 50 episodes", unit="s")
+predict("other_ways.2", "RLPD's first 50 episodes", unit="s")
 
 # %% tags=["nbval-ignore-output"]
 torch.set_num_threads(1)  # small matrices are faster on one thread
@@ -162,7 +162,7 @@ for rule in range(3):
 
 # %%
 choices = ["in the first 30 seconds", "afterwards", "about equally often"]
-predict("beyond_the_paper.3", "It takes the rule's action more often", choices)
+predict("other_ways.3", "It takes the rule's action more often", choices)
 
 # %% tags=["nbval-ignore-output"]
 training = own_code.training([bc.settings_for("ibrl")], 260)
@@ -280,7 +280,7 @@ bc.show(charts.lines(np.arange(20, 121), named, title, "episode", "share"))
 # > does the safest of them crash?
 
 # %%
-predict("beyond_the_paper.4", "Accidents of the safest method that escapes", unit="of 1,000 drives")
+predict("other_ways.4", "Accidents of the safest method that escapes", unit="of 1,000 drives")
 
 # %%
 named = {"bootstrapped SAC": bc.shipped_results("paper").of("bootstrapped")}
@@ -391,7 +391,7 @@ table(*beyond.learner_rows(named))
 
 # %%
 choices = ["none", "one or two", "about half", "all ten"]
-predict("beyond_the_paper.5", "Of ten clones of that teacher escape", choices)
+predict("other_ways.5", "Of ten clones of that teacher escape", choices)
 
 # %% [markdown]
 # > **Predict.** And the planner, which earns almost three times as much as the rule? What do those
@@ -400,7 +400,7 @@ predict("beyond_the_paper.5", "Of ten clones of that teacher escape", choices)
 
 # %%
 choices = ["more", "about as much", "less"]
-predict("beyond_the_paper.6", "Who began as a clone of the planner earns", choices)
+predict("other_ways.6", "Who began as a clone of the planner earns", choices)
 
 # %% [markdown]
 # > **Predict.** The teacher that acts at random in half of its decisions gets ahead in
@@ -409,7 +409,7 @@ predict("beyond_the_paper.6", "Who began as a clone of the planner earns", choic
 
 # %%
 pupils = {"PPO after cloning": "ppo_cloned", "bootstrapped SAC": "bootstrapped"}
-predict("beyond_the_paper.7", "Half at random: all ten escape with", [*pupils, "both", "neither"])
+predict("other_ways.7", "Half at random: all ten escape with", [*pupils, "both", "neither"])
 
 # %%
 worth = shipped.shipped_teachers()
@@ -524,7 +524,7 @@ crashes = min(1000 * its.episodes("accident").mean() for its in free)
 first = np.nansum(later["rlpd"].curves["decisions"][:, :50], axis=1).mean() / 50
 freed = [words for words, m in pupils.items() if worth["random-50", m].escapers(m) == 10]
 compare_predictions(
-    "beyond_the_paper",
+    "other_ways",
     {
         1: min(learners, key=spent.get),
         2: round(float(first), 1),
