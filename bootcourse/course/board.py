@@ -24,6 +24,7 @@ from bootcourse.markup import html, joined
 from bootcourse.methods import AFTER, display_name
 from bootcourse.policies import Policy, idle_policy, random_policy, rule_policy
 from bootcourse.research.beyond import lengths
+from bootcourse.research.equal_decisions import by_method
 from bootcourse.research.jobs import HELD_OUT
 from bootcourse.research.results import Results, in_assets
 from bootcourse.scenario import DEFAULT, Scenario
@@ -131,7 +132,7 @@ def shipped_rows() -> tuple[Row, ...]:
     drivers = {"rule": rule_policy(DEFAULT), "idle": idle_policy, "random": random_policy(np.random.default_rng(0))}
     rows = [row_of(display_name(name), [drive_episodes(policy, ROADS)]) for name, policy in drivers.items()]
     rows.append(Row(display_name("planner"), mean(study.bound[DEFAULT.name])))
-    later = [results for name, results in study.experiments["beyond"].items() if name in AFTER]
+    later = [results for method, results in by_method(study.experiments["beyond"]).items() if method in AFTER]
     for results in (study.results["default"], *later):
         rows += [row_of_study(results.of(method), method) for method in results.methods]
     return tuple(rows)

@@ -10,7 +10,7 @@ updates for a decision as the others with a replay buffer, with five critics; it
 
 import time
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -21,7 +21,7 @@ from bootcourse.learn.training import Training
 from bootcourse.methods import display_name
 from bootcourse.research.beyond import after_seconds
 from bootcourse.research.jobs import HELD_OUT, Interrupted, orphaned, smaller
-from bootcourse.research.plan import SEEDS, TESTS, LessonExperiment
+from bootcourse.research.plan import SEEDS, TESTS, LessonExperiment, chosen
 from bootcourse.research.results import Results, agent_entries, as_arrays, join
 from bootcourse.research.tables import bracketed
 from bootcourse.statistics import ESCAPES, interval
@@ -31,7 +31,7 @@ BUDGETS = (50_000, 100_000)  # decisions of each agent, after which it is tested
 SEARCHED = 100_000  # decisions of each agent of the search
 SEARCH_SEEDS, FIRST_SEARCH_SEED = 3, 500
 SEARCH_ROADS = held_out_seeds(19, 200)
-SECONDS = 6  # of one core, for each agent of ten side by side
+SECONDS = 6  # of one core, for each agent of those side by side
 EPISODES = 50_000  # more than any of these trainings drives
 
 # The paper's method has c = 0.5, since c = 2 at this γ would be worth more than any drive, and β that fades in time.
@@ -54,7 +54,8 @@ CHOSEN = {  # of the tries, by what `beyond-search` measured
     "ppo_cloned": 1,
     "ppo": 1,
 }
-LESS = {"rlpd": {"seeds": 5}}  # of the test, for what is slow
+GROUP = 5  # agents of the test that train side by side, a job each
+FEWER = {"rlpd": 5}  # agents in the test, of what is slow
 LESS_SEARCHED = {"rlpd": {"seeds": 2, "decisions": 50_000}}
 LONGER = {"ppo_cloned": 400_000, "ppo": 400_000}  # its decisions are cheap: some more of them, for equal seconds
 
@@ -72,15 +73,23 @@ def searched(method: str) -> dict[str, np.ndarray]:
     return as_arrays(_joined([trained_and_tested(group, [how["decisions"]], SEARCH_ROADS) for group in groups]))
 
 
-def compared(method: str) -> dict[str, np.ndarray]:
-    """The chosen try with all seeds, tested at each budget: the arrays of a file of results. Raises Interrupted.
+def compared(method: str, first: int) -> dict[str, np.ndarray]:
+    """The chosen try with `GROUP` seeds from `first` on, tested at each budget: the arrays of a file of results.
 
-    `tested` is at the last budget, `measured` has the means at each: returns_100000, success_100000 ...
+    `tested` is at the last budget, `measured` has the means at each: returns_100000, success_100000 ... Raises
+    Interrupted.
     """
-    how = {"seeds": SEEDS, "budgets": BUDGETS} | LESS.get(method, {})
-    settings = with_seeds(tries(method)[CHOSEN[method]], how["seeds"])
+    settings = with_seeds(tries(method)[CHOSEN[method]], GROUP, first)
     roads, longer = held_out_seeds(HELD_OUT, TESTS), [LONGER[method]] if method in LONGER else []
-    return as_arrays(trained_and_tested(settings, how["budgets"], roads, longer))
+    return as_arrays(trained_and_tested(settings, BUDGETS, roads, longer))
+
+
+def by_method(computed: dict[str, Results]) -> dict[str, Results]:
+    """{method: all its agents}, of the results of `compared` by job."""
+    groups: dict[str, list[Results]] = {}
+    for results in computed.values():
+        groups.setdefault(results.methods[0], []).append(results)
+    return {method: _joined(groups[method]) for method in COMMON if method in groups}
 
 
 def trained_and_tested(
@@ -132,8 +141,25 @@ def _joined(parts: Sequence[Results]) -> Results:
     return join([replace(part, curves={name: filled(each) for name, each in part.curves.items()}) for part in parts])
 
 
+@dataclass(frozen=True)
+class Comparison(LessonExperiment):
+    """The jobs of the comparison: {"METHOD-FIRST": the arguments of `compared`}."""
+
+    def only(self, words: str) -> "Comparison":
+        """The jobs that are named by their folder or by their method; "" for all."""
+        names = {name: {name, arguments["method"]} for name, arguments in self.variations.items()}
+        return Comparison(self.function, chosen(self.variations, names, words))
+
+
 SEARCH = LessonExperiment(f"{__name__}:searched", {method: {"method": method} for method in COMMON})
-EXPERIMENT = LessonExperiment(f"{__name__}:compared", {method: {"method": method} for method in COMMON})
+EXPERIMENT = Comparison(
+    f"{__name__}:compared",
+    {
+        f"{method}-{first}": {"method": method, "first": first}
+        for method in COMMON
+        for first in range(0, FEWER.get(method, SEEDS), GROUP)
+    },
+)
 
 
 def _words(settings: dict) -> str:
@@ -146,7 +172,7 @@ def _words(settings: dict) -> str:
 def budget_rows(computed: dict[str, Results]) -> tuple[list[str], list[list[str]]]:
     """(headings, rows): what each method reached after each of `BUDGETS`, and after the same seconds.
 
-    computed: {method: the results of `compared`}; those without the means at a budget are left out.
+    computed: {method: its agents}, see `by_method`.
     """
     headings = ["method", "chosen", "agents"]
     for budget in BUDGETS:
@@ -159,18 +185,15 @@ def budget_rows(computed: dict[str, Results]) -> tuple[list[str], list[list[str]
     headings.append(f"return in training after {SECONDS} s of a core")
     rows = []
     for method, results in computed.items():
-        if f"returns_{BUDGETS[0]}" in results.measured:
-            row = [display_name(method), _words(results.agents[0]), str(len(results))]
-            row += [cell for budget in BUDGETS for cell in _cells(results, budget)]
-            there = after_seconds(results.curves, SECONDS, results.seconds)
-            rows.append([*row, bracketed(interval(there)) if np.isfinite(there).all() else "–"])
+        row = [display_name(method), _words(results.agents[0]), str(len(results))]
+        row += [cell for budget in BUDGETS for cell in _cells(results, budget)]
+        there = after_seconds(results.curves, SECONDS, results.seconds)
+        rows.append([*row, bracketed(interval(there)) if np.isfinite(there).all() else "–"])
     return headings, rows
 
 
 def _cells(results: Results, budget: int) -> list[str]:
     measured = results.measured
-    if f"returns_{budget}" not in measured:
-        return ["–"] * 4
     success, returns, accident = (measured[f"{name}_{budget}"] for name in ("success", "returns", "accident"))
     seconds = measured[f"seconds_{budget}"].mean()
     escape = f"{(success >= ESCAPES).sum()} of {len(results)}"

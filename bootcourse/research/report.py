@@ -13,7 +13,7 @@ from bootcourse.policies import rule_policy
 from bootcourse.research import clocks, tables, teacher_worth
 from bootcourse.research import figures as training_figures
 from bootcourse.research.beyond import learner_rows
-from bootcourse.research.equal_decisions import budget_rows, search_rows
+from bootcourse.research.equal_decisions import budget_rows, by_method, search_rows
 from bootcourse.research.fidelity import CLOSE, VERDICTS, fidelity
 from bootcourse.research.jobs import HELD_OUT
 from bootcourse.research.paper import COLUMNS, PRINTED, ROWS, TABLES, arithmetic
@@ -127,7 +127,7 @@ def experiments_part(experiments: dict[str, dict[str, Results]]) -> list[str]:
     if varied := experiments.get("longer-view"):
         text += ["## A longer view\n", LONGER_VIEW, tables.markdown(*learner_rows(varied))]
     if varied := experiments.get("beyond"):
-        text += ["## Other learners, at equal decisions\n", BUDGET, tables.markdown(*budget_rows(varied))]
+        text += ["## Other learners, at equal decisions\n", BUDGET, tables.markdown(*budget_rows(by_method(varied)))]
     if varied := experiments.get("beyond-search"):
         text += ["### The search before it\n", tables.markdown(*search_rows(varied))]
     if varied := experiments.get("teachers"):
@@ -196,7 +196,7 @@ BUDGET = """Each method has γ = 0.97 and the best of three settings, which were
 table below). Tested with most probable actions on the held-out roads. The teacher's decisions in demonstrations are not
 counted. Seconds are those of one core, shared among the agents that trained side by side. The last column is the mean
 of the last 50 training episodes that ended in that time, with drawn actions; the teacher drives the beginning of
-jump-start RL's. –: not run for so long.
+jump-start RL's. –: not trained for so long.
 """
 
 LONGER_VIEW = """The paper's method with two updates per decision, a bonus of 0.5 instead of 2, batches of 128 instead
