@@ -8,9 +8,11 @@ from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.research import equal_decisions
 from bootcourse.research.equal_decisions import (
+    BUDGETS,
     CHOSEN,
     TRIES,
     budget_rows,
+    by_method,
     search_rows,
     trained_and_tested,
     tried,
