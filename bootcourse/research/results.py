@@ -26,6 +26,7 @@ from bootcourse.storage.assets import FOLDER
 
 MEASURES = ("success", "returns", "speed", "distance", "collision", "road_departure", "stoppage")
 RUN_AGAIN = "run the study again, or restore it from a copy"
+REPORTED = (*EXPERIMENTS, "beyond", "beyond-search")  # experiments of which the report has a table
 KINDS = {"collision": Accident.COLLISION, "road_departure": Accident.ROAD_DEPARTURE, "stoppage": Accident.STOPPAGE}
 OF_AGENTS = ("tested", "curves", "notes", "measured")  # the parts with every agent; weights are kept of the first ones
 PARTS = (*OF_AGENTS, "weights")
@@ -214,7 +215,7 @@ def in_study(root: Path) -> StudyResults:
         results,
         {name: bound for name, bound in bounds.items() if bound is not None},
         _staying({name: jobs / f"staying-{name}/gamma-0.8/staying.json" for name in results}),
-        {name: experiment(name, root) for name in EXPERIMENTS},
+        {name: experiment(name, root) for name in REPORTED},
     )
 
 
@@ -226,7 +227,7 @@ def in_assets(root: Path) -> StudyResults:
         {name: load_results(path) for name, path in studies.items() if path.exists()},
         {name: load_bound(path) for name, path in bounds.items() if path.exists()},
         _staying({name: root / f"staying-{name}.json" for name in STUDIES}),
-        {name: _variations(name, root, ".npz") for name in EXPERIMENTS},
+        {name: _variations(name, root, ".npz") for name in REPORTED},
     )
 
 

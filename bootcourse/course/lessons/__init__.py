@@ -29,7 +29,7 @@ ELECTIVES = (
     "bug_hunt",
     "your_teacher",
     "the_second_trap",
-    "beyond_the_paper",
+    "other_ways",
 )
 APPENDIX = ("traffic",)
 LESSONS = COURSE + ELECTIVES + APPENDIX
