@@ -245,6 +245,7 @@ LESSON_EXPERIMENTS = {  # "module:name" of a LessonExperiment, imported when it 
     "students": "bootcourse.course.lessons.your_teacher.taught_agents:EXPERIMENT",
     "second-trap": "bootcourse.course.lessons.the_second_trap.ppo_kinds:EXPERIMENT",
     "elsewhere": "bootcourse.research.elsewhere:EXPERIMENT",  # of no lesson, but a function of its own too
+    "look-ahead": "bootcourse.research.lookahead:EXPERIMENT",
 }
 
 
