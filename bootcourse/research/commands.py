@@ -39,7 +39,8 @@ def study(
     default, calibrated and paper: the paper's methods and baselines. sweep: the paper's method with many settings of
     p, ξ and c. sensitivity, clocks and ablations: the paper's ablation, varied. longer-view: its method with other
     numbers. beyond: methods that the paper does not train. teachers: what a teacher is worth. elsewhere: does one
-    help on other problems? look-ahead: base policies with rollouts, and with wrong models. bug-hunt, students and second-trap: the agents of three lessons.
+    help on other problems? look-ahead: agents with rollouts, and with wrong models. bug-hunt, students and
+    second-trap: the agents of three lessons.
     """
     from bootcourse.research import plan
     from bootcourse.research.report import write_report
