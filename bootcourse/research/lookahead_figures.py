@@ -38,6 +38,11 @@ class Score(NamedTuple):
     overruled: float  # share of the decisions
     milliseconds: float  # of one core, for each decision
 
+    @property
+    def roads(self) -> int:
+        """Of each agent."""
+        return self.drives // self.agents
+
 
 def score(cells: dict[str, Results], cell: Cell) -> Score | None:
     """The score of a cell's agents; None if `cells` does not have it."""
@@ -116,7 +121,7 @@ def by_horizon(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
     title = f"{display_name(base)}: {before} alone, {after} with rollouts of {HORIZON} decisions"
     numbers = (
         f"{h}: return {one.returns.value:.1f}, accidents {1000 * one.accident_rate.value:.1f} "
-        f"({one.agents} agents, {one.drives // one.agents:,} roads each), {one.milliseconds:.2f} ms"
+        f"({one.agents} agents, {one.roads:,} roads each), {one.milliseconds:.2f} ms"
         for h, one in reached.items()
     )
     alt = f"Return, accidents in 1,000 drives and time against how many decisions are imagined. {'; '.join(numbers)}."
@@ -202,4 +207,4 @@ def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
 def _drives(scores: dict[str, Score]) -> str:
     """ " (10 agents x 200 roads)", of the wrong models."""
     one = list(scores.values())[-1]
-    return f" ({one.agents} agent{'s' * (one.agents > 1)} × {one.drives // one.agents:,} roads)"
+    return f" ({one.agents} agent{'s' * (one.agents > 1)} × {one.roads:,} roads)"
