@@ -127,7 +127,7 @@ def drive(cell: Cell, trained: Path) -> Results:
     """Drive a cell with the agents in trained/METHOD, see `agents_of`. Raises Interrupted if it is stopped.
 
     Measured, (agents,): roads, returns and success (means over the roads), accidents (how many), decisions, overruled
-    (of these decisions) and seconds of one core. The weights hold the actors of the agents alone that do not all ship elsewhere.
+    (of these decisions) and seconds of one core. The weights: actors that ship, see `SHIPPING`.
     """
     make, agents = FORMS[cell.form], agents_of(cell.base, cell.agents, trained)
     drivers = [rule_policy(DEFAULT)] if cell.base == "rule" else [agent.as_policy() for agent in agents]

@@ -30,6 +30,7 @@ ELECTIVES = (
     "bug_hunt",
     "your_teacher",
     "the_second_trap",
+    "looking_ahead",
     "beyond_the_paper",
 )
 APPENDIX = ()
