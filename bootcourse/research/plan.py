@@ -237,6 +237,7 @@ LESSON_EXPERIMENTS = {  # "module:name" of a LessonExperiment, imported when it 
     "elsewhere": "bootcourse.research.elsewhere:EXPERIMENT",  # of no lesson, but a function of its own too
     "beyond-search": "bootcourse.research.equal_decisions:SEARCH",
     "beyond": "bootcourse.research.equal_decisions:EXPERIMENT",
+    "look-ahead": "bootcourse.research.lookahead:EXPERIMENT",
 }
 
 

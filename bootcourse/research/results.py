@@ -160,7 +160,8 @@ def load_results(path: Path) -> Results:
         agents = []
         for agent in stored:
             teacher = str(agent.pop("teacher"))
-            agents += agent_entries([stored_settings(agent)], teacher)
+            rule = agent.get("method") == "rule"  # it has no settings
+            agents += [agent | {"teacher": teacher}] if rule else agent_entries([stored_settings(agent)], teacher)
     parts = {part: _part(arrays, part) for part in PARTS}
     n, tests = len(agents), [each.shape[1:2] for each in parts["tested"].values()][:1]
     shapes = {f"tested.{f.name}": (n, *tests[0]) for f in fields(Episodes)} if tests else {}

@@ -29,6 +29,7 @@ ELECTIVES = (
     "bug_hunt",
     "your_teacher",
     "the_second_trap",
+    "looking_ahead",
     "other_ways",
 )
 APPENDIX = ("traffic",)
