@@ -22,7 +22,7 @@ H6  PPO after cloning is at least as good as cloning on every problem, with ever
 """
 
 import math
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
@@ -31,14 +31,12 @@ from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.learn.settings import Settings, settings_for, with_seeds
 from bootcourse.learn.teachers import teacher_policy
 from bootcourse.learn.training import Training
-from bootcourse.research.jobs import HELD_OUT, Interrupted, LessonJob, orphaned
+from bootcourse.research.jobs import HELD_OUT, Interrupted, LessonJob, orphaned, tested_arrays
 from bootcourse.research.plan import LessonExperiment, chosen, folder
-from bootcourse.research.problems import PROBLEMS, Problem
-from bootcourse.research.results import Results, as_arrays
-from bootcourse.research.tables import bracketed
-from bootcourse.statistics import interval, rolling_means
+from bootcourse.research.problems import LANDER, PROBLEMS, Problem, has_box2d
+from bootcourse.research.results import found
 
-SEEDS, TESTS, WINDOW = 10, 100, 20
+TESTS, WINDOW = 100, 20  # held-out episodes; training episodes in a row
 NOBODY = "none"  # the teacher of a method without one
 USABLE = "0.3 log |A|"
 ALONE = {"SAC": ("sac", {}), f"SAC, η = {USABLE}": ("sac", {"target_entropy": USABLE}), "PPO": ("ppo", {})}
@@ -84,29 +82,16 @@ def cell(problem: str, teacher: str, method: str, seeds: int, episodes: int, tes
     def driven(policy):
         return drive_episodes(policy, held_out_seeds(HELD_OUT, tests), None, make_env=one.make_env)
 
-    greedy = [driven(agent.as_policy()) for agent in result.agents]
     drawn = [driven(agent.as_policy(np.random.default_rng(i))) for i, agent in enumerate(result.agents)]
     taught = [] if rule is None else [driven(teacher_policy(rule, None, one.actions))]
-    measured = {}
-    for who, tested in (("drawn", drawn), ("teacher", taught * seeds)):
+    success = result.curves["success"]
+    measured = {"found": found(success, WINDOW), "kept": found(success[:, -WINDOW:], WINDOW)}
+    for who, drives in (("drawn", drawn), ("teacher", taught * seeds)):
         for measure in ("success", "returns"):
-            means = [getattr(each, measure).mean() for each in tested]
+            means = [getattr(each, measure).mean() for each in drives]
             measured[f"{who}_{measure}"] = np.array(means) if means else np.full(seeds, np.nan)
-    measured["found"], measured["kept"] = found_and_kept(result.curves["success"])
-    tested = {name: np.stack([getattr(each, name) for each in greedy]) for name in vars(greedy[0])}
-    agents = [asdict(agent.settings) | {"teacher": teacher} for agent in result.agents]
-    stopped = np.array([result.stopped.get(i, -1) for i in range(seeds)])
-    seconds = np.full(seeds, result.seconds / seeds)
-    return as_arrays(Results(agents, stopped, tested, result.curves, seconds, measured=measured))
-
-
-def found_and_kept(success: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Whether any window of training episodes succeeds in more than half, and whether the last does: each (agents,).
-
-    success: (agents, episodes).
-    """
-    _, means = rolling_means(success, WINDOW, success.shape[1])
-    return (means > 0.5).any(1), means[:, -1] > 0.5
+    arrays = tested_arrays(result, tests, teacher, one.make_env)
+    return arrays | {f"measured.{name}": values for name, values in measured.items()}
 
 
 @dataclass(frozen=True)
@@ -123,8 +108,17 @@ class Elsewhere(LessonExperiment):
 
     def jobs(self, name: str, seeds: int = 0, episodes: int = 0, tests: int = 0) -> list[LessonJob]:
         """One job for each cell. 0: the experiment's own number."""
-        asked = {"seeds": seeds or SEEDS, "episodes": episodes, "tests": tests or TESTS}
-        return [LessonJob(f"{name}/{folder(each)}", self.function, a | asked) for each, a in self.variations.items()]
+        cells = self.variations
+        if not has_box2d():
+            cells = {each: a for each, a in cells.items() if a["problem"] != LANDER}
+            print("Lunar lander is left out, since box2d is not installed: `pip install bootcourse[lander]`.")
+        asked = {"episodes": episodes, "tests": tests or TESTS}
+        return [
+            LessonJob(
+                f"{name}/{folder(each)}", self.function, a | asked | {"seeds": seeds or PROBLEMS[a["problem"]].seeds}
+            )
+            for each, a in cells.items()
+        ]
 
 
 def _cells() -> dict[str, dict]:
@@ -137,24 +131,3 @@ def _cells() -> dict[str, dict]:
 
 
 EXPERIMENT = Elsewhere("bootcourse.research.elsewhere:cell", _cells())
-
-
-def rows(computed: dict[str, Results]) -> tuple[list[str], list[list[str]]]:
-    """(headings, rows): success in % and return of every cell that was computed, a row for each problem and teacher."""
-    table = []
-    for problem, one in PROBLEMS.items():
-        for teacher in one.teachers():
-            cells = {name: computed.get(f"{problem}, {teacher}, {name}") for name in TAUGHT}
-            cells = {name: computed.get(f"{problem}, {NOBODY}, {name}") for name in ALONE} | cells
-            taught = [each.measured for name, each in cells.items() if each is not None and name in TAUGHT]
-            if taught:
-                its = f"{100 * taught[0]['teacher_success'][0]:.0f} ({taught[0]['teacher_returns'][0]:.3g})"
-                table.append([one.name, teacher, its, *(scored(each) for each in cells.values())])
-    return ["problem", "teacher", "the teacher itself", *METHODS], table
-
-
-def scored(results: Results | None) -> str:
-    """ "98 [90, 100] (-120)": success in % with its interval over seeds, and the mean return; "–" if not computed."""
-    if results is None:
-        return "–"
-    return f"{bracketed(interval(results.scores('success')), 100)} ({results.scores('returns').mean():.3g})"
