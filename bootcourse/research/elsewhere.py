@@ -5,20 +5,6 @@ each problem. γ, episodes and the copies driven at once are the same for all me
 demonstrations and both have the library's target entropy -1, and SAC also a usable one, 0.3 log |A|. β and, with α, ξ
 fade: β over the first two thirds of the episodes. An agent has *found* the way if a window of 20 training episodes
 succeeds in more than half, and has *kept* it if the last window does.
-
-Hypotheses, written before any cell was run with more than two seeds:
-
-H1  The bonus helps only where c a step is small beside the reward of success. On DoorKey (c = 2, the goal pays at most
-    1) both with c = 0 succeeds more often than both, with the random teacher too; on MountainCar (-1 a step) it does
-    not matter.
-H2  Cloning averages random errors away where they do not repeat (chain, MountainCar, Acrobot): with the random teacher
-    a clone earns more than the teacher. It copies systematic errors: there it earns no more than the teacher.
-H3  With the systematic teacher soft and both earn more than cloning, because ξ fades and the reward corrects the error.
-H4  The longer the horizon without reward (MountainCar, Acrobot, chain; not CartPole), the more a teacher is worth: SAC
-    with either target entropy succeeds in less than 10 % on MountainCar, and on CartPole the usable one needs no help.
-H5  Soft beats demonstrations alone on every problem with the random teacher: it asks in the states that the agent
-    reaches, and demonstrations say nothing there.
-H6  PPO after cloning is at least as good as cloning on every problem, with every teacher.
 """
 
 import math
@@ -49,6 +35,22 @@ TAUGHT = {
     "PPO after cloning": ("ppo_cloned", {}),
 }
 METHODS = ALONE | TAUGHT
+HYPOTHESES = {  # written before any cell was run with more than two seeds; elsewhere_page.py compares them
+    "H1": "The bonus helps only where c a step is small beside the reward of success. On DoorKey (c = 2, the goal pays "
+    "at most 1) both with c = 0 succeeds more often than both, with the random teacher too; on MountainCar (-1 a step) "
+    "it does not matter.",
+    "H2": "Cloning averages random errors away where they do not repeat (chain, MountainCar, Acrobot): with the random "
+    "teacher a clone earns more than the teacher. It copies systematic errors: there it earns no more than the "
+    "teacher.",
+    "H3": "With the systematic teacher soft and both earn more than cloning, because ξ fades and the reward corrects "
+    "the error.",
+    "H4": "The longer the horizon without reward (MountainCar, Acrobot, chain; not CartPole), the more a teacher is "
+    "worth: SAC with either target entropy succeeds in less than 10 % on MountainCar, and on CartPole the usable one "
+    "needs no help.",
+    "H5": "Soft beats demonstrations alone on every problem with the random teacher: it asks in the states that the "
+    "agent reaches, and demonstrations say nothing there.",
+    "H6": "PPO after cloning is at least as good as cloning on every problem, with every teacher.",
+}
 PPO = {"envs_per_agent": 16, "horizon": 64, "batch": 256, "actor_lr": 1e-3, "critic_lr": 1e-3}
 
 
