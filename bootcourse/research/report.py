@@ -14,6 +14,7 @@ from bootcourse.research import clocks, tables, teacher_worth
 from bootcourse.research import figures as training_figures
 from bootcourse.research.beyond import learner_rows
 from bootcourse.research.equal_decisions import budget_rows, by_method, search_rows
+from bootcourse.research.elsewhere_page import write_page
 from bootcourse.research.fidelity import CLOSE, VERDICTS, fidelity
 from bootcourse.research.jobs import HELD_OUT
 from bootcourse.research.paper import COLUMNS, PRINTED, ROWS, TABLES, arithmetic
@@ -50,6 +51,8 @@ def write_report(found: StudyResults, folder: Path) -> Path:
     text += [tables.fidelity_table(findings), "### What each row's own numbers say\n"]
     text += ["\n".join(f"- **{ROWS[method]}.** {arithmetic(method)}" for method in PRINTED) + "\n"]
     text += experiments_part(found.experiments)
+    if write_page(found.experiments.get("elsewhere", {}), folder):
+        text += ["## Other problems\n", "[When does a sub-optimal teacher help?](elsewhere.md)\n"]
     path = folder / "report.md"
     write_bytes(path, "\n".join(text).encode())
     return path
