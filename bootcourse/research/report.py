@@ -13,8 +13,8 @@ from bootcourse.policies import rule_policy
 from bootcourse.research import clocks, tables, teacher_worth
 from bootcourse.research import figures as training_figures
 from bootcourse.research.beyond import learner_rows
-from bootcourse.research.equal_decisions import budget_rows, by_method, search_rows
 from bootcourse.research.elsewhere_page import write_page
+from bootcourse.research.equal_decisions import budget_rows, by_method, search_rows
 from bootcourse.research.fidelity import CLOSE, VERDICTS, fidelity
 from bootcourse.research.jobs import HELD_OUT
 from bootcourse.research.paper import COLUMNS, PRINTED, ROWS, TABLES, arithmetic

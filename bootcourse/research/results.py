@@ -26,11 +26,10 @@ from bootcourse.storage.assets import FOLDER
 
 MEASURES = ("success", "returns", "speed", "distance", "collision", "road_departure", "stoppage")
 RUN_AGAIN = "run the study again, or restore it from a copy"
-REPORTED = (*EXPERIMENTS, "beyond", "beyond-search")  # experiments of which the report has a table
 KINDS = {"collision": Accident.COLLISION, "road_departure": Accident.ROAD_DEPARTURE, "stoppage": Accident.STOPPAGE}
 OF_AGENTS = ("tested", "curves", "notes", "measured")  # the parts with every agent; weights are kept of the first ones
 PARTS = (*OF_AGENTS, "weights")
-REPORTED = (*EXPERIMENTS, "elsewhere")  # experiments that the report shows
+REPORTED = (*EXPERIMENTS, "beyond-search", "beyond", "elsewhere")  # experiments that the report shows
 WINDOW = 50  # training episodes in a row, in which an agent that has found the way out is ahead more often than not
 
 
