@@ -19,7 +19,7 @@
 # - say what a teacher is worth to a learner, and on what evidence.
 #
 # **Time** 60 minutes, about one of them the machine's. **It builds on** demonstrations (lesson
-# [[learning_from_demonstrations]]), the ablation ([[ablation]]) and PPO ([[the_second_trap]]).
+# [[learning_from_demonstrations]]), the seeds ([[how_many_seeds]]) and PPO ([[the_second_trap]]).
 
 # %%
 import bootcourse as bc
@@ -251,8 +251,8 @@ bc.show(charts.lines(np.arange(20, 121), named, title, "episode", "share"))
 # %% [markdown]
 # ## Round 4: ten seeds of each
 #
-# One training says little (lesson [[ablation]]). So ten agents of each method were trained, and
-# each drove {{ roads() | , }} held-out roads. Before you read the table, read how they were
+# One training says little (lesson [[how_many_seeds]]). So ten agents of each method were trained,
+# and each drove {{ roads() | , }} held-out roads. Before you read the table, read how they were
 # trained. They are our versions of these methods, and they differ from their authors':
 # <!-- claim: {len(later(m)) for m in LATER} == {10} -->
 #
@@ -269,9 +269,9 @@ bc.show(charts.lines(np.arange(20, 121), named, title, "episode", "share"))
 # The budgets differ, too. The discount factor γ is {{ SETTINGS.gamma }} for the paper's method, {{
 # settings_for('ibrl').gamma | g }} for RLPD, IBRL and jump-start RL, and {{
 # settings_for('ppo').gamma | g }} for PPO. The paper's method is the one with two updates for each
-# decision (lesson [[ablation]], round 6). And there is a handicap: RLPD and IBRL aim at an entropy
-# of {{ settings_for('rlpd').target_entropy | g }} nat, which nine actions cannot have, so their
-# temperature falls until nothing explores (lesson [[discrete_sac]]). Jump-start RL aims at {{
+# decision (lesson [[found_and_kept]], round 4). And there is a handicap: RLPD and IBRL aim at an
+# entropy of {{ settings_for('rlpd').target_entropy | g }} nat, which nine actions cannot have, so
+# their temperature falls until nothing explores (lesson [[discrete_sac]]). Jump-start RL aims at {{
 # settings_for('jsrl').target_entropy | g }}.
 # <!-- claim: settings_for('rlpd').target_entropy == settings_for('ibrl').target_entropy ==
 #   later('ibrl').agents[0]['target_entropy'] == -1 < 0 < settings_for('jsrl').target_entropy -->
