@@ -171,10 +171,10 @@ table(headings, rows)
 # | [[demonstrations]] · [](demonstrations.ipynb) | | ● | |
 # | [[soft_constraint]] · [](soft_constraint.ipynb) | ● | ● | ● |
 # | [[learning_from_demonstrations]] · [](learning_from_demonstrations.ipynb) | | ● | ● |
-# | [[ablation]] · [](ablation.ipynb) | | ● | ● |
+# | [[how_many_seeds]] · [](how_many_seeds.ipynb) | | ● | ● |
+# | [[found_and_kept]] · [](found_and_kept.ipynb) | | ● | ● |
 # | [[imitation]] · [](imitation.ipynb) | | ● | ● |
 # | [[offline_learning]] · [](offline_learning.ipynb) | | ● | ● |
-# | [[exploration]] · [](exploration.ipynb) | | ● | ● |
 # | [[bug_hunt]] · [](bug_hunt.ipynb) | | ● | ● |
 # | [[your_teacher]] · [](your_teacher.ipynb) | | ● | |
 # | [[the_second_trap]] · [](the_second_trap.ipynb) | | | ● |

@@ -125,9 +125,9 @@ print(f"In {driven:,} episodes of training, {ahead} ended ahead of trap 1;", end
 print(f"{100 * ended / driven:.0f} % of all ended in an accident.")
 
 # %% [markdown]
-# **See.** Your numbers will differ from another machine's. The study of lesson [[ablation]] trained
-# ten agents with γ = {{ SETTINGS.gamma }} for {{ of('sac').curves['success'].shape[1] | , }}
-# episodes each: {{ escaped('sac') }} of them escapes. How close was your prediction?
+# **See.** Your numbers will differ from another machine's. The study of lesson [[how_many_seeds]]
+# trained ten agents with γ = {{ SETTINGS.gamma }} for {{ of('sac').curves['success'].shape[1] | ,
+# }} episodes each: {{ escaped('sac') }} of them escapes. How close was your prediction?
 # <!-- claim: escaped('sac') == 1 and len(of('sac')) == 10 -->
 #
 # Compare the returns with {{ idle().rewards.sum() | .1f }}, the return of doing nothing (lesson
@@ -211,8 +211,8 @@ table(headings, rows, below="Discounted sums from the start, means of four roads
 # leaves the trap, and it is worth more than the best one that it found in the lane. That does not
 # yet answer the question for a learner, which sees 26 numbers and not the future.
 #
-# Trained agents answer it. In lesson [[ablation]]'s study some agents learned to escape, with γ =
-# 0.8 and with the rule's help, and they see the same 26 numbers. Take the
+# Trained agents answer it. In lesson [[how_many_seeds]]'s study some agents learned to escape, with
+# γ = 0.8 and with the rule's help, and they see the same 26 numbers. Take the
 # {{ len(discounted_scores('soft')) }} that come with this course and had one kind of help, the soft
 # constraint of Round 5. On 200 **held-out** roads, which were not used in training, they earn
 # {{ discounted_scores('soft').min() | .2f }} to {{ discounted_scores('soft').max() | .2f }} in
@@ -615,8 +615,8 @@ table(["", "our agents that escape (95 % interval of the rate)"], rows)
 # three. Suppose that the rule's help makes no difference, and that three of the six agents escape.
 # Then chance decides which three. There are {{ math.comb(6, 3) }} ways to pick three of six, and in
 # two of them the three are of one kind: even three of three against none of three comes about by
-# chance once in {{ math.comb(6, 3) // 2 }} times. The study behind lesson [[ablation]] trains ten
-# agents of each kind.
+# chance once in {{ math.comb(6, 3) // 2 }} times. The study behind lesson [[how_many_seeds]] trains
+# ten agents of each kind.
 # <!-- claim: len(of('bootstrapped')) == len(of('sac')) == 10 -->
 # <!-- claim: math.isclose(stats.fisher_exact([[3, 0], [0, 3]]).pvalue, 2 / math.comb(6, 3)) -->
 
@@ -683,10 +683,10 @@ compare_predictions(
 # - *Which aid carries more?* Of ten agents each, {{ escaped('soft') }} escape with the soft
 #   constraint alone and {{ escaped('demos') }} with the demonstrations alone. Two agents in a
 #   notebook are too few to show that. And the order depends on how often one updates: lesson
-#   [[ablation]].
+#   [[found_and_kept]].
 # - *Do all seeds keep it?* No: {{ losing('bootstrapped').sum() }} of the study's ten lose 20 points
 #   of success or more around episode 1,000, where β ends. Most of these recover (lesson
-#   [[ablation]]). By then α, and with it ξ, is almost 0.
+#   [[found_and_kept]]). By then α, and with it ξ, is almost 0.
 # <!-- claim: losing('bootstrapped').sum() > 0 -->
 # <!-- claim: 2 * (losing('bootstrapped') & (in_training('bootstrapped', -100, None)
 #   > in_training('bootstrapped', 900, 1100) + 0.2)).sum() > losing('bootstrapped').sum() -->

@@ -486,8 +486,8 @@ bc.show(bc.traces(list(fast.values()), title=title, what=("speed", "distance", "
 # what the cloned agents earn, and in most of their decisions they do something else. It put the
 # learner on the other side of the barrier. From there on the reward was enough: speed pays more on
 # a free road than behind trap 1, and PPO found out how. That is the paper's idea in its shortest
-# form. The soft constraint and the demonstrations of lessons [[soft_constraint]] to [[ablation]] do
-# the same for a learner that needs an aid for longer.
+# form. The soft constraint and the demonstrations of lessons [[soft_constraint]] and
+# [[demonstrations]] do the same for a learner that needs an aid for longer.
 
 # %% [markdown] tags=["instructor"] minutes=6
 # Ask which of the course's figures would have looked the same for the second trap: those that
