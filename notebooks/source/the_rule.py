@@ -19,7 +19,7 @@
 #   traps, and how we read it instead;
 # - find out by an experiment why the rule is slow, and say what a stochastic rule is good for.
 #
-# **Time** 45 minutes, under one of them the machine's. **It builds on**
+# **Time** 40 minutes, under one of them the machine's. **It builds on**
 # [lesson [[the_trap]]](the_trap.ipynb).
 
 # %%
@@ -28,7 +28,7 @@ import dataclasses
 import bootcourse as bc
 import numpy as np
 from bootcourse.course import charts, check, compare_predictions, predict, source, table
-from bootcourse.course.lessons.the_rule import figures, tracking
+from bootcourse.course.lessons.the_rule import figures
 from bootcourse.road.state import EGO, LANE, SPEED
 
 # %% [markdown]
