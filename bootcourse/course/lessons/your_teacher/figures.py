@@ -21,9 +21,9 @@ from bootcourse.plots.figure import (
     plain_axes,
 )
 from bootcourse.research.beyond import lengths
+from bootcourse.research.jobs import HELD_OUT
 from bootcourse.research.plan import TAUGHT
 from bootcourse.research.teacher_worth import QUANTITIES, Cells, in_words
-from bootcourse.research.jobs import HELD_OUT
 from bootcourse.research.teachers import PLANNER, TEACHERS
 
 ROW, HEAD, FOOT, NAMES = 0.42, 0.85, 0.6, 1.75  # inches
