@@ -31,6 +31,7 @@ ELECTIVES = (
     "your_teacher",
     "the_second_trap",
     "beyond_the_paper",
+    "your_own_problem",
 )
 APPENDIX = ()
 LESSONS = COURSE + ELECTIVES + APPENDIX
