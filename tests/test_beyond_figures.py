@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bootcourse.course.lessons.ablation.figures import two_clocks
-from bootcourse.course.lessons.beyond_the_paper.figures import teacher_value
+from bootcourse.course.lessons.your_teacher.figures import teacher_value
 from bootcourse.course.shipped import shipped_experiment, shipped_teachers
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import settings_for, with_seeds

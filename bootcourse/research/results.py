@@ -29,7 +29,7 @@ RUN_AGAIN = "run the study again, or restore it from a copy"
 KINDS = {"collision": Accident.COLLISION, "road_departure": Accident.ROAD_DEPARTURE, "stoppage": Accident.STOPPAGE}
 OF_AGENTS = ("tested", "curves", "notes", "measured")  # the parts with every agent; weights are kept of the first ones
 PARTS = (*OF_AGENTS, "weights")
-REPORTED = (*EXPERIMENTS, "elsewhere")  # experiments that the report shows
+REPORTED = (*EXPERIMENTS, "beyond-search", "beyond", "elsewhere")  # experiments that the report shows
 WINDOW = 50  # training episodes in a row, in which an agent that has found the way out is ahead more often than not
 
 
@@ -159,7 +159,8 @@ def load_results(path: Path) -> Results:
         agents = []
         for agent in stored:
             teacher = str(agent.pop("teacher"))
-            agents += agent_entries([stored_settings(agent)], teacher)
+            rule = agent.get("method") == "rule"  # it has no settings
+            agents += [agent | {"teacher": teacher}] if rule else agent_entries([stored_settings(agent)], teacher)
     parts = {part: _part(arrays, part) for part in PARTS}
     n, tests = len(agents), [each.shape[1:2] for each in parts["tested"].values()][:1]
     shapes = {f"tested.{f.name}": (n, *tests[0]) for f in fields(Episodes)} if tests else {}

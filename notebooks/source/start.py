@@ -178,7 +178,7 @@ table(headings, rows)
 # | [[bug_hunt]] · [](bug_hunt.ipynb) | | ● | ● |
 # | [[your_teacher]] · [](your_teacher.ipynb) | | ● | |
 # | [[the_second_trap]] · [](the_second_trap.ipynb) | | | ● |
-# | [[beyond_the_paper]] · [](beyond_the_paper.ipynb) | | | ● |
+# | [[other_ways]] · [](other_ways.ipynb) | | | ● |
 #
 # Each lesson opens on its own, says what it builds on, and runs in about a minute. In its
 # exercises you write some lines, and a check says what is wrong with them in plain words;

@@ -545,4 +545,4 @@ compare_predictions(
 #
 # **Try**: `bc.board()` shows the methods of the course on the same {{ roads() | , }} roads, by
 # return, and `bc.board("runs/mine")` puts your own agents among them. Next: [beyond the
-# paper](beyond_the_paper.ipynb), the learners that it does not train.
+# paper](other_ways.ipynb), the learners that it does not train.

@@ -627,9 +627,8 @@ bc.show(diagrams.sac_diagram())
 # - The observation holds nothing of the past. Which two situations on this road give the same
 #   observation, but call for different actions?
 #
-# **Read on**: the next lesson is about the other cars, and [the one after it](the_rule.ipynb)
-# explains the controller that finds a way out. On the evening route, go to [lesson
-# [[the_barrier]]](the_barrier.ipynb). highway-env, the simulator under this road: Leurent, *An
+# **Read on**: [the next lesson](discrete_sac.ipynb) builds the learner. On the evening route, go to
+# [lesson [[the_barrier]]](the_barrier.ipynb). highway-env, the simulator under this road: Leurent, *An
 # Environment for Autonomous Driving Decision-Making* (2018). MDPs from the beginning: Sutton and
 # Barto, *Reinforcement Learning* (2nd edition, 2018), chapter 3.
 

@@ -85,7 +85,7 @@ table(["problem", "it pays", "rule", "γ"], rows)
 
 # %%
 def climb_rule(position, speed):
-    """0: push left, 1: not at all, 2: right. position: -1.2 to 0.6, the flag is at 0.5; speed: + is to the right."""
+    """0: push left, 1: not at all, 2: right. position: the flag is at 0.5; speed: + to the right."""
     # solution: the exercise's own
 
 
@@ -133,7 +133,7 @@ predict("your_own_problem.2", "The clone of the random teacher reaches the flag"
 
 # %%
 def majority_right(right, votes):
-    """P(the majority of `votes` labels is right), each right with probability `right`; a tie counts half."""
+    """P(the majority of `votes` labels is right), each right in a share `right`; a tie counts half."""
     # solution
     from math import comb
 
@@ -175,8 +175,8 @@ table(["MountainCar, success in %", *headings], rows)
 #
 # ## Round 3: which one wins?
 #
-# > **Predict.** The systematic teacher of MountainCar: cloning, the soft constraint, demonstrations,
-# > or both? Which reaches the flag most often? Say why before you commit.
+# > **Predict.** The systematic teacher of MountainCar: cloning, the soft constraint,
+# > demonstrations, or both? Which reaches the flag most often? Say why before you commit.
 
 # %%
 four = ["cloning", "soft", "demonstrations", "both"]
@@ -266,10 +266,10 @@ table(["drive", "it ends in", "which takes", "return", "with c = 2"], rows)
 # The teacher errs in a state *whenever it comes back to it*, so some of its drives turn in circles
 # to the end. Such a demonstration is worth 200 with the bonus.
 #
-# **Exercise (18 min, ●●●).** A loop earns `reward` + c in each decision, for ever: time that is over
-# does not terminate. The way to the goal takes `decisions` decisions that earn `reward` each, the
-# last one also `goal`; then the episode ends. The first `shown` of them are in the demonstrations
-# and earn c, too. At which c are both worth the same, discounted?
+# **Exercise (18 min, ●●●).** A loop earns `reward` + c in each decision, for ever: time that is
+# over does not terminate. The way to the goal takes `decisions` decisions that earn `reward` each,
+# the last one also `goal`; then the episode ends. The first `shown` of them are in the
+# demonstrations and earn c, too. At which c are both worth the same, discounted?
 
 
 # %%
@@ -292,19 +292,21 @@ table(["DoorKey, success in %", *headings], rows)
 
 # %% [markdown]
 # **See.** With c = 2 and the random teacher, {{ 100 * score('doorkey', 'random', 'both') | .0f }} %
-# of the test episodes reach the goal; without the bonus {{ 100 * score('doorkey', 'random', 'both, c
-# = 0') | .0f }} %, and {{ 100 * score('doorkey', 'random', 'both, c = 0', 'drawn_success') | .0f }}
-# % by drawn actions, which leave a circle that the most probable ones repeat.
-# <!-- claim: score('doorkey', 'random', 'both') < 0.05 < 0.3 < score('doorkey', 'random', 'both, c =
-#   0') < 0.7 < score('doorkey', 'random', 'both, c = 0', 'drawn_success') -->
+# of the test episodes reach the goal; without the bonus {{ 100 * score('doorkey', 'random', 'both,
+# c = 0') | .0f }} %, and {{ 100 * score('doorkey', 'random', 'both, c = 0', 'drawn_success') | .0f
+# }} % by drawn actions, which leave a circle that the most probable ones repeat.
+# <!-- claim: score('doorkey', 'random', 'both') < 0.05 < 0.3 <
+#   score('doorkey', 'random', 'both, c = 0') < 0.7 <
+#   score('doorkey', 'random', 'both, c = 0', 'drawn_success') -->
 # <!-- claim: score('doorkey', 'random', 'both') < score('doorkey', 'random', 'SAC') -->
 #
 # **Explain.** If the whole way is shown, the limit is c = (1 − γ) · goal / γ − reward. Here that is
-# {{ drowning_bonus(0, 1, 1, 1, 0.97) | .3f }}, and the bonus is 2. On MountainCar, at −1 a decision,
-# it is 1. There the bonus is above the limit, too; but a drive of MountainCar hardly ever returns to
-# the same state, so its demonstrations hold no circle to learn from. Even the good teacher's
-# demonstrations alone fail on DoorKey: an agent can step back and walk the shown way again, and half
-# of its decisions earn 2. We think that this is what happens; the figure shows only that it fails.
+# {{ drowning_bonus(0, 1, 1, 1, 0.97) | .3f }}, and the bonus is 2. On MountainCar, at −1 a
+# decision, it is 1. There the bonus is above the limit, too; but a drive of MountainCar hardly ever
+# returns to the same state, so its demonstrations hold no circle to learn from. Even the good
+# teacher's demonstrations alone fail on DoorKey: an agent can step back and walk the shown way
+# again, and half of its decisions earn 2. We think that this is what happens; the figure shows only
+# that it fails.
 # <!-- claim: score('doorkey', 'good', 'demonstrations') < 0.1 -->
 
 # %% [markdown] tags=["instructor"] minutes=6

@@ -502,7 +502,7 @@ table(headings, rows)
 # place that the learner does not find alone, and does the learner stop following it afterwards?
 #
 # What seven teachers, the planner among them, are worth to several learners stands in round 5 of
-# [lesson [[beyond_the_paper]]](beyond_the_paper.ipynb).
+# [lesson [[other_ways]]](other_ways.ipynb).
 # <!-- claim: len({teacher for teacher, _ in shipped.shipped_teachers()}) == 7 -->
 
 # %% [markdown] tags=["instructor"] minutes=10
