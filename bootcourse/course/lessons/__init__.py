@@ -31,6 +31,7 @@ ELECTIVES = (
     "the_second_trap",
     "looking_ahead",
     "other_ways",
+    "your_own_problem",
 )
 APPENDIX = ("traffic",)
 LESSONS = COURSE + ELECTIVES + APPENDIX
