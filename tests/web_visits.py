@@ -39,16 +39,25 @@ def child(visit, picture):
 
 
 def phone(visit, picture):
-    """Holds the page in one hand and follows the bold trail with a thumb, step by step, for 30 seconds."""
-    with visit("#road=3&pace=0&futures=1", width=390, height=844) as page:
-        for _ in range(30):
+    """Holds the page in one hand and follows the bold trail with a thumb, step by step, until the drive ends."""
+    with visit("#road=3&pace=0&futures=1", width=390, height=844, reduced_motion="reduce") as page:
+        touch(page, page.page.locator("#view"))
+        yield f"in 3D: {page.page.locator('#scene').is_visible()}"
+        for second in range(150):
+            if page.page.evaluate("trap.game.finished"):
+                break
             best = page.page.evaluate("largest(trap.game.futures.map(each => each.value))")
             touch(page, page.page.locator("#pad button").nth([6, 7, 8, 3, 4, 5, 0, 1, 2].index(best)))
-            page.page.wait_for_function("() => !trap.game.running && trap.game.controls.idle")
-        yield page.page.evaluate("`after ${trap.game.drive.time} s: ${stateInWords(trap.game.drive.cars)}`")
-        touch(page, page.page.locator("#view"))
-        yield f"in 3D: {page.page.locator('#scene').is_visible()}, errors: {page.errors}"
+            page.page.wait_for_function(f"() => trap.game.drive.time === {second + 1} && !trap.game.running")
+            if second == 29:
+                yield page.page.evaluate("`after ${trap.game.drive.time} s: ${stateInWords(trap.game.drive.cars)}`")
+                picture(page, "-3d")
+                touch(page, page.page.locator("#view"))
+                picture(page, "-above")
+        yield words(page)
         picture(page)
+        touch(page, page.page.locator("#end-again"))
+        yield f"again: {page.page.evaluate('trap.game.drive.time')} s driven, errors: {page.errors}"
 
 
 def touch(page, element) -> None:
@@ -157,6 +166,10 @@ def speed(visit, picture):
         yield f"decisions a second: {here:,.0f} in Chromium; numba {one:,.0f} with 1 road, {many:,.0f} with 256"
 
 
+def photograph(folder: Path, name: str, page, moment: str = "") -> None:
+    page.page.screenshot(path=folder / f"{name}{moment}.png")
+
+
 VISITS = (speed, child, phone, keyboard, sceptic, lecturer)
 
 
@@ -164,7 +177,7 @@ def main(path: Path, folder: Path, *names: str) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     with open_browser(offline=True) as new_page:
         for visitor in (each for each in VISITS if not names or each.__name__ in names):
-            picture = lambda page, name=visitor.__name__: page.page.screenshot(path=folder / f"{name}.png")  # noqa: E731
+            picture = partial(photograph, folder, visitor.__name__)
             print(f"\n{visitor.__name__}: {visitor.__doc__}", flush=True)
             for line in visitor(partial(opened, new_page, path), picture):
                 print(f"- {line}", flush=True)

@@ -14,7 +14,7 @@ function askedFor(text, drivers, now) {
       fault(`The address has “${name}”, which is unknown: it takes ${listed(["road", ...Object.keys(choices)])}.`);
     } else if (name === "road" ? isRoad(value) : choices[name].includes(value)) wanted[name] = value;
     else if (name === "road") fault(noRoad(value));
-    else fault(`“${value}” is not a ${name}, so it is ${now[name]}: choose ${listed(choices[name])}.`);
+    else fault(`“${name}” cannot be “${value}”, so it is ${now[name]}: choose ${listed(choices[name])}.`);
   }
   return { wanted, faults };
 }
