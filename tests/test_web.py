@@ -1,6 +1,9 @@
 """The page that drives: the compiled road, the agents and the game in Chromium."""
 
+import base64
+import gzip
 import json
+import re
 from functools import partial
 
 import numpy as np
@@ -43,8 +46,10 @@ def path(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def module():
-    return wasm.road_module()
+def module(path):
+    """The compiled road, out of the page: one compilation serves all tests."""
+    data = re.search(r'<script type="application/json" id="data">(.*?)</script>', path.read_text(encoding="utf-8"))
+    return gzip.decompress(base64.b64decode(json.loads(data[1])["module"]))
 
 
 @pytest.fixture(scope="module")

@@ -154,6 +154,7 @@ class Game {
 
   setPace(pace) {
     this.pace = [0, 1, 2, 5].includes(pace) ? pace : 1;
+    document.documentElement.style.setProperty("--pace", Math.max(this.pace, 1));
     for (const button of document.querySelectorAll("[data-pace]")) {
       button.setAttribute("aria-pressed", Number(button.dataset.pace) === this.pace);
     }
