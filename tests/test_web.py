@@ -313,16 +313,19 @@ def test_who_follows_the_third_hint_to_the_letter_or_a_second_late_gets_out_on_2
     assert not driven_by_the_hint(0, **way | {"wait": 0})  # less steering does not: the hint matters
 
 
-def test_more_xi_takes_sac_out_of_the_trap(visit):
+def test_xi_does_what_the_page_says_of_0_and_5_and_100(visit):
     with visit() as page:
-        out = page.page.evaluate(
+        ends = page.page.evaluate(
             """strengths => strengths.map(xi => {
                 trap.game.settings.xi = xi;
-                return new Drive(trap.game.road, 10).finish(trap.game.drivers.soft).outAfter !== null;
+                const drives = Array.from({ length: 10 }, (_, seed) => (
+                    new Drive(trap.game.road, seed).finish(trap.game.drivers.soft)));
+                return { out: drives.filter(drive => drive.outAfter !== null && !drive.accident).length,
+                    accidents: drives.filter(drive => drive.accident).length };
             })""",
-            [0, 5],
+            [0, 5, 100],
         )
-        assert out == [False, True]
+        assert ends == [{"out": 0, "accidents": 0}, {"out": 0, "accidents": 10}, {"out": 10, "accidents": 0}]
         page.page.locator("#xi").fill("12")
         assert state(page)["ghostName"] == "soft"  # whoever moves the slider sees what it does
         assert "π" in page.page.locator("#thoughts").inner_text()

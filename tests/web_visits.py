@@ -100,7 +100,7 @@ def sceptic(visit, picture):
 def lecturer(visit, picture):
     """Shows on a projector what ξ does: moves the slider, and lets the compromise drive."""
     with visit("#road=10&driver=soft&ghost=sac", width=1920, height=1080) as page:
-        for place in ("0", "6", "9", "13"):
+        for place in ("0", "6", "12", "16"):
             page.page.locator("#xi").fill(place)
             page.page.keyboard.press("5")
             page.page.locator("#go").click()
