@@ -143,7 +143,8 @@ class View {
   // The sign of a car that is not in the picture: where, and how far.
   signAway(name, away, colour) {
     const words = `${away > 0 ? "▲" : "▼"} ${name}, ${Math.abs(away).toFixed(0)} m`;
-    this.sign(words, this.width / 2, away > 0 ? 62 : this.height - 18, colour);
+    const below = this.width < 480 ? 100 : 18; // on a phone above the dials, which leave no room between them
+    this.sign(words, this.width / 2, away > 0 ? 62 : this.height - below, colour);
   }
 
   // Words in a frame, in the middle above (x, y) or to its left.
