@@ -99,10 +99,10 @@ def _bootstrap(samples: Sequence, statistic, seed: int) -> Estimate:
         return Estimate(value, float("nan"), float("nan"))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", scipy.stats.DegenerateDataWarning)
-        found = scipy.stats.bootstrap(
+        resampled = scipy.stats.bootstrap(
             samples, statistic, method="percentile", n_resamples=RESAMPLES, batch=1000, rng=np.random.default_rng(seed)
         )
-    return Estimate(value, *map(float, found.confidence_interval))
+    return Estimate(value, *map(float, resampled.confidence_interval))
 
 
 def escapes(success: np.ndarray) -> Estimate:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bootcourse.course.lessons.beyond_the_paper.figures import teacher_value
+from bootcourse.course.lessons.your_teacher.figures import teacher_value
 from bootcourse.course.shipped import shipped_teachers
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import settings_for, with_seeds

@@ -29,7 +29,9 @@ ELECTIVES = (
     "bug_hunt",
     "your_teacher",
     "the_second_trap",
-    "beyond_the_paper",
+    "looking_ahead",
+    "other_ways",
+    "your_own_problem",
 )
 APPENDIX = ("traffic",)
 LESSONS = COURSE + ELECTIVES + APPENDIX
