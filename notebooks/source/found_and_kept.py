@@ -279,18 +279,8 @@ table(headings, rows)
 predict("found_and_kept.4", "Two updates for each decision: which aid fades first?", ["ξ", "β"])
 
 # %%
-cells, drawn = clocks.cells(shipped.shipped_experiment("clocks")), slice(0, 1200, 10)
-named = {}
-for updates in ("1/4", "1", "2", "4"):
-    xi = cells[updates, "μ"].of("soft").curves["xi"]
-    named[f"ξ, {updates} updates"] = np.median(xi / xi[:, :1], axis=0)[drawn]
-one = bc.settings_for("demos")
-x = np.arange(1200)[drawn]
-shares = [bc.bootstrap.demonstration_share(each, one.beta_start, gone) for each in x]
-named["β"] = np.array(shares) / one.beta_start
-title = "More updates for a decision: ξ fades earlier, β does not"
-labels = "training episode", "part of its start, median agent"
-bc.show(charts.lines(x, named, title, *labels, logarithmic="y", limits=(1e-3, 1.3)))
+cells = clocks.cells(shipped.shipped_experiment("clocks"))
+bc.show(figures.fading(cells))
 
 # %% [markdown]
 # So with few updates the soft constraint should carry the learning, and with many updates the

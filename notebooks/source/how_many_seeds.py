@@ -409,18 +409,17 @@ settings = {
     "changed": bc.settings_for("bootstrapped", **CHANGE),
 }
 mine = bc.compare(settings, seeds=5, episodes=150, tests=200)
-bc.show(mine.figure("Five agents as they are, and five with one number changed"))
 
 # %%
 as_it_is, changed = (100 * mine.scores(name, "success") for name in settings)
 effect = bc.statistics.difference(changed, as_it_is)
 rows = [
-    [name, ", ".join(f"{each:.0f}" for each in sorted(group))]
+    [name, f"{bc.statistics.iqm(group):.0f}", ", ".join(f"{each:.0f}" for each in sorted(group))]
     for name, group in (("as it is", as_it_is), (str(CHANGE), changed))
 ]
 words = f"Changed less unchanged: {tables.bracketed(effect)} points. The interval "
 words += "holds 0." if effect.low <= 0 <= effect.high else "does not hold 0."
-table(["success, %", "the agents, sorted"], rows, below=words)
+table(["success, %", "IQM", "the agents, sorted"], rows, below=words)
 
 # %% [markdown]
 # **Explain.** (Yours will differ from ours.) You may say only whether these five learned earlier,

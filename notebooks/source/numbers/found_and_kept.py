@@ -4,6 +4,7 @@ from functools import cache
 from typing import NamedTuple
 
 import numpy as np
+from bootcourse.course.lessons.found_and_kept.figures import half_found
 from bootcourse.research import clocks as study_clocks
 from bootcourse.research.results import WINDOW, Results  # noqa: F401 (the text names it)
 from bootcourse.rule import stochastic_rule
@@ -31,11 +32,9 @@ def clocks_run_down(updates: str) -> float:
     return study_clocks.faded(clocks()[updates, "π̃"].of("soft").curves["xi"])
 
 
-def clocks_out(updates: str) -> float:
-    """The first 50 episodes in a row, by their end, in which a soft agent is ahead in most: the median of ten."""
-    success = clocks()[updates, "π̃"].of("soft").curves["success"]
-    most = np.array([np.convolve(curve, np.ones(50) / 50, "valid") > 0.5 for curve in success])
-    return float(np.median(np.where(most.any(1), most.argmax(1) + 50, success.shape[1])))
+def clocks_out(updates: str) -> int:
+    """The episode by which half of the soft agents have found the way out."""
+    return half_found(clocks()[updates, "π̃"].of("soft"))
 
 
 class Counted(NamedTuple):

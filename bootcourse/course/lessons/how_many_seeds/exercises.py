@@ -73,9 +73,6 @@ def power_cases(rng):
         "table says True.",
     ),
     mistakes={
-        "n = len(shown) - 1 -> n = len(shown)":
-            "You take one agent too many: n agents have n + 1 possible counts, 0 to n, and the table has a row for "
-            "each.",
         "np.sum(np.outer(k, j)[shown]) -> np.mean(shown)":
             "You count all pairs of counts alike. Weigh each with its chance at these two rates.",
         "np.sum(np.outer(k, j)[shown]) -> np.sum(np.outer(k, j)[~shown])":
