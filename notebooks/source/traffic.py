@@ -214,8 +214,8 @@ table(["speed", "wants s*", "settles at"], rows)
 # differently. The ring has two stable states there.
 
 # %% [markdown]
-# The cars also change lane, by a rule called **MOBIL**: a driver changes if that is safe, and if its
-# own gain in acceleration, plus a politeness p times the gains of its new and its old follower,
+# The cars also change lane, by a rule called **MOBIL**: a driver changes if that is safe, and if
+# its own gain in acceleration, plus a politeness p times the gains of its new and its old follower,
 # exceeds a threshold. `bootcourse.road.traffic.worth_changing` is this line.
 
 # %% [markdown]
