@@ -298,9 +298,9 @@ predict("demonstrations.6", "The worst case grows by a factor of", ["less than 2
 #
 # </details>
 #
-# Errors that lead to more errors are called **compounding errors**. First a driver that knows how to
-# come back: the rule itself, which errs with probability ε at each decision. In which share of 200
-# drives has it had an accident after T seconds?
+# Errors that lead to more errors are called **compounding errors**. First a driver that knows how
+# to come back: the rule itself, which errs with probability ε at each decision. In which share of
+# 200 drives has it had an accident after T seconds?
 
 # %%
 # NBVAL_CHECK_OUTPUT
