@@ -231,9 +231,6 @@ table(["γ", "staying", "the rule's way", "which is worth more on"], rows)
 # <!-- claim: (tested("the rule's way").values(0.8) < tested('stays').values(0.8)).all() -->
 # <!-- claim: (tested("the rule's way").values(0.99) > tested('stays').values(0.99)).all() -->
 # <!-- claim: tested("the rule's way").ahead.all() -->
-#
-# These are values of *drives*: the rule decides in every second. A critic's Q(s, a) asks what
-# action a is worth if the *agent's own policy* decides afterwards.
 
 # %% [markdown] tags=["instructor"] minutes=10
 # The planner's number is a lower bound on the best (a beam of 50 can miss the best drive). So "best
@@ -381,9 +378,7 @@ for name, policies in groups.items():
 table(["", "coverage", "ahead and unhurt"], rows)
 
 # %% [markdown]
-# **See.** Compare the two columns. Being in many places is not the same as getting through: a
-# random driver is soon everywhere near its start, and crashes there, while a plan that passes
-# through a few fields gets out.
+# **See.** Compare the two columns: being in many places is not the same as getting through.
 
 # %% [markdown]
 # ## Round 4: what gets a learner across a barrier of five states?
