@@ -500,9 +500,9 @@ table(["without", *(f"seed {seed}" for seed in range(SEEDS))], rows, "Pushes, of
 #
 # What do the other rows say? Compare the spread of the seeds *within* a row with the difference
 # between rows. Where the first is as large as the second, three agents do not show that a part is
-# useless, nor that it helps: lesson [[ablation]] works out how many would. On larger tasks all
-# three have been shown to matter (Fujimoto et al. for the critics and the copies, Haarnoja et al.
-# for the entropy).
+# useless, nor that it helps: lesson [[how_many_seeds]] works out how many would. On larger tasks
+# all three have been shown to matter (Fujimoto et al. for the critics and the copies, Haarnoja et
+# al. for the entropy).
 #
 # Do your parts make the same update as the library's, which trains many agents at once? The next
 # cell compares losses and gradients on one batch.

@@ -401,7 +401,7 @@ table(["after updates", "printed filter on, % (three seeds)", "usual filter on, 
 # <!-- claim: settings_for('margin_soft').paper_q_filter -->
 #
 # "On its own" holds for this study, which makes a quarter of an update for each decision (lesson
-# [[ablation]]).
+# [[found_and_kept]]).
 
 # %% [markdown] tags=["instructor"] minutes=8
 # `settings_for("margin")` and `settings_for("margin", paper_q_filter=False)` train the two. Let the

@@ -85,14 +85,15 @@ bc.panels.drive_panel(seed=10)
 # | [[demonstrations]] · [](demonstrations.ipynb) | | ● | |
 # | [[soft_constraint]] · [](soft_constraint.ipynb) | ● | ● | ● |
 # | [[learning_from_demonstrations]] · [](learning_from_demonstrations.ipynb) | | ● | ● |
-# | [[ablation]] · [](ablation.ipynb) | | ● | ● |
+# | [[how_many_seeds]] · [](how_many_seeds.ipynb) | | ● | ● |
+# | [[found_and_kept]] · [](found_and_kept.ipynb) | | ● | ● |
 # | [[imitation]] · [](imitation.ipynb) | | ● | ● |
 # | [[offline_learning]] · [](offline_learning.ipynb) | | ● | ● |
-# | [[exploration]] · [](exploration.ipynb) | | ● | ● |
 # | [[bug_hunt]] · [](bug_hunt.ipynb) | | ● | ● |
 # | [[your_teacher]] · [](your_teacher.ipynb) | | ● | |
 # | [[the_second_trap]] · [](the_second_trap.ipynb) | | | ● |
-# | [[beyond_the_paper]] · [](beyond_the_paper.ipynb) | | | ● |
+# | [[looking_ahead]] · [](looking_ahead.ipynb) | | | ● |
+# | [[other_ways]] · [](other_ways.ipynb) | | | ● |
 # | [[traffic]] · [](traffic.ipynb) | | | |
 #
 # Each lesson opens on its own, says what it builds on, and runs in about a minute. In its
