@@ -408,7 +408,7 @@ table(["p", "without an accident (500 roads)"], rows)
 # - The traps react to the car ahead of them. What should the rule look at if they reacted to cars
 #   beside them, too?
 #
-# **Read on**: in the next lessons an agent learns alone, and then with the help of this rule. The
+# **Read on**: the [next lesson](demonstrations.ipynb) learns from this rule's drives. The
 # idea of a safety distance that grows with speed is old: Gipps, *A behavioural car-following
 # model* (1981).
 

@@ -243,6 +243,15 @@ table(["then accelerate", "gets out", "trap 2 at 4.85 m or more", "below 4.85 m"
 # %% [markdown]
 # ## Round 3: what you see
 #
+# A program can learn to drive by trying. Once a second it gets an **observation**, numbers that
+# describe what it sees. It chooses one of the nine actions. A second later it gets a **reward**,
+# one number: a little for speed, {{ DEFAULT.reward.accident }} for an accident. Then the next
+# second begins. Such a program is called an *agent*.
+
+# %%
+bc.show(diagrams.agent_loop(observation="26 numbers", action="one of nine", reward="one number"))
+
+# %% [markdown]
 # An agent does not get a picture. Its observation is {{ DEFAULT.observation_size }} numbers: six
 # about itself, then five about each of the four nearest cars within {{ DEFAULT.sight.distance }} m.
 # A missing car is five zeros. Each number is divided by a fixed scale, so that it is of order one.
@@ -357,7 +366,8 @@ check.reward(reward)
 predict("the_trap.5", "What does doing nothing earn in 150 s?", unit="")
 
 # %% [markdown]
-# And this is what doing nothing earned on road {{ ROAD }}:
+# The **return** is the sum of an episode's rewards. This is the return of doing nothing on road
+# {{ ROAD }}:
 
 # %%
 # NBVAL_CHECK_OUTPUT
@@ -388,15 +398,6 @@ print(f"return {idle.rewards.sum():.4f}, distance {idle.distance:.0f} m, success
 # %% [markdown]
 # ## Round 5: watch a program learn
 #
-# A program can learn to drive by trying. Once a second it gets an **observation**, numbers that
-# describe what it sees. It chooses one of the nine actions. A second later it gets a **reward**,
-# one number: a little for speed, {{ DEFAULT.reward.accident }} for an accident. Then the next
-# second begins. Such a program is called an *agent*.
-
-# %%
-bc.show(diagrams.agent_loop(observation="26 numbers", action="one of nine", reward="one number"))
-
-# %% [markdown]
 # The agent chooses by its **policy**: a function that gives each action a probability. At first
 # the nine are about equally probable, and the agent drives at random. To *learn* means: the agent
 # remembers what it tried and what that paid, and changes the numbers inside its policy a little,
@@ -404,9 +405,9 @@ bc.show(diagrams.agent_loop(observation="26 numbers", action="one of nine", rewa
 # **update**. The agent is not told what a lane is. Learning from rewards in this way is
 # *reinforcement learning*.
 #
-# Below, four agents learn for about 20 seconds. Two learn alone (*plain SAC*). Two get help from
-# the rule that you have just seen (*bootstrapped SAC*): they see some of its drives, and pay a
-# little for actions that the rule would hardly take.
+# Below, four agents learn for about 20 seconds by a method called SAC, *soft actor-critic*, which
+# the next lesson builds. Two learn alone (*plain SAC*). Two get help from the rule (*bootstrapped
+# SAC*): they see some of its drives, and pay a little for actions that the rule would hardly take.
 
 # %% tags=["nbval-ignore-output"]
 agents = bc.with_seeds(bc.settings_for("sac"), 2) + bc.with_seeds(
@@ -418,8 +419,8 @@ live = live_curves.LiveCurves(every=2)
 learned = training.run(progress=False, callback=live, stop=lambda: training.updates >= 1500)
 
 # %% [markdown]
-# Each thin line is one agent. *Success* is the share of its episodes that end ahead of trap 1. The
-# **return** is the sum of an episode's rewards; an episode that ends in a crash in the first
+# Each thin line is one agent. *Success* is the share of its episodes that end ahead of trap 1. An
+# episode that ends in a crash in the first
 # seconds returns about −9.5. Now the first agent with help, before and after its training:
 
 # %% tags=["nbval-ignore-output"]
