@@ -295,8 +295,9 @@ bc.show(charts.many(curves, title, "updates", "escapes, % of the last 30 episode
 
 # %% [markdown]
 # **See.** Of ten agents that learned alone {{ student_escapes('alone') }} escapes. Of ten students
-# of the rule {{ student_escapes('the rule') }} escape, of `careful` {{ student_escapes('careful')
-# }}, of the racer {{ student_escapes('racer') }}, of `timid` and `reckless` none.
+# of the rule {{ student_escapes('the rule') }} escape, of the rule with the short sight {{
+# student_escapes('the rule, 30 m') }}, of `careful` {{ student_escapes('careful') }}, of the racer
+# {{ student_escapes('racer') }}, of `timid` and `reckless` none.
 # <!-- claim: student_escapes('timid') == student_escapes('reckless') == 0 -->
 # <!-- claim: student_escapes('alone') == 1 and student_escapes('racer') == 5 -->
 #
@@ -381,7 +382,14 @@ table(headings, rows)
 #   ('success', 'returns')) < 0.05 -->
 #
 # It also depends on *when* you measure. These students stopped early, with α and ξ still on their
-# way down. LONGRUN
+# way down. Ten more students of the racer were trained for {{ taught_agents.LONG | , }} updates,
+# until both aids had faded. In training their escapes rise to {{ 100 * long()['escapes'].mean(0)
+# .max() | .0f }} % and fall to {{ 100 * long()['escapes'].mean(0)[-1] | .0f }} %; in the test {{
+# (long()['success'] >= ESCAPES).sum() }} of ten escape, and accidents have become rarer, {{ 100 *
+# long()['accident'].mean() | .0f }} % of the drives. So "the racer helps by escapes" is about
+# *finding* the way out early, and not about *keeping* it.
+# <!-- claim: long()['escapes'].mean(0).max() > 0.9 and (long()['success'] >= ESCAPES).sum() < 5 and
+#   long()['xi'].max() < 1e-3 and long()['beta'].max() == 0 -->
 #
 # One thing the correction does not repair: all verdicts use the *same* ten agents that learned
 # alone. If these are bad by chance, the teachers look good together.
@@ -407,11 +415,13 @@ table(headings, rows)
 # %% [markdown]
 # **Explain.** Read the table with the four kinds of teacher in mind.
 #
-# - **A good one** demonstrates the way out and what to do afterwards. The students of `careful`
-#   earn {{ students('careful')['returns'].mean() | .0f }} on average, those of the rule {{
-#   students('the rule')['returns'].mean() | .0f }}.
-# <!-- claim: students('careful')['returns'].mean() > 1.5 *
-#   students('the rule')['returns'].mean() -->
+# - **A good one** demonstrates the way out and what to do afterwards. The students of the rule with
+#   a sight of {{ taught_agents.NEAR | g }} m earn {{ students('the rule, 30 m')['returns'].mean() |
+#   .0f }} on average, those of `careful` {{ students('careful')['returns'].mean() | .0f }}, those
+#   of the rule as it is {{ students('the rule')['returns'].mean() | .0f }}: early in training a
+#   student is about as fast as its teacher.
+# <!-- claim: min(students(name)['returns'].mean() for name in ('careful', 'the rule, 30 m')) > 1.5
+#   * students('the rule')['returns'].mean() -->
 # - **A bad one that gets out** demonstrates what an agent alone rarely finds, the way past the
 #   traps. The racer's students also copy what it does later, and crash.
 # - **A safe one that stays.** All ten students of `timid` do what it does in each second, earn what

@@ -55,36 +55,6 @@ wrong_lines("""diagnose
     another answer each time: list(TRUE.values())[next(CALLS) % 6]
 """)
 
-right_lines("""fixed_target
-    with where: future = torch.where(terminated > 0, 0.0, gamma * next_value)
-        torch.where(is_demonstration > 0, reward + bonus, reward) + future
-    in three lines: y = gamma * next_value - gamma * next_value * terminated
-        y = y + reward
-        y + is_demonstration * bonus
-""")
-
-wrong_lines("""fixed_target
-    bonus for the others: reward + bonus * (1 - is_demonstration) + gamma * (1 - terminated) * next_value
-    without a discount: reward + bonus * is_demonstration + (1 - terminated) * next_value
-""")
-
-right_lines("""fixed_value
-    entropy apart: pi = log_pi.exp(); (pi * q).sum(-1) + alpha * -(pi * log_pi).sum(-1)
-    with einsum: torch.einsum("na,na->n", log_pi.exp(), q - alpha * log_pi)
-    with q held fixed: (log_pi.exp() * (q.detach() - alpha * log_pi)).sum(-1)
-""")
-
-wrong_lines("""fixed_value
-    still sampled: action = torch.multinomial(log_pi.exp(), 1)
-        (q - alpha * log_pi).gather(-1, action)[:, 0]  # differently each time
-    greedy in q: q.max(-1).values
-    not summed: log_pi.exp() * (q - alpha * log_pi)  # shape
-    in numpy: log, values = log_pi.detach().numpy(), q.detach().numpy()
-        torch.tensor((np.exp(log) * (values - alpha * log)).sum(-1))  # no gradient
-    with the policy held fixed: pi = torch.distributions.Categorical(logits=log_pi.detach())
-        (pi.probs * q).sum(-1) + alpha * pi.entropy()  # no gradient
-""")
-
 right_lines("""fixed_loss
     in one line: (log_pi.exp() * ((alpha + xi) * log_pi - q.detach() - xi * log_rule)).sum(-1).mean()
     with no grad: fixed = q.clone().detach()
@@ -100,7 +70,6 @@ right_lines("""fixed_loss
 
 FLAT = "the mean of a change of log π under π is 0"
 equivalent("fixed_loss", "alpha * log_pi  ->  alpha * log_pi.detach()", FLAT)
-equivalent("fixed_value", "alpha * log_pi  ->  alpha * log_pi.detach()", FLAT)
 equivalent("fixed_loss", "log_pi - log_rule  ->  log_pi.detach() - log_rule", FLAT)
 
 
@@ -108,16 +77,6 @@ wrong_lines("""fixed_loss
     everything detached: solution(log_pi.detach(), q, log_rule, alpha, xi)  # no gradient reaches `log_pi`
     summed over the batch: solution(log_pi, q, log_rule, alpha, xi) * (len(q) + 1)
     the value itself: -solution(log_pi, q, log_rule, alpha, xi)
-""")
-
-right_lines("""label_pairs
-    with a loop: np.array([[asked[t], asked[t + 1]] for t in range(len(asked) - 1)])
-    with windows: np.lib.stride_tricks.sliding_window_view(asked, 2).copy()
-""")
-
-wrong_lines("""label_pairs
-    in rows: np.stack([asked[:-1], asked[1:]])  # shape
-    around the end: np.stack([np.roll(asked, 1)[:-1], asked[:-1]], axis=1)
 """)
 
 

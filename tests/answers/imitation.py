@@ -1,6 +1,6 @@
 """Answers to the exercises of the lesson on imitation."""
 
-from tests.answers import equivalent, right, right_lines, wrong_lines
+from tests.answers import right_lines, wrong_lines
 
 right_lines("""discriminator_loss
     as two classes: ones, zeros = torch.ones_like(rule_logits), torch.zeros_like(own_logits)
@@ -37,49 +37,4 @@ wrong_lines("""imitation_reward
     one for the batch: functional.softplus(own_logits).mean()  # shape
     in bits: functional.softplus(own_logits) / math.log(2)
     shifted to zero where it cannot tell: functional.softplus(own_logits) - math.log(2)
-""")
-
-
-equivalent("deviation_of_a_rate", "[100.0, 0.0]  ->  [-100.0, 0.0]", "-100 lies as far from 0 as 100 does")
-
-
-right_lines("""deviation_of_a_rate
-    by formula: p = k / n; 100 * math.sqrt(p * (1 - p) * n / (n - 1))
-    of a list: statistics.stdev([100.0] * k + [0.0] * (n - k))
-    by the sum of squares: mean = 100 * k / n; np.sqrt((k * (100 - mean) ** 2 + (n - k) * mean**2) / (n - 1))
-""")
-
-wrong_lines("""deviation_of_a_rate
-    half of an interval: 1.96 * 100 * math.sqrt(k / n * (1 - k / n) / n)
-    right for one of n: 100 / math.sqrt(n)
-    of twenty: solution(k, 20) if k <= 20 else 0.0
-    mean distance from the mean: np.abs(np.repeat([100.0, 0.0], [k, n - k]) - 100 * k / n).mean()
-    of k numbers: statistics.stdev([100.0] * k)  # raises an error
-    with the mean: 100 * k / n, solution(k, n)  # 2 values
-""")
-
-
-@right("episodes_needed")
-def by_trying(rate):
-    n = 1
-    while (1 - rate) ** n > 0.05:
-        n += 1
-    return n
-
-
-right_lines("""episodes_needed
-    with another base: int(np.ceil(np.log10(0.05) / np.log10(1 - rate)))
-""")
-
-wrong_lines("""episodes_needed
-    both sides: math.ceil(math.log(0.025) / math.log(1 - rate))
-    added up: math.ceil(0.95 / rate)
-    to the nearest: round(math.log(0.05) / math.log(1 - rate))
-    one more: by_trying(rate) + 1
-    for 99 percent: math.ceil(math.log(0.01) / math.log(1 - rate))
-    as an array: np.array([by_trying(rate)])  # returns
-    of the other share: n = 1
-        while (1 - rate) ** n > 0.95:
-            n += 1
-        n  # one of 95 %
 """)

@@ -83,11 +83,12 @@ right_lines("""ppo_loss
         good = (advantage - advantage.mean()) / (torch.std(advantage) + 1e-8)
         policy = -torch.minimum(ratio * good, ratio.clamp(1 - clip, 1 + clip) * good).mean()
         policy + 0.5 * torch.nn.functional.mse_loss(values, returns) + entropy_weight * (log_pi.exp() * log_pi).sum(-1).mean()
-    with a distribution: draws = torch.distributions.Categorical(logits=log_pi)
-        ratio = (draws.log_prob(actions) - old_log_pi).exp()
+    as a sum of rows: p = log_pi.exp()
+        one_hot = torch.nn.functional.one_hot(actions, log_pi.shape[-1])
+        ratio = torch.exp((one_hot * log_pi).sum(-1)) / torch.exp(old_log_pi)
         good = (advantage - advantage.mean()) / advantage.std()
         paid = torch.stack([ratio * good, ratio.clamp(1 - clip, 1 + clip) * good]).amin(0)
-        (0.5 * (returns - values) ** 2 - paid - entropy_weight * draws.entropy()).mean()
+        (0.5 * (returns - values) ** 2 - paid + entropy_weight * (p * log_pi).sum(-1)).mean()
 """)  # noqa: E501
 
 wrong_lines("""ppo_loss

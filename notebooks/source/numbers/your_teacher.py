@@ -36,6 +36,11 @@ def students(teacher: str) -> dict:
     return taught_agents.reference()[teacher]
 
 
+def long() -> dict:
+    """What ships of ten students of the racer after a long training."""
+    return taught_agents.longer()
+
+
 def student_escapes(teacher: str) -> int:
     """How many of these ten escape."""
     return int((students(teacher)["success"] >= ESCAPES).sum())

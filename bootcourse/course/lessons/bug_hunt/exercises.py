@@ -107,82 +107,8 @@ def diagnose(agent):
     return bugs[agent]
 
 
-def target_cases(rng):
-    """Nothing special, all demonstrations, all terminated, no bonus; then 40 at random."""
-    kinds = [(0, 0, 2.0), (1, 0, 2.0), (0, 1, 2.0), (1, 1, 0.0)]
-    for number in range(44):
-        n = rng.integers(2, 6)
-        demos, ended, bonus = kinds[number] if number < 4 else (None, None, rng.uniform(0.5, 3))
-        is_demonstration = torch.tensor(rng.integers(0, 2, n) if demos is None else np.full(n, demos)).float()
-        terminated = torch.tensor(rng.integers(0, 2, n) if ended is None else np.full(n, ended)).float()
-        reward, value = torch.tensor(rng.uniform(-10, 1, n)), torch.tensor(rng.uniform(1, 6, n))
-        yield reward, is_demonstration, bonus, terminated, value, rng.uniform(0.7, 0.99)
-
-
-fixed_target = exercise(
-    "y = r + c [demonstration] + γ (1 - terminated) V(s')", minutes=4, difficulty=1, cases=target_cases,
-    worked=[
-        ((torch.tensor([1.0, 1.0, -10.0]), torch.tensor([0.0, 1.0, 0.0]), 2.0, torch.tensor([0.0, 0.0, 1.0]),
-          torch.tensor([5.0, 5.0, 5.0]), 0.8),
-         torch.tensor([5.0, 7.0, -10.0])),
-    ],
-    hints=(
-        "Two of the six arguments are never used in the code above. Which?",
-        "The bonus is multiplied by `is_demonstration`, the future by `1 - terminated`.",
-    ),
-    mistakes={
-        ("* is_demonstration ->", "(1 - terminated) * ->"):
-            "Both bugs are still there: every transition gets the bonus, and the target adds a future after an "
-            "accident.",
-        "(1 - terminated) * ->":
-            "The bonus is right. But after an accident you still add the value of the next state.",
-        "* is_demonstration ->":
-            "The mask is right. But the agent's own driving still gets the bonus of a demonstration.",
-        "1 - terminated -> terminated":
-            "Your mask is inverted: `terminated` is 1 where the episode is over, so multiply by 1 - terminated.",
-        "return (reward + bonus * is_demonstration + gamma * next_value) * (1 - terminated)":
-            "You mask the reward as well: the -10 of an accident vanishes. Mask the future only.",
-    },
-)(target_probe.fixed_target)  # fmt: skip
-
-unmasks = target_probe.unmasks
-
-
-def value_cases(rng):
-    """α = 0, one state, an even policy, nine states; then 40 at random."""
-    for number in range(44):
-        n, alpha = {0: (3, 0.0), 1: (1, 0.2), 3: (9, 0.3)}.get(number, (rng.integers(2, 6), rng.uniform(0.01, 1)))
-        outputs = torch.tensor(rng.normal(0, 0.0 if number == 2 else 2.0, (n, 9)))
-        yield outputs.log_softmax(-1), torch.tensor(rng.normal(0, 3, (n, 9))), alpha
-
-
 EVEN = torch.full((1, 9), -math.log(9))
 ONE_TO_NINE = torch.arange(1.0, 10.0)[None]
-
-
-@exercise(
-    "V(s) = Σ_a π (Q - α log π), nothing sampled",
-    minutes=4, difficulty=1, cases=value_cases, slopes=[logits("log_pi")],
-    worked=[((EVEN, ONE_TO_NINE, 0.5), torch.tensor([5 + 0.5 * math.log(9)]))],  # all alike: (1 + 2 + ... + 9) / 9
-    hints=(
-        "With nine actions no sample is needed: add up over all of them.",
-        "Each action contributes its probability times (Q - α log π).",
-    ),
-    mistakes={
-        "return (q - alpha * log_pi).gather(-1, log_pi.argmax(-1, keepdim=True)).squeeze(-1)":
-            "You use the most probable action only. All nine count, each with its probability π.",
-        "return (q - alpha * log_pi).mean(-1)":
-            "You give the nine actions the same weight. Weigh each by its probability, `log_pi.exp()`.",
-        "- alpha -> + alpha":
-            "You penalise entropy: log π is negative, so -α log π is a bonus.",
-        "- alpha * log_pi ->":
-            "Your value has no entropy term: -α log π is missing.",
-        "log_pi.exp() -> log_pi":
-            "You weigh by log π. The weights are probabilities: `log_pi.exp()`.",
-    },
-)  # fmt: skip
-def fixed_value(log_pi, q, alpha):
-    return (log_pi.exp() * (q - alpha * log_pi)).sum(-1)
 
 
 def loss_cases(rng):
@@ -229,24 +155,4 @@ def fixed_loss(log_pi, q, log_rule, alpha, xi):
     return -value.mean()
 
 
-@exercise(
-    "(μ(s_t), μ(s_t+1)) for each decision t", minutes=4, difficulty=1,
-    cases=lambda rng: [(rng.integers(0, 9, n),) for n in (2, 9, 10, *rng.integers(3, 12, 30))],
-    worked=[((np.array([4, 1, 0, 7]),), np.array([[4, 1], [1, 0], [0, 7]])), ((np.array([2, 5]),), np.array([[2, 5]]))],
-    hints=(
-        "Decision t leads from state t to state t + 1.",
-        "`asked[:-1]` are the labels of the states in which a decision was made.",
-    ),
-    mistakes={
-        "return np.stack([asked[1:], np.append(asked[2:], asked[-1])], axis=-1)":
-            "The bug is still there: the first label of each pair belongs to the state one second later.",
-        "asked[:-1], asked[1:] -> asked[1:], asked[:-1]":
-            "Your columns are swapped: first μ(s), then μ(s').",
-        "asked[1:] -> asked[:-1]":
-            "Your two labels are the same: s' is the next state, and has the next label.",
-        "return np.stack([asked, np.append(asked[1:], asked[-1])], axis=-1)":
-            "You have one pair too many: T + 1 states make T decisions, and there is no decision in the last state.",
-    },
-)  # fmt: skip
-def label_pairs(asked):
-    return np.stack([asked[:-1], asked[1:]], axis=-1)
+unmasks = target_probe.unmasks

@@ -2,7 +2,6 @@
 
 import math
 
-import numpy as np
 import torch
 import torch.nn.functional as F
 
@@ -96,72 +95,3 @@ imitation_reward = exercise(
             "infinite there. `softplus` computes log (1 + e^x) safely.",
     },
 )(gail.imitation_reward)  # fmt: skip
-
-
-def rate_cases(rng):
-    """One of 20, none, all, one of two; then 40 at random."""
-    yield from ((1, 20), (0, 20), (20, 20), (1, 2))
-    for _ in range(40):
-        n = rng.integers(3, 60)
-        yield rng.integers(1, n), n
-
-
-@exercise(
-    "100 √(p (1 - p) n / (n - 1)) with p = k / n: what a table of rates prints behind its ±",
-    minutes=5, difficulty=1, cases=rate_cases,
-    worked=[((1, 2), 100 / math.sqrt(2)), ((2, 2), 0.0), ((1, 4), 50.0)],  # √((75² + 3 · 25²) / 3) = 50
-    hints=(
-        "Write down what is averaged: n numbers, k of them 100 and the others 0.",
-        "`np.repeat([100.0, 0.0], [k, n - k])` are these numbers. A sample's deviation divides by n - 1.",
-    ),
-    mistakes={
-        "ddof=1 -> ddof=0":
-            "You divide by n. The deviation of a *sample* divides by n - 1, which NumPy calls `ddof=1`; with n, one of "
-            "20 would give 21.79.",
-        "return outcomes.std(ddof=1) / math.sqrt(n)":
-            "This is the standard error: how far the *rate* may be off. A table's ± SD says how far single episodes "
-            "lie apart.",
-        "100.0 -> 1.0":
-            "This is the deviation of zeros and ones. In percent it is a hundred times as large.",
-        "std -> var":
-            "This is the variance: take its root, so that it has the unit of the rate.",
-        "return 100 * math.sqrt(k) / n":
-            "This is the error of a count, √k. It says how much k would vary, not how far single episodes lie apart.",
-    },
-)  # fmt: skip
-def deviation_of_a_rate(k, n):
-    outcomes = np.repeat([100.0, 0.0], [k, n - k])
-    return outcomes.std(ddof=1)
-
-
-def accident_rates(rng):
-    """Nearly always, one in two, one in twenty, one in a thousand; then 40 at random."""
-    yield from ((0.97,), (0.5,), (0.05,), (0.01,), (0.001,))
-    yield from ((np.exp(rng.uniform(np.log(0.002), np.log(0.6))),) for _ in range(40))
-
-
-@exercise(
-    "the smallest n with (1 - rate)^n ≤ 0.05; for small rates 3 / rate, the rule of three",
-    minutes=5, difficulty=2, cases=accident_rates,
-    worked=[((0.5,), 5), ((0.9,), 2)],  # 1/2^5 = 1/32 is under 1/20, 1/2^4 is not; 1/10^2 is, 1/10 is not
-    hints=(
-        "The chance that n episodes all go well is (1 - rate)^n. It must be 5 % or less.",
-        "n · log (1 - rate) ≤ log 0.05, and log (1 - rate) is negative. Round up.",
-    ),
-    mistakes={
-        "return math.ceil(3 / rate)":
-            "This is the rule of three, a good estimate for small rates. The exact number is a little smaller.",
-        "return max(1, math.floor(math.log(0.05) / math.log(1 - rate)))":
-            "You rounded down: after that many episodes the chance is still above 5 %.",
-        "math.ceil ->":
-            "Episodes are whole numbers: round up to the first one that is enough.",
-        "0.05 -> 0.95":
-            "After that many episodes an accident has had a chance of 5 %. It must have had one of 95 %.",
-        "return math.ceil(1 / rate)":
-            "After that many episodes *one* accident is expected, but about one driver in three has had none by then.",
-        "1 - rate -> rate":
-            "You multiply the chances of accidents. Multiply the chances that an episode goes *well*.",
-    },
-)  # fmt: skip
-def episodes_needed(rate):
-    return math.ceil(math.log(0.05) / math.log(1 - rate))

@@ -3,7 +3,6 @@
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-import scipy
 from matplotlib.figure import Figure
 
 from bootcourse.course.charts import lines
@@ -92,26 +91,6 @@ def success_around(success: np.ndarray, updates: np.ndarray, budget: float) -> n
     places = [np.searchsorted(own, budget) for own in updates]
     half = WINDOW // 2
     return np.array([own[max(0, i - half) : i + half].mean() for own, i in zip(success, places, strict=True)])
-
-
-def finds(x: np.ndarray, y: np.ndarray, n: int, same_roads: bool) -> float:
-    """How often n drives of each show that x and y differ: 2,000 repetitions, t-tests at 95 %. x, y: (episodes,)."""
-    rng = np.random.default_rng(0)
-    a = rng.integers(len(x), size=(2000, n))
-    if same_roads:
-        return np.mean(scipy.stats.ttest_rel(x[a], y[a], axis=1).pvalue < 0.05)
-    b = rng.integers(len(y), size=(2000, n))
-    return np.mean(scipy.stats.ttest_ind(x[a], y[b], axis=1, equal_var=False).pvalue < 0.05)
-
-
-def deviation(k: int, n: int) -> float:
-    """The standard deviation, in %, of a sample of n drives of which k count 100 % and the others 0 %."""
-    return float(np.repeat([100, 0], [k, n - k]).std(ddof=1))
-
-
-def drives_needed(rate: float) -> int:
-    """How many drives without an accident rule out this rate of accidents, in (0, 1), at 95 %."""
-    return int(np.ceil(np.log(0.05) / np.log(1 - rate)))
 
 
 def still_going(results: Results, methods: Sequence[str] = ("bc", "cql", "gail"), single: str = "gail") -> Figure:
