@@ -13,7 +13,8 @@ from bootcourse.statistics import interval
 
 SHARE, WINDOW = 0.95, 50  # an agent has learned the way out when this share of so many episodes in a row ended ahead
 DECISIONS, SECONDS = (100_000, 1_000_000), (20, 60)  # § equal budgets; seconds of one core
-ASIDE = ("sensitivity", "clocks", "ablations", "teachers")  # they vary the method or the teacher to learn about them
+# They vary the method or the teacher to learn about them, or train nothing.
+ASIDE = ("sensitivity", "clocks", "ablations", "teachers", "look-ahead")
 
 
 def lengths(curves: dict[str, np.ndarray]) -> np.ndarray | None:

@@ -11,7 +11,7 @@ from bootcourse.files import write_bytes
 from bootcourse.methods import display_name
 from bootcourse.plots.figure import save
 from bootcourse.policies import rule_policy
-from bootcourse.research import clocks, tables, teacher_worth
+from bootcourse.research import clocks, lookahead, lookahead_figures, tables, teacher_worth
 from bootcourse.research import figures as training_figures
 from bootcourse.research.beyond import WINDOW, budget_rows, entries, learner_rows
 from bootcourse.research.fidelity import CLOSE, VERDICTS, fidelity
@@ -132,6 +132,8 @@ def experiments_part(experiments: dict[str, dict[str, Results]]) -> list[str]:
     if varied := experiments.get("teachers"):
         worth = tables.markdown(*teacher_worth.worth_rows(teacher_worth.cells(varied)))
         text += ["## What a teacher is worth\n", TEACHERS, worth]
+    if varied := experiments.get("look-ahead"):
+        text += ["## Looking ahead\n", LOOK_AHEAD, tables.markdown(*lookahead_figures.rows(varied, lookahead.cells()))]
     return text
 
 
@@ -199,6 +201,13 @@ method and 20 test episodes each reads as the paper's: successes 0, 0, 20 and 20
 TEACHERS = """Teachers from bad to perfect, and methods that learn from them. Return: interquartile mean over agents,
 accidents: mean, decisions: median, each with its 95 % interval over training seeds. In brackets behind the decisions:
 how many agents reached it in their training.
+"""
+
+LOOK_AHEAD = """Nothing is trained here: trained agents drive alone, with rollouts, or with a shield that overrules only
+an action that is imagined to end in an accident; with the exact model of the road, and with wrong ones. Return: mean
+over agents with its 95 % interval over agents. Accidents: over all drives, with the exact (Clopper-Pearson) interval,
+as if all drives were independent. An agent drives the first 1,000 held-out roads. Where a cell takes long, it drives
+the first 300 or 100: compare such a cell by its interval. Time: of one core, on a machine with other work.
 """
 
 BUDGET = f"""These are training returns, with drawn actions: the mean of an agent's last {WINDOW} episodes that ended

@@ -29,6 +29,7 @@ RUN_AGAIN = "run the study again, or restore it from a copy"
 KINDS = {"collision": Accident.COLLISION, "road_departure": Accident.ROAD_DEPARTURE, "stoppage": Accident.STOPPAGE}
 OF_AGENTS = ("tested", "curves", "notes", "measured")  # the parts with every agent; weights are kept of the first ones
 PARTS = (*OF_AGENTS, "weights")
+REPORTED = (*EXPERIMENTS, "look-ahead")  # the experiments in the report
 WINDOW = 50  # training episodes in a row, in which an agent that has found the way out is ahead more often than not
 
 
@@ -215,7 +216,7 @@ def in_study(root: Path) -> StudyResults:
         results,
         {name: bound for name, bound in bounds.items() if bound is not None},
         _staying({name: jobs / f"staying-{name}/gamma-0.8/staying.json" for name in results}),
-        {name: experiment(name, root) for name in EXPERIMENTS},
+        {name: experiment(name, root) for name in REPORTED},
     )
 
 
@@ -227,7 +228,7 @@ def in_assets(root: Path) -> StudyResults:
         {name: load_results(path) for name, path in studies.items() if path.exists()},
         {name: load_bound(path) for name, path in bounds.items() if path.exists()},
         _staying({name: root / f"staying-{name}.json" for name in STUDIES}),
-        {name: _variations(name, root, ".npz") for name in EXPERIMENTS},
+        {name: _variations(name, root, ".npz") for name in REPORTED},
     )
 
 
