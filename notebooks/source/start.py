@@ -178,6 +178,7 @@ table(headings, rows)
 # | [[bug_hunt]] · [](bug_hunt.ipynb) | | ● | ● |
 # | [[your_teacher]] · [](your_teacher.ipynb) | | ● | |
 # | [[the_second_trap]] · [](the_second_trap.ipynb) | | | ● |
+# | [[looking_ahead]] · [](looking_ahead.ipynb) | | | ● |
 # | [[beyond_the_paper]] · [](beyond_the_paper.ipynb) | | | ● |
 #
 # Each lesson opens on its own, says what it builds on, and runs in about a minute. In its

@@ -544,5 +544,5 @@ compare_predictions(
 # rolls in and shrinks: Uchendu et al., *Jump-Start Reinforcement Learning* (arXiv 2204.02372).
 #
 # **Try**: `bc.board()` shows the methods of the course on the same {{ roads() | , }} roads, by
-# return, and `bc.board("runs/mine")` puts your own agents among them. Next: [beyond the
-# paper](beyond_the_paper.ipynb), the learners that it does not train.
+# return, and `bc.board("runs/mine")` puts your own agents among them. Next: [looking
+# ahead](looking_ahead.ipynb), which makes agents safer without training.
