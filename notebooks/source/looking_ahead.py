@@ -54,7 +54,7 @@ drive = bc.record(agent, [roads[int(crashed.argmax())]], label="bootstrapped")[0
 bc.recording([drive], height=360)
 
 # %% [markdown]
-# Lesson [[beyond_the_paper]] trains other agents. This lesson trains nothing: the same agent looks
+# Lesson [[other_ways]] trains other agents. This lesson trains nothing: the same agent looks
 # ahead before it acts.
 #
 # ## Round 1: nine futures
@@ -430,4 +430,4 @@ compare_predictions(
 #
 # **Try**: `bootcourse evaluate runs/mine --lookahead 10` drives your own agents with rollouts, and
 # `drive_panel(futures=agent)` of `bootcourse.panels.drive` shows you the nine while you drive.
-# Next: [beyond the paper](beyond_the_paper.ipynb), the learners that it does not train.
+# Next: [other ways to use a teacher](other_ways.ipynb).
