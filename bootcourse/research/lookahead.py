@@ -171,6 +171,8 @@ def shipped_actors(base: str) -> dict[int, Agent]:
     if not path.exists():
         return {}
     results = load_results(path)
+    if not results.weights:
+        return {}
     actors = zip(*(results.weights[f"actor.{i}"] for i in range(len(results.weights))), strict=True)
     tensors = ([torch.from_numpy(layer)[None] for layer in actor] for actor in actors)
     settings = [

@@ -117,6 +117,9 @@ def by_horizon(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
         double_line(ax, at, middle, colour)
         ax.errorbar(at, middle, [middle - low, high - middle], fmt="o", color=colour, ms=5, lw=1.3, zorder=3)
         ax.set_xticks(at)
+    few = [f"{h}" for h, one in reached.items() if one.roads != reached[0].roads]
+    roads = f"{reached[0].roads:,} roads each" + (f", {reached[int(few[0])].roads} at {', '.join(few)}" if few else "")
+    figure.text(0.99, 0.93, f"{reached[0].agents} agents, {roads}", ha="right", fontsize=SMALL, color=QUIET)
     before, after = (f"{reached[h].accidents:,} accidents in {reached[h].drives:,} drives" for h in (0, HORIZON))
     title = f"{display_name(base)}: {before} alone, {after} with rollouts of {HORIZON} decisions"
     numbers = (

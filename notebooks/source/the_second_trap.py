@@ -594,4 +594,4 @@ compare_predictions(
 #
 # **Try**: `bc.board()` shows the methods of the course on the same {{ roads() | , }} roads, by
 # return, and `bc.board("runs/mine")` puts your own agents among them. Next:
-# [other ways to use a teacher](other_ways.ipynb).
+# [looking ahead](looking_ahead.ipynb), which makes agents safer without training.
