@@ -85,7 +85,7 @@ table(["problem", "it pays", "rule", "γ"], rows)
 
 # %%
 def climb_rule(position, speed):
-    """0: push left, 1: not at all, 2: right. position: the flag is at 0.5; speed: + to the right."""
+    """0: push left, 1: not at all, 2: right. position: flag at 0.5; speed: + to the right."""
     # solution: the exercise's own
 
 
@@ -133,7 +133,7 @@ predict("your_own_problem.2", "The clone of the random teacher reaches the flag"
 
 # %%
 def majority_right(right, votes):
-    """P(the majority of `votes` labels is right), each right in a share `right`; a tie counts half."""
+    """P(the majority of `votes` labels is right), of each P = `right`; a tie counts half."""
     # solution
     from math import comb
 
@@ -197,7 +197,8 @@ compared = bc.compare(
     teacher=teachers["systematic"],
     progress=False,
 )
-compared
+headings, *rows = compared.rows()
+table(headings, rows)
 
 # %% tags=["nbval-ignore-output"]
 bc.show(compared.figure(f"{problem.name}, the systematic teacher, five seeds"))
