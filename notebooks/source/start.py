@@ -179,6 +179,7 @@ table(headings, rows)
 # | [[your_teacher]] · [](your_teacher.ipynb) | | ● | |
 # | [[the_second_trap]] · [](the_second_trap.ipynb) | | | ● |
 # | [[other_ways]] · [](other_ways.ipynb) | | | ● |
+# | [[your_own_problem]] · [](your_own_problem.ipynb) | | | ● |
 #
 # Each lesson opens on its own, says what it builds on, and runs in about a minute. In its
 # exercises you write some lines, and a check says what is wrong with them in plain words;
