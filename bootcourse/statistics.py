@@ -110,6 +110,20 @@ def escapes(success: np.ndarray) -> Estimate:
     return rate(np.asarray(success) >= ESCAPES)
 
 
+def significant(n: int) -> np.ndarray:
+    """Whether Fisher's exact test tells k of n from j of n, with a p below 0.05: bool (n + 1, n + 1), by k and j."""
+    counts = range(n + 1)
+    p = [[scipy.stats.fisher_exact([[k, n - k], [j, n - j]]).pvalue for j in counts] for k in counts]
+    return np.array(p) < 0.05
+
+
+def power(first: float, second: float, n: int) -> float:
+    """How often n agents against n, which escape at these true rates, differ by Fisher's exact test (p below 0.05)."""
+    counts = np.arange(n + 1)
+    k, j = (scipy.stats.binom.pmf(counts, n, rate) for rate in (first, second))
+    return float(np.sum(np.outer(k, j)[significant(n)]))
+
+
 def band(curves: np.ndarray, seed: int = 0, resamples: int = 1000) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Interquartile mean and 95 % band over seeds: curves (seeds, points) -> middle, low, high, each (points,).
 

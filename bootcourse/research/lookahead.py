@@ -74,14 +74,14 @@ def cells() -> list[Cell]:
     wrong = [model for model in MODELS if model != "exact"]
     plain = [Cell(base, form, agents) for form in ("alone", "shield") for base, agents in BASES.items()]
     closely = [Cell("ppo_cloned"), Cell("rule", agents=1), Cell("bootstrapped", roads=FEW)]
-    models = [Cell("ppo_cloned", "shield", roads=FEW, model=model) for model in wrong]
-    models += [Cell("ppo_cloned", roads=FEWER, model=model) for model in wrong]
-    models += [Cell("ppo_cloned", roads=FEWER, horizon=horizon) for horizon in HORIZONS]
-    others = [Cell(base, agents=5, roads=FEW if base in ("soft", "sac") else FEWER)
-              for base in ("soft", "sac", "demos", "bc")]  # fmt: skip
-    models_too = [Cell("bootstrapped", "shield", 5, FEW, model=model) for model in wrong]
-    models_too += [Cell("bootstrapped", agents=5, roads=FEWER, model=model) for model in wrong]
-    return [*plain, *closely, *models, *others, Cell("ppo_cloned", "shield", roads=MANY), *models_too]
+    shields = [Cell("ppo_cloned", "shield", roads=FEW, model=model) for model in wrong]
+    horizons = [Cell("ppo_cloned", roads=FEWER, horizon=horizon) for horizon in HORIZONS]
+    others = [Cell(base, agents=5, roads=FEWER) for base in ("sac", "soft", "demos", "bc")]
+    rollouts = [Cell("ppo_cloned", roads=FEWER, model=model) for model in wrong]
+    most = [Cell("ppo_cloned", "shield", roads=MANY)]
+    most += [Cell("bootstrapped", "shield", 5, FEW, model=model) for model in wrong]
+    most += [Cell("bootstrapped", agents=5, roads=FEWER, model=model) for model in wrong]
+    return [*plain, *closely, *shields, *horizons, *others, *rollouts, *most]
 
 
 @dataclass(frozen=True)

@@ -56,7 +56,7 @@ class Scene {
       this.drive(row(cars, car), view.colour(car < TRAFFIC ? "trap" : "traffic"));
     }
     this.drive(cars, colour);
-    if (ghost) this.through(ghost);
+    if (ghost) this.through(ghost, cars);
     this.words(cars, ghost);
   }
 
@@ -100,15 +100,18 @@ class Scene {
     this.car();
   }
 
-  // A car through which one sees: first its depth alone, so that its own far side does not shine through.
-  through({ state, colour, gone }) {
-    const { gl } = this;
+  // A car through which one sees: first its depth alone, so that its own far side does not shine through. Where it
+  // covers the ego it fades, so that the ego has its own colour.
+  through({ state, colour, gone }, ego) {
+    const { gl } = this, apart = Math.hypot(state[X] - ego[X], state[Y] - ego[Y]);
+    const opacity = GHOST * (gone ? 0.5 : 1) * Math.min(Math.max((apart - 0.3) / 2, 0), 1);
+    if (opacity === 0) return;
     gl.colorMask(false, false, false, false);
     this.drive(state, colour);
     gl.colorMask(true, true, true, true);
     gl.enable(gl.BLEND);
     gl.depthFunc(gl.EQUAL);
-    this.drive(state, colour, gone ? GHOST / 2 : GHOST);
+    this.drive(state, colour, opacity);
     gl.depthFunc(gl.LESS);
     gl.disable(gl.BLEND);
   }

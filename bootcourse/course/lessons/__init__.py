@@ -20,12 +20,12 @@ COURSE = (
     "demonstrations",
     "soft_constraint",
     "learning_from_demonstrations",
-    "ablation",
+    "how_many_seeds",
+    "found_and_kept",
 )
 ELECTIVES = (
     "imitation",
     "offline_learning",
-    "exploration",
     "bug_hunt",
     "your_teacher",
     "the_second_trap",
