@@ -254,10 +254,10 @@ teacher, rows = PROBLEMS["doorkey"].teachers()["random"], []
 for seed in range(6):
     states, reached = loops.rooms(teacher, seed)
     earned = 1 - 0.9 * len(states) / 100 if reached else 0.0
-    back = f"{loops.circle(states)} decisions" if loops.circle(states) else "–"
+    back = loops.circle(states) or "–"
     paid = f"{earned + 2 * len(states):.1f}"
     rows.append([seed, "the goal" if reached else "a circle", back, f"{earned:.2f}", paid])
-table(["drive", "it ends in", "which takes", "return", "with c = 2"], rows)
+table(["drive", "it ends in", "of how many decisions", "return", "with c = 2"], rows)
 
 # %% [markdown]
 # The teacher errs in a state *whenever it comes back to it*, so some of its drives turn in circles
