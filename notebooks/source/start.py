@@ -94,6 +94,7 @@ bc.panels.drive_panel(seed=10)
 # | [[the_second_trap]] · [](the_second_trap.ipynb) | | | ● |
 # | [[looking_ahead]] · [](looking_ahead.ipynb) | | | ● |
 # | [[other_ways]] · [](other_ways.ipynb) | | | ● |
+# | [[your_own_problem]] · [](your_own_problem.ipynb) | | | ● |
 # | [[traffic]] · [](traffic.ipynb) | | | |
 #
 # Each lesson opens on its own, says what it builds on, and runs in about a minute. In its

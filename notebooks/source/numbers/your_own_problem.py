@@ -19,6 +19,11 @@ def score(problem: str, teacher: str, method: str, measure: str = "success") -> 
     return cells().mean(problem, teacher, method, measure)
 
 
+def percent(problem: str, teacher: str, method: str, measure: str = "success") -> str:
+    """The same in %."""
+    return f"{100 * score(problem, teacher, method, measure):.0f}"
+
+
 def majority_right(right: float, votes: int) -> float:
     """The exercise's solution."""
     return registry()["majority_right"](right, votes)

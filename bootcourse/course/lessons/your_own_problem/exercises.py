@@ -1,7 +1,5 @@
 """Exercises of the lesson on a problem of one's own: a rule, why cloning averages, and when a bonus drowns the goal."""
 
-import math
-
 from bootcourse.course.exercise import exercise
 from bootcourse.course.lessons.your_own_problem.loops import UP, climb, explain_climb
 
@@ -55,11 +53,11 @@ def majority_cases(rng):
         "Add up these probabilities for 2 k > n, and half of the one for 2 k = n. `math.comb(n, k)` is C(n, k).",
     ),
     mistakes={
-        "math.comb(votes, k) * ->":
+        "comb(votes, k) * ->":
             "You count one order of the right and wrong labels. There are C(n, k) orders with k right ones.",
-        "0.5 * (2 * k == votes) -> (2 * k == votes)":
+        "0.5 if 2 * k == votes -> 1.0 if 2 * k == votes":
             "You count a tie as won. At a tie the clone has no reason for either action: count half of it.",
-        "((2 * k > votes) + 0.5 * (2 * k == votes)) -> (2 * k > votes)":
+        "0.5 if 2 * k == votes else 0.0 -> 0.0":
             "You leave ties out. At a tie the clone takes the right action in half of the cases.",
         "2 * k > votes -> 2 * k < votes":
             "This is the probability that the majority is *wrong*.",
@@ -72,10 +70,13 @@ def majority_cases(rng):
     },
 )  # fmt: skip
 def majority_right(right, votes):
-    return sum(
-        math.comb(votes, k) * right**k * (1 - right) ** (votes - k) * ((2 * k > votes) + 0.5 * (2 * k == votes))
-        for k in range(votes + 1)
-    )
+    from math import comb
+
+    total = 0.0
+    for k in range(votes + 1):
+        probability = comb(votes, k) * right**k * (1 - right) ** (votes - k)
+        total += probability * (1.0 if 2 * k > votes else 0.5 if 2 * k == votes else 0.0)
+    return total
 
 
 def bonus_cases(rng):
