@@ -847,7 +847,7 @@ CHANGE, SEEDS, UPDATES = {"bonus": 0.0}, 5, 900  # yours
 settings = bc.with_seeds(bc.settings_for("bootstrapped"), SEEDS)
 settings += bc.with_seeds(bc.settings_for("bootstrapped", **CHANGE), SEEDS)
 training = bc.Training(settings, episodes=20_000)
-trained = training.run(stop=lambda: training.updates > UPDATES).agents
+trained = training.run(updates=UPDATES + 1).agents
 success = [100 * bc.evaluate(a.as_policy(), 200, seed=9).success.value for a in trained]
 
 # %%

@@ -380,7 +380,7 @@ def ask(training):
 
 # %%
 training = bc.Training(bc.with_seeds(bc.settings_for("margin_soft"), 3), episodes=20_000)
-training.run(callback=ask, stop=lambda: training.updates > ASKED[-1])
+training.run(callback=ask, updates=ASKED[-1] + 1)
 rows = [
     [f"{update:,}", *(", ".join(f"{each:.0f}" for each in kind) for kind in both)]
     for update, both in switched_on.items()
@@ -468,7 +468,7 @@ def note(training):
 
 # %%
 training = bc.Training(agents, episodes=20_000)
-result = training.run(callback=note, stop=lambda: training.updates > UPDATES)
+result = training.run(callback=note, updates=UPDATES + 1)
 print(f"{result.seconds:.0f} s; episodes of each: {training.curves.finished.tolist()}")
 
 # %%
@@ -563,7 +563,7 @@ predict(
 # %%
 agents = bc.with_seeds(bc.settings_for("bootstrapped"), 2) + [bc.settings_for("margin_soft")]
 whole = own_code.training(agents, episodes=20_000)
-result = whole.run(stop=lambda: whole.updates >= 2500)
+result = whole.run(updates=2500)
 rows, escaping = [], []
 for agent in result.agents:
     r = bc.evaluate(agent.as_policy(), 200, seed=8)

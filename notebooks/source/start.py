@@ -18,7 +18,7 @@
 # - drive it yourself, and compare yourself with two programs that learned to drive;
 # - choose your route through the course.
 #
-# **Time** 10 minutes, half of one the machine's. **It builds on** nothing.
+# **Time** 10 minutes, the machine computes for half a minute of it. **It builds on** nothing.
 
 # %%
 import bootcourse as bc
