@@ -40,6 +40,7 @@ class Comparison:
             decisions = np.nansum(result.curves["decisions"], axis=1).mean()
             success, returns = 100 * self.scores(name, "success"), self.scores(name)
             cells = _bracketed(success), _bracketed(returns), f"{decisions:,.0f}", f"{result.seconds:.0f}"
+            name += " (interrupted)" * result.interrupted
             table.append((name, str(len(result.agents)), *cells))
         return table
 
@@ -84,14 +85,17 @@ def compare(
         if not isinstance(one, Training):
             raise BootcourseError(f"'{name}' is {entry!r:.80}: give settings, or a function seeds -> Training.")
         results[name] = result = one.run(progress)
-        if result.interrupted:
+        if result.interrupted and not one.updates:
+            del results[name]  # nothing was learned that could be compared
             break
         if not one.updates:
             raise BootcourseError(f"'{name}' made no update in {one.episodes} episodes: give more episodes.")
         held_out = held_out_seeds(1, tests)
         policies = [agent.as_policy() for agent in result.agents]
         tested[name] = [drive_episodes(drive, held_out, one.scenario, make_env=one.make_env) for drive in policies]
-    return Comparison({name: results[name] for name in tested}, tested)
+        if result.interrupted:
+            break
+    return Comparison(results, tested)
 
 
 def _bracketed(scores: np.ndarray) -> str:

@@ -18,8 +18,8 @@
 # - find out where on the road an agent still tries things, and where it does not get;
 # - tell being undecided from seeing new places, and finding a way out from keeping it.
 #
-# **Time** 60 minutes, the machine computes for less than half a minute of it. **It builds on** discrete SAC (lesson
-# [[discrete_sac]]) and the barrier ([[the_barrier]]).
+# **Time** 60 minutes, the machine computes for less than half a minute of it. **It builds on**
+# discrete SAC (lesson [[discrete_sac]]) and the barrier ([[the_barrier]]).
 
 # %%
 import bootcourse as bc

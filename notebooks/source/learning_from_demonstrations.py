@@ -596,8 +596,8 @@ bc.recording([shipped.beginning(drive, 60) for drive in (yours, *ours)], height=
 # 1. β is the demonstrations' share of each batch; it falls in a straight line to 0.
 # 2. At γ = 0.8 the rule's way out is worth less than staying behind, on the 20 roads of Round 2. A
 #    bonus of 0.06 reverses that.
-# 3. c = {{ SETTINGS.bonus }} raises a demonstrated drive's discounted return by c / (1 − γ) =
-#    {{ SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f }}. In our runs of Round 5 the critics' values
+# 3. c = {{ SETTINGS.bonus }} raises a demonstrated drive's discounted return by c / (1 − γ)
+#    = {{ SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f }}. In our runs of Round 5 the critics' values
 #    rose by less, and the values of actions that were not demonstrated rose, too.
 # 4. The large-margin loss moves the Q of the expert's action and of its best rival, and is 0 from a
 #    lead of {{ settings_for('margin').margin | .0f }} on.
