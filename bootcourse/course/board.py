@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from bootcourse.course.gap_rule import gap_rule
 from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.agent import Agent
@@ -130,6 +131,7 @@ def shipped_rows() -> tuple[Row, ...]:
     study = in_assets(FOLDER)
     drivers = {"rule": rule_policy(DEFAULT), "idle": idle_policy, "random": random_policy(np.random.default_rng(0))}
     rows = [row_of(display_name(name), [drive_episodes(policy, ROADS)]) for name, policy in drivers.items()]
+    rows.append(row_of("gap acceptance (rule)", [drive_episodes(teacher_policy(gap_rule), ROADS)]))
     rows.append(Row(display_name("planner"), mean(study.bound[DEFAULT.name])))
     for results in (study.results["default"], *study.experiments["beyond"].values()):
         rows += [row_of_study(results.of(method), method) for method in results.methods]
