@@ -180,7 +180,7 @@ class Traffic:
         _check(0 <= self.cars <= 40, f"Traffic.cars = {self.cars}: between 0 and 40.")
         _positive(self, "lead", "headway", "desired_speed", "a_max", "b", "delta", "tau_heading", "tau_lateral")
         _positive(self, "braking_limit")
-        _check(self.a_max <= 10, f"Traffic.a_max = {self.a_max!r}: at most 10 m/s², where both roads agree.")
+        _check(self.a_max <= 10, f"Traffic.a_max = {self.a_max!r}: at most 10 m/s².")
         _not_negative(self, "spacing", "speed", "s0", "time_gap", "politeness", "safe_braking", "lane_change_delay")
 
 
