@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from bootcourse.course.gap_rule import gap_rule
 from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.agent import Agent
@@ -134,6 +135,7 @@ def shipped_rows() -> tuple[Row, ...]:
     study = in_assets(FOLDER)
     drivers = {"rule": rule_policy(DEFAULT), "idle": idle_policy, "random": random_policy(np.random.default_rng(0))}
     rows = [row_of(display_name(name), [drive_episodes(policy, ROADS)]) for name, policy in drivers.items()]
+    rows.append(row_of("gap acceptance (rule)", [drive_episodes(teacher_policy(gap_rule), ROADS)]))
     rows.append(Row(display_name("planner"), mean(study.bound[DEFAULT.name])))
     later = [results for method, results in by_method(study.experiments["beyond"]).items() if method in AFTER]
     for results in (study.results["default"], *later):

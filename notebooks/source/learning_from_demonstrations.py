@@ -372,7 +372,7 @@ def ask(training):
 
 # %%
 training = bc.Training(bc.with_seeds(bc.settings_for("margin_soft"), 3), episodes=20_000)
-training.run(callback=ask, stop=lambda: training.updates > ASKED[-1])
+training.run(callback=ask, updates=ASKED[-1] + 1)
 rows = [
     [f"{update:,}", *(", ".join(f"{each:.0f}" for each in kind) for kind in both)]
     for update, both in switched_on.items()
@@ -457,7 +457,7 @@ def note(training):
 
 # %%
 training = bc.Training(agents, episodes=20_000)
-result = training.run(callback=note, stop=lambda: training.updates > UPDATES)
+result = training.run(callback=note, updates=UPDATES + 1)
 print(f"{result.seconds:.0f} s; episodes of each: {training.curves.finished.tolist()}")
 
 # %%
@@ -543,7 +543,7 @@ predict(
 # %%
 agents = bc.with_seeds(bc.settings_for("bootstrapped"), 2) + [bc.settings_for("margin_soft")]
 whole = own_code.training(agents, episodes=20_000)
-result = whole.run(stop=lambda: whole.updates >= 2500)
+result = whole.run(updates=2500)
 rows, escaping = [], []
 for agent in result.agents:
     r = bc.evaluate(agent.as_policy(), 200, seed=8)
@@ -576,8 +576,8 @@ bc.recording([shipped.beginning(drive, 60) for drive in (yours, *ours)], height=
 # 1. β is the demonstrations' share of each batch; it falls in a straight line to 0.
 # 2. At γ = 0.8 the rule's way out is worth less than staying behind, on the 20 roads of Round 2. A
 #    bonus of 0.06 reverses that.
-# 3. c = {{ SETTINGS.bonus }} raises a demonstrated drive's discounted return by c / (1 − γ) =
-#    {{ SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f }}. In our runs of Round 5 the critics' values
+# 3. c = {{ SETTINGS.bonus }} raises a demonstrated drive's discounted return by c / (1 − γ)
+#    = {{ SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f }}. In our runs of Round 5 the critics' values
 #    rose by less, and the values of actions that were not demonstrated rose, too.
 # 4. The large-margin loss moves the Q of the expert's action and of its best rival, and is 0 from a
 #    lead of {{ settings_for('margin').margin | .0f }} on.

@@ -17,7 +17,7 @@
 # - say what the trap is, and drive it yourself;
 # - choose your route through the course.
 #
-# **Time** 10 minutes, half of one the machine's. **It builds on** nothing.
+# **Time** 10 minutes, the machine computes for half a minute of it. **It builds on** nothing.
 
 # %%
 import bootcourse as bc
