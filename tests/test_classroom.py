@@ -11,11 +11,12 @@ import pytest
 
 from bootcourse.cli import main
 from bootcourse.course.classroom import grading
-from bootcourse.course.classroom.answers import Notebook, answers_in, unfinished
+from bootcourse.course.classroom.answers import LONGEST, Answers, Clock, Notebook, unfinished
 from bootcourse.course.classroom.grading import Verdicts, identical, judge_all
 from bootcourse.course.classroom.judging import Judge
 from bootcourse.course.classroom.points import read_lessons, read_points
-from bootcourse.course.classroom.submission import LONGEST, Submission, collect, fingerprint, from_notebooks
+from bootcourse.course.classroom.sandbox import HOLDS
+from bootcourse.course.classroom.submission import Submission, collect, fingerprint, from_notebooks
 from bootcourse.course.lessons import registry
 from bootcourse.errors import BootcourseError
 from tools.course.source import NOTEBOOKS
@@ -42,6 +43,10 @@ def notebook(*cells: dict) -> dict:
 
 def read(notebook: dict) -> Notebook:
     return msgspec.convert(notebook, Notebook)
+
+
+def answers_in(notebook: Notebook) -> dict[str, str]:
+    return Answers(notebook, Clock()).texts()
 
 
 # Answers --------------------------------------------------------------------------------------------
@@ -198,7 +203,7 @@ def test_on_linux_nothing_outside_is_reached_and_the_next_answer_is_judged(judge
         for what, lines in ATTACKS.items():
             verdict = judge.ask(NAME, body(lines.format(target=str(tmp_path / "theirs"), **given)), 10)
             assert verdict.kind != "passed" and os.environ["PATH"][:20] not in str(verdict), what
-        if set(judge.holds) == {"network", "processes", "files"}:
+        if set(judge.holds) == set(HOLDS):
             assert [path.name for path in tmp_path.iterdir()] == ["mine.txt"]
             listener.settimeout(0.1)
             with pytest.raises(TimeoutError):
