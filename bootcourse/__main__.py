@@ -1,10 +1,6 @@
 """`python -m bootcourse`: the same as `bootcourse`. The commands are in `cli`."""
 
-import os
 import sys
-
-if __name__ == "__main__" and sys.path[0] == os.getcwd() != os.path.dirname(os.path.dirname(__file__)):
-    del sys.path[0]  # the present folder may hold what others have handed in: nothing is imported from it
 
 try:
     from bootcourse.cli import main

@@ -12,6 +12,7 @@ from bootcourse.course.judge import judge
 from bootcourse.course.lessons import registry
 from bootcourse.errors import BootcourseError
 from tests.answers import RIGHT, here
+from tests.hostile.submissions import failures
 
 HEAD, LUCK = "def luck(good, decisions, tries):\n    ", "return 1 - (1 - (good / n) ** decisions) ** tries"
 NINE = HEAD + LUCK.replace("n)", "9)")
@@ -134,3 +135,8 @@ def test_who_fills_a_cell_with_commands_stops_nobody_else(monkeypatch):
     answers = msgspec.convert({"cells": [{"cell_type": "code", "source": "!ls\n" * 400}] * 2}, Notebook)
     with pytest.raises(BootcourseError, match="too long to read"):
         Answers(answers, Clock(0.2))
+
+
+def test_damaged_submissions_stop_no_class():
+    answered, failed = failures(60, seed=0)  # more of them: python -m tests.hostile.submissions
+    assert answered and failed == []
