@@ -120,13 +120,13 @@ def open_regular(path: Path, largest: float = math.inf):
     """A file, opened to read its bytes. Raises BootcourseError if it is missing, not a regular file, or too large."""
     path = Path(path)
     try:
-        found = path.stat()  # before it is opened: opening a pipe would wait for its writer
-        if not stat.S_ISREG(found.st_mode):
+        status = path.stat()  # before it is opened: opening a pipe would wait for its writer
+        if not stat.S_ISREG(status.st_mode):
             raise BootcourseError(
-                f"{path} is a {'folder' if stat.S_ISDIR(found.st_mode) else 'device'}, not a file: name a file."
+                f"{path} is a {'folder' if stat.S_ISDIR(status.st_mode) else 'device'}, not a file: name a file."
             )
-        if found.st_size > largest:
-            raise BootcourseError(f"{path} has {found.st_size:,} bytes, at most {largest:,} can be right: {COPY}.")
+        if status.st_size > largest:
+            raise BootcourseError(f"{path} has {status.st_size:,} bytes, at most {largest:,} can be right: {COPY}.")
         return path.open("rb")
     except BootcourseError:
         raise
@@ -210,9 +210,9 @@ def check_arrays(arrays: dict[str, np.ndarray], shapes: dict[str, tuple], path: 
     if odd := sorted(arrays.keys() ^ shapes.keys()):
         raise BootcourseError(f"{path} is incomplete or of another version (see {', '.join(odd[:3])}): {remedy}.")
     for name, shape in shapes.items():
-        found = arrays[name]
-        if found.shape != shape or found.dtype.kind not in "biuf":
-            raise BootcourseError(f"{path}: {name} is {found.dtype} {found.shape}, not numbers {shape}: {remedy}.")
+        array = arrays[name]
+        if array.shape != shape or array.dtype.kind not in "biuf":
+            raise BootcourseError(f"{path}: {name} is {array.dtype} {array.shape}, not numbers {shape}: {remedy}.")
 
 
 def _array(data: bytes) -> np.ndarray:
