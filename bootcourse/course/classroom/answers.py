@@ -8,7 +8,6 @@ that such a text can be judged by itself. IPython's own transformer reads cells 
 import ast
 import re
 import time
-import warnings
 from bisect import bisect_left
 from collections import defaultdict
 from itertools import accumulate
@@ -126,8 +125,7 @@ def statements_of(text: str, clock: Clock) -> list[Statement]:
             nodes = ast.parse(text).body
         except NO_PYTHON:
             magic = RUNS_ITS_CELL.match(text)
-            with warnings.catch_warnings(action="ignore"):  # of IPython, about odd ends of lines
-                text = clock.transform_cell(text[magic.end() :] if magic else text)
+            text = clock.transform_cell(text[magic.end() :] if magic else text)
             nodes = ast.parse(text).body
         return [Statement(*pair) for pair in zip(segments(text, nodes), nodes, strict=True)]
     except NO_PYTHON:
