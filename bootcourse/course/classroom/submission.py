@@ -6,6 +6,7 @@ Such a file may come from anybody: one reader checks every field, and what it re
 import hashlib
 import os
 import re
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from datetime import UTC, datetime
@@ -128,7 +129,7 @@ def from_notebooks(path: Path) -> Submission:
     @contextmanager
     def noting(place: Path) -> Iterator[None]:
         try:
-            with decoding(place, ASK):
+            with decoding(place, ASK), warnings.catch_warnings(action="ignore"):  # Python's, about a student's text
                 yield
         except BootcourseError as error:
             problems.append(within(folder, error))
