@@ -270,10 +270,10 @@ bc.show(charts.lines(np.arange(20, 121), named, title, "episode", "share"))
 table(*equal_decisions.search_rows(shipped.shipped_experiment("beyond-search")))
 
 # %% [markdown]
-# The best of the three is trained with {{ len(later('ibrl')) }} other seeds and tested on {{
-# roads() | , }} held-out roads. RLPD is not in the tables: with its ensemble and its updates a decision
-# costs several times as much as one of IBRL, and we had no time for its search. (`bootcourse study
-# beyond --only rlpd` runs it.) These are our versions of the methods:
+# The best of the three is trained with other seeds ({{ len(later('ibrl')) }} agents each) and
+# tested on {{ roads() | , }} held-out roads. RLPD is not in the tables: with its ensemble and its
+# updates a decision costs several times as much as one of IBRL, and we had no time for its search.
+# (`bootcourse study beyond --only rlpd` runs it.) These are our versions of the methods:
 #
 # | | its authors | our agents |
 # |---|---|---|
