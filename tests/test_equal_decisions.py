@@ -1,7 +1,6 @@
 """The comparison at equal decisions: trained in small, its tables by hand, and the choice that the search makes."""
 
 import numpy as np
-import pytest
 
 from bootcourse.course.shipped import shipped_experiment
 from bootcourse.episodes.evaluate import held_out_seeds
@@ -69,7 +68,7 @@ def test_every_method_has_as_many_tries_and_only_usable_seeds():
     assert not set(equal_decisions.SEARCH_ROADS) & set(held_out_seeds(equal_decisions.HELD_OUT, equal_decisions.TESTS))
 
 
-@pytest.mark.parametrize("method", CHOSEN)
-def test_the_chosen_settings_are_those_that_earned_most_in_the_search_that_ships(method):
-    means = list(tried(shipped_experiment("beyond-search")[method]).values())
-    assert CHOSEN[method] == int(np.argmax(means))
+def test_the_chosen_settings_are_those_that_earned_most_in_the_search_that_ships():
+    ships = shipped_experiment("beyond-search")
+    best = {method: int(np.argmax(list(tried(results).values()))) for method, results in ships.items()}
+    assert len(best) > 4 and best.items() <= CHOSEN.items()

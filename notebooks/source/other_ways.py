@@ -44,12 +44,12 @@ bc.show(figures.what_is_taken())
 # question of this one: **which of the five ways brings the most from the same number of
 # decisions?**
 #
-# > **Predict.** Each learner may take 100,000 decisions of its own, a little more than a day of
-# > driving. Which one earns the most afterwards, on roads that are new to it?
+# > **Predict.** Each learner but RLPD may take 100,000 decisions of its own, a little more than a
+# > day of driving. Which one earns the most afterwards, on roads that are new to it?
 # <!-- claim: LAST == 100_000 and 1 < LAST / 3600 / 24 < 1.3 -->
 
 # %%
-learners = ["PPO after cloning", "bootstrapped SAC", "jump-start RL", "RLPD", "IBRL"]
+learners = ["PPO after cloning", "bootstrapped SAC", "jump-start RL", "IBRL"]
 predict("other_ways.1", "The highest return after 100,000 decisions", learners)
 
 # %% [markdown] tags=["instructor"] minutes=5
@@ -258,8 +258,7 @@ bc.show(charts.lines(np.arange(20, 121), named, title, "episode", "share"))
 # long somebody searched for its settings, and the roads of the test. The search comes first. For
 # each method we tried three settings, with {{ equal_decisions.SEARCH_SEEDS }} seeds each, {{
 # equal_decisions.SEARCHED | , }} decisions and {{ len(equal_decisions.SEARCH_ROADS) }} roads that
-# no other test uses. (RLPD, which is slow: {{ equal_decisions.LESS_SEARCHED['rlpd']['seeds'] }}
-# seeds, {{ equal_decisions.LESS_SEARCHED['rlpd']['decisions'] | , }} decisions.) With a replay
+# no other test uses. With a replay
 # buffer, the three are target entropies η; PPO has none, and the three are how many roads it drives
 # at once. γ is {{ equal_decisions.GAMMA }} for all. Bootstrapped SAC has a bonus c of {{
 # equal_decisions.COMMON['bootstrapped']['bonus'] }}, since c = 2 would be worth more than the road
@@ -271,22 +270,22 @@ bc.show(charts.lines(np.arange(20, 121), named, title, "episode", "share"))
 table(*equal_decisions.search_rows(shipped.shipped_experiment("beyond-search")))
 
 # %% [markdown]
-# The best of the three is trained with {{ equal_decisions.SEEDS }} other seeds and tested on {{
-# roads() | , }} held-out roads. They are our versions of these methods:
+# The best of the three is trained with other seeds ({{ len(later('ibrl')) }} agents each) and
+# tested on {{ roads() | , }} held-out roads. RLPD is not in the tables: with its ensemble and its
+# updates a decision costs several times as much as one of IBRL, and we had no time for its search.
+# (`bootcourse study beyond --only rlpd` runs it.) These are our versions of the methods:
 #
 # | | its authors | our agents |
 # |---|---|---|
 # | all five | continuous actions, but PPO | nine actions; discrete SAC, but PPO |
-# | RLPD | 10 critics, 20 updates for a decision | {{ settings_for('rlpd').critics }} critics, half
-# an update |
+# | RLPD | 10 critics, 20 updates for a decision | {{ settings_for('rlpd').critics }} critics, {{
+# settings_for('rlpd').updates / settings_for('rlpd').envs_per_agent | g }} updates |
 # | IBRL | a cloned network proposes the second action | the rule itself does |
 # | IBRL | demonstrations stay in the buffer | their share of a batch fades from {{
 # settings_for('ibrl').beta_start }} to 0 |
 # | jump-start RL | h is judged in test episodes | in training episodes, with drawn actions |
 # | bootstrapped SAC | γ = {{ SETTINGS.gamma }}, c = {{ SETTINGS.bonus | g }} | γ = {{
 # equal_decisions.GAMMA }}, c = {{ equal_decisions.COMMON['bootstrapped']['bonus'] }} |
-# <!-- claim: 2 * equal_decisions.COMMON['rlpd']['updates'] ==
-#   equal_decisions.COMMON['rlpd']['envs_per_agent'] -->
 #
 # > **Predict.** Of 1,000 drives after 100,000 decisions, in how many does the method that earns the
 # > most have an accident?
@@ -299,7 +298,38 @@ compared = equal_decisions.by_method(shipped.shipped_experiment("beyond"))
 table(*equal_decisions.budget_rows(compared))
 
 # %% [markdown]
-# SEE4
+# **See.** After {{ LAST | , }} decisions three of the learners earn about the same: bootstrapped
+# SAC {{ middle('bootstrapped') | .0f }}, IBRL {{ middle('ibrl') | .0f }} and jump-start RL {{
+# middle('jsrl') | .0f }}, with intervals that overlap. {{ escaping('bootstrapped') }}, {{
+# escaping('ibrl') }} and {{ escaping('jsrl') }} of {{ len(later('ibrl')) }} agents escape. So few
+# agents do not show which of the three is best. None of them is safe: {{ 100 * at('ibrl',
+# 'accident').mean() | .0f }} % of IBRL's drives end in an accident, and {{ 100 * at('bootstrapped',
+# 'accident').mean() | .0f }} % of bootstrapped SAC's.
+# <!-- claim: max(map(middle, ('bootstrapped', 'ibrl', 'jsrl'))) - min(map(middle, ('bootstrapped',
+#   'ibrl', 'jsrl'))) < 10 and middle('jsrl') > middle('ppo_cloned') -->
+# <!-- claim: (lambda a, b, c: max(a.low, b.low, c.low) < min(a.high, b.high, c.high))(*(interval(
+#   at(m, 'returns')) for m in ('bootstrapped', 'ibrl', 'jsrl'))) -->
+# <!-- claim: min(at(m, 'accident').mean() for m in ('bootstrapped', 'ibrl', 'jsrl')) > 0.02 -->
+#
+# PPO after cloning earns less for the same decisions, and needs less than a tenth of the time:
+# after {{ equal_decisions.SECONDS }} seconds of a core it earns the most, in training (last
+# column). PPO without a teacher escapes in none of its {{ len(later('ppo')) }} trainings.
+# <!-- claim: at('ppo_cloned', 'seconds').mean() < at('ibrl', 'seconds').mean() / 10 and
+#   escaping('ppo') == 0 and middle('ppo_cloned') < middle('ibrl') -->
+#
+# **Explain.** The search decided more than the method did. With η = −1, the paper's target, which
+# nine actions cannot reach, jump-start RL earns {{ search('jsrl')['η = -1'] | .0f }} in the search
+# and IBRL {{ search('ibrl')['η = -1'] | .0f }}; with a target that can be reached they earn {{
+# max(search('jsrl').values()) | .0f }} and {{ max(search('ibrl').values()) | .0f }}. For
+# bootstrapped SAC it is the other way round: there a falling temperature is part of the method,
+# because ξ fades with α. Had we given all of them one η, the table would rank that choice.
+# <!-- claim: max(search('jsrl'), key=search('jsrl').get) != 'η = -1' != max(search('ibrl'),
+#   key=search('ibrl').get) and max(search('bootstrapped'), key=search('bootstrapped').get) ==
+#   'η = -1' -->
+#
+# What the table does not say: what 800,000 decisions would bring, what a larger search would find
+# (bootstrapped SAC's and jump-start RL's best try is the last of the three in one direction), or
+# which method is best on another road.
 
 # %% [markdown] tags=["instructor"] minutes=10
 # Each group defends one row as the one to use: with a slow car and a safe test track, with a fleet

@@ -11,7 +11,7 @@ from bootcourse.research import equal_decisions  # noqa: F401 (the text names it
 from bootcourse.research.equal_decisions import BUDGETS, by_method, tried
 from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
-from bootcourse.statistics import ESCAPES, iqm
+from bootcourse.statistics import ESCAPES, interval, iqm  # noqa: F401
 from tools.course.known import shipped_experiment, shipped_teachers
 
 LAST = BUDGETS[-1]
