@@ -98,7 +98,8 @@ def forgetting(success, window):
     means = (sums[:, window:] - sums[:, :-window]) / window
     often = means > 0.5
     last = window + means.shape[1] - 1 - often[:, ::-1].argmax(axis=1)
-    return np.where(often.any(axis=1)[:, None], np.stack([window + often.argmax(axis=1), last], axis=1), 0)
+    ends = np.stack([window + often.argmax(axis=1), last], axis=1)
+    return np.where(often.any(axis=1)[:, None], ends, 0)
 
 
 def table_cases(rng):
