@@ -23,6 +23,7 @@ from bootcourse.errors import BootcourseError
 from tools.course.source import NOTEBOOKS
 
 NAME = "luck"
+LESSON = str(number(registry()[NAME].lesson.partition("_")[2]))
 RIGHT = "def luck(good, decisions, tries):\n    return 1 - (1 - (good / 9) ** decisions) ** tries\n"
 ONE_TRY = "def luck(good, decisions, tries):\n    return (good / 9) ** decisions\n"
 SCRIPT = "<script>alert(1)</script>"
@@ -318,7 +319,7 @@ def graded(tmp_path_factory):
     for student, content in students.items():
         (folder / f"class/{student}.json").write_text(json.dumps(content))
     with pytest.MonkeyPatch.context() as patch:
-        arguments = ["grade", folder / "class", "--out", folder / "grades.csv", "--lessons", "5", "--workers", "1"]
+        arguments = ["grade", folder / "class", "--out", folder / "grades.csv", "--lessons", LESSON, "--workers", "1"]
         patch.setattr(sys, "argv", ["bootcourse", *map(str, arguments)])
         patch.setattr(grading, "LONGER", 0.5)
         with pytest.raises(SystemExit) as ended:
@@ -369,7 +370,7 @@ def test_twins_are_found_and_who_wrote_little_is_not():
 
 
 def test_points_are_the_difficulty_unless_the_file_says_otherwise(tmp_path):
-    assert read_points(None, {5})[NAME] == registry()[NAME].difficulty
+    assert read_points(None, {int(LESSON)})[NAME] == registry()[NAME].difficulty
     (tmp_path / "p.toml").write_text("default = 2\n[exercises]\nluck = 5.5\n")
     points = read_points(tmp_path / "p.toml")
     assert points[NAME] == 5.5 and points["decode"] == 2 and len(points) == len(registry())
