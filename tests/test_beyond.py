@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bootcourse.research import beyond
-from bootcourse.research.beyond import after_seconds, at_budget, budget_rows, decisions_until, learner_rows, lengths
+from bootcourse.research.beyond import after_seconds, at_budget, decisions_until, learner_rows, lengths
 from bootcourse.research.results import Results
 
 NAN = np.nan
@@ -57,18 +57,3 @@ def test_seconds_are_shared_equally_among_the_decisions_of_a_training(monkeypatc
     took = np.array([10.0, 4.0, NAN])  # for 100, 30 and 180 decisions: 6 s are 60, 45 and an unknown number of them
     np.testing.assert_array_equal(after_seconds(LEARNING, 6, took), [4, NAN, NAN])
     assert np.isnan(after_seconds(LEARNING, 6, np.zeros(3))).all()
-
-
-def test_the_table_at_equal_budgets_begins_with_the_highest_return_and_leaves_out_what_is_not_known():
-    def agents(method, returns, length, seconds):
-        curves = {"return": np.array([[returns - 1] * 60, [returns + 1] * 60]), "decisions": np.full((2, 60), length)}
-        pair = [{"method": method, "seed": seed} for seed in (0, 1)]
-        return Results(pair, np.full(2, -1), {}, curves, np.full(2, seconds))
-
-    silent = Results([{"method": "ppo", "seed": 0}], np.array([-1]), {}, {"success": np.ones((1, 60))})
-    parts = [("short", agents("rlpd", 90.0, 100.0, 30.0)), ("a", agents("sac", 20.0, 2000.0, 90.0))]
-    parts += [("b", agents("ibrl", 30.0, 2000.0, NAN)), ("c", silent)]
-    headings, rows = budget_rows(parts)
-    assert headings[2:] == ["100,000 decisions", "1,000,000 decisions", "20 s of one core", "60 s of one core"]
-    assert rows == [["IBRL", "b", "30.0 [29.0, 31.0]", "–", "–", "–"],
-                    ["plain SAC", "a", "20.0 [19.0, 21.0]", "–", "–", "–"]]  # fmt: skip

@@ -82,7 +82,7 @@ def test_a_name_from_somebody_else_s_file_is_only_text():
     assert "\x1b" not in repr(table) and repr(table).splitlines()[1].startswith("> ")
 
 
-def test_every_method_of_the_study_and_beyond_the_paper_has_its_row(monkeypatch):
+def test_every_method_of_the_study_and_other_ways_has_its_row(monkeypatch):
     monkeypatch.setattr(module, "ROADS", bc.held_out_seeds(1, 5))
     rows = {row.method: row for row in module.shipped_rows.__wrapped__()}
     assert {"planner", "rule controller", "random driver", "bootstrapped SAC", "CQL", "RLPD", "IBRL"} <= rows.keys()

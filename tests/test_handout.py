@@ -11,9 +11,10 @@ import pytest
 from bootcourse.course import check, edition
 from bootcourse.course.classroom import handout
 from bootcourse.course.classroom.merge import merge, texts
+from bootcourse.course.lessons import number, stem
 from bootcourse.errors import BootcourseError
 
-NAME = "notebooks/05_the_barrier.ipynb"
+NAME = f"notebooks/{stem('the_barrier')}.ipynb"
 
 
 @pytest.fixture(autouse=True)
@@ -24,7 +25,7 @@ def small(monkeypatch):
 
 @pytest.fixture
 def folder(tmp_path):
-    handout.write(tmp_path / "course", {5, 6}, "2030-05-31", solutions=False)
+    handout.write(tmp_path / "course", {number("the_barrier"), number("demonstrations")}, "2030-05-31", solutions=False)
     return tmp_path / "course"
 
 

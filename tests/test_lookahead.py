@@ -1,8 +1,8 @@
 """Looking ahead: the nine values are what driving each action on a copy of the road would earn."""
 
+import shutil
 from dataclasses import replace
 
-import msgspec
 import numpy as np
 import pytest
 from gymnasium.vector import AutoresetMode
@@ -12,15 +12,17 @@ from bootcourse.episodes.evaluate import drive_episodes
 from bootcourse.episodes.lookahead import imagine, lookahead, lookahead_shield, rollout_values, worth_of_speed
 from bootcourse.episodes.models import FAR_BEHIND, MODELS, Model
 from bootcourse.errors import BootcourseError
-from bootcourse.files import write_arrays, write_json
 from bootcourse.learn.teachers import teacher_policy
 from bootcourse.plots.futures import nine_futures
 from bootcourse.policies import PlanPolicy, PolicyOutput, idle_policy, plan_policy, rule_policy
-from bootcourse.research.lookahead import Cell, cells, evaluate_cells, read_cell, summaries
+from bootcourse.research.lookahead import Cell, cells, drive
 from bootcourse.research.lookahead_figures import by_horizon, rows, wrong_models
+from bootcourse.research.results import Results, experiment
 from bootcourse.road.state import CRASHED, EGO, HEADING, LANE, SPEED, TARGET_LANE, TRAP_1, X, Y
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import CALIBRATED, DEFAULT, N_ACTIONS
+from bootcourse.storage.assets import FOLDER
+from bootcourse.storage.runs import load_run
 
 ROADS = [2**33 - 7, 2**33 - 8]
 INTO_TRAP_1 = [("accelerate straight", 30)]
@@ -248,6 +250,8 @@ def test_every_model_drives_every_form(name, make):
         (lambda: lookahead(idle_policy, 0), "horizon = 0: give a whole number from 1 to 1,000"),
         (lambda: lookahead(idle_policy, models=[]), "give at least one model"),
         (lambda: Model(noise=-1.0), "cannot be negative"),
+        (lambda: Model(keep=True, time_gap=2.0), "want nothing else. Leave out keep"),
+        (lambda: Model(drawn=3, desired_speed=1.0), "drawn around the true ones. Leave out drawn"),
         (
             lambda: drive_episodes(
                 lookahead(idle_policy), ROADS, replace(DEFAULT, traffic=bc.scenario.Traffic(cars=2))
@@ -272,30 +276,53 @@ def test_evaluate_and_drive_look_ahead_on_the_command_line(bootcourse, tmp_path)
 # The experiment.
 
 
-def test_a_cell_that_is_there_is_not_driven_again(tmp_path, capsys):
-    cells = [Cell("rule", form=form, horizon=2, roads=3) for form in ("alone", "rollout", "shield")]
-    loaders = {("rule", 0): lambda: rule_policy(DEFAULT)}
-    evaluate_cells(cells[:1], loaders, tmp_path)
-    evaluate_cells(cells, loaders, tmp_path)
-    assert capsys.readouterr().out.count("rule-0-alone") == 1
-    alone, rollout, shield = (read_cell(tmp_path / cell.file, 3) for cell in cells)
-    np.testing.assert_array_equal(alone["returns"], shield["returns"])
-    assert rollout["overruled"].all() and (rollout["overruled"] <= rollout["decisions"]).all()
+def test_a_study_drives_each_cell_once(bootcourse, tmp_path):
+    command = ("study", "look-ahead", "--only", "rule", "--tests", 3, "--workers", 1, "--out", tmp_path)
+    assert "3 to compute" in bootcourse(*command).out
+    assert "3 done already, 0 to compute" in bootcourse(*command).out
+    computed = experiment("look-ahead", tmp_path)
+    alone, shield, rollouts = (computed[Cell("rule", form).name].measured for form in ("alone", "shield", "rollouts"))
+    assert alone["returns"] == shield["returns"] and alone["returns"] != rollouts["returns"]
+    assert shield["overruled"] == 0 and 0 < rollouts["overruled"] <= rollouts["decisions"]
 
 
-def test_the_figures_say_how_many_drives_end_in_an_accident(tmp_path):
-    todo = [cell for cell in cells({"ppo_cloned": range(2), "bootstrapped": range(1)}) if cell.roads == 1000]
-    for cell in todo:
-        hurt = np.arange(1000) < (30 if cell.form == "alone" else 4)
-        names = ("returns", "accident", "success", "decisions", "overruled")
-        write_arrays(tmp_path / cell.file, dict.fromkeys(names, hurt.astype(int)) | {"seconds": np.array(1.0)})
-    found = summaries(tmp_path)
-    write_json(tmp_path / "summary.json", msgspec.to_builtins(found))
-    assert summaries(tmp_path / "summary.json") == found
-    assert "from 60 accidents in 2,000 drives to 8 accidents in 2,000 drives" in by_horizon(found).alt
-    assert "others keep speed and lane 4.0" in wrong_models(found).alt
-    headings, lines = rows(found)
+def test_a_cell_drives_the_agents_in_the_folder_and_then_those_that_ship(tmp_path):
+    shipped = [FOLDER / "runs" / f"soft-{seed}" for seed in range(2)]
+    shutil.copytree(shipped[1], tmp_path / "soft" / "soft-1")
+    results = drive(Cell("soft", "alone", agents=2, roads=5), tmp_path)
+    assert [agent["seed"] for agent in results.agents] == [0, 1]
+    for seed, path in enumerate(shipped):
+        expected = drive_episodes(load_run(path).agent.as_policy(), bc.held_out_seeds(1, 5))
+        assert results.measured["returns"][seed] == pytest.approx(expected.returns.mean())
+        assert results.measured["accidents"][seed] == (expected.accident > 0).sum()
+
+
+def test_a_missing_agent_names_the_command_that_trains_it(tmp_path):
+    with pytest.raises(BootcourseError, match="no agent of soft with the seed 5, 6: run `bootcourse train --method"):
+        drive(Cell("soft", "alone", agents=7), tmp_path)
+
+
+def results_of(hurt: int, returns: float = 130.0) -> Results:
+    """Two agents with so many accidents in 2,000 drives."""
+    numbers = {"roads": 1000, "success": 1, "decisions": 150_000, "overruled": 150, "seconds": 15}
+    measured = {name: np.full(2, value) for name, value in numbers.items()}
+    measured |= {"returns": np.array([returns - 1, returns + 1]), "accidents": np.array([hurt - 1, 1])}
+    return Results([{"method": "ppo_cloned", "seed": seed} for seed in range(2)], np.full(2, -1), measured=measured)
+
+
+def test_the_figures_and_the_table_say_how_many_drives_end_in_an_accident():
+    computed = {cell.name: results_of(60 if cell.form == "alone" else 8) for cell in cells()}
+    assert "60 accidents in 2,000 drives alone, 8 accidents" in by_horizon(computed).alt
+    assert "others keep speed and lane 4.0 and 130.0" in wrong_models(computed).alt
+    headings, lines = rows(computed, cells())
     assert lines[0][6].startswith("60 in 2,000: 30.00 [") and {len(headings)} == {len(line) for line in lines}
+
+
+def test_a_figure_names_the_cells_that_are_missing():
+    with pytest.raises(BootcourseError, match="lack 10: run `bootcourse study look-ahead"):
+        by_horizon({"ppo_cloned, alone": results_of(60)})
+    with pytest.raises(BootcourseError, match="lack ppo_cloned, rollouts, ppo_cloned, shield"):
+        wrong_models({"ppo_cloned, alone": results_of(60)})
 
 
 def test_the_nine_futures_name_the_best_and_the_accidents():

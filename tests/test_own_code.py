@@ -173,13 +173,15 @@ def test_the_solutions_make_the_library_s_update(method, left_out):
         assert torch.allclose(right, mine, atol=1e-5)
 
 
-def test_the_solutions_make_the_library_s_update_of_ppo_and_begin_as_the_clone():
+@pytest.mark.parametrize(("left_out", "parts"), [((), {"advantages", "ppo_loss"}),
+                                                 (("ppo_loss",), {"advantages", "clipped_loss"})])  # fmt: skip
+def test_the_solutions_make_the_library_s_update_of_ppo_and_begin_as_the_clone(left_out, parts):
     small = {"hidden": (8,), "envs_per_agent": 4, "horizon": 8, "batch": 16, "epochs": 1, "buffer_size": 16}
     small |= {"demonstration_episodes": 2, "cloning_updates": 5}
     settings = with_seeds(settings_for("ppo_cloned", **small), 2)
-    own_code._own.update(solutions())
+    own_code._own.update(solutions(*left_out))
     mine, library = own_code.training(settings), Training(settings)
-    assert mine.learner.own.keys() == {"advantages", "clipped_loss"}
+    assert mine.learner.own.keys() == parts
     for training in (mine, library):
         training.run(progress=False, stop=lambda training=training: training.updates >= 2)
     for ours, theirs in zip(mine.learner.actor, library.learner.actor, strict=True):

@@ -11,8 +11,8 @@ from bootcourse.research import figures as training_figures
 from bootcourse.research import tables
 from bootcourse.research.fidelity import VERDICTS, fidelity, judge
 from bootcourse.research.paper import COLUMNS, PRINTED, TABLES, arithmetic, earned_at, paper_interval, possible
-from bootcourse.research.report import budget_part, rule_results, write_report
-from bootcourse.research.results import Results, StudyResults, agent_entries, in_study, save_results
+from bootcourse.research.report import rule_results, write_report
+from bootcourse.research.results import Results, agent_entries, in_study, save_results
 from bootcourse.scenario import SCENARIOS
 from bootcourse.statistics import Estimate
 
@@ -148,17 +148,3 @@ def test_the_report_holds_every_table_and_figure_and_names_the_agents_that_were_
 )  # fmt: skip
 def test_an_interval_is_printed_with_the_decimals_that_its_length_leaves_meaningful(estimate, words):
     assert tables.bracketed(Estimate(*estimate)) == words
-
-
-def test_the_report_compares_all_methods_at_an_equal_budget_beside_the_planner_s_bound():
-    results = invented(("sac", "soft"), episodes=300)
-    for name, value in {"distance": 5000.0, "speed": 10.0}.items():  # 500 decisions: 150,000 in all
-        results.curves[name][:] = value
-    results.curves["return"][:] = np.repeat([10.0, 20.0], 10)[:, None]
-    heading, table, bound, below = budget_part(StudyResults({"default": results}, {"default": np.full(20, 140.0)}))
-    assert heading == "## All methods at an equal budget\n" and "training returns, with drawn actions" in below
-    rows = table.splitlines()[2:]
-    assert rows[0].startswith("| soft constraint only | quick | 20.00 [20.00, 20.00] | – |")
-    assert rows[1].startswith("| plain SAC | quick | 10.00 [10.00, 10.00] | – |")
-    assert bound == "The planner's bound: 140.00 [140.00, 140.00].\n"
-    assert budget_part(StudyResults({"default": invented(("sac",), episodes=20)})) == []

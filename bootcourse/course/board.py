@@ -22,9 +22,10 @@ from bootcourse.learn.agent import Agent
 from bootcourse.learn.teachers import Rule, course_rule, teacher_of, teacher_policy
 from bootcourse.learn.training import Result
 from bootcourse.markup import html, joined
-from bootcourse.methods import display_name
+from bootcourse.methods import AFTER, display_name
 from bootcourse.policies import Policy, idle_policy, random_policy, rule_policy
 from bootcourse.research.beyond import lengths
+from bootcourse.research.equal_decisions import by_method
 from bootcourse.research.jobs import HELD_OUT
 from bootcourse.research.results import Results, in_assets
 from bootcourse.scenario import DEFAULT, Scenario
@@ -133,7 +134,8 @@ def shipped_rows() -> tuple[Row, ...]:
     rows = [row_of(display_name(name), [drive_episodes(policy, ROADS)]) for name, policy in drivers.items()]
     rows.append(row_of("gap acceptance (rule)", [drive_episodes(teacher_policy(gap_rule), ROADS)]))
     rows.append(Row(display_name("planner"), mean(study.bound[DEFAULT.name])))
-    for results in (study.results["default"], *study.experiments["beyond"].values()):
+    later = [results for method, results in by_method(study.experiments["beyond"]).items() if method in AFTER]
+    for results in (study.results["default"], *later):
         rows += [row_of_study(results.of(method), method) for method in results.methods]
     return tuple(rows)
 

@@ -20,7 +20,7 @@ from bootcourse.learn.ibrl import IBRLLearner
 from bootcourse.learn.jsrl import JSRLLearner
 from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.networks import mlp
-from bootcourse.learn.ppo import PPOLearner
+from bootcourse.learn.ppo import Minibatch, PPOLearner
 from bootcourse.learn.replay_buffer import Batch, decode_transitions
 from bootcourse.learn.rlpd import RLPDLearner
 from bootcourse.learn.settings import Settings
@@ -52,7 +52,7 @@ def parts_of(settings: Sequence[Settings], own: Parts) -> list[str]:
     if method in ALONE:
         return ALONE[method]
     if METHODS[method].on_policy:
-        return ["advantages", "clipped_loss"]
+        return ["advantages", "ppo_loss" if "ppo_loss" in own else "clipped_loss"]
     names = ["soft_value", "critic_target", "critic_loss", "actor_loss", "temperature_loss", "ReplayBuffer"]
     if any(s.asks_teacher for s in settings):
         names.append("soft_constraint")
@@ -169,7 +169,7 @@ class OwnGAIL(Own, GAILLearner):
 
 
 class OwnPPO(Own, PPOLearner):
-    """PPO: the advantages, and the clipped objective."""
+    """PPO: the advantages, and the clipped objective or the whole loss, which contains it."""
 
     def advantages(self, *columns: Tensor) -> Tensor:
         compute, lam = self.part("advantages"), self.settings[0].gae_lambda
@@ -179,6 +179,15 @@ class OwnPPO(Own, PPOLearner):
     def clipped_loss(self, ratio: Tensor, advantage: Tensor) -> Tensor:
         loss, clip = self.part("clipped_loss"), self.settings[0].clip
         return self.each(lambda i: loss(ratio[i], advantage[i], clip))
+
+    def losses(self, batch: Minibatch) -> dict[str, Tensor]:
+        if "ppo_loss" not in self.own:
+            return super().losses(batch)
+        log_pi, values = sac.log_policy(mlp(self.actor, batch.states)), mlp(self.value, batch.states)[..., 0]
+        rows = log_pi, values, batch.actions, batch.log_pi, batch.advantages, batch.returns
+        loss, shared = self.own["ppo_loss"], self.settings[0]
+        total = self.each(lambda i: loss(*(row[i] for row in rows), shared.clip, shared.entropy_weight))
+        return {"actor_loss": total, "value_loss": torch.zeros_like(total), "entropy": sac.entropy(log_pi).mean(-1)}
 
 
 class OwnRLPD(Own, RLPDLearner):

@@ -1,19 +1,14 @@
-"""What the learners beyond the paper reached, and every method at an equal budget of decisions or seconds."""
+"""What learners cost: the decisions until the way out is learned, and the returns within a budget."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 
-from bootcourse.methods import METHODS, display_name
-from bootcourse.research.plan import EXPERIMENTS, STUDIES
-from bootcourse.research.results import Results, StudyResults
+from bootcourse.research.results import Results
 from bootcourse.research.tables import bracketed, escaped, score
 from bootcourse.scenario import DEFAULT
-from bootcourse.statistics import interval
 
 SHARE, WINDOW = 0.95, 50  # an agent has learned the way out when this share of so many episodes in a row ended ahead
-DECISIONS, SECONDS = (100_000, 1_000_000), (20, 60)  # § equal budgets; seconds of one core
-ASIDE = ("sensitivity", "clocks", "ablations", "teachers")  # they vary the method or the teacher to learn about them
 
 
 def lengths(curves: dict[str, np.ndarray]) -> np.ndarray | None:
@@ -88,49 +83,3 @@ def after_seconds(curves: dict[str, np.ndarray], seconds: float, took: np.ndarra
     """`at_budget` for seconds of one core, as if every decision took equally long. took: (agents,), of the training."""
     episodes, took = lengths(curves), np.where(took > 0, took, np.nan)
     return at_budget(curves, np.nan if episodes is None else seconds / took * np.nansum(episodes, axis=1, dtype=float))
-
-
-def at_a_budget(returns: np.ndarray) -> tuple[float, str]:
-    """(24.1, "24 [18, 26], 9 of 10"): the interquartile mean of agents' returns at a budget, and it in words.
-
-    returns: (agents,), NaN for those that did not get there; (-inf, "–") if none did.
-    """
-    there = returns[np.isfinite(returns)]
-    if not len(there):
-        return -np.inf, "–"
-    estimate = interval(there)
-    counted = "" if len(there) == len(returns) else f", {len(there)} of {len(returns)}"
-    return estimate.value, bracketed(estimate) + counted
-
-
-def entries(study: StudyResults) -> list[tuple[str, Results]]:
-    """(setting, results) of the studies on the default scenario and of each experiment there that is not `ASIDE`."""
-    parts = [
-        ("quick" if name == "default" else name, results)
-        for name, results in study.results.items()
-        if STUDIES[name].scenario == DEFAULT
-    ]
-    for name, varied in study.experiments.items():
-        for variation, results in varied.items():
-            if name not in ASIDE and EXPERIMENTS[name].variations[variation].scenario == DEFAULT:
-                parts.append((name if variation in METHODS else f"{name}: {variation}", results))
-    return parts
-
-
-def budget_rows(parts: Sequence[tuple[str, Results]]) -> tuple[list[str], list[list[str]]]:
-    """(headings, rows): every method at each of `DECISIONS` and `SECONDS`, the highest at the first budget on top.
-
-    parts: `entries`. Methods of which no file tells the training returns are left out.
-    """
-    rows = []
-    for setting, results in parts:
-        for method in results.methods:
-            mine = results.of(method)
-            each = [at_budget(mine.curves, budget) for budget in DECISIONS]
-            each += [after_seconds(mine.curves, budget, mine.seconds) for budget in SECONDS]
-            values, cells = zip(*map(at_a_budget, each), strict=True)
-            if max(values) > -np.inf:
-                rows.append((values[0], [display_name(method), setting, *cells]))
-    rows.sort(key=lambda row: -row[0])
-    headings = [f"{budget:,} decisions" for budget in DECISIONS] + [f"{budget} s of one core" for budget in SECONDS]
-    return ["method", "setting", *headings], [cells for _, cells in rows]

@@ -6,7 +6,7 @@ from itertools import product
 
 from bootcourse.errors import BootcourseError, check_known
 from bootcourse.learn.settings import SETTINGS, Settings, settings_for, with_seeds
-from bootcourse.methods import ABLATION, AFTER, BASELINES, METHODS
+from bootcourse.methods import ABLATION, AFTER, BASELINES
 from bootcourse.research.jobs import BoundJob, Job, LessonJob, StayingJob, named_function
 from bootcourse.research.teachers import PLANNER as PLANS
 from bootcourse.research.teachers import RULE, TEACHERS, teacher_named
@@ -146,15 +146,6 @@ def _longer_view() -> dict[str, Variation]:
     return {"γ = 0.95": Variation(saner | {"gamma": 0.95}, methods=("bootstrapped",))}
 
 
-def _beyond() -> dict[str, Variation]:
-    """Learners that the paper does not train, each with its own settings.
-
-    PPO drives hundreds of roads at once. RLPD makes eight times as many updates for a decision as the others.
-    """
-    episodes = {"rlpd": 250} | {method: METHODS[method].episodes for method in BEYOND if METHODS[method].on_policy}
-    return {method: Variation(methods=(method,), episodes=episodes.get(method, 0)) for method in BEYOND}
-
-
 # Of each method in the experiment `teachers`: changes and training episodes. The minutes of one core are those of ten
 # agents side by side, by the speed of their first 20 s. The planner takes 12.5 ms for a decision. Demonstrations by it
 # add 6 minutes (2 where it takes the part of μ in π̃, whose drives end early), its labels of DAgger's 80 episodes 25.
@@ -213,7 +204,6 @@ EXPERIMENTS = {
     "clocks": Experiment(_clocks(), seeds=10, episodes=1200),
     "ablations": Experiment(_ablations(), seeds=10, episodes=2000),
     "longer-view": Experiment(_longer_view(), seeds=10, episodes=1500),
-    "beyond": Experiment(_beyond(), seeds=10, episodes=1500),
     "teachers": Experiment(_teachers(), seeds=10, episodes=1500, tests=200),
 }
 
@@ -245,6 +235,9 @@ LESSON_EXPERIMENTS = {  # "module:name" of a LessonExperiment, imported when it 
     "students": "bootcourse.course.lessons.your_teacher.taught_agents:EXPERIMENT",
     "second-trap": "bootcourse.course.lessons.the_second_trap.ppo_kinds:EXPERIMENT",
     "elsewhere": "bootcourse.research.elsewhere:EXPERIMENT",  # of no lesson, but a function of its own too
+    "beyond-search": "bootcourse.research.equal_decisions:SEARCH",
+    "beyond": "bootcourse.research.equal_decisions:EXPERIMENT",
+    "look-ahead": "bootcourse.research.lookahead:EXPERIMENT",
 }
 
 
@@ -265,6 +258,7 @@ def chosen(variations: dict, names: dict[str, set[str]], words: str) -> dict:
 def folder(name: str) -> str:
     """A name as a folder: "γ = 0.9" -> "gamma-0.9"."""
     words = {"γ": "gamma", "β": "beta", "π̃": "stochastic-rule", "μ": "rule", "1/4": "quarter", ",": ""}
+    words |= {"η": "eta", "|A|": "A"}  # some file systems refuse a bar
     for letter, word in words.items():
         name = name.replace(letter, word)
     return "-".join(word for word in name.split() if word not in ("=", "x", "at", "m/s"))

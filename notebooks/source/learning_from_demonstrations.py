@@ -410,7 +410,7 @@ table(["after updates", "printed filter on, % (three seeds)", "usual filter on, 
 #
 # "On its own" holds for this study, which makes a quarter of an update for each decision. With two
 # updates, and demonstrations by π̃, all ten agents with the bonus alone escape: lesson
-# [[ablation]], round 6.
+# [[found_and_kept]], round 4.
 # <!-- claim: escapers(clocks()['2', 'π̃'], 'demos') == len(clocks()['2', 'π̃'].of('demos')) == 10
 #   -->
 

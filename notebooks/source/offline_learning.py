@@ -410,11 +410,11 @@ print(f"ten seeds: P(bootstrapped > CQL) = {tables.bracketed(both, 100)} %")
 # {{ EPISODES }} test drives do not explain it; a single unlucky seed might, for GAIL. The *road* is
 # left. The paper's traps were probably a little faster than ours, and a method that gets out of one
 # trap need not get out of another. So the whole study was run a second time, behind traps at
-# {{ CALIBRATED.traps.speed }} m/s (lesson [[ablation]]).
+# {{ CALIBRATED.traps.speed }} m/s.
 # <!-- claim: escaped('cql') == len(of('cql')) and escaped('cql_sac') == 0 -->
 #
 # > **Predict.** Behind faster traps there is less to gain. For which methods do fewer of ten agents
-# > escape? (Lesson [[ablation]] showed that more agents of plain SAC do.)
+# > escape?
 
 # %%
 predict(
@@ -458,9 +458,9 @@ table(headings, rows)
 # %% [markdown]
 # ## Round 5: more updates, and other demonstrations
 #
-# Lesson [[ablation]] found a setting with which the paper's ablation comes out as printed: two
-# updates for each decision instead of a quarter, and demonstrations by the stochastic rule π̃. The
-# whole study was run with it.
+# Lesson [[found_and_kept]] found a setting with which the paper's ablation comes out as printed:
+# two updates for each decision instead of a quarter, and demonstrations by the stochastic rule π̃.
+# The whole study was run with it.
 #
 # > **Predict.** π̃ takes another action than the rule in one decision of ten, and most of its
 # > drives end in an accident (lesson [[demonstrations]]). CQL learns from 200 of them. What becomes
@@ -506,11 +506,11 @@ table(["", *names], rows)
 # {{ 100 * (drive_episodes(stochastic_rule_policy(DEFAULT, np.random.default_rng(0)),
 # range(200)).accident > 0).mean() | .0f }} % end in an accident. This teacher errs at random, and a
 # learner that takes its most frequent action leaves errors out, as round 3 says. But they drive
-# worse than with the rule's drives, while the learners of lesson [[ablation]] gained from this
-# setting. Two things changed at once, the drives and the updates, and one more study would tell
-# which of them it was. (In our runs of lesson [[demonstrations]], with far fewer updates, clones of
-# π̃ crashed less often than clones of the rule.) The paper's rows of CQL and GAIL, a car that stays
-# behind, are not explained by this setting either.
+# worse than with the rule's drives, while the learners of lesson [[found_and_kept]] gained from
+# this setting. Two things changed at once, the drives and the updates, and one more study would
+# tell which of them it was. (In our runs of lesson [[demonstrations]], with far fewer updates,
+# clones of π̃ crashed less often than clones of the rule.) The paper's rows of CQL and GAIL, a car
+# that stays behind, are not explained by this setting either.
 # <!-- claim: (drive_episodes(stochastic_rule_policy(DEFAULT, np.random.default_rng(0)),
 #   range(200)).accident > 0).mean() > 2 *
 #   max(shipped_results('paper').of(m).scores('accident').max() for m in ('bc', 'cql')) -->
@@ -580,4 +580,4 @@ compare_predictions(
 # %% [markdown]
 # **Read on**: Kumar et al., *Conservative Q-Learning for Offline Reinforcement Learning* (arXiv
 # 2006.04779); Kumar et al., *When Should We Prefer Offline Reinforcement Learning Over Behavioral
-# Cloning?* (arXiv 2204.05618). Next: [exploration](exploration.ipynb).
+# Cloning?* (arXiv 2204.05618).

@@ -506,7 +506,7 @@ table(["", "success, %", "return", "accidents, %"], rows)
 # had no demonstrations. Where one of them gets out, we think that the soft constraint led it out:
 # of the study's {{ len(of('sac')) }} plain SAC agents {{ escaped('sac') }} escapes (lesson
 # [[the_barrier]]), of its {{ len(of('soft')) }} agents with the soft constraint alone
-# {{ escaped('soft') }} do (lesson [[ablation]]).
+# {{ escaped('soft') }} do (lesson [[how_many_seeds]]).
 # <!-- claim: escaped('sac') == 1 < len(of('sac')) / 2 < escaped('soft') -->
 #
 # **Explain.** The training stops early for the agents whose ξ stays: after 6,000 updates they do as
@@ -522,7 +522,7 @@ table(["", "success, %", "return", "accidents, %"], rows)
 # else. (The paper's table gives the soft constraint alone a success of {{ 100 *
 # PRINTED['soft']['success'].mean | .0f }} %. On our road, with the KL in the target, {{
 # escaped('soft') }} of the study's {{ len(of('soft')) }} agents escape. When two results differ,
-# report both, and look for the cause: lesson [[ablation]], round 6.)
+# report both, and look for the cause: lesson [[found_and_kept]].)
 # <!-- claim: PRINTED['soft']['success'].mean == 0 -->
 # <!-- claim: escaped('soft') > 0 -->
 #

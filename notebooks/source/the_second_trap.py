@@ -15,10 +15,10 @@
 #
 # **What you will be able to do**
 # - find out from a drive how an agent earns a lot and still misses its goal, and what pays for it;
-# - write PPO's two formulas, and train an agent with them in seconds;
+# - write PPO, its advantages and its loss, train an agent with it in seconds, and read its health;
 # - tell what a change of the reward can repair: what is best, or what is found.
 #
-# **Time** 70 minutes, about one of them the machine's. **It builds on** the reward (lesson
+# **Time** 60 minutes, about one of them the machine's. **It builds on** the reward (lesson
 # [[the_trap]]), the barrier ([[the_barrier]]) and demonstrations ([[demonstrations]]).
 
 # %%
@@ -72,13 +72,13 @@ choices = [
 ]
 predict("the_second_trap.1", "They earn more because", choices)
 
-# %% [markdown] tags=["instructor"] minutes=5
+# %% [markdown] tags=["instructor"] minutes=3
 # Do not play the recording before everybody has committed. Ask for a sketch of the speed over time:
 # those who draw a constant line should say at which speed, and why the agent is not ahead then.
 
 # %%
 ROAD = 10
-drive = bc.record(ppo_kinds.agent_of("alone").as_policy(), [ROAD], label="ppo")[0]
+drive = bc.record(ppo_kinds.agent_of("alone").as_policy(), [ROAD], label="an agent")[0]
 
 # %% tags=["nbval-ignore-output"]
 bc.recording([drive], height=360)
@@ -125,20 +125,8 @@ bc.show(charts.lines(v, named, title, "mean speed (m/s)", "speed reward of a sec
 # <!-- claim: (lambda r: all(r[i - 1] + r[i + 1] >= 2 * r[i] - 1e-12 for i in range(1, len(r) -
 #   1)))([speed_reward(v) for v in np.linspace(5, 15, 401)]) -->
 #
-# **Exercise (6 min, ●●○).** Write that gain: what a second pays on average at these speeds,
-# less what it pays at their mean.
-
-
-# %%
-def jensen_gap(speeds):
-    """Mean r_v at these speeds less r_v at their mean. speeds: (seconds,) in m/s. A number."""
-    # solution
-    paid = np.mean([bc.formulas.speed_reward(v) for v in speeds])
-    return paid - bc.formulas.speed_reward(np.mean(speeds))
-    # end solution
-
-
-check.jensen_gap(jensen_gap)
+# How much a drive gains from that is **Jensen's gap**: what its seconds pay on average, less what a
+# second pays at its mean speed.
 
 # %% tags=["hide-input"]
 cars = drive.states[:: bc.DEFAULT.clock.steps]
@@ -167,19 +155,42 @@ table(["", "mean speed, m/s", "mean r_v", "r_v at the mean speed", "gap"], rows)
 # <!-- claim: ppo_speeds().mean() < DEFAULT.traps.speed and np.mean([speed_reward(v) for v in
 #   ppo_speeds()]) > 2 * speed_reward(DEFAULT.traps.speed) -->
 
-# %% [markdown] tags=["instructor"] minutes=8
+# %% [markdown] tags=["instructor"] minutes=3
 # Ask for everyday payments that are convex: bonuses above a threshold, overtime at a higher rate.
 # Who finds a way to earn them by irregular work? Then ask what a *concave* one would do, before
 # round 3 does it.
 
 # %% [markdown]
-# ## Round 2: PPO in two formulas
+# ## Round 2: from a policy gradient to PPO
 #
-# PPO has an actor π and a critic V(s), which says what a state is worth. It drives its roads for {{
+# SAC asks its critic which action is best. A **policy gradient** does without: act, see what comes,
+# and make likelier what went well. For any policy with parameters θ
+#
+# $$ \nabla_\theta\, \mathrm{E}[R] = \mathrm{E}\big[\nabla_\theta \log \pi(a)\; R\big] $$
+#
+# because ∇π = π ∇ log π. So a mean over *drawn* actions is enough. Here are three actions that pay
+# 10, 11 and 12, and a policy that takes each with probability ⅓. Subtracting a **baseline** from
+# R, such as the mean 11, changes the gradient's mean by nothing, since E[∇ log π] = 0.
+
+# %%
+# NBVAL_CHECK_OUTPUT
+pays, rng = np.array([10.0, 11.0, 12.0]), np.random.default_rng(0)
+drawn = rng.integers(3, size=100_000)
+grad_log = np.eye(3)[drawn] - 1 / 3  # of log π(a) with respect to the three logits
+print("exact gradient:", np.round((pays - pays.mean()) / 3, 2))
+for baseline in (0.0, 11.0):
+    each = grad_log * (pays[drawn] - baseline)[:, None]
+    mean, spread = np.round(each.mean(0), 1), each.std(0).mean()
+    print(f"baseline {baseline:2.0f}: mean {mean}, spread {spread:.2f}")
+
+# %% [markdown]
+# Both means are the exact gradient, and the baseline makes the spread more than ten times smaller:
+# so many fewer drives are needed. PPO is this, with two additions: a baseline V(s) that is learned,
+# and a limit on how far one batch of drives may change the policy. It drives its roads for {{
 # settings_for('ppo').horizon }} seconds, learns from these decisions, and deletes them.
 #
 # **How good was a decision?** It was good if more came than V expected. The surprise of one second
-# is
+# is the temporal difference
 #
 # $$ \delta_t = r_t + \gamma V(s_{t+1}) - V(s_t) $$
 #
@@ -254,9 +265,31 @@ for ratio, advantage in ((1.5, 2.0), (0.5, 2.0), (1.5, -2.0), (0.5, -2.0)):
     print(f"r = {ratio}, A = {advantage:4}: slope of the loss {slope:4.1f}, the action gets: {way}")
 
 # %% [markdown]
-# The rest of PPO is known from SAC: V learns the returns by squared error, a little entropy is paid
-# for, and Adam takes the steps. Train one agent, with your two functions if they passed. **Yours
-# will differ.** The result depends on your processor.
+# **The whole loss.** V learns the returns R by squared error, which counts half, and a little
+# entropy H is paid for:
+#
+# $$ L + \tfrac12\, \mathrm{mean}\big[(V - R)^2\big] - c_H\, \mathrm{mean}[H] $$
+#
+# Before that, the advantages of a minibatch are given mean 0 and deviation 1, so that the size of a
+# step does not depend on the size of the rewards.
+#
+# **Exercise (10 min, ●●○).** Put PPO together. `ppo.clipped_loss`, or your own, is L.
+
+
+# %%
+def ppo_loss(log_pi, values, actions, old_log_pi, advantage, returns, clip, entropy_weight):
+    """PPO's loss of a minibatch, one number. log_pi (batch, 9): log π of every action, now.
+
+    actions (batch,): those taken; old_log_pi (batch,): their log π when they were taken. values:
+    V(s) now; advantage, returns: all (batch,). entropy_weight: c_H.
+    """
+    # solution: the exercise's own
+
+
+check.ppo_loss(ppo_loss)
+
+# %% [markdown]
+# Train one agent with it. **Yours will differ**, because the result depends on your processor.
 
 # %% tags=["nbval-ignore-output"]
 MOST = 100_000  # episodes; the number of decisions ends each training
@@ -277,8 +310,24 @@ figure = charts.lines(
 bc.show(figure)
 
 # %% tags=["nbval-ignore-output"]
+rows = [
+    [f"{at:,.0f}", f"{kl:.4f}", f"{100 * clipped:.0f}", f"{explained:.2f}"]
+    for at, kl, clipped, explained in zip(
+        mine.at, mine.kl, mine.clipped, mine.explained, strict=True
+    )
+]
+table(["decisions", "KL, nats", "clipped, %", "explained variance"], rows[::3])
+
+# %% [markdown]
+# Three numbers say whether PPO is healthy, whatever the return. The **KL** from the policy before a
+# round of updates to the one after it should be small: if it jumps, the steps are too large. The
+# **clip fraction** is the share of decisions that have reached the limit. The **explained
+# variance** of the returns by V is 1 for a perfect V and 0 for one that is the same everywhere.
+# None of the three says what the agent does on the road.
+
+# %% tags=["nbval-ignore-output"]
 print(f"yours is ahead of trap 1 in {100 * mine.escapes[-1]:.0f} % of its last training episodes")
-your_drive = bc.record(mine.agent.as_policy(), [ROAD], label="ppo")[0]
+your_drive = bc.record(mine.agent.as_policy(), [ROAD], label="your agent")[0]
 bc.show(bc.traces(your_drive, title="Your agent", what=("speed", "distance")))
 
 # %% [markdown]
@@ -295,7 +344,7 @@ bc.show(bc.traces(your_drive, title="Your agent", what=("speed", "distance")))
 #   round(ppo('alone')['at'][0][9], -4) == 500_000 and len(ppo('alone')['curve']) == 10 -->
 # <!-- claim: (ppo('alone')['curve'][:, -1] > idle().rewards.sum()).all() -->
 
-# %% [markdown] tags=["instructor"] minutes=8
+# %% [markdown] tags=["instructor"] minutes=5
 # The two endings are where most answers fail. Draw two rows, one that ends in an accident and one
 # that runs out of time, and fill in δ and the sum for both. Who thinks that clipping is a limit on
 # the policy? It takes the payment away, and other rows of the batch can push the policy further.
@@ -316,7 +365,7 @@ choices = ["it leaves", "it drives steadily behind trap 1", "it falls back and s
 predict("the_second_trap.4", "With the concave reward", choices)
 
 # %%
-concave = bc.record(ppo_kinds.agent_of("concave").as_policy(), [ROAD], label="ppo")[0]
+concave = bc.record(ppo_kinds.agent_of("concave").as_policy(), [ROAD])[0]
 speeds = {
     name: each.states[:: bc.DEFAULT.clock.steps][1:, EGO, SPEED]
     for name, each in (("the road's reward", drive), ("the concave one", concave))
@@ -416,7 +465,7 @@ table(["PPO, paid", "each agent's escapes, %, sorted", "the road's return", "acc
 # tried one potential and one length of training: another may do better. Can you write one that pays
 # for falling back first?
 
-# %% [markdown] tags=["instructor"] minutes=6
+# %% [markdown] tags=["instructor"] minutes=4
 # Let them argue: is a potential not a teacher, too? Somebody who knows the way out wrote it. Let
 # them compare what each had to know: the rule a sequence of actions, the potential a direction. For
 # the fast: a potential for which the detour pays more (forget the mask, or γ), trained for a
@@ -463,7 +512,7 @@ headings = [
 table(["", *headings], rows)
 
 # %%
-kinds = {"ppo": "alone", "ppo_cloned": "cloned"}
+kinds = {"alone": "alone", "ppo_cloned": "cloned"}
 fast = {
     m: bc.record(ppo_kinds.agent_of(k).as_policy(), [ROAD], label=m)[0] for m, k in kinds.items()
 }
@@ -486,10 +535,10 @@ bc.show(bc.traces(list(fast.values()), title=title, what=("speed", "distance", "
 # what the cloned agents earn, and in most of their decisions they do something else. It put the
 # learner on the other side of the barrier. From there on the reward was enough: speed pays more on
 # a free road than behind trap 1, and PPO found out how. That is the paper's idea in its shortest
-# form. The soft constraint and the demonstrations of lessons [[soft_constraint]] to [[ablation]] do
-# the same for a learner that needs an aid for longer.
+# form. The soft constraint and the demonstrations of lessons [[soft_constraint]] and
+# [[demonstrations]] do the same for a learner that needs an aid for longer.
 
-# %% [markdown] tags=["instructor"] minutes=6
+# %% [markdown] tags=["instructor"] minutes=3
 # Ask which of the course's figures would have looked the same for the second trap: those that
 # show returns. Then ask for one sentence for an abstract about PPO alone that is true, and does
 # not mislead.
@@ -501,8 +550,8 @@ bc.show(bc.traces(list(fast.values()), title=title, what=("speed", "distance", "
 #    a drive.
 # 2. Where a reward is convex, a changing speed can earn more than a steady one. Jensen's gap says
 #    how much.
-# 3. GAE adds up surprises, and stops at the end of an episode. PPO's loss stops paying when an
-#    action has become likely enough.
+# 3. A policy gradient makes likelier what went better than V expected. GAE adds up these surprises,
+#    and PPO's loss stops paying when an action has become likely enough.
 # 4. A shaping reward pays for a change of the potential, and leaves the best policy as it is.
 #    After an accident the potential is 0.
 # 5. Two seconds of cloning were enough for a fast learner: the rule opened the way, and its advice
@@ -544,5 +593,5 @@ compare_predictions(
 # rolls in and shrinks: Uchendu et al., *Jump-Start Reinforcement Learning* (arXiv 2204.02372).
 #
 # **Try**: `bc.board()` shows the methods of the course on the same {{ roads() | , }} roads, by
-# return, and `bc.board("runs/mine")` puts your own agents among them. Next: [beyond the
-# paper](beyond_the_paper.ipynb), the learners that it does not train.
+# return, and `bc.board("runs/mine")` puts your own agents among them. Next:
+# [other ways to use a teacher](other_ways.ipynb).

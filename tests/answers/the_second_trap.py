@@ -1,9 +1,8 @@
 """Answers to the exercises of the lesson on the second trap."""
 
-import numpy as np
 import torch
 
-from tests.answers import equivalent, right, right_lines, wrong, wrong_lines
+from tests.answers import equivalent, right, right_lines, wrong_lines
 
 PAIR = "(torch.empty_like(delta), torch.zeros_like(delta[0]))"
 equivalent(
@@ -78,38 +77,30 @@ wrong_lines("""clipped_loss
     of the logarithm: solution(ratio.log(), advantage, clip)
 """)
 
-right_lines("""jensen_gap
-    second by second: total = sum(bc.formulas.speed_reward(v) for v in speeds)
-        total / len(speeds) - bc.formulas.speed_reward(sum(speeds) / len(speeds))
-    as a mean of differences: steady = bc.formulas.speed_reward(float(np.mean(speeds)))
-        np.mean([bc.formulas.speed_reward(float(v)) - steady for v in speeds])
-""")
+right_lines("""ppo_loss
+    row by row: rows = torch.arange(len(actions))
+        ratio = torch.exp(log_pi[rows, actions] - old_log_pi)
+        good = (advantage - advantage.mean()) / (torch.std(advantage) + 1e-8)
+        policy = -torch.minimum(ratio * good, ratio.clamp(1 - clip, 1 + clip) * good).mean()
+        policy + 0.5 * torch.nn.functional.mse_loss(values, returns) + entropy_weight * (log_pi.exp() * log_pi).sum(-1).mean()
+    with a distribution: draws = torch.distributions.Categorical(logits=log_pi)
+        ratio = (draws.log_prob(actions) - old_log_pi).exp()
+        good = (advantage - advantage.mean()) / advantage.std()
+        paid = torch.stack([ratio * good, ratio.clamp(1 - clip, 1 + clip) * good]).amin(0)
+        (0.5 * (returns - values) ** 2 - paid - entropy_weight * draws.entropy()).mean()
+""")  # noqa: E501
 
-
-@right("jensen_gap")
-def with_the_formula_written_out(speeds):
-    def pays(v):
-        below = np.where(v > 12.5, 8 / 25 * v - 19 / 5, np.where(v > 5, 2 / 75 * v - 2 / 15, 0.0))
-        return np.where(v > 15, np.exp(-((v - 15) ** 2)), below)
-
-    return float(pays(np.asarray(speeds)).mean() - pays(np.mean(speeds)))
-
-
-wrong_lines("""jensen_gap
-    with the root mean square: steady = bc.formulas.speed_reward(math.sqrt(np.mean(np.square(speeds))))
-        np.mean([bc.formulas.speed_reward(v) for v in speeds]) - steady
-    as a ratio:
-        np.mean([bc.formulas.speed_reward(v) for v in speeds]) / (1e-9 + bc.formulas.speed_reward(np.mean(speeds)))
-    of the first speed: np.mean([bc.formulas.speed_reward(v) for v in speeds]) - bc.formulas.speed_reward(speeds[0])
-""")
-
-
-@wrong("jensen_gap")
-def without_the_fall_above_15(speeds):
-    def pays(v):
-        return 8 / 25 * v - 19 / 5 if v > 12.5 else max(0.0, 2 / 75 * v - 2 / 15)
-
-    return np.mean([pays(v) for v in speeds]) - pays(np.mean(speeds))
+wrong_lines("""ppo_loss
+    as a number: solution(log_pi, values, actions, old_log_pi, advantage, returns, clip, entropy_weight).item()  # gradient
+    without the values: solution(log_pi, returns, actions, old_log_pi, advantage, returns, clip, entropy_weight)
+    nothing clipped: solution(log_pi, values, actions, old_log_pi, advantage, returns, 1e9, entropy_weight)
+    shifted only: taken = log_pi.gather(-1, actions[:, None])[:, 0]
+        good = advantage - advantage.mean()
+        ratio = (taken - old_log_pi).exp()
+        loss = -torch.minimum(ratio * good, ratio.clamp(1 - clip, 1 + clip) * good).mean()
+        loss + (values - returns).square().mean() / 2 + entropy_weight * (log_pi.exp() * log_pi).sum(-1).mean()
+    the values learn the advantages: solution(log_pi, values, actions, old_log_pi, advantage, advantage, clip, entropy_weight)
+""")  # noqa: E501
 
 
 right_lines("""shaping_reward

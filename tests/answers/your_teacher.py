@@ -7,39 +7,6 @@ from bootcourse.road.state import EGO, LANE, SPEED, X, Y
 from tests.answers import right, right_lines, wrong, wrong_lines
 
 
-@right("gap_ahead")
-def with_a_loop(cars, lane):
-    gap = np.inf
-    for car in cars[1:]:
-        distance = car[X] - cars[EGO, X]
-        if car[LANE] == lane and 0 < distance and distance - 5 < gap:
-            gap = distance - 5
-    return gap
-
-
-right_lines("""gap_ahead
-    with min: gaps = [car[X] - cars[EGO, X] - 5 for car in cars if car[LANE] == lane and car[X] > cars[EGO, X]]
-        min(gaps, default=float("inf"))
-    the library's: teacher.ahead(cars, lane)[0]
-""")
-
-wrong_lines("""gap_ahead
-    the nearest: gaps = [car[X] - cars[EGO, X] for car in cars[1:] if car[LANE] == lane]
-        min(gaps, key=abs) - 5 if gaps else np.inf  # behind you
-    in any lane: gaps = [x - cars[EGO, X] - 5 for x in cars[:, X] if x > cars[EGO, X]]
-        min(gaps, default=np.inf)  # every lane
-    without the empty lane: others = cars[(cars[:, LANE] == lane) & (cars[:, X] > cars[EGO, X])]
-        others[:, X].min() - cars[EGO, X] - 5  # raises an error
-    with the speed: teacher.ahead(cars, lane)  # returns
-    zero where no car is ahead: gap = with_a_loop(cars, lane); 0.0 if gap == np.inf else gap
-    the first row:
-        for car in cars[1:]:
-            if car[LANE] == lane and car[X] > cars[EGO, X]:
-                return car[X] - cars[EGO, X] - 5
-        np.inf  # first car of the table
-""")
-
-
 @right("my_rule")
 def the_course_s(cars, scenario):
     return teacher.course_rule(cars[None], scenario)[0]
@@ -68,52 +35,6 @@ def late_and_slow(cars, scenario):
         return np.int64(teacher.toward(cars, 14.0 if gap > 30 else min(14.0, speed - 1), 0, scenario))
     free = teacher.ahead(cars, lane - 1, scenario)[0] > 12 and abs(cars[EGO, Y] - 4 * lane) < 0.5
     return np.int64(teacher.toward(cars, 8.0, lane - free, scenario))
-
-
-right_lines("""next_labels
-    by index: labels = now.copy(); labels[ended] = at_end[ended]; labels
-    one by one: np.array([b if over else a for a, b, over in zip(now, at_end, ended, strict=True)])
-    as a list: [int(at_end[i]) if ended[i] else int(now[i]) for i in range(len(ended))]
-""")
-
-wrong_lines("""next_labels
-    in place: now[ended] = at_end[ended]; now  # changes its argument
-    only those that ended: at_end[ended]  # shape
-    the larger: np.maximum(now, at_end * ended)
-    no label at the end: np.where(ended, -1, now)
-    of the road before: np.where(np.roll(ended, 1), at_end, now)
-    all if any ended: at_end if ended.any() else now
-    both added: now + at_end * ended
-""")
-
-right_lines("""verdict
-    every one with every one: better = taught[:, None] > alone
-        worse = taught[:, None] < alone
-        int(better.all()) - int(worse.all())
-    of pairs: pairs = [(a, t) for a in alone for t in taught]
-        int(all(t > a for a, t in pairs)) - int(all(t < a for a, t in pairs))
-""")
-
-
-@right("verdict")
-def sorted_by_value(alone, taught):
-    alone, taught = sorted(alone), sorted(taught)
-    if taught[0] > alone[-1]:
-        return 1
-    return -1 if taught[-1] < alone[0] else 0
-
-
-wrong_lines("""verdict
-    the other way round: -solution(alone, taught)
-    best against best: int(np.sign(max(taught) - max(alone)))
-    as a text: {1: "helps", 0: "cannot be told", -1: "hurts"}[sorted_by_value(alone, taught)]
-    most of the pairs: better = (taught[:, None] > alone).mean(); 1 if better > 0.8 else -1 if better < 0.2 else 0
-    by ten points: int(taught.min() > alone.max() + 10) - int(taught.max() < alone.min() - 10)
-    ties count:
-        if all(t >= a for t in taught for a in alone) and all(t <= a for t in taught for a in alone):
-            return 0
-        1 if min(taught) >= max(alone) else (-1 if max(taught) <= min(alone) else 0)  # tie
-""")
 
 
 @right("watchful_rule")

@@ -30,7 +30,7 @@ def grade(
     folder: Path = typer.Argument(..., help="A file or a folder for each student: submissions or notebooks."),
     out: Path = typer.Option(Path("grades.csv"), help="The table to write; more is written beside it."),
     points: Path | None = typer.Option(None, help="A TOML file with the points; by default an exercise's difficulty."),
-    lessons: str = typer.Option("", help="Only these lessons, such as 4-8 or 1,5,7."),
+    lessons: str = typer.Option("", help="Only these lessons, such as 2-7 or 1,5,7."),
     workers: int = typer.Option(0, min=0, help="Answers judged at once; 0: one for each core."),
 ) -> None:
     """Judge every answer of a class again; write tables, a page for each student and one for the class."""
@@ -52,7 +52,7 @@ def grade(
 
 def handout(
     folder: Path = typer.Argument(..., help="The folder to write; FOLDER.zip is written beside it."),
-    lessons: str = typer.Option("", help="Only these lessons, such as 4-8 or 1,5,7."),
+    lessons: str = typer.Option("", help="Only these lessons, such as 2-7 or 1,5,7."),
     deadline: str = typer.Option("", help="A date, such as 2030-05-31: submissions after it are marked."),
     solutions: bool | None = typer.Option(None, help="Let `check.solution` show solutions; by default it does not."),
     update: bool = typer.Option(False, "--update", help="Bring this handout up to date; what students wrote stays."),

@@ -42,13 +42,13 @@ def read_points(path: Path | None, lessons: set[int] | None = None) -> dict[str,
 
 
 def read_lessons(text: str) -> set[int] | None:
-    """ "4-8" or "1,5,7" as numbers; "" is None, all lessons. Raises BootcourseError for what is no lesson."""
+    """ "2-7" or "1,5,7" as numbers; "" is None, all lessons. Raises BootcourseError for what is no lesson."""
     if not text:
         return None
     parts = [re.fullmatch(r"(\d{1,4})(?:-(\d{1,4}))?", part.strip()) for part in text.split(",")]
     numbers = {n for part in parts if part for n in range(int(part[1]), int(part[2] or part[1]) + 1)}
     if not numbers or not all(parts):
-        raise BootcourseError(f"--lessons {text}: give numbers of lessons, such as 4-8 or 1,5,7.")
+        raise BootcourseError(f"--lessons {text}: give numbers of lessons, such as 2-7 or 1,5,7.")
     last = max(int(exercise.lesson[:2]) for exercise in registry().values())
     if max(numbers) > last:
         raise BootcourseError(f"--lessons {text}: there is no lesson {max(numbers)}, the last is {last}.")

@@ -14,25 +14,26 @@ from bootcourse.course.exercise import Exercise
 COURSE = (
     "start",
     "the_trap",
-    "traffic",
-    "the_rule",
     "discrete_sac",
     "the_barrier",
+    "the_rule",
     "demonstrations",
     "soft_constraint",
     "learning_from_demonstrations",
-    "ablation",
+    "how_many_seeds",
+    "found_and_kept",
 )
 ELECTIVES = (
     "imitation",
     "offline_learning",
-    "exploration",
     "bug_hunt",
     "your_teacher",
     "the_second_trap",
-    "beyond_the_paper",
+    "looking_ahead",
+    "other_ways",
+    "your_own_problem",
 )
-APPENDIX = ()
+APPENDIX = ("traffic",)
 LESSONS = COURSE + ELECTIVES + APPENDIX
 
 

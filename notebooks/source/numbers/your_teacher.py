@@ -6,10 +6,14 @@ import numpy as np
 from bootcourse.course.lessons import registry
 from bootcourse.course.lessons.your_teacher import example_teachers, taught_agents
 from bootcourse.course.lessons.your_teacher.driven_out import OUT, drive_out
-from bootcourse.learn.teachers import toward
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
+from bootcourse.learn.teachers import teacher_policy, toward
+from bootcourse.research import teachers
+from bootcourse.research.beyond import lengths
 from bootcourse.road.state import EGO, LANE
 from bootcourse.statistics import ESCAPES
 from scipy import stats
+from tools.course.known import shipped_teachers
 
 
 @cache
@@ -54,3 +58,31 @@ def two_situations(slow: float):
         return toward(cars, 12.0 if lane == 0 else slow, max(0, lane - 1), scenario)
 
     return example_teachers.examine(rule).episodes
+
+
+@cache
+def near_rule():
+    """How the rule that sees less far drives on the exam's roads."""
+    return example_teachers.examine(taught_agents.near_sighted).episodes
+
+
+def worth() -> dict:
+    """{(teacher, method): ten agents} of the experiment `teachers`."""
+    return shipped_teachers()
+
+
+def decisions(teacher: str, method: str) -> float:
+    """The thousand decisions of the whole training of one of these agents, the mean over ten."""
+    return float(np.nansum(lengths(worth()[teacher, method].curves), axis=1, dtype=float).mean()) / 1000
+
+
+def spread(method: str) -> str:
+    """The lowest and the highest of these means over teachers, "161 to 212"."""
+    each = [decisions(teacher, m) for teacher, m in worth() if m == method]
+    return f"{min(each):.0f} to {max(each):.0f}"
+
+
+@cache
+def teachers_success(teacher: str) -> float:
+    """The share of such a teacher's own drives, on 200 of the study's held-out roads, that end ahead."""
+    return float(drive_episodes(teacher_policy(teachers.TEACHERS[teacher].rule), held_out_seeds(1, 200)).success.mean())

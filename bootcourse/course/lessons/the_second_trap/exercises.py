@@ -122,41 +122,65 @@ clipped_loss = exercise(
 )(ppo.clipped_loss)  # fmt: skip
 
 
-def speed_cases(rng):
-    """Steady, convex, linear below 12.5 m/s, concave over 15 m/s, unequal parts, one second; then 40 at random."""
-    yield (np.full(4, 10.0),)
-    yield from ((np.array(v),) for v in ([10.0, 15.0], [6.0, 12.0, 9.0], [14.0, 15.5], [15.0, 5.0, 5.0, 5.0], [14.0]))
-    yield from ((rng.uniform(3, 15.5, rng.integers(2, 12)),) for _ in range(40))
+def loss_cases(rng):
+    """A policy that has not changed, no entropy, one that has changed much; then 20 at random."""
+
+    def case(n, change, entropy_weight):
+        log_pi = torch.tensor(rng.normal(0, 1, (n, 9))).log_softmax(-1)
+        actions = torch.tensor(rng.integers(0, 9, n))
+        old = log_pi.gather(-1, actions[:, None])[:, 0] + torch.tensor(rng.normal(0, change, n))
+        values, advantage, returns = (torch.tensor(rng.normal(0, 2, n)) for _ in range(3))
+        return log_pi, values, actions, old, advantage, returns, 0.2, entropy_weight
+
+    yield from (case(6, 0.0, 0.01), case(5, 0.3, 0.0), case(8, 1.0, 0.5))
+    yield from (case(rng.integers(3, 9), 0.3, rng.choice([0.0, 0.01, 0.2])) for _ in range(20))
 
 
-jensen_gap = exercise(
-    "E[r_v(v)] - r_v(E[v]), Jensen's inequality, r_v: Equation 10", minutes=6, difficulty=2, cases=speed_cases,
+EVEN = torch.full((2, 9), 1 / 9).log()
+
+
+@exercise(
+    "L + E[(V - R)²]/2 - c E[H], arXiv 1707.06347, Equation 9", minutes=10, difficulty=2, cases=loss_cases,
+    slopes=["log_pi", "values"],
     worked=[
-        ((np.array([5.0, 15.0]),), (0 + 1) / 2 - 2 / 15),  # r_v(10) = 2/15
-        ((np.array([10.0, 12.5]),), 0.0),  # linear between 5 and 12.5 m/s
+        # nothing has changed: the scaled advantages have mean 0, so only (1² + 3²) / 2 / 2 is left
+        ((EVEN, rows(1.0, 0.0), torch.tensor([0, 1]), EVEN[:, 0], rows(1.0, 2.0), rows(2.0, 3.0), 0.2, 0.0), 2.5),
+        # and a tenth of the entropy ln 9 = 2.197 is subtracted
+        ((EVEN, rows(1.0, 0.0), torch.tensor([0, 1]), EVEN[:, 0], rows(1.0, 2.0), rows(2.0, 3.0), 0.2, 0.1), 2.2803),
     ],
     hints=(
-        "Two numbers: the mean of the rewards, and the reward of the mean.",
-        "`bc.formulas.speed_reward` takes one speed: call it for each, and take `np.mean`.",
+        "Three terms: the clipped loss of the scaled advantages, half the mean squared error of V, and minus the "
+        "weighted mean entropy.",
+        "`log_pi.gather(-1, actions[:, None])[:, 0]` is log π(a|s). The ratio is the exponential of its difference to "
+        "`old_log_pi`.",
     ),
     mistakes={
-        "return -> return -":
-            "Your sign is wrong: the gap is positive where changing speeds pay *more* than the steady one.",
-        "- speed_reward(np.mean(speeds)) ->":
-            "This is what the changing speeds pay. Subtract what their *mean* speed would pay.",
-        "np.mean(speeds) -> np.median(speeds)":
-            "You compare with the median speed. The steady driver who gets as far drives the *mean* speed.",
-        "np.mean(speeds) -> (np.min(speeds) + np.max(speeds)) / 2":
-            "You compare with the middle between the lowest and the highest speed. They need not last equally long: "
-            "take the mean over all seconds.",
-        "return -> return len(speeds) *":
-            "You add up over the seconds: take the mean reward of a second.",
-        "np.mean([speed_reward(v) for v in speeds]) -> speed_reward(np.mean(speeds))":
-            "You compare the reward at the mean speed with itself. First the reward of each second, then the mean.",
-        "np.mean(speeds) -> np.max(speeds)":
-            "You compare with the highest speed. The steady driver drives the mean speed.",
+        "(advantage - advantage.mean()) / (advantage.std() + 1e-8) -> advantage":
+            "You take the advantages as they are. Give those of the minibatch mean 0 and deviation 1, so that the size "
+            "of a step does not depend on the size of the rewards.",
+        "(taken - old_log_pi).exp() -> taken - old_log_pi":
+            "This is the logarithm of the ratio: take its exponential.",
+        "(taken - old_log_pi).exp() -> (old_log_pi - taken).exp()":
+            "Your ratio is upside down: the new probability stands above the old one.",
+        "- entropy_weight * entropy -> + entropy_weight * entropy":
+            "Your sign is wrong: this charges for entropy, and the policy stops trying. A loss falls, so subtract it.",
+        "- entropy_weight * entropy ->":
+            "The entropy is missing: subtract its mean, times its weight.",
+        ".square().mean() / 2 -> .square().mean()":
+            "The squared error of V counts half.",
+        "log_pi.gather(-1, actions[:, None])[:, 0] -> log_pi.amax(-1)":
+            "You take the most probable action. The ratio is that of the action that was taken.",
+        "values - returns -> values.detach() - returns":
+            "No gradient flows to V: it would learn nothing.",
     },
-)(second_trap.jensen_gap)  # fmt: skip
+)  # fmt: skip
+def ppo_loss(log_pi, values, actions, old_log_pi, advantage, returns, clip, entropy_weight):
+    taken = log_pi.gather(-1, actions[:, None])[:, 0]
+    ratio = (taken - old_log_pi).exp()
+    scaled = (advantage - advantage.mean()) / (advantage.std() + 1e-8)
+    entropy = -(log_pi.exp() * log_pi).sum(-1).mean()
+    value_loss = (values - returns).square().mean() / 2
+    return ppo.clipped_loss(ratio, scaled, clip) + value_loss - entropy_weight * entropy
 
 
 def shaping_cases(rng):

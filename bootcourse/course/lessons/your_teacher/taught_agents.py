@@ -6,6 +6,7 @@ One training depends on the processor's rounding; the lesson's text rests on the
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -17,21 +18,36 @@ from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.settings import Settings, settings_for, with_seeds
-from bootcourse.learn.teachers import Rule, course_rule, teacher_of
+from bootcourse.learn.teachers import Rule, all_roads, course_rule, teacher_of
 from bootcourse.learn.training import Training
 from bootcourse.research.plan import LessonExperiment
 from bootcourse.research.results import Results, agent_entries, as_arrays, experiment
 from bootcourse.research.teachers import RULE
+from bootcourse.scenario import Scenario
 
 SEEDS, UPDATES, EVERY = 10, 3500, 250  # students of each teacher; updates of each; updates between two notes
 ROADS = held_out_seeds(13, 200)  # that every student is tested on
-TEACHERS = {"the rule": course_rule} | {teacher.__name__: teacher for teacher in (careful, timid, reckless, racer)}
+NEAR = 30.0  # m, the sight of a teacher that is the rule otherwise
+
+
+@all_roads
+def near_sighted(cars: np.ndarray, scenario: Scenario) -> np.ndarray:
+    """The rule if it sees no car that is further away than `NEAR`: it follows fewer cars, and drives faster."""
+    return course_rule(cars, replace(scenario, sight=replace(scenario.sight, distance=NEAR)))
+
+
+TEACHERS = {"the rule": course_rule, f"the rule, {NEAR:g} m": near_sighted}
+TEACHERS |= {teacher.__name__: teacher for teacher in (careful, timid, reckless, racer)}
 ALONE = "alone"  # agents without a teacher, as plain SAC
-EXPERIMENT = LessonExperiment(f"{__name__}:train_group", {name: {"group": name} for name in (ALONE, *TEACHERS)})
+RACER_LONG, LONG = "racer, long", 40_000  # updates, after which both aids have faded
+EXPERIMENT = LessonExperiment(
+    f"{__name__}:train_group",
+    {name: {"group": name} for name in (ALONE, *TEACHERS)} | {RACER_LONG: {"group": racer.__name__, "updates": LONG}},
+)
 
 
 class Taught(NamedTuple):
-    """A finished training: each agent's escapes while it learned, and what was left of the two helps at the end."""
+    """A finished training: each agent's escapes while it learned, and what was left of the two aids at the end."""
 
     agents: list[Agent]
     updates: np.ndarray  # (points,)
@@ -92,13 +108,20 @@ def reference() -> dict[str, dict[str, np.ndarray]]:
 
     Raises BootcourseError if the students of a teacher are missing.
     """
+    return {name: _shipped(name) for name in (ALONE, *TEACHERS)}
+
+
+def longer() -> dict[str, np.ndarray]:
+    """The same of ten students of the racer after `LONG` updates."""
+    return _shipped(RACER_LONG)
+
+
+def _shipped(name: str) -> dict[str, np.ndarray]:
     groups = experiment("students")
-    if missing := EXPERIMENT.variations.keys() - groups.keys():
-        raise BootcourseError(f"No students of {', '.join(missing)} ship: run `bootcourse study students --out DIR`.")
-    return {
-        name: group.measured | {"updates": group.notes["updates"][0], "escapes": group.notes["escapes"]}
-        for name, group in groups.items()
-    }
+    if name not in groups:
+        raise BootcourseError(f"No students of {name} ship: run `bootcourse study students --out DIR`.")
+    group = groups[name]
+    return group.measured | {"updates": group.notes["updates"][0], "escapes": group.notes["escapes"]}
 
 
 def p_value(taught: np.ndarray, alone: np.ndarray) -> float:

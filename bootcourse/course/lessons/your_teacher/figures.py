@@ -1,10 +1,15 @@
 """What a teacher is worth, each agent as a dot."""
 
+from collections.abc import Iterable, Mapping
+
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
+from bootcourse.course.shipped import shipped_bound
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.errors import check_known
+from bootcourse.learn.teachers import teacher_policy
 from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import (
     INK,
@@ -15,17 +20,20 @@ from bootcourse.plots.figure import (
     new_figure,
     plain_axes,
 )
+from bootcourse.research.beyond import lengths
+from bootcourse.research.jobs import HELD_OUT
 from bootcourse.research.plan import TAUGHT
 from bootcourse.research.teacher_worth import QUANTITIES, Cells, in_words
-from bootcourse.research.teachers import TEACHERS
+from bootcourse.research.teachers import PLANNER, TEACHERS
 
 ROW, HEAD, FOOT, NAMES = 0.42, 0.85, 0.6, 1.75  # inches
 
 
-def teacher_value(found: Cells, quantity: str) -> Figure:
+def teacher_value(found: Cells, quantity: str, own: Mapping[str, float] | None = None) -> Figure:
     """A dot for each agent; the bar is the estimate of `QUANTITIES`, the line its 95 % interval over seeds.
 
-    found: what `shipped_teachers` returns; quantity: one of `QUANTITIES`. An agent that does not reach a number of
+    found: what `shipped_teachers` returns; quantity: one of `QUANTITIES`; own: of the teachers themselves, a green line
+    in each row. An agent that does not reach a number of
     decisions is an open dot at the right edge. Raises BootcourseError for another quantity.
     """
     check_known("Quantity", quantity, QUANTITIES)
@@ -43,6 +51,9 @@ def teacher_value(found: Cells, quantity: str) -> Figure:
         for row, teacher in enumerate(rows):
             if (teacher, method) in found:
                 _draw(ax, row, values[teacher, method], estimates[teacher, method], colour, high)
+                if own is not None:
+                    green = style("rule").colour
+                    ax.plot([own[teacher]] * 2, [row - 0.45, row + 0.45], color=green, linewidth=2.5, zorder=2)
             else:
                 ax.text(0.5, row, "not run", transform=ax.get_yaxis_transform(), ha="center", va="center",
                         fontsize=SMALL, color=QUIET)  # fmt: skip
@@ -57,6 +68,7 @@ def teacher_value(found: Cells, quantity: str) -> Figure:
     words = f"{its.label}. Dots: agents; bar and line: their estimate and its 95 % interval"
     words += "; open dots at the right: not reached." * (quantity == "decisions") or "."
     figure.text(0.012, 0.12 / height, words[0].upper() + words[1:], fontsize=SMALL, color=QUIET)
+    words += " Green line: the teacher itself." * (own is not None)
     told = [f"{_named(place)}: {' '.join(in_words(each)).strip()}" for place, each in estimates.items()]
     return finish(figure, _title(its.label, estimates), f"{words} {'; '.join(told)}.")
 
@@ -95,3 +107,24 @@ def _title(label: str, estimates: dict) -> str:
     ends = [min(finite, key=finite.get), max(finite, key=finite.get)]
     low, high = (f"{in_words(estimates[place])[0]} ({_named(place)})" for place in ends)
     return f"{name}: from {low} to {high}"
+
+
+def worth_table(found: Cells) -> tuple[list[str], list[list[str]]]:
+    """(headings, rows): of each teacher's agents, how many escape, and how many decisions each took."""
+    methods = [method for method in TAUGHT if any(method == each for _, each in found)]
+    rows = []
+    for teacher in dict.fromkeys(teacher for teacher, _ in found):
+        cells = []
+        for method in methods:
+            results = found.get((teacher, method))
+            spent = "" if results is None else f"{np.nansum(lengths(results.curves), axis=1).mean() / 1000:,.0f}"
+            cells.append("not run" if results is None else f"{results.escapers(method)} ({spent})")
+        rows.append([TEACHERS[teacher].words, *cells])
+    return ["of ten escape (thousand decisions of each)", *map(display_name, methods)], rows
+
+
+def own_returns(teachers: Iterable[str]) -> dict[str, float]:
+    """What each teacher earns itself on 200 of the study's held-out roads; the planner: its bound on all of them."""
+    roads = held_out_seeds(HELD_OUT, 200)
+    drives = {name: drive_episodes(teacher_policy(TEACHERS[name].rule), roads) for name in teachers if name != PLANNER}
+    return {name: drive.returns.mean() for name, drive in drives.items()} | {PLANNER: shipped_bound().mean()}

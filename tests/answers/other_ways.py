@@ -1,4 +1,4 @@
-"""Answers to the exercises of the lesson beyond the paper."""
+"""Answers to the exercises of the lesson on other ways to use a teacher."""
 
 import torch
 

@@ -1,4 +1,4 @@
-"""Answers to the exercises of the lesson on the ablation."""
+"""Answers to the exercises of the lesson on seeds."""
 
 import numpy as np
 
@@ -19,6 +19,27 @@ wrong_lines("""exact_interval
     ninety: found = stats.binomtest(k, n).proportion_ci(0.90, method="exact")
         np.array([found.low, found.high])  # 5 % at each end
     clipped normal: p = k / n; np.clip(p + 1.96 * np.sqrt(p * (1 - p) / n) * np.array([-1, 1]), 0, 1)
+""")
+
+right_lines("""power
+    pair by pair: n = len(shown) - 1; k, j = stats.binom(n, first), stats.binom(n, second)
+        sum(k.pmf(a) * j.pmf(b) for a in range(n + 1) for b in range(n + 1) if shown[a, b])
+    as a product of matrices: n = len(shown) - 1; counts = np.arange(n + 1)
+        float(stats.binom.pmf(counts, n, first) @ shown @ stats.binom.pmf(counts, n, second))
+    with a mask: n = len(shown) - 1; counts = np.arange(n + 1)
+        k, j = (stats.binom(n, rate).pmf(counts) for rate in (first, second))
+        (k[:, None] * j[None, :] * shown).sum()
+""")
+
+wrong_lines("""power
+    in per cent: 100 * solution(first, second, shown)
+    cumulative: n = len(shown) - 1; counts = np.arange(n + 1)
+        stats.binom.cdf(counts, n, first) @ shown @ stats.binom.cdf(counts, n, second)
+    in one direction: solution(first, second, np.tril(shown))
+    by one draw: n = len(shown) - 1; rng = np.random.default_rng(0)
+        float(shown[rng.binomial(n, first), rng.binomial(n, second)])
+    of a thousand draws: n = len(shown) - 1; rng = np.random.default_rng(0)
+        np.mean(shown[rng.binomial(n, first, 1000), rng.binomial(n, second, 1000)])
 """)
 
 right_lines("""interquartile_mean

@@ -1,9 +1,10 @@
-"""Exercises of the lesson on the ablation."""
+"""Exercises of the lesson on seeds: intervals, power, and the difference of two groups."""
 
 import numpy as np
 import scipy
 
 from bootcourse.course.exercise import exercise
+from bootcourse.statistics import significant
 
 
 def count_cases(rng):
@@ -44,6 +45,54 @@ def exact_interval(k, n):
     low = scipy.stats.beta.ppf(0.025, k, n - k + 1) if k > 0 else 0.0
     high = scipy.stats.beta.ppf(0.975, k + 1, n - k) if k < n else 1.0
     return np.array([low, high])
+
+
+def power_cases(rng):
+    """Equal rates, certain ones, one agent each; then 30 at random, of Fisher's test and of a simpler one."""
+    yield 0.3, 0.3, significant(5)
+    yield 1.0, 0.0, significant(4)
+    yield 0.8, 0.3, significant(10)
+    yield 0.8, 0.3, np.array([[False, True], [True, False]])
+    for _ in range(30):
+        n = rng.integers(3, 9)
+        counts = np.arange(n + 1)
+        apart = np.abs(counts[:, None] - counts) > rng.integers(1, n)
+        yield rng.random(), rng.random(), significant(n) if rng.random() < 0.5 else apart
+
+
+@exercise(
+    "Σ P(k) P(j) over the pairs (k, j) that the test tells apart", minutes=12, difficulty=2, cases=power_cases,
+    worked=[
+        ((0.5, 0.5, np.array([[False, True], [True, False]])), 0.5),  # 0 against 1, or 1 against 0: 1/4 each
+        ((1.0, 0.5, np.array([[False, False, True], [False, False, False], [True, False, False]])), 0.25),
+    ],
+    hints=(
+        "`scipy.stats.binom.pmf(np.arange(n + 1), n, rate)` has the chance of each count 0 to n. n follows from the "
+        "table's shape: it has n + 1 rows.",
+        "`np.outer(k, j)` has the chance of each pair of counts, in the order of the table. Add up those where the "
+        "table says True.",
+    ),
+    mistakes={
+        "n = len(shown) - 1 -> n = len(shown)":
+            "You take one agent too many: n agents have n + 1 possible counts, 0 to n, and the table has a row for "
+            "each.",
+        "np.sum(np.outer(k, j)[shown]) -> np.mean(shown)":
+            "You count all pairs of counts alike. Weigh each with its chance at these two rates.",
+        "np.sum(np.outer(k, j)[shown]) -> np.sum(np.outer(k, j)[~shown])":
+            "This is how often the comparison *misses* the difference. The power is one minus it.",
+        "return float(shown[round(n * first), round(n * second)])":
+            "You look up the two expected counts. The counts vary from study to study: add up over all pairs.",
+        "np.outer(k, j) -> np.add.outer(k, j)":
+            "You add two chances. The two groups are independent, so the chance of a pair is the product.",
+        "k = scipy.stats.binom.pmf(np.arange(n + 1), n, (first + second) / 2); return np.sum(np.outer(k, k)[shown])":
+            "You draw both groups at one rate. That is how often the test errs where there is *no* difference.",
+    },
+)  # fmt: skip
+def power(first, second, shown):
+    n = len(shown) - 1
+    k = scipy.stats.binom.pmf(np.arange(n + 1), n, first)
+    j = scipy.stats.binom.pmf(np.arange(n + 1), n, second)
+    return np.sum(np.outer(k, j)[shown])
 
 
 def score_cases(rng):
@@ -172,7 +221,7 @@ def group_cases(rng):
 
 
 @exercise(
-    "the percentile bootstrap of IQM(x) - IQM(y), both groups resampled", minutes=20, difficulty=3, cases=group_cases,
+    "the percentile bootstrap of IQM(x) - IQM(y), both groups resampled", minutes=15, difficulty=3, cases=group_cases,
     worked=[
         ((np.array([0.0, 8.0]), np.array([1.0, 1.0]), np.array([[0, 0], [0, 1], [1, 1]]), np.array([[0, 1]] * 3)),
          np.array([3.0, -0.8, 6.8])),  # means 0, 4, 8, each less 1

@@ -1,4 +1,4 @@
-"""Exercises of the lesson beyond the paper: what RLPD, IBRL and jump-start RL take from a teacher."""
+"""Exercises of the lesson on other ways to use a teacher: what RLPD, IBRL and jump-start RL take from it."""
 
 import numpy as np
 import torch

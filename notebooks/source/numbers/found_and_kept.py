@@ -1,25 +1,29 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
 from bootcourse.research import clocks as study_clocks
-from bootcourse.research import sweep
-from bootcourse.research.paper import PRINTED
 from bootcourse.research.results import WINDOW, Results  # noqa: F401 (the text names it)
-from bootcourse.statistics import ESCAPES, interval, iqm
+from bootcourse.rule import stochastic_rule
 from scipy import stats
-from tools.course.known import clocks, escaped, escapers, fisher, of, shipped_experiment, shipped_results, varied
+from tools.course.known import clocks, fisher, of, shipped_experiment, shipped_results
+
+
+def undecided(method: str, first: int, last: int | None) -> float:
+    """The mean effective number of actions of a method's agents in some of their training episodes."""
+    return float(np.exp(of(method).curves["entropy"][:, first:last].mean()))
+
+
+def rule_actions() -> float:
+    """The effective number of actions of the stochastic rule."""
+    return float(np.exp(stats.entropy(stochastic_rule(np.array(0), 0.9))))
 
 
 def ablations() -> dict[str, Results]:
     """The ten agents of each method with one choice of the method changed, by what was changed."""
     return shipped_experiment("ablations")
-
-
-def p_changed(change: str, method: str) -> float:
-    """Fisher's p of a method's agents that escape in the study against those with one choice changed."""
-    return fisher(escaped(method), escapers(ablations()[change], method))
 
 
 def clocks_run_down(updates: str) -> float:
@@ -34,35 +38,11 @@ def clocks_out(updates: str) -> float:
     return float(np.median(np.where(most.any(1), most.argmax(1) + 50, success.shape[1])))
 
 
-def nearest_to_iqm(method: str) -> float:
-    """How far the interquartile mean of a method's returns is from the agent nearest to it."""
-    returns = of(method).scores("returns")
-    return float(np.abs(returns - iqm(returns)).min())
-
-
-def with_one_agent(method: str) -> float:
-    """Fisher's p of our agents that escape against the paper's row, if one agent stands behind that row."""
-    won, theirs = escaped(method), int(PRINTED[method]["success"].mean >= 50)
-    return float(stats.fisher_exact([[won, len(of(method)) - won], [theirs, 1 - theirs]]).pvalue)
-
-
-def positive_target(method: str, measure: str, change: str = "entropy") -> np.ndarray:
-    """Scores of a method's agents in the variations with a positive target entropy."""
-    return np.concatenate([varied()[c].of(method).scores(measure) for c in varied() if change in c])
-
-
 class Counted(NamedTuple):
     """How many agents found the way out, how many of these kept it, and of how many."""
 
     found: int
     kept: int
-    n: int
-
-
-class Won(NamedTuple):
-    """How many agents escape, of how many."""
-
-    won: int
     n: int
 
 
@@ -128,23 +108,32 @@ def trend_p() -> float:
     return float(np.mean(np.abs(drawn) >= abs(kept @ doublings) - 1e-9))
 
 
-def power(first: float, second: float, n: int = 10) -> float:
-    """How often n agents against n, with these true rates, have a Fisher's p below 0.05."""
-    chance = np.outer(*(stats.binom(n, rate).pmf(np.arange(n + 1)) for rate in (first, second)))
-    below = [[stats.fisher_exact([[a, n - a], [b, n - b]]).pvalue < 0.05 for b in range(n + 1)] for a in range(n + 1)]
-    return float(chance[np.array(below)].sum())
+@cache
+def p_values() -> dict[str, float]:
+    """Every p value that the lesson prints."""
+    kept = {m: way(shipped_results("paper"), m).kept for m in ("demos", "margin", "bootstrapped", "margin_soft")}
+    return {
+        "keeping": keeping_p("demos"),
+        "keeping, both": keeping_p("bootstrapped"),
+        "trend": trend_p(),
+        "driver, found": driver_p("found"),
+        "driver, kept": driver_p("kept"),
+        "updates, found": updates_p("found"),
+        "updates, kept": updates_p("kept"),
+        "choices": fisher(*(way(clocks()[cell], "demos").kept for cell in (("1/4", "μ"), ("2", "π̃")))),
+        "bonus, margin": fisher(kept["demos"], kept["margin"]),
+        "bonus, margin, with ξ": fisher(kept["bootstrapped"], kept["margin_soft"]),
+    }
 
 
-def half_interval(method: str) -> float:
-    """Half the length of the 95 % interval of a method's mean return."""
-    _, low, high = interval(of(method).scores("returns"), np.mean)
-    return (high - low) / 2
+def holm() -> dict[str, float]:
+    """The same, corrected for their number (Holm 1979)."""
+    corrected, least = {}, 0.0
+    for tried, (name, p) in enumerate(sorted(p_values().items(), key=lambda item: item[1])):
+        corrected[name] = least = max(least, min(1.0, (len(p_values()) - tried) * p))
+    return corrected
 
 
-def of_sweep(setting: str, value: float) -> Won:
-    """The sweep's agents with this value that escape; of those with ξ above 0, unless the setting is ξ."""
-    swept = sweep.load_sweep()
-    mine = np.array(
-        [each[setting] == value and (setting == "xi_multiplier" or each["xi_multiplier"] > 0) for each in swept.agents]
-    )
-    return Won(int((swept.scores("success")[mine] >= ESCAPES).sum()), int(mine.sum()))
+def surviving() -> int:
+    """How many stay below 0.05."""
+    return sum(p < 0.05 for p in holm().values())

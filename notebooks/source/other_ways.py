@@ -1,0 +1,353 @@
+# ---
+# jupyter:
+#   jupytext:
+#     text_representation:
+#       extension: .py
+#       format_name: percent
+#   kernelspec:
+#     display_name: Python 3 (ipykernel)
+#     language: python
+#     name: python3
+# ---
+
+# %% [markdown]
+# # Other ways to use a teacher
+#
+# **What you will be able to do**
+# - write what three other methods take from a teacher: RLPD, IBRL and jump-start RL;
+# - name what has to be equal before a table of methods compares methods;
+# - read such a table by decisions and by seconds, and say what it leaves open.
+#
+# **Time** 55 minutes, about one of them the machine's. **It builds on** demonstrations (lesson
+# [[learning_from_demonstrations]]) and on the number of seeds ([[how_many_seeds]]).
+
+# %%
+import bootcourse as bc
+import numpy as np
+import torch
+from bootcourse.course import charts, check, compare_predictions, own_code, predict, shipped, table
+from bootcourse.course.lessons.other_ways import figures
+from bootcourse.learn import ibrl
+from bootcourse.research import equal_decisions
+
+# %% [markdown]
+# ## Look first
+#
+# A teacher can help a learner in more ways than the paper's. Here are five: what each takes from
+# the rule of lesson [[the_rule]], and until when.
+
+# %%
+bc.show(figures.what_is_taken())
+
+# %% [markdown]
+# PPO after cloning is the learner of lesson [[the_second_trap]]; you can do that lesson later. The
+# question of this one: **which of the five ways brings the most from the same number of
+# decisions?**
+#
+# > **Predict.** Each learner may take 100,000 decisions of its own, a little more than a day of
+# > driving. Which one earns the most afterwards, on roads that are new to it?
+# <!-- claim: LAST == 100_000 and 1 < LAST / 3600 / 24 < 1.3 -->
+
+# %%
+learners = ["PPO after cloning", "bootstrapped SAC", "jump-start RL", "RLPD", "IBRL"]
+predict("other_ways.1", "The highest return after 100,000 decisions", learners)
+
+# %% [markdown] tags=["instructor"] minutes=5
+# Ask for a reason with each vote: a learner can be quick by taking much from the teacher, or by
+# making many updates for each decision. Ask what a person who pays for computing time would count
+# instead of decisions.
+
+# %% [markdown]
+# ## Round 1: half of each batch, to the end
+#
+# RLPD (*reinforcement learning with prior data*) is SAC with half of each batch demonstrations,
+# from the first update to the last, without bonus, margin and KL. Lesson [[offline_learning]]
+# showed what goes wrong with such data: the target takes the best of nine guesses, and untried
+# actions are guessed too high. RLPD's remedy is an **ensemble**: {{ settings_for('rlpd').critics }}
+# critics instead of two. Each update draws {{ settings_for('rlpd').target_critics }} of them, and
+# the target takes the smallest of *their* values. Where the data say little, critics that began
+# differently disagree, and the smallest is a careful guess. (Its other remedy normalises what goes
+# through each hidden layer, which bounds a critic's values.)
+# <!-- claim: (lambda s: s.bonus == s.margin == s.xi_multiplier == 0 and s.beta_start == 0.5 and
+#   s.beta_episodes is None)(settings_for('rlpd')) -->
+#
+# **Exercise (4 min, ●○○).** Write it: the smallest value of the chosen critics.
+
+
+# %%
+def smallest_of(q, chosen):
+    """(batch, 9), from q (critics, batch, 9) and chosen (k,), the numbers of the critics drawn."""
+    # solution: the exercise's own
+
+
+check.smallest_of(smallest_of)
+
+# %% [markdown]
+# > **Predict.** An episode ends with an accident, or after {{ DEFAULT.clock.decisions }} seconds.
+# > How long are the first 50 episodes of an agent that trains like this, on average?
+
+# %%
+predict("other_ways.2", "RLPD's first 50 episodes", unit="s")
+
+# %% tags=["nbval-ignore-output"]
+torch.set_num_threads(1)  # small matrices are faster on one thread
+training = own_code.training([bc.settings_for("rlpd", target_entropy=0.3)], 60)
+mine = training.run(progress=False)
+print(f"{training.decisions:,} decisions, {training.updates:,} updates, {mine.seconds:.0f} s")
+
+# %%
+curves, window = shipped.shipped_teachers()["rule", "rlpd"].curves, 20
+shown = {
+    "share that ends ahead": curves["success"],
+    "length, of 150 s": curves["decisions"] / bc.DEFAULT.clock.decisions,
+}
+smooth = np.ones(window) / window
+named = {name: np.convolve(v.mean(axis=0), smooth, "valid") for name, v in shown.items()}
+at, title = np.arange(window, 151), "Ten RLPD agents crash early at first, and then most get out"
+bc.show(charts.lines(at, named, title, "episode", "mean of 20 episodes of ten agents"))
+
+# %% [markdown]
+# **See.** (Your own training was too short to get out. The curves are those of ten agents that
+# ship.) At first these agents attempt to leave and crash. A crash is short, so the first 50
+# episodes of an agent take {{ short() | .0f }} decisions altogether, about {{ short() / 50 | .0f
+# }} seconds each. Then most of them find the way out: {{ rlpd().escapers('rlpd') }} of ten escape
+# after {{ rlpd().curves['success'].shape[1] }} episodes.
+# <!-- claim: rlpd().escapers('rlpd') > 5 and len(rlpd()) == 10 -->
+#
+# **Explain.** The paper adds a bonus c to the reward of each demonstrated action (lesson
+# [[learning_from_demonstrations]]), and because that changes what the actions are worth, it has to
+# fade. RLPD leaves the rewards as they are, so its demonstrations can stay in each batch.
+
+# %% [markdown]
+# ## Round 2: the better of two
+#
+# IBRL (*imitation-bootstrapped RL*) keeps the teacher to the end. In each state there are two
+# candidates, the rule's action μ(s) and an action a that the agent draws from π. The critic
+# decides:
+#
+# $$ a^* = \mathrm{argmax}_{a' \in \{\mu(s),\, a\}}\; Q(s, a') $$
+#
+# The target takes the same choice in the next state, so a state is worth at least about what the
+# rule makes of it. Our π has nine actions, so nothing has to be drawn: the choice has a
+# *distribution*. An action that is better than μ(s) keeps its probability; if another is
+# drawn, μ(s) is taken instead.
+#
+# **Exercise (12 min, ●●●).** Write this distribution.
+
+
+# %%
+def better_of_two(pi, q, rule_actions):
+    """The choice's distribution (batch, 9). pi, q (batch, 9); rule_actions (batch,): μ(s)."""
+    # solution: the exercise's own
+
+
+check.better_of_two(better_of_two)
+
+# %%
+# NBVAL_CHECK_OUTPUT
+pi, q = torch.tensor([[0.5, 0.3, 0.2]]), torch.tensor([[1.0, 2.0, 3.0]])
+for rule in range(3):
+    at_rule = torch.tensor([rule])
+    chosen = ibrl.better_of_two(pi, q, at_rule)
+    print(f"Q = 1, 2, 3; μ(s) is the {rule + 1}.:", *(f"{p:.1f}" for p in chosen[0]))
+
+# %% [markdown]
+# > **Predict.** After training, in which part of a drive does such an agent take the rule's action
+# > more often: in the first 30 seconds, in which it gets out, or afterwards?
+
+# %%
+choices = ["in the first 30 seconds", "afterwards", "about equally often"]
+predict("other_ways.3", "It takes the rule's action more often", choices)
+
+# %% tags=["nbval-ignore-output"]
+training = own_code.training([bc.settings_for("ibrl", target_entropy=0.3)], 260)
+chooser = training.run(progress=False).agents[0]
+drives = bc.record(chooser.as_policy(), bc.held_out_seeds(16, 24), label="ibrl")
+ahead = np.mean([drive.success for drive in drives])
+print(f"{training.decisions:,} decisions, {training.seconds:.0f} s; ahead on {100 * ahead:.0f} % ")
+
+# %%
+same = [drive.actions == drive.rule_actions for drive in drives]
+parts = {"in the first 30 seconds": slice(30), "afterwards": slice(30, None)}
+shares = {words: np.concatenate([each[part] for each in same]) for words, part in parts.items()}
+rows = [[words, f"{100 * took.mean():.0f}"] for words, took in shares.items() if len(took)]
+table(["", "takes the rule's action, %"], rows)
+
+# %% tags=["nbval-ignore-output"]
+bc.show(bc.traces([drives[0]], title="One drive of your agent", what=("speed", "distance")))
+
+# %% [markdown]
+# **See.** (Yours will differ.) Compare the two shares, and then the drive: what has the agent kept
+# from the rule, and where does it drive differently?
+#
+# **Explain.** A KL or a bonus must fade, because it pulls at what the agent may do. This choice
+# need not fade: as soon as the critic values another action more, the rule's is not taken. (Our
+# agents also have demonstrations in their batches, whose share β fades from {{
+# settings_for('ibrl').beta_start }} to 0 over {{ settings_for('ibrl').beta_episodes | , }}
+# episodes, without a bonus.) In return the teacher must come along for as long as the agent drives,
+# so a teacher that needs what the car cannot measure is of no use here.
+# <!-- claim: METHODS['ibrl'].learner_class().needs_teacher -->
+
+# %% [markdown] tags=["instructor"] minutes=8
+# IBRL's early episodes end in crashes, too, because Q is wrong at first: it puts some actions above
+# the rule's although they are worse. Ask what would make the first hour safer (a pessimistic Q: the
+# smaller of two, an ensemble; a margin that an own action must exceed).
+
+# %% [markdown]
+# ## Round 3: the teacher drives first
+#
+# Jump-start RL needs nothing of the teacher but that it drives. In each episode the rule makes the
+# first h decisions, and then the agent takes over, in a place that it would not have reached alone.
+# At first h is {{ settings_for('jsrl').guide_decisions }}. As soon as the two together earn about
+# as much as at their best, h shrinks by a tenth of this first value, until the agent drives alone.
+#
+# **Exercise (6 min, ●●○).** Write the judgement: does h shrink now?
+
+
+# %%
+def guide_shrinks(returns, best, window, tolerance):
+    """True if the mean of the last `window` returns is at least the best mean less a tolerance.
+
+    returns: a list, since h last shrank; with fewer than `window` of them h stays. best: a number,
+    which may be negative. tolerance: a share of the size of best, 0.05 for 5 %.
+    """
+    # solution: the exercise's own
+
+
+check.guide_shrinks(guide_shrinks)
+
+# %% tags=["nbval-ignore-output"]
+training, course = own_code.training([bc.settings_for("jsrl")], 120), []
+jump = training.run(
+    progress=False,
+    callback=lambda t: course.append((t.curves.finished[0], t.learner.present_guide(0))),
+)
+print(f"{training.decisions:,} decisions, {jump.seconds:.0f} s")
+
+# %% tags=["hide-input"]
+episode, guide = np.array(course).T
+h = np.array([guide[episode <= n][-1] for n in range(1, 121)])
+ahead = np.convolve(jump.curves["success"][0], np.ones(20) / 20, "valid")
+named = {"h, of 60 s": h[19:] / h[0], "ends ahead, of 20 episodes": ahead}
+title = "How long the teacher drives, and how often the pair gets out"
+bc.show(charts.lines(np.arange(20, 121), named, title, "episode", "share"))
+
+# %% [markdown]
+# **See.** (Yours will differ.) The pair gets out in many of its first episodes, in which the rule
+# drives {{ settings_for('jsrl').guide_decisions }} seconds: it is ahead by then in about two thirds
+# of its drives. With each step the agent takes over earlier. Where does your curve fall, and does h
+# wait there?
+# <!-- claim: 0.6 < np.mean(rules_overtaking() <= settings_for('jsrl').guide_decisions) < 0.73 -->
+#
+# **Explain.** A **curriculum** like this one begins with the easy part, the end of the way. The
+# paper's β is a curriculum of another kind: it follows the number of episodes, and this one asks
+# how well the pair does. What it asks about is a return: if a pair that gets out earns little more
+# than one that stays behind, h shrinks too early.
+
+# %% [markdown] tags=["instructor"] minutes=5
+# Ask what h does if the teacher is the planner of lesson [[the_barrier]], which is out after ten
+# seconds, and what it does if the teacher never gets out.
+
+# %% [markdown]
+# ## Round 4: a comparison with equal budgets
+#
+# Three things have to be equal before a table compares methods: how much each learner may use, how
+# long somebody searched for its settings, and the roads of the test. The search comes first. For
+# each method we tried three settings, with {{ equal_decisions.SEARCH_SEEDS }} seeds each, {{
+# equal_decisions.SEARCHED | , }} decisions and {{ len(equal_decisions.SEARCH_ROADS) }} roads that
+# no other test uses. (RLPD, which is slow: {{ equal_decisions.LESS_SEARCHED['rlpd']['seeds'] }}
+# seeds, {{ equal_decisions.LESS_SEARCHED['rlpd']['decisions'] | , }} decisions.) With a replay
+# buffer, the three are target entropies η; PPO has none, and the three are how many roads it drives
+# at once. γ is {{ equal_decisions.GAMMA }} for all. Bootstrapped SAC has a bonus c of {{
+# equal_decisions.COMMON['bootstrapped']['bonus'] }}, since c = 2 would be worth more than the road
+# pays in a second, and β fades over {{ equal_decisions.COMMON['bootstrapped']['beta_episodes'] }}
+# episodes.
+# <!-- claim: {len(each) for each in equal_decisions.TRIES.values()} == {3} -->
+
+# %%
+table(*equal_decisions.search_rows(shipped.shipped_experiment("beyond-search")))
+
+# %% [markdown]
+# The best of the three is trained with {{ equal_decisions.SEEDS }} other seeds and tested on {{
+# roads() | , }} held-out roads. They are our versions of these methods:
+#
+# | | its authors | our agents |
+# |---|---|---|
+# | all five | continuous actions, but PPO | nine actions; discrete SAC, but PPO |
+# | RLPD | 10 critics, 20 updates for a decision | {{ settings_for('rlpd').critics }} critics, half
+# an update |
+# | IBRL | a cloned network proposes the second action | the rule itself does |
+# | IBRL | demonstrations stay in the buffer | their share of a batch fades from {{
+# settings_for('ibrl').beta_start }} to 0 |
+# | jump-start RL | h is judged in test episodes | in training episodes, with drawn actions |
+# | bootstrapped SAC | γ = {{ SETTINGS.gamma }}, c = {{ SETTINGS.bonus | g }} | γ = {{
+# equal_decisions.GAMMA }}, c = {{ equal_decisions.COMMON['bootstrapped']['bonus'] }} |
+# <!-- claim: 2 * equal_decisions.COMMON['rlpd']['updates'] ==
+#   equal_decisions.COMMON['rlpd']['envs_per_agent'] -->
+#
+# > **Predict.** Of 1,000 drives after 100,000 decisions, in how many does the method that earns the
+# > most have an accident?
+
+# %%
+predict("other_ways.4", "Accidents of the method that earns the most", unit="of 1,000 drives")
+
+# %%
+compared = equal_decisions.by_method(shipped.shipped_experiment("beyond"))
+table(*equal_decisions.budget_rows(compared))
+
+# %% [markdown]
+# SEE4
+
+# %% [markdown] tags=["instructor"] minutes=10
+# Each group defends one row as the one to use: with a slow car and a safe test track, with a fleet
+# whose accidents are in the papers, with a simulator and one night, with drives on a disk and
+# nothing to drive. Then ask which column is missing: what it costs to ask the teacher, how much
+# code it is, what three more tries would change.
+
+# %% [markdown]
+# ## What you now know
+#
+# 1. A teacher can give data, a start, a second opinion or a pull. Some learners need it once,
+#    others for as long as they drive.
+# 2. The smallest value of an ensemble is a careful guess where the data say little.
+# 3. The better of two, by the critic: the choice need not fade, and the teacher has to come along.
+# 4. A curriculum that asks how well it goes depends on the return that it asks about.
+# 5. A ranking needs equal budgets, an equal search and usable settings for each method.
+#
+# **Three questions to think about**
+# - Your teacher is a person who can drive for one hour. Which of these methods do you choose? Name
+#   the columns of the tables that say so.
+# - IBRL's critic decides between the rule's action and the agent's own. What happens if the critic
+#   is wrong about the rule's action?
+# - The search had three tries for each method. Which method could win by a larger search, and how
+#   would you find out without using the test's roads?
+
+# %%
+earns = {bc.display_name(m): each.tested["returns"].mean() for m, each in compared.items()}
+best = max(compared, key=lambda m: compared[m].tested["returns"].mean())
+crashes = 1000 * compared[best].episodes("accident").mean()
+first = np.nansum(curves["decisions"][:, :50], axis=1).mean() / 50
+compare_predictions(
+    "other_ways",
+    {
+        1: max(earns, key=earns.get),
+        2: round(float(first), 1),
+        3: max(shares, key=lambda part: shares[part].mean()),
+        4: round(float(crashes)),
+    },
+)
+
+# %% [markdown] tags=["instructor"] minutes=5
+# Answers to the three questions. (1) An hour of driving is 3,600 decisions: enough for half of each
+# batch (RLPD), for cloning, and for the paper's demonstrations. IBRL wants the person beside the
+# learner for as long as it drives. (2) If the critic thinks too little of it, the agent's own
+# action is taken, and its value corrected. If it thinks too much of it, the rule's action is taken,
+# and its value is corrected, too. What is not corrected are the values of actions that neither of
+# the two takes. (3) One whose three tries differ much, or whose best try stands at the edge of what
+# was tried; search again on the search's roads, and test once.
+
+# %% [markdown]
+# **Read on**: Ball et al., *Efficient Online Reinforcement Learning with Offline Data* (RLPD, arXiv
+# 2302.02948); Hu, Mirchandani and Sadigh, *Imitation Bootstrapped Reinforcement Learning* (IBRL,
+# arXiv 2311.02198); Uchendu et al., *Jump-Start Reinforcement Learning* (arXiv 2204.02372).
+# `bc.board()` shows the methods of the course on the same roads.
