@@ -6,6 +6,7 @@ it is first used. The parts, each of which uses only those above it; all but the
 errors             the exception for mistakes that a user can mend
 files              reading and writing files, whole or not at all
 markup             text as HTML: the one place that escapes
+progress           a progress bar, or lines where no terminal shows one
 scenario           the numbers of the road, the cars, the reward and the rule
 colours            the colours of figures, panels and 3D
 methods            every method: its settings, its learner, its name, its style

@@ -4,6 +4,7 @@ settings = bc.settings_for("soft", gamma=0.99)
 bc.compare({"soft": settings, "a clone of my rule": bc.settings_for("bc")}, make_env=my_env, teacher=my_rule)
 """
 
+import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
@@ -40,7 +41,7 @@ class Comparison:
             decisions = np.nansum(result.curves["decisions"], axis=1).mean()
             success, returns = 100 * self.scores(name, "success"), self.scores(name)
             cells = _bracketed(success), _bracketed(returns), f"{decisions:,.0f}", f"{result.seconds:.0f}"
-            table.append((name, str(len(result.agents)), *cells))
+            table.append((name + ", interrupted" * result.interrupted, str(len(result.agents)), *cells))
         return table
 
     def figure(self, title: str = "") -> Figure:
@@ -71,7 +72,8 @@ def compare(
 
     entries: by name, settings, or a function of the number of seeds that returns a `Training` of your own. A name that
     begins with a method's has its colour. make_env and training: further arguments of `Training`, such as teacher.
-    Raises BootcourseError for no entries, and for one that is neither.
+    An interrupt ends the comparison: the agents in training are tested as they are, and a warning says what is missing.
+    Raises BootcourseError for no entries, for one that is neither, and for an interrupt before the first update.
     """
     if not entries:
         raise BootcourseError('There is nothing to compare: give {"mine": settings}.')
@@ -85,13 +87,31 @@ def compare(
             raise BootcourseError(f"'{name}' is {entry!r:.80}: give settings, or a function seeds -> Training.")
         results[name] = result = one.run(progress)
         if result.interrupted:
+            warnings.warn(_interrupted(name, one, [other for other in entries if other not in results]), stacklevel=2)
+        if not one.updates and result.interrupted:
             break
         if not one.updates:
             raise BootcourseError(f"'{name}' made no update in {one.episodes} episodes: give more episodes.")
         held_out = held_out_seeds(1, tests)
         policies = [agent.as_policy() for agent in result.agents]
         tested[name] = [drive_episodes(drive, held_out, one.scenario, make_env=one.make_env) for drive in policies]
+        if result.interrupted:
+            break
+    if not tested:
+        raise BootcourseError(
+            "The first training was interrupted before its first update: there is nothing to compare."
+        )
     return Comparison({name: results[name] for name in tested}, tested)
+
+
+def _interrupted(name: str, training: Training, untrained: list[str]) -> str:
+    """What an interrupt leaves of a comparison, in a sentence."""
+    driven = int(np.minimum(training.curves.finished, training.episodes).min())
+    row = (
+        f"its row is of agents after {driven} of {training.episodes} episodes" if training.updates else "it has no row"
+    )
+    rest = f" Not trained: {', '.join(untrained)}." if untrained else ""
+    return f"'{name}' was interrupted: {row}.{rest}"
 
 
 def _bracketed(scores: np.ndarray) -> str:

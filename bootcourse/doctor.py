@@ -179,9 +179,9 @@ def disk() -> Iterator[Finding]:
 
 def browser() -> Iterator[Finding]:
     """A browser for the tests."""
-    found = next(filter(None, map(shutil.which, BROWSERS)), None)
-    if found:
-        yield Finding("ok", f"browser tests use {found}")
+    browser = next(filter(None, map(shutil.which, BROWSERS)), None)
+    if browser:
+        yield Finding("ok", f"browser tests use {browser}")
     else:
         advice = "Only `make test` uses it; without it, those tests are skipped. Debian: apt install chromium."
         yield Finding("note", "no Chromium for the browser tests", advice)

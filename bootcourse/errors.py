@@ -42,7 +42,7 @@ def naming(place: Callable[[int], str]):
         raise
 
 
-def described(error: Exception) -> str:
+def described(error: BaseException) -> str:
     """An exception's type and message in one line, without a full stop."""
     return f"{type(error).__name__}: {' '.join(str(error).split())}".rstrip(".: ")
 

@@ -18,15 +18,18 @@ import secrets
 import shutil
 import stat
 import zipfile
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, TypeVar
 
 import msgspec
 import numpy as np
+from filelock import FileLock, Timeout
 
 from bootcourse.errors import BootcourseError, RuleFailed
 
 TEMPORARY = ".tmp"  # at the end of every temporary name
+PATIENCE = 20  # seconds that a process waits for a file that another one changes
 LARGEST_JSON = 2**25  # bytes; the manifest of the assets has 0.1 MB
 LARGEST_ARRAYS = 2**32  # bytes; the checkpoint of 100 agents with full replay buffers has 1.3 GB
 UNPACKED = 2**28  # bytes that an .npz file may unpack to beyond its own size; ours compress to a tenth at best
@@ -55,6 +58,24 @@ def write_bytes(path: Path, data: bytes) -> None:
     finally:  # also after an interrupt; after the renaming there is no temporary file
         if temporary is not None:
             temporary.unlink(missing_ok=True)
+
+
+@contextlib.contextmanager
+def alone_with(path: Path) -> Iterator[None]:
+    """No other process that asks for the same is between reading a file and writing it. Raises BootcourseError."""
+    path = Path(path).absolute()
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        lock = FileLock(path.with_name(f".{path.name}.lock"), timeout=PATIENCE)
+        lock.acquire()
+    except Timeout:
+        raise BootcourseError(f"Another program has locked {path} for {PATIENCE} s: end it, then try again.") from None
+    except OSError as error:
+        raise BootcourseError(f"Cannot write {path}: {error.strerror}. Choose another folder.") from None
+    try:
+        yield
+    finally:
+        lock.release()
 
 
 def remove_temporary(folder: Path) -> None:
@@ -87,17 +108,25 @@ def check_replaceable(path: Path, *endings: str) -> Path:
     return path
 
 
+def check_own(path: Path, mark: str) -> None:
+    """Raise BootcourseError if a file is there that does not hold this mark of those which bootcourse writes."""
+    if os.path.lexists(path):
+        with open_regular(path) as file:
+            if mark.encode() not in file.read():
+                raise BootcourseError(f"{path} exists already, and bootcourse did not write it: choose another name.")
+
+
 def open_regular(path: Path, largest: float = math.inf):
     """A file, opened to read its bytes. Raises BootcourseError if it is missing, not a regular file, or too large."""
     path = Path(path)
     try:
-        found = path.stat()  # before it is opened: opening a pipe would wait for its writer
-        if not stat.S_ISREG(found.st_mode):
+        status = path.stat()  # before it is opened: opening a pipe would wait for its writer
+        if not stat.S_ISREG(status.st_mode):
             raise BootcourseError(
-                f"{path} is a {'folder' if stat.S_ISDIR(found.st_mode) else 'device'}, not a file: name a file."
+                f"{path} is a {'folder' if stat.S_ISDIR(status.st_mode) else 'device'}, not a file: name a file."
             )
-        if found.st_size > largest:
-            raise BootcourseError(f"{path} has {found.st_size:,} bytes, at most {largest:,} can be right: {COPY}.")
+        if status.st_size > largest:
+            raise BootcourseError(f"{path} has {status.st_size:,} bytes, at most {largest:,} can be right: {COPY}.")
         return path.open("rb")
     except BootcourseError:
         raise
@@ -181,9 +210,9 @@ def check_arrays(arrays: dict[str, np.ndarray], shapes: dict[str, tuple], path: 
     if odd := sorted(arrays.keys() ^ shapes.keys()):
         raise BootcourseError(f"{path} is incomplete or of another version (see {', '.join(odd[:3])}): {remedy}.")
     for name, shape in shapes.items():
-        found = arrays[name]
-        if found.shape != shape or found.dtype.kind not in "biuf":
-            raise BootcourseError(f"{path}: {name} is {found.dtype} {found.shape}, not numbers {shape}: {remedy}.")
+        array = arrays[name]
+        if array.shape != shape or array.dtype.kind not in "biuf":
+            raise BootcourseError(f"{path}: {name} is {array.dtype} {array.shape}, not numbers {shape}: {remedy}.")
 
 
 def _array(data: bytes) -> np.ndarray:

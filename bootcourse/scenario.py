@@ -66,6 +66,7 @@ class Road:
         _check_numbers(self)
         _check(2 <= self.lanes <= 8, f"Road.lanes = {self.lanes}: the trap needs 2 to 8 lanes.")
         _positive(self, "lane_width", "length", "speed_limit")
+        _check(self.lane_width <= 100, f"Road.lane_width = {self.lane_width!r}: at most 100 m.")
 
 
 @dataclass(frozen=True)
@@ -179,6 +180,7 @@ class Traffic:
         _check(0 <= self.cars <= 40, f"Traffic.cars = {self.cars}: between 0 and 40.")
         _positive(self, "lead", "headway", "desired_speed", "a_max", "b", "delta", "tau_heading", "tau_lateral")
         _positive(self, "braking_limit")
+        _check(self.a_max <= 10, f"Traffic.a_max = {self.a_max!r}: at most 10 m/s².")
         _not_negative(self, "spacing", "speed", "s0", "time_gap", "politeness", "safe_braking", "lane_change_delay")
 
 

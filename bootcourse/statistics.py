@@ -99,15 +99,29 @@ def _bootstrap(samples: Sequence, statistic, seed: int) -> Estimate:
         return Estimate(value, float("nan"), float("nan"))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", scipy.stats.DegenerateDataWarning)
-        found = scipy.stats.bootstrap(
+        resampled = scipy.stats.bootstrap(
             samples, statistic, method="percentile", n_resamples=RESAMPLES, batch=1000, rng=np.random.default_rng(seed)
         )
-    return Estimate(value, *map(float, found.confidence_interval))
+    return Estimate(value, *map(float, resampled.confidence_interval))
 
 
 def escapes(success: np.ndarray) -> Estimate:
     """The share of agents that escape, with its exact (Clopper-Pearson) interval: success rates (seeds,)."""
     return rate(np.asarray(success) >= ESCAPES)
+
+
+def significant(n: int) -> np.ndarray:
+    """Whether Fisher's exact test tells k of n from j of n, with a p below 0.05: bool (n + 1, n + 1), by k and j."""
+    counts = range(n + 1)
+    p = [[scipy.stats.fisher_exact([[k, n - k], [j, n - j]]).pvalue for j in counts] for k in counts]
+    return np.array(p) < 0.05
+
+
+def power(first: float, second: float, n: int) -> float:
+    """How often n agents against n, which escape at these true rates, differ by Fisher's exact test (p below 0.05)."""
+    counts = np.arange(n + 1)
+    k, j = (scipy.stats.binom.pmf(counts, n, rate) for rate in (first, second))
+    return float(np.sum(np.outer(k, j)[significant(n)]))
 
 
 def band(curves: np.ndarray, seed: int = 0, resamples: int = 1000) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -25,7 +25,7 @@ from bootcourse.course.lessons import registry
 from bootcourse.course.values import fitted, plain, same
 from tests.answers import EQUIVALENT
 
-FREE = ("direct_plan", "my_rule", "watchful_rule", "unmasks")
+FREE = ("find_plan", "my_rule", "watchful_rule", "unmasks")
 SECONDS = 2  # of the processor, for all cases of one change
 COMPARED = {ast.Gt: ast.GtE, ast.GtE: ast.Gt, ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Eq: ast.NotEq, ast.NotEq: ast.Eq}
 OPPOSITE = {ast.Gt: ast.Lt, ast.GtE: ast.LtE, ast.Lt: ast.Gt, ast.LtE: ast.GtE}

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import nbformat
 
-from bootcourse.course.names import names_made, names_used
+from bootcourse.course.names import names_changed, names_made, names_used
 
 
 def code_of(notebook: Path) -> list[str]:
@@ -36,22 +36,7 @@ def cells_to_run(solved: list[str], student: list[str]) -> list[str]:
     return [solved[place] for place in sorted(run)]
 
 
-def names_changed(text: str) -> set[str]:
-    """The variables whose object a cell changes: `x.a = 1`, `x[0] = 1`, or a statement `x.do()`."""
-    tree = ast.parse(text)
-    calls = [node.value.func for node in tree.body if isinstance(node, ast.Expr) and isinstance(node.value, ast.Call)]
-    places = [node for node in ast.walk(tree) if isinstance(getattr(node, "ctx", None), ast.Store)]
-    return {root_of(node) for node in calls + places if isinstance(node, (ast.Attribute, ast.Subscript))}
-
-
 def names_imported(text: str) -> set[str]:
     """The names that a cell imports."""
     imports = [node for node in ast.walk(ast.parse(text)) if isinstance(node, (ast.Import, ast.ImportFrom))]
     return {(name.asname or name.name).partition(".")[0] for node in imports for name in node.names}
-
-
-def root_of(node: ast.AST) -> str:
-    """x of `x.a[0].b`; "" where it is no variable."""
-    while isinstance(node, (ast.Attribute, ast.Subscript)):
-        node = node.value
-    return node.id if isinstance(node, ast.Name) else ""

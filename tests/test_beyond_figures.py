@@ -1,14 +1,12 @@
-"""What a teacher is worth, and the two clocks: the numbers and their figures."""
+"""What a teacher is worth: the numbers and their figure."""
 
 import numpy as np
 import pytest
 
-from bootcourse.course.lessons.ablation.figures import two_clocks
 from bootcourse.course.lessons.your_teacher.figures import teacher_value
-from bootcourse.course.shipped import shipped_experiment, shipped_teachers
+from bootcourse.course.shipped import shipped_teachers
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import settings_for, with_seeds
-from bootcourse.research import clocks
 from bootcourse.research.results import Results, agent_entries, save_results
 from bootcourse.research.teacher_worth import QUANTITIES, cells, in_words, worth_rows
 
@@ -72,9 +70,3 @@ def test_a_study_s_folder_is_read_and_one_without_such_jobs_says_what_to_run(tmp
         shipped_teachers(tmp_path)
     save_results(ten_agents("rule", "soft", 4), tmp_path / "jobs/teachers/rule-soft/results.npz", {})
     assert list(shipped_teachers(tmp_path)) == [("rule", "soft")]
-
-
-def test_the_figure_of_the_clocks_says_when_each_help_has_faded():
-    figure = two_clocks(clocks.cells(shipped_experiment("clocks"))["2", "π̃"], "2")
-    assert figure.alt.startswith("2 updates per decision: ξ is down to a tenth after ")
-    assert "β is 0 after 1,000" in figure.alt

@@ -8,6 +8,7 @@ import pytest
 import bootcourse as bc
 from bootcourse.course import board as module
 from bootcourse.course.board import Board, Row, own_rows, row_of
+from bootcourse.course.gap_rule import gap_rule
 from bootcourse.episodes.evaluate import Episodes
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.teachers import course_rule
@@ -139,3 +140,9 @@ def test_bad_input_gets_one_sentence_and_status_2(case, bootcourse, few_roads):
     arguments, sentence = REFUSED[case]
     answer = bootcourse("evaluate", *arguments)
     assert answer.status == 2 and sentence in answer.err and len(answer.err.splitlines()) == 1, answer.err
+
+
+def test_the_rule_with_gap_acceptance_drives_without_an_accident_on_roads_that_nobody_chose_it_on():
+    drive = bc.teacher_policy(gap_rule)
+    each = bc.drive_episodes(drive, bc.held_out_seeds(22, 100), DEFAULT)
+    assert each.success.all() and not each.accident.any() and each.returns.mean() > 120

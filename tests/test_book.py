@@ -10,6 +10,7 @@ from bootcourse.course.lessons import LESSONS, stem
 from bootcourse.research.sweep import load_sweep, nearest_setting
 from tests.browser import ARTEFACTS, is_blank, needs_browser, open_browser
 from tools import book
+from tools.course import claims
 from tools.course.source import sources
 
 FILES = [stem(name) for name in LESSONS]
@@ -32,6 +33,7 @@ def made(tmp_path_factory):
     folder = tmp_path_factory.mktemp("book")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("bootcourse.replay3d.recorder.RATES", (2,))
+        patch.setattr(claims, "claims_page", lambda: "# Where the numbers come from\n")  # test_claims.py makes it
         book.gather(folder / "source", "instructor")
     assert book.build(folder / "source", folder / "html") == 0, "Sphinx has something to say: see above"
     return folder / "html"

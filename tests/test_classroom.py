@@ -5,18 +5,20 @@ import json
 import os
 import socket
 import sys
+import tempfile
 
 import msgspec
 import pytest
 
 from bootcourse.cli import main
 from bootcourse.course.classroom import grading
-from bootcourse.course.classroom.answers import Notebook, answers_in, unfinished
+from bootcourse.course.classroom.answers import LONGEST, Answers, Clock, Notebook, unfinished
 from bootcourse.course.classroom.grading import Verdicts, identical, judge_all
 from bootcourse.course.classroom.judging import Judge
-from bootcourse.course.classroom.points import read_lessons, read_points
-from bootcourse.course.classroom.submission import LONGEST, Submission, collect, fingerprint, from_notebooks
-from bootcourse.course.lessons import registry
+from bootcourse.course.classroom.points import handed_out, read_lessons, read_points
+from bootcourse.course.classroom.sandbox import HOLDS
+from bootcourse.course.classroom.submission import Submission, collect, fingerprint, from_notebooks
+from bootcourse.course.lessons import number, registry
 from bootcourse.errors import BootcourseError
 from tools.course.source import NOTEBOOKS
 
@@ -42,6 +44,10 @@ def notebook(*cells: dict) -> dict:
 
 def read(notebook: dict) -> Notebook:
     return msgspec.convert(notebook, Notebook)
+
+
+def answers_in(notebook: Notebook) -> dict[str, str]:
+    return Answers(notebook, Clock()).texts()
 
 
 # Answers --------------------------------------------------------------------------------------------
@@ -154,6 +160,56 @@ def test_what_is_no_submission_has_a_problem_that_names_the_file_and_no_answers(
     assert (one.student, one.answers) == ("ada", {}) and one.problems[0].startswith("ada.json")
 
 
+def test_everything_in_the_folder_of_a_class_is_somebody_s_and_is_named_if_it_is_not_read(tmp_path):
+    (tmp_path / "several").mkdir()
+    for place, made in {
+        "ada.json": "2030-01-01",
+        "several/a.json": "2030-01-02",
+        "several/b.json": "2030-01-01",
+    }.items():
+        (tmp_path / place).write_text(json.dumps(submission(made=made, answers={NAME: made})))
+    (tmp_path / "grace.pdf").write_text("%PDF")
+    (tmp_path / "link.json").symlink_to(tmp_path / "ada.json")
+    one = {each.student: each for each in collect(tmp_path)}
+    assert "was not read" in one["grace"].problems[0] and "was not read" in one["link"].problems[0]
+    assert one["several"].answers[NAME] == "2030-01-02" and "2 submissions" in one["several"].problems[0]
+
+
+TAKEN = {  # a file of the user's, and the command that would replace it
+    "a notebook": ("mine/1.ipynb", ["submit", "mine", "--name", "Ada", "--out", "mine/1.ipynb"]),
+    "another student's": ("submission-李.json", ["submit", "mine", "--name", "王", "--out", "submission-李.json"]),
+    "a submission": ("class/ada.json", ["grade", "class", "--out", "class/ada.json"]),
+    "a table among submissions": ("class/ada.json", ["grade", "class", "--out", "class/ada.csv"]),
+    "a thesis": ("thesis.md", ["grade", "class", "--out", "thesis.md"]),
+    "a table": ("pts.csv", ["grade", "class", "--out", "pts.csv"]),
+    "a page": ("pts.html", ["grade", "class", "--out", "pts.csv"]),
+    "verdicts": ("pts-verdicts.jsonl", ["grade", "class", "--out", "pts.csv"]),
+    "a page of somebody": ("pts-pages/ada.html", ["grade", "class", "--out", "pts.csv"]),
+    "the whole disk": ("thesis.md", ["grade", "class", "--out", "/"]),
+    "an archive": ("course.zip", ["handout", "course", "--lessons", "5"]),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", TAKEN)
+def test_no_command_replaces_a_file_that_it_did_not_write(case, bootcourse, folder, monkeypatch):
+    monkeypatch.chdir(folder.parent)
+    for name in ("class", "pts-pages"):
+        (folder.parent / name).mkdir()
+    taken, command = TAKEN[case]
+    name = {"name": "李"} if case == "another student's" else {}
+    for path in {"class/ada.json", taken}:
+        (folder.parent / path).write_text(json.dumps(submission(made="by me", **name)))
+    answer = bootcourse(*command)
+    assert answer.status == 2 and len(answer.err.strip().splitlines()) == 1, answer.err
+    assert "by me" in (folder.parent / taken).read_text()
+
+
+def test_two_students_with_names_in_chinese_have_two_files(bootcourse, folder):
+    for name in ("李明", "王芳", "王芳"):
+        assert bootcourse("submit", folder, "--name", name).status == 0
+    assert len(list(folder.glob("submission-*.json"))) == 2
+
+
 def test_late_is_a_day_after_the_deadline():
     on_the_day = Submission(made="2030-05-31T23:00:00+00:00", deadline="2030-05-31")
     assert not on_the_day.late and Submission(made="2030-06-01T00:10:00+00:00", deadline="2030-05-31").late
@@ -171,13 +227,31 @@ ATTACKS = {
     "fills": "x = bytearray(10**12)",
     "recurses": "def f():\n    return f()\nf()",
     "detaches": "import os\nif os.fork() == 0:\n    os.setsid()\n    while True:\n        pass\n1 / 0",
+    "reads": "raise ValueError(open({mine!r}).read())",
+    "makes readable": "import os\nos.chmod({mine!r}, 0o777)",
+    "dates": "import os\nos.utime({mine!r}, (1, 1))",
+    "talks to a program": "import socket\nsocket.socket(socket.AF_UNIX).connect({listener!r})",
+    "fills the disk": "for k in range(200):\n    open(str(k), 'wb').write(bytes(2**20))",
+    "writes a long file": "open('long', 'wb').write(bytes(2**25))",
+    "changes compiled code": "import os\nopen(os.environ['NUMBA_CACHE_DIR'] + '/x', 'w')",
     "cheats": "import os, sys\nsys.stdout.write('{{\"kind\": \"passed\"}}')\nos.write(1, b'passed')",
 }
 
 
 @pytest.fixture(scope="module")
-def judge():
+def judge(tmp_path_factory):
+    """It starts in a folder in which somebody has handed in a module."""
+    folder = tmp_path_factory.mktemp("handed_in")
+    for name in ("numpy", "bootcourse", "msgspec"):
+        (folder / name).mkdir()
+        (folder / name / "__init__.py").write_text(f"open({str(folder / 'ran')!r}, 'w')")
     judge = Judge()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        patch.syspath_prepend("")
+        patch.syspath_prepend(folder)
+        judge.start()
+    assert not (folder / "ran").exists()
     yield judge
     judge.close()
 
@@ -193,13 +267,22 @@ def test_a_right_answer_passes_and_a_known_mistake_gets_its_sentence(judge):
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux shuts the process in")
 def test_on_linux_nothing_outside_is_reached_and_the_next_answer_is_judged(judge, tmp_path):
     (tmp_path / "mine.txt").write_text("mine")
-    with socket.create_server(("127.0.0.1", 0)) as listener:
-        given = {"pid": os.getpid(), "port": listener.getsockname()[1], "folder": str(tmp_path)}
+    said, kept = {}, (tmp_path / "mine.txt").stat()
+    with socket.create_server(("127.0.0.1", 0)) as listener, socket.socket(socket.AF_UNIX) as other:
+        other.bind(address := os.path.join(tempfile.mkdtemp(), "x"))
+        other.listen()
+        given = {"pid": os.getpid(), "port": listener.getsockname()[1], "folder": str(tmp_path),
+                 "listener": address, "mine": str(tmp_path / "mine.txt")}  # fmt: skip
         for what, lines in ATTACKS.items():
             verdict = judge.ask(NAME, body(lines.format(target=str(tmp_path / "theirs"), **given)), 10)
+            said[what] = verdict.sentence
             assert verdict.kind != "passed" and os.environ["PATH"][:20] not in str(verdict), what
-        if set(judge.holds) == {"network", "processes", "files"}:
+        if set(judge.holds) == set(HOLDS):
             assert [path.name for path in tmp_path.iterdir()] == ["mine.txt"]
+            assert (tmp_path / "mine.txt").stat()[:9] == kept[:9]
+            assert "No space left" in said["fills the disk"] and "File too large" in said["writes a long file"]
+            for what in ("reads", "makes readable", "dates", "talks to a program", "changes compiled code"):
+                assert "PermissionError" in said[what], said[what]
             listener.settimeout(0.1)
             with pytest.raises(TimeoutError):
                 listener.accept()
@@ -219,12 +302,14 @@ def test_a_process_that_dies_is_started_anew(judge):
 def graded(tmp_path_factory):
     """A small class, graded once: its folder."""
     folder = tmp_path_factory.mktemp("class")
-    twin = dict.fromkeys(("luck", "lowest_rate", "share_of_the_future"), RIGHT)
+    twin = dict.fromkeys(("luck", "learn_chain", "share_of_the_future"), RIGHT)
     asked = {"5.1": {"question": f"How many? {SCRIPT}", "answer": SCRIPT}}
     students = {
         "ada": submission(answers=twin, predictions=asked),
         "Åke & co": submission(answers={name: text.replace("\n", "\n\n") for name, text in twin.items()}),
-        "mistaken": submission(answers={NAME: ONE_TRY}, name="=1+1", exercises="older", predictions=asked),
+        "mistaken": submission(
+            answers={NAME: ONE_TRY}, right=[NAME], name="=1+1", exercises="older", predictions=asked
+        ),
         "endless": submission(answers={NAME: body("while True:\n    pass")}, deadline="2029-12-31"),
         "mallory": submission(answers={NAME: body(f"raise ValueError('{SCRIPT}')")}, name=f"<b>M {SCRIPT}"),
     }
@@ -254,6 +339,7 @@ def test_the_page_about_the_class_says_what_to_look_at_and_escapes_what_students
     text = (graded / "grades.html").read_text(encoding="utf-8")
     for part in (
         "made with another version", "did not run: <code>luck</code>", "identical in all but spaces", "after the dead",
+        "right in the notebook, not here: <code>luck</code>",
         "damaged.json is damaged", "no answer written", "grades-pages/%C3%85ke%20%26%20co.html", "How many?",
         "Answers were judged", "(2)",
     ):  # fmt: skip
@@ -298,6 +384,12 @@ def test_a_wrong_file_of_points_gets_one_sentence(tmp_path, text, sentence):
     (tmp_path / "p.toml").write_text(text)
     with pytest.raises(BootcourseError, match=sentence):
         read_points(tmp_path / "p.toml")
+
+
+def test_a_class_is_graded_over_the_lessons_that_were_handed_out():
+    given = [Submission(lessons=("the_barrier", "traffic")), Submission(lessons=("no lesson",)), Submission()]
+    assert handed_out([given[0], *given]) == {number("the_barrier"), number("traffic")}
+    assert handed_out(given[1:]) is None
 
 
 def test_lessons_are_read_as_numbers():

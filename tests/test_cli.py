@@ -241,3 +241,59 @@ def test_a_training_whose_checkpoint_is_damaged_says_what_to_do(bootcourse, tmp_
     assert "unfinished training" in bootcourse("evaluate", tmp_path / "runs").err
     shutil.rmtree(work)
     assert bootcourse(*arguments).status == 0
+
+
+def test_a_resumed_training_refuses_other_settings_and_its_command_has_all_options(bootcourse, tmp_path, monkeypatch):
+    (tmp_path / "mine.py").write_text("def follows(cars, scenario):\n    return 4\n")
+    mine = ("--teacher", f"{tmp_path / 'mine.py'}:follows")
+    begun = ("train", "--method", "soft", "--seeds", 1, "--episodes", 3, "--xi", 50, "--out", tmp_path / "runs", *mine)
+    finished = Training.run
+    monkeypatch.setattr(Training, "run", lambda training, *_: training.result(True))
+    stopped = bootcourse(*begun, "--quiet")
+    monkeypatch.setattr(Training, "run", finished)
+    assert stopped.status == 130
+    for words in (f"--teacher {mine[1]}", "--xi 50", "--episodes 3", "--quiet --resume"):
+        assert words in stopped.err
+    for option, value, began in (("--seeds", 3, 1), ("--xi", 70, 50.0), ("--method", "sac", "soft")):
+        refused = bootcourse("train", "--out", tmp_path / "runs", *mine, "--resume", option, value)
+        assert refused.status == 2
+        assert f"{option} {value}" in refused.err and f"this training began with {began}" in refused.err
+    assert bootcourse(*begun, "--quiet", "--resume").status == 0
+
+
+LEARNER = """
+from bootcourse.learn.learner import SACLearner
+
+class MyLearner(SACLearner):
+    def actor_loss(self, log_pi, q, kl):
+        return super().actor_loss(log_pi, q, kl) + 0.01 * log_pi.exp().square().sum(-1).mean(-1)
+
+class NoLearner:
+    pass
+"""
+
+
+def test_a_learner_of_one_s_own_trains_and_drives(bootcourse, tmp_path):
+    before = dict(METHODS)
+    (tmp_path / "mine.py").write_text(LEARNER)
+    mine = ("--learner", f"{tmp_path / 'mine.py'}:MyLearner")
+    try:
+        arguments = ("train", "--seeds", 1, "--episodes", 3, "--out", tmp_path / "runs")
+        trained = bootcourse(*arguments, "--method", "sac", *mine)
+        assert trained.status == 0, trained.err
+        assert f"bootcourse evaluate {tmp_path / 'runs'} --learner" in trained.out
+        METHODS.pop("MyLearner")
+        assert "MyLearner-0" in bootcourse("evaluate", tmp_path / "runs", "--episodes", 3, *mine).out
+        METHODS.pop("MyLearner")
+        refused = bootcourse(*arguments, "--learner", f"{tmp_path / 'mine.py'}:NoLearner")
+        assert refused.status == 2 and "bootcourse.learn.protocol.Learner" in refused.err
+    finally:
+        METHODS.clear()
+        METHODS.update(before)
+
+
+def test_a_teacher_that_ends_python_is_one_sentence(bootcourse, tmp_path):
+    (tmp_path / "mine.py").write_text("def leaves(cars, scenario):\n    raise SystemExit(0)\n")
+    arguments = ("train", "--method", "soft", "--seeds", 1, "--episodes", 3, "--out", tmp_path / "runs")
+    done = bootcourse(*arguments, "--teacher", f"{tmp_path / 'mine.py'}:leaves")
+    assert done.status == 2 and "Your rule 'leaves' failed" in done.err and "SystemExit" in done.err

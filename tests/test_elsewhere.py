@@ -1,6 +1,7 @@
 """Environments other than the trap: a teacher there, what is asked of the environment, what is saved, comparisons."""
 
 import re
+import signal
 from pathlib import Path
 
 import gymnasium as gym
@@ -154,6 +155,38 @@ def test_a_comparison_trains_each_entry_and_shows_a_table_and_curves():
     for wrong, says in (({}, "nothing to compare"), ({"x": 3}, "'x' is 3: give settings")):
         with pytest.raises(bc.BootcourseError, match=says):
             bc.compare(wrong)
+
+
+def presses_ctrl_c_after(calls: int):
+    """A teacher of the chain that interrupts the training once, when it has been asked so often."""
+    asked = []
+
+    @all_roads
+    def teacher(seen):
+        asked.append(len(seen))
+        if len(asked) == calls:
+            signal.raise_signal(signal.SIGINT)
+        return np.ones(len(seen), dtype=np.int64)
+
+    return teacher
+
+
+def test_an_interrupted_comparison_keeps_what_was_trained_and_names_what_is_missing():
+    soft = bc.settings_for("soft", **QUICK)
+    entries = {"sac": bc.settings_for("sac", **QUICK), "soft": soft, "soft, again": soft}
+    with pytest.warns(
+        UserWarning, match=r"'soft' was interrupted: .* after \d+ of 20 episodes. Not trained: soft, again"
+    ):
+        found = bc.compare(
+            entries, 2, 20, tests=3, make_env=Chain, teacher=presses_ctrl_c_after(450), progress=False
+        )  # fmt: skip
+    assert [row[0] for row in found.rows()] == ["", "sac", "soft, interrupted"] and len(found.tested["soft"]) == 2
+    only = {"soft": soft, "sac": soft}
+    with (
+        pytest.warns(UserWarning, match="'soft' was interrupted: it has no row. Not trained: sac"),
+        pytest.raises(bc.BootcourseError, match="interrupted before its first update"),
+    ):
+        bc.compare(only, 2, 20, make_env=Chain, teacher=presses_ctrl_c_after(2), progress=False)
 
 
 def test_the_ten_lines_of_the_readme_run(capsys):

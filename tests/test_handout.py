@@ -87,6 +87,37 @@ def test_an_update_keeps_what_a_student_wrote_and_says_so(folder):
     assert json.loads((folder / "handout.json").read_text())["deadline"] == "2030-05-31"
 
 
+def test_what_an_update_puts_aside_is_not_replaced_by_the_next(folder):
+    for text in ("my own", "my second", "my own"):
+        (folder / "LICENSE").write_text(text)
+        handout.update(folder, None, "", None)
+    kept = sorted((path.name, path.read_text()) for path in folder.glob("LICENSE*yours"))
+    assert {text for _, text in kept} == {"my own", "my second"} and len(kept) == 2
+
+
+def test_a_lesson_that_has_another_number_now_keeps_what_a_student_wrote(folder):
+    mine = json.loads((folder / NAME).read_text())
+    mine["cells"].append({"id": "own", "cell_type": "code", "source": "my_own = 1", "outputs": [], "metadata": {}})
+    before = folder / "notebooks/17_the_barrier.ipynb"
+    before.write_text(json.dumps(mine))
+    (folder / NAME).unlink()
+    record = json.loads((folder / "handout.json").read_text())
+    for part in ("files", "cells"):
+        record[part]["notebooks/17_the_barrier.ipynb"] = record[part].pop(NAME)
+    (folder / "handout.json").write_text(json.dumps(record))
+    said = handout.update(folder, None, "", None)
+    assert f"notebooks/17_the_barrier.ipynb: it is {NAME} now." in said and not before.exists()
+    assert json.loads((folder / NAME).read_text())["cells"][-1]["source"] == "my_own = 1"
+    assert len(list(folder.glob("notebooks/*.ipynb"))) == 2
+
+
+@pytest.mark.parametrize("record", ["{}", "[]", "5", "{", '{"format": "bootcourse handout 2"}'])
+def test_a_damaged_record_is_one_sentence(folder, record, monkeypatch):
+    (folder / "handout.json").write_text(record)
+    with pytest.raises(BootcourseError, match="handout.json"):
+        handout.update(folder, None, "", None)
+
+
 @pytest.mark.parametrize("damaged", ["{", "[]", '{"cells": 3}', '{"cells": [3]}'])
 def test_a_damaged_notebook_is_left_alone(folder, damaged):
     (folder / NAME).write_text(damaged)
@@ -118,8 +149,8 @@ def without_ids(base: dict) -> dict:
     return base | {"cells": [{key: cell[key] for key in cell if key != "id"} for cell in base["cells"]]}
 
 
-def with_own_cell(base: dict) -> dict:
-    own = {"id": "own", "cell_type": "code", "source": "own", "outputs": [], "metadata": {}}
+def with_own_cell(base: dict, name: str = "own") -> dict:
+    own = {"id": name, "cell_type": "code", "source": "own", "outputs": [], "metadata": {}}
     return base | {"cells": [*base["cells"][:2], own, *base["cells"][2:]]}
 
 
@@ -135,6 +166,9 @@ MERGES = {
     ),
     "of cells that the lesson no longer has, those that were changed stay": (
         by_student(OLD, {"two": "two, mine"}), ["one"], ["one", "two, mine"]
+    ),
+    "two cells have one id: both stay": (
+        with_own_cell(by_student(OLD, {STUB: MINE}), "def"), ["one", STUB], ["one", "own", MINE]
     ),
     "an editor dropped the ids: every line of the student's stays": (
         without_ids(by_student(OLD, {STUB: MINE})), ["one", STUB], ["one", MINE, STUB]

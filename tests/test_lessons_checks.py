@@ -79,7 +79,7 @@ def test_hints_come_one_by_one_and_the_solution_when_asked():
 # A number, an array, a loss, how well an answer drives, and a verdict in the exercise's own words stand for all.
 
 
-@pytest.fixture(params=["target_speed", "stochastic_rule", "cloning_loss", "my_rule", "diagnose"])
+@pytest.fixture(params=["target_speed", "decode", "cloning_loss", "my_rule", "diagnose"])
 def one(request):
     return EXERCISES[request.param]
 
@@ -113,7 +113,7 @@ def test_a_wrong_number_of_arguments_is_said_in_one_sentence(one):
     assert f"the check calls `{one.call}`" in verdict.sentence and one_sentence(verdict)
 
 
-@pytest.mark.parametrize("name", ["stochastic_rule", "cloning_loss", "my_rule"])  # the others ask for no array
+@pytest.mark.parametrize("name", ["decode", "cloning_loss", "my_rule"])  # the others ask for no array
 def test_changing_an_argument_in_place_is_said_in_one_sentence(name):
     def in_place(*arguments):
         answer = EXERCISES[name].solution(*arguments)

@@ -1,26 +1,34 @@
 """Looking ahead: the nine values are what driving each action on a copy of the road would earn."""
 
+import shutil
 from dataclasses import replace
 
-import msgspec
 import numpy as np
 import pytest
 from gymnasium.vector import AutoresetMode
 
 import bootcourse as bc
+from bootcourse.course.shipped import beginning
 from bootcourse.episodes.evaluate import drive_episodes
 from bootcourse.episodes.lookahead import imagine, lookahead, lookahead_shield, rollout_values, worth_of_speed
 from bootcourse.episodes.models import FAR_BEHIND, MODELS, Model
 from bootcourse.errors import BootcourseError
-from bootcourse.files import write_arrays, write_json
 from bootcourse.learn.teachers import teacher_policy
-from bootcourse.plots.futures import nine_futures
+from bootcourse.panels.drive import drive_panel
+from bootcourse.panels.policy import policy_panel
+from bootcourse.plots.futures import nine_futures, trails
 from bootcourse.policies import PlanPolicy, PolicyOutput, idle_policy, plan_policy, rule_policy
-from bootcourse.research.lookahead import Cell, cells, evaluate_cells, read_cell, summaries
+from bootcourse.replay3d.recorder import to_html
+from bootcourse.replay3d.scene import timelines_of
+from bootcourse.replay3d.stage import Options, _ribbon
+from bootcourse.research.lookahead import Cell, cells, drive
 from bootcourse.research.lookahead_figures import by_horizon, rows, wrong_models
+from bootcourse.research.results import Results, experiment
 from bootcourse.road.state import CRASHED, EGO, HEADING, LANE, SPEED, TARGET_LANE, TRAP_1, X, Y
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import CALIBRATED, DEFAULT, N_ACTIONS
+from bootcourse.storage.assets import FOLDER
+from bootcourse.storage.runs import load_run
 
 ROADS = [2**33 - 7, 2**33 - 8]
 INTO_TRAP_1 = [("accelerate straight", 30)]
@@ -248,6 +256,8 @@ def test_every_model_drives_every_form(name, make):
         (lambda: lookahead(idle_policy, 0), "horizon = 0: give a whole number from 1 to 1,000"),
         (lambda: lookahead(idle_policy, models=[]), "give at least one model"),
         (lambda: Model(noise=-1.0), "cannot be negative"),
+        (lambda: Model(keep=True, time_gap=2.0), "want nothing else. Leave out keep"),
+        (lambda: Model(drawn=3, desired_speed=1.0), "drawn around the true ones. Leave out drawn"),
         (
             lambda: drive_episodes(
                 lookahead(idle_policy), ROADS, replace(DEFAULT, traffic=bc.scenario.Traffic(cars=2))
@@ -272,33 +282,100 @@ def test_evaluate_and_drive_look_ahead_on_the_command_line(bootcourse, tmp_path)
 # The experiment.
 
 
-def test_a_cell_that_is_there_is_not_driven_again(tmp_path, capsys):
-    cells = [Cell("rule", form=form, horizon=2, roads=3) for form in ("alone", "rollout", "shield")]
-    loaders = {("rule", 0): lambda: rule_policy(DEFAULT)}
-    evaluate_cells(cells[:1], loaders, tmp_path)
-    evaluate_cells(cells, loaders, tmp_path)
-    assert capsys.readouterr().out.count("rule-0-alone") == 1
-    alone, rollout, shield = (read_cell(tmp_path / cell.file, 3) for cell in cells)
-    np.testing.assert_array_equal(alone["returns"], shield["returns"])
-    assert rollout["overruled"].all() and (rollout["overruled"] <= rollout["decisions"]).all()
+def test_a_study_drives_each_cell_once(bootcourse, tmp_path):
+    command = ("study", "look-ahead", "--only", "rule", "--tests", 3, "--workers", 1, "--out", tmp_path)
+    assert "3 to compute" in bootcourse(*command).out
+    assert "3 done already, 0 to compute" in bootcourse(*command).out
+    computed = experiment("look-ahead", tmp_path)
+    alone, shield, rollouts = (computed[Cell("rule", form).name].measured for form in ("alone", "shield", "rollouts"))
+    assert alone["returns"] == shield["returns"] and alone["returns"] != rollouts["returns"]
+    assert shield["overruled"] == 0 and 0 < rollouts["overruled"] <= rollouts["decisions"]
 
 
-def test_the_figures_say_how_many_drives_end_in_an_accident(tmp_path):
-    todo = [cell for cell in cells({"ppo_cloned": range(2), "bootstrapped": range(1)}) if cell.roads == 1000]
-    for cell in todo:
-        hurt = np.arange(1000) < (30 if cell.form == "alone" else 4)
-        names = ("returns", "accident", "success", "decisions", "overruled")
-        write_arrays(tmp_path / cell.file, dict.fromkeys(names, hurt.astype(int)) | {"seconds": np.array(1.0)})
-    found = summaries(tmp_path)
-    write_json(tmp_path / "summary.json", msgspec.to_builtins(found))
-    assert summaries(tmp_path / "summary.json") == found
-    assert "from 60 accidents in 2,000 drives to 8 accidents in 2,000 drives" in by_horizon(found).alt
-    assert "others keep speed and lane 4.0" in wrong_models(found).alt
-    headings, lines = rows(found)
+def test_a_cell_drives_the_agents_in_the_folder_and_then_those_that_ship(tmp_path):
+    shipped = [FOLDER / "runs" / f"soft-{seed}" for seed in range(2)]
+    shutil.copytree(shipped[1], tmp_path / "soft" / "soft-1")
+    results = drive(Cell("soft", "alone", agents=2, roads=5), tmp_path)
+    assert [agent["seed"] for agent in results.agents] == [0, 1]
+    for seed, path in enumerate(shipped):
+        expected = drive_episodes(load_run(path).agent.as_policy(), bc.held_out_seeds(1, 5))
+        assert results.measured["returns"][seed] == pytest.approx(expected.returns.mean())
+        assert results.measured["accidents"][seed] == (expected.accident > 0).sum()
+
+
+def test_a_missing_agent_names_the_command_that_trains_it(tmp_path):
+    with pytest.raises(BootcourseError, match="no agent of soft with the seed 5, 6: run `bootcourse train --method"):
+        drive(Cell("soft", "alone", agents=7), tmp_path)
+
+
+def results_of(hurt: int, returns: float = 130.0) -> Results:
+    """Two agents with so many accidents in 2,000 drives."""
+    numbers = {"roads": 1000, "success": 1, "decisions": 150_000, "overruled": 150, "seconds": 15}
+    measured = {name: np.full(2, value) for name, value in numbers.items()}
+    measured |= {"returns": np.array([returns - 1, returns + 1]), "accidents": np.array([hurt - 1, 1])}
+    return Results([{"method": "ppo_cloned", "seed": seed} for seed in range(2)], np.full(2, -1), measured=measured)
+
+
+def test_the_figures_and_the_table_say_how_many_drives_end_in_an_accident():
+    computed = {cell.name: results_of(60 if cell.form == "alone" else 8) for cell in cells()}
+    assert "60 accidents in 2,000 drives alone, 8 accidents" in by_horizon(computed).alt
+    assert "others keep speed and lane 4.0 and 130.0" in wrong_models(computed).alt
+    headings, lines = rows(computed, cells())
     assert lines[0][6].startswith("60 in 2,000: 30.00 [") and {len(headings)} == {len(line) for line in lines}
+
+
+def test_a_figure_names_the_cells_that_are_missing():
+    with pytest.raises(BootcourseError, match="lack 10: run `bootcourse study look-ahead"):
+        by_horizon({"ppo_cloned, alone": results_of(60)})
+    with pytest.raises(BootcourseError, match="lack ppo_cloned, rollouts, ppo_cloned, shield"):
+        wrong_models({"ppo_cloned, alone": results_of(60)})
 
 
 def test_the_nine_futures_name_the_best_and_the_accidents():
     cars = Reached(plan_policy(INTO_TRAP_1), 3).cars[:1]
     figure = nine_futures(cars[0], imagine(cars, np.arange(N_ACTIONS)[None], rule_policy(DEFAULT), 5), "Nine")
     assert "accelerate straight ends in an accident" in figure.alt and "is worth" in figure.alt
+
+
+# The nine futures in the panels and in the replay.
+
+
+def test_the_drive_panel_draws_the_nine_futures_of_the_decision_that_comes():
+    panel = drive_panel(3, futures=idle_policy)
+    with_trails = str(panel.view.value)
+    panel.press(7)
+    cars = panel.drive.cars_at(panel.drive.time)
+    expected = imagine(cars[None], np.arange(N_ACTIONS)[None], idle_policy)
+    accidents = int((expected.accidents > 0).sum())
+    assert f"{accidents} of 9 imagined drives end in an accident" in str(panel.view.value)
+    assert [trail.chosen for trail in panel.futures().trails] == [False] * 8 + [True]
+    panel.nine.value = False
+    assert "imagined drives" not in str(panel.view.value) and "imagined drives" in with_trails
+    panel.close()
+
+
+def test_the_policy_panel_shows_the_values_of_the_rollouts():
+    drive = bc.record(idle_policy, ROADS[:1])[0]
+    panel = policy_panel(drive, futures=rule_policy(DEFAULT))
+    panel.moment.value = 2
+    for value in rollout_values(drive.cars[2:3], rule_policy(DEFAULT))[0]:
+        assert f"{value:.1f}".replace("-", "−") in panel.svg
+    assert "rollouts" not in policy_panel(drive).svg
+
+
+def test_the_replay_has_nine_futures_for_each_decision_and_ribbons_along_them():
+    drive = bc.record(rule_policy(DEFAULT), ROADS[:1])[0]
+    (timeline,) = timelines_of(drive, futures=rule_policy(DEFAULT))
+    assert timeline.imagined.values.shape == (len(drive.actions), N_ACTIONS)
+    driven = trails(timeline.imagined, int(drive.actions[7]), 7)[-1]
+    assert driven.chosen and driven.action == drive.actions[7]
+    np.testing.assert_allclose(driven.x[:3], drive.cars[7:10, EGO, X], atol=1e-9)  # the rule goes on as it did
+    left, right = _ribbon(driven).vertices.reshape(2, -1, 3)
+    np.testing.assert_allclose((left + right)[:, :2] / 2, np.stack([driven.x, -driven.y], axis=1), atol=0.01)
+
+
+def test_an_exported_replay_with_futures_is_below_2_mb():
+    drive = beginning(bc.record(rule_policy(DEFAULT), ROADS[:1])[0], 10)
+    pages = [to_html(drive, Options(), futures) for futures in (None, rule_policy(DEFAULT))]
+    assert len(pages[0]) < len(pages[1]) < 2e6
+    assert (len(pages[1]) - len(pages[0])) * len(drive.actions) ** -1 * DEFAULT.clock.decisions < 0.6e6

@@ -1,6 +1,8 @@
 """Predictions: what is kept, what a lesson's end shows, and the form on the page."""
 
 import json
+import subprocess
+import sys
 
 import pytest
 
@@ -61,6 +63,19 @@ def test_the_first_answer_stays():
     again = ask(answer="it escapes")
     assert "committed to “it stays” before" in again.sentence
     assert predictions()["the_barrier.1"]["answer"] == "it stays"
+
+
+COMMITS = """import sys
+from bootcourse.course import predict
+for place in range(int(sys.argv[1]), int(sys.argv[1]) + 20):
+    predict(f"the_barrier.{place}", "Why?", answer=f"because {place}")
+"""
+
+
+def test_notebooks_that_commit_at_the_same_time_lose_nothing(folder):
+    kernels = [subprocess.Popen([sys.executable, "-c", COMMITS, str(first)]) for first in (1, 21)]
+    assert [kernel.wait() for kernel in kernels] == [0, 0]
+    assert len(predictions()) == 40
 
 
 def test_numbers_are_kept_as_numbers_and_words_as_words():

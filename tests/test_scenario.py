@@ -33,6 +33,8 @@ IMPOSSIBLE = [
     (lambda: Road(lanes=1), "2 to 8 lanes"),
     (lambda: Road(lanes=2.5), "Road.lanes = 2.5: give a whole number"),
     (lambda: Road(lane_width=0.0), "Road.lane_width = 0.0"),
+    (lambda: Road(lane_width=1e300), "Road.lane_width = 1e+300"),
+    (lambda: Traffic(a_max=12.0), "Traffic.a_max = 12.0"),
     (lambda: Road(length=-1.0), "Road.length = -1.0"),
     (lambda: Road(speed_limit=NAN), "Road.speed_limit = nan: give a finite number"),
     (lambda: Clock(decisions=0), "Clock.decisions = 0"),

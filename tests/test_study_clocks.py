@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from bootcourse.course.lessons.found_and_kept.figures import fading, half_found
+from bootcourse.course.shipped import shipped_experiment
 from bootcourse.research.clocks import as_printed, cells, pattern, pattern_rows
 from bootcourse.research.plan import EXPERIMENTS, STUDIES
 from bootcourse.research.results import Results
@@ -14,7 +16,8 @@ def agents(**success):
     settings = [{"method": method, "seed": seed} for method, rates in success.items() for seed in range(len(rates))]
     rates = np.array([rate for each in success.values() for rate in each])
     tested = {"success": np.arange(100)[None] < 100 * rates[:, None]}
-    return Results(settings, np.full(len(rates), -1), tested, {})
+    trained = {"success": np.repeat(rates[:, None], 60, axis=1)}
+    return Results(settings, np.full(len(rates), -1), tested, trained)
 
 
 def test_a_table_of_single_agents_is_the_paper_s_if_every_row_is():
@@ -40,8 +43,21 @@ def test_a_row_stands_for_a_choice_whose_four_methods_were_computed():
     varied["1 updates, demonstrations by μ"] = helped  # sac and soft are missing there
     assert list(cells(varied)) == [("2", "π̃")]
     headings, rows = pattern_rows(varied)
-    assert rows[0][:6] == ["2", "π̃", "0 of 2", "1 of 2", "2 of 2", "2 of 2"] and rows[0][6].startswith("50 [")
+    assert rows[0][:6] == ["2", "π̃", "0, 0 of 2", "1, 1 of 2", "2, 2 of 2", "2, 2 of 2"] and rows[0][6].startswith(
+        "50 ["
+    )
     assert len(headings) == len(rows[0])
+
+
+def test_the_figure_of_the_clocks_marks_where_half_of_the_agents_have_found_the_way_out():
+    shipped = cells(shipped_experiment("clocks"))
+    success = np.zeros((3, 200))
+    success[0, 10:], success[1, 100:] = 1, 1  # a window of fifty has 26 successes at episodes 36 and 126
+    assert half_found(Results([], np.zeros(0), curves={"success": success})) == 126
+    figure = fading(shipped)
+    dots = [line.get_xdata()[0] for line in figure.axes[0].lines if line.get_marker() == "o"]
+    assert dots == [half_found(shipped[updates, "π̃"].of("soft")) for updates in ("1/4", "1", "2", "4")]
+    assert f"half have the way out after {dots[2]}" in figure.alt
 
 
 def test_the_setting_named_after_the_paper_is_one_of_the_choices():

@@ -134,7 +134,7 @@ def test_the_report_holds_every_table_and_figure_and_names_the_agents_that_were_
     assert (
         "bc, seed 1, at decision 1234" in text and len(shown) == 6 and all((tmp_path / name).exists() for name in shown)
     )
-    for heading in (*TABLES, "Fidelity", "Probability of improvement", "Who escapes"):
+    for heading in (*TABLES, "Fidelity", "Probability of improvement", "Who escapes", "found, kept"):
         assert heading in text
     assert text.count("**reproduced**") + text.count("**partly**") + text.count("**not reproduced**") == 34
     for column in COLUMNS.values():

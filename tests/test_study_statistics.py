@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from bootcourse.statistics import band, escapes, improvement, interval, iqm, median, rolling_means
+from bootcourse.statistics import band, escapes, improvement, interval, iqm, median, power, rolling_means, significant
 
 
 @pytest.mark.parametrize(
@@ -67,3 +67,15 @@ def test_a_rolling_mean_ends_where_its_agent_ends():
     assert at.tolist() == [2, 3, 4] and means[0].tolist() == [1.5, 2.5, 3.5]
     assert means[1][0] == 6 and np.isnan(means[1][1:]).all()
     assert rolling_means(np.full((2, 3), np.nan), 2)[1].shape == (2, 0)
+
+
+def test_a_comparison_errs_in_less_than_one_in_twenty_where_rates_are_equal_and_finds_more_with_more_agents():
+    assert max(power(rate, rate, 10) for rate in np.linspace(0, 1, 21)) < 0.05
+    assert power(0.8, 0.3, 5) < power(0.8, 0.3, 10) < 0.5 < power(0.8, 0.3, 20)
+    assert power(1.0, 0.0, 4) == 1.0 and power(1.0, 0.0, 3) == 0.0  # 4 of 4 against 0 of 4: p is 2 / 70
+
+
+def test_the_power_is_how_often_simulated_studies_differ():
+    rng, shown = np.random.default_rng(0), significant(8)
+    simulated = shown[rng.binomial(8, 0.9, 20_000), rng.binomial(8, 0.4, 20_000)].mean()
+    assert power(0.9, 0.4, 8) == pytest.approx(simulated, abs=0.01)

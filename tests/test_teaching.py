@@ -6,7 +6,7 @@ import pytest
 
 from bootcourse.course.lessons import LESSONS, number, stem
 from tools import book
-from tools.course import claims, front_page
+from tools.course import claims, front_page, slides
 from tools.course.known import minutes
 from tools.course.numbering import resolved
 
@@ -69,6 +69,8 @@ def test_the_exam_and_what_leads_to_solutions_are_in_the_instructor_s_edition_al
     monkeypatch.setattr(book, "replays", lambda: "# Replays\n")
     monkeypatch.setattr(front_page, "fill", lambda folder: None)
     monkeypatch.setattr(claims, "claims_page", lambda: "# Claims\n")
+    monkeypatch.setattr(slides, "fill", lambda folder: None)
+    monkeypatch.setattr("bootcourse.web.build.main", lambda arguments: None)
     book.gather(tmp_path / "source", edition)
     pages = [tmp_path / "source" / name for name in ("index.md", *(f"teaching/{p.name}" for p in TEACHING.iterdir()))]
     there = [page for page in pages if page.exists()]

@@ -1,5 +1,9 @@
 """The page that drives: the compiled road, the agents and the game in Chromium."""
 
+import base64
+import gzip
+import json
+import re
 from functools import partial
 
 import numpy as np
@@ -7,9 +11,11 @@ import pytest
 from gymnasium.utils import seeding
 from gymnasium.vector import AutoresetMode
 
+from bootcourse.episodes.lookahead import rollout_values
 from bootcourse.errors import BootcourseError
 from bootcourse.panels.policy_numbers import policy_numbers
-from bootcourse.road.state import HEADING, TARGET_LANE, X
+from bootcourse.policies import rule_policy
+from bootcourse.road.state import HEADING, SPEED, TARGET_LANE, TRAP_1, TRAP_2, X, Y
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.rule import rule
 from bootcourse.scenario import ACTION_NAMES, CALIBRATED, DEFAULT, IDLE, Clock, Road, Scenario, Sight, Traffic
@@ -37,6 +43,13 @@ def path(tmp_path_factory):
     path = tmp_path_factory.mktemp("web") / "trap.html"
     build.main(["--out", str(path)])
     return path
+
+
+@pytest.fixture(scope="module")
+def module(path):
+    """The compiled road, out of the page: one compilation serves all tests."""
+    data = re.search(r'<script type="application/json" id="data">(.*?)</script>', path.read_text(encoding="utf-8"))
+    return gzip.decompress(base64.b64decode(json.loads(data[1])["module"]))
 
 
 @pytest.fixture(scope="module")
@@ -151,8 +164,7 @@ def test_the_build_fails_if_numba_passes_other_arguments():
         wasm.for_wasm(text, "place", 4)
 
 
-def test_the_build_fails_if_the_module_imports_or_exports_something_else():
-    module = wasm.road_module()
+def test_the_build_fails_if_the_module_imports_or_exports_something_else(module):
     wasm.check(module, set(ENTRIES))
     with pytest.raises(BootcourseError, match=r"lacks the exports \['land'\]"):
         wasm.check(module, {*ENTRIES, "land"})
@@ -160,8 +172,37 @@ def test_the_build_fails_if_the_module_imports_or_exports_something_else():
         wasm.check(module.replace(b"\x03env\x03tan", b"\x03env\x04tanh"), set(ENTRIES))
 
 
-def test_the_page_is_one_file_under_250_kb_that_asks_for_nothing(path, page):
-    assert path.stat().st_size < 250_000
+def test_the_build_fails_if_the_modules_constants_reach_the_arrays_of_the_page(module, monkeypatch):
+    end = wasm.data_end(module)
+    assert 0 < end <= wasm.FREE
+    monkeypatch.setattr(wasm, "FREE", end - 1)
+    with pytest.raises(BootcourseError, match=f"constants up to byte {end} .* begin at {end - 1}"):
+        wasm.check(module, set(ENTRIES))
+
+
+def test_the_build_fails_if_a_driver_does_not_do_what_its_name_says(monkeypatch):
+    monkeypatch.setattr(build, "ROADS", 10)
+    monkeypatch.setattr(build, "ESCAPING", 8)
+    escapes = rule_policy(DEFAULT)
+    with pytest.raises(BootcourseError, match=r"\['sac', 'crashing'\] do not drive as their names"):
+        build.measured({"sac": escapes, "bootstrapped": escapes, "crashing": escapes})
+
+
+def test_the_nine_futures_are_worth_as_much_as_in_python(page):
+    env = TrapVectorEnv(3, autoreset_mode=AutoresetMode.DISABLED)
+    env.reset(seed=20)
+    there = page.page.evaluate(
+        """states => states.map(cars => imagine(
+            trap.game.road, Float64Array.from(cars), (road, now) => road.rule(now), trap.data.worth))""",
+        env.cars.reshape(3, -1).tolist(),
+    )
+    values = [[future["value"] for future in futures] for futures in there]
+    assert np.abs(values - rollout_values(env.cars, rule_policy(DEFAULT))).max() < 1e-5  # worths have six digits
+
+
+def test_the_page_is_one_file_that_asks_for_nothing_and_without_3d_is_under_250_kb(path, page):
+    in_depth = json.dumps(build.scene_data()) + "".join(map(build.script, build.IN_DEPTH))
+    assert path.stat().st_size - len(in_depth) < 250_000
     assert page.requests == [path.as_uri()]
     assert page.errors == []
 
@@ -237,34 +278,143 @@ def test_the_third_failure_brings_a_hint(visit):
             page.page.get_by_role("button", name="The same road again").first.click()
 
 
-def test_more_xi_takes_sac_out_of_the_trap(visit):
+def driven_by_the_hint(road: int, speed, gap, steer, wait, fast, apart) -> bool:
+    """Drives as the third hint says, a decision a second: is the ego out at the end, without an accident?"""
+    env, plan = TrapVectorEnv(1, autoreset_mode=AutoresetMode.DISABLED), None
+    env.reset(seed=[road])
+    brake, left, right, accelerate = map(
+        ACTION_NAMES.index, ("brake straight", "keep left", "keep right", "accelerate straight")
+    )
+    for _ in range(DEFAULT.clock.decisions):
+        ego, others = env.cars[0, 0], env.cars[0, 1:]
+        ahead = others[(others[:, X] > ego[X]) & (abs(others[:, Y] - ego[Y]) < DEFAULT.road.lane_width / 2)]
+        nearest = min(ahead, key=lambda car: car[X], default=None)
+        if plan is None and env.cars[0, TRAP_2, X] - ego[X] >= gap:
+            plan = [left] * steer + [IDLE] * wait + [right] * steer
+        if plan:
+            action = plan.pop(0)
+        elif plan is None:
+            action = brake if ego[SPEED] > speed + 0.5 else IDLE
+        elif nearest is not None and nearest[X] - ego[X] < apart:
+            action = brake if ego[SPEED] > nearest[SPEED] else IDLE
+        else:
+            action = accelerate if ego[SPEED] < fast - 0.5 else IDLE
+        _, _, _, _, infos = env.step(np.array([action]))
+        if infos["accident"][0]:
+            return False
+    return bool(env.cars[0, 0, X] > env.cars[0, TRAP_1, X])
+
+
+@pytest.mark.parametrize("late", [0, 1])
+def test_who_follows_the_third_hint_to_the_letter_or_a_second_late_gets_out_on_20_roads(page, late):
+    way = page.page.evaluate("WAY_OUT")
+    way |= {"wait": way["wait"] + late, "gap": way["gap"] + 3 * late}  # trap 2 draws ahead by 3 m in a second
+    assert all(driven_by_the_hint(road, **way) for road in range(20))
+    assert not driven_by_the_hint(0, **way | {"wait": 0})  # less steering does not: the hint matters
+
+
+def test_xi_does_what_the_page_says_of_0_and_5_and_100(visit):
     with visit() as page:
-        out = page.page.evaluate(
+        ends = page.page.evaluate(
             """strengths => strengths.map(xi => {
                 trap.game.settings.xi = xi;
-                return new Drive(trap.game.road, 10).finish(trap.game.drivers.soft).outAfter !== null;
+                const drives = Array.from({ length: 10 }, (_, seed) => (
+                    new Drive(trap.game.road, seed).finish(trap.game.drivers.soft)));
+                return { out: drives.filter(drive => drive.outAfter !== null && !drive.accident).length,
+                    accidents: drives.filter(drive => drive.accident).length };
             })""",
-            [0, 5],
+            [0, 5, 100],
         )
-        assert out == [False, True]
+        assert ends == [{"out": 0, "accidents": 0}, {"out": 0, "accidents": 10}, {"out": 10, "accidents": 0}]
         page.page.locator("#xi").fill("12")
         assert state(page)["ghostName"] == "soft"  # whoever moves the slider sees what it does
         assert "π" in page.page.locator("#thoughts").inner_text()
 
 
-def test_a_wrong_address_is_answered_with_a_sentence(visit):
-    with visit("#road=minus&ghost=nobody-we-know") as page:
-        assert "is not a road" in page.page.locator("#message").inner_text()
-        assert state(page)["number"] == 10 and state(page)["ghostName"] == "rule"
+WRONG = {  # address -> what the sentence says
+    "#road=minus": "“minus” is not a road: give a whole number from 0 to 999999999.",
+    "#ghost=nobody-we-know": "“ghost” cannot be “nobody-we-know”, so it is rule: choose none, rule, sac,",
+    "#driver=%3Cb%3Ex": "“driver” cannot be “<b>x”, so it is you: choose you, rule, sac,",
+    "#pace=3": "“pace” cannot be “3”, so it is 1: choose 0, 1, 2 or 5.",
+    "#futures=yes": "“futures” cannot be “yes”, so it is 0: choose 0 or 1.",
+    "#view=side": "“view” cannot be “side”, so it is above: choose above or 3d.",
+    "#raod=7": "The address has “raod”, which is unknown: it takes road, ghost,",
+}
+
+
+def test_each_wrong_part_of_an_address_is_answered_with_a_sentence(visit):
+    with visit() as page:
+        for address, sentence in WRONG.items():
+            page.page.evaluate("address => { location.hash = address; }", address)
+            page.page.wait_for_function(
+                "words => find('message').textContent.startsWith(words) && find('live').textContent.startsWith(words)",
+                arg=sentence,
+            )
+            assert state(page)["number"] == 10 and state(page)["ghostName"] == "rule"
+    with visit("#road=7&ghost=ghost&view=side") as page:  # when the page opens, and all that is right is done
+        words = page.page.locator("#message").inner_text()
+        assert "“ghost” cannot be" in words and "“view” cannot be" in words and state(page)["number"] == 7
+
+
+COLOURS = """() => {
+    const gl = trap.game.scene.gl, { width, height } = gl.canvas, pixels = new Uint8Array(4 * width * height);
+    trap.game.draw();
+    gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+    return new Set(new Uint32Array(pixels.buffer)).size;
+}"""
+
+
+def test_a_key_shows_the_road_in_3d_and_from_above_again(visit):
+    with visit("#road=10", width=390, height=844) as page:
+        assert not page.page.locator("#scene").is_visible()
+        page.page.keyboard.press("v")
+        assert page.page.locator("#scene").is_visible() and "view=3d" in page.page.url
+        assert page.page.get_by_role("button", name="In 3D", pressed=True).is_visible()
+        standing = page.page.evaluate(COLOURS)
+        assert standing > 1000
+        page.page.keyboard.press("ArrowUp")
+        page.page.wait_for_function("() => trap.game.drive.time > 0")
+        page.page.get_by_role("button", name="In 3D").click()
+        assert not page.page.locator("#scene").is_visible() and "view" not in page.page.url
+        assert page.errors == [] and len(page.requests) == 1
+
+
+def test_without_webgl_a_sentence_says_so_and_the_road_is_drawn_from_above(visit):
+    with visit() as page:
+        page.page.evaluate(
+            """() => {
+                const real = HTMLCanvasElement.prototype.getContext;
+                HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
+                    return kind === "webgl2" ? null : real.call(this, kind, ...more);
+                };
+            }"""
+        )
+        page.page.keyboard.press("v")
+        assert "3D needs WebGL 2" in page.page.locator("#message").inner_text()
+        assert not page.page.locator("#scene").is_visible()
+        page.page.keyboard.press("ArrowDown")
+        page.page.wait_for_function("() => trap.game.drive.time > 0")
+        assert page.errors == []
+
+
+def test_a_lost_graphics_card_brings_back_the_road_from_above(visit):
+    with visit("#view=3d") as page:
+        page.page.evaluate("() => trap.game.scene.gl.getExtension('WEBGL_lose_context').loseContext()")
+        page.page.wait_for_function("() => find('message').textContent.startsWith('The graphics card gave up')")
+        assert not page.page.locator("#scene").is_visible()
+        page.page.keyboard.press("v")
+        assert page.page.locator("#scene").is_visible() and page.page.evaluate(COLOURS) > 1000
+        assert page.errors == []
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize("width, height", [(1280, 720), (390, 844)])
-def test_the_page_in_pictures(visit, scheme, width, height):
-    with visit("#road=10&futures=1", width, height, color_scheme=scheme) as page:
+@pytest.mark.parametrize("view", ["above", "3d"])
+def test_the_page_in_pictures(visit, scheme, width, height, view):
+    with visit(f"#road=10&futures=1&view={view}", width, height, color_scheme=scheme) as page:
         page.page.keyboard.press("ArrowDown")
         page.page.wait_for_function("() => trap.game.drive.time > 0")
-        png = page.page.screenshot(path=ARTEFACTS / f"web-{width}-{scheme}.png")
+        png = page.page.screenshot(path=ARTEFACTS / f"web-{view}-{width}-{scheme}.png")
         assert not is_blank(png)
         shade = page.page.evaluate("getComputedStyle(document.body).backgroundColor")
         assert (sum(map(int, shade[4:-1].split(","))) > 380) == (scheme == "light")

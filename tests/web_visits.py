@@ -39,15 +39,34 @@ def child(visit, picture):
 
 
 def phone(visit, picture):
-    """Holds the page in one hand and follows the bold trail with a thumb, step by step, for 30 seconds."""
-    with visit("#road=3&pace=0&futures=1", width=390, height=844) as page:
-        for _ in range(30):
+    """Holds the page in one hand and follows the bold trail with a thumb, step by step, until the drive ends."""
+    with visit("#road=3&pace=0&futures=1", width=390, height=844, reduced_motion="reduce") as page:
+        touch(page, page.page.locator("#view"))
+        yield f"in 3D: {page.page.locator('#scene').is_visible()}"
+        for second in range(150):
+            if page.page.evaluate("trap.game.finished"):
+                break
             best = page.page.evaluate("largest(trap.game.futures.map(each => each.value))")
-            button = page.page.locator("#pad button").nth([6, 7, 8, 3, 4, 5, 0, 1, 2].index(best))
-            button.click()
-            page.page.wait_for_function("() => !trap.game.running && trap.game.controls.idle")
-        yield page.page.evaluate("`after ${trap.game.drive.time} s: ${stateInWords(trap.game.drive.cars)}`")
+            touch(page, page.page.locator("#pad button").nth([6, 7, 8, 3, 4, 5, 0, 1, 2].index(best)))
+            page.page.wait_for_function(f"() => trap.game.drive.time === {second + 1} && !trap.game.running")
+            if second == 29:
+                yield page.page.evaluate("`after ${trap.game.drive.time} s: ${stateInWords(trap.game.drive.cars)}`")
+                picture(page, "-3d")
+                touch(page, page.page.locator("#view"))
+                picture(page, "-above")
+        yield words(page)
         picture(page)
+        touch(page, page.page.locator("#end-again"))
+        yield f"again: {page.page.evaluate('trap.game.drive.time')} s driven, errors: {page.errors}"
+
+
+def touch(page, element) -> None:
+    """Touch the middle of an element with a finger, as a phone does."""
+    box, session = element.bounding_box(), page.page.context.new_cdp_session(page.page)
+    point = {"x": box["x"] + box["width"] / 2, "y": box["y"] + box["height"] / 2}
+    session.send("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [point]})
+    session.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    session.detach()
 
 
 def keyboard(visit, picture):
@@ -81,7 +100,7 @@ def sceptic(visit, picture):
 def lecturer(visit, picture):
     """Shows on a projector what ξ does: moves the slider, and lets the compromise drive."""
     with visit("#road=10&driver=soft&ghost=sac", width=1920, height=1080) as page:
-        for place in ("0", "6", "9", "13"):
+        for place in ("0", "6", "12", "16"):
             page.page.locator("#xi").fill(place)
             page.page.keyboard.press("5")
             page.page.locator("#go").click()
@@ -103,6 +122,14 @@ DRAWING = """() => {
     const begin = performance.now();
     for (let k = 0; k < 200; k++) trap.game.draw();
     return (performance.now() - begin) / 200;
+}"""
+DRAWING_3D = """() => {
+    const begin = performance.now(), { gl } = trap.game.scene, pixel = new Uint8Array(4);
+    for (let k = 0; k < 20; k++) {
+        trap.game.draw();
+        gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel); // waits until the picture is there
+    }
+    return (performance.now() - begin) / 20;
 }"""
 DECIDING = """() => {
     const road = trap.game.road, start = road.place(1), cars = road.place(1), begin = performance.now();
@@ -132,8 +159,15 @@ def speed(visit, picture):
     with visit() as page:
         yield f"{page.page.evaluate('trap.ready'):.0f} ms from opening to the first drivable moment"
         yield f"{page.page.evaluate(FRAMES):.0f} frames a second, {page.page.evaluate(DRAWING):.2f} ms to draw one"
+        page.page.keyboard.press("v")
+        frames, drawing = page.page.evaluate(FRAMES), page.page.evaluate(DRAWING_3D)
+        yield f"in 3D: {frames:.0f} frames a second, {drawing:.1f} ms to draw one"
         here, one, many = page.page.evaluate(DECIDING), with_numba(1), with_numba(256)
         yield f"decisions a second: {here:,.0f} in Chromium; numba {one:,.0f} with 1 road, {many:,.0f} with 256"
+
+
+def photograph(folder: Path, name: str, page, moment: str = "") -> None:
+    page.page.screenshot(path=folder / f"{name}{moment}.png")
 
 
 VISITS = (speed, child, phone, keyboard, sceptic, lecturer)
@@ -143,7 +177,7 @@ def main(path: Path, folder: Path, *names: str) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     with open_browser(offline=True) as new_page:
         for visitor in (each for each in VISITS if not names or each.__name__ in names):
-            picture = lambda page, name=visitor.__name__: page.page.screenshot(path=folder / f"{name}.png")  # noqa: E731
+            picture = partial(photograph, folder, visitor.__name__)
             print(f"\n{visitor.__name__}: {visitor.__doc__}", flush=True)
             for line in visitor(partial(opened, new_page, path), picture):
                 print(f"- {line}", flush=True)

@@ -33,6 +33,7 @@ def evaluate(
     scenario: str = typer.Option("", help="default or calibrated; by default the scenario that a run trained on."),
     sample: bool = typer.Option(False, "--sample", help="Draw an agent's actions instead of taking the most probable."),
     teacher: str = typer.Option("", help="The teacher that a run drives with: planner …, or FILE.py:FUNCTION."),
+    learner: str = typer.Option("", help="The learner of your own that a run was trained with: FILE.py:CLASS."),
     lookahead: int = typer.Option(0, min=0, help="Decisions to look ahead by rollouts, such as 10; 0: none."),
     as_json: bool = typer.Option(False, "--json", help="Print JSON."),
     board: bool = typer.Option(False, "--board", help="Print the leaderboard with them; here WHO may be several."),
@@ -40,6 +41,10 @@ def evaluate(
     """Drive held-out episodes and print success, return, speed, distance and accidents with 95 % intervals."""
     from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds, over_seeds, summarise
 
+    if learner:
+        from bootcourse.cli.training import register_learner
+
+        register_learner(learner)
     if board:
         if (episodes, seed, scenario, sample, lookahead, as_json) != (1000, 1, "", False, 0, False):
             raise BootcourseError("--board has its own roads and form: with it, give only --teacher.")

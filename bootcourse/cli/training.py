@@ -11,14 +11,17 @@ A training that is stopped by Ctrl-C (exit status 130) or killed goes on with --
 import importlib
 import importlib.util
 import os
+import shlex
 import shutil
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import typer
 
-from bootcourse.errors import BootcourseError, described, did_you_mean
-from bootcourse.methods import METHODS
+from bootcourse.colours import OTHER
+from bootcourse.errors import BootcourseError, check_known, described, did_you_mean
+from bootcourse.methods import METHODS, Method
 
 INTERRUPTED = 130  # exit status
 NAMED = "bootcourse.research.teachers"  # the module of the teachers with a name, loaded when one is asked for
@@ -27,6 +30,7 @@ SECONDS_BETWEEN = 20.0  # of checkpoints
 
 
 def train(
+    context: typer.Context,
     method: str = typer.Option("bootstrapped", help=", ".join(METHODS) + "."),
     seeds: int = typer.Option(4, min=1, max=64, help="How many agents, side by side, each with its own seed."),
     first_seed: int = typer.Option(0, min=0, help="The first training seed."),
@@ -39,6 +43,10 @@ def train(
         help="Who teaches: random-50, random-25, mirrored, timid, late, rule or planner, or a rule of your own: "
         "FILE.py:FUNCTION.",
     ),
+    learner: str = typer.Option("", help="A learner of your own, FILE.py:CLASS; it starts from the method's settings."),
+    p: float | None = typer.Option(None, help="Probability of the rule's action in the stochastic rule."),
+    xi: float | None = typer.Option(None, help="Strength of the soft constraint: ξ = XI times α."),
+    c: float | None = typer.Option(None, help="Bonus on a demonstration's reward."),
     device: str = typer.Option("cpu", help="Where the networks learn: cpu, or cuda if torch finds a GPU."),
     resume: bool = typer.Option(False, "--resume", help="Resume a training that was interrupted or killed."),
     quiet: bool = typer.Option(False, "--quiet", help="No progress bar."),
@@ -50,7 +58,12 @@ def train(
     from bootcourse.storage.checkpoint import DamagedCheckpoint, load_checkpoint, save_checkpoint
     from bootcourse.storage.work import locked
 
-    settings, road = with_seeds(settings_for(method, setting), seeds, first_seed), named(scenario)
+    check_known("Method", method, METHODS)
+    method = register_learner(learner, METHODS[method]) if learner else method
+    changes = {
+        name: value for name, value in {"rule_p": p, "xi_multiplier": xi, "bonus": c}.items() if value is not None
+    }
+    settings, road = with_seeds(settings_for(method, setting, **changes), seeds, first_seed), named(scenario)
     rule, work, episodes = teacher_from(teacher), out / UNFINISHED, episodes or METHODS[method].episodes
     if resume and not is_unfinished(out) and any(out.glob("*/provenance.json")):
         with locked(work, "training"):  # removes what is left of it, if it was killed in its last moment
@@ -67,12 +80,19 @@ def train(
                 training = load_checkpoint(work / CHECKPOINT, rule, device)
             except DamagedCheckpoint as error:
                 raise BootcourseError(f"{error} Delete {work}, and start again without --resume.") from None
+            check_resumed(training, settings, episodes, road, given_options(context))
         try:
             status = finish_training(training, out, progress=not quiet)
         except KeyboardInterrupt:  # before the first decision, or after the last: the checkpoint is there
             status = INTERRUPTED
         if status == INTERRUPTED:
-            print(f"Interrupted. To continue, run `bootcourse train --out {out} --resume`.", file=sys.stderr)
+            print(f"Interrupted. To continue, run `{command_to_continue(context)}`.", file=sys.stderr)
+        elif not quiet:
+            also = "".join(f" --{name} {shlex.quote(value)}" for name, value in (("teacher", teacher),) if value)
+            also += f" --learner {shlex.quote(learner)}" * bool(learner)
+            print(
+                f"To test these agents on 1,000 other roads, run `bootcourse evaluate {shlex.quote(str(out))}{also}`."
+            )
         raise typer.Exit(status)
 
 
@@ -94,6 +114,62 @@ def is_unfinished(out: Path) -> bool:
     return any((out / UNFINISHED / name).exists() for name in (CHECKPOINT, COMPLETE))
 
 
+def given_options(context: typer.Context) -> dict[str, object]:
+    """The options of `bootcourse train` that stand on the command line, by name."""
+    sources = {name: context.get_parameter_source(name) for name in context.params}
+    return {
+        name: value for name, value in context.params.items() if getattr(sources[name], "name", "") == "COMMANDLINE"
+    }
+
+
+def command_to_continue(context: typer.Context) -> str:
+    """The command that continues a training: with all options of this one."""
+    words = ["bootcourse", "train"]
+    for name, value in given_options(context).items():
+        if name != "resume":
+            words += [f"--{name.replace('_', '-')}", *([] if value is True else [shlex.quote(str(value))])]
+    return " ".join([*words, "--resume"])
+
+
+def check_resumed(training, settings: list, episodes: int, road, given: dict) -> None:
+    """Raise BootcourseError if an option was given that is not what the training began with."""
+    one, asked = training.settings[0], settings[0]
+    pairs = {  # option: (stored, asked)
+        "method": (one.method, asked.method),
+        "seeds": (len(training.settings), len(settings)),
+        "first_seed": (one.seed, asked.seed),
+        "episodes": (training.episodes, episodes),
+        "scenario": (training.scenario.name, road.name),
+        "p": (one.rule_p, asked.rule_p),
+        "xi": (one.xi_multiplier, asked.xi_multiplier),
+        "c": (one.bonus, asked.bonus),
+        "setting": (one.updates * 4 // one.envs_per_agent, asked.updates * 4 // asked.envs_per_agent),
+    }
+    for name, (stored, wanted) in pairs.items():
+        if given.get(name) not in (None, 0) and stored != wanted:
+            began = "another" if name == "setting" else stored
+            raise BootcourseError(
+                f"--{name.replace('_', '-')} {given[name]}: this training began with {began}. Leave the option out to "
+                "continue it, or choose another folder."
+            )
+
+
+def register_learner(place: str, like=None) -> str:
+    """Enter the learner "FILE.py:CLASS" into the methods, under the name of its class. Returns that name.
+
+    like: the method whose settings it starts from; None to read a run that has settings of its own. Raises
+    BootcourseError if it is not there, does not load or is no learner, and for a name that a method has.
+    """
+    kind = loaded(place, "--learner", "class")
+    if not isinstance(kind, type) or not hasattr(kind, "driving_policy"):
+        raise BootcourseError(f"--learner {place}: give a class with the methods of bootcourse.learn.protocol.Learner.")
+    name = kind.__name__
+    if name in METHODS:
+        raise BootcourseError(f"--learner {place}: a method is called '{name}' already: give your class another name.")
+    METHODS[name] = replace(like, name=name, style=OTHER, learner=kind) if like else Method(name, OTHER, learner=kind)
+    return name
+
+
 def teacher_from(place: str):
     """The rule "FILE.py:FUNCTION", or the teacher of a name, such as "planner"; the course's rule for "".
 
@@ -103,26 +179,31 @@ def teacher_from(place: str):
 
     if not place:
         return course_rule
-    file, colon, function = place.rpartition(":")
-    if not colon:
+    if ":" not in place:
         teachers = importlib.import_module(NAMED).TEACHERS  # slow: it loads the planner
         if place not in teachers:
             own = "or give a rule of your own, FILE.py:FUNCTION"
             raise BootcourseError(f"Teacher {did_you_mean(place, teachers)}, {own}.")
         return teachers[place].rule
+    return loaded(place, "--teacher", "function")
+
+
+def loaded(place: str, option: str, what: str):
+    """The function or class of "FILE.py:NAME". Raises BootcourseError if it is not there or does not load."""
+    file, _, name = place.rpartition(":")
     if Path(file).suffix != ".py":
-        raise BootcourseError(f"--teacher {place}: give a file and a function in it, such as my_rule.py:my_rule.")
+        raise BootcourseError(f"{option} {place}: give a file and a {what} in it, such as mine.py:mine.")
     if not Path(file).is_file():
-        raise BootcourseError(f"--teacher {place}: there is no file {file}.")
+        raise BootcourseError(f"{option} {place}: there is no file {file}.")
     spec = importlib.util.spec_from_file_location(Path(file).stem, file)
     module = importlib.util.module_from_spec(spec)
     try:
         spec.loader.exec_module(module)
-    except Exception as error:  # whatever the user's file does
+    except (Exception, SystemExit) as error:  # whatever the user's file does
         raise BootcourseError(f"{file} cannot be loaded: {described(error)}.") from error
-    if not callable(getattr(module, function, None)):
-        raise BootcourseError(f"{file} has no function '{function}': write it there, or give another name.")
-    return getattr(module, function)
+    if not callable(getattr(module, name, None)):
+        raise BootcourseError(f"{file} has no {what} '{name}': write it there, or give another name.")
+    return getattr(module, name)
 
 
 def finish_training(training, out: Path, progress: bool) -> int:

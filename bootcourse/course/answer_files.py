@@ -18,10 +18,10 @@ from bootcourse.files import write_bytes
 FOLDER = Path("answers")  # beside the notebooks, where their kernels work
 PARTS = (  # the exercises whose answers train the agent: see own_code.py
     "soft_value", "critic_target", "critic_loss", "actor_loss", "temperature_loss", "ReplayBuffer",
+    "update", "train",
     "soft_constraint", "constrained_loss", "constrained_target", "mixed_batch", "margin_loss",
     "discriminator_loss", "imitation_reward", "offline_loss", "advantages", "clipped_loss", "ppo_loss",
-    "shaping_reward",
-    "smallest_of", "better_of_two", "guide_shrinks",
+    "shaping_reward", "rollout_values", "smallest_of", "better_of_two", "guide_shrinks",
 )  # fmt: skip
 CONSTANTS = (bool, int, float, str, type(None))
 HEAD = '"""Your `{0}`, which passed its check. Without this file, the library\'s own is used."""'

@@ -10,11 +10,13 @@ Everyone drives the 1,000 roads of block 1 of the default scenario, on which no 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cache
+from itertools import product
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
+from bootcourse.course.gap_rule import gap_rule
 from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.agent import Agent
@@ -26,6 +28,7 @@ from bootcourse.policies import Policy, idle_policy, random_policy, rule_policy
 from bootcourse.research.beyond import lengths
 from bootcourse.research.equal_decisions import by_method
 from bootcourse.research.jobs import HELD_OUT
+from bootcourse.research.lookahead import CLOSELY, Cell
 from bootcourse.research.results import Results, in_assets
 from bootcourse.scenario import DEFAULT, Scenario
 from bootcourse.statistics import Estimate, interval, mean, rate
@@ -34,6 +37,7 @@ from bootcourse.storage.runs import find_runs, load_run
 
 ROADS = held_out_seeds(HELD_OUT, 1000)
 HEADINGS = ("method", "return", "success %", "accidents %", "decisions")
+FORM_WORDS = {"rollouts": "looking ahead", "shield": "shielded"}
 LONGEST = 21  # letters of a name in a terminal, so that no line is longer than 100
 BELOW = (
     f"{len(ROADS):,} held-out roads, [95 % interval]. One driver: over roads. Several agents: over agents, the",
@@ -131,11 +135,25 @@ def shipped_rows() -> tuple[Row, ...]:
     study = in_assets(FOLDER)
     drivers = {"rule": rule_policy(DEFAULT), "idle": idle_policy, "random": random_policy(np.random.default_rng(0))}
     rows = [row_of(display_name(name), [drive_episodes(policy, ROADS)]) for name, policy in drivers.items()]
+    rows.append(row_of("gap acceptance (rule)", [drive_episodes(teacher_policy(gap_rule), ROADS)]))
     rows.append(Row(display_name("planner"), mean(study.bound[DEFAULT.name])))
     later = [results for method, results in by_method(study.experiments["beyond"]).items() if method in AFTER]
     for results in (study.results["default"], *later):
         rows += [row_of_study(results.of(method), method) for method in results.methods]
-    return tuple(rows)
+    return (*rows, *lookahead_rows(study.experiments["look-ahead"]))
+
+
+def lookahead_rows(cells: dict[str, Results]) -> list[Row]:
+    """The agents that look ahead with the exact model, in the forms in which several drove all of the board's roads."""
+    rows = []
+    for base, (form, words) in product(CLOSELY, FORM_WORDS.items()):
+        if results := cells.get(Cell(base, form).name):
+            of = results.measured
+            if (of["roads"] == len(ROADS)).all():
+                accidents = interval(of["accidents"] / of["roads"], np.mean)
+                success = interval(of["success"], np.mean)
+                rows.append(Row(f"{words}, {display_name(base)}", interval(of["returns"]), success, accidents))
+    return rows
 
 
 def row_of_study(results: Results, method: str) -> Row:

@@ -15,7 +15,7 @@ def solutions_are_open() -> bool:
     here = Path.cwd()
     for folder in (here, here.parent, Path(bootcourse.__file__).resolve().parent.parent):
         if (folder / HANDOUT).is_file():
-            return read_json(folder / HANDOUT).get("solutions") is True
+            return read_json(folder / HANDOUT, dict).get("solutions") is True
     return True
 
 

@@ -162,7 +162,9 @@ def compared(exercise: Exercise, answer: Callable | str, report: runner.Report, 
         return slopes_in_words(exercise, mine, rights)
     comparable = [like(*pair) and same_shape(*pair) for pair in zip(values, right_values, strict=True)]
     if exercise.explain and all(comparable):
-        return Verdict("wrong", exercise.explain(cases, [each.data for each in values]))
+        sentence = exercise.explain(cases, [each.data for each in values])
+        drawn = (mistake for mistake in exercise.mistakes if mistake.says == sentence)  # its values never repeat
+        return Verdict("wrong", sentence, mistake=next(drawn, None))
     case = fails[0]
     if comparable[case]:  # run all cases twice in one process: one case alone could agree by chance
         twice = runner.run(exercise, answer, seconds, times=2).answers

@@ -1,4 +1,4 @@
-"""Which names a text of Python defines, and which it uses, without running it."""
+"""Which names a text of Python defines, changes and uses, without running it."""
 
 import ast
 import symtable
@@ -6,14 +6,17 @@ from collections.abc import Iterator
 
 
 def names_made(text: str) -> set[str]:
-    """The names a cell defines outside functions: variables, functions, classes, imports. Empty if it is not Python."""
+    """The names a cell defines outside functions: variables, functions, classes, imports ("*" for all of a module's).
+
+    Empty if it is not Python.
+    """
     try:
         todo, made = list(ast.parse(text).body), set()
     except SyntaxError:
         return set()
     while todo:
         node = todo.pop()
-        if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+        if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)):
             made.add(node.name)
             continue
         if isinstance(node, (ast.Import, ast.ImportFrom)):
@@ -23,6 +26,21 @@ def names_made(text: str) -> set[str]:
         if not isinstance(node, (ast.Lambda, ast.ListComp, ast.DictComp, ast.SetComp, ast.GeneratorExp)):
             todo += ast.iter_child_nodes(node)
     return made
+
+
+def names_changed(text: str) -> set[str]:
+    """The variables whose object a text changes: `x.a = 1`, `x[0] = 1`, or a statement `x.do()`."""
+    nodes = list(ast.walk(ast.parse(text)))
+    calls = [node.value.func for node in nodes if isinstance(node, ast.Expr) and isinstance(node.value, ast.Call)]
+    places = [node for node in nodes if isinstance(getattr(node, "ctx", None), (ast.Store, ast.Del))]
+    return {root_of(node) for node in calls + places if isinstance(node, (ast.Attribute, ast.Subscript))}
+
+
+def root_of(node: ast.AST) -> str:
+    """x of `x.a[0].b`; "" where it is no variable."""
+    while isinstance(node, (ast.Attribute, ast.Subscript)):
+        node = node.value
+    return node.id if isinstance(node, ast.Name) else ""
 
 
 def names_used(text: str) -> set[str]:

@@ -27,7 +27,7 @@ from bootcourse.learn.settings import Settings, settings_for
 from bootcourse.learn.training import Training
 
 APART = {name for names in ALONE.values() for name in names}  # parts of other learners than SAC
-APART |= {"advantages", "clipped_loss", "ppo_loss", "shaping_reward"}
+APART |= {"advantages", "clipped_loss", "ppo_loss", "shaping_reward", "rollout_values", "update", "train"}
 NONE = "No part is yours yet: agents train with the library's own."
 TOLERANCE = 1e-3  # relative difference of a loss or a gradient; rounding gives about 1e-6
 _own: dict[str, Callable] = {}  # the student's parts in this kernel
@@ -82,9 +82,9 @@ def training(settings: Sequence[Settings], episodes: int = 1000, **more) -> Trai
     return mine
 
 
-def yours_or_ours(name: str) -> Callable:
-    """The student's part, or the exercise's solution, for what is no learner's; prints whose it is."""
-    print(f"Training with {whose([name])}.".replace("`", ""))
+def yours_or_ours(name: str, doing: str = "Training") -> Callable:
+    """The student's part, or the exercise's solution, for what is no learner's; prints what is done with whose."""
+    print(f"{doing} with {whose([name])}.".replace("`", ""))
     return part(_own, name)
 
 

@@ -53,7 +53,7 @@ class PredictionForm(Panel):
                 options=self.question.choices, value=None, tooltip=name, layout={"width": "auto"}
             )
         if self.question.unit is not None:
-            unit = f", in {self.question.unit}" if self.question.unit else ""
+            unit = f" ({self.question.unit})" if self.question.unit else ""
             return widgets.Text(placeholder=f"a number{unit}", tooltip=name, layout={"width": "200px"})
         return widgets.Text(placeholder="your answer", tooltip=name, layout={"width": "auto", "max_width": "640px"})
 

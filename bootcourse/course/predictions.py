@@ -15,7 +15,7 @@ from pathlib import Path
 from bootcourse.course.lessons import LESSONS, number
 from bootcourse.course.verdict import marked
 from bootcourse.errors import BootcourseError, check_known
-from bootcourse.files import read_json, write_json
+from bootcourse.files import alone_with, read_json, write_json
 from bootcourse.markup import html
 
 FILE = Path("answers/predictions.json")  # in the folder of the notebooks, where a kernel works
@@ -86,17 +86,18 @@ def predictions(folder: Path | None = None) -> dict[str, dict]:
 
 def commit(question: Question, answer: object) -> dict:
     """Keep the answer, unless the question has one already. Returns what is kept. Raises BootcourseError."""
-    kept = predictions()
-    if question.name not in kept:
-        kept[question.name] = {
-            "question": question.text,
-            "choices": list(question.choices),
-            "unit": question.unit,
-            "answer": question.read(answer),
-            "time": datetime.now(UTC).isoformat(timespec="seconds"),
-        }
-        write_json(FILE, kept)
-    return kept[question.name]
+    one = predictions().get(question.name) or {
+        "question": question.text,
+        "choices": list(question.choices),
+        "unit": question.unit,
+        "answer": question.read(answer),
+        "time": datetime.now(UTC).isoformat(timespec="seconds"),
+    }
+    with alone_with(FILE):  # another notebook may have written since
+        kept = predictions()
+        if question.name not in kept:
+            write_json(FILE, kept | {question.name: one})
+    return kept.get(question.name, one)
 
 
 def predict(

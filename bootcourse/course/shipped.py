@@ -8,7 +8,8 @@ import numpy as np
 from bootcourse.episodes.rollout import OPTIONAL, Rollout
 from bootcourse.errors import BootcourseError, check_known
 from bootcourse.learn.agent import Agent
-from bootcourse.research.results import REPORTED, Results, experiment, load_bound, load_results
+from bootcourse.research.plan import EXPERIMENTS, LESSON_EXPERIMENTS
+from bootcourse.research.results import Results, experiment, load_bound, load_results
 from bootcourse.research.teacher_worth import Cells, taught
 from bootcourse.storage.assets import FOLDER
 from bootcourse.storage.runs import Run, find_runs, load_run
@@ -44,7 +45,7 @@ def shipped_experiment(name: str) -> dict[str, Results]:
 
     Raises BootcourseError if it does not ship.
     """
-    check_known("Experiment", name, REPORTED)
+    check_known("Experiment", name, (*EXPERIMENTS, *LESSON_EXPERIMENTS))
     found = experiment(name)
     if not found:
         raise BootcourseError(f"No results of the experiment '{name}' ship: copy {FOLDER.name} from the course again.")

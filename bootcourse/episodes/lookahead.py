@@ -75,7 +75,15 @@ def rollout_values(
     cars (roads, vehicles, 10) -> (roads, 9). An accident ends the return; otherwise the worth of an empty road at
     the last speed is added.
     """
-    return imagine(cars, np.tile(NINE, (len(cars), 1)), policy, horizon, scenario).values
+    return nine_drives(cars, policy, scenario, horizon).values
+
+
+def nine_drives(cars: np.ndarray, policy: Policy, scenario: Scenario = DEFAULT, horizon: int = HORIZON) -> Imagined:
+    """The nine imagined drives on each road, (roads, 9, ...): `imagine` from each of the nine actions.
+
+    cars (roads, vehicles, 10), such as `Rollout.cars` before each of its decisions: then a road is a decision.
+    """
+    return imagine(cars, np.tile(NINE, (len(cars), 1)), policy, horizon, scenario)
 
 
 @lru_cache(maxsize=64)

@@ -34,6 +34,10 @@ class Model:
     def __post_init__(self):
         if self.time_gap < 0 or self.politeness < 0 or self.noise < 0 or self.drawn < 0:
             raise BootcourseError(f"{self}: time_gap, politeness, noise and drawn cannot be negative.")
+        if self.keep and (self.desired_speed, self.time_gap, self.politeness, self.drawn) != (0, 1, 1, 0):
+            raise BootcourseError(f"{self}: cars that keep their speed and lane want nothing else. Leave out keep.")
+        if self.drawn and (self.desired_speed, self.time_gap, self.politeness) != (0, 1, 1):
+            raise BootcourseError(f"{self}: drawn drivers are drawn around the true ones. Leave out drawn.")
 
     def scenarios(self, scenario: Scenario, rng: np.random.Generator) -> list[Scenario]:
         """What the model believes of the other drivers: one scenario, or one for each kind that is drawn."""

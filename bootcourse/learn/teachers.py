@@ -81,7 +81,7 @@ def teacher_of(my_rule: Rule, scenario: Scenario | None = DEFAULT, n_actions: in
     def answer(cars: np.ndarray, road: int | None):
         try:
             return my_rule(cars, *given)
-        except Exception as error:  # your rule may raise anything
+        except (Exception, SystemExit) as error:  # your rule may raise anything
             if ours:
                 raise
             raise RuleFailed(name, f"raised {described(error)}", road) from error

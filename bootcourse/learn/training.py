@@ -14,6 +14,7 @@ import signal
 import threading
 import time
 import warnings
+from collections import Counter
 from collections.abc import Callable, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -35,6 +36,7 @@ from bootcourse.learn.protocol import Learner, move_to
 from bootcourse.learn.replay_buffer import encode_transitions
 from bootcourse.learn.settings import Settings
 from bootcourse.learn.teachers import Rule, course_rule, teacher_name, teacher_of
+from bootcourse.methods import display_name
 from bootcourse.policies import stochastic_policy
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, Scenario, check_p
@@ -44,7 +46,7 @@ MOST_EPISODES = 100_000  # of each agent, whose curves take 8 MB then
 FIRST_SEED = 2**33  # seed of the first training road; demonstrations start at 2**34, held-out roads are below 2**32
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Result:
     """The result of a training."""
 
@@ -56,6 +58,19 @@ class Result:
     stopped: dict[int, int] = field(default_factory=dict)  # {agent: the decision at which its loss was not finite}
     teacher: str = "rule"  # see `teachers.teacher_name`
     environment: str = TRAP  # see `driving.environment_id`
+
+    def __repr__(self) -> str:
+        counts = Counter(display_name(agent.settings.method) for agent in self.agents)
+        agents = ", ".join(f"{n} agent{'s' * (n > 1)} of {method}" for method, n in counts.items())
+        where = "the trap" if self.scenario else self.environment
+        ends = np.isfinite(self.curves["return"]).sum(1)  # (agents,) episodes
+        returns = [values[:n][-100:].mean() for values, n in zip(self.curves["return"], ends, strict=True) if n]
+        each = ", ".join(f"{value:.1f}" for value in returns[:10]) + " …" * (len(returns) > 10)
+        return (
+            f"{agents} on {where}, teacher: {self.teacher}\n"
+            f"{ends.sum():,} episodes in {self.seconds:.0f} s{', not finished' * self.interrupted}\n"
+            f"mean return of each agent's last 100 episodes: {each or 'no episode has ended'}"
+        )
 
 
 class Training:
@@ -231,30 +246,33 @@ class Training:
         progress: bool = True,
         callback: Callable[["Training"], None] | None = None,
         stop: Callable[[], bool] | None = None,
+        updates: int | None = None,
     ) -> Result:
-        """Train until all agents have finished, until an interrupt, or until stop() is true.
+        """Train until all agents have finished, until so many updates, until an interrupt, or until stop() is true.
 
-        progress: show a bar with the success rate of the last 100 episodes. callback: called with this training
-        after every decision.
+        progress: show a bar with the success rate of the last 100 episodes; it counts updates if their number is given.
+        callback: called with this training after every decision.
         """
-        from tqdm.auto import tqdm
+        from bootcourse.progress import progress_bar
 
         started, before = time.perf_counter(), self.seconds
-        total = self.n_agents * self.episodes
-        bar = tqdm(total=total, unit="episode", disable=not progress, mininterval=0.5)
+        total, unit = (self.n_agents * self.episodes, "episode") if updates is None else (updates, "update")
+        bar = progress_bar(shown=progress, total=total, unit=unit)
         with one_torch_thread(), bar, _interrupt_after_step() as interrupted:
             try:
-                while not self.done:
-                    if interrupted.is_set() or (stop is not None and stop()):
+                while not (self.done or interrupted.is_set()):
+                    if (stop is not None and stop()) or (updates is not None and self.updates >= updates):
                         break
                     self.step()
                     self.seconds = before + time.perf_counter() - started
                     if callback is not None:
                         callback(self)
-                    driven = int(np.minimum(self.curves.finished, self.episodes).sum())
-                    if progress and driven > bar.n:
+                    so_far = np.minimum(self.curves.finished, self.episodes).sum() if updates is None else self.updates
+                    if progress and so_far > bar.n:
                         bar.set_postfix_str(_success(self.curves), refresh=False)
-                        bar.update(driven - bar.n)
+                        bar.update(min(int(so_far), total) - bar.n)
+                if not interrupted.is_set():
+                    bar.total = bar.n  # it is over as planned, so the bar ends full
             except KeyboardInterrupt:
                 interrupted.set()
         return self.result(interrupted=interrupted.is_set() or not self.done)

@@ -12,6 +12,7 @@ from bootcourse.episodes.interactive import InteractiveEpisode, interpolate_stat
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.episodes.words import ACCIDENTS
 from bootcourse.methods import display_name, style
+from bootcourse.plots.futures import Trail
 from bootcourse.plots.road import BEHIND, road_svg
 from bootcourse.plots.svg import GRID, INK, QUIET, SvgAxes, drawing, line, number, rect, span, text
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, Accident, X
@@ -21,6 +22,13 @@ BELOW = 150  # pixels for the score
 BAR = 150  # pixels that a reward of 1 is long
 ENDS = ACCIDENTS | {Accident.NONE: "time is over"}
 TERMS = (("r_v, speed", "w_v"), ("r_y, lane centre", "w_y"), ("r_θ, steering", "w_theta"))
+
+
+class Futures(NamedTuple):
+    """Imagined drives."""
+
+    trails: list[Trail]
+    words: str
 
 
 class Score(NamedTuple):
@@ -49,11 +57,18 @@ def score(drive: InteractiveEpisode, ghost: Rollout | None, time: float) -> Scor
     return Score(cars, decisions, sum(drive.rewards[:decisions]), ahead, ego, ghost_earned, end)
 
 
-def cockpit(drive: InteractiveEpisode, ghost: Rollout | None, time: float, coming: str = "") -> str:
-    """The drawing at a time of the drive (s); coming: the action that was chosen for the next decision, in words."""
+def cockpit(
+    drive: InteractiveEpisode, ghost: Rollout | None, time: float, coming: str = "", futures: Futures | None = None
+) -> str:
+    """The drawing at a time of the drive (s).
+
+    coming: the action that was chosen for the next decision, in words. futures: imagined drives to draw on the road.
+    """
     now = score(drive, ghost, time)
     ghosts = [(now.ghost, style(ghost.label).colour)] if ghost else []
-    road, height = road_svg(now.cars, drive.scenario, OTHER.colour, WIDTH, SCALE, ghosts)
+    road, height = road_svg(
+        now.cars, drive.scenario, OTHER.colour, WIDTH, SCALE, ghosts, trails=futures.trails if futures else ()
+    )
     top = HEAD + height
     parts = [
         *_head(drive, ghost, now, coming),
@@ -65,6 +80,7 @@ def cockpit(drive: InteractiveEpisode, ghost: Rollout | None, time: float, comin
     alt = f"Road {drive.seed} after {time:.0f} s: {now.cars[EGO, SPEED]:.1f} m/s in lane {int(now.cars[EGO, LANE])}, "
     alt += f"{abs(now.ahead):.0f} m {'ahead of' if now.ahead > 0 else 'behind'} trap 1, return {now.earned:.1f}."
     alt += f" The ghost, {display_name(ghost.label)}, has {now.ghost_earned:.1f}." if ghost else ""
+    alt += f" {futures.words}." if futures else ""
     alt += f" It is over: {now.end}." if now.end else ""
     return drawing(WIDTH, top + BELOW, parts, alt)
 

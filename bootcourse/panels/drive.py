@@ -14,17 +14,20 @@ from collections.abc import Callable
 from pathlib import Path
 
 import ipywidgets as widgets
+import numpy as np
 
 from bootcourse.episodes.interactive import InteractiveEpisode
+from bootcourse.episodes.lookahead import Imagined, nine_drives
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError, whole
 from bootcourse.panels.arguments import LAST_ROAD, check_road
-from bootcourse.panels.cockpit import cockpit
+from bootcourse.panels.cockpit import Futures, cockpit
 from bootcourse.panels.number import Number
 from bootcourse.panels.pad import Pad
 from bootcourse.panels.panel import Panel
 from bootcourse.panels.ticker import Ticker
+from bootcourse.plots.futures import in_words, trails
 from bootcourse.plots.svg import Drawing
 from bootcourse.policies import Policy, rule_policy
 from bootcourse.scenario import ACTION_NAMES, DEFAULT, IDLE, Scenario
@@ -49,8 +52,11 @@ class DrivePanel(Panel):
 
     ticker: Ticker | None = None
 
-    def __init__(self, seed: int, scenario: Scenario, ghost_of: Callable[[int], Rollout], fixed: str):
-        self.scenario, self.ghost_of = scenario, ghost_of
+    def __init__(
+        self, seed: int, scenario: Scenario, ghost_of: Callable[[int], Rollout], fixed: str, futures: Policy | None
+    ):
+        self.scenario, self.ghost_of, self.base = scenario, ghost_of, futures or rule_policy(scenario)
+        self._imagined: tuple[tuple, Imagined] | None = None  # of the last picture: (drive, decision), drives
         self.drives: list[Rollout] = []
         self.demonstrations: list[Rollout] = []
         self._lock = threading.RLock()
@@ -75,13 +81,18 @@ class DrivePanel(Panel):
         help = "Write this drive to the file, to draw or to replay it"
         self.save = make("Save", "save", help, self._save, width=WIDE)
         self.path = widgets.Text(_path(seed), tooltip="Where Save writes", layout={"width": "230px"})
+        self.nine = widgets.Checkbox(
+            futures is not None, description="nine futures", indent=False,
+            tooltip="Draw where each action leads if the base policy drives on: red ends in an accident",
+        )  # fmt: skip
         mode = widgets.HBox([self.mode, self.go, self.again])
-        store = widgets.HBox([self.keep, self.save, self.path])
+        store = widgets.HBox([self.keep, self.save, self.path, self.nine], layout={"flex_flow": "row wrap"})
         row = {"flex_flow": "row wrap", "grid_gap": "6px 28px"}
         controls = widgets.VBox([mode, self.pace, self.road, store], layout={"grid_gap": "4px"})
         super().__init__("Drive it yourself", self.view, widgets.HBox([self.pad, controls], layout=row))
         self.mode.observe(lambda change: self.handle(self._new_mode), "value")
         self.road.observe(lambda change: self.handle(self._again), "value")
+        self.nine.observe(lambda change: self.handle(self._draw), "value")
         self._new_mode()
         self._draw()
 
@@ -112,7 +123,7 @@ class DrivePanel(Panel):
 
     def picture(self) -> Drawing:
         with self._lock:
-            return cockpit(self.drive, self.ghost, self.shown)
+            return cockpit(self.drive, self.ghost, self.shown, futures=self.futures())
 
     def _choose(self, action: int | None) -> None:
         """What the clock's next decision is; None: keep straight, and mark no button."""
@@ -205,15 +216,37 @@ class DrivePanel(Panel):
 
     def _draw(self) -> None:
         coming = "" if self.coming is None else ACTION_NAMES[self.coming]
-        self.view.value = cockpit(self.drive, self.ghost, self.shown, coming)
+        with self._lock:
+            self.view.value = cockpit(self.drive, self.ghost, self.shown, coming, self.futures())
+
+    def futures(self) -> Futures | None:
+        """The nine imagined drives from the last decision that is shown; the chosen one, or else the best, is bold."""
+        rate, steps = self.scenario.clock.decision_rate, self.scenario.clock.steps
+        decision, actions = int(self.shown * rate + 1e-9), self.drive.actions
+        if not self.nine.value or (self.drive.over and self.shown >= self.drive.time):
+            return None
+        if self._imagined is None or self._imagined[0] != (self.drive, decision):
+            cars = np.array(self.drive.recorder.states[decision * steps])[None]
+            self._imagined = (self.drive, decision), nine_drives(cars, self.base, self.scenario)
+        imagined = self._imagined[1]
+        chosen = actions[decision] if decision < len(actions) else int(imagined.values[0].argmax())
+        return Futures(trails(imagined, chosen), in_words(imagined))
 
 
 def _path(seed: int) -> str:
     return f"drives/road-{seed}-{time.strftime('%Y%m%d-%H%M%S')}.npz"
 
 
-def drive_panel(seed: int = 0, ghost: Rollout | Policy | None = None, scenario: Scenario = DEFAULT) -> DrivePanel:
+def drive_panel(
+    seed: int = 0,
+    ghost: Rollout | Policy | None = None,
+    scenario: Scenario = DEFAULT,
+    futures: Policy | None = None,
+) -> DrivePanel:
     """Drive the road of a seed yourself.
+
+    futures: the base policy of the nine imagined drives, which the panel then draws from the start. Without one, the
+    switch "nine futures" takes the rule.
 
     ghost: whom you drive against. None: the rule. A policy (such as `agent.as_policy()`) drives each road that you
     choose; a rollout is one drive, of this seed and scenario. Raises BootcourseError if it is of another, or if the
@@ -226,6 +259,6 @@ def drive_panel(seed: int = 0, ghost: Rollout | Policy | None = None, scenario: 
                 f"This ghost drove road {ghost.seed} of the scenario '{ghost.scenario.name}', and you drive road "
                 f"{seed} of '{scenario.name}': give a drive of the same road."
             )
-        return DrivePanel(seed, scenario, lambda seed: ghost, fixed="The road of the ghost that you gave.")
+        return DrivePanel(seed, scenario, lambda seed: ghost, "The road of the ghost that you gave.", futures)
     policy, label = (rule_policy(scenario), "rule") if ghost is None else (ghost, "agent")
-    return DrivePanel(seed, scenario, lambda seed: record(policy, [seed], scenario, label)[0], fixed="")
+    return DrivePanel(seed, scenario, lambda seed: record(policy, [seed], scenario, label)[0], "", futures)

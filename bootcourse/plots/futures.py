@@ -1,7 +1,9 @@
 """The nine imagined drives of a look-ahead on the road from above: thin, accidents red, the chosen one bold."""
 
+from typing import NamedTuple
+
 import numpy as np
-from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.colors import LinearSegmentedColormap, to_hex
 from matplotlib.figure import Figure
 
 from bootcourse.colours import ALARM, OTHER, QUIET
@@ -15,6 +17,37 @@ from bootcourse.scenario import ACTION_NAMES, DEFAULT, Scenario
 
 BEHIND, AHEAD, ASIDE = 14.0, 24.0, 1.6  # m behind the ego, beyond the longest imagined drive, beside the road
 SHADES = LinearSegmentedColormap.from_list("value", ["#BFD9EA", "#0B3C66"])  # from the worst safe drive to the best
+THIN, BOLD = 1.2, 3.2  # points
+
+
+class Trail(NamedTuple):
+    """An imagined drive, to be drawn on the road."""
+
+    x: np.ndarray  # (points,) m along the road
+    y: np.ndarray  # (points,) m, to the right of the leftmost lane's centre
+    colour: str
+    chosen: bool
+    action: int  # the first
+    hurt: bool  # ends in an accident
+
+
+def trails(imagined: Imagined, chosen: int, road: int = 0) -> list[Trail]:
+    """The nine drives of one road: those of less value first, so that the best lie on top, and the chosen one last."""
+    values, hurt, paths = imagined.values[road], imagined.accidents[road] > 0, imagined.paths[road]
+    safe = values[~hurt]
+    spread = np.ptp(safe) if len(safe) > 1 and np.ptp(safe) > 0 else 1.0
+    order = sorted(range(len(values)), key=lambda action: (action == chosen, values[action]))
+    shades = [
+        ALARM if end else to_hex(SHADES((value - safe.min()) / spread)) for value, end in zip(values, hurt, strict=True)
+    ]
+    return [Trail(*paths[i].T, shades[i], i == chosen, i, bool(hurt[i])) for i in order]
+
+
+def in_words(imagined: Imagined, road: int = 0) -> str:
+    """ "3 of 9 imagined drives end in an accident; the best begins with keep straight"."""
+    values, hurt = imagined.values[road], imagined.accidents[road] > 0
+    best = ACTION_NAMES[values.argmax()]
+    return f"{hurt.sum()} of {len(values)} imagined drives end in an accident; the best begins with {best}"
 
 
 def nine_futures(
@@ -38,15 +71,11 @@ def nine_futures(
     ax = figure.add_axes((0.2 / WIDTH, 0.62 / (height + 1.25), width / WIDTH, height / (height + 1.25)))
     draw_road(MplAxes(ax), scenario, left, right, cars[EGO, X])
     draw_cars(MplAxes(ax), cars, scenario, colour, left, right, cars[EGO, X], names=False)
-    safe = values[~hurt]
-    spread = np.ptp(safe) if len(safe) > 1 and np.ptp(safe) > 0 else 1.0
-    for action in np.argsort(values):
-        x, y = paths[action, :, 0] - cars[EGO, X], paths[action, :, 1]
-        best = action == values.argmax()
-        shade = ALARM if hurt[action] else SHADES((values[action] - safe.min()) / spread)
-        ax.plot(x, y, color=shade, linewidth=3.2 if best else 1.2, zorder=7 if best else 6)
-        if hurt[action]:
-            ax.plot(x[-1], y[-1], "X", color=ALARM, markersize=6, markeredgecolor="white", zorder=7)
+    for one in trails(imagined, int(values.argmax())):
+        x = one.x - cars[EGO, X]
+        ax.plot(x, one.y, color=one.colour, linewidth=BOLD if one.chosen else THIN, zorder=7 if one.chosen else 6)
+        if one.hurt:
+            ax.plot(x[-1], one.y[-1], "X", color=ALARM, markersize=6, markeredgecolor="white", zorder=7)
     top, bottom = edges_of(scenario.road)
     ax.set(xlim=(left, right), ylim=(bottom + ASIDE, top - ASIDE))
     ax.set_yticks([])

@@ -93,6 +93,8 @@ class ReplayControls:
             follow.on_update(lambda event: self._set("follow", names.index(event.target.value), rebuild=True))
             layout.on_update(lambda event: self._set("layout", event.target.value, rebuild=True))
         switches = {"labels": "Distances to the traps", "path": "Path driven", "rule": "What the rule wants"}
+        if any(line.imagined is not None for line in self.timelines):
+            switches["futures"] = "Nine futures"
         for field, label in switches.items():
             box = gui.add_checkbox(label, getattr(options, field))
             box.on_update(lambda event, field=field: self._set(field, bool(event.target.value)))

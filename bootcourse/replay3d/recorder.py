@@ -17,6 +17,7 @@ from bootcourse.markup import Markup, html
 from bootcourse.methods import display_name
 from bootcourse.plots.animation import key_frame
 from bootcourse.plots.figure import png
+from bootcourse.policies import Policy
 from bootcourse.replay3d import hud, scene, server
 from bootcourse.replay3d.camera import BIRD, CHASE, SIDE, pose
 from bootcourse.replay3d.stage import Options, Stage
@@ -77,9 +78,12 @@ def rate_for(cars: int, duration: float) -> int:
     return next((rate for rate in RATES if cars * duration * rate <= CAR_FRAMES), RATES[-1])
 
 
-def to_html(rollouts, options: Options | None = None) -> str:
-    """The replay as an HTML document. Raises BootcourseError if the drives cannot be shown together."""
-    options, timelines = options or Options(), scene.timelines_of(rollouts)
+def to_html(rollouts, options: Options | None = None, futures: Policy | None = None) -> str:
+    """The replay as an HTML document. Raises BootcourseError if the drives cannot be shown together.
+
+    futures: see `viewer.replay`.
+    """
+    options, timelines = options or Options(), scene.timelines_of(rollouts, futures)
     duration = max(timeline.duration for timeline in timelines)
     rate = rate_for(sum(timeline.rollout.scenario.vehicles for timeline in timelines), duration)
     recorder = server.start()
@@ -129,10 +133,10 @@ def _with_overlay(page: str, timelines: list[Timeline], options: Options, span: 
     return page[:end] + overlay + page[end:]
 
 
-def export(rollouts, path: Path, options: Options | None = None) -> Path:
+def export(rollouts, path: Path, options: Options | None = None, futures: Policy | None = None) -> Path:
     """Write the replay as a whole file. Returns the path. Raises BootcourseError if it does not end in .html."""
     path = check_replaceable(path, ".html")
-    write_bytes(path, to_html(rollouts, options).encode())
+    write_bytes(path, to_html(rollouts, options, futures).encode())
     return path
 
 
@@ -167,11 +171,12 @@ class Recording:
 
 
 def recording(
-    rollouts, *, height: int = 560, layout: str = scene.ROADS, follow: int = 0, dark: bool = False, rule: bool = False
-) -> Recording:
+    rollouts, *, height: int = 560, layout: str = scene.ROADS, follow: int = 0, dark: bool = False,
+    rule: bool = False, futures: Policy | None = None,
+) -> Recording:  # fmt: skip
     """Like `replay`, but as a recording that is saved in the notebook (about 1.5 MB for each drive)."""
     options = Options(layout=layout, follow=follow, dark=dark, rule=rule)
     drives = [timeline.rollout for timeline in scene.timelines_of(rollouts)]
     picture = key_frame(drives)
     alt = f"A replay in 3D; where it cannot play, one moment of it from above. {picture.alt}"
-    return Recording(to_html(drives, options), png(picture), height, alt, transcripts(drives))
+    return Recording(to_html(drives, options, futures), png(picture), height, alt, transcripts(drives))

@@ -13,9 +13,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from bootcourse.episodes.lookahead import nine_drives
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.episodes.words import ACCIDENTS
 from bootcourse.errors import BootcourseError
+from bootcourse.policies import Policy
 from bootcourse.replay3d.road import SHOULDER
 from bootcourse.replay3d.timeline import Moment, Timeline
 from bootcourse.road.state import EGO, HEADING, TRAP_1, TRAP_2, Accident, X, Y
@@ -73,10 +75,14 @@ class DriveView:
     rule: RuleMarks | None
     labels: dict[int, str]  # car -> text above it
     ended: bool
+    decision: int  # that is being carried out
 
 
-def timelines_of(rollouts) -> list[Timeline]:
-    """One rollout, or several, ready to be shown together. Raises BootcourseError if they cannot be."""
+def timelines_of(rollouts, futures: Policy | None = None) -> list[Timeline]:
+    """One rollout, or several, ready to be shown together. Raises BootcourseError if they cannot be.
+
+    futures: the base policy of the nine drives that are imagined at each decision of each rollout.
+    """
     rollouts = [rollouts] if isinstance(rollouts, Rollout) else list(rollouts)
     if not rollouts:
         raise BootcourseError("There is no rollout to replay: give at least one.")
@@ -98,7 +104,7 @@ def timelines_of(rollouts) -> list[Timeline]:
                 f"'{rollout.label}' drove road {rollout.seed}, '{first.label}' road {first.seed}: "
                 "compare drives of the same seed."
             )
-    return [Timeline(rollout) for rollout in rollouts]
+    return [Timeline(one, nine_drives(one.cars, futures, one.scenario) if futures else None) for one in rollouts]
 
 
 def offsets(count: int, lanes: int, lane_width: float, layout: str) -> list[float]:
@@ -138,6 +144,7 @@ def view(timelines: list[Timeline], t: float, layout: str = ROADS, follow: int =
             rule=_rule_marks(timeline, moment, t, anchor),
             labels=_labels(timeline, moment, ended),
             ended=ended,
+            decision=timeline.decision(t),
         )
         views.append(view)
     return views

@@ -12,6 +12,7 @@ import numpy as np
 from bootcourse.colours import ALARM, rgb
 from bootcourse.errors import BootcourseError
 from bootcourse.methods import display_name, style
+from bootcourse.plots.futures import Trail, trails
 from bootcourse.replay3d import scene
 from bootcourse.replay3d.camera import CHASE, FIELD_OF_VIEW, pose
 from bootcourse.replay3d.car import CRUMB, DARK, LAMPS, LIGHT, Mesh, car_parts, paint, quads, ring
@@ -33,6 +34,7 @@ class Options:
     labels: bool = True
     path: bool = True
     rule: bool = False
+    futures: bool = True  # where the timelines have imagined drives
 
     def check(self, drives: int) -> None:
         """Raises BootcourseError if these options do not fit so many drives."""
@@ -56,6 +58,8 @@ class Drive:
     lane: object = None
     gap: object = None
     gap_label: object = None
+    futures: list = field(default_factory=list)  # nine ribbons on the road
+    decision: int = -1  # whose imagined drives they are; -1: none
 
 
 class Stage:
@@ -102,7 +106,10 @@ class Stage:
                 texts = [*drive.labels.values()] + ([drive.gap_label] if drive.gap_label else [])
                 for node in texts:
                     node.text = "…"
-                nodes = [*drive.rings.values(), *texts, drive.crumbs]
+                for node in drive.futures:
+                    node.color, node.vertices = (1, 2, 3), node.vertices + 1.0
+                drive.decision = -1
+                nodes = [*drive.rings.values(), *texts, *drive.futures, drive.crumbs]
                 for node in nodes + ([drive.lane, drive.gap] if drive.lane else []):
                     node.visible = not node.visible
                 drive.crumbs.vertices = drive.crumbs.vertices + 1.0
@@ -146,6 +153,11 @@ class Stage:
                 continue
             self._car(drive, f"{base}/car{car}", rollout.scenario.car, car, own, GHOST if ghost else None)
         drive.crumbs = _mesh(api, f"{base}/road/path", _crumb_mesh(views[k].crumbs), own, opacity=0.75)
+        if timeline.imagined is not None and not ghost:
+            nine = enumerate(trails(timeline.imagined, int(rollout.actions[0]), 0))
+            drive.futures = [
+                _mesh(api, f"{base}/road/future{i}", _ribbon(each), each.colour, opacity=0.9) for i, each in nine
+            ]
         names = {EGO: "name", TRAP_1: "to_trap1", TRAP_2: "to_trap2"}
         for car, name in names.items():
             if car == EGO or not ghost:
@@ -200,6 +212,19 @@ class Stage:
             self._set(drive.lamps[car], color=rgb(LAMPS[view.lamps[car]]))
             self._set(drive.rings[car], visible=bool(view.marked[car]))
         self._move_marks(drive, view)
+        self._move_futures(drive, view)
+
+    def _move_futures(self, drive: Drive, view: scene.DriveView) -> None:
+        """The nine imagined drives of the decision that is being carried out. They change when it does."""
+        for node in drive.futures:
+            self._set(node, visible=self.options.futures and not view.ended)
+        if not drive.futures or drive.decision == view.decision:
+            return
+        timeline, drive.decision = self.timelines[self.drives.index(drive)], view.decision
+        nine = trails(timeline.imagined, int(timeline.rollout.actions[view.decision]), view.decision)
+        for node, one in zip(drive.futures, nine, strict=True):
+            node.vertices = _ribbon(one).vertices
+            self._set(node, color=rgb(one.colour))
 
     def _set(self, node, **properties) -> None:
         """Give a node new properties. viser sends a value only if it is new, but takes 50 µs to find that it is not."""
@@ -252,6 +277,21 @@ def _crumb_mesh(crumbs: np.ndarray) -> Mesh:
     corners = np.stack([x * cos - y * sin, x * sin + y * cos, np.zeros_like(x * cos)], axis=2) + crumbs[:, None, :3]
     faces = (np.arange(len(crumbs))[:, None, None] * 4 + CRUMB.faces[None]).reshape(-1, 3)
     return Mesh(corners.reshape(-1, 3).astype(np.float32), faces)
+
+
+def _ribbon(trail: Trail) -> Mesh:
+    """An imagined drive as a strip on the road: broad if it is the chosen one, and then above the others."""
+    x, y = scene.to_world(trail.x, trail.y)
+    across = np.stack([-np.gradient(y), np.gradient(x)], axis=1)
+    length = np.maximum(np.hypot(*across.T), 1e-9)[:, None]  # 0 where the drive has ended
+    half = (0.28 if trail.chosen else 0.09) * across / length
+    sides = np.concatenate([np.stack([x, y], axis=1) + half, np.stack([x, y], axis=1) - half])
+    height = np.full((len(sides), 1), 0.1 if trail.chosen else 0.085)
+    left = np.arange(len(x) - 1)
+    right = left + len(x)
+    faces = np.concatenate([np.stack([left, right, left + 1], 1), np.stack([left + 1, right, right + 1], 1)])
+    vertices = np.round(np.concatenate([sides, height], axis=1), 3).astype(np.float32)
+    return Mesh(vertices, faces)
 
 
 def _linear(colour: str) -> tuple[int, int, int]:

@@ -10,6 +10,7 @@ from functools import cached_property
 
 import numpy as np
 
+from bootcourse.episodes.lookahead import Imagined
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.road.state import ACCELERATION, CRASHED, HEADING, LANE, SPEED, STEERING, X, Y
 
@@ -76,6 +77,7 @@ class Timeline:
     """A rollout at any time from 0 to `duration` seconds; times before and after show the first and the last state."""
 
     rollout: Rollout
+    imagined: Imagined | None = None  # nine drives from each decision: (decisions, 9, ...)
 
     @property
     def dt(self) -> float:

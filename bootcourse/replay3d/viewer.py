@@ -9,6 +9,7 @@ from pathlib import Path
 
 from bootcourse import one_per_cell
 from bootcourse.markup import Markup, html
+from bootcourse.policies import Policy
 from bootcourse.replay3d import scene, server
 from bootcourse.replay3d.gui import ReplayControls
 from bootcourse.replay3d.player import Player
@@ -21,8 +22,11 @@ HUD_RATE = 10.0  # Hz, of real time, at most: how often the numbers in the panel
 class Replay(contextlib.AbstractContextManager):
     """A replay on a server. A notebook shows it as the cell's output; `close()` ends it."""
 
-    def __init__(self, timelines: list[Timeline], options: Options, port: int = 0, height: int = 640):
-        self.timelines = timelines
+    def __init__(
+        self, timelines: list[Timeline], options: Options, port: int = 0, height: int = 640,
+        futures: Policy | None = None,
+    ):  # fmt: skip
+        self.timelines, self.futures = timelines, futures
         self.height, self.closed = height, False
         self._lock = threading.RLock()  # held while a frame is shown or the scene changes, in whichever thread
         self._hud_due, self._greeted = 0.0, False
@@ -63,7 +67,7 @@ class Replay(contextlib.AbstractContextManager):
         """Write the same drives as one HTML file that a browser opens without a server. Returns the path."""
         from bootcourse.replay3d.recorder import export
 
-        return export([timeline.rollout for timeline in self.timelines], path, self.stage.options)
+        return export([line.rollout for line in self.timelines], path, self.stage.options, self.futures)
 
     def _watched(self) -> bool:
         return bool(self.server.get_clients())
@@ -117,19 +121,22 @@ def address_for_browser(port: int) -> tuple[str | None, str]:
 
 def replay(
     rollouts, *, port: int = 0, height: int = 640, layout: str = scene.ROADS, follow: int = 0,
-    dark: bool = False, rule: bool = False,
+    dark: bool = False, rule: bool = False, futures: Policy | None = None,
 ) -> Replay:  # fmt: skip
     """Show a rollout, or several of the same seed side by side, in 3D.
 
     port: 0 takes a free one. height: of the cell's output, pixels. layout: "side by side" or "ghosts on
     one road". follow: index of the drive whose numbers are shown and whose car the ghosts drive around.
-    rule: draw what the rule wants on the road. Running the same notebook cell again replaces its replay.
+    rule: draw what the rule wants on the road. futures: a base policy: at each decision, draw the nine imagined drives
+    that it would go on with, those that crash in red, that of the driven action bold.
+    Running the same notebook cell again replaces its replay.
     Raises BootcourseError if the drives cannot be shown together, or if the port is taken.
     """
-    timelines, options = scene.timelines_of(rollouts), Options(layout=layout, follow=follow, dark=dark, rule=rule)
+    timelines = scene.timelines_of(rollouts, futures)
+    options = Options(layout=layout, follow=follow, dark=dark, rule=rule)
     options.check(len(timelines))
     cell = one_per_cell.this_cell()
     one_per_cell.close_shown_by(cell)
-    shown = Replay(timelines, options, port, height)
+    shown = Replay(timelines, options, port, height, futures)
     one_per_cell.note(cell, shown)
     return shown

@@ -10,7 +10,7 @@ from bootcourse.methods import display_name
 from bootcourse.research.paper import EPISODES, PRINTED
 from bootcourse.research.plan import UPDATES, VARIED
 from bootcourse.research.results import Results, join
-from bootcourse.research.tables import escaped
+from bootcourse.research.tables import found_and_kept
 from bootcourse.statistics import Estimate
 
 DRIVERS = ("μ", "π̃")  # of the demonstrations
@@ -55,10 +55,10 @@ def pattern(results: Results, seed: int = 0) -> Estimate:
 
 
 def pattern_rows(varied: dict[str, Results]) -> tuple[list[str], list[list[str]]]:
-    """(headings, rows): who escapes with each choice, and how often a table of single agents reads as the paper's."""
+    """(headings, rows): who finds and keeps the way out, and how often a table of single agents reads as printed."""
     rows = []
     for (updates, driver), results in cells(varied).items():
-        escaping = [escaped(results, method) for method in VARIED]
+        counts = [found_and_kept(results, method) for method in VARIED]
         probability, low, high = (f"{100 * part:.0f}" for part in pattern(results))
-        rows.append([updates, driver, *escaping, f"{probability} [{low}, {high}]"])
+        rows.append([updates, driver, *counts, f"{probability} [{low}, {high}]"])
     return ["updates per decision", "demonstrations by", *map(display_name, VARIED), "as the paper, % [95 %]"], rows

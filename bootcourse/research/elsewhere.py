@@ -5,24 +5,10 @@ each problem. γ, episodes and the copies driven at once are the same for all me
 demonstrations and both have the library's target entropy -1, and SAC also a usable one, 0.3 log |A|. β and, with α, ξ
 fade: β over the first two thirds of the episodes. An agent has *found* the way if a window of 20 training episodes
 succeeds in more than half, and has *kept* it if the last window does.
-
-Hypotheses, written before any cell was run with more than two seeds:
-
-H1  The bonus helps only where c a step is small beside the reward of success. On DoorKey (c = 2, the goal pays at most
-    1) both with c = 0 succeeds more often than both, with the random teacher too; on MountainCar (-1 a step) it does
-    not matter.
-H2  Cloning averages random errors away where they do not repeat (chain, MountainCar, Acrobot): with the random teacher
-    a clone earns more than the teacher. It copies systematic errors: there it earns no more than the teacher.
-H3  With the systematic teacher soft and both earn more than cloning, because ξ fades and the reward corrects the error.
-H4  The longer the horizon without reward (MountainCar, Acrobot, chain; not CartPole), the more a teacher is worth: SAC
-    with either target entropy succeeds in less than 10 % on MountainCar, and on CartPole the usable one needs no help.
-H5  Soft beats demonstrations alone on every problem with the random teacher: it asks in the states that the agent
-    reaches, and demonstrations say nothing there.
-H6  PPO after cloning is at least as good as cloning on every problem, with every teacher.
 """
 
 import math
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
@@ -31,14 +17,12 @@ from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.learn.settings import Settings, settings_for, with_seeds
 from bootcourse.learn.teachers import teacher_policy
 from bootcourse.learn.training import Training
-from bootcourse.research.jobs import HELD_OUT, Interrupted, LessonJob, orphaned
+from bootcourse.research.jobs import HELD_OUT, Interrupted, LessonJob, orphaned, tested_arrays
 from bootcourse.research.plan import LessonExperiment, chosen, folder
-from bootcourse.research.problems import PROBLEMS, Problem
-from bootcourse.research.results import Results, as_arrays
-from bootcourse.research.tables import bracketed
-from bootcourse.statistics import interval, rolling_means
+from bootcourse.research.problems import LANDER, PROBLEMS, Problem, has_box2d
+from bootcourse.research.results import found
 
-SEEDS, TESTS, WINDOW = 10, 100, 20
+TESTS, WINDOW = 100, 20  # held-out episodes; training episodes in a row
 NOBODY = "none"  # the teacher of a method without one
 USABLE = "0.3 log |A|"
 ALONE = {"SAC": ("sac", {}), f"SAC, η = {USABLE}": ("sac", {"target_entropy": USABLE}), "PPO": ("ppo", {})}
@@ -51,6 +35,22 @@ TAUGHT = {
     "PPO after cloning": ("ppo_cloned", {}),
 }
 METHODS = ALONE | TAUGHT
+HYPOTHESES = {  # written before any cell was run with more than two seeds; elsewhere_page.py compares them
+    "H1": "The bonus helps only where c a step is small beside the reward of success. On DoorKey (c = 2, the goal pays "
+    "at most 1) both with c = 0 succeeds more often than both, with the random teacher too; on MountainCar (-1 a step) "
+    "it does not matter.",
+    "H2": "Cloning averages random errors away where they do not repeat (chain, MountainCar, Acrobot): with the random "
+    "teacher a clone earns more than the teacher. It copies systematic errors: there it earns no more than the "
+    "teacher.",
+    "H3": "With the systematic teacher soft and both earn more than cloning, because ξ fades and the reward corrects "
+    "the error.",
+    "H4": "The longer the horizon without reward (MountainCar, Acrobot, chain; not CartPole), the more a teacher is "
+    "worth: SAC with either target entropy succeeds in less than 10 % on MountainCar, and on CartPole the usable one "
+    "needs no help.",
+    "H5": "Soft beats demonstrations alone on every problem with the random teacher: it asks in the states that the "
+    "agent reaches, and demonstrations say nothing there.",
+    "H6": "PPO after cloning is at least as good as cloning on every problem, with every teacher.",
+}
 PPO = {"envs_per_agent": 16, "horizon": 64, "batch": 256, "actor_lr": 1e-3, "critic_lr": 1e-3}
 
 
@@ -84,29 +84,16 @@ def cell(problem: str, teacher: str, method: str, seeds: int, episodes: int, tes
     def driven(policy):
         return drive_episodes(policy, held_out_seeds(HELD_OUT, tests), None, make_env=one.make_env)
 
-    greedy = [driven(agent.as_policy()) for agent in result.agents]
     drawn = [driven(agent.as_policy(np.random.default_rng(i))) for i, agent in enumerate(result.agents)]
     taught = [] if rule is None else [driven(teacher_policy(rule, None, one.actions))]
-    measured = {}
-    for who, tested in (("drawn", drawn), ("teacher", taught * seeds)):
+    success = result.curves["success"]
+    measured = {"found": found(success, WINDOW), "kept": found(success[:, -WINDOW:], WINDOW)}
+    for who, drives in (("drawn", drawn), ("teacher", taught * seeds)):
         for measure in ("success", "returns"):
-            means = [getattr(each, measure).mean() for each in tested]
+            means = [getattr(each, measure).mean() for each in drives]
             measured[f"{who}_{measure}"] = np.array(means) if means else np.full(seeds, np.nan)
-    measured["found"], measured["kept"] = found_and_kept(result.curves["success"])
-    tested = {name: np.stack([getattr(each, name) for each in greedy]) for name in vars(greedy[0])}
-    agents = [asdict(agent.settings) | {"teacher": teacher} for agent in result.agents]
-    stopped = np.array([result.stopped.get(i, -1) for i in range(seeds)])
-    seconds = np.full(seeds, result.seconds / seeds)
-    return as_arrays(Results(agents, stopped, tested, result.curves, seconds, measured=measured))
-
-
-def found_and_kept(success: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Whether any window of training episodes succeeds in more than half, and whether the last does: each (agents,).
-
-    success: (agents, episodes).
-    """
-    _, means = rolling_means(success, WINDOW, success.shape[1])
-    return (means > 0.5).any(1), means[:, -1] > 0.5
+    arrays = tested_arrays(result, tests, teacher, one.make_env)
+    return arrays | {f"measured.{name}": values for name, values in measured.items()}
 
 
 @dataclass(frozen=True)
@@ -123,8 +110,17 @@ class Elsewhere(LessonExperiment):
 
     def jobs(self, name: str, seeds: int = 0, episodes: int = 0, tests: int = 0) -> list[LessonJob]:
         """One job for each cell. 0: the experiment's own number."""
-        asked = {"seeds": seeds or SEEDS, "episodes": episodes, "tests": tests or TESTS}
-        return [LessonJob(f"{name}/{folder(each)}", self.function, a | asked) for each, a in self.variations.items()]
+        cells = self.variations
+        if not has_box2d():
+            cells = {each: a for each, a in cells.items() if a["problem"] != LANDER}
+            print("Lunar lander is left out, since box2d is not installed: `pip install bootcourse[lander]`.")
+        asked = {"episodes": episodes, "tests": tests or TESTS}
+        return [
+            LessonJob(
+                f"{name}/{folder(each)}", self.function, a | asked | {"seeds": seeds or PROBLEMS[a["problem"]].seeds}
+            )
+            for each, a in cells.items()
+        ]
 
 
 def _cells() -> dict[str, dict]:
@@ -137,24 +133,3 @@ def _cells() -> dict[str, dict]:
 
 
 EXPERIMENT = Elsewhere("bootcourse.research.elsewhere:cell", _cells())
-
-
-def rows(computed: dict[str, Results]) -> tuple[list[str], list[list[str]]]:
-    """(headings, rows): success in % and return of every cell that was computed, a row for each problem and teacher."""
-    table = []
-    for problem, one in PROBLEMS.items():
-        for teacher in one.teachers():
-            cells = {name: computed.get(f"{problem}, {teacher}, {name}") for name in TAUGHT}
-            cells = {name: computed.get(f"{problem}, {NOBODY}, {name}") for name in ALONE} | cells
-            taught = [each.measured for name, each in cells.items() if each is not None and name in TAUGHT]
-            if taught:
-                its = f"{100 * taught[0]['teacher_success'][0]:.0f} ({taught[0]['teacher_returns'][0]:.3g})"
-                table.append([one.name, teacher, its, *(scored(each) for each in cells.values())])
-    return ["problem", "teacher", "the teacher itself", *METHODS], table
-
-
-def scored(results: Results | None) -> str:
-    """ "98 [90, 100] (-120)": success in % with its interval over seeds, and the mean return; "–" if not computed."""
-    if results is None:
-        return "–"
-    return f"{bracketed(interval(results.scores('success')), 100)} ({results.scores('returns').mean():.3g})"

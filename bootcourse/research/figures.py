@@ -84,24 +84,26 @@ def exploration(results: Results) -> Figure:
 def final_scores(results: Results, methods: Sequence[str], column: str = "returns") -> Figure:
     """Each agent's score on the held-out episodes, and their interquartile mean with its interval."""
     methods = [method for method in methods if method in results.methods]
-    height = 1.1 + 0.36 * len(methods)
+    height = 1.2 + 0.42 * len(methods)
     figure = new_figure(height)
-    ax = figure.add_axes((0.27, 0.55 / height, 0.68, 0.9 * 0.36 * len(methods) / height))
+    ax = figure.add_axes((0.27, 0.6 / height, 0.68, 0.9 * 0.42 * len(methods) / height))
     scale, words, label = 100 if column in RATES else 1, [], (COLUMNS | {"returns": "return"}).get(column, column)
     middles = {}
     for row, method in enumerate(methods):
         scores, look = results.of(method).scores(column) * scale, style(method)
         middles[method] = middle = interval(scores)
-        ax.plot(scores, np.full(len(scores), row) + np.linspace(-0.3, 0.3, len(scores)), "o", color=look.colour, ms=4)
-        ax.plot([middle.low, middle.high], [row, row], "-", color=look.colour, linewidth=6, alpha=0.3, zorder=1)
-        ax.plot(middle.value, row, "|", color=look.colour, ms=14, mew=2.5)
+        ax.plot(scores, row - 0.08 + np.linspace(-0.24, 0.24, len(scores)), "o", color=look.colour, ms=4)
+        below = row + 0.34  # the interval is no place of agents: it stands below them
+        ax.plot([middle.low, middle.high], [below, below], "-", color=look.colour, linewidth=1.5, zorder=1)
+        ax.plot([middle.low, middle.value, middle.high], [below] * 3, "|", color=look.colour, ms=7, mew=1.5)
         if method in PRINTED and column in COLUMNS:
-            ax.plot(PRINTED[method][column].mean, row, "D", mfc="white", mec=look.colour, ms=5, zorder=4)
+            ax.plot(PRINTED[method][column].mean, row - 0.08, "D", mfc="white", mec=look.colour, ms=5, zorder=4)
         words.append(f"{display_name(method)} {middle.value:.3g} [{middle.low:.3g}, {middle.high:.3g}]")
     plain_axes(ax, "", grid="x")
     ax.set_yticks(range(len(methods)), [display_name(method) for method in methods])
     ax.set_ylim(len(methods) - 0.5, -0.5)
-    ax.set_xlabel(label, fontsize=SMALL, color=QUIET)
+    words_below = f"{label}; dots: agents; line: the 95 % interval of their interquartile mean; diamond: the paper"
+    ax.set_xlabel(words_below, fontsize=SMALL, color=QUIET)
     ax.spines["bottom"].set_color(GRID)
     best = max(middles.values(), key=lambda middle: middle.value)
     ahead = [display_name(m) for m, middle in middles.items() if middle is best or middle.high >= best.low]

@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
+from gymnasium.vector import VectorEnv
 from msgspec import Meta, Struct, convert
 
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
@@ -86,7 +87,7 @@ class Job:
         if result.interrupted:
             save_checkpoint(training, checkpoint)
             raise Interrupted(self.name)
-        write_arrays(folder / "results.npz", self._tested(result))
+        write_arrays(folder / "results.npz", tested_arrays(result, self.tests, self.teacher))
         if self.runs:
             shutil.rmtree(folder / "runs", ignore_errors=True)  # left by an attempt that was killed while it wrote
             save_runs(result, folder / "runs")
@@ -101,17 +102,6 @@ class Job:
         if (training.settings, training.episodes, training.scenario) != wanted:
             raise OtherQuestion(f"{folder} was begun with other settings: choose another folder, or delete this one.")
         return training
-
-    def _tested(self, result: Result) -> dict[str, np.ndarray]:
-        seeds = held_out_seeds(HELD_OUT, self.tests)
-        episodes = [drive_episodes(agent.as_policy(), seeds, self.scenario) for agent in result.agents]
-        tested = {name: np.stack([getattr(each, name) for each in episodes]) for name in vars(episodes[0])}
-        return {
-            "agents": np.array(json.dumps([asdict(a.settings) | {"teacher": self.teacher} for a in result.agents])),
-            "stopped": np.array([result.stopped.get(i, -1) for i in range(len(result.agents))]),
-            **{f"tested.{name}": smaller(values) for name, values in tested.items()},
-            **{f"curves.{name}": values.astype(np.float32) for name, values in result.curves.items()},
-        }
 
 
 @dataclass(frozen=True)
@@ -171,6 +161,24 @@ def asked(job: AnyJob) -> dict:
     """All fields that determine the job's result, as JSON reads them back."""
     fields = {name: value for name, value in asdict(job).items() if name not in ("name", "runs")}
     return json.loads(json.dumps(fields))
+
+
+def tested_arrays(
+    result: Result, tests: int, teacher: str, make_env: Callable[[int], VectorEnv] | None = None
+) -> dict[str, np.ndarray]:
+    """The arrays of a file of results (see `results.Results`): agents, curves, and their drives in held-out episodes.
+
+    tests: of each agent, by its most probable actions. teacher: its name. make_env: see `Training`.
+    """
+    seeds = held_out_seeds(HELD_OUT, tests)
+    drives = [drive_episodes(a.as_policy(), seeds, result.scenario, make_env=make_env) for a in result.agents]
+    tested = {name: np.stack([getattr(each, name) for each in drives]) for name in vars(drives[0])}
+    return {
+        "agents": np.array(json.dumps([asdict(a.settings) | {"teacher": teacher} for a in result.agents])),
+        "stopped": np.array([result.stopped.get(i, -1) for i in range(len(result.agents))]),
+        **{f"tested.{name}": smaller(values) for name, values in tested.items()},
+        **{f"curves.{name}": values.astype(np.float32) for name, values in result.curves.items()},
+    }
 
 
 def smaller(values: np.ndarray) -> np.ndarray:

@@ -1,22 +1,19 @@
 """The experiment on looking ahead: how safe and how good it makes each base policy, and what a wrong model costs.
 
-    python -m bootcourse.research.lookahead --out DIR --runs assets/runs DIR_OF_MORE_RUNS
+    bootcourse study look-ahead --out DIR
 
-It drives a list of cells, each one base policy on held-out roads, and writes each to a file of its own. A cell whose
-file exists is not driven again, so a run that was stopped goes on where it was.
+A cell is a base policy in one form: alone, with rollouts, or with the shield; its agents drive the same held-out roads.
+It trains nothing. The agents are runs in DIR/agents/METHOD (`bootcourse train --method METHOD --seeds 10 --out
+DIR/agents/METHOD`) or, where there is no such folder, those that ship.
 """
 
-import argparse
-import itertools
-import re
-import sys
 import time
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-import msgspec
 import numpy as np
+import torch
 from gymnasium.vector import AutoresetMode
 
 from bootcourse.episodes.driving import steps
@@ -24,157 +21,183 @@ from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.episodes.lookahead import HORIZON, lookahead, lookahead_shield
 from bootcourse.episodes.models import MODELS
 from bootcourse.errors import BootcourseError, check_known
-from bootcourse.files import check_arrays, read_arrays, read_json, remove_temporary, write_arrays, write_json
+from bootcourse.files import write_arrays
+from bootcourse.learn.agent import Agent
+from bootcourse.learn.settings import stored_settings
 from bootcourse.policies import Policy, rule_policy
+from bootcourse.research.jobs import HELD_OUT, Interrupted, orphaned
+from bootcourse.research.plan import LessonExperiment, chosen, folder
+from bootcourse.research.results import Results, as_arrays, load_results
 from bootcourse.road.vector_env import TrapVectorEnv
-from bootcourse.scenario import DEFAULT, Scenario
+from bootcourse.scenario import DEFAULT
+from bootcourse.storage.assets import FOLDER
 from bootcourse.storage.runs import find_runs, load_run
 
-BLOCK, TOGETHER = 1, 1000  # of held-out roads, those of the study; roads that are driven side by side
-FORMS = {"alone": None, "rollout": lookahead, "shield": lookahead_shield}
-BASES = ("ppo_cloned", "bootstrapped", "soft", "sac", "demos", "bc", "rule")
-CLOSELY = ("ppo_cloned", "bootstrapped")  # the base policies whose horizon and model are varied
+NAME, TOGETHER = "look-ahead", 1000  # of the experiment; roads that are driven side by side
+FORMS = {"alone": None, "rollouts": lookahead, "shield": lookahead_shield}
+BASES = {"ppo_cloned": 10, "bootstrapped": 10, "soft": 5, "sac": 10, "demos": 5, "bc": 5, "rule": 1}  # {base: agents}
+CLOSELY = ("ppo_cloned", "bootstrapped")  # the base policies whose model is varied
 HORIZONS = (3, 6, 15)
-MANY = 10_000  # roads for the safest
-SUMMARY = "summary.json"  # written beside the cells when all are there
+ROADS, MANY = 1000, 10_000  # held-out roads of an agent: mostly, and of the safest
+FEW, FEWER = 300, 100  # of long computations
+SHIPPING = 10  # agents of a base policy of which not all ship elsewhere: their actors ship with this experiment
 
 
 @dataclass(frozen=True)
 class Cell:
-    """One base policy, looking ahead in one way, on some roads."""
+    """The agents of a base policy, looking ahead in one way, each on the same roads."""
 
     base: str  # a method, or "rule"
-    seed: int = 0  # of the base's training
-    form: str = "rollout"  # one of FORMS
+    form: str = "rollouts"  # one of FORMS
+    agents: int = 10
+    roads: int = ROADS
     horizon: int = HORIZON  # decisions
     model: str = "exact"  # one of MODELS
-    roads: int = 1000
 
     def __post_init__(self):
+        check_known("Base policy", self.base, BASES)
         check_known("Form", self.form, FORMS)
         check_known("Model", self.model, MODELS)
 
     @property
-    def file(self) -> str:
-        """The name of its file, such as "ppo_cloned-0-rollout-10-a-second-late-1000.npz"."""
-        model = re.sub(r"[^\w.]+", "-", self.model)
-        return f"{self.base}-{self.seed}-{self.form}-{self.horizon}-{model}-{self.roads}.npz"
+    def name(self) -> str:
+        """Such as "ppo_cloned, shield, twice the time gap"."""
+        parts = [self.base, self.form]
+        parts += [f"{self.horizon} decisions"] if self.horizon != HORIZON else []
+        parts += [self.model] if self.model != "exact" else []
+        parts += [f"{self.roads} roads"] if self.roads == MANY else []
+        return ", ".join(parts)
 
 
-def drive(cell: Cell, policy: Policy, scenario: Scenario = DEFAULT) -> dict[str, np.ndarray]:
-    """Drive a cell: of each road (roads,) returns, accident, success, decisions, how many were overruled; seconds."""
-    make = FORMS[cell.form]
-    driver = make(policy, cell.horizon, scenario, MODELS[cell.model], cell.seed) if make else policy
-    seeds, began = held_out_seeds(BLOCK, cell.roads), time.process_time()
-    parts = [_drive(driver, [*seeds[first : first + TOGETHER]], scenario) for first in range(0, cell.roads, TOGETHER)]
-    columns = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
-    return columns | {"seconds": np.array(time.process_time() - began)}
-
-
-def _drive(driver: Policy, seeds: list[int], scenario: Scenario) -> dict[str, np.ndarray]:
-    env = TrapVectorEnv(len(seeds), scenario, AutoresetMode.DISABLED)
-    returns, accident = np.zeros(len(seeds)), np.zeros(len(seeds), dtype=np.int8)
-    decisions, overruled = np.zeros(len(seeds), dtype=np.int16), np.zeros(len(seeds), dtype=np.int16)
-    for step in steps(driver, env, seeds):
-        returns += step.rewards
-        accident = np.maximum(accident, step.infos["accident"].astype(np.int8))
-        decisions += step.running
-        overruled += step.running & getattr(driver, "overruled", False)
-    success = step.infos["is_success"]
-    return {
-        "returns": returns, "accident": accident, "success": success, "decisions": decisions, "overruled": overruled,
-    }  # fmt: skip
-
-
-def cells(seeds: dict[str, Sequence[int]]) -> Iterator[Cell]:
-    """Every cell of the experiment. seeds: {base: its training seeds}.
-
-    The base policies alone and with the shield come first, because they are cheap; then all that one training seed
-    needs before the next seed, so that a run that is stopped early has whole rows of fewer seeds.
-    """
-    every = sorted(((base, seed) for base in BASES for seed in seeds.get(base, ())), key=lambda who: who[1])
+def cells() -> list[Cell]:
+    """Every cell, those that matter most first."""
     wrong = [model for model in MODELS if model != "exact"]
-    for form in ("alone", "shield"):
-        yield from (Cell(*who, form) for who in every)
-    for _, group in itertools.groupby(every, key=lambda who: who[1]):
-        group = list(group)
-        closely = [who for who in group if who[0] in CLOSELY]
-        yield from (Cell(*who) for who in group)
-        for form in ("shield", "rollout"):
-            yield from (Cell(*who, form, model=model) for model in wrong for who in closely)
-        yield from (Cell(*who, horizon=horizon) for horizon in HORIZONS for who in closely)
-    safest = [who for who in every if who[0] == CLOSELY[0]]
-    yield from (Cell(*who, form, roads=MANY) for form in ("alone", "shield", "rollout") for who in safest)
+    plain = [Cell(base, form, agents) for form in ("alone", "shield") for base, agents in BASES.items()]
+    closely = [Cell("ppo_cloned"), Cell("rule", agents=1), Cell("bootstrapped", roads=FEW)]
+    shields = [Cell("ppo_cloned", "shield", roads=FEW, model=model) for model in wrong]
+    horizons = [Cell("ppo_cloned", roads=FEWER, horizon=horizon) for horizon in HORIZONS]
+    others = [Cell(base, agents=5, roads=FEWER) for base in ("sac", "soft", "demos", "bc")]
+    rollouts = [Cell("ppo_cloned", roads=FEWER, model=model) for model in wrong]
+    most = [Cell("ppo_cloned", "shield", roads=MANY)]
+    most += [Cell("bootstrapped", "shield", 5, FEW, model=model) for model in wrong]
+    most += [Cell("bootstrapped", agents=5, roads=FEWER, model=model) for model in wrong]
+    return [*plain, *closely, *shields, *horizons, *others, *rollouts, *most]
 
 
-def policies(folders: Sequence[Path]) -> dict[tuple[str, int], Callable[[], Policy]]:
-    """{(base, training seed): a function that loads its policy}, of the runs in some folders, and the rule."""
-    loaders = {("rule", 0): lambda: rule_policy(DEFAULT)}
-    for path in (path for folder in folders for path in find_runs(folder)):
-        base, _, seed = path.name.rpartition("-")
-        loaders[base, int(seed)] = lambda path=path: load_run(path).agent.as_policy()
-    return loaders
+@dataclass(frozen=True)
+class CellJob:
+    """Drive a cell."""
+
+    name: str
+    cell: Cell
+
+    def compute(self, folder: Path) -> None:
+        root = folder.parents[self.name.count("/") + 1]
+        write_arrays(folder / "results.npz", as_arrays(drive(self.cell, root / "agents")))
 
 
-def evaluate_cells(todo: Sequence[Cell], loaders: dict, out: Path) -> None:
-    """Drive each cell that has no file in `out` yet, and write it, all or nothing."""
-    out.mkdir(parents=True, exist_ok=True)
-    remove_temporary(out)
-    for count, cell in enumerate(todo, 1):
-        if not (out / cell.file).exists():
-            arrays = drive(cell, loaders[cell.base, cell.seed]())
-            write_arrays(out / cell.file, arrays)
-            hurt, paid = int((arrays["accident"] > 0).sum()), arrays["returns"].mean()
-            print(f"{count}/{len(todo)} {cell.file}: return {paid:.1f}, {hurt} accidents", flush=True)
+@dataclass(frozen=True)
+class CellExperiment(LessonExperiment):
+    """The cells: {their names: {"cell": each}}."""
+
+    def only(self, words: str) -> "CellExperiment":
+        """The cells that are named by their folder, base policy, form or model; "" for all."""
+        names = {}
+        for name, variation in self.variations.items():
+            cell = variation["cell"]
+            names[name] = {folder(name), cell.base, cell.form, folder(cell.model)}
+        return replace(self, variations=chosen(self.variations, names, words))
+
+    def jobs(self, name: str, seeds: int = 0, episodes: int = 0, tests: int = 0) -> list[CellJob]:
+        """One job for each cell, with at most so many agents and roads. Raises BootcourseError for `episodes`."""
+        if episodes:
+            raise BootcourseError(f"The experiment {name} trains nothing: leave out --episodes.")
+        jobs = []
+        for each, variation in self.variations.items():
+            cell = variation["cell"]
+            agents, roads = min(seeds or cell.agents, cell.agents), min(tests or cell.roads, cell.roads)
+            jobs.append(CellJob(f"{name}/{folder(each)}", replace(cell, agents=agents, roads=roads)))
+        return jobs
 
 
-class Summary(msgspec.Struct, frozen=True):
-    """What is kept of a cell for figures and tables."""
-
-    roads: int
-    returns: float  # mean over the roads
-    accidents: int
-    success: float  # share of the roads
-    decisions: int
-    overruled: int  # of these decisions
-    seconds: float  # of one core
+EXPERIMENT = CellExperiment(f"{__name__}:drive", {cell.name: {"cell": cell} for cell in cells()})
 
 
-def read_cell(path: Path, roads: int) -> dict[str, np.ndarray]:
-    """What `drive` found of a cell. Raises BootcourseError if its file is missing or damaged."""
-    arrays, numbers = read_arrays(path), ("returns", "accident", "success", "decisions", "overruled")
-    check_arrays(arrays, dict.fromkeys(numbers, (roads,)) | {"seconds": ()}, path)
-    return arrays
+def drive(cell: Cell, trained: Path) -> Results:
+    """Drive a cell with the agents in trained/METHOD, see `agents_of`. Raises Interrupted if it is stopped.
+
+    Measured, (agents,): roads, returns and success (means over the roads), accidents (how many), decisions, overruled
+    (of these decisions) and seconds of one core. The weights: actors that ship, see `SHIPPING`.
+    """
+    make, agents = FORMS[cell.form], agents_of(cell.base, cell.agents, trained)
+    drivers = [rule_policy(DEFAULT)] if cell.base == "rule" else [agent.as_policy() for agent in agents]
+    measures = []
+    for i, driver in enumerate(drivers):
+        policy = make(driver, cell.horizon, DEFAULT, MODELS[cell.model], seed=i) if make else driver
+        measures.append(measured(policy, held_out_seeds(HELD_OUT, cell.roads)))
+    layers = (
+        zip(*(agent.actor for agent in agents), strict=True) if (cell.form, cell.agents) == ("alone", SHIPPING) else ()
+    )
+    entries = [vars(agent.settings) | {"teacher": "rule"} for agent in agents]
+    return Results(
+        entries or [{"method": "rule", "seed": 0, "teacher": "rule"}],
+        np.full(len(drivers), -1),
+        measured={name: np.array([one[name] for one in measures]) for name in measures[0]},
+        weights={f"actor.{i}": np.concatenate(layer) for i, layer in enumerate(layers)},
+    )
 
 
-def summaries(place: Path) -> dict[str, Summary]:
-    """{name of a cell's file: its summary}, from the folder of the cells, or from the JSON file of their summaries."""
-    if place.suffix == ".json":
-        return read_json(place, dict[str, Summary])
-    summary_of = {}
-    for path in sorted(place.glob("*.npz")):
-        roads = int(path.stem.rpartition("-")[2])
-        one = read_cell(path, roads)
-        hurt, success, seconds = int((one["accident"] > 0).sum()), float(one["success"].mean()), float(one["seconds"])
-        sums = (int(one[name].sum()) for name in ("decisions", "overruled"))
-        summary_of[path.name] = Summary(roads, float(one["returns"].mean()), hurt, success, *sums, seconds)
-    return summary_of
+def agents_of(base: str, agents: int, trained: Path) -> list[Agent]:
+    """The agents 0, 1, ... of a method: runs in trained/METHOD and those that ship. None for the rule.
+
+    Raises BootcourseError, with the command that trains them, if some are missing.
+    """
+    if base == "rule":
+        return []
+    places = [*([trained / base] if (trained / base).is_dir() else []), FOLDER / "runs"]
+    runs = {path.name: path for place in reversed(places) for path in find_runs(place)}
+    by_seed = shipped_actors(base) | {
+        seed: load_run(runs[f"{base}-{seed}"]).agent for seed in range(agents) if f"{base}-{seed}" in runs
+    }
+    if missing := [str(seed) for seed in range(agents) if seed not in by_seed]:
+        command = f"bootcourse train --method {base} --seeds {agents} --out {trained / base}"
+        raise BootcourseError(f"There is no agent of {base} with the seed {', '.join(missing)}: run `{command}`.")
+    return [by_seed[seed] for seed in range(agents)]
 
 
-def main(arguments: list[str] | None = None) -> int:
-    parser = argparse.ArgumentParser(prog="python -m bootcourse.research.lookahead", description=__doc__.split("\n")[0])
-    parser.add_argument("--out", type=Path, required=True, help="the folder for the cells' files")
-    parser.add_argument("--runs", type=Path, nargs="+", required=True, help="folders with runs of the base policies")
-    options = parser.parse_args(arguments)
-    loaders = policies(options.runs)
-    seeds = {base: sorted(seed for name, seed in loaders if name == base) for base in BASES}
-    evaluate_cells(list(cells(seeds)), loaders, options.out)
-    write_json(options.out / SUMMARY, msgspec.to_builtins(summaries(options.out)))
-    return 0
+def shipped_actors(base: str) -> dict[int, Agent]:
+    """{seed: the agent that drove the shipped cell of a base policy alone}; without its critics."""
+    path = FOLDER / NAME / f"{folder(Cell(base, 'alone').name)}.npz"
+    if not path.exists():
+        return {}
+    results = load_results(path)
+    if not results.weights:
+        return {}
+    actors = zip(*(results.weights[f"actor.{i}"] for i in range(len(results.weights))), strict=True)
+    tensors = ([torch.from_numpy(layer)[None] for layer in actor] for actor in actors)
+    settings = [
+        stored_settings({name: value for name, value in agent.items() if name != "teacher"}) for agent in results.agents
+    ]
+    return {one.seed: Agent(one, actor, [], 0.0) for one, actor in zip(settings, tensors, strict=True)}
 
 
-if __name__ == "__main__":
-    try:
-        sys.exit(main())
-    except BootcourseError as error:
-        sys.exit(str(error))
+def measured(driver: Policy, roads: Sequence[int]) -> dict[str, float]:
+    """What a driver did on some roads, see `drive`."""
+    returns, success, began = [], [], time.process_time()
+    accidents = decisions = overruled = 0
+    for first in range(0, len(roads), TOGETHER):
+        seeds = list(roads[first : first + TOGETHER])
+        earned, hurt = np.zeros(len(seeds)), np.zeros(len(seeds), dtype=bool)
+        for step in steps(driver, TrapVectorEnv(len(seeds), DEFAULT, AutoresetMode.DISABLED), seeds):
+            if orphaned():
+                raise Interrupted(NAME)
+            earned += step.rewards
+            hurt |= step.infos["accident"] > 0
+            decisions += int(step.running.sum())
+            overruled += int((step.running & getattr(driver, "overruled", False)).sum())
+        returns, success = [*returns, *earned], [*success, *step.infos["is_success"]]
+        accidents += int(hurt.sum())
+    return {
+        "roads": len(roads), "returns": float(np.mean(returns)), "success": float(np.mean(success)),
+        "accidents": accidents, "decisions": decisions, "overruled": overruled, "seconds": time.process_time() - began,
+    }  # fmt: skip

@@ -1,10 +1,10 @@
-"""The figures and the table of the experiment on looking ahead (`lookahead.py`).
+"""The figures and the table of the experiment on looking ahead (`lookahead.py`), from its results {cell: agents}.
 
 Accidents are counted over all drives of a base policy's agents, with the exact (Clopper-Pearson) interval of so many
 independent drives; returns are means of the agents' means, with a bootstrap interval over agents.
 """
 
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -14,14 +14,15 @@ from matplotlib.ticker import NullLocator
 
 from bootcourse.episodes.lookahead import HORIZON
 from bootcourse.episodes.models import MODELS
+from bootcourse.errors import BootcourseError
 from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import GRID, INK, QUIET, SMALL, TEXT, finish, new_figure, plain_axes, wrapped
-from bootcourse.research.lookahead import BASES, CLOSELY, FORMS, HORIZONS, Cell, Summary
+from bootcourse.research.lookahead import CLOSELY, FORMS, HORIZONS, Cell
+from bootcourse.research.results import Results
 from bootcourse.statistics import Estimate, interval, rate
 
-FORM_NAMES = {"alone": "alone", "rollout": "rollouts", "shield": "shield by simulation"}
+FORM_NAMES = {"alone": "alone", "rollouts": "rollouts", "shield": "shield by simulation"}
 FARTHEST = 20.0  # below the base policy's return, on the axis of returns
-MOST = 100  # training seeds of a base policy
 LINEAR = 1.0  # accidents in 1,000 drives: the axis is linear below, logarithmic above
 
 
@@ -35,54 +36,48 @@ class Score(NamedTuple):
     accident_rate: Estimate
     success: float  # share of the drives
     overruled: float  # share of the decisions
-    milliseconds: float  # for each decision
+    milliseconds: float  # of one core, for each decision
+
+    @property
+    def roads(self) -> int:
+        """Of each agent."""
+        return self.drives // self.agents
 
 
-def score(
-    cells: dict[str, Summary], base: str, form: str, horizon: int = HORIZON, model: str = "exact", roads: int = 1000
-) -> Score | None:
-    """The score of the agents of a base policy; None if none of them is in `cells`, see `lookahead.summaries`."""
-    wanted = (Cell(base, seed, form, horizon, model, roads).file for seed in range(MOST))
-    mine = [cells[file] for file in wanted if file in cells]
-    if not mine:
+def score(cells: dict[str, Results], cell: Cell) -> Score | None:
+    """The score of a cell's agents; None if `cells` does not have it."""
+    if cell.name not in cells:
         return None
-    drives, accidents = sum(one.roads for one in mine), sum(one.accidents for one in mine)
-    decisions = sum(one.decisions for one in mine)
+    of = cells[cell.name].measured
+    drives, accidents, decisions = (int(of[name].sum()) for name in ("roads", "accidents", "decisions"))
     return Score(
-        agents=len(mine),
+        agents=len(of["roads"]),
         drives=drives,
-        returns=interval([one.returns for one in mine], np.mean),
+        returns=interval(of["returns"], np.mean),
         accidents=accidents,
         accident_rate=rate(np.arange(drives) < accidents),
-        success=float(np.mean([one.success for one in mine])),
-        overruled=sum(one.overruled for one in mine) / decisions,
-        milliseconds=1000 * sum(one.seconds for one in mine) / decisions,
+        success=float(of["success"].mean()),
+        overruled=float(of["overruled"].sum() / decisions),
+        milliseconds=1000 * float(of["seconds"].sum() / decisions),
     )
 
 
-def rows(cells: dict[str, Summary]) -> tuple[list[str], list[list[str]]]:
-    """(headings, rows): every combination of base, form, horizon, model and roads that is there."""
-    kinds = [(base, form, HORIZON, "exact") for base in BASES for form in FORMS]
-    kinds += [(base, "rollout", horizon, "exact") for base in CLOSELY for horizon in HORIZONS]
-    kinds += [
-        (base, form, HORIZON, model) for base in CLOSELY for model in MODELS if model != "exact" for form in FORMS
-    ]
+def rows(cells: dict[str, Results], wanted: Sequence[Cell]) -> tuple[list[str], list[list[str]]]:
+    """(headings, rows): the cells of `wanted` that were computed."""
     lines = []
-    for roads in (1000, 10_000):
-        for base, form, horizon, model in kinds:
-            if one := score(cells, base, form, horizon, model, roads):
-                value, low, high = one.returns
-                about = f"{value:.1f}" + (f" [{low:.1f}, {high:.1f}]" if np.isfinite(low) else "")
-                low, high = (1000 * limit for limit in one.accident_rate[1:])
-                accidents = (
-                    f"{one.accidents} in {one.drives:,}: {1000 * one.accident_rate.value:.2f} [{low:.2f}, {high:.2f}]"
-                )
-                lines.append(
-                    [display_name(base), FORM_NAMES[form], str(horizon) if form != "alone" else "", model]
-                    + [str(one.agents), about, accidents, f"{100 * one.success:.1f}", f"{1000 * one.overruled:.1f}"]
-                )
+    for cell in wanted:
+        if one := score(cells, cell):
+            value, low, high = one.returns
+            about = f"{value:.1f}" + (f" [{low:.1f}, {high:.1f}]" if np.isfinite(low) else "")
+            each, low, high = (1000 * number for number in one.accident_rate)
+            accidents = f"{one.accidents} in {one.drives:,}: {each:.2f} [{low:.2f}, {high:.2f}]"
+            lines.append(
+                [display_name(cell.base), FORM_NAMES[cell.form], str(cell.horizon) if cell.form != "alone" else ""]
+                + [cell.model, str(one.agents), about, accidents, f"{100 * one.success:.1f}"]
+                + [f"{1000 * one.overruled:.1f}", f"{one.milliseconds:.2f}"]
+            )
     headings = ["base policy", "form", "horizon", "model", "agents", "return [95 %]", "accidents in 1,000 [95 %]"]
-    return [*headings, "ahead, %", "overruled in 1,000"], lines
+    return [*headings, "ahead, %", "overruled in 1,000", "ms a decision"], lines
 
 
 def _accident_axis(axis_of: Axes, axis: str) -> None:
@@ -99,42 +94,48 @@ def double_line(ax: Axes, x: Sequence[float], y: Sequence[float], colour: str) -
     ax.plot(x, y, color="white", linewidth=1.6, solid_capstyle="butt", zorder=2.6)
 
 
-def by_horizon(cells: dict[str, Summary]) -> Figure:
-    """Return and accidents against the horizon; 0 is the base policy alone."""
-    figure, words = new_figure(3.9, 9.0), []
-    axes = [figure.add_axes((left, 0.15, 0.4, 0.6)) for left in (0.055, 0.565)]
-    for ax, label in zip(axes, ("return", "accidents in 1,000 drives"), strict=True):
+def by_horizon(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
+    """Return, accidents and time of a decision against the horizon; 0 is the base policy alone.
+
+    Raises BootcourseError if the base policy alone or its rollouts were not computed.
+    """
+    of = {h: Cell(base, "rollouts" if h else "alone", horizon=h or HORIZON) for h in (0, *sorted((*HORIZONS, HORIZON)))}
+    reached = {h: one for h, cell in of.items() if (one := score(cells, cell))}
+    _check_computed(reached, (0, HORIZON), base)
+    figure, colour, at = new_figure(3.7, 9.6), style(base).colour, list(reached)
+    returns = np.array([one.returns for one in reached.values()])
+    rates = 1000 * np.array([one.accident_rate for one in reached.values()])
+    times = np.array([[one.milliseconds] * 3 for one in reached.values()])
+    labels = {"return": returns, "accidents in 1,000 drives": rates, "ms of one core for a decision": times}
+    for left, (label, estimates) in zip((0.05, 0.385, 0.72), labels.items(), strict=True):
+        ax = figure.add_axes((left, 0.15, 0.265, 0.58))
         plain_axes(ax, label)
-        ax.set_xlabel("decisions ahead; 0: the base policy alone", fontsize=TEXT, color=INK)
-    _accident_axis(axes[1], "y")
-    changes = []
-    for base in CLOSELY:
-        reached = {0: score(cells, base, "alone")}
-        reached |= {h: score(cells, base, "rollout", h) for h in sorted((*HORIZONS, HORIZON))}
-        reached = {h: one for h, one in reached.items() if one is not None}
-        colour, at = style(base).colour, list(reached)
-        returns = [one.returns for one in reached.values()]
-        rates = [[1000 * value for value in one.accident_rate] for one in reached.values()]
-        for ax, estimates in zip(axes, (returns, rates), strict=True):
-            middle, low, high = np.array(estimates).T
-            double_line(ax, at, middle, colour)
-            ax.errorbar(at, middle, [middle - low, high - middle], fmt="o", color=colour, ms=5, lw=1.3, zorder=3)
-            ax.set_xticks(at)
-        last, before, after = (reached[h] for h in (at[-1], 0, HORIZON if HORIZON in reached else at[-1]))
-        counts = (f"{one.accidents:,} accidents in {one.drives:,} drives" for one in (before, after))
-        changes.append(f"{display_name(base)} from {' to '.join(counts)}")
-        name = f"{display_name(base)}, {last.agents} agents"
-        axes[0].annotate(name, (at[-1], returns[-1].value), xytext=(0, -14 if base != CLOSELY[0] else 8),
-                         textcoords="offset points", ha="right", fontsize=TEXT, color=colour)  # fmt: skip
-        numbers = (
-            f"{h}: return {one.returns.value:.1f}, accidents {1000 * one.accident_rate.value:.1f}"
-            for h, one in reached.items()
-        )
-        words.append(f"{name}: {'; '.join(numbers)}.")
-    axes[0].margins(y=0.12)
-    title = f"Rollouts of {HORIZON} decisions: {', '.join(changes)}"
-    alt = "Return, and accidents in 1,000 drives, against how many decisions are imagined. " + " ".join(words)
+        ax.set_xlabel("decisions ahead; 0: alone", fontsize=TEXT, color=INK)
+        if label.startswith("accidents"):
+            _accident_axis(ax, "y")
+        middle, low, high = estimates.T
+        double_line(ax, at, middle, colour)
+        ax.errorbar(at, middle, [middle - low, high - middle], fmt="o", color=colour, ms=5, lw=1.3, zorder=3)
+        ax.set_xticks(at)
+    few = [f"{h}" for h, one in reached.items() if one.roads != reached[0].roads]
+    roads = f"{reached[0].roads:,} roads each" + (f", {reached[int(few[0])].roads} at {', '.join(few)}" if few else "")
+    figure.text(0.99, 0.93, f"{reached[0].agents} agents, {roads}", ha="right", fontsize=SMALL, color=QUIET)
+    before, after = (f"{reached[h].accidents:,} accidents in {reached[h].drives:,} drives" for h in (0, HORIZON))
+    title = f"{display_name(base)}: {before} alone, {after} with rollouts of {HORIZON} decisions"
+    numbers = (
+        f"{h}: return {one.returns.value:.1f}, accidents {1000 * one.accident_rate.value:.1f} "
+        f"({one.agents} agents, {one.roads:,} roads each), {one.milliseconds:.2f} ms"
+        for h, one in reached.items()
+    )
+    alt = f"Return, accidents in 1,000 drives and time against how many decisions are imagined. {'; '.join(numbers)}."
     return finish(figure, title, alt)
+
+
+def _check_computed(there: Container, wanted: Sequence, base: str) -> None:
+    if missing := [str(one) for one in wanted if one not in there]:
+        raise BootcourseError(
+            f"These results of {base} lack {', '.join(missing)}: run `bootcourse study look-ahead --out DIR`."
+        )
 
 
 def _name_what_is_off(ax: Axes, scores_of: dict[float, dict[str, Score]], names: list[str], least: float) -> None:
@@ -146,9 +147,13 @@ def _name_what_is_off(ax: Axes, scores_of: dict[float, dict[str, Score]], names:
                 ax.annotate(f"◂ {one.returns.value:.1f}", place, va="center", fontsize=SMALL, color=INK)
 
 
-def wrong_models(cells: dict[str, Summary], base: str = CLOSELY[0]) -> Figure:
-    """Accidents and return with each wrong model, as full rollouts and as a shield, and of the base policy alone."""
-    alone, names = score(cells, base, "alone"), list(MODELS)
+def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
+    """Accidents and return with each wrong model, as full rollouts and as a shield, and of the base policy alone.
+
+    Raises BootcourseError if the base policy alone, or any of the two with the exact model, was not computed.
+    """
+    alone, names = score(cells, Cell(base, "alone")), list(MODELS)
+    _check_computed(cells, [Cell(base, form).name for form in FORMS], base)
     height, colour = 1.55 + 0.42 * len(names), style(base).colour
     figure = new_figure(height, 9.0)
     tall = 0.42 * len(names) / height
@@ -158,16 +163,15 @@ def wrong_models(cells: dict[str, Summary], base: str = CLOSELY[0]) -> Figure:
         ("return", lambda one: list(one.returns)),
     )
     words, better, scores_of = [], {}, {}
-    for form, shift, fill in (("rollout", -0.14, colour), ("shield", 0.14, "white")):
-        scores = {name: score(cells, base, form, model=name) for name in names}
-        scores = {name: one for name, one in scores.items() if one is not None}
+    for form, shift, fill in (("rollouts", -0.14, colour), ("shield", 0.14, "white")):
+        scores = {name: one for name in names if (one := score(cells, Cell(base, form, model=name)))}
         scores_of[shift] = scores
         wrong = [one for name, one in scores.items() if name != "exact"]
-        better[form] = f"{sum(one.accidents < alone.accidents for one in wrong)} of {len(wrong)}"
+        better[form] = f"{sum(one.accident_rate.value < alone.accident_rate.value for one in wrong)} of {len(wrong)}"
         for ax, (_, of) in zip(axes, measures, strict=True):
             middle, low, high = np.array([of(one) for one in scores.values()]).T
             at = [names.index(name) + shift for name in scores]
-            ax.errorbar(middle, at, xerr=[middle - low, high - middle], fmt="o" if form == "rollout" else "s",
+            ax.errorbar(middle, at, xerr=[middle - low, high - middle], fmt="o" if form == "rollouts" else "s",
                         color=colour, mfc=fill, mec=colour, mew=1.5, ms=6, lw=1.3, zorder=3)  # fmt: skip
         numbers = (
             f"{name} {1000 * one.accident_rate.value:.1f} and {one.returns.value:.1f}" for name, one in scores.items()
@@ -190,15 +194,20 @@ def wrong_models(cells: dict[str, Summary], base: str = CLOSELY[0]) -> Figure:
     axes[1].set_yticks([])
     axes[0].text(alone.accident_rate.value * 1000, -0.62, "alone", ha="center", fontsize=SMALL, color=QUIET)
     axes[1].text(alone.returns.value, -0.62, "alone", ha="center", fontsize=SMALL, color=QUIET)
-    agents = f"{alone.agents} agent{'s' * (alone.agents > 1)}, {alone.drives // alone.agents:,} roads each"
-    legend = f"● rollouts    □ shield by simulation    {agents}"
+    legend = f"● rollouts{_drives(scores_of[-0.14])}    □ shield by simulation{_drives(scores_of[0.14])}"
     figure.text(0.012, 0.1 / height, legend, fontsize=SMALL, color=INK)
     title = (
         f"{display_name(base)}, looking ahead with a wrong model: rollouts crash less than the base policy with "
-        f"{better['rollout']} models, the shield with {better['shield']}"
+        f"{better['rollouts']} models, the shield with {better['shield']}"
     )
     alt = (
         f"For each model, accidents in 1,000 drives and the return. Alone: {1000 * alone.accident_rate.value:.1f} and "
         f"{alone.returns.value:.1f}. {' '.join(words)}"
     )
     return finish(figure, wrapped(title, 88), alt)
+
+
+def _drives(scores: dict[str, Score]) -> str:
+    """ " (10 agents x 200 roads)", of the wrong models."""
+    one = list(scores.values())[-1]
+    return f" ({one.agents} agent{'s' * (one.agents > 1)} × {one.roads:,} roads)"

@@ -237,6 +237,7 @@ LESSON_EXPERIMENTS = {  # "module:name" of a LessonExperiment, imported when it 
     "elsewhere": "bootcourse.research.elsewhere:EXPERIMENT",  # of no lesson, but a function of its own too
     "beyond-search": "bootcourse.research.equal_decisions:SEARCH",
     "beyond": "bootcourse.research.equal_decisions:EXPERIMENT",
+    "look-ahead": "bootcourse.research.lookahead:EXPERIMENT",
 }
 
 
@@ -257,6 +258,7 @@ def chosen(variations: dict, names: dict[str, set[str]], words: str) -> dict:
 def folder(name: str) -> str:
     """A name as a folder: "γ = 0.9" -> "gamma-0.9"."""
     words = {"γ": "gamma", "β": "beta", "π̃": "stochastic-rule", "μ": "rule", "1/4": "quarter", ",": ""}
+    words |= {"η": "eta", "|A|": "A"}  # some file systems refuse a bar
     for letter, word in words.items():
         name = name.replace(letter, word)
     return "-".join(word for word in name.split() if word not in ("=", "x", "at", "m/s"))

@@ -67,10 +67,10 @@ def plan(cars: np.ndarray, scenario: Scenario = DEFAULT, search: Search | None =
     search = search or Search()
     decisions = search.decisions or scenario.clock.decisions
     worth = future_worth(scenario, decisions, search.gamma)
-    kept, values = cars[None].copy(), np.zeros(1)
-    history: list[tuple[np.ndarray, ...]] = []  # of each decision: parents, actions, rewards of the kept
+    beam, values = cars[None].copy(), np.zeros(1)
+    history: list[tuple[np.ndarray, ...]] = []  # of each decision: parents, actions, rewards of the beam
     for t in range(decisions):
-        children, rewards, accidents = expand(kept, scenario)
+        children, rewards, accidents = expand(beam, scenario)
         totals = (values[:, None] + search.gamma**t * rewards).ravel()
         alive = accidents.ravel() == 0
         if search.keep_lane:
@@ -81,10 +81,10 @@ def plan(cars: np.ndarray, scenario: Scenario = DEFAULT, search: Search | None =
         else:  # all continuations end in an accident: the one with the highest return
             chosen = totals.argmax(keepdims=True)
         history.append((chosen // N_ACTIONS, chosen % N_ACTIONS, rewards.ravel()[chosen]))
-        kept, values = children[chosen], totals[chosen]
+        beam, values = children[chosen], totals[chosen]
         if not alive.any():
             break
-    return _trace_back(history, kept, values, seed)
+    return _trace_back(history, beam, values, seed)
 
 
 def select(children: np.ndarray, scores: np.ndarray, alive: np.ndarray, beam: int) -> np.ndarray:
@@ -107,9 +107,9 @@ def select(children: np.ndarray, scores: np.ndarray, alive: np.ndarray, beam: in
     return order[np.argsort(place >= share, kind="stable")[:beam]]
 
 
-def _trace_back(history, kept: np.ndarray, values: np.ndarray, seed: int) -> Plan:
+def _trace_back(history, beam: np.ndarray, values: np.ndarray, seed: int) -> Plan:
     row = int(values.argmax())
-    value, success = float(values[row]), bool(kept[row, EGO, X] > kept[row, TRAP_1, X])
+    value, success = float(values[row]), bool(beam[row, EGO, X] > beam[row, TRAP_1, X])
     actions, rewards = [], []
     for parents, taken, earned in reversed(history):
         actions.append(taken[row])

@@ -5,11 +5,15 @@ looks random; "systematic" takes the same wrong action everywhere in one region 
 contains the time, or never returns to the same value, random errors average out over an episode. DoorKey's returns:
 there a teacher that errs in a state errs whenever it comes back, and may turn in circles.
 
+Lunar lander needs box2d (`pip install bootcourse[lander]`), and its study has three seeds, since it is slow.
+highway-env's merge is left out: one core makes about 46 decisions a second there, so its cells would take many hours.
+
 All teachers answer for many observations in one call, (n, observation) -> (n,).
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from importlib.util import find_spec
 
 import gymnasium as gym
 import numpy as np
@@ -152,6 +156,17 @@ def lean(seen: np.ndarray) -> np.ndarray:
 
 
 @all_roads
+def hover_and_land(seen: np.ndarray) -> np.ndarray:
+    """Lunar lander: gymnasium's heuristic. Columns: x, y, both speeds, angle, angular speed, two legs."""
+    x, y, x_speed, y_speed, angle, angular_speed, left, right = seen.T
+    landed = (left > 0) | (right > 0)
+    tilt = np.where(landed, 0, (np.clip(0.5 * x + x_speed, -0.4, 0.4) - angle) * 0.5 - angular_speed)
+    lift = np.where(landed, -0.5 * y_speed, (0.55 * abs(x) - y) * 0.5 - 0.5 * y_speed)
+    sideways = np.where(tilt < -0.05, 3, np.where(tilt > 0.05, 1, 0))
+    return np.where((lift > abs(tilt)) & (lift > 0.05), 2, sideways)
+
+
+@all_roads
 def fetch_and_open(seen: np.ndarray) -> np.ndarray:
     """DoorKey: to the key, pick it up, to the door, open it, to the goal."""
     cell, direction, door = seen[:, :9].argmax(1), seen[:, 9:13].argmax(1), 1 + seen[:, 16:18].argmax(1)
@@ -200,6 +215,7 @@ class Problem:
     region: Callable[[np.ndarray], np.ndarray]  # where the "systematic" teacher is wrong: (n, observation) -> (n,) bool
     gamma: float
     episodes: int  # of training
+    seeds: int = 10  # of training, in the study
 
     def teachers(self) -> dict[str, Rule]:
         """{"good", "random", "systematic": the teacher}."""
@@ -222,6 +238,16 @@ def balancing() -> gym.Env:
     return Success(cartpole(), lambda earned, terminated: earned >= 475)
 
 
+def landing() -> gym.Env:
+    return Success(gym.make("LunarLander-v3"), lambda earned, terminated: earned >= 200)
+
+
+def has_box2d() -> bool:
+    """Whether Lunar lander can be driven here."""
+    return find_spec("Box2D") is not None
+
+
+LANDER = "lander"
 PROBLEMS = {
     "chain": Problem(
         "chain with a decoy", Chain, 2, to_the_right, 0.8, lambda seen: seen[:, 10:12].any(1), 0.97, 400
@@ -233,5 +259,8 @@ PROBLEMS = {
     "cartpole": Problem("CartPole", several(balancing), 2, lean, 0.8, lambda seen: seen[:, 0] > 0.2, 0.99, 250),
     "doorkey": Problem(
         "DoorKey 5x5", DoorKey, 5, fetch_and_open, 0.8, lambda seen: seen[:, 12] == 1, 0.97, 300
+    ),
+    LANDER: Problem(
+        "Lunar lander", several(landing), 4, hover_and_land, 0.85, lambda seen: seen[:, 0] > 0.1, 0.99, 200, seeds=3
     ),
 }  # fmt: skip

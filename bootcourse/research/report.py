@@ -10,15 +10,17 @@ from bootcourse.errors import BootcourseError
 from bootcourse.files import write_bytes
 from bootcourse.plots.figure import save
 from bootcourse.policies import rule_policy
-from bootcourse.research import clocks, tables, teacher_worth
+from bootcourse.research import clocks, lookahead, lookahead_figures, tables, teacher_worth
 from bootcourse.research import figures as training_figures
 from bootcourse.research.beyond import learner_rows
+from bootcourse.research.elsewhere_page import write_page
 from bootcourse.research.equal_decisions import budget_rows, by_method, search_rows
 from bootcourse.research.fidelity import CLOSE, VERDICTS, fidelity
 from bootcourse.research.jobs import HELD_OUT
 from bootcourse.research.paper import COLUMNS, PRINTED, ROWS, TABLES, arithmetic
 from bootcourse.research.plan import STUDIES
 from bootcourse.research.results import KINDS, Results, StudyResults, join
+from bootcourse.research.results import WINDOW as IN_A_ROW
 from bootcourse.scenario import Scenario
 from bootcourse.statistics import ESCAPES, Estimate, mean
 
@@ -40,7 +42,7 @@ def write_report(found: StudyResults, folder: Path) -> Path:
     """Write folder/report.md and its pictures, folder/figures. Raises BootcourseError if nothing was found."""
     if not found.results:
         raise BootcourseError("No job of this study is finished: run `bootcourse study --out DIR` first.")
-    text, findings = [HEAD], {}
+    text, findings = [HEAD.format(escapes=100 * ESCAPES, window=IN_A_ROW)], {}
     for name, results in found.results.items():
         rule = rule_results(STUDIES[name].scenario, results.sizes[0])
         everyone = join([Results(results.agents, results.stopped, results.tested, {}), rule])
@@ -50,6 +52,8 @@ def write_report(found: StudyResults, folder: Path) -> Path:
     text += [tables.fidelity_table(findings), "### What each row's own numbers say\n"]
     text += ["\n".join(f"- **{ROWS[method]}.** {arithmetic(method)}" for method in PRINTED) + "\n"]
     text += experiments_part(found.experiments)
+    if write_page(found.experiments.get("elsewhere", {}), folder):
+        text += ["## Other problems\n", "[When does a sub-optimal teacher help?](elsewhere.md)\n"]
     path = folder / "report.md"
     write_bytes(path, "\n".join(text).encode())
     return path
@@ -62,7 +66,7 @@ def study_part(found: StudyResults, name: str, rule: Results, everyone: Results,
     others = [method for method in results.methods if not any(method in methods for methods in TABLES.values())]
     if others:
         text += ["### Not in the paper's tables\n", tables.result_table(everyone, others)]
-    text += ["### Who escapes\n", tables.escape_table(everyone, best)]
+    text += ["### Who escapes\n", tables.escape_table(everyone, results, best)]
     if best is not None:
         text += [f"Best known return of the planner: {tables.bracketed(mean(best))}, {len(best)} episodes.\n"]
     text += staying(found.staying.get(name))
@@ -133,6 +137,8 @@ def experiments_part(experiments: dict[str, dict[str, Results]]) -> list[str]:
     if varied := experiments.get("teachers"):
         worth = tables.markdown(*teacher_worth.worth_rows(teacher_worth.cells(varied)))
         text += ["## What a teacher is worth\n", TEACHERS, worth]
+    if varied := experiments.get("look-ahead"):
+        text += ["## Looking ahead\n", LOOK_AHEAD, tables.markdown(*lookahead_figures.rows(varied, lookahead.cells()))]
     return text
 
 
@@ -172,6 +178,10 @@ Every agent is the one at the end of its training, never a chosen checkpoint, an
 probable action. All methods are tested on the same held-out roads. IQM: interquartile mean over
 training seeds, with a 95 % interval from resampling seeds. SD: over all episodes of all agents.
 Success is to be ahead of trap 1 at the end; a crash after overtaking counts as success, as in the paper.
+
+An agent *escapes* if it succeeds on at least {escapes:g} % of the held-out roads. "Found, kept" says how many agents
+found the way out in training, that is, ended ahead in more than half of some {window} episodes in a row, and how many
+of these kept it: after training they succeed on more than half of the held-out roads.
 """
 
 FIDELITY = """The paper's intervals assume 20 test episodes, the number that its "5 ± 22.36 %" gives away.
@@ -182,14 +192,21 @@ reproduced*: neither. The rules were fixed before the study was run.
 
 CLOCKS = """ξ = 200 α fades with the updates, β with the episodes. The paper does not print how many updates follow a
 decision; its text says that π̃ drove the demonstrations. Each row is one choice of both, with one road per agent (four
-where a decision has 1/4 of an update). The last column is the probability that a table with *one* trained agent per
-method and 20 test episodes each reads as the paper's: successes 0, 0, 20 and 20. Its interval is over training seeds
-(Jeffreys).
+where a decision has 1/4 of an update). The methods' columns: found, kept. The last column is the probability that a
+table with *one* trained agent per method and 20 test episodes each reads as the paper's: successes 0, 0, 20 and 20.
+Its interval is over training seeds (Jeffreys).
 """
 
 TEACHERS = """Teachers from bad to perfect, and methods that learn from them. Return: interquartile mean over agents,
 accidents: mean, decisions: median, each with its 95 % interval over training seeds. In brackets behind the decisions:
 how many agents reached it in their training.
+"""
+
+LOOK_AHEAD = """Nothing is trained here: trained agents drive alone, with rollouts, or with a shield that overrules only
+an action that is imagined to end in an accident; with the exact model of the road, and with wrong ones. Return: mean
+over agents with its 95 % interval over agents. Accidents: over all drives, with the exact (Clopper-Pearson) interval,
+as if all drives were independent. An agent drives the first 1,000 held-out roads. Where a cell takes long, it drives
+the first 300 or 100: compare such a cell by its interval. Time: of one core, on a machine with other work.
 """
 
 BUDGET = """Each method has γ = 0.97 and the best of three settings, which were compared on other seeds and roads (the

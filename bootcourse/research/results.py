@@ -26,10 +26,10 @@ from bootcourse.storage.assets import FOLDER
 
 MEASURES = ("success", "returns", "speed", "distance", "collision", "road_departure", "stoppage")
 RUN_AGAIN = "run the study again, or restore it from a copy"
-REPORTED = (*EXPERIMENTS, "beyond", "beyond-search")  # experiments of which the report has a table
 KINDS = {"collision": Accident.COLLISION, "road_departure": Accident.ROAD_DEPARTURE, "stoppage": Accident.STOPPAGE}
 OF_AGENTS = ("tested", "curves", "notes", "measured")  # the parts with every agent; weights are kept of the first ones
 PARTS = (*OF_AGENTS, "weights")
+REPORTED = (*EXPERIMENTS, "beyond-search", "beyond", "elsewhere", "look-ahead")  # experiments that the report shows
 WINDOW = 50  # training episodes in a row, in which an agent that has found the way out is ahead more often than not
 
 
@@ -87,7 +87,7 @@ class Results:
         Kept: after training the agent ends ahead on more than half of its held-out roads.
         """
         mine = self.of(method)
-        way_out = found(mine.curves)
+        way_out = found(mine.curves["success"])
         return way_out, way_out & (mine.scores("success") > 0.5)
 
     def episodes(self, measure: str) -> np.ndarray:
@@ -103,16 +103,15 @@ class Results:
         return values.astype(np.float64)
 
 
-def found(curves: dict[str, np.ndarray]) -> np.ndarray:
-    """Which agents found the way out: more than half of some `WINDOW` training episodes in a row ended ahead.
+def found(success: np.ndarray, window: int = WINDOW) -> np.ndarray:
+    """Which agents found the way out: more than half of some `window` training episodes in a row succeeded.
 
-    curves: `Results.curves`, whose success is (agents, episodes), NaN for episodes that were not driven. Returns
-    (agents,) bool.
+    success: (agents, episodes), NaN for episodes that were not driven. Returns (agents,) bool.
     """
-    success = np.nan_to_num(curves["success"]).astype(float)
-    if success.shape[1] < WINDOW:
+    success = np.nan_to_num(success).astype(float)
+    if success.shape[1] < window:
         return np.zeros(len(success), dtype=bool)
-    windows = np.lib.stride_tricks.sliding_window_view(success, WINDOW, axis=1)  # (agents, windows, WINDOW)
+    windows = np.lib.stride_tricks.sliding_window_view(success, window, axis=1)  # (agents, windows, window)
     return (windows.mean(axis=-1) > 0.5).any(axis=1)
 
 
@@ -160,7 +159,8 @@ def load_results(path: Path) -> Results:
         agents = []
         for agent in stored:
             teacher = str(agent.pop("teacher"))
-            agents += agent_entries([stored_settings(agent)], teacher)
+            rule = agent.get("method") == "rule"  # it has no settings
+            agents += [agent | {"teacher": teacher}] if rule else agent_entries([stored_settings(agent)], teacher)
     parts = {part: _part(arrays, part) for part in PARTS}
     n, tests = len(agents), [each.shape[1:2] for each in parts["tested"].values()][:1]
     shapes = {f"tested.{f.name}": (n, *tests[0]) for f in fields(Episodes)} if tests else {}

@@ -52,12 +52,13 @@ def run_jobs(
 
 
 def _compute(waiting: list, root: Path, recompute: bool) -> list[str]:
-    from tqdm.auto import tqdm
+    from bootcourse.progress import progress_bar
 
     calls = (joblib.delayed(run_job)(job, root, recompute) for job in waiting)
     try:
         answers = joblib.Parallel(batch_size=1, pre_dispatch="all", return_as="generator_unordered")(calls)
-        return [answer for answer in tqdm(answers, total=len(waiting), unit="job", smoothing=0) if answer]
+        bar = progress_bar(answers, total=len(waiting), unit="job", smoothing=0)
+        return [answer for answer in bar if answer]
     except joblib.externals.loky.process_executor.TerminatedWorkerError:
         return ["A process was killed, perhaps for lack of memory: start the same command again, with fewer --workers."]
 

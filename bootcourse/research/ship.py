@@ -29,7 +29,8 @@ from bootcourse.storage.work import locked
 
 CURVES = ("success", "return", "speed", "distance", "accident", "entropy")  # the others are in runs/
 VARIED_CURVES = ("success", "return", "xi", "decisions")  # of the experiments
-FEWER_CURVES = {"sweep": ("success", "return"), "teachers": ("success", "decisions")}  # many agents
+FEWER_CURVES = {"sweep": ("success", "return"), "teachers": ("success", "decisions"),
+                "elsewhere": ("success", "return")}  # many agents  # fmt: skip
 RUNS = 5  # training seeds whose weights ship; curves and scores ship of all
 BUILD = "bootcourse assets build --study DIR"
 STUDY = f"bootcourse study --out DIR && {BUILD}"
@@ -173,7 +174,7 @@ def add_experiments(to: Shipment) -> None:
     for name in (*EXPERIMENTS, *LESSON_EXPERIMENTS):
         for job in sorted(to.study.glob(f"jobs/{name}/*/results.npz")):
             results, path = load_job(job.parent), to.new / name / f"{job.parent.name}.npz"
-            curves = FEWER_CURVES.get(name, VARIED_CURVES) if name in EXPERIMENTS else tuple(results.curves)
+            curves = FEWER_CURVES.get(name, VARIED_CURVES if name in EXPERIMENTS else tuple(results.curves))
             command = f"bootcourse study {name} --out DIR && {BUILD}"
             to.add_results(results, path, command, f"{name}/{job.parent.name}", curves)
 

@@ -82,9 +82,9 @@ def nearest_setting(sweep: Results, p: float = 0.9, xi_multiplier: float = 200.0
             raise BootcourseError(f"{name} = {value!r}: give a finite number of 0 or more.")
     run = settings_run(sweep)
     places = np.array([_place(*setting) for setting in run])
-    asked = np.clip(_place(p, xi_multiplier, c), places.min(axis=0), places.max(axis=0))
+    place = np.clip(_place(p, xi_multiplier, c), places.min(axis=0), places.max(axis=0))
     span = np.ptp(places, axis=0)
-    gaps = np.abs(places - asked) / np.where(span > 0, span, 1)
+    gaps = np.abs(places - place) / np.where(span > 0, span, 1)
     gaps[[setting[1] == 0 for setting in run], 0] = 0
     best = run[int(np.square(gaps).sum(axis=1).argmin())]
     which = [i for i, agent in enumerate(sweep.agents) if _setting(agent) == best]

@@ -10,6 +10,7 @@ from bootcourse.research.paper import COLUMNS, PRINTED, RATES, ROWS
 from bootcourse.research.results import MEASURES, Results
 from bootcourse.statistics import ESCAPES, Estimate, improvement, interval, iqm, rate
 
+FOUND_AND_KEPT = "found, kept"  # the heading of what `found_and_kept` says
 HEADINGS = COLUMNS | {"road_departure": "road departures, %", "stoppage": "stops, %"}
 
 
@@ -77,19 +78,24 @@ def result_table(results: Results, methods: Sequence[str]) -> str:
     return markdown(["", "", *(HEADINGS[measure] for measure in MEASURES)], rows)
 
 
-def escape_table(results: Results, bound: np.ndarray | None = None) -> str:
-    """How many agents escape, and what share of the best known return each method reaches."""
+def escape_table(results: Results, trained: Results, bound: np.ndarray | None = None) -> str:
+    """How many agents escape, find and keep the way out, and what share of the best known return they reach.
+
+    trained: those of the agents that have training curves.
+    """
     rows = []
     for method in results.methods:
         mine = results.of(method)
         success = mine.scores("success")
         cells = [display_name(method), k_of_n(success >= ESCAPES)]
+        cells.append(found_and_kept(trained, method) if method in trained.methods else "–")
         returns = mine.scores("returns")
         cells.append(f"{number(returns.min())} to {number(returns.max())}")
         if bound is not None:
             cells.append(bracketed(interval(returns / bound.mean()), 100))
         rows.append(cells)
-    headings = ["method", "agents that escape (95 % interval of the rate)", "returns of single agents"]
+    escapes = "agents that escape (95 % interval of the rate)"
+    headings = ["method", escapes, FOUND_AND_KEPT, "returns of single agents"]
     return markdown([*headings, *(["share of the best known return, % (IQM)"] if bound is not None else [])], rows)
 
 
@@ -140,6 +146,7 @@ def variations_table(varied: dict[str, Results]) -> str:
     for variation, found in varied.items():
         for method in found.methods:
             cells = [bracketed(score(found, method, measure)) for measure in ("success", "returns", "collision")]
-            rows.append([variation, display_name(method), escaped(found, method), *cells])
-    headings = ["changed", "method", "agents that escape"]
+            counts = escaped(found, method), found_and_kept(found, method)
+            rows.append([variation, display_name(method), *counts, *cells])
+    headings = ["changed", "method", "agents that escape", FOUND_AND_KEPT]
     return markdown([*headings, *(HEADINGS[m] for m in ("success", "returns", "collision"))], rows)

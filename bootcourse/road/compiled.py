@@ -82,9 +82,9 @@ def compiled_loop(function):
 
 
 def _compile(function, makes_arrays: bool):
-    before, kept = numba.config.CACHE_DIR, CACHE_FOLDER is not None
+    before, cached = numba.config.CACHE_DIR, CACHE_FOLDER is not None
     numba.config.CACHE_DIR = str(CACHE_FOLDER)
     try:
-        return numba.njit(cache=kept, error_model="numpy", nogil=True, forceinline=True, _nrt=makes_arrays)(function)
+        return numba.njit(cache=cached, error_model="numpy", nogil=True, forceinline=True, _nrt=makes_arrays)(function)
     finally:
         numba.config.CACHE_DIR = before

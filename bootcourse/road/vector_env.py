@@ -100,8 +100,8 @@ class TrapVectorEnv(VectorEnv):
         """
         actions = np.asarray(actions)
         if actions.shape != (self.num_envs,) or actions.dtype.kind not in "iu":
-            found = f"actions have shape {actions.shape} and type {actions.dtype}"
-            raise BootcourseError(f"{found}: give {self.num_envs} whole numbers.")
+            received = f"actions have shape {actions.shape} and type {actions.dtype}"
+            raise BootcourseError(f"{received}: give {self.num_envs} whole numbers.")
         if actions.min() < 0 or actions.max() >= N_ACTIONS:
             raise BootcourseError(f"Action {int(actions[(actions < 0) | (actions >= N_ACTIONS)][0])} is outside 0..8.")
         if not self.placed.all():

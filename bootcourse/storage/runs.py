@@ -128,7 +128,7 @@ def _save_run(path: Path, agent: Agent, curves: dict[str, np.ndarray], result: R
         write_json(temporary / "config.json", config)
         write_bytes(temporary / "weights.safetensors", save(weights))
         write_arrays(temporary / "curves.npz", curves)
-        made = provenance(
+        record = provenance(
             seed=agent.settings.seed,
             seconds=round(result.seconds, 1),
             agents=len(result.agents),
@@ -137,7 +137,7 @@ def _save_run(path: Path, agent: Agent, curves: dict[str, np.ndarray], result: R
             teacher=result.teacher,
             sha256={name: sha256(temporary / name) for name in HASHED},
         )
-        write_sealed(temporary / "provenance.json", made)
+        write_sealed(temporary / "provenance.json", record)
         temporary.chmod(0o755)
         os.rename(temporary, path)
     except BaseException:
@@ -154,9 +154,9 @@ def load_run(path: Path, teacher: Rule | None = None, environment: str = TRAP) -
     path = Path(path)
     if not (path / "provenance.json").is_file():
         raise BootcourseError(f"{path} is not a run: train one with `bootcourse train --out {path}`.")
-    made = read_sealed(path / "provenance.json", remedy=TRAIN_AGAIN)
+    record = read_sealed(path / "provenance.json", remedy=TRAIN_AGAIN)
     with decoding(path / "provenance.json", TRAIN_AGAIN):
-        stored = convert(made, Provenance)
+        stored = convert(record, Provenance)
     for name in HASHED:
         if stored.sha256.get(name) != sha256(path / name):
             raise BootcourseError(f"{path / name} is damaged: its hash has changed. Train this run again.")
@@ -188,7 +188,7 @@ def load_run(path: Path, teacher: Rule | None = None, environment: str = TRAP) -
         raise BootcourseError(
             f"{path} drives with the teacher '{stored.teacher}', not '{teacher_name(teacher)}': give the same teacher."
         )
-    return Run(agent, curves, scenario, made)
+    return Run(agent, curves, scenario, record)
 
 
 def _shapes(settings: Settings, size: int, n_actions: int, critics: int) -> dict[str, tuple[int, int, int]]:
@@ -210,8 +210,8 @@ def find_runs(folder: Path) -> list[Path]:
         raise BootcourseError(
             f"{folder} has an unfinished training: continue it with `bootcourse train --out {folder} --resume`."
         )
-    if found := sorted(path.parent for path in folder.glob("[!.]*/config.json")):
-        return found
+    if runs := sorted(path.parent for path in folder.glob("[!.]*/config.json")):
+        return runs
     if deeper := sorted(folder.glob("[!.]*/[!.]*/config.json")):
         raise BootcourseError(f"{folder} holds no run itself: name a folder in it, such as {deeper[0].parents[1]}.")
     raise BootcourseError(f"{folder} holds no run: train one with `bootcourse train --out {folder}`.")

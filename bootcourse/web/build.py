@@ -8,27 +8,39 @@ import argparse
 import base64
 import gzip
 import json
+import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import torch
 
 from bootcourse.colours import OTHER, TRAFFIC, TRAP
+from bootcourse.episodes.evaluate import drive_episodes
+from bootcourse.episodes.lookahead import HORIZON
+from bootcourse.errors import BootcourseError
 from bootcourse.files import read_tensors, write_bytes
 from bootcourse.learn.agent import Agent
 from bootcourse.methods import DRIVERS, style
+from bootcourse.policies import Policy, rule_policy
+from bootcourse.replay3d import camera
+from bootcourse.replay3d import road as stage
+from bootcourse.replay3d.car import DARK, LAMPS, LIGHT, car_parts
+from bootcourse.road import state
 from bootcourse.road.branching import future_worth
 from bootcourse.road.constants import constants
 from bootcourse.road.twin import uniforms_needed
 from bootcourse.rule import SENTENCES
-from bootcourse.scenario import ACTION_NAMES, DEFAULT, RULE_P, Scenario
+from bootcourse.scenario import ACTION_NAMES, DEFAULT, IDLE, N_ACTIONS, RULE_P, Scenario
 from bootcourse.storage.assets import FOLDER
 from bootcourse.storage.runs import load_run
-from bootcourse.web.wasm import road_module
+from bootcourse.web.wasm import FREE, road_module
 
 HERE = Path(__file__).resolve().parent
+IN_DEPTH = ("shaders", "webgl", "scene")  # the view in 3D
 SCRIPTS = (
-    "random", "road", "minds", "drive", "drivers", "words", "view", "thoughts", "summary", "controls", "main",
+    "random", "road", "minds", "drive", "drivers", "words", "address", "view", *IN_DEPTH, "thoughts", "summary",
+    "controls", "main",
 )  # fmt: skip
 # The agents in the page; of plain SAC also the critics, which the compromise between Q and the rule needs.
 AGENTS = {
@@ -37,6 +49,10 @@ AGENTS = {
     "crashing": FOLDER / "runs/bootstrapped-0",
 }
 PPO = HERE / "ppo_cloned.safetensors"  # the actor of `bootcourse train --method ppo_cloned --seeds 1`
+ROADS = 100  # the first of them, on which each driver is measured
+# What a driver's name in the page says of it: it gets out on more roads than this, and has fewer, or more, accidents.
+ESCAPING, SAFE, CRASHING, STAYING = 90, 10, 50, 10
+PARTS = ("paint", "dark", "light", "lamps")  # of a car, in the order that shaders.js knows
 EXACT, SHORT = 4, 3  # bytes of a float32 that are kept: all for actors; without the last for critics (error 2^-16)
 
 
@@ -70,6 +86,62 @@ def scenario_data(scenario: Scenario) -> dict:
         "decisions": scenario.clock.decisions,
         "length": scenario.car.length,
         "width": scenario.car.width,
+        "free": FREE,
+    }
+
+
+def names() -> str:
+    """The numbers that road.js shares with the compiled code, as JavaScript: columns, rows and the first accident."""
+    shared = "X Y HEADING SPEED STEERING ACCELERATION LANE TARGET_LANE CRASHED COLUMNS EGO TRAP_1 TRAP_2 TRAFFIC"
+    numbers = {name: getattr(state, name) for name in shared.split()}
+    numbers |= {"ACTIONS": N_ACTIONS, "IDLE": IDLE, "COLLISION": int(state.Accident.COLLISION), "HORIZON": HORIZON}
+    return f"const {', '.join(f'{name} = {number}' for name, number in numbers.items())};"
+
+
+def measured(drivers: dict[str, Policy]) -> dict[str, dict]:
+    """What each driver does on roads 0 to 99: how often it gets out and has an accident, and its mean return.
+
+    Raises BootcourseError if a driver does not do what its name in the page says.
+    """
+    results = {}
+    for name, policy in drivers.items():
+        episodes = drive_episodes(policy, range(ROADS))
+        results[name] = {
+            "out": int(episodes.success.sum()),
+            "accidents": int((episodes.accident != 0).sum()),
+            "mean": round(float(episodes.returns.mean()), 1),
+        }
+    said = {
+        "sac": results["sac"]["out"] < STAYING,
+        "bootstrapped": results["bootstrapped"]["out"] > ESCAPING and results["bootstrapped"]["accidents"] < SAFE,
+        "crashing": results["crashing"]["accidents"] > CRASHING,
+    }
+    if wrong := [name for name, true in said.items() if not true]:
+        raise BootcourseError(
+            f"On roads 0 to {ROADS - 1}, {wrong} do not drive as their names in the page say: {results}. Choose other "
+            "agents in bootcourse/web/build.py."
+        )
+    return results
+
+
+def scene_data() -> dict:
+    """The car, the road, the colours and the camera of the replay in 3D, for scene.js."""
+    parts = car_parts()
+    corners, faces, start = [], [], 0
+    for number, name in enumerate(PARTS):
+        vertices = np.round(parts[name].vertices * 1000)  # mm
+        corners.append(np.column_stack([vertices, np.full(len(vertices), number)]))
+        faces.append(parts[name].faces + start)
+        start += len(vertices)
+    pose = camera.pose(camera.CHASE, 0.0)
+    return {
+        "corners": packed(np.concatenate(corners).astype("<i2").tobytes()),
+        "faces": packed(np.concatenate(faces).astype("<u2").tobytes()),
+        "parts": [DARK, LIGHT, LAMPS["brake"]],
+        "camera": {"from": pose.position, "to": pose.look_at, "angle": camera.FIELD_OF_VIEW},
+        "road": {"dash": stage.DASH, "period": stage.PERIOD, "line": stage.LINE, "shoulder": stage.SHOULDER},
+        "light": stage.THEMES[False]._asdict(),
+        "dark": stage.THEMES[True]._asdict(),
     }
 
 
@@ -78,14 +150,19 @@ def page_data() -> dict:
     agents: dict[str, Agent] = {name: load_run(path).agent for name, path in AGENTS.items()}
     networks = {name: packed_network(agent.actor, 0, EXACT) for name, agent in agents.items()}
     clone = read_tensors(PPO)
-    networks["ppo"] = packed_network([torch.from_numpy(clone[name]) for name in sorted(clone)], 0, EXACT)
+    ppo = [torch.from_numpy(clone[name]) for name in sorted(clone)]
+    networks["ppo"] = packed_network(ppo, 0, EXACT)
     for member in range(2):
         networks[f"critic {member}"] = packed_network(agents["sac"].critics, member, SHORT)
+    drivers = {name: agent.as_policy() for name, agent in agents.items()}
+    drivers |= {"rule": rule_policy(DEFAULT), "ppo": replace(agents["sac"], actor=ppo, critics=[]).as_policy()}
     speeds, worth = future_worth(DEFAULT, DEFAULT.clock.decisions, 1.0)[-1]
     return {
         "module": packed(road_module()),
         "scenario": scenario_data(DEFAULT),
         "networks": networks,
+        "scene": scene_data(),
+        "results": {"roads": ROADS, **measured(drivers)},
         "worth": {"speed": float(speeds[1]), "values": [round(float(value), 6) for value in worth]},
         "actions": list(ACTION_NAMES),
         "reasons": [SENTENCES[reason] for reason in sorted(SENTENCES)],
@@ -105,10 +182,15 @@ def page_data() -> dict:
     }
 
 
+def script(name: str) -> str:
+    """A script of this folder without indentation, and without the lines that are comments or empty."""
+    return re.sub(r"^[ \t]*(//.*)?\n?", "", (HERE / f"{name}.js").read_text(encoding="utf-8"), flags=re.M)
+
+
 def page() -> str:
     """The whole page as text."""
     data = json.dumps(page_data(), separators=(",", ":")).replace("<", "\\u003c")
-    scripts = "\n".join((HERE / f"{name}.js").read_text(encoding="utf-8") for name in SCRIPTS)
+    scripts = "\n".join([names(), *map(script, SCRIPTS)])
     text = (HERE / "page.html").read_text(encoding="utf-8")
     parts = {"style": (HERE / "style.css").read_text(encoding="utf-8"), "data": data, "script": scripts}
     for name, part in parts.items():

@@ -1,7 +1,5 @@
 // Who can drive. Each driver has a name, a colour, a sentence, and decide(road, cars) -> { action, policy, q }.
 
-const HORIZON = 10; // decisions of an imagined drive, the first included
-
 function makeDrivers(data, networks, settings) {
   const agent = name => (road, cars) => {
     const policy = softmax(forward(networks[name], road.observe(cars)));
@@ -23,20 +21,24 @@ function makeDrivers(data, networks, settings) {
     const q = futures.map(future => future.value), action = largest(q);
     return { action, policy: agent("ppo")(road, cars).policy, q, futures };
   };
-  // name: in the lists; label: in pictures and sentences
-  const driver = (name, label, colour, words, decide) => ({ name, label, colour: data.colours[colour], words, decide });
+  const { roads } = data.results;
+  const result = name => {
+    const { out, accidents, mean } = data.results[name];
+    return `On roads 0 to ${roads - 1} it gets out ${out} times and has ${accidents} accidents; it earns ${points(mean)}.`;
+  };
+  // name: in the lists; label: in pictures and sentences; measured: its name in build.py
+  const driver = (name, label, colour, words, decide, measured) => ({
+    name, label, colour: data.colours[colour], words: measured ? `${words} ${result(measured)}` : words, decide });
   const drivers = {
-    rule: driver("the rule", "the rule", "rule", 
-      "Written by hand: it falls back, changes lane, passes, and then drives slowly.", rule),
-    sac: driver("plain SAC", "plain SAC", "sac",
-      "Learned from reward alone. It stays behind the traps.", agent("sac")),
+    rule: driver("the rule", "the rule", "rule", "Written by hand, in one page of code.", rule, "rule"),
+    sac: driver("plain SAC", "plain SAC", "sac", "Learned from reward alone.", agent("sac"), "sac"),
     escaping: driver("bootstrapped, gets out", "the bootstrapped agent", "bootstrapped",
-      "SAC with the rule's help: the paper's method.", agent("bootstrapped")),
+      "SAC with the rule’s help: the paper’s method.", agent("bootstrapped"), "bootstrapped"),
     crashing: driver("bootstrapped, crashes", "the other bootstrapped agent", "bootstrapped",
-      "The same method with another seed. It gets out, and often leaves the road.", agent("crashing")),
-    ppo: driver("PPO after cloning", "PPO", "ppo", "Two seconds of imitation, then PPO.", agent("ppo")),
+      "The same method with another seed.", agent("crashing"), "crashing"),
+    ppo: driver("PPO after cloning", "PPO", "ppo", "It imitated the rule, and then learned by PPO.", agent("ppo"), "ppo"),
     lookahead: driver("look-ahead", "the look-ahead", "ppo",
-      "At each decision it imagines nine drives of ten seconds by PPO.", lookAhead),
+      "At each decision it imagines nine drives of ten seconds by PPO, and takes the best.", lookAhead),
     soft: driver("SAC’s Q with the rule", "the compromise", "soft",
       "It drives by your p, ξ and c: see the sliders.", compromise),
   };

@@ -1,7 +1,7 @@
 // The game: a clock that asks for a decision a second, and all that is shown around it.
 
 const find = id => document.getElementById(id);
-const LARGEST_ROAD = 999999999, FIRST_ROAD = 10;
+const FIRST_ROAD = 10;
 const PATIENCE = 5; // decisions between two sentences for readers who do not see the road
 const STEP_PACE = 2.5; // how much faster than real time a single step is shown
 const calm = matchMedia("(prefers-reduced-motion: reduce)");
@@ -19,7 +19,7 @@ class Game {
     this.thoughts = new Thoughts(data.actions);
     this.controls = new Controls(find("pad"), () => this.pressed(), {
       " ": () => this.go(), r: () => this.again(), n: () => this.another(), f: () => find("futures").click(),
-      t: () => find("theme").click(), 0: () => this.setPace(0), 1: () => this.setPace(1), 2: () => this.setPace(2),
+      t: () => find("theme").click(), v: () => find("view").click(), 0: () => this.setPace(0), 1: () => this.setPace(1), 2: () => this.setPace(2),
       5: () => this.setPace(5),
     });
     this.controls.pad.forEach((button, action) => button.setAttribute("aria-label", data.actions[action]));
@@ -52,9 +52,10 @@ class Game {
     }
     const other = () => (document.documentElement.dataset.theme === "dark" ? "light" : "dark");
     find("theme").addEventListener("click", () => this.theme(other()));
+    find("view").addEventListener("click", () => this.announce(this.look(!this.inDepth)));
     dark.addEventListener("change", () => this.theme(dark.matches ? "dark" : "light"));
     this.theme(dark.matches ? "dark" : "light");
-    new ResizeObserver(() => { this.view.fit(); this.dirty = true; }).observe(find("road"));
+    new ResizeObserver(() => this.fit()).observe(find("road"));
     document.addEventListener("visibilitychange", () => { if (document.hidden) this.run(false); });
     window.addEventListener("hashchange", () => this.readAddress());
     this.setPace(this.pace);
@@ -62,31 +63,68 @@ class Game {
 
   theme(name) {
     document.documentElement.dataset.theme = name;
+    this.fit();
+  }
+
+  // The address may choose road, ghost, driver, pace, futures and view; what it asks for in vain is answered.
+  readAddress() {
+    const now = { road: this.number ?? FIRST_ROAD, ghost: this.ghostName ?? "rule", driver: this.driverName ?? "you",
+      pace: this.pace, futures: Number(find("futures").checked), view: this.inDepth ? "3d" : "above" };
+    const { wanted, faults } = askedFor(location.hash.slice(1), Object.keys(this.drivers), now);
+    const { road, ghost, driver, pace, futures, view } = { ...now, ...wanted };
+    this.setPace(Number(pace));
+    find("futures").checked = Number(futures) === 1;
+    this.begin({ number: road, ghost, driver });
+    const lost = this.look(view === "3d");
+    if (faults.length || lost) this.announce([...faults, lost].join(" "));
+  }
+
+  // From above, or in 3D where the browser can.
+  // What the browser cannot is returned as a sentence.
+  look(inDepth) {
+    let lost = "";
+    this.inDepth = inDepth;
+    try {
+      if (inDepth) this.scene ??= new Scene(find("scene"), this.view, this.data.scene, () => this.announce(this.lose()));
+    } catch (error) {
+      this.inDepth = false;
+      lost = `The road stays as seen from above: 3D needs WebGL 2, and this browser says “${error.message}”.`;
+    }
+    find("scene").hidden = !this.inDepth;
+    find("view").setAttribute("aria-pressed", this.inDepth);
+    find("road").setAttribute("aria-label", this.inDepth ? "The road in 3D, behind the car" : "The road from above");
+    this.remember();
+    this.fit();
+    return lost;
+  }
+
+  // The graphics card has given up the picture: what was drawn there is gone, so a new scene begins on a new canvas.
+  lose() {
+    find("scene").replaceWith(find("scene").cloneNode());
+    this.scene = null;
+    this.look(false);
+    return "The graphics card gave up the picture in 3D: the road is shown from above. V tries again.";
+  }
+
+  fit() {
     this.view.fit();
+    if (this.inDepth) this.scene?.fit();
     this.dirty = true;
   }
 
-  // "#road=7&ghost=rule&driver=you": what the address asks for.
-  readAddress() {
-    const wanted = new URLSearchParams(location.hash.slice(1));
-    if (wanted.has("pace")) this.setPace(Number(wanted.get("pace")));
-    if (wanted.has("futures")) find("futures").checked = wanted.get("futures") !== "0";
-    this.begin({
-      number: wanted.get("road") ?? this.number ?? FIRST_ROAD,
-      ghost: wanted.get("ghost") ?? this.ghostName ?? "rule",
-      driver: wanted.get("driver") ?? this.driverName ?? "you",
-    });
+  // The address says what is shown, so that it can be passed on.
+  remember() {
+    const driving = this.mine ? `&driver=${this.driverName}` : "", view = this.inDepth ? "&view=3d" : "";
+    history.replaceState(null, "", `#road=${this.number}&ghost=${this.ghostName}${driving}${view}`);
   }
 
   // A new drive; whatever is not given stays as it is.
   begin({ number = this.number, ghost = this.ghostName, driver = this.driverName }) {
-    const valid = /^\d{1,9}$/.test(String(number).trim());
+    const valid = isRoad(number);
     this.number = valid ? Number(number) : this.number ?? FIRST_ROAD;
-    this.ghostName = Object.hasOwn(this.drivers, ghost) || ghost === "none" ? ghost : "rule";
-    this.driverName = Object.hasOwn(this.drivers, driver) ? driver : "you";
+    [this.ghostName, this.driverName] = [ghost, driver];
     [find("number").value, find("ghost").value, find("driver").value] = [this.number, this.ghostName, this.driverName];
-    const driving = this.mine ? `&driver=${this.driverName}` : "";
-    history.replaceState(null, "", `#road=${this.number}&ghost=${this.ghostName}${driving}`);
+    this.remember();
     this.drive = new Drive(this.road, this.number);
     this.ghost = this.ghostName === "none" ? null : new Drive(this.road, this.number);
     this.shown = 0;
@@ -98,7 +136,7 @@ class Game {
     this.think();
     const invitation = this.mine ? `Press Start and watch ${this.mine.label} drive.`
       : "Press ↑ ↓ ← → or the pad: your first decision starts the clock.";
-    this.say(valid ? invitation : `“${number}” is not a road: give a whole number from 0 to ${LARGEST_ROAD}.`);
+    this.say(valid ? invitation : noRoad(number));
     this.tell(`Road ${this.number}. ${stateInWords(this.drive.cars)}`);
   }
 
@@ -116,6 +154,7 @@ class Game {
 
   setPace(pace) {
     this.pace = [0, 1, 2, 5].includes(pace) ? pace : 1;
+    document.documentElement.style.setProperty("--pace", Math.max(this.pace, 1));
     for (const button of document.querySelectorAll("[data-pace]")) {
       button.setAttribute("aria-pressed", Number(button.dataset.pace) === this.pace);
     }
@@ -218,7 +257,7 @@ class Game {
     };
     const colour = this.mine?.colour ?? this.view.colour("you");
     const futures = this.shown < this.drive.time ? this.before : this.futures; // those of the decision that is shown
-    this.view.draw({ cars, ghost, coming: shown, colour, futures });
+    (this.inDepth ? this.scene : this.view).draw({ cars, ghost, coming: shown, colour, futures });
     this.controls.mark(shown);
     const earned = this.drive.rewards.slice(0, Math.ceil(this.shown)), lastReward = earned.at(-1) ?? 0;
     find("speed").textContent = cars[SPEED].toFixed(1);
@@ -259,6 +298,13 @@ class Game {
     if (words || this.drive.time - this.remarkedAt > 3) this.say(words);
   }
 
+  // A sentence for everybody, if there is one.
+  announce(words) {
+    if (!words) return;
+    this.say(words);
+    this.tell(words);
+  }
+
   say(words) { find("message").textContent = words; }
   tell(words) { find("live").textContent = words; }
 }
@@ -267,6 +313,9 @@ async function open() {
   const data = JSON.parse(find("data").textContent);
   const unpacked = Object.entries(data.networks).map(async ([name, packed]) => [name, await unpackNetwork(packed)]);
   const networks = Object.fromEntries(await Promise.all(unpacked));
+  const { corners, faces, parts } = data.scene;
+  data.scene.car = { corners: new Int16Array((await unpack(corners)).buffer),
+    faces: new Uint16Array((await unpack(faces)).buffer), colours: parts };
   const compiled = await WebAssembly.compile(await unpack(data.module));
   window.trap = { data, compiled, networks, game: new Game(data, compiled, networks) };
   requestAnimationFrame(now => trap.game.frame(now));

@@ -1,10 +1,8 @@
 // The road: numba's compiled functions in WebAssembly, with the memory that they work on. Nothing of the road's physics
 // stands in JavaScript: see bootcourse/road and bootcourse/rule.py.
 
-const X = 0, Y = 1, HEADING = 2, SPEED = 3, STEERING = 4, ACCELERATION = 5, LANE = 6, TARGET_LANE = 7, CRASHED = 9;
-const COLUMNS = 10, EGO = 0, TRAP_1 = 1, TRAP_2 = 2, TRAFFIC = 3;
-const ACTIONS = 9, IDLE = 4;
-const COLLISION = 1;
+// The names of columns, rows and actions stand before this script: build.py writes them from Python.
+
 const WHOLE = 8n, REAL = 8n, SINGLE = 4n; // bytes of a number
 
 class Road {
@@ -15,7 +13,7 @@ class Road {
     this.code = new WebAssembly.Instance(compiled, { env }).exports;
     this.scenario = scenario;
     const { vehicles, lanes, steps } = scenario;
-    let end = 4096; // the module's own constants lie below
+    let end = scenario.free; // the module's own constants lie below: wasm.py checks it
     const reserve = (Kind, size) => {
       const view = new Kind(memory.buffer, end, size);
       end += Math.ceil((size * Kind.BYTES_PER_ELEMENT) / 16) * 16;

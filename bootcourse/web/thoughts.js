@@ -32,7 +32,7 @@ class Thoughts {
 
 // The sliders for p, ξ and c. Calls `changed` with what was moved.
 function makeSliders(settings, changed) {
-  const STRENGTHS = [0, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1, 1.5, 2, 3, 5]; // ξ
+  const STRENGTHS = [0, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 1, 2, 5, 10, 20, 50, 100]; // ξ
   const inputs = Object.fromEntries(["p", "xi", "c"].map(name => [name, document.getElementById(name)]));
   inputs.xi.max = STRENGTHS.length - 1;
   const read = { p: Number, xi: place => STRENGTHS[place], c: Number };

@@ -1,6 +1,7 @@
 // The road from above, up the page: x grows upwards, the left lane is on the left. Draws one frame on a canvas.
 
 const AHEAD = 0.66; // where the ego is, from the top
+const TRAIL = "#44aa99"; // of the imagined drive that is worth most
 const SIGNS = ["↙", "↓", "↘", "←", "•", "→", "↖", "↑", "↗"];
 
 class View {
@@ -11,7 +12,7 @@ class View {
   // Fit the canvas to its place on the page, and read the theme's colours.
   fit() {
     const { clientWidth, clientHeight } = this.canvas, zoom = this.canvas.getBoundingClientRect().width / clientWidth;
-    const ratio = Math.min(devicePixelRatio * zoom, 2.5);
+    const ratio = this.ratio = Math.min(devicePixelRatio * zoom, 2.5);
     [this.width, this.height] = [clientWidth, clientHeight];
     [this.canvas.width, this.canvas.height] = [clientWidth * ratio, clientHeight * ratio];
     this.pen.setTransform(ratio, 0, 0, ratio, 0, 0);
@@ -132,18 +133,30 @@ class View {
 
   // The other driver's car, which is on a road of its own; beyond the picture, a sign with its distance.
   ghost({ state, colour, name, gone }) {
-    const [px, py] = this.spot(state[X], state[Y]), { pen } = this;
+    const [, py] = this.spot(state[X], state[Y]);
     this.car(state, colour, { label: "", hollow: true, alpha: gone ? 0.4 : 1 });
+    const beyond = py < 10 || py > this.height - 10, [edge] = this.spot(0, -this.scenario.laneWidth / 2);
+    if (beyond) this.signAway(name, state[X] - this.x, colour);
+    else this.sign(name, edge - 8, py + 4, colour, "right"); // beside the road, where it covers no car
+  }
+
+  // The sign of a car that is not in the picture: where, and how far.
+  signAway(name, away, colour) {
+    const words = `${away > 0 ? "▲" : "▼"} ${name}, ${Math.abs(away).toFixed(0)} m`;
+    const below = this.width < 480 ? 100 : 18; // on a phone above the dials, which leave no room between them
+    this.sign(words, this.width / 2, away > 0 ? 62 : this.height - below, colour);
+  }
+
+  // Words in a frame, in the middle above (x, y) or to its left.
+  sign(words, x, y, colour, align = "center") {
+    const { pen } = this;
     pen.font = "12.5px system-ui, sans-serif";
-    const away = state[X] - this.x, beyond = py < 10 || py > this.height - 10;
-    const words = beyond ? `${away > 0 ? "▲" : "▼"} ${name}, ${Math.abs(away).toFixed(0)} m` : name;
-    const half = pen.measureText(words).width / 2 + 9, [edge] = this.spot(0, -this.scenario.laneWidth / 2);
-    const x = beyond ? this.width / 2 : edge - half - 6; // beside the road, where it covers no car
-    const y = Math.min(Math.max(py, 62), this.height - 18);
+    const half = pen.measureText(words).width / 2 + 9, wanted = align === "center" ? x : x - half;
+    const middle = Math.min(Math.max(wanted, half + 4), this.width - half - 4);
     pen.fillStyle = this.colour("card");
     pen.globalAlpha = 0.92;
     pen.beginPath();
-    pen.roundRect(Math.max(x - half, 4), y - 11, 2 * half, 22, 11);
+    pen.roundRect(middle - half, y - 15, 2 * half, 22, 11);
     pen.fill();
     pen.globalAlpha = 1;
     pen.strokeStyle = colour;
@@ -151,7 +164,7 @@ class View {
     pen.stroke();
     pen.fillStyle = this.colour("ink");
     pen.textAlign = "center";
-    pen.fillText(words, Math.max(x, half + 4), y + 4.5);
+    pen.fillText(words, middle, y + 0.5);
   }
 
   // The action of the next decision, as an arrow before the car.
@@ -181,25 +194,32 @@ class View {
 
   // Imagined drives: thin and by what they earn, those that crash in red, the best one bold.
   trails(futures) {
-    const { pen } = this, earned = futures.filter(each => !each.accident).map(each => each.value);
-    const low = Math.min(...earned), high = Math.max(...earned), best = largest(futures.map(each => each.value));
-    const order = futures.map((_, i) => i).sort((a, b) => (a === best) - (b === best));
-    for (const i of order) {
-      const { path, accident, value } = futures[i], share = high > low ? (value - low) / (high - low) : 1;
-      const worth = `color-mix(in oklab, #44aa99 ${20 + 80 * share}%, ${this.colour("paint")})`;
-      pen.strokeStyle = pen.fillStyle = accident ? this.colour("alarm") : worth;
-      pen.lineWidth = i === best ? 5 : 1.6;
-      pen.globalAlpha = i === best ? 1 : 0.85;
+    const { pen } = this;
+    for (const { path, share, best, wreck } of ranked(futures)) {
+      const worth = `color-mix(in oklab, ${TRAIL} ${100 * share}%, ${this.colour("paint")})`;
+      pen.strokeStyle = pen.fillStyle = wreck ? this.colour("alarm") : worth;
+      pen.lineWidth = best ? 5 : 1.6;
+      pen.globalAlpha = best ? 1 : 0.85;
       pen.lineJoin = "round";
       pen.beginPath();
       path.forEach(([x, y]) => pen.lineTo(...this.spot(x, y)));
       pen.stroke();
-      if (i === best) Object.assign(pen, { lineWidth: 1.5, strokeStyle: this.colour("asphalt") }).stroke(); // double
+      if (best) Object.assign(pen, { lineWidth: 1.5, strokeStyle: this.colour("asphalt") }).stroke(); // double
       const [px, py] = this.spot(...path.at(-1));
       pen.beginPath();
-      pen.arc(px, py, accident || i === best ? 4.5 : 2.5, 0, 7);
+      pen.arc(px, py, wreck || best ? 4.5 : 2.5, 0, 7);
       pen.fill();
     }
     pen.globalAlpha = 1;
   }
+}
+
+// Imagined drives in the order in which they are drawn, the best last: each with its path, the share of its colour by
+// what it earns (0.2 to 1), whether it is the best, and whether it ends in an accident.
+function ranked(futures) {
+  const worth = futures.filter(each => !each.accident).map(each => each.value);
+  const low = Math.min(...worth), high = Math.max(...worth), best = largest(futures.map(each => each.value));
+  return futures.map(({ path, accident, value }, i) => ({
+    path, best: i === best, wreck: accident > 0, share: high > low ? 0.2 + (0.8 * (value - low)) / (high - low) : 1,
+  })).sort((a, b) => a.best - b.best);
 }

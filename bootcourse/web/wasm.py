@@ -24,6 +24,7 @@ PLAIN = {
     "NUMBA_SLP_VECTORIZE": "0",
 }
 LAYOUT = "e-m:e-p:32:32-p10:8:8-p20:8:8-i64:64-i128:128-n32:64-S128-ni:1:10:20"  # LLVM's, for wasm32-unknown-unknown
+FREE = 4096  # bytes of memory for the module's own constants: behind them lie the page's arrays (see road.js)
 IMPORTS = {"__linear_memory", "asin", "atan", "cos", "exp", "fmod", "pow", "sin", "tan"}  # see road.js
 
 
@@ -100,6 +101,47 @@ def check(module: bytes, exports: set[str]) -> None:
             f"The road's module lacks the exports {sorted(absent)} and imports {sorted(imported)} (supplied: "
             f"{sorted(IMPORTS)}): numba or llvmlite has changed, so look at bootcourse/web/wasm.py."
         )
+    end = data_end(module)
+    if end > FREE:
+        raise BootcourseError(
+            f"The road's module has constants up to byte {end} of its memory, and the page's arrays begin at {FREE}: "
+            "raise FREE in bootcourse/web/wasm.py."
+        )
+
+
+def data_end(module: bytes) -> int:
+    """The first byte of memory behind the constants of a module, 0 without any.
+
+    Of the format (https://webassembly.github.io/spec/core/binary) it reads the section of data alone, number 11. Raises
+    BootcourseError for data whose place is not a plain number.
+    """
+    end, place = 0, 8
+    while place < len(module):
+        kind, (size, start) = module[place], _number(module, place + 1)
+        place = start + size
+        if kind != 11:
+            continue
+        count, here = _number(module, start)
+        for _ in range(count):
+            if module[here : here + 2] != b"\x00\x41":  # in memory 0, from a constant on
+                raise BootcourseError(
+                    "The road's module places its constants in a new way: look at bootcourse/web/wasm.py."
+                )
+            first, here = _number(module, here + 2)
+            length, here = _number(module, here + 1)  # behind the mark of the end of the place
+            here += length
+            end = max(end, first + length)
+    return end
+
+
+def _number(module: bytes, place: int) -> tuple[int, int]:
+    """A number in LEB128, seven bits a byte, and the place behind it."""
+    value, shift = 0, 0
+    while True:
+        byte = module[place]
+        value, shift, place = value | (byte & 127) << shift, shift + 7, place + 1
+        if byte < 128:
+            return value, place
 
 
 if __name__ == "__main__":

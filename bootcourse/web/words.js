@@ -55,13 +55,17 @@ function remark(cars, justOut) {
   return "";
 }
 
+// The way out that the third hint describes; the tests drive by these numbers.
+const WAY_OUT = { speed: 7, gap: 12, steer: 2, wait: 4, fast: 15, apart: 25 }; // m/s, m, presses, s, m/s, m
+
 const HINTS = [
-  "The way out begins behind you. Brake for two or three seconds, until the car on your left has drawn ahead, and "
-    + "then steer into its lane.",
-  "Steering lasts one second and the car keeps its heading: steer left once, right once. That moves you about a lane "
-    + "to the left, straight again.",
-  "Brake to about 7 m/s, wait until trap 2 is 12 m ahead, and change lane twice, to the far left. Then nobody is in "
-    + "front of you: accelerate to 15 m/s, which pays best.",
+  "The way out begins behind you. Brake for three seconds, wait until trap 2, the car on your left, has drawn ahead, and "
+    + "then cross to the left behind it.",
+  "Steering lasts one second, and the car keeps its new heading until you steer back. To change lane, steer left twice, "
+    + "wait until you are nearly there, and steer right as often.",
+  `Brake to ${WAY_OUT.speed} m/s. When trap 2 is ${WAY_OUT.gap} m ahead, steer left ${WAY_OUT.steer} times, wait `
+    + `about ${WAY_OUT.wait} s until you are nearly in the far left lane, and steer right ${WAY_OUT.steer} times. Then `
+    + `accelerate to ${WAY_OUT.fast} m/s, which pays best, and brake when a car ahead is closer than ${WAY_OUT.apart} m.`,
   "Switch on the nine futures and follow the bold one, or put the rule at the wheel and watch it.",
 ];
 

@@ -20,7 +20,7 @@
 # - tell a method that fails from one whose training was stopped too early.
 #
 # **Time** 55 minutes, under one of them the machine's. **It builds on** demonstrations (lesson
-# [[demonstrations]]) and the ablation ([[ablation]]).
+# [[demonstrations]]) and the seeds ([[how_many_seeds]]).
 
 # %%
 
@@ -434,10 +434,10 @@ table(headings, rows)
 # enough.
 #
 # Would GAIL gain from more updates? Ten more of its agents were trained with the setting of lesson
-# [[ablation]], round 6: eight times as many updates for each decision, demonstrations by π̃, and {{
-# shipped_results('paper').curves['success'].shape[1] | , }} episodes. {{ escaped('gail', 'paper')
-# }} of them escape, where {{ escaped('gail') }} did. Ten agents cannot tell these two numbers apart
-# (Fisher's p is {{ fisher(escaped('gail'), escaped('gail', 'paper'))
+# [[found_and_kept]], round 5: eight times as many updates for each decision, demonstrations by π̃,
+# and {{ shipped_results('paper').curves['success'].shape[1] | , }} episodes. {{ escaped('gail',
+# 'paper') }} of them escape, where {{ escaped('gail') }} did. Ten agents cannot tell these two
+# numbers apart (Fisher's p is {{ fisher(escaped('gail'), escaped('gail', 'paper'))
 # | .2f }}), so no gain shows.
 # <!-- claim: len(shipped_results('paper').of('gail')) == 10 and escaped('gail', 'paper') <=
 #   escaped('gail') and fisher(escaped('gail'), escaped('gail', 'paper')) > 0.3 -->

@@ -413,7 +413,7 @@ print(f"ten seeds: P(bootstrapped > CQL) = {tables.bracketed(both, 100)} %")
 # <!-- claim: 100 * max(shipped_results().scores('returns')) / bound().mean() < 100 -->
 #
 # **The other suspects.** The study was run behind faster traps, too, and with the setting with
-# which the paper's ablation comes out (lesson [[ablation]]). In each of the two at least {{
+# which the paper's ablation comes out (lesson [[found_and_kept]]). In each of the two at least {{
 # min(escaped(m, s) for m in ('bc', 'cql') for s in ('calibrated', 'paper')) }} of ten clones and of
 # ten CQL agents escape, so neither explains the paper's row. Behind the faster traps CQL *with an
 # actor* drives the distance of that row, to the metre, in all test drives of all ten agents. One

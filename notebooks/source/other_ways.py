@@ -19,7 +19,7 @@
 # - read such a table by decisions and by seconds, and say what it leaves open.
 #
 # **Time** 55 minutes, about one of them the machine's. **It builds on** demonstrations (lesson
-# [[learning_from_demonstrations]]) and on the number of seeds ([[ablation]]).
+# [[learning_from_demonstrations]]) and on the number of seeds ([[how_many_seeds]]).
 
 # %%
 import bootcourse as bc

@@ -19,17 +19,16 @@
 #   traps, and how we read it instead;
 # - find out by an experiment why the rule is slow, and say what a stochastic rule is good for.
 #
-# **Time** 75 minutes, under a minute of it the machine's. **It builds on**
-# [lesson [[the_trap]]](the_trap.ipynb); [lesson [[traffic]]](traffic.ipynb) helps.
+# **Time** 40 minutes, under one of them the machine's. **It builds on**
+# [lesson [[the_trap]]](the_trap.ipynb).
 
 # %%
 import dataclasses
-import itertools
 
 import bootcourse as bc
 import numpy as np
 from bootcourse.course import charts, check, compare_predictions, predict, source, table
-from bootcourse.course.lessons.the_rule import figures, tracking
+from bootcourse.course.lessons.the_rule import figures
 from bootcourse.road.state import EGO, LANE, SPEED
 
 # %% [markdown]
@@ -108,11 +107,11 @@ table(["", "m/s"], rows)
 # {{ by_rule().states[6, EGO, SPEED] }} m/s, since each second of braking takes
 # {{ DEFAULT.ego.acceleration }} m/s off {{ DEFAULT.ego.speed }}. Either is slower than both traps,
 # so the gap grows. Behind traffic at 12.5 m/s the same formula gives 10.5 m/s. Is that why the rule
-# is slow? Round 5 finds out.
+# is slow? Round 3 finds out.
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Somebody will ask why not one speed just below the traps'. Five speeds are easy to explain and
-# to defend, and good enough to escape: that is how rules are made. Come back to it in Round 5.
+# to defend, and good enough to escape: that is how rules are made. Come back to it in Round 3.
 
 # %% [markdown]
 # ## Round 2: when to change lane?
@@ -224,159 +223,14 @@ source("bootcourse.rule", "decide_rule")
 # (Work one example.)
 
 # %% [markdown]
-# ## Round 3: how to get there with nine actions
-#
-# The rule gives a speed and a lane. The paper cites another controller that brings the car there.
-# We need one for nine actions. The first idea: compute the steering angle that a traffic car would
-# use, and take the nearest of left, straight and right.
-#
-# It works in a narrow range only: with a time constant of 0.5 to 0.7 s the car escapes on each of
-# 200 roads, with 0.4 s it leaves the road, and with 1 s it does not get ahead of trap 1.
-# <!-- claim: all(tracking.in_short(tracking.nearest_action(t))[0] == '100.0%' for t in (0.5, 0.6,
-#   0.7)) -->
-# <!-- claim: tracking.in_short(tracking.nearest_action(0.4))[1] == '100.0%' and
-#   tracking.in_short(tracking.nearest_action(1.0))[0] == '0.0%' -->
-#
-# The second idea does without a time constant: **look ahead**. Try the 27 sequences of left,
-# straight and right for the next three seconds on the car's own equations of motion. Each second
-# costs (distance from the lane)² + {{ HEADING_COST }} (heading)², and leaving the road costs a
-# million. Then do the *first step* of the cheapest sequence, and begin again.
+# The rule gives a speed and a lane. The paper cites another controller that brings the car there;
+# ours **looks ahead**: it tries the 27 sequences of left, straight and right for the next three
+# seconds on the car's own equations of motion, does the *first step* of the cheapest, and begins
+# again. This is called *model predictive control*.
 # <!-- claim: 3 ** 3 == 27 -->
 
-# %% tags=["nbval-ignore-output"]
-source("bootcourse.course.lessons.the_rule.tracking", "plan_costs")
-
 # %% [markdown]
-# **Exercise (5 min, ●●○).** For one road, `costs[first, second, third]` holds the cost of each
-# sequence (0 left, 1 straight, 2 right). Which step do you do now?
-# <!-- claim: [ACTION_NAMES.index(f'brake {steering}') for steering in ('left', 'straight',
-#   'right')] == [0, 1, 2] -->
-
-
-# %%
-def best_first_step(costs):
-    """0, 1 or 2, a number: costs (3, 3, 3) of every sequence of three steps."""
-    # solution: the exercise's own
-
-
-check.best_first_step(best_first_step)
-
-# %% [markdown]
-# > **Predict.** How far must the controller look ahead to escape on each of 200 roads: one second,
-# > two, or three? What goes wrong with less?
-
-# %%
-predict("the_rule.4", "How far must it look ahead to escape on each road?", ["1 s", "2 s", "3 s"])
-
-# %%
-rows = [[f"{n} s ahead", *tracking.in_short(tracking.looks_ahead(n))] for n in (1, 2, 3)]
-table(["", "escapes", "leaves the road", "collides"], rows, below="(200 roads each)")
-
-# %% [markdown]
-# **Explain.** With one second the car escapes on most roads, but it collides on some: it swings
-# from side to side in its lane, further when it drives faster, until it touches a car that it
-# passes. We explain it like this. A turn of the wheel moves the car sideways mostly in the second
-# *after* it. A search over one second does not include that second, so it turns back too late. Two
-# seconds are enough on these 200 roads; the library searches three. Searching for a plan, doing its
-# first step and searching again is called *model predictive control*.
-
-# %% [markdown] tags=["instructor"] minutes=6
-# Ask what the learner will have instead of a model of the car and a search:
-# {{ DEFAULT.observation_size }} numbers and a network. The network has to learn what the search
-# finds.
-
-# %% [markdown]
-# ## Round 4: a way out without braking
-#
-# The rule falls back before it changes lane. On most roads there is a quicker way, without braking:
-# a sequence of turns takes the car behind trap 2 and on to the left lane.
-# <!-- claim: without_braking()[1].mean() > 0.5 -->
-#
-# **Exercise (20 min, ●●●).** Find such a plan. It must not brake, it must be free of accidents for
-# the first 15 s, and it must end ahead of trap 1 on the eight roads of the check. Trap 2 does not
-# start beside you there, but some metres ahead. Try plans in the cell below the exercise, or with
-# the buttons of `bc.panels.drive_panel(seed=7)`. A short search in code is fair, too.
-
-
-# %%
-def direct_plan():
-    """A list of actions in words, alone or with seconds: ["keep left", ("keep right", 2)]."""
-    # solution: the exercise's own
-
-
-check.direct_plan(direct_plan)
-
-# %%
-attempt = [("keep left", 2), ("keep right", 2)]  # change it, and look where the car ends
-tried = bc.record(bc.plan_policy(attempt), [7], label="you")[0]
-bc.show(bc.top_view_over_time(tried, times=[0, 2, 4, 6, 8]))
-
-# %% [markdown]
-# > **Predict.** Trap 2 starts D2 = {{ DEFAULT.traps.d2[0] }} to {{ DEFAULT.traps.d2[1] }} m ahead,
-# > from centre to centre, and a car is {{ DEFAULT.car.length | g }} m long. On which of 400 other
-# > roads does your plan work?
-
-# %%
-choices = ["on all", "where D2 is large enough", "where D2 is small enough", "here and there"]
-predict("the_rule.5", "On which roads does your plan work?", choices)
-
-# %%
-bc.show(figures.escape_against_d2(direct_plan()))  # until you have written one, ours drives
-
-# %% [markdown]
-# Your plan is one of many. There are 6,561 plans that keep the speed for eight seconds, each with
-# left, straight or right in every second, and then accelerate for five.
-# <!-- claim: 3 ** 8 == 6561 -->
-#
-# > **Predict.** How many of the 6,561 get out on road 7?
-
-# %%
-choices = ["1", "about 10", "more than 100", "more than 1,000"]
-predict("the_rule.6", "How many of the 6,561 plans get out on road 7?", choices)
-
-# %%
-turns = np.array(list(itertools.product((3, 4, 5), repeat=8))).T  # keep left, straight, right
-plans = np.vstack([turns, np.full((5, turns.shape[1]), 7)])
-driven = bc.drive_episodes(bc.policies.PlanPolicy(plans), [7] * plans.shape[1], together=10_000)
-print(f"{driven.success.sum()} of {plans.shape[1]:,} plans get out on road 7.")
-
-# %% [markdown]
-# Here are three plans on the same 400 roads. The second makes one turn less, and the third begins
-# with a turn to the *right*:
-
-# %%
-after = [("accelerate straight", 5)]
-three = {
-    "ours": figures.direct_plan(),
-    "left 2, straight 2, right 2": [("keep left", 2), ("keep straight", 2), ("keep right", 2)]
-    + after,
-    "right 1, left 4, right 3": ["keep right", ("keep left", 4), ("keep right", 3)] + after,
-}
-rows = []
-for name, plan in three.items():
-    starts, out = figures.d2_and_success(plan)
-    shares = (out.mean(), out[starts >= 4.85].mean(), out[starts < 4.85].mean())
-    rows.append([name, *(f"{100 * share:.0f} %" for share in shares)])
-table(["then accelerate", "gets out", "D2 of 4.85 m or more", "D2 below 4.85 m"], rows)
-
-# %% [markdown]
-# **Explain.** Our plan gets out wherever trap 2 starts 4.85 m ahead or more, and hardly anywhere
-# below: there the front of the car hits trap 2's tail. That limit belongs to *this plan*, not to
-# the road. The third plan turns left a second later, and gets out on about a third of the roads
-# below. So there are many ways out, and one that costs little at first is not hard to hit. Lesson
-# [[the_barrier]] measures what an attempt costs that fails, and why plain SAC stays in
-# nevertheless.
-# <!-- claim: without_braking()[1][without_braking()[0] >= 4.85].all() -->
-# <!-- claim: without_braking()[1][without_braking()[0] < 4.85].mean() < 0.1 -->
-# <!-- claim: 0.25 < right_first()[1][right_first()[0] < 4.85].mean() < 0.4 -->
-
-# %% [markdown] tags=["instructor"] minutes=4
-# The idea is that the car passes through the middle lane without settling in it. Let one group
-# write the search before the others open the cell that drives all 6,561 plans. A belief to name:
-# "only one combination opens the lock".
-
-# %% [markdown]
-# ## Round 5: how well does it drive?
+# ## Round 3: how well does it drive?
 #
 # Now the rule drives 1,000 roads on which nothing was chosen or trained. Each mean comes with its
 # 95 % interval.
@@ -386,7 +240,7 @@ table(["then accelerate", "gets out", "D2 of 4.85 m or more", "D2 below 4.85 m"]
 # > the rule get?
 
 # %%
-predict("the_rule.7", "How far does the rule get in 150 s, on average?", unit="m")
+predict("the_rule.4", "How far does the rule get in 150 s, on average?", unit="m")
 
 # %%
 episodes = bc.drive_episodes(bc.rule_policy(bc.DEFAULT), bc.held_out_seeds(1, 1000))
@@ -428,11 +282,12 @@ bc.show(bc.traces([drive], title=title))
 # > shorter sight?
 
 # %%
-predict("the_rule.8", "Which change helps most?", ["ten speeds", "a shorter sight", "neither"])
+predict("the_rule.5", "Which change helps most?", ["ten speeds", "a shorter sight", "neither"])
 
 # %% [markdown]
-# Here you can change both. The road, the other cars and the rule's way out of the trap stay the
-# same; the sight is how far the rule looks ahead.
+# Find out. The next cell changes numbers of the rule and nothing else: the road, the other cars and
+# the way out of the trap stay the same. Run it, then change `settings` until you can say which
+# number makes the rule slow, and how far you may change it before it has accidents.
 
 
 # %%
@@ -444,7 +299,7 @@ def changed(n=bc.DEFAULT.rule.n, sight=bc.DEFAULT.sight.distance, roads=200):
     return bc.drive_episodes(driver, bc.held_out_seeds(1, roads))
 
 
-settings = [{}, {"n": 10}, {"sight": 100.0}, {"sight": 50.0}, {"sight": 20.0}]  # try others
+settings = [{}, {"n": 10}, {"sight": 150.0}]  # try others
 rows = []
 for setting in settings:
     driven = changed(**setting)
@@ -452,6 +307,18 @@ for setting in settings:
     shares = (driven.success.mean(), np.mean(driven.accident > 0))
     rows.append([name, f"{driven.returns.mean():.1f}", *(f"{share:.0%}" for share in shares)])
 table(["200 roads", "return", "escapes", "accidents"], rows)
+
+# %% [markdown]
+# What did you find? Here is the whole range of its sight:
+
+# %%
+sights = [200, 150, 100, 70, 50, 30, 20]
+driven = [changed(sight=float(sight)) for sight in sights]
+rows = [
+    [f"{sight} m", f"{each.returns.mean():.0f}", f"{np.mean(each.accident > 0):.0%}"]
+    for sight, each in zip(sights, driven, strict=True)
+]
+table(["the rule sees", "return", "accidents"], rows, below="200 roads each.")
 
 # %% [markdown]
 # **Explain.** The rule is slow because it sees {{ DEFAULT.sight.distance | g }} m far. A car that
@@ -474,7 +341,7 @@ table(["200 roads", "return", "escapes", "accidents"], rows)
 # Ask of each such comparison what it is worth, and look at the agents' accidents as well.
 
 # %% [markdown]
-# ## Round 6: an unsure rule
+# ## Round 4: an unsure rule
 #
 # In lesson [[soft_constraint]] a learner is pulled towards the rule. For that the rule must give a
 # probability to each action, as a policy does. So we make it unsure: it takes its own action with
@@ -482,28 +349,12 @@ table(["200 roads", "return", "escapes", "accidents"], rows)
 # rule**, $\tilde\pi$.
 # <!-- claim: N_ACTIONS - 1 == 8 -->
 #
-# **Exercise (5 min, ●○○).** Write the stochastic rule for many states at once.
-
-
-# %%
-def stochastic_rule(rule_actions, p):
-    """The probability of each action: the rule's own (n,), 0 to 8, and p in [1/9, 1) -> (n, 9)."""
-    # solution
-    probabilities = np.full((len(rule_actions), 9), (1 - p) / 8)
-    probabilities[np.arange(len(rule_actions)), rule_actions] = p
-    return probabilities
-    # end solution
-
-
-check.stochastic_rule(stochastic_rule)
-
-# %% [markdown]
 # > **Predict.** Let the stochastic rule drive with p = 0.9: in each second it does something else
 # > with probability 0.1. In what share of the episodes does it drive 150 s without an accident?
 
 # %%
 choices = ["nearly all", "about half", "hardly any"]
-predict("the_rule.9", "In how many episodes is the stochastic rule without an accident?", choices)
+predict("the_rule.6", "In how many episodes is the stochastic rule without an accident?", choices)
 
 # %%
 rng = np.random.default_rng(0)
@@ -545,7 +396,7 @@ table(["p", "without an accident (500 roads)"], rows)
 # <!-- claim: of('rule').episodes('success').all() and accidents('rule') == 0 and
 #   of('rule').scores('returns').max() < 150 * second_pays(15) / 2 -->
 # 4. It is slow because it sees {{ DEFAULT.sight.distance | g }} m far, which is our choice: with
-#    50 m it earns more than twice as much, as safely on the 200 roads of Round 5.
+#    50 m it earns more than twice as much, as safely on the 200 roads of Round 3.
 # <!-- claim: sighted(50.0).returns.mean() > 2 * sighted(200.0).returns.mean() -->
 # 5. The stochastic rule gives each action a probability. Learners are compared with it. If it
 #    drives itself, with p = 0.9, it has an accident in most episodes.
@@ -557,7 +408,7 @@ table(["p", "without an accident (500 roads)"], rows)
 # - The traps react to the car ahead of them. What should the rule look at if they reacted to cars
 #   beside them, too?
 #
-# **Read on**: in the next lessons an agent learns alone, and then with the help of this rule. The
+# **Read on**: the [next lesson](demonstrations.ipynb) learns from this rule's drives. The
 # idea of a safety distance that grows with speed is old: Gipps, *A behavioural car-following
 # model* (1981).
 
@@ -568,19 +419,16 @@ compare_predictions(
         1: drive.rule_speeds[0],
         2: "negative",
         3: "false as long as you are slower",
-        4: "2 s",
-        5: "where D2 is large enough",
-        6: "more than 100",
-        7: round(result.distance.value),
-        8: "a shorter sight",
-        9: "hardly any",
+        4: round(result.distance.value),
+        5: "a shorter sight",
+        6: "hardly any",
     },
 )
 
 # %% [markdown] tags=["instructor"] minutes=10
 # *Model answers to the three questions:*
 #
-# - **One number.** The sight, as Round 5 shows: with 50 m the rule earns more than twice as much.
+# - **One number.** The sight, as Round 3 shows: with 50 m the rule earns more than twice as much.
 #   With less it sees the car ahead too late to brake at {{ DEFAULT.ego.acceleration | g }} m/s²:
 #   with 20 m some drives crash. More speeds do not help: with n = 10 it earns
 #   {{ sighted(200.0, n=10).returns.mean() | .0f }} instead of

@@ -535,8 +535,8 @@ bc.show(bc.traces(list(fast.values()), title=title, what=("speed", "distance", "
 # what the cloned agents earn, and in most of their decisions they do something else. It put the
 # learner on the other side of the barrier. From there on the reward was enough: speed pays more on
 # a free road than behind trap 1, and PPO found out how. That is the paper's idea in its shortest
-# form. The soft constraint and the demonstrations of lessons [[soft_constraint]] to [[ablation]] do
-# the same for a learner that needs an aid for longer.
+# form. The soft constraint and the demonstrations of lessons [[soft_constraint]] and
+# [[demonstrations]] do the same for a learner that needs an aid for longer.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask which of the course's figures would have looked the same for the second trap: those that
@@ -594,4 +594,4 @@ compare_predictions(
 #
 # **Try**: `bc.board()` shows the methods of the course on the same {{ roads() | , }} roads, by
 # return, and `bc.board("runs/mine")` puts your own agents among them. Next:
-# [other ways to use a teacher](other_ways.ipynb).
+# [looking ahead](looking_ahead.ipynb), which makes agents safer without training.

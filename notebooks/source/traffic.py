@@ -14,12 +14,12 @@
 # # Traffic
 #
 # **What you will be able to do**
-# - write down how the other cars follow (IDM) and change lane (MOBIL), and compute both by hand;
+# - write down how the other cars follow (IDM), and simulate a row of them;
 # - start a traffic jam with one slow driver, and say why it travels backwards;
-# - tell from one number whether a simulated car's heading settles or swings.
+# - find out when a simulated car swings off the road.
 #
-# **Time** 70 minutes, under a minute of it the machine's. **It builds on**
-# [lesson [[the_trap]]](the_trap.ipynb).
+# **Time** 35 minutes, under one of them the machine's. An appendix: no other lesson needs it. **It
+# builds on** [lesson [[the_trap]]](the_trap.ipynb).
 
 # %%
 import dataclasses
@@ -53,7 +53,7 @@ predict("traffic.1", "Why does the jam move backwards?")
 # %% [markdown]
 # Round 2 comes back to it.
 
-# %% [markdown] tags=["instructor"] minutes=8
+# %% [markdown] tags=["instructor"] minutes=4
 # Let them find the band's speed: in the 400 s of the picture it goes back by a little more than
 # one round of the ring, 600 m. The band is a place where cars stop, not a group of cars: cars
 # leave it at its front and join it at its back. A ring of real cars did the same: Sugiyama et al.,
@@ -145,7 +145,7 @@ bc.show(figures_traffic.following(10.0, closing=(-2, 0, 2), title=title))
 # a · dt, but it does not fall below 0.
 # <!-- claim: traffic.follow(10.0, 10.0, 0.1) == -DEFAULT.traffic.braking_limit -->
 #
-# **Exercise (20 min, ●●●).** Simulate a driver behind a car whose speeds are given. You need
+# **Exercise (15 min, ●●●).** Simulate a driver behind a car whose speeds are given. You need
 # both formulas, a loop, and the right order inside it.
 
 
@@ -186,17 +186,7 @@ bc.show(charts.lines(seconds, rows, title, "time (s)", "speed (m/s)", looks=figu
 # <!-- claim: (np.diff([8.0, *lowest_speeds(8.0)]) > 0).all() -->
 # <!-- claim: (np.diff([4.0, *lowest_speeds()]) < 0).all() -->
 #
-# **Exercise (6 min, ●●○).** Which gap does a driver settle at, behind a car that drives $v$ all
-# the time? Set $a = 0$ and $\Delta v = 0$, and solve for $s$.
-
-
-# %%
-def equilibrium_gap(v, v_desired, s0, time_gap, delta):
-    """The gap (m) at which nothing changes, v < v_desired (m/s); s0 in m, time_gap in s."""
-    # solution: the exercise's own
-
-
-check.equilibrium_gap(equilibrium_gap)
+# Which gap does a driver settle at, behind a car that drives $v$ all the time?
 
 # %%
 # NBVAL_CHECK_OUTPUT
@@ -218,98 +208,18 @@ table(["speed", "wants s*", "settles at"], rows)
 # with 20 m that wave grows from car to car, in the ring with 30 m it shrinks. Cars leave the jam at
 # its front and join it at its back, so the *jam* moves backwards.
 
-# %% [markdown] tags=["instructor"] minutes=8
+# %% [markdown] tags=["instructor"] minutes=3
 # Ask for a ring of 25 m: does the jam stay or dissolve? It depends on how slowly the first car
 # begins: in `bootcourse.course.lessons.traffic.simulation.ring`, `v[0] = 5.0` and `v[0] = 1.0` end
 # differently. The ring has two stable states there.
 
 # %% [markdown]
-# ## Round 3: when to change lane
-#
-# **MOBIL** decides about a lane change with the accelerations of IDM: if I change, who can
-# accelerate more, and who less?
-#
-# $$ \Delta a_\text{ego} + p\, (\Delta a_\text{rear} + \Delta a_\text{front}) > a_\text{threshold}
-# $$
-#
-# The first term is the driver's own gain. The other two are the gains of two neighbours (a loss is
-# a negative gain), times a **politeness** $p$. Before that comes safety: a change must not make the
-# new follower brake harder than a limit, whatever the gains are.
-#
-# Which neighbours? The paper names the "trailing and leading vehicles in the target lane". But in
-# IDM a leading car does not react to the car behind it, so its gain is zero. Two cars do react: the
-# **new follower**, behind you in the lane that you change to, and the **old follower**, which you
-# leave behind. MOBIL was published with these two, and `bootcourse.road.traffic.worth_changing`
-# uses them, too. (At exactly the threshold the library changes lane; the formula does not.)
-#
-# **Exercise (7 min, ●●○).** Decide whether the driver changes lane.
-
-
-# %%
-def worth_changing(
-    own_gain, follower_before, follower_after, old_follower_gain, politeness, threshold, limit
-):
-    """True for a change that is safe and worth it. All but politeness in m/s².
-
-    follower_before, follower_after: the new follower's acceleration without and with the change;
-    limit: the hardest braking (a positive number) that a change may impose on it.
-    """
-    # solution: the exercise's own
-
-
-check.worth_changing(worth_changing)
+# The cars also change lane, by a rule called **MOBIL**: a driver changes if that is safe, and if
+# its own gain in acceleration, plus a politeness p times the gains of its new and its old follower,
+# exceeds a threshold. `bootcourse.road.traffic.worth_changing` is this line.
 
 # %% [markdown]
-# You drive 11.5 m/s, 40 m behind a car at 11 m/s. The lane to the left is free ahead; a car comes
-# up in it at 12.5 m/s.
-#
-# How long must the gap to that car be before the driver changes lane?
-
-# %%
-own_gain = traffic.follow(11.5, 0.0, math.inf) - traffic.follow(11.5, 0.5, 40.0)
-
-
-def new_follower(gap):
-    """Its acceleration before and after you have changed into its lane (m/s²)."""
-    return traffic.follow(12.5, 0.0, math.inf), traffic.follow(12.5, 12.5 - 11.5, gap)
-
-
-bc.show(figures_traffic.changing(own_gain, new_follower, politeness=(0, 0.5, 1)))
-
-# %% [markdown]
-# **See.** A driver changes lane where its line is above the threshold, outside the red area. The
-# egoist changes as soon as the limit on the new follower's braking allows it. A driver with p = 1
-# waits for a gap almost four times as long: it counts the new follower's braking as its own loss.
-#
-# > **Predict.** Does polite traffic (p = 1) change lane more often or less often than egoists
-# > (p = 0)?
-
-# %%
-predict(
-    "traffic.4", "Polite traffic changes lane …", ["more often", "about as often", "less often"]
-)
-
-# %%
-rows = []
-for p in (0.0, 0.5, 1.0):
-    kind = dataclasses.replace(bc.DEFAULT.traffic, politeness=p)
-    drives = bc.record(bc.idle_policy, range(100), dataclasses.replace(bc.DEFAULT, traffic=kind))
-    lanes = [drive.states[:, bc.state.TRAFFIC :, bc.state.TARGET_LANE] for drive in drives]
-    changes = [(np.diff(lane, axis=0) != 0).sum() for lane in lanes]
-    error = np.std(changes, ddof=1) / math.sqrt(len(changes))
-    rows.append([f"{p:g}", f"{np.mean(changes):.2f} ± {error:.2f}"])
-table(["politeness", "lane changes a road (100 roads)"], rows)
-
-# %% [markdown]
-# **Explain.** The number after ± is the standard error of the mean. Traffic with $p$ = 1 changes
-# lane more often than the other two, by more than the errors explain. Between $p$ = 0 and 0.5 the
-# difference is smaller than the errors: these 100 roads do not tell which of the two changes more.
-# We explain the result for $p$ = 1 like this. The same $p$ weighs two things: what the new follower
-# loses, and what the *old* follower gains. On this road the other lanes are nearly empty, so often
-# the new follower loses nothing, while the old one gains. A polite driver gets out of the way.
-
-# %% [markdown]
-# ## Round 4: two steps a second
+# ## Round 3: two steps a second
 #
 # To change lane, a traffic car turns towards a heading and back. It turns at a rate that is
 # proportional to the error: (wanted heading − heading) / τ, where τ is a **time constant**. Our
@@ -321,7 +231,7 @@ table(["politeness", "lane changes a road (100 roads)"], rows)
 
 # %%
 choices = ["it settles in one step", "it swings and settles", "it swings and grows"]
-predict("traffic.5", "What happens to the heading error at 2 Hz?", choices)
+predict("traffic.4", "What happens to the heading error at 2 Hz?", choices)
 
 # %% [markdown]
 # **Exercise (6 min, ●●○).** Write the heading error after each step of dt.
@@ -387,7 +297,7 @@ table(["time constants", *headings], rows)
 # %%
 source("bootcourse.road.formulas", "lane_keeping_steering")
 
-# %% [markdown] tags=["instructor"] minutes=8
+# %% [markdown] tags=["instructor"] minutes=3
 # Ask where else a rate meets a time step: gradient descent with a learning rate times a curvature
 # above 2 diverges in the same way, with the same alternating signs. Draw that on the board.
 # <!-- claim: abs(1 - 1.99) < abs(1 - 2) == 1 < abs(1 - 2.01) -->
@@ -398,10 +308,7 @@ source("bootcourse.road.formulas", "lane_keeping_steering")
 # 1. IDM brakes for the closing speed as well as for the gap, and settles at more than $s^*$.
 # 2. The closer together cars settle, the slower they drive. If they are close enough, a disturbance
 #    can grow into a jam that travels backwards.
-# 3. MOBIL changes lane when that is safe, and when the driver's own gain plus p times the gains of
-#    its new and its old follower exceeds a threshold.
-# 4. On 100 roads traffic with full politeness (p = 1) changed lane more often than egoists.
-# 5. A simulated heading swings and grows if dt / τ exceeds 2, even though its differential equation
+# 3. A simulated heading swings and grows if dt / τ exceeds 2, even though its differential equation
 #    is stable. Below 2 it settles on its own; whether the whole car does has to be tested.
 # <!-- claim: abs(1 - 1.99) < abs(1 - 2) == 1 < abs(1 - 2.01) -->
 #
@@ -413,7 +320,7 @@ source("bootcourse.road.formulas", "lane_keeping_steering")
 #
 # **Read on**: Treiber, Hennecke and Helbing, *Congested traffic states in empirical observations
 # and microscopic simulations* (2000), for IDM; Kesting, Treiber and Helbing, *General
-# lane-changing model MOBIL for car-following models* (2007). Next: [the rule](the_rule.ipynb).
+# lane-changing model MOBIL for car-following models* (2007).
 
 # %%
 backwards = "cars leave it at its front and join it at its back"
@@ -423,12 +330,11 @@ compare_predictions(
         1: f"{backwards}; it begins where a driver brakes below the speed ahead",
         2: bc.formulas.desired_gap(10.0, 2.0, 10.0, 1.5, 0.5, 0.5),
         3: "brake",
-        4: "more often",
-        5: "it swings and grows",
+        4: "it swings and grows",
     },
 )
 
-# %% [markdown] tags=["instructor"] minutes=8
+# %% [markdown] tags=["instructor"]
 # *Model answers to the three questions:*
 #
 # - **Trap 1 and you.** Behind it you do not exist for trap 1: IDM looks at the car ahead. In front

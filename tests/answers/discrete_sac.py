@@ -4,6 +4,7 @@ import collections
 
 import torch
 
+from bootcourse.course.lessons.discrete_sac import by_hand
 from bootcourse.learn import sac
 from tests.answers import equivalent, right, right_lines, wrong, wrong_lines
 
@@ -220,3 +221,88 @@ class OneRowTooMany(WithADeque):
 class AListOfRows(WithADeque):
     def sample(self, batch, rng):
         return [self.rows[i] for i in rng.integers(len(self.rows), size=batch)]
+
+
+@right("update")
+def without_functions(agent, batch):
+    alpha = agent.log_alpha.exp().item()
+    with torch.no_grad():
+        logits = agent.actor(batch.next_states)
+        pi, q = logits.softmax(1), torch.minimum(*agent.slow_q(batch.next_states))
+        value = (pi * q).sum(1) - alpha * (pi * logits.log_softmax(1)).sum(1)
+        y = batch.rewards + agent.gamma * (1 - batch.terminated) * value
+    pi, q1, q2 = agent.log_pi(batch.states).exp(), *agent.q(batch.states)
+    rows = torch.arange(len(y))
+    errors = ((q[rows, batch.actions] - y).square().mean() for q in (q1, q2))
+    actor = (pi * (alpha * pi.log() - torch.minimum(q1, q2).detach())).sum(1).mean()
+    entropy = -(pi * pi.log()).sum(1).mean().item()
+    total = sum(errors) + actor + agent.log_alpha.exp() * (entropy - agent.target_entropy)
+    for optimiser in agent.optimisers:
+        optimiser.zero_grad()
+    total.backward()
+    for optimiser in agent.optimisers:
+        optimiser.step()
+    agent.move_copies()
+
+
+@wrong("update", "the critics")
+def with_half_a_loss(agent, batch):
+    with torch.no_grad():
+        value = sac.soft_value(agent.log_pi(batch.next_states), agent.slow_q(batch.next_states).amin(0), torch.ones(()))
+        y = sac.critic_target(batch.rewards, batch.terminated, value, agent.gamma)
+    taken = agent.q(batch.states)[:, torch.arange(len(y)), batch.actions]
+    optimiser = agent.optimisers[0]
+    optimiser.zero_grad()
+    (taken - y).square().mean().backward()
+    optimiser.step()
+    agent.move_copies()
+
+
+@wrong("update", "of your updates log α differ")
+def without_the_actor(agent, batch):
+    alpha = agent.log_alpha.exp().detach()
+    with torch.no_grad():
+        value = sac.soft_value(agent.log_pi(batch.next_states), agent.slow_q(batch.next_states).amin(0), alpha)
+        y = sac.critic_target(batch.rewards, batch.terminated, value, agent.gamma)
+    q = agent.q(batch.states)
+    loss = sac.critic_loss(q.gather(-1, batch.actions.expand(2, -1).unsqueeze(-1)).squeeze(-1), y).sum()
+    agent.optimisers[0].zero_grad()
+    loss.backward()
+    agent.optimisers[0].step()
+    agent.move_copies()
+
+
+@right("train")
+def with_a_while(agent, env, buffer, update, pushes, rng):
+    done, over = 0, True
+    while done < pushes:
+        if over:
+            state = env.reset()[0]
+        action = agent.draw(state, rng)
+        after, reward, fell, late, _ = env.step(action)
+        buffer.add(by_hand.row(state, action, reward, float(fell), after))
+        state, over, done = after, fell or late, done + 1
+        if done > 256 and done % 4 == 0:
+            update(agent, by_hand.batch_of(buffer.sample(64, rng)))
+
+
+@wrong("train", "The row of push")
+def with_the_state_after_the_reset(agent, env, buffer, update, pushes, rng):
+    state, _ = env.reset()
+    for push in range(pushes):
+        action, before = agent.draw(state, rng), state
+        state, reward, fell, late, _ = env.step(action)
+        if fell or late:
+            state, _ = env.reset()
+        buffer.add(by_hand.row(before, action, reward, fell, state))
+        if push >= 256 and push % 4 == 0:
+            update(agent, by_hand.batch_of(buffer.sample(64, rng)))
+
+
+@wrong("train", "keeps 0 rows")
+def without_a_memory(agent, env, buffer, update, pushes, rng):
+    state, _ = env.reset()
+    for _ in range(pushes):
+        state, _, fell, late, _ = env.step(agent.draw(state, rng))
+        if fell or late:
+            state, _ = env.reset()

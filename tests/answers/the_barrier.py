@@ -110,12 +110,3 @@ wrong_lines("""learn_chain
     with the paper's discount: chain.learn_chain(chances, 0.8, step, taught)
     the values of the states: chain.learn_chain(chances, gamma, step, taught).max(axis=1)
 """)
-
-right_lines("""lowest_rate
-    scipy's: stats.binomtest(agents, agents).proportion_ci(0.95, method="exact").low
-    with logarithms: np.exp(np.log(0.025) / agents)
-""")
-
-wrong_lines("""lowest_rate
-    bayes: (agents + 1) / (agents + 2)
-""")

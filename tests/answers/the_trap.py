@@ -6,7 +6,6 @@ import numpy as np
 
 from tests.answers import equivalent, right_lines, wrong_lines
 
-equivalent("idle_return", "1.5 * r_v + 0.05 * r_y  ->  1.5 * r_v + 0.05 / r_y", "it is centred, so r_y is 1")
 BOTH = "the formula gives the same there"
 equivalent("bearable_risk", "if escape <= stay:  ->  if escape < stay:", BOTH)
 equivalent("bearable_risk", "if crash >= stay:  ->  if crash > stay:", BOTH)
@@ -85,24 +84,6 @@ wrong_lines("""reward
     no reward for too fast: -10.0 if accident else summed(v_lon if v_lon <= 15 else 0.0, offset, theta) / 1.6
 """)
 
-right_lines("""idle_return
-    by the line: (0.025 * speed - 0.09375) * seconds
-    with the terms in a row: float(np.dot([1.5, 0.05, 0.05], [(speed - 5) / 37.5, 1, 0]) / 1.6 * seconds)
-    second by second: total = 0.0
-        for _ in range(seconds):
-            total += (1.5 * (2 * speed / 75 - 2 / 15) + 0.05) / 1.6
-        total
-""")
-
-wrong_lines("""idle_return
-    the distance: speed * seconds
-    always the default: 23.4375
-    one second short: solution(speed, seconds - 1)
-    discounted: sum(0.8**t * solution(speed, 1) for t in range(seconds))
-    the rewards of all seconds: np.full(seconds, solution(speed, 1))
-    with the steep line: (1.5 * (8 / 25 * speed - 19 / 5) + 0.05) / 1.6 * seconds
-""")
-
 right_lines("""bearable_risk
     clipped:
         float(np.clip((escape - stay) / (escape - crash), 0, 1)) if escape > max(stay, crash) else float(crash > stay)
@@ -131,32 +112,20 @@ wrong_lines("""bearable_risk
     signs are dropped: float(np.clip((escape - stay) / (abs(escape) + abs(crash)), 0, 1))
 """)
 
-right_lines("""outcome_rates
-    with bincount: counts = np.bincount(accident, minlength=4)[1:]
-        np.concatenate([[(x_ego > x_trap_1).sum()], counts]) / len(x_ego)
-    from lists: success = [ego > trap for ego, trap in zip(x_ego.tolist(), x_trap_1.tolist(), strict=True)]
-        kinds = accident.tolist()
-        [count / len(kinds) for count in (sum(success), kinds.count(1), kinds.count(2), kinds.count(3))]
-    with torch's mean: ahead, kind = torch.tensor(x_ego > x_trap_1), torch.tensor(accident)
-        torch.stack([ahead.double().mean(), *((kind == k).double().mean() for k in (1, 2, 3))])
-    episode by episode: found = np.zeros(4)
-        for ego, trap, kind in zip(x_ego, x_trap_1, accident, strict=True):
-            found[0] += ego > trap
-            if kind:
-                found[kind] += 1
-        found / len(x_ego)
+
+right_lines("""find_plan
+    all of them: import itertools
+        plans = np.array(list(itertools.product((3, 4, 5), repeat=8)))
+        plans[np.flatnonzero(gets_out(plans))[0]]
+    one by one: plan = rng.integers(3, 6, 8)
+        while not gets_out(plan[None])[0]:
+            plan = rng.integers(3, 6, 8)
+        plan
+    a list: plans = rng.choice([3, 4, 5], (6000, 8)); plans[np.asarray(gets_out(plans))][0].tolist()
 """)
 
-wrong_lines("""outcome_rates
-    no accident is success: np.array([np.mean(accident == 0), *(np.mean(accident == kind) for kind in (1, 2, 3))])
-        # 'no accident'
-    from zero on: np.array([np.mean(x_ego > x_trap_1), *(np.mean(accident == kind) for kind in range(3))])
-        # shifted by one
-    shares of the accidents: counts = np.bincount(accident, minlength=4)[1:]
-        np.array([np.mean(x_ego > x_trap_1), *counts / max(counts.sum(), 1)])  # number of accidents
-    into whole numbers too: found = np.zeros(4, dtype=int); found[:] = solution(x_ego, x_trap_1, accident); found
-    one episode too few: solution(x_ego, x_trap_1, accident) * len(x_ego) / max(1, len(x_ego) - 1)
-    for each episode: np.stack([x_ego > x_trap_1, *(accident == kind for kind in (1, 2, 3))]).astype(float)  # shape
-    all accidents in one: np.array([np.mean(x_ego > x_trap_1), np.mean(accident > 0)])  # shape
-    beyond the start: np.array([np.mean(x_ego > 1500), *(np.mean(accident == kind) for kind in (1, 2, 3))])
+wrong_lines("""find_plan
+    straight on: np.full(8, 4)  # does not get out
+    many plans: plans = rng.integers(3, 6, (6000, 8)); plans[gets_out(plans)]  # one plan is (8,)
+    one plan alone: gets_out(rng.integers(3, 6, 8))  # takes many at once
 """)

@@ -103,61 +103,6 @@ wrong_lines(f"""drive_behind
         states
 """)
 
-right_lines("""equilibrium_gap
-    solved: (s0 + time_gap * v) * (1 - (v / v_desired) ** delta) ** -0.5
-    with numpy's functions: np.polyval([time_gap, s0], v) / np.sqrt(1 - np.power(v / v_desired, delta))
-    by bisection: low, high = 0.01, 1e6
-        for _ in range(100):
-            middle = (low + high) / 2
-            if 1 - (v / v_desired) ** delta - ((s0 + time_gap * v) / middle) ** 2 < 0:
-                low = middle
-            else:
-                high = middle
-        low
-""")
-
-wrong_lines("""equilibrium_gap
-    a power goes first: (s0 + time_gap * v) / math.sqrt(1 - v / v_desired**delta)
-    delta is four: (s0 + time_gap * v) / math.sqrt(1 - (v / v_desired) ** 4)
-    at a standstill: s0
-    less the car: solution(v, v_desired, s0, time_gap, delta) - 5
-    at the desired speed: (s0 + time_gap * v_desired) / math.sqrt(1 - (v / v_desired) ** delta)
-    both roots: np.array([1, -1]) * solution(v, v_desired, s0, time_gap, delta)  # a number
-    only the time gap is stretched: s0 + time_gap * v / math.sqrt(1 - (v / v_desired) ** delta)
-    without power: (s0 + time_gap * v) / math.sqrt(1 - v / v_desired)
-""")
-
-right_lines("""worth_changing
-    one expression: others = follower_after - follower_before + old_follower_gain
-        follower_after >= -limit and own_gain + politeness * others > threshold
-    with steps: total = own_gain
-        total += politeness * old_follower_gain
-        total -= politeness * (follower_before - follower_after)
-        is_safe = not follower_after < -limit
-        1 if is_safe and total > threshold else 0
-    unsafe is worth nothing:
-        gains = np.array([own_gain, follower_after - follower_before, old_follower_gain]) @ [1, politeness, politeness]
-        np.where(follower_after + limit >= 0, gains, -np.inf) > threshold
-""")
-
-wrong_lines("""worth_changing
-    the default's numbers: others = follower_after - follower_before + old_follower_gain
-        follower_after >= -2.0 and own_gain + politeness * others > 0.2
-    safety turned: others = follower_after - follower_before + old_follower_gain
-        follower_after < -limit and own_gain + politeness * others > threshold
-    safe or worth it: others = follower_after - follower_before + old_follower_gain
-        follower_after >= -limit or own_gain + politeness * others > threshold
-    politeness for everything: total = own_gain + follower_after - follower_before + old_follower_gain
-        follower_after >= -limit and politeness * total > threshold
-    any change is limited: others = follower_after - follower_before + old_follower_gain
-        -limit <= follower_after <= limit and own_gain + politeness * others > threshold  # accelerates
-    the loss is limited: loss = follower_after - follower_before
-        loss >= -limit and own_gain + politeness * (loss + old_follower_gain) > threshold
-    weighed against the rest: others = follower_after - follower_before + old_follower_gain
-        follower_after >= -limit and (1 - politeness) * own_gain + politeness * others > threshold
-    the gain itself: own_gain + politeness * (follower_after - follower_before + old_follower_gain)
-""")
-
 right_lines("""heading_errors
     by a product: np.cumprod([error] + steps * [1 - dt / tau])
     in a loop: errors = [error]

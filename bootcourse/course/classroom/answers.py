@@ -1,26 +1,41 @@
 """The answers in a student's notebook, as texts, without running anything.
 
-An answer is the last definition of the exercise's function, with the definitions, assignments and imports of other
-cells that it uses: such a text can be judged by itself.
+An answer is what the notebook's last check of an exercise was given; without a check, it is the last definition of the
+exercise's function. With it come the top-level statements that make or change what it uses, in the notebook's order, so
+that such a text can be judged by itself. IPython's own transformer reads cells that have `%time`, `!ls` or `x?`.
 """
 
 import ast
-import builtins
 import re
+import time
+from bisect import bisect_left
+from collections import defaultdict
+from itertools import accumulate
 from typing import Any
 
+from IPython.core.inputtransformer2 import TransformerManager
 from msgspec import Struct
 
 from bootcourse.course.lessons import registry
-from bootcourse.course.names import names_made, names_used
+from bootcourse.course.names import names_changed, names_made, names_used, root_of
+from bootcourse.course.verdict import MARKS
+from bootcourse.errors import BootcourseError
 
-BUILT_IN = frozenset(vars(builtins))
-COMMAND = re.compile(r"^\s*[%!].*$", re.M)  # %time, !pip: no Python
-NO_PYTHON = (SyntaxError, ValueError, RecursionError, MemoryError)  # what a text raises that cannot be parsed
+LONGEST = 50_000  # characters of a cell, and of an answer
+SECONDS = 10.0  # that reading a student's notebooks may take
+NO_PYTHON = (SyntaxError, ValueError, RecursionError, MemoryError, RuntimeError)  # of a text that cannot be parsed
+RUNS_ITS_CELL = re.compile(r"\s*%%(time|capture|prun)\b.*\n")  # other %%magics hand the text to something else
+SURE = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef, ast.Import, ast.ImportFrom, ast.Assign, ast.AnnAssign)
 
 
 class Output(Struct):
     output_type: str = ""
+    data: dict[str, Any] = {}
+
+    @property
+    def says_right(self) -> bool:
+        text = self.data.get("text/plain", "")
+        return "".join(map(str, text) if isinstance(text, list) else str(text)).startswith(MARKS["passed"])
 
 
 class Cell(Struct):
@@ -49,54 +64,164 @@ class Notebook(Struct):
         return sum(any(output.output_type == "error" for output in cell.outputs) for cell in self.code)
 
 
-def answers_in(notebook: Notebook) -> dict[str, str]:
-    """Exercise -> the text of its answer, stubs included, for every exercise that the notebook defines."""
-    statements = [statement for cell in notebook.code for statement in pieces(COMMAND.sub("", cell.text))]
-    defined = [names_in(text) for text in statements]
-    answers = {}
-    for name in registry():
-        places = [place for place, names in enumerate(defined) if name in names and defines(statements[place], name)]
-        if places:
-            answers[name] = with_needs(places[-1], statements, defined)
-    return answers
+class Clock(TransformerManager):
+    """IPython's transformer, with the time that it may take: it reads a cell once more for each `%`, `!` or `?`."""
+
+    def __init__(self, seconds: float = SECONDS):
+        super().__init__()
+        self.end = time.monotonic() + seconds
+
+    def look(self) -> None:
+        """Raises BootcourseError when the time is over."""
+        if time.monotonic() > self.end:
+            raise BootcourseError("the notebooks take too long to read, so not all of them is graded.")
+
+    def do_one_token_transform(self, lines):
+        self.look()
+        return super().do_one_token_transform(lines)
 
 
-def pieces(text: str) -> list[str]:
+# Statements -----------------------------------------------------------------------------------------
+
+
+class Statement:
+    """A top-level statement of a cell. node: None for a whole cell that is not Python, of which little is known."""
+
+    def __init__(self, text: str, node: ast.stmt | None = None):
+        self.text, self.node = text, node
+        self.is_function = isinstance(node, SURE[:3])
+        self.uses, self.changes, self.checks = set(), set(), {}
+        self.later: set[str] = set()  # what a function changes when it is called
+        if node is None:
+            self.makes = set(re.findall(r"^[ \t]*(?:def|class) (\w+)", text, re.M))
+            return
+        self.makes, self.uses, self.changes = names_made(text), names_used(text), names_changed(text)
+        if self.is_function:
+            outside = {name for each in ast.walk(node) if isinstance(each, ast.Global) for name in each.names}
+            self.later, self.changes = outside | self.changes & self.uses, set()
+        elif "check" in self.uses:
+            calls = [each for each in ast.walk(node) if isinstance(each, ast.Call) and each.args]
+            named = [(each.func, each.args[0]) for each in calls if isinstance(each.func, ast.Attribute)]
+            self.checks = {func.attr: ast.unparse(first) for func, first in named if root_of(func) == "check"}
+
+    def defines(self, name: str, any_value: bool) -> bool:
+        """Is it a definition of that function or class, also under `if` and the like, or a lambda of that name?
+
+        any_value: or any other assignment to it.
+        """
+        if name not in self.makes or self.node is None:
+            return False
+        if any_value and isinstance(self.node, ast.Assign):
+            return True
+        parts = [self.node] if self.is_function else ast.walk(self.node)
+        return any(isinstance(each, ast.Lambda) or getattr(each, "name", "") == name for each in parts)
+
+
+def statements_of(text: str, clock: Clock) -> list[Statement]:
     """The top-level statements of a cell; of a cell that is not Python, its text without the check."""
+    text = re.sub(r"\r\n?", "\n", text)
     try:
-        nodes = ast.parse(text).body
-    except NO_PYTHON:
-        return [re.sub(r"^check\..*$", "", text, flags=re.M)]
-    lines = text.splitlines()
-    first = [min(part.lineno for part in (node, *getattr(node, "decorator_list", ()))) for node in nodes]
-    return ["\n".join(lines[start - 1 : node.end_lineno]) for start, node in zip(first, nodes, strict=True)]
-
-
-def defines(text: str, name: str) -> bool:
-    """Does the text define a function or a class of that name? (A broken text may, too.)"""
-    return bool(re.search(rf"^(?:async )?(?:def|class) {name}\b", text, re.M))
-
-
-def names_in(text: str) -> set[str]:
-    """`names_made`, and of a text that is not Python the functions and classes that it begins."""
-    return names_made(text) or set(re.findall(r"^(?:def|class) (\w+)", text, re.M))
-
-
-def with_needs(answer: int, statements: list[str], defined: list[set[str]]) -> str:
-    """The answer's statement after the statements that make what it uses, in the notebook's order."""
-    taken, todo = {answer}, [answer]
-    while todo:
         try:
-            used = names_used(statements[todo.pop()]) - BUILT_IN
+            nodes = ast.parse(text).body
         except NO_PYTHON:
-            continue
-        for name in used:
-            makers = [place for place, names in enumerate(defined) if name in names]
-            before = [place for place in makers if place < answer] or makers
-            if before and before[-1] not in taken:
-                taken.add(before[-1])
-                todo.append(before[-1])
-    return "\n\n".join(statements[place] for place in [*sorted(taken - {answer}), answer]) + "\n"
+            magic = RUNS_ITS_CELL.match(text)
+            text = clock.transform_cell(text[magic.end() :] if magic else text)
+            nodes = ast.parse(text).body
+        return [Statement(*pair) for pair in zip(segments(text, nodes), nodes, strict=True)]
+    except NO_PYTHON:
+        return [Statement(re.sub(r"^check\..*$", "", text, flags=re.M))]
+
+
+def segments(text: str, nodes: list[ast.stmt]) -> list[str]:
+    """The text of each statement with the comment behind it. A line ends as Python sees it, at "\\n" alone."""
+    whole = text.encode()
+    lines = whole.split(b"\n")
+    starts, found = [0, *accumulate(len(line) + 1 for line in lines)], []
+    for node in nodes:
+        first = min((node, *getattr(node, "decorator_list", ())), key=lambda part: part.lineno)
+        begin = starts[first.lineno - 1] + (node.col_offset if first is node else 0)
+        rest = lines[node.end_lineno - 1][node.end_col_offset :]
+        comment = len(rest) if rest.lstrip().startswith(b"#") else 0
+        found.append(whole[begin : starts[node.end_lineno - 1] + node.end_col_offset + comment].decode())
+    return found
+
+
+# Answers --------------------------------------------------------------------------------------------
+
+
+class Answers:
+    """What a notebook answers. Raises BootcourseError if it takes longer to read than the clock allows."""
+
+    def __init__(self, notebook: Notebook, clock: Clock):
+        self.clock, self.statements = clock, []
+        self.right: set[str] = set()  # the exercises whose check, when it last ran there, said that the answer is right
+        self.too_long = sum(len(cell.text) > LONGEST for cell in notebook.code)
+        for cell in notebook.code:
+            clock.look()
+            mine = statements_of(cell.text, clock) if len(cell.text) <= LONGEST else []
+            checks = [name for one in mine for name in one.checks]
+            self.right -= set(checks)
+            if any(output.says_right for output in cell.outputs):
+                self.right |= set(checks[-1:])  # a cell shows what its last line says
+            self.statements += mine
+        self.touched = self._touched()
+
+    def _touched(self) -> dict[str, list[int]]:
+        """name -> the places of the statements that make or change it."""
+        imported = {name for one in self.statements if isinstance(one.node, SURE[3:5]) for name in one.makes}
+        later = {name: one.later for one in self.statements if one.later for name in one.makes}
+        touched = defaultdict(list)
+        for place, one in enumerate(self.statements):
+            called = () if one.is_function else later.keys() & one.uses
+            for name in one.makes.union(one.changes - imported, *(later[name] for name in called)):
+                touched[name].append(place)
+        return touched
+
+    def texts(self) -> dict[str, str]:
+        """Exercise -> the text of its answer, stubs included, for every exercise that the notebook defines.
+
+        An answer that its check has seen goes before one that no check has seen, and this before a broken cell.
+        """
+        texts, checked = {}, {name: place for place, one in enumerate(self.statements) for name in one.checks}
+        for name in registry():
+            self.clock.look()
+            ways = [self.checked(name, checked[name])] if name in checked else []
+            touching = self.touched.get(name, [])
+            defined = [place for place in touching if self.statements[place].defines(name, name in checked)]
+            ways += [self.made({name}, place + 1) for place in defined[-1:]]
+            broken = [self.statements[place] for place in touching if self.statements[place].node is None]
+            ways = [way for way in (*ways, *(one.text for one in broken[-1:])) if way.strip()]
+            if ways:
+                texts[name] = next((way for way in ways if not unfinished(way)), ways[0])
+        return texts
+
+    def checked(self, name: str, place: int) -> str:
+        """The answer that the check at this place was given; "" if the notebook does not say what it was."""
+        given = self.statements[place].checks[name]
+        text = self.made(names_used(given), place + 1)
+        if given == name:
+            return text
+        return f"{text}\n{name} = {given}\n" if text or not given.isidentifier() else ""
+
+    def made(self, names: set[str], end: int) -> str:
+        """The statements that make these names as they are before a place, and what these statements use."""
+        taken, walked = set(self.touched.get("*", [])), set()
+        todo = [(name, end) for name in names] + [(name, 0) for place in taken for name in self.statements[place].uses]
+        while todo:
+            name, before = todo.pop()
+            places = self.touched.get(name, [])
+            last = bisect_left(places, before) or len(places)  # what is made below only is as it is at the end
+            for place in (places[k] for k in range(last - 1, -1, -1)):
+                one = self.statements[place]
+                if (name, place) in walked:
+                    break
+                walked.add((name, place))
+                if place not in taken:
+                    taken.add(place)
+                    todo += [(used, end if one.is_function else place) for used in one.uses]
+                if name in one.makes and isinstance(one.node, SURE):
+                    break
+        return "".join(f"{self.statements[place].text}\n\n" for place in sorted(taken))[:-1]
 
 
 def unfinished(text: str) -> bool:

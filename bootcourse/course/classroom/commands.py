@@ -30,16 +30,18 @@ def grade(
     folder: Path = typer.Argument(..., help="A file or a folder for each student: submissions or notebooks."),
     out: Path = typer.Option(Path("grades.csv"), help="The table to write; more is written beside it."),
     points: Path | None = typer.Option(None, help="A TOML file with the points; by default an exercise's difficulty."),
-    lessons: str = typer.Option("", help="Only these lessons, such as 2-7 or 1,5,7."),
+    lessons: str = typer.Option("", help="Only these lessons, such as 2-7; by default those that were handed out."),
     workers: int = typer.Option(0, min=0, help="Answers judged at once; 0: one for each core."),
 ) -> None:
     """Judge every answer of a class again; write tables, a page for each student and one for the class."""
     from bootcourse.course.classroom.grading import Verdicts, graded, judge_all
-    from bootcourse.course.classroom.pages import write_report
-    from bootcourse.course.classroom.points import read_lessons, read_points
+    from bootcourse.course.classroom.pages import check_places, write_report
+    from bootcourse.course.classroom.points import handed_out, read_lessons, read_points
     from bootcourse.course.classroom.submission import collect
 
-    worth, submissions = read_points(points, read_lessons(lessons)), collect(folder)
+    check_places(out, folder)
+    submissions, chosen = collect(folder), read_lessons(lessons)
+    worth = read_points(points, chosen or handed_out(submissions))
     verdicts = Verdicts(out.with_name(f"{out.stem}-verdicts.jsonl"))
     try:
         holds = judge_all(submissions, list(worth), verdicts, workers or os.cpu_count() or 1)

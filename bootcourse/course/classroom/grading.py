@@ -18,6 +18,7 @@ from bootcourse.course.classroom.judging import Judge, Judged
 from bootcourse.course.classroom.submission import Submission, fingerprint
 from bootcourse.course.lessons import registry
 from bootcourse.episodes.evaluate import drive_episodes
+from bootcourse.files import check_own
 from bootcourse.policies import rule_policy
 from bootcourse.scenario import DEFAULT
 
@@ -43,10 +44,11 @@ class Verdicts:
     def __init__(self, path: Path):
         self.path, self.lock = path, threading.Lock()
         self.known: dict[str, Judged] = {}
+        check_own(path, '{"key":')
         for line in path.read_bytes().splitlines() if path.exists() else ():
             try:
                 kept = msgspec.json.decode(line, type=Kept)
-            except msgspec.MsgspecError:
+            except (msgspec.MsgspecError, RecursionError, UnicodeDecodeError):
                 continue
             self.known[kept.key] = kept.judged
 

@@ -4,6 +4,7 @@
 """
 
 import io
+import itertools
 import json
 import re
 import zipfile
@@ -18,8 +19,9 @@ import bootcourse
 from bootcourse.course.classroom.merge import hashed, merge, texts
 from bootcourse.course.classroom.submission import MADE_WITH, fingerprint
 from bootcourse.course.edition import HANDOUT
+from bootcourse.course.lessons import LESSONS, number
 from bootcourse.errors import BootcourseError
-from bootcourse.files import read_bytes, read_json, write_bytes
+from bootcourse.files import check_own, read_bytes, read_json, write_bytes
 
 KIT = Path(bootcourse.__file__).resolve().parent.parent
 COPIED = ("bootcourse", "assets", "tools/install.sh", "pyproject.toml", "LICENSE")
@@ -31,11 +33,10 @@ class Handout(Struct):
 
     FORMAT: ClassVar[str] = "bootcourse handout 2"
 
-    lessons: list[int]
     deadline: str  # as 2030-05-31, or ""
     solutions: bool  # may `check.solution` show them?
     files: dict[str, str]  # name -> `hashed`
-    cells: dict[str, dict[str, str]]  # notebook -> `texts`
+    cells: dict[str, dict[str, str]]  # notebook -> `texts`; its lesson's number may be another one by now
     format: str = FORMAT
 
 
@@ -71,6 +72,7 @@ def write(folder: Path, lessons: set[int] | None, deadline: str, solutions: bool
     """
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
         raise BootcourseError(f"{folder} exists already: choose another folder, or bring it up to date with --update.")
+    check_own(*zip_of(folder))
     parts = content(lessons, checked(deadline), solutions)
     for name, data in parts.items():
         write_bytes(folder / name, data)
@@ -86,11 +88,18 @@ def update(folder: Path, lessons: set[int] | None, deadline: str, solutions: boo
     """
     if not (folder / HANDOUT).is_file():
         raise BootcourseError(f"{folder} is no handout: it has no {HANDOUT}. Leave out --update to write a new one.")
-    old = read_json(folder / HANDOUT, Handout)
-    lessons = lessons or set(old.lessons)
+    old = read_json(folder / HANDOUT, Handout, "restore it from the handout's zip file")
+    check_own(*zip_of(folder))
+    before = {lesson_of(name): name for name in old.cells}
+    lessons = lessons or {number(lesson) for lesson in before if lesson in LESSONS}
     solutions = old.solutions if solutions is None else solutions
     parts, said = content(lessons, checked(deadline) or old.deadline, solutions), []
     for name, data in parts.items():
+        was = before.get(lesson_of(name), name) if name.endswith(".ipynb") else name
+        if was != name and (folder / was).is_file() and not (folder / name).exists():
+            (folder / was).rename(folder / name)
+            said.append(f"{was}: it is {name} now.")
+        old.files[name], old.cells[name] = old.files.get(was, ""), old.cells.get(was, {})
         said += place(folder / name, name, data, old)
     return [*said, zipped(folder, parts)]
 
@@ -108,13 +117,26 @@ def place(path: Path, name: str, data: bytes, old: Handout) -> list[str]:
         try:
             merged = merge(read_json(path, dict), old.cells.get(name, {}), json.loads(data))
         except (BootcourseError, KeyError, TypeError, AttributeError):
-            write_bytes(path.with_suffix(".new.ipynb"), data)
-            return [f"{name}: damaged, and left as it is; the new version is {path.stem}.new.ipynb."]
+            new = spare(path.with_suffix(".new.ipynb"), data)
+            return [f"{name}: damaged, and left as it is; the new version is {new}."]
         write_bytes(path, dumped(merged.notebook))
         return [f"{name}: {merged}"]
-    write_bytes(path.with_name(f"{path.name}.yours"), mine)
+    yours = spare(path.with_name(f"{path.name}.yours"), mine)
     write_bytes(path, data)
-    return [f"{name}: replaced; the one that was here is {path.name}.yours."]
+    return [f"{name}: replaced; the one that was here is {yours}."]
+
+
+def spare(path: Path, data: bytes) -> str:
+    """Write to this file, or beside it if it holds something else. Returns the file's name."""
+    free = (path.with_stem(f"{path.stem}-{count}") if count > 1 else path for count in itertools.count(1))
+    path = next(each for each in free if not each.exists() or each.is_file() and read_bytes(each) == data)
+    write_bytes(path, data)
+    return path.name
+
+
+def lesson_of(name: str) -> str:
+    """notebooks/05_the_barrier.ipynb -> the_barrier"""
+    return Path(name).stem.partition("_")[2]
 
 
 def content(lessons: set[int] | None, deadline: str, solutions: bool) -> dict[str, bytes]:
@@ -141,7 +163,7 @@ def content(lessons: set[int] | None, deadline: str, solutions: bool) -> dict[st
         solutions='`check.solution("NAME")` shows a solution.' if solutions else "solutions are closed.",
     ).encode()
     record = Handout(
-        lessons=sorted(int(Path(name).name[:2]) for name in cells), deadline=deadline, solutions=solutions,
+        deadline=deadline, solutions=solutions,
         files={name: hashed(data) for name, data in files.items()}, cells=cells,
     )  # fmt: skip
     return files | {HANDOUT: msgspec.json.format(msgspec.json.encode(record), indent=1)}
@@ -174,12 +196,18 @@ def makefile(text: str) -> str:
     return "\n\n".join([head, *possible]).rstrip() + "\n"
 
 
+def zip_of(folder: Path) -> tuple[Path, str]:
+    """The zip file of a handout, and what stands in it."""
+    folder = folder.resolve()
+    return folder.parent / f"{folder.name}.zip", f"{folder.name}/{HANDOUT}"
+
+
 def zipped(folder: Path, parts: dict[str, bytes]) -> str:
     """Write what is handed out as FOLDER.zip beside the folder: nothing that a student wrote is in it."""
     folder, data = folder.resolve(), io.BytesIO()
     with zipfile.ZipFile(data, "w", zipfile.ZIP_DEFLATED) as file:
         for name, part in parts.items():
             file.writestr(f"{folder.name}/{name}", part)
-    path = folder.with_name(f"{folder.name}.zip")
+    path = zip_of(folder)[0]
     write_bytes(path, data.getvalue())
     return f"{path}: {path.stat().st_size / 1e6:.0f} MB."

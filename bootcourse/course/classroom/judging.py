@@ -6,6 +6,7 @@ again, with limits of time and memory.
 """
 
 import contextlib
+import functools
 import json
 import os
 import shutil
@@ -17,6 +18,7 @@ from pathlib import Path
 
 import msgspec
 
+import bootcourse
 from bootcourse.errors import BootcourseError
 
 START, SLACK = 180.0, 120.0  # s that a process has to start, and to answer beyond an exercise's own limit
@@ -36,13 +38,16 @@ UNJUDGED = Judged("unjudged", "Your answer could not be judged: the process that
 
 def main() -> None:
     """Judge until the input ends. The first line says what holds the process in."""
-    from bootcourse.course.classroom.sandbox import shut_in
+    from bootcourse.course import runner
+    from bootcourse.course.classroom.sandbox import SCRATCH, shut_in, shut_in_answer
 
     questions, replies = os.fdopen(os.dup(0), "r", encoding="utf-8"), os.fdopen(os.dup(1), "w", encoding="utf-8")
     nowhere = os.open(os.devnull, os.O_RDWR)
     for descriptor in (0, 1):
         os.dup2(nowhere, descriptor)
-    holds = shut_in(Path(sys.argv[1]))
+    folder = Path(sys.argv[1])
+    holds = shut_in(folder)
+    runner.SHUT_IN = functools.partial(shut_in_answer, folder) if holds else None
     from bootcourse.course.judge import judge
     from bootcourse.course.lessons import registry
 
@@ -53,6 +58,8 @@ def main() -> None:
     for line in questions:
         asked = json.loads(line)
         verdict = judge(registry()[asked["exercise"]], asked["source"], asked["seconds"])
+        for left in (folder / SCRATCH).glob("*") if holds else ():
+            shutil.rmtree(left, ignore_errors=True) if left.is_dir() else left.unlink()
         judged = Judged(verdict.kind, verdict.sentence, verdict.details, verdict.mistake is not None)
         print(msgspec.json.encode(judged).decode(), file=replies, flush=True)
         if children() > ours:  # an answer has left processes that run on
@@ -92,9 +99,10 @@ class Judge:
         if self.process is not None:
             return
         self.folder = tempfile.mkdtemp(prefix="bootcourse-judge-")
-        command = [sys.executable, "-m", "bootcourse.course.classroom.judging", self.folder]
+        # -P: a folder in which somebody works, or whose files were handed in, is not one to import from
+        command = [sys.executable, "-P", "-m", "bootcourse.course.classroom.judging", self.folder]
         self.process = subprocess.Popen(
-            command, env=environment(self.folder), stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+            command, env=environment(self.folder), cwd=self.folder, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL, encoding="utf-8", start_new_session=True,
         )  # fmt: skip
         holds = self.line(START)
@@ -130,7 +138,9 @@ def environment(folder: str) -> dict[str, str]:
         shutil.copytree(CACHE_FOLDER, caches / CACHE_FOLDER.name)
     system = {name: os.environ[name] for name in ("PATH", "LANG", "LC_ALL", "SYSTEMROOT") if name in os.environ}
     own = dict.fromkeys(("HOME", "TMPDIR", "TEMP", "TMP", "MPLCONFIGDIR"), folder)
-    python = {"PYTHONPATH": os.pathsep.join(filter(None, sys.path)), "PYTHONDONTWRITEBYTECODE": "1"}
+    places = [place for place in sys.path if place and Path(place).resolve() != Path.cwd()]
+    package = str(Path(bootcourse.__file__).resolve().parents[1])  # it may be the present folder
+    python = {"PYTHONPATH": os.pathsep.join([*places, package]), "PYTHONDONTWRITEBYTECODE": "1"}
     return system | own | python | {"NUMBA_CACHE_DIR": str(caches), "OMP_NUM_THREADS": "1"}
 
 

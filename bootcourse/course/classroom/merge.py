@@ -44,7 +44,7 @@ def texts(notebook: dict) -> dict[str, str]:
 def merge(mine: dict, base: dict[str, str], new: dict) -> Merged:
     """mine: the student's notebook; base: `texts` of the one that was handed out; new: the one to hand out now."""
     own = {place: cell for place, cell in enumerate(mine["cells"]) if digest(cell) not in base.values()}
-    in_place = {str(cell.get("id")): cell for cell in own.values()}
+    in_place = {str(own[place].get("id")): own[place] for place in reversed(own)}  # of several with one id, the first
     ran = {digest(cell): cell for cell in mine["cells"]}
     lesson, cells = {str(cell["id"]): cell for cell in new["cells"]}, []
     for name, cell in lesson.items():
@@ -52,7 +52,7 @@ def merge(mine: dict, base: dict[str, str], new: dict) -> Merged:
                    if key in cell and key in ran.get(digest(cell), {})}  # fmt: skip
         cells.append(in_place.get(name, cell | outputs))
     for place, cell in own.items():  # what the student added stands behind what stood before it
-        if str(cell.get("id")) not in lesson:
+        if str(cell.get("id")) not in lesson or in_place[str(cell.get("id"))] is not cell:
             there = [digest(other) for other in cells]
             above = [there.index(digest(other)) for other in mine["cells"][:place] if digest(other) in there]
             cells.insert(above[-1] + 1 if above else 0, cell)

@@ -5,6 +5,7 @@ Every page is made with `markup.html`, which escapes what students wrote.
 
 import csv
 import io
+import os
 import sys
 from collections import Counter
 from collections.abc import Iterable, Sequence
@@ -12,13 +13,15 @@ from itertools import groupby
 from pathlib import Path
 from urllib.parse import quote
 
-from bootcourse.course.classroom.grading import Graduate, identical
+from bootcourse.course.classroom.grading import MISSING, Graduate, identical
 from bootcourse.course.classroom.judging import Judged
+from bootcourse.course.classroom.sandbox import HOLDS
 from bootcourse.course.classroom.submission import fingerprint
 from bootcourse.course.lessons import registry
 from bootcourse.course.predictions import number_of, worded
 from bootcourse.course.verdict import COLOURS, MARKS, marked
-from bootcourse.files import write_bytes
+from bootcourse.errors import BootcourseError
+from bootcourse.files import check_own, write_bytes
 from bootcourse.markup import Markup, html, joined
 
 STYLE = """:root {color-scheme: light dark} small {opacity: 0.7} meter {width: 100px}
@@ -27,21 +30,36 @@ h2 {margin-top: 1.6em; font-size: 1.2em} table {border-collapse: collapse; width
 th, td {text-align: left; vertical-align: top; padding: 4px 10px 4px 0; border-bottom: 1px solid #8886}
 td:last-child {overflow-wrap: anywhere; min-width: 9em} code, pre {font: 13px/1.4 ui-monospace, monospace}
 pre {white-space: pre-wrap; margin: 4px 0}"""
+MADE_BY = '<meta name="generator" content="bootcourse">'
 WORDS = {"missing": "not handed in", "todo": "not written"}
 TO_LOOK_AT = {"did_not_run": "did not run", "unjudged": "could not be judged, grade again"}
-ALL = {"network", "processes", "files"}  # what shuts an answer in on Linux
 MOST = 12  # different answers to a prediction that are listed
+
+
+def check_places(out: Path, folder: Path) -> None:
+    """Raise BootcourseError if the table cannot be `out`, or a file would replace one that is not a grading's."""
+    if out.suffix != ".csv":
+        raise BootcourseError(f"--out {out}: give the table a name that ends in .csv.")
+    if folder.resolve() in out.resolve().parents:
+        raise BootcourseError(f"{out} is among the submissions: write it elsewhere, such as --out ../{out.name}.")
+    check_own(out, "id,name,points")
+    for path in [out.with_suffix(".html"), *pages_of(out).glob("*.html")]:
+        check_own(path, MADE_BY)
+
+
+def pages_of(out: Path) -> Path:
+    return out.with_name(f"{out.stem}-pages")
 
 
 def write_report(graduates: Sequence[Graduate], out: Path, holds: list[str]) -> list[Path]:
     """Write them to `out`, the table, and beside it. Returns the table and the page about the class."""
-    pages, index = out.with_name(f"{out.stem}-pages"), out.with_suffix(".html")
+    pages, index = pages_of(out), out.with_suffix(".html")
     write_csv(graduates, out)
     link = {}
     for one in graduates:
         student = one.submission.student  # the name of a file, so it may be that of another
         write_bytes(pages / f"{student}.html", feedback(one).encode("utf-8", "replace"))
-        link[student] = html('<a href="{}">{}</a>', quote(f"{pages.name}/{student}.html"), student)
+        link[student] = html('<a href="{}">{}</a>', quote(os.fsencode(f"{pages.name}/{student}.html")), student)
     write_bytes(index, class_page(graduates, link, holds).encode("utf-8", "replace"))
     return [out, index]
 
@@ -67,9 +85,11 @@ def harmless(text: str) -> str:
 
 def page(title: str, *parts: Markup) -> Markup:
     """A whole page that asks the network for nothing."""
-    head = '<meta charset="utf-8"><meta name="viewport" content="width=device-width"><title>{}</title><style>{}</style>'
-    head, body = html(head, title, Markup(STYLE)), html("<h1>{}</h1>{}", title, joined(parts, "\n"))
-    return html('<!doctype html><html lang="en"><head>{}</head><body>{}</body></html>', head, body)
+    head = (
+        '<meta charset="utf-8">{}<meta name="viewport" content="width=device-width"><title>{}</title><style>{}</style>'
+    )
+    head, body = html(head, Markup(MADE_BY), title, Markup(STYLE)), html("<h1>{}</h1>{}", title, joined(parts, "\n"))
+    return html('<!doctype html><html lang="en"><head>{}{}</head><body>{}</body></html>', Markup(MADE_BY), head, body)
 
 
 def table(heading: str, columns: Iterable[str], rows: Iterable[Iterable]) -> Markup:
@@ -108,7 +128,10 @@ def feedback(graduate: Graduate) -> Markup:
     own, worth, points = graduate.submission, graduate.worth, graduate.points
     parts = [html("<p><strong>{:g} of {:g} points.</strong></p>", graduate.total, sum(worth.values()))]
     for heading, names in by_lesson(worth):
-        rows = [[code([n]), f"{points[n]:g} of {worth[n]:g}", said(graduate.verdicts[n])] for n in names]
+        rows = [
+            [code([n]), f"{points[n]:g} of {worth[n]:g}", said(graduate.verdicts[n], own.answers.get(n, ""))]
+            for n in names
+        ]
         parts.append(table(heading, ("exercise", "points", "the check says"), rows))
     parts.append(bullets("What could not be read, or did not run", own.problems))
     if own.made:
@@ -117,13 +140,15 @@ def feedback(graduate: Graduate) -> Markup:
     return page(f"Feedback for {own.name or own.student}", *parts)
 
 
-def said(judged: Judged) -> Markup:
-    """The check's words, and its numbers."""
+def said(judged: Judged, answer: str) -> Markup:
+    """The check's words, its numbers, and the answer itself if it is not right."""
     if judged.kind in WORDS:
         return html("<small>{}</small>", WORDS[judged.kind])
     numbers = html("<pre>{}</pre>", "\n".join(judged.details)) if judged.details else ""
     colour, mark = COLOURS.get(judged.kind, "inherit"), MARKS.get(judged.kind, "")
-    return html('<span style="color: {}">{}</span> {}{}', colour, mark, marked(judged.sentence), numbers)
+    own = html("<details><summary>your code</summary><pre>{}</pre></details>", answer)
+    own = own if judged.kind != "passed" else ""
+    return html('<span style="color: {}">{}</span> {}{}{}', colour, mark, marked(judged.sentence), numbers, own)
 
 
 # The class ------------------------------------------------------------------------------------------
@@ -145,7 +170,7 @@ def class_page(graduates: Sequence[Graduate], link: dict[str, Markup], holds: li
     parts.append(bullets("To look at", to_look_at(graduates, link)))
     for heading, names in by_lesson(worth):
         rows = [row_of(name, graduates, link) for name in names]
-        parts.append(table(heading, ("exercise", "right", "", "wrong", "known mistakes"), rows))
+        parts.append(table(heading, ("exercise", "right", "", "not written", "wrong", "known mistakes"), rows))
     if predicted := prediction_rows(graduates):
         parts.append(table("Predictions", ("", "question", "answers"), predicted))
     return page("The class", *parts)
@@ -155,9 +180,9 @@ def shut_in(holds: list[str]) -> str:
     """A sentence about what the answers could reach while they were judged; nothing if nothing was judged."""
     if not holds and sys.platform == "linux":
         return ""
-    if missing := sorted(ALL - set(holds)):
-        return f"On this system an answer could reach your {' and '.join(missing)} while it was judged."
-    return "Answers were judged without network, with files and processes of their own."
+    if missing := [words for what, words in HOLDS.items() if what not in holds]:
+        return f"On this system an answer could {', and '.join(missing)} while it was judged."
+    return "Answers were judged without network, sockets and your processes; they could write to a folder in memory."
 
 
 def row_of(exercise: str, graduates: Sequence[Graduate], link: dict[str, Markup]) -> list:
@@ -174,6 +199,7 @@ def row_of(exercise: str, graduates: Sequence[Graduate], link: dict[str, Markup]
         code([exercise]),
         f"{right} of {len(verdicts)}",
         bar(right, len(verdicts)),
+        str(sum(judged.kind in WORDS for judged in verdicts.values())),
         students,
         joined(mistakes, "<br>"),
     ]
@@ -193,6 +219,9 @@ def to_look_at(graduates: Sequence[Graduate], link: dict[str, Markup]) -> list[M
         for kind, words in TO_LOOK_AT.items():
             names = [name for name, judged in one.verdicts.items() if judged.kind == kind]
             sentences += [html("{}: {}.", words, code(names))] * bool(names)
+        elsewhere = [name for name in own.right if one.verdicts.get(name, MISSING).kind not in ("passed", "missing")]
+        if elsewhere:
+            sentences.append(html("right in the notebook, not here: {}.", code(elsewhere)))
         items += [html("{}: {}", link[own.student], sentence) for sentence in sentences]
     for group in identical([one.submission for one in graduates]):
         items.append(html("{}: identical in all but spaces.", joined((link[student] for student in group), ", ")))

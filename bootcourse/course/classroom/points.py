@@ -6,13 +6,16 @@ soft_constraint = 5
 """
 
 import re
+from collections import Counter
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
 import msgspec
 from msgspec import Meta, Struct
 
-from bootcourse.course.lessons import registry
+from bootcourse.course.classroom.submission import Submission
+from bootcourse.course.lessons import LESSONS, number, registry
 from bootcourse.errors import BootcourseError, check_known
 from bootcourse.files import decoding, read_bytes
 
@@ -39,6 +42,12 @@ def read_points(path: Path | None, lessons: set[int] | None = None) -> dict[str,
         for name, exercise in registry().items()
         if lessons is None or int(exercise.lesson[:2]) in lessons
     }
+
+
+def handed_out(submissions: Sequence[Submission]) -> set[int] | None:
+    """The lessons that most submissions were given, as numbers; None if they do not say."""
+    given = Counter(frozenset(one.lessons) & set(LESSONS) for one in submissions)
+    return next(({number(lesson) for lesson in lessons} for lessons, _ in given.most_common() if lessons), None)
 
 
 def read_lessons(text: str) -> set[int] | None:

@@ -1,42 +1,97 @@
 """Shut a process in before it runs what strangers wrote: no network, few files, no other process.
 
-On Linux, without root: a user, network and process namespace (unshare(2)), and Landlock (landlock(7)): the process and
-its children may write beneath one folder, and read Python, this package and the system. Elsewhere, and where the
-system forbids it, nothing of this applies: `shut_in` says what does.
+On Linux, without root: a user, network, process and mount namespace (unshare(2)), and Landlock (landlock(7)). The
+process that judges may write beneath one folder, and read Python, this package and the system. The process of an answer
+has less: `shut_in_answer` lets it write beneath a small folder in memory alone, and open no socket. Elsewhere, and
+where the system forbids it, nothing of this applies: `shut_in` says what does.
 """
 
 import contextlib
 import ctypes
 import os
+import platform
 import signal
 import sys
+import tempfile
 from pathlib import Path
 
-NEWUSER, NEWPID, NEWNET = 0x10000000, 0x20000000, 0x40000000  # sched.h
+import numba
+
+NEWNS, NEWUSER, NEWPID, NEWNET = 0x20000, 0x10000000, 0x20000000, 0x40000000  # sched.h
 CREATE_RULESET, ADD_RULE, RESTRICT_SELF = 444, 445, 446  # numbers of the system calls, the same on all processors
-NO_NEW_PRIVS, DEATH_SIGNAL = 38, 1  # of prctl(2)
-READ = 0b1100  # read a file, list a folder
+DEATH_SIGNAL, SECCOMP, NO_NEW_PRIVS = 1, 22, 38  # of prctl(2)
+LIST, READ = 0b1000, 0b1100  # Landlock's rights to list a folder, and to read files, too
 WRITE = 0b1_1111_1111_0010  # write, remove, make: all rights of Landlock's first version but execute and read
 REFER, TRUNCATE = 1 << 13, 1 << 14  # of its second and third
+SCOPES = 0b11  # of its sixth: abstract sockets, and signals to processes outside
 FILE = 0b100_0000_0000_0110  # what a rule about a single file may permit: write, read, truncate
 SYSTEM = ("/usr", "/lib", "/lib64", "/bin", "/etc", "/opt", "/proc", "/sys", "/dev")
+PACKAGE = Path(__file__).resolve().parents[2]
+SCRATCH = "scratch"
+NOTHING_SPECIAL, ROOM = 0b1110, b"size=64m,nr_inodes=4k"  # no programs, devices, rights of others in that folder
+LARGEST, MOST = 2**24, 256  # bytes of a file, and processes, of an answer
+ALLOWED, FAILS = 0x7FFF0000, 0x00050001  # of a filter: go on; fail with EPERM
+HOLDS = {  # what may hold -> what an answer can do if it does not
+    "files": "read and change your files",
+    "network": "use the network",
+    "sockets": "talk to programs on your machine, and change the dates and permissions of your files",
+    "processes": "see and end your programs",
+    "disk": "fill your disk",
+}
+# socket, io_uring_setup; chmod, chown, utime, setxattr and removexattr with their kin (see asm/unistd.h)
+REFUSED = {
+    "x86_64": (0xC000003E, (41, 425, 90, 91, 268, 452, 92, 93, 94, 260, 132, 235, 261, 280, 188, 189, 190, 197, 198,
+                            199)),
+    "aarch64": (0xC00000B7, (198, 425, 52, 53, 452, 54, 55, 88, 5, 6, 7, 14, 15, 16)),
+}  # fmt: skip
 
 
 def shut_in(folder: Path) -> list[str]:
-    """Shut this process in; it may write beneath `folder` alone. Returns what holds: network, processes, files.
+    """Shut this process in; it may write beneath `folder` alone. Returns what holds: see `HOLDS`.
 
     Call it while there is one thread. It may return in a child: the parent then waits and ends as the child does.
     """
     if sys.platform != "linux":
         return []
-    libc = ctypes.CDLL(None, use_errno=True)
-    holds = []
-    if libc.unshare(NEWUSER | NEWNET | NEWPID) == 0:
-        become_first(libc)
+    libc, holds, scratch = ctypes.CDLL(None, use_errno=True), [], folder / SCRATCH
+    scratch.mkdir()
+    user, group = os.getuid(), os.getgid()
+    if libc.unshare(NEWUSER | NEWNET | NEWPID | NEWNS) == 0:
         holds += ["network", "processes"]
+        with contextlib.suppress(OSError):
+            for name, text in ("setgroups", "deny"), ("uid_map", f"0 {user} 1"), ("gid_map", f"0 {group} 1"):
+                Path("/proc/self", name).write_text(text)
+        if libc.mount(b"tmpfs", bytes(scratch), b"tmpfs", NOTHING_SPECIAL, ROOM) == 0:
+            holds.append("disk")
+        limit("RLIMIT_NPROC", MOST)  # of these processes alone: others of the same user are not in the namespace
+        become_first(libc)
+        libc.mount(b"proc", b"/proc", b"proc", NOTHING_SPECIAL, None)  # not where a container hides parts of it
     if restrict_files(libc, folder):
         holds.append("files")
-    return holds
+    child = os.fork()  # can the process of an answer be shut in?
+    if not child:
+        os._exit(0 if shut_in_answer(folder) else 1)
+    return [*holds, "sockets"] if os.waitpid(child, 0)[1] == 0 else holds
+
+
+def shut_in_answer(folder: Path) -> bool:
+    """The same for the process of one answer, which may write beneath folder/scratch alone, and open no socket."""
+    libc, scratch = ctypes.CDLL(None, use_errno=True), folder / SCRATCH
+    limit("RLIMIT_FSIZE", LARGEST)
+    limit("RLIMIT_CORE", 0)
+    os.environ |= dict.fromkeys(("HOME", "TMPDIR", "TEMP", "TMP", "MPLCONFIGDIR"), str(scratch))
+    tempfile.tempdir = None
+    numba.core.caching.Cache.save_overload = lambda *arguments: None  # what it compiles, nobody else executes
+    os.chdir(scratch)
+    return restrict_files(libc, scratch) & refuse_calls(libc)
+
+
+def limit(what: str, most: int) -> None:
+    import resource  # not on Windows
+
+    hard = resource.getrlimit(getattr(resource, what))[1]
+    most = most if hard == resource.RLIM_INFINITY else min(most, hard)
+    resource.setrlimit(getattr(resource, what), (most, most))
 
 
 def become_first(libc: ctypes.CDLL) -> None:
@@ -60,12 +115,17 @@ def restrict_files(libc: ctypes.CDLL, folder: Path) -> bool:
     if version < 1:
         return False
     write = WRITE | (REFER if version >= 2 else 0) | (TRUNCATE if version >= 3 else 0)
-    handled = ctypes.c_uint64(READ | write)
-    ruleset = libc.syscall(CREATE_RULESET, ctypes.byref(handled), ctypes.c_size_t(8), 0)
+    handled = (ctypes.c_uint64 * 3)(READ | write, 0, SCOPES if version >= 6 else 0)
+    size = ctypes.c_size_t(24 if version >= 6 else 8)
+    ruleset = libc.syscall(CREATE_RULESET, ctypes.byref(handled), size, 0)
     if ruleset < 0:
         return False
-    package = str(Path(__file__).resolve().parents[3])
-    for place in {*SYSTEM, *filter(None, sys.path), sys.prefix, sys.base_prefix, package}:
+    kit = PACKAGE.parent  # of its source tree, which may hold anything, the package and the results alone
+    places = {*SYSTEM, *filter(None, sys.path), sys.prefix, sys.base_prefix, str(PACKAGE), str(kit / "assets")}
+    if (kit / "pyproject.toml").exists():
+        places -= {str(kit)}
+        allow(libc, ruleset, str(kit), LIST)
+    for place in places:
         allow(libc, ruleset, place, READ)
     allow(libc, ruleset, os.devnull, READ | (write & FILE))
     allow(libc, ruleset, str(folder), READ | write)
@@ -80,3 +140,27 @@ def allow(libc: ctypes.CDLL, ruleset: int, place: str, rights: int) -> None:
         rule = PathBeneath(rights if os.path.isdir(place) else rights & FILE, descriptor)
         libc.syscall(ADD_RULE, ruleset, 1, ctypes.byref(rule), 0)
         os.close(descriptor)
+
+
+class Step(ctypes.Structure):  # of a filter, see linux/filter.h
+    _fields_ = [("code", ctypes.c_uint16), ("yes", ctypes.c_uint8), ("no", ctypes.c_uint8), ("value", ctypes.c_uint32)]
+
+
+class Filter(ctypes.Structure):
+    _fields_ = [("length", ctypes.c_uint16), ("steps", ctypes.POINTER(Step))]
+
+
+def refuse_calls(libc: ctypes.CDLL) -> bool:
+    """seccomp(2): from now on the system calls of `REFUSED` fail. False where this is not possible."""
+    if platform.machine() not in REFUSED:
+        return False
+    processor, numbers = REFUSED[platform.machine()]
+    load, equal, at_least, answer = 0x20, 0x15, 0x35, 0x06
+    left = len(numbers)
+    steps = [Step(load, 0, 0, 4), Step(equal, 0, left + 3, processor), Step(load, 0, 0, 0),
+             Step(at_least, left + 1, 0, 0x40000000),  # another way to call the same on x86_64
+             *(Step(equal, left - place, 0, number) for place, number in enumerate(numbers)),
+             Step(answer, 0, 0, ALLOWED), Step(answer, 0, 0, FAILS)]  # fmt: skip
+    program = Filter(len(steps), (Step * len(steps))(*steps))
+    libc.prctl(NO_NEW_PRIVS, 1, 0, 0, 0)
+    return libc.prctl(SECCOMP, 2, ctypes.byref(program), 0, 0) == 0

@@ -20,16 +20,18 @@ COURSE = (
     "demonstrations",
     "soft_constraint",
     "learning_from_demonstrations",
-    "ablation",
+    "how_many_seeds",
+    "found_and_kept",
 )
 ELECTIVES = (
     "imitation",
     "offline_learning",
-    "exploration",
     "bug_hunt",
     "your_teacher",
     "the_second_trap",
+    "looking_ahead",
     "other_ways",
+    "your_own_problem",
 )
 APPENDIX = ("traffic",)
 LESSONS = COURSE + ELECTIVES + APPENDIX

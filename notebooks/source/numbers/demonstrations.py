@@ -3,9 +3,11 @@
 from functools import cache
 
 import numpy as np
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
+from bootcourse.policies import stochastic_rule_policy
 from bootcourse.road.state import EGO, LANE, TRAP_1, X
-from bootcourse.scenario import ACTION_NAMES
+from bootcourse.scenario import ACTION_NAMES, DEFAULT
 from tools.course.known import rule_drives, shipped_runs
 
 
@@ -28,3 +30,12 @@ def clone_agrees(seed: int, second: int) -> float:
     """The share of 40 roads on which a clone of the study does at a second what the rule would do in its place."""
     drives = record(shipped_runs("bc")[seed].agent.as_policy(), range(40))
     return float(np.mean([drive.actions[second] == drive.rule_actions[second] for drive in drives]))
+
+
+@cache
+def erring(error: float, seconds: float) -> float:
+    """The share of the lesson's 200 drives in which a rule that errs has had an accident by then."""
+    rng = np.random.default_rng(0)
+    drives = drive_episodes(stochastic_rule_policy(DEFAULT, rng, 1 - error), held_out_seeds(2, 200))
+    ended = np.where(drives.accident > 0, drives.distance / drives.speed, np.inf)
+    return float(np.mean(ended <= seconds))

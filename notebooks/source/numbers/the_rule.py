@@ -4,7 +4,6 @@ import dataclasses
 from functools import cache
 
 import numpy as np
-from bootcourse.course.lessons.the_rule import figures
 from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.policies import rule_policy
@@ -19,13 +18,6 @@ def sighted(sight: float, n: int = DEFAULT.rule.n) -> Episodes:
     seen = dataclasses.replace(DEFAULT.sight, distance=sight)
     driver = rule_policy(dataclasses.replace(DEFAULT, rule=rule, sight=seen))
     return drive_episodes(driver, held_out_seeds(1, 200))
-
-
-@cache
-def right_first() -> tuple[np.ndarray, np.ndarray]:
-    """Where trap 2 starts, and whether the plan gets out that begins to the right, on the lesson's 400 roads."""
-    turns = ["keep right", ("keep left", 4), ("keep right", 3)]
-    return figures.d2_and_success([*turns, ("accelerate straight", 5)])
 
 
 @cache

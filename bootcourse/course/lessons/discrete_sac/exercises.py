@@ -2,10 +2,11 @@
 
 import math
 
+import numpy as np
 import torch
 
 from bootcourse.course.exercise import exercise, logits
-from bootcourse.course.lessons.discrete_sac import replay_buffer
+from bootcourse.course.lessons.discrete_sac import by_hand, replay_buffer
 from bootcourse.learn import sac
 
 LOG_2 = math.log(2)
@@ -59,7 +60,7 @@ HALF = torch.full((1, 2), -LOG_2)
 
 
 @exercise(
-    "V(s) = Σ_a π(a|s) (Q(s,a) - α log π(a|s)), Section III-C", minutes=5, difficulty=1, cases=value_cases,
+    "V(s) = Σ_a π(a|s) (Q(s,a) - α log π(a|s)), Section III-C", minutes=4, difficulty=1, cases=value_cases,
     worked=[
         ((HALF, torch.tensor([[1.0, 3.0]]), torch.tensor(0.5)), torch.tensor([2 + 0.5 * LOG_2])),
         # sure of the second action: its Q and nothing else
@@ -100,7 +101,7 @@ def target_cases(rng):
 
 
 critic_target = exercise(
-    "y = r + γ (1 - terminated) V(s'), Section III-C", minutes=5, difficulty=1, cases=target_cases,
+    "y = r + γ (1 - terminated) V(s'), Section III-C", minutes=4, difficulty=1, cases=target_cases,
     worked=[
         # it goes on: 1 + 0.8 · 10; it ended: -10 and nothing after it
         ((torch.tensor([1.0, -10.0]), torch.tensor([0.0, 1.0]), torch.tensor([10.0, 10.0]), 0.8),
@@ -144,7 +145,7 @@ def pair_cases(rng):
 
 @exercise(
     "the sum over both critics of mean (Q(s,a) - y)², Section III-C",
-    minutes=8, difficulty=2, cases=pair_cases, slopes=["q_pair", "target"],
+    minutes=6, difficulty=2, cases=pair_cases, slopes=["q_pair", "target"],
     worked=[
         # critic 1 is 1 too high for the first action, critic 2 is 2 too low; the second action was not taken
         ((torch.tensor([[[4.0, 9.0]], [[1.0, 9.0]]]), torch.tensor([0]), torch.tensor([3.0])), torch.tensor(5.0)),
@@ -183,7 +184,7 @@ def critic_loss(q_pair, action, target):
 
 @exercise(
     "-E_s[Σ_a π (Q - α log π)], Section III-C",
-    minutes=8, difficulty=2, cases=value_cases, slopes=[logits("log_pi"), "q"],
+    minutes=5, difficulty=2, cases=value_cases, slopes=[logits("log_pi"), "q"],
     worked=[((HALF, torch.tensor([[1.0, 3.0]]), torch.tensor(0.5)), torch.tensor(-(2 + 0.5 * LOG_2)))],
     hints=(
         "The soft value should become large, and a loss is made small.",
@@ -219,7 +220,7 @@ def temperature_cases(rng):
 
 temperature_loss = exercise(
     "α (H(π) - η), η the target entropy, Table of RL hyper-parameters",
-    minutes=5, difficulty=2, cases=temperature_cases, slopes=["log_alpha", "state_entropy"],
+    minutes=4, difficulty=2, cases=temperature_cases, slopes=["log_alpha", "state_entropy"],
     worked=[
         # α = 1/2, mean entropy 1, target 0.6: 0.5 · 0.4
         ((torch.tensor(-LOG_2), torch.tensor([0.5, 1.5]), torch.tensor(0.6)), torch.tensor(0.2)),
@@ -247,3 +248,150 @@ temperature_loss = exercise(
 )(sac.temperature_loss)  # fmt: skip
 
 ReplayBuffer = replay_buffer.ReplayBuffer
+
+
+def update_cases(rng):
+    """One update and several, of a few agents."""
+    yield from ((False, times, seed) for times in (1, 2, 4) for seed in range(8))
+
+
+NETWORKS = ("the policy", "the critics", "the copies", "log α")
+
+
+def of_the_update(cases, answers):
+    """A sentence on an update that changes a network in another way."""
+    for case, answer in zip(cases, answers, strict=True):
+        right = by_hand.after_updates(update.solution, *case)
+        pairs = zip(NETWORKS, (part.data for part in answer), right, strict=True)
+        wrong = [name for name, mine, ours in pairs if not np.allclose(mine, ours, rtol=1e-4, atol=1e-6)]
+        if wrong:
+            return f"After {case[1]} of your updates {' and '.join(wrong)} differ from ours: look there first."
+    return "Your update differs from ours."
+
+
+@exercise(
+    "one update of SAC: target, three losses, three steps, copies; Section III-C",
+    minutes=18, difficulty=3, cases=update_cases, run=by_hand.after_updates, explain=of_the_update,
+    worked=[
+        # all networks 0, y = 1: both biases rise by 0.1 · 2, the copies by τ of that; α H pulls log α down
+        ((True, 1, 0), (np.full((1, 2), -LOG_2), np.array([[[0.2, 0]], [[0.2, 0]]]),
+                        np.array([[[0.01, 0]], [[0.01, 0]]]), np.array([-LOG_2 * (1 + 0.1 * 0.5 * 0.7)]))),
+    ],
+    hints=(
+        "First the target, inside `with torch.no_grad():`, from `agent.log_pi(batch.next_states)` and the smaller of "
+        "`agent.slow_q(batch.next_states)`. Then the three losses, then the three steps, then the copies.",
+        "A step is `optimiser.zero_grad()`, `loss.backward()`, `optimiser.step()`; `agent.optimisers` are those of the "
+        "critics, the actor and log α. α itself is `agent.log_alpha.exp().detach()`.",
+    ),
+    mistakes={
+        "batch.terminated -> 0 * batch.terminated":
+            "Your target counts a future after the pole has fallen: hand `batch.terminated` to your target.",
+        "agent.slow_q -> agent.q":
+            "Your target comes from the critics themselves. It comes from their slow copies, `agent.slow_q`.",
+        "agent.slow_q(batch.next_states).amin(0) -> agent.slow_q(batch.next_states)[0]":
+            "Your target uses one of the two copies. The smaller of their two values counts: `.amin(0)`.",
+        "q_pair.amin(0) -> q_pair[0]":
+            "Your actor follows the first critic alone. The smaller of the two values counts: `.amin(0)`.",
+        "next_q, alpha -> next_q, 0 * alpha":
+            "The value in your target has no entropy: hand α to your soft value.",
+        "agent.move_copies() ->":
+            "Your copies stay where they began: the last line of an update moves them, `agent.move_copies()`.",
+        "optimiser.zero_grad() ->":
+            "Your gradients add up from update to update: call `zero_grad()` before each `backward()`.",
+        ("losses = ( -> first = critic_loss(q_pair, batch.actions, target); agent.optimisers[0].zero_grad(); "
+         "first.backward(); agent.optimisers[0].step(); q_pair = agent.q(batch.states); losses = (0 * q_pair.sum() +",
+         "agent.optimisers, losses -> agent.optimisers[1:], losses[1:]"):
+            "Your actor learns from critics that have already made their step. That works, too, but the box asks for "
+            "all three losses before the first step.",
+    },
+)  # fmt: skip
+def update(agent, batch):
+    alpha = agent.log_alpha.exp().detach()
+    with torch.no_grad():
+        next_q = agent.slow_q(batch.next_states).amin(0)
+        next_value = soft_value(agent.log_pi(batch.next_states), next_q, alpha)
+        target = critic_target(batch.rewards, batch.terminated, next_value, agent.gamma)
+    log_pi, q_pair = agent.log_pi(batch.states), agent.q(batch.states)
+    losses = (
+        critic_loss(q_pair, batch.actions, target),
+        actor_loss(log_pi, q_pair.amin(0), alpha),
+        temperature_loss(agent.log_alpha, entropy(log_pi), agent.target_entropy),
+    )
+    for optimiser, loss in zip(agent.optimisers, losses, strict=True):
+        optimiser.zero_grad()
+        loss.backward()
+        optimiser.step()
+    agent.move_copies()
+
+
+def loop_cases(rng):
+    """No end, falls, timeouts, both; short and long; then 16 at random."""
+    yield from ((5, (), ()), (6, (2,), ()), (6, (), (2,)), (300, (9, 40), (100,)), (420, (), (200, 399)))
+    for _ in range(16):
+        ends = rng.permutation(250)[:6].tolist()
+        yield int(rng.integers(255, 340)), tuple(ends[:3]), tuple(ends[3:])
+
+
+def of_the_loop(cases, answers):
+    """A sentence on a loop that keeps other rows or updates at other times."""
+    for (pushes, falls, timeouts), answer in zip(cases, answers, strict=True):
+        rows, episodes, late, often, good = (part.data for part in answer)
+        right = by_hand.after_training(train.solution, pushes, falls, timeouts)
+        if not np.array_equal(rows, right[0]):
+            push = int(np.flatnonzero((np.array(rows) != right[0]).any(1))[0])
+            return (f"The row of push {push} is not (s, a, r, terminated, s'). Falls end the pushes {list(falls)}, "
+                    f"timeouts {list(timeouts)}.")  # fmt: skip
+        if episodes != right[1]:
+            return "Your loop resets the environment too often or too seldom: once at the start and after each end."
+        if not late:
+            return "Your loop updates too early: let the buffer fill for 256 pushes first."
+        if not often:
+            return "Your loop makes too many updates or too few: one after each fourth push, once 256 are made."
+        if not good:
+            return "Hand `update` the agent and `by_hand.batch_of` of 64 rows that your buffer drew."
+    return "Your loop differs from ours."
+
+
+@exercise(
+    "SAC's loop: decide, step, keep, update; Section III-C",
+    minutes=12, difficulty=3, cases=loop_cases, run=by_hand.after_training, explain=of_the_loop,
+    worked=[
+        # the first push ends an episode; the second begins in state (1, 0, 0, 0), where action 1 is drawn
+        ((2, (0,), ()), (np.array([[0, 0, 0, 0, 0, 1, 1, 0, 1, 0, 0], [1, 0, 0, 0, 1, 1, 0, 1, 1, 0, 0.0]]),
+                         1.0, 1.0, 1.0, 1.0)),
+    ],
+    hints=(
+        "For each push: `agent.draw(state, rng)`, `env.step(action)`, `buffer.add(by_hand.row(...))`; then the next "
+        "state is the state.",
+        "After a fall *or* a timeout: `state, _ = env.reset()`. The row of a timeout has terminated = 0 all the same.",
+    ),
+    mistakes={
+        "reward, terminated, next_state -> reward, terminated or truncated, next_state":
+            "You keep a timeout as an end. The row holds `terminated` alone: after a timeout the pole still stands.",
+        "state = next_state ->":
+            "Your state does not move on: the next decision is made in `next_state`.",
+        "if terminated or truncated -> if terminated":
+            "You go on after a timeout. The environment has to be reset there, too.",
+        "if terminated or truncated -> if truncated":
+            "You go on after a fall. The environment has to be reset there, too.",
+        "push >= 256 and ->":
+            "Your loop updates too early: let the buffer fill for 256 pushes first.",
+        "and push % 4 == 0 ->":
+            "Your loop updates after each push: here it is one update for each fourth push.",
+        "(state, action, reward -> (next_state, action, reward":
+            "Your row begins with the state that came after the push. It begins with the one in which you decided.",
+        "64 -> 1":
+            "Your batches have one row. Draw 64.",
+    },
+)  # fmt: skip
+def train(agent, env, buffer, update, pushes, rng):
+    state, _ = env.reset(seed=0)
+    for push in range(pushes):
+        action = agent.draw(state, rng)
+        next_state, reward, terminated, truncated, _ = env.step(action)
+        buffer.add(by_hand.row(state, action, reward, terminated, next_state))
+        state = next_state
+        if terminated or truncated:
+            state, _ = env.reset()
+        if push >= 256 and push % 4 == 0:
+            update(agent, by_hand.batch_of(buffer.sample(64, rng)))

@@ -113,7 +113,7 @@ def of_the_buffer(cases, answers):
 
 @exercise(
     "the last D transitions, of which N are drawn, Table of RL hyper-parameters",
-    minutes=20, difficulty=3, cases=buffer_cases, run=filled_and_drawn, explain=of_the_buffer,
+    minutes=10, difficulty=2, cases=buffer_cases, run=filled_and_drawn, explain=of_the_buffer,
     worked=[
         ((2, 3, 4), (np.array([4, 3]), "2 3", 1.0, 1.0, 1.0, 1.0, 1.0, 1.0)),  # the oldest of three rows is gone
     ],

@@ -126,30 +126,3 @@ learn_chain = exercise(
             "You do not replay the demonstration `taught`.",
     },
 )(chain.learn_chain)  # fmt: skip
-
-
-@exercise(
-    "the lower end of the exact (Clopper-Pearson) 95 % interval of n out of n",
-    minutes=5, difficulty=2, cases=lambda rng: ((n,) for n in range(1, 41)),
-    worked=[((1,), 0.025), ((2,), 0.158114)],
-    hints=(
-        "If each agent escapes with probability `rate`, how likely is it that all of them do?",
-        "Find the rate at which that has a probability of 2.5 %: rate ** agents = 0.025.",
-    ),
-    mistakes={
-        "0.025 -> 0.05":
-            "You use all of the 5 % at this end. An interval has two ends: each gets 2.5 %.",
-        "return 1 - 0.025 ** (1 / agents)":
-            "Your rate falls as more agents succeed. This is the highest possible rate of *failures*, one minus the "
-            "right answer.",
-        "return 0.025 / agents":
-            "You divide by the number of agents. The chance that all succeed is the *product* of their chances: take a "
-            "root.",
-        "0.025 -> 0.975":
-            "At your rate this happens in 97.5 % of the cases. Find the rate at which it happens in 2.5 %.",
-        "return max(0.0, 1 - 3 / agents)":
-            "This is the rule of three, which is one-sided and holds for many agents. Solve rate^agents = 0.025.",
-    },
-)  # fmt: skip
-def lowest_rate(agents):
-    return 0.025 ** (1 / agents)

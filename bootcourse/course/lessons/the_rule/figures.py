@@ -1,20 +1,14 @@
-"""Figures of the rule: when it changes lane, its reasons, and on which roads a plan gets out."""
-
-from collections.abc import Sequence
+"""Figures of the rule: when it changes lane, and its reasons."""
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from bootcourse.colours import ALARM, Style
 from bootcourse.course.charts import lines
-from bootcourse.course.lessons.the_rule.plans import direct_plan
-from bootcourse.episodes.evaluate import held_out_seeds
-from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.episodes.words import sentence
 from bootcourse.methods import style
-from bootcourse.plots.figure import INK, TEXT, finish, new_figure, one_axes, plain_axes
-from bootcourse.policies import plan_policy
+from bootcourse.plots.figure import INK, TEXT, finish, new_figure, plain_axes
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, X
 from bootcourse.rule import SENTENCES, Reason, safety_distance
 
@@ -47,33 +41,6 @@ def when_to_change(drive: Rollout) -> Figure:
     place = {"textcoords": "offset points", "ha": "right", "fontsize": TEXT, "color": rule}
     figure.axes[0].annotate("room: change", (seconds[first], gap[first]), xytext=(-8, 10), **place)
     return figure
-
-
-def escape_against_d2(plan: Sequence | None, roads: int = 400) -> Figure:
-    """Whether a plan gets out, against D2, where trap 2 starts: a dot for each held-out road.
-
-    plan: as for `plan_policy`; None for the kit's own.
-    """
-    d2, out = d2_and_success(plan or direct_plan(), roads)
-    title = "Where trap 2 starts decides whether one plan gets out"
-    figure, ax = one_axes(2.4, title, "D2: trap 2 starts so far ahead (m, centre to centre)", "")
-    spread = np.random.default_rng(0).uniform(-0.25, 0.25, roads)
-    ax.scatter(d2, out + spread, s=7, c=np.where(out, style("rule").colour, ALARM), linewidths=0)
-    ax.set_yticks([0, 1], ["does not", "gets out"])
-    ax.set_position((0.13, *ax.get_position().bounds[1:2], 0.845, ax.get_position().height))
-    ax.set_ylim(-0.5, 1.5)
-    alt = f"The plan gets out on {out.mean():.0%} of {roads} roads."
-    if out.any() and not out.all():
-        alt += f" Where it gets out D2 is {np.min(d2[out]):.2f} to {np.max(d2[out]):.2f} m, and where it does not "
-        alt += f"{np.min(d2[~out]):.2f} to {np.max(d2[~out]):.2f} m."
-    return finish(figure, title, alt)
-
-
-def d2_and_success(plan: Sequence, roads: int = 400) -> tuple[np.ndarray, np.ndarray]:
-    """Where trap 2 starts (m ahead, centre to centre) and whether a plan gets out, on held-out roads: each (roads,)."""
-    drives = record(plan_policy(plan), held_out_seeds(1, roads))
-    d2 = np.array([drive.states[0, TRAP_2, X] - drive.states[0, EGO, X] for drive in drives])
-    return d2, np.array([drive.success for drive in drives])
 
 
 def reasons_over_time(rollout: Rollout, title: str) -> Figure:

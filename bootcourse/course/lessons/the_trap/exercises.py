@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from bootcourse.course.exercise import exercise
+from bootcourse.course.exercise import NotAsAsked, exercise
 from bootcourse.road import formulas
 
 
@@ -90,39 +90,6 @@ def reward(v_lon, offset, theta, accident):
     return (1.5 * r_v + 0.05 * r_y + 0.05 * r_theta) / (1.5 + 0.05 + 0.05)
 
 
-def idle_cases(rng):
-    """One second and a whole episode at the slowest speed, the usual and the highest; then 30 at random."""
-    yield from ((speed, seconds) for seconds in (1, 150) for speed in (6.0, 10.0, 12.5))
-    yield from ((rng.uniform(5.1, 12.5), rng.integers(1, 151)) for _ in range(30))
-
-
-@exercise(
-    "Σ r over an episode of doing nothing, Section III-C", minutes=6, difficulty=1, cases=idle_cases,
-    worked=[((10.0, 1), 0.15625), ((10.0, 150), 23.4375), ((12.5, 1), 0.21875)],
-    hints=(
-        "What are r_v, r_y and r_θ at this speed, in the middle of the lane, with straight wheels?",
-        "r_v = 2/75 v - 2/15, r_y = 1, r_θ = 0.",
-    ),
-    mistakes={
-        "+ 0.05 * r_y ->":
-            "Your r_y is 0. A car in the middle of its lane has r_y = exp(0) = 1.",
-        "/ 1.6 -> / 1.55":
-            "You divide by 1.55. The third weight counts even though its term is zero: 1.5 + 0.05 + 0.05.",
-        "/ 1.6 ->":
-            "You did not divide by the sum of the weights, 1.6.",
-        "seconds * ->":
-            "This is the reward of one second. The return is the sum over all the seconds.",
-        "return seconds * (r_v + r_y) / 3":
-            "You gave the three terms the same weight. Speed weighs 1.5, the other two 0.05 each.",
-        "0.05 * r_y -> 0.1 * r_y":
-            "You reward driving straight. r_θ = -|sin 0| is 0: driving straight costs nothing and earns nothing.",
-    },
-)  # fmt: skip
-def idle_return(speed, seconds):
-    r_v, r_y = 2 / 75 * speed - 2 / 15, 1.0  # and r_theta is 0
-    return seconds * (1.5 * r_v + 0.05 * r_y) / 1.6
-
-
 def risk_cases(rng):
     """The rule's numbers, an escape that pays no more than to stay, a harmless crash, all edges; 40 at random."""
     yield from ((23.4375, escape, -9.5) for escape in (51.0, 20.0, 23.4375))
@@ -173,49 +140,55 @@ def bearable_risk(stay, escape, crash):
     return (escape - stay) / (escape - crash)
 
 
-def outcomes_cases(rng):
-    """A crash after overtaking, no success, level with trap 1, just ahead of it and just behind; then 30 at random."""
-    yield np.array([900.0]), np.array([800.0]), np.array([1])
-    yield np.array([1500.0, 12.0]), np.array([1515.0, 27.0]), np.array([0, 2])
-    yield np.array([700.0, 700.01, 699.99]), np.array([700.0, 700.0, 700.0]), np.array([1, 3, 1])
-    for _ in range(30):
-        n = rng.integers(1, 12)
-        yield rng.uniform(0, 2000, n), rng.uniform(15, 1515, n), rng.choice(4, n, p=[0.4, 0.3, 0.2, 0.1])
+def locks(rng):
+    """Roads on which three of the eight seconds decide, or two, or four: 1 in 27, 9 or 81 plans gets out."""
+    for deciding in (3, 3, 2, 4, *rng.integers(2, 5, 18)):
+        yield tuple(rng.permutation(8)[:deciding].tolist()), tuple(rng.integers(3, 6, deciding).tolist())
+
+
+def found_on(answer, seconds, actions):
+    """Whether a planner's plan gets out where these seconds need these actions; 1 or 0."""
+
+    def gets_out(plans):
+        plans = np.asarray(plans)
+        if plans.ndim != 2 or plans.shape[1] != 8:
+            raise NotAsAsked(f"You asked about plans of shape {plans.shape}: `gets_out` takes many at once, (n, 8).")
+        return (plans[:, list(seconds)] == actions).all(axis=1) & np.isin(plans, (3, 4, 5)).all(axis=1)
+
+    plan = answer(gets_out, np.random.default_rng(0))
+    if plan is None:
+        return None
+    plan = np.asarray(plan)
+    if plan.shape != (8,):
+        raise NotAsAsked(f"Your planner returns an array of shape {plan.shape}: one plan is (8,).")
+    return float(gets_out(plan[None])[0])
+
+
+def does_not_get_out(cases, answers):
+    """A sentence on a plan that does not get out."""
+    return "Your planner returns a plan that does not get out: return one for which `gets_out` said True."
 
 
 @exercise(
-    "Successful completion, Section III-C", minutes=5, difficulty=1, cases=outcomes_cases,
-    worked=[
-        # behind, ahead, ahead and crashed, off the road at once
-        ((np.array([1500.0, 1700.0, 900.0, 20.0]), np.array([1515.0, 1515.0, 800.0, 35.0]), np.array([0, 0, 1, 2])),
-         np.array([0.5, 0.25, 0.25, 0.0])),
-    ],
+    "random search over plans of eight seconds", minutes=10, difficulty=2, cases=locks, run=found_on,
+    explain=does_not_get_out,
+    worked=[(((0, 1), (3, 5)), 1.0), (((7,), (4,)), 1.0)],  # a plan that gets out has to be returned
     hints=(
-        "Compare the two positions at the end: they alone decide whether the episode is a success.",
-        "The mean of an array of True and False is the share of True: `np.mean(accident == 1)`.",
+        "`rng.integers(3, 6, (500, 8))` draws 500 plans. Ask `gets_out` about all of them at once.",
+        "If `out.any()`, return `plans[out.argmax()]`, the first that gets out. If none does, draw again: a loop.",
     ),
     mistakes={
-        "x_ego > x_trap_1 -> (x_ego > x_trap_1) & (accident == 0)":
-            "You count a crash after overtaking as a failure. It counts as a success and, separately, as an accident.",
-        "x_ego > x_trap_1 -> accident == 0":
-            "Your success is 'no accident'. A driver that stays in the trap has no accident either.",
-        "np.mean -> np.sum [2 times]":
-            "You return the number of episodes. Return their share.",
-        "np.mean -> 100 * np.mean [2 times]":
-            "You return percentages: shares between 0 and 1 are asked for.",
-        "np.mean(accident == kind) -> np.sum(accident == kind) / max(1, np.sum(accident > 0))":
-            "You divide each kind by the number of accidents. Its rate is its share of *all* the episodes.",
-        "(1, 2, 3) -> (0, 1, 2)":
-            "Your kinds are shifted by one: 0 means no accident, 1 collision, 2 road departure, 3 stoppage.",
-        "x_ego > x_trap_1 -> x_ego < x_trap_1":
-            "You count the egos that are *behind* trap 1 at the end.",
-        "x_ego > x_trap_1 -> x_ego >= x_trap_1":
-            "You count an ego that is level with trap 1. Ahead means x_ego > x_trap_1.",
-        "x_ego > x_trap_1 -> x_ego - 5 > x_trap_1":
-            "You ask for a car's length more. The definition compares the two positions as they are.",
+        "return plans[out.argmax()] -> return plans[0]":
+            "Your planner returns a plan that does not get out: return one for which `gets_out` said True.",
+        "if out.any(): return plans[out.argmax()] -> return plans[out.argmax()]":
+            "Your planner gives up after one draw: where none of the plans gets out, draw again.",
+        "rng.integers(3, 6 -> rng.integers(0, 3":
+            "Your plans brake: the actions that keep the speed are 3, 4 and 5.",
     },
 )  # fmt: skip
-def outcome_rates(x_ego, x_trap_1, accident):
-    success = np.mean(x_ego > x_trap_1)
-    kinds = [np.mean(accident == kind) for kind in (1, 2, 3)]
-    return np.array([success, *kinds])
+def find_plan(gets_out, rng):
+    while True:
+        plans = rng.integers(3, 6, (500, 8))
+        out = gets_out(plans)
+        if out.any():
+            return plans[out.argmax()]

@@ -1,13 +1,19 @@
-"""Figures of the trap: the speed term of the reward, and where each of the nine actions leads."""
+"""Figures of the trap: the speed term of the reward, where each of the nine actions leads; where a plan gets out."""
+
+from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from bootcourse.colours import OTHER
+from bootcourse.episodes.evaluate import held_out_seeds
+from bootcourse.episodes.record import record
 from bootcourse.plots.canvas import MplAxes
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, WIDTH, finish, new_figure, one_axes
 from bootcourse.plots.road import draw_car, draw_road, edges_of
+from bootcourse.policies import plan_policy
 from bootcourse.road.formulas import bicycle_step, speed_reward
+from bootcourse.road.state import EGO, TRAP_2, X
 from bootcourse.scenario import ACTION_NAMES, DEFAULT, Scenario
 
 SHADES = ("#0072B2", "#444444", "#D55E00")  # brake, keep, accelerate
@@ -80,3 +86,10 @@ def path_of(action: int, seconds: int, scenario: Scenario = DEFAULT) -> np.ndarr
         state = bicycle_step(*state, acceleration, steering, scenario.car.length, scenario.clock.dt)
         places.append(state[:2])
     return np.array(places)
+
+
+def d2_and_success(plan: Sequence, roads: int = 400) -> tuple[np.ndarray, np.ndarray]:
+    """Where trap 2 starts (m ahead, centre to centre) and whether a plan gets out, on held-out roads: each (roads,)."""
+    drives = record(plan_policy(plan), held_out_seeds(1, roads))
+    d2 = np.array([drive.states[0, TRAP_2, X] - drive.states[0, EGO, X] for drive in drives])
+    return d2, np.array([drive.success for drive in drives])

@@ -1,7 +1,5 @@
 """Exercises of the lesson on the other cars: how they follow, change lane and steer."""
 
-import math
-
 import numpy as np
 
 from bootcourse.course.exercise import exercise
@@ -63,7 +61,7 @@ def behind_cases(rng):
 
 
 drive_behind = exercise(
-    "IDM in steps of dt, Section III-B", minutes=20, difficulty=3, cases=behind_cases,
+    "IDM in steps of dt, Section III-B", minutes=15, difficulty=3, cases=behind_cases,
     worked=[
         # s* = 10 and 1.5 s · 10 m/s is the gap: a = 0.5 (1 - 0.4096 - 1), a tenth of a metre per second in 0.5 s
         ((np.array([10.0]), 10.0, 25.0, 0.5, 12.5, 10.0, 1.5, 0.5, 0.5, 4.0, 6.0),
@@ -103,104 +101,6 @@ drive_behind = exercise(
             "Your two columns are swapped: the gap comes first, then the speed.",
     },
 )(simulation.drive_behind)  # fmt: skip
-
-
-def equilibrium_cases(rng):
-    """A standstill, almost the desired speed; then 40 at random."""
-    yield 0.0, 12.5, 10.0, 1.5, 4.0
-    yield 12.4, 12.5, 10.0, 1.5, 4.0
-    for _ in range(40):
-        wanted = rng.uniform(9, 16)
-        yield wanted * rng.uniform(0.2, 0.98), wanted, *rng.uniform([1, 0.5, 1], [12, 2, 5])
-
-
-@exercise(
-    "the gap s at which the IDM's a is 0 and Δv is 0, Section III-B", minutes=6, difficulty=2, cases=equilibrium_cases,
-    worked=[((0.0, 12.5, 10.0, 1.5, 4.0), 10.0), ((5.0, 10.0, 10.0, 1.5, 2.0), 17.5 / math.sqrt(0.75))],
-    hints=(
-        "Equilibrium means: same speed as the car ahead (Δv = 0), and no acceleration.",
-        "0 = 1 - (v/v_desired)^δ - (s*/s)², with s* = s0 + T v. Solve for s.",
-    ),
-    mistakes={
-        "return wanted":
-            "This is s*. At a gap of s* the driver still brakes: 1 - (v/v_desired)^δ - 1 is below zero.",
-        "math.sqrt ->":
-            "The root is missing: s*/s is squared, so s is s* over a square root.",
-        "wanted / -> wanted *":
-            "Your gap gets shorter as the driver comes closer to its desired speed. Solve (s*/s)² = 1 - "
-            "(v/v_desired)^δ for s: the root stands in the denominator.",
-        "1 - -> 1 +":
-            "You have a plus under the root. From 0 = 1 - (v/v_desired)^δ - (s*/s)² follows (s*/s)² = 1 - "
-            "(v/v_desired)^δ.",
-    },
-)  # fmt: skip
-def equilibrium_gap(v, v_desired, s0, time_gap, delta):
-    wanted = s0 + time_gap * v
-    return wanted / math.sqrt(1 - (v / v_desired) ** delta)
-
-
-def changing_cases(rng):
-    """Safe or not, worth it or not, politeness 0 to 1, a gain of the old follower alone; then 120 at random."""
-    yield 1.0, 0.1, -3.0, 0.0, 0.0, 0.2, 2.0  # worth it without politeness, but not safe
-    yield 0.5, 0.1, -1.5, 0.0, 0.5, 0.2, 2.0  # safe, but the new follower loses more
-    yield 0.5, 0.1, -1.5, 0.0, 0.0, 0.2, 2.0
-    yield 0.1, 0.0, 0.0, 0.0, 0.5, 0.2, 2.0  # a gain below the threshold
-    yield 0.0, 0.0, 0.0, 1.0, 0.5, 0.2, 2.0  # only the old follower gains
-    yield 0.4, -0.9, -1.0, 0.0, 1.0, 0.2, 2.0  # the new follower brakes anyway
-    yield 0.3, 2.2, 2.3, 0.0, 1.0, 0.2, 2.0
-    yield 1.0, 0.0, -2.0, 0.0, 0.0, 0.2, 2.0  # exactly at the limit: safe
-    yield 1.0, 0.0, -2.01, 0.0, 0.0, 0.2, 2.0
-    yield 0.25, 0.0, 0.0, 0.0, 0.5, 0.25, 2.0  # exactly at the threshold: not worth it
-    yield 0.26, 0.0, 0.0, 0.0, 0.5, 0.25, 2.0
-    for _ in range(120):
-        limits = rng.uniform([0.05, 0.5], [0.6, 4.0])
-        accelerations = rng.normal([0.4, 0, -1, 0.1], [0.8, 0.6, 1.2, 0.4])
-        yield *accelerations, rng.choice([0.0, 0.3, 0.5, 1.0]), *limits
-
-
-@exercise(
-    "Δa_ego + p (Δa_rear + Δa_front) > a_threshold, Section III-B, with its safety criterion",
-    minutes=7, difficulty=2, cases=changing_cases,
-    worked=[
-        ((0.5, 0.1, -1.5, 0.0, 0.5, 0.2, 2.0), False),  # 0.5 + 0.5 · (-1.6) = -0.3
-        ((0.5, 0.1, -1.5, 0.0, 0.0, 0.2, 2.0), True),  # politeness 0
-        ((5.0, 0.1, -2.5, 0.0, 0.0, 0.2, 2.0), False),  # not safe
-    ],
-    hints=(
-        "Ask two questions: is the change safe, and is it worth it? If it is not safe, the answer is False.",
-        "Safe means `follower_after >= -limit`. The new follower's gain is what it has after, minus before.",
-    ),
-    mistakes={
-        "if follower_after < -limit: return False ->":
-            "You change lane although the new follower has to brake harder than the limit. Safety comes first, "
-            "whatever the gain.",
-        "return own_gain > threshold":
-            "Your driver counts its own gain only. Add what the others gain or lose, times the politeness.",
-        "follower_after - follower_before -> follower_after":
-            "You count all of the new follower's braking. Count only what the change adds: its acceleration after "
-            "minus before.",
-        "+ old_follower_gain ->":
-            "You forgot the old follower: the car behind gains when you leave its lane.",
-        "> threshold -> > 0":
-            "You left out the threshold: without it drivers change lanes back and forth for tiny gains.",
-        "follower_after - follower_before -> follower_before - follower_after":
-            "Your new follower gains when it has to brake: its gain is `follower_after - follower_before`.",
-        "> threshold -> >= threshold":
-            "You change lane at exactly the threshold. The formula says more than the threshold.",
-        "follower_after < -> follower_after <=":
-            "You refuse a change that makes the new follower brake exactly as hard as the limit allows.",
-        "-limit -> limit":
-            "Braking is a negative acceleration: the new follower's must be at least -limit.",
-        "follower_after < -limit -> abs(follower_after) > limit":
-            "You refuse a change after which the new follower *accelerates* by more than the limit: only its braking "
-            "is limited.",
-    },
-)  # fmt: skip
-def worth_changing(own_gain, follower_before, follower_after, old_follower_gain, politeness, threshold, limit):
-    if follower_after < -limit:
-        return False
-    new_follower_gain = follower_after - follower_before
-    return own_gain + politeness * (new_follower_gain + old_follower_gain) > threshold
 
 
 def heading_cases(rng):

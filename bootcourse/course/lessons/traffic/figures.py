@@ -9,10 +9,10 @@ import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
-from bootcourse.colours import ALARM, Style
+from bootcourse.colours import Style
 from bootcourse.course.charts import lines
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, finish, new_figure, plain_axes
-from bootcourse.road.formulas import desired_gap, idm_acceleration, mobil_incentive
+from bootcourse.road.formulas import desired_gap, idm_acceleration
 from bootcourse.scenario import DEFAULT, Traffic
 
 LOOKS = (Style("#0072B2"), Style("#444444", "--"), Style("#D55E00", "-."))  # of the lines, first to last
@@ -68,29 +68,6 @@ def following(v: float, closing: Sequence[float], title: str, traffic: Traffic =
     alt = f"Three curves that rise with the gap. {'; '.join(told)}."
     limits = (-1.05 * traffic.braking_limit, 0.6)
     return lines(gaps, named, title, x_label, y_label, marks={"": 0.0}, limits=limits, looks=LOOKS, alt=alt)
-
-
-def changing(own_gain: float, follower, politeness: Sequence[float], traffic: Traffic = DEFAULT.traffic) -> Figure:
-    """MOBIL's incentive against the gap to the new follower, for several degrees of politeness.
-
-    own_gain (m/s²); follower(gap) -> (acceleration before, after) of the new follower (m/s²).
-    """
-    gaps, named, told = np.linspace(8, 100, 300), {}, []
-    before, after = np.array([follower(gap) for gap in gaps]).T
-    for p in politeness:
-        values = np.array([mobil_incentive(own_gain, gain, 0.0, p) for gain in after - before])
-        named[f"p = {p:g}"] = values
-        allowed = gaps[(values >= traffic.a_threshold) & (after >= -traffic.safe_braking)]
-        told.append(f"p = {p:g}: changes from {allowed[0]:.0f} m on" if len(allowed) else f"p = {p:g}: never changes")
-    title = "The more polite the driver, the larger the gap that it waits for"
-    x_label, y_label = "gap to the new follower, centre to centre (m)", "incentive (m/s²)"
-    looks = {"marks": {"threshold": traffic.a_threshold}, "limits": (-1.2, 0.5), "looks": LOOKS}
-    figure = lines(gaps, named, title, x_label, y_label, **looks, alt=f"{'; '.join(told)}.")
-    unsafe = gaps[after < -traffic.safe_braking]
-    if len(unsafe):
-        figure.axes[0].axvspan(gaps[0], unsafe[-1], color=ALARM, alpha=0.12, linewidth=0)
-        figure.axes[0].text(gaps[0] + 0.4, 0.45, "not safe", fontsize=TEXT, color=ALARM, va="top")
-    return figure
 
 
 def swinging(taus: Sequence[float], dt: float, seconds: float = 5.0) -> Figure:

@@ -1,0 +1,188 @@
+"""What stands around a student's `update` and `train`: one agent's networks and optimisers, and rows of its buffer.
+
+`bootcourse.learn.textbook` has the same for the road, with what the paper adds. The two functions at the end say what
+the exercises' answers did.
+"""
+
+import copy
+from typing import NamedTuple
+
+import numpy as np
+import torch
+from torch import Tensor, nn
+
+from bootcourse.course.exercise import NotAsAsked
+from bootcourse.learn import sac
+from bootcourse.learn.textbook import mlp
+from bootcourse.research import checks
+
+SIZES, HIDDEN = (4, 2), (64, 64)  # the pole's observations and actions
+
+
+class Batch(NamedTuple):
+    """Rows of the buffer: states and next_states (batch, 4), the others (batch,)."""
+
+    states: Tensor
+    actions: Tensor
+    rewards: Tensor
+    terminated: Tensor  # 0 or 1
+    next_states: Tensor
+
+
+def row(state, action, reward, terminated, next_state) -> Tensor:
+    """One transition as a row of the buffer, (11,)."""
+    return torch.tensor([*state, action, reward, terminated, *next_state], dtype=torch.float32)
+
+
+def batch_of(rows: Tensor) -> Batch:
+    """Rows (batch, 11) as a `Batch`."""
+    return Batch(rows[:, :4], rows[:, 4].long(), rows[:, 5], rows[:, 6], rows[:, 7:])
+
+
+class SAC:
+    """An actor, two critics, their slow copies and log α, with an optimiser for each of the three."""
+
+    gamma, tau, target_entropy = 0.99, 0.05, 0.3 * float(np.log(2))
+
+    def __init__(self, seed: int = 0, optimiser: type = torch.optim.Adam, rates: tuple = (1e-3, 5e-4, 1e-3)):
+        torch.manual_seed(seed)
+        self.actor = mlp(*SIZES, HIDDEN)
+        self.critics = nn.ModuleList([mlp(*SIZES, HIDDEN) for _ in range(2)])
+        self.copies = copy.deepcopy(self.critics)
+        self.log_alpha = nn.Parameter(torch.tensor(0.01).log())
+        parameters = self.critics.parameters(), self.actor.parameters(), [self.log_alpha]
+        self.optimisers = [optimiser(list(each), lr=rate) for each, rate in zip(parameters, rates, strict=True)]
+
+    def log_pi(self, states: Tensor) -> Tensor:
+        """log π(a|s): (batch, 4) -> (batch, 2)."""
+        return sac.log_policy(self.actor(states))
+
+    def q(self, states: Tensor) -> Tensor:
+        """Q of both critics: (batch, 4) -> (2, batch, 2)."""
+        return torch.stack([critic(states) for critic in self.critics])
+
+    def slow_q(self, states: Tensor) -> Tensor:
+        """Q of both copies: (batch, 4) -> (2, batch, 2)."""
+        return torch.stack([critic(states) for critic in self.copies])
+
+    @torch.no_grad()
+    def draw(self, state: np.ndarray, rng: np.random.Generator) -> int:
+        """An action from π(·|s); state (4,)."""
+        return int(rng.random() < self.log_pi(torch.from_numpy(state)[None])[0, 1].exp())
+
+    def move_copies(self) -> None:
+        """Polyak averaging: Q̄ becomes (1 - τ) Q̄ + τ Q."""
+        with torch.no_grad():
+            for slow, new in zip(self.copies.parameters(), self.critics.parameters(), strict=True):
+                slow.lerp_(new, self.tau)
+
+
+def balanced(agent: SAC, episodes: int = 10) -> float:
+    """For how many pushes the agent balances the pole, with its most probable actions: a mean."""
+    env, pushes = checks.cartpole(), 0
+    for episode in range(episodes):
+        state, _ = env.reset(seed=checks.TEST_SEED + episode)
+        over = False
+        while not over:
+            with torch.no_grad():
+                action = int(agent.log_pi(torch.from_numpy(state)[None]).argmax())
+            state, _, terminated, truncated, _ = env.step(action)
+            over, pushes = terminated or truncated, pushes + 1
+    return pushes / episodes
+
+
+# What an answer did ------------------------------------------------------------------------------------
+
+
+class Descent:
+    """Plain gradient descent, in which each factor of a gradient counts; loading torch's own takes seconds."""
+
+    def __init__(self, parameters: list[Tensor], lr: float):
+        self.parameters, self.lr = parameters, lr
+
+    def zero_grad(self) -> None:
+        for parameter in self.parameters:
+            parameter.grad = None
+
+    @torch.no_grad()
+    def step(self) -> None:
+        for parameter in self.parameters:
+            if parameter.grad is not None:
+                parameter -= self.lr * parameter.grad
+
+
+def after_updates(update, zeros: bool, times: int, seed: int) -> tuple[np.ndarray, ...]:
+    """An agent after some updates, each on a batch of its own: log π, Q, Q̄ in a few states, and log α.
+
+    zeros: all networks are 0, and so are the states.
+    """
+    agent, draw = SAC(seed, Descent, (0.1, 0.1, 0.1)), torch.Generator().manual_seed(seed)
+    with torch.no_grad():
+        agent.log_alpha.fill_(np.log(0.5))
+        for parameter in agent.copies.parameters():  # copies that lag behind
+            parameter.add_(0.1 * torch.randn(parameter.shape, generator=draw))
+        for parameter in [*agent.actor.parameters(), *agent.critics.parameters(), *agent.copies.parameters()] * zeros:
+            parameter.zero_()
+    for _ in range(times):
+        states, next_states = (1 - zeros) * torch.randn(2, 16, 4, generator=draw)
+        actions = torch.randint(2, (16,), generator=draw) * (1 - zeros)
+        ended = torch.ones(16) if zeros else (torch.rand(16, generator=draw) < 0.4).float()
+        rewards = torch.ones(16) if zeros else torch.randn(16, generator=draw)
+        update(agent, Batch(states, actions, rewards, ended, next_states))
+    probe = torch.zeros(1, 4) if zeros else torch.randn(5, 4, generator=draw)
+    with torch.no_grad():
+        found = agent.log_pi(probe), agent.q(probe), agent.slow_q(probe), agent.log_alpha.detach().reshape(1)
+    return tuple(each.detach().double().numpy() for each in found)
+
+
+class Road:
+    """A world of numbered states for the loop: (episode, push, 0, 0). falls, timeouts: pushes that end an episode."""
+
+    def __init__(self, falls: tuple[int, ...], timeouts: tuple[int, ...]):
+        self.falls, self.timeouts, self.episode, self.push, self.pushes, self.over = falls, timeouts, -1, 0, 0, True
+
+    def state(self) -> np.ndarray:
+        return np.array([self.episode, self.push, 0, 0], dtype=np.float32)
+
+    def reset(self, seed=None):
+        self.episode, self.push, self.over = self.episode + 1, 0, False
+        return self.state(), {}
+
+    def step(self, action):
+        ends = self.pushes in self.falls, self.pushes in self.timeouts
+        self.push, self.pushes, self.over = self.push + 1, self.pushes + 1, any(ends)
+        return self.state(), 1.0, *ends, {}
+
+
+def after_training(train, pushes: int, falls: tuple[int, ...], timeouts: tuple[int, ...]) -> tuple:
+    """What a loop did in a world of numbered states: its rows; episodes begun; whether the updates came as asked.
+
+    Of the updates: whether none came too early, whether about every fourth push had one, whether each got the agent
+    and a batch of 64 rows (all 1 or 0). Raises NotAsAsked where there is not one row for each push.
+    """
+    kept, updates, road = [], [], Road(falls, timeouts)
+
+    class Agent(SAC):
+        def draw(self, state, rng):
+            return int(sum(state)) % 2
+
+    class Buffer:
+        def add(self, new):
+            kept.append(new)
+
+        def sample(self, size, rng):
+            return torch.stack([kept[i] for i in rng.integers(len(kept), size=size)])
+
+    def update(agent, batch):
+        right = agent is mine and isinstance(batch, Batch) and len(batch.states) == 64
+        updates.append((len(kept), right))
+
+    mine = Agent(optimiser=Descent)
+    train(mine, road, Buffer(), update, pushes, np.random.default_rng(0))
+    if len(kept) != pushes:
+        raise NotAsAsked(f"In {pushes} pushes your loop keeps {len(kept)} rows: one transition for each push.")
+    rows = torch.stack(kept).numpy().astype(float)
+    asked = max(0, pushes - 256) / 4
+    early = any(rows < 250 for rows, _ in updates)
+    judged = not early, abs(len(updates) - asked) <= 2, all(right for _, right in updates)
+    return rows, float(road.episode), *map(float, judged)

@@ -1,0 +1,257 @@
+"""Exercises of the lesson on seeds: intervals, power, and the difference of two groups."""
+
+import numpy as np
+import scipy
+
+from bootcourse.course.exercise import exercise
+from bootcourse.statistics import significant
+
+
+def count_cases(rng):
+    """None and all of few and of many; then 40 at random."""
+    yield from ((0, 10), (10, 10), (1, 10), (20, 20), (0, 1))
+    for _ in range(40):
+        n = rng.integers(2, 60)
+        yield rng.integers(0, n + 1), n
+
+
+@exercise(
+    "the exact (Clopper-Pearson) 95 % interval of k out of n", minutes=8, difficulty=2, cases=count_cases,
+    worked=[((1, 1), np.array([0.025, 1.0])), ((0, 1), np.array([0.0, 0.975]))],  # rate ** 1 = 0.025
+    hints=(
+        "The low end is the rate at which k or more of n has a chance of 2.5 %; at the high end, k or fewer has it.",
+        "`scipy.stats.beta.ppf(0.025, k, n - k + 1)` solves the first. For the second, 0.975 with k + 1 and n - k.",
+    ),
+    mistakes={
+        "return k / n + 1.96 * np.array([-1, 1]) * np.sqrt(k / n * (1 - k / n) / n)":
+            "This is the normal approximation. At 0 of 10 its interval has length 0, as if the rate were known "
+            "exactly.",
+        ("0.025 -> 0.05", "0.975 -> 0.95"):
+            "You leave 5 % at each end. Both ends together may miss in 5 % of the cases: 2.5 % each.",
+        "return np.array([1 - high, 1 - low])":
+            "This is the interval of the failures: k and n - k are swapped.",
+        "return scipy.stats.beta.ppf([0.025, 0.975], k + 1, n - k + 1)":
+            "You take both ends from one beta distribution, as in a Bayesian interval. The exact ends come from two "
+            "different ones.",
+        "return np.array(scipy.stats.binomtest(k, n).proportion_ci(method='wilson'))":
+            "This is Wilson's interval: it is shorter, and holds the true rate in about 95 % of the cases. The exact "
+            "one does so in at least 95 %.",
+        ("if k > 0 else 0.0 ->", "if k < n else 1.0 ->"):
+            "At k = 0 and at k = n one of your ends is not a number (NaN): a beta distribution has no parameter 0. "
+            "There the low end is 0, and the high end is 1.",
+    },
+)  # fmt: skip
+def exact_interval(k, n):
+    low = scipy.stats.beta.ppf(0.025, k, n - k + 1) if k > 0 else 0.0
+    high = scipy.stats.beta.ppf(0.975, k + 1, n - k) if k < n else 1.0
+    return np.array([low, high])
+
+
+def power_cases(rng):
+    """Equal rates, certain ones, one agent each; then 30 at random, of Fisher's test and of a simpler one."""
+    yield 0.3, 0.3, significant(5)
+    yield 1.0, 0.0, significant(4)
+    yield 0.8, 0.3, significant(10)
+    yield 0.8, 0.3, np.array([[False, True], [True, False]])
+    for _ in range(30):
+        n = rng.integers(3, 9)
+        counts = np.arange(n + 1)
+        apart = np.abs(counts[:, None] - counts) > rng.integers(1, n)
+        yield rng.random(), rng.random(), significant(n) if rng.random() < 0.5 else apart
+
+
+@exercise(
+    "Σ P(k) P(j) over the pairs (k, j) that the test tells apart", minutes=12, difficulty=2, cases=power_cases,
+    worked=[
+        ((0.5, 0.5, np.array([[False, True], [True, False]])), 0.5),  # 0 against 1, or 1 against 0: 1/4 each
+        ((1.0, 0.5, np.array([[False, False, True], [False, False, False], [True, False, False]])), 0.25),
+    ],
+    hints=(
+        "`scipy.stats.binom.pmf(np.arange(n + 1), n, rate)` has the chance of each count 0 to n. n follows from the "
+        "table's shape: it has n + 1 rows.",
+        "`np.outer(k, j)` has the chance of each pair of counts, in the order of the table. Add up those where the "
+        "table says True.",
+    ),
+    mistakes={
+        "np.sum(np.outer(k, j)[shown]) -> np.mean(shown)":
+            "You count all pairs of counts alike. Weigh each with its chance at these two rates.",
+        "np.sum(np.outer(k, j)[shown]) -> np.sum(np.outer(k, j)[~shown])":
+            "This is how often the comparison *misses* the difference. The power is one minus it.",
+        "return float(shown[round(n * first), round(n * second)])":
+            "You look up the two expected counts. The counts vary from study to study: add up over all pairs.",
+        "np.outer(k, j) -> np.add.outer(k, j)":
+            "You add two chances. The two groups are independent, so the chance of a pair is the product.",
+        "k = scipy.stats.binom.pmf(np.arange(n + 1), n, (first + second) / 2); return np.sum(np.outer(k, k)[shown])":
+            "You draw both groups at one rate. That is how often the test errs where there is *no* difference.",
+    },
+)  # fmt: skip
+def power(first, second, shown):
+    n = len(shown) - 1
+    k = scipy.stats.binom.pmf(np.arange(n + 1), n, first)
+    j = scipy.stats.binom.pmf(np.arange(n + 1), n, second)
+    return np.sum(np.outer(k, j)[shown])
+
+
+def score_cases(rng):
+    """Two extremes, all equal, three seeds; then 40 at random."""
+    yield (np.array([128.0, -10.0, 120.0, 125.0, 126.0, 127.0, -6.0, 129.0]),)
+    yield (np.full(10, 23.4375),)
+    yield (np.array([3.0, 1.0, 8.0]),)
+    yield from ((rng.exponential(20, rng.integers(2, 21)) - 10,) for _ in range(40))
+
+
+@exercise(
+    "the interquartile mean, Agarwal et al. (arXiv 2108.13264)", minutes=5, difficulty=1, cases=score_cases,
+    worked=[((np.array([9.0, 1.0, 2.0, 100.0]),), 5.5), ((np.array([4.0, 0.0, 2.0]),), 2.0)],
+    hints=(
+        "Sort. Then leave out a quarter of the scores at each end; `len(scores) // 4` rounds down.",
+        "`np.sort(scores)[cut : len(scores) - cut]` is what is left (with cut = 0, `[:-cut]` would be empty).",
+    ),
+    mistakes={
+        "return np.mean(scores)":
+            "This is the mean of all scores. One agent that crashes at once changes it a lot: leave out the outer "
+            "quarters.",
+        "return np.median(scores)":
+            "This is the median, the score of one or two agents. Average the middle *half*.",
+        "np.sort(scores) -> scores":
+            "You cut by position, not by size: sort the scores first.",
+        "return np.percentile(scores, [25, 75]).mean()":
+            "This is the mean of the two quartiles. Average all scores that lie between them.",
+        "cut : len(scores) - cut -> cut:":
+            "You leave out the lowest quarter only. Leave out the highest quarter, too.",
+        "len(scores) - cut -> -cut":
+            "With fewer than four scores your slice `[cut:-cut]` is `[0:0]`, which is empty, and its mean is not a "
+            "number (NaN). Let it end at `len(scores) - cut`.",
+    },
+)  # fmt: skip
+def interquartile_mean(scores):
+    cut = len(scores) // 4
+    return np.sort(scores)[cut : len(scores) - cut].mean()
+
+
+def draw_cases(rng):
+    """Two groups, all equal; then 40 at random."""
+    for scores in (np.array([0.0] * 8 + [1.0] * 2), np.full(5, 3.0)):
+        yield scores, rng.integers(len(scores), size=(200, len(scores)))
+    for _ in range(40):
+        scores = rng.exponential(30, rng.integers(3, 12)) - 10
+        yield scores, rng.integers(len(scores), size=(rng.integers(50, 300), len(scores)))
+
+
+@exercise(
+    "the percentile bootstrap: Efron (1979); over whole seeds", minutes=7, difficulty=2, cases=draw_cases,
+    worked=[
+        ((np.array([0.0, 8.0]), np.array([[0, 0], [0, 1], [1, 1]])), np.array([0.2, 7.8])),  # of the means 0, 4, 8
+        ((np.array([2.0, 2.0]), np.array([[0, 1], [1, 1]])), np.array([2.0, 2.0])),
+    ],
+    hints=(
+        "`scores[draws]` has a row for each draw: the scores of the agents that it drew.",
+        "One mean for each row; then the 2.5th and the 97.5th percentile of all the means.",
+    ),
+    mistakes={
+        "[2.5, 97.5] -> [5, 95]":
+            "You leave 5 % on each side: that is a 90 % interval. 95 % leaves 2.5 on each.",
+        ".mean(axis=1) ->":
+            "This is the spread of single agents. Average within each draw first: the interval is that of the *mean*.",
+        "axis=1 -> axis=0":
+            "You average over the draws. Average within each draw, over its agents: axis 1.",
+        "return scores.mean() + 1.96 * np.array([-1, 1]) * means.std()":
+            "You replace the draws by a normal distribution. Take the percentiles of the means themselves.",
+        "return np.sort(means)[[int(0.025 * len(means)), int(0.975 * len(means))]]":
+            "You take single means at the two ends. `np.percentile` goes on between two of them, so that yours and "
+            "ours agree: `np.percentile(means, [2.5, 97.5])`.",
+        "scores[draws].mean(axis=1) -> np.median(scores[draws], axis=1)":
+            "You took the median of each draw. Here you need the interval of the mean.",
+    },
+)  # fmt: skip
+def bootstrap_interval(scores, draws):
+    means = scores[draws].mean(axis=1)
+    return np.percentile(means, [2.5, 97.5])
+
+
+def rival_cases(rng):
+    """All ties, all above, all under; then 40 of whole numbers, so that there are ties; one agent against several."""
+    yield np.zeros(3), np.zeros(3)
+    yield np.array([5.0, 6.0]), np.array([1.0, 2.0])
+    yield np.array([1.0, 2.0]), np.array([5.0, 2.0])
+    for _ in range(40):
+        m = rng.integers(2, 9)
+        yield rng.integers(0, 9, m).astype(float), rng.integers(0, 7, m).astype(float)
+    yield np.array([5.0]), np.array([6.0, 1.0, 5.0, 2.0])
+    yield np.array([6.0, 1.0, 5.0]), np.array([4.0])
+
+
+@exercise(
+    "P(X > Y) + P(X = Y) / 2, the Mann-Whitney statistic U / (m n)", minutes=6, difficulty=2, cases=rival_cases,
+    worked=[((np.array([1.0, 3.0]), np.array([2.0, 2.0])), 0.5), ((np.array([2.0, 3.0]), np.array([2.0, 0.0])), 0.875)],
+    hints=(
+        "Every agent of x against every agent of y: `x[:, None]` and `y[None, :]` make a table of all pairs.",
+        "1 where x is above, 0.5 where they are equal, 0 elsewhere; then the mean of the table.",
+    ),
+    mistakes={
+        "return np.mean(x > y)":
+            "A tie counts half. With your count, two equal methods would both be worse than each other.",
+        "return np.mean(x >= y)":
+            "A tie counts half. With your count, two equal methods would both be better than each other.",
+        "x, y = x[:, None], y[None, :] ->":
+            "You compare agent 0 with agent 0 only. The seeds of two methods have nothing in common: compare every "
+            "pair.",
+        "x > y -> x < y":
+            "This is how often the *other* method is better: x and y are swapped.",
+        "return float(x.mean() > y.mean())":
+            "You compare two means and answer with yes or no. Count in how many pairs of agents x is ahead.",
+    },
+)  # fmt: skip
+def chance_of_improvement(x, y):
+    x, y = x[:, None], y[None, :]
+    return np.mean((x > y) + 0.5 * (x == y))
+
+
+def group_cases(rng):
+    """Equal groups, two clusters, three seeds, one resample; then 30 at random, of different sizes."""
+    sizes = [(5, 5), (10, 10), (3, 3), (4, 8), *rng.integers(2, 12, (30, 2))]
+    for k, (m, n) in enumerate(sizes):
+        x = np.full(m, 100.0) if k == 0 else np.where(rng.random(m) < 0.7, rng.normal(120, 5, m), -10.0)
+        y = np.full(n, 100.0) if k == 0 else np.where(rng.random(n) < 0.5, rng.normal(110, 5, n), -10.0)
+        resamples = 1 if k == 3 else 200
+        yield x, y, rng.integers(m, size=(resamples, m)), rng.integers(n, size=(resamples, n))
+
+
+@exercise(
+    "the percentile bootstrap of IQM(x) - IQM(y), both groups resampled", minutes=15, difficulty=3, cases=group_cases,
+    worked=[
+        ((np.array([0.0, 8.0]), np.array([1.0, 1.0]), np.array([[0, 0], [0, 1], [1, 1]]), np.array([[0, 1]] * 3)),
+         np.array([3.0, -0.8, 6.8])),  # means 0, 4, 8, each less 1
+        ((np.array([0.0, 2.0, 4.0, 90.0]), np.zeros(2), np.array([[0, 1, 2, 3]]), np.array([[0, 0]])),
+         np.array([3.0, 3.0, 3.0])),  # 2 and 4 are left of the four
+    ],
+    hints=(
+        "`x[draws_x]` has a row for each resample. Write an `iqm` along the last axis: `np.sort(..., axis=-1)`.",
+        "One difference for each resample: `iqm(x[draws_x]) - iqm(y[draws_y])`.",
+    ),
+    mistakes={
+        "return np.array([iqm(y) - iqm(x), *np.percentile(-differences, [2.5, 97.5])])":
+            "Your sign is turned: the first group less the second.",
+        "of_x, of_y = (np.percentile(iqm(drawn), [2.5, 97.5]) for drawn in (x[draws_x], y[draws_y])); "
+        "return np.array([iqm(x) - iqm(y), *(of_x - of_y)])":
+            "You subtract the ends of two intervals. Subtract in each resample, and take the percentiles of these "
+            "differences.",
+        "of_x, of_y = (np.percentile(iqm(drawn), [2.5, 97.5]) for drawn in (x[draws_x], y[draws_y])); "
+        "return np.array([iqm(x) - iqm(y), *(of_x - of_y[::-1])])":
+            "You take the worst case at both ends: that both groups are unlucky in opposite directions is rarer than "
+            "5 %. Take the percentiles of the resampled differences.",
+        "np.sort(scores, axis=-1)[..., cut : scores.shape[-1] - cut] -> scores":
+            "You compare means. Take the interquartile mean, of the groups and of each resample.",
+        "iqm(x[draws_x]) - iqm(y[draws_y]) -> np.sort(x)[draws_x].mean(-1) - np.sort(y)[draws_y].mean(-1)":
+            "In the resamples you take the mean. Sort each resample and leave out its own quarters.",
+        "[2.5, 97.5] -> [5, 95]":
+            "You leave 5 % at each end. Both ends together may miss in 5 % of the cases.",
+    },
+)  # fmt: skip
+def difference_interval(x, y, draws_x, draws_y):
+    def iqm(scores):  # over the last axis
+        cut = scores.shape[-1] // 4
+        return np.sort(scores, axis=-1)[..., cut : scores.shape[-1] - cut].mean(axis=-1)
+
+    differences = iqm(x[draws_x]) - iqm(y[draws_y])
+    return np.array([iqm(x) - iqm(y), *np.percentile(differences, [2.5, 97.5])])

@@ -1,0 +1,104 @@
+"""The exercise of the lesson on looking ahead: the value of each action by rollouts."""
+
+import numpy as np
+
+from bootcourse.course.exercise import exercise
+from bootcourse.course.lessons.looking_ahead import imagined_road
+from bootcourse.policies import rule_policy
+from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, X, Y
+from bootcourse.road.vector_env import TrapVectorEnv
+from bootcourse.scenario import ACTION_NAMES, DEFAULT, IDLE
+
+FAST = ACTION_NAMES.index("accelerate straight")
+
+
+def keep(cars):
+    """Keeps straight."""
+    return np.full(len(cars), IDLE)
+
+
+def accelerate(cars):
+    """Accelerates, whoever is ahead."""
+    return np.full(len(cars), FAST)
+
+
+def by_lane(cars):
+    """Brakes in the rightmost lane, keeps its speed in the others: it has to be asked again at each decision."""
+    return np.where(cars[:, EGO, LANE] == DEFAULT.road.lanes - 1, 1, IDLE)
+
+
+by_rule = imagined_road.decide_by(rule_policy(DEFAULT))
+
+
+def reached(roads: int, decisions: int, action: int, seed: int) -> np.ndarray:
+    """The cars of some roads after some decisions of the same action, (roads, vehicles, 10)."""
+    env = TrapVectorEnv(roads)
+    env.reset(seed=seed)
+    for _ in range(decisions):
+        env.step(np.full(roads, action))
+    return env.cars.copy()
+
+
+def blocked() -> np.ndarray:
+    """One road on which the ego touches both cars ahead at the next step, whatever it does."""
+    cars = reached(1, 0, IDLE, 1)
+    cars[0, TRAP_1, X], cars[0, TRAP_1, SPEED] = cars[0, EGO, X] + 5.0, 1.0
+    cars[0, TRAP_2, [X, Y]] = cars[0, TRAP_1, [X, Y]]
+    return cars
+
+
+def cases(rng):
+    """One decision; accidents for some actions; a policy that must be asked again; then 16 at random."""
+    yield reached(2, 0, IDLE, 3), keep, 1
+    yield reached(2, 4, FAST, 5), keep, 4
+    yield reached(2, 3, FAST, 7), accelerate, 6
+    yield reached(3, 2, IDLE, 9), by_lane, 5
+    yield reached(2, 0, IDLE, 11), by_rule, 10
+    for seed in range(16):
+        policy = (keep, accelerate, by_lane, by_rule)[rng.integers(4)]
+        yield reached(2, int(rng.integers(5)), FAST, 20 + 2 * seed), policy, int(rng.integers(1, 9))
+
+
+@exercise(
+    "Q(s, a): the return of doing a and then following the policy, over the horizon (Tesauro & Galperin 1996)",
+    minutes=18, difficulty=3, cases=cases,
+    # every action touches the car ahead within the first decision: -10, and nothing follows
+    worked=[((blocked(), keep, 3), np.full((1, 9), DEFAULT.reward.accident))],
+    mistakes={
+        "range(horizon) -> range(horizon + 1)":
+            "You imagine one decision too many: the horizon counts the first decision, too.",
+        "+= alive * rewards -> += rewards":
+            "Your imagined car earns after its accident. An accident ends the episode: nothing is added from there on.",
+        "+= alive * imagined_road.worth -> += imagined_road.worth":
+            "A drive that ended in an accident has no future: add the worth of the last speed only where the car is "
+            "still driving.",
+        "values[:, action] += alive * imagined_road.worth(imagined[:, 0, 3]) ->":
+            "What comes after the horizon is missing. A drive that ends slowly is then worth as much as one that ends "
+            "fast.",
+        "np.full(len(cars), action) if decision == 0 else policy(imagined) -> policy(imagined)":
+            "All nine drives begin with the policy's own action, so the nine values are equal. The first decision is "
+            "the action that is judged.",
+        "np.full(len(cars), action) if decision == 0 else policy(imagined) -> np.full(len(cars), action)":
+            "You hold the action for the whole drive. Only the first decision is given; after it the policy decides.",
+        "policy(imagined) -> policy(cars)":
+            "You ask the policy about the road as it is now. Ask it about the imagined road, again at each decision.",
+        "return values - values.max(axis=1, keepdims=True)":
+            "You subtract the best value. Return the values themselves: others compare them with returns.",
+    },
+    hints=(
+        "Three loops: over the nine actions, over the decisions of a drive; all roads go along as arrays.",
+        "Keep `alive`, (roads,) bool: a reward counts where the car was alive before the decision. After the last "
+        "decision `imagined_road.worth(imagined[:, 0, 3])` counts in the same way.",
+    ),
+)  # fmt: skip
+def rollout_values(cars, policy, horizon):
+    values = np.zeros((len(cars), 9))
+    for action in range(9):
+        imagined, alive = cars, np.ones(len(cars), dtype=bool)
+        for decision in range(horizon):
+            actions = np.full(len(cars), action) if decision == 0 else policy(imagined)
+            imagined, rewards, crashed = imagined_road.step(imagined, actions)
+            values[:, action] += alive * rewards
+            alive &= ~crashed
+        values[:, action] += alive * imagined_road.worth(imagined[:, 0, 3])
+    return values

@@ -1,0 +1,52 @@
+"""The look-ahead in the form in which the lesson writes it: what its exercise is given, and a driver that uses it."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from bootcourse.episodes.lookahead import worth_of_speed
+from bootcourse.policies import Policy, PolicyOutput
+from bootcourse.road.branching import advance
+from bootcourse.road.constants import constants
+from bootcourse.road.observation import observe_all
+from bootcourse.scenario import DEFAULT
+
+Decide = Callable[[np.ndarray], np.ndarray]  # cars (roads, vehicles, 10) -> actions (roads,)
+
+
+def step(cars: np.ndarray, actions: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """One imagined decision: cars (roads, vehicles, 10), actions (roads,) -> next cars, rewards, crashed.
+
+    rewards (roads,); crashed (roads,) bool: this decision ended in an accident. The cars that are given stay as they
+    are. It does not remember: a road that is stepped on after an accident may go on to earn rewards.
+    """
+    following, accidents = cars.copy(), np.zeros(len(cars), dtype=np.int64)
+    rewards = advance(following, actions, accidents, DEFAULT)
+    return following, rewards, accidents != 0
+
+
+def worth(speeds: np.ndarray) -> np.ndarray:
+    """The return of an episode on an empty road that begins at these speeds (m/s), any shape."""
+    return np.interp(speeds, *worth_of_speed(DEFAULT))
+
+
+def decide_by(policy: Policy) -> Decide:
+    """A policy without a state of its own as a function of the cars alone: it sees what they show."""
+
+    def decide(cars: np.ndarray) -> np.ndarray:
+        observations = np.zeros((len(cars), DEFAULT.observation_size), dtype=np.float32)
+        observe_all(np.ascontiguousarray(cars), constants(DEFAULT), observations)
+        return policy(observations, cars).actions
+
+    return decide
+
+
+def driver(values_of: Callable, policy: Policy, horizon: int) -> Policy:
+    """A policy that takes the best of nine values at each decision: values_of(cars, policy, horizon) -> (roads, 9)."""
+    decide = decide_by(policy)
+
+    def drive(observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
+        values = values_of(cars, decide, horizon)
+        return PolicyOutput(values.argmax(axis=1), q_values=values)
+
+    return drive

@@ -1,0 +1,78 @@
+"""How a rule climbs the hill of MountainCar, and where a teacher turns in circles in DoorKey."""
+
+import gymnasium as gym
+import numpy as np
+
+from bootcourse.course.lessons.your_teacher.driven_out import NOT_SAME, NOT_WHOLE, NOTHING, OUTSIDE, no_action
+from bootcourse.learn.teachers import Rule
+from bootcourse.research.problems import DoorKey
+
+UP = 1.0  # the flag was reached; any other result is the farthest position, the flag is at 0.5
+PUSHES = 3
+
+
+def climb(answer, seed: int):
+    """How one episode of MountainCar ends: `UP`, or the farthest position, rounded to 0.05; 5 and more: no action.
+
+    An answer that is not a number is returned unchanged.
+    """
+    env = gym.make("MountainCar-v0").unwrapped
+    (position, speed), farthest = env.reset(seed=seed)[0], -2.0
+    for decision in range(200):
+        action, again = (answer(float(position), float(speed)) for _ in range(2))
+        wrong = no_action(action, again)
+        if wrong == NOTHING and decision == 0:
+            return None
+        if wrong is not None:
+            return action if wrong == "as it is" else float(wrong)
+        if action >= PUSHES:
+            return float(OUTSIDE)
+        (position, speed), _, terminated, _, _ = env.step(int(action))
+        farthest = max(farthest, float(position))
+        if terminated:
+            return UP
+    return round(20 * farthest) / 20
+
+
+def explain_climb(cases, answers):
+    """What went wrong, and in how many of the episodes the flag was reached."""
+    ends = [float(answer) for answer in answers]
+    if NOTHING in ends:
+        return "Your rule returns nothing in some situations: look for a branch without `return`."
+    if NOT_WHOLE in ends or OUTSIDE in ends:
+        return "Your rule sometimes returns something else than an action: give 0 (left), 1 (no push) or 2 (right)."
+    if NOT_SAME in ends:
+        return "Your rule answers the same state differently each time. The label of a state must not change."
+    low = [end for end in ends if end != UP]
+    return (
+        f"Your rule reaches the flag at 0.5 in {len(ends) - len(low)} of {len(ends)} episodes. In the others it comes "
+        f"up to {max(low):.2f} at most in 200 decisions: swing, and take more speed from each swing."
+    )
+
+
+def climbed(rule: Rule, seed: int = 0) -> np.ndarray:
+    """The positions of a drive of MountainCar by a rule of (position, speed), (decisions + 1,)."""
+    env = gym.make("MountainCar-v0").unwrapped
+    seen, positions, terminated = env.reset(seed=seed)[0], [], False
+    while not terminated and len(positions) < 200:
+        positions.append(float(seen[0]))
+        seen, _, terminated, _, _ = env.step(int(rule(*map(float, seen))))
+    return np.array([*positions, float(seen[0])])
+
+
+def rooms(teacher: Rule, seed: int) -> tuple[list[tuple[int, ...]], bool]:
+    """(states, reached the goal) of a drive of DoorKey by a teacher: x, y, direction, key's row, door's row, open."""
+    env = DoorKey(1)
+    seen, _ = env.reset(seed=seed)
+    states, reached, done = [], False, False
+    while not done:
+        states.append(tuple(int(number) for number in env.states[0]))
+        seen, _, terminated, truncated, _ = env.step(teacher(seen))
+        reached, done = bool(terminated[0]), bool(terminated[0] or truncated[0])
+    return states, reached
+
+
+def circle(states: list[tuple[int, ...]]) -> int:
+    """In how many decisions a drive's last state came back for the last time; 0 if it was new."""
+    before = [len(states) - 1 - i for i, state in enumerate(states[:-1]) if state == states[-1]]
+    return min(before, default=0)

@@ -1,0 +1,490 @@
+# ---
+# jupyter:
+#   jupytext:
+#     text_representation:
+#       extension: .py
+#       format_name: percent
+#   kernelspec:
+#     display_name: Python 3 (ipykernel)
+#     language: python
+#     name: python3
+# ---
+
+# %% [markdown]
+# # How many seeds?
+#
+# **What you will be able to do**
+# - put an interval on "eight of ten agents escape", and on their mean return;
+# - say how many agents a comparison needs, before you train them;
+# - run an ablation of your own, and say what five seeds show.
+#
+# **Time** 75 minutes, about one of them the machine's. **It builds on** the soft constraint (lesson
+# [[soft_constraint]]) and learning from demonstrations ([[learning_from_demonstrations]]).
+
+# %%
+import bootcourse as bc
+import numpy as np
+import scipy
+from bootcourse.course import check, compare_predictions, predict, shipped, table
+from bootcourse.course.lessons.how_many_seeds import figures as figures_seeds
+from bootcourse.research import figures, paper, report, results, tables
+
+# %% [markdown]
+# ## Look first
+#
+# Here are two agents of plain SAC on one road. They have the same settings and had the same number
+# of training episodes. They differ in the *seed* of their random numbers alone.
+# <!-- claim: len({tuple((k, str(v)) for k, v in agent.items() if k != 'seed') for agent in
+#   of('sac').agents}) == 1 -->
+
+# %%
+for agent in (bc.shipped_agents("sac")[i] for i in (0, 3)):
+    drive = bc.record(agent.as_policy(), [10], label=f"seed {agent.settings.seed}")[0]
+    end = drive.times[-1]
+    bc.show(bc.top_view_over_time(drive, times=[0, bc.overtaken(drive) or end / 2, end]))
+    print(f"seed {agent.settings.seed}: return {drive.rewards.sum():.0f} after {end:.0f} s")
+
+# %% [markdown]
+# Had you trained the second one alone, you would write that plain SAC leaves the trap. How many
+# agents do you need before such a sentence is worth printing?
+#
+# The question matters most in an **ablation**: you leave out one part of a method at a time, train
+# again, and see what gets worse. The paper's method has two parts, the soft constraint and the
+# demonstrations. That makes four methods: neither (plain SAC), each alone, and both.
+#
+# > **Predict.** Rank the four by how many of ten agents escape. In the paper's table the two rows
+# > with demonstrations succeed in 100 % of the test drives, and the row with the soft constraint
+# > alone in 0 %. Do you expect ours to agree?
+# <!-- claim: PRINTED['demos']['success'].mean == PRINTED['bootstrapped']['success'].mean == 100 and
+#   PRINTED['soft']['success'].mean == 0 -->
+
+# %%
+predict(
+    "how_many_seeds.1",
+    "In which method do most agents escape?",
+    ["plain SAC", "soft constraint alone", "demonstrations alone", "both"],
+)
+
+# %% [markdown] tags=["instructor"] minutes=2
+# Ask how many of them have published or handed in a figure with one training behind each line.
+
+# %% [markdown]
+# ## Round 1: who escapes?
+#
+# Each agent drives roads that it has never seen, by its most probable action. It *escapes* if it
+# ends ahead of trap 1 on at least {{ 100 * ESCAPES | .0f }} % of them.
+
+# %%
+methods = ("sac", "soft", "demos", "bootstrapped")
+study, rule = bc.shipped_results(), report.rule_results(bc.DEFAULT, 200)
+agents, episodes = len(study.of("sac")), study.curves["success"].shape[1]
+roads = study.tested["success"].shape[1]
+print(f"{agents} agents of each method, {episodes} training episodes, {roads} held-out roads")
+bc.show(figures_seeds.who_escapes(study, methods))
+
+# %% [markdown]
+# Training works or fails, so a method's result is a number of agents. Eight of ten escape: what
+# does that say about the next ten? The **exact interval** of k out of n holds each rate at which
+# what happened is not too rare. At its low end, k *or more* out of n have a chance of 2.5 %; at its
+# high end, k *or fewer* have.
+# <!-- claim: escaped('soft') == 8 -->
+#
+# **Exercise (8 min, ●●○).** Write it. `scipy.stats.beta.ppf(q, a, b)` is where a beta
+# distribution reaches q, and solves both: a = k, b = n − k + 1 for the low end, a = k + 1, b = n −
+# k for the high one. Mind k = 0 and k = n.
+# <!-- claim: rate(np.zeros(10)).low == 0 -->
+#
+# <details><summary>Why a beta distribution? Three lines</summary>
+#
+# Draw n numbers between 0 and 1 uniformly, and call a number at or below p a success. Then k or
+# more successes means that the k-th smallest number is at or below p. The k-th smallest of n such
+# numbers has the beta distribution with a = k and b = n − k + 1, so its value at 2.5 % is the rate
+# p at which k or more successes have a chance of 2.5 %.
+#
+# </details>
+
+
+# %%
+def exact_interval(k, n):
+    """The exact 95 % interval of a rate, from k of n: two whole numbers -> (2,), low and high."""
+    # solution: the exercise's own
+
+
+check.exact_interval(exact_interval)
+
+# %%
+rows = []
+for method in methods:
+    won = study.of(method).scores("success") >= bc.statistics.ESCAPES
+    printed = paper.PRINTED[method]["success"].mean
+    one = int(printed >= 100 * bc.statistics.ESCAPES)  # if the row is one agent: does it escape?
+    luck = scipy.stats.fisher_exact([[won.sum(), (~won).sum()], [one, 1 - one]]).pvalue
+    rows.append([bc.display_name(method), tables.k_of_n(won), f"{printed:g} %", f"{luck:.2f}"])
+theirs = f"the paper's success, {paper.EPISODES} drives"
+table(["", "agents that escape (95 %)", theirs, "p, if one agent drove them"], rows)
+
+# %% [markdown]
+# **See.** Two rows look opposite: the soft constraint alone, and the demonstrations alone. Do they
+# contradict the paper? Its rates count test episodes, about {{ EPISODES }} by its printed
+# deviations, and it does not say how many agents drove them. Twenty drives of one agent say how
+# that agent drives. Of how often training succeeds they are *one* sample, not twenty.
+#
+# The last column takes the paper's row as one agent. If its trainings succeed as often as ours, how
+# probable is a difference at least this large? That is the *p value* of Fisher's exact test:
+# {{ with_one_agent('soft') | .2f }} and {{ with_one_agent('demos') | .2f }}. So neither row shows
+# that the paper's method and ours differ, if each is one agent; with several agents behind a row it
+# might.
+# <!-- claim: 0.05 < with_one_agent('demos') < with_one_agent('soft') and escaped('soft') > 5 and
+#   escaped('demos') == 0 -->
+
+# %% [markdown] tags=["instructor"] minutes=4
+# Let them vote before the figure and keep the votes. What is the sample here: a drive, or a
+# training? Which sentences of the paper's abstract does this table support?
+
+# %% [markdown]
+# ## Round 2: how many agents does it take?
+#
+# A reason for a difference could be where the KL enters. Our learner subtracts it in the critic's
+# target, too (lesson [[soft_constraint]], round 4); one can also subtract it in the actor's loss
+# alone. Ten more agents of both methods were trained like that, with the study's settings
+# otherwise:
+
+# %%
+elsewhere = shipped.shipped_experiment("ablations")["KL in the actor only"]
+kinds = {"in target and actor": study, "in the actor only": elsewhere}
+rows = [
+    [bc.display_name(m), *(tables.escaped(agents_of, m) for agents_of in kinds.values())]
+    for m in ("soft", "bootstrapped")
+]
+table(["agents that escape, the KL ...", *kinds], rows)
+
+# %% [markdown]
+# No difference is visible. Does it mean that there is none? That depends on how often ten agents
+# against ten would show one.
+#
+# > **Predict.** The true rates are 80 and 30 %. You train ten agents of each. In how many of 100
+# > such studies does Fisher's test find the difference (p below 0.05)?
+# <!-- claim: max(p_changed(m) for m in ('soft', 'bootstrapped')) > 0.5 -->
+
+# %%
+predict("how_many_seeds.2", "Of 100 studies, ten against ten, that find it", unit="of 100")
+
+# %% [markdown]
+# This share is the **power** of the comparison. You can compute it before you train anything.
+#
+# **Exercise (12 min, ●●○).** Write it. The number of agents that escape has a binomial
+# distribution in each group. `shown[k, j]` says whether the test tells k of n from j of n.
+
+
+# %%
+def power(first, second, shown):
+    """How often a test finds it: two true rates, shown (n + 1, n + 1) bool -> 0 to 1."""
+    # solution: the exercise's own
+
+
+check.power(power)
+
+# %%
+# NBVAL_CHECK_OUTPUT
+rows = []
+for n in (5, 10, 15, 20, 25):
+    of_100 = [100 * bc.statistics.power(*rates, n) for rates in ((0.8, 0.3), (0.8, 0.6))]
+    rows.append([n, *(f"{each:.0f} %" for each in of_100)])
+table(["agents of each", "power for 80 against 30 %", "for 80 against 60 %"], rows)
+
+# %% [markdown]
+# **See.** Ten against ten find even this large difference in
+# {{ 100 * power(0.8, 0.3, 10) | .0f }} % of the studies; {{ enough(0.8, 0.3) }} agents of each are
+# the fewest with a power of 80 %. A smaller difference, 80 against 60 %, needs far more than the
+# table's 25. So the KL's place is *not* cleared as a reason: ten agents hardly could have shown
+# that it matters.
+# <!-- claim: power(0.8, 0.3, 10) < 0.5 and power(0.8, 0.6, 25) < 0.4 -->
+#
+# A second error waits at the other side. If twelve comparisons have no true difference behind them,
+# at least one p is below 0.05 with a chance of up to {{ 100 * (1 - 0.95**12) | .0f }} %. This is
+# **multiplicity**: one p of 0.03 among a dozen is a hint. Say beforehand which comparison
+# counts; or divide 0.05 by the number of comparisons (Bonferroni). Better still, multiply the
+# smallest p by their number, the next by one less, and so on, until one is above 0.05 (Holm).
+#
+# The opposite of a plan is to look at everything. Our study was repeated with one number changed,
+# three agents a time. With demonstrations alone {{ escaped_with('as it is', 'demos') }},
+# {{ escaped_with('traps at 10.3 m/s', 'demos') }}, {{ escaped_with('traps at 10.6 m/s', 'demos') }}
+# and {{ escaped_with('traps at 11 m/s', 'demos') }} of three escape as the traps drive 10, 10.3,
+# 10.6 and 11 m/s. You could invent an explanation for this order, and for any other order as well.
+# Three agents tell you where more seeds are worth their time.
+# <!-- claim: len(varied()['as it is'].of('sac')) == 3 -->
+
+# %% [markdown] tags=["instructor"] minutes=5
+# Let each group name a difference that it would care about, and look up the number of agents.
+# `bc.statistics.power(0.8, 0.6, 80)` takes some seconds. Then ask what to do if only ten can be
+# trained: choose a change with a larger effect, or a score that is not yes or no.
+
+# %% [markdown]
+# ## Round 3: one number, and how sure it is
+#
+# > **Predict.** Most of ten agents earn about the same, and two or three crash at once. Which
+# > number changes most if one more agent crashes: the mean, the median, or the mean of the middle
+# > half?
+
+# %%
+predict("how_many_seeds.3", "What changes most if one more crashes?", ["mean", "median", "IQM"])
+
+# %% [markdown]
+# The mean of the middle half is called **interquartile mean** (IQM). It leaves out the highest and
+# the lowest quarter and uses half of the agents, where a median uses one or two.
+#
+# **Exercise (5 min, ●○○).** Write it. A quarter is rounded down: of ten scores, six are left.
+
+
+# %%
+def interquartile_mean(scores):
+    """The mean without the lowest and the highest quarter: (agents,) -> a number."""
+    # solution: the exercise's own
+
+
+check.interquartile_mean(interquartile_mean)
+
+# %%
+returns = np.sort(study.of("bootstrapped").scores("returns"))
+worse = np.append(returns[:-1], returns[0])  # the best agent earns what the worst one earns
+numbers = {"mean": np.mean, "median": np.median, "IQM": bc.statistics.iqm}
+falls = {name: float(f(returns) - f(worse)) for name, f in numbers.items()}
+print("bootstrapped agents:", ", ".join(f"{each:.0f}" for each in returns))
+print(
+    "; ".join(f"{name} {f(returns):.1f}, falls by {falls[name]:.1f}" for name, f in numbers.items())
+)
+
+# %% [markdown]
+# **See.** The IQM falls most, although it leaves out two at each end: three of ten agents are low
+# already, and a fourth no longer fits into the quarter that is left out. An IQM resists an outlier
+# or two; it does not resist a second group. And it describes no agent here: the nearest one earns
+# {{ nearest_to_iqm('bootstrapped') | .0f }} more or less. That is why our tables also count
+# agents.
+# <!-- claim: (lambda r, w: iqm(r) - iqm(w) > r.mean() - w.mean() > np.median(r) - np.median(w))(
+#   np.sort(of('bootstrapped').scores('returns')),
+#   np.sort(of('bootstrapped').scores('returns'))[[0, *range(9)]]) -->
+# <!-- claim: np.diff(np.sort(of('bootstrapped').scores('returns'))).max() > 40 -->
+#
+# > **Predict.** Somebody repeats the study of the bootstrapped agents with ten other seeds. By how
+# > much might their mean return differ from ours: by 2, by 10, by 40?
+
+# %%
+predict(
+    "how_many_seeds.4", "A repetition differs, in 95 of 100 cases, by at most", unit="of return"
+)
+
+# %% [markdown]
+# The computer imitates a repetition. Draw ten agents out of our ten *uniformly with replacement*:
+# some come twice or more, and others are left out. Take their mean. Do this some thousand times.
+# The middle 95 % of these means are the **bootstrap interval**. (The word has another meaning
+# here: the interval has nothing to do with the paper's method.)
+#
+# **Exercise (7 min, ●●○).** Write it. The draws are given, so that yours and ours agree.
+
+
+# %%
+def bootstrap_interval(scores, draws):
+    """95 % interval of the mean: scores (n,), draws (resamples, n) whole numbers 0..n-1 -> (2,)."""
+    # solution: the exercise's own
+
+
+check.bootstrap_interval(bootstrap_interval)
+
+# %% tags=["hide-input"]
+rows = []
+for method in methods:
+    earned = study.of(method).scores("returns")
+    some = [bc.statistics.interval(earned[:n]) for n in (3, 5, len(earned))]
+    rows.append([bc.display_name(method), *(tables.bracketed(part) for part in some)])
+table(["IQM of the return", "3 seeds", "5 seeds", f"{agents} seeds"], rows)
+
+# %%
+bc.show(figures.final_scores(study, methods))
+
+# %% [markdown]
+# **Explain.** The interval says how far our mean may lie from the mean of very many agents: with
+# both aids {{ half_interval('bootstrapped') | .0f }} to either side. A *repetition* has an error of
+# its own, as large as ours. Two independent errors add up to $\sqrt2$ as much, so two studies of
+# ten agents differ by up to about {{ 2**0.5 * half_interval('bootstrapped') | .0f }}.
+#
+# Do not trust a short interval from few seeds. If three agents happen to agree, it is short, and it
+# may miss what ten agents show: resampling draws from the agents that were trained, and from no
+# others.
+# <!-- claim: interval(of('sac').scores('returns')[:3]).low > iqm(of('sac').scores('returns')) -->
+#
+# The diamonds are the paper's returns. Where ours are higher, agents drive faster than the rule,
+# and that has a price:
+# <!-- claim: all(of(m).scores('returns').mean() > PRINTED[m]['returns'].mean and
+#   of(m).scores('speed').mean() > of('rule').scores('speed').mean() and accidents(m) >
+#   accidents('rule') for m in ('soft', 'bootstrapped')) -->
+
+# %% tags=["hide-input"]
+rows = []
+for method in (*methods, "rule"):
+    mine = (rule if method == "rule" else study).of(method)
+    kinds = [f"{100 * mine.episodes(kind).mean():.1f}" for kind in results.KINDS]
+    rows.append([bc.display_name(method), f"{mine.episodes('speed').mean():.1f}", *kinds])
+headings = ["mean of all drives", "m/s", "collisions, %", "road departures, %", "stops, %"]
+table(headings, rows)
+
+# %% [markdown] tags=["instructor"] minutes=4
+# Ask for a fifth way to summarise ten agents in one number, and try it on the bootstrapped ones.
+
+# %% [markdown]
+# ## Round 4: better, or different?
+#
+# > **Predict.** You draw one bootstrapped agent and one with the soft constraint alone, at random.
+# > How often does the bootstrapped one earn more?
+
+# %%
+predict("how_many_seeds.5", "How often the bootstrapped agent earns more", unit="%")
+
+# %% [markdown]
+# **Exercise (6 min, ●●○).** That is the **probability of improvement**. Pair each agent x of
+# the first method with each agent y of the second: in which share of the pairs is x above? A tie
+# counts half.
+
+
+# %%
+def chance_of_improvement(x, y):
+    """P(X > Y), a tie counts half: scores (m,) and (n,) -> a number from 0 to 1."""
+    # solution: the exercise's own
+
+
+check.chance_of_improvement(chance_of_improvement)
+
+# %%
+four = study.pick(i for i, a in enumerate(study.agents) if a["method"] in methods)
+table(*tables.improvement_rows(four))
+
+# %% [markdown]
+# **Explain.** One half is what a coin would give. The interval of both aids against the soft
+# constraint alone holds 50 %. That does not say that the two methods are equal; it says that ten
+# seeds do not show a difference. So "the combination is best" is not a result of this study.
+# <!-- claim: 100 * improvement([1.0, 1.0], [1.0, 1.0]).value == 50 -->
+# <!-- claim: (lambda p: p.low <= 0.5 <= p.high)(improvement(of('bootstrapped').scores('returns'),
+#   of('soft').scores('returns'))) -->
+
+# %% [markdown] tags=["instructor"] minutes=3
+# Ask what would have to be measured to decide it: more seeds, or another question, such as how
+# *early* an agent escapes.
+
+# %% [markdown]
+# ## Round 5: an ablation of your own
+#
+# Now ask a question of your own: what does one number of the method do? You train five agents as
+# they are and five with that number changed. For that you need an interval for a *difference*.
+#
+# **Exercise (15 min, ●●●).** Write it: the IQM of one group less the IQM of the other, and the
+# 95 % bootstrap interval of that difference. Each resample draws both groups anew. It can be
+# written without a loop over the resamples.
+
+
+# %%
+def difference_interval(x, y, draws_x, draws_y):
+    """(difference, low, high): IQM of x less IQM of y, scores (m,) and (n,), with its interval.
+
+    draws_x (resamples, m) and draws_y (resamples, n) are the agents that each resample draws.
+    """
+    # solution: the exercise's own
+
+
+check.difference_interval(difference_interval)
+
+# %% [markdown]
+# Choose what to change. `bonus=0.0` takes the bonus from the demonstrations; other numbers are
+# `xi_multiplier`, `rule_p`, `beta_start`, `gamma`: `bootcourse.learn.settings.Settings` lists them.
+# The score is an agent's success on 200 roads after 150 episodes, so it asks who
+# learns the way out early.
+#
+# > **Predict.** By how many points of success does your change raise or lower the IQM?
+
+# %%
+predict("how_many_seeds.6", "Effect of my change on the success", unit="points")
+
+# %%
+CHANGE = {"bonus": 0.0}  # yours
+settings = {
+    "as it is": bc.settings_for("bootstrapped"),
+    "changed": bc.settings_for("bootstrapped", **CHANGE),
+}
+mine = bc.compare(settings, seeds=5, episodes=150, tests=200)
+
+# %%
+as_it_is, changed = (100 * mine.scores(name, "success") for name in settings)
+effect = bc.statistics.difference(changed, as_it_is)
+rows = [
+    [name, f"{bc.statistics.iqm(group):.0f}", ", ".join(f"{each:.0f}" for each in sorted(group))]
+    for name, group in (("as it is", as_it_is), (str(CHANGE), changed))
+]
+words = f"Changed less unchanged: {tables.bracketed(effect)} points. The interval "
+words += "holds 0." if effect.low <= 0 <= effect.high else "does not hold 0."
+table(["success, %", "IQM", "the agents, sorted"], rows, below=words)
+
+# %% [markdown]
+# **Explain.** (Yours will differ from ours.) You may say only whether these five learned earlier,
+# with these settings, and how far the difference may be off. You may not say that the bonus is
+# useless or needed: after 20,000 updates it is another question. And be careful with the interval:
+# of five scores the IQM leaves out the highest and the lowest, and with so few agents a bootstrap
+# interval is often too short. If it just misses 0, train ten more. How many would settle it? Round
+# 2 tells you before you start.
+
+# %% [markdown] tags=["instructor"] minutes=4
+# Give each group another number to change, and collect the results on the board: one row for each
+# group, with its interval. If the changes of ten groups have zero effect, the chance that at least
+# one interval misses 0 is {{ 100 * (1 - 0.95**10) | .0f }} %. Ask what to do about that (say
+# beforehand which comparison counts, or make each interval wider).
+
+# %% [markdown]
+# ## What you now know
+#
+# 1. The sample is the training: twenty drives of one agent are one sample of a method.
+# 2. The exact interval of k out of ten is wide: ask of a table how many agents are behind a row.
+# <!-- claim: all(escapes(of(m).scores('success')).high - escapes(of(m).scores('success')).low > 0.3
+#   for m in ('sac', 'soft', 'demos', 'bootstrapped')) -->
+# 3. Compute the power before you train. Ten against ten find 80 against 30 % in fewer than half of
+#    the studies, so "no difference seen" says little.
+# <!-- claim: power(0.8, 0.3, 10) < 0.5 -->
+# 4. Of many comparisons some look good by luck: say beforehand which one counts, or correct p.
+# 5. An interval over seeds says how far a mean may be off, as far as these seeds show it. Two
+#    studies of the same size differ by $\sqrt2$ as much.
+#
+# **Three questions to think about**
+# - The paper tests 20 episodes. Which difference between two *agents* can 20 episodes show, and
+#   which between two *methods*?
+# - You may train 40 more agents. Ten more seeds for each of four methods, or the best setting of a
+#   search forty times?
+# - Your change raises the success of five agents, p = 0.04, and it is the sixth that you tried.
+#   What do you write?
+#
+# **Read on**: [lesson [[found_and_kept]]](found_and_kept.ipynb) asks why our table is not the
+# paper's. Agarwal et al., *Deep Reinforcement Learning at the Edge of the Statistical Precipice*
+# (arXiv 2108.13264); Henderson et al., *Deep Reinforcement Learning that Matters* (arXiv
+# 1709.06560).
+
+# %%
+both, soft = (study.of(m).scores("returns") for m in ("bootstrapped", "soft"))
+spread = np.ptp(bc.statistics.interval(both, np.mean)[1:]) / 2
+compare_predictions(
+    "how_many_seeds",
+    {
+        1: "soft constraint alone; ten seeds do not separate it from both",
+        2: round(100 * bc.statistics.power(0.8, 0.3, 10)),
+        3: max(falls, key=falls.get),
+        4: round(2**0.5 * spread, 1),
+        5: round(100 * bc.statistics.improvement(both, soft).value, 1),
+        6: round(effect.value, 1),
+    },
+)
+
+# %% [markdown] tags=["instructor"]
+# **Model answers.**
+#
+# - *What can 20 episodes show?* Of two agents: with 20 of 20 the interval of the rate begins at
+#   {{ 100 * rate(np.ones(20)).low | .0f }} %, so a difference of 30 points or more, roughly, shows.
+#   Of two methods: with one agent behind each row, nothing beyond these two agents.
+# - *40 more agents?* Ten more seeds for each method, if the question is whether the methods differ:
+#   the intervals above overlap. The search's best setting, if one setting is to be used: it came
+#   out best partly by the luck of its few seeds. Ten or twenty more would do.
+# - *The sixth change?* After Holm the smallest of six p values has to be below 0.05 / 6. Write that
+#   six changes were tried, which one looked best, and that new seeds have to confirm it.

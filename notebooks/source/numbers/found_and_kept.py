@@ -1,0 +1,138 @@
+"""What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
+
+from functools import cache
+from typing import NamedTuple
+
+import numpy as np
+from bootcourse.course.lessons.found_and_kept.figures import half_found
+from bootcourse.research import clocks as study_clocks
+from bootcourse.research.results import WINDOW, Results  # noqa: F401 (the text names it)
+from bootcourse.rule import stochastic_rule
+from scipy import stats
+from tools.course.known import clocks, fisher, of, shipped_experiment, shipped_results
+
+
+def undecided(method: str, first: int, last: int | None) -> float:
+    """The mean effective number of actions of a method's agents in some of their training episodes."""
+    return float(np.exp(of(method).curves["entropy"][:, first:last].mean()))
+
+
+def rule_actions() -> float:
+    """The effective number of actions of the stochastic rule."""
+    return float(np.exp(stats.entropy(stochastic_rule(np.array(0), 0.9))))
+
+
+def ablations() -> dict[str, Results]:
+    """The ten agents of each method with one choice of the method changed, by what was changed."""
+    return shipped_experiment("ablations")
+
+
+def clocks_run_down(updates: str) -> float:
+    """The episode in which the soft agents' ξ is down to a tenth, the median of ten."""
+    return study_clocks.faded(clocks()[updates, "π̃"].of("soft").curves["xi"])
+
+
+def clocks_out(updates: str) -> int:
+    """The episode by which half of the soft agents have found the way out."""
+    return half_found(clocks()[updates, "π̃"].of("soft"))
+
+
+class Counted(NamedTuple):
+    """How many agents found the way out, how many of these kept it, and of how many."""
+
+    found: int
+    kept: int
+    n: int
+
+
+def of_all() -> Results:
+    """The study's agents, every method's."""
+    return shipped_results()
+
+
+def way(results: Results, method: str) -> Counted:
+    """Of a method's agents, see `Results.found_and_kept`."""
+    found, kept = results.found_and_kept(method)
+    return Counted(int(found.sum()), int(kept.sum()), len(found))
+
+
+def over_updates(driver: str) -> Counted:
+    """The agents with demonstrations alone of one driver, over all numbers of updates."""
+    each = [way(clocks()[updates, driver], "demos") for updates in study_clocks.UPDATES]
+    return Counted(*(sum(column) for column in zip(*each, strict=True)))
+
+
+def keeping_p(method: str) -> float:
+    """Fisher's p: of the agents that found the way out, do more keep it if β never ends than if it ends at 1,000?"""
+    ends, stays = way(of_all(), method), way(ablations()["β for ever"], method)
+    return float(stats.fisher_exact([[each.kept, each.found - each.kept] for each in (ends, stays)]).pvalue)
+
+
+def stratified_p(pairs: list[tuple[Counted, Counted]], which: str) -> float:
+    """The exact p of a difference between the first and the second group, compared within each pair.
+
+    Given how many agents won in each pair, those of the first group have a hypergeometric distribution; their sum
+    over the pairs has the convolution. As in Fisher's test, p adds up what is at most as probable as what happened.
+    """
+    chances, won = np.ones(1), 0
+    for first, second in pairs:
+        both, won = getattr(first, which) + getattr(second, which), won + getattr(first, which)
+        own = stats.hypergeom(first.n + second.n, both, first.n).pmf(np.arange(first.n + 1))
+        chances = np.convolve(chances, own)
+    return float(chances[chances <= chances[won] * (1 + 1e-9)].sum())
+
+
+def driver_p(which: str) -> float:
+    """μ against π̃, with demonstrations alone, at each number of updates."""
+    pairs = [tuple(way(clocks()[updates, d], "demos") for d in ("μ", "π̃")) for updates in study_clocks.UPDATES]
+    return stratified_p(pairs, which)
+
+
+def updates_p(which: str) -> float:
+    """A quarter of an update against two, with demonstrations alone, for each driver."""
+    pairs = [tuple(way(clocks()[updates, d], "demos") for updates in ("1/4", "2")) for d in ("μ", "π̃")]
+    return stratified_p(pairs, which)
+
+
+def trend_p() -> float:
+    """The two-sided p of a trend: of the soft agents, do fewer keep the way out with each doubling of the updates?
+
+    By 100,000 permutations of which agents keep it; the statistic is the covariance with the logarithm of the updates.
+    """
+    groups = [clocks()[of].found_and_kept("soft")[1] for of in (("1/4", "π̃"), ("1", "π̃"), ("2", "π̃"), ("4", "π̃"))]
+    kept = np.concatenate(groups).astype(float)
+    doublings = np.repeat([-2.0, 0.0, 1.0, 2.0], [len(each) for each in groups])
+    doublings -= doublings.mean()
+    drawn = np.random.default_rng(0).permuted(np.tile(kept, (100_000, 1)), axis=1) @ doublings
+    return float(np.mean(np.abs(drawn) >= abs(kept @ doublings) - 1e-9))
+
+
+@cache
+def p_values() -> dict[str, float]:
+    """Every p value that the lesson prints."""
+    kept = {m: way(shipped_results("paper"), m).kept for m in ("demos", "margin", "bootstrapped", "margin_soft")}
+    return {
+        "keeping": keeping_p("demos"),
+        "keeping, both": keeping_p("bootstrapped"),
+        "trend": trend_p(),
+        "driver, found": driver_p("found"),
+        "driver, kept": driver_p("kept"),
+        "updates, found": updates_p("found"),
+        "updates, kept": updates_p("kept"),
+        "choices": fisher(*(way(clocks()[cell], "demos").kept for cell in (("1/4", "μ"), ("2", "π̃")))),
+        "bonus, margin": fisher(kept["demos"], kept["margin"]),
+        "bonus, margin, with ξ": fisher(kept["bootstrapped"], kept["margin_soft"]),
+    }
+
+
+def holm() -> dict[str, float]:
+    """The same, corrected for their number (Holm 1979)."""
+    corrected, least = {}, 0.0
+    for tried, (name, p) in enumerate(sorted(p_values().items(), key=lambda item: item[1])):
+        corrected[name] = least = max(least, min(1.0, (len(p_values()) - tried) * p))
+    return corrected
+
+
+def surviving() -> int:
+    """How many stay below 0.05."""
+    return sum(p < 0.05 for p in holm().values())

@@ -1,0 +1,35 @@
+"""What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
+
+import numpy as np
+from bootcourse.research.paper import PRINTED
+from bootcourse.statistics import interval, iqm, power
+from scipy import stats
+from tools.course.known import escaped, escapers, fisher, of, shipped_experiment
+
+
+def p_changed(method: str) -> float:
+    """Fisher's p of a method's agents that escape: the study's against those with the KL in the actor only."""
+    return fisher(escaped(method), escapers(shipped_experiment("ablations")["KL in the actor only"], method))
+
+
+def enough(first: float, second: float, wanted: float = 0.8) -> int:
+    """The fewest agents of each method with this power, at these true rates."""
+    return next(n for n in range(2, 100) if power(first, second, n) >= wanted)
+
+
+def nearest_to_iqm(method: str) -> float:
+    """How far the interquartile mean of a method's returns is from the agent nearest to it."""
+    returns = of(method).scores("returns")
+    return float(np.abs(returns - iqm(returns)).min())
+
+
+def with_one_agent(method: str) -> float:
+    """Fisher's p of our agents that escape against the paper's row, if one agent stands behind that row."""
+    won, theirs = escaped(method), int(PRINTED[method]["success"].mean >= 50)
+    return float(stats.fisher_exact([[won, len(of(method)) - won], [theirs, 1 - theirs]]).pvalue)
+
+
+def half_interval(method: str) -> float:
+    """Half the length of the 95 % interval of a method's mean return."""
+    _, low, high = interval(of(method).scores("returns"), np.mean)
+    return (high - low) / 2

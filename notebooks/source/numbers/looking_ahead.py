@@ -1,0 +1,41 @@
+"""What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
+
+from functools import cache
+
+from bootcourse.episodes.lookahead import HORIZON
+from bootcourse.episodes.models import MODELS
+from bootcourse.research.lookahead import MANY, ROADS, Cell
+from bootcourse.research.lookahead_figures import Score, score
+from bootcourse.research.results import experiment
+
+NOISE, LATE = "places off by 1 m, speeds by 0.5 m/s", "everything a second late"
+OTHERS_LATE = "the others a second late"
+
+
+@cache
+def shipped() -> dict:
+    """The experiment's cells."""
+    return experiment("look-ahead")
+
+
+def ahead(base: str, form: str = "rollouts", horizon: int = HORIZON, model: str = "exact", roads: int = ROADS) -> Score:
+    """What the agents of a base policy reached in one form. roads: MANY for the cell on so many."""
+    assert roads in (ROADS, MANY)
+    return score(shipped(), Cell(base, form, roads=roads, horizon=horizon, model=model))
+
+
+def per_thousand(base: str, form: str = "rollouts", **more) -> float:
+    """Accidents in 1,000 drives."""
+    return 1000 * ahead(base, form, **more).accident_rate.value
+
+
+def better(base: str, form: str) -> int:
+    """With how many of the wrong models it has fewer accidents for each drive than the base policy alone."""
+    alone = per_thousand(base, "alone")
+    return sum(per_thousand(base, form, model=model) < alone for model in MODELS if model != "exact")
+
+
+def worse_than_shield(base: str) -> int:
+    """With how many of the wrong models the rollouts have more accidents for each drive than the shield."""
+    wrong = [model for model in MODELS if model != "exact"]
+    return sum(per_thousand(base, model=one) > per_thousand(base, "shield", model=one) for one in wrong)

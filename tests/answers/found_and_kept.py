@@ -1,0 +1,87 @@
+"""Answers to the exercises of the lesson on finding the way out and keeping it."""
+
+import numpy as np
+
+from tests.answers import equivalent, right_lines, wrong, wrong_lines
+
+for _value in (1.01, 1.1):
+    _change = f"np.where(policy > 0, policy, 1.0)  ->  np.where(policy > 0, policy, {_value})"
+    equivalent("effective_actions", _change, "its logarithm is multiplied by a policy of 0")
+
+
+right_lines("""effective_actions
+    with scipy: np.exp(stats.entropy(policy, axis=-1))
+    as a product: np.array([np.prod([p**-p for p in row if p > 0]) for row in policy])
+    in bits to the end: 2 ** stats.entropy(policy, axis=-1, base=2)
+""")
+
+
+@wrong("effective_actions", "NaN")
+def zero_times_minus_infinity(policy):
+    with np.errstate(all="ignore"):
+        return np.exp(-(policy * np.log(policy)).sum(-1))
+
+
+wrong_lines("""effective_actions
+    inverse of the largest: 1 / policy.max(axis=-1)
+    away from zero: np.exp(-(policy * np.log(policy + 1e-3)).sum(-1))
+    of the whole drive: np.exp(stats.entropy(policy.mean(axis=0)))  # a number
+""")
+
+PADDED = "np.pad(np.asarray(success{0}), ((0, 0), (1, 0)))"
+equivalent("forgetting", f"{PADDED.format(', dtype=float')}  ->  {PADDED.format('')}", "sums of 0 and 1 are exact")
+
+
+right_lines("""forgetting
+    by sliding windows: means = np.lib.stride_tricks.sliding_window_view(np.asarray(success), window, axis=1).mean(-1)
+        ends = np.where(means > 0.5, window + np.arange(means.shape[1]), 0)
+        np.stack([np.where(ends > 0, ends, 10**9).min(1) * (ends.max(1) > 0), ends.max(1)], 1)
+    agent by agent: rows = []
+        for agent in success:
+            ends = [i for i in range(window, len(agent) + 1) if sum(agent[i - window : i]) > window / 2]
+            rows.append([ends[0], ends[-1]] if ends else [0, 0])
+        rows
+    by convolution: rows = []
+        for agent in np.asarray(success):
+            ends = window + np.flatnonzero(np.convolve(agent, np.ones(window), "valid") > window / 2)
+            rows.append(ends[[0, -1]] if len(ends) else np.zeros(2, int))
+        np.array(rows)
+""")
+
+wrong_lines("""forgetting
+    at least half: means = np.lib.stride_tricks.sliding_window_view(np.asarray(success), window, axis=1).mean(-1)
+        ends = np.where(means >= 0.5, window + np.arange(means.shape[1]), 0)
+        np.stack([np.where(ends > 0, ends, 10**9).min(1) * (ends.max(1) > 0), ends.max(1)], 1)
+    blocks that do not overlap: n = np.asarray(success).shape[1] // window * window
+        means = np.asarray(success)[:, :n].reshape(len(success), -1, window).mean(-1)
+        ends = np.where(means > 0.5, window * (1 + np.arange(means.shape[1])), 0)
+        np.stack([np.where(ends > 0, ends, 10**9).min(1) * (ends.max(1) > 0), ends.max(1)], 1)
+    the first one only: solution(success, window)[:, :1]  # shape
+    counted from zero: np.maximum(solution(success, window) - 1, 0)
+    single successes: rows = []
+        for agent in np.asarray(success):
+            ahead = 1 + np.flatnonzero(agent)
+            rows.append([ahead[0], ahead[-1]] if len(ahead) else [0, 0])
+        rows
+    of the first agent: solution(success, window)[0]  # shape
+""")
+
+right_lines("""reads_as_printed
+    in a loop: chance = 1.0
+        for success, ahead in zip(rows, printed):
+            chance *= sum((s if ahead else 1 - s) ** episodes for s in success) / len(success)
+        chance
+    by the binomial distribution: each = [stats.binom.pmf(episodes * ahead, episodes, success).mean()
+            for success, ahead in zip(rows, printed)]
+        np.prod(each)
+    turned round: math.prod(float(np.mean(np.abs(1 - ahead - s) ** episodes)) for s, ahead in zip(rows, printed))
+""")
+
+wrong_lines("""reads_as_printed
+    the first agent of each: solution([s[:1] for s in rows], printed, episodes)
+    twenty always: solution(rows, printed, 20)
+    the best agent of each: np.prod([(s if ahead else 1 - s).max() ** episodes for s, ahead in zip(rows, printed)])
+    turned: solution(rows, [1 - ahead for ahead in printed], episodes)
+    of each row: [np.mean((s if ahead else 1 - s) ** episodes) for s, ahead in zip(rows, printed)]
+    one of the rows: sum(np.mean((s if ahead else 1 - s) ** episodes) for s, ahead in zip(rows, printed))
+""")

@@ -1,0 +1,142 @@
+"""Whatever form an answer has in a notebook: what passes its check there passes when it is graded."""
+
+import subprocess
+import sys
+
+import msgspec
+import pytest
+
+from bootcourse.course import answer_files, runner
+from bootcourse.course.classroom.answers import LONGEST, Answers, Clock, Notebook
+from bootcourse.course.judge import judge
+from bootcourse.course.lessons import registry
+from bootcourse.errors import BootcourseError
+from tests.answers import RIGHT, here
+from tests.hostile.submissions import failures
+
+HEAD, LUCK = "def luck(good, decisions, tries):\n    ", "return 1 - (1 - (good / n) ** decisions) ** tries"
+NINE = HEAD + LUCK.replace("n)", "9)")
+OTHER = NINE.replace("luck", "mine")
+INSIDE = NINE.replace("\n", "\n    ")
+FORMS = {  # the cells of a notebook whose answer is right
+    "a line that begins with %": [HEAD + "n = (\n        19\n        % 10\n    )\n    " + LUCK],
+    "% and ! in a string": [HEAD + "n = len('''\n%s\n!xyzabc''' % 12) - 2\n    " + LUCK],
+    "a lambda": ["luck = lambda good, decisions, tries: 1 - (1 - (good / 9) ** decisions) ** tries"],
+    "an alias": [OTHER, "luck = mine\ncheck.luck(luck)"],
+    "a stub, then an alias": [HEAD + "...\n\ncheck.luck(luck)", OTHER + "\nluck = mine"],
+    "another name in the check": [OTHER, "check.luck(mine)"],
+    "a lambda in the check": ["check.luck(lambda good, decisions, tries: 1 - (1 - (good / 9) ** decisions) ** tries)"],
+    "a function that makes it": [f"def make(n):\n    {INSIDE}\n    return luck", "luck = make(9)\ncheck.luck(luck)"],
+    "partial": ["import functools\n" + OTHER.replace("(good,", "(n, good,", 1).replace("9", "n"),
+                "luck = functools.partial(mine, 9)\ncheck.luck(luck)"],
+    "under if": [f"if True:\n    {INSIDE}"],
+    "under try": [f"try:\n    {INSIDE}\nexcept ValueError:\n    pass"],
+    "an indented cell": [f"    {INSIDE}\n    check.luck(luck)"],
+    "with prompts": [">>> " + NINE.replace("\n", "\n... ")],
+    "x = !ls": [f"x = !ls\n{NINE}"],
+    "!ls": [f"!ls -l (a\n{NINE}"],
+    "help before it": [f"len?\n{NINE}"],
+    "help behind it": [f"{NINE}\nlen??"],
+    "%time": [f"%time x = 1\n{NINE}"],
+    "%%time": [f"%%time\n{NINE}"],
+    "%%capture": [f"%%capture out\n{NINE}"],
+    "a star import": ["from math import *", HEAD + "return -expm1(tries * log1p(-(good / 9) ** decisions))"],
+    "k += 1": ["n = 8", "n += 1", HEAD + LUCK],
+    "n = n + 1": ["n = 8", "n = n + 1", HEAD + LUCK],
+    "an item": ["k = {}", "k['a'] = 9", HEAD + LUCK.replace("n)", "k['a'])")],
+    "an attribute": ["import types\nk = types.SimpleNamespace()", "k.a = 9", HEAD + LUCK.replace("n)", "k.a)")],
+    "append": ["k = []", "k.append(9)", HEAD + LUCK.replace("n)", "k[0])")],
+    "a loop": ["k = [0] * 3", "for i in range(3):\n    k[i] = 9", HEAD + LUCK.replace("n)", "k[2])")],
+    "global": ["def set_up():\n    global n\n    n = 9", "set_up()", HEAD + LUCK],
+    "a form feed": [HEAD + "n = len('x\x0cyzabcde')\n    " + LUCK],
+    "another end of line": [HEAD + "n = len('x\u2028yzabcde')\n    " + LUCK],
+    "line ends of Windows": [NINE.replace("\n", "\r\n")],
+    "two statements on a line": ["import math; n = 9", HEAD.replace("\n    ", " ") + LUCK],
+    "several names at once": ["m, n = 8, 9", HEAD + LUCK],
+    "a helper below": [HEAD + LUCK.replace("n)", "one())"), "def one():\n    return 9"],
+    "a constant between it and its check": ["n = 1", HEAD + LUCK, "n = 9", "check.luck(luck)"],
+    "a constant that changes after the check": ["n = 9", f"{HEAD}{LUCK}\ncheck.luck(luck)", "n = 0"],
+    "its name is something else later": [f"{NINE}\ncheck.luck(luck)", "for luck in range(3):\n    pass"],
+    "a broken cell below": [f"{NINE}\ncheck.luck(luck)", "def luck(good, decisions:\n    return"],
+    "decorated": ["import functools", f"@functools.cache\n{NINE}"],
+}  # fmt: skip
+
+
+def read(*cells: str, outputs=()) -> Answers:
+    code = [{"cell_type": "code", "source": cell, "outputs": list(outputs)} for cell in cells]
+    return Answers(msgspec.convert({"cells": code}, Notebook), Clock())
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_an_answer_is_read_in_every_form_that_a_notebook_runs(form):
+    space = {}
+    exec(read(*FORMS[form]).texts()["luck"], space)
+    assert space["luck"](3, 2, 1) == pytest.approx(1 / 9)
+
+
+def test_an_answer_brings_nothing_that_it_does_not_need():
+    cells = ["train_for_an_hour()", "n = 3\nm = 4", "n = 9", "import numpy as np\nnp.save('x', n)", HEAD + LUCK]
+    assert read(*cells).texts()["luck"] == f"n = 9\n\n{HEAD}{LUCK}\n"
+
+
+def test_what_the_last_check_said_in_the_notebook_is_known():
+    says = {"output_type": "execute_result", "data": {"text/plain": ["✓ Right. Your `luck` agrees"]}}
+    assert read(f"{NINE}\ncheck.luck(luck)", outputs=[says]).right == {"luck"}
+    assert read(f"{NINE}\ncheck.luck(luck)").right == set()
+
+
+@pytest.fixture(scope="module")
+def rewritten(tmp_path_factory):
+    """Every stored right answer that is a text, as a formatter writes it that breaks lines wherever it can."""
+    folder = tmp_path_factory.mktemp("answers")
+    for name, answers in RIGHT.items():
+        for place, answer in enumerate(answers):
+            texts = {}
+            try:
+                answer_files.collect(answer, texts)
+            except BootcourseError:  # it uses what a notebook's cell does not hold, such as an object of the tests
+                continue
+            texts[""] = f"check.{name}({answer.__name__})"
+            (folder / f"{name}-{place}.py").write_text("\n\n".join(texts.values()), encoding="utf-8")
+    ruff = [sys.executable, "-m", "ruff", "format", "--isolated", "-q", "--line-length", "1", str(folder)]
+    subprocess.run(ruff, check=True)
+    return folder
+
+
+@pytest.mark.parametrize("name", registry())
+def test_a_right_answer_stays_right_as_formatters_break_its_lines(name, rewritten, monkeypatch):
+    monkeypatch.setattr(runner, "run", here)
+    paths = sorted(rewritten.glob(f"{name}-*.py"))
+    assert paths
+    for path in paths:
+        cell = path.read_text(encoding="utf-8")
+        text = read(cell).texts()[name]
+        verdict = judge(registry()[name], text)
+        assert verdict.passed, f"{path.name}: {verdict}\n{text}"
+
+
+# Limits ---------------------------------------------------------------------------------------------
+
+SLOW = {
+    "many empty lines": "\n" * (LONGEST - 100) + NINE,
+    "many lines": "x = 1\n" * 8000 + NINE,
+    "a long chain": "k = 0\n" + "k = k + 1\n" * 4000 + HEAD + LUCK.replace("n)", "(9 + 0 * k))"),
+    "deeply nested": HEAD + f"return {'(' * 5000}1",
+    "many terms": HEAD + "return " + "+".join("1" * 20_000),
+}
+
+
+@pytest.mark.parametrize("case", SLOW)
+def test_a_long_answer_is_read_in_a_time_that_grows_with_its_length(case):
+    assert "luck" in read(SLOW[case]).texts()  # within the clock's ten seconds
+
+
+def test_who_fills_a_cell_with_commands_stops_nobody_else(monkeypatch):
+    answers = msgspec.convert({"cells": [{"cell_type": "code", "source": "!ls\n" * 400}] * 2}, Notebook)
+    with pytest.raises(BootcourseError, match="too long to read"):
+        Answers(answers, Clock(0.2))
+
+
+def test_damaged_submissions_stop_no_class():
+    answered, failed = failures(60, seed=0)  # more of them: python -m tests.hostile.submissions
+    assert answered and failed == []
