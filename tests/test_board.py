@@ -85,7 +85,7 @@ def test_a_name_from_somebody_else_s_file_is_only_text():
 def test_every_method_of_the_study_and_other_ways_has_its_row(monkeypatch):
     monkeypatch.setattr(module, "ROADS", bc.held_out_seeds(1, 5))
     rows = {row.method: row for row in module.shipped_rows.__wrapped__()}
-    assert {"planner", "rule controller", "random driver", "bootstrapped SAC", "CQL", "RLPD", "IBRL"} <= rows.keys()
+    assert {"planner", "rule controller", "random driver", "bootstrapped SAC", "CQL", "IBRL"} <= rows.keys()
     assert rows["idle driver"].returns.value == pytest.approx(IDLE_EARNS) and rows["planner"].success is None
     exact = [np.nansum(bc.load_run(FOLDER / "runs" / f"soft-{i}").curves["decisions"]) for i in range(5)]
     assert rows["soft constraint only"].decisions == pytest.approx(np.mean(exact), rel=0.1)  # five of the ten agents

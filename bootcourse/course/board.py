@@ -37,7 +37,7 @@ from bootcourse.storage.runs import find_runs, load_run
 
 ROADS = held_out_seeds(HELD_OUT, 1000)
 HEADINGS = ("method", "return", "success %", "accidents %", "decisions")
-FORM_WORDS = {"rollouts": "looking ahead", "shield": "shielded"}
+FORM_WORDS = {"rollouts": "looking ahead, {}", "shield": "shielded, {}", "alone": "{}, trained longer"}
 LONGEST = 21  # letters of a name in a terminal, so that no line is longer than 100
 BELOW = (
     f"{len(ROADS):,} held-out roads, [95 % interval]. One driver: over roads. Several agents: over agents, the",
@@ -144,15 +144,20 @@ def shipped_rows() -> tuple[Row, ...]:
 
 
 def lookahead_rows(cells: dict[str, Results]) -> list[Row]:
-    """The agents that look ahead with the exact model, in the forms in which several drove all of the board's roads."""
+    """The agents that look ahead with the exact model, in the forms in which several drove all of the board's roads.
+
+    PPO after cloning without a look-ahead, too: those of `study beyond` stop after fewer decisions.
+    """
     rows = []
     for base, (form, words) in product(CLOSELY, FORM_WORDS.items()):
+        if form == "alone" and base not in AFTER:
+            continue
         if results := cells.get(Cell(base, form).name):
             of = results.measured
             if (of["roads"] == len(ROADS)).all():
                 accidents = interval(of["accidents"] / of["roads"], np.mean)
                 success = interval(of["success"], np.mean)
-                rows.append(Row(f"{words}, {display_name(base)}", interval(of["returns"]), success, accidents))
+                rows.append(Row(words.format(display_name(base)), interval(of["returns"]), success, accidents))
     return rows
 
 
