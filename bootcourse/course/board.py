@@ -26,7 +26,7 @@ from bootcourse.markup import html, joined
 from bootcourse.methods import AFTER, display_name
 from bootcourse.policies import Policy, idle_policy, random_policy, rule_policy
 from bootcourse.research.beyond import lengths
-from bootcourse.research.equal_decisions import by_method
+from bootcourse.research.equal_decisions import BUDGETS, by_method
 from bootcourse.research.jobs import HELD_OUT
 from bootcourse.research.lookahead import CLOSELY, Cell
 from bootcourse.research.results import Results, in_assets
@@ -37,8 +37,8 @@ from bootcourse.storage.runs import find_runs, load_run
 
 ROADS = held_out_seeds(HELD_OUT, 1000)
 HEADINGS = ("method", "return", "success %", "accidents %", "decisions")
-FORM_WORDS = {"rollouts": "looking ahead, {}", "shield": "shielded, {}", "alone": "{}, trained longer"}
-LONGEST = 21  # letters of a name in a terminal, so that no line is longer than 100
+FORM_WORDS = {"rollouts": "{}, looks ahead", "shield": "{}, shielded", "alone": "{}, longer"}
+LONGEST = 30  # letters of a name in a terminal, so that no line is longer than 100
 BELOW = (
     f"{len(ROADS):,} held-out roads, [95 % interval]. One driver: over roads. Several agents: over agents, the",
     "interquartile mean of returns, the mean of rates; where all agents agree, the interval has length 0.",
@@ -138,8 +138,9 @@ def shipped_rows() -> tuple[Row, ...]:
     rows.append(row_of("gap acceptance (rule)", [drive_episodes(teacher_policy(gap_rule), ROADS)]))
     rows.append(Row(display_name("planner"), mean(study.bound[DEFAULT.name])))
     later = [results for method, results in by_method(study.experiments["beyond"]).items() if method in AFTER]
-    for results in (study.results["default"], *later):
-        rows += [row_of_study(results.of(method), method) for method in results.methods]
+    default = study.results["default"]
+    rows += [row_of_study(default.of(method), method) for method in default.methods]
+    rows += [row_of_study(results, results.methods[0], BUDGETS[-1]) for results in later]  # tested at that budget
     return (*rows, *lookahead_rows(study.experiments["look-ahead"]))
 
 
@@ -161,12 +162,13 @@ def lookahead_rows(cells: dict[str, Results]) -> list[Row]:
     return rows
 
 
-def row_of_study(results: Results, method: str) -> Row:
-    """The row of a study's agents of one method."""
+def row_of_study(results: Results, method: str, decisions: float | None = None) -> Row:
+    """The row of a study's agents of one method. decisions: before the test; those of their curves if None."""
     tested = results.tested
     drives = [Episodes(**{name: values[i] for name, values in tested.items()}) for i in range(len(results))]
-    decisions = np.nansum(lengths(results.curves), axis=1, dtype=float).mean()
-    return row_of(display_name(method), drives, decisions=float(decisions))
+    if decisions is None:
+        decisions = float(np.nansum(lengths(results.curves), axis=1, dtype=float).mean())
+    return row_of(display_name(method), drives, decisions=decisions)
 
 
 class Entrant(NamedTuple):
