@@ -37,8 +37,8 @@ from bootcourse.storage.runs import find_runs, load_run
 
 ROADS = held_out_seeds(HELD_OUT, 1000)
 HEADINGS = ("method", "return", "success %", "accidents %", "decisions")
-FORM_WORDS = {"rollouts": "{}, looks ahead", "shield": "{}, shielded", "alone": "{}, longer"}
-LONGEST = 30  # letters of a name in a terminal, so that no line is longer than 100
+FORM_WORDS = {"rollouts": "{} + rollouts", "shield": "{} + shield", "alone": "{}, longer"}
+LONGEST = 28  # letters of a name in a terminal, so that no line is longer than 100
 BELOW = (
     f"{len(ROADS):,} held-out roads, [95 % interval]. One driver: over roads. Several agents: over agents, the",
     "interquartile mean of returns, the mean of rates; where all agents agree, the interval has length 0.",
@@ -60,15 +60,16 @@ class Row(NamedTuple):
     def cells(self) -> list[str]:
         """In words, in the order of `HEADINGS`, without the control characters that a terminal would obey."""
         name = "".join(letter if letter.isprintable() else "?" for letter in self.method)
-        rates = ["–" if share is None else in_words(share, 100) for share in (self.success, self.accidents)]
+        shares = ((self.success, 0), (self.accidents, 1))
+        rates = ["–" if share is None else in_words(share, 100, decimals) for share, decimals in shares]
         decisions = "–" if self.decisions is None else f"{float(f'{self.decisions:.3g}'):,.0f}"
         return [name, in_words(self.returns), *rates, decisions]
 
 
-def in_words(estimate: Estimate, scale: float = 1) -> str:
-    """ "62 [39, 83]", with a decimal if the interval is short; one agent of one road has none."""
+def in_words(estimate: Estimate, scale: float = 1, decimals: int = 1) -> str:
+    """ "62 [39, 83]", with decimals if the interval is short; one agent of one road has none."""
     value, low, high = (scale * number for number in estimate)
-    decimals = 0 if high - low >= 10 else 1
+    decimals = 0 if high - low >= 10 else decimals
     return f"{value:.{decimals}f} [{low:.{decimals}f}, {high:.{decimals}f}]"
 
 
