@@ -37,8 +37,8 @@ from bootcourse.storage.runs import find_runs, load_run
 
 ROADS = held_out_seeds(HELD_OUT, 1000)
 HEADINGS = ("method", "return", "success %", "accidents %", "decisions")
-FORM_WORDS = {"rollouts": "{} + rollouts", "shield": "{} + shield", "alone": "{}, longer"}
-LONGEST = 28  # letters of a name in a terminal, so that no line is longer than 100
+FORM_WORDS = {"rollouts": "{}, rollouts", "shield": "{}, shield", "alone": "{}, longer"}
+LONGEST = 27  # letters of a name in a terminal, so that no line is longer than 100
 BELOW = (
     f"{len(ROADS):,} held-out roads, [95 % interval]. One driver: over roads. Several agents: over agents, the",
     "interquartile mean of returns, the mean of rates; where all agents agree, the interval has length 0.",
