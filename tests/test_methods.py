@@ -154,3 +154,11 @@ def test_a_label_that_names_no_method_keeps_its_words():
 def test_settings_with_the_defaults_of_another_method_say_how_to_get_its_own():
     with pytest.raises(BootcourseError, match=r"write settings_for\('sac'\)"):
         Settings(method="sac")
+
+
+def test_a_training_that_goes_on_without_its_method_asks_for_the_learner(tmp_path, monkeypatch):
+    monkeypatch.setitem(METHODS, "toy", Method("toy", Style("#117733"), {}, WithoutEntropy))
+    save_checkpoint(Training([settings_for("toy", **SMALL)], 5), tmp_path / "checkpoint.npz")
+    monkeypatch.delitem(METHODS, "toy")
+    with pytest.raises(BootcourseError, match="learns with 'toy': add the --learner FILE.py:CLASS"):
+        load_checkpoint(tmp_path / "checkpoint.npz")

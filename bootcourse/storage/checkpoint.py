@@ -20,6 +20,7 @@ from bootcourse.learn.protocol import Learner
 from bootcourse.learn.settings import stored_settings
 from bootcourse.learn.teachers import Rule, course_rule, teacher_name
 from bootcourse.learn.training import Training, device_named
+from bootcourse.methods import METHODS
 from bootcourse.scenario import Scenario
 
 BEGIN_AGAIN = "begin again in a new folder, or restore it from a copy"
@@ -75,20 +76,23 @@ def save_checkpoint(training: Training, path: Path) -> None:
 def load_checkpoint(path: Path, teacher: Rule = course_rule, device: str = "cpu") -> Training:
     """The training that `save_checkpoint` wrote, to be continued with the same teacher, on any device.
 
-    Raises DamagedCheckpoint if the file cannot be read, BootcourseError for another teacher, for a device that torch
-    does not find, and, as RuleFailed, for a teacher that fails.
+    Raises DamagedCheckpoint if the file cannot be read, BootcourseError for another teacher, for a method that is not
+    known here, for a device that torch does not find, and, as RuleFailed, for a teacher that fails.
     """
     device_named(device)
     try:
         arrays = read_arrays(path, BEGIN_AGAIN)
         with decoding(path, BEGIN_AGAIN):
             header = parse(str(arrays.pop("header")), Header, path, BEGIN_AGAIN)
-            if teacher_name(teacher) == header.teacher:
+            unknown = sorted({str(stored.get("method")) for stored in header.settings} - METHODS.keys())
+            if teacher_name(teacher) == header.teacher and not unknown:
                 return _restored(header, arrays, teacher, device)
     except RuleFailed:
         raise
     except BootcourseError as error:
         raise DamagedCheckpoint(str(error)) from None
+    if unknown:
+        raise BootcourseError(f"{path} learns with {unknown[0]!r:.80}: add the --learner FILE.py:CLASS it began with.")
     raise BootcourseError(
         f"{path} began with the teacher '{header.teacher}', not '{teacher_name(teacher)}': give the same teacher."
     )
