@@ -83,5 +83,5 @@ def short_trainings(monkeypatch):
 def test_in_a_solved_notebook_every_check_passes_and_what_uses_a_solution_runs(path, monkeypatch):
     monkeypatch.chdir(path.parent)
     cells = cells_to_run(code_of(path), code_of(path.parent.parent / path.name))
-    assert any(cell.startswith("check.strict()") for cell in cells) and sum("\ncheck." in cell for cell in cells) > 1
+    assert any(cell.startswith("check.strict()") for cell in cells) and sum("\ncheck." in cell for cell in cells) > 0
     execute(cells)

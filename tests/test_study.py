@@ -200,8 +200,9 @@ def test_a_study_s_plan_has_every_method_with_every_seed_once():
 @pytest.mark.parametrize("name", [*EXPERIMENTS, *LESSON_EXPERIMENTS])
 def test_every_variation_of_an_experiment_asks_something_else(name):
     experiment = experiment_named(name)
-    questions = {json.dumps(asked(each), sort_keys=True) for each in experiment.jobs(name)}
-    assert len(questions) == len(experiment.variations)
+    jobs = experiment.jobs(name)  # without Box2D, those of Lunar lander are left out
+    questions = {json.dumps(asked(each), sort_keys=True) for each in jobs}
+    assert len(questions) == len(jobs) > 0
 
 
 def test_an_experiment_may_be_run_in_part_by_the_names_of_its_methods_teachers_and_variations():

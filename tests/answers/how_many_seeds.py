@@ -126,3 +126,6 @@ def always_two_cut(x, y, draws_x, draws_y):
         return np.sort(rows, -1)[..., 2:-2].mean(-1) if rows.shape[-1] > 4 else rows.mean(-1)
 
     return np.array([iqm(x) - iqm(y), *np.percentile(iqm(x[draws_x]) - iqm(y[draws_y]), [2.5, 97.5])])
+
+
+equivalent("power", "np.outer(k, j)[shown]  ->  np.outer(j, k)[shown]", "a pair and its mirror image are both shown")

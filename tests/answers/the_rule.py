@@ -6,7 +6,7 @@ from tests.answers import equivalent, right, right_lines, wrong_lines
 SPEEDS = "speeds = np.linspace"
 equivalent("target_speed", f"{SPEEDS}(v_min, v_max, n)  ->  {SPEEDS}(v_max, v_min, n)", "the same speeds, turned round")
 
-for _name in ("target_speed", "safety_distance", "stochastic_rule"):
+for _name in ("target_speed", "safety_distance"):
     right(_name)(getattr(rule, _name))
 
 right_lines("""safety_distance

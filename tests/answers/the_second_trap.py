@@ -117,3 +117,12 @@ wrong_lines("""shaping_reward
     as a sum: (gamma * next_phi * (1 - terminated) - phi).sum()
     relative: (gamma * next_phi * (1 - terminated) - phi) / np.maximum(np.abs(phi), 1e-9)
 """)
+
+SCALED = "(advantage - advantage.mean()) / (advantage.std() {})"
+for _change, _why in {
+    f"{SCALED.format('+ 1e-08')}  ->  {SCALED.format('- 1e-08')}": "the deviation is far larger",
+    "advantage.std() + 1e-08  ->  advantage.std() + -1e-08": "the deviation is far larger",
+    "advantage.std() + 1e-08  ->  advantage.std() + 1.0100000000000001e-08": "the deviation is far larger",
+    "(:, 0)  ->  (:, -1)": "there is one column",
+}.items():
+    equivalent("ppo_loss", _change, _why)

@@ -3,7 +3,7 @@
 import numpy as np
 from scipy import stats
 
-from tests.answers import right, right_lines, wrong, wrong_lines
+from tests.answers import equivalent, right, right_lines, wrong, wrong_lines
 
 
 @right("climb_rule")
@@ -85,3 +85,7 @@ wrong_lines("""drowning_bonus
     upside down: 1 / (solution(reward, goal, decisions, shown, gamma) + 1e-9)
     the value of the loop: (reward + 2.0) / (1 - gamma)
 """)
+
+equivalent(
+    "climb_rule", "2 if speed >= 0 else 0  ->  2 if speed > 0 else 0", "at rest, a push to either side begins to swing"
+)

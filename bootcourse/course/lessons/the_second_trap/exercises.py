@@ -130,7 +130,7 @@ def loss_cases(rng):
         actions = torch.tensor(rng.integers(0, 9, n))
         old = log_pi.gather(-1, actions[:, None])[:, 0] + torch.tensor(rng.normal(0, change, n))
         values, advantage, returns = (torch.tensor(rng.normal(0, 2, n)) for _ in range(3))
-        return log_pi, values, actions, old, advantage, returns, 0.2, entropy_weight
+        return log_pi, values, actions, old, advantage, returns, rng.choice([0.1, 0.2, 0.3]), entropy_weight
 
     yield from (case(6, 0.0, 0.01), case(5, 0.3, 0.0), case(8, 1.0, 0.5))
     yield from (case(rng.integers(3, 9), 0.3, rng.choice([0.0, 0.01, 0.2])) for _ in range(20))
