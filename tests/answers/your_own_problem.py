@@ -86,6 +86,4 @@ wrong_lines("""drowning_bonus
     the value of the loop: (reward + 2.0) / (1 - gamma)
 """)
 
-equivalent(
-    "climb_rule", "2 if speed >= 0 else 0  ->  2 if speed > 0 else 0", "at rest, a push to either side begins to swing"
-)
+equivalent("climb_rule", "2 if speed >= 0 else 0  ->  2 if speed > 0 else 0", "at rest, either side will do")
