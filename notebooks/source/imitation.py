@@ -23,7 +23,6 @@
 # [[demonstrations]]) and the seeds ([[how_many_seeds]]).
 
 # %%
-
 import bootcourse as bc
 import numpy as np
 import torch

@@ -242,16 +242,18 @@ def group_cases(rng):
             "5 %. Take the percentiles of the resampled differences.",
         "np.sort(scores, axis=-1)[..., cut : scores.shape[-1] - cut] -> scores":
             "You compare means. Take the interquartile mean, of the groups and of each resample.",
-        "iqm(x[draws_x]) - iqm(y[draws_y]) -> np.sort(x)[draws_x].mean(-1) - np.sort(y)[draws_y].mean(-1)":
+        "iqm(group_x) - iqm(group_y) -> np.sort(x)[draws_x].mean(-1) - np.sort(y)[draws_y].mean(-1)":
             "In the resamples you take the mean. Sort each resample and leave out its own quarters.",
         "[2.5, 97.5] -> [5, 95]":
             "You leave 5 % at each end. Both ends together may miss in 5 % of the cases.",
     },
 )  # fmt: skip
 def difference_interval(x, y, draws_x, draws_y):
+    group_x, group_y = x[draws_x], y[draws_y]  # a row for each resample
+
     def iqm(scores):  # over the last axis
         cut = scores.shape[-1] // 4
         return np.sort(scores, axis=-1)[..., cut : scores.shape[-1] - cut].mean(axis=-1)
 
-    differences = iqm(x[draws_x]) - iqm(y[draws_y])
+    differences = iqm(group_x) - iqm(group_y)
     return np.array([iqm(x) - iqm(y), *np.percentile(differences, [2.5, 97.5])])
