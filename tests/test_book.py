@@ -142,6 +142,7 @@ def test_equations_are_drawn_as_mathematics_and_a_cell_that_only_draws_is_folded
         "() => [...document.querySelectorAll('div.math math')].map(m => m.getBoundingClientRect().height)"
     )
     assert len(tall) >= 4 and min(tall) > 12
+    page.page.goto((made / f"lessons/{stem('soft_constraint')}.html").as_uri())
     fold = page.page.locator("details.hide").first  # a cell that only draws
     assert not fold.locator("pre").is_visible()
     fold.locator("summary").click()
