@@ -18,7 +18,7 @@ for _change, _why in {
     f"{TARGET} next_value, agent.gamma)  ->  {TARGET} agent.gamma, next_value)": "the target multiplies the two",
     f"{ALL}  ->  zip(agent.optimisers, losses, strict=False)": "there are as many losses as optimisers",
     f"for optimiser, loss in {ALL}:  ->  for optimiser, loss in zip(agent.optimisers, losses):": "as many of both",
-    "alpha = agent.log_alpha.exp().detach()  ->  alpha = agent.log_alpha.exp().clone()": "its gradient is zeroed before its own loss",
+    "alpha = agent.log_alpha.exp().detach()  ->  alpha = agent.log_alpha.exp().clone()": "zeroed before its own loss",
 }.items():
     equivalent("update", _change, _why)
 for _change, _why in {

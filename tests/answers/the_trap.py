@@ -128,4 +128,8 @@ wrong_lines("""find_plan
     straight on: np.full(8, 4)  # does not get out
     many plans: plans = rng.integers(3, 6, (6000, 8)); plans[gets_out(plans)]  # one plan is (8,)
     one plan alone: gets_out(rng.integers(3, 6, 8))  # takes many at once
+    it brakes: plans = rng.integers(0, 3, (500, 8))
+        while not gets_out(plans).any():
+            plans = rng.integers(0, 3, (500, 8))
+        plans[0]  # other actions
 """)
