@@ -122,12 +122,12 @@ class Claim:
         return float(np.sign(np.subtract.outer(np.atleast_1d(self.left), np.atleast_1d(self.right))).mean())
 
     def row(self) -> list[str]:
-        values = [f"{side:.3g}" if np.ndim(side) == 0 else bracketed(interval(side, np.mean)) for side in self.sides()]
+        values = [
+            f"{side:.3g}" if np.ndim(side) == 0 else bracketed(interval(side, np.mean))
+            for side in (self.left, self.right)
+        ]
         p = "< 0.001" if self.p < 0.001 else f"{self.p:.3f}"
         return [self.where, self.words, *values, p, self.verdict]
-
-    def sides(self) -> tuple:
-        return self.left, self.right
 
 
 def claims_of(hypothesis: str, cells: Cells) -> tuple[list[Claim], list[str]]:

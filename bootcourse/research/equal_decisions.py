@@ -46,7 +46,7 @@ COMMON = {
 ENTROPIES = [{"target_entropy": entropy} for entropy in (-1.0, 0.1, 0.3)]
 ROUNDS = [{"envs_per_agent": roads} for roads in (32, 64, 128)]  # PPO has no target entropy
 TRIES = {method: ROUNDS if method.startswith("ppo") else ENTROPIES for method in COMMON}
-CHOSEN = {  # of the tries, by what `beyond-search` measured
+CHOSEN = {  # of the tries, by what `beyond-search` measured; RLPD's is a guess, as it has not been searched
     "bootstrapped": 0,
     "jsrl": 2,
     "ibrl": 1,
