@@ -53,14 +53,14 @@ def evaluate(
     if len(who) > 1:
         raise BootcourseError("Several drivers need --board.")
     seeds, drivers = held_out_seeds(seed, episodes), drivers_of(who[0], scenario, sample, seed, teacher, lookahead)
-    found = {each.label: summarise(drive_episodes(each.policy, seeds, each.road)) for each in drivers}
-    means = {name: over_seeds([found[label] for label in labels]) for name, labels in alike(drivers).items()}
-    columns = {label: vars(each) for label, each in found.items()} | means
+    summaries = {each.label: summarise(drive_episodes(each.policy, seeds, each.road)) for each in drivers}
+    means = {name: over_seeds([summaries[label] for label in labels]) for name, labels in alike(drivers).items()}
+    columns = {label: vars(each) for label, each in summaries.items()} | means
     if as_json:
-        told = {label: {name: each[name]._asdict() for name in MEASURES} for label, each in columns.items()}
-        for label in found:
-            told[label] = {"episodes": episodes} | told[label]
-        print(json.dumps(told, indent=2))
+        numbers = {label: {name: each[name]._asdict() for name in MEASURES} for label, each in columns.items()}
+        for label in summaries:
+            numbers[label] = {"episodes": episodes} | numbers[label]
+        print(json.dumps(numbers, indent=2))
         return
     ahead = f", looking {lookahead} decisions ahead" if lookahead else ""
     print(f"{episodes} held-out episodes, block {seed}{ahead}: value [95 % interval]; a mean is over training seeds")
@@ -140,7 +140,7 @@ def drivers_of(who: str, scenario: str, sample: bool, seed: int, teacher: str, h
     from bootcourse.learn.teachers import teacher_of
     from bootcourse.storage.runs import find_runs, load_run
 
-    found, rule = [], teacher_from(teacher)
+    drivers, rule = [], teacher_from(teacher)
     for path in find_runs(Path(who)):
         run = load_run(path, rule)
         rng = np.random.default_rng(seed) if sample else None
@@ -152,8 +152,8 @@ def drivers_of(who: str, scenario: str, sample: bool, seed: int, teacher: str, h
             )
         settings = replace(run.agent.settings, seed=0)
         agent = run.agent.taught_by(teacher_of(rule, road))
-        found.append(ahead(Driver(path.name, agent.as_policy(rng, with_q=not horizon), road, settings), horizon))
-    return found
+        drivers.append(ahead(Driver(path.name, agent.as_policy(rng, with_q=not horizon), road, settings), horizon))
+    return drivers
 
 
 def ahead(driver: Driver, horizon: int) -> Driver:
@@ -190,10 +190,10 @@ def drive(
     if png is not None:
         check_replaceable(png, ".png")
     check_replaceable(out, ".npz")
-    found = drivers_of(who, scenario, False, seed, teacher, lookahead)
-    if len(found) > 1:
-        raise BootcourseError(f"{who} holds {len(found)} runs: name one, such as {Path(who) / found[0].label}.")
-    label, policy, road, _ = found[0]
+    drivers = drivers_of(who, scenario, False, seed, teacher, lookahead)
+    if len(drivers) > 1:
+        raise BootcourseError(f"{who} holds {len(drivers)} runs: name one, such as {Path(who) / drivers[0].label}.")
+    label, policy, road, _ = drivers[0]
     label = label.rsplit("-", 1)[0] if label not in BUILT_IN else label
     label += f", {lookahead} ahead" if lookahead else ""
     rollout = record(policy, [seed], road, label)[0]

@@ -74,15 +74,15 @@ def lines(
         heights = low + (high - low) * (places - np.log(low)) / np.log(high / low)
         ends = [(height, *rest) for height, (_, *rest) in zip(heights, ends, strict=True)]
     label_ends(ax, [end for end in ends if end[1]])
-    return finish(figure, title, f"{y_label} against {x_label}. {alt or _told(x, named)}")
+    return finish(figure, title, f"{y_label} against {x_label}. {alt or _in_words(x, named)}")
 
 
-def _told(x: Sequence[float], named: Mapping[str, np.ndarray]) -> str:
-    told = []
+def _in_words(x: Sequence[float], named: Mapping[str, np.ndarray]) -> str:
+    sentences = []
     for label, values in named.items():
         first, last = (", ".join(f"{v:.3g}" for v in np.atleast_2d(values)[:, i]) for i in (0, -1))
-        told.append(f"{display_name(label)}: {first} at {x[0]:.3g}, {last} at {x[-1]:.3g}.")
-    return " ".join(told)
+        sentences.append(f"{display_name(label)}: {first} at {x[0]:.3g}, {last} at {x[-1]:.3g}.")
+    return " ".join(sentences)
 
 
 def action_bars(named: Mapping[str, Sequence[float]], title: str, y_label: str = "probability") -> Figure:

@@ -20,21 +20,18 @@ from bootcourse.learn import bootstrap, sac
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.networks import init_mlp, mlp
 from bootcourse.learn.protocol import Learner, adam, check_shared, generators_of, of_agent, per_agent, total_loss
-from bootcourse.learn.replay_buffer import Batch, ReplayBuffer
+from bootcourse.learn.replay_buffer import Batch
 from bootcourse.learn.settings import Settings
 from bootcourse.methods import METHODS
 from bootcourse.scenario import N_ACTIONS
 
 
-class SACLearner:
+class SACLearner(Learner):
     """Actors, twin critics and temperatures of several agents, and their update.
 
     settings: one for each agent; the settings that are `shared` must be equal. `alpha` and `xi` (ξ), each (agents, 1),
     are those of the present update. Raises BootcourseError for agents whose shared settings differ.
     """
-
-    needs_teacher = False
-    device = torch.device("cpu")
 
     def __init__(self, settings: Sequence[Settings], observation_size: int, n_actions: int = N_ACTIONS):
         self.settings, self.agents = check_shared(settings), len(settings)
@@ -74,14 +71,6 @@ class SACLearner:
         """The present α and ξ of each agent, (agents,)."""
         self.note_temperature()
         return {"alpha": self.alpha[:, 0].cpu().numpy(), "xi": self.xi[:, 0].cpu().numpy()}
-
-    def make_buffer(self, observation_size: int, demonstrations: Tensor | None) -> ReplayBuffer:
-        """A replay buffer; demonstrations: rows (transitions, row), or None."""
-        return ReplayBuffer(self.agents, self.settings[0].buffer_size, observation_size, demonstrations, self.device)
-
-    def updates_due(self, replay: ReplayBuffer, decisions: int) -> int:
-        """A fixed number of updates after each decision, once `learning_starts` decisions are made."""
-        return self.settings[0].updates if decisions >= self.settings[0].learning_starts else 0
 
     def update(self, batch: Batch) -> dict[str, Tensor]:
         """One gradient step of all agents. Returns `losses` before the step, each (agents,).
@@ -185,26 +174,6 @@ class SACLearner:
     def target_q(self, states: Tensor) -> Tensor:
         """The target critics' Q(s,a): (agents, batch, observation) -> (agents, batch, actions)."""
         return sac.min_q(self.q_pair(self.target_critics, states))
-
-    @torch.no_grad()
-    def probabilities(self, states: Tensor) -> Tensor:
-        """π(a|s): (agents, batch, observation) -> (agents, batch, actions)."""
-        return mlp(self.actor, states).softmax(-1)
-
-    def acting_policy(self, states: Tensor, rule_actions: Tensor, decided: Tensor) -> Tensor:
-        """π(a|s): (agents, roads, actions). See `Learner`."""
-        return self.probabilities(states)
-
-    def note_episodes(self, ended: np.ndarray, returns: np.ndarray) -> None:
-        """SAC has no use for whole episodes."""
-
-    @classmethod
-    def driving_policy(cls, actor: list[Tensor], critics: list[Tensor], states: Tensor, rule_actions: Tensor) -> Tensor:
-        """π(a|s): (agents, batch, observation) -> (agents, batch, actions).
-
-        A method that uses rule_actions, μ(s) (agents, batch), sets `needs_teacher`: its agents ask while they drive.
-        """
-        return mlp(actor, states).softmax(-1)
 
     @classmethod
     def q_values(cls, critics: list[Tensor], states: Tensor) -> Tensor:

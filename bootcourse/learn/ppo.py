@@ -21,9 +21,8 @@ import torch.nn.functional as F
 from torch import Tensor
 
 from bootcourse.learn import sac
-from bootcourse.learn.agent import Agent
 from bootcourse.learn.networks import init_mlp, mlp
-from bootcourse.learn.protocol import adam, check_shared, generators_of, of_agent, per_agent, total_loss
+from bootcourse.learn.protocol import Learner, adam, check_shared, generators_of, per_agent, total_loss
 from bootcourse.learn.replay_buffer import decode_transitions
 from bootcourse.learn.settings import Settings, check_range, shared
 from bootcourse.scenario import N_ACTIONS
@@ -135,11 +134,8 @@ class RolloutBuffer:
         self.ended[: self.filled] = torch.from_numpy(state["ended"])
 
 
-class PPOLearner:
-    """Actors and value networks of several agents. See `Learner` for what each method does."""
-
-    needs_teacher = False
-    device = torch.device("cpu")
+class PPOLearner(Learner):
+    """Actors and value networks of several agents."""
 
     def __init__(self, settings: Sequence[PPOSettings], observation_size: int, n_actions: int = N_ACTIONS):
         self.settings, self.agents = check_shared(settings), len(settings)
@@ -150,10 +146,6 @@ class PPOLearner:
         self.rates = shared.actor_lr, shared.critic_lr  # of the actor and of the value network
         self.optimiser = adam(*zip((self.actor, self.value), self.rates, strict=True))
         self.gamma = per_agent(settings, "gamma")
-
-    @staticmethod
-    def n_critics(settings: Settings) -> int:
-        return 0
 
     def make_buffer(self, observation_size: int, demonstrations: Tensor | None) -> RolloutBuffer:
         """An empty rollout buffer. With demonstrations, the actors are cloned from them first."""
@@ -195,10 +187,10 @@ class PPOLearner:
     @torch.no_grad()
     def prepare(self, replay: RolloutBuffer) -> None:
         """Compute the advantages and returns of the stored decisions."""
-        taken = decode_transitions(replay.table, replay.observation_size, replay.ended)
-        values, next_values = self.state_values(taken.states), self.state_values(taken.next_states)
-        advantage = self.advantages(taken.rewards, values, next_values, taken.terminated, replay.ended)
-        states, actions = agents_first(taken.states), agents_first(taken.actions)
+        decisions = decode_transitions(replay.table, replay.observation_size, replay.ended)
+        values, next_values = self.state_values(decisions.states), self.state_values(decisions.next_states)
+        advantage = self.advantages(decisions.rewards, values, next_values, decisions.terminated, replay.ended)
+        states, actions = agents_first(decisions.states), agents_first(decisions.actions)
         log_pi = sac.log_policy(mlp(self.actor, states)).gather(-1, actions[..., None])[..., 0]
         replay.columns = Minibatch(states, actions, log_pi, agents_first(advantage), agents_first(advantage + values))
         replay.drawn = 0
@@ -244,27 +236,6 @@ class PPOLearner:
                 parameter.grad *= (0.5 / (norm + 1e-6)).clamp(max=1.0)[:, None, None]
         self.optimiser.step()
         return {name: values.detach() for name, values in terms.items()}
-
-    @torch.no_grad()
-    def probabilities(self, states: Tensor) -> Tensor:
-        """π(a|s): (agents, batch, observation) -> (agents, batch, actions)."""
-        return mlp(self.actor, states).softmax(-1)
-
-    def acting_policy(self, states: Tensor, rule_actions: Tensor, decided: Tensor) -> Tensor:
-        return self.probabilities(states)
-
-    def note_episodes(self, ended: np.ndarray, returns: np.ndarray) -> None:
-        """PPO has no use for whole episodes."""
-
-    def coefficients(self) -> dict[str, np.ndarray]:
-        return {"alpha": np.zeros(self.agents), "xi": np.zeros(self.agents)}
-
-    @classmethod
-    def driving_policy(cls, actor: list[Tensor], critics: list[Tensor], states: Tensor, rule_actions: Tensor) -> Tensor:
-        return mlp(actor, states).softmax(-1)
-
-    def agent(self, i: int) -> Agent:
-        return Agent(self.settings[i], of_agent(self.actor, i, self.agents), critics=[], alpha=0.0)
 
     def tensors(self) -> dict[str, list[Tensor]]:
         return {"actor": self.actor, "value": self.value}

@@ -1,12 +1,12 @@
-"""What a training asks of a learner, and the functions that learners share.
+"""What a training asks of a learner, and what learners share.
 
-A method is one file with a class of these methods, and one entry in `bootcourse/methods.py`. `SACLearner` (learner.py),
-`BCLearner` (bc.py) and `PPOLearner` (ppo.py) stand beside each other; most other methods override a part of one of
-them. Every parameter of a learner has a leading agents axis, so that one batched matrix product computes all agents.
+A method is one file with a class, and one entry in `bootcourse/methods.py`. `SACLearner` (learner.py), `BCLearner`
+(bc.py) and `PPOLearner` (ppo.py) stand beside each other; most other methods override a part of one of them. Every
+parameter of a learner has a leading agents axis, so that one batched matrix product computes all agents.
 """
 
 from collections.abc import Sequence
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 import torch
@@ -14,23 +14,41 @@ from torch import Tensor
 
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.agent import Agent
+from bootcourse.learn.networks import mlp
+from bootcourse.learn.replay_buffer import ReplayBuffer
 from bootcourse.learn.settings import Settings, shared_fields
 
 
-class Learner(Protocol):
-    """The agents of one training, side by side.
+class Learner:
+    """The agents of one training, side by side: here actors alone, which learn from a replay buffer.
 
-    A class is called with (settings, observation_size, n_actions), with the settings of each agent.
+    A class is called with (settings, observation_size, n_actions), with the settings of each agent. It sets `settings`,
+    `agents`, `actor` and `optimiser`, and has an `update`; all else it may take from here or override.
     """
 
-    needs_teacher: bool  # whether `driving_policy` depends on the teacher's actions μ(s)
+    needs_teacher = False  # whether `driving_policy` depends on the teacher's actions μ(s)
+    device = torch.device("cpu")  # of all tensors: see `move_to`
     settings: list[Settings]
     agents: int
-    device: torch.device  # of all tensors: see `move_to`
+    actor: list[Tensor]  # weights and biases, (agents, inputs, outputs) and (agents, 1, outputs)
     optimiser: torch.optim.Optimizer
+
+    def update(self, batch: Any) -> dict[str, Tensor]:
+        """One gradient step of all agents on a batch. Returns losses before the step and other numbers, (agents,)."""
+        raise NotImplementedError
 
     def make_buffer(self, observation_size: int, demonstrations: Tensor | None) -> Any:
         """The buffer that the training fills and samples; demonstrations: rows (transitions, row), or None."""
+        return ReplayBuffer(self.agents, self.settings[0].buffer_size, observation_size, demonstrations, self.device)
+
+    def updates_due(self, replay: Any, decisions: int) -> int:
+        """How many updates follow a decision on every road; decisions: of each agent so far."""
+        return self.settings[0].updates if decisions >= self.settings[0].learning_starts else 0
+
+    @torch.no_grad()
+    def probabilities(self, states: Tensor) -> Tensor:
+        """π(a|s): (agents, batch, observation) -> (agents, batch, actions)."""
+        return mlp(self.actor, states).softmax(-1)
 
     def acting_policy(self, states: Tensor, rule_actions: Tensor, decided: Tensor) -> Tensor:
         """The distribution from which a training draws the next actions: (agents, roads, actions).
@@ -38,39 +56,41 @@ class Learner(Protocol):
         states (agents, roads, observation); rule_actions μ(s), (agents, roads) int64; decided (agents, roads): how
         many decisions each road's episode has lasted.
         """
+        return self.probabilities(states)
 
     def note_episodes(self, ended: np.ndarray, returns: np.ndarray) -> None:
         """Called after each decision: which episodes it ended (agents, roads), and the sums of rewards so far."""
 
-    def updates_due(self, replay: Any, decisions: int) -> int:
-        """How many updates follow a decision on every road; decisions: of each agent so far."""
-
-    def update(self, batch: Any) -> dict[str, Tensor]:
-        """One gradient step of all agents on a batch. Returns losses before the step and other numbers, (agents,)."""
-
     def coefficients(self) -> dict[str, np.ndarray]:
         """The present `alpha` and `xi` (ξ) of each agent for the curves, (agents,): 0 where the method has none."""
+        return {"alpha": np.zeros(self.agents), "xi": np.zeros(self.agents)}
 
     def agent(self, i: int) -> Agent:
         """A snapshot of agent i: it stays as it is when the learner goes on."""
+        return Agent(self.settings[i], of_agent(self.actor, i, self.agents), critics=[], alpha=0.0)
 
     def tensors(self) -> dict[str, list[Tensor]]:
         """The tensors of a checkpoint: all of the learner's state apart from the optimiser's."""
+        return {"actor": self.actor}
 
     @staticmethod
     def n_critics(settings: Settings) -> int:
         """How many critics an agent has. 0: it has no Q."""
+        return 0
 
     @classmethod
     def driving_policy(cls, actor: list[Tensor], critics: list[Tensor], states: Tensor, rule_actions: Tensor) -> Tensor:
         """The distribution from which a trained agent's actions come: (agents, batch, actions).
 
-        actor, critics: the agent's weights; states (agents, batch, observation); rule_actions (agents, batch) int64.
+        actor, critics: the agent's weights; states (agents, batch, observation); rule_actions μ(s), (agents, batch)
+        int64. A method that uses them sets `needs_teacher`: its agents ask the teacher while they drive.
         """
+        return mlp(actor, states).softmax(-1)
 
     @classmethod
     def q_values(cls, critics: list[Tensor], states: Tensor) -> Tensor:
         """Q(s,a) of these critics: (agents, batch, observation) -> (agents, batch, actions). Not for 0 critics."""
+        raise NotImplementedError
 
 
 def check_shared(settings: Sequence[Settings]) -> list[Settings]:

@@ -19,14 +19,14 @@ DRAWS = 100_000
 
 def cells(varied: dict[str, Results]) -> dict[tuple[str, str], Results]:
     """The four methods' agents of every choice that was computed: {(updates per decision, driver): results}."""
-    found = {}
+    choices = {}
     for updates in UPDATES:
         alone = varied.get(f"{updates} updates, no demonstrations")
         for driver in DRIVERS:
             helped = varied.get(f"{updates} updates, demonstrations by {driver}")
             if alone is not None and helped is not None:
-                found[updates, driver] = join([alone, helped])
-    return found
+                choices[updates, driver] = join([alone, helped])
+    return choices
 
 
 def faded(xi: np.ndarray) -> float:

@@ -38,29 +38,29 @@ def rule_results(scenario: Scenario, tests: int) -> Results:
     return Results([{"method": "rule", "seed": 0}], np.array([-1]), tested, {})
 
 
-def write_report(found: StudyResults, folder: Path) -> Path:
+def write_report(study: StudyResults, folder: Path) -> Path:
     """Write folder/report.md and its pictures, folder/figures. Raises BootcourseError if nothing was found."""
-    if not found.results:
+    if not study.results:
         raise BootcourseError("No job of this study is finished: run `bootcourse study --out DIR` first.")
     text, findings = [HEAD.format(escapes=100 * ESCAPES, window=IN_A_ROW)], {}
-    for name, results in found.results.items():
+    for name, results in study.results.items():
         rule = rule_results(STUDIES[name].scenario, results.sizes[0])
         everyone = join([Results(results.agents, results.stopped, results.tested, {}), rule])
         findings[name] = fidelity(everyone)
-        text += [f"## Study: {name}\n", *study_part(found, name, rule, everyone, folder)]
+        text += [f"## Study: {name}\n", *study_part(study, name, rule, everyone, folder)]
     text += ["## Fidelity: every number of the paper's two tables\n", FIDELITY.format(close=close()), counted(findings)]
     text += [tables.fidelity_table(findings), "### What each row's own numbers say\n"]
     text += ["\n".join(f"- **{ROWS[method]}.** {arithmetic(method)}" for method in PRINTED) + "\n"]
-    text += experiments_part(found.experiments)
-    if write_page(found.experiments.get("elsewhere", {}), folder):
+    text += experiments_part(study.experiments)
+    if write_page(study.experiments.get("elsewhere", {}), folder):
         text += ["## Other problems\n", "[When does a sub-optimal teacher help?](elsewhere.md)\n"]
     path = folder / "report.md"
     write_bytes(path, "\n".join(text).encode())
     return path
 
 
-def study_part(found: StudyResults, name: str, rule: Results, everyone: Results, folder: Path) -> list[str]:
-    results, text, best = found.results[name], [], found.bound.get(STUDIES[name].scenario.name)
+def study_part(study: StudyResults, name: str, rule: Results, everyone: Results, folder: Path) -> list[str]:
+    results, text, best = study.results[name], [], study.bound.get(STUDIES[name].scenario.name)
     for title, methods in TABLES.items():
         text += [f"### {title}\n", tables.result_table(everyone, methods)]
     others = [method for method in results.methods if not any(method in methods for methods in TABLES.values())]
@@ -69,7 +69,7 @@ def study_part(found: StudyResults, name: str, rule: Results, everyone: Results,
     text += ["### Who escapes\n", tables.escape_table(everyone, results, best)]
     if best is not None:
         text += [f"Best known return of the planner: {tables.bracketed(mean(best))}, {len(best)} episodes.\n"]
-    text += staying(found.staying.get(name))
+    text += staying(study.staying.get(name))
     if "bootstrapped" in results.methods and len(results.methods) > 1:
         text += ["### Probability of improvement\n", tables.markdown(*tables.improvement_rows(everyone))]
     text += ["### Training\n", *pictures(folder, name, results, rule)]

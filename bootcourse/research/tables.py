@@ -37,8 +37,8 @@ def bracketed(estimate: Estimate, scale: float = 1) -> str:
 
 def k_of_n(hits: np.ndarray) -> str:
     """ "1 of 10 (0 to 45 %)": how many, and the exact 95 % interval of the rate; one has none. hits (n,) bool."""
-    its, counted = rate(hits), f"{int(np.sum(hits))} of {len(hits)}"
-    return counted if len(hits) < 2 else f"{counted} ({100 * its.low:.0f} to {100 * its.high:.0f}\u00a0%)"
+    share, counted = rate(hits), f"{int(np.sum(hits))} of {len(hits)}"
+    return counted if len(hits) < 2 else f"{counted} ({100 * share.low:.0f} to {100 * share.high:.0f}\u00a0%)"
 
 
 def escaped(results: Results, method: str) -> str:
@@ -131,10 +131,10 @@ def sensitivity_table(results: dict[str, Results], measure: str) -> str:
     methods = next(iter(results.values())).methods
     scale = 100 if measure in RATES else 1
     rows = []
-    for variation, found in results.items():
+    for variation, varied in results.items():
         cells = []
         for method in methods:
-            scores = found.of(method).scores(measure) * scale
+            scores = varied.of(method).scores(measure) * scale
             cells.append(f"{number(scores.mean())} ({number(scores.min())} to {number(scores.max())})")
         rows.append([variation, *cells])
     return markdown([HEADINGS[measure], *(display_name(method) for method in methods)], rows)
@@ -143,10 +143,10 @@ def sensitivity_table(results: dict[str, Results], measure: str) -> str:
 def variations_table(varied: dict[str, Results]) -> str:
     """Who escapes and what they earn, a row for each variation and method."""
     rows = []
-    for variation, found in varied.items():
-        for method in found.methods:
-            cells = [bracketed(score(found, method, measure)) for measure in ("success", "returns", "collision")]
-            counts = escaped(found, method), found_and_kept(found, method)
+    for variation, results in varied.items():
+        for method in results.methods:
+            cells = [bracketed(score(results, method, measure)) for measure in ("success", "returns", "collision")]
+            counts = escaped(results, method), found_and_kept(results, method)
             rows.append([variation, display_name(method), *counts, *cells])
     headings = ["changed", "method", "agents that escape", FOUND_AND_KEPT]
     return markdown([*headings, *(HEADINGS[m] for m in ("success", "returns", "collision"))], rows)

@@ -31,14 +31,14 @@ def cells(varied: dict[str, Results]) -> Cells:
 
 def taught(study: Path | str = "") -> Cells:
     """The cells in the folder of a study; by default those that ship. Raises BootcourseError if there are none."""
-    found = cells(experiment("teachers", study))
-    if not found:
+    computed = cells(experiment("teachers", study))
+    if not computed:
         where = study or "This copy of the course"
         raise BootcourseError(
             f"{where} holds no results of the experiment teachers yet: "
             f"run `bootcourse study teachers --out {study or 'DIR'}`{'' if study else ', then give study=DIR'}."
         )
-    return found
+    return computed
 
 
 @dataclass(frozen=True)
@@ -87,11 +87,11 @@ def reached(results: Results) -> str:
     return f"{int(np.isfinite(spent(results)).sum())} of {len(results)}"
 
 
-def worth_rows(found: Cells) -> tuple[list[str], list[list[str]]]:
+def worth_rows(computed: Cells) -> tuple[list[str], list[list[str]]]:
     """(headings, rows): each cell's numbers, with 95 % intervals over seeds."""
     rows = []
-    for (teacher, method), results in found.items():
-        of = {name: its.estimate(its.of_agents(results)) for name, its in QUANTITIES.items()}
+    for (teacher, method), results in computed.items():
+        of = {name: quantity.estimate(quantity.of_agents(results)) for name, quantity in QUANTITIES.items()}
         until = " ".join(in_words(of["decisions"])).strip()
         numbers = [bracketed(of["return"]), bracketed(of["accidents"]), f"{until} ({reached(results)})"]
         escaping = k_of_n(results.scores("success") >= ESCAPES)

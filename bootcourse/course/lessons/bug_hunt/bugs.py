@@ -117,20 +117,20 @@ class Probe:
         self.states = np.concatenate([drive.observations[:-2] for drive in drives])
         self.now = torch.from_numpy(np.concatenate([drive.rule_actions[:-1] for drive in drives]))
         self.later = torch.from_numpy(np.concatenate([drive.rule_actions[1:] for drive in drives]))
-        self.updates, self.found = [], []
+        self.updates, self.rows = [], []
 
     def __call__(self, training: Training) -> None:
         if training.updates % EVERY or training.updates in self.updates:
             return
         self.updates.append(training.updates)
-        self.found.append([self.look(training, i) for i in range(training.n_agents)])
+        self.rows.append([self.look(training, i) for i in range(training.n_agents)])
 
     def look(self, training: Training, i: int) -> list[float]:
         agent = training.agent(i)
         pi, q = agent.probabilities(self.states), agent.q_values(self.states)
         log_pi = torch.from_numpy(pi).clamp(min=1e-30).log()
         likeliest = log_pi.argmax(-1)
-        found = (
+        measured = (
             bootstrap.kl_to_rule(log_pi, self.now, torch.tensor(RULE_P)),
             sac.entropy(log_pi),
             (likeliest == self.now).float(),
@@ -138,7 +138,7 @@ class Probe:
             log_pi.amin(-1),
             torch.from_numpy((pi * q).sum(-1)),
         )
-        return [float(values.mean()) for values in found] + [self.at_the_end(training, i, agent)]
+        return [float(values.mean()) for values in measured] + [self.at_the_end(training, i, agent)]
 
     @staticmethod
     def at_the_end(training: Training, i: int, agent: Agent) -> float:
@@ -161,7 +161,7 @@ def train_bug(bug: str, updates: int = UPDATES) -> dict[str, np.ndarray]:
     training = Training(settings, 4000, make_learner=LEARNERS[bug])
     result = training.run(progress=False, callback=probe, stop=lambda: training.updates >= updates)
     episodes = int(training.curves.finished.max())
-    probes = np.array(probe.found, dtype=np.float32).reshape(-1, SEEDS, len(PROBES)).transpose(2, 1, 0)
+    probes = np.array(probe.rows, dtype=np.float32).reshape(-1, SEEDS, len(PROBES)).transpose(2, 1, 0)
     first = result.agents[0]
     weights = {f"{part}.{i}": layer.numpy() for part in PARTS for i, layer in enumerate(getattr(first, part))}
     results = Results(

@@ -31,12 +31,12 @@ def clone(rows: Tensor, updates: int = 1500, seeds: int = 4, first: int = 0) -> 
 
 def measure(agents: Sequence[Agent], rows: Tensor, roads: int = 200) -> np.ndarray:
     """Of each clone: agreement with its data, success and accidents on held-out roads, (clones, 3) shares."""
-    found, batch = [], decode_transitions(rows, SIZE, torch.zeros(len(rows)))
+    scores, batch = [], decode_transitions(rows, SIZE, torch.zeros(len(rows)))
     for agent in agents:
         agrees = agent.probabilities(batch.states.numpy()).argmax(1) == batch.actions.numpy()
         driven = drive_episodes(agent.as_policy(), held_out_seeds(6, roads))
-        found.append((agrees.mean(), driven.success.mean(), (driven.accident > 0).mean()))
-    return np.array(found)
+        scores.append((agrees.mean(), driven.success.mean(), (driven.accident > 0).mean()))
+    return np.array(scores)
 
 
 def own_drives(episodes: int) -> Callable[[Agent], Tensor]:

@@ -18,7 +18,7 @@ NOISY = "#D55E00"
 def where_they_were(drives: dict[str, Sequence[Rollout]], seconds: float, title: str) -> Figure:
     """The ego's paths, seen from trap 1, for some seconds; one panel for each named demonstrator."""
     figure = new_figure(1.0 + 1.35 * len(drives))
-    total, told = figure.get_figheight(), []
+    total, alt_parts = figure.get_figheight(), []
     for k, (name, some) in enumerate(drives.items()):
         ax = figure.add_axes((0.08, (total - 1.75 - 1.35 * k) / total, 0.88, 0.95 / total))
         places, scenario = [], some[0].scenario
@@ -38,14 +38,16 @@ def where_they_were(drives: dict[str, Sequence[Rollout]], seconds: float, title:
             ax.set_xlabel("distance ahead of trap 1 (m)", fontsize=TEXT, color=INK)
         all_places = np.concatenate(places)
         cells = len(np.unique(np.round(all_places / [2.0, 0.5]), axis=0))
-        told.append(f"{name}: {len(some)} drives pass through {cells} squares of 2 by 0.5 m")
-    return finish(figure, title, f"The ego's paths seen from trap 1 in the first {seconds:g} s. {'; '.join(told)}.")
+        alt_parts.append(f"{name}: {len(some)} drives pass through {cells} squares of 2 by 0.5 m")
+    return finish(
+        figure, title, f"The ego's paths seen from trap 1 in the first {seconds:g} s. {'; '.join(alt_parts)}."
+    )
 
 
 def clones(measured: dict[str, np.ndarray], title: str) -> Figure:
     """How clones drive: name -> (seeds, 3) shares of agreement, success and accidents; a dot for each seed."""
     figure = new_figure(0.95 + 0.42 * len(measured))
-    told = {name: [] for name in measured}
+    alt_parts = {name: [] for name in measured}
     height = figure.get_figheight()
     for k, label in enumerate(("agree with their data (%)", "escape (%)", "have an accident (%)")):
         ax = figure.add_axes((0.25 + 0.255 * k, 0.45 / height, 0.215, 1 - 1.15 / height))
@@ -53,11 +55,11 @@ def clones(measured: dict[str, np.ndarray], title: str) -> Figure:
             shares = 100 * values[:, k]
             ax.plot(shares, np.full(len(shares), row), "o", color=style("bc").colour, markersize=5, alpha=0.55)
             ax.plot(shares.mean(), row, "|", color=NOISY, markersize=15, markeredgewidth=2)
-            told[name].append(f"{shares.mean():.0f} % {label.split('(')[0].strip()}")
+            alt_parts[name].append(f"{shares.mean():.0f} % {label.split('(')[0].strip()}")
         plain_axes(ax, label, grid="x")
         ax.set_yticks(range(len(measured)), list(measured) if k == 0 else [""] * len(measured))
         ax.tick_params(axis="y", labelcolor=INK, labelsize=SMALL)
         ax.set_ylim(len(measured) - 0.5, -0.5)
         ax.set_xlim(-4, 104)
-    words = "; ".join(f"{name}: on average {', '.join(parts)}" for name, parts in told.items())
+    words = "; ".join(f"{name}: on average {', '.join(parts)}" for name, parts in alt_parts.items())
     return finish(figure, title, f"A dot for each clone, a bar for their mean. {words}.")

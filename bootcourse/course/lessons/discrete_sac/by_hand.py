@@ -131,8 +131,8 @@ def after_updates(update, zeros: bool, times: int, seed: int) -> tuple[np.ndarra
         update(agent, Batch(states, actions, rewards, ended, next_states))
     probe = torch.zeros(1, 4) if zeros else torch.randn(5, 4, generator=draw)
     with torch.no_grad():
-        found = agent.log_pi(probe), agent.q(probe), agent.slow_q(probe), agent.log_alpha.detach().reshape(1)
-    return tuple(each.detach().double().numpy() for each in found)
+        looked_up = agent.log_pi(probe), agent.q(probe), agent.slow_q(probe), agent.log_alpha.detach().reshape(1)
+    return tuple(each.detach().double().numpy() for each in looked_up)
 
 
 class Road:
@@ -160,7 +160,7 @@ def after_training(train, pushes: int, falls: tuple[int, ...], timeouts: tuple[i
     Of the updates: whether none came too early, whether about every fourth push had one, whether each got the agent
     and a batch of 64 rows (all 1 or 0). Raises NotAsAsked where there is not one row for each push.
     """
-    kept, updates, road = [], [], Road(falls, timeouts)
+    stored, updates, road = [], [], Road(falls, timeouts)
 
     class Agent(SAC):
         def draw(self, state, rng):
@@ -168,20 +168,20 @@ def after_training(train, pushes: int, falls: tuple[int, ...], timeouts: tuple[i
 
     class Buffer:
         def add(self, new):
-            kept.append(new)
+            stored.append(new)
 
         def sample(self, size, rng):
-            return torch.stack([kept[i] for i in rng.integers(len(kept), size=size)])
+            return torch.stack([stored[i] for i in rng.integers(len(stored), size=size)])
 
     def update(agent, batch):
         right = agent is mine and isinstance(batch, Batch) and len(batch.states) == 64
-        updates.append((len(kept), right))
+        updates.append((len(stored), right))
 
     mine = Agent(optimiser=Descent)
     train(mine, road, Buffer(), update, pushes, np.random.default_rng(0))
-    if len(kept) != pushes:
-        raise NotAsAsked(f"In {pushes} pushes your loop keeps {len(kept)} rows: one transition for each push.")
-    rows = torch.stack(kept).numpy().astype(float)
+    if len(stored) != pushes:
+        raise NotAsAsked(f"In {pushes} pushes your loop keeps {len(stored)} rows: one transition for each push.")
+    rows = torch.stack(stored).numpy().astype(float)
     asked = max(0, pushes - 256) / 4
     early = any(rows < 250 for rows, _ in updates)
     judged = not early, abs(len(updates) - asked) <= 2, all(right for _, right in updates)

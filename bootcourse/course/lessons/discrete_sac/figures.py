@@ -21,7 +21,7 @@ def cartpole_strip(drives: Mapping[str, np.ndarray], title: str) -> Figure:
     The observations are scaled, as the learner sees them.
     """
     figure = new_figure(0.45 + ROW * len(drives))
-    told = []
+    alt_parts = []
     for row, (label, observations) in enumerate(drives.items()):
         height = ROW / figure.get_figheight()
         ax = figure.add_axes((0.012, 0.01 + (len(drives) - 1 - row) * height, 0.976, height))
@@ -32,9 +32,9 @@ def cartpole_strip(drives: Mapping[str, np.ndarray], title: str) -> Figure:
         for picture, t in enumerate(np.linspace(0, len(states) - 1, PICTURES).round().astype(int)):
             _draw_cart(ax, states[t], STEP * picture, style(label).colour)
             ax.text(STEP * picture, -1.25, f"push {t + 1}", ha="center", fontsize=SMALL, color=QUIET)
-        told.append(f"{label}: the episode lasts {len(states)} pushes")
+        alt_parts.append(f"{label}: the episode lasts {len(states)} pushes")
     alt = f"A cart on a track and the pole on it, {PICTURES} pictures from the first push to the last"
-    return finish(figure, title, f"{alt}. {'; '.join(told)}.")
+    return finish(figure, title, f"{alt}. {'; '.join(alt_parts)}.")
 
 
 def _draw_cart(ax, state: np.ndarray, x: float, colour: str) -> None:

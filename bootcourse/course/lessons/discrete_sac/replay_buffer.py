@@ -41,19 +41,19 @@ def filled_and_drawn(answer, size, added, batch):
     if first is None:
         return None
     if not isinstance(first, torch.Tensor) or first.dim() != 2 or first.shape[1] != 3:
-        found = plain(first)
-        shape = f" of shape {shape_words(found)}" if found.kind in NUMERIC else ""
-        raise NotAsAsked(f"Your `sample` returns {found.words}{shape}: the exercise asks for a tensor (batch, n).")
+        answered = plain(first)
+        shape = f" of shape {shape_words(answered)}" if answered.kind in NUMERIC else ""
+        raise NotAsAsked(f"Your `sample` returns {answered.words}{shape}: the exercise asks for a tensor (batch, n).")
     in_float32(first)
     rng, held = np.random.default_rng(0), min(size, added)
     drawn = torch.stack([buffer.sample(batch, rng) for _ in range(DRAWS * held // batch + 1)])  # (times, batch, 3)
     number = drawn[..., 0].long().clamp(0, added)
     known = number > 0
     intact = torch.equal(drawn[known], rows[number[known] - 1])
-    kept, same = " ".join(map(str, number.unique().tolist())), torch.equal(first, again)
+    known_rows, same = " ".join(map(str, number.unique().tolist())), torch.equal(first, again)
     twice = bool((number.sort().values.diff() == 0).any())
     judged = drawn_evenly(number, held), intact, same, drawn_apart(number, held), twice, not copies_the_table(answer)
-    return np.array(first.shape), kept, *map(float, judged)
+    return np.array(first.shape), known_rows, *map(float, judged)
 
 
 @functools.cache
@@ -93,11 +93,11 @@ def buffer_cases(rng):
 def of_the_buffer(cases, answers):
     """A sentence on a buffer that gives back the wrong rows."""
     for (size, added, batch), answer in zip(cases, answers, strict=True):
-        shape, kept, even, intact, same, apart, twice, _ = (part.data for part in answer)
+        shape, known_rows, even, intact, same, apart, twice, _ = (part.data for part in answer)
         if shape[0] != batch:
             return f"A batch of {batch} rows was asked for, and your buffer gave {shape[0]:.0f}."
-        if kept != " ".join(map(str, range(max(added - size, 0) + 1, added + 1))):
-            return f"A buffer of size {size} got the rows 1 to {added}; yours then gives back the rows {kept}."
+        if known_rows != " ".join(map(str, range(max(added - size, 0) + 1, added + 1))):
+            return f"A buffer of size {size} got the rows 1 to {added}; yours then gives back the rows {known_rows}."
         if not intact:
             return "Your buffer gives back rows that nobody put in: look for a row that is overwritten or mixed up."
         if not same:

@@ -25,7 +25,7 @@ def seed_by_seed(results: Results, methods: Sequence[str], title: str, mark: int
     mark: the episode of a vertical line, and the words at it.
     """
     height = 1.15 + len(methods) * (PANEL + GAP)
-    figure, told = new_figure(height), []
+    figure, alt_parts = new_figure(height), []
     for row, method in enumerate(methods):
         bottom = height - 0.8 - row * (PANEL + GAP) - PANEL
         ax = figure.add_axes((0.06, bottom / height, 0.9, PANEL / height))
@@ -41,11 +41,11 @@ def seed_by_seed(results: Results, methods: Sequence[str], title: str, mark: int
         ax.set(xlim=(0, at[-1]), ylim=(-4, 104), yticks=(0, 50, 100))
         ax.tick_params(labelbottom=row == len(methods) - 1)
         near = np.searchsorted(at, [mark - 200, mark, at[-1]])
-        told.append(f"{display_name(method)}: " + ", ".join(f"{mean[i]:.0f} % at episode {at[i]}" for i in near))
+        alt_parts.append(f"{display_name(method)}: " + ", ".join(f"{mean[i]:.0f} % at episode {at[i]}" for i in near))
     ax.set_xlabel("training episode", fontsize=TEXT, color=INK)
     each = f"Success in the last {WINDOW} episodes (%). Thin: agents. Thick: their mean"
     figure.text(0.012, 0.1 / height, f"{each}.", fontsize=SMALL, color=QUIET)
-    return finish(figure, title, f"{each}: {'; '.join(told)}.")
+    return finish(figure, title, f"{each}: {'; '.join(alt_parts)}.")
 
 
 def fading(cells: Mapping[tuple[str, str], Results]) -> Figure:
@@ -56,7 +56,7 @@ def fading(cells: Mapping[tuple[str, str], Results]) -> Figure:
     title = "With more updates ξ is almost gone when the way out is found; β is not"
     words = "training episode; dot: half of the agents with the soft constraint alone have found the way out"
     figure, ax = one_axes(3.8, title, words, "part of its start, median agent; ξ, 2: two updates for a decision")
-    told, colour = [], style("soft").colour
+    alt_parts, colour = [], style("soft").colour
     for updates in UPDATES:
         agents = cells[updates, "π̃"].of("soft")
         part = np.median(agents.curves["xi"] / agents.curves["xi"][:, :1], axis=0)
@@ -67,7 +67,7 @@ def fading(cells: Mapping[tuple[str, str], Results]) -> Figure:
             f"ξ, {updates}", (half, part[half - 1]), (7, 4), textcoords="offset points", fontsize=TEXT, color=INK
         )
         words = f"ξ with {updates} updates is a tenth after {tenth} episodes, and half have the way out after {half}"
-        told.append(f"{words}, at {part[half - 1]:.2g} of ξ")
+        alt_parts.append(f"{words}, at {part[half - 1]:.2g} of ξ")
     demos = cells["1/4", "π̃"].of("demos").agents[0]
     share = demonstration_share(episodes, demos["beta_start"], demos["beta_episodes"]) / demos["beta_start"]
     ax.plot(episodes, np.where(share > 0, share, np.nan), color=style("demos").colour, linewidth=2)
@@ -77,7 +77,7 @@ def fading(cells: Mapping[tuple[str, str], Results]) -> Figure:
         axis.set_major_locator(FixedLocator(places))
         axis.set_major_formatter("{x:g}")
         axis.set_minor_locator(NullLocator())
-    return finish(figure, title, ". ".join(told) + ".")
+    return finish(figure, title, ". ".join(alt_parts) + ".")
 
 
 def half_found(agents: Results) -> int:

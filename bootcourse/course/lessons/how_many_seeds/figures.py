@@ -15,7 +15,7 @@ from bootcourse.statistics import ESCAPES
 def who_escapes(results: Results, methods: Sequence[str]) -> Figure:
     """Each agent's success on the held-out roads as a dot, one row for each method; filled if it escapes."""
     height = 1.15 + 0.5 * len(methods)
-    figure, told = new_figure(height), []
+    figure, alt_parts = new_figure(height), []
     ax = figure.add_axes((0.24, 0.5 / height, 0.6, 1 - 1.1 / height))
     ax.axvline(100 * ESCAPES, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
     for row, method in enumerate(methods):
@@ -25,7 +25,7 @@ def who_escapes(results: Results, methods: Sequence[str]) -> Figure:
         ax.scatter(success, places, s=26, c=fills, edgecolors=colour, linewidths=1.2, zorder=3, clip_on=False)
         words = f"{escaped(results, method)} escape"
         ax.annotate(words, (1.04, row), xycoords=("axes fraction", "data"), va="center", fontsize=TEXT, color=INK)
-        told.append(f"{display_name(method)}: {', '.join(f'{each:.0f}' for each in success)} %")
+        alt_parts.append(f"{display_name(method)}: {', '.join(f'{each:.0f}' for each in success)} %")
     plain_axes(ax, "", grid="x")
     ax.set_yticks(range(len(methods)), [display_name(method) for method in methods])
     ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
@@ -37,4 +37,4 @@ def who_escapes(results: Results, methods: Sequence[str]) -> Figure:
     title = (
         f"Training works or fails: {split} of {len(everyone)} agents succeed on over 90 % of the roads or under 10 %"
     )
-    return finish(figure, title, f"A dot for each agent. {'; '.join(told)}.")
+    return finish(figure, title, f"A dot for each agent. {'; '.join(alt_parts)}.")

@@ -21,7 +21,7 @@ def what_is_taken() -> Diagram:
     for x in (START, TRAINED):
         dash = 'stroke="currentColor" stroke-dasharray="4 4" opacity="0.6"'
         parts.append(f'<line x1="{x}" y1="26" x2="{x}" y2="{height}" {dash}/>')
-    told = []
+    alt_parts = []
     for i, (learner, (words, first, last, fades)) in enumerate(TAKES.items()):
         top = TOP + ROW * i
         end = top + (2 if fades else THICK)
@@ -29,5 +29,5 @@ def what_is_taken() -> Diagram:
         parts += [f'<polygon points="{corners}" fill="{COLOUR}" fill-opacity="0.3"/>']
         parts += [label(START - 44, top + 18, learner, "end", bold=True), label(START + 12, top + 18, words, "start")]
         until = {START: "before the training", END: "in training and afterwards"}.get(last, "in training")
-        told.append(f"{learner} takes {words}, {until}{', which fades' * fades}.")
-    return Diagram(END + 10, height, parts, " ".join(told))
+        alt_parts.append(f"{learner} takes {words}, {until}{', which fades' * fades}.")
+    return Diagram(END + 10, height, parts, " ".join(alt_parts))

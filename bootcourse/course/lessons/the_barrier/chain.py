@@ -39,5 +39,5 @@ def chances(explore: float, decisions: int, seed: int) -> np.ndarray:
 
 def leaving(explore: float, gamma: float, taught: Sequence[tuple[int, int]] = (), walks: int = 30) -> int:
     """In how many walks of 1,000 decisions Q ends with leaving above staying in the trap."""
-    found = (learn_chain(chances(explore, 1000, seed), gamma, 0.3, taught) for seed in range(walks))
-    return sum(bool(q[0, 1] > q[0, 0]) for q in found)
+    learned = (learn_chain(chances(explore, 1000, seed), gamma, 0.3, taught) for seed in range(walks))
+    return sum(bool(q[0, 1] > q[0, 0]) for q in learned)

@@ -27,7 +27,7 @@ def space_time(drives: dict[str, tuple[np.ndarray, np.ndarray]], dt: float, titl
     drives: name -> (places (m), speeds (m/s)), both (steps, cars); dt: seconds between two steps.
     """
     figure = new_figure(3.9)
-    told, width = [], 0.78 / len(drives)
+    alt_parts, width = [], 0.78 / len(drives)
     for k, (name, (places, speeds)) in enumerate(drives.items()):
         ax = figure.add_axes((0.08 + k * (width + 0.04), 0.15, width - 0.02, 0.62))
         seconds = np.arange(len(places)) * dt
@@ -44,28 +44,30 @@ def space_time(drives: dict[str, tuple[np.ndarray, np.ndarray]], dt: float, titl
         ax.set_xlim(0, seconds[-1])
         ax.set_xlabel("time (s)", fontsize=TEXT, color=INK)
         last = speeds[-1]
-        told.append(f"{name}: at the end the slowest car drives {last.min():.1f} m/s, the fastest {last.max():.1f}")
+        alt_parts.append(
+            f"{name}: at the end the slowest car drives {last.min():.1f} m/s, the fastest {last.max():.1f}"
+        )
     bar = figure.colorbar(dots, cax=figure.add_axes((0.925, 0.15, 0.015, 0.62)))
     bar.outline.set_visible(False)
     bar.ax.tick_params(labelsize=SMALL, labelcolor=QUIET, length=0)
     bar.ax.set_title("m/s", fontsize=SMALL, color=INK, loc="left")
     drawn = "Each line is one car, coloured by its speed; half of the cars are drawn"
-    return finish(figure, title, f"{drawn}. {'; '.join(told)}.")
+    return finish(figure, title, f"{drawn}. {'; '.join(alt_parts)}.")
 
 
 def following(v: float, closing: Sequence[float], title: str, traffic: Traffic = DEFAULT.traffic) -> Figure:
     """IDM's acceleration at speed v (m/s) against the gap, closing in at several speeds (m/s)."""
-    gaps, named, told = np.linspace(8, 120, 300), {}, []
+    gaps, named, alt_parts = np.linspace(8, 120, 300), {}, []
     for dv in closing:
         s_star = desired_gap(v, dv, traffic.s0, traffic.time_gap, traffic.a_max, traffic.b)
         values = [idm_acceleration(v, traffic.desired_speed, s, s_star, traffic.a_max, traffic.delta) for s in gaps]
         words = f"closing in at {dv:g} m/s" if dv > 0 else (f"falling back at {-dv:g} m/s" if dv < 0 else "same speed")
         named[f"{words}, s* = {s_star:.0f} m"] = np.maximum(values, -traffic.braking_limit)
         zero = f"zero at a gap of {np.interp(0, values, gaps):.0f} m" if min(values) < 0 else "above zero at each gap"
-        told.append(f"{words}: {zero}")
+        alt_parts.append(f"{words}: {zero}")
     x_label, y_label = "gap to the car ahead, centre to centre (m)", "acceleration (m/s²)"
-    told.append(f"no driver brakes harder than {traffic.braking_limit:g} m/s²")
-    alt = f"Three curves that rise with the gap. {'; '.join(told)}."
+    alt_parts.append(f"no driver brakes harder than {traffic.braking_limit:g} m/s²")
+    alt = f"Three curves that rise with the gap. {'; '.join(alt_parts)}."
     limits = (-1.05 * traffic.braking_limit, 0.6)
     return lines(gaps, named, title, x_label, y_label, marks={"": 0.0}, limits=limits, looks=LOOKS, alt=alt)
 

@@ -29,7 +29,7 @@ from bootcourse.research.teachers import PLANNER, TEACHERS
 ROW, HEAD, FOOT, NAMES = 0.42, 0.85, 0.6, 1.75  # inches
 
 
-def teacher_value(found: Cells, quantity: str, own: Mapping[str, float] | None = None) -> Figure:
+def teacher_value(computed: Cells, quantity: str, own: Mapping[str, float] | None = None) -> Figure:
     """A dot for each agent; the bar is the estimate of `QUANTITIES`, the line its 95 % interval over seeds.
 
     found: what `shipped_teachers` returns; quantity: one of `QUANTITIES`; own: of the teachers themselves, a green line
@@ -37,19 +37,19 @@ def teacher_value(found: Cells, quantity: str, own: Mapping[str, float] | None =
     decisions is an open dot at the right edge. Raises BootcourseError for another quantity.
     """
     check_known("Quantity", quantity, QUANTITIES)
-    its = QUANTITIES[quantity]
-    values = {place: its.of_agents(results) for place, results in found.items()}
-    estimates = {place: its.estimate(each) for place, each in values.items()}
-    rows = [teacher for teacher in TEACHERS if any(teacher == each for each, _ in found)]
-    methods = [method for method in TAUGHT if any(method == each for _, each in found)]
-    height, (low, high) = HEAD + ROW * len(rows) + FOOT, _limits(values.values(), its.logarithmic)
+    shown = QUANTITIES[quantity]
+    values = {place: shown.of_agents(results) for place, results in computed.items()}
+    estimates = {place: shown.estimate(each) for place, each in values.items()}
+    rows = [teacher for teacher in TEACHERS if any(teacher == each for each, _ in computed)]
+    methods = [method for method in TAUGHT if any(method == each for _, each in computed)]
+    height, (low, high) = HEAD + ROW * len(rows) + FOOT, _limits(values.values(), shown.logarithmic)
     figure, across = new_figure(height, 9.0), (8.9 - NAMES) / len(methods)
     for column, method in enumerate(methods):
         place = ((NAMES + column * across) / 9, FOOT / height, (across - 0.2) / 9, ROW * len(rows) / height)
         ax, colour = figure.add_axes(place), style(method).colour
         plain_axes(ax, display_name(method), grid="x")
         for row, teacher in enumerate(rows):
-            if (teacher, method) in found:
+            if (teacher, method) in computed:
                 _draw(ax, row, values[teacher, method], estimates[teacher, method], colour, high)
                 if own is not None:
                     green = style("rule").colour
@@ -57,7 +57,7 @@ def teacher_value(found: Cells, quantity: str, own: Mapping[str, float] | None =
             else:
                 ax.text(0.5, row, "not run", transform=ax.get_yaxis_transform(), ha="center", va="center",
                         fontsize=SMALL, color=QUIET)  # fmt: skip
-        if its.logarithmic:
+        if shown.logarithmic:
             ax.set_xscale("log")
             ax.xaxis.set_major_locator(LogLocator(subs=(1,) if high > 50 * low else (1, 2, 5)))
             ax.xaxis.set_minor_locator(NullLocator())
@@ -65,12 +65,12 @@ def teacher_value(found: Cells, quantity: str, own: Mapping[str, float] | None =
         ax.set(xlim=(low, high), ylim=(len(rows) - 0.5, -0.5))
         ax.set_yticks(range(len(rows)), [TEACHERS[row].words if column == 0 else "" for row in rows])
         ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
-    words = f"{its.label}. Dots: agents; bar and line: their estimate and its 95 % interval"
+    words = f"{shown.label}. Dots: agents; bar and line: their estimate and its 95 % interval"
     words += "; open dots at the right: not reached." * (quantity == "decisions") or "."
     figure.text(0.012, 0.12 / height, words[0].upper() + words[1:], fontsize=SMALL, color=QUIET)
     words += " Green line: the teacher itself." * (own is not None)
-    told = [f"{_named(place)}: {' '.join(in_words(each)).strip()}" for place, each in estimates.items()]
-    return finish(figure, _title(its.label, estimates), f"{words} {'; '.join(told)}.")
+    alt_parts = [f"{_named(place)}: {' '.join(in_words(each)).strip()}" for place, each in estimates.items()]
+    return finish(figure, _title(shown.label, estimates), f"{words} {'; '.join(alt_parts)}.")
 
 
 def _draw(ax, row: int, values: np.ndarray, estimate, colour: str, edge: float) -> None:
@@ -109,14 +109,14 @@ def _title(label: str, estimates: dict) -> str:
     return f"{name}: from {low} to {high}"
 
 
-def worth_table(found: Cells) -> tuple[list[str], list[list[str]]]:
+def worth_table(computed: Cells) -> tuple[list[str], list[list[str]]]:
     """(headings, rows): of each teacher's agents, how many escape, and how many decisions each took."""
-    methods = [method for method in TAUGHT if any(method == each for _, each in found)]
+    methods = [method for method in TAUGHT if any(method == each for _, each in computed)]
     rows = []
-    for teacher in dict.fromkeys(teacher for teacher, _ in found):
+    for teacher in dict.fromkeys(teacher for teacher, _ in computed):
         cells = []
         for method in methods:
-            results = found.get((teacher, method))
+            results = computed.get((teacher, method))
             spent = "" if results is None else f"{np.nansum(lengths(results.curves), axis=1).mean() / 1000:,.0f}"
             cells.append("not run" if results is None else f"{results.escapers(method)} ({spent})")
         rows.append([TEACHERS[teacher].words, *cells])
