@@ -44,11 +44,16 @@ title = "One slow driver starts a jam at 20 m; at 30 m the disturbance dies out"
 bc.show(figures_traffic.space_time(rings, dt=0.5, title=title))
 
 # %% [markdown]
-# > **Predict.** At 20 m each car has four car lengths of road, its own included. Why do cars stop?
-# > And why does the band of standing cars move *backwards* while the cars drive forwards?
+# > **Predict.** At 20 m each car has four car lengths of road, its own included, and yet cars stop.
+# > The band of standing cars moves *backwards*, while the cars drive forwards. Why?
 
 # %%
-predict("traffic.1", "Why does the jam move backwards?")
+choices = [
+    "cars leave it at its front and join it at its back",
+    "the standing cars roll back",
+    "the slow driver falls behind the others",
+]
+predict("traffic.1", "Why does the jam move backwards?", choices)
 
 # %% [markdown]
 # Round 2 comes back to it.
@@ -178,11 +183,20 @@ seconds = 0.5 * np.arange(len(leader))
 title = "Each driver brakes to a lower speed than the one ahead"
 bc.show(charts.lines(seconds, rows, title, "time (s)", "speed (m/s)", looks=figures_traffic.ROW))
 
+# %%
+# NBVAL_CHECK_OUTPUT
+for slowest in (4.0, 8.0):
+    ahead, lowest = np.repeat([10.0, slowest, 10.0], [60, 40, 140]), []
+    for _ in range(8):
+        ahead = traffic.behind(ahead, v=10.0, gap=32.5)[:-1, 1]
+        lowest.append(f"{ahead.min():.2f}")
+    print(f"leader down to {slowest:g} m/s, drivers 1 to 8 down to", ", ".join(lowest))
+
 # %% [markdown]
 # **See.** The first driver comes too close and has to open the gap again, so for a moment it is
-# slower than its leader. From driver to driver the lowest speed falls. A gentler
-# disturbance dies out: where the leader slows down to 8 m/s instead of 4, the eighth driver slows
-# down less than the first.
+# slower than its leader. From driver to driver the lowest speed falls. A gentler disturbance dies
+# out: where the leader slows down to 8 m/s instead of 4, each driver slows down less than the one
+# ahead.
 # <!-- claim: (np.diff([8.0, *lowest_speeds(8.0)]) > 0).all() -->
 # <!-- claim: (np.diff([4.0, *lowest_speeds()]) < 0).all() -->
 #
@@ -214,11 +228,6 @@ table(["speed", "wants s*", "settles at"], rows)
 # differently. The ring has two stable states there.
 
 # %% [markdown]
-# The cars also change lane, by a rule called **MOBIL**: a driver changes if that is safe, and if
-# its own gain in acceleration, plus a politeness p times the gains of its new and its old follower,
-# exceeds a threshold. `bootcourse.road.traffic.worth_changing` is this line.
-
-# %% [markdown]
 # ## Round 3: two steps a second
 #
 # To change lane, a traffic car turns towards a heading and back. It turns at a rate that is
@@ -226,8 +235,8 @@ table(["speed", "wants s*", "settles at"], rows)
 # simulation makes {{ DEFAULT.clock.simulation_rate }} steps a second, as the paper's does: the rate
 # is held for a whole step of dt = {{ DEFAULT.clock.dt }} s.
 #
-# > **Predict.** highway-env's own τ is 0.2 s: quick and precise at its usual 15 Hz. What happens
-# > at 2 Hz to a heading error of 1°?
+# > **Predict.** highway-env's own τ is 0.2 s, and it usually makes 15 steps a second. What happens
+# > with this τ at 2 steps a second to a heading error of 1°?
 
 # %%
 choices = ["it settles in one step", "it swings and settles", "it swings and grows"]
@@ -319,15 +328,16 @@ source("bootcourse.road.formulas", "lane_keeping_steering")
 # - Does a traffic jam ahead of the traps make it easier or harder to get out?
 #
 # **Read on**: Treiber, Hennecke and Helbing, *Congested traffic states in empirical observations
-# and microscopic simulations* (2000), for IDM; Kesting, Treiber and Helbing, *General
-# lane-changing model MOBIL for car-following models* (2007).
+# and microscopic simulations* (2000), for IDM. The cars also change lane, by a rule called MOBIL
+# (`bootcourse.road.traffic.worth_changing`): Kesting, Treiber and Helbing, *General lane-changing
+# model MOBIL for car-following models* (2007).
 
 # %%
 backwards = "cars leave it at its front and join it at its back"
 compare_predictions(
     "traffic",
     {
-        1: f"{backwards}; it begins where a driver brakes below the speed ahead",
+        1: backwards,
         2: bc.formulas.desired_gap(10.0, 2.0, 10.0, 1.5, 0.5, 0.5),
         3: "brake",
         4: "it swings and grows",

@@ -67,18 +67,6 @@ wrong_lines("""bootstrap_interval
         means[int(0.025 * len(means))], means[int(0.975 * len(means))]  # single means at the two ends
 """)
 
-right_lines("""chance_of_improvement
-    mann whitney: stats.mannwhitneyu(x, y, method="asymptotic").statistic / (len(x) * len(y))
-    pair by pair: np.mean([np.sign(a - b) / 2 + 0.5 for a in x for b in y])
-""")
-
-wrong_lines("""chance_of_improvement
-    strictly: np.mean([a > b for a in x for b in y])  # both be worse
-    of the median: np.mean(x > np.median(y))
-    over m squared: np.heaviside(x[:, None] - y, 0.5).sum() / len(x) ** 2
-""")
-
-
 MIDDLE = "[..., cut:scores.shape[-1] - cut]"
 equivalent(
     "difference_interval",

@@ -2,6 +2,7 @@
 
 import numpy as np
 from bootcourse.research.paper import PRINTED
+from bootcourse.research.tables import bracketed  # noqa: F401 (the text names it)
 from bootcourse.statistics import interval, iqm, power
 from scipy import stats
 from tools.course.known import escaped, escapers, fisher, of, shipped_experiment

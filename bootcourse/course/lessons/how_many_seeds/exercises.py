@@ -169,44 +169,6 @@ def bootstrap_interval(scores, draws):
     return np.percentile(means, [2.5, 97.5])
 
 
-def rival_cases(rng):
-    """All ties, all above, all under; then 40 of whole numbers, so that there are ties; one agent against several."""
-    yield np.zeros(3), np.zeros(3)
-    yield np.array([5.0, 6.0]), np.array([1.0, 2.0])
-    yield np.array([1.0, 2.0]), np.array([5.0, 2.0])
-    for _ in range(40):
-        m = rng.integers(2, 9)
-        yield rng.integers(0, 9, m).astype(float), rng.integers(0, 7, m).astype(float)
-    yield np.array([5.0]), np.array([6.0, 1.0, 5.0, 2.0])
-    yield np.array([6.0, 1.0, 5.0]), np.array([4.0])
-
-
-@exercise(
-    "P(X > Y) + P(X = Y) / 2, the Mann-Whitney statistic U / (m n)", minutes=6, difficulty=2, cases=rival_cases,
-    worked=[((np.array([1.0, 3.0]), np.array([2.0, 2.0])), 0.5), ((np.array([2.0, 3.0]), np.array([2.0, 0.0])), 0.875)],
-    hints=(
-        "Every agent of x against every agent of y: `x[:, None]` and `y[None, :]` make a table of all pairs.",
-        "1 where x is above, 0.5 where they are equal, 0 elsewhere; then the mean of the table.",
-    ),
-    mistakes={
-        "return np.mean(x > y)":
-            "A tie counts half. With your count, two equal methods would both be worse than each other.",
-        "return np.mean(x >= y)":
-            "A tie counts half. With your count, two equal methods would both be better than each other.",
-        "x, y = x[:, None], y[None, :] ->":
-            "You compare agent 0 with agent 0 only. The seeds of two methods have nothing in common: compare every "
-            "pair.",
-        "x > y -> x < y":
-            "This is how often the *other* method is better: x and y are swapped.",
-        "return float(x.mean() > y.mean())":
-            "You compare two means and answer with yes or no. Count in how many pairs of agents x is ahead.",
-    },
-)  # fmt: skip
-def chance_of_improvement(x, y):
-    x, y = x[:, None], y[None, :]
-    return np.mean((x > y) + 0.5 * (x == y))
-
-
 def group_cases(rng):
     """Equal groups, two clusters, three seeds, one resample; then 30 at random, of different sizes."""
     sizes = [(5, 5), (10, 10), (3, 3), (4, 8), *rng.integers(2, 12, (30, 2))]
