@@ -146,7 +146,6 @@ def variations_table(varied: dict[str, Results]) -> str:
     for variation, found in varied.items():
         for method in found.methods:
             cells = [bracketed(score(found, method, measure)) for measure in ("success", "returns", "collision")]
-            counts = escaped(found, method), found_and_kept(found, method)
-            rows.append([variation, display_name(method), *counts, *cells])
-    headings = ["changed", "method", "agents that escape", FOUND_AND_KEPT]
+            rows.append([variation, display_name(method), found_and_kept(found, method), *cells])
+    headings = ["changed", "method", FOUND_AND_KEPT]
     return markdown([*headings, *(HEADINGS[m] for m in ("success", "returns", "collision"))], rows)
