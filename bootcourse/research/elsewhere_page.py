@@ -375,6 +375,6 @@ all confirm it. "=" can only be contradicted or stay open. Intervals of means ar
 
 EVERY = f"""Rates of agents have exact (Clopper-Pearson) intervals; means over agents have 95 % intervals from
 resampling agents, of length 0 where all agents score the same. Drawn: actions drawn from the policy instead of the most
-probable ones. Found: agents that succeeded in more than half of some {WINDOW} training episodes in a row. Last {WINDOW}:
-agents that succeeded in more than half of the last ones.
+probable ones. Found: agents that succeeded in more than half of some {WINDOW} training episodes in a row. Last
+{WINDOW}: agents that succeeded in more than half of the last ones.
 """
