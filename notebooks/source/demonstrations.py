@@ -377,10 +377,9 @@ table(["seed", "agreement, %, in states of", *(f"{t} s" for t in times)], rows)
 #   the rule begins its lane change here, on most others one second later, and these clones choose
 #   the earlier second too often.
 # <!-- claim: 0.1 < rule_keeps_left(2) < 0.5 and rule_keeps_left(3) > 0.9 -->
-# - **At 5 s** these clones agree with the rule on hardly any road, in their own states. But the
-#   figure shows that these states are still close to demonstrated ones. A few seconds later they
-#   are further away, and some clones agree more often again. So distance alone does not tell where
-#   a clone errs.
+# - **At 5 s** these clones agree with the rule on hardly any road, in their own states. But two of
+#   the four are still close to demonstrated states there (the figure). A second later these two are
+#   further away, and agree more often again. So distance alone does not tell where a clone errs.
 # - **In the worst case** an error brings a clone to states that nobody demonstrated, it errs more
 #   often there, and the errors compound (Ross and Bagnell 2010). The bound of this round allows
 #   that. Our table does not show that it happens here, and the study speaks against it: its ten
