@@ -50,6 +50,8 @@ def test_the_return_at_a_budget_is_the_mean_of_the_last_episodes_that_ended_with
     monkeypatch.setattr(beyond, "WINDOW", 2)
     np.testing.assert_array_equal(at_budget(LEARNING, np.array(budget)), expected)
     assert np.isnan(at_budget({"decisions": LEARNING["decisions"]}, np.array(budget))).all()
+    ahead = {"decisions": LEARNING["decisions"], "success": LEARNING["return"]}
+    np.testing.assert_array_equal(at_budget(ahead, np.array(budget), "success"), expected)
 
 
 def test_seconds_are_shared_equally_among_the_decisions_of_a_training(monkeypatch):

@@ -62,20 +62,20 @@ def learner_rows(named: Mapping[str, Results]) -> tuple[list[str], list[list[str
     return ["", "agents that escape", "drives that do, %", "return [95 %]", "accidents, %", learned], rows
 
 
-def at_budget(curves: dict[str, np.ndarray], decisions: float | np.ndarray) -> np.ndarray:
-    """Mean training return of the last `WINDOW` episodes that ended within so many decisions, (agents,).
+def at_budget(curves: dict[str, np.ndarray], decisions: float | np.ndarray, measure: str = "return") -> np.ndarray:
+    """Mean of a measure over the last `WINDOW` training episodes that ended within so many decisions, (agents,).
 
     curves: each (agents, episodes), NaN for episodes that were not driven. decisions: of each agent, or (agents,). NaN
     for an agent whose whole training was shorter, or that ended fewer episodes, and where a curve is missing.
     """
-    episodes, returns = lengths(curves), curves.get("return")
-    if episodes is None or returns is None:
+    episodes, values = lengths(curves), curves.get(measure)
+    if episodes is None or values is None:
         return np.full(len(next(iter(curves.values()), [0])), np.nan)
-    means, totals = np.full(len(returns), np.nan), np.nansum(episodes, axis=1, dtype=float)
-    for i, budget in enumerate(np.broadcast_to(decisions, len(returns))):
+    means, totals = np.full(len(values), np.nan), np.nansum(episodes, axis=1, dtype=float)
+    for i, budget in enumerate(np.broadcast_to(decisions, len(values))):
         ended = np.searchsorted(np.cumsum(episodes[i], dtype=float), budget, side="right")
         if totals[i] >= budget and ended >= WINDOW:
-            means[i] = returns[i, ended - WINDOW : ended].mean(dtype=float)
+            means[i] = values[i, ended - WINDOW : ended].mean(dtype=float)
     return means
 
 

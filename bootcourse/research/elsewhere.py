@@ -4,7 +4,7 @@ A cell is a problem, a teacher and a method; its seeds train side by side. Metho
 each problem. γ, episodes and the copies driven at once are the same for all methods but PPO of a problem; SAC, soft,
 demonstrations and both have the library's target entropy -1, and SAC also a usable one, 0.3 log |A|. β and, with α, ξ
 fade: β over the first two thirds of the episodes. An agent has *found* the way if a window of 20 training episodes
-succeeds in more than half, and has *kept* it if the last window does.
+succeeds in more than half; `kept` of the files says that the last window does.
 """
 
 import math

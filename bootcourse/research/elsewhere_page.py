@@ -20,7 +20,7 @@ from matplotlib.patches import Rectangle
 
 from bootcourse.files import write_bytes
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, save
-from bootcourse.research.elsewhere import ALONE, HYPOTHESES, METHODS, NOBODY, TAUGHT, USABLE
+from bootcourse.research.elsewhere import ALONE, HYPOTHESES, METHODS, NOBODY, TAUGHT, USABLE, WINDOW
 from bootcourse.research.problems import PROBLEMS
 from bootcourse.research.results import Results
 from bootcourse.research.tables import bracketed, k_of_n, markdown
@@ -264,7 +264,7 @@ def agent_rows(cells: Cells) -> tuple[list[str], list[list[str]]]:
         counts = [str(int(measured[which].sum())) for which in ("found", "kept")]
         table.append([PROBLEMS[problem].name, teacher, method, solving, *numbers, *counts])
     headings = ["problem", "teacher", "method", f"agents that succeed in more than {100 * SOLVES:g} %"]
-    return [*headings, "success, %", "drawn", "return", "drawn", "found", "kept"], table
+    return [*headings, "success, %", "drawn", "return", "drawn", "found", f"last {WINDOW}"], table
 
 
 def findings(cells: Cells) -> list[str]:
@@ -373,7 +373,8 @@ was written when the first three problems were computed. A hypothesis fails if a
 all confirm it. "=" can only be contradicted or stay open. Intervals of means are from resampling agents.
 """
 
-EVERY = """Rates of agents have exact (Clopper-Pearson) intervals; means over agents have 95 % intervals from resampling
-agents, of length 0 where all agents score the same. Drawn: actions drawn from the policy instead of the most probable
-ones. Found: agents that succeeded in more than half of some 20 training episodes in a row; kept: of the last 20.
+EVERY = f"""Rates of agents have exact (Clopper-Pearson) intervals; means over agents have 95 % intervals from
+resampling agents, of length 0 where all agents score the same. Drawn: actions drawn from the policy instead of the most
+probable ones. Found: agents that succeeded in more than half of some {WINDOW} training episodes in a row. Last
+{WINDOW}: agents that succeeded in more than half of the last ones.
 """

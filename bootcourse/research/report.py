@@ -181,7 +181,7 @@ Success is to be ahead of trap 1 at the end; a crash after overtaking counts as 
 
 An agent *escapes* if it succeeds on at least {escapes:g} % of the held-out roads. "Found, kept" says how many agents
 found the way out in training, that is, ended ahead in more than half of some {window} episodes in a row, and how many
-of these kept it: after training they succeed on more than half of the held-out roads.
+of these kept it, that is, escape after training.
 """
 
 FIDELITY = """The paper's intervals assume 20 test episodes, the number that its "5 ± 22.36 %" gives away.

@@ -78,17 +78,17 @@ class Results:
         return self.episodes(measure).mean(axis=1)
 
     def escapers(self, method: str) -> int:
-        """How many agents of a method escape."""
+        """How many agents of a method escape: they succeed on at least `ESCAPES` of their held-out roads."""
         return int((self.of(method).scores("success") >= ESCAPES).sum())
 
     def found_and_kept(self, method: str) -> tuple[np.ndarray, np.ndarray]:
         """Which agents of a method found the way out (see `found`), and which of these kept it, each (agents,) bool.
 
-        Kept: after training the agent ends ahead on more than half of its held-out roads.
+        Kept: after training the agent escapes, see `escapers`.
         """
         mine = self.of(method)
         way_out = found(mine.curves["success"])
-        return way_out, way_out & (mine.scores("success") > 0.5)
+        return way_out, way_out & (mine.scores("success") >= ESCAPES)
 
     def episodes(self, measure: str) -> np.ndarray:
         """A measure in every held-out episode, (agents, episodes); an event is 1 where it happened, else 0.

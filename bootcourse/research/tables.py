@@ -146,7 +146,6 @@ def variations_table(varied: dict[str, Results]) -> str:
     for variation, results in varied.items():
         for method in results.methods:
             cells = [bracketed(score(results, method, measure)) for measure in ("success", "returns", "collision")]
-            counts = escaped(results, method), found_and_kept(results, method)
-            rows.append([variation, display_name(method), *counts, *cells])
-    headings = ["changed", "method", "agents that escape", FOUND_AND_KEPT]
+            rows.append([variation, display_name(method), found_and_kept(results, method), *cells])
+    headings = ["changed", "method", FOUND_AND_KEPT]
     return markdown([*headings, *(HEADINGS[m] for m in ("success", "returns", "collision"))], rows)

@@ -64,7 +64,8 @@ print(f"after training: ahead of trap 1 on {100 * tested:.0f} % of the held-out 
 #
 # - An agent has **found** the way out if more than half of some {{ WINDOW }} training episodes in a
 #   row ended ahead of trap 1.
-# - It has **kept** it if, after training, it is also ahead on more than half of the held-out roads.
+# - It has **kept** it if it escapes after training: it is ahead on at least
+#   {{ 100 * ESCAPES | .0f }} % of the held-out roads.
 #
 # Neither says how well it drives: an accident after overtaking counts, too, as in the paper.
 #
@@ -91,10 +92,8 @@ def forgetting(success, window):
 check.forgetting(forgetting)
 
 # %%
-rows = [
-    [bc.display_name(m), tables.found_and_kept(study, m), tables.escaped(study, m)] for m in methods
-]
-table(["", "found, kept", f"escapes, {100 * bc.statistics.ESCAPES:.0f} % or more"], rows)
+rows = [[bc.display_name(m), tables.found_and_kept(study, m)] for m in methods]
+table(["", "found, kept"], rows)
 
 # %% [markdown]
 # **See.** With demonstrations alone {{ way(of_all(), 'demos').found }} of ten found the way out and
@@ -299,22 +298,21 @@ below = "Found, kept. Plain SAC and the soft constraint alone have no driver: on
 table(headings, rows, below=below)
 
 # %% [markdown]
-# **See.** *With the soft constraint alone most agents find the way out with each number of updates,
-# and fewer keep it with more than a quarter.* {{ way(clocks()['1/4', 'π̃'], 'soft').found }},
+# **See.** *With the soft constraint alone agents find the way out earlier with more updates, and
+# about half keep it with up to two.* {{ way(clocks()['1/4', 'π̃'], 'soft').found }},
 # {{ way(clocks()['1', 'μ'], 'soft').found }} and {{ way(clocks()['2', 'π̃'], 'soft').found }} of
 # ten find it with a quarter, one and two, half of them by episode
 # {{ clocks_out('1/4') | .0f }} with a quarter and by {{ clocks_out('2') | .0f }} with two.
 # {{ way(clocks()['1/4', 'π̃'], 'soft').kept }}, {{ way(clocks()['1', 'μ'], 'soft').kept }} and
 # {{ way(clocks()['2', 'π̃'], 'soft').kept }} keep it, and
-# {{ way(clocks()['4', 'μ'], 'soft').kept }} of three with four updates. That is what the clocks
-# predict: ξ is a tenth after {{ clocks_run_down('1/4') | .0f }} episodes with a quarter and after
-# {{ clocks_run_down('2') | .0f }} with two (medians). The p of a trend is {{ trend_p() | .2f }}, so
-# the direction fits and ten agents are not proof.
+# {{ way(clocks()['4', 'μ'], 'soft').kept }} of three with four updates. The clocks predict a fall:
+# ξ is a tenth after {{ clocks_run_down('1/4') | .0f }} episodes with a quarter and after
+# {{ clocks_run_down('2') | .0f }} with two (medians). The counts do not contradict that, and they
+# do not show it: the p of a trend is {{ trend_p() | .2f }}.
 # <!-- claim: [way(clocks()[of], 'soft').found for of in (('1/4', 'π̃'), ('1', 'μ'), ('2', 'π̃'))]
 # == [10, 10, 8] and way(clocks()['4', 'μ'], 'soft') == (2, 0, 3) -->
-# <!-- claim: way(clocks()['1/4', 'π̃'], 'soft').kept > max(way(clocks()[of], 'soft').kept for of in
-#   (('1', 'μ'), ('2', 'π̃'))) and clocks_out('2') < clocks_out('1/4') and 0.05 <
-#   trend_p() < 0.2 -->
+# <!-- claim: all(5 <= way(clocks()[of], 'soft').kept <= 6 for of in (('1/4', 'π̃'), ('1', 'μ'),
+#   ('2', 'π̃'))) and clocks_out('2') < clocks_out('1/4') / 2 and trend_p() > 0.1 -->
 #
 # *With demonstrations alone it matters who drives them.* With π̃ each of the
 # {{ over_updates('π̃').n }} agents finds the way out, and {{ over_updates('π̃').kept }} keep it;
@@ -322,20 +320,20 @@ table(headings, rows, below=below)
 # {{ over_updates('μ').kept }} keep it. Compared at equal numbers of updates (a stratified exact
 # test), p is {{ driver_p('found') | .3f }} for finding and {{ driver_p('kept') | .3f }} for
 # keeping. The number of updates shows less: between a quarter and two, with the same driver, p is
-# {{ updates_p('found') | .2f }} and {{ updates_p('kept') | .2f }}.
+# {{ updates_p('found') | .2f }} for finding and {{ updates_p('kept') | .2f }} for keeping.
 # <!-- claim: over_updates('π̃').found == over_updates('π̃').n > over_updates('π̃').kept and
 #   over_updates('μ').found < over_updates('μ').n -->
-# <!-- claim: max(driver_p('found'), driver_p('kept')) < 0.05 < min(updates_p('found'),
-#   updates_p('kept')) -->
+# <!-- claim: max(driver_p('found'), driver_p('kept')) < 0.05 and all(updates_p(which) >
+#   driver_p(which) for which in ('found', 'kept')) -->
 #
 # These are many p values, and lesson [[how_many_seeds]] has warned you. With the ones of Round 5
 # this lesson prints {{ len(p_values()) }}. After Holm {{ surviving() }} of them stay below 0.05:
-# the comparisons of Round 5. The rest, the drivers' included, are hints.
+# the comparisons of Round 5. The rest, the drivers' and the updates' included, are hints.
 # <!-- claim: {name for name, p in holm().items() if p < 0.05} == {'bonus, margin', 'choices'} -->
 
 # %% [markdown] tags=["instructor"] minutes=6
 # Ask for the experiment that would turn the trend into a result: how many agents of the soft
-# constraint alone, with which two numbers of updates? (`bc.statistics.power(0.8, 0.5, n)`.)
+# constraint alone, with which two numbers of updates? (`bc.statistics.power(0.6, 0.4, n)`.)
 
 # %% [markdown]
 # ## Round 5: how likely is the paper's table?
@@ -443,9 +441,9 @@ table(["found, kept", *kinds], rows)
 #    training mixes them.
 # 2. ξ fades with updates and β with episodes. Which aid carries the learning depends on how often
 #    you update, and on who demonstrates. Name both with the result.
-# 3. With more updates the soft constraint alone finds the way out earlier and keeps it less often.
-# <!-- claim: clocks_out('2') < clocks_out('1/4') and way(clocks()['2', 'π̃'], 'soft').kept <
-#   way(clocks()['1/4', 'π̃'], 'soft').kept -->
+# 3. With more updates the soft constraint alone finds the way out earlier. Whether it also keeps it
+#    less often, as its clock predicts, ten agents do not show.
+# <!-- claim: clocks_out('2') < clocks_out('1/4') and trend_p() > 0.05 -->
 # 4. With demonstrations alone agents lose the way out as β ends, and fewer do if it stays.
 # 5. A table of single agents is largely luck: with one reading of the paper it comes out as printed
 #    in about a third of the draws.

@@ -6,9 +6,10 @@ import numpy as np
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.policies import stochastic_rule_policy
+from bootcourse.research.results import Results
 from bootcourse.road.state import EGO, LANE, TRAP_1, X
 from bootcourse.scenario import ACTION_NAMES, DEFAULT
-from tools.course.known import rule_drives, shipped_runs
+from tools.course.known import rule_drives, shipped_runs, shipped_teachers
 
 
 def way_out() -> tuple[float, float]:
@@ -30,6 +31,17 @@ def clone_agrees(seed: int, second: int) -> float:
     """The share of 40 roads on which a clone of the study does at a second what the rule would do in its place."""
     drives = record(shipped_runs("bc")[seed].agent.as_policy(), range(40))
     return float(np.mean([drive.actions[second] == drive.rule_actions[second] for drive in drives]))
+
+
+@cache
+def agreement_at_5() -> np.ndarray:
+    """The same at 5 s for each clone of the study that ships."""
+    return np.array([clone_agrees(seed, 5) for seed in range(len(shipped_runs("bc")))])
+
+
+def taught_by_dagger() -> Results:
+    """The ten DAgger agents that the rule taught, of the experiment on teachers."""
+    return shipped_teachers()["rule", "dagger"]
 
 
 @cache

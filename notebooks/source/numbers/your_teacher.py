@@ -9,7 +9,7 @@ from bootcourse.course.lessons.your_teacher.driven_out import OUT, drive_out
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.learn.teachers import teacher_policy, toward
 from bootcourse.research import teachers
-from bootcourse.research.beyond import lengths
+from bootcourse.research.beyond import at_budget, lengths
 from bootcourse.road.state import EGO, LANE
 from bootcourse.statistics import ESCAPES
 from scipy import stats
@@ -81,10 +81,9 @@ def decisions(teacher: str, method: str) -> float:
     return float(np.nansum(lengths(worth()[teacher, method].curves), axis=1, dtype=float).mean()) / 1000
 
 
-def spread(method: str) -> str:
-    """The lowest and the highest of these means over teachers, "161 to 212"."""
-    each = [decisions(teacher, m) for teacher, m in worth() if m == method]
-    return f"{min(each):.0f} to {max(each):.0f}"
+def learned(teacher: str, method: str, thousands: float) -> float:
+    """How often such agents were ahead in training after so many thousand decisions, in %; see `at_budget`."""
+    return 100 * float(at_budget(worth()[teacher, method].curves, 1000 * thousands, "success").mean())
 
 
 @cache

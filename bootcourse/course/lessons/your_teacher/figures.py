@@ -1,6 +1,6 @@
 """What a teacher is worth, each agent as a dot."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -20,7 +20,7 @@ from bootcourse.plots.figure import (
     new_figure,
     plain_axes,
 )
-from bootcourse.research.beyond import lengths
+from bootcourse.research.beyond import at_budget
 from bootcourse.research.jobs import HELD_OUT
 from bootcourse.research.plan import TAUGHT
 from bootcourse.research.teacher_worth import QUANTITIES, Cells, in_words
@@ -109,18 +109,22 @@ def _title(label: str, estimates: dict) -> str:
     return f"{name}: from {low} to {high}"
 
 
-def worth_table(computed: Cells) -> tuple[list[str], list[list[str]]]:
-    """(headings, rows): of each teacher's agents, how many escape, and how many decisions each took."""
-    methods = [method for method in TAUGHT if any(method == each for _, each in computed)]
+def equal_table(computed: Cells, budgets: Sequence[tuple[str, int]]) -> tuple[list[str], list[list[str]]]:
+    """(headings, rows): how often each teacher's agents were ahead in training, in %, at equal numbers of decisions.
+
+    budgets: (method, decisions) of each column. A cell is a mean over agents, see `at_budget`; "–" where an agent's
+    training was shorter.
+    """
     rows = []
     for teacher in dict.fromkeys(teacher for teacher, _ in computed):
-        cells = []
-        for method in methods:
+        row = [TEACHERS[teacher].words]
+        for method, decisions in budgets:
             results = computed.get((teacher, method))
-            spent = "" if results is None else f"{np.nansum(lengths(results.curves), axis=1).mean() / 1000:,.0f}"
-            cells.append("not run" if results is None else f"{results.escapers(method)} ({spent})")
-        rows.append([TEACHERS[teacher].words, *cells])
-    return ["of ten escape (thousand decisions of each)", *map(display_name, methods)], rows
+            ahead = np.nan if results is None else 100 * at_budget(results.curves, decisions, "success").mean()
+            row.append("–" if np.isnan(ahead) else f"{ahead:.0f}")
+        rows.append(row)
+    columns = [f"{display_name(method)}, {decisions / 1000:g} thousand" for method, decisions in budgets]
+    return ["ahead in training, %, after so many decisions", *columns], rows
 
 
 def own_returns(teachers: Iterable[str]) -> dict[str, float]:

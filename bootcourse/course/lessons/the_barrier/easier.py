@@ -1,0 +1,87 @@
+"""SAC with one thing made easier, and nothing else changed: an experiment of the study.
+
+    bootcourse study easier --out DIR    # some minutes
+
+`LaneKeeper`: the nine actions are wishes that a lane keeper carries out, so attempts to leave are better driven.
+`LaterStart`: an episode begins after the 8 s in which the lesson's plan steers, on the free lane, behind the traps and
+as fast as they are. (One second later a car passes them even if it does nothing.) Each kind has ten agents with the
+paper's γ and ten that look further ahead; they learn by themselves, as those of the lesson's first round do.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from bootcourse.course.lessons.the_barrier.attempts import PLAN, keep_lane
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
+from bootcourse.learn.settings import settings_for, with_seeds
+from bootcourse.learn.training import MOST_EPISODES, Training
+from bootcourse.research.jobs import Interrupted, orphaned
+from bootcourse.research.plan import LessonExperiment
+from bootcourse.research.results import Results, agent_entries, as_arrays
+from bootcourse.road import twin
+from bootcourse.road.state import EGO, LANE, SPEED
+from bootcourse.road.vector_env import TrapVectorEnv
+
+SEEDS, GAMMAS = 10, (0.8, 0.95)
+UPDATES = (2_000, 4_000)  # after which the agents are tested; the lesson's agents have the first
+ROADS = held_out_seeds(7, 200)
+LATER = 8  # s
+
+
+class LaneKeeper(TrapVectorEnv):
+    """The road, with other actions: 3 (1 + turn) + 1 + pace, each of the two -1, 0 or 1.
+
+    A lane keeper steers to the middle of the lane on the left (turn -1), of its own, or of the one on the right, and
+    wants to be slower by 1 m/s (pace -1), as fast, or faster.
+    """
+
+    def step(self, actions):
+        cars, actions = self.cars, np.asarray(actions)
+        lanes = np.clip(cars[:, EGO, LANE] + actions // 3 - 1, 0, self.scenario.road.lanes - 1)
+        return super().step(keep_lane(cars, cars[:, EGO, SPEED] + actions % 3 - 1, lanes))
+
+
+class LaterStart(TrapVectorEnv):
+    """The road after the first `LATER` seconds of the lesson's plan. Where these have an accident, another is drawn."""
+
+    def _start(self, mask: np.ndarray) -> None:
+        while mask.any():
+            super()._start(mask)
+            accidents = np.where(mask, 0, 1)
+            for action in PLAN[:LATER]:
+                actions, asleep = np.full(self.num_envs, action), accidents != 0
+                rewards, terms = np.zeros(self.num_envs), np.zeros((self.num_envs, 3))
+                twin.decide(self.cars, actions, asleep, self.constants, rewards, terms, accidents, twin.NO_TRACE)
+            self.decisions[mask] = LATER
+            mask = mask & (accidents != 0)
+
+
+KINDS: dict[str, Callable] = {"as it is": TrapVectorEnv, "a lane keeper": LaneKeeper, "a later start": LaterStart}
+EXPERIMENT = LessonExperiment(f"{__name__}:train_kind", {kind: {"kind": kind} for kind in KINDS})
+
+
+def train_kind(kind: str) -> dict[str, np.ndarray]:
+    """Train the agents of a kind side by side: the arrays of a file of results. Raises Interrupted.
+
+    Tested: on `ROADS`, as this kind drives them, by the most probable action. Measured, (agents,): the shares of drives
+    that end ahead without an accident and in an accident after each number of updates: unhurt_2000, accident_2000 ...
+    """
+    settings = [agent for g in GAMMAS for agent in with_seeds(settings_for("sac", gamma=g), SEEDS)]
+    training, measured = Training(settings, MOST_EPISODES, make_env=KINDS[kind]), {}
+    for updates in UPDATES:
+        training.run(progress=False, updates=updates, stop=orphaned)
+        if training.updates < updates:
+            raise Interrupted(kind)
+        policies = [agent.as_policy() for agent in training.result().agents]
+        drives = [drive_episodes(policy, ROADS, None, make_env=KINDS[kind]) for policy in policies]
+        accident = np.stack([each.accident > 0 for each in drives])
+        success = np.stack([each.success for each in drives])
+        measured |= {f"accident_{updates}": accident.mean(1), f"unhurt_{updates}": (success & ~accident).mean(1)}
+    results = Results(
+        agent_entries(settings),
+        np.array([training.stopped.get(i, -1) for i in range(len(settings))]),
+        {"success": success.astype(np.int8), "accident": accident.astype(np.int8)},
+        measured=measured,
+    )
+    return as_arrays(results)

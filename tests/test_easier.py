@@ -1,0 +1,45 @@
+"""SAC with one thing made easier: what the two other roads do, and that nothing else is different."""
+
+import numpy as np
+
+from bootcourse.course.lessons.the_barrier.easier import LATER, LaneKeeper, LaterStart
+from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, X
+from bootcourse.road.vector_env import TrapVectorEnv
+
+SEEDS = list(range(20))
+STAY, LEFT, FASTER = 4, 1, 5  # of the lane keeper's wishes
+
+
+def driven(env: TrapVectorEnv, action: int, decisions: int) -> TrapVectorEnv:
+    env.reset(seed=SEEDS)
+    for _ in range(decisions):
+        _, _, terminated, _, _ = env.step(np.full(len(SEEDS), action))
+        if action == STAY:
+            assert not terminated.any()
+    return env
+
+
+def test_the_lane_keeper_keeps_lane_and_speed_and_goes_where_it_is_told():
+    env = driven(LaneKeeper(len(SEEDS)), STAY, 20)
+    assert (env.cars[:, EGO, LANE] == 2).all() and np.allclose(env.cars[:, EGO, SPEED], 10)
+    assert (driven(LaneKeeper(len(SEEDS)), LEFT, 3).cars[:, EGO, LANE] < 2).any()
+    assert (driven(LaneKeeper(len(SEEDS)), FASTER, 1).cars[:, EGO, SPEED] > 10.5).all()
+
+
+def test_a_later_start_is_on_the_free_lane_behind_the_traps_as_fast_as_they_are():
+    env = LaterStart(len(SEEDS))
+    observations, _ = env.reset(seed=SEEDS)
+    ego, trap = env.cars[:, EGO], env.cars[:, TRAP_1]
+    assert (ego[:, LANE] == 0).all() and (ego[:, X] < trap[:, X]).all() and np.allclose(ego[:, SPEED], 10)
+    assert (env.decisions == LATER).all() and np.array_equal(observations, env.observe())
+
+
+def test_an_episode_that_is_over_starts_later_again_and_the_others_go_on():
+    env = LaterStart(len(SEEDS))
+    env.reset(seed=SEEDS)
+    env.decisions[0] = env.scenario.clock.decisions - 1
+    before = env.cars[1:, EGO, X].copy()
+    _, _, _, truncated, infos = env.step(np.full(len(SEEDS), STAY))
+    assert truncated[0] and not truncated[1:].any() and infos["_final_obs"][0]
+    assert env.decisions[0] == LATER and (env.decisions[1:] == LATER + 1).all()
+    assert env.cars[0, EGO, LANE] == 0 and np.allclose(env.cars[1:, EGO, X] - before, 10, atol=0.5)
