@@ -76,7 +76,7 @@ def lane_keeping_steering(offset, heading, v, length, tau_lateral, tau_heading):
     """Steering angle (rad) that brings a car back to its lane's centre, as in highway-env's `ControlledVehicle`.
 
     offset: metres to the right of the centre. tau_lateral, tau_heading: time constants in seconds. The heading alone
-    is unstable if dt / tau_heading > 2: 0.5 s / 0.2 s = 2.5 (highway-env's default at 2 Hz), 0.5 s / 0.6 s = 0.83 (ours).
+    is unstable if dt / tau_heading > 2: 0.5 s / 0.2 s = 2.5 (highway-env's default at 2 Hz); ours is 0.5 s / 0.6 s.
     """
     if offset == 0.0 and heading == 0.0:
         return 0.0

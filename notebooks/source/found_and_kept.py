@@ -15,10 +15,10 @@
 #
 # **What you will be able to do**
 # - tell an agent that never found the way out from one that found it and lost it;
-# - explain why the number of updates decides which aid helps;
+# - explain why the number of updates may decide which aid lasts;
 # - say how likely a table of single agents is.
 #
-# **Time** 65 minutes, under one of them the machine's. **It builds on** the seeds (lesson
+# **Time** 60 minutes, under one of them the machine's. **It builds on** the seeds (lesson
 # [[how_many_seeds]]) and, for the margin, on [[learning_from_demonstrations]].
 
 # %%
@@ -31,7 +31,8 @@ from bootcourse.research import clocks, tables
 # %% [markdown]
 # ## Look first
 #
-# This agent learned from demonstrations alone. How good is it?
+# Here is one of the study's ten agents with demonstrations alone: the one that was ahead most often
+# in episodes 700 to 900. How good is it?
 
 # %%
 methods = ("sac", "soft", "demos", "bootstrapped")
@@ -74,7 +75,7 @@ print(f"after training: ahead of trap 1 on {100 * tested:.0f} % of the held-out 
 # <!-- claim: escaped('demos') == 0 and len(of('demos')) == 10 -->
 
 # %%
-predict("found_and_kept.1", "How many had found it?", ["none", "1 to 3", "4 to 7", "8 or more"])
+predict("found_and_kept.1", "How many had found it?", ["1 to 3", "4 to 7", "8 or more"])
 
 # %% [markdown]
 # **Exercise (12 min, ●●●).** When did an agent find the way out, and until when did it have it? For
@@ -99,9 +100,9 @@ table(["", "found, kept"], rows)
 # **See.** With demonstrations alone {{ way(of_all(), 'demos').found }} of ten found the way out and
 # {{ way(of_all(), 'demos').kept }} kept it. With the soft constraint, alone or with demonstrations,
 # all ten found it, and {{ way(of_all(), 'soft').kept }} and
-# {{ way(of_all(), 'bootstrapped').kept }} kept it. Of plain SAC one found it and kept it. So
-# in this study the soft constraint finds the way out in each agent, and demonstrations alone find
-# it in half of them, and lose it in all of these.
+# {{ way(of_all(), 'bootstrapped').kept }} kept it. Of plain SAC one found it and kept it. So in
+# this study each agent with the soft constraint found the way out. With demonstrations alone half
+# of the agents did, and none of these kept it.
 # <!-- claim: [way(of_all(), m).found for m in ('sac', 'soft', 'bootstrapped', 'demos')] == [1, 10,
 #   10, 5] and
 #   way(of_all(), 'sac').kept == 1 and way(of_all(), 'demos').kept == 0 -->
@@ -112,25 +113,10 @@ table(["", "found, kept"], rows)
 # %% [markdown]
 # ## Round 2: how long does an agent look?
 #
-# To find something an agent has to try different actions. The **entropy** of its policy says how
-# undecided it is, in *nats*. e to the power of it is easier to picture: a policy that chooses
-# evenly among k actions has the entropy log k, so $e^\mathcal{H} = k$, the **effective number of
-# actions**.
+# To find something an agent has to try different actions. The paper measures how many it chooses
+# among: e to the power of the mean entropy of its policy, the **effective number of actions**. A
+# policy that chooses evenly among k actions has the entropy log k, so its effective number is k.
 #
-# $$ \mathcal{H}(\pi(\cdot|s)) = -\sum_a \pi(a|s) \log \pi(a|s) $$
-#
-# **Exercise (6 min, ●○○).** Write it. A probability may be exactly 0: 0 · log 0 counts as 0.
-
-
-# %%
-def effective_actions(policy):
-    """e to the power of the entropy of each row: (batch, 9) probabilities -> (batch,)."""
-    # solution: the exercise's own
-
-
-check.effective_actions(effective_actions)
-
-# %% [markdown]
 # > **Predict.** In episodes 200 to 300, who chooses among more actions: plain SAC, or the agents
 # > with the soft constraint?
 
@@ -148,8 +134,15 @@ table(["effective actions, episodes", *(f"{a} to {b}" for a, b in spans)], rows)
 
 # %% [markdown]
 # **See.** In episodes 200 to 300 plain SAC and demonstrations alone are almost decided; with the
-# soft constraint an agent still has {{ undecided('soft', 200, 300) | .1f }} effective actions. At
-# the end all four are nearly certain.
+# soft constraint an agent still has {{ undecided('soft', 200, 300) | .1f }} effective actions, with
+# both aids {{ undecided('bootstrapped', 200, 300) | .1f }}. At the end all four are nearly certain.
+#
+# The paper reports the opposite (Section V): in its figure SAC stays undecided for longer, and the
+# paper's method loses its entropy rapidly, which it reads as efficient exploration. Here both aids
+# keep an agent undecided for *longer* than plain SAC, and it is these agents that find the way out.
+# We do not know why the two differ.
+# <!-- claim: undecided('bootstrapped', 200, 300) > 1.2 * undecided('sac', 200, 300) and
+#   undecided('bootstrapped', 0, 100) > undecided('sac', 0, 100) -->
 # <!-- claim: max(undecided(m, 200, 300) for m in ('sac', 'demos')) < 0.8 * min(undecided(m, 200,
 #   300) for m in ('soft', 'bootstrapped')) -->
 # <!-- claim: all(undecided(m, -100, None) < 1.1 for m in ('sac', 'soft', 'demos', 'bootstrapped'))
@@ -165,13 +158,12 @@ table(["effective actions, episodes", *(f"{a} to {b}" for a, b in spans)], rows)
 # All end nearly certain because the paper's target entropy, {{ SETTINGS.target_entropy }}, cannot
 # be reached with nine actions (lesson [[discrete_sac]]): each update lowers α, and with it ξ =
 # {{ SETTINGS.xi_multiplier | .0f }}α. So the soft constraint runs by a clock that counts *updates*.
-# Entropy says how a policy chooses, not where it gets: a driver with all nine actions at random
-# crashes within seconds.
 # <!-- claim: SETTINGS.target_entropy < 0 -->
 
 # %% [markdown] tags=["instructor"] minutes=4
-# The paper reads a higher entropy as better exploration. Let them name an undecided driver that
-# explores nothing, and a decided one that does (the rule).
+# Entropy says how a policy chooses, not where it gets. Let them name an undecided driver that
+# explores nothing (all nine actions at random: it crashes within seconds), and a decided one that
+# does (the rule).
 
 # %% [markdown]
 # ## Round 3: when the demonstrations end
@@ -242,9 +234,10 @@ table(headings, rows)
 # {{ way(of_all(), 'demos').kept }} keep it; if β never ends,
 # {{ way(ablations()['β for ever'], 'demos').found }} find it and
 # {{ way(ablations()['β for ever'], 'demos').kept }} keep it. Of those that found it, more keep it
-# if the demonstrations stay (Fisher's p is {{ keeping_p('demos') | .2f }}), so the reading passes,
-# with few agents. With both aids all ten find it in each row, and ten agents are too few to tell
-# apart how many keep it (p is {{ keeping_p('bootstrapped') | .2f }}).
+# if the demonstrations stay (Fisher's p is {{ keeping_p('demos') | .2f }}): a hint that the reading
+# is right. With both aids all ten find it in each row, and ten agents are too few to tell apart how
+# many keep it (p is {{ keeping_p('bootstrapped') | .2f }} for never against
+# {{ SETTINGS.beta_episodes | , }}).
 # <!-- claim: way(ablations()['β over 300 episodes'], 'demos').found == way(of_all(), 'demos').kept
 #   == 0 < way(of_all(), 'demos').found < way(ablations()['β for ever'], 'demos').found and
 #   keeping_p('demos') < 0.05 < keeping_p('bootstrapped') -->
@@ -270,12 +263,13 @@ table(headings, rows)
 # four.
 # <!-- claim: SETTINGS.updates == 1 and SETTINGS.envs_per_agent == 4 -->
 #
-# > **Predict.** You make two updates for each decision instead. Which of the two aids is a tenth
-# > of its start first? And which agents will lose the way out more often: those with the soft
-# > constraint alone, or those with demonstrations?
+# > **Predict.** You make two updates for each decision instead, so that ξ fades first. Of which ten
+# > agents will more keep the way out: of those with the soft constraint alone, or of those with
+# > demonstrations alone, driven by π̃?
 
 # %%
-predict("found_and_kept.4", "Two updates for each decision: which aid fades first?", ["ξ", "β"])
+choices = ["the soft constraint alone", "demonstrations alone", "about the same"]
+predict("found_and_kept.4", "Two updates for each decision: of which do more keep it?", choices)
 
 # %%
 cells = clocks.cells(shipped.shipped_experiment("clocks"))
@@ -298,37 +292,30 @@ below = "Found, kept. Plain SAC and the soft constraint alone have no driver: on
 table(headings, rows, below=below)
 
 # %% [markdown]
-# **See.** *With the soft constraint alone agents find the way out earlier with more updates, and
-# about half keep it with up to two.* {{ way(clocks()['1/4', 'π̃'], 'soft').found }},
-# {{ way(clocks()['1', 'μ'], 'soft').found }} and {{ way(clocks()['2', 'π̃'], 'soft').found }} of
-# ten find it with a quarter, one and two, half of them by episode
-# {{ clocks_out('1/4') | .0f }} with a quarter and by {{ clocks_out('2') | .0f }} with two.
-# {{ way(clocks()['1/4', 'π̃'], 'soft').kept }}, {{ way(clocks()['1', 'μ'], 'soft').kept }} and
-# {{ way(clocks()['2', 'π̃'], 'soft').kept }} keep it, and
-# {{ way(clocks()['4', 'μ'], 'soft').kept }} of three with four updates. The clocks predict a fall:
-# ξ is a tenth after {{ clocks_run_down('1/4') | .0f }} episodes with a quarter and after
-# {{ clocks_run_down('2') | .0f }} with two (medians). The counts do not contradict that, and they
-# do not show it: the p of a trend is {{ trend_p() | .2f }}.
+# **See.** Read the columns one at a time.
+#
+# *The soft constraint alone.* With up to two updates 8 to 10 of ten agents find the way out, and
+# about half keep it; with four, two of three find it and none keeps it. The clocks predict a fall.
+# The counts do not contradict that, and they do not show it: the p of a trend is
+# {{ trend_p() | .2f }}.
 # <!-- claim: [way(clocks()[of], 'soft').found for of in (('1/4', 'π̃'), ('1', 'μ'), ('2', 'π̃'))]
 # == [10, 10, 8] and way(clocks()['4', 'μ'], 'soft') == (2, 0, 3) -->
 # <!-- claim: all(5 <= way(clocks()[of], 'soft').kept <= 6 for of in (('1/4', 'π̃'), ('1', 'μ'),
-#   ('2', 'π̃'))) and clocks_out('2') < clocks_out('1/4') / 2 and trend_p() > 0.1 -->
+#   ('2', 'π̃'))) and trend_p() > 0.1 -->
 #
-# *With demonstrations alone it matters who drives them.* With π̃ each of the
+# *Demonstrations alone.* Here the driver may matter: with π̃ each of the
 # {{ over_updates('π̃').n }} agents finds the way out, and {{ over_updates('π̃').kept }} keep it;
 # with μ {{ over_updates('μ').found }} of {{ over_updates('μ').n }} find it and
 # {{ over_updates('μ').kept }} keep it. Compared at equal numbers of updates (a stratified exact
 # test), p is {{ driver_p('found') | .3f }} for finding and {{ driver_p('kept') | .3f }} for
-# keeping. The number of updates shows less: between a quarter and two, with the same driver, p is
-# {{ updates_p('found') | .2f }} for finding and {{ updates_p('kept') | .2f }} for keeping.
+# keeping. Between a quarter and two updates, with the same driver, p is
+# {{ updates_p('found') | .2f }} and {{ updates_p('kept') | .2f }}.
 # <!-- claim: over_updates('π̃').found == over_updates('π̃').n > over_updates('π̃').kept and
 #   over_updates('μ').found < over_updates('μ').n -->
-# <!-- claim: max(driver_p('found'), driver_p('kept')) < 0.05 and all(updates_p(which) >
-#   driver_p(which) for which in ('found', 'kept')) -->
 #
-# These are many p values, and lesson [[how_many_seeds]] has warned you. With the ones of Round 5
-# this lesson prints {{ len(p_values()) }}. After Holm {{ surviving() }} of them stay below 0.05:
-# the comparisons of Round 5. The rest, the drivers' and the updates' included, are hints.
+# All of these are hints. With the p values of Rounds 3 and 5 this lesson prints
+# {{ len(p_values()) }}, and after Holm (lesson [[how_many_seeds]]) {{ surviving() }} stay below
+# 0.05: two comparisons of Round 5.
 # <!-- claim: {name for name, p in holm().items() if p < 0.05} == {'bonus, margin', 'choices'} -->
 
 # %% [markdown] tags=["instructor"] minutes=6
@@ -356,7 +343,7 @@ table(headings, rows, below=below)
 # > with it. How often do all four rates read as the paper's, 0, 0, 100 and 100 %?
 
 # %%
-how_often = ["in under 1 %", "in about a third", "in about two thirds", "in over 90 %"]
+how_often = ["in under 1 %", "in 10 to 60 %", "in over 90 %"]
 predict("found_and_kept.5", "The four rates read as the paper's", how_often)
 
 # %% [markdown]
@@ -380,13 +367,16 @@ for (updates, driver), agents_of in cells.items():
 table(["updates for a decision", "driver", "reads as the paper's, % [95 % over seeds]"], rows)
 
 # %% [markdown]
-# **See.** With two updates and π̃ a table of single agents reads as the paper's in
+# **See.** The rows differ widely. With two updates and π̃ a table of single agents reads as the
+# paper's in
 # {{ 100 * pattern(clocks()['2', 'π̃']).value | .0f }} % (interval over seeds:
 # {{ 100 * pattern(clocks()['2', 'π̃']).low | .0f }} to
 # {{ 100 * pattern(clocks()['2', 'π̃']).high | .0f }} %). With the study's choices it does in
 # {{ 100 * pattern(clocks()['1/4', 'μ']).value | .0f }} % over 1,200 episodes, and for the study
 # itself, with {{ of('sac').curves['success'].shape[1] | , }}, in
-# {{ 100 * pattern(of_all()).value | .0f }} % (0 to {{ 100 * pattern(of_all()).high | .1f }} %).
+# {{ 100 * pattern(of_all()).value | .0f }} % (0 to {{ 100 * pattern(of_all()).high | .1f }} %). We
+# looked at all these rows and quote the largest, so this is what the most favourable of the
+# readings that we tried gives.
 # <!-- claim: pattern(clocks()['2', 'π̃']).low > 0.05 > pattern(clocks()['1/4', 'μ']).value >
 #   pattern(of_all()).value and clocks()['1/4', 'μ'].curves['success'].shape[1] == 1200 -->
 #
@@ -399,17 +389,23 @@ rows = []
 for method in ("demos", "margin", "bootstrapped", "margin_soft"):
     counts = [tables.found_and_kept(agents_of, method) for agents_of in kinds.values()]
     rows.append([bc.display_name(method), *counts])
-table(["found, kept", *kinds], rows)
+headings = [f"{name}, {r.curves['success'].shape[1]:,} episodes" for name, r in kinds.items()]
+table(["found, kept", *headings], rows)
 
 # %% [markdown]
 # **See.** With two updates and π̃ the bonus is ahead, as the paper reports: without the soft
 # constraint {{ way(shipped_results('paper'), 'demos').kept }} of ten keep the way out with the
 # bonus and {{ way(shipped_results('paper'), 'margin').kept }} with the margin, which ten agents
-# show (p is {{ p_values()['bonus, margin'] | .0e }}). With the constraint it is
+# show (p is {{ p_values()['bonus, margin'] | .4f }}). With the constraint it is
 # {{ way(shipped_results('paper'), 'bootstrapped').kept }} and
 # {{ way(shipped_results('paper'), 'margin_soft').kept }}, which they do not
-# ({{ p_values()['bonus, margin, with ξ'] | .2f }}). In the study no order is visible. Our margin
-# uses the Q-filter as the paper prints it; the usual one is not in these runs.
+# ({{ p_values()['bonus, margin, with ξ'] | .2f }}). In the study no order is visible. Do not read
+# the two columns against each other: β ends at episode {{ SETTINGS.beta_episodes | , }} in both, so
+# one counts after 1,000 further episodes and the other after 200. Our margin uses the Q-filter as
+# the paper prints it; the usual one is not in these runs.
+# <!-- claim: [shipped_results('paper').curves['success'].shape[1],
+#   of('demos').curves['success'].shape[1], SETTINGS.beta_episodes,
+#   shipped_results('paper').of('demos').agents[0]['beta_episodes']] == [1200, 2000, 1000, 1000] -->
 # <!-- claim: p_values()['bonus, margin'] < 0.01 and p_values()['bonus, margin, with ξ'] > 0.05 and
 #   way(of_all(), 'demos').kept == way(of_all(), 'margin').kept == 0 -->
 # <!-- claim: {len(shipped_results('paper').of(m)) for m in ('demos', 'margin', 'bootstrapped',
@@ -439,20 +435,22 @@ table(["found, kept", *kinds], rows)
 #
 # 1. To find the way out and to keep it are two things: count both. One number at the end of
 #    training mixes them.
-# 2. ξ fades with updates and β with episodes. Which aid carries the learning depends on how often
-#    you update, and on who demonstrates. Name both with the result.
-# 3. With more updates the soft constraint alone finds the way out earlier. Whether it also keeps it
-#    less often, as its clock predicts, ten agents do not show.
-# <!-- claim: clocks_out('2') < clocks_out('1/4') and trend_p() > 0.05 -->
-# 4. With demonstrations alone agents lose the way out as β ends, and fewer do if it stays.
-# 5. A table of single agents is largely luck: with one reading of the paper it comes out as printed
-#    in about a third of the draws.
+# 2. ξ fades with updates and β with episodes, so which aid lasts depends on how often you update.
+#    Name the updates for a decision, the roads at a time and the demonstrations' driver with the
+#    result: the paper's table comes out or not as they are chosen.
+# 3. Agents with demonstrations alone lose the way out as β ends with the study's choices; with two
+#    updates and π̃ ten of ten keep it, over 200 episodes after the end.
+# <!-- claim: way(clocks()['2', 'π̃'], 'demos').kept == 10 and way(of_all(), 'demos').kept == 0 -->
+# 4. Here both aids keep agents undecided for longer than plain SAC; in the paper it is the other way
+#    round.
+# 5. A table of single agents is largely luck: in the most favourable of the readings that we tried
+#    it comes out as the paper's in about a third of the draws.
 # <!-- claim: 0.2 < pattern(clocks()['2', 'π̃']).value < 0.45 -->
 #
 # **Three questions to think about**
 # - Would you let β end at 0? What would you watch to decide it?
 # - Which of the two problems would a larger target entropy help with?
-# - Reviewer 2 asks for "the success rate". Which two numbers do you give, and over what?
+# - A reviewer asks for "the success rate". Which two numbers do you give, and over what?
 #
 # **Read on**: [lesson [[your_teacher]]](your_teacher.ipynb) repeats the ablation with a teacher of
 # your own. Christodoulou, *Soft Actor-Critic for Discrete Action Settings* (arXiv 1910.07207);
@@ -467,8 +465,8 @@ compare_predictions(
         1: f"{had} of 10",
         2: "the soft constraint alone",
         3: "falls, and recovers in most",
-        4: "ξ",
-        5: f"in {of_100:.0f} %",
+        4: "demonstrations alone",
+        5: f"in 10 to 60 %: {of_100:.0f} %",
     },
 )
 
@@ -481,5 +479,5 @@ compare_predictions(
 #   each seed around that episode, and the Q of the demonstrated actions.
 # - *A larger target entropy?* With finding: a reachable target keeps α, and with it ξ, above 0, so
 #   an agent goes on trying. Whether it also helps keeping was tried with three agents a row.
-# - *Reviewer 2?* How many trainings found it and how many kept it, each of how many, beside the
+# - *The reviewer?* How many trainings found it and how many kept it, each of how many, beside the
 #   share of drives of those that kept it.

@@ -1,32 +1,6 @@
 """Answers to the exercises of the lesson on finding the way out and keeping it."""
 
-import numpy as np
-
-from tests.answers import equivalent, right_lines, wrong, wrong_lines
-
-for _value in (1.01, 1.1):
-    _change = f"np.where(policy > 0, policy, 1.0)  ->  np.where(policy > 0, policy, {_value})"
-    equivalent("effective_actions", _change, "its logarithm is multiplied by a policy of 0")
-
-
-right_lines("""effective_actions
-    with scipy: np.exp(stats.entropy(policy, axis=-1))
-    as a product: np.array([np.prod([p**-p for p in row if p > 0]) for row in policy])
-    in bits to the end: 2 ** stats.entropy(policy, axis=-1, base=2)
-""")
-
-
-@wrong("effective_actions", "NaN")
-def zero_times_minus_infinity(policy):
-    with np.errstate(all="ignore"):
-        return np.exp(-(policy * np.log(policy)).sum(-1))
-
-
-wrong_lines("""effective_actions
-    inverse of the largest: 1 / policy.max(axis=-1)
-    away from zero: np.exp(-(policy * np.log(policy + 1e-3)).sum(-1))
-    of the whole drive: np.exp(stats.entropy(policy.mean(axis=0)))  # a number
-""")
+from tests.answers import equivalent, right_lines, wrong_lines
 
 PADDED = "np.pad(np.asarray(success{0}), ((0, 0), (1, 0)))"
 equivalent("forgetting", f"{PADDED.format(', dtype=float')}  ->  {PADDED.format('')}", "sums of 0 and 1 are exact")

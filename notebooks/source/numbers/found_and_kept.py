@@ -4,7 +4,6 @@ from functools import cache
 from typing import NamedTuple
 
 import numpy as np
-from bootcourse.course.lessons.found_and_kept.figures import half_found
 from bootcourse.research import clocks as study_clocks
 from bootcourse.research.results import WINDOW, Results  # noqa: F401 (the text names it)
 from bootcourse.rule import stochastic_rule
@@ -25,16 +24,6 @@ def rule_actions() -> float:
 def ablations() -> dict[str, Results]:
     """The ten agents of each method with one choice of the method changed, by what was changed."""
     return shipped_experiment("ablations")
-
-
-def clocks_run_down(updates: str) -> float:
-    """The episode in which the soft agents' ξ is down to a tenth, the median of ten."""
-    return study_clocks.faded(clocks()[updates, "π̃"].of("soft").curves["xi"])
-
-
-def clocks_out(updates: str) -> int:
-    """The episode by which half of the soft agents have found the way out."""
-    return half_found(clocks()[updates, "π̃"].of("soft"))
 
 
 class Counted(NamedTuple):

@@ -5,51 +5,6 @@ import numpy as np
 from bootcourse.course.exercise import exercise
 
 
-def some_policies(rng, rows: int) -> np.ndarray:
-    """Policies from undecided to sure, (rows, 9)."""
-    logits = rng.normal(0, 1, (rows, 9)) * rng.uniform(0, 4, (rows, 1))
-    policy = np.exp(logits - logits.max(axis=-1, keepdims=True))
-    return policy / policy.sum(axis=-1, keepdims=True)
-
-
-SURE = np.eye(9)[[4, 0]]  # two states, one action each
-EVEN = np.full((3, 9), 1 / 9)
-HALVES = np.array([[0.5, 0.5, 0, 0, 0, 0, 0, 0, 0], [0.25, 0.25, 0.25, 0.25, 0, 0, 0, 0, 0]])
-
-
-def policy_cases(rng):
-    """Sure, even, halves, a drive of one decision, sure and not; then 40 at random."""
-    yield from ((policy,) for policy in (SURE, EVEN, HALVES, HALVES[:1], np.concatenate([SURE, HALVES])))
-    yield from ((some_policies(rng, rng.integers(1, 12)),) for _ in range(40))
-
-
-@exercise(
-    "exp(H(π(·|s))), the entropy figure of Section V", minutes=6, difficulty=1, cases=policy_cases,
-    worked=[((EVEN[:1],), np.array([9.0])), ((HALVES,), np.array([2.0, 4.0]))],
-    hints=(
-        "Entropy first: minus the sum over the actions of π log π. Then e to the power of it.",
-        "0 · log 0 counts as 0: where π is 0, take the logarithm of 1 instead.",
-    ),
-    mistakes={
-        "np.exp ->":
-            "This is the entropy, in nats. The effective number of actions is e to the power of it.",
-        "np.log -> np.log2":
-            "You mix two units: an entropy in bits (log2) goes with a power of 2, one in nats with a power of e.",
-        "-np.sum -> np.sum":
-            "Your number is below 1: the sign is wrong. Entropy is *minus* the sum of π log π.",
-        "return np.sum(policy > 0, axis=-1).astype(float)":
-            "You count all actions with a probability above 0. One of probability 0.001 should hardly count.",
-        "return 1 / np.sum(policy**2, axis=-1)":
-            "This is another effective number, 1 / Σ π². Ours comes from the entropy: e to the power of H.",
-        "np.sum -> np.mean":
-            "You took the mean over the nine actions. Entropy is a sum: π is the weight already.",
-    },
-)  # fmt: skip
-def effective_actions(policy):
-    safe = np.where(policy > 0, policy, 1.0)
-    return np.exp(-np.sum(policy * np.log(safe), axis=-1))
-
-
 def training_curves(rng):
     """Never, always, found and kept, found and lost, a window as long as the training; then 30 at random."""
     yield np.zeros((2, 6)), 3
