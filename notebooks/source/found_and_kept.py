@@ -441,8 +441,8 @@ table(["found, kept", *headings], rows)
 # 3. Agents with demonstrations alone lose the way out as β ends with the study's choices; with two
 #    updates and π̃ ten of ten keep it, over 200 episodes after the end.
 # <!-- claim: way(clocks()['2', 'π̃'], 'demos').kept == 10 and way(of_all(), 'demos').kept == 0 -->
-# 4. Here both aids keep agents undecided for longer than plain SAC; in the paper it is the other way
-#    round.
+# 4. Here both aids keep agents undecided for longer than plain SAC; in the paper it is the other
+#    way round.
 # 5. A table of single agents is largely luck: in the most favourable of the readings that we tried
 #    it comes out as the paper's in about a third of the draws.
 # <!-- claim: 0.2 < pattern(clocks()['2', 'π̃']).value < 0.45 -->
