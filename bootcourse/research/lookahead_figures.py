@@ -73,11 +73,11 @@ def rows(cells: dict[str, Results], wanted: Sequence[Cell]) -> tuple[list[str], 
             accidents = f"{one.accidents} in {one.drives:,}: {each:.2f} [{low:.2f}, {high:.2f}]"
             lines.append(
                 [display_name(cell.base), FORM_NAMES[cell.form], str(cell.horizon) if cell.form != "alone" else ""]
-                + [cell.model, str(one.agents), about, accidents, f"{100 * one.success:.1f}"]
+                + [cell.model, str(one.agents), f"{one.roads:,}", about, accidents, f"{100 * one.success:.1f}"]
                 + [f"{1000 * one.overruled:.1f}", f"{one.milliseconds:.2f}"]
             )
-    headings = ["base policy", "form", "horizon", "model", "agents", "return [95 %]", "accidents in 1,000 [95 %]"]
-    return [*headings, "ahead, %", "overruled in 1,000", "ms a decision"], lines
+    headings = ["base policy", "form", "horizon", "model", "agents", "roads", "return [95 %]"]
+    return [*headings, "accidents in 1,000 [95 %]", "ahead, %", "overruled in 1,000", "ms a decision"], lines
 
 
 def _accident_axis(axis_of: Axes, axis: str) -> None:
@@ -208,6 +208,7 @@ def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
 
 
 def _drives(scores: dict[str, Score]) -> str:
-    """ " (10 agents x 200 roads)", of the wrong models."""
-    one = list(scores.values())[-1]
-    return f" ({one.agents} agent{'s' * (one.agents > 1)} × {one.roads:,} roads)"
+    """ " (10 agents × 300 to 1,000 roads)", of all models."""
+    agents, roads = ({getattr(one, name) for one in scores.values()} for name in ("agents", "roads"))
+    agents, roads = (" to ".join(f"{n:,}" for n in sorted({min(each), max(each)})) for each in (agents, roads))
+    return f" ({agents} agents × {roads} roads)"

@@ -205,8 +205,8 @@ how many agents reached it in their training.
 LOOK_AHEAD = """Nothing is trained here: trained agents drive alone, with rollouts, or with a shield that overrules only
 an action that is imagined to end in an accident; with the exact model of the road, and with wrong ones. Return: mean
 over agents with its 95 % interval over agents. Accidents: over all drives, with the exact (Clopper-Pearson) interval,
-as if all drives were independent. An agent drives the first 1,000 held-out roads. Where a cell takes long, it drives
-the first 300 or 100: compare such a cell by its interval. Time: of one core, on a machine with other work.
+as if all drives were independent. The roads are those that each agent drives, the first of the held-out ones. Time: of
+one core, on a machine with other work.
 """
 
 BUDGET = """Each method has γ = 0.97 and the best of three settings, which were compared on other seeds and roads (the
