@@ -17,6 +17,7 @@ from bootcourse.episodes.models import MODELS
 from bootcourse.errors import BootcourseError
 from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import GRID, INK, QUIET, SMALL, TEXT, finish, new_figure, plain_axes, wrapped
+from bootcourse.research.distil import AGENTS, BASE
 from bootcourse.research.lookahead import CLOSELY, FORMS, HORIZONS, Cell
 from bootcourse.research.results import Results
 from bootcourse.statistics import Estimate, interval, rate
@@ -78,6 +79,20 @@ def rows(cells: dict[str, Results], wanted: Sequence[Cell]) -> tuple[list[str], 
             )
     headings = ["base policy", "form", "horizon", "model", "agents", "roads", "return [95 %]"]
     return [*headings, "accidents in 1,000 [95 %]", "ahead, %", "overruled in 1,000", "ms a decision"], lines
+
+
+def learned_rows(tried: dict[str, Results], cells: dict[str, Results]) -> tuple[list[str], list[list[str]]]:
+    """(headings, rows): what the students of the look-ahead do alone (`distil.py`), below the agents that they were.
+
+    tried: the students by what they learned; cells: the look-ahead's, which hold these agents before.
+    """
+    before, lines = cells.get(Cell(BASE, "alone").name), []
+    as_they_were = {"nothing: the agents as they were": before.pick(range(AGENTS))} if before else {}
+    for words, results in (as_they_were | tried).items():
+        of = results.measured
+        accidents = ", ".join(f"{1000 * k / n:.0f}" for k, n in zip(of["accidents"], of["roads"], strict=True))
+        lines.append([words, ", ".join(f"{value:.1f}" for value in of["returns"]), accidents])
+    return ["learned", "return of each agent", "accidents in 1,000 of each"], lines
 
 
 def _accident_axis(axis_of: Axes, axis: str) -> None:

@@ -4,9 +4,12 @@ from functools import cache
 
 from bootcourse.episodes.lookahead import HORIZON
 from bootcourse.episodes.models import MODELS
+from bootcourse.research import distil
 from bootcourse.research.lookahead import MANY, ROADS, Cell
 from bootcourse.research.lookahead_figures import Score, score
-from bootcourse.research.results import experiment
+from bootcourse.research.results import Results, experiment
+from bootcourse.statistics import Estimate, interval
+from tools.course.known import shipped_teachers
 
 NOISE, LATE = "places off by 1 m, speeds by 0.5 m/s", "everything a second late"
 OTHERS_LATE = "the others a second late"
@@ -39,3 +42,24 @@ def worse_than_shield(base: str) -> int:
     """With how many of the wrong models the rollouts have more accidents for each drive than the shield."""
     wrong = [model for model in MODELS if model != "exact"]
     return sum(per_thousand(base, model=one) > per_thousand(base, "shield", model=one) for one in wrong)
+
+
+@cache
+def learned() -> dict[str, Results]:
+    """The students of the look-ahead, by what they learned."""
+    return experiment("distil")
+
+
+def before():
+    """Accidents of the agents that these students were, (agents,)."""
+    return shipped()[Cell(distil.BASE, "alone").name].measured["accidents"][: distil.AGENTS]
+
+
+def taught_by(teacher: str, method: str) -> Estimate:
+    """The return of a teacher's ten agents."""
+    return interval(shipped_teachers()[teacher, method].scores("returns"))
+
+
+def escaping(teacher: str, method: str) -> int:
+    """How many of these escape."""
+    return shipped_teachers()[teacher, method].escapers(method)
