@@ -34,10 +34,10 @@ WORST = -5.0  # regression: a value further below the best counts as this
 OFTEN, SECONDS = 20.0, 5  # weight of a state in which the label is not the base's action; decisions driven on from it
 
 TRIES = {  # {what is learned: arguments of `distilled`}
-    "the best of nine actions": {"target": "actions"},
-    "the shield's actions": {"target": "shield", "weight": OFTEN},
-    "the best of nine, and what follows where it is not the base's": {"target": "actions", "onward": SECONDS},
-    "nine values, by 256 x 256 neurons": {"target": "values", "hidden": (256, 256)},
+    "the best action": {"target": "actions"},
+    "the action of the shield": {"target": "shield", "weight": OFTEN},
+    "the best action, also further on": {"target": "actions", "onward": SECONDS},
+    "nine values, 256 x 256 neurons": {"target": "values", "hidden": (256, 256)},
 }
 
 

@@ -404,11 +404,11 @@ table(*learned_rows(shipped_experiment("distil"), study))
 # after cloning have
 # {{ per_thousand('ppo_cloned', 'alone') | .1f }} accidents in 1,000 drives and a return
 # of {{ ahead('ppo_cloned', 'alone').returns.value | .1f }}. The same agents with the shield have
-# {{ ahead('ppo_cloned', 'shield').accidents }} accidents in
-# {{ ahead('ppo_cloned', 'shield').drives | , }} drives: at most
-# {{ 10_000 * ahead('ppo_cloned', 'shield').accident_rate.high | .1f }} in 10,000, by
+# {{ ahead('ppo_cloned', 'shield', roads=MANY).accidents }} accidents in
+# {{ ahead('ppo_cloned', 'shield', roads=MANY).drives | , }} drives: at most
+# {{ 100_000 * ahead('ppo_cloned', 'shield', roads=MANY).accident_rate.high | .1f }} in 100,000, by
 # the 95 % interval.
-# <!-- claim: ahead('ppo_cloned', 'shield').accident_rate.high < 1e-3 -->
+# <!-- claim: ahead('ppo_cloned', 'shield', roads=MANY).accident_rate.high < 2e-4 -->
 #
 # ## What you now know
 #
