@@ -205,7 +205,7 @@ def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
     if low < alone.returns.value - FARTHEST:  # where everything crashes: off the axis, and said in words
         axes[1].set_xlim(alone.returns.value - FARTHEST, high)
         _name_what_is_off(axes[1], scores_of, names, alone.returns.value - FARTHEST)
-    axes[0].set_yticks(range(len(names)), names, fontsize=TEXT, color=INK)
+    axes[0].set_yticks(range(len(names)), [name.replace(", ", ",\n") for name in names], fontsize=TEXT, color=INK)
     axes[1].set_yticks([])
     axes[0].text(alone.accident_rate.value * 1000, -0.62, "alone", ha="center", fontsize=SMALL, color=QUIET)
     axes[1].text(alone.returns.value, -0.62, "alone", ha="center", fontsize=SMALL, color=QUIET)

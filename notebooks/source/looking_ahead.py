@@ -387,9 +387,9 @@ table(*learned_rows(shipped_experiment("distil"), study))
 # <!-- claim: all((students.measured['accidents'] > before()).all() for students in
 #   learned().values()) and len(learned()) == 4 -->
 #
-# Nor is the look-ahead the better *teacher* (experiment `teachers`, lesson [[your_teacher]]). The
-# rule with rollouts earns {{ ahead('rule').returns.value | .0f }}, the rule
-# {{ ahead('rule', 'alone').returns.value | .0f }}. Ten PPO agents that began as its clones earn
+# Nor was the look-ahead the better *teacher*, in equal numbers of episodes (experiment `teachers`,
+# lesson [[your_teacher]]). The rule with rollouts earns {{ ahead('rule').returns.value | .0f }}, the
+# rule {{ ahead('rule', 'alone').returns.value | .0f }}. Ten PPO agents that began as its clones earn
 # {{ taught_by('rule-rollouts', 'ppo_cloned').value | .0f }}
 # [{{ taught_by('rule-rollouts', 'ppo_cloned').low | .0f }},
 # {{ taught_by('rule-rollouts', 'ppo_cloned').high | .0f }}], ten clones of the rule
@@ -397,6 +397,9 @@ table(*learned_rows(shipped_experiment("distil"), study))
 # [{{ taught_by('rule', 'ppo_cloned').low | .0f }},
 # {{ taught_by('rule', 'ppo_cloned').high | .0f }}]. Of ten agents that DAgger trained with it
 # {{ escaping('rule-rollouts', 'dagger') }} escape, with the rule {{ escaping('rule', 'dagger') }}.
+# Clones of the better teacher crash early, so they drove less: the PPO agents
+# {{ decided('rule-rollouts', 'ppo_cloned') | .0f }} thousand decisions instead of
+# {{ decided('rule', 'ppo_cloned') | .0f }} thousand.
 # <!-- claim: taught_by('rule-rollouts', 'ppo_cloned').value < taught_by('rule', 'ppo_cloned').value
 #   and escaping('rule-rollouts', 'dagger') < escaping('rule', 'dagger') -->
 #

@@ -2,9 +2,11 @@
 
 from functools import cache
 
+import numpy as np
 from bootcourse.episodes.lookahead import HORIZON
 from bootcourse.episodes.models import MODELS
 from bootcourse.research import distil
+from bootcourse.research.beyond import lengths
 from bootcourse.research.lookahead import MANY, ROADS, Cell
 from bootcourse.research.lookahead_figures import Score, score
 from bootcourse.research.results import Results, experiment
@@ -58,6 +60,11 @@ def before():
 def taught_by(teacher: str, method: str) -> Estimate:
     """The return of a teacher's ten agents."""
     return interval(shipped_teachers()[teacher, method].scores("returns"))
+
+
+def decided(teacher: str, method: str) -> float:
+    """The thousand decisions of each of these agents' training, the mean."""
+    return float(np.nansum(lengths(shipped_teachers()[teacher, method].curves), axis=1, dtype=float).mean()) / 1000
 
 
 def escaping(teacher: str, method: str) -> int:
