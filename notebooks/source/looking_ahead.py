@@ -372,24 +372,26 @@ for kind in Accident:
 # agent *learn* what the look-ahead does: imitate it, look ahead from the better agent, imitate
 # again? This is called **expert iteration**, and with it AlphaZero learned Go.
 #
-# The experiment `distil` tried four ways, with two PPO agents. In each of
-# {{ distil.ROUNDS }} rounds the student drives {{ distil.DRIVES }} roads, the look-ahead of the
-# agent that it was labels every state that it reaches, and it learns from the labels of all rounds
-# (DAgger, lesson [[demonstrations]]). Then it drives alone:
+# The experiment `distil` tried four ways, with two PPO agents. In each of {{ distil.ROUNDS }} rounds
+# the student drives {{ distil.DRIVES }} roads, its PPO agent's look-ahead labels every state that it
+# reaches, and it learns from the labels of all rounds (DAgger, lesson [[demonstrations]]). It
+# learns the best action; that of the shield; the best action, also in the {{ distil.SECONDS }}
+# decisions after one that the agent would not have taken; or, as a new and larger network, all
+# nine values. Then it drives alone:
 
 # %%
 table(*learned_rows(shipped_experiment("distil"), study))
 
 # %% [markdown]
-# **See.** Each of these students has more accidents than the agent that it was. We think that the
-# improved driver knows more than the 26 numbers say: where they are equal, the best action may
-# differ.
+# **See.** Each of these students has more accidents than its PPO agent. We think that the look-ahead
+# knows more than the 26 numbers say: where they are equal, the best action may differ.
 # <!-- claim: all((students.measured['accidents'] > before()).all() for students in
 #   learned().values()) and len(learned()) == 4 -->
 #
 # Nor was the look-ahead the better *teacher*, in equal numbers of episodes (experiment `teachers`,
-# lesson [[your_teacher]]). The rule with rollouts earns {{ ahead('rule').returns.value | .0f }}, the
-# rule {{ ahead('rule', 'alone').returns.value | .0f }}. Ten PPO agents that began as its clones earn
+# lesson [[your_teacher]]). The rule with rollouts earns
+# {{ ahead('rule').returns.value | .0f }}, the rule
+# {{ ahead('rule', 'alone').returns.value | .0f }}. Ten PPO agents that began as its clones earn
 # {{ taught_by('rule-rollouts', 'ppo_cloned').value | .0f }}
 # [{{ taught_by('rule-rollouts', 'ppo_cloned').low | .0f }},
 # {{ taught_by('rule-rollouts', 'ppo_cloned').high | .0f }}], ten clones of the rule
