@@ -321,7 +321,7 @@ def test_the_figures_and_the_table_say_how_many_drives_end_in_an_accident():
     assert "60 accidents in 2,000 drives alone, 8 accidents" in by_horizon(computed).alt
     assert "others keep speed and lane 4.0 and 130.0" in wrong_models(computed).alt
     headings, lines = rows(computed, cells())
-    assert lines[0][6].startswith("60 in 2,000: 30.00 [") and {len(headings)} == {len(line) for line in lines}
+    assert lines[0][7].startswith("60 in 2,000: 30.00 [") and {len(headings)} == {len(line) for line in lines}
 
 
 def test_a_figure_names_the_cells_that_are_missing():

@@ -12,7 +12,7 @@ from bootcourse.episodes.interactive import InteractiveEpisode, interpolate_stat
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.episodes.words import ACCIDENTS
 from bootcourse.methods import display_name, style
-from bootcourse.plots.futures import Trail
+from bootcourse.plots.futures import LEGEND, Trail
 from bootcourse.plots.road import BEHIND, road_svg
 from bootcourse.plots.svg import GRID, INK, QUIET, SvgAxes, drawing, line, number, rect, span, text
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, Accident, X
@@ -71,7 +71,7 @@ def cockpit(
     )
     top = HEAD + height
     parts = [
-        *_head(drive, ghost, now, coming),
+        *_head(drive, ghost, now, coming, futures),
         *(f'<g transform="translate(0 {HEAD})">', *road, "</g>"),
         *_numbers(drive, ghost, now, time, top + 30),
         *_terms(drive, now, top + 30),
@@ -85,7 +85,9 @@ def cockpit(
     return drawing(WIDTH, top + BELOW, parts, alt)
 
 
-def _head(drive: InteractiveEpisode, ghost: Rollout | None, now: Score, coming: str) -> list[str]:
+def _head(
+    drive: InteractiveEpisode, ghost: Rollout | None, now: Score, coming: str, futures: Futures | None
+) -> list[str]:
     middle = BEHIND * WIDTH
     parts = [text(0, 16, f"road {drive.seed}", fill=QUIET)]
     parts += [rect(middle - 12, 8, 14, 7, OTHER.colour, 'rx="2"'), text(middle + 7, 16, drive.label, bold=True)]
@@ -96,6 +98,8 @@ def _head(drive: InteractiveEpisode, ghost: Rollout | None, now: Score, coming: 
         parts.append(text(WIDTH - 4, 16, f"Over: {now.end}", "end", ALARM, 13, bold=True))
     elif coming:
         parts.append(text(WIDTH - 4, 16, f"next: {coming}", "end", INK, 12))
+    elif futures:
+        parts.append(text(WIDTH - 4, 16, f"imagined drives: {LEGEND}", "end", QUIET, 11))
     return parts
 
 

@@ -65,6 +65,7 @@ class DrivePanel(Panel):
         self.shown, self.coming = 0.0, None
         self.ticker = Ticker(self._tick, FRAMES)
         self.pad, self.view = Pad(self.press), widgets.HTML()
+        self.view.add_class("bc-road")
         self.mode = widgets.ToggleButtons(
             options=[STEPS, REAL], tooltips=["A decision for each press", "A decision for each tick of the clock"]
         )

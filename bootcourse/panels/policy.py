@@ -165,7 +165,7 @@ def action_table(seen: PolicyNumbers, p: float, xi: float, alpha: float, who: st
 
 def rollout_bars(values: np.ndarray, hurt: np.ndarray) -> list[str]:
     """The values of nine imagined drives, (9,), as bars from the least of those without an accident; hurt in red."""
-    parts = heading(WIDTH + 40, "rollouts", "red: an accident", BEST)
+    parts = heading(WIDTH + 40, "rollouts", "bold: driven; red: accident", BEST)
     rows = [ROWS + action * ROW for action in range(N_ACTIONS)]
     parts += [line(WIDTH, y, WIDTH + ROLLOUTS, y, GRID) for y in (*rows[::3], BOTTOM)]
     safe = values[~hurt]

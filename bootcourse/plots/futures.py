@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 import numpy as np
-from matplotlib.colors import LinearSegmentedColormap, to_hex
+from matplotlib.colors import Colormap, LinearSegmentedColormap, to_hex
 from matplotlib.figure import Figure
 
 from bootcourse.colours import ALARM, OTHER, QUIET
@@ -16,7 +16,10 @@ from bootcourse.road.state import EGO, X
 from bootcourse.scenario import ACTION_NAMES, DEFAULT, Scenario
 
 BEHIND, AHEAD, ASIDE = 14.0, 24.0, 1.6  # m behind the ego, beyond the longest imagined drive, beside the road
-SHADES = LinearSegmentedColormap.from_list("value", ["#BFD9EA", "#0B3C66"])  # from the worst safe drive to the best
+# From the worst safe drive to the best: on a light road and on that of a dark theme; on the grey road of the 3D replay.
+SHADES = LinearSegmentedColormap.from_list("value", ["#AFC6D8", "#1B79C4"])
+BRIGHT = LinearSegmentedColormap.from_list("value in 3D", ["#A3B1BE", "#35C4FF"])
+LEGEND = "bluer: worth more; red: ends in an accident"
 THIN, BOLD = 1.2, 3.2  # points
 
 
@@ -31,16 +34,16 @@ class Trail(NamedTuple):
     hurt: bool  # ends in an accident
 
 
-def trails(imagined: Imagined, chosen: int, road: int = 0) -> list[Trail]:
+def trails(imagined: Imagined, chosen: int, road: int = 0, shades: Colormap = SHADES) -> list[Trail]:
     """The nine drives of one road: those of less value first, so that the best lie on top, and the chosen one last."""
     values, hurt, paths = imagined.values[road], imagined.accidents[road] > 0, imagined.paths[road]
     safe = values[~hurt]
     spread = np.ptp(safe) if len(safe) > 1 and np.ptp(safe) > 0 else 1.0
     order = sorted(range(len(values)), key=lambda action: (action == chosen, values[action]))
-    shades = [
-        ALARM if end else to_hex(SHADES((value - safe.min()) / spread)) for value, end in zip(values, hurt, strict=True)
+    colours = [
+        ALARM if end else to_hex(shades((value - safe.min()) / spread)) for value, end in zip(values, hurt, strict=True)
     ]
-    return [Trail(*paths[i].T, shades[i], i == chosen, i, bool(hurt[i])) for i in order]
+    return [Trail(*paths[i].T, colours[i], i == chosen, i, bool(hurt[i])) for i in order]
 
 
 def in_words(imagined: Imagined, road: int = 0) -> str:
@@ -83,7 +86,7 @@ def nine_futures(
         ax.spines[side].set_visible(False)
     ax.tick_params(labelsize=SMALL, labelcolor=QUIET, length=3)
     ax.set_xlabel("distance from the ego (m)", fontsize=SMALL, color=QUIET)
-    words = f"Bold: {ACTION_NAMES[values.argmax()]}, the best. Darker blue: worth more. Red: ends in an accident."
+    words = f"Bold: {ACTION_NAMES[values.argmax()]}, the best. {LEGEND[0].upper()}{LEGEND[1:]}."
     figure.text(0.012, 0.08 / (height + 1.25), words, fontsize=SMALL, color=INK)
     described = (
         f"{name} {'ends in an accident' if end else f'is worth {value:.1f}'}"

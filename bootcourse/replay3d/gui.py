@@ -3,6 +3,7 @@
 from collections.abc import Callable
 
 from bootcourse.methods import display_name
+from bootcourse.plots.futures import LEGEND
 from bootcourse.replay3d import hud, scene
 from bootcourse.replay3d.camera import CAMERAS, point
 from bootcourse.replay3d.player import SPEEDS
@@ -95,9 +96,13 @@ class ReplayControls:
         switches = {"labels": "Distances to the traps", "path": "Path driven", "rule": "What the rule wants"}
         if any(line.imagined is not None for line in self.timelines):
             switches["futures"] = "Nine futures"
-        for field, label in switches.items():
-            box = gui.add_checkbox(label, getattr(options, field))
+        boxes = {field: gui.add_checkbox(label, getattr(options, field)) for field, label in switches.items()}
+        for field, box in boxes.items():
             box.on_update(lambda event, field=field: self._set(field, bool(event.target.value)))
+        if nine := boxes.get("futures"):
+            nine.hint = f"Key F. {LEGEND.capitalize()}; broad: the action that is driven"
+            command = gui.add_command("Show or hide the nine futures", hotkey="F")
+            command.on_trigger(lambda _: setattr(nine, "value", not nine.value))
         dark = gui.add_checkbox("Dark", options.dark)
         dark.on_update(lambda event: self._set("dark", bool(event.target.value), rebuild=True))
 

@@ -11,6 +11,7 @@ from bootcourse.episodes.rollout import series
 from bootcourse.episodes.words import ACCIDENTS
 from bootcourse.markup import Markup, html, joined
 from bootcourse.methods import display_name, style
+from bootcourse.plots.futures import LEGEND
 from bootcourse.plots.svg import SvgAxes
 from bootcourse.replay3d.timeline import Timeline
 from bootcourse.road.state import EGO, Accident
@@ -64,7 +65,9 @@ def status(timeline: Timeline, t: float) -> tuple[str, str]:
 
 def card(timeline: Timeline, t: float) -> Markup:
     """One drive's numbers at time t."""
-    return html('<div class="bc">{}</div>', joined(part(timeline, t) for part in (_head, _numbers, _reward, _choice)))
+    return html(
+        '<div class="bc">{}</div>', joined(part(timeline, t) for part in (_head, _numbers, _reward, _choice, _futures))
+    )
 
 
 def _dot(rollout) -> Markup:
@@ -132,6 +135,13 @@ def _choice(timeline: Timeline, t: float) -> Markup:
     if rollout.policy is not None and rollout.q_values is None:
         page += Markup('<div class="dim">No Q: this agent has none, or it was not recorded.</div>')
     return page + _why(timeline, k)
+
+
+def _futures(timeline: Timeline, t: float) -> Markup:
+    """What the nine imagined drives on the road stand for, where the timeline has some."""
+    if timeline.imagined is None:
+        return Markup("")
+    return html('<div class="dim">imagined drives: {}; broad: driven</div>', LEGEND)
 
 
 def _why(timeline: Timeline, k: int) -> Markup:

@@ -12,7 +12,7 @@ import numpy as np
 from bootcourse.colours import ALARM, rgb
 from bootcourse.errors import BootcourseError
 from bootcourse.methods import display_name, style
-from bootcourse.plots.futures import Trail, trails
+from bootcourse.plots.futures import BRIGHT, Trail, trails
 from bootcourse.replay3d import scene
 from bootcourse.replay3d.camera import CHASE, FIELD_OF_VIEW, pose
 from bootcourse.replay3d.car import CRUMB, DARK, LAMPS, LIGHT, Mesh, car_parts, paint, quads, ring
@@ -154,7 +154,7 @@ class Stage:
             self._car(drive, f"{base}/car{car}", rollout.scenario.car, car, own, GHOST if ghost else None)
         drive.crumbs = _mesh(api, f"{base}/road/path", _crumb_mesh(views[k].crumbs), own, opacity=0.75)
         if timeline.imagined is not None and not ghost:
-            nine = enumerate(trails(timeline.imagined, int(rollout.actions[0]), 0))
+            nine = enumerate(trails(timeline.imagined, int(rollout.actions[0]), 0, BRIGHT))
             drive.futures = [
                 _mesh(api, f"{base}/road/future{i}", _ribbon(each), each.colour, opacity=0.9) for i, each in nine
             ]
@@ -221,7 +221,8 @@ class Stage:
         if not drive.futures or drive.decision == view.decision:
             return
         timeline, drive.decision = self.timelines[self.drives.index(drive)], view.decision
-        nine = trails(timeline.imagined, int(timeline.rollout.actions[view.decision]), view.decision)
+        chosen = int(timeline.rollout.actions[view.decision])
+        nine = trails(timeline.imagined, chosen, view.decision, BRIGHT)
         for node, one in zip(drive.futures, nine, strict=True):
             node.vertices = _ribbon(one).vertices
             self._set(node, color=rgb(one.colour))

@@ -73,14 +73,14 @@ def cells() -> list[Cell]:
     """Every cell, those that matter most first."""
     wrong = [model for model in MODELS if model != "exact"]
     plain = [Cell(base, form, agents) for form in ("alone", "shield") for base, agents in BASES.items()]
-    closely = [Cell("ppo_cloned"), Cell("rule", agents=1), Cell("bootstrapped", roads=FEW)]
-    shields = [Cell("ppo_cloned", "shield", roads=FEW, model=model) for model in wrong]
+    closely = [Cell("ppo_cloned"), Cell("rule", agents=1), Cell("bootstrapped")]
+    shields = [Cell("ppo_cloned", "shield", model=model) for model in wrong]
     horizons = [Cell("ppo_cloned", roads=FEWER, horizon=horizon) for horizon in HORIZONS]
     others = [Cell(base, agents=5, roads=FEWER) for base in ("sac", "soft", "demos", "bc")]
-    rollouts = [Cell("ppo_cloned", roads=FEWER, model=model) for model in wrong]
+    rollouts = [Cell("ppo_cloned", model=model) for model in wrong]
     most = [Cell("ppo_cloned", "shield", roads=MANY)]
-    most += [Cell("bootstrapped", "shield", 5, FEW, model=model) for model in wrong]
-    most += [Cell("bootstrapped", agents=5, roads=FEWER, model=model) for model in wrong]
+    most += [Cell("bootstrapped", "shield", roads=FEW, model=model) for model in wrong]
+    most += [Cell("bootstrapped", roads=FEW, model=model) for model in wrong]
     return [*plain, *closely, *shields, *horizons, *others, *rollouts, *most]
 
 

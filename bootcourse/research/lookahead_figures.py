@@ -17,6 +17,7 @@ from bootcourse.episodes.models import MODELS
 from bootcourse.errors import BootcourseError
 from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import GRID, INK, QUIET, SMALL, TEXT, finish, new_figure, plain_axes, wrapped
+from bootcourse.research.distil import AGENTS, BASE
 from bootcourse.research.lookahead import CLOSELY, FORMS, HORIZONS, Cell
 from bootcourse.research.results import Results
 from bootcourse.statistics import Estimate, interval, rate
@@ -73,11 +74,25 @@ def rows(cells: dict[str, Results], wanted: Sequence[Cell]) -> tuple[list[str], 
             accidents = f"{one.accidents} in {one.drives:,}: {each:.2f} [{low:.2f}, {high:.2f}]"
             lines.append(
                 [display_name(cell.base), FORM_NAMES[cell.form], str(cell.horizon) if cell.form != "alone" else ""]
-                + [cell.model, str(one.agents), about, accidents, f"{100 * one.success:.1f}"]
+                + [cell.model, str(one.agents), f"{one.roads:,}", about, accidents, f"{100 * one.success:.1f}"]
                 + [f"{1000 * one.overruled:.1f}", f"{one.milliseconds:.2f}"]
             )
-    headings = ["base policy", "form", "horizon", "model", "agents", "return [95 %]", "accidents in 1,000 [95 %]"]
-    return [*headings, "ahead, %", "overruled in 1,000", "ms a decision"], lines
+    headings = ["base policy", "form", "horizon", "model", "agents", "roads", "return [95 %]"]
+    return [*headings, "accidents in 1,000 [95 %]", "ahead, %", "overruled in 1,000", "ms a decision"], lines
+
+
+def learned_rows(tried: dict[str, Results], cells: dict[str, Results]) -> tuple[list[str], list[list[str]]]:
+    """(headings, rows): what the students of the look-ahead do alone (`distil.py`), below the agents that they were.
+
+    tried: the students by what they learned; cells: the look-ahead's, which hold these agents before.
+    """
+    before, lines = cells.get(Cell(BASE, "alone").name), []
+    as_they_were = {"nothing: the agents as they were": before.pick(range(AGENTS))} if before else {}
+    for words, results in (as_they_were | tried).items():
+        of = results.measured
+        accidents = ", ".join(f"{1000 * k / n:.0f}" for k, n in zip(of["accidents"], of["roads"], strict=True))
+        lines.append([words, ", ".join(f"{value:.1f}" for value in of["returns"]), accidents])
+    return ["learned", "return of each agent", "accidents in 1,000 of each"], lines
 
 
 def _accident_axis(axis_of: Axes, axis: str) -> None:
@@ -190,7 +205,7 @@ def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
     if low < alone.returns.value - FARTHEST:  # where everything crashes: off the axis, and said in words
         axes[1].set_xlim(alone.returns.value - FARTHEST, high)
         _name_what_is_off(axes[1], scores_of, names, alone.returns.value - FARTHEST)
-    axes[0].set_yticks(range(len(names)), names, fontsize=TEXT, color=INK)
+    axes[0].set_yticks(range(len(names)), [name.replace(", ", ",\n") for name in names], fontsize=TEXT, color=INK)
     axes[1].set_yticks([])
     axes[0].text(alone.accident_rate.value * 1000, -0.62, "alone", ha="center", fontsize=SMALL, color=QUIET)
     axes[1].text(alone.returns.value, -0.62, "alone", ha="center", fontsize=SMALL, color=QUIET)
@@ -208,6 +223,7 @@ def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
 
 
 def _drives(scores: dict[str, Score]) -> str:
-    """ " (10 agents x 200 roads)", of the wrong models."""
-    one = list(scores.values())[-1]
-    return f" ({one.agents} agent{'s' * (one.agents > 1)} × {one.roads:,} roads)"
+    """ " (10 agents × 300 to 1,000 roads)", of all models."""
+    agents, roads = ({getattr(one, name) for one in scores.values()} for name in ("agents", "roads"))
+    agents, roads = (" to ".join(f"{n:,}" for n in sorted({min(each), max(each)})) for each in (agents, roads))
+    return f" ({agents} agents × {roads} roads)"

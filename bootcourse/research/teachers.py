@@ -1,8 +1,9 @@
 """Named teachers from bad to perfect: what a teacher may be in a study (`Job.teacher`, `Variation.teacher`).
 
-All but the planner are the course's rule made worse, and answer for all roads in one call. A teacher is a function of
-the road's true state, so each gives the same answer whenever it is asked about the same road: a study that is stopped
-goes on with the same labels. The order of `TEACHERS` is that of the return that each earns when it drives itself.
+Most are the course's rule made worse. One is the rule with rollouts, which is better. All but the planner, the best,
+answer for all roads in one call. A teacher is a function of the road's true state, so each gives the same answer
+whenever it is asked about the same road: a study that is stopped goes on with the same labels. The order of `TEACHERS`
+is that of the return that each earns when it drives itself.
 """
 
 from functools import lru_cache
@@ -10,8 +11,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from bootcourse.episodes.lookahead import HORIZON, rollout_values
 from bootcourse.errors import check_known
 from bootcourse.learn.teachers import Rule, all_roads, course_rule, slow
+from bootcourse.policies import rule_policy
 from bootcourse.research.planner import planner_rule
 from bootcourse.road.state import ACCELERATION, COLUMNS, HEADING, LANE, SPEED, TARGET_LANE, TRAFFIC, X, Y
 from bootcourse.scenario import IDLE, N_ACTIONS, Scenario
@@ -105,6 +108,13 @@ def remembering_planner() -> Rule:
     return slow(planner)
 
 
+@slow
+@all_roads
+def looking_ahead(cars: np.ndarray, scenario: Scenario) -> np.ndarray:
+    """The rule with rollouts: the best of nine actions, each followed by the rule for the rest of the horizon."""
+    return rollout_values(cars, rule_policy(scenario), HORIZON, scenario).argmax(axis=1)
+
+
 class NamedTeacher(NamedTuple):
     """A teacher of a study."""
 
@@ -120,6 +130,7 @@ TEACHERS = {
     "timid": NamedTeacher("stays behind trap 1", timid),
     "late": NamedTeacher(f"rule, {LATE:g} s late", late),
     RULE: NamedTeacher("rule", course_rule),
+    "rule-rollouts": NamedTeacher("rule with rollouts", looking_ahead),
     PLANNER: NamedTeacher("planner", remembering_planner()),
 }
 

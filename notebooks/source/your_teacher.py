@@ -431,13 +431,15 @@ table(headings, rows)
 #
 # ## Round 5: what a teacher is worth to other learners
 #
-# The students were all of one kind. In the experiment `teachers`, seven teachers taught ten agents
-# of each of five learners (lessons [[demonstrations]], [[the_second_trap]] and [[other_ways]]). Two
-# of them are the rule with a half or a quarter of its decisions at random, one is the rule for a
-# road with left and right exchanged, one sees the road {{ LATE | g }} s late, and the best is the
-# planner. These trainings had equal numbers of *episodes*. An agent that crashes early drives
-# little, so the decisions differ. The figure shows the agents at the end, the table below it shows
-# them at equal decisions: how many of the last 50 training episodes until then ended ahead.
+# The students were all of one kind. In the experiment `teachers`, eight teachers taught ten agents
+# each of up to five learners (lessons [[demonstrations]], [[the_second_trap]], [[other_ways]]). Two
+# are the rule with a half or a quarter of its decisions at random, one is the rule for a road with
+# left and right exchanged, one sees the road {{ LATE | g }} s late. The best two are the rule with
+# rollouts (lesson [[looking_ahead]]) and the planner. The trainings had equal numbers of
+# *episodes*. An agent that crashes early drives little, so the decisions differ. The figure shows
+# the agents at the end, the table below it shows them at equal decisions: how many of the last 50
+# training episodes until then ended ahead.
+# <!-- claim: len({teacher for teacher, _ in worth()}) == 8 -->
 #
 # > **Predict.** The planner earns almost three times as much as the rule. What do PPO agents earn
 # > that began as its clones, compared with clones of the rule?

@@ -2,11 +2,16 @@
 
 from functools import cache
 
+import numpy as np
 from bootcourse.episodes.lookahead import HORIZON
 from bootcourse.episodes.models import MODELS
+from bootcourse.research import distil
+from bootcourse.research.beyond import lengths
 from bootcourse.research.lookahead import MANY, ROADS, Cell
 from bootcourse.research.lookahead_figures import Score, score
-from bootcourse.research.results import experiment
+from bootcourse.research.results import Results, experiment
+from bootcourse.statistics import Estimate, interval
+from tools.course.known import shipped_teachers
 
 NOISE, LATE = "places off by 1 m, speeds by 0.5 m/s", "everything a second late"
 OTHERS_LATE = "the others a second late"
@@ -39,3 +44,29 @@ def worse_than_shield(base: str) -> int:
     """With how many of the wrong models the rollouts have more accidents for each drive than the shield."""
     wrong = [model for model in MODELS if model != "exact"]
     return sum(per_thousand(base, model=one) > per_thousand(base, "shield", model=one) for one in wrong)
+
+
+@cache
+def learned() -> dict[str, Results]:
+    """The students of the look-ahead, by what they learned."""
+    return experiment("distil")
+
+
+def before():
+    """Accidents of the agents that these students were, (agents,)."""
+    return shipped()[Cell(distil.BASE, "alone").name].measured["accidents"][: distil.AGENTS]
+
+
+def taught_by(teacher: str, method: str) -> Estimate:
+    """The return of a teacher's ten agents."""
+    return interval(shipped_teachers()[teacher, method].scores("returns"))
+
+
+def decided(teacher: str, method: str) -> float:
+    """The thousand decisions of each of these agents' training, the mean."""
+    return float(np.nansum(lengths(shipped_teachers()[teacher, method].curves), axis=1, dtype=float).mean()) / 1000
+
+
+def escaping(teacher: str, method: str) -> int:
+    """How many of these escape."""
+    return shipped_teachers()[teacher, method].escapers(method)
