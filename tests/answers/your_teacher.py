@@ -4,7 +4,7 @@ import numpy as np
 
 from bootcourse.learn import teachers as teacher
 from bootcourse.road.state import EGO, LANE, SPEED, X, Y
-from tests.answers import right, right_lines, wrong, wrong_lines
+from tests.answers import right, wrong, wrong_lines
 
 
 @right("my_rule")
@@ -85,45 +85,3 @@ def by_the_time_until_they_meet(cars, scenario):
     arrived = cars[EGO, Y] - 4 * lane < 0.5
     speed = 8.5 if lane == 2 else min(front - 0.5, 14.0) if gap > 12 else front - 1
     return teacher.toward(cars, max(6.5, speed), lane - 1 if free and arrived else lane, scenario)
-
-
-right_lines("""holm
-    by definition: p = np.asarray(p)
-        ranks = np.argsort(np.argsort(p, kind="stable"), kind="stable")
-        scaled = np.minimum((len(p) - ranks) * p, 1)
-        np.array([scaled[ranks <= rank].max() for rank in ranks])
-    step by step: found, before = [0.0] * len(p), 0.0
-        for k, i in enumerate(sorted(range(len(p)), key=lambda i: p[i])):
-            before = found[i] = max(before, min(1.0, (len(p) - k) * p[i]))
-        np.array(found)
-""")
-
-
-@wrong("holm")
-def of_benjamini_and_hochberg(p):
-    from scipy import stats
-
-    return stats.false_discovery_control(np.asarray(p))
-
-
-wrong_lines("""holm
-    above one: order = np.argsort(p)
-        adjusted = np.empty(len(p))
-        adjusted[order] = np.maximum.accumulate(np.asarray(p)[order] * (len(p) - np.arange(len(p))))
-        adjusted
-    one test too many: order = np.argsort(p)
-        adjusted = np.empty(len(p))
-        scaled = np.asarray(p)[order] * (len(p) + 1 - np.arange(len(p)))
-        adjusted[order] = np.minimum(np.maximum.accumulate(scaled), 1)
-        adjusted
-    of sidak: 1 - (1 - np.asarray(p)) ** len(p)
-    which are significant: np.asarray(p) * len(p) < 0.05
-""")
-
-
-@wrong("holm")
-def for_three_tests(p):
-    order = np.argsort(p)
-    adjusted = np.empty(len(p))
-    adjusted[order] = np.minimum(np.maximum.accumulate(np.asarray(p)[order] * np.maximum(3 - np.arange(len(p)), 1)), 1)
-    return adjusted

@@ -1,9 +1,6 @@
 """Exercises of the lesson on a teacher of your own."""
 
-import numpy as np
-
 from bootcourse.course.exercise import exercise
-from bootcourse.course.lessons.your_teacher import taught_agents
 from bootcourse.course.lessons.your_teacher.driven_out import OUT, drive_out, explain_rule
 from bootcourse.course.lessons.your_teacher.example_teachers import DENSE, careful, dense_road, watchful
 from bootcourse.learn.teachers import toward
@@ -84,35 +81,3 @@ watchful_rule = exercise(
             HITS,
     },
 )(watchful)  # fmt: skip
-
-
-def p_values(rng):
-    """One test, equal ones, some that fall below their predecessor when scaled, large ones; then 40 at random."""
-    yield from ((np.array(p),) for p in ([0.03], [0.02, 0.02, 0.02], [0.04, 0.01, 0.021, 0.9], [0.9, 0.6, 0.7]))
-    yield from ((rng.uniform(0, 1, rng.integers(2, 9)) ** 3,) for _ in range(40))
-
-
-holm = exercise(
-    "max over j ≤ k of (m - j + 1) p_(j), at most 1: Holm 1979", minutes=8, difficulty=2, cases=p_values,
-    worked=[
-        ((np.array([0.01, 0.04]),), np.array([0.02, 0.04])),  # 2 · 0.01; 1 · 0.04
-        ((np.array([0.03, 0.5, 0.02]),), np.array([0.06, 0.5, 0.06])),  # 3 · 0.02 = 0.06; 2 · 0.03 = 0.06; 0.5
-    ],
-    hints=(
-        "Sort the m p-values. Multiply the smallest by m, the next by m - 1, ..., the largest by 1.",
-        "`np.argsort(p)` gives the order; `np.maximum.accumulate` makes each at least as large as the one before.",
-    ),
-    mistakes={
-        "return np.minimum(p * m, 1)":
-            "You multiply every p by the number of tests. That is Bonferroni's correction: it is right, too, but "
-            "Holm's multiplies only the smallest by m, the next by m - 1, and finds more.",
-        "return np.sort(adjusted)":
-            "Your numbers are right, but sorted. Return them in the order of the tests.",
-        "np.maximum.accumulate ->":
-            "A larger p must not end below a smaller one: each adjusted p is at least as large as the one before it.",
-        ("np.argsort(p) -> np.argsort(-p)", "np.maximum.accumulate ->"):
-            "You multiply the *largest* p by m. Holm begins with the smallest.",
-        "return p":
-            "These are the p-values themselves. Of twenty, one on average is below 0.05 by luck.",
-    },
-)(taught_agents.holm)  # fmt: skip

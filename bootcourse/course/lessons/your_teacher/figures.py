@@ -29,11 +29,11 @@ from bootcourse.research.teachers import PLANNER, TEACHERS
 ROW, HEAD, FOOT, NAMES = 0.42, 0.85, 0.6, 1.75  # inches
 
 
-def teacher_value(computed: Cells, quantity: str, own: Mapping[str, float] | None = None) -> Figure:
+def teacher_value(computed: Cells, quantity: str, own: Mapping[str, float] | None = None, title: str = "") -> Figure:
     """A dot for each agent; the bar is the estimate of `QUANTITIES`, the line its 95 % interval over seeds.
 
-    found: what `shipped_teachers` returns; quantity: one of `QUANTITIES`; own: of the teachers themselves, a green line
-    in each row. An agent that does not reach a number of
+    computed: what `shipped_teachers` returns; quantity: one of `QUANTITIES`; own: of the teachers themselves, a green
+    line in each row; title: by default the lowest and the highest cell. An agent that does not reach a number of
     decisions is an open dot at the right edge. Raises BootcourseError for another quantity.
     """
     check_known("Quantity", quantity, QUANTITIES)
@@ -70,7 +70,7 @@ def teacher_value(computed: Cells, quantity: str, own: Mapping[str, float] | Non
     figure.text(0.012, 0.12 / height, words[0].upper() + words[1:], fontsize=SMALL, color=QUIET)
     words += " Green line: the teacher itself." * (own is not None)
     alt_parts = [f"{_named(place)}: {' '.join(in_words(each)).strip()}" for place, each in estimates.items()]
-    return finish(figure, _title(shown.label, estimates), f"{words} {'; '.join(alt_parts)}.")
+    return finish(figure, title or _title(shown.label, estimates), f"{words} {'; '.join(alt_parts)}.")
 
 
 def _draw(ax, row: int, values: np.ndarray, estimate, colour: str, edge: float) -> None:
