@@ -20,7 +20,7 @@ from bootcourse.learn.agent import Agent
 from bootcourse.learn.settings import Settings, settings_for, with_seeds
 from bootcourse.learn.training import Training
 from bootcourse.methods import display_name
-from bootcourse.research.beyond import after_seconds
+from bootcourse.research.beyond import at_budget
 from bootcourse.research.jobs import HELD_OUT, Interrupted, orphaned, smaller
 from bootcourse.research.plan import SEEDS, TESTS, LessonExperiment, chosen
 from bootcourse.research.results import Results, agent_entries, as_arrays, join
@@ -32,7 +32,7 @@ BUDGETS = (50_000, 100_000)  # decisions of each agent, after which it is tested
 SEARCHED = 100_000  # decisions of each agent of the search
 SEARCH_SEEDS, FIRST_SEARCH_SEED = 3, 500
 SEARCH_ROADS = held_out_seeds(19, 200)
-SECONDS = 6  # of one core, for each agent of those side by side
+SECONDS = 5  # of one core, for each agent of those side by side
 EPISODES = 50_000  # more than any of these trainings drives
 
 # The paper's method has c = 0.5, since c = 2 at this γ would be worth more than any drive, and β that fades in time.
@@ -195,7 +195,8 @@ def budget_rows(computed: dict[str, Results]) -> tuple[list[str], list[list[str]
     for method, results in computed.items():
         row = [display_name(method), _words(results.agents[0]), str(len(results))]
         row += [cell for budget in BUDGETS for cell in _cells(results, budget)]
-        there = after_seconds(results.curves, SECONDS, results.seconds)
+        last = budgets_of(method)[-1]
+        there = at_budget(results.curves, SECONDS * last / results.measured[f"seconds_{last}"])
         rows.append([*row, bracketed(interval(there)) if np.isfinite(there).all() else "–"])
     return headings, rows
 
