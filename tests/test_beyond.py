@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bootcourse.research import beyond
-from bootcourse.research.beyond import after_seconds, at_budget, decisions_until, learner_rows, lengths
+from bootcourse.research.beyond import at_budget, decisions_until, learner_rows, lengths
 from bootcourse.research.results import Results
 
 NAN = np.nan
@@ -52,10 +52,3 @@ def test_the_return_at_a_budget_is_the_mean_of_the_last_episodes_that_ended_with
     assert np.isnan(at_budget({"decisions": LEARNING["decisions"]}, np.array(budget))).all()
     ahead = {"decisions": LEARNING["decisions"], "success": LEARNING["return"]}
     np.testing.assert_array_equal(at_budget(ahead, np.array(budget), "success"), expected)
-
-
-def test_seconds_are_shared_equally_among_the_decisions_of_a_training(monkeypatch):
-    monkeypatch.setattr(beyond, "WINDOW", 2)
-    took = np.array([10.0, 4.0, NAN])  # for 100, 30 and 180 decisions: 6 s are 60, 45 and an unknown number of them
-    np.testing.assert_array_equal(after_seconds(LEARNING, 6, took), [4, NAN, NAN])
-    assert np.isnan(after_seconds(LEARNING, 6, np.zeros(3))).all()

@@ -1,5 +1,7 @@
 """The comparison at equal decisions: trained in small, its tables by hand, and the choice that the search makes."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from bootcourse.course.shipped import shipped_experiment
@@ -51,6 +53,21 @@ def test_a_row_says_what_was_chosen_and_counts_the_agents_of_all_jobs():
     headings, (row,) = budget_rows(by_method(jobs))
     assert row[:4] == ["IBRL", "η = 0.1", "3", "2 of 3"] and row[7:11] == row[3:7]
     assert row[4:7] == ["100.00 [100.00, 100.00]", "25.0", "100.0"] and len(row) == len(headings) and row[-1] == "–"
+
+
+def test_the_last_column_has_the_decisions_that_a_method_makes_in_so_many_seconds():
+    results = invented(with_seeds(settings_for("ibrl"), 2), [10.0, 10.0])  # 100,000 decisions in 10 s
+    curves = {"return": np.repeat([[1.0, 3.0]], 500, axis=1), "decisions": np.full((1, 1000), 100.0)}
+    curves = {name: np.repeat(values, 2, axis=0) for name, values in curves.items()}
+    _, (row,) = budget_rows({"ibrl": replace(results, curves=curves)})
+    assert equal_decisions.SECONDS == 5 and row[-1] == "1.00 [1.00, 1.00]"  # the 500 episodes of the first half
+
+
+def test_a_method_that_had_fewer_decisions_has_no_numbers_at_the_larger_budget():
+    results = invented(with_seeds(settings_for("rlpd"), 2), [100.0, 100.0])
+    measured = {name: each for name, each in results.measured.items() if name.endswith("_50000")}
+    _, (row,) = budget_rows({"rlpd": replace(results, measured=measured)})
+    assert row[3] == "1 of 2" and row[7:11] == ["–"] * 4 and equal_decisions.budgets_of("rlpd") == (50_000,)
 
 
 def test_the_search_has_a_mean_for_each_try():

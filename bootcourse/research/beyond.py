@@ -77,9 +77,3 @@ def at_budget(curves: dict[str, np.ndarray], decisions: float | np.ndarray, meas
         if totals[i] >= budget and ended >= WINDOW:
             means[i] = values[i, ended - WINDOW : ended].mean(dtype=float)
     return means
-
-
-def after_seconds(curves: dict[str, np.ndarray], seconds: float, took: np.ndarray) -> np.ndarray:
-    """`at_budget` for seconds of one core, as if every decision took equally long. took: (agents,), of the training."""
-    episodes, took = lengths(curves), np.where(took > 0, took, np.nan)
-    return at_budget(curves, np.nan if episodes is None else seconds / took * np.nansum(episodes, axis=1, dtype=float))

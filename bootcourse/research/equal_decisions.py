@@ -5,7 +5,8 @@
 The same for all: γ, the network, the scenario, the teacher and its demonstrations; as many tries in the search, on
 seeds and roads that no test uses (`searched`); and the agent's own decisions, without those of the teacher alone that
 the demonstrations took. `CHOSEN` is the try of each method that earned most in the search. RLPD makes twice as many
-updates for a decision as the others with a replay buffer, with five critics; it is much slower and has fewer seeds.
+updates for a decision as the others with a replay buffer, with five critics; it is much slower and has fewer seeds
+and decisions.
 """
 
 import time
@@ -19,7 +20,7 @@ from bootcourse.learn.agent import Agent
 from bootcourse.learn.settings import Settings, settings_for, with_seeds
 from bootcourse.learn.training import Training
 from bootcourse.methods import display_name
-from bootcourse.research.beyond import after_seconds
+from bootcourse.research.beyond import at_budget
 from bootcourse.research.jobs import HELD_OUT, Interrupted, orphaned, smaller
 from bootcourse.research.plan import SEEDS, TESTS, LessonExperiment, chosen
 from bootcourse.research.results import Results, agent_entries, as_arrays, join
@@ -31,7 +32,7 @@ BUDGETS = (50_000, 100_000)  # decisions of each agent, after which it is tested
 SEARCHED = 100_000  # decisions of each agent of the search
 SEARCH_SEEDS, FIRST_SEARCH_SEED = 3, 500
 SEARCH_ROADS = held_out_seeds(19, 200)
-SECONDS = 6  # of one core, for each agent of those side by side
+SECONDS = 5  # of one core, for each agent of those side by side
 EPISODES = 50_000  # more than any of these trainings drives
 
 # The paper's method has c = 0.5, since c = 2 at this γ would be worth more than any drive, and β that fades in time.
@@ -46,16 +47,17 @@ COMMON = {
 ENTROPIES = [{"target_entropy": entropy} for entropy in (-1.0, 0.1, 0.3)]
 ROUNDS = [{"envs_per_agent": roads} for roads in (32, 64, 128)]  # PPO has no target entropy
 TRIES = {method: ROUNDS if method.startswith("ppo") else ENTROPIES for method in COMMON}
-CHOSEN = {  # of the tries, by what `beyond-search` measured; RLPD's is a guess, as it has not been searched
+CHOSEN = {  # of the tries, by what `beyond-search` measured
     "bootstrapped": 0,
     "jsrl": 2,
     "ibrl": 1,
-    "rlpd": 2,
+    "rlpd": 0,
     "ppo_cloned": 0,
     "ppo": 1,
 }
 GROUP = 5  # agents of the test that train side by side, a job each
 FEWER = {"rlpd": 5}  # agents in the test, of what is slow
+SHORTER = {"rlpd": BUDGETS[:1]}  # its budgets, too
 LESS_SEARCHED = {"rlpd": {"seeds": 2, "decisions": 50_000}}
 LONGER = {"ppo_cloned": 400_000, "ppo": 400_000}  # its decisions are cheap: some more of them, for equal seconds
 
@@ -63,6 +65,11 @@ LONGER = {"ppo_cloned": 400_000, "ppo": 400_000}  # its decisions are cheap: som
 def tries(method: str) -> list[Settings]:
     """The settings that the search compares."""
     return [settings_for(method, **COMMON[method], **changes) for changes in TRIES[method]]
+
+
+def budgets_of(method: str) -> tuple[int, ...]:
+    """The decisions after which agents of a method are tested."""
+    return SHORTER.get(method, BUDGETS)
 
 
 def searched(method: str) -> dict[str, np.ndarray]:
@@ -81,7 +88,7 @@ def compared(method: str, first: int) -> dict[str, np.ndarray]:
     """
     settings = with_seeds(tries(method)[CHOSEN[method]], GROUP, first)
     roads, longer = held_out_seeds(HELD_OUT, TESTS), [LONGER[method]] if method in LONGER else []
-    return as_arrays(trained_and_tested(settings, BUDGETS, roads, longer))
+    return as_arrays(trained_and_tested(settings, budgets_of(method), roads, longer))
 
 
 def by_method(computed: dict[str, Results]) -> dict[str, Results]:
@@ -188,13 +195,16 @@ def budget_rows(computed: dict[str, Results]) -> tuple[list[str], list[list[str]
     for method, results in computed.items():
         row = [display_name(method), _words(results.agents[0]), str(len(results))]
         row += [cell for budget in BUDGETS for cell in _cells(results, budget)]
-        there = after_seconds(results.curves, SECONDS, results.seconds)
+        last = budgets_of(method)[-1]
+        there = at_budget(results.curves, SECONDS * last / results.measured[f"seconds_{last}"])
         rows.append([*row, bracketed(interval(there)) if np.isfinite(there).all() else "–"])
     return headings, rows
 
 
 def _cells(results: Results, budget: int) -> list[str]:
     measured = results.measured
+    if f"returns_{budget}" not in measured:
+        return ["–"] * 4
     success, returns, accident = (measured[f"{name}_{budget}"] for name in ("success", "returns", "accident"))
     seconds = measured[f"seconds_{budget}"].mean()
     escape = f"{(success >= ESCAPES).sum()} of {len(results)}"

@@ -30,7 +30,7 @@ from bootcourse.storage.work import locked
 CURVES = ("success", "return", "speed", "distance", "accident", "entropy")  # the others are in runs/
 VARIED_CURVES = ("success", "return", "xi", "decisions")  # of the experiments
 FEWER_CURVES = {"sweep": ("success", "return"), "teachers": ("success", "decisions"),
-                "elsewhere": ("success", "return")}  # many agents  # fmt: skip
+                "elsewhere": ("success", "return"), "easier": ("success", "alpha")}  # many agents  # fmt: skip
 RUNS = 5  # training seeds whose weights ship; curves and scores ship of all
 BUILD = "bootcourse assets build --study DIR"
 STUDY = f"bootcourse study --out DIR && {BUILD}"

@@ -7,14 +7,14 @@ from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.episodes.words import overtaken
 from bootcourse.policies import rule_policy
-from bootcourse.research import equal_decisions  # noqa: F401 (the text names it)
+from bootcourse.research import equal_decisions
 from bootcourse.research.equal_decisions import BUDGETS, by_method, tried
 from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES, interval, iqm  # noqa: F401
 from tools.course.known import shipped_experiment, shipped_teachers
 
-LAST = BUDGETS[-1]
+HALF, LAST = BUDGETS
 
 
 @cache
@@ -31,6 +31,12 @@ def later(method: str) -> Results:
 def at(method: str, measure: str, budget: int = LAST) -> np.ndarray:
     """Each agent's mean return, success or accidents after so many decisions, or its seconds until then: (agents,)."""
     return later(method).measured[f"{measure}_{budget}"]
+
+
+def cost(method: str) -> float:
+    """Seconds of one core for a decision of these agents, until the last of their budgets."""
+    budget = equal_decisions.budgets_of(method)[-1]
+    return float(at(method, "seconds", budget).mean()) / budget
 
 
 def middle(method: str, budget: int = LAST) -> float:

@@ -3,12 +3,14 @@
 from functools import cache
 
 import numpy as np
-from bootcourse.course.lessons.the_barrier import attempts, chain
+from bootcourse.course.lessons.the_barrier import attempts, chain, easier
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
-from bootcourse.policies import random_policy
+from bootcourse.policies import PolicyOutput, random_policy
 from bootcourse.research.planner import Search, discounted_values, plan_episodes
+from bootcourse.research.results import Results
+from bootcourse.road.state import EGO, LANE
 from bootcourse.scenario import DEFAULT
-from tools.course.known import ROAD, shipped_runs
+from tools.course.known import ROAD, shipped_experiment, shipped_runs
 
 
 @cache
@@ -51,3 +53,30 @@ def all_tested() -> dict[str, attempts.Outcome]:
 def tested(kind: str) -> attempts.Outcome:
     """One kind of them."""
     return all_tested()[kind]
+
+
+def easy(kind: str) -> Results:
+    """The twenty agents of one of `easier.KINDS`."""
+    return shipped_experiment("easier")[kind]
+
+
+def safe(kind: str) -> int:
+    """How many of them hardly ever end ahead, or in an accident."""
+    return int(((easy(kind).scores("success") < 0.05) & (easy(kind).scores("accident") < 0.05)).sum())
+
+
+def temperature() -> float:
+    """The highest α at the end of the training, of the agents with the paper's settings."""
+    alphas = [easy(kind).curves["alpha"] for kind, (_, changes) in easier.KINDS.items() if not changes]
+    return max(float(row[np.isfinite(row)][-1]) for each in alphas for row in each)
+
+
+@cache
+def from_later_start() -> float:
+    """The share of 200 roads on which a lane keeper that goes to 15 m/s gets out unhurt from the later start."""
+
+    def accelerates(observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
+        return PolicyOutput(attempts.keep_lane(cars, np.full(len(cars), attempts.FAST), cars[:, EGO, LANE]))
+
+    drives = drive_episodes(accelerates, held_out_seeds(1, 200), make_env=easier.LaterStart)
+    return float(np.mean(drives.success & (drives.accident == 0)))
