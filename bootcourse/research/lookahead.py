@@ -77,7 +77,7 @@ def cells() -> list[Cell]:
     shields = [Cell("ppo_cloned", "shield", model=model) for model in wrong]
     horizons = [Cell("ppo_cloned", roads=FEWER, horizon=horizon) for horizon in HORIZONS]
     others = [Cell(base, agents=5, roads=FEWER) for base in ("sac", "soft", "demos", "bc")]
-    rollouts = [Cell("ppo_cloned", model=model) for model in wrong]
+    rollouts = [Cell("ppo_cloned", roads=FEW, model=model) for model in wrong]
     most = [Cell("ppo_cloned", "shield", roads=MANY)]
     most += [Cell("bootstrapped", "shield", roads=FEW, model=model) for model in wrong]
     most += [Cell("bootstrapped", roads=FEW, model=model) for model in wrong]

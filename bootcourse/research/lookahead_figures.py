@@ -16,7 +16,7 @@ from bootcourse.episodes.lookahead import HORIZON
 from bootcourse.episodes.models import MODELS
 from bootcourse.errors import BootcourseError
 from bootcourse.methods import display_name, style
-from bootcourse.plots.figure import GRID, INK, QUIET, SMALL, TEXT, finish, new_figure, plain_axes, wrapped
+from bootcourse.plots.figure import GRID, INK, QUIET, SMALL, TEXT, finish, new_figure, plain_axes
 from bootcourse.research.distil import AGENTS, BASE
 from bootcourse.research.lookahead import CLOSELY, FORMS, HORIZONS, Cell
 from bootcourse.research.results import Results
@@ -219,7 +219,7 @@ def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
         f"For each model, accidents in 1,000 drives and the return. Alone: {1000 * alone.accident_rate.value:.1f} and "
         f"{alone.returns.value:.1f}. {' '.join(words)}"
     )
-    return finish(figure, wrapped(title, 88), alt)
+    return finish(figure, title, alt)
 
 
 def _drives(scores: dict[str, Score]) -> str:

@@ -372,19 +372,19 @@ for kind in Accident:
 # agent *learn* what the look-ahead does: imitate it, look ahead from the better agent, imitate
 # again? This is called **expert iteration**, and with it AlphaZero learned Go.
 #
-# The experiment `distil` tried four ways, with two PPO agents. In each of {{ distil.ROUNDS }} rounds
-# the student drives {{ distil.DRIVES }} roads, its PPO agent's look-ahead labels every state that it
-# reaches, and it learns from the labels of all rounds (DAgger, lesson [[demonstrations]]). It
-# learns the best action; that of the shield; the best action, also in the {{ distil.SECONDS }}
-# decisions after one that the agent would not have taken; or, as a new and larger network, all
-# nine values. Then it drives alone:
+# The experiment `distil` tried four ways, with two PPO agents. In each of
+# {{ distil.ROUNDS }} rounds the student drives {{ distil.DRIVES }} roads, its PPO agent's
+# look-ahead labels every state that it reaches, and it learns from the labels of all rounds
+# (DAgger, lesson [[demonstrations]]). It learns the best action; that of the shield; the best
+# action, also in the {{ distil.SECONDS }} decisions after one that the agent would not have taken;
+# or, as a new and larger network, all nine values. Then it drives alone:
 
 # %%
 table(*learned_rows(shipped_experiment("distil"), study))
 
 # %% [markdown]
-# **See.** Each of these students has more accidents than its PPO agent. We think that the look-ahead
-# knows more than the 26 numbers say: where they are equal, the best action may differ.
+# **See.** Each of these students has more accidents than its PPO agent. We think that the
+# look-ahead knows more than the 26 numbers say: where they are equal, the best action may differ.
 # <!-- claim: all((students.measured['accidents'] > before()).all() for students in
 #   learned().values()) and len(learned()) == 4 -->
 #
