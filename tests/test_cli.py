@@ -190,6 +190,17 @@ def test_a_process_ends_with_the_one_sentence_and_the_status():
     assert answer.returncode == 2 and "did you mean 'rule'" in answer.stderr and answer.stderr.count("\n") == 1
 
 
+def test_a_command_imports_nothing_from_the_folder_in_which_it_is_typed(tmp_path):
+    ran = tmp_path / "ran"
+    for name in ("numpy", "gymnasium", "typer", "torch"):
+        (tmp_path / "class" / name).mkdir(parents=True)
+        (tmp_path / "class" / name / "__init__.py").write_text(f"open({str(ran)!r}, 'w')")
+    elsewhere = os.environ | {"PYTHONPATH": str(Path(__file__).parents[1])}
+    command = [*COMMAND, "grade", ".", "--out", "../grades.csv", "--lessons", "5"]
+    answer = subprocess.run(command, cwd=tmp_path / "class", env=elsewhere, capture_output=True, timeout=60)
+    assert answer.returncode == 0 and not ran.exists(), answer.stderr
+
+
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGINT to send")
 def test_a_training_that_is_stopped_loses_nothing_and_resumes(bootcourse, tmp_path):
     out = tmp_path / "runs"
