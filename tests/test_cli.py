@@ -265,7 +265,12 @@ def test_a_resumed_training_refuses_other_settings_and_its_command_has_all_optio
     assert stopped.status == 130
     for words in (f"--teacher {mine[1]}", "--xi 50", "--episodes 3", "--quiet --resume"):
         assert words in stopped.err
-    for option, value, began in (("--seeds", 3, 1), ("--xi", 70, 50.0), ("--method", "sac", "soft")):
+    for option, value, began in (
+        ("--seeds", 3, 1),
+        ("--xi", 70, 50.0),
+        ("--method", "sac", "soft"),
+        ("--setting", "paper", "quick"),
+    ):
         refused = bootcourse("train", "--out", tmp_path / "runs", *mine, "--resume", option, value)
         assert refused.status == 2
         assert f"{option} {value}" in refused.err and f"this training began with {began}" in refused.err
@@ -296,6 +301,11 @@ def test_a_learner_of_one_s_own_trains_and_drives(bootcourse, tmp_path):
         METHODS.pop("MyLearner")
         assert "MyLearner-0" in bootcourse("evaluate", tmp_path / "runs", "--episodes", 3, *mine).out
         METHODS.pop("MyLearner")
+        run, drive = tmp_path / "runs/MyLearner-0", tmp_path / "drive.npz"
+        assert bootcourse("drive", run, "--out", drive, *mine).status == 0 and drive.exists()
+        METHODS.pop("MyLearner")
+        alone = bootcourse("drive", run, "--out", tmp_path / "other.npz")
+        assert alone.status == 2 and "add the --learner FILE.py:CLASS" in alone.err and "damaged" not in alone.err
         refused = bootcourse(*arguments, "--learner", f"{tmp_path / 'mine.py'}:NoLearner")
         assert refused.status == 2 and "bootcourse.learn.protocol.Learner" in refused.err
     finally:

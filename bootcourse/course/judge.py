@@ -39,7 +39,6 @@ from bootcourse.course.values import (
 )
 from bootcourse.course.verdict import Verdict
 
-
 LONGEST = 2000  # characters of a line that a verdict shows
 
 
@@ -171,7 +170,8 @@ def compared(exercise: Exercise, answer: Callable | str, report: runner.Report, 
     if not fails:
         return slopes_in_words(exercise, mine, rights)
     comparable = [like(*pair) and same_shape(*pair) for pair in zip(values, right_values, strict=True)]
-    if exercise.explain and all(comparable):
+    no_number = any(has_nan(one) and not has_nan(right) for one, right in zip(values, right_values, strict=True))
+    if exercise.explain and all(comparable) and not no_number:
         sentence = exercise.explain(cases, [each.data for each in values])
         drawn = (mistake for mistake in exercise.mistakes if mistake.says == sentence)  # its values never repeat
         return Verdict("wrong", sentence, mistake=next(drawn, None))
