@@ -153,7 +153,7 @@ def check_resumed(
         "p": (one.rule_p, asked.rule_p),
         "xi": (one.xi_multiplier, asked.xi_multiplier),
         "c": (one.bonus, asked.bonus),
-        "setting": (next(filter(has, SETTINGS)) if given.get("setting") else "", setting),
+        "setting": (next(filter(has, SETTINGS), "another") if given.get("setting") else "", setting),
     }
     for name, (stored, wanted) in pairs.items():
         if given.get(name) not in (None, 0) and stored != wanted:
