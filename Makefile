@@ -15,6 +15,8 @@ PYTHON ?= python3
 
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check
+# Folders that JupyterLab's list of files leaves out: what is not for who begins.
+HIDDEN := instructor solved source __pycache__
 NOTEBOOKS := $(sort $(wildcard notebooks/*.ipynb))
 
 # So that a notebook finds this `bootcourse` and this `python`.
@@ -27,6 +29,7 @@ help:
 
 lab: .venv/installed
 	@$(WITH_PATH) $(BIN)/jupyter-lab --ServerApp.ip=127.0.0.1 --ServerApp.root_dir="$(CURDIR)/notebooks" \
+		$(addprefix --ContentsManager.hide_globs=,$(HIDDEN)) \
 		--LabApp.default_url=/lab/tree/$(notdir $(firstword $(NOTEBOOKS))) --log-level=WARN \
 		$(if $(NO_BROWSER),--no-browser) $(if $(filter 0,$(shell id -u)),--allow-root)
 

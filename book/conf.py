@@ -1,8 +1,12 @@
 """Sphinx's settings for the static book. `make book` gathers the pages and calls Sphinx (tools/book.py)."""
 
 import dataclasses
+import html
 import inspect
+import json
 import re
+
+from docutils import nodes
 
 from tools.course.mathematics import mathml
 
@@ -68,6 +72,38 @@ def list_fields(app, what, name, value, options, lines):
         lines += fields_of(value)
 
 
+# The search shows words with what stands around them, and reads other pages to do so. From a file, without a server, a
+# page may not: then it takes the texts from here.
+OFFLINE = """const TEXTS = %s;
+if (location.protocol === "file:") {
+  window.fetch = address => {
+    const name = decodeURI(address).replace(/^(\\.\\/)+/, "").replace(/\\.html.*$/, "");
+    return Promise.resolve({text: () => Promise.resolve(`<div role="main">${TEXTS[name] || "–"}</div>`)});
+  };
+}
+"""
+
+
+def write_texts(app, error):
+    """The text of every page as a script of the page that searches."""
+    if error is None and app.builder.format == "html":
+        texts = {}
+        for name in sorted(app.env.found_docs):
+            page = app.env.get_doctree(name)
+            for raw in list(page.findall(nodes.raw)):
+                raw.parent.remove(raw)
+            texts[name] = html.escape(" ".join(page.astext().split()), quote=False)
+        path = app.outdir / "_static" / "texts.js"
+        path.write_text(OFFLINE % json.dumps(texts, ensure_ascii=False), encoding="utf-8")
+
+
+def add_texts(app, page, template, context, doctree):
+    if page == "search":
+        app.add_js_file("texts.js")
+
+
 def setup(app):
+    app.connect("build-finished", write_texts)
+    app.connect("html-page-context", add_texts)
     app.connect("autodoc-process-docstring", list_fields)
     app.add_html_math_renderer("mathml", (skip_children(inline_math), None), (skip_children(display_math), None))

@@ -30,6 +30,11 @@ course             exercises and their judge, the lessons, a class: handing out,
 """
 
 import importlib
+import os
+import sys
+
+if sys.argv[:1] == ["-m"] and sys.path[:1] == [os.getcwd()] != [os.path.dirname(os.path.dirname(__file__))]:
+    del sys.path[0]  # `python -m bootcourse` in a class's folder: import nothing that was handed in
 
 from bootcourse.errors import did_you_mean
 

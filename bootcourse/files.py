@@ -35,6 +35,7 @@ LARGEST_ARRAYS = 2**32  # bytes; the checkpoint of 100 agents with full replay b
 UNPACKED = 2**28  # bytes that an .npz file may unpack to beyond its own size; ours compress to a tenth at best
 MEMBERS = 10_000  # arrays in an .npz file, at most; the checkpoint of 100 agents has 3,000
 PACKED = {zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED}  # as numpy writes; others unpack beyond what they declare
+LONGEST = 400  # characters of what is wrong with a file's contents, which may be quoted
 COPY = "restore it from a copy, or make it again"  # the remedy for a damaged file
 FIRST_BYTES = {".png": b"\x89PNG", ".gif": b"GIF8", ".pdf": b"%PDF", ".svg": b"<?xml", ".html": b"<!doctype html"}
 Kind = TypeVar("Kind")
@@ -144,16 +145,16 @@ def decoding(path: Path, remedy: str = COPY):
     except BootcourseError as error:
         if isinstance(error, RuleFailed) or str(path) in str(error):  # a rule's failure says nothing of the file
             raise
-        raise BootcourseError(f"{path}: {error}") from None
+        raise BootcourseError(f"{path}: {str(error)[:LONGEST]}") from None
     except msgspec.ValidationError as error:
-        raise BootcourseError(f"{path} is damaged or of another version ({error}): {remedy}.") from None
+        raise BootcourseError(f"{path} is damaged or of another version ({_in_short(error)}): {remedy}.") from None
     except Exception as error:  # zlib, zipfile, numpy, safetensors, memory, recursion ...: nobody has the whole list
         raise BootcourseError(f"{path} is damaged or cut short ({_in_short(error)}): {remedy}.") from None
 
 
 def _in_short(error: Exception) -> str:
     words = " ".join(str(error).split())
-    return f"{words[:80]}..." if len(words) > 80 else words or type(error).__name__
+    return f"{words[:200]}..." if len(words) > 200 else words or type(error).__name__
 
 
 def read_bytes(path: Path, largest: int = LARGEST_JSON, remedy: str = COPY) -> bytes:

@@ -58,6 +58,16 @@ FORMS = {  # the cells of a notebook whose answer is right
     "a constant that changes after the check": ["n = 9", f"{HEAD}{LUCK}\ncheck.luck(luck)", "n = 0"],
     "its name is something else later": [f"{NINE}\ncheck.luck(luck)", "for luck in range(3):\n    pass"],
     "a broken cell below": [f"{NINE}\ncheck.luck(luck)", "def luck(good, decisions:\n    return"],
+    "what a function makes, without a check": [f"def make():\n    {INSIDE.replace(chr(10), chr(10) + '    ')}\n"
+                                               "    return luck", "luck = make()"],
+    "setattr": ["import types\nk = types.SimpleNamespace()", "setattr(k, 'a', 9)", HEAD + LUCK.replace("n)", "k.a)")],
+    "its own attribute": [HEAD + LUCK.replace("n)", "luck.n)"), "luck.n = 9"],
+    "a class with __call__": [f"class Luck:\n    n = 9\n    def __call__(self, good, decisions, tries):\n        "
+                              f"{LUCK.replace('n)', 'self.n)')}", "luck = Luck()\ncheck.luck(luck)"],
+    "match": ["match 3:\n    case 3:\n        n = 9", HEAD + LUCK],
+    "with": ["import contextlib\nwith contextlib.suppress(ValueError):\n    n = 9", HEAD + LUCK],
+    "a walrus": ["(n := 9)", HEAD + LUCK],
+    "another form of a letter": ["\ufb01 = 9", HEAD + LUCK.replace("n)", "fi)")],
     "decorated": ["import functools", f"@functools.cache\n{NINE}"],
 }  # fmt: skip
 

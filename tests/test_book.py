@@ -52,6 +52,14 @@ def test_every_lesson_has_its_pages_and_its_slides(made):
     assert [name for name in dict.fromkeys(listed) if name != stem("start")] == FILES[1:]
 
 
+@needs_browser
+def test_the_search_shows_what_stands_around_a_word(made, new_page):
+    found = new_page()
+    found.page.goto(f"{(made / 'search.html').as_uri()}?q=barrier")
+    found.page.wait_for_selector("#search-results p.context", timeout=30_000)
+    assert "barrier" in found.page.inner_text("#search-results p.context").lower() and found.errors == []
+
+
 def test_a_word_and_a_reference_are_found_from_the_lessons(made):
     glossary, references = (
         (made / f"{name}.html").read_text(encoding="utf-8") for name in ("glossary", "bibliography")

@@ -227,6 +227,14 @@ ATTACKS = {
     "spies": "raise ValueError(open('/proc/{pid}/environ').read())",
     "fills": "x = bytearray(10**12)",
     "recurses": "def f():\n    return f()\nf()",
+    "forks": "import os\nwhile True:\n    os.fork()",
+    "starts a program": "import subprocess\nsubprocess.run(['ls'])",
+    "makes memory that outlives it": "import ctypes\nif ctypes.CDLL(None).shmget(5, 2**20, 0o1777) < 0:\n    1 / 0",
+    "makes files without a name": "import os\nos.memfd_create('x')",
+    "looks into its judge": "import os\nopen(f'/proc/{{os.getppid()}}/mem', 'rb')",
+    "forges its report": "import sys\nframe = sys._getframe()\nwhile 'send' not in frame.f_locals:\n"
+    "    frame = frame.f_back\nfrom bootcourse.course.runner import Report\n"
+    "frame.f_locals['send'](Report(changed=(9, 9), is_last=True))",
     "detaches": "import os\nif os.fork() == 0:\n    os.setsid()\n    while True:\n        pass\n1 / 0",
     "reads": "raise ValueError(open({mine!r}).read())",
     "makes readable": "import os\nos.chmod({mine!r}, 0o777)",
@@ -282,8 +290,10 @@ def test_on_linux_nothing_outside_is_reached_and_the_next_answer_is_judged(judge
             assert [path.name for path in tmp_path.iterdir()] == ["mine.txt"]
             assert (tmp_path / "mine.txt").stat()[:9] == kept[:9]
             assert "No space left" in said["fills the disk"] and "File too large" in said["writes a long file"]
-            for what in ("reads", "makes readable", "dates", "talks to a program", "changes compiled code"):
+            for what in ("reads", "makes readable", "dates", "talks to a program", "changes compiled code", "forks",
+                         "starts a program", "makes files without a name", "looks into its judge"):  # fmt: skip
                 assert "PermissionError" in said[what], said[what]
+            assert "ZeroDivisionError" in said["makes memory that outlives it"]
             listener.settimeout(0.1)
             with pytest.raises(TimeoutError):
                 listener.accept()

@@ -190,6 +190,17 @@ def test_a_process_ends_with_the_one_sentence_and_the_status():
     assert answer.returncode == 2 and "did you mean 'rule'" in answer.stderr and answer.stderr.count("\n") == 1
 
 
+def test_a_command_imports_nothing_from_the_folder_in_which_it_is_typed(tmp_path):
+    ran = tmp_path / "ran"
+    for name in ("numpy", "gymnasium", "typer", "torch"):
+        (tmp_path / "class" / name).mkdir(parents=True)
+        (tmp_path / "class" / name / "__init__.py").write_text(f"open({str(ran)!r}, 'w')")
+    elsewhere = os.environ | {"PYTHONPATH": str(Path(__file__).parents[1])}
+    command = [*COMMAND, "grade", ".", "--out", "../grades.csv", "--lessons", "5"]
+    answer = subprocess.run(command, cwd=tmp_path / "class", env=elsewhere, capture_output=True, timeout=60)
+    assert answer.returncode == 0 and not ran.exists(), answer.stderr
+
+
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGINT to send")
 def test_a_training_that_is_stopped_loses_nothing_and_resumes(bootcourse, tmp_path):
     out = tmp_path / "runs"
@@ -254,7 +265,12 @@ def test_a_resumed_training_refuses_other_settings_and_its_command_has_all_optio
     assert stopped.status == 130
     for words in (f"--teacher {mine[1]}", "--xi 50", "--episodes 3", "--quiet --resume"):
         assert words in stopped.err
-    for option, value, began in (("--seeds", 3, 1), ("--xi", 70, 50.0), ("--method", "sac", "soft")):
+    for option, value, began in (
+        ("--seeds", 3, 1),
+        ("--xi", 70, 50.0),
+        ("--method", "sac", "soft"),
+        ("--setting", "paper", "quick"),
+    ):
         refused = bootcourse("train", "--out", tmp_path / "runs", *mine, "--resume", option, value)
         assert refused.status == 2
         assert f"{option} {value}" in refused.err and f"this training began with {began}" in refused.err
@@ -285,6 +301,11 @@ def test_a_learner_of_one_s_own_trains_and_drives(bootcourse, tmp_path):
         METHODS.pop("MyLearner")
         assert "MyLearner-0" in bootcourse("evaluate", tmp_path / "runs", "--episodes", 3, *mine).out
         METHODS.pop("MyLearner")
+        run, drive = tmp_path / "runs/MyLearner-0", tmp_path / "drive.npz"
+        assert bootcourse("drive", run, "--out", drive, *mine).status == 0 and drive.exists()
+        METHODS.pop("MyLearner")
+        alone = bootcourse("drive", run, "--out", tmp_path / "other.npz")
+        assert alone.status == 2 and "add the --learner FILE.py:CLASS" in alone.err and "damaged" not in alone.err
         refused = bootcourse(*arguments, "--learner", f"{tmp_path / 'mine.py'}:NoLearner")
         assert refused.status == 2 and "bootcourse.learn.protocol.Learner" in refused.err
     finally:

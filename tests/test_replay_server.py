@@ -68,6 +68,17 @@ def test_it_starts_serves_stops_and_frees_its_port_several_times_in_a_row(drives
     assert not one_per_cell.running() and until(lambda: threading.active_count() <= threads + 1)
 
 
+def test_a_viser_that_does_not_take_the_guard_is_stopped_with_a_sentence(drives, monkeypatch):
+    class Unguarded(server.PLAIN):
+        made = 0
+
+    threads = threading.active_count()
+    monkeypatch.setattr(server, "OwnPagesOnly", Unguarded)
+    with pytest.raises(BootcourseError, match="without our guard against pages of other sites"):
+        replay(drives[1])
+    assert until(lambda: threading.active_count() <= threads + 1)
+
+
 def test_it_listens_on_this_machine_only(shown):
     assert shown.server.get_host() == "127.0.0.1" and is_open(shown.port)
     bound = [s.getsockname()[0] for s in _listening(shown.server)]

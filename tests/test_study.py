@@ -16,8 +16,10 @@ import typer.testing
 from bootcourse.cli import app
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.errors import BootcourseError
+from bootcourse.files import read_json
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.research import jobs as jobs_module
+from bootcourse.research.estimate import seconds_of, time_needed
 from bootcourse.research.jobs import BoundJob, Job, LessonJob, asked, finished, run_job
 from bootcourse.research.plan import EXPERIMENTS, LESSON_EXPERIMENTS, experiment_named, methods_named, study_jobs
 from bootcourse.research.planner import Search
@@ -123,6 +125,26 @@ def test_one_job_that_fails_does_not_stop_the_others(tmp_path):
 def test_a_second_study_in_the_same_folder_is_refused(tmp_path):
     with locked(tmp_path), pytest.raises(BootcourseError, match=f"process {os.getpid()} on .* is at work in"):
         run_jobs([job()], tmp_path)
+
+
+def test_a_study_says_how_long_it_takes_if_such_jobs_were_timed(study, tmp_path):
+    ours = tmp_path / "jobs/mine"
+    shutil.copytree(study / "jobs/default/sac-0-1", ours / "sac-0-1")
+    known, unknown = job("mine/sac-2-3"), LessonJob("none/alone", "module:function")
+    seconds = read_json(ours / "sac-0-1/job.json")["provenance"]["seconds"]
+    assert seconds_of(job("mine/sac-2-3", episodes=12), tmp_path) == pytest.approx(2 * seconds)
+    assert "About 1 minute(s) on 1 core" in time_needed([known], tmp_path, 2)
+    assert "and 1 that nobody has timed" in time_needed([known, unknown], tmp_path, 2)
+    assert time_needed([unknown], tmp_path, 2).startswith("No such job has been timed")
+
+
+def test_an_experiment_in_a_new_folder_ends_with_its_table(bootcourse, tmp_path):
+    arguments = ("study", "longer-view", "--seeds", 2, "--episodes", 2, "--tests", 3, "--out", tmp_path, "--workers", 1)
+    answer = bootcourse(*arguments)
+    assert answer.status == 0, answer.err
+    assert "1 job in" in answer.out and "About" in answer.out
+    table = (tmp_path / "longer-view.md").read_text(encoding="utf-8").partition("\n\n")[2]
+    assert table.count("γ = 0.95") == 1 and "returns" in table and table in answer.out
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGKILL to send")

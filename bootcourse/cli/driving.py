@@ -23,6 +23,9 @@ MEASURES = {
     "road_departure": "road departure %",
     "stoppage": "stoppage %",
 }
+TEACHER = typer.Option("", help="The teacher that a run drives with: planner …, or FILE.py:FUNCTION.")
+LEARNER = typer.Option("", help="The learner of your own that a run was trained with: FILE.py:CLASS.")
+LOOK_AHEAD = typer.Option(0, min=0, help="Decisions to look ahead by rollouts, such as 10; 0: none.")
 ACROSS = 4  # columns of `evaluate`'s table side by side in a terminal
 
 
@@ -32,19 +35,17 @@ def evaluate(
     seed: int = typer.Option(1, min=0, help="The block of held-out roads."),
     scenario: str = typer.Option("", help="default or calibrated; by default the scenario that a run trained on."),
     sample: bool = typer.Option(False, "--sample", help="Draw an agent's actions instead of taking the most probable."),
-    teacher: str = typer.Option("", help="The teacher that a run drives with: planner …, or FILE.py:FUNCTION."),
-    learner: str = typer.Option("", help="The learner of your own that a run was trained with: FILE.py:CLASS."),
-    lookahead: int = typer.Option(0, min=0, help="Decisions to look ahead by rollouts, such as 10; 0: none."),
+    teacher: str = TEACHER,
+    learner: str = LEARNER,
+    lookahead: int = LOOK_AHEAD,
     as_json: bool = typer.Option(False, "--json", help="Print JSON."),
     board: bool = typer.Option(False, "--board", help="Print the leaderboard with them; here WHO may be several."),
 ) -> None:
     """Drive held-out episodes and print success, return, speed, distance and accidents with 95 % intervals."""
+    from bootcourse.cli.training import register_learner
     from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds, over_seeds, summarise
 
-    if learner:
-        from bootcourse.cli.training import register_learner
-
-        register_learner(learner)
+    register_learner(learner)
     if board:
         if (episodes, seed, scenario, sample, lookahead, as_json) != (1000, 1, "", False, 0, False):
             raise BootcourseError("--board has its own roads and form: with it, give only --teacher.")
@@ -178,10 +179,12 @@ def drive(
     seed: int = typer.Option(0, min=0, help="The road."),
     scenario: str = typer.Option("", help="default or calibrated; by default the scenario that a run trained on."),
     png: Path | None = typer.Option(None, help="Also draw the top view and the traces to this picture."),
-    teacher: str = typer.Option("", help="The teacher that a run drives with: planner …, or FILE.py:FUNCTION."),
-    lookahead: int = typer.Option(0, min=0, help="Decisions to look ahead by rollouts, such as 10; 0: none."),
+    teacher: str = TEACHER,
+    learner: str = LEARNER,
+    lookahead: int = LOOK_AHEAD,
 ) -> None:
     """Record one drive for figures and replays."""
+    from bootcourse.cli.training import register_learner
     from bootcourse.episodes.record import record
     from bootcourse.files import check_replaceable
 
@@ -190,6 +193,7 @@ def drive(
     if png is not None:
         check_replaceable(png, ".png")
     check_replaceable(out, ".npz")
+    register_learner(learner)
     drivers = drivers_of(who, scenario, False, seed, teacher, lookahead)
     if len(drivers) > 1:
         raise BootcourseError(f"{who} holds {len(drivers)} runs: name one, such as {Path(who) / drivers[0].label}.")

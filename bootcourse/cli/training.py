@@ -59,7 +59,7 @@ def train(
     from bootcourse.storage.work import locked
 
     check_known("Method", method, METHODS)
-    method = register_learner(learner, METHODS[method]) if learner else method
+    method = register_learner(learner, METHODS[method]) or method
     changes = {
         name: value for name, value in {"rule_p": p, "xi_multiplier": xi, "bonus": c}.items() if value is not None
     }
@@ -80,7 +80,7 @@ def train(
                 training = load_checkpoint(work / CHECKPOINT, rule, device)
             except DamagedCheckpoint as error:
                 raise BootcourseError(f"{error} Delete {work}, and start again without --resume.") from None
-            check_resumed(training, settings, episodes, road, given_options(context))
+            check_resumed(training, seeds, first_seed, episodes, road, setting, changes, given_options(context))
         try:
             status = finish_training(training, out, progress=not quiet)
         except KeyboardInterrupt:  # before the first decision, or after the last: the checkpoint is there
@@ -131,35 +131,46 @@ def command_to_continue(context: typer.Context) -> str:
     return " ".join([*words, "--resume"])
 
 
-def check_resumed(training, settings: list, episodes: int, road, given: dict) -> None:
+def check_resumed(
+    training, seeds: int, first_seed: int, episodes: int, road, setting: str, changes: dict, given: dict
+) -> None:
     """Raise BootcourseError if an option was given that is not what the training began with."""
-    one, asked = training.settings[0], settings[0]
+    from bootcourse.learn.settings import SETTINGS, settings_for
+
+    one = training.settings[0]
+    asked = settings_for(one.method, setting, **changes)
+
+    def has(name: str) -> bool:
+        plain = settings_for(one.method, name)
+        return all(getattr(one, field) == getattr(plain, field) for field in SETTINGS["paper"] if hasattr(one, field))
+
     pairs = {  # option: (stored, asked)
-        "method": (one.method, asked.method),
-        "seeds": (len(training.settings), len(settings)),
-        "first_seed": (one.seed, asked.seed),
+        "method": (one.method, given.get("method", one.method)),
+        "seeds": (len(training.settings), seeds),
+        "first_seed": (one.seed, first_seed),
         "episodes": (training.episodes, episodes),
         "scenario": (training.scenario.name, road.name),
         "p": (one.rule_p, asked.rule_p),
         "xi": (one.xi_multiplier, asked.xi_multiplier),
         "c": (one.bonus, asked.bonus),
-        "setting": (one.updates * 4 // one.envs_per_agent, asked.updates * 4 // asked.envs_per_agent),
+        "setting": (next(filter(has, SETTINGS), "another") if given.get("setting") else "", setting),
     }
     for name, (stored, wanted) in pairs.items():
         if given.get(name) not in (None, 0) and stored != wanted:
-            began = "another" if name == "setting" else stored
             raise BootcourseError(
-                f"--{name.replace('_', '-')} {given[name]}: this training began with {began}. Leave the option out to "
+                f"--{name.replace('_', '-')} {given[name]}: this training began with {stored}. Leave the option out to "
                 "continue it, or choose another folder."
             )
 
 
 def register_learner(place: str, like=None) -> str:
-    """Enter the learner "FILE.py:CLASS" into the methods, under the name of its class. Returns that name.
+    """Enter the learner "FILE.py:CLASS" into the methods, under the name of its class. Returns that name; "" for "".
 
     like: the method whose settings it starts from; None to read a run that has settings of its own. Raises
     BootcourseError if it is not there, does not load or is no learner, and for a name that a method has.
     """
+    if not place:
+        return ""
     kind = loaded(place, "--learner", "class")
     if not isinstance(kind, type) or not hasattr(kind, "driving_policy"):
         raise BootcourseError(f"--learner {place}: give a class with the methods of bootcourse.learn.protocol.Learner.")

@@ -39,6 +39,8 @@ from bootcourse.course.values import (
 )
 from bootcourse.course.verdict import Verdict
 
+LONGEST = 2000  # characters of a line that a verdict shows
+
 
 def judge(exercise: Exercise, answer: Callable | str, seconds: float | None = None) -> Verdict:
     """The verdict on a student's function, or on a text that defines it, such as a cell that was handed in.
@@ -51,6 +53,7 @@ def judge(exercise: Exercise, answer: Callable | str, seconds: float | None = No
     verdict, printed = Verdict("todo", todo), ""
     if not does_nothing(answer):  # an untouched stub needs no process
         seconds = exercise.seconds if seconds is None else seconds
+        runner.get_ready()
         outcomes(exercise, exercise.solution)  # on a new machine it compiles the road: the answer has its whole time
         report = runner.run(exercise, answer, seconds)
         if not is_unfinished(report, answer):
@@ -58,8 +61,9 @@ def judge(exercise: Exercise, answer: Callable | str, seconds: float | None = No
             printed = report.printed.strip()
     if verdict.passed:
         return verdict
-    details = (*verdict.details, *([f"printed: {printed}"] if printed else []))
-    return replace(verdict, details=details, footer=f'Stuck? `check.hint("{exercise.name}")`')
+    details = [line[:LONGEST] for line in (*verdict.details, *([f"printed: {printed}"] if printed else []))]
+    stuck = f'Stuck? `check.hint("{exercise.name}")`'
+    return replace(verdict, sentence=verdict.sentence[:LONGEST], details=tuple(details), footer=stuck)
 
 
 # Did it answer? ---------------------------------------------------------------------------------------
@@ -108,9 +112,14 @@ def not_answered(exercise: Exercise, answer: Callable | str, report: runner.Repo
     if report.ended != "":
         return Verdict("did_not_run", end_in_words(report.ended, report.seconds), here)
     if report.changed is not None:
-        argument = exercise.case_names[report.changed[1]]
+        names = exercise.case_names
+        argument = names[report.changed[1] % len(names)]
         return Verdict("wrong", f"Your function changes its argument `{argument}`, which the caller still needs: "
                                 "compute a new value instead of writing into it.")  # fmt: skip
+    parts = 1 + len(exercise.slopes)
+    if len(report.answers) < len(cases) or parts > 1 and any(len(each.parts or ()) != parts for each in report.answers):
+        # only a function that forges what its process sends
+        return Verdict("wrong", "Your function ended its own check: return the answer instead.")
     return None
 
 
@@ -132,7 +141,7 @@ def end_in_words(ended: str | int, seconds: float) -> str:
     if ended == "time":
         return f"Your function was stopped after {seconds:g} s: look for a loop that never ends."
     if ended == "size":
-        return "Your function returns too much to compare: look for a list or an array that is far too large."
+        return "Your function returns or sends too much to compare: look for a list or an array that is far too large."
     if ended < 0 or ended == 255:  # 255: the process that started it has ended, too
         name = signal.Signals(-ended).name if -ended in set(signal.Signals) else f"signal {-ended}"
         return (f"Your function made Python crash ({name}): look for a recursion without an end, or for compiled code "
@@ -161,7 +170,8 @@ def compared(exercise: Exercise, answer: Callable | str, report: runner.Report, 
     if not fails:
         return slopes_in_words(exercise, mine, rights)
     comparable = [like(*pair) and same_shape(*pair) for pair in zip(values, right_values, strict=True)]
-    if exercise.explain and all(comparable):
+    no_number = any(has_nan(one) and not has_nan(right) for one, right in zip(values, right_values, strict=True))
+    if exercise.explain and all(comparable) and not no_number:
         sentence = exercise.explain(cases, [each.data for each in values])
         drawn = (mistake for mistake in exercise.mistakes if mistake.says == sentence)  # its values never repeat
         return Verdict("wrong", sentence, mistake=next(drawn, None))

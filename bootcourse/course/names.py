@@ -29,11 +29,13 @@ def names_made(text: str) -> set[str]:
 
 
 def names_changed(text: str) -> set[str]:
-    """The variables whose object a text changes: `x.a = 1`, `x[0] = 1`, or a statement `x.do()`."""
+    """The variables whose object a text changes: `x.a = 1`, `x[0] = 1`, `setattr(x, ...)`, or a statement `x.do()`."""
     nodes = list(ast.walk(ast.parse(text)))
-    calls = [node.value.func for node in nodes if isinstance(node, ast.Expr) and isinstance(node.value, ast.Call)]
+    calls = [node.value for node in nodes if isinstance(node, ast.Expr) and isinstance(node.value, ast.Call)]
     places = [node for node in nodes if isinstance(getattr(node, "ctx", None), (ast.Store, ast.Del))]
-    return {root_of(node) for node in calls + places if isinstance(node, (ast.Attribute, ast.Subscript))}
+    places += [call.func for call in calls]
+    given = {root_of(call.args[0]) for call in calls if root_of(call.func) == "setattr" and call.args}
+    return given | {root_of(node) for node in places if isinstance(node, (ast.Attribute, ast.Subscript))}
 
 
 def root_of(node: ast.AST) -> str:

@@ -41,10 +41,10 @@ FORKS = sys.platform == "linux"  # on macOS system libraries may break in a fork
 MEMORY = 2 * 2**30  # bytes that a function may use
 START = 60  # seconds in which a process has to be ready
 WALL = 9  # seconds after which a check is over, its start included, if that takes under 7 s and the limit is no longer
-LEAST = 2  # seconds that a function has in any case
+LEAST = 1  # seconds that a function has in any case
 SLACK = 5  # seconds after which the process ends by itself
 LONGEST_PRINT = 500  # characters of a function's prints that are shown
-LONGEST_MESSAGE = 64 * 2**20  # bytes
+LONGEST_MESSAGE, MOST_SENT = 2**24, 2**26  # bytes of one message, and of all
 PR_SET_PDEATHSIG = 1  # of Linux's prctl: the signal that a process gets when its parent ends
 READY = b"ready"
 PRELOADED = ["bootcourse.course.preloaded"]
@@ -128,7 +128,7 @@ def run(exercise: Exercise, answer: Callable | str, seconds: float, times: int =
         if not process.process.is_alive():
             process = Process()
         try:
-            return process.work(packed(exercise), job, seconds, begin)
+            return process.work(packed(exercise), job, seconds, begin, times * len(exercise.all_arguments))
         finally:  # also after the notebook's stop button
             process.end()
             with contextlib.suppress(BootcourseError):  # the next check says so
@@ -169,9 +169,9 @@ class Process:
         except (OSError, EOFError) as error:
             self.error = error
 
-    def work(self, exercise: bytes, job: bytes, seconds: float, begin: float) -> Report:
-        """The report on a job. begin: when the check began."""
-        report = Report()
+    def work(self, exercise: bytes, job: bytes, seconds: float, begin: float, most: int) -> Report:
+        """The report on a job. begin: when the check began; most: how many answers it can rightly have."""
+        report, sent = Report(), 0
         try:
             self.connection.send_bytes(exercise)
             if not self.connection.poll(START) or self.connection.recv_bytes() != READY:
@@ -181,8 +181,11 @@ class Process:
             report.seconds = time_left(seconds, now - begin)
             end = now + report.seconds
             while self.connection.poll(max(0.0, end - time.monotonic())):
-                message = decoder.decode(self.connection.recv_bytes(LONGEST_MESSAGE))
-                report.add(message)
+                data = self.connection.recv_bytes(LONGEST_MESSAGE)
+                sent += len(data)
+                report.add(message := decoder.decode(data))
+                if sent > MOST_SENT or len(report.answers) > most:
+                    return Report(ended="size")
                 if message.is_last:
                     return report
             report.ended = "time"

@@ -34,6 +34,9 @@ from bootcourse.scenario import DEFAULT, Scenario
 from bootcourse.storage.runs import save_runs
 
 SEEDS, EPISODES = 64, 20_000  # at most, of one training
+# Scrolls to what stands beside it, below the curves. Text that is put into a page runs no <script>, but this.
+SHOW = """<img src="data:," alt="" style="display:none"
+  onerror="const stage = this.parentElement; this.remove(); stage.scrollIntoView({block: 'nearest'})">"""
 HELD_OUT = 1  # the block of roads that no agent has trained on
 
 
@@ -211,7 +214,7 @@ class TrainPanel(Panel):
         rollout = record(agent.as_policy(with_q=True), [road], self.scenario, label)[0]
         self._close_replay()
         self.replay = _replay(rollout)
-        self.stage.value = self.replay._repr_mimebundle_()["text/html"]
+        self.stage.value = SHOW + self.replay._repr_mimebundle_()["text/html"]
         self.say(
             f"The best of {len(result.agents)} so far, {display_name(label)}, on road {road}, which no agent has seen."
         )

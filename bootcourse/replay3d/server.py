@@ -27,6 +27,8 @@ PLAIN = websockets.asyncio.server.serve
 class OwnPagesOnly(PLAIN):
     """A websocket server that refuses foreign requests, of HTTP and of WebSockets, before it does anything else."""
 
+    made = 0  # servers
+
     def __init__(self, *args, process_request, **options):
         def check_first(connection, request):
             if is_foreign(request.headers):
@@ -34,6 +36,7 @@ class OwnPagesOnly(PLAIN):
             return process_request(connection, request)
 
         super().__init__(*args, process_request=check_first, **options)
+        OwnPagesOnly.made += 1
 
 
 def is_foreign(headers) -> bool:
@@ -58,11 +61,17 @@ class LocalServer(viser.ViserServer):
     def __init__(self, port: int):
         # viser has no setting for its websocket server and takes the class by this name, once, while it starts.
         with self._starting, quiet():
-            websockets.asyncio.server.serve = OwnPagesOnly
+            websockets.asyncio.server.serve, guarded = OwnPagesOnly, OwnPagesOnly.made
             try:
                 super().__init__(host=HOST, port=port, label="bootcourse replay", verbose=False)
             finally:
                 websockets.asyncio.server.serve = PLAIN
+        if OwnPagesOnly.made == guarded:
+            self.stop()
+            raise BootcourseError(
+                "This version of viser starts its server in another way, without our guard against pages of other "
+                "sites: install the version that environment.lock names."
+            )
 
     def request_share_url(self, verbose: bool = True) -> None:
         """Open nothing, and return None."""

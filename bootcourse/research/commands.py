@@ -12,6 +12,7 @@ import typer
 
 from bootcourse.cli.training import INTERRUPTED
 from bootcourse.errors import BootcourseError, check_known
+from bootcourse.files import write_bytes
 
 
 def study(
@@ -45,8 +46,9 @@ def study(
     """
     from bootcourse.research import plan
     from bootcourse.research.report import write_report
-    from bootcourse.research.results import in_study
+    from bootcourse.research.results import experiment, in_study
     from bootcourse.research.sweep import write_sweep
+    from bootcourse.research.tables import measured_table
 
     check_known("Study", name, (*plan.STUDIES, "sweep", *plan.EXPERIMENTS, *plan.LESSON_EXPERIMENTS))
     if name in plan.STUDIES:
@@ -65,6 +67,10 @@ def study(
             print(write_report(study, out))
         if name == "sweep" and not problems:
             print(write_sweep(out))
+        if name in (*plan.EXPERIMENTS, *plan.LESSON_EXPERIMENTS) and (varied := experiment(name, out)):
+            table = measured_table(varied)
+            write_bytes(out / f"{name}.md", f"# {name}: means over agents\n\n{table}".encode())
+            print(table, out / f"{name}.md", sep="\n")
 
     how = {"backend": backend, "scheduler": scheduler, "workers": workers, "recompute": recompute}
     raise typer.Exit(compute(wanted, out, report, **how))

@@ -9,6 +9,7 @@ import joblib
 
 from bootcourse.errors import BootcourseError, check_known
 from bootcourse.files import write_json
+from bootcourse.research.estimate import time_needed
 from bootcourse.research.jobs import OtherQuestion, aside, finished, run_job
 from bootcourse.storage.work import locked
 
@@ -44,6 +45,7 @@ def run_jobs(
         print(f"{listed} in {root}: {done} done already, {len(waiting)} to compute.")
         problems = []
         if waiting:
+            print(time_needed(waiting, root, workers))
             write_json(root / "study.json", {"jobs": [job.name for job in jobs]})
             with connected(backend, scheduler, workers):
                 problems = _compute(waiting, root.resolve(), recompute)

@@ -140,6 +140,20 @@ def sensitivity_table(results: dict[str, Results], measure: str) -> str:
     return markdown([HEADINGS[measure], *(display_name(method) for method in methods)], rows)
 
 
+def measured_table(varied: dict[str, Results]) -> str:
+    """Whatever an experiment measured: means over agents, a row for each variation and method."""
+    rows, columns = [], {}
+    for variation, found in varied.items():
+        for method in found.methods:
+            mine = found.of(method)
+            means = {name: values.mean() for name, values in mine.measured.items()}
+            means |= {name: mine.episodes(name).mean() for name in ("success", "returns", "accident") if mine.tested}
+            columns |= dict.fromkeys(means)
+            rows.append(([variation, display_name(method), len(mine)], means))
+    cells = [[*first, *(number(means[name]) if name in means else "" for name in columns)] for first, means in rows]
+    return markdown(["", "method", "agents", *columns], cells)
+
+
 def variations_table(varied: dict[str, Results]) -> str:
     """Who escapes and what they earn, a row for each variation and method."""
     rows = []

@@ -161,6 +161,9 @@ def load_run(path: Path, teacher: Rule | None = None, environment: str = TRAP) -
         if stored.sha256.get(name) != sha256(path / name):
             raise BootcourseError(f"{path / name} is damaged: its hash has changed. Train this run again.")
     config = read_json(path / "config.json", Config, TRAIN_AGAIN)
+    if (method := config.settings.get("method")) not in METHODS:
+        own = "if it is a learner of your own, add the --learner FILE.py:CLASS that it was trained with"
+        raise BootcourseError(f"{path} was trained with {method!r:.80}, which is no method here: {own}.")
     with decoding(path / "config.json", TRAIN_AGAIN):
         settings = stored_settings(config.settings)
         scenario = Scenario.from_json(json.dumps(config.scenario)) if config.environment == TRAP else None

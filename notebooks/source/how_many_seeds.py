@@ -404,7 +404,7 @@ as_it_is, changed = (100 * mine.scores(name, "success") for name in settings)
 effect = bc.statistics.difference(changed, as_it_is)
 rows = [
     [name, f"{bc.statistics.iqm(group):.0f}", ", ".join(f"{each:.0f}" for each in sorted(group))]
-    for name, group in (("as it is", as_it_is), (str(CHANGE), changed))
+    for name, group in (("as it is", as_it_is), ("changed", changed))
 ]
 words = f"Changed less unchanged: {tables.bracketed(effect)} points. The interval "
 words += "holds 0." if effect.low <= 0 <= effect.high else "does not hold 0."

@@ -17,6 +17,7 @@ import jupytext
 from bootcourse.course.lessons import LESSONS, number, registry
 from tools.course.numbering import NOTEBOOKS, resolved
 
+SAME = "# NBVAL_CHECK_OUTPUT"  # in a source; nbval reads it as a tag, which students do not see
 BEGIN, END = "# solution", "# end solution"
 OWN = re.compile(rf"^( +){BEGIN}: the exercise's own$", re.M)
 NUMBER = re.compile(r"\{\{\s+(.+?)(?:\s+\|\s+([\w.,+%]+))?\s+\}\}", re.S)
@@ -67,7 +68,10 @@ def read(path: Path) -> list[Cell]:
     cells, exercises = [], 0
     for cell in jupytext.read(path).cells:
         if cell.cell_type == "code":
-            text = with_solutions(cell.source)
+            text, same = re.subn(rf"^{SAME}\n", "", cell.source, flags=re.M)
+            if same:
+                cell.metadata["tags"] = [*cell.metadata.get("tags", []), "nbval-check-output"]
+            text = with_solutions(text)
             both = without_solution(text), without_marks(text)
         else:
             text, exercises = numbered(cell.source, path.stem, exercises)

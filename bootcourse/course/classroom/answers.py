@@ -188,12 +188,18 @@ class Answers:
             ways = [self.checked(name, checked[name])] if name in checked else []
             touching = self.touched.get(name, [])
             defined = [place for place in touching if self.statements[place].defines(name, name in checked)]
-            ways += [self.made({name}, place + 1) for place in defined[-1:]]
+            defined = defined or [place for place in touching if self.statements[place].defines(name, True)]
+            ways += [self.made({name}, self.end_of(name, place)) for place in defined[-1:]]
             broken = [self.statements[place] for place in touching if self.statements[place].node is None]
             ways = [way for way in (*ways, *(one.text for one in broken[-1:])) if way.strip()]
             if ways:
                 texts[name] = next((way for way in ways if not unfinished(way)), ways[0])
         return texts
+
+    def end_of(self, name: str, place: int) -> int:
+        """Where what is made here stops to change, such as `f.n = 9` below `f`: the place behind it."""
+        below = [later for later in self.touched[name] if later > place]
+        return next((later for later in below if name in self.statements[later].makes), max([place, *below]) + 1)
 
     def checked(self, name: str, place: int) -> str:
         """The answer that the check at this place was given; "" if the notebook does not say what it was."""

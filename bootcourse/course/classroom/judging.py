@@ -53,7 +53,6 @@ def main() -> None:
 
     first = next(iter(registry().values()))
     judge(first, f"def {first.call}:\n    1 / 0\n")  # starts the processes that run answers
-    ours = children()
     print(json.dumps(holds), file=replies, flush=True)
     for line in questions:
         asked = json.loads(line)
@@ -62,13 +61,6 @@ def main() -> None:
             shutil.rmtree(left, ignore_errors=True) if left.is_dir() else left.unlink()
         judged = Judged(verdict.kind, verdict.sentence, verdict.details, verdict.mistake is not None)
         print(msgspec.json.encode(judged).decode(), file=replies, flush=True)
-        if children() > ours:  # an answer has left processes that run on
-            return  # and with this process they end
-
-
-def children() -> int:
-    """Linux: how many child processes this process has."""
-    return sum(len(path.read_text().split()) for path in Path("/proc/self/task").glob("*/children"))
 
 
 class Judge:

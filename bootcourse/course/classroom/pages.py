@@ -182,7 +182,7 @@ def shut_in(holds: list[str]) -> str:
         return ""
     if missing := [words for what, words in HOLDS.items() if what not in holds]:
         return f"On this system an answer could {', and '.join(missing)} while it was judged."
-    return "Answers were judged without network, sockets and your processes; they could write to a folder in memory."
+    return "Answers were judged without network and processes; they could write to a folder in memory."
 
 
 def row_of(exercise: str, graduates: Sequence[Graduate], link: dict[str, Markup]) -> list:

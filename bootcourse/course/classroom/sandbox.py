@@ -2,8 +2,8 @@
 
 On Linux, without root: a user, network, process and mount namespace (unshare(2)), and Landlock (landlock(7)). The
 process that judges may write beneath one folder, and read Python, this package and the system. The process of an answer
-has less: `shut_in_answer` lets it write beneath a small folder in memory alone, and open no socket. Elsewhere, and
-where the system forbids it, nothing of this applies: `shut_in` says what does.
+has less: `shut_in_answer` lets it write beneath a small folder in memory alone, start no process, open no socket and
+use no right of root. Elsewhere, and where the system forbids it, nothing of this applies: `shut_in` says what does.
 """
 
 import contextlib
@@ -17,7 +17,8 @@ from pathlib import Path
 
 import numba
 
-NEWNS, NEWUSER, NEWPID, NEWNET = 0x20000, 0x10000000, 0x20000000, 0x40000000  # sched.h
+NEWNS, NEWIPC, NEWUSER, NEWPID, NEWNET = 0x20000, 0x8000000, 0x10000000, 0x20000000, 0x40000000  # sched.h
+THREAD = 0x10000
 CREATE_RULESET, ADD_RULE, RESTRICT_SELF = 444, 445, 446  # numbers of the system calls, the same on all processors
 DEATH_SIGNAL, SECCOMP, NO_NEW_PRIVS = 1, 22, 38  # of prctl(2)
 LIST, READ = 0b1000, 0b1100  # Landlock's rights to list a folder, and to read files, too
@@ -29,20 +30,28 @@ SYSTEM = ("/usr", "/lib", "/lib64", "/bin", "/etc", "/opt", "/proc", "/sys", "/d
 PACKAGE = Path(__file__).resolve().parents[2]
 SCRATCH = "scratch"
 NOTHING_SPECIAL, ROOM = 0b1110, b"size=64m,nr_inodes=4k"  # no programs, devices, rights of others in that folder
-LARGEST, MOST = 2**24, 256  # bytes of a file, and processes, of an answer
-ALLOWED, FAILS = 0x7FFF0000, 0x00050001  # of a filter: go on; fail with EPERM
+LARGEST, MOST = 2**24, 256  # bytes of a file, and threads, of an answer; the latter not as root
+ALLOWED, FAILS, UNKNOWN = 0x7FFF0000, 0x00050001, 0x00050026  # of a filter: go on; fail with EPERM; with ENOSYS
+CAPABILITIES = 0x20080522  # the version of capset(2)
 HOLDS = {  # what may hold -> what an answer can do if it does not
     "files": "read and change your files",
     "network": "use the network",
-    "sockets": "talk to programs on your machine, and change the dates and permissions of your files",
+    "calls": "start programs and talk to others, and change the dates and permissions of your files",
     "processes": "see and end your programs",
     "disk": "fill your disk",
 }
-# socket, io_uring_setup; chmod, chown, utime, setxattr and removexattr with their kin (see asm/unistd.h)
-REFUSED = {
-    "x86_64": (0xC000003E, (41, 425, 90, 91, 268, 452, 92, 93, 94, 260, 132, 235, 261, 280, 188, 189, 190, 197, 198,
-                            199)),
-    "aarch64": (0xC00000B7, (198, 425, 52, 53, 452, 54, 55, 88, 5, 6, 7, 14, 15, 16)),
+PROCESSORS = {"x86_64": (0xC000003E, 56), "aarch64": (0xC00000B7, 220)}  # -> of a filter, and its number of clone
+CLONE3 = 435
+REFUSED = {  # system calls by number, on these processors, see asm/unistd.h
+    "socket, io_uring_setup": ((41, 425), (198, 425)),
+    "chmod, chown": ((90, 91, 92, 93, 94, 260, 268, 452), (52, 53, 54, 55, 452)),
+    "utime, setxattr, removexattr": ((132, 235, 261, 280, 188, 189, 190, 197, 198, 199, 463, 466, 469),
+                                     (88, 5, 6, 7, 14, 15, 16, 463, 466, 469)),
+    "fork, vfork, unshare, setns": ((57, 58, 272, 308), (97, 268)),
+    "ptrace, process_vm_readv, process_vm_writev": ((101, 310, 311), (117, 270, 271)),
+    "keys": ((248, 249, 250), (217, 218, 219)),
+    "memory and queues of several processes": ((29, 64, 68, 240, 319, 447), (194, 190, 186, 180, 279, 447)),
+    "bpf, perf_event_open, userfaultfd": ((321, 298, 323), (280, 241, 282)),
 }  # fmt: skip
 
 
@@ -56,7 +65,7 @@ def shut_in(folder: Path) -> list[str]:
     libc, holds, scratch = ctypes.CDLL(None, use_errno=True), [], folder / SCRATCH
     scratch.mkdir()
     user, group = os.getuid(), os.getgid()
-    if libc.unshare(NEWUSER | NEWNET | NEWPID | NEWNS) == 0:
+    if libc.unshare(NEWUSER | NEWNET | NEWPID | NEWNS | NEWIPC) == 0:
         holds += ["network", "processes"]
         with contextlib.suppress(OSError):
             for name, text in ("setgroups", "deny"), ("uid_map", f"0 {user} 1"), ("gid_map", f"0 {group} 1"):
@@ -71,11 +80,11 @@ def shut_in(folder: Path) -> list[str]:
     child = os.fork()  # can the process of an answer be shut in?
     if not child:
         os._exit(0 if shut_in_answer(folder) else 1)
-    return [*holds, "sockets"] if os.waitpid(child, 0)[1] == 0 else holds
+    return [*holds, "calls"] if os.waitpid(child, 0)[1] == 0 else holds
 
 
 def shut_in_answer(folder: Path) -> bool:
-    """The same for the process of one answer, which may write beneath folder/scratch alone, and open no socket."""
+    """The same for the process of one answer, which may write beneath folder/scratch alone: see `REFUSED`."""
     libc, scratch = ctypes.CDLL(None, use_errno=True), folder / SCRATCH
     limit("RLIMIT_FSIZE", LARGEST)
     limit("RLIMIT_CORE", 0)
@@ -83,7 +92,8 @@ def shut_in_answer(folder: Path) -> bool:
     tempfile.tempdir = None
     numba.core.caching.Cache.save_overload = lambda *arguments: None  # what it compiles, nobody else executes
     os.chdir(scratch)
-    return restrict_files(libc, scratch) & refuse_calls(libc)
+    shut = restrict_files(libc, scratch) & refuse_calls(libc)
+    return shut & (libc.capset((ctypes.c_uint32 * 2)(CAPABILITIES), (ctypes.c_uint32 * 6)()) == 0)  # root's rights
 
 
 def limit(what: str, most: int) -> None:
@@ -151,16 +161,29 @@ class Filter(ctypes.Structure):
 
 
 def refuse_calls(libc: ctypes.CDLL) -> bool:
-    """seccomp(2): from now on the system calls of `REFUSED` fail. False where this is not possible."""
-    if platform.machine() not in REFUSED:
+    """seccomp(2): from now on the system calls of `REFUSED` fail, and a thread is all that clone makes.
+
+    False where this is not possible.
+    """
+    if platform.machine() not in PROCESSORS:
         return False
-    processor, numbers = REFUSED[platform.machine()]
-    load, equal, at_least, answer = 0x20, 0x15, 0x35, 0x06
-    left = len(numbers)
-    steps = [Step(load, 0, 0, 4), Step(equal, 0, left + 3, processor), Step(load, 0, 0, 0),
-             Step(at_least, left + 1, 0, 0x40000000),  # another way to call the same on x86_64
-             *(Step(equal, left - place, 0, number) for place, number in enumerate(numbers)),
-             Step(answer, 0, 0, ALLOWED), Step(answer, 0, 0, FAILS)]  # fmt: skip
+    (processor, clone), place = PROCESSORS[platform.machine()], list(PROCESSORS).index(platform.machine())
+    load, equal, at_least, any_of, answer = 0x20, 0x15, 0x35, 0x45, 0x06
+    allowed, fails = Step(answer, 0, 0, ALLOWED), Step(answer, 0, 0, FAILS)
+    steps = [
+        Step(load, 0, 0, 4),
+        Step(equal, 1, 0, processor),
+        fails,
+        Step(load, 0, 0, 0),
+        Step(at_least, 0, 1, 0x40000000),
+        fails,  # another way to call the same on x86_64
+        Step(equal, 0, 1, CLONE3),
+        Step(answer, 0, 0, UNKNOWN),
+    ]  # its flags cannot be seen: libc takes clone
+    for numbers in REFUSED.values():
+        for number in numbers[place]:
+            steps += [Step(equal, 0, 1, number), fails]
+    steps += [Step(equal, 1, 0, clone), allowed, Step(load, 0, 0, 16), Step(any_of, 1, 0, THREAD), fails, allowed]
     program = Filter(len(steps), (Step * len(steps))(*steps))
     libc.prctl(NO_NEW_PRIVS, 1, 0, 0, 0)
     return libc.prctl(SECCOMP, 2, ctypes.byref(program), 0, 0) == 0
