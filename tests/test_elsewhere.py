@@ -146,12 +146,12 @@ def test_a_comparison_trains_each_entry_and_shows_a_table_and_curves():
         return bc.Training(bc.with_seeds(bc.settings_for("sac", **QUICK), seeds), 3, make_env=Chain)
 
     entries = {"bc": bc.settings_for("bc", **QUICK | {"learning_starts": 0}), "sac, mine": mine}
-    found = bc.compare(entries, 2, 12, tests=3, make_env=Chain, teacher=chain.rule, progress=False)
-    assert found.scores("bc").tolist() == [10, 10] and found.scores("bc", "success").tolist() == [1, 1]
-    head, clones, own = found.rows()
+    compared = bc.compare(entries, 2, 12, tests=3, make_env=Chain, teacher=chain.rule, progress=False)
+    assert compared.scores("bc").tolist() == [10, 10] and compared.scores("bc", "success").tolist() == [1, 1]
+    head, clones, own = compared.rows()
     assert clones[:4] == ("bc", "2", "100.0 [100.0, 100.0]", "10.0 [10.0, 10.0]") and own[:2] == ("sac, mine", "2")
-    assert "sac, mine" in str(found) and found._repr_html_().count("<tr>") == 3
-    assert "success" in found.figure("Cloning is enough").alt
+    assert "sac, mine" in str(compared) and compared._repr_html_().count("<tr>") == 3
+    assert "success" in compared.figure("Cloning is enough").alt
     for wrong, says in (({}, "nothing to compare"), ({"x": 3}, "'x' is 3: give settings")):
         with pytest.raises(bc.BootcourseError, match=says):
             bc.compare(wrong)
@@ -177,10 +177,10 @@ def test_an_interrupted_comparison_keeps_what_was_trained_and_names_what_is_miss
     with pytest.warns(
         UserWarning, match=r"'soft' was interrupted: .* after \d+ of 20 episodes. Not trained: soft, again"
     ):
-        found = bc.compare(
+        compared = bc.compare(
             entries, 2, 20, tests=3, make_env=Chain, teacher=presses_ctrl_c_after(450), progress=False
         )  # fmt: skip
-    assert [row[0] for row in found.rows()] == ["", "sac", "soft, interrupted"] and len(found.tested["soft"]) == 2
+    assert [row[0] for row in compared.rows()] == ["", "sac", "soft, interrupted"] and len(compared.tested["soft"]) == 2
     only = {"soft": soft, "sac": soft}
     with (
         pytest.warns(UserWarning, match="'soft' was interrupted: it has no row. Not trained: sac"),

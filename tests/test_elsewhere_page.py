@@ -5,7 +5,8 @@ import pytest
 
 from bootcourse.learn.settings import settings_for
 from bootcourse.research.elsewhere import ALONE, METHODS, TAUGHT
-from bootcourse.research.elsewhere_page import SAC, TEACHER, Cells, Claim, claims_of, figure, verdict, write_page
+from bootcourse.research.elsewhere_claims import SAC, TEACHER, Cells, Claim, claims_of, verdict
+from bootcourse.research.elsewhere_page import figure, write_page
 from bootcourse.research.results import Results, agent_entries
 
 WORSE, BETTER = np.linspace(0.1, 0.4, 10), np.linspace(0.6, 0.9, 10)
