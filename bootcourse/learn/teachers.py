@@ -90,16 +90,17 @@ def teacher_of(my_rule: Rule, scenario: Scenario | None = DEFAULT, n_actions: in
         if getattr(my_rule, "answers_for_all_roads", False):
             actions = np.asarray(answer(cars, None))
             if actions.shape != (len(cars),) or actions.dtype.kind not in "iu":
-                found = f"actions of shape {actions.shape} and type {actions.dtype}"
-                raise RuleFailed(name, f"returned {found}, but {len(cars)} roads need a whole number each", None)
+                given_back = f"actions of shape {actions.shape} and type {actions.dtype}"
+                raise RuleFailed(name, f"returned {given_back}, but {len(cars)} roads need a whole number each", None)
             for road in np.flatnonzero((actions < 0) | (actions >= n_actions))[:1]:
                 raise RuleFailed(name, f"returned {actions[road]}, but {an_action_is}", int(road))
             return actions
         actions = np.empty(len(cars), dtype=np.int64)
-        for road, its in enumerate(cars):
-            action = answer(its.copy(), road)
+        for road, one in enumerate(cars):
+            action = answer(one.copy(), road)
             if not is_action(action, n_actions):
-                raise RuleFailed(name, f"returned {action!r:.80}, but {an_action_is}", road)
+                remedy = ": give int(...) of it" if isinstance(action, (bool, np.bool_, np.ndarray)) else ""
+                raise RuleFailed(name, f"returned {action!r:.80}, but {an_action_is}{remedy}", road)
             actions[road] = action
         return actions
 

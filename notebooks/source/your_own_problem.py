@@ -180,12 +180,13 @@ predict("your_own_problem.3", "The flag is reached most often by", four)
 # keeps what is trained.
 
 # %% tags=["nbval-ignore-output"]
-EPISODES = {"chain": 150, "mountain-car": 50, "acrobot": 20, "cartpole": 60}[PROBLEM]
+EPISODES = {"chain": 150, "mountain-car": 30, "acrobot": 20, "cartpole": 60}[PROBLEM]
 quick = replace(problem, episodes=EPISODES)
 compared = bc.compare(
     {name: settings_of(quick, name) for name in four},
     seeds=5,
     episodes=EPISODES,
+    tests=20,
     make_env=problem.make_env,
     teacher=teachers["systematic"],
     progress=False,
@@ -197,7 +198,7 @@ table(headings, rows)
 bc.show(compared.figure(f"{problem.name}, the systematic teacher, five seeds"))
 
 # %% [markdown]
-# Five seeds and a short training decide little. The study has ten seeds, and three to six times as
+# Five seeds and a short training decide little. The study has ten seeds, and three to five times as
 # many episodes: `bootcourse study elsewhere`.
 
 # %% tags=["hide-input"]
