@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import torch
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 import bootcourse as bc
 from bootcourse.comparison import Comparison
@@ -181,8 +182,8 @@ def test_the_figure_of_names_that_no_method_has_tells_them_apart():
         assert set(colours) == set(names) and len(set(colours.values())) == 3
         thick = [line for line in ax.lines if line.get_linewidth() > 1]
         assert len({line.get_linestyle() for line in thick}) == 3 and len({line.get_color() for line in thick}) == 3
-    width, draw = figure.bbox.width, figure.canvas.get_renderer()
-    assert all(text.get_window_extent(draw).x1 < width for ax in figure.axes for text in ax.texts)
+    FigureCanvasAgg(figure).draw()
+    assert all(text.get_window_extent().x1 < figure.bbox.width for ax in figure.axes for text in ax.texts)
 
 
 def presses_ctrl_c_after(calls: int):
