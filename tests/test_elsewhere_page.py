@@ -70,5 +70,6 @@ def test_the_page_has_its_figure_its_verdicts_and_every_cell(tmp_path):
     assert (tmp_path / "figures/elsewhere.png").exists() and "](figures/elsewhere.png)" in text
     assert "| chain with a decoy | random | 25 (0.25) |" in text and "**75 (0.75)**" in text
     assert "### H3 open: 10 not run" in text and "10 of 10 (69 to 100" in text
+    assert "- Not run: MountainCar, Acrobot, CartPole, DoorKey 5x5, Lunar lander." in text
     assert "of 1 pairs" in figure(cells).alt.lower() and "soft 100 %" in figure(cells).alt
     assert write_page({}, tmp_path) is None and len(METHODS) == len(ALONE) + len(TAUGHT)
