@@ -209,7 +209,7 @@ bc.show(figure(cells))
 # {{ percent('mountain-car', 'systematic', 'soft') }} % of the episodes, cloning in
 # {{ percent('mountain-car', 'systematic', 'cloning') }} %. On the chain, whose systematic teacher
 # never arrives, soft still arrives with all ten agents. The one of CartPole balances for
-# {{ '%.0f' % score('cartpole', 'systematic', 'the teacher', 'returns') }} decisions; all agents of
+# {{ score('cartpole', 'systematic', 'the teacher', 'returns') | .0f }} decisions; all agents of
 # soft, and of both, balance for all 500.
 # <!-- claim: all((cells().scores('cartpole', 'systematic', m) == 500).all()
 #   for m in ('soft', 'both')) -->
