@@ -16,6 +16,9 @@ class Style(NamedTuple):
 
 
 OTHER = Style("#6F4FA0")  # other drivers: you, idle, random
+STRANGERS = (  # names that are neither a method nor a driver, in the order in which a figure meets them
+    OTHER, Style("#117733", "--"), Style("#D9668A", "-."), Style("#661100", ":"),
+)  # fmt: skip
 
 TRAP = "#7A1F1F"  # the two slow cars
 TRAFFIC = "#B8BEC6"  # all other cars

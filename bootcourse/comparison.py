@@ -71,12 +71,13 @@ def compare(
     """Train each entry with the same number of seeds, and test its agents in the same episodes.
 
     entries: by name, settings, or a function of the number of seeds that returns a `Training` of your own. A name that
-    begins with a method's has its colour. make_env and training: further arguments of `Training`, such as teacher.
+    begins with a method's has its colour, any other one of its own. episodes: of training. tests: episodes that test an
+    agent. make_env and training: further arguments of `Training`, such as teacher.
     An interrupt ends the comparison: the agents in training are tested as they are, and a warning says what is missing.
     Raises BootcourseError for no entries, for one that is neither, and for an interrupt before the first update.
     """
-    if not entries:
-        raise BootcourseError('There is nothing to compare: give {"mine": settings}.')
+    if not entries or not isinstance(entries, Mapping):
+        raise BootcourseError(f'There is nothing to compare in {entries!r:.80}: give {{"mine": settings}}.')
     results, tested = {}, {}
     for name, entry in entries.items():
         if isinstance(entry, Settings):

@@ -158,6 +158,14 @@ def display_name(label: str) -> str:
 
 def style(label: str) -> Style:
     """The style of a method, or of a drive whose label begins with a method's name ("sac, seed 3")."""
-    words = label.lower().replace(",", " ").replace(":", " ").split()
-    key = words[0] if words else ""
+    key = _first_word(label)
     return METHODS[key].style if key in METHODS else DRIVERS.get(key, ("", OTHER))[1]
+
+
+def has_style(label: str) -> bool:
+    """Whether a label begins with the name of a method or of a driver, and so has a style of its own."""
+    return _first_word(label) in METHODS | DRIVERS
+
+
+def _first_word(label: str) -> str:
+    return next(iter(label.lower().replace(",", " ").replace(":", " ").split()), "")

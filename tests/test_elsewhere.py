@@ -3,14 +3,17 @@
 import re
 import signal
 from pathlib import Path
+from types import SimpleNamespace
 
 import gymnasium as gym
 import numpy as np
 import pytest
 import torch
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 import bootcourse as bc
+from bootcourse.comparison import Comparison
 from bootcourse.learn.demonstrations import collect
 from bootcourse.learn.replay_buffer import decode_transitions
 from bootcourse.learn.teachers import all_roads, teacher_policy
@@ -77,6 +80,8 @@ WRONG = [
     (lambda observation: None, "it returned None, but an action is a whole number from 0 to 2"),
     (lambda observation: 3, "it returned 3, but an action is a whole number from 0 to 2"),
     (lambda observation: [0, 1], r"it returned \[0, 1\], but an action"),
+    (lambda observation: observation[1] > 0, "a whole number from 0 to 2: give int"),
+    (lambda observation: np.where(observation[1] > 0, 2, 0), r"returned array\(\d\), .* from 0 to 2: give int"),
     (all_roads(lambda observations: np.zeros(3, int)), r"returned actions of shape \(3,\)"),
     (all_roads(lambda observations: np.full(len(observations), 7)), "returned 7, but an action"),
     ("my_rule", "teacher = 'my_rule': give a function"),
@@ -94,7 +99,13 @@ ENVIRONMENTS = [
         lambda n: gym.make_vec("CartPole-v1", n),
         "CartPole-v1 does not restart an episode in the step that ends it",
     ),
-    (lambda n: gym.make_vec("Pendulum-v1", n), r"Pendulum-v1 has actions of Box.*: this library learns Discrete\(n\)"),
+    (
+        lambda n: gym.make_vec("Pendulum-v1", n),
+        r"Pendulum-v1 has actions of Box.*: this library learns Discrete\(n\), from 0. .*DiscretizeAction",
+    ),
+    (gym.make("MountainCar-v0"), r"make_env = <.*>: give a function of n"),
+    (lambda n: gym.make("MountainCar-v0"), r"make_env\(4\) returned <.*>: give a function of n, such as"),
+    (lambda n: mountain_car(3), r"make_env\(4\) returned SyncVectorEnv\(.* of 3 copies: give"),
     (lambda n: gym.make_vec("Taxi-v4", n), r"Taxi-v4 shows Discrete\(500\): flatten it to a vector"),
 ]
 
@@ -146,15 +157,33 @@ def test_a_comparison_trains_each_entry_and_shows_a_table_and_curves():
         return bc.Training(bc.with_seeds(bc.settings_for("sac", **QUICK), seeds), 3, make_env=Chain)
 
     entries = {"bc": bc.settings_for("bc", **QUICK | {"learning_starts": 0}), "sac, mine": mine}
-    found = bc.compare(entries, 2, 12, tests=3, make_env=Chain, teacher=chain.rule, progress=False)
-    assert found.scores("bc").tolist() == [10, 10] and found.scores("bc", "success").tolist() == [1, 1]
-    head, clones, own = found.rows()
+    compared = bc.compare(entries, 2, 12, tests=3, make_env=Chain, teacher=chain.rule, progress=False)
+    assert compared.scores("bc").tolist() == [10, 10] and compared.scores("bc", "success").tolist() == [1, 1]
+    head, clones, own = compared.rows()
     assert clones[:4] == ("bc", "2", "100.0 [100.0, 100.0]", "10.0 [10.0, 10.0]") and own[:2] == ("sac, mine", "2")
-    assert "sac, mine" in str(found) and found._repr_html_().count("<tr>") == 3
-    assert "success" in found.figure("Cloning is enough").alt
-    for wrong, says in (({}, "nothing to compare"), ({"x": 3}, "'x' is 3: give settings")):
+    assert "sac, mine" in str(compared) and compared._repr_html_().count("<tr>") == 3
+    assert "success" in compared.figure("Cloning is enough").alt
+    for wrong, says in (
+        ({}, "nothing to compare"),
+        ({"x": 3}, "'x' is 3: give settings"),
+        ([bc.settings_for("sac")], 'give {"mine": se'),
+    ):
         with pytest.raises(bc.BootcourseError, match=says):
             bc.compare(wrong)
+
+
+def test_the_figure_of_names_that_no_method_has_tells_them_apart():
+    curves = {name: np.linspace(0, level, 40)[None].repeat(3, 0) for name, level in (("success", 1.0), ("return", 9.0))}
+    names = ["cloning", "my own idea", "the same without a bonus"]
+    results = {name: SimpleNamespace(curves=curves) for name in names}
+    figure = Comparison(results, {}).figure("Three names of one's own")
+    for ax in figure.axes:
+        colours = {text.get_text().replace("\n", " "): text.get_color() for text in ax.texts}
+        assert set(colours) == set(names) and len(set(colours.values())) == 3
+        thick = [line for line in ax.lines if line.get_linewidth() > 1]
+        assert len({line.get_linestyle() for line in thick}) == 3 and len({line.get_color() for line in thick}) == 3
+    FigureCanvasAgg(figure).draw()
+    assert all(text.get_window_extent().x1 < figure.bbox.width for ax in figure.axes for text in ax.texts)
 
 
 def presses_ctrl_c_after(calls: int):
@@ -177,10 +206,10 @@ def test_an_interrupted_comparison_keeps_what_was_trained_and_names_what_is_miss
     with pytest.warns(
         UserWarning, match=r"'soft' was interrupted: .* after \d+ of 20 episodes. Not trained: soft, again"
     ):
-        found = bc.compare(
+        compared = bc.compare(
             entries, 2, 20, tests=3, make_env=Chain, teacher=presses_ctrl_c_after(450), progress=False
         )  # fmt: skip
-    assert [row[0] for row in found.rows()] == ["", "sac", "soft, interrupted"] and len(found.tested["soft"]) == 2
+    assert [row[0] for row in compared.rows()] == ["", "sac", "soft, interrupted"] and len(compared.tested["soft"]) == 2
     only = {"soft": soft, "sac": soft}
     with (
         pytest.warns(UserWarning, match="'soft' was interrupted: it has no row. Not trained: sac"),

@@ -5,7 +5,8 @@ import pytest
 
 from bootcourse.learn.settings import settings_for
 from bootcourse.research.elsewhere import ALONE, METHODS, TAUGHT
-from bootcourse.research.elsewhere_page import SAC, TEACHER, Cells, Claim, claims_of, figure, verdict, write_page
+from bootcourse.research.elsewhere_claims import SAC, TEACHER, Cells, Claim, claims_of, verdict
+from bootcourse.research.elsewhere_page import figure, write_page
 from bootcourse.research.results import Results, agent_entries
 
 WORSE, BETTER = np.linspace(0.1, 0.4, 10), np.linspace(0.6, 0.9, 10)
@@ -69,5 +70,6 @@ def test_the_page_has_its_figure_its_verdicts_and_every_cell(tmp_path):
     assert (tmp_path / "figures/elsewhere.png").exists() and "](figures/elsewhere.png)" in text
     assert "| chain with a decoy | random | 25 (0.25) |" in text and "**75 (0.75)**" in text
     assert "### H3 open: 10 not run" in text and "10 of 10 (69 to 100" in text
+    assert "- Not run: MountainCar, Acrobot, CartPole, DoorKey 5x5, Lunar lander." in text
     assert "of 1 pairs" in figure(cells).alt.lower() and "soft 100 %" in figure(cells).alt
     assert write_page({}, tmp_path) is None and len(METHODS) == len(ALONE) + len(TAUGHT)

@@ -282,3 +282,12 @@ def test_labels_that_meet_are_moved_apart_and_keep_their_order():
 def test_two_drivers_of_one_colour_get_two_lines():
     first, second, third = styles(["you", "idle", "you"])
     assert first.colour == second.colour and first.line != second.line and first == third
+
+
+def test_names_without_a_style_of_their_own_get_different_colours_and_lines():
+    names = [f"mine, number {i}" for i in range(9)]
+    first, *_, known = styles([*names[:3], "soft, mine"])
+    assert first == style("mine") and known == style("soft")
+    looks = styles(names)
+    assert len({look.colour for look in looks[:4]}) == len({look.line for look in looks[:4]}) == 4
+    assert len({(look.colour, look.line) for look in looks}) == 9 and styles(names + names) == looks + looks

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from gymnasium.spaces import Discrete
+from gymnasium.spaces import Box, Discrete
 from gymnasium.vector import AutoresetMode, SyncVectorEnv, VectorEnv
 
 from bootcourse.errors import BootcourseError, naming
@@ -92,19 +92,28 @@ def one_episode_each(n: int, scenario: Scenario | None, make_env: Callable[[int]
     """What `steps` drives: n roads that stand still when their episode is over; with make_env, its copies instead."""
     if make_env is None:
         return TrapVectorEnv(n, scenario or DEFAULT, AutoresetMode.DISABLED)
-    return same_step(make_env(n))
+    return copies_of(make_env, n)
 
 
-def same_step(env: VectorEnv) -> VectorEnv:
-    """The environment with same-step autoreset: an episode that ends is restarted in the same call of `step`.
+def copies_of(make_env: Callable[[int], VectorEnv], n: int) -> VectorEnv:
+    """make_env(n), with same-step autoreset: an episode that ends is restarted in the same call of `step`.
 
     `gym.make_vec` makes environments that restart in the next call. A `SyncVectorEnv` is made again. Raises
-    BootcourseError for another, and for one whose actions or observations this library cannot learn with.
+    BootcourseError for another, for what is no vector environment of n copies, and for one whose actions or
+    observations this library cannot learn with.
     """
+    wanted = "give a function of n, such as lambda n: gym.make_vec('MountainCar-v0', n)"
+    if not callable(make_env):
+        raise BootcourseError(f"make_env = {make_env!r:.80}: {wanted}.")
+    env = make_env(n)
+    if not isinstance(env, VectorEnv) or env.num_envs != n:
+        copies = f" of {env.num_envs} copies" if isinstance(env, VectorEnv) else ""
+        raise BootcourseError(f"make_env({n}) returned {env!r:.80}{copies}: {wanted}.")
     name = environment_id(env)
     actions, observations = env.single_action_space, env.single_observation_space
     if not isinstance(actions, Discrete) or actions.start != 0:
-        raise BootcourseError(f"{name} has actions of {actions}: this library learns Discrete(n), from 0.")
+        discrete = " gymnasium.wrappers.DiscretizeAction(env, bins=5) makes them of a Box." * isinstance(actions, Box)
+        raise BootcourseError(f"{name} has actions of {actions}: this library learns Discrete(n), from 0.{discrete}")
     if len(observations.shape or ()) != 1:
         raise BootcourseError(f"{name} shows {observations}: flatten it to a vector, as with FlattenObservation.")
     if env.metadata.get("autoreset_mode") is AutoresetMode.SAME_STEP:

@@ -8,7 +8,8 @@ import gymnasium as gym
 class Success(gym.Wrapper):
     """An environment whose last info of an episode says by your rule whether it succeeded.
 
-    rule: (return of the episode, whether it was terminated rather than out of time) -> bool.
+    rule: (return of the episode, whether it was terminated rather than out of time) -> bool. It wraps one copy:
+    gym.make_vec("MountainCar-v0", n, wrappers=[lambda env: bc.Success(env, lambda earned, at_goal: at_goal)]).
     """
 
     def __init__(self, env: gym.Env, rule: Callable[[float, bool], bool]):

@@ -40,7 +40,8 @@ class Agent:
         """
         size, given = self.actor[0].shape[1], np.shape(observations)[-1]
         if size != given:
-            raise BootcourseError(f"This agent observes {size} numbers, not {given}: drive the scenario it trained on.")
+            there = "the scenario it trained on, or give make_env=, its environment"
+            raise BootcourseError(f"This agent observes {size} numbers, not {given}: drive {there}.")
         if rule_actions is None and self.needs_teacher:
             raise BootcourseError(f"Method '{self.settings.method}' decides with its teacher's actions: give them.")
         rule_actions = np.zeros(len(observations)) if rule_actions is None else rule_actions

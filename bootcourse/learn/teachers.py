@@ -99,7 +99,8 @@ def teacher_of(my_rule: Rule, scenario: Scenario | None = DEFAULT, n_actions: in
         for road, vehicles in enumerate(cars):
             action = answer(vehicles.copy(), road)
             if not is_action(action, n_actions):
-                raise RuleFailed(name, f"returned {action!r:.80}, but {an_action_is}", road)
+                remedy = ": give int(...) of it" if isinstance(action, (bool, np.bool_, np.ndarray)) else ""
+                raise RuleFailed(name, f"returned {action!r:.80}, but {an_action_is}{remedy}", road)
             actions[road] = action
         return actions
 

@@ -24,7 +24,7 @@ import torch
 from gymnasium.vector import VectorEnv
 from torch import Tensor
 
-from bootcourse.episodes.driving import TRAP, environment_id, reached_cars, reached_observations, same_step
+from bootcourse.episodes.driving import TRAP, copies_of, environment_id, reached_cars, reached_observations
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError, naming, whole
 from bootcourse.learn.agent import Agent, sample_actions
@@ -80,7 +80,7 @@ class Training:
     teacher: the rule of the demonstrations and the KL (teachers.py); None: the course's on the trap, elsewhere none.
     demonstrations: recorded drives, or rows (transitions, row), instead of the teacher's.
     make_env: makes a vector environment of n copies, by default the trap; another has vector observations and discrete
-    actions (see `driving.same_step`). Without a teacher its actions are 0 in the replay buffer. first_seed: of the
+    actions (see `driving.copies_of`). Without a teacher its actions are 0 in the replay buffer. first_seed: of the
     copies. device: where the networks learn, as torch names it, such as "cuda"; the roads stay on the CPU.
     make_learner: makes the learner from (settings, observation size, actions); by default that of the agents' method.
     Raises BootcourseError for settings that cannot train side by side, or that ask for a teacher where there is none,
@@ -105,7 +105,7 @@ class Training:
         self.settings, self.make_env = list(settings), make_env
         self.n_agents, self.envs_per_agent = len(settings), settings[0].envs_per_agent
         n_envs = self.n_agents * self.envs_per_agent
-        self.env = TrapVectorEnv(n_envs, scenario) if make_env is None else same_step(make_env(n_envs))
+        self.env = TrapVectorEnv(n_envs, scenario) if make_env is None else copies_of(make_env, n_envs)
         self.on_the_trap = hasattr(self.env, "cars")
         self.scenario = scenario if self.on_the_trap else None
         size, self.n_actions = self.env.single_observation_space.shape[0], int(self.env.single_action_space.n)

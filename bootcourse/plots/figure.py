@@ -16,10 +16,10 @@ from matplotlib.figure import Figure
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
-from bootcourse.colours import GRID, INK, QUIET, Style
+from bootcourse.colours import GRID, INK, QUIET, STRANGERS, Style
 from bootcourse.files import check_replaceable, write_bytes
 from bootcourse.markup import html
-from bootcourse.methods import style
+from bootcourse.methods import has_style, style
 
 DPI = 110
 WIDTH = 7.0  # inches
@@ -27,10 +27,11 @@ TITLE, TEXT, SMALL = 11.5, 8.5, 7.5  # points
 
 
 def styles(labels: list[str]) -> list[Style]:
-    """The style of each label; two labels that would look the same get different lines."""
+    """The style of each label: a method's or driver's own, else another colour for each; if alike, another line."""
+    strangers = [label for label in dict.fromkeys(labels) if not has_style(label)]
     chosen, taken = [], {}
     for label in labels:
-        own = style(label)
+        own = STRANGERS[strangers.index(label) % len(STRANGERS)] if label in strangers else style(label)
         lines = [*dict.fromkeys((own.line, "-", "--", "-.", ":"))]
         used = taken.setdefault(own.colour, {})
         line = used.setdefault(label, lines[len(used) % len(lines)])

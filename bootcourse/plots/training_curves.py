@@ -148,7 +148,7 @@ def _draw(ax, name: str, curves, looks, window: int, constants, paper) -> dict[s
     low, high = measure.limits or ax.get_ylim()
     air = 0.03 * (high - low) if measure.limits else max(0.0, measure.least - (high - low)) / 2
     ax.set_ylim(low - air, high + air)
-    label_ends(ax, labels, size=SMALL, wrap=22, gap=0.035)
+    label_ends(ax, labels, size=SMALL, wrap=20, gap=0.035)
     return ends
 
 

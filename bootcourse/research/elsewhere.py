@@ -35,7 +35,7 @@ TAUGHT = {
     "PPO after cloning": ("ppo_cloned", {}),
 }
 METHODS = ALONE | TAUGHT
-HYPOTHESES = {  # written before any cell was run with more than two seeds; elsewhere_page.py compares them
+HYPOTHESES = {  # written before any cell was run with more than two seeds; elsewhere_claims.py compares them
     "H1": "The bonus helps only where c a step is small beside the reward of success. On DoorKey (c = 2, the goal pays "
     "at most 1) both with c = 0 succeeds more often than both, with the random teacher too; on MountainCar (-1 a step) "
     "it does not matter.",

@@ -1,26 +1,29 @@
-"""The page of the report "When does a sub-optimal teacher help?": tables, figure and verdicts of `elsewhere.py`.
+"""The page of the report "When does a sub-optimal teacher help?": the tables and the figure of `elsewhere.py`.
 
-A verdict is computed from the agents' scores, never typed. A claim compares two groups of agents; it is *confirmed* or
-*contradicted* if the two-sided test of Mann and Whitney gives p < 0.05 (against a constant: the sign test), and *open*
-otherwise. The hypotheses are older than the results. This rule is not: it was written when the first three problems
-were computed.
+Everything on it is computed from the agents' scores; the verdicts on the hypotheses are those of elsewhere_claims.py.
 """
 
 import textwrap
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from itertools import product
 from pathlib import Path
 
 import numpy as np
-import scipy
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from bootcourse.files import write_bytes
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, save
-from bootcourse.research.elsewhere import ALONE, HYPOTHESES, METHODS, NOBODY, TAUGHT, USABLE, WINDOW
+from bootcourse.research.elsewhere import HYPOTHESES, METHODS, TAUGHT, USABLE, WINDOW
+from bootcourse.research.elsewhere_claims import (
+    COLUMNS,
+    ENTROPY,
+    SIGNIFICANT,
+    TEACHER,
+    TEACHERS,
+    Cells,
+    claims_of,
+    verdict,
+)
 from bootcourse.research.problems import PROBLEMS
 from bootcourse.research.results import Results
 from bootcourse.research.tables import bracketed, k_of_n, markdown
@@ -28,208 +31,9 @@ from bootcourse.statistics import interval
 
 SOLVES = 0.5  # an agent has solved a problem if it succeeds in more than this share of its test episodes
 MOST = 0.9  # "most of the gap", in the figure's title and in the findings
-SIGNIFICANT = 0.05
-SAC, ENTROPY, _ = ALONE
-TEACHER = "the teacher"
-COLUMNS = (*ALONE, TEACHER, *TAUGHT)
 SHORT = {"PPO after cloning": "PPO after\ncloning", ENTROPY: f"SAC, η =\n{USABLE}", TEACHER: "the\nteacher",
          "demonstrations": "demon-\nstrations", "both, c = 0": "both,\nc = 0"}  # fmt: skip
 SHADES = LinearSegmentedColormap.from_list("share", ["#FFFFFF", "#F0E442", "#44BB99"])
-
-
-class Missing(Exception):
-    """A cell that was not computed."""
-
-
-@dataclass(frozen=True)
-class Cells:
-    """What was computed: {"PROBLEM, TEACHER, METHOD": its agents}, see `elsewhere.EXPERIMENT`."""
-
-    computed: dict[str, Results]
-
-    def get(self, problem: str, teacher: str, method: str) -> Results | None:
-        return self.computed.get(f"{problem}, {NOBODY if method in ALONE else teacher}, {method}")
-
-    def scores(self, problem: str, teacher: str, method: str, measure: str = "returns") -> np.ndarray:
-        """Each agent's mean, (agents,); of the teacher itself (1,). Raises Missing for a cell that was not computed.
-
-        measure: "success" or "returns", by the most probable action, or with "drawn_" before it, by drawn actions.
-        """
-        if method == TEACHER:
-            taught = [each for name in TAUGHT if (each := self.get(problem, teacher, name)) is not None]
-            if not taught:
-                raise Missing(f"{problem}, {teacher}")
-            return taught[0].measured[f"teacher_{measure}"][:1]
-        results = self.get(problem, teacher, method)
-        if results is None:
-            raise Missing(f"{problem}, {teacher}, {method}")
-        return results.measured[measure] if measure.startswith("drawn_") else results.scores(measure)
-
-    def rows(self) -> list[tuple[str, str]]:
-        """(problem, teacher) of which anything that was taught was computed."""
-        every = ((problem, teacher) for problem, one in PROBLEMS.items() for teacher in one.teachers())
-        return [row for row in every if any(self.get(*row, method) is not None for method in TAUGHT)]
-
-    def mean(self, problem: str, teacher: str, method: str, measure: str = "returns") -> float:
-        """The mean over agents, NaN for a cell that was not computed."""
-        try:
-            return float(self.scores(problem, teacher, method, measure).mean())
-        except Missing:
-            return float("nan")
-
-    def share(self, problem: str, teacher: str, method: str) -> float:
-        """The share of the gap in mean return between plain SAC and the best column of the problem's rows."""
-        teachers = [row[1] for row in self.rows() if row[0] == problem]
-        low = self.mean(problem, teacher, SAC)
-        best = np.nanmax([self.mean(problem, t, each) for t, each in product(teachers, COLUMNS)])
-        return (self.mean(problem, teacher, method) - low) / (best - low) if best > low else float("nan")
-
-
-# Hypotheses and their verdicts ------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class Claim:
-    """One comparison that a hypothesis makes."""
-
-    where: str  # problem and teacher
-    words: str  # what is expected
-    left: np.ndarray | float  # (agents,), or a constant
-    right: np.ndarray | float
-    expected: str  # ">", ">=" or "=": left against right
-
-    @property
-    def p(self) -> float:
-        """Two-sided."""
-        if np.ndim(self.left) and np.ndim(self.right):
-            p = scipy.stats.mannwhitneyu(self.left, self.right).pvalue
-            return 1.0 if np.isnan(p) else float(p)
-        above, below = int(np.sum(self.left > self.right)), int(np.sum(self.left < self.right))
-        return float(scipy.stats.binomtest(above, above + below).pvalue) if above + below else 1.0
-
-    @property
-    def verdict(self) -> str:
-        """ "confirmed", "contradicted" or "open"."""
-        if self.p >= SIGNIFICANT:
-            return "open"
-        greater = self._rank() > 0
-        if self.expected == "=" or not greater:
-            return "contradicted"
-        return "confirmed"
-
-    def _rank(self) -> float:
-        """How much more often left is above right than below."""
-        return float(np.sign(np.subtract.outer(np.atleast_1d(self.left), np.atleast_1d(self.right))).mean())
-
-    def row(self) -> list[str]:
-        values = [
-            f"{side:.3g}" if np.ndim(side) == 0 else bracketed(interval(side, np.mean))
-            for side in (self.left, self.right)
-        ]
-        p = "< 0.001" if self.p < 0.001 else f"{self.p:.3f}"
-        return [self.where, self.words, *values, p, self.verdict]
-
-
-def claims_of(hypothesis: str, cells: Cells) -> tuple[list[Claim], list[str]]:
-    """(the comparisons that can be made, the cells that the others lack)."""
-    made, lacking = [], []
-    for where, words, make, expected in CLAIMS[hypothesis](cells):
-        try:
-            made.append(Claim(where, words, *make(), expected))
-        except Missing as missing:
-            lacking.append(str(missing))
-    return made, lacking
-
-
-Made = Iterator[tuple[str, str, Callable[[], tuple], str]]  # where, words, () -> (left, right), expected
-
-
-def _pair(cells: Cells, problem: str, teacher: str, left: str, expected: str, right: str, measure="returns") -> tuple:
-    def sides():
-        return tuple(cells.scores(problem, teacher, method, measure) for method in (left, right))
-
-    words = f"{left} {expected.replace('>=', '≥')} {right}, {measure.replace('returns', 'return')}"
-    return f"{PROBLEMS[problem].name}, {teacher}", words, sides, expected
-
-
-def _against_the_teacher(cells: Cells, problem: str, teacher: str, left: str, expected: str, right: str) -> tuple:
-    where, words, sides, expected = _pair(cells, problem, teacher, left, expected, right)
-
-    def against():
-        one, other = sides()
-        return (one[0] if left == TEACHER else one), (other[0] if right == TEACHER else other)
-
-    return where, words, against, expected
-
-
-TEACHERS = ("good", "random", "systematic")
-SPARSE = ("chain", "mountain-car", "acrobot")  # long without a reward
-STUDIED = (*SPARSE, "cartpole", "doorkey")  # the problems that the hypotheses were written for
-
-
-def _h1(cells: Cells) -> Made:
-    for teacher in TEACHERS:
-        yield _pair(cells, "doorkey", teacher, "both, c = 0", ">", "both", "success")
-    for teacher in TEACHERS:
-        yield _pair(cells, "mountain-car", teacher, "both, c = 0", "=", "both")
-
-
-def _h2(cells: Cells) -> Made:
-    for problem in SPARSE:
-        yield _against_the_teacher(cells, problem, "random", "cloning", ">", TEACHER)
-    for problem in SPARSE:
-        yield _against_the_teacher(cells, problem, "systematic", TEACHER, ">=", "cloning")
-
-
-def _h3(cells: Cells) -> Made:
-    for problem, method in product(STUDIED, ("soft", "both")):
-        yield _pair(cells, problem, "systematic", method, ">", "cloning")
-
-
-def _h4(cells: Cells) -> Made:
-    for method in (SAC, ENTROPY):
-        yield (
-            PROBLEMS["mountain-car"].name,
-            f"10 % > {method}, success",
-            lambda method=method: (0.1, cells.scores("mountain-car", NOBODY, method, "success")),
-            ">",
-        )
-    for method in ("soft", "demonstrations", "both"):
-        yield _pair(cells, "cartpole", "good", ENTROPY, ">=", method)
-
-    def gain(problem: str) -> np.ndarray:
-        alone = max(cells.scores(problem, NOBODY, method, "success").mean() for method in (SAC, ENTROPY))
-        return cells.scores(problem, "good", "soft", "success") - alone
-
-    for problem in SPARSE:
-        where = f"{PROBLEMS[problem].name} and CartPole, good"
-        yield where, "gain of soft over the better SAC, success", lambda p=problem: (gain(p), gain("cartpole")), ">"
-
-
-def _h5(cells: Cells) -> Made:
-    for problem in STUDIED:
-        yield _pair(cells, problem, "random", "soft", ">", "demonstrations")
-
-
-def _h6(cells: Cells) -> Made:
-    for problem, teacher in product(STUDIED, TEACHERS):
-        yield _pair(cells, problem, teacher, "PPO after cloning", ">=", "cloning")
-
-
-CLAIMS = {"H1": _h1, "H2": _h2, "H3": _h3, "H4": _h4, "H5": _h5, "H6": _h6}
-
-
-def verdict(hypothesis: str, cells: Cells) -> str:
-    """ "fails", "holds" or "open", and how many of its comparisons are confirmed, contradicted, open and not run."""
-    claims, lacking = claims_of(hypothesis, cells)
-    counts = {name: sum(claim.verdict == name for claim in claims) for name in ("confirmed", "contradicted", "open")}
-    whole = counts["confirmed"] == len(claims) + len(lacking)
-    word = "fails" if counts["contradicted"] else "holds" if whole else "open"
-    counted = [f"{n} {name}" for name, n in (counts | {"not run": len(lacking)}).items() if n]
-    return f"{word}: {', '.join(counted)}"
-
-
-# The page ---------------------------------------------------------------------------------------------
 
 
 def summary_rows(cells: Cells) -> tuple[list[str], list[list[str]]]:
@@ -277,7 +81,14 @@ def findings(cells: Cells) -> list[str]:
     for teacher in TEACHERS:
         named = "; ".join(f"{PROBLEMS[row[0]].name}: {leaders(cells, *row)}" for row in rows if row[1] == teacher)
         text.append(f"Highest mean return with the {teacher} teacher. {named}.")
-    return text
+    return [each for each in (*text, not_run(cells)) if each]
+
+
+def not_run(cells: Cells) -> str:
+    """ "Not run: Lunar lander.", the problems without a cell of a teacher; "" for none."""
+    run = {row[0] for row in cells.rows()}
+    names = [one.name for problem, one in PROBLEMS.items() if problem not in run]
+    return f"Not run: {', '.join(names)}." if names else ""
 
 
 def leaders(cells: Cells, problem: str, teacher: str) -> str:
@@ -322,13 +133,14 @@ def figure(cells: Cells) -> Figure:
     about = (
         "Above: success in %; below: return; means over agents. Colour: share of the gap in return between plain SAC"
     )
-    fig.text(0.012, 0.2 / height, f"{about} (white) and the problem's best (green).", fontsize=SMALL, color=INK)
+    notes = f"{about} (white) and the problem's best (green).\n{not_run(cells)}"
+    fig.text(0.012, 0.3 / height, notes, va="top", linespacing=1.5, fontsize=SMALL, color=INK)
     counts = [
         f"{method} in {most_of_the_gap(cells, method)}" for method in ("cloning", "soft", "demonstrations", "both")
     ]
     title = f"Of {len(rows)} pairs of problem and teacher, most of the gap is closed by {', '.join(counts)}"
     alt = f"Share of the gap in return between plain SAC and the problem's best. {' '.join(words)}"
-    return finish(fig, title, alt.replace("nan %", "not computed"))
+    return finish(fig, title, f"{alt.replace('nan %', 'not computed')} {not_run(cells)}".strip())
 
 
 def write_page(computed: dict[str, Results], folder: Path) -> Path | None:
@@ -363,7 +175,8 @@ HEAD = """# When does a sub-optimal teacher help?
 The paper's method on other problems, with hand-written teachers: *good* is the rule as it is, *random* errs in states
 that look random, *systematic* makes the same error everywhere in one region. γ, episodes and the copies driven at once
 are the same for all methods but PPO of a problem. SAC, soft, demonstrations and both have the paper's target entropy of
--1. Everything on this page is computed from the results.
+-1. Every number on this page is computed from the results. Lunar lander needs box2d (`pip install bootcourse[lander]`).
+highway-env's merge is left out: one core drives it so slowly that its cells would take many hours.
 """
 
 RULE = f"""They were written before any cell was run with more than two seeds, and are quoted as they were. A comparison

@@ -4,18 +4,18 @@ from functools import cache
 
 from bootcourse.course.lessons import registry
 from bootcourse.course.lessons.your_own_problem import loops  # noqa: F401 (for the expressions)
-from bootcourse.research import elsewhere_page
+from bootcourse.research import elsewhere_claims
 from bootcourse.research.results import experiment
 
 
 @cache
-def cells() -> elsewhere_page.Cells:
+def cells() -> elsewhere_claims.Cells:
     """What ships of the study on other problems."""
-    return elsewhere_page.Cells(experiment("elsewhere"))
+    return elsewhere_claims.Cells(experiment("elsewhere"))
 
 
 def score(problem: str, teacher: str, method: str, measure: str = "success") -> float:
-    """The mean over agents of a cell, see `elsewhere_page.Cells.scores`."""
+    """The mean over agents of a cell, see `elsewhere_claims.Cells.scores`."""
     return cells().mean(problem, teacher, method, measure)
 
 
