@@ -102,8 +102,14 @@ def test_beta_falls_with_the_agents_own_finished_episodes():
     np.testing.assert_allclose(training.beta, [0.3, 0.0])
 
 
-def test_the_same_seeds_give_the_same_curves_and_others_give_others():
-    first, second = (training_of("bootstrapped", "sac").run(progress=False) for _ in range(2))
+@pytest.fixture(scope="module")
+def undisturbed():
+    """What two agents learn in twelve episodes."""
+    return training_of("bootstrapped", "sac").run(progress=False)
+
+
+def test_the_same_seeds_give_the_same_curves_and_others_give_others(undisturbed):
+    first, second = undisturbed, training_of("bootstrapped", "sac").run(progress=False)
     assert same(first.curves, second.curves)
     for one, other in zip(first.agents, second.agents, strict=True):
         assert all(torch.equal(a, b) for a, b in zip(one.actor, other.actor, strict=True))
@@ -172,8 +178,7 @@ def test_an_interrupt_returns_what_was_learned_so_far(interrupt):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="a process cannot press Ctrl-C for itself on Windows")
-def test_a_training_interrupted_in_the_middle_of_a_step_goes_on_as_if_nothing_had_been():
-    undisturbed = training_of("bootstrapped", "sac").run(progress=False)
+def test_a_training_interrupted_in_the_middle_of_a_step_goes_on_as_if_nothing_had_been(undisturbed):
     training = training_of("bootstrapped", "sac")
     step, calls = training.env.step, []
 
@@ -204,14 +209,6 @@ def test_a_second_interrupt_does_not_wait():
     assert training.run(progress=False, callback=stuck).interrupted and not reached
 
 
-def test_stop_ends_it_and_running_again_goes_on():
-    whole = training_of("bootstrapped", "sac").run(progress=False)
-    training, asked = training_of("bootstrapped", "sac"), []
-    result = training.run(progress=False, stop=lambda: asked.append(1) or len(asked) > 10)
-    assert result.interrupted and training.decisions == 10 * 8
-    assert same(training.run(progress=False).curves, whole.curves)
-
-
 def test_actions_are_drawn_as_often_as_the_policy_says():
     policy = np.array([0.5, 0.0, 0.25, 0.0, 0.0, 0.05, 0.0, 0.2, 0.0])
     drawn = sample_actions(np.tile(policy, (100_000, 1)), np.random.default_rng(0).random(100_000))
@@ -222,22 +219,14 @@ def test_actions_are_drawn_as_often_as_the_policy_says():
     assert sample_actions(policy[None, ::-1], np.array([0.0]))[0] == 1  # nor before the first
 
 
-def test_an_agent_thinks_what_its_learner_thought():
-    training = training_of("sac", "soft", "demos")
-    for _ in range(20):
-        training.step()
-    states = torch.randn(3, 50, INPUTS)
-    learner = training.learner
-    policy, values = learner.probabilities(states), learner.q_values(learner.critics, states).detach()
-    for i in range(3):
-        agent = training.agent(i)
-        np.testing.assert_allclose(agent.probabilities(states[i].numpy()), policy[i], atol=1e-6)
-        np.testing.assert_allclose(agent.q_values(states[i].numpy()), values[i], atol=1e-5)
-
-
-def test_an_agent_drives_by_its_most_probable_action_or_draws_one():
-    training = training_of("sac", "soft")
-    agent = training.run(progress=False).agents[1]
+def test_an_agent_thinks_what_its_learner_does_and_drives_by_its_most_probable_action_or_draws_one(undisturbed):
+    training, agent = training_of("sac", "soft"), undisturbed.agents[1]
+    learner, seen = training.learner, torch.randn(2, 50, INPUTS)
+    values = learner.q_values(learner.critics, seen).detach()
+    for i in range(2):
+        one = training.agent(i)
+        np.testing.assert_allclose(one.probabilities(seen[i].numpy()), learner.probabilities(seen)[i], atol=1e-6)
+        np.testing.assert_allclose(one.q_values(seen[i].numpy()), values[i], atol=1e-5)
     states = np.random.default_rng(0).normal(size=(500, INPUTS)).astype(np.float32)
     policy = agent.probabilities(states)
     np.testing.assert_allclose(policy.sum(1), 1, rtol=1e-5)

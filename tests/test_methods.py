@@ -14,7 +14,7 @@ from bootcourse.episodes.evaluate import evaluate
 from bootcourse.errors import BootcourseError
 from bootcourse.learn import sac
 from bootcourse.learn.learner import SACLearner
-from bootcourse.learn.settings import Settings, settings_for, with_seeds
+from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
 from bootcourse.methods import METHODS, Method, display_name, style
 from bootcourse.panels import train_panel
@@ -149,11 +149,6 @@ def test_an_on_policy_method_s_own_episodes_are_more_than_one_round_of_decisions
 def test_a_label_that_names_no_method_keeps_its_words():
     assert display_name("you, road 3") == "you, road 3" and display_name("sac, seed 3") == "plain SAC, seed 3"
     assert style("you") == style("idle") != style("sac")
-
-
-def test_settings_with_the_defaults_of_another_method_say_how_to_get_its_own():
-    with pytest.raises(BootcourseError, match=r"write settings_for\('sac'\)"):
-        Settings(method="sac")
 
 
 def test_a_training_that_goes_on_without_its_method_asks_for_the_learner(tmp_path, monkeypatch):
