@@ -1,6 +1,5 @@
 """What is drawn where, against the rollout; the car; the numbers of the head-up display."""
 
-import math
 import re
 from dataclasses import replace
 
@@ -13,7 +12,6 @@ from bootcourse.episodes.words import ACCIDENTS
 from bootcourse.errors import BootcourseError
 from bootcourse.policies import idle_policy, random_policy, rule_policy
 from bootcourse.replay3d import hud, scene
-from bootcourse.replay3d.camera import CAMERAS, pose
 from bootcourse.replay3d.car import car_parts
 from bootcourse.replay3d.timeline import Timeline
 from bootcourse.road.state import CRASHED, EGO, HEADING, TRAP_1, Accident, X, Y
@@ -50,6 +48,9 @@ def test_every_car_stands_where_the_rollout_says_with_y_mirrored(rule_drive):
         np.testing.assert_allclose(view.y, -states[:, Y], atol=1e-9)
         np.testing.assert_allclose(view.yaw, -states[:, HEADING], atol=1e-9)
         assert view.x[EGO] == 0.0
+    for part, lamp in ((0, "brake"), (2, "power")):
+        decision = np.flatnonzero(rule_drive.actions // 3 == part)[0]
+        assert scene.view(timelines, decision + 0.2)[0].lamps[EGO] == lamp
 
 
 def test_a_car_points_where_it_goes(rule_drive):
@@ -58,14 +59,6 @@ def test_a_car_points_where_it_goes(rule_drive):
         [a], [b] = scene.view(timelines, t), scene.view(timelines, t + h)
         course = np.arctan2(b.y - a.y, b.x + b.anchor - a.x - a.anchor)
         assert np.abs(course - a.yaw).max() < 0.08  # the slip angle, and what one step turns
-
-
-def test_the_lamps_show_braking_and_accelerating(rule_drive):
-    timelines = scene.timelines_of(rule_drive)
-    braking = np.flatnonzero(rule_drive.actions // 3 == 0)[0]
-    pushing = np.flatnonzero(rule_drive.actions // 3 == 2)[0]
-    assert scene.view(timelines, braking + 0.2)[0].lamps[EGO] == "brake"
-    assert scene.view(timelines, pushing + 0.2)[0].lamps[EGO] == "power"
 
 
 def test_the_path_is_a_dot_per_step_and_the_future_is_hidden(rule_drive):
@@ -85,6 +78,11 @@ def test_an_accident_marks_its_cars_at_its_moment_and_says_its_kind(accidents, k
     crashed = set(np.flatnonzero(rollout.states[-1, :, CRASHED])) | {EGO}
     assert set(np.flatnonzero(view.marked)) == crashed and (len(crashed) > 1) == (kind == Accident.COLLISION)
     assert view.labels[EGO] == ACCIDENTS[kind] == hud.status(timelines[0], duration)[0]
+    other = record(idle_policy, [rollout.seed], SHORT, "sac")[0]
+    both = scene.timelines_of([rollout, other])  # a drive that ended waits for the others
+    early, late = scene.view(both, duration), scene.view(both, 20.0)
+    np.testing.assert_array_equal(early[0].x, late[0].x)
+    assert late[0].ended and late[1].anchor > early[1].anchor
 
 
 def test_the_rule_s_lane_and_gap_lie_where_the_rule_wants_them(rule_drive):
@@ -112,15 +110,6 @@ def test_ghosts_share_the_road_of_the_followed_car(rule_drive, idle_drive):
     views = scene.view(timelines, 15.0, scene.GHOSTS, follow=1)
     assert views[0].offset == views[1].offset and views[0].anchor == views[1].anchor and views[1].x[EGO] == 0.0
     assert views[0].x[EGO] == pytest.approx(timelines[0].at(15.0).x[EGO] - timelines[1].at(15.0).x[EGO])
-
-
-def test_a_drive_that_ended_waits_for_the_others(accidents, idle_drive):
-    crash = accidents[Accident.COLLISION]
-    other = record(idle_policy, [crash.seed], SHORT, "sac")[0]
-    timelines = scene.timelines_of([crash, other])
-    early, late = scene.view(timelines, timelines[0].duration), scene.view(timelines, 20.0)
-    np.testing.assert_array_equal(early[0].x, late[0].x)
-    assert late[0].ended and late[1].anchor > early[1].anchor
 
 
 def with_nan(rollout):
@@ -159,13 +148,6 @@ def test_the_car_is_closed_faces_outward_and_fits_its_rectangle(part):
     assert np.ptp(car_parts(4.0, 1.8)["paint"].vertices[:, 0]) == pytest.approx(4.0), "it has the scenario's size"
 
 
-def test_a_camera_stands_apart_from_what_it_looks_at():
-    for name in CAMERAS:
-        place = pose(name, 14.0)
-        assert math.dist(place.position, place.look_at) > 10 and place.position[2] > 3
-        assert pose(name, 90.0).position[2] > place.position[2]
-
-
 def text(html):
     return re.sub(r"\s+", " ", re.sub(r"<[^>]*>", " ", html))
 
@@ -201,10 +183,13 @@ def test_a_label_from_a_file_cannot_write_into_the_page(rule_drive):
         assert "<script" not in html
 
 
-def test_the_plots_mark_an_accident(accidents, idle_drive):
+def test_the_plots_mark_an_accident_and_the_end_is_said_in_words(accidents, idle_drive):
     assert hud.plots([Timeline(accidents[Accident.COLLISION])]).count(colours.ALARM) == 3
     assert colours.ALARM not in hud.plots([Timeline(idle_drive)])
     assert hud.cursor(0.25) == "<style>:root{--bc-t:0.2500}</style>"
+    rule, idle = (record(driver, [1], DEFAULT, "x")[0] for driver in (rule_policy(DEFAULT), idle_policy))
+    assert hud.status(Timeline(rule), 150.0)[0] == "escaped" and hud.status(Timeline(idle), 150.0)[0] == "trapped"
+    assert hud.status(Timeline(idle), 10.0)[0] == ""
 
 
 def test_the_return_s_plot_is_over_seconds_whatever_the_decision_rate():
@@ -213,9 +198,3 @@ def test_the_return_s_plot_is_over_seconds_whatever_the_decision_rate():
     [returns] = re.findall(r'd="M([^"]+)"', hud.plots([Timeline(drive)]))[2:]
     across = [float(point.split()[0]) for point in returns.split("L")]
     np.testing.assert_allclose(across, np.arange(21) / 2 / 10.0 * 1000, atol=0.1)  # 1000 wide, 10 s long
-
-
-def test_success_and_being_trapped_are_said_at_the_end():
-    rule, idle = (record(d, [1], DEFAULT, "x")[0] for d in (rule_policy(DEFAULT), idle_policy))
-    assert hud.status(Timeline(rule), 150.0)[0] == "escaped" and hud.status(Timeline(idle), 150.0)[0] == "trapped"
-    assert hud.status(Timeline(idle), 10.0)[0] == ""

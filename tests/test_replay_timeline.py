@@ -112,12 +112,13 @@ def test_time_runs_at_the_chosen_speed_and_stops_at_the_end():
     assert clock.t == 10.0 and not clock.playing and not clock.advance(1.0)
     clock.play()
     assert clock.t == 0.0 and clock.playing
-
-
-def test_a_loop_begins_again():
-    clock = player(loop=True, playing=True, t=9.5)
-    clock.advance(1.0)
-    assert clock.t == pytest.approx(0.5) and clock.playing
+    clock.seek(4.0, hold=True)  # a hand on the slider
+    assert not clock.advance(1.0) and clock.t == 4.0
+    clock.seek(99.0)
+    assert clock.t == 10.0
+    loop = player(loop=True, playing=True, t=9.5)
+    loop.advance(1.0)
+    assert loop.t == pytest.approx(0.5) and loop.playing
 
 
 def test_a_pause_from_another_thread_is_not_lost_while_the_time_goes_on():
@@ -141,14 +142,6 @@ def test_a_pause_from_another_thread_is_not_lost_while_the_time_goes_on():
     clock.advance(1.0)
     presser.join(5.0)
     assert not clock.playing
-
-
-def test_a_hand_on_the_slider_holds_the_clock():
-    clock = player(playing=True)
-    clock.seek(4.0, hold=True)
-    assert not clock.advance(1.0) and clock.t == 4.0
-    clock.seek(99.0)
-    assert clock.t == 10.0
 
 
 @pytest.mark.parametrize(
