@@ -71,12 +71,12 @@ def pretended(monkeypatch):
         yield ELSEWHERE
 
 
-SMALL = {"hidden": (8, 8), "envs_per_agent": 4, "demonstration_episodes": 2}
-ON_POLICY = {"horizon": 6, "batch": 16, "epochs": 2, "cloning_updates": 3}
+SMALL = {"hidden": (8,), "envs_per_agent": 4, "demonstration_episodes": 1}
+ON_POLICY = {"horizon": 3, "batch": 12, "epochs": 1, "cloning_updates": 2}
 
 
 def small_training(method, device="cpu"):
-    """Two agents of a method that make some updates within 12 decisions."""
+    """Two agents of a method that make some updates within 6 decisions."""
     on_policy = METHODS[method].on_policy
     changes = SMALL | (ON_POLICY if on_policy else {"learning_starts": 8, "batch": 16})
     if on_policy and not settings_for(method).needs_demonstrations:
@@ -84,7 +84,7 @@ def small_training(method, device="cpu"):
     return Training(with_seeds(settings_for(method, **changes), 2), 100, device=device)
 
 
-def after(training, decisions=12):
+def after(training, decisions=6):
     """The training, so many decisions on each road later."""
     for _ in range(decisions):
         training.step()

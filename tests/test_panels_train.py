@@ -146,8 +146,11 @@ def test_close_while_it_trains_or_prepares_ends_the_thread(prepared):
     assert not threads() and panel not in one_per_cell.running()
 
 
-def test_an_interrupt_of_the_kernel_leaves_the_training_alone():
+def test_an_interrupt_of_the_kernel_and_a_second_training_leave_the_first_alone():
     with running() as panel:
+        other = small()
+        other.train.click()
+        assert "A training is running already" in words(other) and other.background is None
         with pytest.raises(KeyboardInterrupt):
             os.kill(os.getpid(), signal.SIGINT)
             time.sleep(5)
