@@ -5,18 +5,14 @@ import json
 import shutil
 
 import pytest
-from matplotlib.figure import Figure
-from PIL import Image
 
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import settings_for, with_seeds
-from bootcourse.plots import training_curves
 from bootcourse.research import commands, ship
 from bootcourse.research.jobs import Job, run_job
 from bootcourse.research.results import in_assets, load_results
 from bootcourse.scenario import CALIBRATED, DEFAULT
-from bootcourse.statistics import iqm
 from bootcourse.storage import assets
 from bootcourse.storage.runs import find_runs
 
@@ -27,17 +23,11 @@ def compute(root, name: str, method: str, seeds: int = 2, tests: int = 3, scenar
     assert run_job(Job(name, tuple(agents), scenario, 2, tests, teacher=teacher), root) == ""
 
 
-@pytest.fixture(scope="module", autouse=True)
-def unrendered():
-    """The report's words are compared here, and no pixels: bands are not resampled and figures stay empty."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(training_curves, "band", lambda curves: (iqm(curves, axis=0),) * 3)
-        patch.setattr(Figure, "savefig", lambda figure, file, **options: Image.new("RGB", (1, 1)).save(file, "png"))
-        yield
+pytestmark = pytest.mark.usefixtures("unrendered")
 
 
 @pytest.fixture(scope="module")
-def study(tmp_path_factory):
+def study(unrendered, tmp_path_factory):
     """The smallest study that assets can be built from."""
     root = tmp_path_factory.mktemp("study")
     for name in ("default/sac", "sweep/00", "sensitivity/as-it-is"):

@@ -75,6 +75,7 @@ def test_a_method_of_one_s_own_trains_is_saved_evaluated_drawn_and_offered(toy, 
         "Toy method (2 agents)" in training_curves({toy: result.curves}, "A toy").alt
         and style("toy, seed 1").colour == "#117733"
     )
+    assert style("you") == style("idle") != style("sac") and display_name("you, road 3") == "you, road 3"
     panel = train_panel(toy, 1, 5)
     assert panel.method.label == display_name(toy) == "toy method"
     assert panel.numbers["gamma"].slider.disabled and panel.numbers["xi_multiplier"].slider.disabled
@@ -138,17 +139,6 @@ def test_the_command_line_takes_the_teacher_of_such_a_run(follower, tmp_path):
     assert CliRunner().invoke(app, evaluate_it).exit_code == 1
     found = CliRunner().invoke(app, [*evaluate_it, "--teacher", f"{tmp_path / 'mine.py'}:always_faster"])
     assert json.loads(found.output)["follower-0"]["collision"]["value"] == 1.0, found.output
-
-
-@pytest.mark.parametrize("method", [name for name, entry in METHODS.items() if entry.on_policy])
-def test_an_on_policy_method_s_own_episodes_are_more_than_one_round_of_decisions_can_hold(method):
-    settings = settings_for(method)
-    assert METHODS[method].episodes > settings.envs_per_agent * settings.horizon
-
-
-def test_a_label_that_names_no_method_keeps_its_words():
-    assert display_name("you, road 3") == "you, road 3" and display_name("sac, seed 3") == "plain SAC, seed 3"
-    assert style("you") == style("idle") != style("sac")
 
 
 def test_a_training_that_goes_on_without_its_method_asks_for_the_learner(tmp_path, monkeypatch):

@@ -6,6 +6,8 @@ from typer.testing import CliRunner
 
 from bootcourse import cli
 from bootcourse.errors import BootcourseError
+from bootcourse.learn.settings import Settings
+from bootcourse.learn.training import Training
 from bootcourse.panels import sweep_panel
 from bootcourse.research.plan import sweep_jobs, sweep_settings
 from bootcourse.research.results import Results, load_results, save_results
