@@ -22,12 +22,13 @@ from bootcourse.replay3d.recorder import to_html
 from bootcourse.replay3d.stage import Options
 from bootcourse.replay3d.timeline import Timeline
 from bootcourse.road.state import Accident
-from bootcourse.scenario import CALIBRATED
+from bootcourse.scenario import CALIBRATED, Clock
 from tests.browser import ARTEFACTS, CARS, close_notice, is_blank, needs_browser, open_browser
 from tests.replays import SHORT, TEN_CARS, thinking
 from tests.waiting import until
 
 ROOT = Path(__file__).resolve().parent.parent
+BRIEF = replace(SHORT, clock=Clock(decisions=4))
 NODES = """names => Object.fromEntries(names.map(name => {
     const node = window.__viserMutable.nodeRefFromName[name];
     return [name, node ? node.visible : null];
@@ -41,7 +42,8 @@ def replay_command(files, export=None, gif=None, png=None, text=False, port=0):
 
 @pytest.fixture(scope="module")
 def rule_drive():
-    return record(rule_policy(SHORT), [1], SHORT, "rule")[0]
+    """Four decisions: enough for a file."""
+    return record(rule_policy(BRIEF), [1], BRIEF, "rule")[0]
 
 
 @pytest.fixture(scope="module")
@@ -168,7 +170,7 @@ def files(rule_drive, tmp_path_factory):
     rule_drive.save(folder / "good.npz")
     (folder / "cut.npz").write_bytes((folder / "good.npz").read_bytes()[:2000])
     record(rule_policy(CALIBRATED), [1], CALIBRATED, "rule")[0].save(folder / "other.npz")
-    record(rule_policy(SHORT), [2], SHORT, "rule")[0].save(folder / "seed.npz")
+    record(rule_policy(BRIEF), [2], BRIEF, "rule")[0].save(folder / "seed.npz")
     (folder / "file").write_text("a file where a folder is wanted")
     return folder
 
