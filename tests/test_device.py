@@ -117,13 +117,10 @@ def test_a_training_goes_on_on_another_device(method, pretended, tmp_path):
     assert load_checkpoint(tmp_path / "moved.npz").updates == training.updates
 
 
-@pytest.mark.parametrize("name", ["cuda:99", "tpu", "a potato"])
-def test_a_device_that_torch_does_not_find_is_named(name):
-    with pytest.raises(BootcourseError, match=f"'{name}'.*Give \"cpu\""):
-        Training([settings_for("sac")], device=name)
-
-
-def test_a_checkpoint_is_not_damaged_because_a_device_is_missing(tmp_path):
+def test_a_device_that_torch_does_not_find_is_named_and_a_checkpoint_is_not_called_damaged_for_it(tmp_path):
+    for name in ("cuda:99", "tpu", "a potato"):
+        with pytest.raises(BootcourseError, match=f"'{name}'.*Give \"cpu\""):
+            Training([settings_for("sac")], device=name)
     save_checkpoint(small_training("sac"), tmp_path / "checkpoint.npz")
     with pytest.raises(BootcourseError, match="^device = 'cuda:99'") as refused:
         load_checkpoint(tmp_path / "checkpoint.npz", device="cuda:99")

@@ -61,13 +61,6 @@ def test_a_car_points_where_it_goes(rule_drive):
         assert np.abs(course - a.yaw).max() < 0.08  # the slip angle, and what one step turns
 
 
-def test_the_path_is_a_dot_per_step_and_the_future_is_hidden(rule_drive):
-    crumbs = scene.crumbs(Timeline(rule_drive), 3.2)
-    shown = crumbs[crumbs[:, 2] > 0]
-    np.testing.assert_allclose(shown[:, 0], rule_drive.states[:7, EGO, X])
-    np.testing.assert_allclose(shown[:, 1], -rule_drive.states[:7, EGO, Y])
-
-
 @pytest.mark.parametrize("kind", [Accident.COLLISION, Accident.ROAD_DEPARTURE])
 def test_an_accident_marks_its_cars_at_its_moment_and_says_its_kind(accidents, kind):
     rollout = accidents[kind]
@@ -85,31 +78,28 @@ def test_an_accident_marks_its_cars_at_its_moment_and_says_its_kind(accidents, k
     assert late[0].ended and late[1].anchor > early[1].anchor
 
 
-def test_the_rule_s_lane_and_gap_lie_where_the_rule_wants_them(rule_drive):
+def test_the_path_the_rule_s_marks_and_the_distance_to_a_trap_are_those_of_the_drive(rule_drive):
     timelines = scene.timelines_of(rule_drive)
+    crumbs = scene.crumbs(Timeline(rule_drive), 3.2)
+    shown = crumbs[crumbs[:, 2] > 0]  # a dot for each step; the future is hidden
+    np.testing.assert_allclose(shown[:, 0], rule_drive.states[:7, EGO, X])
+    np.testing.assert_allclose(shown[:, 1], -rule_drive.states[:7, EGO, Y])
     for k in range(0, 20, 3):
         marks = scene.view(timelines, k + 0.0)[0].rule
         assert marks.lane_y == -4.0 * rule_drive.rule_lanes[k] and marks.gap == rule_drive.rule_distances[k]
         assert marks.gap_x == pytest.approx(2.5)
+    ahead = rule_drive.states[0, TRAP_1, X] - rule_drive.states[0, EGO, X] - 5.0  # from bumper to bumper
+    assert scene.view(timelines, 0.0)[0].labels[TRAP_1] == f"trap 1: {ahead:.1f} m ahead"
 
 
-def test_the_distance_to_a_trap_is_from_bumper_to_bumper(rule_drive):
-    ahead = rule_drive.states[0, TRAP_1, X] - rule_drive.states[0, EGO, X] - 5.0
-    assert scene.view(scene.timelines_of(rule_drive), 0.0)[0].labels[TRAP_1] == f"trap 1: {ahead:.1f} m ahead"
-
-
-def test_side_by_side_no_road_lies_on_another_and_each_follows_its_own_car(rule_drive, idle_drive):
+def test_two_drives_lie_side_by_side_or_share_the_road_of_the_followed_car(rule_drive, idle_drive):
     timelines = scene.timelines_of([idle_drive, rule_drive])
-    views = scene.view(timelines, 15.0)
-    assert [view.x[EGO] for view in views] == [0.0, 0.0] and views[0].anchor != views[1].anchor
-    assert views[0].offset - views[1].offset > 3 * 4.0
-
-
-def test_ghosts_share_the_road_of_the_followed_car(rule_drive, idle_drive):
-    timelines = scene.timelines_of([idle_drive, rule_drive])
-    views = scene.view(timelines, 15.0, scene.GHOSTS, follow=1)
-    assert views[0].offset == views[1].offset and views[0].anchor == views[1].anchor and views[1].x[EGO] == 0.0
-    assert views[0].x[EGO] == pytest.approx(timelines[0].at(15.0).x[EGO] - timelines[1].at(15.0).x[EGO])
+    first, second = scene.view(timelines, 15.0)
+    assert first.x[EGO] == second.x[EGO] == 0.0 and first.anchor != second.anchor
+    assert first.offset - second.offset > 3 * 4.0
+    ghost, followed = scene.view(timelines, 15.0, scene.GHOSTS, follow=1)
+    assert ghost.offset == followed.offset and ghost.anchor == followed.anchor and followed.x[EGO] == 0.0
+    assert ghost.x[EGO] == pytest.approx(timelines[0].at(15.0).x[EGO] - timelines[1].at(15.0).x[EGO])
 
 
 def with_nan(rollout):

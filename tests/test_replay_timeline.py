@@ -27,12 +27,11 @@ def row(x=0.0, y=0.0, heading=0.0, v=10.0, acceleration=0.0, steering=0.0):
     return car
 
 
-def test_without_steering_a_car_goes_straight_and_accelerates():
-    dx, dy, turn = arc(0.0, 10.0, 1.0, 0.0, 5.0, 0.5)
-    assert (dx, dy, turn) == pytest.approx((10 * 0.5 + 1 * 0.25 / 2, 0.0, 0.0))
-
-
-def test_a_quarter_of_a_circle_ends_where_geometry_says():
+def test_a_straight_a_quarter_of_a_circle_and_half_a_turn_end_where_geometry_says():
+    assert arc(0.0, 10.0, 1.0, 0.0, 5.0, 0.5) == pytest.approx((10 * 0.5 + 1 * 0.25 / 2, 0.0, 0.0))
+    before, after = row(heading=math.pi - 0.05), row(x=-5.0, heading=-math.pi + 0.05)
+    headings = [between(before, after, tau, 0.5, 5.0).heading[0] for tau in np.linspace(0, 0.5, 11)]
+    assert np.ptp(headings) == pytest.approx(0.1), "a heading turns the short way round"
     radius, slip = 25.0, math.asin(2.5 / 25.0)  # κ = sin β / 2.5 = 1 / 25
     steering = math.atan(2 * math.tan(slip))
     seconds = math.pi / 2 * radius / 10.0
@@ -77,12 +76,6 @@ def test_under_a_constant_command_the_direction_of_travel_does_not_kink():
     assert turned.std() < 1e-4 and turned.mean() == pytest.approx(
         v * math.sin(math.atan(math.tan(steering) / 2)) / 2.5 * 0.01, rel=0.02
     )
-
-
-def test_a_heading_turns_the_short_way_round():
-    before, after = row(heading=math.pi - 0.05), row(x=-5.0, heading=-math.pi + 0.05)
-    headings = [between(before, after, tau, 0.5, 5.0).heading[0] for tau in np.linspace(0, 0.5, 11)]
-    assert np.ptp(headings) == pytest.approx(0.1)
 
 
 def test_rewards_are_earned_when_a_decision_is_over(drive):
