@@ -15,7 +15,7 @@ from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.demonstrations import FIRST_SEED as DEMONSTRATIONS
 from bootcourse.learn.training import FIRST_SEED as TRAINING
-from bootcourse.policies import idle_policy, in_words, plan_policy, rule_policy
+from bootcourse.policies import idle_policy, in_words, plan_policy, random_policy, rule_policy
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import mean, rate
 
@@ -42,6 +42,13 @@ def test_episodes_driven_in_small_groups_are_the_same_episodes():
     together = drive_episodes(rule_policy(DEFAULT), seeds)
     apart = drive_episodes(rule_policy(DEFAULT), seeds, together=7)
     np.testing.assert_array_equal(together.returns, apart.returns)
+
+
+def test_the_kinds_of_accident_are_counted_apart():
+    episodes = drive_episodes(random_policy(np.random.default_rng(0)), held_out_seeds(1, 300))
+    result = summarise(episodes)
+    kinds = result.collision.value + result.road_departure.value + result.stoppage.value
+    assert kinds == pytest.approx((episodes.accident > 0).mean()) and result.road_departure.value > 0
 
 
 def test_the_interval_of_20_successes_in_20_is_the_textbook_s():

@@ -4,15 +4,17 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from matplotlib.colors import to_hex
 from PIL import Image
 
-from bootcourse.colours import ALARM
+from bootcourse.colours import ALARM, TRAP
 from bootcourse.episodes.rollout import series
 from bootcourse.episodes.words import cars_at, doing, overtaken
 from bootcourse.errors import BootcourseError
+from bootcourse.methods import style
 from bootcourse.plots import animation
 from bootcourse.plots.drive_figure import save_drive
-from bootcourse.plots.figure import Picture, finish, label_ends, new_figure, plain_axes, png, save
+from bootcourse.plots.figure import Picture, finish, label_ends, new_figure, plain_axes, png, save, styles
 from bootcourse.plots.top_view import key_moments, top_view, top_view_over_time, window
 from bootcourse.plots.traces import PANELS, traces
 from bootcourse.plots.training_curves import training_curves
@@ -72,6 +74,15 @@ def test_the_cars_are_drawn_where_they_were_driven(escape, time):
     for gid, place in drawn.items():
         car = cars[names[gid]]
         assert place == pytest.approx((car[X] - cars[EGO, X], car[Y], car[HEADING]), abs=1e-9)
+
+
+def test_drivers_and_cars_have_their_colours_and_the_same_figure_has_the_same_bytes(escape):
+    bodies = {patch.get_gid(): patch for patch in top_view(escape, 0).axes[0].patches if patch.get_gid()}
+    assert to_hex(bodies["ego"].get_facecolor()).upper() == style("rule").colour
+    assert to_hex(bodies["trap 1"].get_facecolor()).upper() == TRAP
+    first, second, third = styles(["you", "idle", "you"])  # two drivers of one colour get two lines
+    assert first.colour == second.colour and first.line != second.line and first == third
+    assert png(traces(escape, until=20)) == png(traces(escape, until=20))
 
 
 def test_the_distances_are_measured_centre_to_centre(idle):

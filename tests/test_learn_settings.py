@@ -6,7 +6,7 @@ from bootcourse.errors import BootcourseError
 from bootcourse.learn.learner import SACLearner, learner_for
 from bootcourse.learn.settings import Settings, settings_for, with_seeds
 from bootcourse.learn.training import Training
-from bootcourse.methods import ABLATION, BASELINES
+from bootcourse.methods import ABLATION, BASELINES, METHODS
 
 
 def test_the_defaults_are_the_papers_table():
@@ -94,6 +94,12 @@ def test_an_ingredient_may_be_switched_off():
 def test_only_methods_with_demonstrations_ask_for_them():
     asks = {method for method in ABLATION if settings_for(method).needs_demonstrations}
     assert asks == {"demos", "bootstrapped", "margin", "margin_soft"}
+
+
+def test_an_on_policy_method_s_own_episodes_are_more_than_one_round_of_decisions_can_hold():
+    for method in (name for name, entry in METHODS.items() if entry.on_policy):
+        settings = settings_for(method)
+        assert METHODS[method].episodes > settings.envs_per_agent * settings.horizon
 
 
 def test_the_seeds_are_counted_from_the_first():

@@ -110,6 +110,8 @@ def test_looking_ahead_leaves_the_road_and_the_plan_as_they_are():
     there = Reached(plan, 2)
     before, decision = there.cars.copy(), plan.decision
     rollout_values(there.cars, plan, 12)
+    paths = imagine(Reached(idle_policy, 1).cars, np.full((len(ROADS), 1), 4), idle_policy, 3).paths
+    np.testing.assert_allclose(np.diff(paths[:, 0, :, 0]), DEFAULT.ego.speed, atol=1e-9)
     np.testing.assert_array_equal(there.cars, before)
     assert plan.decision == decision
 

@@ -76,6 +76,7 @@ def test_a_method_of_one_s_own_trains_is_saved_evaluated_drawn_and_offered(toy, 
         and style("toy, seed 1").colour == "#117733"
     )
     assert style("you") == style("idle") != style("sac") and display_name("you, road 3") == "you, road 3"
+    assert display_name("sac, seed 3") == "plain SAC, seed 3"
     panel = train_panel(toy, 1, 5)
     assert panel.method.label == display_name(toy) == "toy method"
     assert panel.numbers["gamma"].slider.disabled and panel.numbers["xi_multiplier"].slider.disabled

@@ -187,6 +187,14 @@ def test_save_writes_runs_and_never_writes_over_them(tmp_path):
     assert load_run(tmp_path / "mine" / "soft-0").agent.settings == panel.result.agents[0].settings
 
 
+def test_a_training_that_diverges_names_the_agent():
+    panel = small(seeds=1, episodes=20, actor_lr=1e30, critic_lr=1e30)
+    with pytest.warns(UserWarning, match="not finite"):
+        trained(panel)
+    assert panel.result.stopped and "soft constraint only, seed 0, diverged" in words(panel)
+    assert "Its last finite snapshot is kept" in words(panel) and not panel.save.disabled
+
+
 def test_what_breaks_in_the_thread_is_a_sentence_and_keeps_what_was_learned(monkeypatch):
     panel, step = small(episodes=500), Training.step
     monkeypatch.setattr(Training, "step", lambda training: step(training) if training.decisions < 200 else breaks())

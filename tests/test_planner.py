@@ -22,7 +22,7 @@ from bootcourse.research.planner import (
 )
 from bootcourse.road.state import CRASHED, EGO, HEADING, LANE, SPEED, X, Y
 from bootcourse.road.vector_env import TrapVectorEnv
-from bootcourse.scenario import DEFAULT, IDLE, Clock, Scenario
+from bootcourse.scenario import DEFAULT, IDLE, Clock, Scenario, Traffic
 
 SEEDS = [2**33 - 100, 2**33 - 99, 2**33 - 98]
 SHORT = Search(beam=20, decisions=25)
@@ -82,6 +82,14 @@ def test_an_expansion_is_what_the_road_does_with_each_action():
     _, stepped, *_ = env.step(np.arange(9))
     np.testing.assert_array_equal(children, env.cars)
     np.testing.assert_array_equal(rewards[0], stepped)
+
+
+def test_an_empty_road_pays_what_the_search_expects_of_it():
+    empty = Scenario("empty", traffic=Traffic(cars=0))
+    cars = start(scenario=empty)
+    cars[1:, X] -= 500.0  # the traps, far behind
+    best = plan(cars, empty, Search(beam=10))
+    assert best.value == pytest.approx(empty_road_return(empty), abs=1e-3)
 
 
 def test_what_an_empty_road_still_pays_counts_the_discount():

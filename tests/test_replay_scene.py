@@ -1,5 +1,6 @@
 """What is drawn where, against the rollout; the car; the numbers of the head-up display."""
 
+import math
 import re
 from dataclasses import replace
 
@@ -12,6 +13,7 @@ from bootcourse.episodes.words import ACCIDENTS
 from bootcourse.errors import BootcourseError
 from bootcourse.policies import idle_policy, random_policy, rule_policy
 from bootcourse.replay3d import hud, scene
+from bootcourse.replay3d.camera import CAMERAS, pose
 from bootcourse.replay3d.car import car_parts
 from bootcourse.replay3d.timeline import Timeline
 from bootcourse.road.state import CRASHED, EGO, HEADING, TRAP_1, Accident, X, Y
@@ -136,6 +138,13 @@ def test_the_car_is_closed_faces_outward_and_fits_its_rectangle(part):
     assert np.abs(mesh.vertices[:, 0]).max() < 2.55 and np.abs(mesh.vertices[:, 1]).max() < 1.05
     assert mesh.vertices[:, 2].min() > -0.01
     assert np.ptp(car_parts(4.0, 1.8)["paint"].vertices[:, 0]) == pytest.approx(4.0), "it has the scenario's size"
+
+
+def test_a_camera_stands_apart_from_what_it_looks_at():
+    for name in CAMERAS:
+        place = pose(name, 14.0)
+        assert math.dist(place.position, place.look_at) > 10 and place.position[2] > 3
+        assert pose(name, 90.0).position[2] > place.position[2]
 
 
 def text(html):

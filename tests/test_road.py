@@ -52,7 +52,7 @@ def test_the_road_passes_gymnasiums_checks_without_a_warning_about_our_spaces():
 def test_the_ego_that_does_nothing_earns_23_4375_and_drives_1500_metres():
     total, info, decisions = drive(make(), IDLE)
     assert total == pytest.approx(23.4375, abs=1e-9)
-    assert info["rewards"] == pytest.approx({"r_v": 2 / 15, "r_y": 1.0, "r_theta": 0.0})
+    assert info["rewards"] == pytest.approx({"r_v": 2 / 15, "r_y": 1.0, "r_theta": 0.0}) and info["speed"] == 10.0
     assert info["distance"] == pytest.approx(1500.0, abs=1e-9)
     assert (decisions, info["accident"], info["is_success"]) == (150, Accident.NONE, False)
 

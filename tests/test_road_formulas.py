@@ -101,6 +101,7 @@ def test_one_decision_of_full_steering_at_15_metres_a_second_moves_the_car_1_4_m
 
 
 def test_the_compiled_bicycle_is_highway_envs():
+    assert bicycle_step(1.0, 4.0, 0.0, 10.0, 1.0, 0.0, LENGTH, 0.5) == (6.0, 4.0, 0.0, 10.5)
     rng = np.random.default_rng(0)
     for _ in range(200):
         x, y, v, acceleration = rng.uniform([0, 0, 0, -6], [100, 8, 25, 6])
@@ -133,6 +134,7 @@ def test_the_nearest_lane_is_the_left_one_on_the_line_and_the_outer_one_beyond_t
 )
 def test_the_speed_reward_at_the_papers_corners(v, r_v):
     assert speed_reward(v) == pytest.approx(r_v, abs=1e-15)
+    assert v == 16.0 or speed_reward(v + 1e-9) == pytest.approx(r_v, abs=1e-8), "it has no jumps"
 
 
 def test_the_centring_and_steering_rewards():
