@@ -138,9 +138,6 @@ def test_a_drive_that_is_recorded_holds_the_nine_values_and_follows_the_best():
     assert drive.policy is not None
 
 
-# What the models do wrong.
-
-
 def imagined_road(model: Model, decisions: int = 4):
     """(cars before, cars of a road that the model imagines after some decisions of keeping straight)."""
     there, rng = Reached(idle_policy, 8), np.random.default_rng(0)

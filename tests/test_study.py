@@ -147,7 +147,7 @@ def test_a_second_study_in_the_same_folder_is_refused(tmp_path):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGKILL to send")
-def test_a_killed_study_goes_on_where_it_was(tmp_path):
+def test_a_killed_study_goes_on_where_it_was(tmp_path, unrendered):
     arguments = ["study", "--out", str(tmp_path / "study"), "--only", "sac,soft"]
     arguments += ["--seeds", "1", "--episodes", "4", "--tests", "5", "--workers", "1"]
     command = [sys.executable, "-m", "bootcourse", *arguments]
