@@ -194,6 +194,7 @@ def test_a_file_that_would_fill_the_memory_is_refused_before_it_is_unpacked(tmp_
             for _ in range(UNPACKED // 2**24 + 1):
                 member.write(bytes(2**24))
     assert "it declares 1 arrays of" in refusal(read_arrays, tmp_path / "bomb.npz")
+    assert "at most 1,000 can be right" in refusal(read_bytes, tmp_path / "bomb.npz", 1000)
 
 
 @pytest.mark.parametrize("text", [b"", b"{", b"\xff\xfe", b"[" * 10**6, b"NaN", b"1e999", b"9" * 5000, b'"\xff"'])

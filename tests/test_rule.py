@@ -111,6 +111,8 @@ REASONS = [  # the ego and the others: (x, lane, speed); what the rule decides: 
     # a car comes up on the left, 12 m/s against 10: (12 - 10) 1.5 = 3 m bumper to bumper
     ((0.0, 2, 10.0), BEHIND | {"c3": (-7.9, 1, 12.0)}, (Reason.WAIT_FOR_FOLLOWER, 2, None, None)),
     ((0.0, 2, 10.0), BEHIND | {"c3": (-8.1, 1, 12.0)}, (Reason.CHANGE, 1, None, None)),
+    ((0.0, 2, 10.0), BEHIND | {"c3": (-9.4, 1, 13.0)}, (Reason.WAIT_FOR_FOLLOWER, 2, None, None)),  # 4.5 m
+    ((0.0, 2, 10.0), BEHIND | {"c3": (-9.6, 1, 13.0)}, (Reason.CHANGE, 1, None, None)),
 ]
 
 
