@@ -15,7 +15,7 @@ from bootcourse.panels.drive import drive_panel
 from bootcourse.panels.pad import ROWS, SCRIPT, Pad
 from bootcourse.panels.train import train_panel
 from bootcourse.policies import idle_policy, plan_policy
-from bootcourse.road.state import EGO, X
+from bootcourse.road.state import EGO, TRAP_1, X
 from bootcourse.scenario import ACTION_NAMES, CALIBRATED, IDLE
 from tests.panels import UNWRITABLE, from_page, raise_in_callbacks, threads, wait_for, words  # noqa: F401
 
@@ -39,6 +39,8 @@ def test_a_decision_counts_when_its_second_is_over_and_the_ghost_moves_between_i
     drive.decide(IDLE)
     assert [score(drive, ghost, t).decisions for t in (0.0, 0.9, 1.0, 1.9, 2.0)] == [0, 0, 1, 1, 2]
     assert score(drive, ghost, 2.0).earned == sum(drive.rewards)
+    assert score(drive, ghost, 1.0).ghost_earned == pytest.approx(ghost.rewards[0])
+    assert score(drive, ghost, 0.0).ahead == drive.cars_at(0.0)[EGO, X] - drive.cars_at(0.0)[TRAP_1, X] < 0
     assert ghost.states[0, EGO, X] < score(drive, ghost, 0.25).ghost[X] < ghost.states[1, EGO, X]
     late = score(drive, ghost, 1e6)
     assert np.array_equal(late.ghost, ghost.states[-1, EGO]) and late.ghost_earned == pytest.approx(ghost.rewards.sum())
