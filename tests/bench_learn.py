@@ -146,7 +146,7 @@ def milliseconds(contestants: dict, turns: int, calls: int = 20) -> dict:
 
 
 def table(turns: int = 25) -> list[Row]:
-    """Our update beside its parts and beside the other loops, and what it costs each agent as agents grow."""
+    """Our update beside its parts and beside the other loops."""
     contestants = {"ours": ours(AGENTS), "products": products(AGENTS), "networks": networks(AGENTS), "plain": plain()}
     if (theirs := d3rlpy_sac()) is not None:
         contestants["d3rlpy"] = theirs
@@ -162,13 +162,7 @@ def table(turns: int = 25) -> list[Row]:
         print("d3rlpy is not installed, so it is left out: `make bench` installs it.")
     else:
         rows.append(Row("d3rlpy's DiscreteSAC, 1 agent, beside ours", best["d3rlpy"], unit, best["d3rlpy"] / mine))
-    return rows + growth()
-
-
-def growth(agents: tuple[int, ...] = (1, 2, 4, 8, 16, 32, 64), turns: int = 12) -> list[Row]:
-    """What an update costs each agent as agents grow."""
-    best = milliseconds({n: ours(n) for n in agents}, turns, calls=10)
-    return [Row(f"batched learner, agents grow: {n}", best[n] / n, "ms per agent-update") for n in agents]
+    return rows
 
 
 def main() -> None:

@@ -65,3 +65,18 @@ def bootcourse(monkeypatch, capsys):
         return Answer(ended.value.code or 0, *capsys.readouterr())
 
     return run
+
+
+@pytest.fixture(scope="module")
+def unrendered():
+    """For tests of a report's words: bands are not resampled, and every figure is written as one pixel."""
+    from matplotlib.figure import Figure
+    from PIL import Image
+
+    from bootcourse.plots import training_curves
+    from bootcourse.statistics import iqm
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(training_curves, "band", lambda curves: (iqm(curves, axis=0),) * 3)
+        patch.setattr(Figure, "savefig", lambda figure, file, **options: Image.new("RGB", (1, 1)).save(file, "png"))
+        yield

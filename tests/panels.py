@@ -16,6 +16,8 @@ from ipywidgets.widgets.widget import CallbackDispatcher
 from bootcourse import one_per_cell
 from tests.waiting import until
 
+UNWRITABLE = ("with\0null", "x" * 300, "~nobody-of-that-name/\0")  # as the name of a file or a folder
+
 
 @pytest.fixture
 def raise_in_callbacks(monkeypatch):

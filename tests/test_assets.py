@@ -23,8 +23,11 @@ def compute(root, name: str, method: str, seeds: int = 2, tests: int = 3, scenar
     assert run_job(Job(name, tuple(agents), scenario, 2, tests, teacher=teacher), root) == ""
 
 
+pytestmark = pytest.mark.usefixtures("unrendered")
+
+
 @pytest.fixture(scope="module")
-def study(tmp_path_factory):
+def study(unrendered, tmp_path_factory):
     """The smallest study that assets can be built from."""
     root = tmp_path_factory.mktemp("study")
     for name in ("default/sac", "sweep/00", "sensitivity/as-it-is"):

@@ -13,7 +13,6 @@ from bootcourse.learn.networks import init_mlp, mlp
 from bootcourse.learn.replay_buffer import Batch
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
-from bootcourse.methods import BASELINES
 
 
 def a_batch(agents: int = 2, batch: int = 6, demonstrations: int = 3, seed: int = 0) -> Batch:
@@ -159,11 +158,6 @@ def test_a_batch_that_gail_cannot_halve_is_refused():
         learner("gail").update(a_batch(demonstrations=2))
 
 
-def test_methods_whose_updates_differ_are_not_trained_side_by_side():
-    with pytest.raises(BootcourseError, match="bc, sac cannot train side by side"):
-        learner_for([settings_for("sac"), settings_for("bc")], 26)
-
-
 @pytest.mark.parametrize(
     ("method", "share"), [("bc", 1.0), ("cql", 1.0), ("cql_sac", 1.0), ("gail", 0.5), ("dagger", 0.5), ("rlpd", 0.5)]
 )
@@ -177,9 +171,3 @@ def test_the_demonstrations_share_of_a_batch_stays_where_it_starts(method, share
                 training.step()
             batch = training.replay.sample(64, training.beta, training.sample_rngs)
         assert batch.is_demonstration.mean().item() == share
-
-
-def test_a_baseline_is_not_given_what_its_name_says_it_lacks():
-    for method in BASELINES:
-        with pytest.raises(BootcourseError, match="doing without"):
-            settings_for(method, bonus=2.0)

@@ -1,11 +1,27 @@
 """What learners cost: decisions until the way out is learned, and returns at an equal budget, by hand."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from bootcourse.research import beyond
-from bootcourse.research.beyond import at_budget, decisions_until, learner_rows, lengths
-from bootcourse.research.results import Results
+from bootcourse.course.shipped import shipped_experiment
+from bootcourse.episodes.evaluate import held_out_seeds
+from bootcourse.learn.settings import settings_for, with_seeds
+from bootcourse.research import beyond, equal_decisions
+from bootcourse.research.beyond import after_seconds, at_budget, decisions_until, learner_rows, lengths
+from bootcourse.research.equal_decisions import (
+    BUDGETS,
+    CHOSEN,
+    TRIES,
+    budget_rows,
+    by_method,
+    search_rows,
+    trained_and_tested,
+    tried,
+    tries,
+)
+from bootcourse.research.results import Results, agent_entries
 
 NAN = np.nan
 SUCCESS = np.array([[0, 1, 1, 0, 1, 1], [1, 1, 0, 0, 0, 0], [0, 1, 0, 1, 0, 0], [1, 1, NAN, NAN, NAN, NAN]])
@@ -52,3 +68,82 @@ def test_the_return_at_a_budget_is_the_mean_of_the_last_episodes_that_ended_with
     assert np.isnan(at_budget({"decisions": LEARNING["decisions"]}, np.array(budget))).all()
     ahead = {"decisions": LEARNING["decisions"], "success": LEARNING["return"]}
     np.testing.assert_array_equal(at_budget(ahead, np.array(budget), "success"), expected)
+
+
+def test_seconds_are_shared_equally_among_the_decisions_of_a_training(monkeypatch):
+    monkeypatch.setattr(beyond, "WINDOW", 2)
+    took = np.array([10.0, 4.0, NAN])  # for 100, 30 and 180 decisions: 6 s are 60, 45 and an unknown number of them
+    np.testing.assert_array_equal(after_seconds(LEARNING, 6, took), [4, NAN, NAN])
+    assert np.isnan(after_seconds(LEARNING, 6, np.zeros(3))).all()
+
+
+# At equal decisions: trained in small, the tables by hand, and the choice that the search makes
+
+
+def test_agents_are_trained_and_tested_each_budget_and_train_on_to_the_longer_one():
+    settings = with_seeds(settings_for("ppo", envs_per_agent=4, horizon=8, batch=32), 2)
+    results = trained_and_tested(settings, (200, 400), held_out_seeds(19, 3), [600])
+    assert {"returns_200", "success_400", "accident_400", "seconds_200"} <= results.measured.keys()
+    np.testing.assert_allclose(results.measured["returns_400"], results.tested["returns"].mean(axis=1), rtol=1e-6)
+    running = 4 * 150  # decisions that the last episodes, which have not ended, may have
+    driven = np.nansum(results.curves["decisions"], axis=1)
+    assert (600 - running <= driven).all() and (driven <= 604).all()
+    assert (results.seconds > results.measured["seconds_400"]).all()
+
+
+def invented(settings: list, returns: list) -> Results:
+    """One road and two training episodes of each agent. The second agent does not escape."""
+    values = {
+        "returns": returns,
+        "seconds": returns,
+        "success": [1.0, 0.9][: len(returns)] + [1.0] * (len(returns) - 2),
+    }
+    values["accident"] = [0.25] * len(returns)
+    measured = {f"{name}_{budget}": np.array(values[name]) for name in values for budget in BUDGETS}
+    tested = {"returns": np.array(returns)[:, None], "success": np.ones((len(returns), 1))}
+    curves = {"return": np.zeros((len(returns), 2)), "decisions": np.full((len(returns), 2), 100.0)}
+    return Results(agent_entries(settings), np.full(len(returns), -1), tested, curves, measured=measured)
+
+
+def test_a_row_says_what_was_chosen_and_counts_the_agents_of_all_jobs():
+    settings = with_seeds(settings_for("ibrl", target_entropy=0.1), 3)
+    jobs = {"ibrl-0": invented(settings[:2], [100.0, 100.0]), "ibrl-2": invented(settings[2:], [100.0])}
+    headings, (row,) = budget_rows(by_method(jobs))
+    assert row[:4] == ["IBRL", "η = 0.1", "3", "2 of 3"] and row[7:11] == row[3:7]
+    assert row[4:7] == ["100.00 [100.00, 100.00]", "25.0", "100.0"] and len(row) == len(headings) and row[-1] == "–"
+
+
+def test_the_search_has_a_mean_for_each_try():
+    agents = [agent for one in tries("ppo") for agent in with_seeds(one, 2, 500)]
+    results = invented(agents, [1.0, 3.0, 10.0, 20.0, 5.0, 5.0])
+    assert tried(results) == {"32 roads at once": 2, "64 roads at once": 15, "128 roads at once": 5}
+    headings, (row,) = search_rows({"ppo": results})
+    assert len(row) == len(headings) and row[2] == "64 roads at once: 15.0" and row[4:] == ["2", "100,000"]
+
+
+def test_every_method_has_as_many_tries_and_only_usable_seeds():
+    assert {len(each) for each in TRIES.values()} == {3}
+    used = range(equal_decisions.FIRST_SEARCH_SEED, equal_decisions.FIRST_SEARCH_SEED + equal_decisions.SEARCH_SEEDS)
+    assert equal_decisions.SEEDS <= min(used)
+    assert not set(equal_decisions.SEARCH_ROADS) & set(held_out_seeds(equal_decisions.HELD_OUT, equal_decisions.TESTS))
+
+
+def test_the_chosen_settings_are_those_that_earned_most_in_the_search_that_ships():
+    ships = shipped_experiment("beyond-search")
+    best = {method: int(np.argmax(list(tried(results).values()))) for method, results in ships.items()}
+    assert len(best) > 4 and best.items() <= CHOSEN.items()
+
+
+def test_the_last_column_has_the_decisions_that_a_method_makes_in_so_many_seconds():
+    results = invented(with_seeds(settings_for("ibrl"), 2), [10.0, 10.0])  # 100,000 decisions in 10 s
+    curves = {"return": np.repeat([[1.0, 3.0]], 500, axis=1), "decisions": np.full((1, 1000), 100.0)}
+    curves = {name: np.repeat(values, 2, axis=0) for name, values in curves.items()}
+    _, (row,) = budget_rows({"ibrl": replace(results, curves=curves)})
+    assert equal_decisions.SECONDS == 5 and row[-1] == "1.00 [1.00, 1.00]"  # the 500 episodes of the first half
+
+
+def test_a_method_that_had_fewer_decisions_has_no_numbers_at_the_larger_budget():
+    results = invented(with_seeds(settings_for("rlpd"), 2), [100.0, 100.0])
+    measured = {name: each for name, each in results.measured.items() if name.endswith("_50000")}
+    _, (row,) = budget_rows({"rlpd": replace(results, measured=measured)})
+    assert row[3] == "1 of 2" and row[7:11] == ["–"] * 4 and equal_decisions.budgets_of("rlpd") == (50_000,)

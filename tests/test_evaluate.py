@@ -81,12 +81,6 @@ def test_a_seed_or_number_outside_its_block_is_refused(seed, episodes):
         held_out_seeds(seed, episodes)
 
 
-def test_a_plan_in_words_drives_as_written_and_reads_back():
-    plan = [("brake straight", 2), ("keep left", 1), ("keep straight", 1)]
-    rollout = record(plan_policy(plan), [0])[0]
-    assert in_words(rollout.actions[:4]) == plan
-
-
 def test_a_plan_drives_every_episode_from_its_start():
     policy = plan_policy([("keep left", 2), "keep right", ("brake straight", 3)])
     first, second = (record(policy, [0, 3])[1] for _ in range(2))

@@ -14,7 +14,7 @@ from bootcourse.errors import BootcourseError
 from bootcourse.methods import style
 from bootcourse.plots import animation
 from bootcourse.plots.drive_figure import save_drive
-from bootcourse.plots.figure import Picture, finish, label_ends, new_figure, plain_axes, png, save, show, styles
+from bootcourse.plots.figure import Picture, finish, label_ends, new_figure, plain_axes, png, save, styles
 from bootcourse.plots.top_view import key_moments, top_view, top_view_over_time, window
 from bootcourse.plots.traces import PANELS, traces
 from bootcourse.plots.training_curves import training_curves
@@ -76,22 +76,19 @@ def test_the_cars_are_drawn_where_they_were_driven(escape, time):
         assert place == pytest.approx((car[X] - cars[EGO, X], car[Y], car[HEADING]), abs=1e-9)
 
 
-def test_the_ego_has_the_colour_of_its_driver_and_the_traps_theirs(escape):
+def test_drivers_and_cars_have_their_colours_and_the_same_figure_has_the_same_bytes(escape):
     bodies = {patch.get_gid(): patch for patch in top_view(escape, 0).axes[0].patches if patch.get_gid()}
     assert to_hex(bodies["ego"].get_facecolor()).upper() == style("rule").colour
     assert to_hex(bodies["trap 1"].get_facecolor()).upper() == TRAP
+    first, second, third = styles(["you", "idle", "you"])  # two drivers of one colour get two lines
+    assert first.colour == second.colour and first.line != second.line and first == third
+    assert png(traces(escape, until=20)) == png(traces(escape, until=20))
 
 
 def test_the_distances_are_measured_centre_to_centre(idle):
     d1, d2 = idle.states[0, 1:3, X] - idle.states[0, EGO, X]
     words = words_of(top_view(idle, 0, distances=True))
     assert f"D1 = {d1:.2f} m" in words and f"D2 = {d2:.2f} m" in words
-
-
-def test_the_film_shows_the_escape_by_the_backward_gap(escape):
-    words = words_of(top_view_over_time(escape))
-    assert {"falls back", "changes lane, left", "catches up", "ahead of trap 1"} <= set(words)
-    assert top_view_over_time(escape, times=[0, 4, 8]).axes[-1].get_xlabel() == "distance ahead of the ego (m)"
 
 
 def test_the_key_moments_are_few_in_order_and_within_the_drive(escape, idle, crash):
@@ -102,26 +99,12 @@ def test_the_key_moments_are_few_in_order_and_within_the_drive(escape, idle, cra
     assert key_moments(crash)[-1] == crash.times[-1] and doing(crash, crash.times[-1]) == "collision"
 
 
-def test_a_moment_after_the_end_becomes_the_end_and_shows_the_accident(crash):
-    figure = top_view_over_time(crash, times=[0, 2, 500, 600])
-    assert len(figure.axes) == 3
-    assert "collision" in words_of(figure)
-    assert [line for line in figure.axes[-1].lines if line.get_gid() == "accident"]
-
-
 def test_what_is_out_of_the_picture_is_named_at_its_edge(escape):
     end = float(escape.times[-1])
     gap = escape.states[-1, EGO, X] - escape.states[-1, TRAP_1, X]
     assert f"◂ trap 1, {gap:.0f} m behind" in words_of(top_view(escape, end))
     left, right = window(escape, [0, end])
     assert right - left <= 150
-
-
-def test_overtaken_is_the_last_time_that_the_ego_comes_ahead(escape, idle, crash):
-    passed = overtaken(escape)
-    ahead = escape.states[:, EGO, X] > escape.states[:, TRAP_1, X]
-    assert ahead[escape.times >= passed].all() and not ahead[escape.times == passed - DEFAULT.clock.dt].any()
-    assert overtaken(idle) is None and overtaken(crash) is None
 
 
 def test_the_traces_are_the_drives_own_numbers(escape):
@@ -133,24 +116,29 @@ def test_the_traces_are_the_drives_own_numbers(escape):
     assert seconds[-1] == 150 and len(seconds) == 151 and (rewards[1:] == escape.rewards).all()
 
 
-def test_every_panel_has_a_label_and_those_with_a_unit_say_it(escape, idle):
+def test_a_drive_in_words_names_its_manoeuvres_and_when_it_overtook(escape, idle, crash):
+    words = words_of(top_view_over_time(escape))
+    assert {"falls back", "changes lane, left", "catches up", "ahead of trap 1"} <= set(words)
+    passed, ahead = overtaken(escape), escape.states[:, EGO, X] > escape.states[:, TRAP_1, X]
+    assert ahead[escape.times >= passed].all() and not ahead[escape.times == passed - DEFAULT.clock.dt].any()
+    assert overtaken(idle) is None and overtaken(crash) is None
+    figure = top_view_over_time(crash, times=[0, 2, 500, 600])  # a moment after the end becomes the end
+    assert len(figure.axes) == 3 and "collision" in words_of(figure)
+    assert [line for line in figure.axes[-1].lines if line.get_gid() == "accident"]
+
+
+def test_every_trace_has_a_label_with_its_unit_and_every_drive_a_name(escape, idle):
     figure = traces([idle, escape])
     labels = [ax.get_ylabel() for ax in figure.axes]
     assert len(labels) == len(PANELS) + 1 and all(labels)
     assert labels[0] == "speed (m/s)" and labels[1].startswith("distance ahead of trap 1 (m)")
     assert figure.axes[-1].get_xlabel() == "time (s)"
     assert {"±1 m/s²", "±3.6° of steering"} <= set(words_of(figure))
-    figure = traces(escape, until=30, what=["speed", "lane"])
-    assert [ax.get_ylabel() for ax in figure.axes] == [PANELS["speed"][0], PANELS["lane"][0]]
-    assert figure.axes[0].get_xlim() == (0, 30)
-
-
-def test_several_drives_are_named_where_their_lines_end(escape, idle):
-    assert {"rule controller", "idle driver", "the traps"} <= {
-        text.get_text() for text in traces([idle, escape]).axes[0].texts
-    }
-    again = [text.get_text() for text in traces([escape, escape], what=["speed"]).axes[0].texts]
-    assert {"rule controller,\nroad 3 (1)", "rule controller,\nroad 3 (2)"} <= set(again)
+    assert {"rule controller", "idle driver", "the traps"} <= {text.get_text() for text in figure.axes[0].texts}
+    again = traces([escape, escape], until=30, what=["speed"]).axes
+    names = {text.get_text() for text in again[0].texts}
+    assert {"rule controller,\nroad 3 (1)", "rule controller,\nroad 3 (2)"} <= names
+    assert again[0].get_ylabel() == PANELS["speed"][0] and again[0].get_xlim() == (0, 30)
 
 
 def test_an_accident_is_marked_and_named(crash):
@@ -169,10 +157,6 @@ def test_each_line_of_a_title_is_a_sentence_of_the_alt_text_and_a_wrapped_one_is
     assert wrapped._suptitle.get_text().count("\n") == 1 and wrapped.alt.startswith(f"{long}. Over ")
 
 
-def test_a_dollar_in_a_drivers_label_is_not_the_start_of_a_formula(escape):
-    assert png(traces(replace(escape, label="5 $ and $\\frac{"))).startswith(b"\x89PNG")
-
-
 def test_training_curves_have_labels_names_and_the_callers_title():
     figure = training_curves({"sac": curves(), "bootstrapped": curves()}, "The trap opens", {"rule": {"return": 25.0}})
     assert figure.alt.startswith("The trap opens. ") and "4 agents" in figure.alt
@@ -181,21 +165,14 @@ def test_training_curves_have_labels_names_and_the_callers_title():
     assert success.get_xlabel() == returns.get_xlabel() == "training episode"
     assert {"plain SAC", "bootstrapped SAC", "rule controller"} <= {text.get_text() for text in returns.texts}
     assert any("over the last 30 episodes" in text.get_text() for text in figure.texts)
-
-
-def test_an_interrupted_training_is_drawn_as_far_as_it_got_and_an_agent_without_an_episode_not_at_all():
+    figure = training_curves({"sac": curves()}, "Paper", paper={"sac": {"return": 23.4, "success": 0.5}})
+    success, returns = (ax.lines[-1] for ax in figure.axes)  # the paper's value is an open diamond
+    assert (returns.get_marker(), returns.get_markerfacecolor()) == ("D", "white")
+    assert [line.get_ydata()[0] for line in (success, returns)] == [50.0, 23.4]
     assert len(training_curves({"sac": curves(missing=120)}, "Three of four").axes[1].lines) == 4
-    figure = training_curves({"sac": curves(missing=60)}, "Interrupted")
-    *agents, middle = figure.axes[1].lines
+    *agents, middle = training_curves({"sac": curves(missing=60)}, "Interrupted").axes[1].lines
     assert np.isfinite(agents[0].get_ydata()[-1]) and np.isnan(agents[-1].get_ydata()[-1])
     assert max(middle.get_xdata()) <= 60 and np.isfinite(middle.get_ydata()).all()
-
-
-def test_the_papers_value_is_an_open_diamond():
-    figure = training_curves({"sac": curves()}, "Paper", paper={"sac": {"return": 23.4, "success": 0.5}})
-    success, returns = (ax.lines[-1] for ax in figure.axes)
-    assert returns.get_marker() == "D" and returns.get_ydata()[0] == 23.4 and returns.get_markerfacecolor() == "white"
-    assert success.get_ydata()[0] == 50.0
 
 
 REFUSED = {
@@ -242,31 +219,19 @@ def test_every_figure_has_alt_text_and_no_text_lies_on_another(escape, idle, cra
         assert overlaps(figure) == []
 
 
-def test_a_notebook_gets_the_picture_with_its_alt_text(idle, capsys):
+def test_a_figure_says_what_it_shows_in_a_notebook_and_in_a_file(idle, crash, tmp_path):
     figure = top_view(idle, 0)
     figure.alt = 'a "quoted" <word>'
     bundle = Picture(figure)._repr_mimebundle_()
     assert set(bundle) == {"text/html", "text/plain"} and bundle["text/plain"] == figure.alt
     assert 'alt="a &#34;quoted&#34; &lt;word&gt;"' in bundle["text/html"]
-    show(figure)  # outside a notebook: the words
-    assert capsys.readouterr().out.strip() == figure.alt
-
-
-def test_a_saved_figure_says_what_it_shows(idle, tmp_path):
-    figure = top_view(idle, 0)
+    with Image.open(save_drive(crash, tmp_path / "drive.png")) as image:
+        assert image.width == 770 and image.height > 1000 and "collision" in image.text["Description"]
+    assert png(traces(replace(idle, label="5 $ and $\\frac{"), what=["speed"])).startswith(b"\x89PNG"), "no formula"
     with Image.open(save(figure, tmp_path / "road.png")) as image:
         assert image.width == 770 and image.text["Description"] == figure.alt
     assert save(figure, tmp_path / "road.pdf").read_bytes().startswith(b"%PDF")
     assert b"<svg" in save(figure, tmp_path / "road.svg").read_bytes()
-
-
-def test_a_whole_drive_fits_on_one_page(crash, tmp_path):
-    with Image.open(save_drive(crash, tmp_path / "drive.png")) as image:
-        assert image.width == 770 and image.height > 1000 and "collision" in image.text["Description"]
-
-
-def test_the_same_figure_has_the_same_bytes(escape):
-    assert png(traces(escape, until=20)) == png(traces(escape, until=20))
 
 
 def test_labels_that_meet_are_moved_apart_and_keep_their_order():
@@ -277,11 +242,6 @@ def test_labels_that_meet_are_moved_apart_and_keep_their_order():
     assert overlaps(finish(figure, "Labels", "Labels that meet.")) == []
     heights = {text.get_text(): text.get_position()[1] for text in ax.texts}
     assert 0 == heights["four"] < heights["one"] < heights["two"] < heights["three"]
-
-
-def test_two_drivers_of_one_colour_get_two_lines():
-    first, second, third = styles(["you", "idle", "you"])
-    assert first.colour == second.colour and first.line != second.line and first == third
 
 
 def test_names_without_a_style_of_their_own_get_different_colours_and_lines():

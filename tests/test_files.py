@@ -1,5 +1,7 @@
 """The one writer and the one reader of files: what a kill leaves, and what is refused before anything is unpacked."""
 
+import errno
+import io
 import os
 import sys
 import time
@@ -8,6 +10,7 @@ import zipfile
 import numpy as np
 import pytest
 
+from bootcourse import files
 from bootcourse.cli.driving import drive
 from bootcourse.errors import BootcourseError
 from bootcourse.files import (
@@ -70,14 +73,43 @@ def test_a_process_that_is_killed_between_any_two_operations_leaves_the_old_file
     assert operation >= 3 and set(left) <= {old, new} and path.read_bytes() == new
 
 
-@pytest.mark.parametrize("operation", ["fsync", "replace"])
-def test_a_full_disk_leaves_the_old_file_and_one_sentence(operation, tmp_path, monkeypatch):
-    def full(*_):
-        raise OSError(28, "No space left on device")
+def full(*_):
+    raise OSError(errno.ENOSPC, "No space left on device")
 
+
+def read_only(*_):
+    raise PermissionError(errno.EACCES, "Permission denied")
+
+
+def ctrl_c(*_):
+    raise KeyboardInterrupt
+
+
+class FillsUp(io.FileIO):
+    """A disk that is full in the middle of a file."""
+
+    def write(self, data):
+        super().write(data[: len(data) // 2])
+        full()
+
+
+REFUSES = {  # a disk: (where it refuses, how, what is raised, words)
+    "full when it is synced": (os, "fsync", full, BootcourseError, "No space left on device. Free some space"),
+    "full when it is renamed": (os, "replace", full, BootcourseError, "No space left on device. Free some space"),
+    "full in the middle": (files, "open", FillsUp, BootcourseError, "Free some space"),
+    "read-only": (files, "open", read_only, BootcourseError, "Permission denied"),
+    "interrupted": (os, "fsync", ctrl_c, KeyboardInterrupt, None),
+}
+
+
+@pytest.mark.parametrize("case", REFUSES)
+def test_a_disk_that_refuses_leaves_the_old_file_alone_and_one_sentence(case, tmp_path, monkeypatch):
+    place, name, fault, error, words = REFUSES[case]
     write_bytes(tmp_path / "mine.json", b"old")
-    monkeypatch.setattr(os, operation, full)
-    assert "No space left on device. Free some space" in refusal(write_bytes, tmp_path / "mine.json", b"new")
+    monkeypatch.setattr(place, name, fault, raising=False)
+    with pytest.raises(error, match=words):
+        write_bytes(tmp_path / "mine.json", b"new")
+    monkeypatch.undo()
     assert [each.read_bytes() for each in tmp_path.iterdir()] == [b"old"]
 
 
@@ -162,6 +194,7 @@ def test_a_file_that_would_fill_the_memory_is_refused_before_it_is_unpacked(tmp_
             for _ in range(UNPACKED // 2**24 + 1):
                 member.write(bytes(2**24))
     assert "it declares 1 arrays of" in refusal(read_arrays, tmp_path / "bomb.npz")
+    assert "at most 1,000 can be right" in refusal(read_bytes, tmp_path / "bomb.npz", 1000)
 
 
 @pytest.mark.parametrize("text", [b"", b"{", b"\xff\xfe", b"[" * 10**6, b"NaN", b"1e999", b"9" * 5000, b'"\xff"'])

@@ -1,6 +1,7 @@
-"""Every loss against loops that spell it out, on cases small enough to check by hand."""
+"""Every loss against sums that spell it out for one state, and against numbers worked by hand."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -8,76 +9,145 @@ import torch
 
 from bootcourse.learn import bootstrap, sac
 
-P = torch.tensor(0.9)
 AGENTS, BATCH, ACTIONS = 2, 5, 9
+P = torch.full((AGENTS,), 0.9)
 
 
 @pytest.fixture
-def rng():
-    return torch.Generator().manual_seed(0)
+def drawn() -> SimpleNamespace:
+    """Values, policies, the rule's actions and coefficients, drawn at random; agents differ in α."""
+    rng = torch.Generator().manual_seed(0)
+    q, logits = torch.randn(2, AGENTS, BATCH, ACTIONS, generator=rng)
+    chosen, constraint = (
+        torch.randint(ACTIONS, (AGENTS, BATCH), generator=rng),
+        torch.rand(AGENTS, BATCH, generator=rng),
+    )
+    alpha = torch.tensor([[0.3], [2.0]])
+    return SimpleNamespace(
+        q=q, log_pi=logits.log_softmax(-1), chosen=chosen, constraint=constraint, alpha=alpha, rng=rng
+    )
 
 
-@pytest.fixture
-def q(rng):
-    return torch.randn(AGENTS, BATCH, ACTIONS, generator=rng)
+def close(ours, expected):
+    torch.testing.assert_close(ours, torch.as_tensor(expected, dtype=ours.dtype), atol=1e-5, rtol=1e-5)
 
 
-@pytest.fixture
-def log_pi(rng):
-    return torch.randn(AGENTS, BATCH, ACTIONS, generator=rng).log_softmax(-1)
+def rule(chosen: int, action: int) -> float:
+    return 0.9 if action == chosen else 0.1 / 8
 
 
-@pytest.fixture
-def chosen(rng):
-    return torch.randint(ACTIONS, (AGENTS, BATCH), generator=rng)
+def mean(pi, q) -> float:
+    return sum(share * value for share, value in zip(pi, q, strict=True))
 
 
-def every_state():
-    return [(i, j) for i in range(AGENTS) for j in range(BATCH)]
+SPELLED_OUT = {  # what is computed for a batch, and the same for one state: log π, π, Q, a_E, α, the constraint
+    "the soft value": (
+        lambda d: sac.soft_value(d.log_pi, d.q, d.alpha, d.constraint),
+        lambda log, pi, q, chosen, alpha, constraint: mean(pi, q) - alpha * mean(pi, log) - constraint,
+    ),
+    "the KL to the rule": (
+        lambda d: bootstrap.kl_to_rule(d.log_pi, d.chosen, P),
+        lambda log, pi, q, chosen, *_: sum(pi[a] * (log[a] - math.log(rule(chosen, a))) for a in range(ACTIONS)),
+    ),
+    "the KL from the rule": (
+        lambda d: bootstrap.kl_from_rule(d.log_pi, d.chosen, P),
+        lambda log, pi, q, chosen, *_: sum(
+            rule(chosen, a) * (math.log(rule(chosen, a)) - log[a]) for a in range(ACTIONS)
+        ),
+    ),
+    "the large margin": (
+        lambda d: bootstrap.large_margin_loss(d.q, d.chosen),
+        lambda log, pi, q, chosen, *_: max(q[a] + (a != chosen) for a in range(ACTIONS)) - q[chosen],
+    ),
+    "the paper's filter": (
+        lambda d: bootstrap.paper_q_filter(d.q, d.chosen),
+        lambda log, pi, q, chosen, *_: float(max(q) == q[chosen]),
+    ),
+    "the usual filter": (
+        lambda d: bootstrap.q_filter(d.q, d.chosen, d.log_pi),
+        lambda log, pi, q, chosen, *_: float(q[chosen] > mean(pi, q)),
+    ),
+}
 
 
-def close(ours, spelled_out):
-    torch.testing.assert_close(ours, torch.as_tensor(spelled_out, dtype=ours.dtype), atol=1e-5, rtol=1e-5)
-
-
-def test_the_log_policy_is_the_logarithm_of_softmax_however_large_the_logits(rng):
-    logits = 1000 * torch.randn(7, ACTIONS, generator=rng)
-    close(sac.log_policy(logits), logits.log_softmax(-1))
-    close(sac.log_policy(torch.zeros(3, ACTIONS)), torch.full((3, ACTIONS), -math.log(9)))
-
-
-def test_the_soft_value_is_expected_q_plus_alpha_times_entropy_less_the_constraint(q, log_pi):
-    alpha, constraint = torch.tensor([[0.3], [2.0]]), torch.rand(AGENTS, BATCH)
+@pytest.mark.parametrize("name", SPELLED_OUT)
+def test_a_batch_is_computed_as_each_of_its_states_is(name, drawn):
+    of_batch, of_state = SPELLED_OUT[name]
+    if name == "the paper's filter":
+        drawn.chosen[:, ::2] = drawn.q.argmax(-1)[:, ::2]  # on in every second state
     expected = torch.zeros(AGENTS, BATCH)
-    for i, j in every_state():
-        pi = [math.exp(x) for x in log_pi[i, j]]
-        entropy = -sum(x * math.log(x) for x in pi)
-        mean_q = sum(x * float(value) for x, value in zip(pi, q[i, j], strict=True))
-        expected[i, j] = mean_q + float(alpha[i]) * entropy - constraint[i, j]
-    close(sac.soft_value(log_pi, q, alpha, constraint), expected)
+    for i in range(AGENTS):
+        for j in range(BATCH):
+            log, chosen = drawn.log_pi[i, j].tolist(), int(drawn.chosen[i, j])
+            state = (
+                log,
+                np.exp(log),
+                drawn.q[i, j].tolist(),
+                chosen,
+                float(drawn.alpha[i]),
+                float(drawn.constraint[i, j]),
+            )
+            expected[i, j] = of_state(*state)
+    close(of_batch(drawn), expected)
+    assert len(expected.unique()) > 1
 
 
-def test_entropy_is_log_nine_for_the_uniform_policy_and_zero_for_a_certain_one():
-    close(sac.entropy(torch.full((1, 9), -math.log(9))), [math.log(9)])
-    certain = torch.full((1, 9), -200.0)
-    certain[0, 4] = 0.0
-    close(sac.entropy(certain), [0.0])
+def sure(action: int) -> torch.Tensor:
+    """log π, (1, 9), of a policy that is sure of an action."""
+    return torch.full((1, ACTIONS), -200.0).index_fill(-1, torch.tensor([action]), 0.0)
 
 
-def test_what_ran_out_of_time_goes_on_in_the_target_and_what_terminated_does_not():
-    terminated, next_value = torch.tensor([[0.0, 1.0]]), torch.tensor([[10.0, 10.0]])
-    target = sac.critic_target(torch.tensor([[1.0, -10.0]]), terminated, next_value, torch.tensor([[0.8]]))
-    close(target, [[9.0, -10.0]])
+UNIFORM = torch.full((1, ACTIONS), -math.log(9))
+GOOD, ONE = torch.tensor([[0.0, 1.0, 2.0] + [0.0] * 6]), torch.eye(ACTIONS)[3:4]
+T = torch.tensor
+BY_HAND = {
+    "the uniform policy": lambda: (sac.log_policy(torch.zeros(1, ACTIONS)), UNIFORM),
+    "its entropy": lambda: (sac.entropy(UNIFORM), [math.log(9)]),
+    "the entropy of a sure policy": lambda: (sac.entropy(sure(4)), [0.0]),
+    "a target goes on after the time limit and ends with an accident": lambda: (
+        sac.critic_target(T([1.0, -10.0]), T([0.0, 1.0]), T([10.0, 10.0]), 0.8), [9.0, -10.0]),
+    "the squared error": lambda: (sac.critic_loss(T([[1.0, 2.0, 3.0]]), T([[0.0, 2.0, 5.0]])), [5 / 3]),
+    "the smaller critic": lambda: (sac.min_q(T([[[1.0, 5.0]], [[2.0, 3.0]]])), [[1.0, 3.0]]),
+    "the stochastic rule": lambda: (
+        bootstrap.log_stochastic_rule(T([[4]]), P[:1]).exp()[0, 0], [0.0125] * 4 + [0.9] + [0.0125] * 4),
+    "the price of another action, 4.382 nats": lambda: (
+        bootstrap.kl_to_rule(sure(7), T([1]), T(0.9)), [math.log(8 / 0.1)]),
+    "and 6.685 nats": lambda: (bootstrap.kl_to_rule(sure(7), T([1]), T(0.99)), [math.log(8 / 0.01)]),
+    "to be surer than the rule costs little": lambda: (
+        bootstrap.kl_to_rule(sure(0), T([0]), T(0.9)), [-math.log(0.9)]),
+    "and much in the other direction": lambda: (
+        bootstrap.kl_from_rule(sure(0), T([0]), T(0.9)), [0.9 * math.log(0.9) + 0.1 * (math.log(0.0125) + 200)]),
+    "ξ is 200 α unless it is fixed": lambda: (
+        bootstrap.constraint_strength(torch.full((3,), 0.01), torch.full((3,), 200.0), T([math.nan, 0.0, 0.7])),
+        [2.0, 0.0, 0.7]),
+    "the bonus is the demonstrations'": lambda: (
+        bootstrap.augmented_reward(T([0.1, -10.0, 0.1]), T([1.0, 1.0, 0.0]), 2.0), [2.1, -8.0, 0.1]),
+    "an action that leads by the margin": lambda: (bootstrap.large_margin_loss(1.0 * ONE, T([3])), [0.0]),
+    "an action that leads by less": lambda: (bootstrap.large_margin_loss(0.25 * ONE, T([3])), [0.75]),
+    "a tie passes the paper's filter": lambda: (bootstrap.paper_q_filter(0 * ONE, T([5])), [1.0]),
+    "the good and not the best does not": lambda: (bootstrap.paper_q_filter(GOOD, T([1])), [0.0]),
+    "but passes the usual one": lambda: (bootstrap.q_filter(GOOD, T([1]), UNIFORM), [1.0]),
+}  # fmt: skip
 
 
-def test_the_critic_loss_is_the_mean_squared_error():
-    close(sac.critic_loss(torch.tensor([[1.0, 2.0, 3.0]]), torch.tensor([[0.0, 2.0, 5.0]])), [5 / 3])
+@pytest.mark.parametrize("name", BY_HAND)
+def test_a_number_worked_by_hand(name):
+    close(*BY_HAND[name]())
 
 
-def test_the_actor_loss_gives_the_critic_no_gradient(q, log_pi):
-    q, log_pi = q.requires_grad_(), log_pi.requires_grad_()
+def test_the_log_policy_is_the_logarithm_of_softmax_however_large_the_logits(drawn):
+    close(sac.log_policy(1000 * drawn.q), (1000 * drawn.q).log_softmax(-1))
+
+
+def test_the_actor_loss_gives_the_critic_no_gradient_and_the_temperature_loss_the_policy_none(drawn):
+    q, log_pi, state_entropy = (
+        drawn.q.requires_grad_(),
+        drawn.log_pi.requires_grad_(),
+        torch.ones(1, 4).requires_grad_(),
+    )
     sac.actor_loss(log_pi, q, torch.ones(AGENTS, 1)).sum().backward()
-    assert q.grad is None and log_pi.grad.abs().sum() > 0
+    sac.temperature_loss(torch.zeros(1, requires_grad=True), state_entropy, torch.zeros(1)).sum().backward()
+    assert q.grad is state_entropy.grad is None and log_pi.grad.abs().sum() > 0
 
 
 @pytest.mark.parametrize(("entropy", "moves"), [(0.1, 1), (2.0, -1)])
@@ -89,77 +159,24 @@ def test_alpha_rises_while_the_entropy_is_under_its_target_and_falls_while_above
     assert np.sign(-log_alpha.grad.item()) == moves
 
 
-def test_the_temperature_loss_gives_the_policy_no_gradient():
-    entropy = torch.ones(1, 4, requires_grad=True)
-    loss = sac.temperature_loss(torch.zeros(1, requires_grad=True), entropy, torch.zeros(1))
-    loss.sum().backward()
-    assert entropy.grad is None
-
-
-def test_the_smaller_critic_is_taken_for_each_action():
-    close(sac.min_q(torch.tensor([[[1.0, 5.0]], [[2.0, 3.0]]])), [[1.0, 3.0]])
-
-
-def test_the_stochastic_rule_gives_p_to_the_rules_action_and_shares_the_rest():
-    rule = bootstrap.log_stochastic_rule(torch.tensor([[4]]), torch.tensor([0.9])).exp()
-    close(rule[0, 0], [0.0125] * 4 + [0.9] + [0.0125] * 4)
-
-
-def test_the_kl_is_what_its_sum_says(log_pi, chosen):
-    expected = torch.zeros(AGENTS, BATCH)
-    for i, j in every_state():
-        for a in range(ACTIONS):
-            rule = 0.9 if a == chosen[i, j] else 0.1 / 8
-            expected[i, j] += math.exp(log_pi[i, j, a]) * (float(log_pi[i, j, a]) - math.log(rule))
-    close(bootstrap.kl_to_rule(log_pi, chosen, torch.full((AGENTS,), 0.9)), expected)
-
-
 @pytest.mark.parametrize("kl", [bootstrap.kl_to_rule, bootstrap.kl_from_rule])
-def test_the_kl_is_zero_exactly_where_the_policy_is_the_stochastic_rule(kl, chosen, log_pi):
-    p = torch.full((AGENTS,), 0.9)
-    same = bootstrap.log_stochastic_rule(chosen, p)
-    assert (kl(same, chosen, p) == 0).all()
-    assert (kl(log_pi, chosen, p) > 0.01).all()
+def test_the_kl_is_zero_exactly_where_the_policy_is_the_stochastic_rule(kl, drawn):
+    assert (kl(bootstrap.log_stochastic_rule(drawn.chosen, P), drawn.chosen, P) == 0).all()
+    assert (kl(drawn.log_pi, drawn.chosen, P) > 0.01).all()
 
 
-@pytest.mark.parametrize(("p", "pull"), [(0.9, 4.382), (0.99, 6.685)])
-def test_a_policy_that_is_sure_of_another_action_pays_log_of_eight_over_one_minus_p(p, pull):
-    sure = torch.full((1, 9), -200.0)
-    sure[0, 7] = 0.0
-    kl = bootstrap.kl_to_rule(sure, torch.tensor([1]), torch.tensor(p))
-    close(kl, [math.log(8 / (1 - p))])
-    assert kl.item() == pytest.approx(pull, abs=1e-3)
-
-
-def test_it_costs_little_to_be_surer_than_the_rule_though_the_other_direction_would_charge_much():
-    sure = torch.full((1, 9), -50.0)
-    sure[0, 0] = 0.0
-    rule = bootstrap.log_stochastic_rule(torch.tensor([0]), P)
-    reversed_kl = (rule.exp() * (rule - sure)).sum(-1)
-    close(bootstrap.kl_to_rule(sure, torch.tensor([0]), P), [-math.log(0.9)])
-    assert reversed_kl.item() > 4.0
-
-
-def test_nothing_scores_higher_than_the_regularised_policy(q, chosen, rng):
+def test_nothing_scores_higher_than_the_regularised_policy(drawn):
     alpha, xi = 0.3, 2.0
-    log_rule = bootstrap.log_stochastic_rule(chosen, torch.full((AGENTS,), 0.9))
+    log_rule = bootstrap.log_stochastic_rule(drawn.chosen, P)
 
     def objective(log_policy):
         kl = (log_policy.exp() * (log_policy - log_rule)).sum(-1)
-        return (log_policy.exp() * q).sum(-1) + alpha * sac.entropy(log_policy) - xi * kl
+        return (log_policy.exp() * drawn.q).sum(-1) + alpha * sac.entropy(log_policy) - xi * kl
 
-    best = bootstrap.regularised_policy(q, log_rule, alpha, xi).log()
+    best = bootstrap.regularised_policy(drawn.q, log_rule, alpha, xi).log()
     for size in (1e-2, 0.1, 1.0, 10.0):
-        others = (best + size * torch.randn(200, AGENTS, BATCH, ACTIONS, generator=rng)).log_softmax(-1)
+        others = (best + size * torch.randn(200, AGENTS, BATCH, ACTIONS, generator=drawn.rng)).log_softmax(-1)
         assert (objective(others) <= objective(best) + 1e-5).all()
-    kl = bootstrap.kl_to_rule(best, chosen, torch.full((AGENTS,), 0.9))
-    close(objective(best), sac.soft_value(best, q, torch.full((AGENTS, 1), alpha), xi * kl))
-
-
-def test_xi_is_200_alpha_unless_it_is_fixed():
-    alpha = torch.tensor([0.01, 0.01, 0.01])
-    xi = bootstrap.constraint_strength(alpha, torch.full((3,), 200.0), torch.tensor([math.nan, 0.0, 0.7]))
-    close(xi, [2.0, 0.0, 0.7])  # 2: w_kl of the paper's table
 
 
 @pytest.mark.parametrize(("episode", "beta"), [(0, 0.6), (500, 0.3), (1000, 0.0), (2000, 0.0)])
@@ -167,48 +184,3 @@ def test_beta_falls_from_0_6_to_0_in_1000_episodes(episode, beta):
     assert bootstrap.demonstration_share(episode, 0.6, 1000) == pytest.approx(beta)
     assert bootstrap.demonstration_share(np.array([episode]), np.array([0.6]), np.array([1000])) == pytest.approx(beta)
     assert bootstrap.demonstration_share(episode, 0.6, None) == 0.6  # it stays
-
-
-def test_the_bonus_goes_to_demonstrations_only():
-    reward, is_demonstration = torch.tensor([[0.1, -10.0, 0.1]]), torch.tensor([[1.0, 1.0, 0.0]])
-    close(bootstrap.augmented_reward(reward, is_demonstration, torch.tensor([[2.0]])), [[2.1, -8.0, 0.1]])
-
-
-def test_the_large_margin_loss_is_what_its_maximum_says(q, chosen):
-    expected = torch.zeros(AGENTS, BATCH)
-    for i, j in every_state():
-        expert = int(chosen[i, j])
-        best = max(float(q[i, j, a]) + (0.0 if a == expert else 1.0) for a in range(ACTIONS))
-        expected[i, j] = best - float(q[i, j, expert])
-    close(bootstrap.large_margin_loss(q, chosen), expected)
-
-
-def test_the_large_margin_loss_is_zero_once_the_demonstrators_action_leads_by_the_margin():
-    q = torch.zeros(1, 9)
-    q[0, 3] = 1.0
-    assert bootstrap.large_margin_loss(q, torch.tensor([3])).item() == 0.0
-    q[0, 3] = 0.25
-    assert bootstrap.large_margin_loss(q, torch.tensor([3])).item() == 0.75
-
-
-def test_the_papers_filter_is_on_only_where_the_demonstrators_action_is_greedy_already(q, chosen):
-    keep = bootstrap.paper_q_filter(q, chosen)
-    for i, j in every_state():
-        assert keep[i, j] == float(q[i, j].argmax() == chosen[i, j])
-    assert bootstrap.paper_q_filter(q, q.argmax(-1)).all()
-    assert bootstrap.paper_q_filter(torch.zeros(1, 9), torch.tensor([5])).item() == 1.0  # a tie is on
-
-
-def test_the_usual_filter_is_on_where_the_demonstrators_action_beats_the_policy(q, chosen, log_pi):
-    keep = bootstrap.q_filter(q, chosen, log_pi)
-    for i, j in every_state():
-        mean = sum(math.exp(log_pi[i, j, a]) * float(q[i, j, a]) for a in range(ACTIONS))
-        assert keep[i, j] == float(float(q[i, j, chosen[i, j]]) > mean)
-    assert 0 < keep.mean() < 1
-
-
-def test_the_two_filters_differ_where_the_demonstrators_action_is_good_but_not_the_best():
-    q = torch.tensor([[0.0, 1.0, 2.0] + [0.0] * 6])
-    uniform = torch.full((1, 9), -math.log(9))
-    assert bootstrap.paper_q_filter(q, torch.tensor([1])).item() == 0.0
-    assert bootstrap.q_filter(q, torch.tensor([1]), uniform).item() == 1.0

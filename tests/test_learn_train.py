@@ -16,6 +16,8 @@ from bootcourse.methods import ABLATION
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.rule import rule
 from bootcourse.scenario import DEFAULT, IDLE
+from bootcourse.storage.checkpoint import load_checkpoint, save_checkpoint
+from bootcourse.storage.runs import load_run, save_runs
 
 INPUTS, DECISIONS = DEFAULT.observation_size, DEFAULT.clock.decisions
 QUICK = {"demonstration_episodes": 3, "learning_starts": 16}
@@ -102,8 +104,14 @@ def test_beta_falls_with_the_agents_own_finished_episodes():
     np.testing.assert_allclose(training.beta, [0.3, 0.0])
 
 
-def test_the_same_seeds_give_the_same_curves_and_others_give_others():
-    first, second = (training_of("bootstrapped", "sac").run(progress=False) for _ in range(2))
+@pytest.fixture(scope="module")
+def undisturbed():
+    """What two agents learn in twelve episodes."""
+    return training_of("bootstrapped", "sac").run(progress=False)
+
+
+def test_the_same_seeds_give_the_same_curves_and_others_give_others(undisturbed):
+    first, second = undisturbed, training_of("bootstrapped", "sac").run(progress=False)
     assert same(first.curves, second.curves)
     for one, other in zip(first.agents, second.agents, strict=True):
         assert all(torch.equal(a, b) for a, b in zip(one.actor, other.actor, strict=True))
@@ -172,8 +180,7 @@ def test_an_interrupt_returns_what_was_learned_so_far(interrupt):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="a process cannot press Ctrl-C for itself on Windows")
-def test_a_training_interrupted_in_the_middle_of_a_step_goes_on_as_if_nothing_had_been():
-    undisturbed = training_of("bootstrapped", "sac").run(progress=False)
+def test_a_training_interrupted_in_the_middle_of_a_step_goes_on_as_if_nothing_had_been(undisturbed):
     training = training_of("bootstrapped", "sac")
     step, calls = training.env.step, []
 
@@ -204,14 +211,6 @@ def test_a_second_interrupt_does_not_wait():
     assert training.run(progress=False, callback=stuck).interrupted and not reached
 
 
-def test_stop_ends_it_and_running_again_goes_on():
-    whole = training_of("bootstrapped", "sac").run(progress=False)
-    training, asked = training_of("bootstrapped", "sac"), []
-    result = training.run(progress=False, stop=lambda: asked.append(1) or len(asked) > 10)
-    assert result.interrupted and training.decisions == 10 * 8
-    assert same(training.run(progress=False).curves, whole.curves)
-
-
 def test_actions_are_drawn_as_often_as_the_policy_says():
     policy = np.array([0.5, 0.0, 0.25, 0.0, 0.0, 0.05, 0.0, 0.2, 0.0])
     drawn = sample_actions(np.tile(policy, (100_000, 1)), np.random.default_rng(0).random(100_000))
@@ -222,22 +221,14 @@ def test_actions_are_drawn_as_often_as_the_policy_says():
     assert sample_actions(policy[None, ::-1], np.array([0.0]))[0] == 1  # nor before the first
 
 
-def test_an_agent_thinks_what_its_learner_thought():
-    training = training_of("sac", "soft", "demos")
-    for _ in range(20):
-        training.step()
-    states = torch.randn(3, 50, INPUTS)
-    learner = training.learner
-    policy, values = learner.probabilities(states), learner.q_values(learner.critics, states).detach()
-    for i in range(3):
-        agent = training.agent(i)
-        np.testing.assert_allclose(agent.probabilities(states[i].numpy()), policy[i], atol=1e-6)
-        np.testing.assert_allclose(agent.q_values(states[i].numpy()), values[i], atol=1e-5)
-
-
-def test_an_agent_drives_by_its_most_probable_action_or_draws_one():
-    training = training_of("sac", "soft")
-    agent = training.run(progress=False).agents[1]
+def test_an_agent_thinks_what_its_learner_does_and_drives_by_its_most_probable_action_or_draws_one(undisturbed):
+    training, agent = training_of("sac", "soft"), undisturbed.agents[1]
+    learner, seen = training.learner, torch.randn(2, 50, INPUTS)
+    values = learner.q_values(learner.critics, seen).detach()
+    for i in range(2):
+        one = training.agent(i)
+        np.testing.assert_allclose(one.probabilities(seen[i].numpy()), learner.probabilities(seen)[i], atol=1e-6)
+        np.testing.assert_allclose(one.q_values(seen[i].numpy()), values[i], atol=1e-5)
     states = np.random.default_rng(0).normal(size=(500, INPUTS)).astype(np.float32)
     policy = agent.probabilities(states)
     np.testing.assert_allclose(policy.sum(1), 1, rtol=1e-5)
@@ -248,9 +239,9 @@ def test_an_agent_drives_by_its_most_probable_action_or_draws_one():
     assert 0 < (drawn == choice.actions).mean() < 1
 
 
-def test_two_bootstrapped_agents_escape_within_320_episodes_and_two_of_plain_sac_do_not():
+def test_two_bootstrapped_agents_escape_within_250_episodes_and_two_of_plain_sac_do_not():
     settings = [s for method in ("bootstrapped", "sac") for s in with_seeds(settings_for(method), 2, first=2)]
-    success = Training(settings, 320).run(progress=False).curves["success"][:, -50:].mean(1)
+    success = Training(settings, 250).run(progress=False).curves["success"][:, -50:].mean(1)
     assert success[:2].mean() >= 0.8, f"bootstrapped {success[:2]}"
     assert success[2:].max() <= 0.1, f"sac {success[2:]}"
 
@@ -262,3 +253,47 @@ def test_a_training_counts_tiny_numbers_as_zero_and_nothing_does_so_afterwards()
     seen = []
     Training([settings_for("sac", hidden=(8,))], episodes=1).run(progress=False, callback=lambda _: seen.append(tiny()))
     assert set(seen) == {0.0} and tiny() > 0
+
+
+def trained_a_little() -> Training:
+    settings = settings_for("sac", learning_starts=16, hidden=(8,), buffer_size=2000)
+    training = Training(with_seeds(settings, 3), episodes=60)
+    for _ in range(12):
+        training.step()
+    return training
+
+
+def poison(training: Training) -> None:
+    """The next loss of agent 1 is not a number."""
+    rows = training.replay.first[1] + np.arange(training.replay.size)
+    training.replay.table[torch.from_numpy(rows), 2 * 26 + 1] = float("nan")  # its rewards
+
+
+@pytest.mark.filterwarnings("ignore:sac, seed 1")
+def test_an_agent_with_a_loss_that_is_not_finite_keeps_finite_weights_its_run_says_so_and_the_others_go_on(tmp_path):
+    training = trained_a_little()
+    poison(training)
+    with pytest.warns(UserWarning, match="sac, seed 1: its loss was not finite at decision 52; it stops there"):
+        result = training.run(progress=False)
+    alone = trained_a_little().run(progress=False)
+    frozen = result.agents[1]
+    assert result.stopped == {1: 52} and np.isnan(result.curves["return"][1, -1])
+    assert all(torch.isfinite(weights).all() for weights in (*frozen.actor, *frozen.critics)) and frozen.alpha > 0
+    for agent in (0, 2):
+        np.testing.assert_array_equal(result.curves["return"][agent], alone.curves["return"][agent])
+        assert torch.equal(result.agents[agent].actor[0], alone.agents[agent].actor[0])
+    decisions = [load_run(path).provenance["stopped_at_decision"] for path in save_runs(result, tmp_path)]
+    assert decisions == [None, 52, None]
+
+
+@pytest.mark.filterwarnings("ignore:sac, seed 1")
+def test_a_checkpoint_remembers_who_was_stopped_and_the_last_finite_snapshots(tmp_path):
+    training = trained_a_little()
+    save_checkpoint(training, tmp_path / "before.npz")
+    resumed = load_checkpoint(tmp_path / "before.npz")
+    for each in (training, resumed):
+        poison(each)
+        each.step()
+    assert torch.equal(training.finished_agents[1].actor[0], resumed.finished_agents[1].actor[0])
+    save_checkpoint(training, tmp_path / "after.npz")
+    assert load_checkpoint(tmp_path / "after.npz").stopped == {1: 52}

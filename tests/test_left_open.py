@@ -2,7 +2,7 @@
 
 import math
 import re
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import pytest
@@ -25,8 +25,7 @@ KINDS = ("Misprint", "Silence", "Reading", "Result")
 PARTS = ("In the paper.", "What follows.", "In the kit.", "Taught in")
 
 
-@dataclass(frozen=True)
-class Gap:
+class Gap(NamedTuple):
     """One gap in the paper, and what the kit does about it."""
 
     target: str  # "open-clock"
@@ -34,27 +33,16 @@ class Gap:
     title: str
     parts: dict[str, str]  # by the names in `PARTS`, with single spaces
 
-    @property
-    def code(self) -> list[str]:
-        """The dotted names of what the kit does."""
-        return re.findall(r"`(bootcourse[\w.]+)`", self.parts.get("In the kit.", ""))
-
-    @property
-    def lessons(self) -> list[str]:
-        return re.findall(r"\[\[(\w+)\]\]", self.parts.get("Taught in", ""))
-
 
 def gaps() -> list[Gap]:
     """All gaps, in the order of the page."""
-    found = []
+    page, listed = (ROOT / "book/left_open.md").read_text(encoding="utf-8"), []
     pattern = r"^(?:\(([\w-]+)\)=\n)?### (?:(\w+): )?(.+)\n((?:(?!##|\([\w-]+\)=).*\n?)*)"
-    for target, kind, title, body in re.findall(
-        pattern, (ROOT / "book/left_open.md").read_text(encoding="utf-8"), re.M
-    ):
+    for *names, body in re.findall(pattern, page, re.M):
         pieces = re.split(r"^\*\*([^*]+)\*\*", body, flags=re.M)
         parts = {name: " ".join(text.split()) for name, text in zip(pieces[1::2], pieces[2::2], strict=True)}
-        found.append(Gap(target, kind, title, parts))
-    return found
+        listed.append(Gap(*names, parts))
+    return listed
 
 
 GAPS = {gap.target: gap for gap in gaps()}
@@ -64,8 +52,9 @@ GAPS = {gap.target: gap for gap in gaps()}
 def test_a_gap_says_what_is_printed_what_follows_what_the_kit_does_and_where(gap):
     assert gap.target.startswith("open-") and gap.kind in KINDS
     assert tuple(gap.parts) == PARTS and all(gap.parts.values())
-    assert gap.code and all(exists(name) for name in gap.code)
-    assert gap.lessons
+    code = re.findall(r"`(bootcourse[\w.]+)`", gap.parts["In the kit."])
+    assert code and all(exists(name) for name in code) and re.search(r"\[\[\w+\]\]", gap.parts["Taught in"])
+    assert len(GAPS) == len(gaps()), "no gap is twice"
 
 
 def test_the_counts_of_agents_that_escape_are_those_of_the_shipped_study():
@@ -78,10 +67,6 @@ def test_the_counts_of_agents_that_escape_are_those_of_the_shipped_study():
     assert escaping(cells(clocks)["2", "π̃"], *both) == [0, 5, 10, 10]  # the settings' comment has all four
     assert "8 of 10 with the KL in both losses, 9 of 10" in GAPS["open-kl-target"].parts["What follows."]
     assert "5 of 10 and 10 of 10" in GAPS["open-network"].parts["What follows."]
-
-
-def test_no_gap_is_twice():
-    assert len(GAPS) == len(gaps())
 
 
 def test_every_gap_that_belongs_to_something_numbered_is_on_the_paper_map():

@@ -14,7 +14,7 @@ from bootcourse.episodes.evaluate import evaluate
 from bootcourse.errors import BootcourseError
 from bootcourse.learn import sac
 from bootcourse.learn.learner import SACLearner
-from bootcourse.learn.settings import Settings, settings_for, with_seeds
+from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
 from bootcourse.methods import METHODS, Method, display_name, style
 from bootcourse.panels import train_panel
@@ -75,6 +75,8 @@ def test_a_method_of_one_s_own_trains_is_saved_evaluated_drawn_and_offered(toy, 
         "Toy method (2 agents)" in training_curves({toy: result.curves}, "A toy").alt
         and style("toy, seed 1").colour == "#117733"
     )
+    assert style("you") == style("idle") != style("sac") and display_name("you, road 3") == "you, road 3"
+    assert display_name("sac, seed 3") == "plain SAC, seed 3"
     panel = train_panel(toy, 1, 5)
     assert panel.method.label == display_name(toy) == "toy method"
     assert panel.numbers["gamma"].slider.disabled and panel.numbers["xi_multiplier"].slider.disabled
@@ -138,22 +140,6 @@ def test_the_command_line_takes_the_teacher_of_such_a_run(follower, tmp_path):
     assert CliRunner().invoke(app, evaluate_it).exit_code == 1
     found = CliRunner().invoke(app, [*evaluate_it, "--teacher", f"{tmp_path / 'mine.py'}:always_faster"])
     assert json.loads(found.output)["follower-0"]["collision"]["value"] == 1.0, found.output
-
-
-@pytest.mark.parametrize("method", [name for name, entry in METHODS.items() if entry.on_policy])
-def test_an_on_policy_method_s_own_episodes_are_more_than_one_round_of_decisions_can_hold(method):
-    settings = settings_for(method)
-    assert METHODS[method].episodes > settings.envs_per_agent * settings.horizon
-
-
-def test_a_label_that_names_no_method_keeps_its_words():
-    assert display_name("you, road 3") == "you, road 3" and display_name("sac, seed 3") == "plain SAC, seed 3"
-    assert style("you") == style("idle") != style("sac")
-
-
-def test_settings_with_the_defaults_of_another_method_say_how_to_get_its_own():
-    with pytest.raises(BootcourseError, match=r"write settings_for\('sac'\)"):
-        Settings(method="sac")
 
 
 def test_a_training_that_goes_on_without_its_method_asks_for_the_learner(tmp_path, monkeypatch):

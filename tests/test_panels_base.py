@@ -1,6 +1,7 @@
 """What every panel rests on: the number that is dragged and typed, the frame, the drawing, what is refused."""
 
 import base64
+import math
 import re
 from xml.etree import ElementTree
 
@@ -10,15 +11,21 @@ import pytest
 
 from bootcourse import one_per_cell, panels
 from bootcourse.errors import BootcourseError
+from bootcourse.learn.settings import Settings
+from bootcourse.panels import bonus_panel, policy_panel, train_panel
 from bootcourse.panels.arguments import a_number, one_drive
+from bootcourse.panels.background import Background
+from bootcourse.panels.bonus_numbers import targets
 from bootcourse.panels.number import Number
 from bootcourse.panels.panel import Panel, beside
+from bootcourse.panels.policy_numbers import policy_numbers
 from bootcourse.plots import svg
 from bootcourse.plots.road import road_svg
 from bootcourse.scenario import DEFAULT, check_p
 from tests.panels import from_page, inside, raise_in_callbacks, words  # noqa: F401
 
 pytestmark = pytest.mark.usefixtures("raise_in_callbacks")
+NAN, INF = math.nan, math.inf
 
 
 class Plain(Panel):
@@ -35,17 +42,18 @@ def a_p() -> Number:
 
 
 def test_slider_and_field_show_the_same_number_and_a_typed_one_may_lie_beyond_the_slider():
-    number = a_p()
-    from_page(number.slider, value=0.5)
-    assert number.value == number.field.value == 0.5
-    from_page(number.field, value=0.25)
-    assert number.value == number.slider.value == 0.25
-    from_page(number.field, value=0.999)
-    assert (number.value, number.slider.value) == (0.999, 0.99)
+    number, power = a_p(), Number("α", 0.01, -4, 0, 0.05, "A weight.", logarithmic=True)
+    for each, dragged, typed, beyond, end in ((number, 0.5, 0.25, 0.999, 0.99), (power, 1e-4, 1e-2, 5.0, 1.0)):
+        from_page(each.slider, value=dragged)
+        assert each.value == each.field.value == dragged
+        from_page(each.field, value=typed)
+        assert each.value == each.slider.value == typed
+        from_page(each.field, value=beyond)
+        assert (each.value, each.slider.value) == (beyond, end)
     assert words(number).split() == ["p", "(share)", "A", "probability."]
 
 
-@pytest.mark.parametrize("wrong", [1.0, 0.1, -3.0, float("nan"), float("inf")])
+@pytest.mark.parametrize("wrong", [1.0, 0.1, NAN, INF])
 def test_what_the_library_refuses_changes_nothing_and_is_said_below_the_number(wrong):
     number = a_p()
     from_page(number.field, value=wrong)
@@ -55,14 +63,6 @@ def test_what_the_library_refuses_changes_nothing_and_is_said_below_the_number(w
     assert (number.value, words(number).split()[-1]) == (0.4, "probability.")
     with pytest.raises(BootcourseError):
         number.value = wrong
-
-
-def test_a_logarithmic_number_moves_in_powers_of_ten():
-    number = Number("α", 0.01, -4, 0, 0.05, "A weight.", logarithmic=True)
-    from_page(number.slider, value=1e-4)
-    assert number.value == number.field.value == 1e-4
-    from_page(number.field, value=5.0)
-    assert (number.value, number.slider.value) == (5.0, 1.0)
 
 
 def test_a_locked_number_says_why():
@@ -130,13 +130,34 @@ def test_an_axis_has_a_few_round_numbers():
     assert all(2 <= len(svg.ticks(*ends)) <= 5 for ends in ((0, 1e-6), (-3, 1e7), (9.1, 9.3)))
 
 
-@pytest.mark.parametrize("wrong", [None, 3, "rule", [], [1], np.zeros(3), DEFAULT])
-def test_what_is_no_drive_is_refused_in_one_sentence(wrong):
-    with pytest.raises(BootcourseError, match="^rollout is .*: give one recorded drive, such as .*$"):
-        one_drive(wrong, "rollout")
+A_DRIVE = "rollout is .*: give one recorded drive, such as .*"
+A_NUMBER = "xi = .*: give a finite number"
+A_WEIGHT = "give a finite number|is outside"
+REFUSED = [
+    *[(lambda _, wrong=wrong: one_drive(wrong, "rollout"), A_DRIVE) for wrong in (None, "rule", [], [1], DEFAULT)],
+    *[(lambda _, wrong=wrong: a_number(wrong, "xi"), A_NUMBER) for wrong in (None, "2", NAN, INF, True, [1])],
+    *[(lambda _, wrong=wrong: targets(np.ones(3), *wrong), "give a")
+      for wrong in ((1.0, 0), (-0.1, 0), (NAN, 0), (0.8, INF), (0.8, NAN))],
+    *[(lambda _, wrong=wrong: policy_numbers(None, None, 0, *wrong), A_WEIGHT)
+      for wrong in ((1.0, 2, 0.1), (0.05, 2, 0.1), (0.9, -1, 0.1), (0.9, 2, 0), (0.9, NAN, 1), (0.9, 1, INF))],
+    *[(lambda drive, wrong=wrong: policy_panel(drive, **wrong), A_WEIGHT)
+      for wrong in ({"p": 1.0}, {"p": "0.9"}, {"xi": -1}, {"xi": None}, {"alpha": 0.0}, {"alpha": NAN})],
+    (lambda _: policy_panel([]), A_DRIVE),
+    (lambda _: bonus_panel([]), "demonstration is .*: give one"),
+    (lambda _: bonus_panel(trapped="drive.npz"), "trapped is .*: give one"),
+    (lambda _: bonus_panel(settings={"bonus": 2}), "give Settings"),
+    (lambda _: bonus_panel(settings=Settings(gamma=1.0)), "less than 1"),
+    (lambda _: train_panel(method="magic"), "'magic' is unknown"),
+    (lambda _: train_panel(rule_p=1.0), "p = 1.0 is outside"),
+    (lambda _: train_panel(gama=0.5), "'gama' is unknown"),
+    (lambda _: train_panel(seeds=0), "seeds = 0"),
+    (lambda _: train_panel(episodes=1.5), "episodes = 1.5"),
+    (lambda _: Background(lambda: None).peek(), "Nothing was learned yet"),
+]  # fmt: skip
 
 
-@pytest.mark.parametrize("wrong", [None, "2", float("nan"), float("inf"), True, [1]])
-def test_what_is_no_number_is_refused_in_one_sentence(wrong):
-    with pytest.raises(BootcourseError, match="^xi = .*: give a finite number.$"):
-        a_number(wrong, "xi")
+@pytest.mark.parametrize(("call", "sentence"), REFUSED)
+def test_what_a_panel_cannot_show_is_refused_in_one_sentence(call, sentence, idle):
+    with pytest.raises(BootcourseError, match=sentence) as refusal:
+        call(idle)
+    assert "\n" not in str(refusal.value)

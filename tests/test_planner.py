@@ -55,8 +55,12 @@ def empty_road_return(scenario=DEFAULT) -> float:
 def test_the_planner_beats_the_rule_by_far_without_an_accident_and_stays_under_the_empty_road(plans):
     assert not drive_episodes(follow(plans), SEEDS).accident.any()
     by_the_rule = drive_episodes(rule_policy(DEFAULT), SEEDS).returns
+    stays = plan_episodes(SEEDS, search=Search(beam=20, decisions=25, keep_lane=True))
     for each, rule_return in zip(plans, by_the_rule, strict=True):
         assert 2 * rule_return < each.value <= empty_road_return()
+    for rollout, stay, free in zip(record(follow(stays), SEEDS), stays, plans, strict=True):
+        assert (rollout.states[: 2 * 25 + 1, EGO, LANE] == 2).all(), "a search that keeps its lane never leaves it"
+        assert stay.value < free.rewards[:25].sum()
 
 
 def test_a_beam_that_holds_everything_finds_the_best_of_all_9_to_the_3():
@@ -100,12 +104,9 @@ def test_each_lane_and_speed_keeps_a_share_of_the_beam():
     cars[20:30, EGO, SPEED], cars[30:, EGO, LANE] = 5.0, 2
     chosen = select(cars, -np.arange(40.0), np.ones(40, dtype=bool), beam=12)
     assert sorted(chosen) == [*range(8), 20, 21, 30, 31]
-
-
-def test_of_two_drives_in_the_same_cell_the_better_is_kept_and_an_accident_never():
-    cars = np.zeros((3, 1, 10))
-    cars[:, EGO, SPEED], cars[2, EGO, X] = [10.0, 10.01, 10.0], 10.0
-    assert select(cars, np.array([1.0, 2.0, 3.0]), np.array([True, True, False]), beam=5).tolist() == [1]
+    same = np.zeros((3, 1, 10))  # of two drives in the same cell the better stays, and an accident never
+    same[:, EGO, SPEED], same[2, EGO, X] = [10.0, 10.01, 10.0], 10.0
+    assert select(same, np.array([1.0, 2.0, 3.0]), np.array([True, True, False]), beam=5).tolist() == [1]
 
 
 def test_where_every_way_ends_in_an_accident_the_plan_ends_there():
@@ -113,14 +114,6 @@ def test_where_every_way_ends_in_an_accident_the_plan_ends_there():
     cars[EGO, Y], cars[EGO, HEADING], cars[EGO, SPEED] = 9.99, 1.2, 15.0  # over the edge whatever it does
     doomed = plan(cars)
     assert len(doomed.actions) == 1 and doomed.value == -10.0 and not cars[EGO, CRASHED]
-
-
-def test_a_search_that_keeps_its_lane_never_leaves_it():
-    search = Search(beam=20, decisions=25, keep_lane=True)
-    plans = plan_episodes(SEEDS, search=search)
-    for rollout in record(follow(plans), SEEDS):
-        assert (rollout.states[: 2 * 25 + 1, EGO, LANE] == 2).all()
-    assert all(stay.value < free.value for stay, free in zip(plans, plan_episodes(SEEDS, search=SHORT), strict=True))
 
 
 def test_the_discounted_value_of_idling_is_the_geometric_series():

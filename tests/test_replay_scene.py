@@ -50,6 +50,9 @@ def test_every_car_stands_where_the_rollout_says_with_y_mirrored(rule_drive):
         np.testing.assert_allclose(view.y, -states[:, Y], atol=1e-9)
         np.testing.assert_allclose(view.yaw, -states[:, HEADING], atol=1e-9)
         assert view.x[EGO] == 0.0
+    for part, lamp in ((0, "brake"), (2, "power")):
+        decision = np.flatnonzero(rule_drive.actions // 3 == part)[0]
+        assert scene.view(timelines, decision + 0.2)[0].lamps[EGO] == lamp
 
 
 def test_a_car_points_where_it_goes(rule_drive):
@@ -58,21 +61,6 @@ def test_a_car_points_where_it_goes(rule_drive):
         [a], [b] = scene.view(timelines, t), scene.view(timelines, t + h)
         course = np.arctan2(b.y - a.y, b.x + b.anchor - a.x - a.anchor)
         assert np.abs(course - a.yaw).max() < 0.08  # the slip angle, and what one step turns
-
-
-def test_the_lamps_show_braking_and_accelerating(rule_drive):
-    timelines = scene.timelines_of(rule_drive)
-    braking = np.flatnonzero(rule_drive.actions // 3 == 0)[0]
-    pushing = np.flatnonzero(rule_drive.actions // 3 == 2)[0]
-    assert scene.view(timelines, braking + 0.2)[0].lamps[EGO] == "brake"
-    assert scene.view(timelines, pushing + 0.2)[0].lamps[EGO] == "power"
-
-
-def test_the_path_is_a_dot_per_step_and_the_future_is_hidden(rule_drive):
-    crumbs = scene.crumbs(Timeline(rule_drive), 3.2)
-    shown = crumbs[crumbs[:, 2] > 0]
-    np.testing.assert_allclose(shown[:, 0], rule_drive.states[:7, EGO, X])
-    np.testing.assert_allclose(shown[:, 1], -rule_drive.states[:7, EGO, Y])
 
 
 @pytest.mark.parametrize("kind", [Accident.COLLISION, Accident.ROAD_DEPARTURE])
@@ -85,42 +73,35 @@ def test_an_accident_marks_its_cars_at_its_moment_and_says_its_kind(accidents, k
     crashed = set(np.flatnonzero(rollout.states[-1, :, CRASHED])) | {EGO}
     assert set(np.flatnonzero(view.marked)) == crashed and (len(crashed) > 1) == (kind == Accident.COLLISION)
     assert view.labels[EGO] == ACCIDENTS[kind] == hud.status(timelines[0], duration)[0]
+    other = record(idle_policy, [rollout.seed], SHORT, "sac")[0]
+    both = scene.timelines_of([rollout, other])  # a drive that ended waits for the others
+    early, late = scene.view(both, duration), scene.view(both, 20.0)
+    np.testing.assert_array_equal(early[0].x, late[0].x)
+    assert late[0].ended and late[1].anchor > early[1].anchor
 
 
-def test_the_rule_s_lane_and_gap_lie_where_the_rule_wants_them(rule_drive):
+def test_the_path_the_rule_s_marks_and_the_distance_to_a_trap_are_those_of_the_drive(rule_drive):
     timelines = scene.timelines_of(rule_drive)
+    crumbs = scene.crumbs(Timeline(rule_drive), 3.2)
+    shown = crumbs[crumbs[:, 2] > 0]  # a dot for each step; the future is hidden
+    np.testing.assert_allclose(shown[:, 0], rule_drive.states[:7, EGO, X])
+    np.testing.assert_allclose(shown[:, 1], -rule_drive.states[:7, EGO, Y])
     for k in range(0, 20, 3):
         marks = scene.view(timelines, k + 0.0)[0].rule
         assert marks.lane_y == -4.0 * rule_drive.rule_lanes[k] and marks.gap == rule_drive.rule_distances[k]
         assert marks.gap_x == pytest.approx(2.5)
+    ahead = rule_drive.states[0, TRAP_1, X] - rule_drive.states[0, EGO, X] - 5.0  # from bumper to bumper
+    assert scene.view(timelines, 0.0)[0].labels[TRAP_1] == f"trap 1: {ahead:.1f} m ahead"
 
 
-def test_the_distance_to_a_trap_is_from_bumper_to_bumper(rule_drive):
-    ahead = rule_drive.states[0, TRAP_1, X] - rule_drive.states[0, EGO, X] - 5.0
-    assert scene.view(scene.timelines_of(rule_drive), 0.0)[0].labels[TRAP_1] == f"trap 1: {ahead:.1f} m ahead"
-
-
-def test_side_by_side_no_road_lies_on_another_and_each_follows_its_own_car(rule_drive, idle_drive):
+def test_two_drives_lie_side_by_side_or_share_the_road_of_the_followed_car(rule_drive, idle_drive):
     timelines = scene.timelines_of([idle_drive, rule_drive])
-    views = scene.view(timelines, 15.0)
-    assert [view.x[EGO] for view in views] == [0.0, 0.0] and views[0].anchor != views[1].anchor
-    assert views[0].offset - views[1].offset > 3 * 4.0
-
-
-def test_ghosts_share_the_road_of_the_followed_car(rule_drive, idle_drive):
-    timelines = scene.timelines_of([idle_drive, rule_drive])
-    views = scene.view(timelines, 15.0, scene.GHOSTS, follow=1)
-    assert views[0].offset == views[1].offset and views[0].anchor == views[1].anchor and views[1].x[EGO] == 0.0
-    assert views[0].x[EGO] == pytest.approx(timelines[0].at(15.0).x[EGO] - timelines[1].at(15.0).x[EGO])
-
-
-def test_a_drive_that_ended_waits_for_the_others(accidents, idle_drive):
-    crash = accidents[Accident.COLLISION]
-    other = record(idle_policy, [crash.seed], SHORT, "sac")[0]
-    timelines = scene.timelines_of([crash, other])
-    early, late = scene.view(timelines, timelines[0].duration), scene.view(timelines, 20.0)
-    np.testing.assert_array_equal(early[0].x, late[0].x)
-    assert late[0].ended and late[1].anchor > early[1].anchor
+    first, second = scene.view(timelines, 15.0)
+    assert first.x[EGO] == second.x[EGO] == 0.0 and first.anchor != second.anchor
+    assert first.offset - second.offset > 3 * 4.0
+    ghost, followed = scene.view(timelines, 15.0, scene.GHOSTS, follow=1)
+    assert ghost.offset == followed.offset and ghost.anchor == followed.anchor and followed.x[EGO] == 0.0
+    assert ghost.x[EGO] == pytest.approx(timelines[0].at(15.0).x[EGO] - timelines[1].at(15.0).x[EGO])
 
 
 def with_nan(rollout):
@@ -201,10 +182,13 @@ def test_a_label_from_a_file_cannot_write_into_the_page(rule_drive):
         assert "<script" not in html
 
 
-def test_the_plots_mark_an_accident(accidents, idle_drive):
+def test_the_plots_mark_an_accident_and_the_end_is_said_in_words(accidents, idle_drive):
     assert hud.plots([Timeline(accidents[Accident.COLLISION])]).count(colours.ALARM) == 3
     assert colours.ALARM not in hud.plots([Timeline(idle_drive)])
     assert hud.cursor(0.25) == "<style>:root{--bc-t:0.2500}</style>"
+    rule, idle = (record(driver, [1], DEFAULT, "x")[0] for driver in (rule_policy(DEFAULT), idle_policy))
+    assert hud.status(Timeline(rule), 150.0)[0] == "escaped" and hud.status(Timeline(idle), 150.0)[0] == "trapped"
+    assert hud.status(Timeline(idle), 10.0)[0] == ""
 
 
 def test_the_return_s_plot_is_over_seconds_whatever_the_decision_rate():
@@ -213,9 +197,3 @@ def test_the_return_s_plot_is_over_seconds_whatever_the_decision_rate():
     [returns] = re.findall(r'd="M([^"]+)"', hud.plots([Timeline(drive)]))[2:]
     across = [float(point.split()[0]) for point in returns.split("L")]
     np.testing.assert_allclose(across, np.arange(21) / 2 / 10.0 * 1000, atol=0.1)  # 1000 wide, 10 s long
-
-
-def test_success_and_being_trapped_are_said_at_the_end():
-    rule, idle = (record(d, [1], DEFAULT, "x")[0] for d in (rule_policy(DEFAULT), idle_policy))
-    assert hud.status(Timeline(rule), 150.0)[0] == "escaped" and hud.status(Timeline(idle), 150.0)[0] == "trapped"
-    assert hud.status(Timeline(idle), 10.0)[0] == ""

@@ -1,12 +1,14 @@
 """The live replay: it starts, serves, stops, frees its port, stays on this machine, and shows what was driven."""
 
+import gc
 import http.client
+import importlib.util
 import socket
-import subprocess
 import sys
 import threading
 import time
 import urllib.request
+from asyncio.base_events import Server
 from pathlib import Path
 
 import msgspec
@@ -14,6 +16,7 @@ import numpy as np
 import pytest
 import viser
 import viser._viser
+from jupyter_client.manager import start_new_kernel
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
@@ -83,19 +86,17 @@ def test_it_listens_on_this_machine_only(shown):
     assert shown.server.get_host() == "127.0.0.1" and is_open(shown.port)
     bound = [s.getsockname()[0] for s in _listening(shown.server)]
     assert bound == ["127.0.0.1"]
+    shown.player.play()
+    time.sleep(0.2)
+    assert shown.player.t == 0.0, "without viewers the clock waits"
     if sys.platform == "linux":  # where all of 127.x.x.x is this machine: listening on every address would answer here
         assert not is_open(shown.port, "127.0.0.2")
 
 
 def _listening(live):
-    loop, found = live._websock_server._background_event_loop, []
-    import gc
-    from asyncio.base_events import Server
-
-    for thing in gc.get_objects():
-        if issubclass(type(thing), Server) and thing.get_loop() is loop:  # isinstance would wake deprecated torch names
-            found += thing.sockets
-    return found
+    loop = live._websock_server._background_event_loop
+    servers = [thing for thing in gc.get_objects() if issubclass(type(thing), Server)]  # isinstance would wake torch
+    return [each for thing in servers if thing.get_loop() is loop for each in thing.sockets]
 
 
 def answer(port: int, **headers: str) -> int:
@@ -138,46 +139,39 @@ def test_behind_a_hub_the_hubs_own_page_may_connect_and_no_other(shown, monkeypa
     assert not opens(shown.port, "hub.example", origin="https://evil.example")
 
 
-class NoTunnel:
+@pytest.mark.parametrize("plain", [False, True])
+def test_a_viewer_cannot_make_it_open_a_public_link_as_plain_viser_would(plain, shown, monkeypatch):
     opened = []
 
-    def __init__(self, host, port):
-        NoTunnel.opened.append((host, port))
+    class NoTunnel:
+        """It notes that it was reached for, and opens nothing."""
 
-    def get_status(self):
-        return "failed"
+        get_status, get_url = (lambda self: "failed"), (lambda self: None)
 
-    def close(self):
-        pass
+        def __init__(self, *place):
+            opened.append(place)
 
-    def get_url(self):
-        return None
+        def __getattr__(self, name):
+            return lambda callback=None: callback
 
-    def on_connect(self, callback):
-        return callback
-
-    on_disconnect = on_connect
-
-
-def test_a_viewer_cannot_make_it_open_a_public_link(shown, monkeypatch):
     monkeypatch.setattr(viser._viser, "ViserTunnel", NoTunnel)
-    NoTunnel.opened.clear()
-    ask(shown.port, {"type": "ShareUrlRequest"})
-    assert NoTunnel.opened == [] and shown.server._share_tunnel is None
-    assert shown.server.request_share_url() is None and NoTunnel.opened == []
-
-
-def test_plain_viser_would_have_opened_one(monkeypatch):
-    """The test above can fail: the same request makes an ordinary server reach for its tunnel."""
-    monkeypatch.setattr(viser._viser, "ViserTunnel", NoTunnel)
-    NoTunnel.opened.clear()
     with server.quiet():
-        plain = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
-        try:
-            ask(plain.get_port(), {"type": "ShareUrlRequest"})
-            assert until(lambda: len(NoTunnel.opened) == 1)
-        finally:
-            plain.stop()
+        live = viser.ViserServer(host="127.0.0.1", port=0, verbose=False) if plain else shown.server
+    ask(live.get_port(), {"type": "ShareUrlRequest"})
+    assert until(lambda: opened) if plain else not opened and shown.server._share_tunnel is None
+    if plain:
+        live.stop()
+    else:
+        assert shown.server.request_share_url() is None and not opened
+
+
+def test_behind_a_hub_it_goes_through_the_proxy_or_says_what_to_do(monkeypatch):
+    monkeypatch.setenv("JUPYTERHUB_SERVICE_PREFIX", "/user/ada/")
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
+    address, advice = viewer.address_for_browser(4321)
+    assert address is None and "install jupyter-server-proxy" in advice
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: object())
+    assert viewer.address_for_browser(4321)[0] == "/user/ada/proxy/4321/"
 
 
 def test_a_port_in_use_gets_one_sentence(drives):
@@ -201,47 +195,14 @@ def test_running_a_cell_again_replaces_its_replay_even_on_the_same_port(drives, 
     assert first.closed and second.port == port and one_per_cell.running() == [second]
     monkeypatch.setattr(one_per_cell, "this_cell", lambda: "cell 2")
     third = replay(drives[1])
-    assert one_per_cell.running() == [second, third]
+    for wrong in ({"follow": 3}, {"layout": "on the moon"}):  # a refused replay leaves the old one alone
+        with pytest.raises(BootcourseError):
+            replay(drives, **wrong)
+    assert one_per_cell.running() == [second, third] and is_open(third.port)
     second.close(), third.close()
 
 
-def test_a_refused_replay_leaves_the_cell_s_old_one_alone(drives, monkeypatch):
-    monkeypatch.setattr(one_per_cell, "this_cell", lambda: "cell 1")
-    with replay(drives[1]) as live:
-        for wrong in ({"follow": 3}, {"layout": "on the moon"}):
-            with pytest.raises(BootcourseError):
-                replay(drives, **wrong)
-        assert not live.closed and is_open(live.port)
-
-
-def test_it_ends_with_its_process():
-    script = (
-        "from bootcourse.policies import idle_policy; from bootcourse.episodes.record import record; "
-        "from bootcourse.replay3d import replay; live = replay(record(idle_policy, [1])[0]); print(live.port)"
-    )
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60, cwd=ROOT)
-    assert done.returncode == 0 and done.stderr == "", done.stderr
-    assert not is_open(int(done.stdout))
-
-
 ROOT = Path(__file__).resolve().parent.parent
-
-
-def test_behind_a_hub_it_goes_through_the_proxy_or_says_what_to_do(monkeypatch):
-    import importlib.util
-
-    monkeypatch.setenv("JUPYTERHUB_SERVICE_PREFIX", "/user/ada/")
-    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
-    address, advice = viewer.address_for_browser(4321)
-    assert address is None and "install jupyter-server-proxy" in advice
-    monkeypatch.setattr(importlib.util, "find_spec", lambda name: object())
-    assert viewer.address_for_browser(4321)[0] == "/user/ada/proxy/4321/"
-
-
-def test_without_viewers_the_clock_waits_and_nothing_is_sent(shown):
-    shown.player.play()
-    time.sleep(0.3)
-    assert shown.player.t == 0.0
 
 
 @needs_browser
@@ -323,8 +284,6 @@ def run_in_cell(client, cell: str, code: str) -> list[dict]:
 
 
 def test_in_a_kernel_a_cell_shows_one_frame_replaces_it_when_run_again_and_ends_with_the_kernel(drives, tmp_path):
-    from jupyter_client.manager import start_new_kernel
-
     file = drives[1].save(tmp_path / "drive.npz")
     setup = f"""
 from bootcourse.episodes.rollout import Rollout

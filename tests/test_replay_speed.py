@@ -12,20 +12,13 @@ from bootcourse.replay3d import replay
 from tests.replays import TEN_CARS, thinking
 
 
-def drives(count: int):
+def test_ten_cars_are_ready_in_two_seconds_and_a_frame_of_five_drives_in_half_of_a_thirtieth():
     drive = thinking(record(rule_policy(TEN_CARS), [1], TEN_CARS, "rule")[0])
-    return [replace(drive, label=label) for label in ("sac", "rule", "bootstrapped", "planner", "my own")[:count]]
-
-
-def test_a_full_episode_of_ten_cars_is_ready_in_under_two_seconds():
-    [drive] = drives(1)
     started = time.process_time()
     with replay(drive):
         assert time.process_time() - started < 2.0
-
-
-def test_a_frame_leaves_the_server_in_half_of_its_thirtieth_of_a_second():
-    with replay(drives(5)) as live:
+    five = [replace(drive, label=label) for label in ("sac", "rule", "bootstrapped", "planner", "my own")]
+    with replay(five) as live:
         started = time.process_time()
         for k in range(60):
             live._frame(3.0 + k / 30)
@@ -33,7 +26,7 @@ def test_a_frame_leaves_the_server_in_half_of_its_thirtieth_of_a_second():
 
 
 def test_memory_does_not_grow_while_it_loops():
-    with replay(drives(1)[0]) as live:
+    with replay(record(rule_policy(TEN_CARS), [1], TEN_CARS, "rule")[0]) as live:
         buffer = live.server._websock_server._broadcast_buffer
 
         def loop() -> None:

@@ -27,12 +27,11 @@ def row(x=0.0, y=0.0, heading=0.0, v=10.0, acceleration=0.0, steering=0.0):
     return car
 
 
-def test_without_steering_a_car_goes_straight_and_accelerates():
-    dx, dy, turn = arc(0.0, 10.0, 1.0, 0.0, 5.0, 0.5)
-    assert (dx, dy, turn) == pytest.approx((10 * 0.5 + 1 * 0.25 / 2, 0.0, 0.0))
-
-
-def test_a_quarter_of_a_circle_ends_where_geometry_says():
+def test_a_straight_a_quarter_of_a_circle_and_half_a_turn_end_where_geometry_says():
+    assert arc(0.0, 10.0, 1.0, 0.0, 5.0, 0.5) == pytest.approx((10 * 0.5 + 1 * 0.25 / 2, 0.0, 0.0))
+    before, after = row(heading=math.pi - 0.05), row(x=-5.0, heading=-math.pi + 0.05)
+    headings = [between(before, after, tau, 0.5, 5.0).heading[0] for tau in np.linspace(0, 0.5, 11)]
+    assert np.ptp(headings) == pytest.approx(0.1), "a heading turns the short way round"
     radius, slip = 25.0, math.asin(2.5 / 25.0)  # κ = sin β / 2.5 = 1 / 25
     steering = math.atan(2 * math.tan(slip))
     seconds = math.pi / 2 * radius / 10.0
@@ -79,12 +78,6 @@ def test_under_a_constant_command_the_direction_of_travel_does_not_kink():
     )
 
 
-def test_a_heading_turns_the_short_way_round():
-    before, after = row(heading=math.pi - 0.05), row(x=-5.0, heading=-math.pi + 0.05)
-    headings = [between(before, after, tau, 0.5, 5.0).heading[0] for tau in np.linspace(0, 0.5, 11)]
-    assert np.ptp(headings) == pytest.approx(0.1)
-
-
 def test_rewards_are_earned_when_a_decision_is_over(drive):
     assert [drive.earned(t) for t in (0.0, 0.99, 1.0, 19.9, 20.0)] == [0, 0, 1, 19, 20]
     assert [drive.decision(t) for t in (0.0, 0.99, 1.0, 19.9, 20.0)] == [0, 0, 1, 19, 19]
@@ -112,12 +105,13 @@ def test_time_runs_at_the_chosen_speed_and_stops_at_the_end():
     assert clock.t == 10.0 and not clock.playing and not clock.advance(1.0)
     clock.play()
     assert clock.t == 0.0 and clock.playing
-
-
-def test_a_loop_begins_again():
-    clock = player(loop=True, playing=True, t=9.5)
-    clock.advance(1.0)
-    assert clock.t == pytest.approx(0.5) and clock.playing
+    clock.seek(4.0, hold=True)  # a hand on the slider
+    assert not clock.advance(1.0) and clock.t == 4.0
+    clock.seek(99.0)
+    assert clock.t == 10.0
+    loop = player(loop=True, playing=True, t=9.5)
+    loop.advance(1.0)
+    assert loop.t == pytest.approx(0.5) and loop.playing
 
 
 def test_a_pause_from_another_thread_is_not_lost_while_the_time_goes_on():
@@ -141,14 +135,6 @@ def test_a_pause_from_another_thread_is_not_lost_while_the_time_goes_on():
     clock.advance(1.0)
     presser.join(5.0)
     assert not clock.playing
-
-
-def test_a_hand_on_the_slider_holds_the_clock():
-    clock = player(playing=True)
-    clock.seek(4.0, hold=True)
-    assert not clock.advance(1.0) and clock.t == 4.0
-    clock.seek(99.0)
-    assert clock.t == 10.0
 
 
 @pytest.mark.parametrize(

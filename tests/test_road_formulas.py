@@ -39,20 +39,6 @@ def idm(v, gap, dv=0.0, delta=DELTA):
 # IDM
 
 
-def test_the_gap_that_idm_wants_at_10_metres_a_second_is_25_metres():
-    assert desired_gap(10.0, 0.0, S0, TIME_GAP, A_MAX, B) == 10 + 1.5 * 10
-
-
-def test_closing_in_at_2_metres_a_second_adds_20_metres_to_the_gap():
-    assert desired_gap(10.0, 2.0, S0, TIME_GAP, A_MAX, B) == pytest.approx(25 + 10 * 2 / (2 * 0.5))
-
-
-def test_idm_at_equilibrium_neither_accelerates_nor_brakes():
-    # (v / v_desired)^4 = 0.8^4 = 0.4096, so s = 25 / sqrt(1 - 0.4096) = 32.536 m
-    assert 25 / math.sqrt(0.5904) == pytest.approx(32.536, abs=1e-3)
-    assert idm(10.0, 25 / math.sqrt(0.5904)) == pytest.approx(0.0, abs=1e-15)
-
-
 @pytest.mark.parametrize(
     ("v", "gap", "dv", "acceleration"),
     [
@@ -64,14 +50,16 @@ def test_idm_at_equilibrium_neither_accelerates_nor_brakes():
         (10.0, 45.0, 2.0, -0.2048),  # s* = 45
         (15.0, math.inf, 0.0, -0.5368),  # 0.5 (1 - 1.2^4)
         (-1.0, math.inf, 0.0, 0.5),  # backwards counts as standing
+        (10.0, 25 / math.sqrt(0.5904), 0.0, 0.0),  # at equilibrium, 32.536 m
     ],
 )
 def test_idm_acceleration_worked_by_hand(v, gap, dv, acceleration):
     assert idm(v, gap, dv) == pytest.approx(acceleration, abs=1e-12)
 
 
-def test_idm_takes_any_exponent():
-    assert idm(10.0, math.inf, delta=2.0) == pytest.approx(0.5 * (1 - 0.64))
+def test_the_gap_that_idm_wants_grows_with_the_speed_and_with_closing_in_and_the_exponent_is_any():
+    assert desired_gap(10.0, 0.0, S0, TIME_GAP, A_MAX, B) == 10 + 1.5 * 10
+    assert desired_gap(10.0, 2.0, S0, TIME_GAP, A_MAX, B) == pytest.approx(25 + 10 * 2 / (2 * 0.5))
     assert idm(10.0, math.inf, delta=3.7) == pytest.approx(0.5 * (1 - 0.8**3.7))
 
 
@@ -88,26 +76,18 @@ def test_mobil_weighs_the_others_by_politeness():
 # Steering and the bicycle model
 
 
-def test_a_centred_straight_car_is_not_steered():
-    assert lane_keeping_steering(0.0, 0.0, 10.0, LENGTH, 1.8, 0.6) == 0.0
-
-
 def test_lane_keeping_worked_by_hand_for_a_car_one_metre_to_the_right():
     lateral_speed = -1 / 1.8
     heading = math.asin(lateral_speed / 10)
     slip = math.asin(2.5 / 10 * heading / 0.6)
     expected = math.atan(2 * math.tan(slip))
-    assert expected < 0
+    assert expected < 0 == lane_keeping_steering(0.0, 0.0, 10.0, LENGTH, 1.8, 0.6)
     assert lane_keeping_steering(1.0, 0.0, 10.0, LENGTH, 1.8, 0.6) == pytest.approx(expected, rel=1e-12)
     assert lane_keeping_steering(-1.0, 0.0, 10.0, LENGTH, 1.8, 0.6) == pytest.approx(-expected, rel=1e-12)
 
 
 def test_lane_keeping_holds_its_limits_at_a_standstill():
     assert abs(lane_keeping_steering(3.0, 0.5, 0.0, LENGTH, 1.8, 0.6)) <= math.pi / 3
-
-
-def test_a_straight_car_moves_by_speed_times_time():
-    assert bicycle_step(1.0, 4.0, 0.0, 10.0, 1.0, 0.0, LENGTH, 0.5) == (6.0, 4.0, 0.0, 10.5)
 
 
 def test_one_decision_of_full_steering_at_15_metres_a_second_moves_the_car_1_4_metres_sideways():
@@ -121,6 +101,7 @@ def test_one_decision_of_full_steering_at_15_metres_a_second_moves_the_car_1_4_m
 
 
 def test_the_compiled_bicycle_is_highway_envs():
+    assert bicycle_step(1.0, 4.0, 0.0, 10.0, 1.0, 0.0, LENGTH, 0.5) == (6.0, 4.0, 0.0, 10.5)
     rng = np.random.default_rng(0)
     for _ in range(200):
         x, y, v, acceleration = rng.uniform([0, 0, 0, -6], [100, 8, 25, 6])
@@ -153,23 +134,15 @@ def test_the_nearest_lane_is_the_left_one_on_the_line_and_the_outer_one_beyond_t
 )
 def test_the_speed_reward_at_the_papers_corners(v, r_v):
     assert speed_reward(v) == pytest.approx(r_v, abs=1e-15)
-
-
-def test_the_speed_reward_has_no_jumps():
-    for corner in (5.0, 12.5, 15.0):
-        assert speed_reward(corner + 1e-9) == pytest.approx(speed_reward(corner), abs=1e-8)
+    assert v == 16.0 or speed_reward(v + 1e-9) == pytest.approx(r_v, abs=1e-8), "it has no jumps"
 
 
 def test_the_centring_and_steering_rewards():
     assert centring_reward(0.0) == 1.0
     assert centring_reward(1.0) == centring_reward(-1.0) == pytest.approx(math.exp(-1.5))
     assert steering_reward(0.0) == 0.0
+    assert weighted_reward(speed_reward(10.0), 1.0, 0.0, 1.5, 0.05, 0.05) == pytest.approx(0.15625)  # idle in the trap
     assert steering_reward(math.pi / 50) == steering_reward(-math.pi / 50) == pytest.approx(-math.sin(math.pi / 50))
-
-
-def test_idle_behind_the_trap_earns_0_15625_a_decision():
-    assert weighted_reward(speed_reward(10.0), 1.0, 0.0, 1.5, 0.05, 0.05) == pytest.approx(0.15625)
-    assert (1.5 * 2 / 15 + 0.05) / 1.6 == pytest.approx(0.15625)
 
 
 # Overlap

@@ -86,7 +86,7 @@ IMPOSSIBLE = [
 ]
 
 
-@pytest.mark.parametrize(("make", "words"), IMPOSSIBLE, ids=[words for _, words in IMPOSSIBLE])
+@pytest.mark.parametrize(("make", "words"), IMPOSSIBLE)
 def test_an_impossible_value_is_refused_in_one_sentence_that_names_it(make, words):
     with pytest.raises(BootcourseError) as refusal:
         make()

@@ -96,23 +96,44 @@ def test_a_job_that_was_interrupted_goes_on_as_if_it_never_was(study, root, monk
     np.testing.assert_array_equal(whole.tested["returns"], resumed.tested["returns"])
 
 
-def test_a_job_with_a_damaged_checkpoint_begins_again_on_request(root):
-    folder = root / "unfinished/default/sac-0-1"
-    folder.mkdir(parents=True)
-    (folder / "checkpoint.npz").write_bytes(b"half")
-    assert "Add --recompute" in run_job(job(), root) and folder.exists()
-    assert run_job(job(), root, recompute=True) == "" and finished(job(), root)
-    assert len(list(root.glob("damaged/*/job/checkpoint.npz"))) == 1
-
-
-def test_a_full_disk_is_a_sentence_and_the_job_goes_on_afterwards(root, monkeypatch):
+def test_after_a_full_disk_a_job_goes_on_and_after_a_damaged_checkpoint_it_begins_again_on_request(root, monkeypatch):
     def full(*args):
         raise OSError(28, "No space left on device")
 
     with monkeypatch.context() as patch:
         patch.setattr("os.fsync", full)
         assert "No space left on device" in run_job(job(), root) and not (root / "jobs").exists()
-    assert run_job(job(), root) == "" and finished(job(), root)
+    checkpoint = root / "unfinished/default/sac-0-1/checkpoint.npz"
+    checkpoint.parent.mkdir(parents=True, exist_ok=True)
+    checkpoint.write_bytes(b"half")
+    assert "Add --recompute" in run_job(job(), root) and checkpoint.exists()
+    assert run_job(job(), root, recompute=True) == "" and finished(job(), root)
+    assert len(list(root.glob("damaged/*/job/checkpoint.npz"))) == 1
+
+
+def noted(seeds: int) -> dict:
+    """What a function of a lesson returns."""
+    agents = [vars(each) | {"teacher": "rule"} for each in with_seeds(settings_for("sac"), seeds)]
+    notes, weights = {"escapes": np.zeros((seeds, 3))}, {"actor.0": np.ones((1, 2, 4))}
+    return as_arrays(
+        Results(agents, np.full(seeds, -1), notes=notes, measured={"xi": np.arange(seeds)}, weights=weights)
+    )
+
+
+def test_the_planner_s_bound_and_a_lesson_s_function_are_jobs_too(root):
+    short = replace(DEFAULT, clock=replace(DEFAULT.clock, decisions=5))
+    bound, lesson = (
+        BoundJob("bound-default/0000", short, 3, 2, Search(beam=5)),
+        LessonJob("mine/two", f"{__name__}:noted", {"seeds": 2}),
+    )
+    for each in (bound, lesson):
+        assert run_job(each, root) == "" and finished(each, root)
+    with np.load(root / "jobs/bound-default/0000/results.npz") as arrays:
+        assert arrays["first"] == 3 and arrays["returns"].shape == (2,)
+    results = load_results(root / "jobs/mine/two/results.npz").pick([1])
+    assert results.measured["xi"].tolist() == [1] and results.notes["escapes"].shape == (1, 3)
+    with pytest.raises(BootcourseError, match="other arguments"):
+        finished(replace(lesson, arguments={"seeds": 3}), root)
 
 
 def test_one_job_that_fails_does_not_stop_the_others(tmp_path):
@@ -148,7 +169,7 @@ def test_an_experiment_in_a_new_folder_ends_with_its_table(bootcourse, tmp_path)
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGKILL to send")
-def test_a_killed_study_goes_on_where_it_was(tmp_path):
+def test_a_killed_study_goes_on_where_it_was(tmp_path, unrendered):
     arguments = ["study", "--out", str(tmp_path / "study"), "--only", "sac,soft"]
     arguments += ["--seeds", "1", "--episodes", "4", "--tests", "5", "--workers", "1"]
     command = [sys.executable, "-m", "bootcourse", *arguments]
@@ -164,32 +185,6 @@ def test_a_killed_study_goes_on_where_it_was(tmp_path):
     assert again.exit_code == 0, again.output
     assert "2 of 2 jobs are done" in again.stdout and done[0].stat().st_mtime_ns == before
     assert (tmp_path / "study/report.md").exists()
-
-
-def test_the_planner_s_bound_is_a_job_too(root):
-    short = replace(DEFAULT, clock=replace(DEFAULT.clock, decisions=5))
-    bound = BoundJob("bound-default/0000", short, 3, 2, Search(beam=5))
-    assert run_job(bound, root) == "" and finished(bound, root)
-    with np.load(root / "jobs/bound-default/0000/results.npz") as arrays:
-        assert arrays["first"] == 3 and arrays["returns"].shape == (2,)
-
-
-def noted(seeds: int) -> dict:
-    """What a function of a lesson returns."""
-    agents = [vars(each) | {"teacher": "rule"} for each in with_seeds(settings_for("sac"), seeds)]
-    notes, weights = {"escapes": np.zeros((seeds, 3))}, {"actor.0": np.ones((1, 2, 4))}
-    return as_arrays(
-        Results(agents, np.full(seeds, -1), notes=notes, measured={"xi": np.arange(seeds)}, weights=weights)
-    )
-
-
-def test_a_lesson_s_function_is_a_job_whose_results_read_back(root):
-    lesson = LessonJob("mine/two", f"{__name__}:noted", {"seeds": 2})
-    assert run_job(lesson, root) == "" and finished(lesson, root)
-    results = load_results(root / "jobs/mine/two/results.npz").pick([1])
-    assert results.measured["xi"].tolist() == [1] and results.notes["escapes"].shape == (1, 3)
-    with pytest.raises(BootcourseError, match="other arguments"):
-        finished(replace(lesson, arguments={"seeds": 3}), root)
 
 
 def test_results_of_several_jobs_join_and_read_back_and_each_agent_counts_once(study, tmp_path):

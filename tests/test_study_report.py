@@ -7,8 +7,8 @@ import pytest
 
 from bootcourse.files import write_json
 from bootcourse.learn.settings import settings_for
-from bootcourse.research import figures as training_figures
-from bootcourse.research import tables
+from bootcourse.plots.figure import save
+from bootcourse.research import report, tables
 from bootcourse.research.fidelity import VERDICTS, fidelity, judge
 from bootcourse.research.paper import COLUMNS, PRINTED, TABLES, arithmetic, earned_at, paper_interval, possible
 from bootcourse.research.report import rule_results, write_report
@@ -43,14 +43,10 @@ def scoring(method: str, column: str, scores) -> Results:
     return Results(empty.agents, empty.stopped, empty.tested | {column: np.repeat(scores[:, None], 20, axis=1)}, {})
 
 
-def test_every_number_of_both_tables_is_there():
-    assert sum(len(methods) for methods in TABLES.values()) == 9 and {m for t in TABLES.values() for m in t} == set(
-        PRINTED
-    )
+def test_every_number_of_both_tables_is_there_and_one_collision_in_twenty_has_the_deviation_of_gail_s_row():
+    methods = [method for table in TABLES.values() for method in table]
+    assert len(methods) == 9 and set(methods) == set(PRINTED)
     assert PRINTED["demos"]["collision"] == (5, 29.69) and PRINTED["rule"]["distance"] == (1727.01, 8.3)
-
-
-def test_one_collision_in_twenty_episodes_has_the_deviation_that_gail_s_row_prints():
     assert np.std([1] + [0] * 19, ddof=1) * 100 == pytest.approx(22.36, abs=0.005)
     assert possible("gail", "collision") and not possible("demos", "collision")
     assert paper_interval("soft", "success").high == pytest.approx(16.84, abs=0.01)
@@ -99,23 +95,6 @@ def test_a_result_table_has_the_paper_s_row_above_ours():
     assert len({row.count("|") for row in rows}) == 1
 
 
-FIGURES = (
-    training_figures.margin_against_bonus,
-    training_figures.ablation,
-    training_figures.baselines,
-    training_figures.exploration,
-    lambda results: training_figures.final_scores(results, METHODS, "success"),
-)
-
-
-@pytest.mark.parametrize("draw", FIGURES)
-def test_every_figure_names_its_axes_and_says_in_words_what_it_shows(draw):
-    figure = draw(invented())
-    assert len(figure.alt) > 100 and "nan" not in figure.alt
-    labels = [ax.get_ylabel() or ax.get_xlabel() for ax in figure.axes]
-    assert all(labels)
-
-
 def report_of(results: Results, root) -> None:
     folder = root / "jobs/default/all"
     save_results(results, folder / "results.npz", {})
@@ -124,8 +103,11 @@ def report_of(results: Results, root) -> None:
     write_report(in_study(root), root)
 
 
-def test_the_report_holds_every_table_and_figure_and_names_the_agents_that_were_stopped(tmp_path):
-    results = invented()
+def test_the_report_holds_every_table_and_figure_and_names_the_agents_that_were_stopped(
+    tmp_path, unrendered, monkeypatch
+):
+    results, figures = invented(seeds=4), []
+    monkeypatch.setattr(report, "save", lambda figure, path: figures.append(figure) or save(figure, path))
     results.curves["return"][1, 50:] = np.nan
     results.stopped[1] = 1234
     report_of(results, tmp_path)
@@ -134,6 +116,8 @@ def test_the_report_holds_every_table_and_figure_and_names_the_agents_that_were_
     assert (
         "bc, seed 1, at decision 1234" in text and len(shown) == 6 and all((tmp_path / name).exists() for name in shown)
     )
+    assert all(len(words) > 100 and "nan" not in words for words in re.findall(r"!\[([^]]+)\]\(figures", text))
+    assert all(ax.get_ylabel() or ax.get_xlabel() for figure in figures for ax in figure.axes)
     for heading in (*TABLES, "Fidelity", "Probability of improvement", "Who escapes", "found, kept"):
         assert heading in text
     assert text.count("**reproduced**") + text.count("**partly**") + text.count("**not reproduced**") == 34

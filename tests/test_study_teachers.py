@@ -115,12 +115,6 @@ def test_a_slow_teacher_labels_only_where_the_labels_are_used(method, asks):
     assert (training.rule_actions == (4 if asks else 0)).all()
 
 
-@pytest.mark.parametrize("make", [job, lambda name: Variation(teacher=name), teacher_from])
-def test_an_unknown_teacher_is_one_sentence(make):
-    with pytest.raises(BootcourseError, match="did you mean 'planner'"):
-        make("planer")
-
-
 def test_a_job_trains_with_its_teacher_and_its_results_say_so(tmp_path):
     (tmp_path / "study.json").write_text("{}")
     assert run_job(job("mirrored"), tmp_path) == "" and finished(job("mirrored"), tmp_path)
@@ -136,6 +130,9 @@ def test_the_command_line_takes_a_teacher_by_its_name_and_a_run_s_files_name_eac
     assert all(teacher_from(name) is teacher.rule for name, teacher in TEACHERS.items())
     names = [teacher_name(teacher.rule) for teacher in TEACHERS.values()]
     assert len(set(names)) == len(names) and "rule" in names
+    for make in (job, lambda name: Variation(teacher=name), teacher_from):
+        with pytest.raises(BootcourseError, match="did you mean 'planner'"):
+            make("planer")
 
 
 def test_a_training_goes_on_with_its_named_teacher_alone_and_so_do_its_agents(bootcourse, tmp_path):

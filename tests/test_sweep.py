@@ -54,21 +54,15 @@ def test_the_nearest_setting_is_found_with_its_seeds(sweep, case):
     assert happened.exact == (asked == nearest)
 
 
-def test_without_the_constraint_p_does_not_matter(sweep):
-    happened = nearest_setting(sweep, 0.3, 0, 2)
-    assert happened.exact and (happened.xi_multiplier, happened.c) == (0, 2) and "p does not matter" in str(happened)
-
-
-def test_the_answer_reads_as_a_sentence(sweep):
+def test_the_answer_reads_as_a_sentence_and_a_value_that_cannot_be_is_refused(sweep):
     assert str(nearest_setting(sweep)) == (
         "p = 0.9, ξ = 200 α, c = 2, 2 seeds: success 50 % [50, 50], return 5.0 [5.0, 5.0], accidents 50 %"
     )
-
-
-@pytest.mark.parametrize("wrong", [{"p": 1.0}, {"p": 0.05}, {"xi_multiplier": -1}, {"c": float("nan")}])
-def test_a_value_that_cannot_be_is_refused(sweep, wrong):
-    with pytest.raises(BootcourseError, match="p =|give a finite number"):
-        nearest_setting(sweep, **wrong)
+    happened = nearest_setting(sweep, 0.3, 0, 2)  # without the constraint p does not matter
+    assert happened.exact and (happened.xi_multiplier, happened.c) == (0, 2) and "p does not matter" in str(happened)
+    for wrong in ({"p": 1.0}, {"p": 0.05}, {"xi_multiplier": -1}, {"c": float("nan")}):
+        with pytest.raises(BootcourseError, match="p =|give a finite number"):
+            nearest_setting(sweep, **wrong)
 
 
 def test_every_combination_is_run_once_and_has_a_row_in_the_table(sweep):

@@ -19,7 +19,7 @@ from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.teachers import ahead, all_roads, course_rule, teacher_name, teacher_of, teacher_policy, toward
 from bootcourse.learn.training import Training
 from bootcourse.policies import idle_policy
-from bootcourse.road.state import EGO, LANE, TRAP_1, X
+from bootcourse.road.state import EGO, TRAP_1, X
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.rule import rule
 from bootcourse.scenario import DEFAULT, IDLE
@@ -77,6 +77,9 @@ def test_every_label_is_the_teacher_s_in_the_buffer_and_in_the_demonstrations_an
     labels = [replay.table[: replay.demonstrations, -2:]]
     labels += [replay.table[first : first + replay.size, -2:] for first in replay.first]
     assert replay.demonstrations == 20 * 150 and all((part == 4).all() for part in labels)
+    other = lambda cars, scenario: 3  # noqa: E731
+    other.__qualname__ = follows.__qualname__
+    assert teacher_name(follows) != teacher_name(other) and teacher_name(course_rule) == "rule"
     (run, _) = save_runs(again.result(), tmp_path / "runs")
     assert load_run(run).provenance["teacher"] == teacher_name(follows)
 
@@ -102,24 +105,22 @@ def test_toward_is_the_rule_s_own_tracker_and_refuses_a_lane_that_is_not_there()
 # A rule that fails -----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("answer", [9, -1, 4.0, True, None, "keep straight", np.float64(4)])
-def test_what_is_no_action_is_named(answer):
-    with pytest.raises(BootcourseError, match="an action is a whole number from 0 to 8"):
-        teacher_of(lambda cars, scenario: answer)(roads(1).cars)
+NO_ACTIONS = [
+    *[(lambda cars, scenario, answer=answer: answer, "an action is a whole number from 0 to 8")
+      for answer in (9, -1, 4.0, True, None, "keep straight", np.float64(4))],
+    (all_roads(lambda cars, scenario: [4, 9]), "failed on road 1: it returned 9, but an action is a whole number from"),
+    (all_roads(lambda cars, scenario: [4.0, 4.0]),
+     r"failed in a call for all roads: it returned actions of shape \(2,\) and type float64"),
+    (all_roads(lambda cars, scenario: [4]),
+     r"it returned actions of shape \(1,\) and type int64, but 2 roads need a whole number each"),
+    (all_roads(lambda cars, scenario: ["left", "left"]), "but 2 roads need a whole number each"),
+]  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    ("actions", "sentence"),
-    [
-        ([4, 9], "failed on road 1: it returned 9, but an action is a whole number from 0 to 8"),
-        ([4.0, 4.0], r"failed in a call for all roads: it returned actions of shape \(2,\) and type float64"),
-        ([4], r"it returned actions of shape \(1,\) and type int64, but 2 roads need a whole number each"),
-        (["left", "left"], "but 2 roads need a whole number each"),
-    ],
-)
-def test_a_rule_for_all_roads_is_held_to_the_actions(actions, sentence):
+@pytest.mark.parametrize(("rule", "sentence"), NO_ACTIONS)
+def test_what_is_no_action_is_named(rule, sentence):
     with pytest.raises(RuleFailed, match=sentence):
-        teacher_of(all_roads(lambda cars, scenario: actions))(np.zeros((2, 9, 10)))
+        teacher_of(rule)(roads(2).cars)
 
 
 FIRST = held_out_seeds(1, 4)[0]
@@ -168,21 +169,18 @@ def test_a_rule_that_fails_when_a_training_is_resumed_does_not_call_the_checkpoi
         load_checkpoint(tmp_path / "c.npz", teacher=rule_that_breaks)
 
 
-def test_an_interrupt_and_an_exception_of_the_library_s_own_rules_pass():
+def test_an_interrupt_and_the_library_s_own_exceptions_pass_and_a_rule_that_writes_changes_no_road():
     def interrupted(cars, scenario):
         raise KeyboardInterrupt
+
+    def spoils(cars, scenario):
+        cars[:] = 0
+        return 4
 
     with pytest.raises(KeyboardInterrupt):
         record(teacher_policy(interrupted), [7])
     with pytest.raises(IndexError):
         teacher_of(course_rule)(np.zeros((2, 0, 10)))
-
-
-def test_a_rule_that_writes_into_its_cars_changes_no_road():
-    def spoils(cars, scenario):
-        cars[:] = 0
-        return 4
-
     env = roads(2)
     before = env.cars.copy()
     teacher_of(spoils)(env.cars)
@@ -201,12 +199,6 @@ def test_demonstrations_by_chance_follow_the_teacher_with_p_and_need_the_same_p_
         Training([settings, replace(settings, rule_p=0.9)], 2)
 
 
-def test_two_rules_of_the_same_name_are_two_teachers():
-    first, other = follows, (lambda cars, scenario: 3)
-    other.__qualname__ = first.__qualname__
-    assert teacher_name(first) != teacher_name(other) and teacher_name(course_rule) == "rule"
-
-
 @pytest.mark.parametrize(
     ("teacher", "sentence"),
     [
@@ -220,13 +212,3 @@ def test_two_rules_of_the_same_name_are_two_teachers():
 )
 def test_an_exam_counts_and_never_raises(teacher, sentence):
     assert re.search(sentence, repr(examine(teacher, 20)))
-
-
-def test_all_roads_at_once_and_one_by_one_drive_alike():
-    env = roads(10)
-    many = all_roads(lambda cars, scenario: np.where(cars[:, EGO, LANE] == 2, 1, 4))
-    actions = [
-        teacher_policy(each)(None, env.cars).actions
-        for each in (many, lambda cars, scenario: 1 if cars[EGO, LANE] == 2 else 4)
-    ]
-    assert np.array_equal(*actions)
