@@ -39,7 +39,7 @@ from bootcourse.research import checks
 # Before the road, a smaller world. A pole stands on a cart. Fifty times a second you push the cart
 # to the left or to the right: two actions. Each push pays 1 while the pole stands. The episode
 # ends when the pole leans more than 12 degrees, when the cart leaves its track, or after 500
-# pushes. This is **CartPole**, a common first test for a learner.
+# pushes. This is **CartPole**.
 # <!-- claim: gym.make('CartPole-v1').unwrapped.tau == 1 / 50 -->
 # <!-- claim: (lambda env: (env.reset(seed=0), env.step(0))[1][1])(gym.make('CartPole-v1')) == 1 -->
 # <!-- claim: math.degrees(gym.make('CartPole-v1').unwrapped.theta_threshold_radians) == 12 -->
@@ -115,7 +115,7 @@ for words, pi in (
 
 # %% [markdown]
 # **See.** The entropy lies between 0 and the logarithm of the number of actions. It is **never
-# negative**, since no probability is above 1. Round 4 uses that.
+# negative**, since no probability is above 1.
 # <!-- claim: 0 == float(sac.entropy(torch.tensor([1.0]).log())) <
 #   float(sac.entropy(torch.full((9,), 1 / 9).log())) < math.log(9) + 1e-6 -->
 #
@@ -461,8 +461,7 @@ def train(agent, env, buffer, update, pushes, rng):
 check.train(train)
 
 # %% [markdown]
-# Now your agent learns: your loop, your update, your buffer, as far as they have passed; the rest
-# is ours.
+# Now your agent learns, with your parts as far as they have passed; the rest is ours.
 
 # %%
 PUSHES = 8_000
@@ -514,7 +513,7 @@ table(["without", *(f"seed {seed}" for seed in range(SEEDS))], rows, "Pushes, of
 # **Explain.** One row stands out: without (1 − terminated) the agents hardly balance the pole. In
 # the others the seeds of a row differ as much as the rows do. So three agents, trained this
 # shortly, do not show that a part is useless, nor that it helps: lesson [[how_many_seeds]] works
-# out how many would. (On larger tasks Fujimoto et al. measured what second critic and copies do.)
+# out how many would.
 #
 # What went wrong? Without (1 − terminated) each row says "1 now, and then the value of the next
 # state"; no row says that a fall ends the rewards. The one constant that fits all rows is

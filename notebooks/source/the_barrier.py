@@ -318,18 +318,17 @@ table(headings, rows, below=f"{len(TESTED)} roads each; worth: the discounted su
 #   So luck is not what is missing.
 # <!-- claim: (tested(FOUR).ahead & ~tested(FOUR).accident).mean() > 0.02 -->
 #
-# These two, a gain that comes late and attempts that crash, are the **barrier**. We think that they
-# keep most agents in, but the table does not prove it: it says what an attempt is worth, and not
-# what a learner does.
+# These two, a gain that comes late and attempts that crash, are the **barrier**. Is it all that
+# keeps agents in? The table says what an attempt is worth, and not what a learner does.
 
 # %% [markdown]
 # Is a longer view enough, or more exploration? Among the study's variations, of three plain SAC
 # agents each, {{ escaped_with('γ = 0.95', 'sac') }} escape with γ = 0.95,
 # {{ escaped_with('γ = 0.99', 'sac') }} with γ = 0.99, and
 # {{ escaped_with('target entropy 1', 'sac') }} with a target entropy of 1. Of its
-# {{ len(of('sac')) }} agents with the paper's numbers {{ escaped('sac') }} escapes. To test the
-# explanation one would have to make a learner's attempts cheaper or better, and change nothing
-# else.
+# {{ len(of('sac')) }} agents with the paper's numbers {{ escaped('sac') }} escapes. To learn
+# whether the barrier is all, one has to make a learner's attempts cheaper or better, and change
+# nothing else.
 # <!-- claim: len(varied()['γ = 0.95'].of('sac')) == len(varied()['γ = 0.99'].of('sac')) ==
 #   len(varied()['target entropy 1'].of('sac')) == 3 -->
 # <!-- claim: escaped('sac') == 1 -->
