@@ -313,7 +313,7 @@ def test_a_process_that_dies_is_started_anew(judge):
 def graded(tmp_path_factory):
     """A small class, graded once: its folder."""
     folder = tmp_path_factory.mktemp("class")
-    twin = dict.fromkeys(("luck", "learn_chain", "share_of_the_future"), RIGHT)
+    twin = dict.fromkeys(("luck", "learn_chain", "bearable_risk"), RIGHT)
     asked = {"5.1": {"question": f"How many? {SCRIPT}", "answer": SCRIPT}}
     students = {
         "ada": submission(answers=twin, predictions=asked),

@@ -1,4 +1,4 @@
-"""Training curves, episode by episode: how figures and panels draw them, and the figure of one or several methods."""
+"""Training curves, over episodes or updates: how figures and panels draw them, and the figure of some methods."""
 
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
@@ -94,6 +94,7 @@ def training_curves(
     constants: Mapping[str, Mapping[str, float]] | None = None,
     paper: Mapping[str, Mapping[str, float]] | None = None,
     measures: Sequence[str] = ("success", "return"),
+    updates: np.ndarray | None = None,
 ) -> Figure:
     """Some measures over the episodes of training, two in a row, each method in its own look.
 
@@ -101,11 +102,16 @@ def training_curves(
     first. Thin lines are agents, the thick one their interquartile mean (up to where every agent got), the
     band its 95 % bootstrap interval over agents, where there are two or more.
     constants: {"rule": {"return": 49.0}}: horizontal lines. paper: {method: {"success": 0.95}}: the
-    paper's numbers, as open diamonds at the right. Raises BootcourseError if no episode was finished.
+    paper's numbers, as open diamonds at the right. updates (points,): the curves are (agents, points), means of the
+    last episodes that were noted after these updates, and are drawn over them. Raises BootcourseError if no episode was
+    finished.
     """
     if not curves:
         raise BootcourseError("There are no curves to draw: give {method: result.curves}.")
-    window, episodes = window_of(list(curves.values())), max(map(finished, curves.values()))
+    if updates is None:
+        window, last, unit = window_of(list(curves.values())), max(map(finished, curves.values())), "training episode"
+    else:
+        window, last, unit = WINDOW, updates[-1], "updates of each agent"
     looks = dict(zip(curves, styles(list(curves)), strict=True))
     constants, paper, rows = constants or {}, paper or {}, -(-len(measures) // 2)
     head, row = 0.5 + 0.2 * len(wrapped(title).splitlines()), 2.7  # inches
@@ -115,23 +121,30 @@ def training_curves(
     for i, measure in enumerate(measures):
         ax = axes_at(figure, 0.45 + 4.41 * (i % 2), head + (i // 2) * row, 2.88, row - 0.85)
         plain_axes(ax, MEASURES[measure].label)
-        ax.set_xlim(0, max(episodes, 1))
-        ax.set_xlabel("training episode", fontsize=SMALL, color=QUIET)
+        ax.set_xlim(0, max(last, 1))
+        ax.set_xlabel(unit, fontsize=SMALL, color=QUIET)
         ax.xaxis.set_major_locator(MaxNLocator(5, integer=True))
         ax.yaxis.set_major_formatter(lambda value, _: number(value))
-        ends[measure] = _draw(ax, measure, curves, looks, window, constants, paper)
+        points = {method: _points(curves, method, measure, window, updates) for method in curves}
+        ends[measure] = _draw(ax, measure, points, looks, constants, paper)
     each = "each episode" if window == 1 else f"over the last {window} episodes"
     words = f"Thin: agents. Thick: their interquartile mean with its 95 % interval. All {each}."
     words += " Diamonds: the paper's test results." * bool(paper)
     figure.text(0.012, 0.1 / total, words, fontsize=SMALL, color=QUIET)
-    return finish(figure, title, _alt(curves, ends))
+    return finish(figure, title, _alt(curves, ends, "episodes" if updates is None else "updates"))
 
 
-def _draw(ax, name: str, curves, looks, window: int, constants, paper) -> dict[str, float]:
+def _points(curves: Mapping, method: str, measure: str, window: int, updates: np.ndarray | None) -> tuple:
+    """Where a method's points lie, (points,), and its agents' means there, (agents, points)."""
+    values = _values(curves, method, measure) * MEASURES[measure].factor
+    return rolling_means(values, window, POINTS) if updates is None else (updates, values)
+
+
+def _draw(ax, name: str, points: Mapping[str, tuple], looks, constants, paper) -> dict[str, float]:
     """One measure of all methods; returns where each method's line ends."""
     measure, canvas, ends, labels = MEASURES[name], MplAxes(ax), {}, []
-    for method in sorted(curves, key=in_front):
-        at, means = rolling_means(_values(curves, method, name) * measure.factor, window, POINTS)
+    for method in sorted(points, key=in_front):
+        at, means = points[method]
         draw_band(canvas, at, means, looks[method].colour)
         end = draw_training(canvas, at, means, looks[method])
         ends[method] = end if np.isfinite(end) else float(np.nanmean(means))
@@ -166,10 +179,10 @@ def _values(curves: Mapping, method: str, measure: str) -> np.ndarray:
     return values
 
 
-def _alt(curves: Mapping, ends: Mapping[str, Mapping[str, float]]) -> str:
+def _alt(curves: Mapping, ends: Mapping[str, Mapping[str, float]], over: str) -> str:
     ends_of_methods = []
     for method in curves:
         agents = len(next(iter(curves[method].values())))
         values = ", ".join(f"{MEASURES[measure].label} {ends[measure][method]:.3g}" for measure in ends)
         ends_of_methods.append(f"{display_name(method)} ({agents} agent{'s' * (agents > 1)}) ends at {values}")
-    return f"Curves over the episodes of training. {sentence('; '.join(ends_of_methods))}."
+    return f"Curves over the {over} of training. {sentence('; '.join(ends_of_methods))}."

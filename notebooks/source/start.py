@@ -28,7 +28,8 @@ from bootcourse.course import compare_predictions, predict, shipped
 #
 # Both drives below are on the same road. Two slow cars, dark red, hold the driver: **trap 1** ahead
 # of it, **trap 2** beside it. The drivers are **agents**: programs that have learned from their own
-# attempts. One of them had help while it learned. Press play, and turn the road with the mouse.
+# attempts. One of them had help while it learned, from a controller that is written by hand. Press
+# play, and turn the road with the mouse.
 
 # %% tags=["nbval-ignore-output"]
 escape = bc.shipped_drive("escape")  # by an agent that had help
@@ -39,14 +40,15 @@ bc.recording([shipped.beginning(trapped, 30), shipped.beginning(escape, 30)], he
 
 # %% [markdown]
 # Each second pays a little for speed, up to {{ max(np.arange(0, 25, 0.5), key=speed_reward) }} m/s,
-# and an accident costs much. Why does one program stay behind slow cars, although the road beside
-# them is free? That is the question of this course.
+# and an accident costs much. Why does one program stay behind slow cars, although the left lane is
+# free? That is the question of this course.
 
 # %% [markdown]
 # ## Drive it yourself
 #
 # You decide once a second, and the road waits for you: nine buttons, or click on the pad and use
-# the arrow keys. The faint car is a ghost: it shows a way out of the trap on this road.
+# the arrow keys. The faint car is a **ghost**: it shows how the controller that is written by hand
+# drives the same road. Crash as often as you like.
 # <!-- claim: by_rule(10).success -->
 # <!-- claim: N_ACTIONS == 9 -->
 #
@@ -60,42 +62,50 @@ bc.panels.drive_panel(seed=10)
 
 # %% [markdown] tags=["instructor"] minutes=10
 # Open with this page on the wall and let two people drive before you explain anything. Expect
-# crashes into trap 2. Keep the number of attempts on the board for lesson [[the_barrier]].
+# crashes into trap 2; next they accelerate. Collect on the board what ended each attempt, and keep
+# the number of attempts for lesson [[the_barrier]].
 
 # %% [markdown]
 # ## What is the same on your machine, and what is not
 #
 # A road is drawn from a number, its **seed**, so road 10 is the same road everywhere, and results
 # that ship with the course are read from files. A training that *you* run is another matter:
-# processors round the last digit of a sum in different ways, and such a difference grows in some
-# thousand updates. Where a lesson trains, it says that yours will differ, and draws its conclusions
+# processors round the last digit of a sum in different ways, and such a difference grows while a
+# program learns. Where a lesson trains, it says that yours will differ, and draws its conclusions
 # from more agents, which ship with the course.
+#
+# The results that we got are saved below each cell. So answer a prediction before you scroll on, or
+# hide them all first (*Edit*, *Clear Outputs of All Cells*).
 #
 # ## Choose a route
 #
 # *An evening* shows you what happens. In *a week* you learn to do it yourself. *A researcher's*
-# route is for readers who know SAC and want to know which results hold.
+# route is for readers who know SAC and want to know which results hold. ● is a whole lesson, ◐ its
+# text without the exercises.
 #
 # | lesson | an evening | a week | a researcher's |
 # |---|:---:|:---:|:---:|
-# | [[the_trap]] · [](the_trap.ipynb) | ● | ● | |
-# | [[the_rule]] · [](the_rule.ipynb) | | ● | |
-# | [[discrete_sac]] · [](discrete_sac.ipynb) | picture | ● | |
+# | [[the_trap]] · [](the_trap.ipynb) | ● | ● | ◐ |
+# | [[discrete_sac]] · [](discrete_sac.ipynb) | picture | ● | known |
 # | [[the_barrier]] · [](the_barrier.ipynb) | ● | ● | ● |
-# | [[demonstrations]] · [](demonstrations.ipynb) | | ● | |
-# | [[soft_constraint]] · [](soft_constraint.ipynb) | ● | ● | ● |
+# | [[the_rule]] · [](the_rule.ipynb) | | ● | ◐ |
+# | [[demonstrations]] · [](demonstrations.ipynb) | | ● | ◐ |
+# | [[soft_constraint]] · [](soft_constraint.ipynb) | | ● | ● |
 # | [[learning_from_demonstrations]] · [](learning_from_demonstrations.ipynb) | | ● | ● |
 # | [[how_many_seeds]] · [](how_many_seeds.ipynb) | | ● | ● |
 # | [[found_and_kept]] · [](found_and_kept.ipynb) | | ● | ● |
 # | [[imitation]] · [](imitation.ipynb) | | ● | ● |
 # | [[offline_learning]] · [](offline_learning.ipynb) | | ● | ● |
 # | [[bug_hunt]] · [](bug_hunt.ipynb) | | ● | ● |
-# | [[your_teacher]] · [](your_teacher.ipynb) | | ● | |
+# | [[your_teacher]] · [](your_teacher.ipynb) | | ● | ◐ |
 # | [[the_second_trap]] · [](the_second_trap.ipynb) | | | ● |
 # | [[looking_ahead]] · [](looking_ahead.ipynb) | | | ● |
 # | [[other_ways]] · [](other_ways.ipynb) | | | ● |
 # | [[your_own_problem]] · [](your_own_problem.ipynb) | | | ● |
-# | [[traffic]] · [](traffic.ipynb) | | | |
+# | [[traffic]] · [](traffic.ipynb), to look up | | | |
+# | hours, with this page | {{ long('evening') / 60 | .1f }} | {{ long('week') / 60 | .1f }} | {{
+#   long('researcher') / 60 | .1f }} |
+# <!-- claim: missing('evening') == missing('week') == missing('researcher') == [] -->
 #
 # Each lesson opens on its own, says what it builds on, and runs in about a minute. In its
 # exercises you write some lines, and a check says what is wrong with them in plain words;

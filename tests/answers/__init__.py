@@ -9,9 +9,9 @@ Short answers stand in a table, `right_lines` or `wrong_lines`: the exercise's n
 a colon, and its statements, the last of which is what it returns. Its arguments have the exercise's names; `solution`
 is the exercise's own. The words, after " # ", come last.
 
-    wrong_lines('''share_of_the_future
-        per cent: 100 * solution(gamma, seconds)
-        the past: past = gamma**seconds; 1 - past  # the words
+    wrong_lines('''luck
+        per cent: 100 * solution(good, decisions, tries)
+        the others: once = (good / 9) ** decisions; 1 - once  # the words
     ''')
 """
 

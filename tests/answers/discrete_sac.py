@@ -13,10 +13,13 @@ MEAN = "state_entropy.detach().mean"
 equivalent("temperature_loss", f"{MEAN}(-1)  ->  {MEAN}(0)", "the batch is the only axis")
 
 TARGET = "target = critic_target(batch.rewards, batch.terminated,"
+COPIES = "zip(agent.copies.parameters(), agent.critics.parameters()"
 ALL = "zip(agent.optimisers, losses, strict=True)"
 for _change, _why in {
     f"{TARGET} next_value, agent.gamma)  ->  {TARGET} agent.gamma, next_value)": "the target multiplies the two",
     f"{ALL}  ->  zip(agent.optimisers, losses, strict=False)": "there are as many losses as optimisers",
+    f"{COPIES}, strict=True)  ->  {COPIES}, strict=False)": "there are as many weights in both",
+    f"for slow, now in {COPIES}, strict=True):  ->  for slow, now in {COPIES}):": "as many of both",
     f"for optimiser, loss in {ALL}:  ->  for optimiser, loss in zip(agent.optimisers, losses):": "as many of both",
     "alpha = agent.log_alpha.exp().detach()  ->  alpha = agent.log_alpha.exp().clone()": "zeroed before its own loss",
 }.items():
@@ -47,17 +50,6 @@ wrong_lines("""critic_target
     reward only: reward
     in place: reward += gamma * (1 - terminated) * next_value; reward  # changes its argument `reward`
     a column: (reward + gamma * (1 - terminated) * next_value)[:, None]  # shape
-""")
-
-right_lines("""entropy
-    with torch's own: torch.distributions.Categorical(logits=log_pi).entropy()
-    with special entr: torch.special.entr(log_pi.exp()).sum(dim=1)
-""")
-
-wrong_lines("""entropy
-    one for all: torch.distributions.Categorical(logits=log_pi).entropy().mean()  # mean over the batch
-    of the logarithm: -(log_pi * torch.log(-log_pi + 1e-12)).sum(-1)
-    each action's: -log_pi * log_pi.exp()  # shape
 """)
 
 right("soft_value")(sac.soft_value)
@@ -243,6 +235,13 @@ class AListOfRows(WithADeque):
         return [self.rows[i] for i in rng.integers(len(self.rows), size=batch)]
 
 
+def move_copies(agent):
+    with torch.no_grad():
+        for critic, copy in zip(agent.critics, agent.copies, strict=True):
+            for new, old in zip(critic.parameters(), copy.parameters(), strict=True):
+                old.copy_((1 - agent.tau) * old + agent.tau * new)
+
+
 @right("update")
 def without_functions(agent, batch):
     alpha = agent.log_alpha.exp().item()
@@ -262,7 +261,7 @@ def without_functions(agent, batch):
     total.backward()
     for optimiser in agent.optimisers:
         optimiser.step()
-    agent.move_copies()
+    move_copies(agent)
 
 
 @wrong("update", "the critics")
@@ -275,7 +274,7 @@ def with_half_a_loss(agent, batch):
     optimiser.zero_grad()
     (taken - y).square().mean().backward()
     optimiser.step()
-    agent.move_copies()
+    move_copies(agent)
 
 
 @wrong("update", "of your updates log α differ")
@@ -289,7 +288,7 @@ def without_the_actor(agent, batch):
     agent.optimisers[0].zero_grad()
     loss.backward()
     agent.optimisers[0].step()
-    agent.move_copies()
+    move_copies(agent)
 
 
 @right("train")

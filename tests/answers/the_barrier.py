@@ -5,15 +5,6 @@ import numpy as np
 from bootcourse.course.lessons.the_barrier import chain
 from tests.answers import equivalent, right, right_lines, wrong, wrong_lines
 
-right_lines("""share_of_the_future
-    added up: weights = gamma ** np.arange(10_000); weights[seconds:].sum() / weights.sum()
-    less the past: past = (1 - gamma**seconds) / (1 - gamma); (1 / (1 - gamma) - past) * (1 - gamma)
-""")
-
-wrong_lines("""share_of_the_future
-    product: gamma * seconds
-""")
-
 right_lines("""luck
     binomial: 1 - stats.binom.pmf(0, tries, (good / 9) ** decisions)
     not all fail: fails = 1.0

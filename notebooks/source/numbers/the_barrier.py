@@ -10,7 +10,7 @@ from bootcourse.research.planner import Search, discounted_values, plan_episodes
 from bootcourse.research.results import Results
 from bootcourse.road.state import EGO, LANE
 from bootcourse.scenario import DEFAULT
-from tools.course.known import ROAD, shipped_experiment, shipped_runs
+from tools.course.known import ROAD, idle, of, shipped_experiment, shipped_runs
 
 
 @cache
@@ -24,6 +24,11 @@ def discounted_scores(method: str) -> np.ndarray:
     """The shipped agents' discounted returns at their own γ, each the mean of 200 held-out roads: (agents,)."""
     agents, seeds = [run.agent for run in shipped_runs(method)], held_out_seeds(1, 200)
     return np.array([discounted_values(a.as_policy(), seeds, DEFAULT, a.settings.gamma).mean() for a in agents])
+
+
+def stayed() -> int:
+    """How many of the study's plain agents return what doing nothing does, to within 3."""
+    return int((np.abs(of("sac").scores("returns") - idle().rewards.sum()) < 3).sum())
 
 
 @cache

@@ -5,9 +5,11 @@ from functools import cache
 import numpy as np
 from bootcourse.course.lessons.the_trap import figures
 
+STRAIGHT_BETWEEN = (("keep left", 2), ("keep straight", 2), ("keep right", 2))
+RIGHT_FIRST = ("keep right", ("keep left", 4), ("keep right", 3))
+
 
 @cache
-def right_first() -> np.ndarray:
-    """On which of the lesson's 400 roads the plan gets out that begins to the right."""
-    turns = ["keep right", ("keep left", 4), ("keep right", 3)]
-    return figures.d2_and_success([*turns, ("accelerate straight", 5)])[1]
+def unhurt(turns: tuple) -> np.ndarray:
+    """On which of the lesson's 400 roads a plan gets out unhurt."""
+    return figures.d2_and_unhurt([*turns, ("accelerate straight", 5)])[1]

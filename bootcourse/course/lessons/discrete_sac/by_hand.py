@@ -70,12 +70,6 @@ class SAC:
         """An action from π(·|s); state (4,)."""
         return int(rng.random() < self.log_pi(torch.from_numpy(state)[None])[0, 1].exp())
 
-    def move_copies(self) -> None:
-        """Polyak averaging: Q̄ becomes (1 - τ) Q̄ + τ Q."""
-        with torch.no_grad():
-            for slow, new in zip(self.copies.parameters(), self.critics.parameters(), strict=True):
-                slow.lerp_(new, self.tau)
-
 
 def balanced(agent: SAC, episodes: int = 10) -> float:
     """For how many pushes the agent balances the pole, with its most probable actions: a mean."""

@@ -10,10 +10,10 @@ from bootcourse.course.lessons.discrete_sac.parts import (
     actor_loss,
     critic_loss,
     critic_target,
-    entropy,
     soft_value,
     temperature_loss,
 )
+from bootcourse.learn import sac
 
 ReplayBuffer = replay_buffer.ReplayBuffer
 
@@ -39,7 +39,7 @@ def of_the_update(cases, answers):
 
 @exercise(
     "one update of SAC: target, three losses, three steps, copies; Section III-C",
-    minutes=18, difficulty=3, cases=update_cases, run=by_hand.after_updates, explain=of_the_update,
+    minutes=20, difficulty=3, cases=update_cases, run=by_hand.after_updates, explain=of_the_update,
     worked=[
         # all networks 0, y = 1: both biases rise by 0.1 · 2, the copies by τ of that; α H pulls log α down
         ((True, 1, 0), (np.full((1, 2), -LOG_2), np.array([[[0.2, 0]], [[0.2, 0]]]),
@@ -49,7 +49,8 @@ def of_the_update(cases, answers):
         "First the target, inside `with torch.no_grad():`, from `agent.log_pi(batch.next_states)` and the smaller of "
         "`agent.slow_q(batch.next_states)`. Then the three losses, then the three steps, then the copies.",
         "A step is `optimiser.zero_grad()`, `loss.backward()`, `optimiser.step()`; `agent.optimisers` are those of the "
-        "critics, the actor and log α. α itself is `agent.log_alpha.exp().detach()`.",
+        "critics, the actor and log α. α itself is `agent.log_alpha.exp().detach()`. The copies' weights: inside "
+        "`with torch.no_grad():`, for each pair of parameters `slow += agent.tau * (now - slow)`.",
     ),
     mistakes={
         "batch.terminated -> 0 * batch.terminated":
@@ -62,8 +63,11 @@ def of_the_update(cases, answers):
             "Your actor follows the first critic alone. The smaller of the two values counts: `.amin(0)`.",
         "next_q, alpha -> next_q, 0 * alpha":
             "The value in your target has no entropy: hand α to your soft value.",
-        "agent.move_copies() ->":
-            "Your copies stay where they began: the last line of an update moves them, `agent.move_copies()`.",
+        "slow += agent.tau * (now - slow) -> slow = slow + agent.tau * (now - slow)":
+            "Your copies stay where they began. `slow = ...` gives the name to a new tensor: change the weights in "
+            "place, with `slow += ...` or `slow.copy_(...)`.",
+        "agent.tau * (now - slow) -> (1 - agent.tau) * (now - slow)":
+            "Your copies take over nearly all of the new weights. Their share is τ, and 1 - τ of the old ones stays.",
         "optimiser.zero_grad() ->":
             "Your gradients add up from update to update: call `zero_grad()` before each `backward()`.",
         ("losses = ( -> first = critic_loss(q_pair, batch.actions, target); agent.optimisers[0].zero_grad(); "
@@ -83,13 +87,15 @@ def update(agent, batch):
     losses = (
         critic_loss(q_pair, batch.actions, target),
         actor_loss(log_pi, q_pair.amin(0), alpha),
-        temperature_loss(agent.log_alpha, entropy(log_pi), agent.target_entropy),
+        temperature_loss(agent.log_alpha, sac.entropy(log_pi), agent.target_entropy),
     )
     for optimiser, loss in zip(agent.optimisers, losses, strict=True):
         optimiser.zero_grad()
         loss.backward()
         optimiser.step()
-    agent.move_copies()
+    with torch.no_grad():
+        for slow, now in zip(agent.copies.parameters(), agent.critics.parameters(), strict=True):
+            slow += agent.tau * (now - slow)
 
 
 def loop_cases(rng):

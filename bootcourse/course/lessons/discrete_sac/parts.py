@@ -19,34 +19,6 @@ def policies(rng):
         yield torch.tensor(rng.normal(0, rng.uniform(0.3, 3), (size, 9))).log_softmax(-1)
 
 
-entropy = exercise(
-    "H(π(·|s)) = -Σ_a π(a|s) log π(a|s), Section III-C",
-    minutes=3, difficulty=1, cases=lambda rng: ((log_pi,) for log_pi in policies(rng)),
-    worked=[
-        ((torch.tensor([[0.5, 0.5], [0.75, 0.25]]).log(),), torch.tensor([LOG_2, 2 * LOG_2 - 0.75 * math.log(3)])),
-    ],
-    hints=(
-        "Entropy is the mean of -log π(a) over actions a that are drawn from π.",
-        "A mean under π: weigh each action's -log π with π. The probabilities are `log_pi.exp()`.",
-    ),
-    mistakes={
-        "return (log_pi.exp() * log_pi).sum(-1)":
-            "Your sign is wrong: log π is at most 0, so the entropy, *minus* the sum, is at least 0.",
-        "return -log_pi.mean(-1)":
-            "You give every action the same weight. The mean of -log π is taken under π: weigh each action with its "
-            "probability.",
-        "return -log_pi.sum(-1)":
-            "You add up -log π without the weights: an action that is never taken would count most.",
-        "log_pi.exp() * log_pi -> log_pi.exp() * log_pi.exp().log2()":
-            "Your entropy is in bits. Here it is in nats: use the natural logarithm, which is given.",
-        ".sum(-1) -> .sum(-1).mean()":
-            "You took the mean over the batch. Each state has an entropy of its own; the loss takes the mean later.",
-        "return (-(log_pi.exp() * log_pi).sum(-1)).exp()":
-            "This is e to the power of the entropy, the effective number of actions. Return the entropy itself.",
-    },
-)(sac.entropy)  # fmt: skip
-
-
 def value_cases(rng):
     """The policies above, with α = 0 and α = 1 first, and random values."""
     for number, log_pi in enumerate(policies(rng)):

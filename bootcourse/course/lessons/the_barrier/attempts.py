@@ -7,10 +7,9 @@ import numpy as np
 from gymnasium.vector import AutoresetMode
 
 from bootcourse.episodes.driving import steps
-from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.teachers import toward
 from bootcourse.policies import PlanPolicy, Policy, PolicyOutput, idle_policy, random_policy, rule_policy
-from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, X
+from bootcourse.road.state import EGO, LANE, SPEED
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, N_ACTIONS
 
@@ -74,14 +73,6 @@ def drive(policy: Policy, seeds: Sequence[int]) -> Outcome:
         rewards.append(step.rewards)
         accident |= step.infos["accident"] > 0
     return Outcome(np.stack(rewards, axis=1), step.infos["is_success"], accident)
-
-
-def covered(drives: Sequence[Rollout]) -> float:
-    """The share of the fields around trap 1, 10 m of one lane each, in which some drive has decided."""
-    cars = np.concatenate([drive.cars for drive in drives])
-    ahead = cars[:, EGO, X] - cars[:, TRAP_1, X]
-    fields, _, _ = np.histogram2d(ahead, cars[:, EGO, LANE], bins=[np.arange(-60, 61, 10), np.arange(4) - 0.5])
-    return float(np.mean(fields > 0))
 
 
 def kinds(roads: int, seed: int = 0) -> Mapping[str, Policy]:

@@ -6,38 +6,8 @@ from bootcourse.course.exercise import exercise
 from bootcourse.course.lessons.the_barrier import chain
 
 
-def future_cases(rng):
-    """Now (everything is still to come), far away, a γ near 1; then 40 at random."""
-    yield from ((0.8, 0), (0.8, 50), (0.99, 1), (0.5, 1))
-    yield from ((rng.uniform(0.5, 0.99), rng.integers(1, 60)) for _ in range(40))
-
-
-@exercise(
-    "Σ_{t ≥ n} γ^t / Σ_t γ^t = γ^n", minutes=3, difficulty=1, cases=future_cases,
-    worked=[((0.5, 2), 0.25), ((0.8, 0), 1.0)],  # of 1 + 1/2 + 1/4 + ... = 2, 1/4 + 1/8 + ... = 1/2 is left
-    hints=(
-        "All seconds together weigh 1 + γ + γ² + ... = 1 / (1 - γ). What do those from `seconds` on weigh?",
-        "Take out the first factor: γ^n + γ^(n+1) + ... = γ^n (1 + γ + ...).",
-    ),
-    mistakes={
-        "return 1 - gamma**seconds":
-            "This is the share *before* that moment. Return the share after it.",
-        "return gamma**seconds / (1 - gamma)":
-            "This is the weight that is left. For its share, divide by the weight of all seconds, 1 / (1 - γ).",
-        "return gamma**seconds * (1 - gamma)":
-            "This is the share of that one second. Add up all seconds from there on.",
-        "return gamma ** (seconds + 1)":
-            "You begin one second too late: the second that starts at that moment belongs to the future, too.",
-        "return max(0.0, 1 - seconds * (1 - gamma))":
-            "Your share falls in a straight line and ends. It falls by the same *factor* each second.",
-    },
-)  # fmt: skip
-def share_of_the_future(gamma, seconds):
-    return gamma**seconds
-
-
 def luck_cases(rng):
-    """One try, every action good, one decision; then 50 at random."""
+    """One attempt, every action good, one decision; then 50 at random."""
     yield from ((3, 2, 1), (9, 20, 5), (1, 1, 9), (1, 8, 1000))
     yield from ((rng.integers(1, 9), rng.integers(1, 8), rng.integers(1, 300)) for _ in range(50))
 
@@ -46,21 +16,21 @@ def luck_cases(rng):
     "1 - (1 - (g/9)^n)^tries: the chance of a way out by chance", minutes=5, difficulty=2, cases=luck_cases,
     worked=[((3, 2, 1), 1 / 9), ((3, 1, 2), 5 / 9)],  # (1/3)²; 1 - (2/3)²
     hints=(
-        "First one try: `good` of nine actions are right, `decisions` times in a row.",
-        "Then the tries: the chance that all of them fail is (1 - once) to the power of `tries`.",
+        "First one attempt: `good` of nine actions are right, `decisions` times in a row.",
+        "Then all attempts: the chance that all of them fail is (1 - once) to the power of `tries`.",
     ),
     mistakes={
         "return tries * once":
-            "Your chance can be above 1, because it counts two lucky tries twice. Compute the chance that *every* try "
-            "fails.",
+            "Your chance can be above 1, because it counts two lucky attempts twice. Compute the chance that *every* "
+            "attempt fails.",
         "return once":
-            "This is the chance of one try. There are `tries` of them, and one lucky one is enough.",
+            "This is the chance of one attempt. There are `tries` of them, and one lucky one is enough.",
         "return once**tries":
-            "This is the chance that *all* tries are lucky. One is enough.",
+            "This is the chance that *all* attempts are lucky. One is enough.",
         "return 1 - (1 - good / 9) ** (decisions * tries)":
-            "This is the chance that at least one decision is right. All decisions of one try have to be right.",
+            "This is the chance that at least one decision is right. All decisions of one attempt have to be right.",
         "(good / 9) ** decisions -> min(1.0, decisions * good / 9)":
-            "Within a try you add the chances. The chance that all decisions are right is their product.",
+            "Within an attempt you add the chances. The chance that all decisions are right is their product.",
     },
 )  # fmt: skip
 def luck(good, decisions, tries):

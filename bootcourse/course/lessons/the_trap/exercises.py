@@ -110,15 +110,15 @@ def risk_cases(rng):
         ((-50.0, 10.0, -20.0), 1.0),  # even a crash is better than to stay
     ],
     hints=(
-        "A try pays `escape` with probability 1 - q and `crash` with probability q. What does it pay on average?",
+        "An attempt pays `escape` with probability 1 - q and `crash` with probability q. What does it pay on average?",
         "Solve (1 - q) · escape + q · crash = stay for q. What is q if `escape` is not larger than `stay`? And if "
         "`crash` is not smaller than `stay`?",
     ),
     mistakes={
         "return (stay - crash) / (escape - crash)":
-            "This is the share of tries that must *succeed*. The risk is the share that crash: one minus that.",
+            "This is the share of attempts that must *succeed*. The risk is the share that crash: one minus that.",
         "(escape - crash) -> abs(crash)":
-            "You compare the gain with the crash's own return. A crash costs what the try would have earned otherwise, "
+            "You compare the gain with the crash's own return. A crash costs what the attempt would have earned, "
             "escape - crash.",
         "(escape - crash) -> (stay - crash)":
             "You divide by what a crash loses against staying. That ratio is the *odds*, crashes for each success; the "
@@ -129,7 +129,7 @@ def risk_cases(rng):
         "if crash >= stay: return 1.0 ->":
             "If a crash pays as much as to stay or more, each risk is worth it: return 1.",
         "(escape - stay) -> escape":
-            "You compare with a return of 0. The alternative to a try is to stay, which pays `stay`.",
+            "You compare with a return of 0. The alternative to an attempt is to stay, which pays `stay`.",
     },
 )  # fmt: skip
 def bearable_risk(stay, escape, crash):

@@ -88,8 +88,11 @@ def path_of(action: int, seconds: int, scenario: Scenario = DEFAULT) -> np.ndarr
     return np.array(places)
 
 
-def d2_and_success(plan: Sequence, roads: int = 400) -> tuple[np.ndarray, np.ndarray]:
-    """Where trap 2 starts (m ahead, centre to centre) and whether a plan gets out, on held-out roads: each (roads,)."""
+def d2_and_unhurt(plan: Sequence, roads: int = 400) -> tuple[np.ndarray, np.ndarray]:
+    """Where trap 2 starts (m ahead, centre to centre), and whether a plan gets out without an accident: each (roads,).
+
+    On held-out roads.
+    """
     drives = record(plan_policy(plan), held_out_seeds(1, roads))
     d2 = np.array([drive.states[0, TRAP_2, X] - drive.states[0, EGO, X] for drive in drives])
-    return d2, np.array([drive.success for drive in drives])
+    return d2, np.array([drive.success and not drive.accident for drive in drives])
