@@ -53,7 +53,7 @@ first_drive = bc.record(newborn.as_policy(with_q=True), [ROAD], label="soft")[0]
 does = torch.tensor([int(first_drive.rule_actions[0])])
 rule_tilde = bc.bootstrap.log_stochastic_rule(does, torch.tensor(0.9)).exp()[0].tolist()
 own_pi = newborn.probabilities(first_drive.observations[:1])[0].tolist()
-title = f"The rule would {bc.ACTION_NAMES[does.item()]}; the untrained agent does not care"
+title = f"The rule would {bc.ACTION_NAMES[does.item()]}; the untrained agent has no preference"
 bc.show(charts.action_bars({"agent": own_pi, "rule": rule_tilde}, title))
 
 # %% [markdown]
