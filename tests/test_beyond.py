@@ -9,7 +9,7 @@ from bootcourse.course.shipped import shipped_experiment
 from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.research import beyond, equal_decisions
-from bootcourse.research.beyond import after_seconds, at_budget, decisions_until, learner_rows, lengths
+from bootcourse.research.beyond import at_budget, decisions_until, learner_rows, lengths
 from bootcourse.research.equal_decisions import (
     BUDGETS,
     CHOSEN,
@@ -68,13 +68,6 @@ def test_the_return_at_a_budget_is_the_mean_of_the_last_episodes_that_ended_with
     assert np.isnan(at_budget({"decisions": LEARNING["decisions"]}, np.array(budget))).all()
     ahead = {"decisions": LEARNING["decisions"], "success": LEARNING["return"]}
     np.testing.assert_array_equal(at_budget(ahead, np.array(budget), "success"), expected)
-
-
-def test_seconds_are_shared_equally_among_the_decisions_of_a_training(monkeypatch):
-    monkeypatch.setattr(beyond, "WINDOW", 2)
-    took = np.array([10.0, 4.0, NAN])  # for 100, 30 and 180 decisions: 6 s are 60, 45 and an unknown number of them
-    np.testing.assert_array_equal(after_seconds(LEARNING, 6, took), [4, NAN, NAN])
-    assert np.isnan(after_seconds(LEARNING, 6, np.zeros(3))).all()
 
 
 # At equal decisions: trained in small, the tables by hand, and the choice that the search makes

@@ -17,7 +17,7 @@ It is written on its solution, in `lessons/NAME/exercises.py`; `judge.py` judges
         return (log_pi.exp() * (log_pi - log_rule)).sum(-1)
 
 The function's name and arguments are those that the student writes. A class is decorated in the same way. A solution
-that the library has is passed on, if its arguments have these names: `q_filter = exercise(...)(bootstrap.q_filter)`,
+that the library has is passed on, if its arguments have these names: `cloning_loss = exercise(...)(bc.cloning_loss)`,
 with `name=` if it has another name itself.
 
 A key of `mistakes` is

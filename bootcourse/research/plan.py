@@ -137,6 +137,7 @@ def _ablations() -> dict[str, Variation]:
         "KL in the actor only": Variation({"kl_in_target": False}, methods=("soft", "bootstrapped")),
         "β over 300 episodes": Variation({"beta_episodes": 300}, methods=helped),
         "β for ever": Variation({"beta_episodes": None}, methods=helped),
+        "ξ stays at 2": Variation({"xi_fixed": 2.0}, methods=("soft",)),
     }
 
 
@@ -260,7 +261,7 @@ def chosen(variations: dict, names: dict[str, set[str]], words: str) -> dict:
 
 def folder(name: str) -> str:
     """A name as a folder: "γ = 0.9" -> "gamma-0.9"."""
-    words = {"γ": "gamma", "β": "beta", "π̃": "stochastic-rule", "μ": "rule", "1/4": "quarter", ",": ""}
+    words = {"γ": "gamma", "β": "beta", "ξ": "xi", "π̃": "stochastic-rule", "μ": "rule", "1/4": "quarter", ",": ""}
     words |= {"η": "eta", "|A|": "A"}  # some file systems refuse a bar
     for letter, word in words.items():
         name = name.replace(letter, word)

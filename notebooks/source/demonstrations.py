@@ -16,10 +16,10 @@
 # **What you will be able to do**
 # - collect demonstrations in three ways, and say what is in them before you learn from them;
 # - train clones of a driver in seconds, and judge them by how they drive instead of by their loss;
-# - explain why a clone that agrees with its teacher most of the time can still leave the road;
+# - show where and how a clone that agrees with its teacher most of the time leaves the road;
 # - let a clone drive, have the rule label what it meets, and see what that changes.
 #
-# **Time** 65 minutes, under a minute of it the machine's. **It builds on** [lesson
+# **Time** 75 minutes, about a minute of it the machine's. **It builds on** [lesson
 # [[the_trap]]](the_trap.ipynb) and [lesson [[the_rule]]](the_rule.ipynb).
 
 # %%
@@ -29,6 +29,7 @@ import torch
 from bootcourse.course import charts, check, compare_predictions, predict, source, table
 from bootcourse.course.lessons.demonstrations import cloning, figures
 from bootcourse.learn import demonstrations, replay_buffer
+from bootcourse.road.state import EGO, Y
 
 # %% [markdown]
 # ## Look first
@@ -46,8 +47,9 @@ title = "The rule drives along a narrow path, the stochastic rule strays from it
 bc.show(figures.where_they_were(driven, seconds=30, title=title))
 
 # %% [markdown]
-# > **Predict.** You learn to drive by watching one of these two. Which one do you choose: the rule,
-# > which has no accident in these drives, or the stochastic rule, which often leaves the road?
+# > **Predict.** You copy one of these two, with little training. Whose drives do you choose: those
+# > of the rule, which has no accident in them, or those of the stochastic rule, which often leaves
+# > the road?
 
 # %%
 predict(
@@ -58,22 +60,17 @@ predict(
 # Round 5 answers it.
 # <!-- claim: all(drive.accident == 0 for drive in rule_drives()) -->
 
+# %% [markdown] tags=["instructor"] minutes=4
+# Count hands for each of the two and let one of each side give a reason. Do not resolve it.
+
 # %% [markdown]
 # ## Round 1: what does a demonstration consist of?
 #
 # A **demonstration** is somebody's drive, kept as **transitions**. A transition is one decision:
 # what the driver saw, what it did, what it was paid, what it saw next, and whether an accident
-# ended the drive there (*terminated*). A drive has one observation more than it has actions.
+# ended the drive there (*terminated*; a drive whose 150 s are over was not). A drive has one
+# observation more than it has actions.
 #
-# > **Predict.** One drive ends after 150 s because the time is up. Another ends after 20 s in a
-# > collision. In which of the two does the last transition count as terminated?
-
-# %%
-predict(
-    "demonstrations.2", "Whose last transition is terminated?", ["the first", "the second", "both"]
-)
-
-# %% [markdown]
 # **Exercise (6 min, ●●○).** Turn one drive into transitions.
 
 
@@ -97,7 +94,7 @@ check.transitions(transitions)
 # > and how many the stochastic rule?
 
 # %%
-predict("demonstrations.3", "Transitions of the rule", unit="transitions")
+predict("demonstrations.2", "Transitions of the rule", unit="transitions")
 
 # %%
 # NBVAL_CHECK_OUTPUT
@@ -126,8 +123,8 @@ print(f"drives: {len(mine)}, transitions: {len(own_rows)}, of {own_rows.shape[1]
 print(f"the last one: return {mine[-1].rewards.sum():.1f}, success {mine[-1].success}")
 
 # %% [markdown] tags=["instructor"] minutes=6
-# With a class: everybody keeps one drive that escapes, and you pool them. Human drives differ from
-# the rule's in one way that matters in Round 5: people make mistakes and correct them.
+# With a class: everybody keeps one drive that gets out, and you pool them. Human drives differ from
+# the rule's in one way that matters in Rounds 4 and 5: people make mistakes and correct them.
 
 # %% [markdown]
 # ## Round 2: what is in the demonstrations?
@@ -135,7 +132,7 @@ print(f"the last one: return {mine[-1].rewards.sum():.1f}, success {mine[-1].suc
 # > **Predict.** What share of the rule's decisions is "keep straight"?
 
 # %%
-predict("demonstrations.4", "Share of 'keep straight'", unit="%")
+predict("demonstrations.3", "Share of 'keep straight'", unit="%")
 
 # %%
 batch = replay_buffer.decode_transitions(by_rule, cloning.SIZE, torch.zeros(len(by_rule)))
@@ -150,43 +147,13 @@ bc.show(charts.action_bars({"rule": shares}, title, "share of the decisions"))
 # 150 | .0f }} % of a demonstration, and that is its weight in a loss that averages over the
 # decisions.
 #
-# What is a demonstration worth, and from which second on? The paper's learners discount: a reward
-# $t$ seconds later counts $\gamma^t$, with γ = {{ SETTINGS.gamma }}. From second t on a drive is
-# worth its **return to go**: the reward now, and γ times what the next second is worth.
-#
-# $$ G_t = r_t + \gamma\, G_{t+1} $$
-#
-# **Exercise (5 min, ●○○).** Write it for each second of a drive. Where do you have to begin?
+# A learner that goes by the discounted reward would not choose this way at γ = {{ SETTINGS.gamma }}
+# (lesson [[the_barrier]]). Lesson [[learning_from_demonstrations]] pays a bonus for the
+# demonstrated actions. Here we leave the reward out and copy the actions.
 
-
-# %%
-def return_to_go(rewards, gamma):
-    """G_t of each second; the last one is the last reward. (T,), gamma in [0, 1] -> (T,)."""
-    # solution: the exercise's own
-
-
-check.return_to_go(return_to_go)
-
-# %%
-# NBVAL_CHECK_OUTPUT
-idle = bc.record(bc.idle_policy, [ROAD])[0]
-rows = []
-for gamma in (1.0, 0.99, 0.95, 0.9, 0.8):
-    weights = gamma ** np.arange(150)
-    rows.append([gamma, *(f"{weights @ d.rewards:.2f}" for d in (idle, driven["the rule"][ROAD]))])
-lead = driven["the rule"][ROAD].rewards - idle.rewards  # of each second; then γ = 0.8, from t on
-behind = [t for t in range(150) if weights[: 150 - t] @ lead[t:] < 0]
-below = f"γ = 0.8: from second {behind[-1] + 1} on, the rule's drive is worth more to the end."
-table(["γ", "doing nothing", "the rule"], rows, below=below)
-
-# %% [markdown]
-# **Explain.** A learner with γ = {{ SETTINGS.gamma }} looks about five seconds ahead (1 / (1 − γ) =
-# {{ 1 / (1 - SETTINGS.gamma) | .0f }}), and in its first five seconds the rule brakes. In
-# discounted reward this escape is worth less at its start than doing nothing: of the two, a learner
-# that goes by the reward prefers doing nothing. Lesson [[learning_from_demonstrations]] pays a
-# bonus for the demonstrated actions. Here we leave the reward out and copy the actions.
-# <!-- claim: round(1 / (1 - SETTINGS.gamma)) == 5 -->
-# <!-- claim: by_rule().states[10, EGO, SPEED] < by_rule().states[0, EGO, SPEED] -->
+# %% [markdown] tags=["instructor"] minutes=3
+# Ask what a loss that averages over the decisions does with {{ 100 * way_out()[0] / 150 | .0f }} %
+# of them, and what one could do about it (weigh them more, or cut the drives).
 
 # %% [markdown]
 # ## Round 3: how well does a clone drive?
@@ -221,27 +188,16 @@ torch.set_num_threads(1)  # small matrices are faster on one thread
 rule_clones = cloning.clone(by_rule)
 
 # %% [markdown]
-# How often is the clone's most probable action the demonstrated one?
+# A clone drives by its most probable action. The share of states in which this is the demonstrated
+# one is its **agreement**.
 #
-# **Exercise (3 min, ●○○).** Compute that share over a set of states.
-
-
-# %%
-def agreement(pi, actions):
-    """A share, a number: probabilities (n, actions), demonstrated actions (n,), NumPy arrays."""
-    # solution: the exercise's own
-
-
-check.agreement(agreement)
-
-# %% [markdown]
 # > **Predict.** A clone agrees with the rule in four of five states. In what share of 200 new
-# > episodes does it escape? In what share does it have an accident? (The rule escapes on all
-# > {{ roads() | , }} held-out roads of the study and has no accident there.)
+# > episodes does it have an accident? (The rule has none on the {{ roads() | , }} held-out roads of
+# > the study, and is ahead of trap 1 at the end of each.)
 # <!-- claim: of('rule').scores('success').min() == 1 and accidents('rule') == 0 -->
 
 # %%
-predict("demonstrations.5", "Drives of such a clone that end in an accident", unit="%")
+predict("demonstrations.4", "Drives of such a clone that end in an accident", unit="%")
 
 
 # %%
@@ -250,7 +206,7 @@ def shown(measured):
     rows = [
         [name, *(f"{100 * share:.0f} %" for share in three)] for name, three in measured.items()
     ]
-    return table(["", "agreement", "escapes", "has an accident"], rows)
+    return table(["", "agreement", "success", "has an accident"], rows)
 
 
 measured = {"clones of the rule": cloning.measure(rule_clones, by_rule)}
@@ -270,10 +226,52 @@ shown({f"clone, seed {i}": three for i, three in enumerate(measured["clones of t
 # <!-- claim: escaped('bc') == len(of('bc')) -->
 
 # %% [markdown]
-# ## Round 4: what follows an error?
+# ## Round 4: where do the clones crash?
 #
-# A clone errs with probability ε at a decision as long as it is in the demonstrator's states. How
-# much can that cost over a whole drive?
+# > **Predict.** A drive lasts up to 150 s. The way into the free lane, with its two lane changes,
+# > takes about {{ way_out()[0] | .0f }}. When do most of the clones' accidents happen?
+
+# %%
+choices = ["in the first 20 s", "from 20 to 40 s", "after 40 s"]
+predict("demonstrations.5", "Most accidents of the clones happen", choices)
+
+# %%
+times, crashed = np.arange(151), []
+for agent in rule_clones:
+    test = bc.drive_episodes(agent.as_policy(), bc.held_out_seeds(6, 200))
+    lasted = test.distance / test.speed  # s: the way over the mean speed
+    crashed.append([100 * np.mean((test.accident > 0) & (lasted <= t)) for t in times])
+early, middle, end = np.array(crashed)[:, [20, 40, 150]].sum(0)
+title = f"{1 - middle / end:.0%} of the clones' accidents come after 40 s"
+words = "drives with an accident so far (%)"
+bc.show(charts.lines(times, {"BC clones": np.array(crashed)}, title, "time (s)", words))
+
+# %% [markdown]
+# Most of them come long after the lane changes. Here is one of the late ones, every five seconds to
+# its end:
+
+# %%
+drives = bc.record(rule_clones[0].as_policy(), range(40), label="clone")
+late = [drive for drive in drives if drive.accident and len(drive.actions) > 40]
+crash = (late or drives)[0]
+last, steps, rows = len(crash.actions) - 1, bc.DEFAULT.clock.steps, []
+for t in range(last - 30, last + 1, 5):
+    left = -crash.states[t * steps, EGO, Y]
+    did, wanted = (bc.ACTION_NAMES[a[t]] for a in (crash.actions, crash.rule_actions))
+    rows.append([f"{t} s", f"{left:.2f}", did, wanted])
+ending = f"It ends at {last + 1} s: {bc.Accident(crash.accident).name.lower().replace('_', ' ')}."
+table(
+    ["", "m left of the lane's centre", "the clone does", "the rule would do"], rows, below=ending
+)
+
+# %% [markdown]
+# **See.** (Yours may differ.) In our drive the car points a fraction of a degree to the left, the
+# clone keeps the wheel straight for half a minute, and the car drifts off the road. The rule would
+# steer right in each of these seconds. But the rule keeps to the middle of its lane, so its drives
+# hold few states from which one has to steer back, and the clone has not learned what to do there.
+#
+# How much can this cost over a whole drive? Suppose that a clone errs with probability ε at a
+# decision, as long as it is in the demonstrator's states.
 #
 # > **Predict.** A drive becomes twice as long. By what factor can the expected number of wrong
 # > decisions grow, in the worst case?
@@ -298,106 +296,74 @@ predict("demonstrations.6", "The worst case grows by a factor of", ["less than 2
 #
 # </details>
 #
-# Errors that lead to more errors are called **compounding errors**. First a driver that knows how
-# to come back: the rule itself, which errs with probability ε at each decision. In which share of
-# 200 drives has it had an accident after T seconds?
+# Errors that lead to more errors are called **compounding errors** (Ross and Bagnell 2010). Do ours
+# compound? Count the decisions in which a clone differs from the rule: in the states of the rule's
+# drives, and in those of its own drives without an accident.
+
+# %%
+times, unlike = np.arange(0, 151, 5), {"in its own states": [], "in the rule's states": []}
+for agent in rule_clones:
+    own = [drive for drive in bc.record(agent.as_policy(), range(60)) if not drive.accident]
+    differs = np.array([drive.actions != drive.rule_actions for drive in own])
+    unlike["in its own states"].append([differs[:, :t].sum(1).mean() for t in times])
+    did = [agent.probabilities(each.observations[:-1]).argmax(1) for each in driven["the rule"]]
+    differs = np.array(did) != np.array([each.actions for each in driven["the rule"]])
+    unlike["in the rule's states"].append([differs[:, :t].sum(1).mean() for t in times])
+own, theirs = (np.array(each).mean(0) for each in unlike.values())
+title = f"In its own states a clone differs from the rule {own[-1] / theirs[-1]:.1f} times as often"
+looks = [charts.Style("#332288"), charts.Style("#009E73")]
+named = {name: np.array(each) for name, each in unlike.items()}
+words = "decisions unlike the rule's so far"
+bc.show(charts.lines(times, named, title, "time (s)", words, looks=looks))
+print(
+    f"From 75 s to 150 s the number in its own states grows by a factor of {own[-1] / own[15]:.1f}."
+)
+
+# %% [markdown]
+# For comparison, a driver that knows how to come back: the rule itself, which errs with probability
+# ε at each decision, whatever it did before. In which share of 1,000 drives has it had an accident
+# after T seconds?
 
 # %%
 # NBVAL_CHECK_OUTPUT
 rows, times = [], (37, 75, 150)
 for error in (0.003, 0.01, 0.03):
     errs = bc.stochastic_rule_policy(bc.DEFAULT, np.random.default_rng(0), 1 - error)
-    drives = bc.drive_episodes(errs, bc.held_out_seeds(2, 200))
+    drives = bc.drive_episodes(errs, bc.held_out_seeds(2, 1000))
     ended = np.where(drives.accident > 0, drives.distance / drives.speed, np.inf)
     rows.append([error, *(f"{100 * np.mean(ended <= seconds):.0f} %" for seconds in times)])
 table(["ε", *(f"T = {seconds} s" for seconds in times)], rows, below="Share with an accident.")
 
 # %% [markdown]
-# **See.** Twice the time, or three times the ε, gives about two to three times as many accidents:
-# with this driver they grow with ε T, and not with T². It is back on its path a few seconds after
-# an error, if it survives. What a clone does *after* an error is the question.
-# <!-- claim: 1.5 < erring(0.01, 150) / erring(0.01, 75) < 3 -->
+# **Explain.** Errors lead to more errors here, but not for ever.
 #
-# > **Predict.** Take the distance from what a driver sees to the nearest observation in the
-# > demonstrations. For the rule on other roads it is small. How does it change for a clone, from
-# > second to second?
-
-# %%
-predict(
-    "demonstrations.7",
-    "A clone's distance from the demonstrations over 30 s",
-    ["small throughout", "large from the start", "small, then large"],
-)
-
-
-# %%
-def strangeness(driver, seconds, roads=40):
-    """Median distance from what a driver sees, or saw last, to the nearest demonstrated state."""
-    drives, known = bc.record(driver, range(roads)), by_rule[:, : bc.DEFAULT.observation_size]
-    found = []
-    for t in seconds:
-        seen = np.array([d.observations[min(t, len(d.actions))] for d in drives])
-        found.append(float(torch.cdist(torch.from_numpy(seen), known).min(1).values.median()))
-    return found
-
-
-seconds = range(31)
-curves = {"rule itself": strangeness(bc.rule_policy(bc.DEFAULT), seconds)}
-for agent in rule_clones:
-    curves[f"BC clone, seed {agent.settings.seed}"] = strangeness(agent.as_policy(), seconds)
-title = "How far from the demonstrations the rule and its four clones drive"
-away = "distance to the nearest demonstrated state (scaled numbers of the observation)"
-bc.show(charts.lines(seconds, curves, title, "time (s)", away))
-
-# %% [markdown]
-# Where does the clone err? Measure its agreement with the rule on what the *rule* sees at some
-# second, and on what the *clone* sees then.
-
-# %%
-times, rows = [0, 1, 2, 3, 5, 7, 10, 30], []
-for agent in rule_clones:
-    own, on_rule, on_own = bc.record(agent.as_policy(), range(40)), [], []
-    for t in times:
-        seen = np.array([d.observations[t] for d in driven["the rule"]])
-        right = np.array([d.actions[t] for d in driven["the rule"]])
-        on_rule.append(np.mean(agent.probabilities(seen).argmax(1) == right))
-        still = [d for d in own if len(d.actions) > t]
-        on_own.append(np.mean([d.actions[t] == d.rule_actions[t] for d in still]))
-    for states, agreed in (("the rule's", on_rule), ("its own", on_own)):
-        rows.append([agent.settings.seed, states, *(f"{100 * share:.0f}" for share in agreed)])
-table(["seed", "agreement, %, in states of", *(f"{t} s" for t in times)], rows)
-
-# %% [markdown]
-# **Explain.** Read the two rows of a clone from left to right. We describe our own runs; yours will
-# differ.
-#
-# - **At 2 s** the clone has done the same as the rule so far, with few exceptions, so it is in the
-#   rule's states. It agrees on few roads nevertheless: this is an error in the *demonstrator's*
-#   states. The decision is a close one. On {{ 100 * rule_keeps_left(2) | .0f }} % of the 60 roads
-#   the rule begins its lane change here, on most others one second later, and these clones choose
-#   the earlier second too often.
-# <!-- claim: 0.1 < rule_keeps_left(2) < 0.5 and rule_keeps_left(3) > 0.9 -->
-# - **At 5 s** these clones agree with the rule on hardly any road, in their own states. But two of
-#   the four are still close to demonstrated states there (the figure). A second later these two are
-#   further away, and agree more often again. So distance alone does not tell where a clone errs.
-# - **In the worst case** an error brings a clone to states that nobody demonstrated, it errs more
-#   often there, and the errors compound (Ross and Bagnell 2010). The bound of this round allows
-#   that. Our table does not show that it happens here, and the study speaks against it: its ten
-#   clones learned from drives of the rule alone, too, with many more updates, and have an accident
-#   in {{ 100 * accidents('bc') | .1f }} % of their drives. A smaller error was enough: at 5 s the
-#   five that ship agree with the rule on {{ 100 * agreement_at_5().min() | .0f }} to
-#   {{ 100 * agreement_at_5().max() | .0f }} % of 40 roads, in their own states.
-# <!-- claim: accidents('bc') < 0.01 and not of('bc').agents[0]['stochastic_demonstrations'] and
-#   len(agreement_at_5()) == 5 and agreement_at_5().min() > 0.5 -->
-# - **And yet these clones escape in most of their drives.** Agreement counts each difference as an
-#   error, also one that does little harm, such as keeping the speed where the rule accelerates. A
-#   clone of the study agrees with the rule, after 3 s on its own states, on {{ 100 *
-#   clone_agrees(3, 3) | .0f }} % of 40 roads, and it escapes on {{ 100 *
-#   of('bc').scores('success')[3] | .0f }} % of the {{ roads() | , }} held-out roads.
-# <!-- claim: clone_agrees(3, 3) < 0.5 and of('bc').scores('success')[3] > 0.95 -->
+# - *They compound:* from about 10 s on the clones differ from the rule far more often in their own
+#   states than in the rule's. The study's clones, with many times as many updates, do so, too:
+#   {{ unlike_the_rule()[0] | .0f }} decisions of a drive against {{ unlike_the_rule()[1] | .0f }}.
+# <!-- claim: unlike_the_rule()[0] > 2 * unlike_the_rule()[1] -->
+# - *They do not reach the worst case:* a drive of twice the length has less than twice as many, not
+#   four times.
+# - *Most do no harm,* such as keeping the speed where the rule accelerates. The study's ten clones
+#   have an accident in {{ 100 * accidents('bc') | .1f }} % of their drives. They agree with
+#   {{ 100 * study_agreement().min() | .0f }} % of the rule's decisions, as against about 80 % here:
+#   smaller errors were enough.
+# <!-- claim: accidents('bc') < 0.01 and not of('bc').agents[0]['stochastic_demonstrations'] -->
+# <!-- claim: 0.9 < study_agreement().min() and study_agreement().max() < 0.94 -->
+# - *The rule that errs* is the case without compounding. Its accidents grow about in proportion to
+#   T (from 75 to 150 s by a factor of {{ min(erring(e, 150) / erring(e, 75) for e in ERRORS) | .1f
+#   }} to {{ max(erring(e, 150) / erring(e, 75) for e in ERRORS) | .1f }}) and to ε, as long as most
+#   drives have had none.
+# <!-- claim: all(1.5 < erring(e, 150) / erring(e, 75) < 2.5 for e in ERRORS) -->
+# <!-- claim: 2 < erring(0.01, 75) / erring(0.003, 75) < 4.5 and 2 < erring(0.03, 75) /
+#   erring(0.01, 75) < 4.5 -->
 #
 # So test a clone by driving. A learner that drives while it learns is trained on its own states; a
 # clone is not.
+
+# %% [markdown] tags=["instructor"] minutes=8
+# Stop at the drifting car. Ask which single row in the data would have saved it, and who could
+# supply it: a driver that errs (Round 5), or a teacher that labels the clone's own states (Round
+# 6). Then draw both bounds, T and T².
 
 # %% [markdown]
 # ## Round 5: whose drives teach more?
@@ -407,11 +373,11 @@ table(["seed", "agreement, %, in states of", *(f"{t} s" for t in times)], rows)
 # avoids this: the stochastic rule drives, and each state is labelled with the rule's action.
 # <!-- claim: round(1 / (1 - RULE_P)) == 10 -->
 #
-# > **Predict.** Which clones have the fewest accidents?
+# > **Predict.** All are trained with 1,500 updates. Which clones have the fewest accidents?
 
 # %%
 KINDS = ["clones of the rule", "of the stochastic rule", "its drives, rule's labels"]
-predict("demonstrations.8", "Fewest accidents", KINDS)
+predict("demonstrations.7", "Fewest accidents", KINDS)
 
 # %%
 ACTION, RULE_ACTION = cloning.ACTION, cloning.RULE_ACTION  # columns
@@ -419,7 +385,9 @@ labelled = by_chance.clone()
 labelled[:, ACTION] = labelled[:, RULE_ACTION]
 measured[KINDS[1]] = cloning.measure(cloning.clone(by_chance), by_chance)
 measured[KINDS[2]] = cloning.measure(cloning.clone(labelled), labelled)
-title = "Agreement with the data and driving: a dot for each clone"
+means = {name: 100 * values.mean(0) for name, values in measured.items()}
+agrees, crashes = max(means, key=lambda n: means[n][0]), max(means, key=lambda n: means[n][2])
+title = f"Most agreement: {agrees}. Most accidents: {crashes}"
 bc.show(figures.clones(measured, title))
 
 # %%
@@ -427,17 +395,20 @@ shown({f"{name} (mean of 4)": values.mean(axis=0) for name, values in measured.i
 
 # %% [markdown]
 # **Explain.** The stochastic rule gave less than half as many rows, and most of its drives end in
-# an accident. In our runs its clones escaped more often and had fewer accidents than the clones of
-# the rule, while they agreed less with their data. (Yours will differ.) A likely reason: these data
+# an accident. In our runs its clones had more success and fewer accidents than the clones of the
+# rule, while they agreed less with their data. (Yours will differ.) A likely reason: these data
 # **cover** more states, and they show how to return to the path. The method DART disturbs the
 # teacher on purpose.
 #
-# How much coverage matters depends on the number of updates. The ten clones of the study learned
-# from drives of the rule alone, with far more updates: {{ escaped('bc') }} of 10 escape, and they
-# have an accident in {{ 100 * accidents('bc') | .1f }} % of their drives on {{ roads() | , }}
-# held-out roads. Try `cloning.clone(by_rule, updates=12_000)`, about half a minute, and measure it.
-# <!-- claim: len(of('bc')) == 10 and escaped('bc') == 10 and accidents('bc') < 0.01 -->
-#
+# How much coverage matters depends on the number of updates: the study's clones of Round 4 learned
+# from drives of the rule alone. Try `cloning.clone(by_rule, updates=12_000)`, about half a minute,
+# and measure it.
+
+# %% [markdown] tags=["instructor"] minutes=6
+# Return to the hands of *Look first*. The third data set separates two reasons: the states it
+# covers and the labels it gives.
+
+# %% [markdown]
 # ## Round 6: what if the rule labels the clone's own states?
 #
 # The stochastic rule strays from the path at random. The states that count are those in which *your
@@ -448,12 +419,11 @@ shown({f"{name} (mean of 4)": values.mean(axis=0) for name, values in measured.i
 #
 # > **Predict.** You begin with 20 drives of the rule instead of 200. In each of three rounds the
 # > newest clone drives 20 episodes, and the rule labels them. Compared with the clones of 200
-# > drives, does the last clone have more accidents or fewer? And does it agree with the rule's 20
-# > drives more or less than the first clone does?
+# > drives, does the last clone have more accidents or fewer?
 
 # %%
 predict(
-    "demonstrations.9",
+    "demonstrations.8",
     "The last clone, compared with the clones of 200 drives",
     ["more accidents", "about as many", "fewer accidents"],
 )
@@ -486,18 +456,23 @@ def one_clone(rows):
 few = bc.collect(20)
 drivers = cloning.dagger(few, one_clone, cloning.own_drives(20), rounds=3)
 rounds = cloning.measure(drivers, few)
-shown({f"after {20 * i} drives of its own": three for i, three in enumerate(rounds)})
+drives_of_its_own = {f"after {20 * i} drives of its own": three for i, three in enumerate(rounds)}
+control = cloning.measure([one_clone(bc.collect(80))], few)[0]
+shown({**drives_of_its_own, "control: 80 drives of the rule": control})
 
 # %% [markdown]
-# **Explain.** The first column is the agreement on the rule's 20 drives. It can fall while the
-# clone drives better, since the same network now has to be right in other states, too. Compare the
-# last row with the clones of 200 drives in Round 3. They had more labels and as many updates. What
-# differs is *where* the labels are. But this is one training, with one seed. In the experiment
-# `teachers` the rule labelled {{ taught_by_dagger().sizes[1] }} drives of each of ten agents, after
-# 200 drives of its own. {{ taught_by_dagger().escapers('dagger') }} of these escape. Half of them
-# have an accident in {{ 100 * np.median(taught_by_dagger().scores('accident')) | .0f }} % of their
-# drives or fewer, and one in {{ 100 * taught_by_dagger().scores('accident').max() | .0f }} %. So
-# repeat it before you trust it: `cloning.clone(rows, seeds=1, first=1)` takes another seed.
+# **Explain.** The last clone and the control learned from 80 drives each, with as many updates.
+# What differs is *where* the labels are. The first column is the agreement with the rule's 20
+# drives: it can fall while the clone drives better, since the same network now has to be right in
+# other states, too.
+#
+# This is one training, with one seed. In the study's experiment `teachers` the rule labelled
+# {{ taught_by_dagger().sizes[1] }} drives of each of ten agents, after 200 drives of its own.
+# {{ taught_by_dagger().escapers('dagger') }} of the ten escape (success on at least
+# {{ 100 * ESCAPES | .0f }} % of the roads). Half of them have an accident in at most
+# {{ 100 * np.median(taught_by_dagger().scores('accident')) | .0f }} % of their drives, and one in
+# {{ 100 * taught_by_dagger().scores('accident').max() | .0f }} %. So repeat yours:
+# `cloning.clone(rows, seeds=1, first=1)` takes another seed.
 # <!-- claim: len(taught_by_dagger()) == 10 and taught_by_dagger().agents[0][
 #   'demonstration_episodes'] == 200 and (taught_by_dagger().scores('accident') > 0.1).sum() == 1
 #   -->
@@ -507,7 +482,7 @@ shown({f"after {20 * i} drives of its own": three for i, three in enumerate(roun
 # learn from what its actions lead to, with the demonstrations as a start: lesson
 # [[learning_from_demonstrations]].
 
-# %% [markdown] tags=["instructor"] minutes=8
+# %% [markdown] tags=["instructor"] minutes=7
 # Ask what DAgger costs: here a label is free, with a human teacher each one is work, and somebody
 # must let a bad driver drive. Then ask why the method keeps the old rows beside the newest: a clone
 # that has learned to return to the path seldom visits the states beside it, and trained on its
@@ -519,15 +494,12 @@ shown({f"after {20 * i} drives of its own": three for i, three in enumerate(roun
 # 1. A demonstration is a list of transitions. An accident terminates the last one, the end
 #    of the time does not.
 # 2. Look into the data first: the way to the free lane takes {{ way_out()[0] | .0f }} of 150 s.
-# 3. With γ = 0.8 the rule's escape on road 10 is worth *less* at its start than doing nothing.
-# <!-- claim: discounted(by_rule(), 0.8) < discounted(idle(), 0.8) -->
-# 4. A clone is trained on the teacher's states and drives in its own, so its errors can compound.
-#    On this road more updates, and so fewer errors, were enough for ten clones of ten.
-# <!-- claim: escaped('bc') == 10 and accidents('bc') < 0.01 -->
-# 5. With few updates, the states that the data cover can matter more than how well the demonstrator
-#    drove. With many updates, the study's ten clones of the rule itself escape.
-# <!-- claim: escaped('bc') == len(of('bc')) == 10 -->
-# 6. DAgger asks the teacher for labels in the clone's own states.
+# 3. A clone is trained on the teacher's states and drives in its own, where it errs more often.
+#    These clones mostly drift off the free road. With more updates ten clones of ten escape.
+# <!-- claim: escaped('bc') == len(of('bc')) == 10 and accidents('bc') < 0.01 -->
+# 4. With few updates, the states that the data cover can matter more than how well the demonstrator
+#    drove.
+# 5. DAgger asks the teacher for labels in the clone's own states.
 #
 # **Three questions to think about**
 # - The rule reads the true places and speeds of the cars, the clone 26 numbers. Can two different
@@ -540,23 +512,22 @@ shown({f"after {20 * i} drives of its own": three for i, three in enumerate(roun
 # constraint](soft_constraint.ipynb).
 
 # %%
-crashed = {name: round(100 * values[:, 2].mean()) for name, values in measured.items()}
+crashed_of = {name: round(100 * values[:, 2].mean()) for name, values in measured.items()}
 compare_predictions(
     "demonstrations",
     {
-        1: f"accidents: {crashed[KINDS[0]]} % and {crashed[KINDS[1]]} %, in this order",
-        2: "the second",
-        3: len(by_rule),
-        4: round(100 * shares[4], 1),
-        5: crashed[KINDS[0]],
+        1: f"accidents: {crashed_of[KINDS[0]]} % and {crashed_of[KINDS[1]]} %, in this order",
+        2: len(by_rule),
+        3: round(100 * shares[4], 1),
+        4: crashed_of[KINDS[0]],
+        5: choices[int(np.argmax([early, middle - early, end - middle]))],
         6: "4",
-        7: "small, then large",
-        8: min(crashed, key=crashed.get),
-        9: f"accidents: {100 * rounds[-1, 2]:.0f} % against {crashed[KINDS[0]]} %",
+        7: min(crashed_of, key=crashed_of.get),
+        8: f"accidents: {100 * rounds[-1, 2]:.0f} % against {crashed_of[KINDS[0]]} %",
     },
 )
 
-# %% [markdown] tags=["instructor"] minutes=6
+# %% [markdown] tags=["instructor"] minutes=4
 # **Model answers.**
 #
 # - *Two states that look the same?* Yes: the clone sees the four nearest cars within

@@ -9,9 +9,6 @@ from tests.answers import equivalent, right, right_lines, wrong, wrong_lines
 
 PICKED = "log_pi.gather(-1, expert_actions.unsqueeze(-1)).squeeze(-1)"
 equivalent("cloning_loss", f"{PICKED}.mean(-1)  ->  {PICKED}.mean(0)", "the batch is the only axis left")
-equivalent(
-    "return_to_go", "togo = np.array(rewards, dtype=float)  ->  togo = np.array(rewards)", "the rewards are floats"
-)
 
 
 def rows(observations, actions, rewards, terminated):
@@ -31,43 +28,6 @@ right_lines("""transitions
 wrong_lines("""transitions
     without the end: rows(observations, actions, rewards, [0] * len(actions))[:, :-1]  # shape
     reward before action: rows(observations, rewards, actions, [0] * (len(actions) - 1) + [accident > 0])
-""")
-
-right_lines("""return_to_go
-    as a table: t = np.arange(len(rewards))
-        later = t[None, :] - t[:, None]
-        np.where(later >= 0, gamma ** np.maximum(later, 0), 0.0) @ rewards
-""")
-
-
-@right("return_to_go")
-def from_the_end(rewards, gamma):
-    total, found = 0.0, []
-    for reward in rewards[::-1]:
-        total = reward + gamma * total
-        found.append(total)
-    return found[::-1]
-
-
-wrong_lines("""return_to_go
-    all that comes: np.array([rewards[t:].sum() for t in range(len(rewards))])  # without a discount
-    by the drive's clock:
-        np.array([sum(gamma**k * rewards[k] for k in range(t, len(rewards))) for t in range(len(rewards))])
-        # clock of its own
-    up to now: np.array([sum(gamma**k * rewards[k] for k in range(t + 1)) for t in range(len(rewards))])  # so far
-    of the first second: from_the_end(rewards, gamma)[:1]  # shape
-    left in reverse: from_the_end(rewards, gamma)[::-1]
-""")
-
-right_lines("""agreement
-    counted: sum(int(np.argmax(row)) == action for row, action in zip(pi, actions, strict=True)) / len(actions)
-    nothing is larger: (pi[np.arange(len(pi)), actions] >= pi.max(axis=1)).mean()
-""")
-
-wrong_lines("""agreement
-    each state: pi.argmax(1) == actions  # NumPy array
-    over the wrong axis: float(np.mean(np.isin(pi.argmax(0), actions)))
-    least probable: np.mean(pi.argmin(axis=1) == actions)
 """)
 
 right_lines("""cloning_loss

@@ -12,7 +12,7 @@ equivalent("mixed_batch", f"{TORCH_PLACES}  ->  demonstrations[{PLACES}]", "eith
 equivalent("large_margin_loss", "q.shape[-1]  ->  q.detach().shape[-1]", "only its shape")
 
 
-for _name in ("large_margin_loss", "paper_q_filter", "q_filter"):
+for _name in ("large_margin_loss", "paper_q_filter"):
     right(_name)(getattr(bootstrap, _name))
 
 
@@ -108,21 +108,6 @@ wrong_lines("""paper_q_filter
     the greedy action: (q.argmax(dim=1) == expert_action).float()  # compare the values
     always on: torch.ones(len(q))
     never on: (of_expert(q, expert_action) > q.amax(-1)).double()
-""")
-
-right_lines("""q_filter
-    advantage: worth = torch.einsum("ba,ba->b", log_pi.exp(), q)
-        torch.heaviside(of_expert(q, expert_action) - worth - 1e-9, torch.zeros(1, dtype=q.dtype))
-    with where again: worth = (torch.exp(log_pi) * q).sum(dim=1)
-        torch.where(of_expert(q, expert_action) > worth, 1.0, 0.0)
-    with a softmax: (of_expert(q, expert_action) > (log_pi.softmax(-1) * q).sum(-1)).float()
-    mean advantage: ahead = of_expert(q, expert_action)[:, None] - q; ((log_pi.exp() * ahead).sum(-1) > 0).to(q.dtype)
-""")
-
-wrong_lines("""q_filter
-    at least: (of_expert(q, expert_action) >= (log_pi.exp() * q).sum(-1)).float()  # exactly as good
-    with the expert's probability: (of_expert(q * log_pi.exp(), expert_action) > (log_pi.exp() * q).sum(-1)).double()
-    for each action: (q > (log_pi.exp() * q).sum(-1, keepdim=True)).double()  # shape
 """)
 
 right_lines("""margin_loss

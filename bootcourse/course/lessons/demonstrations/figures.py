@@ -49,7 +49,7 @@ def clones(measured: dict[str, np.ndarray], title: str) -> Figure:
     figure = new_figure(0.95 + 0.42 * len(measured))
     alt_parts = {name: [] for name in measured}
     height = figure.get_figheight()
-    for k, label in enumerate(("agree with their data (%)", "escape (%)", "have an accident (%)")):
+    for k, label in enumerate(("agree with their data (%)", "success (%)", "have an accident (%)")):
         ax = figure.add_axes((0.25 + 0.255 * k, 0.45 / height, 0.215, 1 - 1.15 / height))
         for row, (name, values) in enumerate(measured.items()):
             shares = 100 * values[:, k]

@@ -91,57 +91,6 @@ def paper_q_filter(q, expert_action):
     return (q_expert >= q.amax(-1)).to(q.dtype)
 
 
-def filter_cases(rng):
-    """An expert exactly as good as π, a little better and worse, above the mean but below π's value, the opposite.
-
-    Exactly: all Q are 1, with probabilities that add up to 1 without rounding. Then 40 at random.
-    """
-    yield torch.ones(1, 2), torch.tensor([0]), torch.tensor([[0.0, -200.0]])
-    even = torch.full((2, 3), 1 / 3).log()
-    greedy = torch.tensor([[0.02, 0.08, 0.9]]).log()
-    yield torch.tensor([[1.0, 1.01, 1.0], [1.0, 0.99, 1.0]]), torch.tensor([1, 1]), even
-    for q in ([1.0, 5.0, 6.0], [9.0, 5.0, 1.0], [-3.0, -1.0, -2.0]):
-        yield torch.tensor([q]), torch.tensor([1]), greedy
-    for _ in range(40):
-        size = rng.integers(1, 6)
-        log_pi = torch.tensor(rng.normal(0, 2, (size, 9))).log_softmax(-1)
-        yield torch.tensor(rng.normal(0, 1, (size, 9))), torch.tensor(rng.integers(0, 9, size)), log_pi
-
-
-@exercise(
-    "on where Q(s,a_E) > Σ_a π(a|s) Q(s,a); Nair et al., arXiv 1709.10089", minutes=5, difficulty=2, cases=filter_cases,
-    worked=[
-        # π is worth 0.25 · 1 + 0.75 · 3 = 2.5, the expert's action 1; π is worth 1.5, the expert's action 3
-        ((torch.tensor([[1.0, 3.0], [1.0, 3.0]]), torch.tensor([0, 1]),
-          torch.tensor([[0.25, 0.75], [0.75, 0.25]]).log()),
-         torch.tensor([0.0, 1.0])),
-    ],
-    hints=(
-        "What is the policy's own value in this state?",
-        "The sum over actions of π Q. The filter is on where the expert's Q is above it.",
-    ),
-    mistakes={
-        "return (q_expert >= q.amax(-1)).to(q.dtype)":
-            "This is the printed filter again: it compares with the largest Q, not with the mean of Q under π.",
-        "q_expert > -> q_expert >=":
-            "Your filter is on where the expert is exactly as good as the policy, for instance where all Q are equal. "
-            "The condition is >.",
-        "(log_pi.exp() * q).sum(-1) -> q.mean(-1)":
-            "You give all actions the same weight. The policy's value is the mean of Q under *its* probabilities.",
-        "q_expert > -> q_expert <":
-            "Your filter is on where the policy is already better than the expert. It has to be on where the expert is "
-            "better.",
-        "(log_pi.exp() * q).sum(-1) -> q.gather(-1, log_pi.argmax(-1, keepdim=True)).squeeze(-1)":
-            "You compare with the likeliest action's Q. The policy draws its action: take the mean under π.",
-        "log_pi.exp() -> log_pi":
-            "You weigh Q with log π. The probabilities are `log_pi.exp()`.",
-    },
-)  # fmt: skip
-def q_filter(q, expert_action, log_pi):
-    q_expert = q.gather(-1, expert_action.unsqueeze(-1)).squeeze(-1)
-    return (q_expert > (log_pi.exp() * q).sum(-1)).to(q.dtype)
-
-
 def margin_cases(rng):
     """No demonstration, all demonstrations; then 41 at random. Experts lead by about 1, are level, behind."""
     for number in range(43):

@@ -1,0 +1,14 @@
+"""What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
+
+from bootcourse.research.results import Results
+from tools.course.known import of, shipped_experiment
+
+
+def stays() -> Results:
+    """The ten agents with the soft constraint whose ξ stays at 2."""
+    return shipped_experiment("ablations")["ξ stays at 2"]
+
+
+def beyond_the_rule() -> int:
+    """How many of the ten agents whose ξ fades earn more than twice as much as the rule."""
+    return int((of("soft").scores("returns") > 2 * of("rule").scores("returns").mean()).sum())
