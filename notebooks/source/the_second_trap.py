@@ -28,6 +28,7 @@ import torch
 from bootcourse.course import charts, check, compare_predictions, own_code, predict, table
 from bootcourse.course.lessons.the_second_trap import ppo_kinds, second_trap
 from bootcourse.learn import ppo
+from bootcourse.methods import style
 from bootcourse.road.state import EGO, SPEED
 
 # %% [markdown]
@@ -115,8 +116,7 @@ pays = np.array([bc.formulas.speed_reward(each) for each in v])
 chord = (v - 5) / 10
 named = {"5 and 15 m/s in turn": chord, "a steady speed": pays}
 title = "Two speeds in turn earn more than a steady one"
-looks = (bc.style("ppo_cloned"), bc.style("rule"))
-words = ("mean speed (m/s)", "speed reward of a second")
+looks, words = (style("ppo"), style("rule")), ("mean speed (m/s)", "speed reward of a second")
 bc.show(charts.lines(v, named, title, *words, looks=looks))
 
 # %% [markdown]
@@ -144,14 +144,16 @@ table(["", "mean speed, m/s", "mean r_v", "r_v at the mean speed", "gap"], rows)
 # more than twice as much. The gap makes the difference. Is that **reward hacking**, earning a
 # reward in a way that was not meant? Ask what the agent maximises: the discounted sum with γ = {{
 # settings_for('ppo').gamma | g }}. By this measure its drive is worth {{ discounted(ppo_drive(),
-# settings_for('ppo').gamma) | .0f }} at the start, and the drive of `careful`, a rule that gets out
-# and then drives on at about 15 m/s, {{ discounted(careful_drive(), settings_for('ppo').gamma) |
-# .0f }}. So the reward prefers the drive that was meant, by far, and the agent has not found it. It
-# sits in what looks like a **local optimum**, a way to drive that small changes do not improve. (We
-# think so because training no longer changes it much; nobody has tried all small changes.) The
-# convex
-# reward makes it a comfortable one. We call it the second trap, and its return says "as good as the
-# rule".
+# settings_for('ppo').gamma) | .0f }} at the start, and the drive of `careful`, a rule that gets
+# out and then drives on at about 15 m/s, {{ discounted(careful_drive(),
+# settings_for('ppo').gamma) | .0f }}. So the reward prefers the drive that was meant, by far, and
+# the agent has not found it. Its return in training still rose when training ended, but by
+# driving behind trap 1 better: at the end none of the {{ ppo_agents() }} agents was ahead in any
+# of its last 300 episodes. Whether longer training leaves it, no run here tests. It looks like a
+# **local optimum**, a way to drive that small changes do not improve, and the convex reward makes
+# it a comfortable one. We call it the second trap, and its return says "as good as the rule".
+# <!-- claim: (ppo('alone')['escapes'][:, -1] == 0).all() and ppo('alone')['curve'][:, -1].mean() >
+#   ppo('alone')['curve'][:, -3].mean() -->
 # <!-- claim: discounted(careful_drive(), settings_for('ppo').gamma) > 2 * discounted(ppo_drive(),
 #   settings_for('ppo').gamma) -->
 # <!-- claim: ppo_speeds().mean() < DEFAULT.traps.speed and np.mean([speed_reward(v) for v in
@@ -188,10 +190,11 @@ for baseline in (0.0, 11.0):
     print(f"baseline {baseline:2.0f}: mean {mean}, spread {spread:.2f}")
 
 # %% [markdown]
-# Both means agree with the exact gradient up to noise, and the baseline makes the spread more than
-# ten times smaller: so many fewer drives are needed. PPO is this, with two additions: a baseline V(s) that is learned,
-# and a limit on how far one batch of drives may change the policy. It drives its roads for {{
-# settings_for('ppo').horizon }} seconds, learns from these decisions, and deletes them.
+# Both means agree with the exact gradient up to noise, and the baseline makes the spread more
+# than ten times smaller: so many fewer drives are needed. PPO is this, with two additions: a
+# baseline V(s) that is learned, and a limit on how far one batch of drives may change the policy.
+# It drives its roads for {{ settings_for('ppo').horizon }} seconds, learns from these decisions,
+# and deletes them.
 #
 # **How good was a decision?** It was good if more came than V expected. The surprise of one second
 # is the temporal difference
@@ -294,7 +297,8 @@ def ppo_loss(log_pi, values, actions, old_log_pi, advantage, returns, clip, entr
 check.ppo_loss(ppo_loss)
 
 # %% [markdown]
-# Train one agent with it. **Yours will differ**, because the result depends on your processor.
+# Train one agent with it, for {{ 500_000 | , }} decisions; those that ship had {{
+# ppo_kinds.DECISIONS | , }}. **Yours will differ**, because the result depends on your processor.
 
 # %% tags=["nbval-ignore-output"]
 MOST = 100_000  # episodes; the number of decisions ends each training
@@ -304,21 +308,18 @@ rate = training.decisions / training.seconds
 print(f"{training.decisions:,} decisions in {training.seconds:.0f} s: {rate:,.0f} a second")
 
 # %% tags=["hide-input"]
-named = {"the ones that ship": alone["curve"], "yours": mine.returns}
 count = min(len(alone["at"][0]), len(mine.at))
-named = {name: np.atleast_2d(values)[:, :count] for name, values in named.items()}
-title = "The return of PPO alone, while it learns"
-words = {"keeping straight": float(nobody.returns.mean())}
-figure = charts.lines(
-    alone["at"][0][:count], named, title, "decisions", "return of a training episode", marks=words
-)
-bc.show(figure)
+named = {"the ones that ship": alone["curve"][:, :count], "yours": mine.returns[0, :count]}
+title = "PPO alone learns to earn what keeping straight earns"
+words, looks = {"keeping straight": float(nobody.returns.mean())}, (style("ppo"), style("sac"))
+axes = ("decisions", "return of a training episode")
+bc.show(charts.lines(alone["at"][0][:count], named, title, *axes, marks=words, looks=looks))
 
 # %% tags=["nbval-ignore-output"]
 rows = [
     [f"{at:,.0f}", f"{kl:.4f}", f"{100 * clipped:.0f}", f"{explained:.2f}"]
     for at, kl, clipped, explained in zip(
-        mine.at, mine.kl, mine.clipped, mine.explained, strict=True
+        mine.at, mine.kl[0], mine.clipped[0], mine.explained[0], strict=True
     )
 ]
 table(["decisions", "KL, nats", "clipped, %", "explained variance"], rows[::3])
@@ -328,21 +329,22 @@ table(["decisions", "KL, nats", "clipped, %", "explained variance"], rows[::3])
 # round of updates to the one after it should be small: if it jumps, the steps are too large. The
 # **clip fraction** is the share of decisions that have reached the limit. The **explained
 # variance** of the returns by V is 1 for a perfect V and 0 for one that is the same everywhere.
-# None of the three says what the agent does on the road.
+#
+# **See.** HEALTH
 
 # %% tags=["nbval-ignore-output"]
-print(f"yours is ahead of trap 1 in {100 * mine.escapes[-1]:.0f} % of its last training episodes")
-your_drive = bc.record(mine.agent.as_policy(), [ROAD], label="your agent")[0]
+print(f"yours is ahead of trap 1 in {100 * mine.escapes[0, -1]:.0f} % of its last training episodes")
+your_drive = bc.record(mine.agents[0].as_policy(), [ROAD], label="your agent")[0]
 bc.show(bc.traces(your_drive, title="Your agent", what=("speed", "distance")))
 
 # %% [markdown]
-# **See.** After 500,000 decisions the median agent that ships earns in training about what keeping
-# straight earns. After {{ ppo_kinds.KINDS['alone'].decisions | , }} the ten earn {{
+# After 500,000 decisions the median agent that ships earns in training about what keeping
+# straight earns. After {{ ppo_kinds.DECISIONS | , }} the {{ ppo_agents() }} earn {{
 # ppo('alone')['curve'][:, -1].min() | .0f }} to {{ ppo('alone')['curve'][:, -1].max() | .0f }}.
 # Each of them was ahead of trap 1 in some episodes while it learned: at one time in {{ 100 *
 # ppo('alone')['escapes'].max(1).min() | .1f }} to {{ 100 * ppo('alone')['escapes'].max(1).max() |
-# .1f }} % of its last 300. At the end none of them was, in any of its last 300. So PPO met the way
-# out, and then learned something else.
+# .1f }} % of its last 300. At the end none of them was, in any of its last 300. So PPO was ahead at
+# times (a crash after overtaking counts), and then learned something else.
 # <!-- claim: (ppo('alone')['escapes'].max(1) > 0).all() and
 #   (ppo('alone')['escapes'][:, -1] == 0).all() -->
 # <!-- claim: abs(np.median(ppo('alone')['curve'][:, 9]) / idle().rewards.sum() - 1) < 0.1 and
@@ -380,8 +382,8 @@ seconds = np.arange(1, 1 + len(speeds["the road's reward"]))
 bc.show(charts.lines(seconds, speeds, title, "time (s)", "speed (m/s)"))
 
 # %% [markdown]
-# **See.** The sprints are gone. None of the {{ ppo_agents() }} agents that ship escapes; they
-# were trained for {{ ppo_kinds.KINDS['concave'].decisions | , }} decisions. On the road's terms
+# **See.** The sprints are gone. None of the {{ ppo_agents() }} agents that ship escapes. On the
+# road's terms
 # they earn {{ ppo('concave')['returns'].mean() | .0f }} on average, about what a car earns that
 # keeps straight. They are back in the first trap.
 # <!-- claim: ppo_escapes('concave') == 0 and abs(ppo('concave')['returns'].mean() /
@@ -416,25 +418,17 @@ for kind, name in names.items():
 table(["PPO, paid", "each agent's escapes, %, sorted", "the road's return", "accidents, %"], rows)
 
 # %% [markdown]
-# **See.** Of the {{ ppo_agents() }} agents that ship, trained for {{
-# ppo_kinds.KINDS['shaped'].decisions | , }} decisions, none escapes. (Do not compare the returns of
-# the first and the last row: the agents without a potential had {{
-# ppo_kinds.KINDS['alone'].decisions | , }} decisions.)
-# <!-- claim: ppo_escapes('shaped') == 0 and ppo_kinds.KINDS['shaped'].decisions <
-#   ppo_kinds.KINDS['alone'].decisions -->
+# **See.** POTENTIAL
 #
-# **Explain.** The critic learns the potential, too. Once V is lower by Φ, each δ is what it was
-# without F, and so are the advantages. A potential works like another start of V: it changes what
-# is tried at first. We think that this was not enough here: the first attempts to the left crash.
-# The way out takes several right actions in a row, and this potential pays for the last of them. We
-# tried one potential and one length of training: another may do better. Can you write one that pays
-# for falling back first?
+# **Explain.** V learns the potential, too. Once V is lower by Φ, each δ is what it was without F,
+# and so are the advantages: a potential works like another start of V (Wiewiora 2003). It changes
+# what is tried at first. This one grows with every metre to the left, so it pays for a move to
+# the left at once, where trap 2 stands. We tried one potential; another may do better. Can you
+# write one that pays for falling back first?
 
-# %% [markdown] tags=["instructor"] minutes=4
+# %% [markdown] tags=["instructor"] minutes=5
 # Let them argue: is a potential not a teacher, too? Somebody who knows the way out wrote it. Let
-# them compare what each had to know: the rule a sequence of actions, the potential a direction. For
-# the fast: a potential for which the detour pays more (forget the mask, or γ), trained for a
-# minute.
+# them compare what each had to know: the rule a sequence of actions, the potential a direction.
 
 # %% [markdown]
 # ## Round 4: two seconds of cloning
@@ -456,7 +450,7 @@ predict("the_second_trap.6", "It does as the rule would", choices)
 # %% tags=["nbval-ignore-output"]
 training = own_code.training([ppo_kinds.settings_of("cloned")], MOST)
 cloned = ppo_kinds.train(training, 200_000)
-found = bc.evaluate(cloned.agent.as_policy(), 100)
+found = bc.evaluate(cloned.agents[0].as_policy(), 100)
 print(f"{training.decisions:,} decisions in {training.seconds:.0f} s. Yours is ahead on ", end="")
 print(f"{100 * found.success.value:.0f} %, return {found.returns.value:.1f}")
 
@@ -485,8 +479,9 @@ title = "PPO alone stays behind trap 1; after cloning it passes trap 1 and stays
 bc.show(bc.traces(list(fast.values()), title=title, what=("speed", "distance", "return")))
 
 # %% [markdown]
-# **See.** All {{ ppo_agents() }} cloned agents that ship escape, after {{
-# ppo_kinds.KINDS['cloned'].decisions | , }} decisions. They earn {{
+# **See.** All {{ ppo_agents() }} cloned agents that ship escape, after {{ ppo_kinds.DECISIONS | ,
+# }} decisions. (Other lessons have agents of this name with other numbers of decisions, so with
+# other returns.) They earn {{
 # ppo('cloned')['returns'].mean() | .0f }} on average, about twice what the rule earns, and do
 # what the rule would do in {{ 100 * ppo('cloned')['alike'].mean() | .0f }} % of their decisions.
 # They are not safe: {{ 100 * ppo('cloned')['accident'].mean() | .1f }} % of their drives end in an
@@ -517,8 +512,8 @@ bc.show(bc.traces(list(fast.values()), title=title, what=("speed", "distance", "
 #    how much.
 # 3. A policy gradient makes likelier what went better than V expected. GAE adds up these surprises,
 #    and PPO's loss stops paying when an action has become likely enough.
-# 4. A shaping reward pays for a change of the potential, and leaves the best policy as it is.
-#    After an accident the potential is 0.
+# 4. A changed reward changes what is best; a shaping reward leaves it. Neither says how it is
+#    found.
 # 5. Two seconds of cloning were enough for a fast learner: the rule opened the way, and its advice
 #    was dropped afterwards.
 #

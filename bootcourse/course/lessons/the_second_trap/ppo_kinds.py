@@ -49,15 +49,15 @@ EXPERIMENT = LessonExperiment(f"{__name__}:train_kind", {kind: {"kind": kind} fo
 
 
 class Trained(NamedTuple):
-    """A finished training: the agents, and how each did while it learned."""
+    """One finished training: the agent, and how it did while it learned."""
 
-    agents: list[Agent]
-    at: np.ndarray  # (points,) decisions of each agent
-    returns: np.ndarray  # (agents, points) mean of the last 300 training episodes, as their roads pay them
-    escapes: np.ndarray  # (agents, points) share of these episodes
-    kl: np.ndarray  # (agents, points) nats, see `diagnostics`
-    clipped: np.ndarray  # (agents, points)
-    explained: np.ndarray  # (agents, points)
+    agent: Agent
+    at: np.ndarray  # (points,) decisions
+    returns: np.ndarray  # (points,) mean of the last 300 training episodes, as its road pays them
+    escapes: np.ndarray  # (points,) share of these episodes
+    kl: np.ndarray  # (points,) nats, see `diagnostics`
+    clipped: np.ndarray  # (points,)
+    explained: np.ndarray  # (points,)
 
 
 def settings_of(kind: str, seed: int = 0) -> Settings:
@@ -66,22 +66,21 @@ def settings_of(kind: str, seed: int = 0) -> Settings:
 
 
 def train(training: Training, decisions: int) -> Trained:
-    """Train agents for a number of decisions of each, and note their returns and escapes every `EVERY` decisions."""
-    at, notes = [], []
+    """Train one agent for a number of decisions, and note its return and escapes every `EVERY` decisions."""
+    notes = []
 
     def note(training: Training) -> None:
-        if training.decisions // EVERY > len(at):
-            recent = (training.curves.recent(name, 300) for name in ("return", "success"))
-            at.append(training.decisions)
-            notes.append([*recent, *diagnostics(training)])
+        if training.decisions // EVERY > len(notes):
+            recent = (training.curves.recent(name, 300)[0] for name in ("return", "success"))
+            notes.append([training.decisions, *recent, *diagnostics(training)])
 
     result = training.run(progress=False, callback=note, stop=lambda: training.decisions >= decisions)
-    return Trained(result.agents, np.array(at), *np.array(notes).transpose(1, 2, 0))
+    return Trained(result.agents[0], *np.array(notes).T)
 
 
 @torch.no_grad()
-def diagnostics(training: Training) -> np.ndarray:
-    """KL, clip fraction and explained variance of the last round of updates of PPO agents: (3, agents).
+def diagnostics(training: Training) -> tuple[float, float, float]:
+    """(KL, clip fraction, explained variance) of the last round of updates of a training of one PPO agent.
 
     KL: of the policy before the round from the one after it, in nats, by the estimate E[r - 1 - log r]. Clip fraction:
     the share of decisions whose ratio r has left 1 ± ε. Explained variance: 1 - Var(R - V) / Var(R), R being what V
@@ -89,12 +88,12 @@ def diagnostics(training: Training) -> np.ndarray:
     """
     columns, learner = training.replay.columns, training.learner
     if columns is None:
-        return np.full((3, learner.agents), np.nan)
+        return (np.nan,) * 3
     log_pi = sac.log_policy(mlp(learner.actor, columns.states)).gather(-1, columns.actions[..., None])[..., 0]
     ratio = (log_pi - columns.log_pi).exp()
     outside = (ratio - 1).abs() > training.settings[0].clip
-    explained = 1 - columns.advantages.var(-1) / columns.returns.var(-1)  # the advantage is R - V
-    return torch.stack([(ratio - 1 - ratio.log()).mean(-1), outside.float().mean(-1), explained]).numpy()
+    explained = 1 - columns.advantages.var() / columns.returns.var()  # the advantage is R - V
+    return float((ratio - 1 - ratio.log()).mean()), float(outside.float().mean()), float(explained)
 
 
 def tested(agent: Agent) -> dict[str, float]:
@@ -105,23 +104,21 @@ def tested(agent: Agent) -> dict[str, float]:
 
 
 def train_kind(kind: str, seeds: int = SEEDS) -> dict[str, np.ndarray]:
-    """Train the agents of a kind side by side, and test them: the arrays of a file of results."""
+    """Train and test the agents of a kind, one after the other: the arrays of a file of results."""
     settings = [settings_of(kind, seed) for seed in range(seeds)]
-    training = Training(settings, MOST_EPISODES, make_env=KINDS[kind].make_env)
-    trained = train(training, DECISIONS)
-    measures = [tested(agent) for agent in trained.agents]
-    layers = zip(*(agent.actor for agent in trained.agents), strict=True)
+    each = []
+    for one in settings:
+        training = Training([one], MOST_EPISODES, make_env=KINDS[kind].make_env)
+        each.append(train(training, DECISIONS))
+    measures = [tested(one.agent) for one in each]
+    layers = zip(*(one.agent.actor for one in each), strict=True)
     results = Results(
         agent_entries(settings),
         np.full(seeds, -1),
         notes={
-            "at": np.tile(trained.at, (seeds, 1)),
-            "curve": trained.returns,
-            "escapes": trained.escapes,
-            "kl": trained.kl,
-            "clipped": trained.clipped,
-            "explained": trained.explained,
-        },  # fmt: skip
+            "curve" if name == "returns" else name: np.stack([getattr(one, name) for one in each])
+            for name in Trained._fields[1:]
+        },
         measured={name: np.array([one[name] for one in measures]) for name in measures[0]},
         weights={f"actor.{i}": np.concatenate(layer) for i, layer in enumerate(layers)},
     )
