@@ -63,7 +63,7 @@ def test_the_agents_that_ship_drive_as_their_results_say():
 
 
 def test_a_training_of_a_kind_keeps_what_the_lesson_reads(monkeypatch):
-    monkeypatch.setattr(ppo_kinds, "DECISIONS", 600)
+    monkeypatch.setattr(ppo_kinds, "KINDS", {"shaped": ppo_kinds.KINDS["shaped"]._replace(decisions=600)})
     monkeypatch.setattr(ppo_kinds, "QUICK", {"hidden": (4, 4), "envs_per_agent": 4, "horizon": 8, "batch": 32})
     monkeypatch.setattr(ppo_kinds, "EVERY", 200)
     monkeypatch.setattr(ppo_kinds, "ROADS", held_out_seeds(14, 3))

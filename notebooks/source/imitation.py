@@ -441,12 +441,12 @@ table(headings, rows)
 #   settings_for('gail').envs_per_agent -->
 #
 # **Explain.** How would a reader notice that a training was too short? A row of a table does not
-# show it. So test your learners where others have published what can be reached. The
-# command `python -m bootcourse.research.checks` trains the very classes of this course on CartPole
-# and Acrobot; our last run ships as `assets/checks.md`. GAIL's row, on a CartPole of fixed length: {{ checked(3,
-# 'published') }} is published, ours reaches {{ checked(3, 'ours') }}. A score that is not reached
-# says where to look before you believe a table. Next to a badly trained baseline a new method
-# looks good, so make such checks for the baselines, too.
+# show it. So test your learners where others have published what can be reached. The command
+# `python -m bootcourse.research.checks` trains the very classes of this course on CartPole and
+# Acrobot; our last run ships as `assets/checks.md`. GAIL's row, on a CartPole of fixed length: {{
+# checked(3, 'published') }} is published, ours reaches {{ checked(3, 'ours') }}. A score that is
+# not reached says where to look before you believe a table. Next to a badly trained baseline a
+# new method looks good, so make such checks for the baselines, too.
 # <!-- claim: checked(3, 'learner').startswith('GAIL') and checked(3, 'reached') == 'yes' -->
 
 # %% [markdown] tags=["instructor"] minutes=6

@@ -25,8 +25,7 @@ from bootcourse.learn.training import MOST_EPISODES, Training
 from bootcourse.research.plan import LessonExperiment
 from bootcourse.research.results import Results, agent_entries, as_arrays, experiment
 
-SEEDS, DECISIONS = 10, 800_000  # agents of each kind; decisions of each of them
-EVERY = 50_000  # decisions between two points of a curve
+SEEDS, EVERY = 10, 50_000  # agents of each kind; decisions between two points of a curve
 ROADS = held_out_seeds(14, 200)  # that every agent is tested on
 QUICK = {"hidden": (32, 32), "actor_lr": 2e-3, "critic_lr": 2e-3, "epochs": 3}  # in place of the settings of `ppo`
 GAMMA = settings_for("ppo").gamma
@@ -36,14 +35,15 @@ class Kind(NamedTuple):
     """How the agents of a kind are trained."""
 
     method: str
+    decisions: int
     make_env: Callable | None = None  # of roads that pay otherwise
 
 
 KINDS = {
-    "alone": Kind("ppo"),
-    "shaped": Kind("ppo", partial(Repaid, pay=shaped_pay(left_of, GAMMA))),
-    "concave": Kind("ppo", partial(Repaid, pay=concave_pay)),
-    "cloned": Kind("ppo_cloned"),
+    "alone": Kind("ppo", 800_000),
+    "shaped": Kind("ppo", 800_000, partial(Repaid, pay=shaped_pay(left_of, GAMMA))),
+    "concave": Kind("ppo", 800_000, partial(Repaid, pay=concave_pay)),
+    "cloned": Kind("ppo_cloned", 300_000),
 }
 EXPERIMENT = LessonExperiment(f"{__name__}:train_kind", {kind: {"kind": kind} for kind in KINDS})
 
@@ -109,7 +109,7 @@ def train_kind(kind: str, seeds: int = SEEDS) -> dict[str, np.ndarray]:
     each = []
     for one in settings:
         training = Training([one], MOST_EPISODES, make_env=KINDS[kind].make_env)
-        each.append(train(training, DECISIONS))
+        each.append(train(training, KINDS[kind].decisions))
     measures = [tested(one.agent) for one in each]
     layers = zip(*(one.agent.actor for one in each), strict=True)
     results = Results(
