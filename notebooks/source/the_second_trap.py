@@ -116,7 +116,7 @@ pays = np.array([bc.formulas.speed_reward(each) for each in v])
 chord = (v - 5) / 10
 named = {"5 and 15 m/s in turn": chord, "a steady speed": pays}
 title = "Two speeds in turn earn more than a steady one"
-looks, words = (style("ppo"), style("rule")), ("mean speed (m/s)", "speed reward of a second")
+looks, words = (style("ppo"), style("idle")), ("mean speed (m/s)", "speed reward of a second")
 bc.show(charts.lines(v, named, title, *words, looks=looks))
 
 # %% [markdown]
