@@ -174,9 +174,9 @@ bc.show(figures_baselines.escapes_in_training(study))
 #
 # **Explain.** By the paper's own words, each of its demonstrations gets out. Why do its imitators
 # stay behind, then? The paper does not print enough to decide. One suspect is how *long* the
-# baselines were trained (round 4); *which* CQL it was, lesson [[offline_learning]] asks. The luck of one training is a weak suspect:
-# the worst of our ten GAIL agents is ahead in {{ 100 * of('gail').scores('success').min() | .0f }}
-# % of its drives.
+# baselines were trained (round 4); *which* CQL it was, lesson [[offline_learning]] asks. The luck
+# of one training is a weak suspect: the worst of our ten GAIL agents is ahead in {{ 100 *
+# of('gail').scores('success').min() | .0f }} % of its drives.
 # <!-- claim: of('gail').scores('success').min() > 0.3 -->
 
 # %% [markdown] tags=["instructor"] minutes=8
