@@ -333,11 +333,12 @@ table(["decisions", "KL, nats", "clipped, %", "explained variance"], rows[::3])
 #
 # Usual are a KL of 0.01 to 0.05 nats and a clip fraction of 10 to 30 %.
 #
-# **See.** PPO is healthy here, and yet on its way into a trap. In the second half of their training
-# the {{ ppo_agents() }} agents that ship have a median KL of {{ ppo_health('kl') | .3f }} nats, a
-# clip fraction of {{ 100 * ppo_health('clipped') | .0f }} %, and an explained variance of {{
-# ppo_health('explained') | .2f }}. So the steps are not too large, and V knows what comes. None of
-# the three says what the agent does on the road.
+# **See.** Read your table by these numbers. The {{ ppo_agents() }} agents of round 3 that are
+# paid a potential have the same setting, and their readings ship: in the second half of their
+# training the median KL is {{ ppo_health('kl') | .3f }} nats, the clip fraction {{ 100 *
+# ppo_health('clipped') | .0f }} %, the explained variance {{ ppo_health('explained') | .2f }}. So
+# the steps are not too large, and V knows what comes. None of the three says what the agent does
+# on the road.
 # <!-- claim: 0.005 < ppo_health('kl') < 0.05 and 0.1 < ppo_health('clipped') < 0.3 and
 #   ppo_health('explained') > 0.5 -->
 

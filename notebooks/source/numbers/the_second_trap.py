@@ -28,8 +28,8 @@ def ppo_escapes(kind: str) -> int:
 
 
 def ppo_health(what: str) -> float:
-    """The median of "kl", "clipped" or "explained" in the second half of the training of PPO alone."""
-    readings = ppo("alone")[what]  # (agents, points)
+    """The median of "kl", "clipped" or "explained" in the second half of training, of the agents with a potential."""
+    readings = ppo("shaped")[what]  # (agents, points)
     return float(np.median(readings[:, readings.shape[1] // 2 :]))
 
 
