@@ -5,6 +5,8 @@ import pytest
 
 from bootcourse.course.lessons.the_second_trap import ppo_kinds, second_trap
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
+from bootcourse.learn.settings import settings_for
+from bootcourse.learn.training import Training
 from bootcourse.road.formulas import speed_reward
 from bootcourse.road.vector_env import TrapVectorEnv
 
@@ -71,3 +73,14 @@ def test_a_training_of_a_kind_keeps_what_the_lesson_reads(monkeypatch):
     names = {f"{part}.{name}" for part in ("notes", "measured", "weights") for name in getattr(ships, part)}
     assert {name for name in arrays if "." in name} == names
     assert arrays["notes.at"].shape == (2, 3) and arrays["weights.actor.0"].shape == (2, 26, 4)
+
+
+def test_the_readings_of_one_agent_stay_until_the_next_round():
+    settings = settings_for("ppo", hidden=(4, 4), envs_per_agent=4, horizon=8, batch=32)
+    training = Training([settings], episodes=100)
+    for _ in range(8):
+        training.step()
+    after_the_round = ppo_kinds.diagnostics(training)
+    for _ in range(5):
+        training.step()
+    assert np.isfinite(after_the_round).all() and ppo_kinds.diagnostics(training) == after_the_round

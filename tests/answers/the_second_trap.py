@@ -104,20 +104,6 @@ wrong_lines("""ppo_loss
 """)  # noqa: E501
 
 
-right_lines("""shaping_reward
-    with where: np.where(terminated > 0, 0.0, gamma * next_phi) - phi
-    one road after the other:
-        np.array([(0.0 if t else gamma * n) - p for p, n, t in zip(phi, next_phi, terminated, strict=True)])
-    with a list: [gamma * n * (1 - t) - p for p, n, t in zip(phi, next_phi, terminated, strict=True)]
-""")
-
-wrong_lines("""shaping_reward
-    with both discounted by hand: 0.99 * next_phi * (1 - terminated) - phi
-    at the end alone: (gamma * next_phi - phi) * terminated
-    as a sum: (gamma * next_phi * (1 - terminated) - phi).sum()
-    relative: (gamma * next_phi * (1 - terminated) - phi) / np.maximum(np.abs(phi), 1e-9)
-""")
-
 SCALED = "(advantage - advantage.mean()) / (advantage.std() {})"
 for _change, _why in {
     f"{SCALED.format('+ 1e-08')}  ->  {SCALED.format('- 1e-08')}": "the deviation is far larger",

@@ -93,6 +93,17 @@ def success_around(success: np.ndarray, updates: np.ndarray, budget: float) -> n
     return np.array([own[max(0, i - half) : i + half].mean() for own, i in zip(success, places, strict=True)])
 
 
+def escapes_in_training(results: Results, methods: Sequence[str] = ("bc", "cql", "gail")) -> Figure:
+    """The share of escapes in training, a mean of each method's agents over the last `WINDOW` episodes."""
+    named = {}
+    for method in methods:
+        success = results.of(method).curves["success"]
+        at, means = rolling_means(success, WINDOW, 40)
+        named[method] = 100 * means.mean(axis=0)
+    title = "CQL and the clones escape first; GAIL needs more episodes"
+    return lines(at, named, title, "training episode", f"escapes, last {WINDOW} episodes, %", limits=(0, 101))
+
+
 def still_going(results: Results, methods: Sequence[str] = ("bc", "cql", "gail"), single: str = "gail") -> Figure:
     """The share of test drives that have not ended, over time: a mean for each method, every agent of one."""
     longest = round(float((results.tested["distance"] / results.tested["speed"]).max()))

@@ -1,10 +1,9 @@
-"""Exercises of the lesson on the second trap: PPO's two formulas, and what a changed reward can do."""
+"""Exercises of the lesson on the second trap: PPO's advantages and its loss."""
 
 import numpy as np
 import torch
 
 from bootcourse.course.exercise import exercise
-from bootcourse.course.lessons.the_second_trap import second_trap
 from bootcourse.learn import ppo
 
 
@@ -87,7 +86,7 @@ clipped_loss = exercise(
     "-E[min(r A, clip(r, 1 - ε, 1 + ε) A)], r = π(a|s) / π_old(a|s), arXiv 1707.06347, Equation 7",
     minutes=8, difficulty=2, cases=clipped_cases, slopes=["ratio"],
     worked=[
-        # min(1.5 · 2, 1.2 · 2) = 2.4, and no slope: the action is likely enough
+        # min(1.5 · 2, 1.2 · 2) = 2.4, and no gradient: the action is likely enough
         ((rows(1.5), rows(2.0), 0.2), (torch.tensor(-2.4), rows(0.0))),
         # min(1.5 · -2, 1.2 · -2) = -3: a bad action that has become likelier may be unlearned
         ((rows(1.5), rows(-2.0), 0.2), (torch.tensor(3.0), rows(2.0))),
@@ -102,7 +101,7 @@ clipped_loss = exercise(
         "return -(ratio * advantage).mean()":
             "Nothing is clipped: with many passes over the same data, the policy can move as far as it likes.",
         "return -(ratio.clamp(1 - clip, 1 + clip) * advantage).mean()":
-            "You always take the clipped one. An action that went the wrong way then has no slope, and stays there: "
+            "You always take the clipped one. An action that went the wrong way then has no gradient, and stays there: "
             "take the *smaller* of the two products.",
         "minimum -> maximum":
             "You take the larger of the two products, the optimistic one: it pays for going further than ε. Take the "
@@ -181,47 +180,3 @@ def ppo_loss(log_pi, values, actions, old_log_pi, advantage, returns, clip, entr
     entropy = -(log_pi.exp() * log_pi).sum(-1).mean()
     value_loss = (values - returns).square().mean() / 2
     return ppo.clipped_loss(ratio, scaled, clip) + value_loss - entropy_weight * entropy
-
-
-def shaping_cases(rng):
-    """No ending, an ending, Φ that does not change, a state of Φ = 0; then 30 at random."""
-    yield np.array([1.0, 2.0]), np.array([2.0, 0.5]), np.zeros(2), 0.9
-    yield np.array([1.0, 2.0]), np.array([2.0, 3.0]), np.array([1.0, 0.0]), 0.9
-    yield np.full(3, 4.0), np.full(3, 4.0), np.zeros(3), 0.99
-    yield np.zeros(2), np.array([1.0, -1.0]), np.zeros(2), 0.5
-    for _ in range(30):
-        n = rng.integers(1, 7)
-        phi, next_phi = rng.normal(0, 3, (2, n))
-        yield phi, next_phi, (rng.random(n) < 0.3).astype(float), rng.choice([0.5, 0.9, 0.99])
-
-
-shaping_reward = exercise(
-    "F = γ Φ(s') - Φ(s), Ng, Harada and Russell 1999", minutes=6, difficulty=2, cases=shaping_cases,
-    worked=[
-        # 0.5 · 4 - 1; an accident ends the episode: 0 - 3
-        ((np.array([1.0, 3.0]), np.array([4.0, 8.0]), np.array([0.0, 1.0]), 0.5), np.array([1.0, -3.0])),
-        ((np.array([2.0]), np.array([2.0]), np.array([0.0]), 0.99), np.array([-0.02])),  # staying costs (1 - γ) Φ
-    ],
-    hints=(
-        "The next potential, discounted, less the present one. What is the potential after an accident?",
-        "`(1 - terminated)` multiplies one of the two potentials.",
-    ),
-    mistakes={
-        "gamma * ->":
-            "γ is missing: what comes a decision later counts γ times as much. Without it the discounted sum does not "
-            "cancel, and the best policy may change.",
-        "* (1 - terminated) ->":
-            "After an accident Φ is 0: multiply the next potential by 1 - terminated. Otherwise the agent keeps what "
-            "it was lent, and may crash in a good place.",
-        "return phi - gamma * next_phi * (1 - terminated)":
-            "Your sign is wrong: this charges the agent for reaching a higher potential.",
-        "return next_phi * (1 - terminated)":
-            "You pay the potential itself, at every decision: an agent can stay and collect it. Pay the *change*.",
-        "return gamma * (next_phi * (1 - terminated) - phi)":
-            "γ belongs to the next potential alone: F = γ Φ(s') - Φ(s).",
-        "return (gamma * next_phi - phi) * (1 - terminated)":
-            "At an accident the agent has to give back Φ(s): only the *next* potential is 0 there.",
-        "return np.maximum(gamma * next_phi * (1 - terminated) - phi, 0)":
-            "You pay for going up and charge nothing for going down: an agent could go to and fro and earn each time.",
-    },
-)(second_trap.shaping_reward)  # fmt: skip

@@ -41,7 +41,7 @@ class Kind(NamedTuple):
 
 KINDS = {
     "alone": Kind("ppo", 800_000),
-    "shaped": Kind("ppo", 500_000, partial(Repaid, pay=shaped_pay(left_of, GAMMA))),
+    "shaped": Kind("ppo", 800_000, partial(Repaid, pay=shaped_pay(left_of, GAMMA))),
     "concave": Kind("ppo", 800_000, partial(Repaid, pay=concave_pay)),
     "cloned": Kind("ppo_cloned", 300_000),
 }
@@ -116,10 +116,9 @@ def train_kind(kind: str, seeds: int = SEEDS) -> dict[str, np.ndarray]:
         agent_entries(settings),
         np.full(seeds, -1),
         notes={
-            "at": np.stack([one.at for one in each]),
-            "curve": np.stack([one.returns for one in each]),
-            "escapes": np.stack([one.escapes for one in each]),
-        },  # fmt: skip
+            "curve" if name == "returns" else name: np.stack([getattr(one, name) for one in each])
+            for name in Trained._fields[1:]
+        },
         measured={name: np.array([one[name] for one in measures]) for name in measures[0]},
         weights={f"actor.{i}": np.concatenate(layer) for i, layer in enumerate(layers)},
     )

@@ -47,11 +47,11 @@ def shaping_reward(phi: np.ndarray, next_phi: np.ndarray, terminated: np.ndarray
     return gamma * next_phi * (1 - terminated) - phi
 
 
-def shaped_pay(potential: Callable[[np.ndarray], np.ndarray], gamma: float, shaping=shaping_reward) -> Pay:
+def shaped_pay(potential: Callable[[np.ndarray], np.ndarray], gamma: float) -> Pay:
     """The road's reward and the shaping reward of a potential, Φ(cars) -> (roads,)."""
 
     def pay(rewards, before, after, terminated):
-        return rewards + shaping(potential(before), potential(after), terminated, gamma)
+        return rewards + shaping_reward(potential(before), potential(after), terminated, gamma)
 
     return pay
 
