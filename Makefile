@@ -16,7 +16,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check
 # Folders that JupyterLab's list of files leaves out: what is not for who begins.
-HIDDEN := instructor solved source __pycache__
+HIDDEN := instructor solved source __pycache__ ruff.toml
 NOTEBOOKS := $(sort $(wildcard notebooks/*.ipynb))
 
 # So that a notebook finds this `bootcourse` and this `python`.

@@ -12,6 +12,7 @@ from bootcourse.course.judge import judge
 from bootcourse.course.lessons import registry
 from bootcourse.errors import BootcourseError
 from tests.answers import RIGHT, here
+from tests.hostile import reports
 from tests.hostile.submissions import failures
 
 HEAD, LUCK = "def luck(good, decisions, tries):\n    ", "return 1 - (1 - (good / n) ** decisions) ** tries"
@@ -150,3 +151,7 @@ def test_who_fills_a_cell_with_commands_stops_nobody_else(monkeypatch):
 def test_damaged_submissions_stop_no_class():
     answered, failed = failures(60, seed=0)  # more of them: python -m tests.hostile.submissions
     assert answered and failed == []
+
+
+def test_forged_reports_stop_no_judge():
+    assert reports.failures(60, seed=0) == []  # more of them: python -m tests.hostile.reports

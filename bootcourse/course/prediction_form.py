@@ -39,7 +39,7 @@ class PredictionForm(Panel):
         help = "Keep this answer, with the time. It cannot be changed."
         self.button = self.make_button("Commit", "check", help, self.commit, "primary")
         keys = html('<img src="data:," alt="" style="display:none" onerror="{}">', KEYS)
-        text = widgets.HTML(Markup(STYLE) + html("<div>{}</div>{}", marked(question.text), keys))
+        text = widgets.HTML(Markup(STYLE) + keys)  # the question stands above, in the lesson and in the call
         super().__init__(f"Prediction {question.number}", text, self.field, self.button)
         with self.saying_what_is_wrong():
             kept = predictions().get(question.name)

@@ -4,7 +4,6 @@ Both notebooks come from one run. Where a cell holds a solution, the kernel firs
 and then the solution, whose check must pass; all other cells run once and serve both.
 """
 
-import ast
 import hashlib
 import re
 from collections import Counter
@@ -64,18 +63,7 @@ def solved_nodes(path: Path, cells: list[Cell]) -> list[nbformat.NotebookNode]:
 
 def node(cell: Cell, text: str) -> nbformat.NotebookNode:
     new = nbformat.v4.new_code_cell if cell.is_code else nbformat.v4.new_markdown_cell
-    hidden = {"jupyter": {"source_hidden": True}} if cell.is_code and only_asks(text) else {}
-    return new(text, metadata=cell.metadata | hidden)
-
-
-def only_asks(text: str) -> bool:
-    """Does a cell only ask for a prediction? The question stands above the cell and in its form: that is enough."""
-    *others, last = ast.parse(text).body or [None]
-    return (
-        text.count("predict(") == 1
-        and all(isinstance(each, ast.Assign) for each in others)
-        and (isinstance(last, ast.Expr) and ast.unparse(last).startswith("predict("))
-    )
+    return new(text, metadata=cell.metadata)
 
 
 def notebook(nodes: list[nbformat.NotebookNode]) -> nbformat.NotebookNode:
