@@ -45,12 +45,12 @@ bc.show(figures.what_is_taken())
 # decisions?**
 #
 # > **Predict.** Each learner but RLPD may take 100,000 decisions of its own, a little more than a
-# > day of driving. Which one earns the most afterwards, on roads that are new to it?
+# > day of driving. Which of the other four earns the least afterwards, on roads that are new to it?
 # <!-- claim: LAST == 100_000 and 1 < LAST / 3600 / 24 < 1.3 -->
 
 # %%
 learners = ["PPO after cloning", "bootstrapped SAC", "jump-start RL", "IBRL"]
-predict("other_ways.1", "The highest return after 100,000 decisions", learners)
+predict("other_ways.1", "The lowest return after 100,000 decisions", learners)
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Ask for a reason with each vote: a learner can be quick by taking much from the teacher, or by
@@ -91,7 +91,7 @@ predict("other_ways.2", "RLPD's first 50 episodes", unit="s")
 
 # %% tags=["nbval-ignore-output"]
 torch.set_num_threads(1)  # small matrices are faster on one thread
-training = own_code.training([bc.settings_for("rlpd", target_entropy=0.3)], 60)
+training = own_code.training([bc.settings_for("rlpd")], 60)
 mine = training.run(progress=False)
 print(f"{training.decisions:,} decisions, {training.updates:,} updates, {mine.seconds:.0f} s")
 
@@ -103,19 +103,16 @@ shown = {
 }
 smooth = np.ones(window) / window
 named = {name: np.convolve(v.mean(axis=0), smooth, "valid") for name, v in shown.items()}
-at, title = (
-    np.arange(window, 151),
-    "Ten RLPD agents crash early at first; then more and more drives end ahead",
-)
+at, title = np.arange(window, 151), "RLPD agents crash early at first; later more drives end ahead"
 bc.show(charts.lines(at, named, title, "episode", "mean of 20 episodes of ten agents"))
 
 # %% [markdown]
 # **See.** (Your own training was too short to get out. The curves are those of ten agents that
 # ship.) At first these agents attempt to leave and crash. A crash is short, so the first 50
-# episodes of an agent take {{ short() | .0f }} decisions altogether, about {{ short() / 50 | .0f
-# }} seconds each. Then most of them find the way out: {{ rlpd().escapers('rlpd') }} of ten escape
+# episodes of an agent take {{ short() | .0f }} decisions altogether, about {{ short() / 50 | .0f }}
+# seconds each. Then half of them find the way out, and {{ rlpd().escapers('rlpd') }} of ten escape
 # after {{ rlpd().curves['success'].shape[1] }} episodes.
-# <!-- claim: 0 < rlpd().escapers('rlpd') < 10 and len(rlpd()) == 10 -->
+# <!-- claim: found(rlpd().curves['success'], 20).sum() == 5 and len(rlpd()) == 10 -->
 #
 # **Explain.** The paper adds a bonus c to the reward of each demonstrated action (lesson
 # [[learning_from_demonstrations]]), and because that changes what the actions are worth, it has to
@@ -154,14 +151,6 @@ for rule in range(3):
     chosen = ibrl.better_of_two(pi, q, at_rule)
     print(f"Q = 1, 2, 3; μ(s) is the {rule + 1}.:", *(f"{p:.1f}" for p in chosen[0]))
 
-# %% [markdown]
-# > **Predict.** After training, in which part of a drive does such an agent take the rule's action
-# > more often: in the first 30 seconds, in which it gets out, or afterwards?
-
-# %%
-choices = ["in the first 30 seconds", "afterwards", "about equally often"]
-predict("other_ways.3", "It takes the rule's action more often", choices)
-
 # %% tags=["nbval-ignore-output"]
 training = own_code.training([bc.settings_for("ibrl", target_entropy=0.3)], 260)
 chooser = training.run(progress=False).agents[0]
@@ -183,7 +172,8 @@ bc.show(bc.traces([drives[0]], title="One drive of your agent", what=("speed", "
 # **See.** (Yours will differ.) Compare the two shares, and then the drive: what has the agent kept
 # from the rule, and where does it drive differently?
 #
-# **Explain.** A KL or a bonus must fade, because it pulls at what the agent may do. This choice
+# **Explain.** A KL or a bonus has to fade if the agent is to leave the teacher where the teacher is
+# wrong, because it pulls at what the agent may do. This choice
 # need not fade: as soon as the critic values another action more, the rule's is not taken. (Our
 # agents also have demonstrations in their batches, whose share β fades from {{
 # settings_for('ibrl').beta_start }} to 0 over {{ settings_for('ibrl').beta_episodes | , }}
@@ -291,11 +281,11 @@ table(*equal_decisions.search_rows(shipped.shipped_experiment("beyond-search")))
 # | bootstrapped SAC | γ = {{ SETTINGS.gamma }}, c = {{ SETTINGS.bonus | g }} | γ = {{
 # equal_decisions.GAMMA }}, c = {{ equal_decisions.COMMON['bootstrapped']['bonus'] }} |
 #
-# > **Predict.** Of 1,000 drives after 100,000 decisions, in how many does the method that earns the
-# > most have an accident?
+# > **Predict.** After 100,000 decisions, in how many of 1,000 drives does an IBRL agent have an
+# > accident, on average?
 
 # %%
-predict("other_ways.4", "Accidents of the method that earns the most", unit="of 1,000 drives")
+predict("other_ways.3", "Accidents of IBRL after 100,000 decisions", unit="of 1,000 drives")
 
 # %%
 compared = equal_decisions.by_method(shipped.shipped_experiment("beyond"))
@@ -330,16 +320,21 @@ table(*equal_decisions.budget_rows(compared))
 # <!-- claim: at('ppo_cloned', 'seconds').mean() < at('ibrl', 'seconds').mean() / 10 and
 #   escaping('ppo') == 0 and middle('ppo_cloned') < middle('ibrl') -->
 #
-# **Explain.** The search decided more than the method did. With η = −1, the paper's target, which
-# nine actions cannot reach, jump-start RL earns {{ search('jsrl')['η = -1'] | .0f }} in the search
-# and IBRL {{ search('ibrl')['η = -1'] | .0f }}; with a target that can be reached they earn {{
-# max(search('jsrl').values()) | .0f }} and {{ max(search('ibrl').values()) | .0f }}. For
-# RLPD and bootstrapped SAC it is the other way round; for the latter a falling temperature is part
-# of the method, because ξ fades with α. Had we given all of them one η, the table would rank that
-# choice.
+# **Explain.** Among the learners with a replay buffer the search decided more than the method did.
+# With η = −1, the paper's target, which nine actions cannot reach, jump-start RL earns
+# {{ search('jsrl')['η = -1'] | .0f }} in the search and IBRL {{ search('ibrl')['η = -1'] | .0f }};
+# with a target that can be reached they earn {{ max(search('jsrl').values()) | .0f }} and
+# {{ max(search('ibrl').values()) | .0f }}. For RLPD and bootstrapped SAC it is the other way round;
+# for the latter a falling temperature is part of the method, because ξ fades with α. Had we given
+# all of them one η, the table would rank that choice.
 # <!-- claim: max(search('jsrl'), key=search('jsrl').get) != 'η = -1' != max(search('ibrl'),
 #   key=search('ibrl').get) and {max(search(m), key=search(m).get) for m in ('bootstrapped',
 #   'rlpd')} == {'η = -1'} -->
+#
+# The best of several tries also looks better than it is: jump-start RL earned
+# {{ max(search('jsrl').values()) | .0f }} in the search and earns {{ middle('jsrl') | .0f }} in the
+# test, where seeds and roads are new.
+# <!-- claim: max(search('jsrl').values()) > middle('jsrl') + 2 -->
 #
 # What the table does not say: what 800,000 decisions would bring, what a larger search would find
 # (the best try of bootstrapped SAC, jump-start RL and RLPD is the last of the three in one
@@ -373,16 +368,15 @@ table(*equal_decisions.budget_rows(compared))
 last = equal_decisions.BUDGETS[-1]
 to_last = {m: each.measured for m, each in compared.items() if f"returns_{last}" in each.measured}
 earns = {m: values[f"returns_{last}"].mean() for m, values in to_last.items()}
-best = max(earns, key=earns.get)
-crashes = 1000 * to_last[best][f"accident_{last}"].mean()
+lowest = min((m for m in earns if m != "ppo"), key=earns.get)
+crashes = 1000 * to_last["ibrl"][f"accident_{last}"].mean()
 first = np.nansum(curves["decisions"][:, :50], axis=1).mean() / 50
 compare_predictions(
     "other_ways",
     {
-        1: bc.display_name(best),
+        1: bc.display_name(lowest),
         2: round(float(first), 1),
-        3: max(shares, key=lambda part: shares[part].mean()),
-        4: round(float(crashes)),
+        3: round(float(crashes)),
     },
 )
 

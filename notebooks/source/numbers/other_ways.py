@@ -9,7 +9,7 @@ from bootcourse.episodes.words import overtaken
 from bootcourse.policies import rule_policy
 from bootcourse.research import equal_decisions
 from bootcourse.research.equal_decisions import BUDGETS, by_method, tried
-from bootcourse.research.results import Results
+from bootcourse.research.results import Results, found  # noqa: F401
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES, interval, iqm  # noqa: F401
 from tools.course.known import shipped_experiment, shipped_teachers
