@@ -65,7 +65,7 @@ class Notebook(Struct):
 
 
 class Clock(TransformerManager):
-    """IPython's transformer, with the processor's time that it may take: it reads a cell once more for each `%`, `!` or `?`."""
+    """IPython's transformer, and the processor's time it may take: it reads a cell again for each `%`, `!`, `?`."""
 
     def __init__(self, seconds: float = SECONDS):
         super().__init__()
