@@ -22,7 +22,7 @@ from bootcourse.course.verdict import MARKS
 from bootcourse.errors import BootcourseError
 
 LONGEST = 50_000  # characters of a cell, and of an answer
-SECONDS = 10.0  # that reading a student's notebooks may take
+SECONDS = 10.0  # of the processor, however busy it is with other work, that reading a student's notebooks may take
 NO_PYTHON = (SyntaxError, ValueError, RecursionError, MemoryError, RuntimeError)  # of a text that cannot be parsed
 RUNS_ITS_CELL = re.compile(r"\s*%%(time|capture|prun)\b.*\n")  # other %%magics hand the text to something else
 SURE = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef, ast.Import, ast.ImportFrom, ast.Assign, ast.AnnAssign)
@@ -65,15 +65,15 @@ class Notebook(Struct):
 
 
 class Clock(TransformerManager):
-    """IPython's transformer, with the time that it may take: it reads a cell once more for each `%`, `!` or `?`."""
+    """IPython's transformer, and the processor's time it may take: it reads a cell again for each `%`, `!`, `?`."""
 
     def __init__(self, seconds: float = SECONDS):
         super().__init__()
-        self.end = time.monotonic() + seconds
+        self.end = time.thread_time() + seconds
 
     def look(self) -> None:
         """Raises BootcourseError when the time is over."""
-        if time.monotonic() > self.end:
+        if time.thread_time() > self.end:
             raise BootcourseError("the notebooks take too long to read, so not all of them is graded.")
 
     def do_one_token_transform(self, lines):
