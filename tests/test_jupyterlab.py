@@ -187,7 +187,7 @@ def test_the_keyboard_commits_a_prediction(notebook):
     for key in ("ArrowDown", "Tab", "Enter"):
         notebook.page.keyboard.press(key)
     waits_for(notebook, 4, "You predict: no.")
-    assert "Does <b>it</b> stay?" in shown.inner_text() and "<i>yes</i>" in shown.inner_text()
+    assert "<i>yes</i>" in shown.inner_text()  # a choice is text; the question stands above the form
     assert json.loads((notebook.folder / FILE).read_text())["the_barrier.1"]["answer"] == "no"
 
 
