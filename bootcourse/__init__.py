@@ -127,7 +127,7 @@ def __getattr__(name: str):
         return value
     if name.startswith("__"):
         raise AttributeError(name)
-    raise AttributeError(f"bootcourse has no such name: {did_you_mean(name, __all__)}.")
+    raise AttributeError(f"In bootcourse, {did_you_mean(name, __all__)}.")
 
 
 def __dir__() -> list[str]:

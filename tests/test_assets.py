@@ -99,6 +99,14 @@ def test_what_cannot_be_built_is_one_sentence(study, shipped, tmp_path):
         commands.assets("verfy", None, False)
 
 
+def test_a_name_that_the_manifest_cannot_hold_is_refused_before_anything_is_replaced(study, shipped, tmp_path):
+    odd, before = shutil.copytree(study, tmp_path / "study"), contents(shipped)
+    (odd / "jobs/sensitivity/as-it-is").rename(odd / "jobs/sensitivity/what's-new")
+    with pytest.raises(BootcourseError, match="manifest.json"):
+        ship.build(odd, shipped)
+    assert contents(shipped) == before
+
+
 def test_a_smaller_study_replaces_a_larger_one_only_if_asked_to_and_the_other_runs_stay(shipped, tmp_path):
     small = tmp_path / "small"
     small.mkdir()

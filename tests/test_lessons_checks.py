@@ -127,7 +127,6 @@ def test_changing_an_argument_in_place_is_said_in_one_sentence(name):
 
 
 TARGET = EXERCISES["critic_target"]
-TRANSITIONS = EXERCISES["transitions"]
 
 
 def half_of_a_target(reward, terminated, next_value, gamma):
@@ -146,8 +145,6 @@ def evil(*arguments):
             "a NumPy array: the exercise asks for a torch tensor, because training needs one"),
         ("critic_target", lambda *given: torch.stack([TARGET.solution(*given)] * 3), "Your answer has shape (3, "),
         ("critic_target", lambda *given: TARGET.solution(*given) * float("nan"), "not a number (NaN)"),
-        ("transitions", lambda *given: np.zeros(TRANSITIONS.solution(*given).shape) / np.zeros(1),
-            "not a number (NaN) in this case: NumPy says 'invalid value encountered in divide'"),
         ("critic_target", lambda reward, *rest: torch.randn_like(reward), "differently each time"),
         ("critic_target", half_of_a_target, "branch without `return`"),
         ("critic_target", 3.0, "this is a number"),

@@ -77,11 +77,6 @@ def definition(answer: Callable) -> str:
     raise BootcourseError(f"`{answer.__name__}` has no text: write it with `def` in a cell.")
 
 
-def kept() -> list[str]:
-    """The names of the answers that are kept, in alphabetical order."""
-    return sorted(path.stem for path in FOLDER.glob("*.py"))
-
-
 def read(name: str) -> Callable:
     """Run the file of an answer and return its function or class. Raises BootcourseError if it cannot be run."""
     path = FOLDER / f"{name}.py"

@@ -12,7 +12,7 @@ from dataclasses import replace
 
 from bootcourse.course import runner
 from bootcourse.course.answer_files import PARTS
-from bootcourse.course.edition import need_open_solutions, solutions_are_open
+from bootcourse.course.edition import CLOSED, solutions_are_open
 from bootcourse.course.exercise import Exercise, source_of
 from bootcourse.course.judge import judge
 from bootcourse.course.lessons import registry
@@ -48,7 +48,8 @@ def hint(name: str) -> Verdict:
 
 def solution(name: str):
     """The code of a right answer. Raises BootcourseError for an unknown exercise, and where solutions are closed."""
-    need_open_solutions()
+    if not solutions_are_open():
+        raise BootcourseError(CLOSED)
     from IPython.display import Code
 
     return Code(source_of(_find(name).solution), language="python")

@@ -3,7 +3,6 @@
 from pathlib import Path
 
 import bootcourse
-from bootcourse.errors import BootcourseError
 from bootcourse.files import read_json
 
 HANDOUT = "handout.json"
@@ -17,9 +16,3 @@ def solutions_are_open() -> bool:
         if (folder / HANDOUT).is_file():
             return read_json(folder / HANDOUT, dict).get("solutions") is True
     return True
-
-
-def need_open_solutions() -> None:
-    """Raises BootcourseError where solutions are closed."""
-    if not solutions_are_open():
-        raise BootcourseError(CLOSED)

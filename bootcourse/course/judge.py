@@ -8,18 +8,21 @@ that is shown.
 The answer runs in a process of its own (`runner.py`); it is compared here, with values that only our code has made.
 """
 
+import contextlib
 import dis
 import functools
 import inspect
 import linecache
 import re
 import signal
+import time
 import warnings
 from collections.abc import Callable, Iterable
 from copy import deepcopy
 from dataclasses import replace
 
 import numpy as np
+import torch
 
 from bootcourse.course import runner
 from bootcourse.course.exercise import Exercise, NotAsAsked
@@ -49,13 +52,14 @@ def judge(exercise: Exercise, answer: Callable | str, seconds: float | None = No
     process that also runs the function (see `runner.py` for what is guarded); its imports and helpers stand in it.
     seconds: the exercise's own if None.
     """
+    begin = time.monotonic()
     todo = f"Nothing to check yet: write `{exercise.name}` where the `...` stands, and end with `return`."
     verdict, printed = Verdict("todo", todo), ""
     if not does_nothing(answer):  # an untouched stub needs no process
         seconds = exercise.seconds if seconds is None else seconds
         runner.get_ready()
         outcomes(exercise, exercise.solution)  # on a new machine it compiles the road: the answer has its whole time
-        report = runner.run(exercise, answer, seconds)
+        report = runner.run(exercise, answer, seconds, begin=begin)
         if not is_unfinished(report, answer):
             verdict = not_answered(exercise, answer, report) or compared(exercise, answer, report, seconds)
             printed = report.printed.strip()
@@ -100,7 +104,7 @@ def not_answered(exercise: Exercise, answer: Callable | str, report: runner.Repo
     nothing = [case for case, value in enumerate(report.answers) if value.kind == "NoneType"]
     if report.refused:
         return Verdict("wrong", report.refused)
-    if nothing[:1] == [0]:
+    if nothing and len(nothing) == len(report.answers):
         return Verdict("wrong", "Your function returns nothing: end it with `return` and what the exercise asks for.")
     if nothing:
         sentence = "Your function returns nothing in this case: look for a branch without `return`."
@@ -183,7 +187,7 @@ def compared(exercise: Exercise, answer: Callable | str, report: runner.Report, 
             sentence = ("For the same arguments your function answers differently each time: it draws at random, or "
                         "keeps a value from one call to the next.")  # fmt: skip
             return Verdict("wrong", sentence, given(exercise, cases[case]))
-    return unknown(exercise, cases[case], values[case], right_values[case], report.warned.get(case))
+    return unknown(exercise, cases[case], values[case], right_values[case])
 
 
 def value_part(exercise: Exercise, answers: list[Plain]) -> list[Plain]:
@@ -196,10 +200,21 @@ def all_same(answers: Iterable[Plain], others: Iterable[Plain], tolerance: float
     return all(same(a, other, tolerance, nan_too=True) for a, other in zip(answers, others, strict=True))
 
 
+@contextlib.contextmanager
+def one_thread():
+    """PyTorch computes on one thread: for small tensors several are slower, much so on a busy machine."""
+    threads = torch.get_num_threads()
+    torch.set_num_threads(1)
+    try:
+        yield
+    finally:
+        torch.set_num_threads(threads)
+
+
 @functools.lru_cache(maxsize=1024)
 def outcomes(exercise: Exercise, function: Callable) -> list[Plain]:
     """The answers of a solution or of a known mistake to all cases."""
-    with np.errstate(all="ignore"), warnings.catch_warnings():
+    with np.errstate(all="ignore"), warnings.catch_warnings(), one_thread():
         warnings.simplefilter("ignore")
         return [plain(exercise.outcome(function, *deepcopy(case))) for case in exercise.all_arguments]
 
@@ -232,7 +247,7 @@ def slopes_in_words(exercise: Exercise, answers: list[Plain], rights: list[Plain
     return Verdict("wrong", f"Your `{exercise.name}` has the right value, but {wrong}", details)
 
 
-def unknown(exercise: Exercise, case: tuple, mine: Plain, right: Plain, warned: str | None) -> Verdict:
+def unknown(exercise: Exercise, case: tuple, mine: Plain, right: Plain) -> Verdict:
     """The verdict on a wrong value that is none of the exercise's known mistakes."""
     details = given(exercise, case)
     if not like(mine, right):
@@ -242,8 +257,7 @@ def unknown(exercise: Exercise, case: tuple, mine: Plain, right: Plain, warned: 
         shapes = f"Your answer has shape {shape_words(mine)}: the right one has shape {shape_words(right)}."
         return Verdict("wrong", shapes, details)
     if has_nan(mine) and not has_nan(right):
-        why = f": NumPy says '{warned}'" if warned else ""
-        return Verdict("wrong", f"Your answer is not a number (NaN) in this case{why}.", details)
+        return Verdict("wrong", "Your answer is not a number (NaN) in this case.", details)
     at, values = "", (numbers(mine), numbers(right))
     if right.kind in NUMERIC and right.shape:
         place = tuple(np.argwhere(~close(mine, right, exercise.tolerance))[0].tolist())

@@ -40,7 +40,7 @@ from bootcourse.errors import BootcourseError
 FORKS = sys.platform == "linux"  # on macOS system libraries may break in a fork, and Windows has none
 MEMORY = 2 * 2**30  # bytes that a function may use
 START = 60  # seconds in which a process has to be ready
-WALL = 9  # seconds after which a check is over, its start included, if that takes under 7 s and the limit is no longer
+WALL = 8  # seconds after which a check is over, its start included, if that takes under 7 s and the limit is no longer
 LEAST = 1  # seconds that a function has in any case
 SLACK = 5  # seconds after which the process ends by itself
 LONGEST_PRINT = 500  # characters of a function's prints that are shown
@@ -66,7 +66,6 @@ class Report(msgspec.Struct):
     changed: tuple[int, int] | None = None  # (case, index of the argument) of the first argument changed in place
     ended: str | int = ""  # "time", "size", or how the process ended before its time: an exit code, minus a signal
     printed: str = ""
-    warned: dict[int, str] = {}  # case -> NumPy's first warning
     seconds: float = 0.0  # that it had
     is_last: bool = False
 
@@ -76,7 +75,6 @@ class Report(msgspec.Struct):
         self.refused, self.error = message.refused, message.error
         self.changed = self.changed or message.changed
         self.printed = (self.printed + message.printed)[:LONGEST_PRINT]
-        self.warned = message.warned | self.warned
 
 
 # Here -------------------------------------------------------------------------------------------------
@@ -113,12 +111,15 @@ _one_at_a_time = threading.Lock()
 _waiting: list["Process"] = []  # the process that waits ahead
 
 
-def run(exercise: Exercise, answer: Callable | str, seconds: float, times: int = 1) -> Report:
+def run(
+    exercise: Exercise, answer: Callable | str, seconds: float, times: int = 1, begin: float | None = None
+) -> Report:
     """Call a function, or the one that a source text defines, for every case, `times` over, in a process of its own.
 
-    Raises BootcourseError where the process cannot be started.
+    begin: when the check began, by the monotonic clock; now if None. Raises BootcourseError where the process cannot
+    be started.
     """
-    begin = time.monotonic()
+    begin = time.monotonic() if begin is None else begin
     try:
         job = pickled(answer, times, seconds)
     except Exception as error:  # whatever an object's own pickling raises
@@ -283,15 +284,13 @@ class Printed(io.TextIOBase):
 
 def work(exercise: bytes, job: bytes, send: Callable[[Report], None]) -> None:
     """Send, message by message, what the student's function answers in each case, and which argument it changed."""
-    last, answer, number, warned = Report(is_last=True), None, 0, {}
+    last, answer = Report(is_last=True), None
     outcome, cases, *asked = pickle.loads(exercise)
     sys.stdout = sys.stderr = Printed(send)
     try:
         answer, times, seconds = pickle.loads(job)
         faulthandler.dump_traceback_later(seconds + SLACK, exit=True, file=open(os.devnull, "w"))
         warnings.simplefilter("ignore")
-        warnings.simplefilter("always", RuntimeWarning)
-        warnings.showwarning = lambda text, *_: warned.setdefault(number, str(text))
         if isinstance(answer, str):
             answer = defined_in(answer, asked[0])
         last.refused = why_not_called(answer, *asked)
@@ -300,7 +299,7 @@ def work(exercise: bytes, job: bytes, send: Callable[[Report], None]) -> None:
             value = plain(outcome(answer, *copy))
             pairs = enumerate(zip(map(plain, copy), map(plain, case), strict=True))
             changed = next(((number, place) for place, pair in pairs if not same(*pair, nan_too=True)), None)
-            send(Report(answers=[value], changed=changed, warned=warned))
+            send(Report(answers=[value], changed=changed))
     except BaseException as error:  # also SystemExit and KeyboardInterrupt
         last.error = in_words(error, answer)
     send(last)

@@ -11,18 +11,19 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from msgspec import convert
 
 from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError
-from bootcourse.files import provenance, sha256, write_arrays, write_bytes, write_json
+from bootcourse.files import decoding, provenance, sha256, write_arrays, write_bytes, write_json
 from bootcourse.policies import rule_policy
 from bootcourse.research.jobs import HELD_OUT, read_job
 from bootcourse.research.plan import EXPERIMENTS, LESSON_EXPERIMENTS, STUDIES
 from bootcourse.research.report import model_card, write_report
 from bootcourse.research.results import Results, in_assets, in_study, load_job, load_jobs, load_results, save_results
 from bootcourse.scenario import DEFAULT
-from bootcourse.storage.assets import FOLDER, FORMAT, LIMIT, MANIFEST, put_back, read_manifest, unfinished
+from bootcourse.storage.assets import FOLDER, FORMAT, LIMIT, MANIFEST, Manifest, put_back, read_manifest, unfinished
 from bootcourse.storage.runs import load_run
 from bootcourse.storage.sealed import is_file_with, write_sealed
 from bootcourse.storage.work import locked
@@ -101,8 +102,10 @@ class Shipment:
         self.add(path, command, versions)
 
     def write_manifest(self) -> None:
-        """List every file."""
+        """List every file. Raises BootcourseError for a name that the manifest cannot hold."""
         files = [self.entries[name] for name in sorted(self.entries)]
+        with decoding(self.new / MANIFEST):
+            convert({"files": files}, Manifest)
         write_sealed(self.new / MANIFEST, {"format": FORMAT, "files": files})
 
 

@@ -129,7 +129,7 @@ predict("bug_hunt.2", "Q is wrong at accidents because of", names)
 
 # %%
 def end_error(q, actions, rewards, terminated):
-    """Mean of Q(s, a) - r where terminated is 1, or 0. q: (batch, 9); the others (batch,)."""
+    """Mean of Q(s, a) - r where terminated is 1, or 0. Arrays: q (batch, 9), others (batch,)."""
     # solution: the exercise's own
 
 

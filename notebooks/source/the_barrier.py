@@ -233,14 +233,21 @@ table(["γ", "staying", "the rule's way", "which is worth more on"], rows)
 # %% [markdown]
 # ## Round 3: is it luck, or the price of attempts?
 #
-# Luck first. If a way out were one sequence of actions, chance would have to hit each of them.
+# Luck first. Is the way out a sequence of actions that is too rare to be hit? Suppose that an
+# attempt gets out if it takes one of `good` right actions of the nine at each of `decisions`
+# decisions. (One sequence alone would be `good` = 1.)
 #
-# **Exercise (5 min, ●●○).** Write the chance that at least one of `tries` attempts hits it.
+# **Exercise (5 min, ●●○).** Write the chance that at least one of `tries` random attempts gets out.
+# The next cell compares such chances with the road: guess first which `good` is like the road, at
+# eight decisions.
 
 
 # %%
 def luck(good, decisions, tries):
-    """The chance of a lucky attempt. good: right actions of 9; decisions: in a row."""
+    """The chance that at least one of `tries` attempts is right at each of its decisions.
+
+    good: how many of the 9 actions are right at each decision; all 9 are equally likely.
+    """
     # solution: the exercise's own
 
 
@@ -248,16 +255,23 @@ check.luck(luck)
 
 # %%
 tried = bc.drive_episodes(bc.random_policy(np.random.default_rng(0)), bc.held_out_seeds(6, 5000))
-print(f"5,000 random drives: {tried.success.sum()} end ahead of trap 1", end=", ")
-print(f"{100 * np.mean(tried.accident > 0):.1f} % in an accident")
+rows = []
+for good in range(1, 6):
+    once = (good / 9) ** 8
+    rows.append([good, f"{100 * (1 - (1 - once) ** 5000):.2f} %", f"{5000 * once:.1f}"])
+headings = ["right actions of 9, at each of 8 decisions", "chance of a way out", "expected number"]
+on_the_road = f"On the road {tried.success.sum()} of 5,000 random drives end ahead of trap 1, "
+on_the_road += f"and {100 * np.mean(tried.accident > 0):.1f} % of all end in an accident."
+table(headings, rows, below=f"In 5,000 attempts. {on_the_road}")
 
 # %% [markdown]
-# **See.** With 2 right actions of 9 at each of 8 decisions, {{ 1e6 * (2 / 9) ** 8 | .0f }} of a
-# million attempts would get through. On the road {{ by_chance().success.sum() }} of {{
-# len(by_chance().success) | , }} random drives end ahead of trap 1, far more, since many sequences
-# lead out. But each of these lucky drives ends in an accident, with a return below zero, so not
-# even they show that leaving pays.
-# <!-- claim: by_chance().success.mean() > 100 * (2 / 9) ** 8 -->
+# **See.** One sequence of eight actions would hardly be hit in 5,000 attempts. On the road {{
+# by_chance().success.sum() }} of {{ len(by_chance().success) | , }} random drives end ahead of
+# trap 1: more than with four right actions of nine at each of eight decisions, fewer than with
+# five. So the way out is not one rare sequence: many sequences lead out. But each of these lucky
+# drives ends in an accident, with a return below zero, so not even they show that leaving pays.
+# <!-- claim: (4 / 9) ** 8 < by_chance().success.mean() < (5 / 9) ** 8 -->
+# <!-- claim: 1 - (1 - (1 / 9) ** 8) ** 5000 < 0.001 -->
 # <!-- claim: (by_chance().accident[by_chance().success] > 0).all() -->
 # <!-- claim: by_chance().returns[by_chance().success].max() < 0 < idle().rewards.sum() -->
 #

@@ -278,8 +278,8 @@ for ratio, advantage in ((1.5, 2.0), (0.5, 2.0), (1.5, -2.0), (0.5, -2.0)):
 #
 # $$ L + \tfrac12\, \mathrm{mean}\big[(V - R)^2\big] - c_H\, \mathrm{mean}[H] $$
 #
-# Before that, the advantages of a minibatch are given mean 0 and deviation 1, so that the size of a
-# step does not depend on the size of the rewards.
+# Before that, the advantages of a minibatch are given mean 0 and deviation 1 (torch's
+# `advantage.std()`), so that the size of a step does not depend on the size of the rewards.
 #
 # **Exercise (10 min, ●●○).** Put PPO together. `ppo.clipped_loss`, or your own, is L.
 

@@ -136,3 +136,12 @@ wrong_lines("""unmasks
         rng.random() < 0.5  # differently each time
     the answers inverted: not solution(target)  # the other way round
 """)
+
+wrong_lines("""fixed_loss
+    the sign inside: kl = (log_pi.exp() * (log_rule - log_pi)).sum(1)
+        -((log_pi.exp() * (q.detach() - alpha * log_pi)).sum(1) - xi * kl).mean()  # inside the KL
+""")
+
+wrong_lines("""diagnose
+    some of them: {name: bug for name, bug in TRUE.items() if bug != "flipped_kl"}.get(agent)  # in this case
+""")

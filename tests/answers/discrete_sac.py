@@ -277,7 +277,7 @@ def with_half_a_loss(agent, batch):
     move_copies(agent)
 
 
-@wrong("update", "of your updates log α differ")
+@wrong("update", "your first update log α differs")
 def without_the_actor(agent, batch):
     alpha = agent.log_alpha.exp().detach()
     with torch.no_grad():
@@ -305,7 +305,7 @@ def with_a_while(agent, env, buffer, update, pushes, rng):
             update(agent, by_hand.batch_of(buffer.sample(64, rng)))
 
 
-@wrong("train", "The row of push")
+@wrong("train", "which ends in a fall, s' is not right")
 def with_the_state_after_the_reset(agent, env, buffer, update, pushes, rng):
     state, _ = env.reset()
     for push in range(pushes):
@@ -325,3 +325,56 @@ def without_a_memory(agent, env, buffer, update, pushes, rng):
         state, _, fell, late, _ = env.step(agent.draw(state, rng))
         if fell or late:
             state, _ = env.reset()
+
+
+@wrong("update", "Step 8 changes their weights in place")
+def without_step_8(agent, batch):
+    with torch.no_grad():
+        before = [each.clone() for each in agent.copies.parameters()]
+    without_functions(agent, batch)
+    with torch.no_grad():
+        for each, old in zip(agent.copies.parameters(), before, strict=True):
+            each.copy_(old)
+
+
+@wrong("update", "your first update the critics differ")
+def with_the_larger_of_two(agent, batch):
+    slow = agent.slow_q
+    agent.slow_q = lambda states: slow(states).amax(0).expand(2, -1, -1)
+    without_functions(agent, batch)
+    del agent.slow_q
+
+
+def loop(often=4, rows=64, wrap=by_hand.batch_of, times=1):
+    """The loop with other slips than the exercise knows."""
+
+    def answer(agent, env, buffer, update, pushes, rng):
+        state, _ = env.reset()
+        for push in range(pushes):
+            action, before = agent.draw(state, rng), state
+            state, reward, fell, late, _ = env.step(action)
+            buffer.add(by_hand.row(before, action, reward, fell, state))
+            if fell or late:
+                state, _ = env.reset()
+            if push >= 256 and push % often == 0:
+                for _ in range(times):
+                    update(agent, wrap(buffer.sample(rows, rng)))
+
+    return answer
+
+
+wrong("train", "`by_hand.batch_of` of 64 rows")(loop(wrap=lambda rows: rows))
+wrong("train", "`by_hand.batch_of` of 64 rows")(loop(rows=32))
+wrong("train", "one after each fourth push")(loop(times=4))
+wrong("train", "updates: after the first 256")(loop(often=64))
+
+
+@wrong("train", "`pushes` counts single pushes, not episodes")
+def as_many_episodes(agent, env, buffer, update, pushes, rng):
+    for _ in range(pushes):
+        (state, _), over = env.reset(), False
+        while not over:
+            action = agent.draw(state, rng)
+            after, reward, fell, late, _ = env.step(action)
+            buffer.add(by_hand.row(state, action, reward, fell, after))
+            state, over = after, fell or late

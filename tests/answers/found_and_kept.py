@@ -67,3 +67,10 @@ for _change in (
     f"{PAIRS}  ->  zip(rows, printed, strict=False)",
 ):
     equivalent("reads_as_printed", _change, "both have as many rows")
+
+wrong_lines("""forgetting
+    the beginnings: found = [[k for k in range(len(row) - window + 1) if sum(row[k : k + window]) > window / 2] for row in success]
+        np.array([[ends[0] + 1, ends[-1] + 1] if ends else [0, 0] for ends in found])  # *begin*
+    counted from 0: found = [[k for k in range(window, len(row) + 1) if sum(row[k - window : k]) > window / 2] for row in success]
+        np.array([[ends[0] - 1, ends[-1] - 1] if ends else [0, 0] for ends in found])  # Both numbers are one too small
+""")  # noqa: E501

@@ -117,3 +117,7 @@ def always_two_cut(x, y, draws_x, draws_y):
 
 
 equivalent("power", "np.outer(k, j)[shown]  ->  np.outer(j, k)[shown]", "a pair and its mirror image are both shown")
+
+wrong_lines("""bootstrap_interval
+    with shares: np.percentile(np.take(scores, draws).mean(-1), (0.025, 0.975))  # takes per cent
+""")

@@ -131,3 +131,17 @@ wrong_lines("""margin_loss
         rivals = q_pair.scatter(-1, action.expand(2, -1)[..., None], float("-inf")).amax(-1)
         (torch.relu(rivals + 1 - taken) * (taken > rivals) * is_demonstration).mean(-1).sum()
 """)
+
+wrong_lines("""margin_loss
+    of the demonstrations alone: some = is_demonstration > 0
+        total = 0.0
+        for q in q_pair[:, some]:
+            on = (q.gather(1, action[some, None])[:, 0] >= q.amax(1)).float()
+            total = total + (on * bc.bootstrap.large_margin_loss(q, action[some])).mean()
+        total  # number of demonstrations
+    where it is on: total = 0.0
+        for q in q_pair:
+            on = (q.gather(1, action[:, None])[:, 0] >= q.amax(1)) * (is_demonstration > 0)
+            total = total + bc.bootstrap.large_margin_loss(q, action)[on].mean()
+        total  # where the filter is on
+""")

@@ -57,3 +57,13 @@ def with_where(pi, q, rule_actions):
     at_rule = torch.nn.functional.one_hot(rule_actions, pi.shape[1])
     kept = torch.where(q > (at_rule * q).sum(-1, keepdim=True), pi, torch.zeros_like(pi))
     return kept + at_rule * (1 - kept.sum(-1, keepdim=True))
+
+
+wrong_lines("""smallest_of
+    values and places: torch.stack([q[int(c)] for c in chosen]).min(dim=0)  # take `.values`
+""")
+
+wrong_lines("""better_of_two
+    divided by their sum: stays = torch.where(q >= q.gather(1, rule_actions[:, None]), pi, torch.zeros_like(pi))
+        stays / stays.sum(1, keepdim=True)  # share what is left over
+""")

@@ -151,3 +151,8 @@ wrong_lines("""constrained_target
     a penalty on the reward: value = (next_log_pi.exp() * (next_q_pair.amin(0) - alpha * next_log_pi)).sum(-1)
         reward - xi * next_kl + gamma * (1 - terminated) * value  # outside the value
 """)
+
+wrong_lines("""constrained_target
+    with a discount and no end: value = bc.sac.soft_value(next_log_pi, next_q_pair.amin(0), torch.tensor(alpha))
+        reward + gamma * ((1 - terminated) * value - xi * next_kl)  # after an accident, too
+""")

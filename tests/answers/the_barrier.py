@@ -14,7 +14,8 @@ right_lines("""luck
 """)
 
 wrong_lines("""luck
-    capped: min(1.0, tries * (good / 9) ** decisions)
+    capped: min(1.0, tries * (good / 9) ** decisions)  # counts two lucky ones twice
+    no luck: (1 - (good / 9) ** decisions) ** tries  # *no* attempt is lucky
     of eight: 1 - (1 - (good / 8) ** decisions) ** tries
 """)
 
@@ -92,8 +93,38 @@ def chain_learner(first=0, ties=0, ahead=0, sarsa=False, own=True):
     return answer
 
 
-for _slip in ({"first": 19}, {"ties": 1}, {"ahead": 1}, {"sarsa": True}, {"own": False}):
+for _slip in ({"first": 19}, {"ahead": 1}, {"own": False}):
     wrong("learn_chain")(chain_learner(**_slip))
+wrong("learn_chain", "Of two equal actions")(chain_learner(ties=1))
+wrong("learn_chain", "repeating the same action")(chain_learner(sarsa=True))
+
+
+@wrong("learn_chain", "last decision of an episode as an end")
+def with_an_end_after_20(chances, gamma, step, taught):
+    q, s, n = np.zeros((5, 2)), 0, 0
+    for chance in chances:
+        a, n = int(np.argmax(q[s])) if chance == -1 else chance, n + 1
+        after = 0 if n == 20 else gamma * max(q[chain.NEXT[s, a]])
+        q[s, a] += step * (chain.REWARD[s, a] + after - q[s, a])
+        for x, u in taught:
+            q[x, u] += step * (chain.REWARD[x, u] + gamma * max(q[chain.NEXT[x, u]]) - q[x, u])
+        s, n = (0, 0) if n == 20 else (chain.NEXT[s, a], n)
+    return q
+
+
+@wrong("learn_chain", "the value of state 0, where the walk starts again")
+def with_the_next_episode(chances, gamma, step, taught):
+    q, s = np.zeros((5, 2)), 0
+    for t, chance in enumerate(chances):
+        a = int(np.argmax(q[s])) if chance == -1 else chance
+        after = chain.NEXT[s, a]
+        if t % 20 == 19:
+            after = 0
+        q[s, a] += step * (chain.REWARD[s, a] + gamma * q[after].max() - q[s, a])
+        for x, u in taught:
+            q[x, u] += step * (chain.REWARD[x, u] + gamma * q[chain.NEXT[x, u]].max() - q[x, u])
+        s = after
+    return q
 
 
 wrong_lines("""learn_chain

@@ -112,3 +112,17 @@ for _change, _why in {
     "(:, 0)  ->  (:, -1)": "there is one column",
 }.items():
     equivalent("ppo_loss", _change, _why)
+
+wrong_lines("""advantages
+    into the next episode: delta = rewards + gamma * (1 - terminated) * next_values - values
+        powers = (gamma * lam) ** torch.arange(len(delta))
+        torch.stack([(powers[: len(delta) - t, None] * delta[t:]).sum(0) for t in range(len(delta))])  # next episode
+""")
+
+wrong_lines("""ppo_loss
+    with n below the deviation: good = advantage - advantage.mean()
+        good = good / good.square().mean().sqrt()
+        ratio = torch.exp(log_pi[torch.arange(len(actions)), actions] - old_log_pi)
+        loss = -torch.minimum(ratio * good, ratio.clamp(1 - clip, 1 + clip) * good).mean()
+        loss + (values - returns).square().mean() / 2 + entropy_weight * (log_pi.exp() * log_pi).sum(-1).mean()  # n - 1
+""")

@@ -133,3 +133,14 @@ wrong_lines("""find_plan
             plans = rng.integers(0, 3, (500, 8))
         plans[0]  # other actions
 """)
+
+wrong_lines("""find_plan
+    without the last action: plans = rng.integers(3, 5, (500, 8))
+        while not gets_out(plans).any():
+            plans = rng.integers(3, 5, (500, 8))
+        plans[gets_out(plans).argmax()]  # None of your plans holds action 5
+""")
+
+wrong_lines("""bearable_risk
+    the rest, clipped: min(1, max(0, (stay - crash) / (escape - crash)))  # must *succeed*
+""")

@@ -87,3 +87,8 @@ wrong_lines("""drowning_bonus
 """)
 
 equivalent("climb_rule", "2 if speed >= 0 else 0  ->  2 if speed > 0 else 0", "at rest, either side will do")
+
+wrong_lines("""climb_rule
+    minus one: 1 if speed >= 0 else -1  # a number that is not an action
+    counted from one: 3 if speed >= 0 else 1  # a number that is not an action
+""")

@@ -85,3 +85,9 @@ def by_the_time_until_they_meet(cars, scenario):
     arrived = cars[EGO, Y] - 4 * lane < 0.5
     speed = 8.5 if lane == 2 else min(front - 0.5, 14.0) if gap > 12 else front - 1
     return teacher.toward(cars, max(6.5, speed), lane - 1 if free and arrived else lane, scenario)
+
+
+wrong_lines("""my_rule
+    at the traps' speed: lane = int(cars[EGO, LANE])
+        teacher.toward(cars, 9.5 if lane == 0 else 9.0, max(lane - 1, 0), scenario)  # faster there than the traps
+""")

@@ -28,11 +28,11 @@ SAYS = {"output_type": "execute_result", "data": {"text/plain": ["✓ Right."]}}
 NOTEBOOK = {
     "cells": [{"cell_type": "code", "source": source, "outputs": [SAYS]}
               for source in ("%time x = 1", "k = {}\nk['a'] = 1", CELL, "luck?", "x = !ls", "def luck(a:\n")],
-    "metadata": {"bootcourse_exercises": "a"}, "nbformat": 4,
+    "metadata": {}, "nbformat": 4,
 }  # fmt: skip
 HANDED_IN = {
-    "format": Submission.FORMAT, "name": "Ada", "made": "2030-01-01", "deadline": "2030-01-02", "lessons": ["traffic"],
-    "exercises": "a", "versions": {"python": "3.11"}, "answers": {"luck": CELL}, "right": ["luck"], "problems": ["a"],
+    "format": Submission.FORMAT, "name": "Ada", "made": "2030-01-01", "lessons": ["traffic"],
+    "exercises": "a", "answers": {"luck": CELL}, "right": ["luck"], "problems": ["a"],
     "predictions": {"the_barrier.1": {"answer": 3.5, "question": "Why?", "unit": "m"}},
 }  # fmt: skip
 STRANGE = (

@@ -2,7 +2,6 @@
 
 import os
 import sys
-from datetime import date
 from pathlib import Path
 
 import typer
@@ -55,7 +54,6 @@ def grade(
 def handout(
     folder: Path = typer.Argument(..., help="The folder to write; FOLDER.zip is written beside it."),
     lessons: str = typer.Option("", help="Only these lessons, such as 2-7 or 1,5,7."),
-    deadline: str = typer.Option("", help="A date, such as 2030-05-31: submissions after it are marked."),
     solutions: bool | None = typer.Option(None, help="Let `check.solution` show solutions; by default it does not."),
     update: bool = typer.Option(False, "--update", help="Bring this handout up to date; what students wrote stays."),
 ) -> None:
@@ -65,9 +63,7 @@ def handout(
 
     chosen = read_lessons(lessons)
     if update:
-        said = handout.update(folder, chosen, deadline, solutions)
+        said = handout.update(folder, chosen, solutions)
     else:
-        said = handout.write(folder, chosen, deadline, bool(solutions))
+        said = handout.write(folder, chosen, bool(solutions))
     print(*said, sep="\n")
-    if deadline and deadline < date.today().isoformat():
-        print(f"The deadline {deadline} has passed: every submission will be marked as late.")

@@ -61,9 +61,7 @@ class Verdicts:
                 file.write(msgspec.json.encode(Kept(key, judged)) + b"\n")
 
 
-def judge_all(
-    submissions: Sequence[Submission], wanted: Sequence[str], verdicts: Verdicts, workers: int, progress: bool = True
-) -> list[str]:
+def judge_all(submissions: Sequence[Submission], wanted: Sequence[str], verdicts: Verdicts, workers: int) -> list[str]:
     """Judge what has no verdict yet. Returns what shut the judging processes in; [] if there was nothing to judge.
 
     Raises BootcourseError if no process starts.
@@ -86,7 +84,7 @@ def judge_all(
     pool = ThreadPoolExecutor(len(judges))
     try:
         asked = [pool.submit(judge, *pair) for pair in todo]
-        done = tqdm(as_completed(asked), total=len(asked), desc="answers", unit="", disable=not progress)
+        done = tqdm(as_completed(asked), total=len(asked), desc="answers", unit="")
         return sorted(set.intersection(*(each.result() for each in done)))
     finally:  # also after Ctrl-C: each judge finishes its answer
         pool.shutdown(cancel_futures=True)

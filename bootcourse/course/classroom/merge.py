@@ -5,20 +5,6 @@ it stands in that cell's place. All other cells are the new version's.
 """
 
 import hashlib
-from dataclasses import dataclass
-
-
-@dataclass(frozen=True)
-class Merged:
-    """The merged notebook, how many of its cells are the student's, and those of them that the lesson changed, too."""
-
-    notebook: dict
-    own: int
-    both: tuple[str, ...]  # their first lines
-
-    def __str__(self) -> str:
-        also = "".join(f"; changed in the lesson, too, and kept: “{line}”" for line in self.both)
-        return f"{self.own} cells of the student's kept{also}."
 
 
 def text_of(cell: dict) -> str:
@@ -41,8 +27,11 @@ def texts(notebook: dict) -> dict[str, str]:
     return {str(cell.get("id", place)): digest(cell) for place, cell in enumerate(notebook["cells"])}
 
 
-def merge(mine: dict, base: dict[str, str], new: dict) -> Merged:
-    """mine: the student's notebook; base: `texts` of the one that was handed out; new: the one to hand out now."""
+def merge(mine: dict, base: dict[str, str], new: dict) -> tuple[dict, str]:
+    """The merged notebook, and a sentence about the cells of the student's, with those that the lesson changed, too.
+
+    mine: the student's notebook; base: `texts` of the one that was handed out; new: the one to hand out now.
+    """
     own = {place: cell for place, cell in enumerate(mine["cells"]) if digest(cell) not in base.values()}
     in_place = {str(own[place].get("id")): own[place] for place in reversed(own)}  # of several with one id, the first
     ran = {digest(cell): cell for cell in mine["cells"]}
@@ -57,6 +46,6 @@ def merge(mine: dict, base: dict[str, str], new: dict) -> Merged:
             above = [there.index(digest(other)) for other in mine["cells"][:place] if digest(other) in there]
             cells.insert(above[-1] + 1 if above else 0, cell)
     both = [cell for name, cell in in_place.items() if name in lesson and base.get(name) != digest(lesson[name])]
-    return Merged(
-        new | {"cells": cells}, len(own), tuple(text_of(cell).strip().partition("\n")[0][:80] for cell in both)
-    )
+    first_lines = (text_of(cell).strip().partition("\n")[0][:80] for cell in both)
+    also = "".join(f"; changed in the lesson, too, and kept: “{line}”" for line in first_lines)
+    return new | {"cells": cells}, f"{len(own)} cells of the student's kept{also}."

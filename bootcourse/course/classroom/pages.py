@@ -24,12 +24,12 @@ from bootcourse.errors import BootcourseError
 from bootcourse.files import check_own, write_bytes
 from bootcourse.markup import Markup, html, joined
 
-STYLE = """:root {color-scheme: light dark} small {opacity: 0.7} meter {width: 100px}
+STYLE = """<style>:root {color-scheme: light dark} small {opacity: 0.7}
 body {font: 16px/1.5 system-ui, sans-serif; max-width: 900px; margin: 2em auto; padding: 0 1em}
 h2 {margin-top: 1.6em; font-size: 1.2em} table {border-collapse: collapse; width: 100%} .wide {overflow-x: auto}
 th, td {text-align: left; vertical-align: top; padding: 4px 10px 4px 0; border-bottom: 1px solid #8886}
 td:last-child {overflow-wrap: anywhere; min-width: 9em} code, pre {font: 13px/1.4 ui-monospace, monospace}
-pre {white-space: pre-wrap; margin: 4px 0}"""
+pre {white-space: pre-wrap; margin: 4px 0}</style>"""
 MADE_BY = '<meta name="generator" content="bootcourse">'
 WORDS = {"missing": "not handed in", "todo": "not written"}
 TO_LOOK_AT = {"did_not_run": "did not run", "unjudged": "could not be judged, grade again"}
@@ -85,11 +85,10 @@ def harmless(text: str) -> str:
 
 def page(title: str, *parts: Markup) -> Markup:
     """A whole page that asks the network for nothing."""
-    head = (
-        '<meta charset="utf-8">{}<meta name="viewport" content="width=device-width"><title>{}</title><style>{}</style>'
-    )
-    head, body = html(head, Markup(MADE_BY), title, Markup(STYLE)), html("<h1>{}</h1>{}", title, joined(parts, "\n"))
-    return html('<!doctype html><html lang="en"><head>{}{}</head><body>{}</body></html>', Markup(MADE_BY), head, body)
+    head = '<meta charset="utf-8">{}<meta name="viewport" content="width=device-width"><title>{}</title>{}'
+    head = html(head, Markup(MADE_BY), title, Markup(STYLE))
+    whole = '<!doctype html><html lang="en"><head>{}</head><body><h1>{}</h1>{}</body></html>'
+    return html(whole, head, title, joined(parts, "\n"))
 
 
 def table(heading: str, columns: Iterable[str], rows: Iterable[Iterable]) -> Markup:
@@ -107,10 +106,6 @@ def bullets(heading: str, items: Sequence) -> Markup:
 
 def code(names: Iterable[str]) -> Markup:
     return joined((html("<code>{}</code>", name) for name in names), ", ")
-
-
-def bar(value: float, most: float) -> Markup:
-    return html('<meter value="{}" max="{}">{:g} of {:g}</meter>', value, most or 1, value, most)
 
 
 def by_lesson(exercises: Iterable[str]) -> Iterable[tuple[str, list[str]]]:
@@ -133,10 +128,9 @@ def feedback(graduate: Graduate) -> Markup:
             for n in names
         ]
         parts.append(table(heading, ("exercise", "points", "the check says"), rows))
-    parts.append(bullets("What could not be read, or did not run", own.problems))
+    parts.append(bullets("What could not be read", own.problems))
     if own.made:
-        late = " That is after the deadline." if own.late else ""
-        parts.append(html("<p><small>Handed in {}.{}</small></p>", own.made, late))
+        parts.append(html("<p><small>Made {}.</small></p>", own.made))
     return page(f"Feedback for {own.name or own.student}", *parts)
 
 
@@ -164,13 +158,12 @@ def class_page(graduates: Sequence[Graduate], link: dict[str, Markup], holds: li
     head = html(
         "<p>{} submissions, {} exercises, {:g} points. {}</p>", len(graduates), len(worth), most, shut_in(holds)
     )
-    students = [(link[one.submission.student], one.submission.name, bar(one.total, most), f"{one.total:g}")
-                for one in graduates]  # fmt: skip
-    parts = [head, table("Students", ("id", "name", "", "points"), students)]
+    students = [(link[one.submission.student], one.submission.name, f"{one.total:g}") for one in graduates]
+    parts = [head, table("Students", ("id", "name", "points"), students)]
     parts.append(bullets("To look at", to_look_at(graduates, link)))
     for heading, names in by_lesson(worth):
         rows = [row_of(name, graduates, link) for name in names]
-        parts.append(table(heading, ("exercise", "right", "", "not written", "wrong", "known mistakes"), rows))
+        parts.append(table(heading, ("exercise", "right", "not written", "wrong", "known mistakes"), rows))
     if predicted := prediction_rows(graduates):
         parts.append(table("Predictions", ("", "question", "answers"), predicted))
     return page("The class", *parts)
@@ -198,7 +191,6 @@ def row_of(exercise: str, graduates: Sequence[Graduate], link: dict[str, Markup]
     return [
         code([exercise]),
         f"{right} of {len(verdicts)}",
-        bar(right, len(verdicts)),
         str(sum(judged.kind in WORDS for judged in verdicts.values())),
         students,
         joined(mistakes, "<br>"),
@@ -212,8 +204,6 @@ def to_look_at(graduates: Sequence[Graduate], link: dict[str, Markup]) -> list[M
         own, sentences = one.submission, list(one.submission.problems)
         if own.exercises not in ("", fingerprint()):
             sentences.append("made with another version of the exercises.")
-        if own.late:
-            sentences.append("handed in after the deadline.")
         if not own.written:
             sentences.append("no answer written.")
         for kind, words in TO_LOOK_AT.items():

@@ -1,4 +1,4 @@
-"""What a student hands in, as one JSON file: answers, predictions, versions, a name. Nothing is run.
+"""What a student hands in, as one JSON file: answers, predictions, a name. Nothing is run.
 
 Such a file may come from anybody: one reader checks every field, and what it returns is only text.
 """
@@ -12,22 +12,20 @@ from contextlib import contextmanager
 from datetime import UTC, datetime
 from functools import cache
 from pathlib import Path
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 from msgspec import Meta, Struct, convert, to_builtins
 from msgspec.structs import replace
 
 from bootcourse.course import lessons as exercises
 from bootcourse.course.classroom.answers import LONGEST, Answers, Clock, Notebook, unfinished
-from bootcourse.course.edition import HANDOUT
-from bootcourse.course.lessons import registry
+from bootcourse.course.lessons import LESSONS, stem
 from bootcourse.course.predictions import FILE, predictions
 from bootcourse.errors import BootcourseError
-from bootcourse.files import decoding, provenance, read_bytes, read_json, write_json
+from bootcourse.files import decoding, read_json, write_json
 
 ASK = "ask for it again"  # the remedy for a damaged file
 MOST = 200  # predictions, and as many problems
-MADE_WITH = "bootcourse_exercises"  # in the metadata of a handout's notebooks: the `fingerprint` of its exercises
 KINDS = (".json", ".ipynb")  # of files that a student hands in
 SOLVED = "solved"  # the folder, beside the lessons, with the course's own answers
 
@@ -35,13 +33,6 @@ Words = Annotated[str, Meta(max_length=200)]
 Long = Annotated[str, Meta(max_length=2000)]
 Answer = Annotated[str, Meta(max_length=LONGEST)]
 Many = Meta(max_length=MOST)
-
-
-class Handed(Struct):
-    """What is read of a handout's record."""
-
-    deadline: Words = ""
-    cells: Annotated[dict[Words, Any], Many] = {}  # notebook -> ...
 
 
 class Prediction(Struct, frozen=True):
@@ -61,19 +52,12 @@ class Submission(Struct, frozen=True, kw_only=True):
     student: str = ""  # the name of the file or folder, which the student did not choose
     name: Words = ""  # what the student gave as name
     made: Words = ""  # the time, UTC
-    deadline: Words = ""  # of the handout
     exercises: Words = ""  # `fingerprint()` of the kit that made it
-    lessons: Annotated[tuple[Words, ...], Many] = ()  # the names of those that were handed out
-    versions: Annotated[dict[Words, Words], Many] = {}  # package -> version
+    lessons: Annotated[tuple[Words, ...], Many] = ()  # the names of those whose notebooks the student has
     answers: Annotated[dict[Words, Answer], Many] = {}  # exercise -> text
     right: Annotated[tuple[Words, ...], Many] = ()  # the exercises whose check in the notebook said "Right"
     predictions: Annotated[dict[Words, Prediction], Many] = {}
-    problems: Annotated[tuple[Long, ...], Many] = ()  # what could not be read, and cells that ended with an error
-
-    @property
-    def late(self) -> bool:
-        """Was it made on a later day (UTC) than that of the deadline?"""
-        return bool(self.deadline) and self.made[:10] > self.deadline
+    problems: Annotated[tuple[Long, ...], Many] = ()  # what could not be read
 
     @property
     def written(self) -> dict[str, str]:
@@ -108,23 +92,21 @@ def submit(folder: Path, name: str, out: Path | None) -> tuple[Path, Submission]
         if old.name != name:
             raise BootcourseError(f"{path} is the submission of {old.name or 'nobody'}: choose another, with --out.")
     now = datetime.now(UTC).isoformat(timespec="seconds")
-    own = {"name": name, "made": now, "versions": provenance(), "exercises": fingerprint()}
-    submission = replace(from_notebooks(folder), **own)
+    submission = replace(from_notebooks(folder), name=name, made=now, exercises=fingerprint())
     write_json(path, to_builtins(submission))
     return path, submission
 
 
 def from_notebooks(path: Path) -> Submission:
-    """What a notebook holds, or a student's folder: notebooks, kept answers, predictions.
+    """What a notebook holds, or a student's folder: notebooks and predictions.
 
-    A notebook that is damaged becomes one of the `problems`. What stands in a notebook goes before a kept answer.
-    Raises BootcourseError for a folder without any.
+    A notebook that is damaged becomes one of the `problems`. Raises BootcourseError for a folder without any.
     """
     folder = path if path.is_dir() else path.parent
-    notebooks, answers = (notebooks_in(folder), kept_answers(folder)) if path.is_dir() else ([path], {})
-    if not (notebooks or answers):
+    notebooks = notebooks_in(folder) if path.is_dir() else [path]
+    if not notebooks:
         raise BootcourseError(f"{path} holds no notebook: run `bootcourse submit` in the folder of your notebooks.")
-    right, predicted, problems, version, handed, clock = set(answers), {}, [], "", Handed(), Clock()
+    answers, right, predicted, problems, clock = {}, set(), {}, [], Clock()
 
     @contextmanager
     def noting(place: Path) -> Iterator[None]:
@@ -136,30 +118,19 @@ def from_notebooks(path: Path) -> Submission:
 
     for place in notebooks:
         with noting(place):
-            notebook = read_json(place, Notebook, ASK)
-            read = Answers(notebook, clock)
+            read = Answers(read_json(place, Notebook, ASK), clock)
             texts = read.texts()
             new = {name: text for name, text in texts.items() if name not in answers or not unfinished(text)}
             answers, right = answers | new, right - set(new) | read.right & set(new)
-            if notebook.errors:
-                problems.append(f"{place.name}: {notebook.errors} cell(s) ended with an error.")
-            if read.too_long:
-                problems.append(
-                    f"{place.name}: {read.too_long} cell(s) with more than {LONGEST:,} characters not read."
-                )
-            version = str(notebook.metadata.get(MADE_WITH, version))[:40]
     for name in [name for name, text in answers.items() if len(text) > LONGEST]:
         del answers[name]
         problems.append(f"The answer {name} has more than {LONGEST:,} characters with all that it uses: not read.")
-    if path.is_dir():
-        with noting(folder / FILE):
-            predicted = committed(folder)
-    with noting(folder / HANDOUT):
-        handed = handout_of(folder)
-    lessons = tuple(Path(name).stem.partition("_")[2] for name in handed.cells)
+    for place in files(folder, str(FILE))[:1] if path.is_dir() else ():
+        with noting(place):
+            predicted = convert(predictions(place.parents[1]), dict[str, Prediction])
     right, problems = tuple(sorted(right & set(answers))), tuple(problems[:MOST])
-    return Submission(answers=answers, right=right, predictions=predicted, problems=problems, exercises=version,
-                      deadline=handed.deadline, lessons=lessons)  # fmt: skip
+    lessons = tuple(name for name in LESSONS if stem(name) in {notebook.stem for notebook in notebooks})
+    return Submission(answers=answers, right=right, predictions=predicted, problems=problems, lessons=lessons)
 
 
 def notebooks_in(folder: Path) -> list[Path]:
@@ -173,26 +144,6 @@ def notebooks_in(folder: Path) -> list[Path]:
 def files(folder: Path, pattern: str) -> list[Path]:
     """The files below a folder, in the order of their names; links are left out."""
     return [path for path in sorted(folder.rglob(pattern)) if path.is_file() and not path.is_symlink()]
-
-
-def kept_answers(folder: Path) -> dict[str, str]:
-    """Exercise -> text, of the answers that passed their check in a notebook (see own_code.py)."""
-    paths = [path for path in files(folder, "answers/*.py") if path.stem in registry()]
-    return {path.stem: read_bytes(path).decode("utf-8", "replace") for path in paths}
-
-
-def committed(folder: Path) -> dict[str, Prediction]:
-    """The student's predictions. Raises BootcourseError for a damaged file."""
-    for path in files(folder, "answers/predictions.json"):
-        with decoding(path, ASK):
-            return convert(predictions(path.parents[1]), dict[str, Prediction])
-    return {}
-
-
-def handout_of(folder: Path) -> Handed:
-    """What the handout in this folder, or in the one above, says. Raises BootcourseError for a damaged record."""
-    handouts = [path / HANDOUT for path in (folder, folder.parent) if (path / HANDOUT).is_file()]
-    return read_json(handouts[0], Handed, ASK) if handouts else Handed()
 
 
 def within(folder: Path, error: BootcourseError) -> str:
@@ -223,15 +174,10 @@ def read(path: Path, student: str) -> Submission:
         with decoding(path, ASK):
             if path.is_symlink() or not (path.is_dir() or path.suffix in KINDS):
                 raise BootcourseError(f"{path} was not read: it is no .json file, no notebook and no folder.")
-            if path.suffix == ".ipynb":
-                return replace(from_notebooks(path), student=student)
-            written = [path] if path.is_file() else [file for file in files(path, "*.json") if is_submission(file)]
-            each = [(file, read_json(file, Submission, ASK)) for file in written]
-            if not each:
-                return replace(from_notebooks(path), student=student)
-            file, last = max(each, key=lambda pair: pair[1].made)
-            several = f"{len(each)} submissions: the latest, {file.name}, is graded." if len(each) > 1 else ""
-            return replace(last, student=student, problems=(*last.problems, *filter(None, [several])))
+            written = [path] if path.is_file() else filter(is_submission, files(path, "*.json"))
+            each = [read_json(file, Submission, ASK) for file in written if file.suffix == ".json"]
+            latest = max(each, key=lambda one: one.made) if each else from_notebooks(path)
+            return replace(latest, student=student)
     except BootcourseError as error:
         return Submission(student=student, problems=(within(path.parent, error),))
 

@@ -145,7 +145,8 @@ FLIPPED = "pi * (log_pi - log_rule) -> log_rule.exp() * (log_rule - log_pi)"
         ("q.detach() -> q", "pi = log_pi.exp() -> log_pi = log_pi.detach(); pi = log_pi.exp()"):
             "You detached the policy, which this loss should change. Detach Q.",
         "- xi -> + xi":
-            "You reward leaving the rule: subtract ξ times the KL from the value; the loss is minus the value.",
+            "You reward leaving the rule: your loss falls as the KL grows. Look at the signs, inside the KL "
+            "(log π - log π̃) and before ξ.",
     },
 )  # fmt: skip
 def fixed_loss(log_pi, q, log_rule, alpha, xi):

@@ -130,31 +130,37 @@ def after_updates(update, zeros: bool, times: int, seed: int) -> tuple[np.ndarra
 
 
 class Road:
-    """A world of numbered states for the loop: (episode, push, 0, 0). falls, timeouts: pushes that end an episode."""
+    """A world of numbered states for the loop: (episode, push, 0, 0).
 
-    def __init__(self, falls: tuple[int, ...], timeouts: tuple[int, ...]):
-        self.falls, self.timeouts, self.episode, self.push, self.pushes, self.over = falls, timeouts, -1, 0, 0, True
+    asked: the pushes of the training; after many more it raises NotAsAsked. falls, timeouts: pushes that end an
+    episode.
+    """
+
+    def __init__(self, asked: int, falls: tuple[int, ...], timeouts: tuple[int, ...]):
+        self.asked, self.falls, self.timeouts, self.episode, self.push, self.pushes = asked, falls, timeouts, -1, 0, 0
 
     def state(self) -> np.ndarray:
         return np.array([self.episode, self.push, 0, 0], dtype=np.float32)
 
     def reset(self, seed=None):
-        self.episode, self.push, self.over = self.episode + 1, 0, False
+        self.episode, self.push = self.episode + 1, 0
         return self.state(), {}
 
     def step(self, action):
+        if self.pushes > self.asked + 10:
+            raise NotAsAsked("Your loop goes on after the last push: `pushes` counts single pushes, not episodes.")
         ends = self.pushes in self.falls, self.pushes in self.timeouts
-        self.push, self.pushes, self.over = self.push + 1, self.pushes + 1, any(ends)
+        self.push, self.pushes = self.push + 1, self.pushes + 1
         return self.state(), 1.0, *ends, {}
 
 
 def after_training(train, pushes: int, falls: tuple[int, ...], timeouts: tuple[int, ...]) -> tuple:
     """What a loop did in a world of numbered states: its rows; episodes begun; whether the updates came as asked.
 
-    Of the updates: whether none came too early, whether about every fourth push had one, whether each got the agent
-    and a batch of 64 rows (all 1 or 0). Raises NotAsAsked where there is not one row for each push.
+    Of the updates: whether none came too early, whether about every fourth push had one (else minus their number),
+    whether each got the agent and a batch of 64 rows. Raises NotAsAsked where there is not one row for each push.
     """
-    stored, updates, road = [], [], Road(falls, timeouts)
+    stored, updates, road = [], [], Road(pushes, falls, timeouts)
 
     class Agent(SAC):
         def draw(self, state, rng):
@@ -178,5 +184,6 @@ def after_training(train, pushes: int, falls: tuple[int, ...], timeouts: tuple[i
     rows = torch.stack(stored).numpy().astype(float)
     asked = max(0, pushes - 256) / 4
     early = any(rows < 250 for rows, _ in updates)
-    judged = not early, abs(len(updates) - asked) <= 2, all(right for _, right in updates)
+    often = 1 if abs(len(updates) - asked) <= 2 else -len(updates)
+    judged = not early, often, all(right for _, right in updates)
     return rows, float(road.episode), *map(float, judged)

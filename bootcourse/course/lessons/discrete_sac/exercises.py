@@ -32,8 +32,12 @@ def of_the_update(cases, answers):
         right = by_hand.after_updates(update.solution, *case)
         pairs = zip(NETWORKS, (part.data for part in answer), right, strict=True)
         wrong = [name for name, mine, ours in pairs if not np.allclose(mine, ours, rtol=1e-4, atol=1e-6)]
+        if "the critics" in wrong:
+            wrong = [name for name in wrong if name != "the copies"]  # which follow the critics
         if wrong:
-            return f"After {case[1]} of your updates {' and '.join(wrong)} differ from ours: look there first."
+            after = "your first update" if case[1] == 1 else f"{case[1]} updates of yours"
+            verb = "differs" if wrong in (["the policy"], ["log α"]) else "differ"
+            return f"After {after} {' and '.join(wrong)} {verb} from ours: look there first."
     return "Your update differs from ours."
 
 
@@ -64,8 +68,8 @@ def of_the_update(cases, answers):
         "next_q, alpha -> next_q, 0 * alpha":
             "The value in your target has no entropy: hand α to your soft value.",
         "slow += agent.tau * (now - slow) -> slow = slow + agent.tau * (now - slow)":
-            "Your copies stay where they began. `slow = ...` gives the name to a new tensor: change the weights in "
-            "place, with `slow += ...` or `slow.copy_(...)`.",
+            "Your copies stay where they began. Step 8 changes their weights in place, with `slow += ...` or "
+            "`slow.copy_(...)`; `slow = ...` would only give the name to a new tensor.",
         "agent.tau * (now - slow) -> (1 - agent.tau) * (now - slow)":
             "Your copies take over nearly all of the new weights. Their share is τ, and 1 - τ of the old ones stays.",
         "optimiser.zero_grad() ->":
@@ -106,6 +110,9 @@ def loop_cases(rng):
         yield int(rng.integers(255, 340)), tuple(ends[:3]), tuple(ends[3:])
 
 
+COLUMNS = {"s": slice(4), "a": slice(4, 5), "r": slice(5, 6), "terminated": slice(6, 7), "s'": slice(7, 11)}
+
+
 def of_the_loop(cases, answers):
     """A sentence on a loop that keeps other rows or updates at other times."""
     for (pushes, falls, timeouts), answer in zip(cases, answers, strict=True):
@@ -113,14 +120,17 @@ def of_the_loop(cases, answers):
         right = by_hand.after_training(train.solution, pushes, falls, timeouts)
         if not np.array_equal(rows, right[0]):
             push = int(np.flatnonzero((np.array(rows) != right[0]).any(1))[0])
-            return (f"The row of push {push} is not (s, a, r, terminated, s'). Falls end the pushes {list(falls)}, "
-                    f"timeouts {list(timeouts)}.")  # fmt: skip
+            wrong = [name for name, part in COLUMNS.items() if (np.array(rows) != right[0])[push, part].any()]
+            ending = ", which ends in a fall," * (push in falls) or ", which ends by time," * (push in timeouts)
+            return (f"In the row of push {push}{ending} {' and '.join(wrong)} {'is' if len(wrong) == 1 else 'are'} not "
+                    "right: a row is (s, a, r, terminated, s'), and pushes count from 0.")  # fmt: skip
         if episodes != right[1]:
             return "Your loop resets the environment too often or too seldom: once at the start and after each end."
         if not late:
             return "Your loop updates too early: let the buffer fill for 256 pushes first."
-        if not often:
-            return "Your loop makes too many updates or too few: one after each fourth push, once 256 are made."
+        if often != 1:
+            return (f"In {pushes} pushes your loop makes {-often:.0f} updates: after the first 256, make one after "
+                    "each fourth push.")  # fmt: skip
         if not good:
             return "Hand `update` the agent and `by_hand.batch_of` of 64 rows that your buffer drew."
     return "Your loop differs from ours."
@@ -151,11 +161,11 @@ def of_the_loop(cases, answers):
         "push >= 256 and ->":
             "Your loop updates too early: let the buffer fill for 256 pushes first.",
         "and push % 4 == 0 ->":
-            "Your loop updates after each push: here it is one update for each fourth push.",
+            "Your loop makes about four times as many updates as asked for: here it is one after each fourth push.",
         "(state, action, reward -> (next_state, action, reward":
             "Your row begins with the state that came after the push. It begins with the one in which you decided.",
         "64 -> 1":
-            "Your batches have one row. Draw 64.",
+            "Hand `update` the agent and `by_hand.batch_of` of 64 rows that your buffer drew.",
     },
 )  # fmt: skip
 def train(agent, env, buffer, update, pushes, rng):

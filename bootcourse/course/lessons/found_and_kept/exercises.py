@@ -34,6 +34,11 @@ def training_curves(rng):
     mistakes={
         "window + often.argmax(axis=1) -> 1 + often.argmax(axis=1)":
             "Your first number says where the first good window *begins*. Say with which episode it ends.",
+        "return np.where(often.any(axis=1)[:, None], ends + 1 - window, 0)":
+            "Your numbers say where the two windows *begin*. Say with which episodes they end.",
+        "return np.where(often.any(axis=1)[:, None], ends - 1, 0)":
+            "Both numbers are one too small: episodes are counted from 1, so a window of the first `window` episodes "
+            "ends with episode `window`.",
         "means > 0.5 -> means >= 0.5":
             "Half is not more than half: an agent that is ahead in every second episode has not found the way out.",
         "window + often.argmax(axis=1), last -> last, window + often.argmax(axis=1)":

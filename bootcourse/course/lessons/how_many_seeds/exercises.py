@@ -151,6 +151,8 @@ def draw_cases(rng):
     mistakes={
         "[2.5, 97.5] -> [5, 95]":
             "You leave 5 % on each side: that is a 90 % interval. 95 % leaves 2.5 on each.",
+        "[2.5, 97.5] -> [0.025, 0.975]":
+            "`np.percentile` takes per cent: 2.5 and 97.5. Shares, 0.025 and 0.975, are for `np.quantile`.",
         ".mean(axis=1) ->":
             "This is the spread of single agents. Average within each draw first: the interval is that of the *mean*.",
         "axis=1 -> axis=0":

@@ -91,6 +91,12 @@ def paper_q_filter(q, expert_action):
     return (q_expert >= q.amax(-1)).to(q.dtype)
 
 
+FEWER = (
+    "You divide by the number of demonstrations. Here it is the mean over the whole batch, so that the loss fades with "
+    "β."
+)
+
+
 def margin_cases(rng):
     """No demonstration, all demonstrations; then 41 at random. Experts lead by about 1, are level, behind."""
     for number in range(43):
@@ -120,9 +126,11 @@ def margin_cases(rng):
             "Your loss also counts the agent's own rows: there is no expert in them. Multiply by `is_demonstration`.",
         "(q_taken >= q.amax(-1)) * is_demonstration -> is_demonstration":
             "You left out the Q-filter: your loss also counts where the critic prefers another action.",
-        "* keep).mean() -> * keep).sum() / is_demonstration.sum().clamp(min=1)":
-            "You divide by the number of demonstrations. Here it is the mean over the whole batch, so that the loss "
-            "fades with β.",
+        "* keep).mean() -> * keep).sum() / is_demonstration.sum().clamp(min=1)": FEWER,
+        "* keep).mean() -> * keep).sum() / is_demonstration.sum()": FEWER,
+        "* keep).mean() -> * keep).sum() / keep.sum()":
+            "You take the mean over the rows where the filter is on. Here it is the mean over the whole batch: the "
+            "other rows count as 0.",
         "return total / 2":
             "Your loss is half of the right one: add the two critics' losses, as in the critics' squared errors, and "
             "do not take their mean.",

@@ -36,6 +36,8 @@ THREE = torch.tensor([[[1.0, 5.0]], [[2.0, 3.0]], [[0.0, 9.0]]])  # three critic
         "q[chosen] -> q":
             "You ask all critics. The target asks the chosen ones alone: the smallest of all five would be too low in "
             "most states.",
+        "amin(0) -> min(0)":
+            "`min(0)` gives two tensors, the values and whose they are: take `.values`, or use `amin`.",
         "amin -> mean":
             "You take the mean of the chosen critics. Their mean does not keep the largest guesses out of the target: "
             "take the smallest.",
@@ -69,6 +71,10 @@ def one_hot(actions, pi):
     return torch.nn.functional.one_hot(actions, pi.shape[-1]).to(pi)
 
 
+SHARED = (
+    "You share what is left over among all actions that remain. If a worse action is drawn, the rule's is taken "
+    "instead: all of it goes to μ(s)."
+)
 PI, Q = torch.tensor([[0.5, 0.3, 0.2]]), torch.tensor([[1.0, 2.0, 3.0]])
 
 
@@ -94,8 +100,8 @@ PI, Q = torch.tensor([[0.5, 0.3, 0.2]]), torch.tensor([[1.0, 2.0, 3.0]])
             "Your probabilities do not add up to 1: where the agent's own action is not better, the rule's is taken.",
         "shared = stays + one_hot(rule_actions, pi) * pi; "
         "return shared / shared.sum(-1, keepdim=True).clamp_min(1e-12)":
-            "You share what is left over among all actions that remain. If a worse action is drawn, the rule's is "
-            "taken instead: all of it goes to μ(s).",
+            SHARED,
+        "stays = pi * (q >= q_rule); return stays / stays.sum(-1, keepdim=True)": SHARED,
         "q > q_rule -> q < q_rule":
             "You keep the own actions that are valued *below* the rule's.",
         "better = (pi * q).sum(-1) > q_rule[:, 0]; "

@@ -242,6 +242,9 @@ Q_PAIR = torch.tensor([[2.0] * 4 + [9.0] * 5, [5.0] * 4 + [2.0] * 5])[:, None].e
         ("- xi * next_kl ->", "* value -> * value - xi * next_kl"):
             "Your KL stands outside the value of s': it is charged after an accident, too, and is not discounted. It "
             "is part of V(s').",
+        ("- xi * next_kl ->", "* value -> * value - gamma * xi * next_kl"):
+            "Your KL is charged after an accident, too. There the policy does not choose again: the KL is part of "
+            "V(s').",
         "(1 - terminated) * ->":
             "Your target adds a future after the accident. Where an episode ended, the target is the reward alone.",
         "(next_q - alpha * next_log_pi) -> next_q":

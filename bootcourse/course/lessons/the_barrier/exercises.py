@@ -23,6 +23,11 @@ def luck_cases(rng):
         "return tries * once":
             "Your chance can be above 1, because it counts two lucky attempts twice. Compute the chance that *every* "
             "attempt fails.",
+        "return min(1.0, tries * once)":
+            "You add the chances of the attempts, which counts two lucky ones twice. Compute the chance that *every* "
+            "attempt fails.",
+        "return (1 - once) ** tries":
+            "This is the chance that *no* attempt is lucky. The chance of at least one is 1 minus that.",
         "return once":
             "This is the chance of one attempt. There are `tries` of them, and one lucky one is enough.",
         "return once**tries":
@@ -51,6 +56,33 @@ def chain_cases(rng):
         yield drawn, rng.uniform(0.5, 0.95), rng.uniform(0.1, 0.9), taught
 
 
+def the_time_is_an_end(chances, gamma, step, taught):
+    """Q-learning in whose last decision of an episode the target is the reward alone."""
+    q, s = np.zeros((chain.STATES, 2)), 0
+    for t, chance in enumerate(chances):
+        s = 0 if t % chain.EPISODE == 0 else s
+        a = int(q[s].argmax()) if chance < 0 else chance
+        for number, each in enumerate([(s, a), *taught]):
+            is_last = number == 0 and t % chain.EPISODE == chain.EPISODE - 1
+            following = 0.0 if is_last else gamma * q[chain.NEXT[each]].max()
+            q[each] += step * (chain.REWARD[each] + following - q[each])
+        s = chain.NEXT[s, a]
+    return q
+
+
+def back_before_it_learns(chances, gamma, step, taught):
+    """Q-learning that goes back to state 0 before its last decision's target is computed."""
+    q, s = np.zeros((chain.STATES, 2)), 0
+    for t, chance in enumerate(chances, 1):
+        a = int(q[s].argmax()) if chance < 0 else chance
+        after = 0 if t % chain.EPISODE == 0 else chain.NEXT[s, a]
+        q[s, a] += step * (chain.REWARD[s, a] + gamma * q[after].max() - q[s, a])
+        for each in taught:
+            q[each] += step * (chain.REWARD[each] + gamma * q[chain.NEXT[each]].max() - q[each])
+        s = after
+    return q
+
+
 REPLAYED_AT_THE_END = """
 for state, action in taught:
     target = REWARD[state, action] + gamma * q[NEXT[state, action]].max()
@@ -73,9 +105,18 @@ learn_chain = exercise(
     mistakes={
         "if t % EPISODE == 0: s = 0 ->":
             "Your walk does not start again: every 20 decisions the time is up, and it continues in state 0.",
-        "gamma * q -> gamma * (t % EPISODE < EPISODE - 1 or (state, action) != (s, a)) * q":
+        the_time_is_an_end:
             "You treat the last decision of an episode as an end, after which nothing follows. The time was up, and "
             "the road goes on: the target keeps γ max Q(s').",
+        back_before_it_learns:
+            "The target of your last decision holds the value of state 0, where the walk starts again. Learn from the "
+            "state to which the action led, `chain.NEXT[s, a]`, and go back to 0 afterwards.",
+        "int(q[s].argmax()) -> int(q[s, 1] >= q[s, 0])":
+            "Of two equal actions your learner takes action 1. The greedy action is then action 0, which `argmax` "
+            "gives.",
+        ".max() -> [action]":
+            "You bootstrap with the value of repeating the same action. In the next state the better of the two "
+            "counts.",
         ".max() -> .mean()":
             "You bootstrap with the mean of Q(s', ·): that is the value of acting at random. Q-learning takes the "
             "largest.",

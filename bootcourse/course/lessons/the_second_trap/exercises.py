@@ -50,6 +50,8 @@ advantages = exercise(
         "ended[t] -> terminated[t]":
             "Where an episode ran out of time, the next row belongs to another episode: its surprises are not caused "
             "by this decision. Stop the sum wherever `ended` is 1.",
+        "(1 - ended[t]) * ->":
+            "Your sum goes on into the next episode: stop it wherever `ended` is 1.",
         "terminated -> ended":
             "An episode that ran out of time has a last state, and that state has a value: only after an accident is "
             "it 0. Use `terminated` in δ and `ended` in the sum.",
@@ -157,6 +159,11 @@ EVEN = torch.full((2, 9), 1 / 9).log()
         "(advantage - advantage.mean()) / (advantage.std() + 1e-8) -> advantage":
             "You take the advantages as they are. Give those of the minibatch mean 0 and deviation 1, so that the size "
             "of a step does not depend on the size of the rewards.",
+        "(advantage - advantage.mean()) / (advantage.std() + 1e-8) -> advantage - advantage.mean()":
+            "Your advantages have mean 0, and not yet deviation 1: divide them by their standard deviation.",
+        "advantage.std() -> advantage.std(correction=0)":
+            "Your deviation divides by n. That is as good, but this exercise asks for torch's `advantage.std()`, which "
+            "divides by n - 1.",
         "(taken - old_log_pi).exp() -> taken - old_log_pi":
             "This is the logarithm of the ratio: take its exponential.",
         "(taken - old_log_pi).exp() -> (old_log_pi - taken).exp()":

@@ -90,6 +90,9 @@ def reward(v_lon, offset, theta, accident):
     return (1.5 * r_v + 0.05 * r_y + 0.05 * r_theta) / (1.5 + 0.05 + 0.05)
 
 
+SUCCEED = "This is the share of attempts that must *succeed*. The risk is the share that crash: one minus that."
+
+
 def risk_cases(rng):
     """The rule's numbers, an escape that pays no more than to stay, a harmless crash, all edges; 40 at random."""
     yield from ((23.4375, escape, -9.5) for escape in (51.0, 20.0, 23.4375))
@@ -116,7 +119,10 @@ def risk_cases(rng):
     ),
     mistakes={
         "return (stay - crash) / (escape - crash)":
-            "This is the share of attempts that must *succeed*. The risk is the share that crash: one minus that.",
+            SUCCEED,
+        ("if escape <= stay: return 0.0 ->", "if crash >= stay: return 1.0 ->",
+         "return min(1.0, max(0.0, (stay - crash) / (escape - crash)))"):
+            SUCCEED,
         "(escape - crash) -> abs(crash)":
             "You compare the gain with the crash's own return. A crash costs what the attempt would have earned, "
             "escape - crash.",
@@ -146,15 +152,25 @@ def locks(rng):
         yield tuple(rng.permutation(8)[:deciding].tolist()), tuple(rng.integers(3, 6, deciding).tolist())
 
 
+MANY = 100_000  # actions
+
+
 def found_on(answer, seconds, actions):
     """Whether a planner's plan gets out where these seconds need these actions; 1 or 0."""
+    asked = {3: 0, 4: 0, 5: 0}  # how often each action stood in a plan
 
     def gets_out(plans):
         plans = np.asarray(plans)
         if plans.ndim != 2 or plans.shape[1] != 8:
             raise NotAsAsked(f"You asked about plans of shape {plans.shape}: `gets_out` takes many at once, (n, 8).")
-        if not np.isin(plans, (3, 4, 5)).all():  # it would search for ever
+        if not np.isin(plans, (3, 4, 5)).all():
             raise NotAsAsked("Your plans hold other actions: those that keep the speed are 3, 4 and 5.")
+        for action in asked:
+            asked[action] += int((plans == action).sum())
+        if min(asked.values()) == 0 and max(asked.values()) > MANY:  # it would search for ever
+            missing = min(asked, key=asked.get)
+            raise NotAsAsked(f"None of your plans holds action {missing}. `rng.integers(low, high)` leaves out `high`: "
+                             "3, 4 and 5 are `rng.integers(3, 6)`.")  # fmt: skip
         return (plans[:, list(seconds)] == actions).all(axis=1)
 
     plan = answer(gets_out, np.random.default_rng(0))

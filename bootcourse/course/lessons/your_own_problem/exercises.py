@@ -17,7 +17,7 @@ from bootcourse.course.lessons.your_own_problem.loops import UP, climb, explain_
             "Your rule pushes to the right for 200 decisions and stays in the valley: the engine is too weak. The car "
             "has to swing.",
         "return 1":
-            "Your rule never pushes: the car swings in the valley as high as it began.",
+            "In these episodes your rule never pushes: the car swings in the valley as high as it began.",
         "2 if speed >= 0 else 0 -> 0 if speed >= 0 else 2":
             "Your rule pushes *against* the motion. That brakes: each swing is smaller than the one before.",
         "speed >= 0 -> position >= -0.5":
@@ -26,7 +26,7 @@ from bootcourse.course.lessons.your_own_problem.loops import UP, climb, explain_
         "2 if speed >= 0 else 0 -> 2 if speed >= 0 else 1":
             "Your rule pushes to the right and never to the left. Swings to the left add energy, too.",
         "2 if speed >= 0 else 0 -> 3 if speed >= 0 else 0":
-            "3 is not an action: 0 is left, 1 no push, 2 right.",
+            "Your rule returns a number that is not an action: 0 is left, 1 no push, 2 right.",
     },
 )  # fmt: skip
 def climb_rule(position, speed):

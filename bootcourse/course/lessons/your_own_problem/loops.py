@@ -40,7 +40,7 @@ def explain_climb(cases, answers):
     if NOTHING in ends:
         return "Your rule returns nothing in some situations: look for a branch without `return`."
     if NOT_WHOLE in ends or OUTSIDE in ends:
-        return "Your rule sometimes returns something else than an action: a whole number, 0 (left), 1 or 2 (right)."
+        return "Your rule returns something else than an action: a whole number (an `int`), 0 (left), 1 or 2 (right)."
     if NOT_SAME in ends:
         return "Your rule answers the same state differently each time. The label of a state must not change."
     low = [end for end in ends if end != UP]

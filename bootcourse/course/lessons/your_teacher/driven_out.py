@@ -5,12 +5,13 @@ from gymnasium.vector import AutoresetMode
 
 from bootcourse.course.values import NUMERIC, plain
 from bootcourse.learn.teachers import is_action
-from bootcourse.road.state import EGO, TRAP_1, X
+from bootcourse.road.state import EGO, LANE, TRAP_1, X
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import N_ACTIONS
 
-OUT, BEHIND, OUTSIDE, NOT_SAME, NOT_WHOLE, NOTHING = 0, 4, 5, 6, 7, 8  # 1 to 3 are the accidents
+OUT, BEHIND, OUTSIDE, NOT_SAME, NOT_WHOLE, NOTHING, SLOW = 0, 4, 5, 6, 7, 8, 9  # 1 to 3 are the accidents
 ENDINGS = {1: "collides", 2: "leaves the road", 3: "stops on the road", BEHIND: "is still behind trap 1 at the end"}
+ENDINGS[SLOW] = "is in the left lane, and too slow to be ahead of trap 1 at the end"
 
 
 def drive_out(answer, cars, scenario):
@@ -32,7 +33,9 @@ def drive_out(answer, cars, scenario):
         _, _, terminated, _, infos = env.step(np.array([int(action)]))
         if terminated[0]:
             return int(infos["accident"][0])
-    return OUT if env.cars[0, EGO, X] > env.cars[0, TRAP_1, X] else BEHIND
+    if env.cars[0, EGO, X] > env.cars[0, TRAP_1, X]:
+        return OUT
+    return SLOW if env.cars[0, EGO, LANE] == 0 else BEHIND
 
 
 def no_action(action, again):
@@ -52,7 +55,7 @@ def explain_rule(cases, answers):
     if NOTHING in ends:
         return "Your rule returns nothing in some situations: look for a branch without `return`."
     if NOT_WHOLE in ends:
-        return "Your rule sometimes returns another kind of number: an action is a whole number, 0 to 8."
+        return "Your rule returns another kind of number: an action is a whole number (an `int`), 0 to 8."
     if OUTSIDE in ends:
         return f"Your rule sometimes returns a number that is not an action: give a whole number, 0 to {N_ACTIONS - 1}."
     if NOT_SAME in ends:

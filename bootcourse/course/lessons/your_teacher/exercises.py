@@ -17,6 +17,11 @@ def start_of(seed):
 
 HITS = "Your rule hits a car on every road. Look at the gap ahead before it accelerates or changes lane."
 
+
+def slow_in_the_free_lane(cars, scenario):
+    return toward(cars, 9.0, max(int(cars[EGO, LANE]) - 1, 0), scenario)
+
+
 my_rule = exercise(
     "μ(s), a controller of your own in place of Algorithm 1", name="my_rule", minutes=12, difficulty=2,
     cases=lambda rng: map(start_of, range(1_300_002, 1_300_024)), run=drive_out, explain=explain_rule,
@@ -32,6 +37,9 @@ my_rule = exercise(
             "Your rule drives safely but does not get out: on every road it is still behind trap 1 at the end. Fall "
             "back first: trap 2 has to be ahead of you before there is room on the left. Finish a lane change that has "
             "begun.",
+        slow_in_the_free_lane:
+            "Your rule comes to the left lane on every road, and is still behind trap 1 at the end: it has to drive "
+            "faster there than the traps.",
         "return 7":
             HITS,
         "return 5":
