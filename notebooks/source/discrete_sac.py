@@ -351,11 +351,11 @@ for h in (most, 1.0, 0.1, 0.0):
 
 # %% [markdown]
 # **Explain.** For *continuous* actions a rule of thumb sets η to minus the dimension of the action:
-# −1 for one that is a single number. There an entropy can be negative, since a density can be above
-# 1. The entropy of a policy over a list of actions is 0 or more, so $\mathcal{H} - \eta \ge 1$ in
-#    every state, and α falls at each update. As α falls, the best policy softmax(Q / α) becomes
-#    sure of one action: the agent explores less and less. How fast, lesson [[soft_constraint]]
-#    measures.
+# −1 for one that is a single number. There an entropy can be negative, since a density can be
+# larger than one. The entropy of a policy over a list of actions is 0 or more, so $\mathcal{H} -
+# \eta \ge 1$ in every state, and α falls at each update. As α falls, the best policy softmax(Q / α)
+# becomes sure of one action: the agent explores less and less. How fast, lesson [[soft_constraint]]
+# measures.
 # <!-- claim: 0 - SETTINGS.target_entropy == 1 -->
 #
 # **The first sitting ends here.** In the second one run the cells above again, and go on below.
