@@ -18,10 +18,9 @@
 # - write a probe: ask a part of a learner something whose right answer you know;
 # - repair an actor's loss, and test a target without training.
 #
-# **Time** 75 minutes in two sittings, the hunt (45) and the repairs (30), under one of them the
-# machine's. **It builds on** the losses of lesson
-# [[discrete_sac]], the soft constraint ([[soft_constraint]]) and learning from demonstrations
-# ([[learning_from_demonstrations]]).
+# **Time** 75 minutes in two sittings, the hunt (45) and the repairs (30); running it takes under
+# one minute. **It builds on** the losses of lesson [[discrete_sac]], the soft constraint
+# ([[soft_constraint]]) and learning from demonstrations ([[learning_from_demonstrations]]).
 
 # %%
 import bootcourse as bc

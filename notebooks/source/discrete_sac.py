@@ -20,8 +20,8 @@
 # - recognise a critic that diverges, and say what three seeds can show.
 #
 # **Time** 115 minutes in two sittings: the losses (Rounds 1 to 4, 51 minutes) and the program
-# (Rounds 5 to 7, 64 minutes); one minute is the machine's. **You need** Python and a little torch;
-# states, actions and rewards as in lesson [[the_trap]].
+# (Rounds 5 to 7, 64 minutes); running it takes about one minute. **You need** Python and a little
+# torch; states, actions and rewards as in lesson [[the_trap]].
 
 # %%
 import bootcourse as bc

@@ -19,7 +19,7 @@
 #   makes of it;
 # - tell a method that fails from one whose training was stopped too early.
 #
-# **Time** 60 minutes, under one of them the machine's. **It builds on** demonstrations (lesson
+# **Time** 60 minutes; running it takes under one minute. **It builds on** demonstrations (lesson
 # [[demonstrations]]) and the seeds ([[how_many_seeds]]).
 
 # %%

@@ -18,7 +18,7 @@
 # - name what has to be equal before a table of methods compares methods;
 # - read such a table by decisions and by seconds, and say what it leaves open.
 #
-# **Time** 55 minutes, about one of them the machine's. **It builds on** demonstrations (lesson
+# **Time** 55 minutes; running it takes about one minute. **It builds on** demonstrations (lesson
 # [[learning_from_demonstrations]]) and on the number of seeds ([[how_many_seeds]]).
 
 # %%

@@ -18,9 +18,9 @@
 # - derive the best compromise between a learner's Q and what the rule says;
 # - write the two losses that the pull enters, and show what happens if the pull does not fade.
 #
-# **Time** 80 minutes in two sittings (a good place for the break is after Round 3), about one of
-# them the machine's. **You need** the rule of lesson [[the_rule]], and actor, critic and soft value
-# from lesson [[discrete_sac]].
+# **Time** 80 minutes in two sittings (a good place for the break is after Round 3); running it
+# takes about one minute. **You need** the rule of lesson [[the_rule]], and actor, critic and soft
+# value from lesson [[discrete_sac]].
 
 # %%
 import math

@@ -18,7 +18,7 @@
 # - find out whether leaving the trap pays for it, and what an attempt to leave is worth;
 # - write a learner for a barrier of five states, and find out what gets it across.
 #
-# **Time** 65 minutes, about one of them the machine's. **You need** the trap of lesson
+# **Time** 65 minutes; running it takes about one minute. **You need** the trap of lesson
 # [[the_trap]], and of lesson [[discrete_sac]] at least the picture at its beginning.
 
 # %%

@@ -19,9 +19,9 @@
 # - predict from a teacher's errors whether cloning is enough;
 # - compute from the reward and γ how large a bonus may be before a loop pays more than the goal.
 #
-# **Time** 70 minutes, about one of them the machine's. **It builds on** the soft constraint (lesson
-# [[soft_constraint]]), learning from demonstrations ([[learning_from_demonstrations]]) and your
-# teacher ([[your_teacher]]).
+# **Time** 70 minutes; running it takes about one minute. **It builds on** the soft constraint
+# (lesson [[soft_constraint]]), learning from demonstrations ([[learning_from_demonstrations]]) and
+# your teacher ([[your_teacher]]).
 
 # %%
 from dataclasses import replace
