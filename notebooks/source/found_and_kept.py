@@ -217,10 +217,11 @@ bc.show(figures.seed_by_seed(study, shown, title, gone, "β is 0 from here on"))
 # <!-- claim: (losing('bootstrapped') & (in_training('bootstrapped', -200, None) > 0.9)).sum() >
 #   losing('bootstrapped').sum() / 2 -->
 #
-# **Explain.** A likely reading of the others: while β is large, each batch shows the critic the rule's way out,
-# with its bonus c. Later the agent learns from its own driving alone, and values that the
-# demonstrations had held up can drift. By then α is almost 0, and with it ξ, so the constraint does
-# not pull the agent back. The reading can be tested: let β end earlier, or not at all.
+# **Explain.** A likely reading of the others: while β is large, each batch shows the critic the
+# rule's way out, with its bonus c. Later the agent learns from its own driving alone, and values
+# that the demonstrations had held up can drift. By then α is almost 0, and with it ξ, so the
+# constraint does not pull the agent back. The reading can be tested: let β end earlier, or not at
+# all.
 # <!-- claim: max(run.curves['alpha'][999] / run.curves['alpha'][0] for run in
 #   shipped_runs('bootstrapped')) < 1e-4 -->
 

@@ -200,8 +200,8 @@ bc.recording(beginning(again, 40), height=360, futures=agent)
 # Any policy can be the base. Here are four others: the rule; plain SAC, which stays behind the
 # traps; an agent that had only demonstrations; one that had only the soft constraint.
 #
-# > **Predict.** Which of the four, with the look-ahead, ends ahead of the trap in the smallest share
-# > of its drives? Think of what each does after the first of the ten decisions.
+# > **Predict.** Which of the four, with the look-ahead, ends ahead of the trap in the smallest
+# > share of its drives? Think of what each does after the first of the ten decisions.
 
 # %%
 choices = ["the rule", "plain SAC", "demonstrations only", "soft constraint only"]

@@ -300,10 +300,10 @@ below = "The most probable actions / drawn actions. SAC has no teacher: the same
 table(["DoorKey, success in %", *names], rows, below)
 
 # %% [markdown]
-# **See.** With c = 2 a flawed teacher drowns the goal: both
-# reaches it in next to no test episode, by either kind of action. Without the bonus the picture depends on *how you test*. By
-# their most probable actions the agents that the random teacher taught succeed less often than
-# plain SAC; by drawn actions they succeed about as often ({{ percent('doorkey', 'random', 'soft',
+# **See.** With c = 2 a flawed teacher drowns the goal: both reaches it in next to no test episode,
+# by either kind of action. Without the bonus the picture depends on *how you test*. By their most
+# probable actions the agents that the random teacher taught succeed less often than plain SAC; by
+# drawn actions they succeed about as often ({{ percent('doorkey', 'random', 'soft',
 # 'drawn_success') }} % with the soft constraint, {{ percent('doorkey', 'random', 'SAC',
 # 'drawn_success') }} % plain). We think that drawn actions leave a circle that the most probable
 # ones repeat. The systematic teacher's agents stay behind plain SAC in both tests.

@@ -67,9 +67,11 @@ def of_minutes(cells: list[Cell]) -> list[str]:
 
 
 def of_lists(cells: list[Cell]) -> list[str]:
-    """A line that begins with "1." is the beginning of a list: never the second line of a paragraph by accident."""
+    """No second line of a paragraph begins a list by accident ("1."), and each row of a table is one line."""
     text = "\n".join(cell.text + "\n" for cell in cells if not cell.is_code)
-    return [f"The line `{line[:60]}` begins a list by accident." for line in re.findall(r"\w\n(1\. .*)", text)]
+    wrong = [f"The line `{line[:60]}` begins a list by accident." for line in re.findall(r"\w\n(1\. .*)", text)]
+    cut = re.findall(r"^(\|.*[^|\s])$", text, re.M)
+    return wrong + [f"The row `{row[:60]}` of a table goes on in the next line." for row in cut]
 
 
 # Exercises ------------------------------------------------------------------------------------------

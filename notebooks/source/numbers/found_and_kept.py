@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from bootcourse.course.lessons.found_and_kept.exercises import forgetting
 from bootcourse.research import clocks as study_clocks
-from bootcourse.research.results import WINDOW, Results  # noqa: F401 (the text names it)
+from bootcourse.research.results import WINDOW, Results
 from bootcourse.rule import stochastic_rule
 from scipy import stats
 from tools.course.known import clocks, fisher, of, shipped_experiment, shipped_results
