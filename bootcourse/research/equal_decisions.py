@@ -159,11 +159,7 @@ class Comparison(LessonExperiment):
 SEARCH = LessonExperiment(f"{__name__}:searched", {method: {"method": method} for method in COMMON})
 EXPERIMENT = Comparison(
     f"{__name__}:compared",
-    {
-        f"{method}-{first}": {"method": method, "first": first}
-        for first in range(0, SEEDS, GROUP)
-        for method in COMMON
-    },
+    {f"{method}-{first}": {"method": method, "first": first} for first in range(0, SEEDS, GROUP) for method in COMMON},
 )
 
 
@@ -198,7 +194,7 @@ def seconds_rows(computed: dict[str, Results]) -> tuple[list[str], list[list[str
 
 
 def at(results: Results, measure: str, budget: int) -> np.ndarray:
-    """Returns, success, accident or seconds after so many decisions, of the agents that made so many: (some agents,)."""
+    """Returns, success, accident or seconds after so many decisions, of the agents that made so many: (agents,)."""
     values = results.measured.get(f"{measure}_{budget}", np.array([]))
     return values[np.isfinite(values)]
 

@@ -224,8 +224,8 @@ counted. Seconds are those of one core, shared among the agents that trained sid
 for a decision as the others with a replay buffer, and stops at the first budget; of those others half the agents stop
 at the second.
 """
-EQUAL_SECONDS = """The last 50 training episodes that ended in so much time, with drawn actions; the teacher drives the beginning
-of jump-start RL's.
+EQUAL_SECONDS = """The last 50 training episodes that ended in so much time, with drawn actions; the teacher drives the
+beginning of jump-start RL's.
 """
 
 LONGER_VIEW = """The paper's method with two updates per decision, a bonus of 0.5 instead of 2, batches of 128 instead
