@@ -4,6 +4,8 @@ import operator
 from collections.abc import Callable, Collection
 from contextlib import contextmanager
 
+FEW = 40  # choices that a message lists
+
 
 class BootcourseError(ValueError):
     """A user mistake, in one sentence: the wrong value and the remedy. Any other exception is a bug in bootcourse.
@@ -47,13 +49,19 @@ def described(error: BaseException) -> str:
     return f"{type(error).__name__}: {' '.join(str(error).split())}".rstrip(".: ")
 
 
+FEW = 40  # choices that a message lists
+
+
 def did_you_mean(word: str, choices) -> str:
-    """A clause for an error message: `word` is unknown, the most similar choice, all choices."""
+    """A clause for an error message: `word` is unknown, the most similar choice, and the others if they are few."""
     import difflib
 
     choices = [str(choice) for choice in choices]
     close = difflib.get_close_matches(str(word), choices, n=1, cutoff=0.4)
     hint = f"did you mean '{close[0]}'? Choose" if close else "choose"
+    if len(choices) > FEW:
+        near = ", ".join(difflib.get_close_matches(str(word), choices, n=6, cutoff=0))
+        return f"'{word}' is unknown: {hint} one of {len(choices)}, such as {near}"
     return f"'{word}' is unknown: {hint} from {', '.join(choices)}"
 
 

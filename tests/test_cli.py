@@ -154,6 +154,7 @@ REFUSED = {
         ["study", "--only", "ppo", *NEW],
         "Method 'ppo' is not in this study: run `bootcourse study beyond --only ppo`.",
     ),
+    "one part of a hundred": (["study", "elsewhere", "--only", "lander-god", *NEW], "Choose one of"),
     "a method of no study": (["study", "--only", "pso", *NEW], "did you mean 'soft'? Choose from"),
     "a mistyped study": (["study", "calibrate", *NEW], "did you mean 'calibrated'"),
     "a mistyped backend": (["study", "--backend", "dusk", *NEW], "did you mean 'dask'"),

@@ -150,7 +150,7 @@ def test_the_solved_notebook_has_the_solution_and_every_check_passes_strictly(ma
 
 def test_the_instructor_s_page_has_timings_questions_answers_and_misconceptions(made):
     page = instructor_file(made).read_text(encoding="utf-8")
-    assert "| Round 1: how far is safe? | 8 | 5 |" in page and "**Time** 10 minutes." in page
+    assert "| Round 1: how far is safe? | 8 | 5 |" in page and "**Time** 13 minutes." in page
     assert "> **Predict.** You drive 12 m/s" in page and "They say 4 m at once" in page and "closing_speed = " in page
     exercise = registry()["safety_distance"]
     assert all(mistake.says in page for mistake in exercise.mistakes) and all(hint in page for hint in exercise.hints)
@@ -189,6 +189,9 @@ SPOILT = {
                                      "No compare_predictions answers the_rule.1"),
     "a lesson is unknown": ("You drive 12 m/s", "[[the_ruler]]", "there is no such lesson"),
     "a claim is false": ("You drive 12 m/s", "<!-- claim: 1 == 2 -->", "`1 == 2` is False"),
+    "the rows have other minutes": ("**Time** 13", "**Time** 14", "the rows add up to 13 minutes"),
+    "a line begins a list": ("how far is safe?", "far?\n#\n# It is above\n# 1. The gap", "list by accident"),
+    "a row of a table is cut": ("how far is safe?", "far?\n#\n# | a | b\n# c |", "goes on in the next line"),
     "text has changed": ("how far is safe", "what is safe", "the_rule.ipynb is out of date"),
     "a note for the instructor has changed": ("They say 4 m", "They say 5 m", "the_rule.md is out of date"),
     "a solution has changed": ("closing_speed", "closing", "the source's solution is not the one"),

@@ -69,7 +69,7 @@ def test_half_of_the_last_drives_escape_from_the_episode_that_makes_it_half():
     success = np.zeros((3, 4 * WINDOW))
     success[0, WINDOW:] = 1
     success[1, :WINDOW:2] = 1
-    assert half_escape(success).tolist() == [WINDOW + WINDOW // 2, WINDOW, 0]
+    assert half_escape(success).tolist() == [WINDOW, WINDOW // 2, 0]
 
 
 def test_the_success_around_an_update_is_that_of_the_episodes_next_to_it():

@@ -44,7 +44,7 @@ def lines(
 
     logarithmic: "x", "y" or "xy". marks: {words: y}, thin horizontal lines. limits: of the values' axis. looks: of
     the lines, one by one; without them a name that begins with a method's ("sac", "rule") gets its colour. alt: what
-    the alt text says of the lines; without it, every line's first and last value.
+    the alt text says of the lines; without it, every line's first, highest and last value.
     """
     figure, ax = one_axes(3.6, title, x_label, y_label, width=0.66)
     ends = []
@@ -80,8 +80,11 @@ def lines(
 def _in_words(x: Sequence[float], named: Mapping[str, np.ndarray]) -> str:
     sentences = []
     for label, values in named.items():
-        first, last = (", ".join(f"{v:.3g}" for v in np.atleast_2d(values)[:, i]) for i in (0, -1))
-        sentences.append(f"{display_name(label)}: {first} at {x[0]:.3g}, {last} at {x[-1]:.3g}.")
+        shown = np.atleast_2d(np.asarray(values, dtype=float))
+        first, last, highest = (
+            ", ".join(f"{v:.3g}" for v in each) for each in (shown[:, 0], shown[:, -1], np.nanmax(shown, axis=1))
+        )
+        sentences.append(f"{display_name(label)}: {first} at {x[0]:,g}, {last} at {x[-1]:,g}; at most {highest}.")
     return " ".join(sentences)
 
 

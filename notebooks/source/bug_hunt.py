@@ -18,10 +18,9 @@
 # - write a probe: ask a part of a learner something whose right answer you know;
 # - repair an actor's loss, and test a target without training.
 #
-# **Time** 75 minutes in two sittings, the hunt (45) and the repairs (30), under one of them the
-# machine's. **It builds on** the losses of lesson
-# [[discrete_sac]], the soft constraint ([[soft_constraint]]) and learning from demonstrations
-# ([[learning_from_demonstrations]]).
+# **Time** 75 minutes in two sittings, the hunt (45) and the repairs (30); running it takes under
+# one minute. **It builds on** the losses of lesson [[discrete_sac]], the soft constraint
+# ([[soft_constraint]]) and learning from demonstrations ([[learning_from_demonstrations]]).
 
 # %%
 import bootcourse as bc
@@ -116,11 +115,12 @@ table(["at the end of training", "escapes", "return"], rows)
 # right Q. We do know it where an accident ends the episode: there $y = r = -{{
 # -DEFAULT.reward.accident }}$, without a guess of the next value.
 #
-# > **Predict.** Which of the six bugs makes Q wrong exactly there, and in which direction?
+# > **Predict.** Two of the six bugs change the target exactly there. Which one pulls Q *below*
+# > {{ DEFAULT.reward.accident }}?
 
 # %%
 names = list(bugs.BUGS)
-predict("bug_hunt.2", "Q is wrong at accidents because of", names)
+predict("bug_hunt.2", "Q falls below −10 at accidents because of", names)
 
 # %% [markdown]
 # **Exercise (6 min, ●●○).** Write the probe: by how much is Q above r, on average, where an

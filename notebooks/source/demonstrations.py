@@ -19,7 +19,7 @@
 # - show where and how a clone that agrees with its teacher most of the time leaves the road;
 # - let a clone drive, have the rule label what it meets, and see what that changes.
 #
-# **Time** 75 minutes, about a minute of it the machine's. **It builds on** [lesson
+# **Time** 75 minutes; running it takes about one minute. **It builds on** [lesson
 # [[the_trap]]](the_trap.ipynb) and [lesson [[the_rule]]](the_rule.ipynb).
 
 # %%

@@ -20,8 +20,8 @@
 # - recognise a critic that diverges, and say what three seeds can show.
 #
 # **Time** 115 minutes in two sittings: the losses (Rounds 1 to 4, 51 minutes) and the program
-# (Rounds 5 to 7, 64 minutes); one minute is the machine's. **You need** Python and a little torch;
-# states, actions and rewards as in lesson [[the_trap]].
+# (Rounds 5 to 7, 64 minutes); running it takes about one minute. **You need** Python and a little
+# torch; states, actions and rewards as in lesson [[the_trap]].
 
 # %%
 import bootcourse as bc
@@ -351,11 +351,11 @@ for h in (most, 1.0, 0.1, 0.0):
 
 # %% [markdown]
 # **Explain.** For *continuous* actions a rule of thumb sets η to minus the dimension of the action:
-# −1 for one that is a single number. There an entropy can be negative, since a density can be above
-# 1. The entropy of a policy over a list of actions is 0 or more, so $\mathcal{H} - \eta \ge 1$ in
-#    every state, and α falls at each update. As α falls, the best policy softmax(Q / α) becomes
-#    sure of one action: the agent explores less and less. How fast, lesson [[soft_constraint]]
-#    measures.
+# −1 for one that is a single number. There an entropy can be negative, since a density can be
+# larger than one. The entropy of a policy over a list of actions is 0 or more, so $\mathcal{H} -
+# \eta \ge 1$ in every state, and α falls at each update. As α falls, the best policy softmax(Q / α)
+# becomes sure of one action: the agent explores less and less. How fast, lesson [[soft_constraint]]
+# measures.
 # <!-- claim: 0 - SETTINGS.target_entropy == 1 -->
 #
 # **The first sitting ends here.** In the second one run the cells above again, and go on below.

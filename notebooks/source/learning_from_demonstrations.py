@@ -21,7 +21,7 @@
 # - write the large-margin loss with the printed Q-filter, and say when the filter is on;
 # - train the paper's whole method, made of the parts that you wrote.
 #
-# **Time** 75 minutes, about one of them the machine's. **You need** the critic's target of lesson
+# **Time** 75 minutes; running it takes about one minute. **You need** the critic's target of lesson
 # [[discrete_sac]], the demonstrations of lesson [[demonstrations]], and for the last round the
 # parts of lessons [[discrete_sac]] and [[soft_constraint]].
 

@@ -18,7 +18,7 @@
 # - tell two methods apart that are both called CQL;
 # - say how far a method is from what is possible, by a planner's bound.
 #
-# **Time** 60 minutes, about one of them the machine's. **It builds on** demonstrations (lesson
+# **Time** 60 minutes; running it takes about one minute. **It builds on** demonstrations (lesson
 # [[demonstrations]]) and imitation ([[imitation]]).
 
 # %%

@@ -18,9 +18,9 @@
 # - derive the best compromise between a learner's Q and what the rule says;
 # - write the two losses that the pull enters, and show what happens if the pull does not fade.
 #
-# **Time** 80 minutes in two sittings (a good place for the break is after Round 3), about one of
-# them the machine's. **You need** the rule of lesson [[the_rule]], and actor, critic and soft value
-# from lesson [[discrete_sac]].
+# **Time** 80 minutes in two sittings (a good place for the break is after Round 3); running it
+# takes about one minute. **You need** the rule of lesson [[the_rule]], and actor, critic and soft
+# value from lesson [[discrete_sac]].
 
 # %%
 import math
@@ -529,9 +529,13 @@ table([*headings, "accidents, %"], rows, below="1,000 held-out roads each.")
 # {{ of('rule').scores('returns').mean() | .0f }}, with few accidents. This is what the objective of
 # Round 3 asks for: at ξ = 2 the head start is larger than what a higher speed can earn. A
 # constraint that fades lets an agent go beyond the rule: {{ beyond_the_rule() }} of ten earn more
-# than twice as much. It also no longer holds an agent: {{ 10 - escaped('soft') }} of ten do not
-# escape, and there are more accidents. (In training agents draw their actions from π. In the test
+# than twice as much. The price is risk. {{ stays().escapers('soft') }} of ten escape of either
+# kind; but the other two with a fixed ξ still get out on {{ 100 *
+# stays().scores('success').min() | .0f }} % of the roads or more, and the other two whose ξ faded
+# on none. They also have more accidents. (In training agents draw their actions from π. In the test
 # they take the likeliest one, so the agents with a fixed ξ earn more there than in the figure.)
+# <!-- claim: stays().escapers('soft') == escaped('soft') == 8 and
+#   sorted(of('soft').scores('success'))[1] < 0.01 < 0.85 < stays().scores('success').min() -->
 # <!-- claim: len(stays()) == len(of('soft')) == 10 and stays().sizes == of('soft').sizes -->
 # <!-- claim: stays().scores('returns').max() < of('rule').scores('returns').mean() -->
 # <!-- claim: stays().episodes('accident').mean() < 0.05 < accidents('soft') -->
@@ -565,8 +569,8 @@ bc.panels.policy_panel(drive, xi=round(float(xi[0, -1]), 3), alpha=round(result.
 #    value of staying in the trap.
 # 5. With ξ fixed at 2 the study's agents end near the rule's return. With ξ =
 #    {{ SETTINGS.xi_multiplier }} α, which fades within a few thousand updates, most earn more than
-#    twice as much, and some do not escape.
-# <!-- claim: 5 < beyond_the_rule() < 10 and escaped('soft') < 10 -->
+#    twice as much, some lose the way out, and accidents are more frequent.
+# <!-- claim: 5 < beyond_the_rule() < 10 and of('soft').scores('success').min() < 0.01 -->
 #
 # %%
 kl_alone = "less than a crash, but only with the KL"

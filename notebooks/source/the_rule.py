@@ -19,8 +19,8 @@
 #   traps, and how we read it instead;
 # - find out by an experiment why the rule is slow, and say what a stochastic rule is good for.
 #
-# **Time** 55 minutes, under one of them the machine's. **It builds on**
-# [lesson [[the_trap]]](the_trap.ipynb).
+# **Time** 55 minutes; running it takes under one minute. **It builds on** [lesson
+# [[the_trap]]](the_trap.ipynb).
 
 # %%
 import dataclasses

@@ -18,7 +18,7 @@
 # - write PPO, its advantages and its loss, train an agent with it, and read its health;
 # - tell what a change of the reward can repair: what is best, or what is found.
 #
-# **Time** 60 minutes, about one of them the machine's. **It builds on** the reward (lesson
+# **Time** 60 minutes; running it takes about one minute. **It builds on** the reward (lesson
 # [[the_trap]]), the barrier ([[the_barrier]]) and demonstrations ([[demonstrations]]).
 
 # %%

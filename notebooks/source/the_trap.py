@@ -20,7 +20,7 @@
 # - explain when an attempt to leave pays, and why that of the ghost does not with the discount
 #   of the paper.
 #
-# **Time** 75 minutes, about one of them the machine's. **It builds on** the drive of lesson
+# **Time** 75 minutes; running it takes about one minute. **It builds on** the drive of lesson
 # [[start]] and on Python. You need not know reinforcement learning.
 
 # %%

@@ -18,8 +18,8 @@
 # - start a traffic jam with one slow driver, and say why it travels backwards;
 # - find out when a simulated car swings off the road.
 #
-# **Time** 35 minutes, under one of them the machine's. An appendix: no other lesson needs it. **It
-# builds on** [lesson [[the_trap]]](the_trap.ipynb).
+# **Time** 35 minutes; running it takes under one minute. An appendix: no other lesson needs it.
+# **It builds on** [lesson [[the_trap]]](the_trap.ipynb).
 
 # %%
 import dataclasses

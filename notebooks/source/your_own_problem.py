@@ -19,9 +19,9 @@
 # - predict from a teacher's errors whether cloning is enough;
 # - compute from the reward and γ how large a bonus may be before a loop pays more than the goal.
 #
-# **Time** 70 minutes, about one of them the machine's. **It builds on** the soft constraint (lesson
-# [[soft_constraint]]), learning from demonstrations ([[learning_from_demonstrations]]) and your
-# teacher ([[your_teacher]]).
+# **Time** 70 minutes; running it takes about one minute. **It builds on** the soft constraint
+# (lesson [[soft_constraint]]), learning from demonstrations ([[learning_from_demonstrations]]) and
+# your teacher ([[your_teacher]]).
 
 # %%
 from dataclasses import replace
@@ -51,18 +51,20 @@ choices = ["to the flag", "close to the flag", "not out of the valley"]
 predict("your_own_problem.1", "A car that is pushed right all the time comes", choices)
 
 # %%
+ours = PROBLEMS["mountain-car"].teachers()["good"]  # it sees the speed in parts of 0.07
 drives = {
     "always to the right": loops.climbed(lambda position, speed: 2),
-    "along the motion": loops.climbed(lambda position, speed: 2 if speed >= 0 else 0),
+    "a rule of one line": loops.climbed(lambda *seen: ours(np.array([seen]) / (1, 0.07))[0]),
 }
 longest = max(len(each) for each in drives.values())
 shown = {name: np.r_[x, np.full(longest - len(x), x[-1])] for name, x in drives.items()}
-title = "Pushed along its motion, the car swings up to the flag at 0.5, where it is held"
+title = "A rule of one line swings the car up to the flag at 0.5"
 bc.show(charts.lines(np.arange(longest), shown, title, "decision", "position"))
 
 # %% [markdown]
 # **See.** Pushed to the right, the car swings in the valley to the end. To get up it has to drive
-# away from the flag in between: a barrier, as on the road of lesson [[the_barrier]].
+# away from the flag in between: a barrier, as on the road of lesson [[the_barrier]]. A rule of one
+# line does it. You write it soon; look at the figure, where it drives in which direction.
 # <!-- claim: loops.climbed(lambda position, speed: 2).max() < 0 -->
 # <!-- claim: loops.climbed(lambda position, speed: 2 if speed >= 0 else 0)[-1] >= 0.5 -->
 #
@@ -73,7 +75,7 @@ bc.show(charts.lines(np.arange(longest), shown, title, "decision", "position"))
 # %% tags=["hide-input"]
 about = {
     "chain": ("20 cells, the last pays 10, the wall behind you 0.05", "go right"),
-    "mountain-car": ("−1 a decision until the flag", "push along the motion"),
+    "mountain-car": ("−1 a decision until the flag", "yours, see below"),
     "acrobot": ("−1 a decision until the tip is high", "turn the joint the way it turns"),
     "cartpole": ("1 a decision while the pole stands", "push to where the pole leans"),
 }
@@ -242,14 +244,16 @@ bc.show(figure(cells))
 # opponent: plain SAC here has the paper's target entropy of −1.
 
 # %% [markdown]
-# ## Round 4: DoorKey, where a flawed teacher harms
+# ## Round 4: DoorKey, a goal that pays once
 #
 # A room, a key, a locked door, a goal behind it that pays 1 − 0.9 t / 100 after t of at most 100
 # decisions, and nothing else. The observation is the state, without the time. Plain SAC reaches the
-# goal in {{ percent('doorkey', 'random', 'SAC') }} % of the test episodes.
+# goal in {{ percent('doorkey', 'random', 'SAC') }} % of the test episodes by its most probable
+# actions.
 #
 # > **Predict.** The teacher is right in 80 % of the states. Ten agents learn by both, soft
-# > constraint and demonstrations with the paper's bonus c = 2. How often do they reach the goal?
+# > constraint and demonstrations with the paper's bonus c = 2. How often do they reach the goal, by
+# > their most probable actions?
 
 # %%
 choices = ["less often than plain SAC", "about as often", "more often"]
@@ -285,29 +289,31 @@ def drowning_bonus(reward, goal, decisions, shown, gamma):
 check.drowning_bonus(drowning_bonus)
 
 # %% tags=["hide-input"]
-rows, names = [], ("both", "both, c = 0", "SAC")
+rows, names = [], ("demonstrations", "both", "both, c = 0", "soft", "SAC")
 for teacher in ("good", "random", "systematic"):
-    row = ("doorkey", teacher)
-    shares = [cells.mean(*row, method, "success") for method in ("demonstrations", *names)]
-    drawn = [cells.mean(*row, method, "drawn_success") for method in names[1:]]
-    rows.append([teacher, *(f"{100 * share:.0f}" for share in (*shares, *drawn))])
-headings = ["demonstrations", *names, "both, c = 0, drawn", "SAC, drawn"]
-table(["DoorKey, success in %", *headings], rows)
+    row = [teacher]
+    for method in names:
+        tests = [cells.mean("doorkey", teacher, method, s) for s in ("success", "drawn_success")]
+        row.append(" / ".join(f"{100 * share:.0f}" for share in tests))
+    rows.append(row)
+below = "The most probable actions / drawn actions. SAC has no teacher: the same in each row."
+table(["DoorKey, success in %", *names], rows, below)
 
 # %% [markdown]
-# **See.** With c = 2 and the random teacher,
-# {{ percent('doorkey', 'random', 'both') }} % of the test episodes reach the goal; without the
-# bonus {{ percent('doorkey', 'random', 'both, c = 0') }} %, and
-# {{ percent('doorkey', 'random', 'both, c = 0', 'drawn_success') }} % by drawn actions. We think
-# that drawn actions leave a circle that the most probable ones repeat.
-# <!-- claim: score('doorkey', 'random', 'both') < 0.05 < 0.3 <
-#   score('doorkey', 'random', 'both, c = 0') < 0.7 <
-#   score('doorkey', 'random', 'both, c = 0', 'drawn_success') -->
-#
-# With either flawed teacher plain SAC earns more than all that were taught.
-# <!-- claim: score('doorkey', 'random', 'both') < score('doorkey', 'random', 'SAC') -->
-# <!-- claim: all(score('doorkey', t, m, 'returns') < score('doorkey', t, 'SAC', 'returns')
-#   for t in ('random', 'systematic') for m in elsewhere_claims.TAUGHT) -->
+# **See.** With c = 2 a flawed teacher drowns the goal: both reaches it in next to no test episode,
+# by either kind of action. Without the bonus the picture depends on *how you test*. By their most
+# probable actions the agents that the random teacher taught succeed less often than plain SAC; by
+# drawn actions they succeed about as often ({{ percent('doorkey', 'random', 'soft',
+# 'drawn_success') }} % with the soft constraint, {{ percent('doorkey', 'random', 'SAC',
+# 'drawn_success') }} % plain). We think that drawn actions leave a circle that the most probable
+# ones repeat. The systematic teacher's agents stay behind plain SAC in both tests.
+# <!-- claim: all(score('doorkey', t, 'both', s) < 0.005 for t in ('random', 'systematic') for s in
+#   ('success', 'drawn_success')) -->
+# <!-- claim: all(score('doorkey', 'random', m) < score('doorkey', 'random', 'SAC') - 0.1 and
+#   abs(score('doorkey', 'random', m, 'drawn_success') - score('doorkey', 'random', 'SAC',
+#   'drawn_success')) < 0.1 for m in ('soft', 'both, c = 0')) -->
+# <!-- claim: all(score('doorkey', 'systematic', m, s) < score('doorkey', 'random', 'SAC', s) for m
+#   in ('demonstrations', 'both', 'both, c = 0', 'soft') for s in ('success', 'drawn_success')) -->
 #
 # **Explain.** If the whole way is shown, the limit is c = (1 − γ) · goal / γ − reward. Here that is
 # {{ drowning_bonus(0, 1, 1, 1, 0.97) | .3f }}, and the bonus is 2. On MountainCar, at −1 a
@@ -326,15 +332,15 @@ table(["DoorKey, success in %", *headings], rows)
 # ## Before you use it on your problem
 #
 # 1. **Is there a barrier?** Train plain SAC with a usable target entropy first, 0.3 log |A|. If it
-#    does well, a teacher has to be good to be worth it: on DoorKey the good one was, and the two
-#    flawed ones were not.
+#    does well, a teacher has to be good to be worth it: on DoorKey the good one was, and the
+#    systematic one was not.
 # <!-- claim: score('doorkey', 'good', 'soft') >
 #   score('doorkey', 'good', 'SAC, η = 0.3 log |A|') -->
 # 2. **Is the teacher's error random or systematic?** Random, and states do not come back: clone it.
 #    Systematic: try the soft constraint, and ask first whether the teacher comes near the reward.
 # 3. **Does c drown the reward?** Compute the limit. Above it, take c = 0.
 # 4. **Is cloning enough?** Put the clone into every table.
-# 5. **Do states come back?** Then test drawn actions, too.
+# 5. **Do states come back?** Then test drawn actions, too: the order of methods can change.
 #
 # **Bring one.** Any gymnasium environment with vector observations and discrete actions:
 #

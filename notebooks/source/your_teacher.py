@@ -18,7 +18,7 @@
 # - decide from ten seeds whether a teacher helps or hurts, or that they do not show it;
 # - say what a teacher has to be good at, for which learner.
 #
-# **Time** 60 minutes, about one of them the machine's. **It builds on** the rule (lesson
+# **Time** 60 minutes; running it takes about one minute. **It builds on** the rule (lesson
 # [[the_rule]]), the soft constraint ([[soft_constraint]]) and learning from demonstrations
 # ([[learning_from_demonstrations]]).
 

@@ -48,17 +48,22 @@ def timings(cells: list[Cell]) -> str:
         for cell in cells
         for m in re.findall(r"^\*\*Time\*\*.*?(?=\n\n|\n\*\*|\Z)", cell.text, re.M | re.S)
     ]
-    rows, total = [], [0, 0]
+    rows = []
     for heading, inside in sections(cells):
-        talk = sum(cell.metadata.get("minutes", 0) for cell in inside)
-        work = sum(exercise.minutes for cell in inside for exercise in exercises(cell))
+        talk, work = together(inside)
         if talk or work:
             rows.append(f"| {heading} | {talk or ''} | {work or ''} |")
-            total = [total[0] + talk, total[1] + work]
     if not rows:
         return "\n\n".join(own)
     head = ["| part | talk (min) | exercises (min) |", "|---|---|---|"]
-    return "\n\n".join([*own, "\n".join([*head, *rows, f"| **together** | **{total[0]}** | **{total[1]}** |"])])
+    talk, work = together(cells)
+    return "\n\n".join([*own, "\n".join([*head, *rows, f"| **together** | **{talk}** | **{work}** |"])])
+
+
+def together(cells: list[Cell]) -> tuple[int, int]:
+    """The minutes of talk and of exercises."""
+    talk = sum(cell.metadata.get("minutes", 0) for cell in cells)
+    return talk, sum(exercise.minutes for cell in cells for exercise in exercises(cell))
 
 
 def exercises(cell: Cell) -> list[Exercise]:

@@ -14,6 +14,7 @@ import nbformat
 
 from bootcourse.course.lessons import registry, stem
 from tools.course.claims import filled
+from tools.course.instructor import together
 from tools.course.products import out_of_date, solved_file, student_file
 from tools.course.source import Cell, arguments_of, body, function_in
 
@@ -33,6 +34,8 @@ def problems(path: Path) -> list[str]:
         *of_exercises(cells, path.stem),
         *of_predictions(cells, path.stem),
         *of_references(cells),
+        *of_minutes(cells),
+        *of_lists(cells),
     ]
     if wrong:
         return wrong
@@ -54,6 +57,21 @@ def of_imports(cells: list[Cell]) -> list[str]:
     later = [cell for cell in cells if cell.is_code][1:]
     imports = any(re.search(r"^(?:from|import) ", cell.solved, re.M) for cell in later)
     return ["A later cell imports something: do it in the first."] * imports
+
+
+def of_minutes(cells: list[Cell]) -> list[str]:
+    """The lesson's time is the sum of what its sections and exercises take."""
+    said = [int(each) for cell in cells for each in re.findall(r"^\*\*Time\*\* (\d+) minutes", cell.text, re.M)]
+    talk, work = together(cells)
+    return [] if said == [talk + work] else [f"**Time** says {said}, and the rows add up to {talk + work} minutes."]
+
+
+def of_lists(cells: list[Cell]) -> list[str]:
+    """No second line of a paragraph begins a list by accident ("1."), and each row of a table is one line."""
+    text = "\n".join(cell.text + "\n" for cell in cells if not cell.is_code)
+    wrong = [f"The line `{line[:60]}` begins a list by accident." for line in re.findall(r"\w\n(1\. .*)", text)]
+    cut = re.findall(r"^(\|.*[^|\s])$", text, re.M)
+    return wrong + [f"The row `{row[:60]}` of a table goes on in the next line." for row in cut]
 
 
 # Exercises ------------------------------------------------------------------------------------------

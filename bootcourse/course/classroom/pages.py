@@ -26,7 +26,8 @@ from bootcourse.markup import Markup, html, joined
 
 STYLE = """<style>:root {color-scheme: light dark} small {opacity: 0.7}
 body {font: 16px/1.5 system-ui, sans-serif; max-width: 900px; margin: 2em auto; padding: 0 1em}
-h2 {margin-top: 1.6em; font-size: 1.2em} table {border-collapse: collapse; width: 100%} .wide {overflow-x: auto}
+h1, h2 {overflow-wrap: anywhere} h2 {margin-top: 1.6em; font-size: 1.2em}
+table {border-collapse: collapse; width: 100%} .wide {overflow-x: auto}
 th, td {text-align: left; vertical-align: top; padding: 4px 10px 4px 0; border-bottom: 1px solid #8886}
 td:last-child {overflow-wrap: anywhere; min-width: 9em} code, pre {font: 13px/1.4 ui-monospace, monospace}
 pre {white-space: pre-wrap; margin: 4px 0}</style>"""

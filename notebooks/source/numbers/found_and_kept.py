@@ -4,8 +4,9 @@ from functools import cache
 from typing import NamedTuple
 
 import numpy as np
+from bootcourse.course.lessons.found_and_kept.exercises import forgetting
 from bootcourse.research import clocks as study_clocks
-from bootcourse.research.results import WINDOW, Results  # noqa: F401 (the text names it)
+from bootcourse.research.results import WINDOW, Results
 from bootcourse.rule import stochastic_rule
 from scipy import stats
 from tools.course.known import clocks, fisher, of, shipped_experiment, shipped_results
@@ -43,6 +44,24 @@ def way(results: Results, method: str) -> Counted:
     """Of a method's agents, see `Results.found_and_kept`."""
     found, kept = results.found_and_kept(method)
     return Counted(int(found.sum()), int(kept.sum()), len(found))
+
+
+def demos_span() -> np.ndarray:
+    """Of the study's agents with demonstrations alone that found the way out: the episodes that end their first and
+    last good window, (agents, 2), in the order in which they found it."""
+    spans = forgetting(of("demos").curves["success"], WINDOW)
+    spans = spans[spans[:, 0] > 0]
+    return spans[spans[:, 0].argsort()]
+
+
+def demos_found() -> np.ndarray:
+    """When they found it, (agents,)."""
+    return demos_span()[:, 0]
+
+
+def demos_lost() -> np.ndarray:
+    """When they lost it, (agents,)."""
+    return demos_span()[:, 1]
 
 
 def over_updates(driver: str) -> Counted:

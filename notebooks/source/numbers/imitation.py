@@ -2,7 +2,10 @@
 
 from functools import cache
 
+import numpy as np
+from bootcourse.course.lessons.imitation.figures import half_escape, updates_made
 from bootcourse.storage.assets import FOLDER
+from tools.course.known import of
 
 
 @cache
@@ -11,3 +14,13 @@ def checked(row: int, column: str) -> str:
     table = [line.strip("| ").split(" | ") for line in (FOLDER / "checks.md").read_text("utf-8").splitlines()]
     names, _, *rows = [cells for cells in table if len(cells) > 1 or cells[0].startswith("---")]
     return dict(zip(["ours" if name.startswith("ours") else name for name in names], rows[row], strict=True))[column]
+
+
+def slower(axis: str) -> float:
+    """How many times CQL's episodes, or updates, GAIL needs until half of its drives escape: of the medians."""
+    medians = []
+    for method in ("gail", "cql"):
+        at = half_escape(of(method).curves["success"])
+        needed = at if axis == "episodes" else np.take_along_axis(updates_made(of(method)), at[:, None] - 1, 1)[:, 0]
+        medians.append(np.median(needed[at > 0]))
+    return float(medians[0] / medians[1])

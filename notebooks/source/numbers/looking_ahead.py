@@ -34,6 +34,11 @@ def per_thousand(base: str, form: str = "rollouts", **more) -> float:
     return 1000 * ahead(base, form, **more).accident_rate.value
 
 
+def gain(base: str) -> float:
+    """What the rollouts add to the mean return."""
+    return ahead(base).returns.value - ahead(base, "alone").returns.value
+
+
 def better(base: str, form: str) -> int:
     """With how many of the wrong models it has fewer accidents for each drive than the base policy alone."""
     alone = per_thousand(base, "alone")

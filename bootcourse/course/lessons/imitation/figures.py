@@ -77,13 +77,13 @@ def updates_made(results: Results) -> np.ndarray:
 
 
 def half_escape(success: np.ndarray) -> np.ndarray:
-    """The first episode, counted from 1, at which half of the last `WINDOW` succeeded; 0 if there is none.
+    """The middle of the first `WINDOW` episodes in a row of which half succeeded, counted from 1; 0 without one.
 
     success (agents, episodes) -> (agents,).
     """
     at, means = rolling_means(success, WINDOW, success.shape[1])
     reached = means >= 0.5
-    return np.where(reached.any(axis=1), at[reached.argmax(axis=1)], 0)
+    return np.where(reached.any(axis=1), at[reached.argmax(axis=1)] - WINDOW // 2, 0)
 
 
 def success_around(success: np.ndarray, updates: np.ndarray, budget: float) -> np.ndarray:
