@@ -44,8 +44,8 @@ bc.show(figures.what_is_taken())
 # question of this one: **which of the five ways brings the most from the same number of
 # decisions?**
 #
-# > **Predict.** Each learner may take {{ FIRST | , }} decisions of its own, a little more than a day
-# > of driving. Which one earns the least afterwards, on roads that are new to it?
+# > **Predict.** Each learner may take {{ FIRST | , }} decisions of its own, a little more than a
+# > day of driving. Which one earns the least afterwards, on roads that are new to it?
 # <!-- claim: 1 < FIRST / 3600 / 24 < 1.3 -->
 
 # %%
@@ -273,11 +273,16 @@ table(*equal_decisions.search_rows(shipped.shipped_experiment("beyond-search")))
 # | | its authors | our agents |
 # |---|---|---|
 # | all five | continuous actions, but PPO | nine actions; discrete SAC, but PPO |
-# | RLPD | 10 critics, 20 updates for a decision | {{ settings_for('rlpd').critics }} critics, {{ later('rlpd').agents[0]['updates'] / later('rlpd').agents[0]['envs_per_agent'] | g }} updates |
-# | IBRL | a cloned network proposes the second action | the rule itself, which reads the true positions |
-# | IBRL | demonstrations stay in the buffer | their share of a batch fades from {{ settings_for('ibrl').beta_start }} to 0 |
+# | RLPD | 10 critics, 20 updates for a decision | {{ settings_for('rlpd').critics }} critics, {{
+# later('rlpd').agents[0]['updates'] / later('rlpd').agents[0]['envs_per_agent'] | g }} updates |
+# | IBRL | a cloned network proposes the second action | the rule itself, by the true positions |
+# | IBRL | demonstrations stay in the buffer | their share of a batch fades from {{
+# settings_for('ibrl').beta_start }} to 0 |
 # | jump-start RL | h is judged in test episodes | in training episodes, with drawn actions |
-# | bootstrapped SAC | γ = {{ SETTINGS.gamma }}, c = {{ SETTINGS.bonus | g }} | γ = {{ equal_decisions.GAMMA }}, c = {{ equal_decisions.COMMON['bootstrapped']['bonus'] }}; β fades over {{ equal_decisions.COMMON['bootstrapped']['beta_episodes'] }} episodes |
+# | bootstrapped SAC | γ = {{ SETTINGS.gamma }}, c = {{ SETTINGS.bonus | g }} | γ = {{
+# equal_decisions.GAMMA }}, c = {{
+# equal_decisions.COMMON['bootstrapped']['bonus'] }}; β fades over {{
+# equal_decisions.COMMON['bootstrapped']['beta_episodes'] }} episodes |
 #
 # The c and β of the last row were set by hand, before the search.
 #
@@ -321,15 +326,17 @@ table(*equal_decisions.budget_rows(compared))
 table(*equal_decisions.seconds_rows(compared))
 
 # %% [markdown]
-# **See.** After the same {{ equal_decisions.SECONDS }} seconds of a core PPO after cloning earns the
-# most: it has made {{ 5 / cost('ppo_cloned') | , .0f }} decisions by then, IBRL {{ 5 / cost('ibrl')
+# **See.** After the same {{ equal_decisions.SECONDS }} seconds of a core PPO after cloning earns
+# the most: it has made {{ 5 / cost('ppo_cloned') | , .0f }} decisions by then, IBRL {{ 5 /
+# cost('ibrl')
 # | , .0f }} and RLPD {{ 5 / cost('rlpd') | , .0f }}. So "the best way to use a teacher" depends on
 # what is scarce: decisions on the road, or computing time.
 # <!-- claim: equal_decisions.SECONDS == 5 and in_seconds('ppo_cloned').low > max(in_seconds(m).high
 #   for m in ('bootstrapped', 'ibrl', 'jsrl', 'rlpd', 'ppo')) -->
 #
 # **Explain.** PPO learns from its newest drives alone and throws them away; a replay buffer uses
-# each decision many times, so it needs fewer, and many updates. RLPD makes the most of them.
+# each decision many times, so it needs fewer, and many updates. RLPD makes two where the others
+# make one.
 #
 # What the tables do not say: The best of several tries looks better than it is. Jump-start RL
 # earned {{ max(search('jsrl').values()) | .0f }} in the search and {{ middle('jsrl') | .0f }} in
