@@ -304,8 +304,8 @@ table(*equal_decisions.budget_rows(compared))
 # earns {{ middle('ppo_cloned', LAST) | .0f }}, and all ten of its agents escape; the intervals of
 # the others, of five agents each, include that. PPO without a teacher escapes in none of its
 # trainings.
-# <!-- claim: score_at('ppo_cloned').high < min(score_at(m).low for m in ('bootstrapped', 'ibrl',
-#   'rlpd')) and lowest() == 'ppo_cloned' -->
+# <!-- claim: score_at('ppo_cloned').high < min(score_at(m).low for m in ('bootstrapped',
+#   'ibrl')) and lowest() == 'ppo_cloned' -->
 # <!-- claim: escaping('ppo_cloned', LAST) == 10 and all(escaping('ppo', b) == 0 for b in (FIRST,
 #   SECOND, LAST)) and all(score_at(m, LAST).low < middle('ppo_cloned', LAST) < score_at(m,
 #   LAST).high and len(at(m, 'returns', LAST)) == 5 for m in ('bootstrapped', 'ibrl', 'jsrl')) -->
