@@ -6,7 +6,8 @@ The same for all: γ, the network, the scenario, the teacher and its demonstrati
 seeds and roads that no test uses (`searched`); and the agent's own decisions, without those of the teacher alone that
 the demonstrations took. `CHOSEN` is the try of each method that earned most in the search. PPO's agents train up to
 the last of `BUDGETS`, of the other methods those of the first job. RLPD makes twice as many updates for a decision as
-the others with a replay buffer, with five critics; it is about five times as slow, and all its agents stop at the second.
+the others with a replay buffer, with five critics; it is about five times as slow, and all its agents stop at the
+second.
 """
 
 import time
