@@ -301,9 +301,9 @@ table(*equal_decisions.budget_rows(compared))
 # **See.** At equal decisions PPO after cloning is behind at first, and catches up. After
 # {{ FIRST | , }} decisions it earns {{ middle('ppo_cloned') | .0f }}, bootstrapped SAC
 # {{ middle('bootstrapped') | .0f }} and IBRL {{ middle('ibrl') | .0f }}. After {{ LAST | , }} it
-# earns {{ middle('ppo_cloned', LAST) | .0f }}, and all ten of its agents escape; the intervals of
-# the others, of five agents each, include that. PPO without a teacher escapes in none of its
-# trainings.
+# earns {{ middle('ppo_cloned', LAST) | .0f }}, and all ten of its agents escape. Bootstrapped SAC,
+# IBRL and jump-start RL drove so far with five agents each, and their intervals include that; RLPD
+# stopped after {{ SECOND | , }}. PPO without a teacher escapes in none of its trainings.
 # <!-- claim: score_at('ppo_cloned').high < min(score_at(m).low for m in ('bootstrapped',
 #   'ibrl')) and lowest() == 'ppo_cloned' -->
 # <!-- claim: escaping('ppo_cloned', LAST) == 10 and all(escaping('ppo', b) == 0 for b in (FIRST,
@@ -327,10 +327,10 @@ table(*equal_decisions.seconds_rows(compared))
 
 # %% [markdown]
 # **See.** After the same {{ equal_decisions.SECONDS }} seconds of a core PPO after cloning earns
-# the most: it has made {{ 5 / cost('ppo_cloned') | , .0f }} decisions by then, IBRL {{ 5 /
-# cost('ibrl')
-# | , .0f }} and RLPD {{ 5 / cost('rlpd') | , .0f }}. So "the best way to use a teacher" depends on
-# what is scarce: decisions on the road, or computing time.
+# the most: it has made {{ 5 / cost('ppo_cloned') / 1000 | .0f }} thousand decisions by then, IBRL
+# {{ 5 / cost('ibrl') / 1000 | .0f }} thousand and RLPD {{ 5 / cost('rlpd') / 1000 | .0f }}
+# thousand. So "the best way to use a teacher" depends on what is scarce: decisions on the road, or
+# computing time.
 # <!-- claim: equal_decisions.SECONDS == 5 and in_seconds('ppo_cloned').low > max(in_seconds(m).high
 #   for m in ('bootstrapped', 'ibrl', 'jsrl', 'rlpd', 'ppo')) -->
 #
