@@ -17,6 +17,7 @@ from bootcourse.research.equal_decisions import (
     budget_rows,
     by_method,
     search_rows,
+    seconds_rows,
     trained_and_tested,
     tried,
     tries,
@@ -73,10 +74,11 @@ def test_the_return_at_a_budget_is_the_mean_of_the_last_episodes_that_ended_with
 # At equal decisions: trained in small, the tables by hand, and the choice that the search makes
 
 
-def test_agents_are_trained_and_tested_each_budget_and_train_on_to_the_longer_one():
+def test_agents_are_trained_and_tested_after_each_budget(monkeypatch):
+    monkeypatch.setattr(equal_decisions, "BOARD", 400)
     settings = with_seeds(settings_for("ppo", envs_per_agent=4, horizon=8, batch=32), 2)
-    results = trained_and_tested(settings, (200, 400), held_out_seeds(19, 3), [600])
-    assert {"returns_200", "success_400", "accident_400", "seconds_200"} <= results.measured.keys()
+    results = trained_and_tested(settings, (200, 400, 600), held_out_seeds(19, 3))
+    assert {"returns_200", "success_400", "accident_600", "seconds_200"} <= results.measured.keys()
     np.testing.assert_allclose(results.measured["returns_400"], results.tested["returns"].mean(axis=1), rtol=1e-6)
     running = 4 * 150  # decisions that the last episodes, which have not ended, may have
     driven = np.nansum(results.curves["decisions"], axis=1)
@@ -98,12 +100,15 @@ def invented(settings: list, returns: list) -> Results:
     return Results(agent_entries(settings), np.full(len(returns), -1), tested, curves, measured=measured)
 
 
-def test_a_row_says_what_was_chosen_and_counts_the_agents_of_all_jobs():
+def test_a_row_counts_the_agents_of_all_jobs_that_made_so_many_decisions():
     settings = with_seeds(settings_for("ibrl", target_entropy=0.1), 3)
-    jobs = {"ibrl-0": invented(settings[:2], [100.0, 100.0]), "ibrl-2": invented(settings[2:], [100.0])}
-    headings, (row,) = budget_rows(by_method(jobs))
-    assert row[:4] == ["IBRL", "η = 0.1", "3", "2 of 3"] and row[7:11] == row[3:7]
-    assert row[4:7] == ["100.00 [100.00, 100.00]", "25.0", "100.0"] and len(row) == len(headings) and row[-1] == "–"
+    shorter = invented(settings[2:], [100.0])
+    measured = {name: each for name, each in shorter.measured.items() if not name.endswith("_800000")}
+    jobs = {"ibrl-0": invented(settings[:2], [100.0, 100.0]), "ibrl-2": replace(shorter, measured=measured)}
+    headings, rows = budget_rows(by_method(jobs))
+    assert rows[0] == ["100,000", "IBRL", "2 of 3", "100.00 [100.00, 100.00]", "25.0", "100.0"]
+    assert [row[:3:2] for row in rows[1:]] == [["200,000", "2 of 3"], ["800,000", "1 of 2"]]
+    assert len(headings) == 6
 
 
 def test_the_search_has_a_mean_for_each_try():
@@ -111,7 +116,7 @@ def test_the_search_has_a_mean_for_each_try():
     results = invented(agents, [1.0, 3.0, 10.0, 20.0, 5.0, 5.0])
     assert tried(results) == {"32 roads at once": 2, "64 roads at once": 15, "128 roads at once": 5}
     headings, (row,) = search_rows({"ppo": results})
-    assert len(row) == len(headings) and row[2] == "64 roads at once: 15.0" and row[4:] == ["2", "100,000"]
+    assert len(row) == len(headings) and row[2] == "64 roads at once: 15.0"
 
 
 def test_every_method_has_as_many_tries_and_only_usable_seeds():
@@ -127,16 +132,17 @@ def test_the_chosen_settings_are_those_that_earned_most_in_the_search_that_ships
     assert len(best) > 4 and best.items() <= CHOSEN.items()
 
 
-def test_the_last_column_has_the_decisions_that_a_method_makes_in_so_many_seconds():
+def test_the_return_after_equal_seconds_follows_from_what_a_decision_takes():
     results = invented(with_seeds(settings_for("ibrl"), 2), [10.0, 10.0])  # 100,000 decisions in 10 s
     curves = {"return": np.repeat([[1.0, 3.0]], 500, axis=1), "decisions": np.full((1, 1000), 100.0)}
     curves = {name: np.repeat(values, 2, axis=0) for name, values in curves.items()}
-    _, (row,) = budget_rows({"ibrl": replace(results, curves=curves)})
-    assert equal_decisions.SECONDS == 5 and row[-1] == "1.00 [1.00, 1.00]"  # the 500 episodes of the first half
+    _, (row,) = seconds_rows({"ibrl": replace(results, curves=curves)})
+    assert equal_decisions.SECONDS == 5
+    assert row == ["IBRL", "50,000", "1.00 [1.00, 1.00]"]  # the 500 episodes of the first half
 
 
-def test_a_method_that_had_fewer_decisions_has_no_numbers_at_the_larger_budget():
+def test_a_method_without_so_many_decisions_has_no_row_there():
     results = invented(with_seeds(settings_for("rlpd"), 2), [100.0, 100.0])
-    measured = {name: each for name, each in results.measured.items() if name.endswith("_50000")}
-    _, (row,) = budget_rows({"rlpd": replace(results, measured=measured)})
-    assert row[3] == "1 of 2" and row[7:11] == ["–"] * 4 and equal_decisions.budgets_of("rlpd") == (50_000,)
+    measured = {name: each for name, each in results.measured.items() if name.endswith("_100000")}
+    _, rows = budget_rows({"rlpd": replace(results, measured=measured)})
+    assert [row[0] for row in rows] == ["100,000"] and equal_decisions.last_of("rlpd", 0) == 200_000

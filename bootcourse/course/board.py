@@ -26,7 +26,7 @@ from bootcourse.markup import html, joined
 from bootcourse.methods import AFTER, display_name
 from bootcourse.policies import Policy, idle_policy, random_policy, rule_policy
 from bootcourse.research.beyond import lengths
-from bootcourse.research.equal_decisions import budgets_of, by_method
+from bootcourse.research.equal_decisions import BOARD, by_method
 from bootcourse.research.jobs import HELD_OUT
 from bootcourse.research.lookahead import CLOSELY, Cell
 from bootcourse.research.results import Results, in_assets
@@ -141,8 +141,8 @@ def shipped_rows() -> tuple[Row, ...]:
     later = [results for method, results in by_method(study.experiments["beyond"]).items() if method in AFTER]
     default = study.results["default"]
     rows += [row_of_study(default.of(method), method) for method in default.methods]
-    for results in later:  # tested at the last of its budgets
-        rows.append(row_of_study(results, method := results.methods[0], budgets_of(method)[-1]))
+    for results in later:
+        rows.append(row_of_study(results, results.methods[0], BOARD))
     return (*rows, *lookahead_rows(study.experiments["look-ahead"]))
 
 

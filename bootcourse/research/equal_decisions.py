@@ -4,14 +4,16 @@
 
 The same for all: γ, the network, the scenario, the teacher and its demonstrations; as many tries in the search, on
 seeds and roads that no test uses (`searched`); and the agent's own decisions, without those of the teacher alone that
-the demonstrations took. `CHOSEN` is the try of each method that earned most in the search. RLPD makes twice as many
-updates for a decision as the others with a replay buffer, with five critics; it is much slower and has fewer seeds
-and decisions.
+the demonstrations took. `CHOSEN` is the try of each method that earned most in the search. PPO's agents train up to
+the last of `BUDGETS`, of the other methods those of the first job. RLPD makes twice as many updates for a decision as
+the others with a replay buffer, with five critics; it is about five times as slow, and all its agents stop at the
+second.
 """
 
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 
 import numpy as np
 
@@ -28,7 +30,8 @@ from bootcourse.research.tables import bracketed
 from bootcourse.statistics import ESCAPES, interval
 
 GAMMA = 0.97
-BUDGETS = (50_000, 100_000)  # decisions of each agent, after which it is tested
+BUDGETS = (100_000, 200_000, 800_000)  # decisions of each agent, after which it is tested
+BOARD = BUDGETS[1]  # every agent makes so many: the tests drive by drive that are kept
 SEARCHED = 100_000  # decisions of each agent of the search
 SEARCH_SEEDS, FIRST_SEARCH_SEED = 3, 500
 SEARCH_ROADS = held_out_seeds(19, 200)
@@ -56,10 +59,7 @@ CHOSEN = {  # of the tries, by what `beyond-search` measured
     "ppo": 1,
 }
 GROUP = 5  # agents of the test that train side by side, a job each
-FEWER = {"rlpd": 5}  # agents in the test, of what is slow
-SHORTER = {"rlpd": BUDGETS[:1]}  # its budgets, too
-LESS_SEARCHED = {"rlpd": {"seeds": 2, "decisions": 50_000}}
-LONGER = {"ppo_cloned": 400_000, "ppo": 400_000}  # its decisions are cheap: some more of them, for equal seconds
+LAST = {"ppo_cloned": BUDGETS[-1], "ppo": BUDGETS[-1], "rlpd": BUDGETS[1]}  # of the budgets; others: see `last_of`
 
 
 def tries(method: str) -> list[Settings]:
@@ -67,28 +67,27 @@ def tries(method: str) -> list[Settings]:
     return [settings_for(method, **COMMON[method], **changes) for changes in TRIES[method]]
 
 
-def budgets_of(method: str) -> tuple[int, ...]:
-    """The decisions after which agents of a method are tested."""
-    return SHORTER.get(method, BUDGETS)
+def last_of(method: str, first: int) -> int:
+    """The last budget of the agents of a method whose seeds begin at `first`. 800,000 decisions take long."""
+    return LAST.get(method, BUDGETS[1] if first else BUDGETS[-1])
 
 
 def searched(method: str) -> dict[str, np.ndarray]:
     """Every try with a few seeds, tested on `SEARCH_ROADS`: the arrays of a file of results. Raises Interrupted."""
-    how = {"seeds": SEARCH_SEEDS, "decisions": SEARCHED} | LESS_SEARCHED.get(method, {})
-    agents = [with_seeds(one, how["seeds"], FIRST_SEARCH_SEED) for one in tries(method)]
+    agents = [with_seeds(one, SEARCH_SEEDS, FIRST_SEARCH_SEED) for one in tries(method)]
     groups = agents if method.startswith("ppo") else [sum(agents, [])]  # what differs in η alone trains side by side
-    return as_arrays(_joined([trained_and_tested(group, [how["decisions"]], SEARCH_ROADS) for group in groups]))
+    return as_arrays(_joined([trained_and_tested(group, [SEARCHED], SEARCH_ROADS) for group in groups]))
 
 
 def compared(method: str, first: int) -> dict[str, np.ndarray]:
     """The chosen try with `GROUP` seeds from `first` on, tested at each budget: the arrays of a file of results.
 
-    `tested` is at the last budget, `measured` has the means at each: returns_100000, success_100000 ... Raises
+    `tested` is at `BOARD`, `measured` has the means at each budget: returns_100000, success_100000 ... Raises
     Interrupted.
     """
     settings = with_seeds(tries(method)[CHOSEN[method]], GROUP, first)
-    roads, longer = held_out_seeds(HELD_OUT, TESTS), [LONGER[method]] if method in LONGER else []
-    return as_arrays(trained_and_tested(settings, budgets_of(method), roads, longer))
+    budgets = [budget for budget in BUDGETS if budget <= last_of(method, first)]
+    return as_arrays(trained_and_tested(settings, budgets, held_out_seeds(HELD_OUT, TESTS)))
 
 
 def by_method(computed: dict[str, Results]) -> dict[str, Results]:
@@ -99,27 +98,23 @@ def by_method(computed: dict[str, Results]) -> dict[str, Results]:
     return {method: _joined(groups[method]) for method in COMMON if method in groups}
 
 
-def trained_and_tested(
-    settings: Sequence[Settings], budgets: Sequence[int], roads: Sequence[int], longer: Sequence[int] = ()
-) -> Results:
+def trained_and_tested(settings: Sequence[Settings], budgets: Sequence[int], roads: Sequence[int]) -> Results:
     """Train agents side by side, and test each on the roads after each budget of decisions.
 
-    longer: a budget after which the training ends, without a test. The seconds are those that the processor spent on
-    the training, shared among the agents.
+    The seconds are those that the processor spent on the training, shared among the agents.
     """
     training, seconds, measured, tested = Training(settings, EPISODES), 0.0, {}, {}
-    for budget in (*budgets, *longer):
+    for budget in budgets:
         started = time.process_time()
         training.run(progress=False, stop=lambda b=budget: training.decisions >= b * len(settings) or orphaned())
         seconds += time.process_time() - started
         if training.decisions < budget * len(settings):
             raise Interrupted(settings[0].method)
-        if budget in budgets:
-            result = training.result()
-            tested = _tested(result.agents, roads)
-            means = {"returns": tested["returns"], "success": tested["success"], "accident": tested["accident"] > 0}
-            measured |= {f"{name}_{budget}": values.mean(axis=1) for name, values in means.items()}
-            measured[f"seconds_{budget}"] = np.full(len(settings), seconds / len(settings))
+        drives = _tested(training.result().agents, roads)
+        tested = drives if budget <= BOARD else tested
+        means = {"returns": drives["returns"], "success": drives["success"], "accident": drives["accident"] > 0}
+        measured |= {f"{name}_{budget}": values.mean(axis=1) for name, values in means.items()}
+        measured[f"seconds_{budget}"] = np.full(len(settings), seconds / len(settings))
     curves = {name: training.curves.values[name] for name in ("success", "return", "decisions")}
     driven = int(training.curves.finished.max())
     return Results(
@@ -139,13 +134,17 @@ def _tested(agents: Sequence[Agent], roads: Sequence[int]) -> dict[str, np.ndarr
 
 
 def _joined(parts: Sequence[Results]) -> Results:
-    """Parts with curves of different lengths as one, filled up with NaN."""
+    """Parts with curves of different lengths as one, and with different budgets, filled up with NaN."""
     longest = max(part.sizes[1] for part in parts)
+    measures = {name for part in parts for name in part.measured}
 
-    def filled(values: np.ndarray) -> np.ndarray:
-        return np.pad(values, ((0, 0), (0, longest - values.shape[1])), constant_values=np.nan)
+    def filled(part: Results) -> Results:
+        more = ((0, 0), (0, longest - part.sizes[1]))
+        curves = {name: np.pad(each, more, constant_values=np.nan) for name, each in part.curves.items()}
+        unknown = np.full(len(part), np.nan)
+        return replace(part, curves=curves, measured={name: part.measured.get(name, unknown) for name in measures})
 
-    return join([replace(part, curves={name: filled(each) for name, each in part.curves.items()}) for part in parts])
+    return join([filled(part) for part in parts])
 
 
 @dataclass(frozen=True)
@@ -161,12 +160,7 @@ class Comparison(LessonExperiment):
 SEARCH = LessonExperiment(f"{__name__}:searched", {method: {"method": method} for method in COMMON})
 EXPERIMENT = Comparison(
     f"{__name__}:compared",
-    {
-        f"{method}-{first}": {"method": method, "first": first}
-        for first in range(0, SEEDS, GROUP)
-        for method in COMMON
-        if first < FEWER.get(method, SEEDS)
-    },
+    {f"{method}-{first}": {"method": method, "first": first} for first in range(0, SEEDS, GROUP) for method in COMMON},
 )
 
 
@@ -178,37 +172,32 @@ def _words(settings: dict) -> str:
 
 
 def budget_rows(computed: dict[str, Results]) -> tuple[list[str], list[list[str]]]:
-    """(headings, rows): what each method reached after each of `BUDGETS`, and after the same seconds.
-
-    computed: {method: its agents}, see `by_method`.
-    """
-    headings = ["method", "chosen", "agents"]
-    for budget in BUDGETS:
-        headings += [
-            f"{budget // 1000},000 decisions: agents that escape",
-            "return [95 %]",
-            "accidents, %",
-            "s of a core",
-        ]
-    headings.append(f"return in training after {SECONDS} s of a core")
+    """(headings, rows): what each method reached after each of `BUDGETS`. computed: see `by_method`."""
+    headings = ["decisions", "method", "agents that escape", "return [95 %]", "accidents, %", "s of a core"]
     rows = []
-    for method, results in computed.items():
-        row = [display_name(method), _words(results.agents[0]), str(len(results))]
-        row += [cell for budget in BUDGETS for cell in _cells(results, budget)]
-        last = budgets_of(method)[-1]
-        there = at_budget(results.curves, SECONDS * last / results.measured[f"seconds_{last}"])
-        rows.append([*row, bracketed(interval(there)) if np.isfinite(there).all() else "–"])
+    for budget, (method, results) in product(BUDGETS, computed.items()):
+        if (returns := at(results, "returns", budget)).size:
+            success, accident, seconds = (at(results, name, budget) for name in ("success", "accident", "seconds"))
+            escape = f"{(success >= ESCAPES).sum()} of {len(success)}"
+            cells = [escape, bracketed(interval(returns)), f"{100 * accident.mean():.1f}", f"{seconds.mean():.1f}"]
+            rows.append([f"{budget:,}", display_name(method), *cells])
     return headings, rows
 
 
-def _cells(results: Results, budget: int) -> list[str]:
-    measured = results.measured
-    if f"returns_{budget}" not in measured:
-        return ["–"] * 4
-    success, returns, accident = (measured[f"{name}_{budget}"] for name in ("success", "returns", "accident"))
-    seconds = measured[f"seconds_{budget}"].mean()
-    escape = f"{(success >= ESCAPES).sum()} of {len(results)}"
-    return [escape, bracketed(interval(returns)), f"{100 * accident.mean():.1f}", f"{seconds:.1f}"]
+def seconds_rows(computed: dict[str, Results]) -> tuple[list[str], list[list[str]]]:
+    """(headings, rows): what each method earns in training after `SECONDS`. computed: see `by_method`."""
+    rows = []
+    for method, results in computed.items():
+        each = results.measured[f"seconds_{BUDGETS[0]}"] / BUDGETS[0]  # for a decision
+        returns = bracketed(interval(at_budget(results.curves, SECONDS / each)))
+        rows.append([display_name(method), f"{SECONDS / each.mean():,.0f}", returns])
+    return ["method", f"decisions in {SECONDS} s of a core", "return of the last 50 episodes of training [95 %]"], rows
+
+
+def at(results: Results, measure: str, budget: int) -> np.ndarray:
+    """Returns, success, accident or seconds after so many decisions, of the agents that made so many: (agents,)."""
+    values = results.measured.get(f"{measure}_{budget}", np.array([]))
+    return values[np.isfinite(values)]
 
 
 def search_rows(computed: dict[str, Results]) -> tuple[list[str], list[list[str]]]:
@@ -217,9 +206,8 @@ def search_rows(computed: dict[str, Results]) -> tuple[list[str], list[list[str]
     for method, results in computed.items():
         means = tried(results)
         cells = [f"{words}: {value:.1f}" for words, value in means.items()]
-        seeds, decisions = len(results) // len(means), LESS_SEARCHED.get(method, {}).get("decisions", SEARCHED)
-        rows.append([display_name(method), *cells, str(seeds), f"{decisions:,}"])
-    return ["method", "first try: return", "second", "third", "seeds of each", "decisions"], rows
+        rows.append([display_name(method), *cells])
+    return ["method", "first try: return", "second", "third"], rows
 
 
 def tried(results: Results) -> dict[str, float]:

@@ -8,13 +8,14 @@ from bootcourse.episodes.record import record
 from bootcourse.episodes.words import overtaken
 from bootcourse.policies import rule_policy
 from bootcourse.research import equal_decisions
+from bootcourse.research.beyond import at_budget
 from bootcourse.research.equal_decisions import BUDGETS, by_method, tried
 from bootcourse.research.results import Results, found  # noqa: F401
 from bootcourse.scenario import DEFAULT
-from bootcourse.statistics import ESCAPES, interval, iqm  # noqa: F401
+from bootcourse.statistics import ESCAPES, Estimate, interval
 from tools.course.known import shipped_experiment, shipped_teachers
 
-HALF, LAST = BUDGETS
+FIRST, SECOND, LAST = BUDGETS
 
 
 @cache
@@ -28,23 +29,38 @@ def later(method: str) -> Results:
     return compared()[method]
 
 
-def at(method: str, measure: str, budget: int = LAST) -> np.ndarray:
+def at(method: str, measure: str, budget: int = FIRST) -> np.ndarray:
     """Each agent's mean return, success or accidents after so many decisions, or its seconds until then: (agents,)."""
-    return later(method).measured[f"{measure}_{budget}"]
+    return equal_decisions.at(later(method), measure, budget)
 
 
 def cost(method: str) -> float:
-    """Seconds of one core for a decision of these agents, until the last of their budgets."""
-    budget = equal_decisions.budgets_of(method)[-1]
-    return float(at(method, "seconds", budget).mean()) / budget
+    """Seconds of one core for a decision of these agents, until the first of their budgets."""
+    return float(at(method, "seconds").mean()) / FIRST
 
 
-def middle(method: str, budget: int = LAST) -> float:
+def score_at(method: str, budget: int = FIRST) -> Estimate:
+    """The interquartile mean of these agents' returns, with its interval."""
+    return interval(at(method, "returns", budget))
+
+
+def middle(method: str, budget: int = FIRST) -> float:
     """The interquartile mean of these agents' returns."""
-    return float(iqm(at(method, "returns", budget)))
+    return score_at(method, budget).value
 
 
-def escaping(method: str, budget: int = LAST) -> int:
+def lowest() -> str:
+    """The method with a teacher that earns the least after the first budget."""
+    return min((method for method in compared() if method != "ppo"), key=lambda method: at(method, "returns").mean())
+
+
+def in_seconds(method: str) -> Estimate:
+    """The return in training after equal seconds of a core."""
+    seconds = later(method).measured[f"seconds_{FIRST}"] / FIRST
+    return interval(at_budget(later(method).curves, equal_decisions.SECONDS / seconds))
+
+
+def escaping(method: str, budget: int = FIRST) -> int:
     """How many of these agents escape."""
     return int((at(method, "success", budget) >= ESCAPES).sum())
 
