@@ -31,6 +31,7 @@ from bootcourse.storage.work import locked
 CURVES = ("success", "return", "speed", "distance", "accident", "entropy")  # the others are in runs/
 VARIED_CURVES = ("success", "return", "xi", "decisions")  # of the experiments
 FEWER_CURVES = {"sweep": ("success", "return"), "teachers": ("success", "decisions"),
+                "beyond-search": (), "beyond": ("return", "decisions"),
                 "elsewhere": ("success", "return"), "easier": ("success", "alpha")}  # many agents  # fmt: skip
 RUNS = 5  # training seeds whose weights ship; curves and scores ship of all
 BUILD = "bootcourse assets build --study DIR"
