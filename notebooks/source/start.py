@@ -17,7 +17,7 @@
 # - say what the trap is, and drive it yourself;
 # - choose your route through the course.
 #
-# **Time** 10 minutes, the machine computes for half a minute of it. **It builds on** nothing.
+# **Time** 10 minutes; the machine computes for about half of one. **It builds on** nothing.
 
 # %%
 import bootcourse as bc
@@ -26,10 +26,12 @@ from bootcourse.course import compare_predictions, predict, shipped
 # %% [markdown]
 # ## Look first
 #
-# Both drives below are on the same road. Two slow cars, dark red, hold the driver: **trap 1** ahead
-# of it, **trap 2** beside it. The drivers are **agents**: programs that have learned from their own
-# attempts. One of them had help while it learned, from a controller that is written by hand. Press
-# play, and turn the road with the mouse.
+# One program stays behind two slow cars, another gets out. Both drives below are on the same road.
+# The slow cars are dark red: **trap 1** ahead of the driver, **trap 2** beside it. The drivers are
+# **agents**: programs that have learned from their own attempts. One of them had help while it
+# learned, from a controller that is written by hand. We chose these two drives to show the
+# difference; lesson [[the_trap]] counts how often it occurs. Press play, and turn the road with the
+# mouse.
 
 # %% tags=["nbval-ignore-output"]
 escape = bc.shipped_drive("escape")  # by an agent that had help
@@ -40,8 +42,8 @@ bc.recording([shipped.beginning(trapped, 30), shipped.beginning(escape, 30)], he
 
 # %% [markdown]
 # Each second pays a little for speed, up to {{ max(np.arange(0, 25, 0.5), key=speed_reward) }} m/s,
-# and an accident costs much. Why does one program stay behind slow cars, although the left lane is
-# free? That is the question of this course.
+# and an accident costs much. Why does a program that learns stay behind slow cars, although the
+# left lane is free? That is the question of this course.
 
 # %% [markdown]
 # ## Drive it yourself
@@ -80,8 +82,9 @@ bc.panels.drive_panel(seed=10)
 # ## Choose a route
 #
 # *An evening* shows you what happens. In *a week* you learn to do it yourself. *A researcher's*
-# route is for readers who know SAC and want to know which results hold. ● is a whole lesson, ◐ its
-# text without the exercises.
+# route is for readers who know SAC, the learner that lesson [[discrete_sac]] builds, and want to
+# know which results hold. ● is a whole lesson, ◐ its text without the exercises; of lesson
+# [[discrete_sac]] the evening needs the *picture* alone, and a researcher has *known* it before.
 #
 # | lesson | an evening | a week | a researcher's |
 # |---|:---:|:---:|:---:|

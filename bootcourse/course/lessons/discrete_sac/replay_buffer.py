@@ -113,13 +113,13 @@ def of_the_buffer(cases, answers):
 
 @exercise(
     "the last D transitions, of which N are drawn, Table of RL hyper-parameters",
-    minutes=10, difficulty=2, cases=buffer_cases, run=filled_and_drawn, explain=of_the_buffer,
+    minutes=4, difficulty=1, cases=buffer_cases, run=filled_and_drawn, explain=of_the_buffer,
     worked=[
         ((2, 3, 4), (np.array([4, 3]), "2 3", 1.0, 1.0, 1.0, 1.0, 1.0, 1.0)),  # the oldest of three rows is gone
     ],
     hints=(
-        "Keep a list and the place of the oldest row. While the list is short, append; then overwrite at that place.",
-        "The place moves on by one with each row and starts again at 0: `self.next = (self.next + 1) % self.size`.",
+        "First draw the places of the rows: `batch` whole numbers below `len(self.rows)`, with `rng`.",
+        "`rng.integers(n, size=batch)` draws them with replacement; `torch.stack` makes one tensor of a list of rows.",
     ),
     mistakes={
         "len(self.rows) < self.size -> True":
