@@ -7,7 +7,7 @@ import pytest
 
 import bootcourse as bc
 from bootcourse.course.lessons import LESSONS, stem
-from bootcourse.research.sweep import load_sweep, nearest_setting
+from bootcourse.course.shipped import shipped_experiment
 from tests.browser import ARTEFACTS, is_blank, needs_browser, open_browser
 from tools import book
 from tools.course import claims
@@ -177,14 +177,14 @@ def test_the_front_page_s_sliders_answer_to_the_keyboard_with_what_the_study_mea
     page = new_page()
     page.page.goto((made / "index.html").as_uri())
     said = page.page.inner_text("#bc-sweep-says")
-    paper = nearest_setting(load_sweep())
-    assert f"Success {100 * paper.mean('success').value:.0f} %" in said and f"{len(paper.results)} agents" in said
+    sweep = shipped_experiment("sweep")
+    paper, without = sweep["p = 0.9, ξ = 200 α, c = 2"], sweep["p = 0.5, ξ = 0 α, c = 2"]
+    assert f"Success {100 * paper.scores('success').mean():.0f} %" in said and f"{len(paper)} agents" in said
     page.page.focus("#bc-xi")
     page.page.keyboard.press("Home")
     assert "Without ξ, p makes no difference" in page.page.inner_text("#bc-sweep-says")
-    without = nearest_setting(load_sweep(), xi_multiplier=0.0)
-    assert f"Success {100 * without.mean('success').value:.0f} %" in page.page.inner_text("#bc-sweep-says")
-    assert page.page.locator("#bc-sweep-chart circle").count() == 2 * len(without.results)
+    assert f"Success {100 * without.scores('success').mean():.0f} %" in page.page.inner_text("#bc-sweep-says")
+    assert page.page.locator("#bc-sweep-chart circle").count() == 2 * len(without)
     assert page.errors == []
     page.page.close()
 

@@ -18,7 +18,7 @@ from bootcourse.files import write_bytes
 def study(
     name: str = typer.Argument(
         "default",
-        help="default, calibrated or paper; sweep; sensitivity, clocks, ablations, longer-view or teachers; "
+        help="default, calibrated or paper; sensitivity, clocks, ablations, sweep, longer-view or teachers; "
         "beyond-search or beyond; elsewhere; look-ahead or distil; bug-hunt, students, second-trap or easier.",
     ),
     out: Path = typer.Option(..., help="The study's folder: new, or that of a study to continue; all may share one."),
@@ -37,27 +37,22 @@ def study(
 ) -> None:
     """Train and test methods with many seeds; write tables, figures and the fidelity report.
 
-    default, calibrated and paper: the paper's methods and baselines. sweep: the paper's method with many settings of
-    p, ξ and c. sensitivity, clocks and ablations: the paper's ablation, varied. longer-view: its method with other
-    numbers. teachers: what a teacher is worth. beyond: methods that the paper does not train, at equal numbers of
-    decisions, with the settings that beyond-search found. elsewhere: does a teacher help on other problems?
+    default, calibrated and paper: the paper's methods and baselines. sensitivity, clocks and ablations: the paper's
+    ablation, varied. sweep: its method with many settings of p, ξ and c. longer-view: its method with other numbers.
+    teachers: what a teacher is worth. beyond: methods that the paper does not train, at equal numbers of decisions,
+    with the settings that beyond-search found. elsewhere: does a teacher help on other problems?
     look-ahead: agents with rollouts, and with wrong models. distil: do networks learn what the look-ahead does?
     bug-hunt, students, second-trap and easier: the agents of four lessons.
     """
     from bootcourse.research import plan
     from bootcourse.research.report import write_report
     from bootcourse.research.results import experiment, in_study
-    from bootcourse.research.sweep import write_sweep
     from bootcourse.research.tables import measured_table
 
-    check_known("Study", name, (*plan.STUDIES, "sweep", *plan.EXPERIMENTS, *plan.LESSON_EXPERIMENTS))
+    check_known("Study", name, (*plan.STUDIES, *plan.EXPERIMENTS, *plan.LESSON_EXPERIMENTS))
     if name in plan.STUDIES:
         methods = plan.methods_named(only)
         wanted = plan.study_jobs(name, methods, seeds or plan.SEEDS, tests or plan.TESTS, episodes)
-    elif name == "sweep":
-        if only:
-            raise BootcourseError(f"--only {only}: the sweep has no parts. Leave out --only.")
-        wanted = plan.sweep_jobs(seeds or 4, episodes or 1500, tests or plan.TESTS)
     else:
         wanted = plan.experiment_named(name).only(only).jobs(name, seeds, episodes, tests)
 
@@ -65,9 +60,7 @@ def study(
         study = in_study(out)
         if study.results:
             print(write_report(study, out))
-        if name == "sweep" and not problems:
-            print(write_sweep(out))
-        if name in (*plan.EXPERIMENTS, *plan.LESSON_EXPERIMENTS) and (varied := experiment(name, out)):
+        if name not in plan.STUDIES and (varied := experiment(name, out)):
             table = measured_table(varied)
             write_bytes(out / f"{name}.md", f"# {name}: means over agents\n\n{table}".encode())
             print(table, out / f"{name}.md", sep="\n")

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 from itertools import product
 
 from bootcourse.errors import BootcourseError, check_known
-from bootcourse.learn.settings import SETTINGS, Settings, settings_for, with_seeds
+from bootcourse.learn.settings import SETTINGS, settings_for, with_seeds
 from bootcourse.methods import ABLATION, AFTER, BASELINES
 from bootcourse.research.jobs import BoundJob, Job, LessonJob, StayingJob, named_function
 from bootcourse.research.teachers import PLANNER as PLANS
@@ -17,8 +17,6 @@ GROUP = 10  # seeds that train side by side: with 5, each costs a third more
 PLANNER, ROADS = "planner", 50  # held-out roads that one job of the planner searches
 VARIED = ("sac", "soft", "demos", "bootstrapped")  # the paper's ablation
 BEYOND = tuple(method for method in AFTER if method != "dagger")  # DAgger is in the experiment `teachers`
-P, XI, C = (0.5, 0.9, 0.99), (0.0, 20.0, 200.0, 2000.0), (0.0, 2.0, 5.0)  # the sweep
-
 
 # Each updates-per-decision setting of the experiment `clocks`. The paper prints neither updates nor roads.
 UPDATES = {"1/4": {}, "1": {"envs_per_agent": 1}, "2": {"envs_per_agent": 1, "updates": 2},
@@ -141,6 +139,16 @@ def _ablations() -> dict[str, Variation]:
     }
 
 
+def _sweep() -> dict[str, Variation]:
+    """The paper's method with other p, ξ and c. Without ξ nothing depends on p, so that is run with one p."""
+    variations = {}
+    for p, xi, c in product((0.5, 0.9, 0.99), (0.0, 20.0, 200.0, 2000.0), (0.0, 2.0, 5.0)):
+        if xi or p == 0.5:
+            changes = {"rule_p": p, "xi_multiplier": xi, "bonus": c}
+            variations[f"p = {p:g}, ξ = {xi:g} α, c = {c:g}"] = Variation(changes, methods=("bootstrapped",))
+    return variations
+
+
 def _longer_view() -> dict[str, Variation]:
     """The paper's method with a longer view, a smaller bonus, a larger batch and two updates per decision."""
     saner = {**SETTINGS["paper"], "bonus": 0.5, "batch": 128}
@@ -205,6 +213,7 @@ EXPERIMENTS = {
     "sensitivity": Experiment(_sensitivity(), seeds=3, episodes=1500),
     "clocks": Experiment(_clocks(), seeds=10, episodes=1200),
     "ablations": Experiment(_ablations(), seeds=10, episodes=2000),
+    "sweep": Experiment(_sweep(), seeds=4, episodes=1500),
     "longer-view": Experiment(_longer_view(), seeds=10, episodes=1500),
     "teachers": Experiment(_teachers(), seeds=10, episodes=1500, tests=200),
 }
@@ -261,21 +270,8 @@ def chosen(variations: dict, names: dict[str, set[str]], words: str) -> dict:
 
 def folder(name: str) -> str:
     """A name as a folder: "γ = 0.9" -> "gamma-0.9"."""
-    words = {"γ": "gamma", "β": "beta", "ξ": "xi", "π̃": "stochastic-rule", "μ": "rule", "1/4": "quarter", ",": ""}
-    words |= {"η": "eta", "|A|": "A"}  # some file systems refuse a bar
+    words = {"γ": "gamma", "β": "beta", "ξ": "xi", "α": "alpha", "η": "eta", "π̃": "stochastic-rule", "μ": "rule"}
+    words |= {"1/4": "quarter", ",": "", "|A|": "A"}  # some file systems refuse a bar
     for letter, word in words.items():
         name = name.replace(letter, word)
     return "-".join(word for word in name.split() if word not in ("=", "x", "at", "m/s"))
-
-
-def sweep_settings(p: Sequence[float] = P, xi: Sequence[float] = XI, c: Sequence[float] = C) -> list[Settings]:
-    """One for each combination that can differ. Without ξ nothing depends on p, so that is run once."""
-    wanted = [(a if x else p[0], x, b) for a, x, b in product(p, xi, c)]
-    return [settings_for("bootstrapped", rule_p=a, xi_multiplier=x, bonus=b) for a, x, b in dict.fromkeys(wanted)]
-
-
-def sweep_jobs(seeds: int, episodes: int, tests: int, scenario: Scenario = DEFAULT, together: int = 10) -> list[Job]:
-    """The sweep in a few large jobs: its agents differ in p, ξ and c, and still train side by side."""
-    agents = [agent for settings in sweep_settings() for agent in with_seeds(settings, seeds)]
-    parts = [tuple(agents[i : i + together]) for i in range(0, len(agents), together)]
-    return [Job(f"sweep/{i:02}", part, scenario, episodes, tests, runs=False) for i, part in enumerate(parts)]

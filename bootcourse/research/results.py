@@ -187,7 +187,7 @@ def load_job(folder: Path) -> Results:
 
 
 def load_jobs(root: Path, part: str) -> Results:
-    """All agents of the finished jobs in root/jobs/part, such as "default" or "sweep".
+    """All agents of the finished jobs in root/jobs/part, such as "default".
 
     A study that was begun with fewer seeds leaves jobs that the larger ones hold again: each agent counts once.
     """

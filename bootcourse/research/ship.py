@@ -30,7 +30,7 @@ from bootcourse.storage.work import locked
 
 CURVES = ("success", "return", "speed", "distance", "accident", "entropy")  # the others are in runs/
 VARIED_CURVES = ("success", "return", "xi", "decisions")  # of the experiments
-FEWER_CURVES = {"sweep": ("success", "return"), "teachers": ("success", "decisions"),
+FEWER_CURVES = {"sweep": (), "teachers": ("success", "decisions"),
                 "beyond-search": (), "beyond": ("return", "decisions"),
                 "elsewhere": ("success", "return"), "easier": ("success", "alpha")}  # many agents  # fmt: skip
 RUNS = 5  # training seeds whose weights ship; curves and scores ship of all
@@ -40,7 +40,6 @@ COMMANDS = {
     "default": STUDY,
     "calibrated": f"bootcourse study calibrated --out DIR && {BUILD}",
     "paper": f"bootcourse study paper --out DIR && {BUILD}",
-    "sweep": f"bootcourse study sweep --out DIR && {BUILD}",
 }
 ELSEWHERE = {  # what no study makes, and the command that does
     "checks.md": "python -m bootcourse.research.checks --out assets/checks.md",
@@ -154,10 +153,10 @@ def _fill(shipment: Shipment, folder: Path) -> None:
 
 
 def add_studies(to: Shipment) -> None:
-    """Curves and scores of each study and of the sweep, the planner's bound and its answer."""
+    """Curves and scores of each study, the planner's bound and its answer."""
     study = in_study(to.study)
     for part, command in COMMANDS.items():
-        path = to.new / ("sweep.npz" if part == "sweep" else f"study-{part}.npz")
+        path = to.new / f"study-{part}.npz"
         if not to.has(part):
             if part == "default" and not path.exists():
                 raise BootcourseError(f"{to.study} has no finished jobs in jobs/default: compute them first.")

@@ -5,35 +5,33 @@ from pathlib import Path
 
 import numpy as np
 
-from bootcourse.course.shipped import shipped_results
+from bootcourse.course.shipped import shipped_experiment, shipped_results
 from bootcourse.learn.settings import settings_for
 from bootcourse.methods import DRIVERS, style
 from bootcourse.research.report import rule_results
-from bootcourse.research.sweep import load_sweep, nearest_setting, settings_run
 from bootcourse.scenario import DEFAULT
 
 
 def sweep_data() -> dict:
     """Every setting of p, ξ and c that was run, and what each of its agents did."""
-    sweep, paper = load_sweep(), settings_for("bootstrapped")
-    settings = [nearest_setting(sweep, *setting) for setting in settings_run(sweep)]
+    settings, paper = list(shipped_experiment("sweep").values()), settings_for("bootstrapped")
+    places = [[each.agents[0][name] for name in ("rule_p", "xi_multiplier", "bonus")] for each in settings]
     rule = rule_results(DEFAULT, shipped_results().sizes[0])
-    returns = sweep.scores("returns")
+    returns = np.concatenate([each.scores("returns") for each in settings])
+    p, xi, c = (sorted(set(values)) for values in zip(*places, strict=True))
     return {
-        "p": sorted({each.p for each in settings}),
-        "xi": sorted({each.xi_multiplier for each in settings}),
-        "c": sorted({each.c for each in settings}),
+        "p": p,
+        "xi": xi,
+        "c": c,
         "paper": {"p": paper.rule_p, "xi": paper.xi_multiplier, "c": paper.bonus},
         "settings": [
             {
-                "p": each.p,
-                "xi": each.xi_multiplier,
-                "c": each.c,
-                "success": _rounded(each.results.scores("success"), 3),
-                "returns": _rounded(each.results.scores("returns"), 1),
-                "accidents": _rounded(each.results.scores("accident"), 3),
+                **dict(zip(("p", "xi", "c"), place, strict=True)),
+                "success": _rounded(each.scores("success"), 3),
+                "returns": _rounded(each.scores("returns"), 1),
+                "accidents": _rounded(each.scores("accident"), 3),
             }
-            for each in settings
+            for place, each in zip(places, settings, strict=True)
         ],
         "low": 10 * int(np.floor(returns.min() / 10)),
         "high": 10 * int(np.ceil(returns.max() / 10)),
