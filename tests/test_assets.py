@@ -16,7 +16,6 @@ from bootcourse.scenario import CALIBRATED, DEFAULT
 from bootcourse.storage import assets
 from bootcourse.storage.runs import find_runs
 
-
 SWEEP = "sweep/p-0.9-xi-200-alpha-c-2.npz"
 
 

@@ -229,7 +229,7 @@ def test_an_experiment_may_be_run_in_part_by_the_names_of_its_methods_teachers_a
     assert chosen("teachers", "planner") == {"planner, dagger", "planner, ppo_cloned", "planner, rlpd"}
     assert chosen("teachers", "dagger") == {f"{teacher}, dagger" for teacher in TEACHERS}
     assert chosen("teachers", "late-soft, planner-dagger") == {"late, soft", "planner, dagger"}
-    assert chosen("sensitivity", "gamma-0.9") == {"γ = 0.9"} and chosen("students", "racer") == {"racer"}
+    assert chosen("sensitivity", "gamma-0.9") == {"γ = 0.9"} and chosen("students", "racer-long") == {"racer, long"}
     with pytest.raises(BootcourseError, match="Part 'planer' is unknown: did you mean 'planner'"):
         chosen("teachers", "planer")
     with pytest.raises(BootcourseError, match="leave out --seeds"):

@@ -19,7 +19,7 @@ def study(
     name: str = typer.Argument(
         "default",
         help="default, calibrated or paper; sensitivity, clocks, ablations, sweep, longer-view or teachers; "
-        "beyond-search or beyond; elsewhere; look-ahead or distil; bug-hunt, students, second-trap or easier.",
+        "beyond-search or beyond; elsewhere; checks; look-ahead or distil; bug-hunt, students, second-trap or easier.",
     ),
     out: Path = typer.Option(..., help="The study's folder: new, or that of a study to continue; all may share one."),
     seeds: int = typer.Option(0, min=0, help="Training seeds of each method; 0: the study's own number."),
@@ -41,10 +41,10 @@ def study(
     ablation, varied. sweep: its method with many settings of p, ξ and c. longer-view: its method with other numbers.
     teachers: what a teacher is worth. beyond: methods that the paper does not train, at equal numbers of decisions,
     with the settings that beyond-search found. elsewhere: does a teacher help on other problems?
-    look-ahead: agents with rollouts, and with wrong models. distil: do networks learn what the look-ahead does?
-    bug-hunt, students, second-trap and easier: the agents of four lessons.
+    checks: do our learners reach published figures? look-ahead: agents with rollouts, and with wrong models. distil:
+    do networks learn what the look-ahead does? bug-hunt, students, second-trap and easier: the agents of four lessons.
     """
-    from bootcourse.research import plan
+    from bootcourse.research import checks, plan
     from bootcourse.research.report import write_report
     from bootcourse.research.results import experiment, in_study
     from bootcourse.research.tables import measured_table
@@ -61,9 +61,10 @@ def study(
         if study.results:
             print(write_report(study, out))
         if name not in plan.STUDIES and (varied := experiment(name, out)):
-            table = measured_table(varied)
-            write_bytes(out / f"{name}.md", f"# {name}: means over agents\n\n{table}".encode())
-            print(table, out / f"{name}.md", sep="\n")
+            means = f"# {name}: means over agents\n\n{measured_table(varied)}"
+            page = checks.page(varied) if name == "checks" else means
+            write_bytes(out / f"{name}.md", page.encode())
+            print(page, out / f"{name}.md", sep="\n")
 
     how = {"backend": backend, "scheduler": scheduler, "workers": workers, "recompute": recompute}
     raise typer.Exit(compute(wanted, out, report, **how))

@@ -18,7 +18,7 @@ from bootcourse.learn.settings import Settings, settings_for, with_seeds
 from bootcourse.learn.teachers import teacher_policy
 from bootcourse.learn.training import Training
 from bootcourse.research.jobs import HELD_OUT, Interrupted, LessonJob, orphaned, tested_arrays
-from bootcourse.research.plan import LessonExperiment, chosen, folder
+from bootcourse.research.plan import LessonExperiment
 from bootcourse.research.problems import LANDER, PROBLEMS, Problem, has_box2d
 from bootcourse.research.results import found
 
@@ -100,35 +100,22 @@ def cell(problem: str, teacher: str, method: str, seeds: int, episodes: int, tes
 class Elsewhere(LessonExperiment):
     """The cells: {"PROBLEM, TEACHER, METHOD": the arguments of `cell`}."""
 
-    def only(self, words: str) -> "Elsewhere":
-        """The cells that are named by their folder, problem, teacher or method; "" for all."""
-        names = {
-            name: {folder(name), cell["problem"], cell["teacher"], folder(cell["method"])}
-            for name, cell in self.variations.items()
-        }
-        return Elsewhere(self.function, chosen(self.variations, names, words))
-
     def jobs(self, name: str, seeds: int = 0, episodes: int = 0, tests: int = 0) -> list[LessonJob]:
-        """One job for each cell. 0: the experiment's own number."""
+        """One job for each cell; without box2d none of Lunar lander."""
         cells = self.variations
         if not has_box2d():
-            cells = {each: a for each, a in cells.items() if a["problem"] != LANDER}
+            cells = {each: arguments for each, arguments in cells.items() if arguments["problem"] != LANDER}
             print("Lunar lander is left out, since box2d is not installed: `pip install bootcourse[lander]`.")
-        asked = {"episodes": episodes, "tests": tests or TESTS}
-        return [
-            LessonJob(
-                f"{name}/{folder(each)}", self.function, a | asked | {"seeds": seeds or PROBLEMS[a["problem"]].seeds}
-            )
-            for each, a in cells.items()
-        ]
+        return LessonExperiment(self.function, cells).jobs(name, seeds, episodes, tests)
 
 
 def _cells() -> dict[str, dict]:
     cells = {}
-    for problem in PROBLEMS:
-        teachers = PROBLEMS[problem].teachers()
-        for teacher, method in [*product([NOBODY], ALONE), *product(teachers, TAUGHT)]:
-            cells[f"{problem}, {teacher}, {method}"] = {"problem": problem, "teacher": teacher, "method": method}
+    for problem, one in PROBLEMS.items():
+        numbers = {"seeds": one.seeds, "episodes": 0, "tests": TESTS}  # 0: the problem's own number
+        for teacher, method in [*product([NOBODY], ALONE), *product(one.teachers(), TAUGHT)]:
+            named = {"problem": problem, "teacher": teacher, "method": method}
+            cells[f"{problem}, {teacher}, {method}"] = named | numbers
     return cells
 
 

@@ -12,7 +12,7 @@ second.
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -24,7 +24,7 @@ from bootcourse.learn.training import Training
 from bootcourse.methods import display_name
 from bootcourse.research.beyond import at_budget
 from bootcourse.research.jobs import HELD_OUT, Interrupted, orphaned, smaller
-from bootcourse.research.plan import SEEDS, TESTS, LessonExperiment, chosen
+from bootcourse.research.plan import SEEDS, TESTS, LessonExperiment
 from bootcourse.research.results import Results, agent_entries, as_arrays, join
 from bootcourse.research.tables import bracketed
 from bootcourse.statistics import ESCAPES, interval
@@ -147,18 +147,8 @@ def _joined(parts: Sequence[Results]) -> Results:
     return join([filled(part) for part in parts])
 
 
-@dataclass(frozen=True)
-class Comparison(LessonExperiment):
-    """The jobs of the comparison: {"METHOD-FIRST": the arguments of `compared`}."""
-
-    def only(self, words: str) -> "Comparison":
-        """The jobs that are named by their folder or by their method; "" for all."""
-        names = {name: {name, arguments["method"]} for name, arguments in self.variations.items()}
-        return Comparison(self.function, chosen(self.variations, names, words))
-
-
 SEARCH = LessonExperiment(f"{__name__}:searched", {method: {"method": method} for method in COMMON})
-EXPERIMENT = Comparison(
+EXPERIMENT = LessonExperiment(
     f"{__name__}:compared",
     {f"{method}-{first}": {"method": method, "first": first} for first in range(0, SEEDS, GROUP) for method in COMMON},
 )

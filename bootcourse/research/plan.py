@@ -227,18 +227,28 @@ class LessonExperiment:
     variations: dict[str, dict]
 
     def only(self, words: str) -> "LessonExperiment":
-        """The variations that are named by their folder; "" for all. Raises BootcourseError for an unknown name."""
-        names = {variation: {folder(variation)} for variation in self.variations}
+        """The variations that are named by their folder or by an argument; "" for all.
+
+        Raises BootcourseError for an unknown name.
+        """
+        names = {
+            variation: {folder(word) for word in (variation, *arguments.values()) if isinstance(word, str)}
+            for variation, arguments in self.variations.items()
+        }
         return replace(self, variations=chosen(self.variations, names, words))
 
     def jobs(self, name: str, seeds: int = 0, episodes: int = 0, tests: int = 0) -> list[LessonJob]:
-        """One job for each variation. Raises BootcourseError for another number of seeds or episodes."""
-        if seeds or episodes or tests:
-            raise BootcourseError(f"The lesson fixes the numbers of {name}: leave out --seeds, --episodes and --tests.")
-        return [
-            LessonJob(f"{name}/{folder(variation)}", self.function, arguments)
-            for variation, arguments in self.variations.items()
-        ]
+        """One job for each variation. 0: the number that stands among its arguments.
+
+        Raises BootcourseError for a number that is not an argument.
+        """
+        numbers = {word: n for word, n in (("seeds", seeds), ("episodes", episodes), ("tests", tests)) if n}
+        jobs = []
+        for variation, arguments in self.variations.items():
+            if fixed := [f"--{word}" for word in numbers if word not in arguments]:
+                raise BootcourseError(f"The experiment {name} fixes its numbers: leave out {' and '.join(fixed)}.")
+            jobs.append(LessonJob(f"{name}/{folder(variation)}", self.function, arguments | numbers))
+        return jobs
 
 
 LESSON_EXPERIMENTS = {  # "module:name" of a LessonExperiment, imported when it is used
@@ -247,6 +257,7 @@ LESSON_EXPERIMENTS = {  # "module:name" of a LessonExperiment, imported when it 
     "second-trap": "bootcourse.course.lessons.the_second_trap.ppo_kinds:EXPERIMENT",
     "easier": "bootcourse.course.lessons.the_barrier.easier:EXPERIMENT",
     "elsewhere": "bootcourse.research.elsewhere:EXPERIMENT",  # of no lesson, but a function of its own too
+    "checks": "bootcourse.research.checks:EXPERIMENT",
     "beyond-search": "bootcourse.research.equal_decisions:SEARCH",
     "beyond": "bootcourse.research.equal_decisions:EXPERIMENT",
     "look-ahead": "bootcourse.research.lookahead:EXPERIMENT",

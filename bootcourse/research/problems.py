@@ -11,20 +11,67 @@ highway-env's merge is left out: one core makes about 46 decisions a second ther
 All teachers answer for many observations in one call, (n, observation) -> (n,).
 """
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from importlib.util import find_spec
 
 import gymnasium as gym
 import numpy as np
 from gymnasium.utils import seeding
-from gymnasium.vector import AutoresetMode, VectorEnv
+from gymnasium.vector import AutoresetMode, SyncVectorEnv, VectorEnv
 from gymnasium.vector.utils import batch_space
 
 from bootcourse.episodes.success import Success
 from bootcourse.learn.teachers import Rule, all_roads
-from bootcourse.research.checks import acrobot, cartpole, scaled, several
 from bootcourse.research.teachers import hashed
+
+MakeEnv = Callable[[], gym.Env]
+
+
+def several(make_env: MakeEnv) -> Callable[[int], SyncVectorEnv]:
+    """What `Training` asks for: a vector environment of that many copies."""
+    return lambda count: SyncVectorEnv([make_env] * count, autoreset_mode=AutoresetMode.SAME_STEP)
+
+
+class FixedHorizon(gym.Wrapper):
+    """CartPole that goes on for all 500 steps: 1 for each step with the pole up and the cart on its track.
+
+    Like `seals/CartPole-v0`. Otherwise the length of an episode would tell an imitator how well
+    it drives, and the discriminator would not be tested.
+    """
+
+    def __init__(self, env: gym.Env):
+        super().__init__(env)
+        self.limits = env.unwrapped.x_threshold, env.unwrapped.theta_threshold_radians
+        env.unwrapped.x_threshold = env.unwrapped.theta_threshold_radians = math.inf
+
+    def step(self, action):
+        state, _, terminated, truncated, info = self.env.step(action)
+        up = abs(state[0]) <= self.limits[0] and abs(state[2]) <= self.limits[1]
+        return state, float(up), terminated, truncated, info
+
+
+CARTPOLE_SCALES = (1.0, 1.0, 0.1, 1.0)  # m, m/s, rad, rad/s
+
+
+def scaled(env: gym.Env, scales: Sequence[float]) -> gym.Env:
+    """The same environment; its observations are divided by these scales."""
+    space, by = env.observation_space, np.array(scales, dtype=np.float32)
+    space = gym.spaces.Box(space.low / by, space.high / by, dtype=np.float32)
+    return gym.wrappers.TransformObservation(env, lambda state: (state / by).astype(np.float32), space)
+
+
+def cartpole() -> gym.Env:
+    return scaled(gym.make("CartPole-v1"), CARTPOLE_SCALES)
+
+
+def fixed_cartpole() -> gym.Env:
+    return scaled(FixedHorizon(gym.make("CartPole-v1")), CARTPOLE_SCALES)
+
+
+def acrobot() -> gym.Env:
+    return gym.make("Acrobot-v1")
 
 
 class Table(VectorEnv):

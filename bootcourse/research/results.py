@@ -29,7 +29,7 @@ RUN_AGAIN = "run the study again, or restore it from a copy"
 KINDS = {"collision": Accident.COLLISION, "road_departure": Accident.ROAD_DEPARTURE, "stoppage": Accident.STOPPAGE}
 OF_AGENTS = ("tested", "curves", "notes", "measured")  # the parts with every agent; weights are kept of the first ones
 PARTS = (*OF_AGENTS, "weights")
-REPORTED = (*EXPERIMENTS, "beyond-search", "beyond", "elsewhere", "look-ahead", "distil")  # that the report shows
+REPORTED = (*EXPERIMENTS, "beyond-search", "beyond", "elsewhere", "look-ahead", "distil", "checks")  # that are shown
 WINDOW = 50  # training episodes in a row, in which an agent that has found the way out is ahead more often than not
 
 

@@ -18,6 +18,7 @@ from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError
 from bootcourse.files import decoding, provenance, sha256, write_arrays, write_bytes, write_json
 from bootcourse.policies import rule_policy
+from bootcourse.research import checks
 from bootcourse.research.jobs import HELD_OUT, read_job
 from bootcourse.research.plan import EXPERIMENTS, LESSON_EXPERIMENTS, STUDIES
 from bootcourse.research.report import model_card, write_report
@@ -42,7 +43,6 @@ COMMANDS = {
     "paper": f"bootcourse study paper --out DIR && {BUILD}",
 }
 ELSEWHERE = {  # what no study makes, and the command that does
-    "checks.md": "python -m bootcourse.research.checks --out assets/checks.md",
     "readme/*": "python -m bootcourse.plots.readme_picture",
 }
 
@@ -232,9 +232,13 @@ def add_rollouts(to: Shipment) -> None:
 
 
 def add_report(to: Shipment) -> None:
-    """The report with its figures and the model card, made from the files that ship."""
+    """The report with its figures, the page of checks and the model card, made from the files that ship."""
     to.clear("report/**/*")
-    write_report(in_assets(to.new), to.new / "report")
+    study, page = in_assets(to.new), to.new / "checks.md"
+    write_report(study, to.new / "report")
+    if computed := study.experiments["checks"]:
+        write_bytes(page, checks.page(computed).encode())
+        to.add(page, f"bootcourse study checks --out DIR && {BUILD}", provenance())
     card = model_card(load_results(to.new / "study-default.npz"), RUNS)
     write_bytes(to.new / "MODEL_CARD.md", card.encode())
     for path in (to.new / "MODEL_CARD.md", *sorted((to.new / "report").rglob("*"))):
@@ -243,7 +247,7 @@ def add_report(to: Shipment) -> None:
 
 
 def add_elsewhere(to: Shipment, today: Path) -> None:
-    """The independent checks and the README's pictures stay as they are; new ones are listed."""
+    """The README's pictures stay as they are; new ones are listed."""
     for pattern, command in ELSEWHERE.items():
         for path in sorted(today.glob(pattern)):
             name = path.relative_to(today).as_posix()

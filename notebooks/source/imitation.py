@@ -440,7 +440,7 @@ table(headings, rows)
 #
 # **Explain.** How would a reader notice that a training was too short? A row of a table does not
 # show it. So test your learners where others have published what can be reached. The command
-# `python -m bootcourse.research.checks` trains the very classes of this course on CartPole and
+# `bootcourse study checks` trains the very classes of this course on CartPole and
 # Acrobot; our last run ships as `assets/checks.md`. GAIL's row, on a CartPole of fixed length: {{
 # checked(3, 'published') }} is published, ours reaches {{ checked(3, 'ours') }}. A score that is
 # not reached says where to look before you believe a table. Next to a badly trained baseline a
