@@ -6,7 +6,7 @@ test), and *open* otherwise. The hypotheses are older than the results. This rul
 three problems were computed.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import product
 
@@ -97,14 +97,8 @@ class Claim:
         """ "confirmed", "contradicted" or "open"."""
         if self.p >= SIGNIFICANT:
             return "open"
-        greater = self._rank() > 0
-        if self.expected == "=" or not greater:
-            return "contradicted"
-        return "confirmed"
-
-    def _rank(self) -> float:
-        """How much more often left is above right than below."""
-        return float(np.sign(np.subtract.outer(np.atleast_1d(self.left), np.atleast_1d(self.right))).mean())
+        above = np.sign(np.subtract.outer(np.atleast_1d(self.left), np.atleast_1d(self.right))).sum()
+        return "confirmed" if above > 0 and self.expected != "=" else "contradicted"
 
     def row(self) -> list[str]:
         values = [
@@ -115,89 +109,78 @@ class Claim:
         return [self.where, self.words, *values, p, self.verdict]
 
 
-def claims_of(hypothesis: str, cells: Cells) -> tuple[list[Claim], list[str]]:
-    """(the comparisons that can be made, the cells that the others lack)."""
-    claims, lacking = [], []
-    for where, words, sides, expected in CLAIMS[hypothesis](cells):
-        try:
-            claims.append(Claim(where, words, *sides(), expected))
-        except Missing as missing:
-            lacking.append(str(missing))
-    return claims, lacking
+@dataclass(frozen=True)
+class Expectation:
+    """A comparison before it is made. sides: of what was computed; it raises Missing for what was not."""
+
+    where: str
+    words: str
+    sides: Callable[[Cells], tuple[np.ndarray | float, np.ndarray | float]]
+    expected: str
 
 
-Expectations = Iterator[tuple[str, str, Callable[[], tuple], str]]  # where, words, () -> (left, right), expected
+def compared(problem: str, teacher: str, left: str, expected: str, right: str, measure="returns") -> Expectation:
+    """Two methods with the same problem and teacher. The teacher itself is one number."""
 
-
-def _pair(cells: Cells, problem: str, teacher: str, left: str, expected: str, right: str, measure="returns") -> tuple:
-    """A comparison of two methods in a row; the teacher itself is one number."""
-
-    def sides():
-        return tuple(side(method) for method in (left, right))
-
-    def side(method: str) -> np.ndarray | float:
+    def side(cells: Cells, method: str) -> np.ndarray | float:
         scores = cells.scores(problem, teacher, method, measure)
         return scores[0] if method == TEACHER else scores
 
     words = f"{left} {expected.replace('>=', '≥')} {right}, {measure.replace('returns', 'return')}"
-    return f"{PROBLEMS[problem].name}, {teacher}", words, sides, expected
+    where = f"{PROBLEMS[problem].name}, {teacher}"
+    return Expectation(where, words, lambda cells: (side(cells, left), side(cells, right)), expected)
+
+
+def hardly_succeeds(problem: str, method: str) -> Expectation:
+    """A method without a teacher succeeds in less than 10 %."""
+    name, words = PROBLEMS[problem].name, f"10 % > {method}, success"
+    return Expectation(name, words, lambda cells: (0.1, cells.scores(problem, NOBODY, method, "success")), ">")
+
+
+def gains_more(problem: str, other: str) -> Expectation:
+    """The soft constraint with the good teacher gains more success over the better SAC than on another problem."""
+
+    def gain(cells: Cells, problem: str) -> np.ndarray:
+        alone = max(cells.scores(problem, NOBODY, method, "success").mean() for method in (SAC, ENTROPY))
+        return cells.scores(problem, "good", "soft", "success") - alone
+
+    where = f"{PROBLEMS[problem].name} and {PROBLEMS[other].name}, good"
+    words = "gain of soft over the better SAC, success"
+    return Expectation(where, words, lambda cells: (gain(cells, problem), gain(cells, other)), ">")
 
 
 TEACHERS = ("good", "random", "systematic")
 SPARSE = ("chain", "mountain-car", "acrobot")  # long without a reward
 STUDIED = (*SPARSE, "cartpole", "doorkey")  # the problems that the hypotheses were written for
+EXPECTED = {
+    "H1": [
+        *(compared("doorkey", teacher, "both, c = 0", ">", "both", "success") for teacher in TEACHERS),
+        *(compared("mountain-car", teacher, "both, c = 0", "=", "both") for teacher in TEACHERS),
+    ],
+    "H2": [
+        *(compared(problem, "random", "cloning", ">", TEACHER) for problem in SPARSE),
+        *(compared(problem, "systematic", TEACHER, ">=", "cloning") for problem in SPARSE),
+    ],
+    "H3": [compared(each, "systematic", how, ">", "cloning") for each, how in product(STUDIED, ("soft", "both"))],
+    "H4": [
+        *(hardly_succeeds("mountain-car", method) for method in (SAC, ENTROPY)),
+        *(compared("cartpole", "good", ENTROPY, ">=", method) for method in ("soft", "demonstrations", "both")),
+        *(gains_more(problem, "cartpole") for problem in SPARSE),
+    ],
+    "H5": [compared(problem, "random", "soft", ">", "demonstrations") for problem in STUDIED],
+    "H6": [compared(*row, "PPO after cloning", ">=", "cloning") for row in product(STUDIED, TEACHERS)],
+}
 
 
-def _h1(cells: Cells) -> Expectations:
-    for teacher in TEACHERS:
-        yield _pair(cells, "doorkey", teacher, "both, c = 0", ">", "both", "success")
-    for teacher in TEACHERS:
-        yield _pair(cells, "mountain-car", teacher, "both, c = 0", "=", "both")
-
-
-def _h2(cells: Cells) -> Expectations:
-    for problem in SPARSE:
-        yield _pair(cells, problem, "random", "cloning", ">", TEACHER)
-    for problem in SPARSE:
-        yield _pair(cells, problem, "systematic", TEACHER, ">=", "cloning")
-
-
-def _h3(cells: Cells) -> Expectations:
-    for problem, method in product(STUDIED, ("soft", "both")):
-        yield _pair(cells, problem, "systematic", method, ">", "cloning")
-
-
-def _h4(cells: Cells) -> Expectations:
-    for method in (SAC, ENTROPY):
-        yield (
-            PROBLEMS["mountain-car"].name,
-            f"10 % > {method}, success",
-            lambda method=method: (0.1, cells.scores("mountain-car", NOBODY, method, "success")),
-            ">",
-        )
-    for method in ("soft", "demonstrations", "both"):
-        yield _pair(cells, "cartpole", "good", ENTROPY, ">=", method)
-
-    def gain(problem: str) -> np.ndarray:
-        alone = max(cells.scores(problem, NOBODY, method, "success").mean() for method in (SAC, ENTROPY))
-        return cells.scores(problem, "good", "soft", "success") - alone
-
-    for problem in SPARSE:
-        where = f"{PROBLEMS[problem].name} and CartPole, good"
-        yield where, "gain of soft over the better SAC, success", lambda p=problem: (gain(p), gain("cartpole")), ">"
-
-
-def _h5(cells: Cells) -> Expectations:
-    for problem in STUDIED:
-        yield _pair(cells, problem, "random", "soft", ">", "demonstrations")
-
-
-def _h6(cells: Cells) -> Expectations:
-    for problem, teacher in product(STUDIED, TEACHERS):
-        yield _pair(cells, problem, teacher, "PPO after cloning", ">=", "cloning")
-
-
-CLAIMS = {"H1": _h1, "H2": _h2, "H3": _h3, "H4": _h4, "H5": _h5, "H6": _h6}
+def claims_of(hypothesis: str, cells: Cells) -> tuple[list[Claim], list[str]]:
+    """(the comparisons that can be made, the cells that the others lack)."""
+    claims, lacking = [], []
+    for each in EXPECTED[hypothesis]:
+        try:
+            claims.append(Claim(each.where, each.words, *each.sides(cells), each.expected))
+        except Missing as missing:
+            lacking.append(str(missing))
+    return claims, lacking
 
 
 def verdict(hypothesis: str, cells: Cells) -> str:
