@@ -6,8 +6,8 @@ import pytest
 import bootcourse as bc
 from bootcourse.episodes.lookahead import nine_drives
 from bootcourse.research import distil
+from bootcourse.research.distil import learned_rows
 from bootcourse.research.lookahead import shipped_actors
-from bootcourse.research.lookahead_figures import learned_rows
 from bootcourse.research.results import experiment
 
 TINY = {"DRIVES": 3, "ROUNDS": 2, "UPDATES": 2, "AGENTS": 1, "ROADS": 2}

@@ -8,6 +8,7 @@ import pytest
 from gymnasium.vector import AutoresetMode
 
 import bootcourse as bc
+from bootcourse.course.lessons.looking_ahead.figures import by_horizon, wrong_models
 from bootcourse.course.shipped import beginning
 from bootcourse.episodes.evaluate import drive_episodes
 from bootcourse.episodes.lookahead import imagine, lookahead, lookahead_shield, rollout_values, worth_of_speed
@@ -21,8 +22,7 @@ from bootcourse.policies import PlanPolicy, PolicyOutput, idle_policy, plan_poli
 from bootcourse.replay3d.recorder import to_html
 from bootcourse.replay3d.scene import timelines_of
 from bootcourse.replay3d.stage import Options, _ribbon
-from bootcourse.research.lookahead import Cell, cells, drive
-from bootcourse.research.lookahead_figures import by_horizon, rows, wrong_models
+from bootcourse.research.lookahead import Cell, cells, drive, rows
 from bootcourse.research.results import Results, experiment
 from bootcourse.road.state import CRASHED, EGO, HEADING, LANE, SPEED, TARGET_LANE, TRAP_1, X, Y
 from bootcourse.road.vector_env import TrapVectorEnv

@@ -19,7 +19,7 @@ from bootcourse.episodes.lookahead import nine_drives
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.networks import init_mlp, mlp
 from bootcourse.research.jobs import HELD_OUT
-from bootcourse.research.lookahead import ROADS, measured, shipped_actors
+from bootcourse.research.lookahead import ROADS, Cell, measured, shipped_actors
 from bootcourse.research.plan import LessonExperiment
 from bootcourse.research.results import Results, as_arrays
 from bootcourse.road.branching import advance
@@ -100,6 +100,20 @@ def labelled(cars: np.ndarray, base: Agent, target: str) -> tuple[np.ndarray, ..
         actions = np.where(hurt[np.arange(len(own)), own] > 0, actions, own)
     below = (values - values.max(axis=1, keepdims=True)).clip(WORST).astype(np.float32)
     return states, actions, below, actions != own
+
+
+def learned_rows(tried: dict[str, Results], cells: dict[str, Results]) -> tuple[list[str], list[list[str]]]:
+    """(headings, rows): what the students of the look-ahead do alone (`distil.py`), below the agents that they were.
+
+    tried: the students by what they learned; cells: the look-ahead's, which hold these agents before.
+    """
+    before, lines = cells.get(Cell(BASE, "alone").name), []
+    as_they_were = {"nothing: the agents as they were": before.pick(range(AGENTS))} if before else {}
+    for words, results in (as_they_were | tried).items():
+        of = results.measured
+        accidents = ", ".join(f"{1000 * k / n:.0f}" for k, n in zip(of["accidents"], of["roads"], strict=True))
+        lines.append([words, ", ".join(f"{value:.1f}" for value in of["returns"]), accidents])
+    return ["learned", "return of each agent", "accidents in 1,000 of each"], lines
 
 
 EXPERIMENT = LessonExperiment(f"{__name__}:distilled", TRIES)

@@ -5,12 +5,16 @@
 A cell is a base policy in one form: alone, with rollouts, or with the shield; its agents drive the same held-out roads.
 It trains nothing. The agents are runs in DIR/agents/METHOD (`bootcourse train --method METHOD --seeds 10 --out
 DIR/agents/METHOD`) or, where there is no such folder, those that ship.
+
+In its table accidents are counted over all drives of a base policy's agents, with the exact (Clopper-Pearson) interval
+of so many independent drives; returns are means of the agents' means, with a bootstrap interval over agents.
 """
 
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 import torch
@@ -24,17 +28,20 @@ from bootcourse.errors import BootcourseError, check_known
 from bootcourse.files import write_arrays
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.settings import stored_settings
+from bootcourse.methods import display_name
 from bootcourse.policies import Policy, rule_policy
 from bootcourse.research.jobs import HELD_OUT, Interrupted, orphaned
 from bootcourse.research.plan import LessonExperiment, chosen, folder
 from bootcourse.research.results import Results, as_arrays, load_results
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT
+from bootcourse.statistics import Estimate, interval, rate
 from bootcourse.storage.assets import FOLDER
 from bootcourse.storage.runs import find_runs, load_run
 
 NAME, TOGETHER = "look-ahead", 1000  # of the experiment; roads that are driven side by side
 FORMS = {"alone": None, "rollouts": lookahead, "shield": lookahead_shield}
+FORM_NAMES = {"alone": "alone", "rollouts": "rollouts", "shield": "shield by simulation"}
 BASES = {"ppo_cloned": 10, "bootstrapped": 10, "soft": 5, "sac": 10, "demos": 5, "bc": 5, "rule": 1}  # {base: agents}
 CLOSELY = ("ppo_cloned", "bootstrapped")  # the base policies whose model is varied
 HORIZONS = (3, 6, 15)
@@ -201,3 +208,57 @@ def measured(driver: Policy, roads: Sequence[int]) -> dict[str, float]:
         "roads": len(roads), "returns": float(np.mean(returns)), "success": float(np.mean(success)),
         "accidents": accidents, "decisions": decisions, "overruled": overruled, "seconds": time.process_time() - began,
     }  # fmt: skip
+
+
+class Score(NamedTuple):
+    """What some agents of a base policy reached, each on the same roads."""
+
+    agents: int
+    drives: int
+    returns: Estimate
+    accidents: int
+    accident_rate: Estimate
+    success: float  # share of the drives
+    overruled: float  # share of the decisions
+    milliseconds: float  # of one core, for each decision
+
+    @property
+    def roads(self) -> int:
+        """Of each agent."""
+        return self.drives // self.agents
+
+
+def score(cells: dict[str, Results], cell: Cell) -> Score | None:
+    """The score of a cell's agents; None if `cells` does not have it."""
+    if cell.name not in cells:
+        return None
+    of = cells[cell.name].measured
+    drives, accidents, decisions = (int(of[name].sum()) for name in ("roads", "accidents", "decisions"))
+    return Score(
+        agents=len(of["roads"]),
+        drives=drives,
+        returns=interval(of["returns"], np.mean),
+        accidents=accidents,
+        accident_rate=rate(np.arange(drives) < accidents),
+        success=float(of["success"].mean()),
+        overruled=float(of["overruled"].sum() / decisions),
+        milliseconds=1000 * float(of["seconds"].sum() / decisions),
+    )
+
+
+def rows(cells: dict[str, Results], wanted: Sequence[Cell]) -> tuple[list[str], list[list[str]]]:
+    """(headings, rows): the cells of `wanted` that were computed."""
+    lines = []
+    for cell in wanted:
+        if one := score(cells, cell):
+            value, low, high = one.returns
+            about = f"{value:.1f}" + (f" [{low:.1f}, {high:.1f}]" if np.isfinite(low) else "")
+            each, low, high = (1000 * number for number in one.accident_rate)
+            accidents = f"{one.accidents} in {one.drives:,}: {each:.2f} [{low:.2f}, {high:.2f}]"
+            lines.append(
+                [display_name(cell.base), FORM_NAMES[cell.form], str(cell.horizon) if cell.form != "alone" else ""]
+                + [cell.model, str(one.agents), f"{one.roads:,}", about, accidents, f"{100 * one.success:.1f}"]
+                + [f"{1000 * one.overruled:.1f}", f"{one.milliseconds:.2f}"]
+            )
+    headings = ["base policy", "form", "horizon", "model", "agents", "roads", "return [95 %]"]
+    return [*headings, "accidents in 1,000 [95 %]", "ahead, %", "overruled in 1,000", "ms a decision"], lines

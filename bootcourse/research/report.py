@@ -10,7 +10,7 @@ from bootcourse.errors import BootcourseError
 from bootcourse.files import write_bytes
 from bootcourse.plots.figure import save
 from bootcourse.policies import rule_policy
-from bootcourse.research import clocks, lookahead, lookahead_figures, tables, teacher_worth
+from bootcourse.research import clocks, distil, lookahead, tables, teacher_worth
 from bootcourse.research import figures as training_figures
 from bootcourse.research.beyond import learner_rows
 from bootcourse.research.elsewhere_page import write_page
@@ -140,9 +140,9 @@ def experiments_part(experiments: dict[str, dict[str, Results]]) -> list[str]:
         worth = tables.markdown(*teacher_worth.worth_rows(teacher_worth.cells(varied)))
         text += ["## What a teacher is worth\n", TEACHERS, worth]
     if varied := experiments.get("look-ahead"):
-        text += ["## Looking ahead\n", LOOK_AHEAD, tables.markdown(*lookahead_figures.rows(varied, lookahead.cells()))]
+        text += ["## Looking ahead\n", LOOK_AHEAD, tables.markdown(*lookahead.rows(varied, lookahead.cells()))]
     if tried := experiments.get("distil"):
-        learned = tables.markdown(*lookahead_figures.learned_rows(tried, experiments.get("look-ahead", {})))
+        learned = tables.markdown(*distil.learned_rows(tried, experiments.get("look-ahead", {})))
         text += ["### What networks learned of it\n", DISTIL, learned]
     return text
 

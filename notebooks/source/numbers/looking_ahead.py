@@ -7,8 +7,7 @@ from bootcourse.episodes.lookahead import HORIZON
 from bootcourse.episodes.models import MODELS
 from bootcourse.research import distil
 from bootcourse.research.beyond import lengths
-from bootcourse.research.lookahead import MANY, ROADS, Cell
-from bootcourse.research.lookahead_figures import Score, score
+from bootcourse.research.lookahead import MANY, ROADS, Cell, Score, score
 from bootcourse.research.results import Results, experiment
 from bootcourse.statistics import Estimate, interval
 from tools.course.known import shipped_teachers

@@ -1,11 +1,9 @@
-"""The figures and the table of the experiment on looking ahead (`lookahead.py`), from its results {cell: agents}.
+"""The figures of this lesson: what looking ahead gains at each horizon, and what a wrong model costs.
 
-Accidents are counted over all drives of a base policy's agents, with the exact (Clopper-Pearson) interval of so many
-independent drives; returns are means of the agents' means, with a bootstrap interval over agents.
+Both take the results of the experiment `look-ahead`, {cell: agents}; see bootcourse.research.lookahead for the scores.
 """
 
 from collections.abc import Container, Sequence
-from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -17,82 +15,11 @@ from bootcourse.episodes.models import MODELS
 from bootcourse.errors import BootcourseError
 from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import GRID, INK, QUIET, SMALL, TEXT, finish, new_figure, plain_axes
-from bootcourse.research.distil import AGENTS, BASE
-from bootcourse.research.lookahead import CLOSELY, FORMS, HORIZONS, Cell
+from bootcourse.research.lookahead import CLOSELY, FORM_NAMES, FORMS, HORIZONS, Cell, Score, score
 from bootcourse.research.results import Results
-from bootcourse.statistics import Estimate, interval, rate
 
-FORM_NAMES = {"alone": "alone", "rollouts": "rollouts", "shield": "shield by simulation"}
 FARTHEST = 20.0  # below the base policy's return, on the axis of returns
 LINEAR = 1.0  # accidents in 1,000 drives: the axis is linear below, logarithmic above
-
-
-class Score(NamedTuple):
-    """What some agents of a base policy reached, each on the same roads."""
-
-    agents: int
-    drives: int
-    returns: Estimate
-    accidents: int
-    accident_rate: Estimate
-    success: float  # share of the drives
-    overruled: float  # share of the decisions
-    milliseconds: float  # of one core, for each decision
-
-    @property
-    def roads(self) -> int:
-        """Of each agent."""
-        return self.drives // self.agents
-
-
-def score(cells: dict[str, Results], cell: Cell) -> Score | None:
-    """The score of a cell's agents; None if `cells` does not have it."""
-    if cell.name not in cells:
-        return None
-    of = cells[cell.name].measured
-    drives, accidents, decisions = (int(of[name].sum()) for name in ("roads", "accidents", "decisions"))
-    return Score(
-        agents=len(of["roads"]),
-        drives=drives,
-        returns=interval(of["returns"], np.mean),
-        accidents=accidents,
-        accident_rate=rate(np.arange(drives) < accidents),
-        success=float(of["success"].mean()),
-        overruled=float(of["overruled"].sum() / decisions),
-        milliseconds=1000 * float(of["seconds"].sum() / decisions),
-    )
-
-
-def rows(cells: dict[str, Results], wanted: Sequence[Cell]) -> tuple[list[str], list[list[str]]]:
-    """(headings, rows): the cells of `wanted` that were computed."""
-    lines = []
-    for cell in wanted:
-        if one := score(cells, cell):
-            value, low, high = one.returns
-            about = f"{value:.1f}" + (f" [{low:.1f}, {high:.1f}]" if np.isfinite(low) else "")
-            each, low, high = (1000 * number for number in one.accident_rate)
-            accidents = f"{one.accidents} in {one.drives:,}: {each:.2f} [{low:.2f}, {high:.2f}]"
-            lines.append(
-                [display_name(cell.base), FORM_NAMES[cell.form], str(cell.horizon) if cell.form != "alone" else ""]
-                + [cell.model, str(one.agents), f"{one.roads:,}", about, accidents, f"{100 * one.success:.1f}"]
-                + [f"{1000 * one.overruled:.1f}", f"{one.milliseconds:.2f}"]
-            )
-    headings = ["base policy", "form", "horizon", "model", "agents", "roads", "return [95 %]"]
-    return [*headings, "accidents in 1,000 [95 %]", "ahead, %", "overruled in 1,000", "ms a decision"], lines
-
-
-def learned_rows(tried: dict[str, Results], cells: dict[str, Results]) -> tuple[list[str], list[list[str]]]:
-    """(headings, rows): what the students of the look-ahead do alone (`distil.py`), below the agents that they were.
-
-    tried: the students by what they learned; cells: the look-ahead's, which hold these agents before.
-    """
-    before, lines = cells.get(Cell(BASE, "alone").name), []
-    as_they_were = {"nothing: the agents as they were": before.pick(range(AGENTS))} if before else {}
-    for words, results in (as_they_were | tried).items():
-        of = results.measured
-        accidents = ", ".join(f"{1000 * k / n:.0f}" for k, n in zip(of["accidents"], of["roads"], strict=True))
-        lines.append([words, ", ".join(f"{value:.1f}" for value in of["returns"]), accidents])
-    return ["learned", "return of each agent", "accidents in 1,000 of each"], lines
 
 
 def _accident_axis(axis_of: Axes, axis: str) -> None:
