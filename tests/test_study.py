@@ -19,12 +19,11 @@ from bootcourse.errors import BootcourseError
 from bootcourse.files import read_json
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.research import jobs as jobs_module
-from bootcourse.research.estimate import seconds_of, time_needed
 from bootcourse.research.jobs import BoundJob, Job, LessonJob, asked, finished, run_job
 from bootcourse.research.plan import EXPERIMENTS, LESSON_EXPERIMENTS, experiment_named, methods_named, study_jobs
 from bootcourse.research.planner import Search
 from bootcourse.research.results import Results, as_arrays, join, load_jobs, load_results, save_results
-from bootcourse.research.runner import run_jobs
+from bootcourse.research.runner import run_jobs, seconds_of, time_needed
 from bootcourse.research.teachers import TEACHERS
 from bootcourse.scenario import DEFAULT
 from bootcourse.storage.runs import load_run

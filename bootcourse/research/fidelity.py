@@ -15,9 +15,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bootcourse.research.paper import COLUMNS, PRINTED, RATES, paper_interval, possible
+from bootcourse.research.paper import COLUMNS, PRINTED, RATES, ROWS, paper_interval, possible
 from bootcourse.research.results import Results
-from bootcourse.statistics import Estimate, interval, mean, rate
+from bootcourse.research.tables import bracketed, markdown, score
+from bootcourse.statistics import Estimate
 
 VERDICTS = ("reproduced", "partly", "not reproduced", "cannot be compared")
 CLOSE = {"success": 5.0, "returns": 1.0, "speed": 0.1, "distance": 15.0, "collision": 5.0}  # units of the column
@@ -34,21 +35,12 @@ class FidelityRow(NamedTuple):
     reason: str
 
 
-def estimate(results: Results, method: str, column: str, statistic=np.mean) -> Estimate:
-    """A statistic in the paper's units with its interval over agents; of a single driver, the mean of its episodes."""
-    scale, mine = (100 if column in RATES else 1), results.of(method)
-    if len(mine) > 1:
-        return Estimate(*(scale * number for number in interval(mine.scores(column), statistic)))
-    episodes = mine.episodes(column)[0]
-    return Estimate(*(scale * number for number in (rate(episodes > 0) if column in RATES else mean(episodes))))
-
-
 def judge(results: Results, method: str, column: str) -> FidelityRow:
     """The verdict on one number. The mean over agents is compared, as the paper prints means."""
     paper = paper_interval(method, column)
     if method not in results.methods:
         return FidelityRow(method, column, paper, None, "cannot be compared", "This study has not run this method.")
-    ours = estimate(results, method, column)
+    ours = score(results, method, column, np.mean)
     scores = results.of(method).scores(column) * (100 if column in RATES else 1)  # in the paper's units
     if not possible(method, column):
         average, sd = PRINTED[method][column]
@@ -70,3 +62,20 @@ def judge(results: Results, method: str, column: str) -> FidelityRow:
 def fidelity(results: Results) -> list[FidelityRow]:
     """A finding for every number of the two tables (a row that stands in both is judged once)."""
     return [judge(results, method, column) for method in PRINTED for column in COLUMNS]
+
+
+def fidelity_table(findings: dict[str, list[FidelityRow]]) -> str:
+    """Every number of the paper's tables, beside each scenario's: {scenario: findings}."""
+    rows = []
+    scenarios = list(findings)
+    for alike in zip(*findings.values(), strict=True):
+        first = alike[0]
+        cells = [ROWS[first.method], COLUMNS[first.column], bracketed(first.paper)]
+        for finding in alike:
+            cells.append("not run" if finding.ours is None else bracketed(finding.ours))
+            cells.append(f"**{finding.verdict}** {finding.reason}")
+        rows.append(cells)
+    headings = ["row", "number", "paper [95 % of 20 episodes]"]
+    for scenario in scenarios:
+        headings += [f"ours, {scenario}", f"verdict, {scenario}"]
+    return markdown(headings, rows)

@@ -1,5 +1,6 @@
 """The lists of jobs that a study consists of."""
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from itertools import product
@@ -280,9 +281,9 @@ def chosen(variations: dict, names: dict[str, set[str]], words: str) -> dict:
 
 
 def folder(name: str) -> str:
-    """A name as a folder: "γ = 0.9" -> "gamma-0.9"."""
+    """A name as a folder, of letters, digits and any of . _ - : "γ = 0.9" -> "gamma-0.9"."""
     words = {"γ": "gamma", "β": "beta", "ξ": "xi", "α": "alpha", "η": "eta", "π̃": "stochastic-rule", "μ": "rule"}
-    words |= {"1/4": "quarter", ",": "", "|A|": "A"}  # some file systems refuse a bar
-    for letter, word in words.items():
+    for letter, word in (words | {"1/4": "quarter", "m/s": ""}).items():
         name = name.replace(letter, word)
-    return "-".join(word for word in name.split() if word not in ("=", "x", "at", "m/s"))
+    words = (re.sub(r"[^\w.-]", "", word) for word in name.split() if word not in ("x", "at"))
+    return "-".join(word for word in words if word)

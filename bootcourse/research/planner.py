@@ -170,18 +170,18 @@ def is_staying_optimal(
         raise BootcourseError(f"gamma = {gamma}: give a discount factor between 0 and 1.")
     seeds = list(seeds)
     decisions = min(scenario.clock.decisions, math.ceil(math.log(1e-6) / math.log(gamma)))
-    best, kept = (
+    free, in_lane = (
         plan_episodes(seeds, scenario, Search(beam, gamma, keep_lane, decisions)) for keep_lane in (False, True)
     )
-    best_values, kept_values = (np.array([each.value for each in plans]) for plans in (best, kept))
+    free_values, lane_values = (np.array([plan.value for plan in plans]) for plans in (free, in_lane))
     return Staying(
         gamma=gamma,
         idle=mean(discounted_values(idle_policy, seeds, scenario, gamma)),
-        keep_lane=mean(kept_values),
+        keep_lane=mean(lane_values),
         rule=mean(discounted_values(rule_policy(scenario), seeds, scenario, gamma)),
-        best=mean(best_values),
-        gain=mean(best_values - kept_values),
-        leaves=rate(np.array([each.success for each in best])),
+        best=mean(free_values),
+        gain=mean(free_values - lane_values),
+        leaves=rate(np.array([plan.success for plan in free])),
     )
 
 

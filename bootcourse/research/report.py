@@ -15,7 +15,7 @@ from bootcourse.research import figures as training_figures
 from bootcourse.research.beyond import learner_rows
 from bootcourse.research.elsewhere_page import write_page
 from bootcourse.research.equal_decisions import budget_rows, by_method, search_rows, seconds_rows
-from bootcourse.research.fidelity import CLOSE, VERDICTS, fidelity
+from bootcourse.research.fidelity import CLOSE, VERDICTS, fidelity, fidelity_table
 from bootcourse.research.jobs import HELD_OUT
 from bootcourse.research.paper import COLUMNS, PRINTED, ROWS, TABLES, arithmetic
 from bootcourse.research.plan import STUDIES
@@ -49,7 +49,7 @@ def write_report(study: StudyResults, folder: Path) -> Path:
         findings[name] = fidelity(everyone)
         text += [f"## Study: {name}\n", *study_part(study, name, rule, everyone, folder)]
     text += ["## Fidelity: every number of the paper's two tables\n", FIDELITY.format(close=close()), counted(findings)]
-    text += [tables.fidelity_table(findings), "### What each row's own numbers say\n"]
+    text += [fidelity_table(findings), "### What each row's own numbers say\n"]
     text += ["\n".join(f"- **{ROWS[method]}.** {arithmetic(method)}" for method in PRINTED) + "\n"]
     text += experiments_part(study.experiments)
     if write_page(study.experiments.get("elsewhere", {}), folder):
@@ -163,9 +163,9 @@ def model_card(results: Results, runs: int) -> str:
     """The card as markdown. results: of the default scenario; runs: the seeds of each method whose weights ship."""
     rows = []
     for method in results.methods:
-        mine = results.of(method)
-        accidents = [f"{100 * mine.episodes(kind).mean():.1f}" for kind in KINDS]
-        escape = tables.k_of_n(mine.scores("success") >= ESCAPES)
+        agents = results.of(method)
+        accidents = [f"{100 * agents.episodes(kind).mean():.1f}" for kind in KINDS]
+        escape = tables.k_of_n(agents.scores("success") >= ESCAPES)
         rows.append([method, escape, tables.bracketed(tables.score(results, method, "returns")), *accidents])
     headings = ["method", "agents that escape", *(tables.HEADINGS[name] for name in ("returns", *KINDS))]
     return CARD.format(

@@ -1,11 +1,11 @@
-"""What a study found: the scores and curves of every agent, the planner's bound, the experiments.
+"""The results of a study: the scores and curves of every agent, the planner's bound, the experiments.
 
 Read from the jobs of a study's folder, or from what ships. A file of results holds `agents` and `stopped`, and arrays
 named PART.NAME: see the fields of `Results`.
 """
 
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
@@ -61,8 +61,8 @@ class Results:
 
     def of(self, method: str) -> "Results":
         """The agents of a method, by seed."""
-        mine = [i for i, agent in enumerate(self.agents) if agent["method"] == method]
-        return self.pick(sorted(mine, key=lambda i: self.agents[i]["seed"]))
+        which = [i for i, agent in enumerate(self.agents) if agent["method"] == method]
+        return self.pick(sorted(which, key=lambda i: self.agents[i]["seed"]))
 
     @property
     def sizes(self) -> tuple[int, int]:
@@ -86,9 +86,9 @@ class Results:
 
         Kept: after training the agent escapes, see `escapers`.
         """
-        mine = self.of(method)
-        way_out = found(mine.curves["success"])
-        return way_out, way_out & (mine.scores("success") >= ESCAPES)
+        agents = self.of(method)
+        way_out = found(agents.curves["success"])
+        return way_out, way_out & (agents.scores("success") >= ESCAPES)
 
     def episodes(self, measure: str) -> np.ndarray:
         """A measure in every held-out episode, (agents, episodes); an event is 1 where it happened, else 0.
@@ -227,22 +227,21 @@ def in_assets(root: Path) -> StudyResults:
         {name: load_results(path) for name, path in studies.items() if path.exists()},
         {name: load_bound(path) for name, path in bounds.items() if path.exists()},
         _staying({name: root / f"staying-{name}.json" for name in STUDIES}),
-        {name: _variations(name, root, ".npz") for name in REPORTED},
+        {name: _variations(name, load_results, root, ".npz") for name in REPORTED},
     )
 
 
 def experiment(name: str, study: Path | str = "") -> dict[str, Results]:
     """The variations of one experiment that were computed: in a study's folder, by default those that ship."""
     if study:
-        return _variations(name, Path(study) / "jobs", "/results.npz")
-    return _variations(name, FOLDER, ".npz")
+        return _variations(name, load_job, Path(study) / "jobs", "")
+    return _variations(name, load_results, FOLDER, ".npz")
 
 
-def _variations(name: str, root: Path, ending: str) -> dict[str, Results]:
+def _variations(name: str, load: Callable[[Path], Results], root: Path, ending: str) -> dict[str, Results]:
     """The variations that were computed, root/EXPERIMENT/VARIATION + ending."""
-    variations = experiment_named(name).variations
-    paths = {variation: root / name / f"{folder(variation)}{ending}" for variation in variations}
-    return {variation: load_results(path) for variation, path in paths.items() if path.exists()}
+    paths = {each: root / name / f"{folder(each)}{ending}" for each in experiment_named(name).variations}
+    return {variation: load(path) for variation, path in paths.items() if path.exists()}
 
 
 def _staying(paths: dict[str, Path]) -> dict[str, dict]:

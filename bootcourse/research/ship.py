@@ -11,12 +11,12 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from msgspec import convert
+from msgspec import ValidationError, convert
 
 from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError
-from bootcourse.files import decoding, provenance, sha256, write_arrays, write_bytes, write_json
+from bootcourse.files import provenance, sha256, write_arrays, write_bytes, write_json
 from bootcourse.policies import rule_policy
 from bootcourse.research import checks
 from bootcourse.research.jobs import HELD_OUT, read_job
@@ -24,7 +24,7 @@ from bootcourse.research.plan import EXPERIMENTS, LESSON_EXPERIMENTS, STUDIES
 from bootcourse.research.report import model_card, write_report
 from bootcourse.research.results import Results, in_assets, in_study, load_job, load_jobs, load_results, save_results
 from bootcourse.scenario import DEFAULT
-from bootcourse.storage.assets import FOLDER, FORMAT, LIMIT, MANIFEST, Manifest, put_back, read_manifest, unfinished
+from bootcourse.storage.assets import FOLDER, FORMAT, LIMIT, MANIFEST, Entry, put_back, read_manifest, unfinished
 from bootcourse.storage.runs import load_run
 from bootcourse.storage.sealed import is_file_with, write_sealed
 from bootcourse.storage.work import locked
@@ -35,16 +35,12 @@ FEWER_CURVES = {"sweep": (), "teachers": ("success", "decisions"),
                 "beyond-search": (), "beyond": ("return", "decisions"),
                 "elsewhere": ("success", "return"), "easier": ("success", "alpha")}  # many agents  # fmt: skip
 RUNS = 5  # training seeds whose weights ship; curves and scores ship of all
-BUILD = "bootcourse assets build --study DIR"
-STUDY = f"bootcourse study --out DIR && {BUILD}"
-COMMANDS = {
-    "default": STUDY,
-    "calibrated": f"bootcourse study calibrated --out DIR && {BUILD}",
-    "paper": f"bootcourse study paper --out DIR && {BUILD}",
-}
-ELSEWHERE = {  # what no study makes, and the command that does
-    "readme/*": "python -m bootcourse.plots.readme_picture",
-}
+PICTURES = "readme", "python -m bootcourse.plots.readme_picture"  # what no study makes, and the command that does
+
+
+def command(name: str) -> str:
+    """The commands that make the files of a study or experiment."""
+    return f"bootcourse study{'' if name == 'default' else f' {name}'} --out DIR && bootcourse assets build --study DIR"
 
 
 class Shipment:
@@ -87,26 +83,24 @@ class Shipment:
             path.unlink()
             self.entries.pop(path.relative_to(self.new).as_posix(), None)
 
-    def add(self, path: Path, command: str, versions: dict) -> None:
-        """List a file that was just made."""
-        name = path.relative_to(self.new).as_posix()
-        size = path.stat().st_size
-        entry = {"file": name, "sha256": sha256(path), "bytes": size, "command": command, "versions": versions}
+    def add(self, path: Path, made_by: str, versions: dict) -> None:
+        """List a file that was just made. Raises BootcourseError for a name that the manifest cannot hold."""
+        name, size = path.relative_to(self.new).as_posix(), path.stat().st_size
+        entry = {"file": name, "sha256": sha256(path), "bytes": size, "command": made_by, "versions": versions}
+        try:
+            convert(entry, Entry)
+        except ValidationError:
+            raise BootcourseError(
+                f"'{name}' cannot ship: give the variation a name of letters, digits, spaces and any of . _ - ,"
+            ) from None
         self.entries[name] = entry
 
-    def add_results(self, results: Results, path: Path, command: str, part: str, curves: Sequence[str]) -> None:
+    def add_results(self, results: Results, path: Path, part: str, curves: Sequence[str]) -> None:
         """Write and list the results of a part of the study, with these curves."""
         self.check_size(results, path)
         versions = self.versions(part)
         save_results(lighter(results, curves, half=part not in STUDIES), path, versions)
-        self.add(path, command, versions)
-
-    def write_manifest(self) -> None:
-        """List every file. Raises BootcourseError for a name that the manifest cannot hold."""
-        files = [self.entries[name] for name in sorted(self.entries)]
-        with decoding(self.new / MANIFEST):
-            convert({"files": files}, Manifest)
-        write_sealed(self.new / MANIFEST, {"format": FORMAT, "files": files})
+        self.add(path, command(part.partition("/")[0]), versions)
 
 
 def build(study: Path | None, folder: Path = FOLDER, replace_larger: bool = False) -> None:
@@ -143,9 +137,10 @@ def _fill(shipment: Shipment, folder: Path) -> None:
     add_runs(shipment)
     add_rollouts(shipment)
     add_report(shipment)
-    add_elsewhere(shipment, folder)
-    shipment.write_manifest()
-    size = sum(entry["bytes"] for entry in shipment.entries.values())
+    add_pictures(shipment, folder)
+    entries = [shipment.entries[name] for name in sorted(shipment.entries)]
+    write_sealed(shipment.new / MANIFEST, {"format": FORMAT, "files": entries})
+    size = sum(entry["bytes"] for entry in entries)
     if size >= LIMIT:
         raise BootcourseError(
             f"These assets would hold {size / 1e6:.1f} MB: they must stay under {LIMIT / 1e6:.0f} MB."
@@ -155,21 +150,21 @@ def _fill(shipment: Shipment, folder: Path) -> None:
 def add_studies(to: Shipment) -> None:
     """Curves and scores of each study, the planner's bound and its answer."""
     study = in_study(to.study)
-    for part, command in COMMANDS.items():
+    for part in STUDIES:
         path = to.new / f"study-{part}.npz"
         if not to.has(part):
             if part == "default" and not path.exists():
                 raise BootcourseError(f"{to.study} has no finished jobs in jobs/default: compute them first.")
             continue
-        to.add_results(load_jobs(to.study, part), path, command, part, FEWER_CURVES.get(part, CURVES))
+        to.add_results(load_jobs(to.study, part), path, part, CURVES)
         if part in study.bound:
             best = to.new / f"bound-{part}.npz"
             write_arrays(best, {"returns": study.bound[part].astype(np.float32)})
-            to.add(best, command, to.versions(f"bound-{part}"))
+            to.add(best, command(part), to.versions(f"bound-{part}"))
         if part in study.staying:
             answer = to.new / f"staying-{part}.json"
             write_json(answer, study.staying[part])
-            to.add(answer, command, to.versions(f"staying-{part}"))
+            to.add(answer, command(part), to.versions(f"staying-{part}"))
 
 
 def add_experiments(to: Shipment) -> None:
@@ -178,8 +173,7 @@ def add_experiments(to: Shipment) -> None:
         for job in sorted(to.study.glob(f"jobs/{name}/*/results.npz")):
             results, path = load_job(job.parent), to.new / name / f"{job.parent.name}.npz"
             curves = FEWER_CURVES.get(name, VARIED_CURVES if name in EXPERIMENTS else tuple(results.curves))
-            command = f"bootcourse study {name} --out DIR && {BUILD}"
-            to.add_results(results, path, command, f"{name}/{job.parent.name}", curves)
+            to.add_results(results, path, f"{name}/{job.parent.name}", curves)
 
 
 def lighter(results: Results, curves: Sequence[str], half: bool) -> Results:
@@ -189,8 +183,8 @@ def lighter(results: Results, curves: Sequence[str], half: bool) -> Results:
     """
     names = ("speed", "distance") if half else ()
     tested = {name: each.astype(np.float16) if name in names else each for name, each in results.tested.items()}
-    kept = {name: results.curves[name].astype(np.float16) for name in curves if name in results.curves}
-    return replace(results, curves=kept, tested=tested)
+    shown = {name: results.curves[name].astype(np.float16) for name in curves if name in results.curves}
+    return replace(results, curves=shown, tested=tested)
 
 
 def add_runs(to: Shipment) -> None:
@@ -201,7 +195,7 @@ def add_runs(to: Shipment) -> None:
             shutil.copytree(run, to.new / "runs" / run.name, dirs_exist_ok=True)
             versions = to.versions(f"default/{run.parent.parent.name}")
             for path in sorted((to.new / "runs" / run.name).iterdir()):
-                to.add(path, STUDY, versions)
+                to.add(path, command("default"), versions)
 
 
 def add_rollouts(to: Shipment) -> None:
@@ -218,17 +212,17 @@ def add_rollouts(to: Shipment) -> None:
     roads = held_out_seeds(HELD_OUT, success.shape[1])
     drives = {"rule": record(rule_policy(DEFAULT), [roads[0]], DEFAULT, "rule")[0]}
     for name, (method, fits) in wanted.items():
-        mine = np.array([agent["method"] == method for agent in results.agents])
-        candidates = [(int(agent), int(road)) for agent, road in np.argwhere(fits & mine[:, None])]
+        of_method = np.array([agent["method"] == method for agent in results.agents])
+        candidates = [(int(agent), int(road)) for agent, road in np.argwhere(fits & of_method[:, None])]
         if not candidates:
-            print(f"No agent of '{method}' drove a rollout for {name}: none is made.")
+            print(f"No agent of '{method}' drove as the rollout '{name}' should: none is made.")
             continue
         agent, road = max(candidates, key=lambda place: results.tested["returns"][place])
         run = next(to.study.glob(f"jobs/default/*/runs/{method}-{results.agents[agent]['seed']}"))
         driver = load_run(run).agent.as_policy(with_q=True)
         drives[name] = record(driver, [roads[road]], DEFAULT, method)[0]
     for name, rollout in drives.items():
-        to.add(rollout.save(to.new / "rollouts" / f"{name}.npz"), STUDY, provenance())
+        to.add(rollout.save(to.new / "rollouts" / f"{name}.npz"), command("default"), provenance())
 
 
 def add_report(to: Shipment) -> None:
@@ -238,20 +232,20 @@ def add_report(to: Shipment) -> None:
     write_report(study, to.new / "report")
     if computed := study.experiments["checks"]:
         write_bytes(page, checks.page(computed).encode())
-        to.add(page, f"bootcourse study checks --out DIR && {BUILD}", provenance())
+        to.add(page, command("checks"), provenance())
     card = model_card(load_results(to.new / "study-default.npz"), RUNS)
     write_bytes(to.new / "MODEL_CARD.md", card.encode())
     for path in (to.new / "MODEL_CARD.md", *sorted((to.new / "report").rglob("*"))):
         if path.is_file():
-            to.add(path, STUDY, provenance())
+            to.add(path, command("default"), provenance())
 
 
-def add_elsewhere(to: Shipment, today: Path) -> None:
+def add_pictures(to: Shipment, today: Path) -> None:
     """The README's pictures stay as they are; new ones are listed."""
-    for pattern, command in ELSEWHERE.items():
-        for path in sorted(today.glob(pattern)):
-            name = path.relative_to(today).as_posix()
-            if to.entries.get(name, {}).get("sha256") != sha256(path):
-                (to.new / name).parent.mkdir(parents=True, exist_ok=True)
-                shutil.copy2(path, to.new / name)
-                to.add(to.new / name, command, provenance())
+    pictures, made_by = PICTURES
+    for path in sorted(today.glob(f"{pictures}/*")):
+        copy = to.new / pictures / path.name
+        if to.entries.get(f"{pictures}/{path.name}", {}).get("sha256") != sha256(path):
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(path, copy)
+            to.add(copy, made_by, provenance())

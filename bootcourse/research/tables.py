@@ -5,10 +5,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from bootcourse.methods import display_name
-from bootcourse.research.fidelity import FidelityRow, estimate
 from bootcourse.research.paper import COLUMNS, PRINTED, RATES, ROWS
 from bootcourse.research.results import MEASURES, Results
-from bootcourse.statistics import ESCAPES, Estimate, improvement, interval, iqm, rate
+from bootcourse.statistics import ESCAPES, Estimate, improvement, interval, iqm, mean, rate
 
 FOUND_AND_KEPT = "found, kept"  # the heading of what `found_and_kept` says
 HEADINGS = COLUMNS | {"road_departure": "road departures, %", "stoppage": "stops, %"}
@@ -52,9 +51,15 @@ def found_and_kept(results: Results, method: str) -> str:
     return f"{found.sum()}, {kept.sum()} of {len(found)}"
 
 
-def score(results: Results, method: str, measure: str) -> Estimate:
-    """Interquartile mean over agents with its interval; of a driver that is not trained, the mean of its episodes."""
-    return estimate(results, method, measure, iqm)
+def score(results: Results, method: str, measure: str, statistic=iqm) -> Estimate:
+    """A statistic over agents with its interval, rates in %; of a single driver, the mean of its episodes."""
+    agents, scale = results.of(method), 100 if measure in RATES else 1
+    if len(agents) > 1:
+        numbers = interval(agents.scores(measure), statistic)
+    else:
+        episodes = agents.episodes(measure)[0]
+        numbers = rate(episodes > 0) if measure in RATES else mean(episodes)
+    return Estimate(*(scale * each for each in numbers))
 
 
 def result_table(results: Results, methods: Sequence[str]) -> str:
@@ -68,12 +73,12 @@ def result_table(results: Results, methods: Sequence[str]) -> str:
         if method not in results.methods:
             rows.append(["", "ours", *["not run"] * len(MEASURES)])
             continue
-        mine, agents = results.of(method), len(results.of(method))
+        agents = results.of(method)
         scale = {measure: 100 if measure in RATES else 1 for measure in MEASURES}
-        spread = [(mine.episodes(m).mean() * scale[m], mine.episodes(m).std(ddof=1) * scale[m]) for m in MEASURES]
+        spread = [(agents.episodes(m).mean() * scale[m], agents.episodes(m).std(ddof=1) * scale[m]) for m in MEASURES]
         label = "" if printed else f"**{display_name(method)}**"
         rows.append([label, "ours: mean ± SD", *(f"{number(a)} ± {number(b)}" for a, b in spread)])
-        kind = f"ours: IQM over {agents} agents [95 %]" if agents > 1 else "ours: mean [95 %]"
+        kind = f"ours: IQM over {len(agents)} agents [95 %]" if len(agents) > 1 else "ours: mean [95 %]"
         rows.append(["", kind, *(bracketed(score(results, method, measure)) for measure in MEASURES)])
     return markdown(["", "", *(HEADINGS[measure] for measure in MEASURES)], rows)
 
@@ -85,11 +90,11 @@ def escape_table(results: Results, trained: Results, bound: np.ndarray | None = 
     """
     rows = []
     for method in results.methods:
-        mine = results.of(method)
-        success = mine.scores("success")
+        agents = results.of(method)
+        success = agents.scores("success")
         cells = [display_name(method), k_of_n(success >= ESCAPES)]
         cells.append(found_and_kept(trained, method) if method in trained.methods else "–")
-        returns = mine.scores("returns")
+        returns = agents.scores("returns")
         cells.append(f"{number(returns.min())} to {number(returns.max())}")
         if bound is not None:
             cells.append(bracketed(interval(returns / bound.mean()), 100))
@@ -101,29 +106,12 @@ def escape_table(results: Results, trained: Results, bound: np.ndarray | None = 
 
 def improvement_rows(results: Results, method: str = "bootstrapped", measure: str = "returns") -> tuple[list, list]:
     """How often a random agent of a method scores above a random agent of each other: (headings, rows)."""
-    mine = results.of(method).scores(measure)
+    scores = results.of(method).scores(measure)
     rows = []
     for other in results.methods:
         if other != method and len(results.of(other)) > 1:
-            rows.append([display_name(other), bracketed(improvement(mine, results.of(other).scores(measure)), 100)])
+            rows.append([display_name(other), bracketed(improvement(scores, results.of(other).scores(measure)), 100)])
     return [f"P({display_name(method)} > ...) on {HEADINGS[measure]}", "% [95 %]"], rows
-
-
-def fidelity_table(findings: dict[str, list[FidelityRow]]) -> str:
-    """Every number of the paper's tables, beside each scenario's: {scenario: findings}."""
-    rows = []
-    scenarios = list(findings)
-    for alike in zip(*findings.values(), strict=True):
-        first = alike[0]
-        cells = [ROWS[first.method], COLUMNS[first.column], bracketed(first.paper)]
-        for finding in alike:
-            cells.append("not run" if finding.ours is None else bracketed(finding.ours))
-            cells.append(f"**{finding.verdict}** {finding.reason}")
-        rows.append(cells)
-    headings = ["row", "number", "paper [95 % of 20 episodes]"]
-    for scenario in scenarios:
-        headings += [f"ours, {scenario}", f"verdict, {scenario}"]
-    return markdown(headings, rows)
 
 
 def sensitivity_table(results: dict[str, Results], measure: str) -> str:
@@ -143,13 +131,15 @@ def sensitivity_table(results: dict[str, Results], measure: str) -> str:
 def measured_table(varied: dict[str, Results]) -> str:
     """Whatever an experiment measured: means over agents, a row for each variation and method."""
     rows, columns = [], {}
-    for variation, found in varied.items():
-        for method in found.methods:
-            mine = found.of(method)
-            means = {name: values.mean() for name, values in mine.measured.items()}
-            means |= {name: mine.episodes(name).mean() for name in ("success", "returns", "accident") if mine.tested}
+    for variation, results in varied.items():
+        for method in results.methods:
+            agents = results.of(method)
+            means = {name: values.mean() for name, values in agents.measured.items()}
+            means |= {
+                name: agents.episodes(name).mean() for name in ("success", "returns", "accident") if agents.tested
+            }
             columns |= dict.fromkeys(means)
-            rows.append(([variation, display_name(method), len(mine)], means))
+            rows.append(([variation, display_name(method), len(agents)], means))
     cells = [[*first, *(number(means[name]) if name in means else "" for name in columns)] for first, means in rows]
     return markdown(["", "method", "agents", *columns], cells)
 
