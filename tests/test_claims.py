@@ -5,8 +5,7 @@ That the lessons themselves are made from what the expressions yield now is test
 
 import pytest
 
-from tools.course.claims import check_claims, claims_page, fill_in, value
-from tools.course.source import sources
+from tools.course.claims import check_claims, fill_in
 
 TEXT = """\
 The rule falls back at {{ 8.2479 | .2f }} m/s, and pays {{ 999.6 | ,.0f }} times,
@@ -47,11 +46,3 @@ def test_what_is_wrong_with_an_expression_is_said(text, words):
     with pytest.raises(ValueError, match=words):
         check_claims(text)
         fill_in(text)
-
-
-def test_the_page_has_each_paragraph_with_what_it_comes_from(monkeypatch):
-    monkeypatch.setattr("tools.course.claims.sources", lambda: sources(["start"]))
-    page = claims_page()
-    best = "max(np.arange(0, 25, 0.5), key=speed_reward)"
-    assert "- `N_ACTIONS == 9` is true\n" in page and f"- `{best}` = {value(best):g}\n" in page
-    assert "{{" not in page and "](" not in page

@@ -13,8 +13,7 @@ from bootcourse.learn.settings import Settings
 from bootcourse.methods import METHODS
 from bootcourse.research.clocks import cells
 from bootcourse.research.paper import EPISODES, PRINTED, earned_at
-from bootcourse.research.plan import EXPERIMENTS
-from bootcourse.road.formulas import bicycle_step, speed_reward, steering_reward, weighted_reward
+from bootcourse.road.formulas import bicycle_step, steering_reward, weighted_reward
 from bootcourse.scenario import CALIBRATED, DEFAULT
 from bootcourse.statistics import ESCAPES, rate
 from tools.course.numbering import ROOT
@@ -196,19 +195,6 @@ def test_the_arithmetic_of_a_gap_is_right(target):
         assert round(computed, decimals) == float(number), f"{printed} is {computed}"
 
 
-def test_only_the_mean_speed_counts_between_5_and_12_5_metres_a_second():
-    slopes = [speed_reward(v + 1) - speed_reward(v) for v in (5.0, 7.0, 11.5)]
-    assert slopes == pytest.approx([slopes[0]] * 3) and slopes[0] != pytest.approx(
-        speed_reward(13.5) - speed_reward(12.5)
-    )
-
-
 def test_no_number_of_episodes_gives_a_rate_of_5_with_the_printed_deviation():
     fives = [(hits, n) for n in range(2, 500) for hits in range(n + 1) if round(100 * hits / n) == 5]
     assert fives and max(deviation(*each) for each in fives) < 25 < PRINTED["demos"]["collision"].sd
-
-
-def test_the_settings_that_the_page_calls_variations_are_run_by_the_study():
-    changed = [variation.changes for variation in EXPERIMENTS["sensitivity"].variations.values()]
-    assert {"target_entropy": 0.3} in changed and {"target_entropy": 1.0} in changed
-    assert {"updates": 4 * S.updates} in changed and any("hidden" in each for each in changed)

@@ -5,8 +5,6 @@ import pytest
 
 from bootcourse.course.lessons.the_second_trap import ppo_kinds, second_trap
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
-from bootcourse.learn.settings import settings_for
-from bootcourse.learn.training import Training
 from bootcourse.road.formulas import speed_reward
 from bootcourse.road.vector_env import TrapVectorEnv
 
@@ -34,13 +32,6 @@ def test_a_shaping_reward_adds_up_to_its_two_ends_over_an_accident_and_a_new_epi
     for start, end in zip([0, *(ends[:-1] + 1)], ends, strict=True):  # each episode: 0 - Φ(s_0)
         extra = (others - rewards)[start : end + 1, 0]
         assert extra.sum() == pytest.approx(-phi[start, 0], abs=1e-9)
-
-
-def test_an_episode_whose_time_is_over_keeps_its_last_potential():
-    pay = second_trap.shaped_pay(lambda cars: np.full(len(cars), 3.0), gamma=0.5)
-    rewards, others, _, terminated, truncated = both(pay, np.full((150, 8), 4))
-    assert truncated[-1].all() and not terminated.any()
-    assert np.allclose(others - rewards, 0.5 * 3 - 3)
 
 
 def test_the_concave_reward_has_the_ends_of_the_road_s_own_and_pays_more_between_them():
@@ -73,14 +64,3 @@ def test_a_training_of_a_kind_keeps_what_the_lesson_reads(monkeypatch):
     names = {f"{part}.{name}" for part in ("notes", "measured", "weights") for name in getattr(ships, part)}
     assert {name for name in arrays if "." in name} == names
     assert arrays["notes.at"].shape == (2, 3) and arrays["weights.actor.0"].shape == (2, 26, 4)
-
-
-def test_the_readings_of_one_agent_stay_until_the_next_round():
-    settings = settings_for("ppo", hidden=(4, 4), envs_per_agent=4, horizon=8, batch=32)
-    training = Training([settings], episodes=100)
-    for _ in range(8):
-        training.step()
-    after_the_round = ppo_kinds.diagnostics(training)
-    for _ in range(5):
-        training.step()
-    assert np.isfinite(after_the_round).all() and ppo_kinds.diagnostics(training) == after_the_round

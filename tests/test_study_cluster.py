@@ -7,7 +7,6 @@ import time
 
 import pytest
 
-from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.research.jobs import Job, finished
 from bootcourse.research.runner import run_jobs
@@ -32,9 +31,3 @@ def test_a_study_on_a_dask_cluster_survives_the_death_of_a_worker(tmp_path):
         assert run_jobs(JOBS, tmp_path, "dask", cluster.scheduler_address) == []
     killer.join(5)
     assert not killer.is_alive() and all(finished(each, tmp_path) for each in JOBS)
-
-
-def test_a_scheduler_that_does_not_answer_is_a_sentence(tmp_path, monkeypatch):
-    monkeypatch.setattr("bootcourse.research.runner.CONNECT", 0.5)
-    with pytest.raises(BootcourseError, match="No dask .* answers at tcp://127.0.0.1:9"):
-        run_jobs(JOBS[:1], tmp_path, "dask", "tcp://127.0.0.1:9")

@@ -10,7 +10,6 @@ from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.teachers import course_rule, slow, teacher_name, teacher_policy
 from bootcourse.learn.training import Training
 from bootcourse.research.jobs import Job, OtherQuestion, finished, run_job
-from bootcourse.research.plan import Variation
 from bootcourse.research.results import load_job
 from bootcourse.research.teachers import (
     LATE,
@@ -20,13 +19,11 @@ from bootcourse.research.teachers import (
     chance,
     late,
     mirrored,
-    remembering_planner,
     teacher_named,
 )
 from bootcourse.road.state import ACCELERATION, EGO, HEADING, LANE, SPEED, TRAP_1, X, Y
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT
-from bootcourse.storage.checkpoint import save_checkpoint
 
 TINY = {"learning_starts": 16, "hidden": (8,), "buffer_size": 2000, "demonstration_episodes": 2}
 NAME = "teachers/mirrored-soft"
@@ -72,17 +69,6 @@ def test_a_share_of_the_decisions_is_drawn_evenly_and_does_not_depend_on_the_las
     assert np.array_equal(chance(cars, 1), chance(cars * noise, 1))
 
 
-def test_the_mirrored_rule_does_on_a_mirrored_road_what_the_rule_does():
-    env = TrapVectorEnv(50)
-    env.reset(seed=2)
-    cars = env.cars.copy()
-    cars[:, EGO, [Y, HEADING, SPEED]] = [6.8, 0.02, 9.5]
-    seen = cars.copy()
-    seen[..., Y], seen[..., HEADING], seen[..., LANE] = 8 - cars[..., Y], -cars[..., HEADING], 2 - cars[..., LANE]
-    right = course_rule(seen, DEFAULT)
-    assert set(right % 3) - {1} and np.array_equal(mirrored(cars, DEFAULT), 3 * (right // 3) + (2 - right % 3))
-
-
 def test_a_late_teacher_sees_where_everybody_was_and_how_fast():
     cars = np.zeros((1, 2, 10))
     cars[0, EGO, [X, Y, SPEED, ACCELERATION, LANE]] = [100.0, 4.0, 11.0, 1.0, 1]
@@ -92,14 +78,6 @@ def test_a_late_teacher_sees_where_everybody_was_and_how_fast():
     assert trap[[X, Y]] == pytest.approx([120 - driven * np.cos(0.3), 6.5 - driven * np.sin(0.3)]) and trap[LANE] == 0
     now = some_roads()
     assert np.array_equal(late(now, DEFAULT), course_rule(as_it_was(now, LATE, DEFAULT), DEFAULT))
-
-
-def test_the_planner_does_not_plan_twice_for_the_same_road(monkeypatch):
-    planned = []
-    monkeypatch.setattr("bootcourse.research.teachers.planner_rule", lambda: lambda *road: planned.append(road) or 7)
-    planner, cars = remembering_planner(), some_roads(2)
-    assert [planner(cars[i], DEFAULT) for i in (0, 1, 0, 1)] == [7] * 4
-    assert len(planned) == 2 and np.array_equal(planned[1][0], cars[1])
 
 
 @pytest.mark.parametrize(("method", "asks"), [("rlpd", False), ("ppo_cloned", False), ("soft", True), ("dagger", True)])
@@ -130,19 +108,6 @@ def test_the_command_line_takes_a_teacher_by_its_name_and_a_run_s_files_name_eac
     assert all(teacher_from(name) is teacher.rule for name, teacher in TEACHERS.items())
     names = [teacher_name(teacher.rule) for teacher in TEACHERS.values()]
     assert len(set(names)) == len(names) and "rule" in names
-    for make in (job, lambda name: Variation(teacher=name), teacher_from):
+    for make in (job, teacher_from):
         with pytest.raises(BootcourseError, match="did you mean 'planner'"):
             make("planer")
-
-
-def test_a_training_goes_on_with_its_named_teacher_alone_and_so_do_its_agents(bootcourse, tmp_path):
-    out, settings = tmp_path / "runs", settings_for("ibrl", **TINY)
-    save_checkpoint(Training([settings], 1, teacher=teacher_from("late")), out / "unfinished" / "checkpoint.npz")
-    go_on = ("train", "--method", "ibrl", "--out", out, "--quiet", "--resume", "--teacher")
-    refused = bootcourse(*go_on, "mirrored")
-    assert refused.status == 2 and "began with the teacher 'late " in refused.err and "not 'mirrored " in refused.err
-    assert bootcourse(*go_on, "late").status == 0
-    evaluate = ("evaluate", out, "--episodes", 2, "--teacher")
-    refused = bootcourse(*evaluate, "random-25")
-    assert refused.status == 2 and "drives with the teacher 'late " in refused.err
-    assert bootcourse(*evaluate, "late").status == 0

@@ -10,7 +10,7 @@ from bootcourse.learn.settings import SETTINGS, settings_for, with_seeds
 from bootcourse.methods import ABLATION, AFTER, BASELINES
 from bootcourse.research.jobs import BoundJob, Job, LessonJob, StayingJob, named_function
 from bootcourse.research.teachers import PLANNER as PLANS
-from bootcourse.research.teachers import RULE, TEACHERS, teacher_named
+from bootcourse.research.teachers import RULE, TEACHERS
 from bootcourse.scenario import CALIBRATED, DEFAULT, Scenario
 
 SEEDS, TESTS = 10, 1000  # of training, in a study of all methods; held-out episodes of each agent
@@ -79,9 +79,6 @@ class Variation:
     methods: tuple[str, ...] = VARIED
     episodes: int = 0  # of training; 0: the experiment's number
     teacher: str = RULE  # a name of `teachers.TEACHERS`
-
-    def __post_init__(self):
-        teacher_named(self.teacher)
 
 
 def _sensitivity() -> dict[str, Variation]:
