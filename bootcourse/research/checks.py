@@ -81,15 +81,17 @@ def usual(method: str, n_actions: int, **changes) -> Settings:
 SAC = {"tau": 0.05}
 PPO = {"envs_per_agent": 8, "horizon": 128, "epochs": 10, "batch": 256, "actor_lr": 1e-3, "critic_lr": 1e-3,
        "anneal_decisions": 200_000}  # fmt: skip
-
-
 Trained = tuple[list[Agent], list[float]]  # the agents, and the mean returns of those who drove their data
 
 
 def online(method: str, make_env: MakeEnv, decisions: int, **changes) -> Callable[[int], Trained]:
     """A learner that drives itself, for `decisions` decisions of each agent. changes: of its settings."""
-    settings = usual(method, int(make_env().action_space.n), **changes)
-    return lambda seeds: (train(with_seeds(settings, seeds), make_env, decisions), [])
+
+    def trained(seeds: int) -> Trained:
+        settings = usual(method, int(make_env().action_space.n), **changes)
+        return train(with_seeds(settings, seeds), make_env, decisions), []
+
+    return trained
 
 
 def cql(seeds: int) -> Trained:

@@ -29,11 +29,6 @@ def cells(varied: dict[str, Results]) -> dict[tuple[str, str], Results]:
     return choices
 
 
-def faded(xi: np.ndarray) -> float:
-    """The episode after which ξ is down to a tenth of its start, the median over agents: curves (agents, episodes)."""
-    return float(np.median((xi <= 0.1 * xi[:, :1]).argmax(axis=1)))
-
-
 def as_printed(success: np.ndarray, method: str) -> np.ndarray:
     """The probability that 20 test episodes of an agent all end as the paper's row says: success rates (agents,)."""
     return success**EPISODES if PRINTED[method]["success"].mean == 100 else (1 - success) ** EPISODES

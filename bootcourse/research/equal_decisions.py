@@ -17,13 +17,12 @@ from itertools import product
 
 import numpy as np
 
-from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
-from bootcourse.learn.agent import Agent
+from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.learn.settings import Settings, settings_for, with_seeds
 from bootcourse.learn.training import Training
 from bootcourse.methods import display_name
 from bootcourse.research.beyond import at_budget
-from bootcourse.research.jobs import HELD_OUT, Interrupted, orphaned, smaller
+from bootcourse.research.jobs import HELD_OUT, Interrupted, drives, orphaned, smaller
 from bootcourse.research.plan import SEEDS, TESTS, LessonExperiment
 from bootcourse.research.results import Results, agent_entries, as_arrays, join
 from bootcourse.research.tables import bracketed
@@ -110,27 +109,21 @@ def trained_and_tested(settings: Sequence[Settings], budgets: Sequence[int], roa
         seconds += time.process_time() - started
         if training.decisions < budget * len(settings):
             raise Interrupted(settings[0].method)
-        drives = _tested(training.result().agents, roads)
-        tested = drives if budget <= BOARD else tested
-        means = {"returns": drives["returns"], "success": drives["success"], "accident": drives["accident"] > 0}
+        driven = drives(training.result().agents, roads)
+        tested = driven if budget <= BOARD else tested
+        means = {"returns": driven["returns"], "success": driven["success"], "accident": driven["accident"] > 0}
         measured |= {f"{name}_{budget}": values.mean(axis=1) for name, values in means.items()}
         measured[f"seconds_{budget}"] = np.full(len(settings), seconds / len(settings))
     curves = {name: training.curves.values[name] for name in ("success", "return", "decisions")}
-    driven = int(training.curves.finished.max())
+    longest = int(training.curves.finished.max())
     return Results(
         agent_entries(settings),
         np.array([training.stopped.get(i, -1) for i in range(len(settings))]),
         {name: smaller(values) for name, values in tested.items()},
-        {name: values[:, :driven].astype(np.float32) for name, values in curves.items()},
+        {name: values[:, :longest].astype(np.float32) for name, values in curves.items()},
         np.full(len(settings), seconds / len(settings)),
         measured=measured,
     )
-
-
-def _tested(agents: Sequence[Agent], roads: Sequence[int]) -> dict[str, np.ndarray]:
-    """The fields of `Episodes`, each (agents, roads)."""
-    each = [drive_episodes(agent.as_policy(), roads) for agent in agents]
-    return {name: np.stack([getattr(one, name) for one in each]) for name in vars(each[0])}
 
 
 def _joined(parts: Sequence[Results]) -> Results:

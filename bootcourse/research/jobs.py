@@ -13,7 +13,7 @@ import os
 import shutil
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Annotated, Any
@@ -25,11 +25,12 @@ from msgspec import Meta, Struct, convert
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.errors import BootcourseError
 from bootcourse.files import decoding, provenance, sha256, write_arrays, write_json
+from bootcourse.learn.agent import Agent
 from bootcourse.learn.settings import Settings
 from bootcourse.learn.training import Result, Training
 from bootcourse.research.planner import Search, is_staying_optimal, plan_episodes
 from bootcourse.research.teachers import RULE, teacher_named
-from bootcourse.scenario import Scenario
+from bootcourse.scenario import DEFAULT, Scenario
 from bootcourse.storage.checkpoint import DamagedCheckpoint, load_checkpoint, save_checkpoint
 from bootcourse.storage.runs import save_runs
 from bootcourse.storage.sealed import is_file_with, read_sealed, write_sealed
@@ -106,7 +107,7 @@ class Job:
 
 @dataclass(frozen=True)
 class LessonJob:
-    """Let a function of a lesson train and test its agents, in a few minutes and without checkpoints."""
+    """Let a function train and test its agents, mostly for a lesson, in a few minutes and without checkpoints."""
 
     name: str
     function: str  # "module:function", which returns the arrays of `results.npz` (see `results.as_arrays`)
@@ -170,15 +171,21 @@ def tested_arrays(
 
     tests: of each agent, by its most probable actions. teacher: its name. make_env: see `Training`.
     """
-    seeds = held_out_seeds(HELD_OUT, tests)
-    drives = [drive_episodes(a.as_policy(), seeds, result.scenario, make_env=make_env) for a in result.agents]
-    tested = {name: np.stack([getattr(each, name) for each in drives]) for name in vars(drives[0])}
+    tested = drives(result.agents, held_out_seeds(HELD_OUT, tests), result.scenario, make_env)
     return {
         "agents": np.array(json.dumps([asdict(a.settings) | {"teacher": teacher} for a in result.agents])),
         "stopped": np.array([result.stopped.get(i, -1) for i in range(len(result.agents))]),
         **{f"tested.{name}": smaller(values) for name, values in tested.items()},
         **{f"curves.{name}": values.astype(np.float32) for name, values in result.curves.items()},
     }
+
+
+def drives(
+    agents: Sequence[Agent], seeds: Sequence[int], scenario: Scenario | None = DEFAULT, make_env=None
+) -> dict[str, np.ndarray]:
+    """The fields of `Episodes` of every agent in the episodes of these seeds, each (agents, episodes)."""
+    each = [drive_episodes(agent.as_policy(), seeds, scenario, make_env=make_env) for agent in agents]
+    return {name: np.stack([getattr(one, name) for one in each]) for name in vars(each[0])}
 
 
 def smaller(values: np.ndarray) -> np.ndarray:

@@ -219,7 +219,7 @@ EXPERIMENTS = {
 
 @dataclass(frozen=True)
 class LessonExperiment:
-    """Agents that a function of a lesson trains: {variation: the arguments of the function}."""
+    """Agents that a function of its own trains, mostly for a lesson: {variation: the arguments of the function}."""
 
     function: str  # "module:function", see `jobs.LessonJob`
     variations: dict[str, dict]
@@ -249,12 +249,12 @@ class LessonExperiment:
         return jobs
 
 
-LESSON_EXPERIMENTS = {  # "module:name" of a LessonExperiment, imported when it is used
+LESSON_EXPERIMENTS = {  # "module:name" of a LessonExperiment, imported when it is used; the last six are of no lesson
     "bug-hunt": "bootcourse.course.lessons.bug_hunt.bugs:EXPERIMENT",
     "students": "bootcourse.course.lessons.your_teacher.taught_agents:EXPERIMENT",
     "second-trap": "bootcourse.course.lessons.the_second_trap.ppo_kinds:EXPERIMENT",
     "easier": "bootcourse.course.lessons.the_barrier.easier:EXPERIMENT",
-    "elsewhere": "bootcourse.research.elsewhere:EXPERIMENT",  # of no lesson, but a function of its own too
+    "elsewhere": "bootcourse.research.elsewhere:EXPERIMENT",
     "checks": "bootcourse.research.checks:EXPERIMENT",
     "beyond-search": "bootcourse.research.equal_decisions:SEARCH",
     "beyond": "bootcourse.research.equal_decisions:EXPERIMENT",
