@@ -89,9 +89,9 @@ class Shipment:
         entry = {"file": name, "sha256": sha256(path), "bytes": size, "command": made_by, "versions": versions}
         try:
             convert(entry, Entry)
-        except ValidationError:
+        except ValidationError as error:
             raise BootcourseError(
-                f"'{name}' cannot ship: give the variation a name of letters, digits, spaces and any of . _ - ,"
+                f"'{name}' cannot ship ({error}): a file's name has letters, digits and any of . _ - only."
             ) from None
         self.entries[name] = entry
 
