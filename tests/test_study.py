@@ -20,7 +20,7 @@ from bootcourse.files import read_json
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.research import jobs as jobs_module
 from bootcourse.research.jobs import BoundJob, Job, LessonJob, asked, finished, run_job
-from bootcourse.research.plan import EXPERIMENTS, LESSON_EXPERIMENTS, experiment_named, methods_named, study_jobs
+from bootcourse.research.plan import EXPERIMENTS, experiment_named, methods_named, study_jobs
 from bootcourse.research.planner import Search
 from bootcourse.research.results import Results, as_arrays, load_jobs, load_results, save_results
 from bootcourse.research.runner import run_jobs, seconds_of, time_needed
@@ -188,7 +188,7 @@ def test_a_study_s_plan_has_every_method_with_every_seed_once():
     assert sum(each.episodes for each in bounds) == 1000 and len({each.name for each in jobs}) == len(jobs)
 
 
-@pytest.mark.parametrize("name", [*EXPERIMENTS, *LESSON_EXPERIMENTS])
+@pytest.mark.parametrize("name", EXPERIMENTS)
 def test_every_variation_of_an_experiment_asks_something_else(name):
     experiment = experiment_named(name)
     jobs = experiment.jobs(name)  # without Box2D, those of Lunar lander are left out

@@ -8,13 +8,31 @@ import numpy as np
 
 from bootcourse.methods import display_name
 from bootcourse.research.paper import EPISODES, PRINTED
-from bootcourse.research.plan import UPDATES, VARIED
+from bootcourse.research.plan import VARIED, Experiment, Variation
 from bootcourse.research.results import Results, join
 from bootcourse.research.tables import found_and_kept
 from bootcourse.statistics import Estimate
 
-DRIVERS = ("μ", "π̃")  # of the demonstrations
+DRIVERS = {"μ": False, "π̃": True}  # of the demonstrations: are they drawn from the stochastic rule?
+# Each updates-per-decision setting of the experiment `clocks`. The paper prints neither updates nor roads.
+UPDATES = {"1/4": {}, "1": {"envs_per_agent": 1}, "2": {"envs_per_agent": 1, "updates": 2},
+           "4": {"envs_per_agent": 1, "updates": 4}}  # fmt: skip
 DRAWS = 100_000
+
+
+def _clocks() -> dict[str, Variation]:
+    """ξ = 200 α fades with the updates, β with the episodes: both clocks, and who drives the demonstrations."""
+    variations = {}
+    for updates, changes in UPDATES.items():
+        variations[f"{updates} updates, no demonstrations"] = Variation(changes, methods=("sac", "soft"))
+        for driver, stochastic in DRIVERS.items():
+            of_driver = changes | {"stochastic_demonstrations": stochastic}
+            helped = Variation(of_driver, methods=("demos", "bootstrapped"))
+            variations[f"{updates} updates, demonstrations by {driver}"] = helped
+    return variations
+
+
+EXPERIMENT = Experiment(_clocks(), seeds=10, episodes=1200)
 
 
 def cells(varied: dict[str, Results]) -> dict[tuple[str, str], Results]:

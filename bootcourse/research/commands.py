@@ -49,7 +49,7 @@ def study(
     from bootcourse.research.results import experiment, in_study
     from bootcourse.research.tables import measured_table
 
-    check_known("Study", name, (*plan.STUDIES, *plan.EXPERIMENTS, *plan.LESSON_EXPERIMENTS))
+    check_known("Study", name, (*plan.STUDIES, *plan.EXPERIMENTS))
     if name in plan.STUDIES:
         methods = plan.methods_named(only)
         wanted = plan.study_jobs(name, methods, seeds or plan.SEEDS, tests or plan.TESTS, episodes)

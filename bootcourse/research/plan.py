@@ -1,4 +1,4 @@
-"""The lists of jobs that a study consists of."""
+"""The lists of jobs that a study consists of: all methods in one scenario, or the variations of an experiment."""
 
 import re
 from collections.abc import Sequence
@@ -9,8 +9,7 @@ from bootcourse.errors import BootcourseError, check_known
 from bootcourse.learn.settings import SETTINGS, settings_for, with_seeds
 from bootcourse.methods import ABLATION, AFTER, BASELINES
 from bootcourse.research.jobs import BoundJob, Job, LessonJob, StayingJob, named_function
-from bootcourse.research.teachers import PLANNER as PLANS
-from bootcourse.research.teachers import RULE, TEACHERS
+from bootcourse.research.teachers import RULE
 from bootcourse.scenario import CALIBRATED, DEFAULT, Scenario
 
 SEEDS, TESTS = 10, 1000  # of training, in a study of all methods; held-out episodes of each agent
@@ -18,10 +17,6 @@ GROUP = 10  # seeds that train side by side: with 5, each costs a third more
 PLANNER, ROADS = "planner", 50  # held-out roads that one job of the planner searches
 VARIED = ("sac", "soft", "demos", "bootstrapped")  # the paper's ablation
 BEYOND = tuple(method for method in AFTER if method != "dagger")  # DAgger is in the experiment `teachers`
-
-# Each updates-per-decision setting of the experiment `clocks`. The paper prints neither updates nor roads.
-UPDATES = {"1/4": {}, "1": {"envs_per_agent": 1}, "2": {"envs_per_agent": 1, "updates": 2},
-           "4": {"envs_per_agent": 1, "updates": 4}}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -81,102 +76,6 @@ class Variation:
     teacher: str = RULE  # a name of `teachers.TEACHERS`
 
 
-def _sensitivity() -> dict[str, Variation]:
-    """What the paper leaves open, and three of its choices."""
-
-    def traps(speed):
-        return Variation(
-            scenario=replace(DEFAULT, name=f"traps-{speed}", traps=replace(DEFAULT.traps, speed=speed)),
-        )
-
-    def traffic(name, **changes):
-        return Variation(scenario=replace(DEFAULT, name=name, traffic=replace(DEFAULT.traffic, **changes)))
-
-    return {
-        "as it is": Variation(),
-        "traps at 10.3 m/s": traps(10.3),
-        "traps at 10.6 m/s": traps(10.6),
-        "traps at 11 m/s": traps(11.0),
-        "no traffic": traffic("no-traffic", cars=0),
-        "3 cars": traffic("3-cars", cars=3),
-        "12 cars": traffic("12-cars", cars=12),
-        "6 cars, twice as close": traffic("close", lead=20.0, headway=20.0),
-        "network 32 x 32": Variation({"hidden": (32, 32)}),
-        "network 128 x 128": Variation({"hidden": (128, 128)}),
-        "1 update for each decision": Variation({"updates": 4}),
-        "demonstrations driven by π̃": Variation({"stochastic_demonstrations": True}),
-        "target entropy 0.3": Variation({"target_entropy": 0.3}),
-        "target entropy 1": Variation({"target_entropy": 1.0}),
-        "γ = 0.9": Variation({"gamma": 0.9}),
-        "γ = 0.95": Variation({"gamma": 0.95}),
-        "γ = 0.99": Variation({"gamma": 0.99}),
-        "γ = 0.9, target entropy 0.3": Variation({"gamma": 0.9, "target_entropy": 0.3}),
-    }
-
-
-def _clocks() -> dict[str, Variation]:
-    """ξ = 200 α fades with the updates, β with the episodes: both clocks, and who drives the demonstrations."""
-    variations = {}
-    for updates, changes in UPDATES.items():
-        variations[f"{updates} updates, no demonstrations"] = Variation(changes, methods=("sac", "soft"))
-        for driver, stochastic in (("μ", False), ("π̃", True)):
-            of_driver = changes | {"stochastic_demonstrations": stochastic}
-            helped = Variation(of_driver, methods=("demos", "bootstrapped"))
-            variations[f"{updates} updates, demonstrations by {driver}"] = helped
-    return variations
-
-
-def _ablations() -> dict[str, Variation]:
-    """One choice of the method changed."""
-    helped = ("demos", "bootstrapped")
-    return {
-        "KL in the actor only": Variation({"kl_in_target": False}, methods=("soft", "bootstrapped")),
-        "β over 300 episodes": Variation({"beta_episodes": 300}, methods=helped),
-        "β for ever": Variation({"beta_episodes": None}, methods=helped),
-        "ξ stays at 2": Variation({"xi_fixed": 2.0}, methods=("soft",)),
-    }
-
-
-def _sweep() -> dict[str, Variation]:
-    """The paper's method with other p, ξ and c. Without ξ nothing depends on p, so that is run with one p."""
-    variations = {}
-    for p, xi, c in product((0.5, 0.9, 0.99), (0.0, 20.0, 200.0, 2000.0), (0.0, 2.0, 5.0)):
-        if xi or p == 0.5:
-            changes = {"rule_p": p, "xi_multiplier": xi, "bonus": c}
-            variations[f"p = {p:g}, ξ = {xi:g} α, c = {c:g}"] = Variation(changes, methods=("bootstrapped",))
-    return variations
-
-
-def _longer_view() -> dict[str, Variation]:
-    """The paper's method with a longer view, a smaller bonus, a larger batch and two updates per decision."""
-    saner = {**SETTINGS["paper"], "bonus": 0.5, "batch": 128}
-    return {"γ = 0.95": Variation(saner | {"gamma": 0.95}, methods=("bootstrapped",))}
-
-
-# Of each method in the experiment `teachers`: changes and training episodes. The minutes of one core are those of ten
-# agents side by side, by the speed of their first 20 s. The planner takes 12.5 ms for a decision. Demonstrations by it
-# add 6 minutes (2 where it takes the part of μ in π̃, whose drives end early), its labels of DAgger's 80 episodes 25.
-# Labels for the 1,500 episodes of a method with a KL would take eight hours, so those two cells are left out. The rule
-# with rollouts takes 0.2 ms for a decision.
-TAUGHT = {
-    "dagger": ({"updates": 6}, 80),  # 1 minute
-    "ppo_cloned": ({}, 6000),  # 3 minutes
-    "bootstrapped": ({}, 1500),  # 7 minutes
-    "soft": ({}, 1500),  # 8 minutes
-    "rlpd": ({}, 150),  # 15 minutes
-}
-
-
-def _teachers() -> dict[str, Variation]:
-    """Five ways to use a teacher, with teachers from bad to perfect, a cell each."""
-    return {
-        f"{teacher}, {method}": Variation(changes, methods=(method,), episodes=episodes, teacher=teacher)
-        for method, (changes, episodes) in TAUGHT.items()
-        for teacher in TEACHERS
-        if teacher != PLANS or method not in ("bootstrapped", "soft")
-    }
-
-
 @dataclass(frozen=True)
 class Experiment:
     """Variations that are run with the same seeds and number of episodes."""
@@ -205,16 +104,6 @@ class Experiment:
             tested = tests or self.tests
             jobs.append(Job(where, tuple(agents), one.scenario, trained, tested, runs=False, teacher=one.teacher))
         return sorted(jobs, key=lambda job: -sum(job.settings[0].hidden) * job.settings[0].updates)  # the longest first
-
-
-EXPERIMENTS = {
-    "sensitivity": Experiment(_sensitivity(), seeds=3, episodes=1500),
-    "clocks": Experiment(_clocks(), seeds=10, episodes=1200),
-    "ablations": Experiment(_ablations(), seeds=10, episodes=2000),
-    "sweep": Experiment(_sweep(), seeds=4, episodes=1500),
-    "longer-view": Experiment(_longer_view(), seeds=10, episodes=1500),
-    "teachers": Experiment(_teachers(), seeds=10, episodes=1500, tests=200),
-}
 
 
 @dataclass(frozen=True)
@@ -249,24 +138,30 @@ class LessonExperiment:
         return jobs
 
 
-LESSON_EXPERIMENTS = {  # "module:name" of a LessonExperiment, imported when it is used; the last six are of no lesson
+EXPERIMENTS = {  # "module:name" of each, imported when it is used
+    "sensitivity": "bootcourse.research.variations:SENSITIVITY",
+    "clocks": "bootcourse.research.clocks:EXPERIMENT",
+    "ablations": "bootcourse.research.variations:ABLATIONS",
+    "sweep": "bootcourse.research.variations:SWEEP",
+    "longer-view": "bootcourse.research.variations:LONGER_VIEW",
+    "teachers": "bootcourse.research.teacher_worth:EXPERIMENT",
+    "beyond-search": "bootcourse.research.equal_decisions:SEARCH",
+    "beyond": "bootcourse.research.equal_decisions:EXPERIMENT",
+    "elsewhere": "bootcourse.research.elsewhere:EXPERIMENT",
+    "checks": "bootcourse.research.checks:EXPERIMENT",
+    "look-ahead": "bootcourse.research.lookahead:EXPERIMENT",
+    "distil": "bootcourse.research.distil:EXPERIMENT",
     "bug-hunt": "bootcourse.course.lessons.bug_hunt.bugs:EXPERIMENT",
     "students": "bootcourse.course.lessons.your_teacher.taught_agents:EXPERIMENT",
     "second-trap": "bootcourse.course.lessons.the_second_trap.ppo_kinds:EXPERIMENT",
     "easier": "bootcourse.course.lessons.the_barrier.easier:EXPERIMENT",
-    "elsewhere": "bootcourse.research.elsewhere:EXPERIMENT",
-    "checks": "bootcourse.research.checks:EXPERIMENT",
-    "beyond-search": "bootcourse.research.equal_decisions:SEARCH",
-    "beyond": "bootcourse.research.equal_decisions:EXPERIMENT",
-    "look-ahead": "bootcourse.research.lookahead:EXPERIMENT",
-    "distil": "bootcourse.research.distil:EXPERIMENT",
 }
 
 
 def experiment_named(name: str) -> Experiment | LessonExperiment:
     """The experiment of that name. Raises BootcourseError for an unknown one."""
-    check_known("Experiment", name, (*EXPERIMENTS, *LESSON_EXPERIMENTS))
-    return EXPERIMENTS[name] if name in EXPERIMENTS else named_function(LESSON_EXPERIMENTS[name])
+    check_known("Experiment", name, EXPERIMENTS)
+    return named_function(EXPERIMENTS[name])
 
 
 def chosen(variations: dict, names: dict[str, set[str]], words: str) -> dict:

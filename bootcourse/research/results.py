@@ -17,7 +17,7 @@ from bootcourse.errors import BootcourseError
 from bootcourse.files import check_arrays, decoding, parse, read_arrays, read_json, write_arrays
 from bootcourse.learn.settings import Settings, stored_settings
 from bootcourse.research.jobs import Description
-from bootcourse.research.plan import EXPERIMENTS, STUDIES, experiment_named, folder
+from bootcourse.research.plan import STUDIES, experiment_named, folder
 from bootcourse.research.planner import Staying
 from bootcourse.research.teachers import RULE
 from bootcourse.road.state import Accident
@@ -29,7 +29,8 @@ RUN_AGAIN = "run the study again, or restore it from a copy"
 KINDS = {"collision": Accident.COLLISION, "road_departure": Accident.ROAD_DEPARTURE, "stoppage": Accident.STOPPAGE}
 OF_AGENTS = ("tested", "curves", "notes", "measured")  # the parts with every agent; weights are kept of the first ones
 PARTS = (*OF_AGENTS, "weights")
-REPORTED = (*EXPERIMENTS, "beyond-search", "beyond", "elsewhere", "look-ahead", "distil", "checks")  # that are shown
+REPORTED = ("sensitivity", "clocks", "ablations", "longer-view", "teachers", "beyond-search", "beyond", "elsewhere",
+            "look-ahead", "distil", "checks")  # the experiments of the report and the page of checks  # fmt: skip
 WINDOW = 50  # training episodes in a row, in which an agent that has found the way out is ahead more often than not
 
 

@@ -20,7 +20,7 @@ from bootcourse.files import provenance, sha256, write_arrays, write_bytes, writ
 from bootcourse.policies import rule_policy
 from bootcourse.research import checks
 from bootcourse.research.jobs import HELD_OUT, read_job
-from bootcourse.research.plan import EXPERIMENTS, LESSON_EXPERIMENTS, STUDIES
+from bootcourse.research.plan import EXPERIMENTS, STUDIES, Experiment, experiment_named
 from bootcourse.research.report import model_card, write_report
 from bootcourse.research.results import Results, in_assets, in_study, load_job, load_jobs, load_results, save_results
 from bootcourse.scenario import DEFAULT
@@ -30,7 +30,7 @@ from bootcourse.storage.sealed import is_file_with, write_sealed
 from bootcourse.storage.work import locked
 
 CURVES = ("success", "return", "speed", "distance", "accident", "entropy")  # the others are in runs/
-VARIED_CURVES = ("success", "return", "xi", "decisions")  # of the experiments
+VARIED_CURVES = ("success", "return", "xi", "decisions")  # of an `Experiment`
 FEWER_CURVES = {"sweep": (), "teachers": ("success", "decisions"),
                 "beyond-search": (), "beyond": ("return", "decisions"),
                 "elsewhere": ("success", "return"), "easier": ("success", "alpha")}  # many agents  # fmt: skip
@@ -169,10 +169,11 @@ def add_studies(to: Shipment) -> None:
 
 def add_experiments(to: Shipment) -> None:
     """Scores and curves of every variation that was run, a file each."""
-    for name in (*EXPERIMENTS, *LESSON_EXPERIMENTS):
+    for name in EXPERIMENTS:
+        varied = isinstance(experiment_named(name), Experiment)
         for job in sorted(to.study.glob(f"jobs/{name}/*/results.npz")):
             results, path = load_job(job.parent), to.new / name / f"{job.parent.name}.npz"
-            curves = FEWER_CURVES.get(name, VARIED_CURVES if name in EXPERIMENTS else tuple(results.curves))
+            curves = FEWER_CURVES.get(name, VARIED_CURVES if varied else tuple(results.curves))
             to.add_results(results, path, f"{name}/{job.parent.name}", curves)
 
 

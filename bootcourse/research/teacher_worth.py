@@ -14,12 +14,37 @@ import numpy as np
 from bootcourse.errors import BootcourseError
 from bootcourse.methods import display_name
 from bootcourse.research.beyond import SHARE, WINDOW, spent
-from bootcourse.research.plan import TAUGHT
+from bootcourse.research.plan import Experiment, Variation
 from bootcourse.research.results import Results, experiment
 from bootcourse.research.tables import bracketed, k_of_n
-from bootcourse.research.teachers import TEACHERS
+from bootcourse.research.teachers import PLANNER, TEACHERS
 from bootcourse.statistics import ESCAPES, Estimate, escapes, interval, median
 
+# Of each method in the experiment `teachers`: changes and training episodes. The minutes of one core are those of ten
+# agents side by side, by the speed of their first 20 s. The planner takes 12.5 ms for a decision. Demonstrations by it
+# add 6 minutes (2 where it takes the part of μ in π̃, whose drives end early), its labels of DAgger's 80 episodes 25.
+# Labels for the 1,500 episodes of a method with a KL would take eight hours, so those two cells are left out. The rule
+# with rollouts takes 0.2 ms for a decision.
+TAUGHT = {
+    "dagger": ({"updates": 6}, 80),  # 1 minute
+    "ppo_cloned": ({}, 6000),  # 3 minutes
+    "bootstrapped": ({}, 1500),  # 7 minutes
+    "soft": ({}, 1500),  # 8 minutes
+    "rlpd": ({}, 150),  # 15 minutes
+}
+
+
+def _teachers() -> dict[str, Variation]:
+    """Five ways to use a teacher, with teachers from bad to perfect, a cell each."""
+    return {
+        f"{teacher}, {method}": Variation(changes, methods=(method,), episodes=episodes, teacher=teacher)
+        for method, (changes, episodes) in TAUGHT.items()
+        for teacher in TEACHERS
+        if teacher != PLANNER or method not in ("bootstrapped", "soft")
+    }
+
+
+EXPERIMENT = Experiment(_teachers(), seeds=10, episodes=1500, tests=200)
 Cells = dict[tuple[str, str], Results]  # {(teacher, method): its agents}
 
 

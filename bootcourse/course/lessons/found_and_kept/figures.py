@@ -10,7 +10,7 @@ from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, finish, new_figure, one_axes, plain_axes
 from bootcourse.plots.training_curves import WINDOW
-from bootcourse.research.plan import UPDATES
+from bootcourse.research.clocks import UPDATES
 from bootcourse.research.results import WINDOW as IN_A_ROW
 from bootcourse.research.results import Results
 from bootcourse.statistics import rolling_means

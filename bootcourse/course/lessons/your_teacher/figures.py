@@ -22,8 +22,7 @@ from bootcourse.plots.figure import (
 )
 from bootcourse.research.beyond import at_budget
 from bootcourse.research.jobs import HELD_OUT
-from bootcourse.research.plan import TAUGHT
-from bootcourse.research.teacher_worth import QUANTITIES, Cells, in_words
+from bootcourse.research.teacher_worth import QUANTITIES, TAUGHT, Cells, in_words
 from bootcourse.research.teachers import PLANNER, TEACHERS
 
 ROW, HEAD, FOOT, NAMES = 0.42, 0.85, 0.6, 1.75  # inches
