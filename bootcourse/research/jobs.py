@@ -189,7 +189,7 @@ def drives(
 
 
 def smaller(values: np.ndarray) -> np.ndarray:
-    """The results of tests with the precision that is kept: float32, and int8 for what is counted."""
+    """The results of tests as they are stored: float32, and int8 for what is counted."""
     return values.astype(np.float32) if values.dtype == np.float64 else values.astype(np.int8)
 
 

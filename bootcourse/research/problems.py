@@ -63,10 +63,12 @@ def scaled(env: gym.Env, scales: Sequence[float]) -> gym.Env:
 
 
 def cartpole() -> gym.Env:
+    """CartPole with observations of order one."""
     return scaled(gym.make("CartPole-v1"), CARTPOLE_SCALES)
 
 
 def fixed_cartpole() -> gym.Env:
+    """The same, of fixed length."""
     return scaled(FixedHorizon(gym.make("CartPole-v1")), CARTPOLE_SCALES)
 
 

@@ -39,7 +39,7 @@ def rule_results(scenario: Scenario, tests: int) -> Results:
 
 
 def write_report(study: StudyResults, folder: Path) -> Path:
-    """Write folder/report.md and its pictures, folder/figures. Raises BootcourseError if nothing was found."""
+    """Write folder/report.md and its pictures, folder/figures. Raises BootcourseError if nothing was computed."""
     if not study.results:
         raise BootcourseError("No job of this study is finished: run `bootcourse study --out DIR` first.")
     text, findings = [HEAD.format(escapes=100 * ESCAPES, window=IN_A_ROW)], {}
@@ -60,6 +60,7 @@ def write_report(study: StudyResults, folder: Path) -> Path:
 
 
 def study_part(study: StudyResults, name: str, rule: Results, everyone: Results, folder: Path) -> list[str]:
+    """The paper's tables, who escapes, the bound and the figures of one study. everyone: its agents and the rule."""
     results, text, best = study.results[name], [], study.bound.get(STUDIES[name].scenario.name)
     for title, methods in TABLES.items():
         text += [f"### {title}\n", tables.result_table(everyone, methods)]
@@ -110,6 +111,7 @@ def staying(answer: dict | None) -> list[str]:
 
 
 def stopped(results: Results) -> str:
+    """Which agents were stopped because their loss was not a number."""
     agents = [(results.agents[i], decision) for i, decision in enumerate(results.stopped) if decision >= 0]
     if not agents:
         return "No agent had to be stopped.\n"
@@ -148,10 +150,12 @@ def experiments_part(experiments: dict[str, dict[str, Results]]) -> list[str]:
 
 
 def close() -> str:
+    """What counts as close to the paper's number, in words."""
     return ", ".join(f"{COLUMNS[column].split(',')[0]} within {within:g}" for column, within in CLOSE.items())
 
 
 def counted(findings: dict) -> str:
+    """How many numbers of the paper have each verdict, a line for each scenario."""
     lines = []
     for scenario, rows in findings.items():
         count = Counter(row.verdict for row in rows)

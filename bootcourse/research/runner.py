@@ -128,7 +128,7 @@ def in_words(seconds: float) -> str:
 
 
 def seconds_of(job: AnyJob, root: Path) -> float:
-    """Of one core; NaN where no such job has been timed."""
+    """The seconds that a job will take on one core; NaN where no such job has been timed."""
     part = job.name.partition("/")[0]
     shipped = [path for path in (FOLDER / f"{job.name}.npz", FOLDER / f"study-{part}.npz") if path.exists()]
     done = [path.parent for path in sorted((root / "jobs" / part).glob("*/results.npz"))] if type(job) is Job else []

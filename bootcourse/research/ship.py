@@ -178,9 +178,9 @@ def add_experiments(to: Shipment) -> None:
 
 
 def lighter(results: Results, curves: Sequence[str], half: bool) -> Results:
-    """The same results with these curves only, in half precision: a figure shows fewer than its 3 digits.
+    """The same results with these curves only, in half precision, whose three digits are more than a figure shows.
 
-    half: the tests' speeds and distances, too, for results of which no table shows them.
+    half: store the tests' speeds and distances so, too, where no table shows them.
     """
     names = ("speed", "distance") if half else ()
     tested = {name: each.astype(np.float16) if name in names else each for name, each in results.tested.items()}

@@ -14,6 +14,7 @@ HEADINGS = COLUMNS | {"road_departure": "road departures, %", "stoppage": "stops
 
 
 def markdown(headings: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """A table in Markdown, a line for each row."""
     lines = [headings, ["---"] * len(headings), *rows]
     return "\n".join("| " + " | ".join(str(cell).replace("|", "\\|") for cell in line) + " |" for line in lines) + "\n"
 
@@ -35,7 +36,7 @@ def bracketed(estimate: Estimate, scale: float = 1) -> str:
 
 
 def k_of_n(hits: np.ndarray) -> str:
-    """ "1 of 10 (0 to 45 %)": how many, and the exact 95 % interval of the rate; one has none. hits (n,) bool."""
+    """ "1 of 10 (0 to 45 %)": how many, and the exact 95 % interval of the rate, if n > 1. hits (n,) bool."""
     share, counted = rate(hits), f"{int(np.sum(hits))} of {len(hits)}"
     return counted if len(hits) < 2 else f"{counted} ({100 * share.low:.0f} to {100 * share.high:.0f}\u00a0%)"
 
