@@ -16,7 +16,7 @@ from bootcourse.scenario import CALIBRATED, DEFAULT
 from bootcourse.storage import assets
 from bootcourse.storage.runs import find_runs
 
-SWEEP = "sweep/p-0.9-xi-200-alpha-c-2.npz"
+LONGER = "longer-view/gamma-0.95.npz"
 
 
 def compute(root, name: str, method: str, seeds: int = 2, tests: int = 3, scenario=DEFAULT, teacher: str = "rule"):
@@ -32,7 +32,7 @@ pytestmark = pytest.mark.usefixtures("unrendered")
 def study(unrendered, tmp_path_factory):
     """The smallest study that assets can be built from."""
     root = tmp_path_factory.mktemp("study")
-    for name in ("default/sac", "sweep/p-0.9-xi-200-alpha-c-2", "sensitivity/as-it-is"):
+    for name in ("default/sac", "longer-view/gamma-0.95", "sensitivity/as-it-is"):
         compute(root, name, "sac")
     compute(root, "default/soft", "soft")
     compute(root, "calibrated/sac", "sac", scenario=CALIBRATED)
@@ -59,7 +59,7 @@ def contents(folder) -> dict:
 def test_everything_that_ships_is_listed_right_and_reads_back(built):
     assert assets.verify(built) == []
     entries = {entry["file"]: entry for entry in json.loads((built / "manifest.json").read_text())["files"]}
-    assert {"study-default.npz", "study-calibrated.npz", SWEEP, "MODEL_CARD.md"} <= entries.keys()
+    assert {"study-default.npz", "study-calibrated.npz", LONGER, "MODEL_CARD.md"} <= entries.keys()
     assert {"sensitivity/as-it-is.npz", "report/report.md", "report/figures/default-returns.png"} <= entries.keys()
     assert all(entry["command"].startswith("bootcourse") and entry["versions"] for entry in entries.values())
     assert load_results(built / "study-default.npz").methods == ["sac", "soft"]
@@ -72,12 +72,12 @@ def test_everything_that_ships_is_listed_right_and_reads_back(built):
 
 
 def test_a_damaged_missing_or_unlisted_file_is_named_with_the_command_that_makes_it(shipped, capsys):
-    (shipped / SWEEP).write_bytes(b"half")
+    (shipped / LONGER).write_bytes(b"half")
     (shipped / "MODEL_CARD.md").unlink()
     (shipped / "notes.txt").write_text("mine")
     assert commands.report_assets(shipped) == 1
     printed = capsys.readouterr().out
-    assert "alpha-c-2.npz is damaged" in printed and "bootcourse study sweep --out DIR" in printed
+    assert "gamma-0.95.npz is damaged" in printed and "bootcourse study longer-view --out DIR" in printed
     assert "MODEL_CARD.md is missing" in printed and "notes.txt is not in" in printed and "3 wrong" in printed
 
 
@@ -114,12 +114,12 @@ def test_a_smaller_study_replaces_a_larger_one_only_if_asked_to_and_the_other_ru
 
 def test_what_a_study_has_not_computed_stays_as_it_ships(study, shipped, tmp_path):
     before = (shipped / "study-default.npz").read_bytes()
-    shutil.copytree(study / "jobs/sweep", tmp_path / "later/jobs/sweep")
-    (shipped / SWEEP).write_bytes(b"old")
+    shutil.copytree(study / "jobs/longer-view", tmp_path / "later/jobs/longer-view")
+    (shipped / LONGER).write_bytes(b"old")
     (shipped / "readme").mkdir()
     (shipped / "readme" / "trap.png").write_bytes(b"picture")
     ship.build(tmp_path / "later", shipped)
-    assert assets.verify(shipped) == [] and load_results(shipped / SWEEP).methods == ["sac"]
+    assert assets.verify(shipped) == [] and load_results(shipped / LONGER).methods == ["sac"]
     assert (shipped / "study-default.npz").read_bytes() == before
     assert (shipped / "readme" / "trap.png").read_bytes() == b"picture"
 

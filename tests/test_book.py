@@ -7,7 +7,6 @@ import pytest
 
 import bootcourse as bc
 from bootcourse.course.lessons import LESSONS, stem
-from bootcourse.course.shipped import shipped_experiment
 from tests.browser import ARTEFACTS, is_blank, needs_browser, open_browser
 from tools import book
 from tools.course import claims
@@ -169,23 +168,6 @@ def test_a_replay_plays_in_the_book(made, new_page):
     frame.wait_for_function("before => document.querySelector('#bc-numbers .big b').textContent !== before", arg=before)
     picture = page.page.locator("iframe").first.screenshot(path=ARTEFACTS / "book-replay.png")
     assert not is_blank(picture) and page.errors == []
-    page.page.close()
-
-
-@needs_browser
-def test_the_front_page_s_sliders_answer_to_the_keyboard_with_what_the_study_measured(made, new_page):
-    page = new_page()
-    page.page.goto((made / "index.html").as_uri())
-    said = page.page.inner_text("#bc-sweep-says")
-    sweep = shipped_experiment("sweep")
-    paper, without = sweep["p = 0.9, ξ = 200 α, c = 2"], sweep["p = 0.5, ξ = 0 α, c = 2"]
-    assert f"Success {100 * paper.scores('success').mean():.0f} %" in said and f"{len(paper)} agents" in said
-    page.page.focus("#bc-xi")
-    page.page.keyboard.press("Home")
-    assert "Without ξ, p makes no difference" in page.page.inner_text("#bc-sweep-says")
-    assert f"Success {100 * without.scores('success').mean():.0f} %" in page.page.inner_text("#bc-sweep-says")
-    assert page.page.locator("#bc-sweep-chart circle").count() == 2 * len(without)
-    assert page.errors == []
     page.page.close()
 
 

@@ -18,7 +18,7 @@ from bootcourse.files import write_bytes
 def study(
     name: str = typer.Argument(
         "default",
-        help="default, calibrated or paper; sensitivity, clocks, ablations, sweep, longer-view or teachers; "
+        help="default, calibrated or paper; sensitivity, clocks, ablations, longer-view or teachers; "
         "beyond-search or beyond; elsewhere; checks; look-ahead or distil; bug-hunt, students, second-trap or easier.",
     ),
     out: Path = typer.Option(..., help="The study's folder: new, or that of a study to continue; all may share one."),
@@ -38,10 +38,9 @@ def study(
     """Train and test methods with many seeds; write tables, figures and the fidelity report.
 
     default, calibrated and paper: the paper's methods and baselines. sensitivity, clocks and ablations: the paper's
-    ablation, varied. sweep: its method with many settings of p, ξ and c. longer-view: its method with other numbers.
-    teachers: what a teacher is worth. beyond: methods that the paper does not train, at equal numbers of decisions,
-    with the settings that beyond-search found. elsewhere: does a teacher help on other problems?
-    checks: do our learners reach published figures? look-ahead: agents with rollouts, and with wrong models. distil:
+    ablation, varied. longer-view: its method with other numbers. teachers: what a teacher is worth. beyond: methods
+    that the paper does not train, at equal numbers of decisions, with the settings of beyond-search. elsewhere: does a teacher help
+    on other problems? checks: do our learners reach published figures? look-ahead: agents with rollouts, and with wrong models. distil:
     do networks learn what the look-ahead does? bug-hunt, students, second-trap and easier: the agents of four lessons.
     """
     from bootcourse.research import checks, plan

@@ -142,7 +142,6 @@ EXPERIMENTS = {  # "module:name" of each, imported when it is used
     "sensitivity": "bootcourse.research.variations:SENSITIVITY",
     "clocks": "bootcourse.research.clocks:EXPERIMENT",
     "ablations": "bootcourse.research.variations:ABLATIONS",
-    "sweep": "bootcourse.research.variations:SWEEP",
     "longer-view": "bootcourse.research.variations:LONGER_VIEW",
     "teachers": "bootcourse.research.teacher_worth:EXPERIMENT",
     "beyond-search": "bootcourse.research.equal_decisions:SEARCH",

@@ -31,7 +31,7 @@ from bootcourse.storage.work import locked
 
 CURVES = ("success", "return", "speed", "distance", "accident", "entropy")  # the others are in runs/
 VARIED_CURVES = ("success", "return", "xi", "decisions")  # of an `Experiment`
-FEWER_CURVES = {"sweep": (), "teachers": ("success", "decisions"),
+FEWER_CURVES = {"teachers": ("success", "decisions"),
                 "beyond-search": (), "beyond": ("return", "decisions"),
                 "elsewhere": ("success", "return"), "easier": ("success", "alpha")}  # many agents  # fmt: skip
 RUNS = 5  # training seeds whose weights ship; curves and scores ship of all
