@@ -15,11 +15,9 @@ from bootcourse.research.equal_decisions import (
     CHOSEN,
     budget_rows,
     by_method,
-    search_rows,
     seconds_rows,
     trained_and_tested,
     tried,
-    tries,
 )
 from bootcourse.research.results import Results, agent_entries
 
@@ -104,19 +102,16 @@ def test_a_row_counts_the_agents_of_all_jobs_that_made_so_many_decisions():
     assert len(headings) == 6
 
 
-def test_the_search_has_a_mean_for_each_try_and_the_time_after_equal_seconds_follows_from_what_a_decision_takes():
-    agents = [agent for one in tries("ppo") for agent in with_seeds(one, 2, 500)]
-    results = invented(agents, [1.0, 3.0, 10.0, 20.0, 5.0, 5.0])
-    headings, (row,) = search_rows({"ppo": results})
-    assert row[1:] == ["32 roads at once: 2.0", "64 roads at once: 15.0", "128 roads at once: 5.0"]
-    assert len(row) == len(headings) and tried(results)["64 roads at once"] == 15
-    results = invented(with_seeds(settings_for("ibrl"), 2), [10.0, 10.0])  # 100,000 decisions in 10 s
-    curves = {"return": np.repeat([[1.0, 3.0]] * 2, 500, axis=1), "decisions": np.full((2, 1000), 100.0)}
-    _, (row,) = seconds_rows({"ibrl": replace(results, curves=curves)})
-    assert row == ["IBRL", "50,000", "1.00 [1.00, 1.00]"]  # the 500 episodes of the first half
-
-
 def test_the_chosen_settings_are_those_that_earned_most_in_the_search_that_ships():
     ships = shipped_experiment("beyond-search")
     best = {method: int(np.argmax(list(tried(results).values()))) for method, results in ships.items()}
     assert len(best) > 4 and best.items() <= CHOSEN.items()
+
+
+def test_the_return_after_equal_seconds_follows_from_what_a_decision_takes():
+    results = invented(with_seeds(settings_for("ibrl"), 2), [10.0, 10.0])  # 100,000 decisions in 10 s
+    curves = {"return": np.repeat([[1.0, 3.0]], 500, axis=1), "decisions": np.full((1, 1000), 100.0)}
+    curves = {name: np.repeat(values, 2, axis=0) for name, values in curves.items()}
+    _, (row,) = seconds_rows({"ibrl": replace(results, curves=curves)})
+    assert equal_decisions.SECONDS == 5
+    assert row == ["IBRL", "50,000", "1.00 [1.00, 1.00]"]  # the 500 episodes of the first half

@@ -15,6 +15,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 import bootcourse as bc
 from bootcourse.comparison import Comparison
+from bootcourse.learn.demonstrations import collect
 from bootcourse.learn.replay_buffer import decode_transitions
 from bootcourse.learn.teachers import all_roads, teacher_policy
 from bootcourse.research.problems import PROBLEMS, Chain
@@ -60,7 +61,10 @@ def test_the_replay_holds_the_teacher_s_actions_in_the_states_before_and_after_e
         assert torch.equal(taught, (seen[:, -1] * 60).long() % 2)  # at an episode's end, of its last state
 
 
-def test_demonstrations_by_the_stochastic_rule_have_as_many_actions_as_the_environment():
+def test_demonstrations_and_the_stochastic_rule_have_as_many_actions_as_the_environment():
+    rows = collect(3, None, None, with_the_motion, mountain_car)
+    batch = decode_transitions(rows, 2, torch.zeros(len(rows)))
+    assert torch.equal(batch.actions, batch.rule_actions) and batch.terminated.sum() == 3
     drawn = training_of("demos", stochastic_demonstrations=True).replay.state()["demonstrations"][:, 4]
     assert set(drawn) == {0.0, 1.0, 2.0}
 
@@ -86,11 +90,6 @@ REFUSED = [
         ("Pendulum-v1", r"Pendulum-v1 has actions of Box.*: this library learns Discrete\(n\)"),
         ("Taxi-v4", r"Taxi-v4 shows Discrete\(500\): flatten it to a vector"),
     )],
-    *[(lambda make_env=make_env: bc.Training([bc.settings_for("sac")], make_env=make_env), says) for make_env, says in (
-        (gym.make("MountainCar-v0"), r"make_env = <.*>: give a function of n"),
-        (lambda n: gym.make("MountainCar-v0"), r"make_env\(4\) returned <.*>: give a function of n, such as"),
-        (lambda n: mountain_car(3), r"make_env\(4\) returned SyncVectorEnv\(.* of 3 copies: give"),
-    )],
     (lambda: training_of("bc", teacher=None), "needs demonstrations of this environment: give them, or teacher"),
     (lambda: training_of("soft", rule_p=0.3), r"rule_p = 0.3 is outside \[1/3, 1\)"),
     (lambda: bc.compare({}), "nothing to compare"),
@@ -103,6 +102,23 @@ REFUSED = [
 def test_a_wrong_teacher_or_environment_is_one_sentence(call, says):
     with pytest.raises(bc.BootcourseError, match=says):
         call()
+
+
+ENVIRONMENTS = [
+    (gym.make("MountainCar-v0"), r"make_env = <.*>: give a function of n"),
+    (lambda n: gym.make("MountainCar-v0"), r"make_env\(4\) returned <.*>: give a function of n, such as"),
+    (lambda n: mountain_car(3), r"make_env\(4\) returned SyncVectorEnv\(.* of 3 copies: give"),
+]
+
+
+@pytest.mark.parametrize(("make_env", "says"), ENVIRONMENTS)
+def test_what_makes_no_environments_is_one_sentence(make_env, says):
+    with pytest.raises(bc.BootcourseError, match=says):
+        bc.Training([bc.settings_for("sac")], make_env=make_env)
+
+
+def test_a_method_without_a_teacher_needs_none():
+    training_of("sac", teacher=None).step()
 
 
 def soon(n: int) -> SyncVectorEnv:

@@ -39,9 +39,10 @@ def study(
 
     default, calibrated and paper: the paper's methods and baselines. sensitivity, clocks and ablations: the paper's
     ablation, varied. longer-view: its method with other numbers. teachers: what a teacher is worth. beyond: methods
-    that the paper does not train, at equal numbers of decisions, with the settings of beyond-search. elsewhere: does a teacher help
-    on other problems? checks: do our learners reach published figures? look-ahead: agents with rollouts, and with wrong models. distil:
-    do networks learn what the look-ahead does? bug-hunt, students, second-trap and easier: the agents of four lessons.
+    that the paper does not train, at equal numbers of decisions, with the settings of beyond-search. elsewhere: does a
+    teacher help on other problems? checks: do our learners reach published figures? look-ahead: agents with rollouts,
+    and with wrong models. distil: do networks learn what the look-ahead does? bug-hunt, students, second-trap and
+    easier: the agents of four lessons.
     """
     from bootcourse.research import checks, plan
     from bootcourse.research.report import write_report
