@@ -14,6 +14,7 @@ from torch import Tensor, nn
 from bootcourse.course.exercise import NotAsAsked
 from bootcourse.learn import sac
 from bootcourse.learn.textbook import mlp
+from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.research import checks
 
 SIZES, HIDDEN = (4, 2), (64, 64)  # the pole's observations and actions
@@ -69,6 +70,16 @@ class SAC:
     def draw(self, state: np.ndarray, rng: np.random.Generator) -> int:
         """An action from π(·|s); state (4,)."""
         return int(rng.random() < self.log_pi(torch.from_numpy(state)[None])[0, 1].exp())
+
+
+def policy(agent: SAC) -> Policy:
+    """The agent's most probable actions, as a policy."""
+
+    @torch.no_grad()
+    def drive(observations, cars):
+        return PolicyOutput(agent.log_pi(torch.from_numpy(observations).float()).argmax(-1).numpy())
+
+    return drive
 
 
 def balanced(agent: SAC, episodes: int = 10) -> float:
