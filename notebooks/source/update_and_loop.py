@@ -28,6 +28,7 @@ import torch
 from bootcourse.course import check, compare_predictions, own_code, predict, table
 from bootcourse.course.lessons.discrete_sac import figures
 from bootcourse.course.lessons.update_and_loop import by_hand, left_out
+from bootcourse.learn import sac
 from bootcourse.research import checks
 
 # %% [markdown]
@@ -38,8 +39,9 @@ from bootcourse.research import checks
 # below, the rule that pushes where the pole falls.
 
 # %%
+beginner = by_hand.SAC(seed=0)
 drivers = {
-    "untrained": by_hand.policy(by_hand.SAC(seed=0)),
+    "untrained": by_hand.policy(beginner),
     "rule: push where it falls": bc.teacher_policy(checks.balance, None, 2),
 }
 drives = {}
@@ -47,6 +49,8 @@ for label, driver in drivers.items():
     rows, pushes = checks.data(driver, checks.cartpole, 1, seed=0)
     drives[f"{label}: {pushes:.0f} pushes"] = rows[:, :4].numpy()
 bc.show(figures.cartpole_strip(drives, "An untrained agent lets the pole fall at once"))
+entropy = sac.entropy(beginner.log_pi(rows[:, :4])).mean().item()
+print(f"Entropy of the untrained policy: {entropy:.3f} of at most {np.log(2):.3f} nats")
 
 # %% [markdown]
 # > **Predict.** Your learner will know nothing about poles: it sees four numbers and gets a reward
