@@ -25,7 +25,7 @@
 import bootcourse as bc
 import numpy as np
 import torch
-from bootcourse.course import check, compare_predictions, predict
+from bootcourse.course import check, compare_predictions, predict, table
 from bootcourse.course.lessons.discrete_sac import figures
 from bootcourse.learn import sac
 from bootcourse.plots import diagrams
@@ -81,11 +81,11 @@ bc.show(diagrams.sac_diagram())
 # it? Leave the picture on the wall; Round 3 asks which of its arrows carry a gradient.
 
 # %% [markdown]
-# ## Round 1: what is a state worth if an undecided policy earns more?
+# ## Round 1: what is a state worth when entropy is rewarded?
 #
-# Suppose that you know Q(s, a), what each action is worth (Round 2 says how it is learned). SAC
-# adds a small reward for an undecided policy, so that the actor goes on trying actions which it
-# does not yet think the best: this is **exploration**. The policy's **entropy** says how undecided
+# Early estimates of Q are poor, so an agent that takes only what it now thinks best may not find
+# out that something else is better. To go on trying other actions is **exploration**, and SAC adds
+# a small reward for it: an undecided policy earns more. The policy's **entropy** says how undecided
 # it is, in nats (natural logarithm):
 #
 # $$ \mathcal{H}(\pi(\cdot|s)) = -\sum_a \pi(a|s) \log \pi(a|s) $$
@@ -96,6 +96,7 @@ bc.show(diagrams.sac_diagram())
 predict("discrete_sac.1", "The smallest entropy that a policy can have, in nats", unit="nats")
 
 # %%
+rows = []
 for words, pi in (
     ("sure of one of two", [1 - 1e-9, 1e-9]),
     ("two, 19 to 1", [0.95, 0.05]),
@@ -104,7 +105,8 @@ for words, pi in (
     ("nine, even", [1 / 9] * 9),
 ):
     h = sac.entropy(torch.tensor([pi]).double().log()).item()
-    print(f"{words:20} {h:.3f} nats, as many as {np.exp(h):.2f} equally likely actions")
+    rows.append([words, f"{h:.3f}", f"{np.exp(h):.2f}"])
+table(["policy", "entropy (nats)", "as undecided as so many equally likely actions"], rows)
 
 # %% [markdown]
 # **See.** The entropy lies between 0 and the logarithm of the number of actions. It is **never
@@ -140,13 +142,14 @@ predict(
 )
 
 # %%
-q = torch.tensor([[1.0, 3.0]])
+q, rows = torch.tensor([[1.0, 3.0]]), []
 for alpha in (0.1, 1.0, 1.4427, 2.0):
     values = [
         sac.soft_value(torch.tensor([pi]).log(), q, torch.tensor(alpha)).item()
         for pi in ([1e-12, 1.0], [0.5, 0.5])
     ]
-    print(f"α = {alpha:6}: sure {values[0]:.2f}, even {values[1]:.2f}")
+    rows.append([f"{alpha:g}", *(f"{value:.2f}" for value in values)])
+table(["α", "V of the sure policy", "V of the even policy"], rows)
 
 # %% [markdown]
 # **Explain.** The even policy loses 1 in Q and gets 0.693 α for its entropy. The best policy lies
@@ -158,7 +161,8 @@ for alpha in (0.1, 1.0, 1.4427, 2.0):
 # Move a little probability ε from action b to action a. The value changes by
 # $\varepsilon\,[(Q_a - \alpha\log\pi_a) - (Q_b - \alpha\log\pi_b)]$. At the best policy no such
 # move gains anything, so $Q_a - \alpha\log\pi_a$ is the same number Z for each action, and
-# $\log\pi_a = (Q_a - Z)/\alpha$.
+# $\log\pi_a = (Q_a - Z)/\alpha$. Put into V, the mean of Z under π, this gives the best soft value:
+# $V = Z = \alpha \log \sum_a \exp(Q_a / \alpha)$, a *soft maximum* of Q.
 #
 # </details>
 
@@ -178,9 +182,10 @@ for alpha in (0.1, 1.0, 1.4427, 2.0):
 # $$ Q(s_0, a_0) = \mathbb{E}\big[\, r_0 + \gamma\,(r_1 + \alpha \mathcal{H}_1) +
 # \gamma^2 (r_2 + \alpha \mathcal{H}_2) + \dots \big] $$
 #
-# ($\mathcal{H}_0$ is not in it, because $a_0$ is given.) Take γ out of all terms but the first.
-# What is left is $\alpha \mathcal{H}_1$ and a sum that begins at $s_1$, whose mean is $Q(s_1,
-# a_1)$; and $a_1$ is drawn from π, so take the mean over it:
+# ($\mathcal{H}_0$ is not in it, because $a_0$ is given.) Every term after the first has a factor γ;
+# take it out. The bracket then holds $\alpha \mathcal{H}_1$ and a sum of the same form that starts
+# in $s_1$. The mean of that sum is $Q(s_1, a_1)$. Since $a_1$ is drawn from π, average $Q(s_1,
+# a_1)$ over π:
 #
 # $$ Q(s_0, a_0) = \mathbb{E}\big[\, r_0 + \gamma \big( \textstyle\sum_a \pi(a|s_1)\, Q(s_1, a) +
 # \alpha \mathcal{H}_1 \big) \big] = \mathbb{E}\big[\, r_0 + \gamma V(s_1) \big] $$
@@ -189,7 +194,8 @@ for alpha in (0.1, 1.0, 1.4427, 2.0):
 # computed with the present estimates, is the **target** y, and the loss is the mean squared
 # distance from it. $y - Q(s,a)$ is the **temporal difference**. To learn an estimate from an
 # estimate is called **bootstrapping**. (The paper's title means another thing: to start with a
-# rule's help.)
+# rule's help.) Below, `terminated` is 1 if no further reward can come after this transition, and
+# otherwise 0.
 #
 # $$ y = r + \gamma\, (1 - \text{terminated})\, V(s'), \qquad
 # L_\text{critic} = \text{mean of } (Q(s,a) - y)^2 $$
@@ -274,6 +280,7 @@ def actor_loss(log_pi, q, alpha):
 check.actor_loss(actor_loss)
 
 # %%
+rows = []
 for words, keeps_q in (("Q held fixed", True), ("Q may move, too", False)):
     logits, q = torch.zeros(1, 2, requires_grad=True), torch.tensor([[1.0, 3.0]]).requires_grad_()
     optimiser = torch.optim.Adam([logits, q], lr=0.05)
@@ -284,12 +291,15 @@ for words, keeps_q in (("Q held fixed", True), ("Q may move, too", False)):
         loss.backward()
         optimiser.step()
     pi, worth = logits.softmax(-1)[0].tolist(), q[0].tolist()
-    print(f"{words:16} π = {pi[0]:.2f} {pi[1]:.2f}   Q = {worth[0]:.1f} {worth[1]:.1f}")
+    rows.append([words, *(f"{number:.2f}" for number in pi + worth)])
+table(["after 200 steps", "π(a₁)", "π(a₂)", "Q(a₁)", "Q(a₂)"], rows)
 
 # %% [markdown]
 # **Explain.** With Q held fixed, the actor finds the softmax of Round 1. If Q may move, the loss
 # also falls when Q rises, although the actions are worth what they were worth before. So Q is
-# **detached** (`q.detach()`): its value counts, and the gradient stops there.
+# **detached** (`q.detach()`): its value counts, and the gradient stops there. (Apart from a number
+# that does not depend on π, this loss is α times the Kullback-Leibler divergence of π from
+# softmax(Q / α), as you will read elsewhere; lesson [[soft_constraint]] explains that divergence.)
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Let them say, before the cell is run, what an actor would do that may also raise Q. Then ask which
@@ -332,24 +342,26 @@ predict(
 )
 
 # %%
-most = np.log(9).item()  # nats: nine actions, all as likely
+most, rows = np.log(9).item(), []  # nats: nine actions, all as likely
 for h in (most, 1.0, 0.1, 0.0):
     log_alpha = torch.tensor(0.01).log().requires_grad_()
     gradients = []
     for eta in (-1.0, 0.3 * most):
         loss = sac.temperature_loss(log_alpha, torch.tensor([h]), torch.tensor(eta))
         gradients.append(torch.autograd.grad(loss, log_alpha)[0].item())
-    turns = ["falls" if gradient > 0 else "rises" for gradient in gradients]
-    print(f"H = {h:.2f}: with η = -1 α {turns[0]}, with η = 0.66 α {turns[1]}")
+    rows.append([f"{h:.2f}", *("falls" if gradient > 0 else "rises" for gradient in gradients)])
+table(["entropy H", "α with η = −1", "α with η = 0.66"], rows)
 
 # %% [markdown]
-# **Explain.** For *continuous* actions a rule of thumb sets η to minus the dimension of the action:
-# −1 for one that is a single number. There an entropy can be negative, since a density can be
-# larger than one. The entropy of a policy over a list of actions is 0 or more, so with this η the
-# difference $\mathcal{H} - \eta$ is at least 1 in every state, and α falls at each update. As α
-# falls, the best policy softmax(Q / α) becomes sure of one action: the agent explores less and
-# less. How fast, lesson [[soft_constraint]] measures. The second η of the cell, 0.66, is three
-# tenths of the largest entropy: there α turns, as a thermostat should.
+# **Explain.** With η = −1 the thermostat does not turn: the entropy of a policy over a list of
+# actions is 0 or more, so $\mathcal{H} - \eta$ is at least 1 in every state, and α falls at each
+# update. As α falls, the best policy softmax(Q / α) becomes sure of one action: the agent explores
+# less and less. How fast, lesson [[soft_constraint]] measures. The second η of the cell, 0.66, is
+# three tenths of the largest entropy: there α turns, as a thermostat should.
+#
+# Why then −1? For *continuous* actions a rule of thumb sets η to minus the dimension of the action,
+# and −1 is right for an action that is a single number. There an entropy can be negative, since a
+# density can be larger than one.
 # <!-- claim: 0 - SETTINGS.target_entropy == 1 -->
 
 # %% [markdown] tags=["instructor"] minutes=5

@@ -96,6 +96,38 @@ def balanced(agent: SAC, episodes: int = 10) -> float:
     return pushes / episodes
 
 
+class Watched:
+    """An update that notes for how many pushes the agent balances the pole, after each `every` updates."""
+
+    def __init__(self, update, every: int = 250):
+        self.update, self.every, self.updates, self.balanced = update, every, 0, []
+
+    def __call__(self, agent: SAC, batch: Batch) -> None:
+        self.update(agent, batch)
+        self.updates += 1
+        if self.updates % self.every == 0:
+            self.balanced.append(balanced(agent))
+
+
+class WithoutEnds:
+    """A buffer that is told of no end: terminated is 0 in all rows.
+
+    fallen_too: each fallen state gets a row for either push, which leads back to it and pays 1.
+    """
+
+    def __init__(self, buffer, fallen_too: bool):
+        self.buffer, self.fallen_too = buffer, fallen_too
+
+    def add(self, kept: Tensor) -> None:
+        if kept[6] and self.fallen_too:
+            for action in (0, 1):
+                self.buffer.add(row(kept[7:], action, 1.0, False, kept[7:]))
+        self.buffer.add(torch.cat([kept[:6], torch.zeros(1), kept[7:]]))
+
+    def sample(self, batch: int, rng: np.random.Generator) -> Tensor:
+        return self.buffer.sample(batch, rng)
+
+
 # What an answer did ------------------------------------------------------------------------------------
 
 
