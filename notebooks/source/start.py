@@ -26,12 +26,12 @@ from bootcourse.course import compare_predictions, predict, shipped
 # %% [markdown]
 # ## Look first
 #
-# One program stays behind two slow cars, another gets out. Both drives below are on the same road.
-# The slow cars are dark red: **trap 1** ahead of the driver, **trap 2** beside it. The drivers are
-# **agents**: programs that have learned from their own attempts. One of them had help while it
-# learned, from a controller that is written by hand. We chose these two drives to show the
-# difference; lesson [[the_trap]] counts how often it occurs. Press play, and turn the road with the
-# mouse.
+# Both drives below start alike on the same road. One program stays behind two slow cars, the other
+# gets out: while it learned, it had help from a hand-written controller, the **rule**. The slow
+# cars are dark red: **trap 1** is ahead of the driver, **trap 2** beside it. The drivers are
+# **agents**, programs that have learned from their own attempts. We chose these two drives to show
+# the difference; lesson [[the_trap]] counts how often it occurs. Press play, and turn the road with
+# the mouse.
 
 # %% tags=["nbval-ignore-output"]
 escape = bc.shipped_drive("escape")  # by an agent that had help
@@ -41,16 +41,19 @@ trapped = next((drive for drive in alone if not drive.success), alone[0])
 bc.recording([shipped.beginning(trapped, 30), shipped.beginning(escape, 30)], height=480)
 
 # %% [markdown]
-# Each second pays a little for speed, up to {{ max(np.arange(0, 25, 0.5), key=speed_reward) }} m/s,
-# and an accident costs much. Why does a program that learns stay behind slow cars, although the
-# left lane is free? That is the question of this course.
+# Each second pays for speed, most of all at {{ max(np.arange(0, 25, 0.5), key=speed_reward) }} m/s,
+# and an accident costs what about a minute behind the traps earns. Why does a program that learns
+# stay behind slow cars, although the left lane is free? That is the question of this course.
 
 # %% [markdown]
 # ## Drive it yourself
 #
 # You decide once a second, and the road waits for you: nine buttons, or click on the pad and use
-# the arrow keys. The faint car is a **ghost**: it shows how the controller that is written by hand
-# drives the same road. Crash as often as you like.
+# the arrow keys. The faint car is a **ghost**: it shows how the rule drives the same road. Crash as
+# often as you like.
+#
+# The results that we got are saved below each cell of this course. So answer a prediction before
+# you scroll on, or hide all results first (*Edit*, *Clear Outputs of All Cells*).
 # <!-- claim: by_rule(10).success -->
 # <!-- claim: N_ACTIONS == 9 -->
 #
@@ -76,20 +79,20 @@ bc.panels.drive_panel(seed=10)
 # program learns. Where a lesson trains, it says that yours will differ, and draws its conclusions
 # from more agents, which ship with the course.
 #
-# The results that we got are saved below each cell. So answer a prediction before you scroll on, or
-# hide them all first (*Edit*, *Clear Outputs of All Cells*).
-#
 # ## Choose a route
 #
 # *An evening* shows you what happens. In *a week* you learn to do it yourself. *A researcher's*
 # route is for readers who know SAC, the learner that lesson [[discrete_sac]] builds, and want to
-# know which results hold. ● is a whole lesson, ◐ its text without the exercises; of lesson
-# [[discrete_sac]] the evening needs the *picture* alone, and a researcher has *known* it before.
+# know which results hold.
+#
+# ● the whole lesson · ◐ the text without the exercises · *picture*: the diagram at the beginning ·
+# *known*: skip it if you know SAC
 #
 # | lesson | an evening | a week | a researcher's |
 # |---|:---:|:---:|:---:|
 # | [[the_trap]] · [](the_trap.ipynb) | ● | ● | ◐ |
 # | [[discrete_sac]] · [](discrete_sac.ipynb) | picture | ● | known |
+# | [[update_and_loop]] · [](update_and_loop.ipynb) | | ● | known |
 # | [[the_barrier]] · [](the_barrier.ipynb) | ● | ● | ● |
 # | [[the_rule]] · [](the_rule.ipynb) | | ● | ◐ |
 # | [[demonstrations]] · [](demonstrations.ipynb) | | ● | ◐ |
@@ -105,7 +108,7 @@ bc.panels.drive_panel(seed=10)
 # | [[looking_ahead]] · [](looking_ahead.ipynb) | | | ● |
 # | [[other_ways]] · [](other_ways.ipynb) | | | ● |
 # | [[your_own_problem]] · [](your_own_problem.ipynb) | | | ● |
-# | [[traffic]] · [](traffic.ipynb), to look up | | | |
+# | [[traffic]] · [](traffic.ipynb), for reference | | | |
 # | hours, with this page | {{ long('evening') / 60 | .1f }} | {{ long('week') / 60 | .1f }} | {{
 #   long('researcher') / 60 | .1f }} |
 # <!-- claim: missing('evening') == missing('week') == missing('researcher') == [] -->

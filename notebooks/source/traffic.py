@@ -27,7 +27,7 @@ import math
 
 import bootcourse as bc
 import numpy as np
-from bootcourse.course import charts, check, compare_predictions, predict, source, table
+from bootcourse.course import charts, check, compare_predictions, predict, table
 from bootcourse.course.lessons.traffic import figures as figures_traffic
 from bootcourse.course.lessons.traffic import simulation as traffic
 
@@ -49,9 +49,9 @@ bc.show(figures_traffic.space_time(rings, dt=0.5, title=title))
 
 # %%
 choices = [
-    "cars leave it at its front and join it at its back",
-    "the standing cars roll back",
+    "each driver brakes later than the one ahead",
     "the slow driver falls behind the others",
+    "cars leave it at its front and join it at its back",
 ]
 predict("traffic.1", "Why does the jam move backwards?", choices)
 
@@ -76,8 +76,9 @@ predict("traffic.1", "Why does the jam move backwards?", choices)
 # the car ahead, which is more metres at a higher speed. The last term asks for more room while the
 # driver closes in; $a_{\max}$ is the strongest acceleration, and $b$ a comfortable braking.
 #
-# > **Predict.** $s_0$ = 10 m, $T$ = 1.5 s, $a_{\max} = b$ = 0.5 m/s². What gap do you want at 10
-# > m/s behind a car at 10 m/s? Behind one at 8 m/s?
+# > **Predict.** $s_0$ = 10 m, $T$ = 1.5 s, $a_{\max} = b$ = 0.5 m/s². At 10 m/s you want 25 m
+# > behind
+# > a car that drives 10 m/s, too. What gap do you want behind one at 8 m/s?
 
 # %%
 predict("traffic.2", "The gap that you want behind the car at 8 m/s?", unit="m")
@@ -99,9 +100,9 @@ check.desired_gap(desired_gap)
 # %% [markdown]
 # <details><summary>Answer</summary>
 #
-# {{ formulas.desired_gap(10, 0, 10, 1.5, 0.5, 0.5) | g }} m behind a car at 10 m/s, and {{
-# formulas.desired_gap(10, 2, 10, 1.5, 0.5, 0.5) | g }} m behind one at 8 m/s. A difference of two
-# metres per second nearly doubles the gap that the driver wants.
+# {{ formulas.desired_gap(10, 2, 10, 1.5, 0.5, 0.5) | g }} m: a difference of two metres per second
+# nearly doubles the gap that the driver wants.
+# <!-- claim: formulas.desired_gap(10, 0, 10, 1.5, 0.5, 0.5) == 25 -->
 # <!-- claim: 1.7 < formulas.desired_gap(10, 2, 10, 1.5, 0.5, 0.5) / formulas.desired_gap(10, 0, 10,
 #   1.5, 0.5, 0.5) < 2 -->
 #
@@ -212,12 +213,10 @@ for v in (1.0, 6.0, 9.5, 12.0):
 table(["speed", "wants s*", "settles at"], rows)
 
 # %% [markdown]
-# **See.** Read the table from right to left. Cars that settle about 20 m apart drive 6 m/s, and
-# cars that settle about 30 m apart drive 9.5 m/s. That is how fast the two rings are without a
-# disturbance.
+# **See.** Cars that settle about 20 m apart drive 6 m/s, about 30 m apart 9.5 m/s. That is how fast
+# the two rings are without a disturbance.
 #
-# Where does the jam come from? As you saw, a driver that comes too close brakes below the speed of
-# the car ahead, opens the gap, and accelerates again. It does so slowly, by at most $a_{\max}$ =
+# Where does the jam come from? After it has braked, a driver accelerates by at most $a_{\max}$ =
 # {{ DEFAULT.traffic.a_max }} m/s², so the driver behind has to brake a little harder. In the ring
 # with 20 m that wave grows from car to car, in the ring with 30 m it shrinks. Cars leave the jam at
 # its front and join it at its back, so the *jam* moves backwards.
@@ -301,10 +300,7 @@ table(["time constants", *headings], rows)
 # nothing to disturb them. An agent that trains there learns to drive among cars that swerve off the
 # road, and its table of results does not show that. So we gave our own cars longer time constants,
 # and tested them as above. Before you believe a simulator, look at each of its cars, and not just
-# at the one that you train. This is the controller of the traffic cars:
-
-# %%
-source("bootcourse.road.formulas", "lane_keeping_steering")
+# at the one that you train. (`bootcourse.road.formulas.lane_keeping_steering` is the controller.)
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask where else a rate meets a time step: gradient descent with a learning rate times a curvature

@@ -15,6 +15,7 @@ COURSE = (
     "start",
     "the_trap",
     "discrete_sac",
+    "update_and_loop",
     "the_barrier",
     "the_rule",
     "demonstrations",

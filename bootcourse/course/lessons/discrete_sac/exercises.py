@@ -1,181 +1,218 @@
-"""Exercises of the lesson on discrete SAC: its parts (parts.py), then the update and the loop made of them."""
+"""Exercises of the lesson on discrete SAC: the soft value, its target and its three losses."""
 
-import numpy as np
+import math
+
 import torch
 
-from bootcourse.course.exercise import exercise
-from bootcourse.course.lessons.discrete_sac import by_hand, replay_buffer
-from bootcourse.course.lessons.discrete_sac.parts import (
-    LOG_2,
-    actor_loss,
-    critic_loss,
-    critic_target,
-    soft_value,
-    temperature_loss,
-)
+from bootcourse.course.exercise import exercise, logits
 from bootcourse.learn import sac
 
-ReplayBuffer = replay_buffer.ReplayBuffer
+LOG_2 = math.log(2)
 
 
-def update_cases(rng):
-    """One update and several, of a few agents."""
-    yield from ((False, times, seed) for times in (1, 2, 4) for seed in range(8))
+def policies(rng):
+    """log π of a few states: even ones, nearly sure ones, one state, as many states as actions; then 40 at random."""
+    yield torch.full((2, 9), -math.log(9))
+    yield torch.tensor(rng.normal(0, 8, (3, 9))).log_softmax(-1)
+    yield torch.tensor(rng.normal(0, 1, (1, 9))).log_softmax(-1)
+    for size in (9, *rng.integers(1, 6, 40)):
+        yield torch.tensor(rng.normal(0, rng.uniform(0.3, 3), (size, 9))).log_softmax(-1)
 
 
-NETWORKS = ("the policy", "the critics", "the copies", "log α")
+def value_cases(rng):
+    """The policies above, with α = 0 and α = 1 first, and random values."""
+    for number, log_pi in enumerate(policies(rng)):
+        alpha = (0.0, 1.0, 0.2)[number] if number < 3 else rng.uniform(0.01, 1)
+        yield log_pi, torch.tensor(rng.normal(0, 3, tuple(log_pi.shape))), torch.tensor(alpha)
 
 
-def of_the_update(cases, answers):
-    """A sentence on an update that changes a network in another way."""
-    for case, answer in zip(cases, answers, strict=True):
-        right = by_hand.after_updates(update.solution, *case)
-        pairs = zip(NETWORKS, (part.data for part in answer), right, strict=True)
-        wrong = [name for name, mine, ours in pairs if not np.allclose(mine, ours, rtol=1e-4, atol=1e-6)]
-        if "the critics" in wrong:
-            wrong = [name for name in wrong if name != "the copies"]  # which follow the critics
-        if wrong:
-            after = "your first update" if case[1] == 1 else f"{case[1]} updates of yours"
-            verb = "differs" if wrong in (["the policy"], ["log α"]) else "differ"
-            return f"After {after} {' and '.join(wrong)} {verb} from ours: look there first."
-    return "Your update differs from ours."
+HALF = torch.full((1, 2), -LOG_2)
 
 
 @exercise(
-    "one update of SAC: target, three losses, three steps, copies; Section III-C",
-    minutes=20, difficulty=3, cases=update_cases, run=by_hand.after_updates, explain=of_the_update,
+    "V(s) = Σ_a π(a|s) (Q(s,a) - α log π(a|s)), Section III-C", minutes=4, difficulty=1, cases=value_cases,
     worked=[
-        # all networks 0, y = 1: both biases rise by 0.1 · 2, the copies by τ of that; α H pulls log α down
-        ((True, 1, 0), (np.full((1, 2), -LOG_2), np.array([[[0.2, 0]], [[0.2, 0]]]),
-                        np.array([[[0.01, 0]], [[0.01, 0]]]), np.array([-LOG_2 * (1 + 0.1 * 0.5 * 0.7)]))),
+        ((HALF, torch.tensor([[1.0, 3.0]]), torch.tensor(0.5)), torch.tensor([2 + 0.5 * LOG_2])),
+        # sure of the second action: its Q and nothing else
+        ((torch.tensor([[-40.0, 0.0]]), torch.tensor([[1.0, 3.0]]), torch.tensor(0.5)), torch.tensor([3.0])),
     ],
     hints=(
-        "First the target, inside `with torch.no_grad():`, from `agent.log_pi(batch.next_states)` and the smaller of "
-        "`agent.slow_q(batch.next_states)`. Then the three losses, then the three steps, then the copies.",
-        "A step is `optimiser.zero_grad()`, `loss.backward()`, `optimiser.step()`; `agent.optimisers` are those of the "
-        "critics, the actor and log α. α itself is `agent.log_alpha.exp().detach()`. The copies' weights: inside "
-        "`with torch.no_grad():`, for each pair of parameters `slow += agent.tau * (now - slow)`.",
+        "What is the mean of Q if the action is drawn from π? And how much does the entropy add?",
+        "Both are expectations under π: of Q, and of -α log π.",
     ),
     mistakes={
-        "batch.terminated -> 0 * batch.terminated":
-            "Your target counts a future after the pole has fallen: hand `batch.terminated` to your target.",
-        "agent.slow_q -> agent.q":
-            "Your target comes from the critics themselves. It comes from their slow copies, `agent.slow_q`.",
-        "agent.slow_q(batch.next_states).amin(0) -> agent.slow_q(batch.next_states)[0]":
-            "Your target uses one of the two copies. The smaller of their two values counts: `.amin(0)`.",
-        "q_pair.amin(0) -> q_pair[0]":
-            "Your actor follows the first critic alone. The smaller of the two values counts: `.amin(0)`.",
-        "next_q, alpha -> next_q, 0 * alpha":
-            "The value in your target has no entropy: hand α to your soft value.",
-        "slow += agent.tau * (now - slow) -> slow = slow + agent.tau * (now - slow)":
-            "Your copies stay where they began. Step 8 changes their weights in place, with `slow += ...` or "
-            "`slow.copy_(...)`; `slow = ...` would only give the name to a new tensor.",
-        "agent.tau * (now - slow) -> (1 - agent.tau) * (now - slow)":
-            "Your copies take over nearly all of the new weights. Their share is τ, and 1 - τ of the old ones stays.",
-        "optimiser.zero_grad() ->":
-            "Your gradients add up from update to update: call `zero_grad()` before each `backward()`.",
-        ("losses = ( -> first = critic_loss(q_pair, batch.actions, target); agent.optimisers[0].zero_grad(); "
-         "first.backward(); agent.optimisers[0].step(); q_pair = agent.q(batch.states); losses = (0 * q_pair.sum() +",
-         "agent.optimisers, losses -> agent.optimisers[1:], losses[1:]"):
-            "Your actor learns from critics that have already made their step. That works, too, but the box asks for "
-            "all three losses before the first step.",
+        "q - alpha -> q + alpha":
+            "You penalise entropy: log π is negative, so α log π is *subtracted* from Q.",
+        "return q.amax(-1) + alpha * sac.entropy(log_pi)":
+            "You take the best action's value. The actor draws its action from π, so it gets the mean of Q under π.",
+        "(q - alpha * log_pi) -> q":
+            "Your value has no entropy term: this is the value of ordinary actor-critic, α = 0.",
+        "return (log_pi.exp() * q - alpha * log_pi).sum(-1)":
+            "You add up log π without weighing it by π: both terms are expectations under π.",
+        "return (log_pi.exp() * q).mean(-1) + alpha * sac.entropy(log_pi)":
+            "You divide by the number of actions: π adds up to 1 already, so the expectation is a *sum* of π Q.",
+        ".sum(-1) -> .sum(-1).mean()":
+            "You took the mean over the batch. Each state has its own value; the loss takes the mean later.",
     },
 )  # fmt: skip
-def update(agent, batch):
-    alpha = agent.log_alpha.exp().detach()
-    with torch.no_grad():
-        next_q = agent.slow_q(batch.next_states).amin(0)
-        next_value = soft_value(agent.log_pi(batch.next_states), next_q, alpha)
-        target = critic_target(batch.rewards, batch.terminated, next_value, agent.gamma)
-    log_pi, q_pair = agent.log_pi(batch.states), agent.q(batch.states)
-    losses = (
-        critic_loss(q_pair, batch.actions, target),
-        actor_loss(log_pi, q_pair.amin(0), alpha),
-        temperature_loss(agent.log_alpha, sac.entropy(log_pi), agent.target_entropy),
-    )
-    for optimiser, loss in zip(agent.optimisers, losses, strict=True):
-        optimiser.zero_grad()
-        loss.backward()
-        optimiser.step()
-    with torch.no_grad():
-        for slow, now in zip(agent.copies.parameters(), agent.critics.parameters(), strict=True):
-            slow += agent.tau * (now - slow)
+def soft_value(log_pi, q, alpha):
+    return (log_pi.exp() * (q - alpha * log_pi)).sum(-1)
 
 
-def loop_cases(rng):
-    """No end, falls, timeouts, both; short and long; then 16 at random."""
-    yield from ((5, (), ()), (6, (2,), ()), (6, (), (2,)), (300, (9, 40), (100,)), (420, (), (200, 399)))
-    for _ in range(16):
-        ends = rng.permutation(250)[:6].tolist()
-        yield int(rng.integers(255, 340)), tuple(ends[:3]), tuple(ends[3:])
+def target_cases(rng):
+    """All ended, none ended, a batch of one, γ = 1 and γ = 0; then 60 at random."""
+
+    def batch(size, ended, gamma):
+        reward, value = torch.tensor(rng.normal(0, 3, (2, size)))
+        return reward, torch.tensor(rng.random(size) < ended).float(), value, gamma
+
+    yield from (batch(4, 1.0, 0.8), batch(4, 0.0, 0.8), batch(1, 0.0, 0.9), batch(3, 0.5, 1.0), batch(3, 0.5, 0.0))
+    yield from (batch(rng.integers(1, 7), 0.4, rng.uniform(0.1, 0.99)) for _ in range(60))
 
 
-COLUMNS = {"s": slice(4), "a": slice(4, 5), "r": slice(5, 6), "terminated": slice(6, 7), "s'": slice(7, 11)}
+critic_target = exercise(
+    "y = r + γ (1 - terminated) V(s'), Section III-C", minutes=4, difficulty=1, cases=target_cases,
+    worked=[
+        # it goes on: 1 + 0.8 · 10; it ended: -10 and nothing after it
+        ((torch.tensor([1.0, -10.0]), torch.tensor([0.0, 1.0]), torch.tensor([10.0, 10.0]), 0.8),
+         torch.tensor([9.0, -10.0])),
+    ],
+    hints=(
+        "What is the target of a transition that ended the episode? And of one that did not?",
+        "`1 - terminated` is 1 where the episode goes on, and 0 where it ended.",
+    ),
+    mistakes={
+        "(1 - terminated) * ->":
+            "Your target adds a future after the accident. Where an episode ended, the target is the reward alone.",
+        "(1 - terminated) -> terminated":
+            "Your mask is inverted: `terminated` is 1 where the episode ended, and there the next value must be left "
+            "out.",
+        "return (1 - terminated) * (reward + gamma * next_value)":
+            "You also mask the reward. The last reward, here the -10 of the accident, belongs in the target.",
+        "gamma * ->":
+            "Your future is not discounted: a reward one second later counts γ times as much.",
+        "return gamma * (reward + (1 - terminated) * next_value)":
+            "You discount this second's reward, too. γ multiplies only what comes later.",
+        "return (reward + gamma * (1 - terminated) * next_value).mean()":
+            "You took the mean over the batch. Each transition has its own target; the loss takes the mean later.",
+    },
+)(sac.critic_target)  # fmt: skip
 
 
-def of_the_loop(cases, answers):
-    """A sentence on a loop that keeps other rows or updates at other times."""
-    for (pushes, falls, timeouts), answer in zip(cases, answers, strict=True):
-        rows, episodes, late, often, good = (part.data for part in answer)
-        right = by_hand.after_training(train.solution, pushes, falls, timeouts)
-        if not np.array_equal(rows, right[0]):
-            push = int(np.flatnonzero((np.array(rows) != right[0]).any(1))[0])
-            wrong = [name for name, part in COLUMNS.items() if (np.array(rows) != right[0])[push, part].any()]
-            ending = ", which ends in a fall," * (push in falls) or ", which ends by time," * (push in timeouts)
-            return (f"In the row of push {push}{ending} {' and '.join(wrong)} {'is' if len(wrong) == 1 else 'are'} not "
-                    "right: a row is (s, a, r, terminated, s'), and pushes count from 0.")  # fmt: skip
-        if episodes != right[1]:
-            return "Your loop resets the environment too often or too seldom: once at the start and after each end."
-        if not late:
-            return "Your loop updates too early: let the buffer fill for 256 pushes first."
-        if often != 1:
-            return (f"In {pushes} pushes your loop makes {-often:.0f} updates: after the first 256, make one after "
-                    "each fourth push.")  # fmt: skip
-        if not good:
-            return "Hand `update` the agent and `by_hand.batch_of` of 64 rows that your buffer drew."
-    return "Your loop differs from ours."
+def pair_cases(rng):
+    """One state, nine states (as many as actions), two actions, a target that is met; then 30 at random."""
+
+    def case(size, actions=9):
+        q_pair = torch.tensor(rng.normal(0, 2, (2, size, actions)))
+        return q_pair, torch.tensor(rng.integers(0, actions, size)), torch.tensor(rng.normal(0, 2, size))
+
+    yield from (case(1), case(9), case(4, 2))
+    q_pair, action, _ = case(3)
+    yield q_pair, action, q_pair[0].gather(-1, action[:, None])[:, 0]
+    for _ in range(30):
+        yield case(rng.integers(2, 8))
 
 
 @exercise(
-    "SAC's loop: decide, step, keep, update; Section III-C",
-    minutes=12, difficulty=3, cases=loop_cases, run=by_hand.after_training, explain=of_the_loop,
+    "the sum over both critics of mean (Q(s,a) - y)², Section III-C",
+    minutes=6, difficulty=2, cases=pair_cases, slopes=["q_pair", "target"],
     worked=[
-        # the first push ends an episode; the second begins in state (1, 0, 0, 0), where action 1 is drawn
-        ((2, (0,), ()), (np.array([[0, 0, 0, 0, 0, 1, 1, 0, 1, 0, 0], [1, 0, 0, 0, 1, 1, 0, 1, 1, 0, 0.0]]),
-                         1.0, 1.0, 1.0, 1.0)),
+        # critic 1 is 1 too high for the first action, critic 2 is 2 too low; the second action was not taken
+        ((torch.tensor([[[4.0, 9.0]], [[1.0, 9.0]]]), torch.tensor([0]), torch.tensor([3.0])), torch.tensor(5.0)),
     ],
     hints=(
-        "For each push: `agent.draw(state, rng)`, `env.step(action)`, `buffer.add(by_hand.row(...))`; then the next "
-        "state is the state.",
-        "After a fall *or* a timeout: `state, _ = env.reset()`. The row of a timeout has terminated = 0 all the same.",
+        "First, Q of the action that was taken, for both critics: (2, batch). Then the error, squared.",
+        "`gather` needs an index of as many axes as `q_pair`: `action.expand(2, -1).unsqueeze(-1)`.",
     ),
     mistakes={
-        "reward, terminated, next_state -> reward, terminated or truncated, next_state":
-            "You keep a timeout as an end. The row holds `terminated` alone: after a timeout the pole still stands.",
-        "state = next_state ->":
-            "Your state does not move on: the next decision is made in `next_state`.",
-        "if terminated or truncated -> if terminated":
-            "You go on after a timeout. The environment has to be reset there, too.",
-        "if terminated or truncated -> if truncated":
-            "You go on after a fall. The environment has to be reset there, too.",
-        "push >= 256 and ->":
-            "Your loop updates too early: let the buffer fill for 256 pushes first.",
-        "and push % 4 == 0 ->":
-            "Your loop makes about four times as many updates as asked for: here it is one after each fourth push.",
-        "(state, action, reward -> (next_state, action, reward":
-            "Your row begins with the state that came after the push. It begins with the one in which you decided.",
-        "64 -> 1":
-            "Hand `update` the agent and `by_hand.batch_of` of 64 rows that your buffer drew.",
+        "target.detach() -> target":
+            "Your value is right, but the gradient flows into the target, too: the target is held fixed. Use "
+            "`target.detach()`.",
+        ".mean(-1).sum() -> .mean()":
+            "Your loss is half of the right one: each critic's own mean counts in full. Add the two, without a mean "
+            "over the critics and without a factor ½.",
+        "return (q_pair - target.detach().unsqueeze(-1)).square().mean(1).sum()":
+            "You compare all actions with the target. Only the action that was taken led to this reward.",
+        "return (q_pair[:, :, action] - target.detach()).square().mean((1, 2)).sum()":
+            "`q_pair[:, :, action]` takes these actions in *every* state. Each state has one action: use `gather`, or "
+            "give the number of the state as well, `q_pair[:, torch.arange(len(action)), action]`.",
+        "return (q_pair.amax(-1) - target.detach()).square().mean(-1).sum()":
+            "You compare the largest Q with the target. The reward came from the action that was *taken*.",
+        ("q_pair.gather -> q_pair.amin(0, keepdim=True).expand_as(q_pair).gather", ".sum() -> [0]"):
+            "You train the smaller value of the two. The minimum is for the target: here each critic has an "
+            "error of its own.",
+        ".sum() -> [0]":
+            "You train the first critic only. The second has an error of its own: add it.",
+        ".square() ->":
+            "You forgot the square: errors of opposite sign would cancel.",
     },
 )  # fmt: skip
-def train(agent, env, buffer, update, pushes, rng):
-    state, _ = env.reset(seed=0)
-    for push in range(pushes):
-        action = agent.draw(state, rng)
-        next_state, reward, terminated, truncated, _ = env.step(action)
-        buffer.add(by_hand.row(state, action, reward, terminated, next_state))
-        state = next_state
-        if terminated or truncated:
-            state, _ = env.reset()
-        if push >= 256 and push % 4 == 0:
-            update(agent, by_hand.batch_of(buffer.sample(64, rng)))
+def critic_loss(q_pair, action, target):
+    q_taken = q_pair.gather(-1, action.expand(2, -1).unsqueeze(-1)).squeeze(-1)
+    return (q_taken - target.detach()).square().mean(-1).sum()
+
+
+@exercise(
+    "-E_s[Σ_a π (Q - α log π)], Section III-C",
+    minutes=5, difficulty=2, cases=value_cases, slopes=[logits("log_pi"), "q"],
+    worked=[((HALF, torch.tensor([[1.0, 3.0]]), torch.tensor(0.5)), torch.tensor(-(2 + 0.5 * LOG_2)))],
+    hints=(
+        "The soft value should become large, and a loss is made small.",
+        "Minus the mean over the batch of V. Through which of `log_pi` and `q` may the gradient flow?",
+    ),
+    mistakes={
+        "q.detach() -> q":
+            "Your value is right, but the gradient flows into Q, too: the actor's step would change the critic. Use "
+            "`q.detach()`.",
+        "-value -> value":
+            "This is the value, and training would make it *small*. A loss is minimised: return -V.",
+        "log_pi -> log_pi.detach() [2 times]":
+            "Your loss has the right value but no gradient: it should change π. Detach Q only.",
+        "- alpha -> + alpha":
+            "You penalise entropy: log π is negative, so α log π is *subtracted* from Q.",
+        ".sum(-1) ->":
+            "You took the mean over actions, too. Sum over the actions, then take the mean over the batch.",
+    },
+)  # fmt: skip
+def actor_loss(log_pi, q, alpha):
+    value = (log_pi.exp() * (q.detach() - alpha * log_pi)).sum(-1)
+    return -value.mean()
+
+
+def temperature_cases(rng):
+    """Entropy on target, above, below, a negative target; then 30 at random."""
+    pairs = [(0.5, 0.5), (2.0, 0.5), (0.1, 0.5), (0.3, -1.0)]
+    pairs += [(rng.uniform(0, 2.2), rng.uniform(-1, 2)) for _ in range(30)]
+    for middle, target in pairs:
+        state_entropy = torch.tensor(middle + 0.05 * rng.normal(0, 1, rng.integers(2, 6)))
+        yield torch.tensor(rng.uniform(-5, 0.5)), state_entropy, torch.tensor(target)
+
+
+temperature_loss = exercise(
+    "α (H(π) - η), η the target entropy, Table of RL hyper-parameters",
+    minutes=4, difficulty=2, cases=temperature_cases, slopes=["log_alpha", "state_entropy"],
+    worked=[
+        # α = 1/2, mean entropy 1, target 0.6: 0.5 · 0.4
+        ((torch.tensor(-LOG_2), torch.tensor([0.5, 1.5]), torch.tensor(0.6)), torch.tensor(0.2)),
+    ],
+    hints=(
+        "If the entropy is above its target, α has to fall: which sign does the slope of the loss need?",
+        "α times (mean entropy - target). Only log α may receive a gradient.",
+    ),
+    mistakes={
+        "log_alpha.exp() -> -log_alpha.exp()":
+            "Your sign is wrong: this α grows while the policy is *more* random than it should be.",
+        ".detach() ->":
+            "Your loss also changes the policy's entropy. It should change only the temperature: detach the entropy.",
+        "log_alpha.exp() -> log_alpha":
+            "You multiply by log α. Here the factor is α itself. Some libraries use log α, which gives other steps.",
+        "- target_entropy -> + target_entropy":
+            "You add the target. It is H - target; the sum only looks familiar from continuous SAC, whose target is "
+            "negative.",
+        "log_alpha.exp() -> log_alpha.exp().detach()":
+            "Your loss has the right value but no gradient: it should change log α.",
+        ".mean(-1) ->":
+            "You return one number for each state. There is one temperature for all states: take the mean over the "
+            "batch.",
+    },
+)(sac.temperature_loss)  # fmt: skip

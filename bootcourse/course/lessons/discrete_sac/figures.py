@@ -16,10 +16,11 @@ PICTURES, STEP, ROW = 8, 5.4, 0.85  # in a strip; from one to the next (m); a st
 
 
 def cartpole_strip(drives: Mapping[str, np.ndarray], title: str) -> Figure:
-    """Each drive as pictures from its first to its last state: {name: observations (T, 4)}.
+    """Each drive as pictures: {name: observations (T, 4)}, scaled, as the learner sees them.
 
-    The observations are scaled, as the learner sees them.
+    All are drawn at the pushes of the shortest drive; the last picture of a longer one is its end.
     """
+    shortest = min(len(observations) for observations in drives.values())
     figure = new_figure(0.45 + ROW * len(drives))
     alt_parts = []
     for row, (label, observations) in enumerate(drives.items()):
@@ -29,7 +30,8 @@ def cartpole_strip(drives: Mapping[str, np.ndarray], title: str) -> Figure:
         ax.axis("off")
         ax.text(-2.5, 2.6, sentence(label), fontsize=TEXT, color=INK)
         states = np.asarray(observations) * CARTPOLE_SCALES
-        for picture, t in enumerate(np.linspace(0, len(states) - 1, PICTURES).round().astype(int)):
+        pushes = np.linspace(0, shortest - 1, PICTURES - 1).round().astype(int).tolist()
+        for picture, t in enumerate(pushes + [len(states) - 1] * (len(states) > shortest)):
             _draw_cart(ax, states[t], STEP * picture, style(label).colour)
             ax.text(STEP * picture, -1.25, f"push {t + 1}", ha="center", fontsize=SMALL, color=QUIET)
         alt_parts.append(f"{label}: the episode lasts {len(states)} pushes")

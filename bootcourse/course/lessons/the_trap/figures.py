@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 from bootcourse.colours import OTHER
 from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.episodes.record import record
+from bootcourse.methods import style
 from bootcourse.plots.canvas import MplAxes
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, WIDTH, finish, new_figure, one_axes
 from bootcourse.plots.road import draw_car, draw_road, edges_of
@@ -16,7 +17,7 @@ from bootcourse.road.formulas import bicycle_step, speed_reward
 from bootcourse.road.state import EGO, TRAP_2, X
 from bootcourse.scenario import ACTION_NAMES, DEFAULT, Scenario
 
-SHADES = ("#0072B2", "#444444", "#D55E00")  # brake, keep, accelerate
+SHADES = ("#8A939B", INK, "#5F6B77")  # brake, keep, accelerate
 
 
 def reward_curve(traps: float = 10.0, best: float = 15.0) -> Figure:
@@ -75,6 +76,33 @@ def nine_actions(seconds: int = 2, scenario: Scenario = DEFAULT) -> Figure:
     alt = f"Nine paths fan out from the ego in the right lane. After {seconds} s: {'; '.join(ends)}."
     sideways = abs(path_of(3, seconds, scenario)[-1, 1])
     return finish(figure, f"Nine actions, held for {seconds} s: steering moves the car {sideways:.1f} m sideways", alt)
+
+
+def running_lead(lead: np.ndarray, behind: int) -> Figure:
+    """What the escape has earned so far, less what doing nothing has: (seconds,). behind: its last second below 0."""
+    seconds, best = np.arange(1, len(lead) + 1), lead[-1]
+    title = f"The escape is behind for {behind} s, and {best:.0f} ahead in the end"
+    figure, ax = one_axes(3.4, title, "time (s)", "lead of the escape (reward so far)")
+    look = style("rule")
+    ax.axhline(0, color=QUIET, linewidth=1)
+    ax.plot(seconds, lead, color=look.colour, linewidth=2)
+    ax.plot(behind, lead[behind - 1], "o", color=INK)
+    ax.annotate(f"level after {behind} s", (behind, 0), xytext=(6, -16), textcoords="offset points",
+                fontsize=TEXT, color=INK)  # fmt: skip
+    ax.text(148, 0.3, "doing nothing", ha="right", va="bottom", fontsize=SMALL, color=QUIET)
+    ax.set_xlim(0, len(lead))
+    near = ax.inset_axes((0.08, 0.5, 0.4, 0.42))
+    near.axhline(0, color=QUIET, linewidth=1)
+    near.plot(seconds[:50], lead[:50], color=look.colour, linewidth=2)
+    near.fill_between(seconds[:50], np.minimum(lead[:50], 0), 0, color=look.colour, alpha=0.25)
+    near.set_title("the first 50 s", fontsize=SMALL, color=INK)
+    near.set(xlim=(0, 50))
+    near.tick_params(labelsize=SMALL, labelcolor=QUIET, length=3)
+    alt = (
+        f"The escape's reward so far, less that of doing nothing, over 150 s: below zero until second {behind}, at "
+        f"least {lead.min():.1f}, then rising in steps to {best:.1f}."
+    )
+    return finish(figure, title, alt)
 
 
 def path_of(action: int, seconds: int, scenario: Scenario = DEFAULT) -> np.ndarray:

@@ -62,7 +62,7 @@ def following(v: float, closing: Sequence[float], title: str, traffic: Traffic =
         s_star = desired_gap(v, dv, traffic.s0, traffic.time_gap, traffic.a_max, traffic.b)
         values = [idm_acceleration(v, traffic.desired_speed, s, s_star, traffic.a_max, traffic.delta) for s in gaps]
         words = f"closing in at {dv:g} m/s" if dv > 0 else (f"falling back at {-dv:g} m/s" if dv < 0 else "same speed")
-        named[f"{words}, s* = {s_star:.0f} m"] = np.maximum(values, -traffic.braking_limit)
+        named[words] = np.maximum(values, -traffic.braking_limit)
         zero = f"zero at a gap of {np.interp(0, values, gaps):.0f} m" if min(values) < 0 else "above zero at each gap"
         alt_parts.append(f"{words}: {zero}")
     x_label, y_label = "gap to the car ahead, centre to centre (m)", "acceleration (m/s²)"

@@ -14,6 +14,7 @@ from torch import Tensor, nn
 from bootcourse.course.exercise import NotAsAsked
 from bootcourse.learn import sac
 from bootcourse.learn.textbook import mlp
+from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.research import checks
 
 SIZES, HIDDEN = (4, 2), (64, 64)  # the pole's observations and actions
@@ -71,6 +72,16 @@ class SAC:
         return int(rng.random() < self.log_pi(torch.from_numpy(state)[None])[0, 1].exp())
 
 
+def policy(agent: SAC) -> Policy:
+    """The agent's most probable actions, as a policy."""
+
+    @torch.no_grad()
+    def drive(observations, cars):
+        return PolicyOutput(agent.log_pi(torch.from_numpy(observations).float()).argmax(-1).numpy())
+
+    return drive
+
+
 def balanced(agent: SAC, episodes: int = 10) -> float:
     """For how many pushes the agent balances the pole, with its most probable actions: a mean."""
     env, pushes = checks.cartpole(), 0
@@ -83,6 +94,38 @@ def balanced(agent: SAC, episodes: int = 10) -> float:
             state, _, terminated, truncated, _ = env.step(action)
             over, pushes = terminated or truncated, pushes + 1
     return pushes / episodes
+
+
+class Watched:
+    """An update that notes for how many pushes the agent balances the pole, after each `every` updates."""
+
+    def __init__(self, update, every: int = 250):
+        self.update, self.every, self.updates, self.balanced = update, every, 0, []
+
+    def __call__(self, agent: SAC, batch: Batch) -> None:
+        self.update(agent, batch)
+        self.updates += 1
+        if self.updates % self.every == 0:
+            self.balanced.append(balanced(agent))
+
+
+class WithoutEnds:
+    """A buffer that is told of no end: terminated is 0 in all rows.
+
+    fallen_too: each fallen state gets a row for either push, which leads back to it and pays 1.
+    """
+
+    def __init__(self, buffer, fallen_too: bool):
+        self.buffer, self.fallen_too = buffer, fallen_too
+
+    def add(self, kept: Tensor) -> None:
+        if kept[6] and self.fallen_too:
+            for action in (0, 1):
+                self.buffer.add(row(kept[7:], action, 1.0, False, kept[7:]))
+        self.buffer.add(torch.cat([kept[:6], torch.zeros(1), kept[7:]]))
+
+    def sample(self, batch: int, rng: np.random.Generator) -> Tensor:
+        return self.buffer.sample(batch, rng)
 
 
 # What an answer did ------------------------------------------------------------------------------------

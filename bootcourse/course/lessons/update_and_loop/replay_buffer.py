@@ -1,4 +1,4 @@
-"""The exercise of the lesson on discrete SAC in which a replay buffer is written."""
+"""The exercise in which a replay buffer is written."""
 
 import functools
 import time

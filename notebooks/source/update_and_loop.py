@@ -1,0 +1,341 @@
+# ---
+# jupyter:
+#   jupytext:
+#     text_representation:
+#       extension: .py
+#       format_name: percent
+#   kernelspec:
+#     display_name: Python 3 (ipykernel)
+#     language: python
+#     name: python3
+# ---
+
+# %% [markdown]
+# # The update and the loop
+#
+# **What you will be able to do**
+# - write how a batch is drawn, an update of SAC and the loop around it, and train your own agent;
+# - say what `terminated` does that a time limit must not do;
+# - recognise a critic that diverges, and say what three seeds can show.
+#
+# **Time** 60 minutes; the machine computes for about one of them. **You need** lesson
+# [[discrete_sac]] and its losses.
+
+# %%
+import bootcourse as bc
+import numpy as np
+import torch
+from bootcourse.course import charts, check, compare_predictions, own_code, predict, table
+from bootcourse.course.lessons.discrete_sac import figures
+from bootcourse.course.lessons.update_and_loop import by_hand, left_out
+from bootcourse.learn import sac
+from bootcourse.research import checks
+
+# %% [markdown]
+# ## Look first
+#
+# The pole of lesson [[discrete_sac]] once more: it sees four numbers, each push pays 1, and an
+# episode ends after a fall or after 500 pushes. Above, an agent that has learned nothing yet;
+# below, the rule that pushes where the pole falls.
+
+# %%
+beginner = by_hand.SAC(seed=0)
+drivers = {
+    "untrained": by_hand.policy(beginner),
+    "rule: push where it falls": bc.teacher_policy(checks.balance, None, 2),
+}
+drives = {}
+for label, driver in drivers.items():
+    rows, pushes = checks.data(driver, checks.cartpole, 1, seed=0)
+    drives[f"{label}: {pushes:.0f} pushes"] = rows[:, :4].numpy()
+bc.show(figures.cartpole_strip(drives, "An untrained agent lets the pole fall at once"))
+entropy = sac.entropy(beginner.log_pi(torch.zeros(1, 4))).item()  # the pole stands upright
+print(f"Entropy of the untrained policy: {entropy:.3f} of at most {np.log(2):.3f} nats")
+
+# %% [markdown]
+# > **Predict.** Your learner will know nothing about poles: it sees four numbers and gets a reward
+# > of 1 for each push. After 8,000 pushes, for how many will it balance the pole?
+
+# %%
+choices = ["about 20", "about 100", "about 250", "nearly 500"]
+predict("update_and_loop.1", "For how many pushes, after 8,000 to learn from?", choices)
+
+# %% [markdown]
+# ## Round 1: where does a batch come from?
+#
+# SAC keeps its transitions in a table, the **replay buffer**. Each update learns from rows that are
+# drawn **uniformly with replacement**: at each draw each row has the same chance. They are drawn at
+# random because successive transitions resemble each other, so a batch of neighbours would say the
+# same thing many times. Most rows come from earlier policies.
+# Learning from what another policy did is called **off-policy**; it is possible because the target
+# asks what the *present* policy would do in s'.
+#
+# **Exercise (4 min, ●○○).** The buffer below keeps the last `size` rows; a row is a tensor. When it
+# is full, each new row replaces the oldest one. Write `sample`, which draws rows with the generator
+# `rng`. Training calls it thousands of times: do not copy the whole table.
+
+
+# %%
+class ReplayBuffer:
+    """The last `size` rows."""
+
+    def __init__(self, size):
+        """size: the most rows that it holds."""
+        self.size, self.rows, self.next = size, [], 0
+
+    def add(self, row):
+        """Keep a row, a tensor (n,). A full buffer forgets its oldest row."""
+        if len(self.rows) < self.size:
+            self.rows.append(row)
+        else:
+            self.rows[self.next] = row
+        self.next = (self.next + 1) % self.size
+
+    def sample(self, batch, rng):
+        """Rows drawn at random: (batch, n). rng: a NumPy generator."""
+        # solution: the exercise's own
+
+
+check.ReplayBuffer(ReplayBuffer)
+
+# %% [markdown] tags=["instructor"] minutes=3
+# To stack the whole list at each draw gives the right rows and makes the training slow: the check
+# says so. Ask what `add` would have to do if it kept the rows in the order of their age.
+
+# %% [markdown]
+# ## Round 2: the whole algorithm
+#
+# > **Soft actor-critic for a list of actions** (after each dash: the function that does it)
+# >
+# > *Start* with a policy π, two critics Q₁, Q₂, slow copies Q̄₁, Q̄₂, α, and an empty buffer.
+# >
+# > *At each decision:*
+# >
+# > 1. **Act.** Draw a from π(·|s), observe r, s' and whether the episode terminated; keep the row
+# >    (s, a, r, terminated, s'). — `train`, `add`
+# >
+# > *At each update:*
+# >
+# > 2. **Batch.** Draw rows, uniformly with replacement. — `sample`
+# > 3. **Target.** V(s') = Σₐ π(a|s') (minₖ Q̄ₖ(s', a) − α log π(a|s')), and
+# >    y = r + γ (1 − terminated) V(s'), held fixed. — `soft_value`, `critic_target`
+# > 4. **Critics.** L = mean (Q₁(s, a) − y)² + mean (Q₂(s, a) − y)². — `critic_loss`
+# > 5. **Actor.** L = −mean Σₐ π(a|s) (minₖ Qₖ(s, a) − α log π(a|s)), with Q and α held fixed.
+# >    — `actor_loss`
+# > 6. **Temperature.** L = α (mean H(π(·|s)) − η), with H held fixed. — `temperature_loss`
+# > 7. **Steps.** Compute the three losses, then make a gradient step for each.
+# > 8. **Copies.** Q̄ₖ becomes Q̄ₖ + τ (Qₖ − Q̄ₖ), weight by weight.
+#
+# `by_hand.SAC()` is one agent for the pole. It holds:
+#
+# | name | what it is |
+# |---|---|
+# | `log_pi(states)` | log π, (batch, 2) |
+# | `q(states)`, `slow_q(states)` | Q and Q̄ of both critics, (2, batch, 2) |
+# | `log_alpha`, `gamma`, `tau`, `target_entropy` | log α, γ, τ and η |
+# | `optimisers` | three: of the critics, the actor and log α |
+# | `critics.parameters()`, `copies.parameters()` | the weights of step 8, to be changed in place |
+#
+# The five functions are those of lesson [[discrete_sac]]: yours, as far as they passed there; the
+# rest is ours.
+
+# %%
+own_code.load()
+soft_value, critic_target, critic_loss, actor_loss, temperature_loss = (
+    own_code.yours_or_ours(name, "Update")
+    for name in ("soft_value", "critic_target", "critic_loss", "actor_loss", "temperature_loss")
+)
+
+# %% [markdown]
+# **Exercise (20 min, ●●●).** Write steps 3 to 8, with these functions and `sac.entropy(log_pi)`.
+
+
+# %%
+def update(agent, batch):
+    """One update; returns nothing. agent: a by_hand.SAC; batch: a by_hand.Batch of 64 rows, with
+    states, next_states (64, 4), actions, rewards, terminated (64,)."""
+    # solution: the exercise's own
+
+
+check.update(update)
+
+# %% [markdown]
+# **Exercise (12 min, ●●●).** Write the loop around it. `env` is gymnasium's: `reset()` returns a
+# state and more, `step(action)` returns s', r, terminated, truncated and more.
+# `agent.draw(state, rng)` draws an action, `by_hand.row(s, a, r, terminated,
+# s')` makes a row, `by_hand.batch_of(rows)` makes a batch of 64 rows from the buffer. After the
+# first 256 pushes, make one update after every fourth push.
+
+
+# %%
+def train(agent, env, buffer, update, pushes, rng):
+    """Train the agent for that many pushes; returns nothing. update(agent, batch); rng: NumPy's."""
+    # solution: the exercise's own
+
+
+check.train(train)
+
+# %% [markdown]
+# Now your agent learns, with your parts as far as they have passed; the rest is ours.
+
+# %%
+PUSHES = 8_000
+loop, step, buffer = map(own_code.yours_or_ours, ("train", "update", "ReplayBuffer"))
+agent, step = by_hand.SAC(seed=0), by_hand.Watched(step)
+loop(agent, checks.cartpole(), buffer(50_000), step, PUSHES, np.random.default_rng(0))
+balanced = by_hand.balanced(agent)
+learned = {"your agent": np.array([by_hand.balanced(beginner), *step.balanced, balanced])}
+pushes = [0, *(256 + 1000 * (k + 1) for k in range(len(step.balanced))), PUSHES]
+title = f"After {PUSHES:,} pushes your agent balances the pole for {balanced:.0f} of 500"
+bc.show(charts.lines(pushes, learned, title, "pushes in training", "pushes balanced in a test"))
+
+# %%
+rows, _ = checks.data(by_hand.policy(agent), checks.cartpole, 1, seed=0)
+drives[f"trained: {len(rows)} pushes"] = rows[:, :4].numpy()
+bc.show(figures.cartpole_strip(drives, "The trained agent, on the same start"))
+
+# %% [markdown]
+# **See.** (Yours will differ from another machine's.) The untrained agent falls sooner than chance
+# would, since its most probable push is nearly always the same one. Train again with `seed=1`
+# before you judge: one agent is one sample. Is the update made of your parts the same as the
+# library's, which trains many agents at once?
+
+# %%
+own_code.compare()
+
+# %% [markdown]
+# **See.** Each line names a part of yours, and says whether its loss and its gradient are the
+# library's on the same batch. Rounding makes relative differences of about a millionth; above a
+# thousandth it is a mistake.
+
+# %% [markdown] tags=["instructor"] minutes=6
+# Let those who have finished exchange their `update` with a neighbour and find the lines in which
+# they differ. "Why is `terminated` in the row and `truncated` not?" is the question to ask before
+# anybody runs the loop.
+
+# %% [markdown]
+# ## Round 3: what can be left out?
+#
+# Five kinds of agents, three seeds each, with 4,000 pushes, half of what yours had. The first kind
+# is whole. The others leave out one part: the entropy (α = 0), the second critic, the slow copies
+# (the target comes from the critics themselves), or the factor (1 − terminated).
+#
+# > **Predict.** Without which of the four do the agents balance the pole worst, on average?
+
+# %%
+predict("update_and_loop.2", "Without which part is the mean lowest?", list(left_out.KINDS[1:]))
+
+# %%
+SEEDS, TARGET = 3, 0.3 * np.log(2).item()
+settings = bc.settings_for("sac", gamma=0.99, tau=0.05, target_entropy=TARGET)
+grid = left_out.training(settings, SEEDS, pushes=4_000)
+starts = np.stack([checks.cartpole().reset(seed=seed)[0] for seed in range(50)])
+values, marks = [], (1_000, 2_000, 3_000, 4_000)
+for pushes in marks:
+    grid.run(progress=False, stop=lambda most=pushes: grid.decisions >= most * grid.learner.agents)
+    q = [grid.agent(i).q_values(starts).mean() for i in range(grid.learner.agents)]
+    values.append(np.reshape(q, (-1, SEEDS)).mean(1)[[0, -1]])
+scores = checks.scores(grid.result().agents, checks.cartpole, 10).reshape(-1, SEEDS)
+rows = []
+for kind, each in zip(left_out.KINDS, scores, strict=True):
+    rows.append([kind, *(f"{score:.0f}" for score in (*each, each.mean()))])
+headings = ["without", *(f"seed {seed}" for seed in range(SEEDS)), "mean"]
+table(headings, rows, "Pushes, of at most 500.")
+
+# %% [markdown]
+# **Explain.** One row stands out: without (1 − terminated) the agents hardly balance the pole. In
+# the others the seeds of a row differ as much as the rows do. Three agents and 4,000 pushes show
+# neither that the other parts help nor that they are useless: lesson [[how_many_seeds]] works out
+# how many agents would.
+#
+# What went wrong? Without (1 − terminated) each row says "1 now, and then the value of the next
+# state"; no row says that a fall ends the rewards. The one constant that fits all rows is
+# Q = 1 / (1 − γ) = {{ 1 / (1 - 0.99) | .0f }} for both actions (plus the entropy's share), which
+# tells no action from the other. Does the critic find it?
+
+# %%
+named = dict(
+    zip(("the whole agent", "without (1 − terminated)"), np.transpose(values), strict=True)
+)
+title = "Without (1 − terminated) the critic's estimates do not stop at 1 / (1 − γ)"
+words = "Q, mean of 50 start states"
+limit = {"1 / (1 − γ) = 100": 100.0}
+bc.show(charts.lines(marks, named, title, "pushes in training", words, "y", marks=limit))
+
+# %% [markdown]
+# **See.** The estimates pass {{ 1 / (1 - 0.99) | .0f }} and go on: the critic **diverges**, and the
+# program runs without an error. Where does the surplus come from? A state in which the pole has
+# fallen is in the buffer as s' only, never as s. Its value enters targets, but no row corrects it:
+# the network makes it up. If that is the cause, rows that start in a fallen state should help. Give
+# each fallen state such rows, which lead back to it and pay 1, as if it went on for ever:
+
+# %%
+rows = []
+for words, fallen_too in (("as before", False), ("and rows of fallen states", True)):
+    agent, kept = by_hand.SAC(seed=0), by_hand.WithoutEnds(buffer(50_000), fallen_too)
+    loop(agent, checks.cartpole(), kept, step.update, 4_000, np.random.default_rng(0))
+    with torch.no_grad():
+        q = agent.q(torch.from_numpy(starts)).mean()
+    rows.append([words, f"{q:.0f}"])
+table(["rows, all with terminated = 0", "Q after 4,000 pushes"], rows, "One agent of each kind.")
+
+# %% [markdown]
+# **Explain.** With these rows the estimate stays below {{ 1 / (1 - 0.99) | .0f }}, where it belongs
+# if nothing ends, although the same network learns estimates from estimates on the same old rows.
+# (These three are the *deadly triad* of Sutton and Barto, chapter 11: together they *can* diverge.)
+# A target that reads values which no row corrects comes back in lesson [[offline_learning]].
+
+# %% [markdown] tags=["instructor"] minutes=8
+# Let groups predict the whole order, not only the first place. A belief to name: "the second critic
+# is the trick that makes it work". On the pole three seeds do not show that.
+
+# %% [markdown]
+# ## What you now know
+#
+# 1. The buffer gives rows of earlier policies: SAC learns off-policy.
+# 2. An update makes one step for the critics, the actor and the temperature, and then moves the
+#    copies of the critics a little.
+# 3. `terminated` tells the critic where the rewards end. A time limit is no such end, so the row of
+#    a pole that still stands holds 0.
+# 4. Without (1 − terminated) the targets read values of fallen states, which no row corrects; the
+#    critic diverges, and no error says so. Look at Q while an agent learns.
+# 5. Three agents, trained this shortly, do not show that a part is useless.
+
+# %% [markdown]
+# ## What you now know
+#
+# 1. The soft value is the mean of Q under the policy plus α times its entropy; its best policy is
+#    softmax(Q / α).
+# 2. The critics are fitted to r + γ (1 − terminated) V(s'), held fixed; an episode that ran out of
+#    time is not terminated.
+# 3. The actor's loss is minus the soft value, with Q held fixed.
+# 4. The temperature is a thermostat for the entropy, which over a list of actions is 0 or more:
+#    with η = {{ SETTINGS.target_entropy }} α falls at each update.
+# 5. The buffer gives rows of earlier policies: SAC learns off-policy.
+
+# %%
+worst = left_out.KINDS[1 + scores[1:].mean(1).argmin()]
+compare_predictions("update_and_loop", {1: f"{balanced:.0f}", 2: worst})
+
+# %% [markdown]
+# **Three questions to think about**
+# - In training the learner draws its actions from its policy; in the test it takes the most
+#   probable one. Where could that matter?
+# - A buffer of 50,000 rows keeps all that this agent did. What would a buffer of 500 rows change?
+# - The loop makes one update after every fourth push. What could four updates after each push do,
+#   for better and for worse?
+#
+# **Read on**: Mnih et al., *Human-level control through deep reinforcement learning* (Nature,
+# 2015), on replay buffers and slow copies; Sutton and Barto, *Reinforcement Learning*, chapter 11,
+# on what can diverge; the same algorithm on one page, for the road:
+# `python -m bootcourse.learn.textbook`.
+
+# %% [markdown] tags=["instructor"] minutes=5
+# *Answers to the three questions.* **Drawing or not:** in training unlikely actions still occur,
+# the more often the higher the entropy is. A swerve of one second can end a drive that the most
+# probable actions would have survived, so scores in training can be lower than in the test. It can
+# also be the other way round: where a policy is even between two actions, the test repeats one of
+# them. **500 rows:** the batch then comes from the last few episodes, which are alike, so each
+# update fits what the present policy meets and forgets earlier states, falls among them. **More
+# updates:** the critics fit the rows sooner, so fewer pushes may do; but they fit the errors of few
+# rows, too, and the machine computes sixteen times as long.
