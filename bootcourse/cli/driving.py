@@ -1,7 +1,6 @@
 """`bootcourse evaluate`, `drive` and `replay`: who drives how well, one drive, and what it looked like."""
 
 import contextlib
-import json
 import time
 import webbrowser
 from collections.abc import Callable
@@ -23,6 +22,7 @@ MEASURES = {
     "road_departure": "road departure %",
     "stoppage": "stoppage %",
 }
+SCENARIO = typer.Option("", help="default or calibrated; by default the scenario that a run trained on.")
 TEACHER = typer.Option("", help="The teacher that a run drives with: planner …, or FILE.py:FUNCTION.")
 LEARNER = typer.Option("", help="The learner of your own that a run was trained with: FILE.py:CLASS.")
 LOOK_AHEAD = typer.Option(0, min=0, help="Decisions to look ahead by rollouts, such as 10; 0: none.")
@@ -33,12 +33,10 @@ def evaluate(
     who: list[str] = typer.Argument(..., help="rule, idle, random, or a folder that `bootcourse train` wrote."),
     episodes: int = typer.Option(1000, min=1, help="Held-out episodes."),
     seed: int = typer.Option(1, min=0, help="The block of held-out roads."),
-    scenario: str = typer.Option("", help="default or calibrated; by default the scenario that a run trained on."),
-    sample: bool = typer.Option(False, "--sample", help="Draw an agent's actions instead of taking the most probable."),
+    scenario: str = SCENARIO,
     teacher: str = TEACHER,
     learner: str = LEARNER,
     lookahead: int = LOOK_AHEAD,
-    as_json: bool = typer.Option(False, "--json", help="Print JSON."),
     board: bool = typer.Option(False, "--board", help="Print the leaderboard with them; here WHO may be several."),
 ) -> None:
     """Drive held-out episodes and print success, return, speed, distance and accidents with 95 % intervals."""
@@ -47,22 +45,16 @@ def evaluate(
 
     register_learner(learner)
     if board:
-        if (episodes, seed, scenario, sample, lookahead, as_json) != (1000, 1, "", False, 0, False):
+        if (episodes, seed, scenario, lookahead) != (1000, 1, "", 0):
             raise BootcourseError("--board has its own roads and form: with it, give only --teacher.")
         print_board(who, teacher)
         return
     if len(who) > 1:
         raise BootcourseError("Several drivers need --board.")
-    seeds, drivers = held_out_seeds(seed, episodes), drivers_of(who[0], scenario, sample, seed, teacher, lookahead)
+    seeds, drivers = held_out_seeds(seed, episodes), drivers_of(who[0], scenario, seed, teacher, lookahead)
     summaries = {each.label: summarise(drive_episodes(each.policy, seeds, each.road)) for each in drivers}
     means = {name: over_seeds([summaries[label] for label in labels]) for name, labels in alike(drivers).items()}
     columns = {label: vars(each) for label, each in summaries.items()} | means
-    if as_json:
-        numbers = {label: {name: each[name]._asdict() for name in MEASURES} for label, each in columns.items()}
-        for label in summaries:
-            numbers[label] = {"episodes": episodes} | numbers[label]
-        print(json.dumps(numbers, indent=2))
-        return
     ahead = f", looking {lookahead} decisions ahead" if lookahead else ""
     print(f"{episodes} held-out episodes, block {seed}{ahead}: value [95 % interval]; a mean is over training seeds")
     labels = list(columns)
@@ -119,14 +111,15 @@ def alike(drivers: list[Driver]) -> dict[str, list[str]]:
     }
 
 
-def drivers_of(who: str, scenario: str, sample: bool, seed: int, teacher: str, horizon: int = 0) -> list[Driver]:
-    """A built-in driver, or the agent of each run in a folder; with a horizon, each looks ahead as far.
+def drivers_of(who: str, scenario: str, seed: int, teacher: str, horizon: int) -> list[Driver]:
+    """A built-in driver, or the agent of each run in a folder; with a horizon above 0, each looks ahead as far.
 
     Raises BootcourseError for a name that is neither, for an agent that sees another number of cars, for one that
     drives with another teacher, and for a teacher with a built-in driver.
     """
     import numpy as np
 
+    from bootcourse.episodes.lookahead import lookahead
     from bootcourse.policies import idle_policy, random_policy, rule_policy
     from bootcourse.scenario import DEFAULT, named
 
@@ -136,32 +129,33 @@ def drivers_of(who: str, scenario: str, sample: bool, seed: int, teacher: str, h
             refuse_teacher(teacher)
         road, rng = named(scenario) if scenario else DEFAULT, np.random.default_rng(seed)
         built_in = {"rule": rule_policy(road), "idle": idle_policy, "random": random_policy(rng)}
-        return [ahead(Driver(who, built_in[who], road), horizon)]
+        drivers = [Driver(who, built_in[who], road)]
+    else:
+        drivers = agents_in(Path(who), scenario, teacher, with_q=not horizon)
+    if not horizon:
+        return drivers
+    return [driver._replace(policy=lookahead(driver.policy, horizon, driver.road)) for driver in drivers]
+
+
+def agents_in(folder: Path, scenario: str, teacher: str, with_q: bool) -> list[Driver]:
+    """The agent of each run in a folder."""
     from bootcourse.cli.training import teacher_from
     from bootcourse.learn.teachers import teacher_of
+    from bootcourse.scenario import named
     from bootcourse.storage.runs import find_runs, load_run
 
     drivers, rule = [], teacher_from(teacher)
-    for path in find_runs(Path(who)):
+    for path in find_runs(folder):
         run = load_run(path, rule)
-        rng = np.random.default_rng(seed) if sample else None
         road = named(scenario) if scenario else run.scenario
         if road.observation_size != run.scenario.observation_size:
             raise BootcourseError(
                 f"{path} sees {run.scenario.observation_size} numbers, and {road.name} shows "
                 f"{road.observation_size}: leave out --scenario."
             )
-        settings = replace(run.agent.settings, seed=0)
         agent = run.agent.taught_by(teacher_of(rule, road))
-        drivers.append(ahead(Driver(path.name, agent.as_policy(rng, with_q=not horizon), road, settings), horizon))
+        drivers.append(Driver(path.name, agent.as_policy(with_q=with_q), road, replace(run.agent.settings, seed=0)))
     return drivers
-
-
-def ahead(driver: Driver, horizon: int) -> Driver:
-    """The driver with rollouts of so many decisions; the driver itself for 0."""
-    from bootcourse.episodes.lookahead import lookahead
-
-    return driver._replace(policy=lookahead(driver.policy, horizon, driver.road)) if horizon else driver
 
 
 def print_table(columns: dict[str, dict]) -> None:
@@ -177,8 +171,8 @@ def drive(
     who: str = typer.Argument(..., help="rule, idle, random, or a run's folder."),
     out: Path = typer.Option(..., help="The rollout to write, such as drive.npz."),
     seed: int = typer.Option(0, min=0, help="The road."),
-    scenario: str = typer.Option("", help="default or calibrated; by default the scenario that a run trained on."),
-    png: Path | None = typer.Option(None, help="Also draw the top view and the traces to this picture."),
+    scenario: str = SCENARIO,
+    png: Path | None = typer.Option(None, help="Also draw the road from above to this picture."),
     teacher: str = TEACHER,
     learner: str = LEARNER,
     lookahead: int = LOOK_AHEAD,
@@ -190,22 +184,22 @@ def drive(
 
     if out.exists():
         raise BootcourseError(f"{out} exists already: choose another name.")
-    if png is not None:
-        check_replaceable(png, ".png")
-    check_replaceable(out, ".npz")
+    for path, ending in ((png, ".png"), (out, ".npz")):
+        if path is not None:
+            check_replaceable(path, ending)
     register_learner(learner)
-    drivers = drivers_of(who, scenario, False, seed, teacher, lookahead)
+    drivers = drivers_of(who, scenario, seed, teacher, lookahead)
     if len(drivers) > 1:
         raise BootcourseError(f"{who} holds {len(drivers)} runs: name one, such as {Path(who) / drivers[0].label}.")
     label, policy, road, _ = drivers[0]
-    label = label.rsplit("-", 1)[0] if label not in BUILT_IN else label
-    label += f", {lookahead} ahead" if lookahead else ""
-    rollout = record(policy, [seed], road, label)[0]
+    label = label if label in BUILT_IN else label.rsplit("-", 1)[0]
+    rollout = record(policy, [seed], road, label + (f", {lookahead} ahead" if lookahead else ""))[0]
     print(rollout.save(out))
     if png is not None:
-        from bootcourse.plots.drive_figure import save_drive
+        from bootcourse.plots.figure import save
+        from bootcourse.plots.top_view import top_view_over_time
 
-        print(save_drive(rollout, png))
+        print(save(top_view_over_time(rollout), png))
 
 
 def replay(

@@ -3,7 +3,6 @@
 It is HTML and CSS without scripts, and takes its text colour from the page.
 """
 
-import numpy as np
 from scipy.special import rel_entr
 
 from bootcourse.colours import ALARM
@@ -48,11 +47,6 @@ def cursor(part: float) -> Markup:
     return html("<style>:root{{--bc-t:{:.4f}}}</style>", part)
 
 
-def kl(policy: np.ndarray, rule_policy: np.ndarray) -> float:
-    """KL(π ‖ π̃) in nats: the soft constraint's charge for probability on actions that the rule would not take."""
-    return float(rel_entr(policy, rule_policy).sum())
-
-
 def status(timeline: Timeline, t: float) -> tuple[str, str]:
     """(how the drive stands at time t, in words, their colour); ("", "") while that is open."""
     rollout, moment = timeline.rollout, timeline.at(t)
@@ -65,9 +59,10 @@ def status(timeline: Timeline, t: float) -> tuple[str, str]:
 
 def card(timeline: Timeline, t: float) -> Markup:
     """One drive's numbers at time t."""
-    return html(
-        '<div class="bc">{}</div>', joined(part(timeline, t) for part in (_head, _numbers, _reward, _choice, _futures))
-    )
+    parts = [part(timeline, t) for part in (_head, _numbers, _reward, _choice)]
+    if timeline.imagined is not None:
+        parts.append(html('<div class="dim">imagined drives: {}; broad: driven</div>', LEGEND))
+    return html('<div class="bc">{}</div>', joined(parts))
 
 
 def _dot(rollout) -> Markup:
@@ -131,17 +126,11 @@ def _choice(timeline: Timeline, t: float) -> Markup:
         rows.append(html(row, "on" if taken else "", "▸" if taken else " ", name, drawn, cells))
     page = html("<table>{}</table>", joined(rows))
     if len(bars) == 2:
-        page += html("<div>KL(π‖π̃) = <b>{:.2f}</b> nats</div>", kl(*(numbers for _, numbers in bars)))
+        kl = rel_entr(*(numbers for _, numbers in bars)).sum()
+        page += html("<div>KL(π‖π̃) = <b>{:.2f}</b> nats</div>", kl)
     if rollout.policy is not None and rollout.q_values is None:
         page += Markup('<div class="dim">No Q: this agent has none, or it was not recorded.</div>')
     return page + _why(timeline, k)
-
-
-def _futures(timeline: Timeline, t: float) -> Markup:
-    """What the nine imagined drives on the road stand for, where the timeline has some."""
-    if timeline.imagined is None:
-        return Markup("")
-    return html('<div class="dim">imagined drives: {}; broad: driven</div>', LEGEND)
 
 
 def _why(timeline: Timeline, k: int) -> Markup:
