@@ -19,7 +19,6 @@ from bootcourse.errors import BootcourseError
 from bootcourse.policies import random_policy, rule_policy
 from bootcourse.replay3d import export, recording, scene
 from bootcourse.replay3d.recorder import to_html
-from bootcourse.replay3d.stage import Options
 from bootcourse.replay3d.timeline import Timeline
 from bootcourse.road.state import Accident
 from bootcourse.scenario import CALIBRATED, Clock
@@ -56,7 +55,7 @@ def crash():
 def whole_episode(tmp_path_factory):
     """150 s of ten cars, exported."""
     rollout = thinking(record(rule_policy(TEN_CARS), [1], TEN_CARS)[0])
-    return rollout, export(rollout, tmp_path_factory.mktemp("export") / "replay.html", Options(rule=True))
+    return rollout, export(rollout, tmp_path_factory.mktemp("export") / "replay.html")
 
 
 def test_a_whole_episode_of_ten_cars_is_one_file_under_3_mb_that_names_no_server(whole_episode):
@@ -82,7 +81,7 @@ def go_to(page, t: float) -> None:
 @needs_browser
 def test_the_file_plays_without_a_network_and_every_car_is_where_it_was(whole_episode):
     rollout, path = whole_episode
-    timelines = scene.timelines_of(rollout)
+    timeline = Timeline(rollout)
     cars = [f"/drive0/car{car}" for car in range(10)]
     with open_browser(offline=True) as new_page:
         page = new_page()
@@ -96,7 +95,7 @@ def test_the_file_plays_without_a_network_and_every_car_is_where_it_was(whole_ep
         for t in (60.0, 0.0, 33.4):  # forwards and backwards
             go_to(page.page, t)
             frame = round(t * 30)  # the one that the file holds
-            near = [scene.view(timelines, (frame + shift) / 30)[0] for shift in (-1, 0, 1)]
+            near = [scene.view(timeline, (frame + shift) / 30) for shift in (-1, 0, 1)]
 
             def apart(near=near) -> float:
                 """How far the car that is farthest off is from where it was (m); a busy machine draws it late."""
@@ -178,9 +177,9 @@ def files(rule_drive, tmp_path_factory):
 REFUSED = {  # what is wrong: (the files, where to, words of the refusal); test_record.py has all damages of a file
     "no file": (["none"], {"export": "out.html"}, "none.npz"),
     "cut short": (["cut"], {"export": "out.html"}, "cut.npz is damaged"),
-    "another scenario": (["good", "other"], {"export": "out.html"}, "one scenario"),
-    "another seed": (["good", "seed"], {"export": "out.html"}, "same seed"),
-    "no files": ([], {"export": "out.html"}, "at least one"),
+    "another scenario": (["good", "other"], {"export": "out.html"}, "the same road"),
+    "another seed": (["good", "seed"], {"export": "out.html"}, "the same road"),
+    "no files": ([], {"export": "out.html"}, "give one to 8"),
     "a path that cannot be written": (["good"], {"export": "file/out.html"}, "Cannot write"),
     "a wrong ending": (["good"], {"export": "out.txt"}, ".html"),
     "a gif that is not one": (["good"], {"gif": "out.mp4"}, ".gif"),

@@ -195,9 +195,8 @@ def test_running_a_cell_again_replaces_its_replay_even_on_the_same_port(drives, 
     assert first.closed and second.port == port and one_per_cell.running() == [second]
     monkeypatch.setattr(one_per_cell, "this_cell", lambda: "cell 2")
     third = replay(drives[1])
-    for wrong in ({"follow": 3}, {"layout": "on the moon"}):  # a refused replay leaves the old one alone
-        with pytest.raises(BootcourseError):
-            replay(drives, **wrong)
+    with pytest.raises(BootcourseError):  # a refused replay leaves the old one alone
+        replay([])
     assert one_per_cell.running() == [second, third] and is_open(third.port)
     second.close(), third.close()
 
@@ -207,14 +206,14 @@ ROOT = Path(__file__).resolve().parent.parent
 
 @needs_browser
 def test_in_a_browser_the_cars_are_where_they_were_and_move(drives):
-    with replay(drives, rule=True) as live, open_browser() as new_page:
+    with replay(drives) as live, open_browser() as new_page:
         page = new_page()
         page.page.goto(live.url)
         assert until(lambda: live.server.get_clients(), 20), "no viewer arrived"
         assert until(lambda: live.player.t > 0.3), "it did not start to play by itself"
         live.player.pause()
         live.player.seek(7.3)
-        views = scene.view(live.timelines, 7.3)
+        views = [scene.view(timeline, 7.3) for timeline in live.timelines]
         expected = {f"/drive{k}/car{car}": (views[k].x[car], views[k].y[car]) for k in (0, 1) for car in range(9)}
 
         def off() -> float:
@@ -239,7 +238,7 @@ def test_in_a_browser_the_cars_are_where_they_were_and_move(drives):
 
 @needs_browser
 def test_in_a_browser_the_buttons_and_the_slider_work(drives):
-    with replay(drives[1]) as live, open_browser() as new_page:
+    with replay(drives[1], futures=idle_policy) as live, open_browser() as new_page:
         page = new_page().page
         page.goto(live.url)
         assert until(lambda: live.player.playing, 20)
@@ -252,9 +251,12 @@ def test_in_a_browser_the_buttons_and_the_slider_work(drives):
         page.mouse.click(track["x"] + 0.5 * track["width"], track["y"] + track["height"] / 2)
         assert until(lambda: abs(live.player.t - 10.0) < 1.0), live.player.t
         assert until(lambda: f"{live.player.t:.1f}" in page.inner_text("body"))
-        assert live.stage.options.rule is False
-        page.get_by_label("What the rule wants").click()
-        assert until(lambda: live.stage.options.rule and live.stage.drives[0].lane.visible)
+        page.get_by_label("Nine futures").click()
+        assert until(lambda: not live.stage.drives[0].futures[0].visible)
+        page.keyboard.press("f")
+        assert until(lambda: live.stage.drives[0].futures[0].visible), "key F"
+        page.get_by_label("Dark").click()
+        assert until(lambda: live.stage.dark)
 
 
 def test_one_moment_is_one_batch(shown):

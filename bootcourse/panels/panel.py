@@ -90,7 +90,7 @@ class Panel(widgets.VBox):
         if not self.closed:
             self.closed = True
             one_per_cell.forget(self)
-            for part in self.children:
+            for part in (*self.children, self.layout):
                 _close(part)
             super().close()
 

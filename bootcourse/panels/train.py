@@ -210,10 +210,8 @@ def training_chart(method: str, curves: dict[str, np.ndarray], episodes: int) ->
         axes.frame(measure.label, "episode")
         end = draw_training(axes, at, means, style(method))
         if np.isfinite(end):
-            last = at[np.isfinite(means).all(axis=0)][-1]
-            x, y = axes.dot(last, end, style(method).colour)
-            anchor, aside = ("end", -6) if last > 0.75 * episodes else ("start", 6)
-            parts.append(text(x + aside, y - 7 if y > top + 14 else y + 17, f"{end:.3g}", anchor, INK, 11, bold=True))
+            axes.dot(at[np.isfinite(means).all(axis=0)][-1], end, style(method).colour)
+            parts.append(text(left + 280, top - 8, f"{end:.3g}", "end", INK, 12, bold=True))
             ends.append(f"{measure.label} {end:.3g}")
         parts += axes.parts
     ends = f" {name}, after {done} episodes: {', '.join(ends)}." if ends else " No episode has ended yet."
