@@ -1,6 +1,5 @@
 """The command line, as a user meets it: sentences, exit statuses, files."""
 
-import json
 import os
 import shutil
 import signal
@@ -23,29 +22,24 @@ from tests.waiting import until
 COMMAND = [sys.executable, "-m", "bootcourse"]
 
 
-def test_the_rule_s_table_shows_the_accidents_apart_with_intervals(bootcourse):
-    answer = bootcourse("evaluate", "rule", "--episodes", 40)
+def test_a_table_shows_the_accidents_apart_with_intervals(bootcourse):
+    answer = bootcourse("evaluate", "idle", "--episodes", 20)
     assert answer.status == 0, answer.err
-    assert "success %                100.0 [91.2, 100.0]" in answer.out
+    assert "success %                   0.0 [0.0, 16.8]" in answer.out and "23.4 [23.4, 23.4]" in answer.out
     for row in ("return", "speed m/s", "distance m", "collision %", "road departure %", "stoppage %"):
         assert f"\n{row} " in answer.out
-
-
-def test_json_holds_every_number_with_its_interval(bootcourse):
-    table = json.loads(bootcourse("evaluate", "idle", "--episodes", 20, "--json").out)["idle"]
-    assert table["returns"]["value"] == pytest.approx(23.4375)
-    assert table["success"]["high"] == pytest.approx(0.168, abs=1e-3)
 
 
 def test_train_then_evaluate_then_drive(bootcourse, tmp_path):
     out = tmp_path / "runs"
     trained = bootcourse("train", "--method", "sac", "--seeds", 2, "--episodes", 3, "--out", out, "--quiet")
-    assert trained.status == 0, trained.err
+    assert trained.status == 0 and "No update was made" in trained.err, trained.err
     assert sorted(path.name for path in out.iterdir()) == ["sac-0", "sac-1"]
     evaluated = bootcourse("evaluate", out, "--episodes", 5)
     assert "sac-0" in evaluated.out and "mean of sac" in evaluated.out
-    driven = bootcourse("drive", out / "sac-1", "--out", tmp_path / "drive.npz", "--seed", 4)
-    assert driven.status == 0, driven.err
+    picture = tmp_path / "drive.png"
+    driven = bootcourse("drive", out / "sac-1", "--out", tmp_path / "drive.npz", "--seed", 4, "--png", picture)
+    assert driven.status == 0 and picture.read_bytes().startswith(b"\x89PNG"), driven.err
     rollout = Rollout.load(tmp_path / "drive.npz")
     assert (rollout.label, rollout.seed) == ("sac", 4) and rollout.q_values is not None
 
@@ -59,12 +53,6 @@ def test_a_training_takes_the_method_s_own_number_of_episodes_or_the_given_one(
     for folder, given in (("own", ()), ("given", ("--episodes", 7))):
         bootcourse("train", "--method", method, "--seeds", 1, "--out", tmp_path / folder, "--quiet", *given)
     assert keep == [METHODS[method].episodes, 7]
-
-
-def test_a_training_that_is_too_short_for_an_update_says_so(bootcourse, tmp_path):
-    arguments = ("train", "--method", "sac", "--seeds", 1, "--episodes", 1, "--out", tmp_path / "runs", "--quiet")
-    done = bootcourse(*arguments)
-    assert done.status == 0 and "No update was made" in done.err
 
 
 def test_a_rule_of_one_s_own_teaches_and_only_it_goes_on(bootcourse, tmp_path, monkeypatch):
@@ -86,6 +74,9 @@ TEACHERS = """
 def nine(cars, scenario):
     return 9
 
+def leaves(cars, scenario):
+    raise SystemExit(0)
+
 def no_lane(cars, scenario):
     return {}["lane"]
 
@@ -100,6 +91,7 @@ FIRST_ROAD = "failed on the road with seed 17179869184, at decision 0: it"
     [
         ("t.py:nine", f"Your rule 'nine' {FIRST_ROAD} returned 9, but an action is a whole number"),
         ("t.py:no_lane", f"Your rule 'no_lane' {FIRST_ROAD} raised KeyError: 'lane'."),
+        ("t.py:leaves", f"Your rule 'leaves' {FIRST_ROAD} raised SystemExit: 0."),
         ("t.py:takes_one", f"Your rule 'takes_one' {FIRST_ROAD} raised TypeError: takes_one() takes 1"),
         ("bad.py:nine", "bad.py cannot be loaded: SyntaxError: '(' was never closed (bad.py, line 1)."),
         ("lacks.py:nine", "lacks.py cannot be loaded: ModuleNotFoundError: No module named 'absent'."),
@@ -266,15 +258,9 @@ def test_a_resumed_training_refuses_other_settings_and_its_command_has_all_optio
     assert stopped.status == 130
     for words in (f"--teacher {mine[1]}", "--xi 50", "--episodes 3", "--quiet --resume"):
         assert words in stopped.err
-    for option, value, began in (
-        ("--seeds", 3, 1),
-        ("--xi", 70, 50.0),
-        ("--method", "sac", "soft"),
-        ("--setting", "paper", "quick"),
-    ):
+    for option, value in (("--seeds", 3), ("--xi", 70), ("--method", "sac"), ("--setting", "paper")):
         refused = bootcourse("train", "--out", tmp_path / "runs", *mine, "--resume", option, value)
-        assert refused.status == 2
-        assert f"{option} {value}" in refused.err and f"this training began with {began}" in refused.err
+        assert refused.status == 2 and f"{option} {value}: this training began with other options." in refused.err
     assert bootcourse(*begun, "--quiet", "--resume").status == 0
 
 
@@ -312,10 +298,3 @@ def test_a_learner_of_one_s_own_trains_and_drives(bootcourse, tmp_path):
     finally:
         METHODS.clear()
         METHODS.update(before)
-
-
-def test_a_teacher_that_ends_python_is_one_sentence(bootcourse, tmp_path):
-    (tmp_path / "mine.py").write_text("def leaves(cars, scenario):\n    raise SystemExit(0)\n")
-    arguments = ("train", "--method", "soft", "--seeds", 1, "--episodes", 3, "--out", tmp_path / "runs")
-    done = bootcourse(*arguments, "--teacher", f"{tmp_path / 'mine.py'}:leaves")
-    assert done.status == 2 and "Your rule 'leaves' failed" in done.err and "SystemExit" in done.err

@@ -16,7 +16,7 @@ from bootcourse.replay3d import hud, scene
 from bootcourse.replay3d.camera import CAMERAS, pose
 from bootcourse.replay3d.car import car_parts
 from bootcourse.replay3d.timeline import Timeline
-from bootcourse.road.state import CRASHED, EGO, HEADING, TRAP_1, Accident, X, Y
+from bootcourse.road.state import CRASHED, EGO, HEADING, SPEED, TRAP_1, Accident, X, Y
 from bootcourse.rule import stochastic_rule
 from bootcourse.scenario import CALIBRATED, DEFAULT, Clock
 from tests.replays import SHORT, thinking
@@ -143,7 +143,7 @@ def test_the_numbers_are_those_of_the_rollout(rule_drive):
     rollout = thinking(rule_drive)
     shown = text(hud.card(Timeline(rollout), 7.5))
     timeline = Timeline(rollout)
-    assert "7.5 of 20 s" in shown and f"{timeline.at(7.5).speed[EGO]:.1f} m/s" in shown
+    assert "7.5 of 20 s" in shown and f"{timeline.at(7.5)[EGO, SPEED]:.1f} m/s" in shown
     assert f"return {rollout.rewards[:7].sum():.2f}" in shown and f"reward {rollout.rewards[6]:.3f}" in shown
     policy, rule = rollout.policy[7], stochastic_rule(rollout.rule_actions[7], 0.9)
     assert f"KL(π‖π̃) = {(policy * np.log(policy / rule)).sum():.2f} nats" in shown

@@ -251,10 +251,10 @@ def test_in_a_browser_the_buttons_and_the_slider_work(drives):
         page.mouse.click(track["x"] + 0.5 * track["width"], track["y"] + track["height"] / 2)
         assert until(lambda: abs(live.player.t - 10.0) < 1.0), live.player.t
         assert until(lambda: f"{live.player.t:.1f}" in page.inner_text("body"))
-        page.get_by_label("Nine futures").click()
-        assert until(lambda: not live.stage.drives[0].futures[0].visible)
         page.keyboard.press("f")
-        assert until(lambda: live.stage.drives[0].futures[0].visible), "key F"
+        assert until(lambda: not live.stage.drives[0].futures[0].visible), "key F"
+        page.get_by_label("Nine futures").click()
+        assert until(lambda: live.stage.drives[0].futures[0].visible)
         page.get_by_label("Dark").click()
         assert until(lambda: live.stage.dark)
 

@@ -20,8 +20,8 @@ from bootcourse.episodes.words import ACCIDENTS
 from bootcourse.errors import BootcourseError
 from bootcourse.policies import Policy
 from bootcourse.replay3d.road import SHOULDER
-from bootcourse.replay3d.timeline import Moment, Timeline
-from bootcourse.road.state import EGO, HEADING, TRAP_1, TRAP_2, Accident, X, Y
+from bootcourse.replay3d.timeline import Timeline
+from bootcourse.road.state import ACCELERATION, CRASHED, EGO, HEADING, TRAP_1, TRAP_2, Accident, X, Y
 from bootcourse.scenario import Road
 
 ROAD_GAP = 5.0  # m of ground between two roads side by side
@@ -98,19 +98,19 @@ def span(count: int, road: Road) -> float:
 
 def view(timeline: Timeline, t: float) -> DriveView:
     """A drive at time t (s)."""
-    moment, ended = timeline.at(t), t >= timeline.duration
-    anchor, marked = float(moment.x[EGO]), moment.crashed.copy()
-    x, y = to_world(moment.x - anchor, moment.y)
+    cars, ended = timeline.at(t), t >= timeline.duration
+    anchor, marked = float(cars[EGO, X]), cars[:, CRASHED] != 0
+    x, y = to_world(cars[:, X] - anchor, cars[:, Y])
     marked[EGO] |= ended and timeline.rollout.accident != Accident.NONE
     return DriveView(
         anchor=anchor,
         x=x,
         y=y,
-        yaw=to_yaw(moment.heading),
-        lamps=tuple("brake" if a < BRAKES else "power" if a > PUSHES else "off" for a in moment.acceleration),
+        yaw=to_yaw(cars[:, HEADING]),
+        lamps=tuple("brake" if a < BRAKES else "power" if a > PUSHES else "off" for a in cars[:, ACCELERATION]),
         marked=marked,
         crumbs=crumbs(timeline, t),
-        labels=_labels(timeline, moment, ended),
+        labels=_labels(timeline, cars, ended),
         ended=ended,
         decision=timeline.decision(t),
     )
@@ -127,10 +127,10 @@ def crumbs(timeline: Timeline, t: float) -> np.ndarray:
     return np.column_stack([x, y, z, to_yaw(ego[:, HEADING])])
 
 
-def _labels(timeline: Timeline, moment: Moment, ended: bool) -> dict[int, str]:
+def _labels(timeline: Timeline, cars: np.ndarray, ended: bool) -> dict[int, str]:
     length, labels = timeline.rollout.scenario.car.length, {}
     for trap, name in TRAPS.items():
-        ahead = float(moment.x[trap] - moment.x[EGO])
+        ahead = float(cars[trap, X] - cars[EGO, X])
         gap = abs(ahead) - length
         if gap <= 0:
             labels[trap] = f"{name}: beside you"

@@ -28,9 +28,8 @@ import bootcourse as bc
 import numpy as np
 import torch
 from bootcourse.course import check, compare_predictions, own_code, predict, table
-from bootcourse.course.lessons.discrete_sac import by_hand, figures, left_out
+from bootcourse.course.lessons.discrete_sac import by_hand, diagrams, figures, left_out
 from bootcourse.learn import sac
-from bootcourse.plots import diagrams
 from bootcourse.research import checks
 
 # %% [markdown]
