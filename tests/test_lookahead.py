@@ -8,13 +8,14 @@ import pytest
 from gymnasium.vector import AutoresetMode
 
 import bootcourse as bc
+from bootcourse.course.lessons.looking_ahead.futures_figure import nine_futures
 from bootcourse.course.shipped import beginning
 from bootcourse.episodes.evaluate import drive_episodes
 from bootcourse.episodes.lookahead import imagine, lookahead, lookahead_shield, rollout_values, worth_of_speed
 from bootcourse.episodes.models import FAR_BEHIND, MODELS, Model
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.teachers import teacher_policy
-from bootcourse.plots.futures import nine_futures, trails
+from bootcourse.plots.futures import trails
 from bootcourse.policies import PlanPolicy, PolicyOutput, idle_policy, plan_policy, rule_policy
 from bootcourse.replay3d.recorder import to_html
 from bootcourse.replay3d.scene import timelines_of

@@ -26,10 +26,10 @@ import bootcourse as bc
 import numpy as np
 from bootcourse.course import check, compare_predictions, own_code, predict, source, table
 from bootcourse.course.lessons.looking_ahead import imagined_road
+from bootcourse.course.lessons.looking_ahead.futures_figure import nine_futures
 from bootcourse.course.shipped import beginning, shipped_experiment
 from bootcourse.episodes import models
 from bootcourse.episodes.lookahead import NINE, imagine, lookahead_shield
-from bootcourse.plots.futures import nine_futures
 from bootcourse.research.lookahead import Cell
 from bootcourse.research.lookahead_figures import by_horizon, learned_rows, score, wrong_models
 from bootcourse.road.state import Accident
