@@ -88,13 +88,10 @@ def train(
         if status == INTERRUPTED:
             print(f"Interrupted. To continue, run `{command_to_continue(context)}`.", file=sys.stderr)
         elif not quiet:
-            words = [
-                "evaluate",
-                str(out),
-                *["--teacher", teacher] * bool(teacher),
-                *["--learner", learner] * bool(learner),
-            ]
-            print(f"To test these agents on 1,000 other roads, run `bootcourse {shlex.join(words)}`.")
+            words = ["bootcourse", "evaluate", str(out)]
+            for option, place in (("--teacher", teacher), ("--learner", learner)):
+                words += [option, place] if place else []
+            print(f"To test these agents on 1,000 other roads, run `{shlex.join(words)}`.")
         raise typer.Exit(status)
 
 
@@ -118,10 +115,8 @@ def is_unfinished(out: Path) -> bool:
 
 def given_options(context: typer.Context) -> dict[str, object]:
     """The options of `bootcourse train` that stand on the command line, by name."""
-    sources = {name: context.get_parameter_source(name) for name in context.params}
-    return {
-        name: value for name, value in context.params.items() if getattr(sources[name], "name", "") == "COMMANDLINE"
-    }
+    typed = [name for name in context.params if context.get_parameter_source(name).name == "COMMANDLINE"]
+    return {name: context.params[name] for name in typed}
 
 
 def command_to_continue(context: typer.Context) -> str:
