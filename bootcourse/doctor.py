@@ -91,14 +91,6 @@ def road() -> Iterator[Finding]:
     yield Finding("ok", f"the compiled road drives after {seconds:.1f} s (the first time it compiles)")
 
 
-def learner() -> Iterator[Finding]:
-    """torch multiplies."""
-    import torch
-
-    torch.ones(2) @ torch.ones(2)
-    yield Finding("ok", f"torch {torch.__version__} computes")
-
-
 def port() -> Iterator[Finding]:
     """A local server, as JupyterLab and the 3D replays need."""
     try:
@@ -150,7 +142,7 @@ def disk() -> Iterator[Finding]:
     yield Finding(level, f"{free:.1f} GB free on the disk of {Path.cwd()}", remedy)
 
 
-CHECKS = (python, packages, learner, cache, road, lessons, port, disk)
+CHECKS = (python, packages, cache, road, lessons, port, disk)
 
 
 def main() -> int:

@@ -34,9 +34,9 @@ NODES = """names => Object.fromEntries(names.map(name => {
 }))"""
 
 
-def replay_command(files, export=None, gif=None, png=None, text=False, port=0):
+def replay_command(files, export=None, gif=None, png=None, text=False):
     """`bootcourse replay`, without a browser."""
-    cli.replay(files, export, gif, png, text, port, browser=False)
+    cli.replay(files, export, gif, png, text, browser=False)
 
 
 @pytest.fixture(scope="module")

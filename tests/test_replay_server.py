@@ -73,7 +73,7 @@ def test_it_starts_serves_stops_and_frees_its_port_several_times_in_a_row(drives
 
 def test_a_viser_that_does_not_take_the_guard_is_stopped_with_a_sentence(drives, monkeypatch):
     class Unguarded(server.PLAIN):
-        made = 0
+        started = 0
 
     threads = threading.active_count()
     monkeypatch.setattr(server, "OwnPagesOnly", Unguarded)
@@ -174,25 +174,10 @@ def test_behind_a_hub_it_goes_through_the_proxy_or_says_what_to_do(monkeypatch):
     assert viewer.address_for_browser(4321)[0] == "/user/ada/proxy/4321/"
 
 
-def test_a_port_in_use_gets_one_sentence(drives):
-    with socket.socket() as taken:
-        taken.bind(("127.0.0.1", 0))
-        taken.listen()
-        port = taken.getsockname()[1]
-        with pytest.raises(BootcourseError, match=f"Port {port} is in use"):
-            replay(drives[1], port=port)
-    with pytest.raises(BootcourseError, match="does not exist"):
-        replay(drives[1], port=70_000)
-    with replay(drives[1], port=port) as live:
-        assert live.port == port
-
-
-def test_running_a_cell_again_replaces_its_replay_even_on_the_same_port(drives, monkeypatch):
+def test_running_a_cell_again_replaces_its_replay(drives, monkeypatch):
     monkeypatch.setattr(one_per_cell, "this_cell", lambda: "cell 1")
-    first = replay(drives[1])
-    port = first.port
-    second = replay(drives[0], port=port)
-    assert first.closed and second.port == port and one_per_cell.running() == [second]
+    first, second = replay(drives[1]), replay(drives[0])
+    assert first.closed and one_per_cell.running() == [second]
     monkeypatch.setattr(one_per_cell, "this_cell", lambda: "cell 2")
     third = replay(drives[1])
     with pytest.raises(BootcourseError):  # a refused replay leaves the old one alone

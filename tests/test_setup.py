@@ -143,8 +143,8 @@ def refuses(error: Exception):
 
 
 AMISS = {
-    "torch is not installed": (
-        doctor.learner, (sys.modules, "torch", None), "STOP  learner: torch is not installed",
+    "gymnasium is not installed": (
+        doctor.road, (sys.modules, "gymnasium", None), "STOP  road: gymnasium is not installed",
     ),
     "no local port can be opened": (
         doctor.port, (socket, "create_server", refuses(PermissionError(13, "Permission denied"))),
@@ -179,7 +179,7 @@ def test_the_doctor_speaks_when_nothing_is_installed():
     bare = [sys.executable, "-I", "-S", "bootcourse/doctor.py"]  # -S: no site-packages
     result = subprocess.run(bare, cwd=ROOT, capture_output=True, text=True, timeout=120)
     assert result.returncode == 1
-    assert "STOP  learner: torch is not installed" in result.stdout
+    assert "is not installed" in result.stdout
     assert "make lab" in result.stdout
 
 

@@ -208,7 +208,6 @@ def replay(
     gif: Path | None = typer.Option(None, help="Write an animation of the road from above, such as out.gif."),
     png: Path | None = typer.Option(None, help="Write one moment from above as a picture, such as out.png."),
     text: bool = typer.Option(False, "--text", help="Print each drive in words."),
-    port: int = typer.Option(0, min=0, max=65535, help="The server's port; 0: any free one."),
     browser: bool = typer.Option(True, help="Open the browser, or print only the address."),
 ) -> None:
     """Show drives in 3D in the browser until Ctrl-C, or write them to a file, or print them in words."""
@@ -218,7 +217,7 @@ def replay(
     if not (export or gif or png or text):
         from bootcourse.replay3d import viewer
 
-        with viewer.replay(rollouts, port=port) as shown, contextlib.suppress(KeyboardInterrupt):
+        with viewer.replay(rollouts) as shown, contextlib.suppress(KeyboardInterrupt):
             print(f"Replay at {shown.url} (Ctrl-C ends it)", flush=True)
             if browser:
                 webbrowser.open(shown.url)

@@ -36,7 +36,7 @@ class DrivePanel(Panel):
     ):
         self.scenario, self.ghost_of, self.base = scenario, ghost_of, futures or rule_policy(scenario)
         self.drive, self.ghost = InteractiveEpisode(seed, scenario), ghost_of(seed)
-        self.kept: dict[InteractiveEpisode, Rollout] = {}
+        self.chosen: dict[InteractiveEpisode, Rollout] = {}
         self.view = widgets.HTML()
         self.view.add_class("bc-road")
         self.road = Number("road", seed, 0, 99, 1, "The seed of the road. Another one begins a new drive.",
@@ -65,7 +65,7 @@ class DrivePanel(Panel):
 
     @property
     def demonstrations(self) -> list[Rollout]:
-        return list(self.kept.values())
+        return list(self.chosen.values())
 
     def press(self, action: int) -> None:
         """A button or a key: drive a decision."""
@@ -96,8 +96,8 @@ class DrivePanel(Panel):
         self.update()
 
     def _keep(self) -> None:
-        self.kept[self.drive] = self.drive.rollout()
-        drives, decisions = len(self.kept), sum(len(drive.actions) for drive in self.demonstrations)
+        self.chosen[self.drive] = self.drive.rollout()
+        drives, decisions = len(self.chosen), sum(len(drive.actions) for drive in self.demonstrations)
         several = "s" * (drives > 1)
         self.say(f"Kept {drives} demonstration{several}, {decisions} decisions, in PANEL.demonstrations.")
 

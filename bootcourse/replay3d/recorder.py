@@ -87,7 +87,7 @@ def to_html(rollouts: Rollout | Sequence[Rollout], dark: bool = False, futures: 
     duration = max(timeline.duration for timeline in timelines)
     cars = sum(timeline.rollout.scenario.vehicles for timeline in timelines)
     rate = next((rate for rate in RATES if cars * duration * rate <= CAR_FRAMES), RATES[-1])
-    recorder = server.start()
+    recorder = server.LocalServer()
     try:
         stage = Stage(recorder, timelines, dark)
         recording = recorder.get_scene_serializer()

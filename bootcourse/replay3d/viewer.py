@@ -22,12 +22,12 @@ HUD_RATE = 10.0  # Hz, of real time, at most: how often the numbers in the panel
 class Replay(contextlib.AbstractContextManager):
     """A replay of rollouts on a server. A notebook shows it as the cell's output; `close()` ends it. See `replay`."""
 
-    def __init__(self, rollouts, port: int = 0, height: int = 640, dark: bool = False, futures: Policy | None = None):
+    def __init__(self, rollouts, height: int = 640, dark: bool = False, futures: Policy | None = None):
         self.timelines, self.futures = scene.timelines_of(rollouts, futures), futures
         self.height, self.closed = height, False
         self._lock = threading.RLock()  # held while a frame is shown or the scene changes, in whichever thread
         self._hud_due, self._greeted = 0.0, False
-        self.server = server.start(port)
+        self.server = server.LocalServer()
         try:
             self.stage = Stage(self.server, self.timelines, dark)
             duration = max(timeline.duration for timeline in self.timelines)
@@ -120,19 +120,19 @@ def address_for_browser(port: int) -> tuple[str | None, str]:
 
 
 def replay(
-    rollouts: Rollout | Sequence[Rollout], *, port: int = 0, height: int = 640, dark: bool = False,
+    rollouts: Rollout | Sequence[Rollout], *, height: int = 640, dark: bool = False,
     futures: Policy | None = None,
 ) -> Replay:  # fmt: skip
     """Show a rollout, or several of the same seed side by side, in 3D.
 
-    port: 0 takes a free one. height: of the cell's output, pixels. futures: a base policy: at each decision, draw the
+    height: of the cell's output, pixels. futures: a base policy: at each decision, draw the
     nine imagined drives that it would go on with, those that crash in red, that of the driven action bold.
     Running the same notebook cell again replaces its replay.
-    Raises BootcourseError if the drives cannot be shown together, or if the port is taken.
+    Raises BootcourseError if the drives cannot be shown together.
     """
     scene.timelines_of(rollouts)  # a refused replay leaves the one before alone
     cell = one_per_cell.this_cell()
     one_per_cell.close_shown_by(cell)
-    shown = Replay(rollouts, port, height, dark, futures)
+    shown = Replay(rollouts, height, dark, futures)
     one_per_cell.note(cell, shown)
     return shown
