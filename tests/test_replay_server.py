@@ -4,19 +4,16 @@ import gc
 import http.client
 import importlib.util
 import socket
-import sys
 import threading
 import time
 import urllib.request
 from asyncio.base_events import Server
-from pathlib import Path
 
 import msgspec
 import numpy as np
 import pytest
 import viser
 import viser._viser
-from jupyter_client.manager import start_new_kernel
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
@@ -89,8 +86,6 @@ def test_it_listens_on_this_machine_only(shown):
     shown.player.play()
     time.sleep(0.2)
     assert shown.player.t == 0.0, "without viewers the clock waits"
-    if sys.platform == "linux":  # where all of 127.x.x.x is this machine: listening on every address would answer here
-        assert not is_open(shown.port, "127.0.0.2")
 
 
 def _listening(live):
@@ -186,9 +181,6 @@ def test_running_a_cell_again_replaces_its_replay(drives, monkeypatch):
     second.close(), third.close()
 
 
-ROOT = Path(__file__).resolve().parent.parent
-
-
 @needs_browser
 def test_in_a_browser_the_cars_are_where_they_were_and_move(drives):
     with replay(drives) as live, open_browser() as new_page:
@@ -252,42 +244,3 @@ def test_one_moment_is_one_batch(shown):
     shown._frame(3.3)
     assert len(depths) > 10 and min(depths) >= 1
     assert shown.stage.drives[0].cars[EGO].position[0] == 0.0
-
-
-def run_in_cell(client, cell: str, code: str) -> list[dict]:
-    """Run code in a kernel as JupyterLab runs a cell; returns its outputs."""
-    content = {"code": code, "silent": False, "store_history": False, "user_expressions": {}, "allow_stdin": False}
-    message = client.session.msg("execute_request", content, metadata={"cellId": cell})
-    client.shell_channel.send(message)
-    outputs = []
-    while True:
-        reply = client.get_iopub_msg(timeout=60)
-        if reply["parent_header"].get("msg_id") != message["header"]["msg_id"]:
-            continue
-        if reply["msg_type"] == "status" and reply["content"]["execution_state"] == "idle":
-            return outputs
-        if reply["msg_type"] not in ("status", "execute_input"):
-            outputs.append(reply)
-
-
-def test_in_a_kernel_a_cell_shows_one_frame_replaces_it_when_run_again_and_ends_with_the_kernel(drives, tmp_path):
-    file = drives[1].save(tmp_path / "drive.npz")
-    setup = f"""
-from bootcourse.episodes.rollout import Rollout
-from bootcourse.replay3d import replay
-r = Rollout.load({str(file)!r})
-"""
-    manager, client = start_new_kernel(cwd=str(ROOT))
-    try:
-        assert run_in_cell(client, "setup", setup) == []
-
-        def port_shown_by(cell: str) -> int:
-            [output] = run_in_cell(client, cell, "replay(r)")  # and no banner
-            return int(output["content"]["data"]["text/html"].split("http://127.0.0.1:")[1].split('"')[0])
-
-        first, other, again = port_shown_by("a"), port_shown_by("b"), port_shown_by("a")
-        assert not is_open(first) and is_open(other) and is_open(again)
-    finally:
-        client.stop_channels()
-        manager.shutdown_kernel()
-    assert not is_open(other) and not is_open(again)

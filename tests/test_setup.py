@@ -101,13 +101,6 @@ def test_the_install_compiles_the_road_and_jupyterlab_will_ask_nothing(tmp_path)
     assert CALM["@jupyterlab/apputils-extension:notification"] in settings.values()
 
 
-@pytest.mark.skipif(not shutil.which("make"), reason="make is for Linux and macOS")
-def test_make_lab_opens_the_first_lesson():
-    said = subprocess.run(["make", "--dry-run", "lab"], cwd=ROOT, capture_output=True, text=True).stdout
-    first = re.search(r"default_url=/lab/tree/(\S+)", said)[1]
-    assert first == "00_start.ipynb" and (ROOT / "notebooks" / first).exists()
-
-
 # The doctor
 
 
@@ -207,11 +200,6 @@ def test_help_can_be_printed_in_windows_usual_encoding(command, bootcourse, monk
     assert bootcourse(*command.split(), "--help").status == 0
     print("of p, ξ and c → ✓", file=printed, flush=True)
     assert b"--help" in printed.buffer.getvalue() and b"of p, xi and c ? ?" in printed.buffer.getvalue()
-
-
-def test_a_mistyped_command_is_told_the_nearest_one(bootcourse):
-    answer = bootcourse("docter")
-    assert answer.status == 2 and "Did you mean 'doctor'?" in answer.err
 
 
 def test_the_version_is_the_packages_own(bootcourse):
