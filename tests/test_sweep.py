@@ -142,4 +142,4 @@ def test_a_file_that_is_missing_or_damaged_is_one_sentence(tmp_path, file):
         ("none", "is not there"), ("cut", "damaged or cut short"), ("other", "does not hold a study's results"),
     ):  # fmt: skip
         panel = sweep_panel(tmp_path / f"{name}.npz")
-        assert sentence in words(panel).replace("&#39;", "'") and panel.happened is None and panel.picture().alt
+        assert sentence in words(panel).replace("&#39;", "'") and panel.happened is None and panel.svg.alt
