@@ -110,9 +110,7 @@ def test_what_is_wrong_with_a_teacher_is_one_sentence(teacher, sentence, bootcou
     assert not Path("new").exists()
 
 
-@pytest.mark.parametrize(
-    "arguments", [("evaluate", "idle"), ("evaluate", "rule", "--board"), ("drive", "random", "--out", "drive.npz")]
-)
+@pytest.mark.parametrize("arguments", [("evaluate", "idle"), ("drive", "random", "--out", "drive.npz")])
 def test_a_driver_without_a_teacher_is_given_none(arguments, bootcourse, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     answer = bootcourse(*arguments, "--teacher", "t.py:nine")
@@ -150,7 +148,7 @@ REFUSED = {
     "a scheduler for this machine": (["study", "--scheduler", "tcp://a:1", *NEW], "needs --backend dask"),
     "a method that an experiment has not": (["study", "teachers", "--only", "sac", *NEW], "'sac' is unknown"),
     "a folder without runs": (["evaluate", "full"], "holds no run: train one"),
-    "a folder that is not there": (["evaluate", "runs/nope"], "There is no folder runs/nope: give one that"),
+    "a folder that is not there": (["evaluate", "runs/nope"], "'runs/nope' is unknown"),
     "the folder above the runs": (["evaluate", "deep"], "deep holds no run itself: name a folder in it, such as deep/"),
     "a study among runs": (["study", "--out", "deep/runs"], "deep/runs holds runs of `bootcourse train`: choose"),
     "a lesson that is not there": (["handout", "new", "--lessons", "4-99"], "there is no lesson 99, the last is 18."),

@@ -30,28 +30,20 @@ ACROSS = 4  # columns of `evaluate`'s table side by side in a terminal
 
 
 def evaluate(
-    who: list[str] = typer.Argument(..., help="rule, idle, random, or a folder that `bootcourse train` wrote."),
+    who: str = typer.Argument(..., help="rule, idle, random, or a folder that `bootcourse train` wrote."),
     episodes: int = typer.Option(1000, min=1, help="Held-out episodes."),
     seed: int = typer.Option(1, min=0, help="The block of held-out roads."),
     scenario: str = SCENARIO,
     teacher: str = TEACHER,
     learner: str = LEARNER,
     lookahead: int = LOOK_AHEAD,
-    board: bool = typer.Option(False, "--board", help="Print the leaderboard with them; here WHO may be several."),
 ) -> None:
     """Drive held-out episodes and print success, return, speed, distance and accidents with 95 % intervals."""
     from bootcourse.cli.training import register_learner
     from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds, over_seeds, summarise
 
     register_learner(learner)
-    if board:
-        if (episodes, seed, scenario, lookahead) != (1000, 1, "", 0):
-            raise BootcourseError("--board has its own roads and form: with it, give only --teacher.")
-        print_board(who, teacher)
-        return
-    if len(who) > 1:
-        raise BootcourseError("Several drivers need --board.")
-    seeds, drivers = held_out_seeds(seed, episodes), drivers_of(who[0], scenario, seed, teacher, lookahead)
+    seeds, drivers = held_out_seeds(seed, episodes), drivers_of(who, scenario, seed, teacher, lookahead)
     summaries = {each.label: summarise(drive_episodes(each.policy, seeds, each.road)) for each in drivers}
     means = {name: over_seeds([summaries[label] for label in labels]) for name, labels in alike(drivers).items()}
     columns = {label: vars(each) for label, each in summaries.items()} | means
@@ -60,32 +52,6 @@ def evaluate(
     labels = list(columns)
     for first in range(0, len(labels), ACROSS):
         print_table({label: columns[label] for label in labels[first : first + ACROSS]})
-
-
-def print_board(who: list[str], teacher: str) -> None:
-    """Print the leaderboard, where the built-in drivers stand, with the rows of agents in folders."""
-    import bootcourse
-    from bootcourse.cli.training import teacher_from
-
-    own = [one for one in who if one not in BUILT_IN]
-    for one in own:
-        check_driver(one)
-    if teacher and not own:
-        refuse_teacher(teacher)
-    print(bootcourse.board(*own, teacher=teacher_from(teacher)))
-
-
-def check_driver(who: str) -> None:
-    """Raise BootcourseError for what is neither a built-in driver nor there."""
-    if Path(who).name != who and not Path(who).exists():
-        raise BootcourseError(f"There is no folder {who}: give one that `bootcourse train` wrote.")
-    if who not in BUILT_IN and not Path(who).exists():
-        raise BootcourseError(f"Driver {did_you_mean(who, BUILT_IN)}, or give a folder that `bootcourse train` wrote.")
-
-
-def refuse_teacher(teacher: str) -> None:
-    """Raise BootcourseError, because a built-in driver has no use for a teacher."""
-    raise BootcourseError(f"--teacher {teacher}: {', '.join(BUILT_IN)} drive without a teacher: leave it out.")
 
 
 class Driver(NamedTuple):
@@ -123,13 +89,15 @@ def drivers_of(who: str, scenario: str, seed: int, teacher: str, horizon: int) -
     from bootcourse.policies import idle_policy, random_policy, rule_policy
     from bootcourse.scenario import DEFAULT, named
 
-    check_driver(who)
     if who in BUILT_IN:
         if teacher:
-            refuse_teacher(teacher)
+            raise BootcourseError(f"--teacher {teacher}: {', '.join(BUILT_IN)} drive without a teacher: leave it out.")
         road, rng = named(scenario) if scenario else DEFAULT, np.random.default_rng(seed)
         built_in = {"rule": rule_policy(road), "idle": idle_policy, "random": random_policy(rng)}
         drivers = [Driver(who, built_in[who], road)]
+    elif not Path(who).exists():
+        folder = "or give a folder that `bootcourse train` wrote"
+        raise BootcourseError(f"Driver {did_you_mean(who, BUILT_IN)}, {folder}.")
     else:
         drivers = agents_in(Path(who), scenario, teacher, with_q=not horizon)
     if not horizon:

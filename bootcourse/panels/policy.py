@@ -55,7 +55,7 @@ class PolicyPanel(Panel):
         self.say(missing(rollout))
 
     def _moment(self) -> Number:
-        """The number that chooses a decision by its time."""
+        """The time (s) of the decision that is shown, to be moved."""
         last = (len(self.rollout.actions) - 1) / self.rate
 
         def check(t: float) -> None:

@@ -193,7 +193,7 @@ def progress(words: str, share: float) -> str:
 
 
 def training_chart(method: str, curves: dict[str, np.ndarray], episodes: int) -> Drawing:
-    """Six small charts of a training, always of the same size: thin lines are agents, the thick one their middle.
+    """Six small charts of a training, always of the same size: thin lines are agents, the thick one their mean.
 
     curves: as `Result.curves`, each (agents, episodes), NaN where still to come; empty before the training.
     """

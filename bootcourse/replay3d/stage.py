@@ -15,7 +15,7 @@ from bootcourse.plots.futures import BRIGHT, Trail, trails
 from bootcourse.replay3d import scene
 from bootcourse.replay3d.camera import CHASE, FIELD_OF_VIEW, pose
 from bootcourse.replay3d.car import CRUMB, DARK, LAMPS, LIGHT, Mesh, car_parts, paint, ring
-from bootcourse.replay3d.road import AHEAD, BEHIND, SHOULDER, THEMES, edges, ground, road_parts, signs
+from bootcourse.replay3d.road import AHEAD, BEHIND, THEMES, ground, road_parts
 from bootcourse.replay3d.timeline import Timeline
 from bootcourse.road.state import EGO, TRAP_1, TRAP_2, X
 
@@ -132,12 +132,6 @@ class Stage:
         tints = {"asphalt": colours.asphalt, "lines": colours.line, "posts": colours.post}
         for name, mesh in road_parts(road, start, end).items():
             _mesh(api, f"{base}/{name}", mesh, tints[name])
-        right = edges(road)[1] - SHOULDER - 1.4
-        for metres in signs(start, end):
-            api.add_label(
-                f"{base}/sign{metres}", f"{metres} m", position=(float(metres), right, 1.6),
-                font_size_mode="scene", font_scene_height=0.6, depth_test=True, anchor="bottom-center",
-            )  # fmt: skip
 
     def _car(self, drive: Drive, name: str, size, car: int, own: str) -> None:
         api, parts = self.server.scene, car_parts(size.length, size.width)

@@ -1,4 +1,4 @@
-"""A rollout, which records two states a second, at any time in between."""
+"""A rollout holds two states a second; a timeline says where every car is at any time."""
 
 from dataclasses import dataclass
 
