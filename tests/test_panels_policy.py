@@ -75,7 +75,7 @@ def test_every_control_moves_its_own_numbers_and_the_picture_and_refuses_nonsens
         from_page(panel.xi.slider, value=xi)
         given.append(panel.seen.optimum[by_rule])
     assert given == sorted(given) and given[-1] > 0.5
-    for number in (panel.moment, panel.p, panel.xi, panel.alpha):
+    for number in (panel.moment, panel.p, panel.xi):
         at_its_ends(panel, number)
 
 

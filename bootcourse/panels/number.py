@@ -14,20 +14,20 @@ class Number(widgets.VBox):
     """`value` has been accepted by `check`; a refused number changes nothing but the sentence below it.
 
     check: raises BootcourseError for a number that the library refuses. low, high, step: of the slider; a typed number
-    may lie beyond them if `check` accepts it. logarithmic: low and high are powers of ten.
+    may lie beyond them if `check` accepts it.
     """
 
     value = traitlets.Float()
 
     def __init__(
         self, symbol: str, value: float, low: float, high: float, step: float, help: str, unit: str = "",
-        check: Callable[[float], object] = lambda value: None, logarithmic: bool = False,
+        check: Callable[[float], object] = lambda value: None,
     ):  # fmt: skip
         self.check, self.symbol, self.purpose, self.sentence = check, symbol, help, help
-        self.ends = (10.0**low, 10.0**high) if logarithmic else (low, high)
         self._showing = False  # what `show` writes into the controls is not an entry
-        make = widgets.FloatLogSlider if logarithmic else widgets.FloatSlider
-        self.slider = make(value=value, min=low, max=high, step=step, readout=False, tooltip=f"{symbol}: {help}")
+        self.slider = widgets.FloatSlider(
+            value=value, min=low, max=high, step=step, readout=False, tooltip=f"{symbol}: {help}"
+        )
         self.field = widgets.FloatText(value=value, step=step, tooltip=f"{symbol}, typed: {help}")
         self.help = widgets.HTML()
         label = widgets.HTML(html("<b>{}</b>{}", symbol, f" ({unit})" if unit else ""))
@@ -58,7 +58,7 @@ class Number(widgets.VBox):
         """Show the value, in place of a refused number; one beyond the slider's range puts the slider at its end."""
         self.help.value = html('<div class="bc-quiet">{}</div>', self.sentence)
         self._showing = True
-        self.slider.value = min(max(self.value, self.ends[0]), self.ends[1])
+        self.slider.value = min(max(self.value, self.slider.min), self.slider.max)
         self.field.value = self.value
         self._showing = False
 

@@ -1,4 +1,4 @@
-"""One decision of a drive, and what the soft constraint does to each action while you move p, ξ and α.
+"""One decision of a drive, and what the soft constraint does to each action while you move p and ξ.
 
 `policy_numbers.py` computes the numbers.
 """
@@ -45,11 +45,9 @@ class PolicyPanel(Panel):
         self.moment = self._moment()
         self.p = Number("p", p, 0.12, 0.99, 0.01, "Probability that π̃ gives to the rule's own action.", check=check_p)
         self.xi = Number("ξ", xi, 0, 5, 0.05, "Weight of the KL, which pulls π to the rule.",
-                         check=lambda xi: check_weights(xi, 1))  # fmt: skip
-        self.alpha = Number("α", alpha, -4, 0, 0.05, "Weight of the entropy: how random π may stay.",
-                            check=lambda alpha: check_weights(0, alpha), logarithmic=True)  # fmt: skip
-        self.view = widgets.HTML()
-        numbers = (self.moment, self.p, self.xi, self.alpha)
+                         check=lambda xi: check_weights(xi, alpha))  # fmt: skip
+        self.alpha, self.view = alpha, widgets.HTML()
+        numbers = (self.moment, self.p, self.xi)
         super().__init__("What the rule's pull does to each action", beside(*numbers), self.view)
         self.update_with(*numbers)
         self.say(missing(rollout))
@@ -69,7 +67,7 @@ class PolicyPanel(Panel):
         """Compute and draw the present moment."""
         k = int(self.moment.value * self.rate + 1e-9)
         policy, q = (None if a is None else a[k] for a in (self.rollout.policy, self.rollout.q_values))
-        p, xi, alpha = self.p.value, self.xi.value, self.alpha.value
+        p, xi, alpha = self.p.value, self.xi.value, self.alpha
         self.seen = policy_numbers(policy, q, int(self.decisions.actions[k]), p, xi, alpha)
         scenario, colour = self.rollout.scenario, style(self.rollout.label).colour
         scale = ROAD / (scenario.road.lanes * scenario.road.lane_width)
@@ -119,7 +117,7 @@ class PolicyPanel(Panel):
         if seen.optimum is not None:
             best = int(seen.optimum.argmax())
             sentences.append(
-                f"With ξ = {self.xi.value:g} and α = {self.alpha.value:g} the best compromise gives "
+                f"With ξ = {self.xi.value:g} and α = {self.alpha:g} the best compromise gives "
                 f"{seen.optimum[best]:.2f} to {ACTION_NAMES[best]}."
             )
         if self.imagined is not None:
@@ -205,7 +203,7 @@ def policy_panel(
     alpha: float | None = None,
     futures: Policy | None = None,
 ) -> PolicyPanel:
-    """See π, π̃ and their best compromise at each decision of a drive, while you move p, ξ and α.
+    """See π, π̃ and their best compromise at each decision of a drive, while you move p and ξ.
 
     rollout: a recorded drive; only an agent with Q and `with_q=True` gives all that is shown. p: the drive's own
     `rule_p` if None. alpha: the paper's start value, 0.01, if None. xi: the paper's 200 α, 2. futures: the base policy

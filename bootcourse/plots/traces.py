@@ -93,13 +93,12 @@ def traces(
 
 
 def _names(drives: list[Rollout]) -> list[str]:
-    """What to call each drive; the same driver on two roads is told apart by the road."""
+    """What to call each drive; several of one driver are told apart by their road."""
     names = [display_name(drive.label) for drive in drives]
-    several = {each for each in names if names.count(each) > 1}
-    roads = [
-        f"{each}, road {drive.seed}" if each in several else each for each, drive in zip(names, drives, strict=True)
+    return [
+        f"{name}, road {drive.seed}" if names.count(name) > 1 else name
+        for name, drive in zip(names, drives, strict=True)
     ]
-    return [f"{each} ({i + 1})" if roads.count(each) > 1 else each for i, each in enumerate(roads)]
 
 
 def _title(drives: list[Rollout], names: list[str]) -> str:
