@@ -232,7 +232,7 @@ def test_in_a_browser_the_buttons_and_the_slider_work(drives):
         assert until(lambda: not live.stage.drives[0].futures[0].visible), "key F"
         page.get_by_label("Nine futures").click()
         assert until(lambda: live.stage.drives[0].futures[0].visible)
-        page.get_by_label("Dark").click()
+        page.get_by_label("Dark", exact=True).click()
         assert until(lambda: live.stage.dark)
 
 
