@@ -96,11 +96,11 @@ class TrainPanel(Panel):
         self._lock_unused()
 
     def _lock_unused(self) -> None:
-        """Switch off the numbers that the method does not use. A method that uses π̃ without ξ has a p of its own."""
+        """Switch off the numbers that the method does not use."""
         own = METHODS[self.method.value].settings
-        unused = {name for name in ("xi_multiplier", "bonus") if own.get(name) == 0}
-        unused |= {"rule_p"} if "xi_multiplier" in unused and "rule_p" not in own else set()
-        unused |= {"bonus"} if own.get("beta_start") == 0 else set()
+        without_kl, without_demonstrations = own.get("xi_multiplier") == 0, own.get("beta_start") == 0
+        unused = {"rule_p", "xi_multiplier"} if without_kl else set()
+        unused |= {"bonus"} if without_demonstrations or own.get("bonus") == 0 else set()
         for name, number in self.numbers.items():
             number.lock(f"Without use in {display_name(self.method.value)}." if name in unused else "")
 
