@@ -84,7 +84,6 @@ NAMES = {  # name -> where it is defined
     "board": "bootcourse.course.board",
     # to look at it
     "show": "bootcourse.plots.figure",
-    "top_view": "bootcourse.plots.top_view",
     "top_view_over_time": "bootcourse.plots.top_view",
     "traces": "bootcourse.plots.traces",
     "training_curves": "bootcourse.plots.training_curves",

@@ -5,7 +5,6 @@ Packages outside the standard library are imported inside the checks, so that it
 """
 
 import importlib.metadata
-import os
 import platform
 import re
 import shutil
@@ -18,13 +17,10 @@ from pathlib import Path
 from typing import NamedTuple
 
 ROOT = Path(__file__).resolve().parent.parent
-LOCK = ROOT / "environment.lock"
-STUDENT_LOCK = ROOT / "student.lock"  # its part that the lessons need; a handout has no other
+LOCK, STUDENT_LOCK = ROOT / "environment.lock", ROOT / "student.lock"  # the second: what the lessons need of the first
 OLDEST = (3, 11)
 SET_UP = "Run `make lab` in the course's folder (on Windows, the install line of README.md)."
-BROWSERS = ("chromium", "chromium-browser", "google-chrome", "chrome")
 COMPILED = 10_000_000  # bytes that compiled code needs, with room to spare
-COLOURS = {"ok": "32", "note": "33", "STOP": "31"}
 
 
 class Finding(NamedTuple):
@@ -51,25 +47,17 @@ def packages() -> Iterator[Finding]:
         return
     locked = locked_versions(LOCK.read_text())
     installed = {name: installed_version(name) for name in locked}
-    missing = [name for name in locked if installed[name] is None]
-    different = [name for name in locked if installed[name] not in (None, locked[name])]
-    lessons_need = locked_versions(STUDENT_LOCK.read_text()) if STUDENT_LOCK.exists() else locked
-    stopping = [name for name in missing if name in lessons_need]
-    others = [name for name in missing if name not in lessons_need]
-    if installed_version("bootcourse") is None:
-        yield Finding("STOP", "bootcourse is not installed in this Python", SET_UP)
-    if stopping:
-        yield Finding("STOP", f"not installed: {listed(stopping)}", SET_UP)
-    if others:
-        yield Finding("note", f"not installed, and only the tests need it: {listed(others)}", SET_UP)
-    for name in different:
-        yield Finding("note", f"{name} is {installed[name]}, and the lessons were made with {locked[name]}", SET_UP)
-    yield Finding("ok", f"{len(locked) - len(missing) - len(different)} of {len(locked)} packages match {LOCK.name}")
-
-
-def listed(names: list[str]) -> str:
-    """The first eight names, and the number of the others."""
-    return ", ".join(names[:8]) + (f" and {len(names) - 8} more" if len(names) > 8 else "")
+    needed = locked_versions(STUDENT_LOCK.read_text()) if STUDENT_LOCK.exists() else locked
+    missing = [name for name in ("bootcourse", *needed) if installed_version(name) is None]
+    if missing:
+        yield Finding("STOP", f"not installed: {', '.join(missing)}", SET_UP)
+    if others := [name for name in locked if name not in needed and installed[name] is None]:
+        yield Finding("note", f"not installed, and only the tests need it: {', '.join(others)}", SET_UP)
+    for name in locked:
+        if installed[name] not in (None, locked[name]):
+            yield Finding("note", f"{name} is {installed[name]}, and the lessons were made with {locked[name]}", SET_UP)
+    same = sum(installed[name] == locked[name] for name in locked)
+    yield Finding("ok", f"{same} of {len(locked)} packages match {LOCK.name}")
 
 
 def locked_versions(lock: str) -> dict[str, str]:
@@ -88,29 +76,6 @@ def installed_version(name: str) -> str | None:
         return importlib.metadata.version(name)
     except importlib.metadata.PackageNotFoundError:
         return None
-
-
-def torch_build() -> Iterator[Finding]:
-    """The version of torch, and whether it is a CUDA build."""
-    import torch
-
-    threads = f"{torch.get_num_threads()} threads on {os.cpu_count()} cores"
-    if torch.version.cuda:
-        advice = "It works. To save gigabytes of disk space, delete .venv and run `make lab`."
-        yield Finding("note", f"torch {torch.__version__} is a CUDA build, {threads}", advice)
-    else:
-        yield Finding("ok", f"torch {torch.__version__} is a CPU build, {threads}")
-
-
-def compiler() -> Iterator[Finding]:
-    """numba compiles a function."""
-    import numba
-
-    start = time.perf_counter()
-    if numba.njit(lambda x: x + 1.0)(1.0) != 2.0:
-        yield Finding("STOP", "numba compiles, but 1 + 1 is not 2", SET_UP)
-    else:
-        yield Finding("ok", f"numba compiles a small function in {time.perf_counter() - start:.1f} s")
 
 
 def road() -> Iterator[Finding]:
@@ -177,49 +142,30 @@ def disk() -> Iterator[Finding]:
     yield Finding(level, f"{free:.1f} GB free on the disk of {Path.cwd()}", remedy)
 
 
-def browser() -> Iterator[Finding]:
-    """A browser for the tests."""
-    browser = next(filter(None, map(shutil.which, BROWSERS)), None)
-    if browser:
-        yield Finding("ok", f"browser tests use {browser}")
-    else:
-        advice = "Only `make test` uses it; without it, those tests are skipped. Debian: apt install chromium."
-        yield Finding("note", "no Chromium for the browser tests", advice)
-
-
-CHECKS = (python, packages, torch_build, compiler, cache, road, lessons, port, disk, browser)
-
-
-def findings() -> Iterator[Finding]:
-    """The findings of all checks. A check that raises an exception yields a STOP finding."""
-    for check in CHECKS:
-        try:
-            yield from check()
-        except ModuleNotFoundError as error:
-            yield Finding("STOP", f"{check.__name__}: {error.name} is not installed", SET_UP)
-        except Exception as error:
-            yield Finding("STOP", f"{check.__name__}: {type(error).__name__}: {error}", SET_UP)
+CHECKS = (python, packages, cache, road, lessons, port, disk)
 
 
 def main() -> int:
-    """Print all findings. Returns 1 if a finding is STOP, else 0."""
+    """Print the findings of all checks. Returns 1 if a finding is STOP or a check raised an exception, else 0."""
     print(f"The course on {platform.system()} {platform.machine()}\n")
     stops = 0
-    for finding in findings():
-        stops += finding.level == "STOP"
-        print(f"  {painted(finding.level)}  {finding.what}")
-        if finding.remedy:
-            print(f"        -> {finding.remedy}")
-        sys.stdout.flush()
+    for check in CHECKS:
+        for finding in findings(check):
+            stops += finding.level == "STOP"
+            print(f"  {finding.level:4}  {finding.what}" + (f"\n        -> {finding.remedy}" if finding.remedy else ""))
+            sys.stdout.flush()
     print("\nThe lessons cannot start: see STOP above." if stops else "\nThe lessons can start: `make lab`.")
     return 1 if stops else 0
 
 
-def painted(level: str) -> str:
-    """A level in its colour, if the output is a terminal that wants colours (see no-color.org)."""
-    text = f"{level:4}"
-    coloured = sys.stdout.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
-    return f"\033[{COLOURS[level]}m{text}\033[0m" if coloured else text
+def findings(check) -> Iterator[Finding]:
+    """The findings of a check; an exception that it raises is one."""
+    try:
+        yield from check()
+    except ModuleNotFoundError as error:
+        yield Finding("STOP", f"{check.__name__}: {error.name} is not installed", SET_UP)
+    except Exception as error:
+        yield Finding("STOP", f"{check.__name__}: {type(error).__name__}: {error}", SET_UP)
 
 
 if __name__ == "__main__":

@@ -28,7 +28,6 @@ class Method:
     style: Style  # in figures
     settings: dict = field(default_factory=dict)  # those that differ from `bootstrapped`, whose values are the defaults
     learner: str | type = SAC
-    unused: dict[str, str] = field(default_factory=dict)  # {setting without effect: reason}
     kind: str | type = SETTINGS  # the class of its settings
     on_policy: bool = False  # learns from its own last decisions alone
     episodes: int = 1000  # of training of each agent, by default
@@ -84,7 +83,6 @@ METHODS = {
         Style("#332288", marker="o"),
         _BASELINE | {"beta_start": 1.0},
         "bootcourse.learn.bc:BCLearner",
-        unused={"gamma": "has no critic and so no discount factor"},
     ),
     "cql": Method(
         "CQL",
@@ -115,7 +113,6 @@ METHODS = {
         Style("#332288", "--", marker="o"),
         _BASELINE | {"beta_start": 0.5},
         "bootcourse.learn.bc:DAggerLearner",
-        unused={"gamma": "has no critic and so no discount factor"},
         taught=True,
     ),
     "jsrl": Method(

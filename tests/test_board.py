@@ -121,27 +121,6 @@ def test_what_does_not_drive_is_refused_in_a_sentence(entry, few_roads):
         bc.board(entry)
 
 
-def test_the_command_of_the_readme_prints_the_board_with_the_run(bootcourse, training, few_roads, tmp_path):
-    assert "bootcourse evaluate runs/mine --board" in (FOLDER.parent / "README.md").read_text(encoding="utf-8")
-    bc.save_runs(training, tmp_path / "runs" / "mine")
-    answer = bootcourse("evaluate", tmp_path / "runs" / "mine", "rule", "--board")
-    assert answer.status == 0 and "\n> plain SAC" in answer.out, answer.err
-
-
-REFUSED = {
-    "a mistyped driver": (["rul", "--board"], "did you mean 'rule'"),
-    "other roads": (["rule", "--board", "--seed", 3], "--board has its own roads"),
-    "several drivers without a board": (["rule", "idle"], "Several drivers need --board."),
-}
-
-
-@pytest.mark.parametrize("case", REFUSED)
-def test_bad_input_gets_one_sentence_and_status_2(case, bootcourse, few_roads):
-    arguments, sentence = REFUSED[case]
-    answer = bootcourse("evaluate", *arguments)
-    assert answer.status == 2 and sentence in answer.err and len(answer.err.splitlines()) == 1, answer.err
-
-
 def test_the_rule_with_gap_acceptance_drives_without_an_accident_on_roads_that_nobody_chose_it_on():
     drive = bc.teacher_policy(gap_rule)
     each = bc.drive_episodes(drive, bc.held_out_seeds(22, 100), DEFAULT)

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 import torch
 
-from bootcourse.episodes.interactive import InteractiveEpisode, interpolate_states
+from bootcourse.episodes.interactive import InteractiveEpisode
 from bootcourse.episodes.record import record
-from bootcourse.episodes.rollout import Rollout
+from bootcourse.episodes.rollout import Rollout, interpolate_states
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.demonstrations import FIRST_SEED, collect, demonstration_rows
 from bootcourse.learn.settings import settings_for, with_seeds

@@ -1,7 +1,7 @@
 """The command line, as a user meets it: sentences, exit statuses, files."""
 
-import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -23,29 +23,24 @@ from tests.waiting import until
 COMMAND = [sys.executable, "-m", "bootcourse"]
 
 
-def test_the_rule_s_table_shows_the_accidents_apart_with_intervals(bootcourse):
-    answer = bootcourse("evaluate", "rule", "--episodes", 40)
+def test_a_table_shows_the_accidents_apart_with_intervals(bootcourse):
+    answer = bootcourse("evaluate", "idle", "--episodes", 20)
     assert answer.status == 0, answer.err
-    assert "success %                100.0 [91.2, 100.0]" in answer.out
+    assert re.search(r"success % +0\.0 \[0\.0, 16\.8\]", answer.out) and "23.4 [23.4, 23.4]" in answer.out
     for row in ("return", "speed m/s", "distance m", "collision %", "road departure %", "stoppage %"):
         assert f"\n{row} " in answer.out
-
-
-def test_json_holds_every_number_with_its_interval(bootcourse):
-    table = json.loads(bootcourse("evaluate", "idle", "--episodes", 20, "--json").out)["idle"]
-    assert table["returns"]["value"] == pytest.approx(23.4375)
-    assert table["success"]["high"] == pytest.approx(0.168, abs=1e-3)
 
 
 def test_train_then_evaluate_then_drive(bootcourse, tmp_path):
     out = tmp_path / "runs"
     trained = bootcourse("train", "--method", "sac", "--seeds", 2, "--episodes", 3, "--out", out, "--quiet")
-    assert trained.status == 0, trained.err
+    assert trained.status == 0 and "No update was made" in trained.err, trained.err
     assert sorted(path.name for path in out.iterdir()) == ["sac-0", "sac-1"]
     evaluated = bootcourse("evaluate", out, "--episodes", 5)
     assert "sac-0" in evaluated.out and "mean of sac" in evaluated.out
-    driven = bootcourse("drive", out / "sac-1", "--out", tmp_path / "drive.npz", "--seed", 4)
-    assert driven.status == 0, driven.err
+    picture = tmp_path / "drive.png"
+    driven = bootcourse("drive", out / "sac-1", "--out", tmp_path / "drive.npz", "--seed", 4, "--png", picture)
+    assert driven.status == 0 and picture.read_bytes().startswith(b"\x89PNG"), driven.err
     rollout = Rollout.load(tmp_path / "drive.npz")
     assert (rollout.label, rollout.seed) == ("sac", 4) and rollout.q_values is not None
 
@@ -59,12 +54,6 @@ def test_a_training_takes_the_method_s_own_number_of_episodes_or_the_given_one(
     for folder, given in (("own", ()), ("given", ("--episodes", 7))):
         bootcourse("train", "--method", method, "--seeds", 1, "--out", tmp_path / folder, "--quiet", *given)
     assert keep == [METHODS[method].episodes, 7]
-
-
-def test_a_training_that_is_too_short_for_an_update_says_so(bootcourse, tmp_path):
-    arguments = ("train", "--method", "sac", "--seeds", 1, "--episodes", 1, "--out", tmp_path / "runs", "--quiet")
-    done = bootcourse(*arguments)
-    assert done.status == 0 and "No update was made" in done.err
 
 
 def test_a_rule_of_one_s_own_teaches_and_only_it_goes_on(bootcourse, tmp_path, monkeypatch):
@@ -86,6 +75,9 @@ TEACHERS = """
 def nine(cars, scenario):
     return 9
 
+def leaves(cars, scenario):
+    raise SystemExit(0)
+
 def no_lane(cars, scenario):
     return {}["lane"]
 
@@ -100,6 +92,7 @@ FIRST_ROAD = "failed on the road with seed 17179869184, at decision 0: it"
     [
         ("t.py:nine", f"Your rule 'nine' {FIRST_ROAD} returned 9, but an action is a whole number"),
         ("t.py:no_lane", f"Your rule 'no_lane' {FIRST_ROAD} raised KeyError: 'lane'."),
+        ("t.py:leaves", f"Your rule 'leaves' {FIRST_ROAD} raised SystemExit: 0."),
         ("t.py:takes_one", f"Your rule 'takes_one' {FIRST_ROAD} raised TypeError: takes_one() takes 1"),
         ("bad.py:nine", "bad.py cannot be loaded: SyntaxError: '(' was never closed (bad.py, line 1)."),
         ("lacks.py:nine", "lacks.py cannot be loaded: ModuleNotFoundError: No module named 'absent'."),
@@ -117,9 +110,7 @@ def test_what_is_wrong_with_a_teacher_is_one_sentence(teacher, sentence, bootcou
     assert not Path("new").exists()
 
 
-@pytest.mark.parametrize(
-    "arguments", [("evaluate", "idle"), ("evaluate", "rule", "--board"), ("drive", "random", "--out", "drive.npz")]
-)
+@pytest.mark.parametrize("arguments", [("evaluate", "idle"), ("drive", "random", "--out", "drive.npz")])
 def test_a_driver_without_a_teacher_is_given_none(arguments, bootcourse, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     answer = bootcourse(*arguments, "--teacher", "t.py:nine")
@@ -141,27 +132,23 @@ def test_only_agents_that_differ_in_nothing_but_their_seed_are_averaged():
 NEW = ["--out", "new"]
 REFUSED = {
     "a mistyped method": (["train", "--method", "bootstraped", "--out", "new"], "did you mean 'bootstrapped'"),
-    "a mistyped setting": (["train", "--setting", "papr", "--out", "new"], "did you mean 'paper'"),
-    "a mistyped scenario": (["train", "--scenario", "calibratd", "--out", "new"], "did you mean 'calibrated'"),
     "a folder that is not empty": (["train", "--out", "full"], "exists already and is not empty"),
     "nothing to resume": (["train", "--out", "new", "--resume"], "no unfinished training"),
     "too many episodes": (["train", "--episodes", "99999999999", "--out", "new"], "from 1 to 100,000"),
     "a seed that is too large": (["train", "--first-seed", str(2**63), "--out", "new"], "from 0 to 8,000,000"),
     "a name that is too long": (["train", "--out", "x" * 300], "File name too long"),
     "a mistyped driver": (["evaluate", "rul"], "did you mean 'rule'"),
-    "a mistyped method of a study": (["study", "--only", "sac,bootstraped", *NEW], "did you mean 'bootstrapped'"),
     "a method of another study": (
         ["study", "--only", "ppo", *NEW],
         "Method 'ppo' is not in this study: run `bootcourse study beyond --only ppo`.",
     ),
     "one part of a hundred": (["study", "elsewhere", "--only", "lander-god", *NEW], "Choose one of"),
     "a method of no study": (["study", "--only", "pso", *NEW], "did you mean 'soft'? Choose from"),
-    "a mistyped study": (["study", "calibrate", *NEW], "did you mean 'calibrated'"),
     "a mistyped backend": (["study", "--backend", "dusk", *NEW], "did you mean 'dask'"),
     "a scheduler for this machine": (["study", "--scheduler", "tcp://a:1", *NEW], "needs --backend dask"),
     "a method that an experiment has not": (["study", "teachers", "--only", "sac", *NEW], "'sac' is unknown"),
     "a folder without runs": (["evaluate", "full"], "holds no run: train one"),
-    "a folder that is not there": (["evaluate", "runs/nope"], "There is no folder runs/nope: give one that"),
+    "a folder that is not there": (["evaluate", "runs/nope"], "'runs/nope' is unknown"),
     "the folder above the runs": (["evaluate", "deep"], "deep holds no run itself: name a folder in it, such as deep/"),
     "a study among runs": (["study", "--out", "deep/runs"], "deep/runs holds runs of `bootcourse train`: choose"),
     "a lesson that is not there": (["handout", "new", "--lessons", "4-99"], "there is no lesson 99, the last is 18."),
@@ -186,11 +173,6 @@ def test_bad_input_gets_one_sentence_and_status_2(case, bootcourse, tmp_path, mo
     assert (tmp_path / "full" / "file.txt").read_text() == "mine" and not (tmp_path / "new").exists()
 
 
-def test_a_process_ends_with_the_one_sentence_and_the_status():
-    answer = subprocess.run([*COMMAND, "evaluate", "rul"], capture_output=True, text=True, timeout=60)
-    assert answer.returncode == 2 and "did you mean 'rule'" in answer.stderr and answer.stderr.count("\n") == 1
-
-
 def test_a_command_imports_nothing_from_the_folder_in_which_it_is_typed(tmp_path):
     ran = tmp_path / "ran"
     for name in ("numpy", "gymnasium", "typer", "torch"):
@@ -205,7 +187,7 @@ def test_a_command_imports_nothing_from_the_folder_in_which_it_is_typed(tmp_path
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGINT to send")
 def test_a_training_that_is_stopped_loses_nothing_and_resumes(bootcourse, tmp_path):
     out = tmp_path / "runs"
-    command = [*COMMAND, "train", "--method", "sac", "--seeds", "1", "--episodes", "300", "--out", str(out), "--quiet"]
+    command = [*COMMAND, "train", "--method", "sac", "--seeds", "1", "--episodes", "100", "--out", str(out), "--quiet"]
     process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
     assert until((out / "unfinished" / "checkpoint.npz").exists, 60)
     time.sleep(0.3)
@@ -266,15 +248,9 @@ def test_a_resumed_training_refuses_other_settings_and_its_command_has_all_optio
     assert stopped.status == 130
     for words in (f"--teacher {mine[1]}", "--xi 50", "--episodes 3", "--quiet --resume"):
         assert words in stopped.err
-    for option, value, began in (
-        ("--seeds", 3, 1),
-        ("--xi", 70, 50.0),
-        ("--method", "sac", "soft"),
-        ("--setting", "paper", "quick"),
-    ):
+    for option, value in (("--seeds", 3), ("--xi", 70.0), ("--method", "sac"), ("--setting", "paper")):
         refused = bootcourse("train", "--out", tmp_path / "runs", *mine, "--resume", option, value)
-        assert refused.status == 2
-        assert f"{option} {value}" in refused.err and f"this training began with {began}" in refused.err
+        assert refused.status == 2 and f"{option} {value}: this training began with other options." in refused.err
     assert bootcourse(*begun, "--quiet", "--resume").status == 0
 
 
@@ -312,10 +288,3 @@ def test_a_learner_of_one_s_own_trains_and_drives(bootcourse, tmp_path):
     finally:
         METHODS.clear()
         METHODS.update(before)
-
-
-def test_a_teacher_that_ends_python_is_one_sentence(bootcourse, tmp_path):
-    (tmp_path / "mine.py").write_text("def leaves(cars, scenario):\n    raise SystemExit(0)\n")
-    arguments = ("train", "--method", "soft", "--seeds", 1, "--episodes", 3, "--out", tmp_path / "runs")
-    done = bootcourse(*arguments, "--teacher", f"{tmp_path / 'mine.py'}:leaves")
-    assert done.status == 2 and "Your rule 'leaves' failed" in done.err and "SystemExit" in done.err

@@ -130,20 +130,6 @@ def test_a_press_is_on_the_page_within_a_tenth_of_a_second(notebook):
     assert statistics.median(took) < 100, took
 
 
-def test_in_real_time_the_road_moves_smoothly(notebook):
-    button(notebook, 0, "Drive again").click()
-    button(notebook, 0, "real time").click()
-    button(notebook, 0, "Start").click()
-    frames = notebook.page.evaluate(
-        """() => new Promise(done => { let count = 0;
-          const watch = new MutationObserver(() => count++);
-          watch.observe(document.querySelector('.bc-panel svg').parentElement, {childList: true});
-          setTimeout(() => { watch.disconnect(); done(count); }, 2000); })"""
-    )
-    button(notebook, 0, "Pause").click()
-    assert frames >= 10
-
-
 SLIDERS = {"policy": (2, 1), "bonus": (3, 0)}  # panel, slider
 
 
@@ -174,7 +160,7 @@ def test_a_training_grows_on_the_page_stops_and_is_watched(notebook):
     took = [changed(notebook, 0, "panel.querySelector('.bc-pad-4').click()") for _ in range(4)]
     shown.screenshot(path=str(ARTEFACTS / "train-panel.png"))
     button(notebook, 1, "Stop").click()
-    waits_for(notebook, 1, "Stopped after")
+    waits_for(notebook, 1, "Stopped: ")
     button(notebook, 1, "Watch").click()
     frame = shown.locator("iframe").element_handle().content_frame()
     frame.wait_for_selector("canvas")

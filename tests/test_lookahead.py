@@ -9,19 +9,18 @@ from gymnasium.vector import AutoresetMode
 
 import bootcourse as bc
 from bootcourse.course.lessons.looking_ahead.figures import by_horizon, wrong_models
+from bootcourse.course.lessons.looking_ahead.futures_figure import nine_futures
 from bootcourse.course.shipped import beginning
 from bootcourse.episodes.evaluate import drive_episodes
 from bootcourse.episodes.lookahead import imagine, lookahead, lookahead_shield, rollout_values, worth_of_speed
 from bootcourse.episodes.models import FAR_BEHIND, MODELS, Model
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.teachers import teacher_policy
-from bootcourse.panels.drive import drive_panel
-from bootcourse.panels.policy import policy_panel
-from bootcourse.plots.futures import nine_futures, trails
+from bootcourse.plots.futures import trails
 from bootcourse.policies import PlanPolicy, PolicyOutput, idle_policy, plan_policy, rule_policy
 from bootcourse.replay3d.recorder import to_html
 from bootcourse.replay3d.scene import timelines_of
-from bootcourse.replay3d.stage import Options, _ribbon
+from bootcourse.replay3d.stage import _ribbon
 from bootcourse.research.lookahead import Cell, cells, drive, rows
 from bootcourse.research.results import Results, experiment
 from bootcourse.road.state import CRASHED, EGO, HEADING, LANE, SPEED, TARGET_LANE, TRAP_1, X, Y
@@ -309,36 +308,10 @@ def test_the_nine_futures_name_the_best_and_the_accidents():
     assert "accelerate straight ends in an accident" in figure.alt and "is worth" in figure.alt
 
 
-# The nine futures in the panels and in the replay.
-
-
-def test_the_drive_panel_draws_the_nine_futures_of_the_decision_that_comes():
-    panel = drive_panel(3, futures=idle_policy)
-    with_trails = str(panel.view.value)
-    panel.press(7)
-    cars = panel.drive.cars_at(panel.drive.time)
-    expected = imagine(cars[None], np.arange(N_ACTIONS)[None], idle_policy)
-    accidents = int((expected.accidents > 0).sum())
-    assert f"{accidents} of 9 imagined drives end in an accident" in str(panel.view.value)
-    assert [trail.chosen for trail in panel.futures().trails] == [False] * 8 + [True]
-    panel.nine.value = False
-    assert "imagined drives" not in str(panel.view.value) and "imagined drives" in with_trails
-    panel.close()
-
-
-def test_the_policy_panel_shows_the_values_of_the_rollouts():
-    drive = bc.record(idle_policy, ROADS[:1])[0]
-    panel = policy_panel(drive, futures=rule_policy(DEFAULT))
-    panel.moment.value = 2
-    for value in rollout_values(drive.cars[2:3], rule_policy(DEFAULT))[0]:
-        assert f"{value:.1f}".replace("-", "−") in panel.svg
-    assert "rollouts" not in policy_panel(drive).svg
-
-
 def test_the_replay_has_nine_futures_for_each_decision_and_ribbons_along_them():
     drive = bc.record(rule_policy(DEFAULT), ROADS[:1])[0]
     (timeline,) = timelines_of(drive, futures=rule_policy(DEFAULT))
-    pages = [to_html(beginning(drive, 3), Options(), futures) for futures in (None, rule_policy(DEFAULT))]
+    pages = [to_html(beginning(drive, 3), False, futures) for futures in (None, rule_policy(DEFAULT))]
     assert len(pages[0]) < len(pages[1]) < len(pages[0]) + 3 * 4e3, "the futures of 150 decisions take less than 0.6 MB"
     assert timeline.imagined.values.shape == (len(drive.actions), N_ACTIONS)
     driven = trails(timeline.imagined, int(drive.actions[7]), 7)[-1]

@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 import torch
 
+from bootcourse.episodes.lookahead import nine_drives
 from bootcourse.episodes.record import record
 from bootcourse.learn.bootstrap import kl_to_rule
 from bootcourse.panels import policy_panel
 from bootcourse.panels.policy_numbers import policy_numbers
-from bootcourse.policies import idle_policy
+from bootcourse.policies import idle_policy, rule_policy
 from bootcourse.rule import rule
 from bootcourse.scenario import DEFAULT, N_ACTIONS, Clock, Road
 from tests.panels import at_its_ends, from_page, raise_in_callbacks, words  # noqa: F401
@@ -74,21 +75,30 @@ def test_every_control_moves_its_own_numbers_and_the_picture_and_refuses_nonsens
         from_page(panel.xi.slider, value=xi)
         given.append(panel.seen.optimum[by_rule])
     assert given == sorted(given) and given[-1] > 0.5
-    for number in (panel.moment, panel.p, panel.xi, panel.alpha):
+    for number in (panel.moment, panel.p, panel.xi):
         at_its_ends(panel, number)
 
 
 def test_a_drive_shows_what_there_is_of_policy_and_q_and_says_what_is_missing(agents_drive, escape):
     panel = policy_panel(replace(agents_drive, q_values=None, label="ppo"))
-    assert "This drive (PPO) has no Q, so there is no optimum" in words(panel)
+    assert "This drive (PPO) has no Q: let an agent" in words(panel)
     assert panel.seen.kl > 0 and panel.seen.q is panel.seen.worth is panel.seen.optimum is None
     from_page(panel.moment.slider, value=5.0)
     assert "no Q" in panel.svg and "needs Q" in panel.svg and "compromise" not in panel.svg.alt
     panel = policy_panel(escape)
-    assert "(rule controller) has no policy π and no Q" in words(panel) and panel.seen.kl is None
+    assert "(rule controller) has no π and no Q" in words(panel) and panel.seen.kl is None
     from_page(panel.p.slider, value=0.5)
     assert panel.seen.rule.max() == 0.5
     ElementTree.fromstring(panel.svg)
+
+
+def test_the_values_of_nine_imagined_drives_stand_beside_the_policies(agents_drive):
+    driver = rule_policy(DEFAULT)
+    panel = policy_panel(agents_drive, futures=driver)
+    panel.moment.value = 2
+    for value in nine_drives(agents_drive.cars[2:3], driver).values[0]:
+        assert f"{value:.1f}".replace("-", "−") in panel.svg
+    assert "rollouts" in panel.svg and "rollouts" not in policy_panel(agents_drive).svg
 
 
 def test_a_drive_of_one_decision_and_one_of_another_clock_are_shown():

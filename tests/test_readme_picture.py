@@ -6,7 +6,6 @@ import pytest
 from PIL import Image
 
 from bootcourse.episodes.words import overtaken
-from bootcourse.errors import BootcourseError
 from bootcourse.plots import animation, readme_picture
 from bootcourse.road.state import EGO, LANE
 
@@ -15,14 +14,15 @@ def words_of(figure) -> list[str]:
     return [text.get_text() for text in figure.texts]
 
 
-def test_the_animation_is_small_has_every_frame_and_is_the_same_each_time(idle, escape, tmp_path):
-    path = animation.animate([idle, escape], tmp_path / "clip.gif", 2.0)
+def test_the_animation_has_every_frame_and_is_the_same_each_time(idle, escape, tmp_path, monkeypatch):
+    monkeypatch.setattr(animation, "AFTER", 0.5 - overtaken(escape))
+    path = animation.animate([idle, escape], tmp_path / "clip.gif")
     with Image.open(path) as clip:
-        assert clip.n_frames == len(animation.frame_times([idle, escape], 2.0)) == 10
+        assert clip.n_frames == len(animation.frame_times([idle, escape])) == 3
         assert clip.info["loop"] == 0 and b"Idle driver" in clip.info["comment"]
-        clip.seek(9)
+        clip.seek(2)
         assert clip.info["duration"] == 1000 * animation.REST
-    assert animation.animate([idle, escape], tmp_path / "again.gif", 2.0).read_bytes() == path.read_bytes()
+    assert animation.animate([idle, escape], tmp_path / "again.gif").read_bytes() == path.read_bytes()
 
 
 def test_the_animation_goes_on_until_the_trap_is_left(idle, escape):
@@ -42,17 +42,8 @@ def test_the_key_frame_is_the_accident_the_first_new_lane_or_the_middle(idle, es
     assert "75 s" in words_of(animation.key_frame([idle]))
 
 
-@pytest.mark.parametrize(
-    "drives, name, until, sentence",
-    [([], "clip.gif", None, "no drive to animate"), (None, "clip.gif", 0, "above 0"), (None, "clip.mp4", 2, ".gif")],
-)
-def test_an_animation_of_nothing_or_of_another_kind_is_refused(idle, tmp_path, drives, name, until, sentence):
-    with pytest.raises(BootcourseError, match=sentence):
-        animation.animate(idle if drives is None else drives, tmp_path / name, until)
-
-
 def test_the_readme_s_picture_can_be_drawn_again_and_the_shipped_one_is_light(tmp_path, monkeypatch):
-    monkeypatch.setattr(animation, "frame_times", lambda rollouts, until=None: [0.0, 0.5])
+    monkeypatch.setattr(animation, "frame_times", lambda rollouts: [0.0, 0.5])
     readme_picture.main(tmp_path)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["trap.gif", "trap.png"]
     gif, still = readme_picture.FOLDER / "trap.gif", readme_picture.FOLDER / "trap.png"

@@ -19,10 +19,9 @@ from bootcourse.errors import BootcourseError
 from bootcourse.policies import random_policy, rule_policy
 from bootcourse.replay3d import export, recording, scene
 from bootcourse.replay3d.recorder import to_html
-from bootcourse.replay3d.stage import Options
 from bootcourse.replay3d.timeline import Timeline
 from bootcourse.road.state import Accident
-from bootcourse.scenario import CALIBRATED, Clock
+from bootcourse.scenario import Clock
 from tests.browser import ARTEFACTS, CARS, close_notice, is_blank, needs_browser, open_browser
 from tests.replays import SHORT, TEN_CARS, thinking
 from tests.waiting import until
@@ -35,9 +34,9 @@ NODES = """names => Object.fromEntries(names.map(name => {
 }))"""
 
 
-def replay_command(files, export=None, gif=None, png=None, text=False, port=0):
+def replay_command(files, export=None, gif=None, png=None, text=False):
     """`bootcourse replay`, without a browser."""
-    cli.replay(files, export, gif, png, text, port, browser=False)
+    cli.replay(files, export, gif, png, text, browser=False)
 
 
 @pytest.fixture(scope="module")
@@ -56,7 +55,7 @@ def crash():
 def whole_episode(tmp_path_factory):
     """150 s of ten cars, exported."""
     rollout = thinking(record(rule_policy(TEN_CARS), [1], TEN_CARS)[0])
-    return rollout, export(rollout, tmp_path_factory.mktemp("export") / "replay.html", Options(rule=True))
+    return rollout, export(rollout, tmp_path_factory.mktemp("export") / "replay.html")
 
 
 def test_a_whole_episode_of_ten_cars_is_one_file_under_3_mb_that_names_no_server(whole_episode):
@@ -82,7 +81,7 @@ def go_to(page, t: float) -> None:
 @needs_browser
 def test_the_file_plays_without_a_network_and_every_car_is_where_it_was(whole_episode):
     rollout, path = whole_episode
-    timelines = scene.timelines_of(rollout)
+    timeline = Timeline(rollout)
     cars = [f"/drive0/car{car}" for car in range(10)]
     with open_browser(offline=True) as new_page:
         page = new_page()
@@ -96,7 +95,7 @@ def test_the_file_plays_without_a_network_and_every_car_is_where_it_was(whole_ep
         for t in (60.0, 0.0, 33.4):  # forwards and backwards
             go_to(page.page, t)
             frame = round(t * 30)  # the one that the file holds
-            near = [scene.view(timelines, (frame + shift) / 30)[0] for shift in (-1, 0, 1)]
+            near = [scene.view(timeline, (frame + shift) / 30) for shift in (-1, 0, 1)]
 
             def apart(near=near) -> float:
                 """How far the car that is farthest off is from where it was (m); a busy machine draws it late."""
@@ -163,38 +162,22 @@ def test_the_command_writes_what_is_asked_for(rule_drive, tmp_path, capsys):
     assert all(str(path) in printed for path in out.values()) and "In the end: still behind trap 1" in printed
 
 
-@pytest.fixture(scope="module")
-def files(rule_drive, tmp_path_factory):
-    """A drive, what cannot be replayed with it, and a file where a folder is wanted."""
-    folder = tmp_path_factory.mktemp("files")
-    rule_drive.save(folder / "good.npz")
-    (folder / "cut.npz").write_bytes((folder / "good.npz").read_bytes()[:2000])
-    record(rule_policy(CALIBRATED), [1], CALIBRATED, "rule")[0].save(folder / "other.npz")
-    record(rule_policy(BRIEF), [2], BRIEF, "rule")[0].save(folder / "seed.npz")
-    (folder / "file").write_text("a file where a folder is wanted")
-    return folder
-
-
-REFUSED = {  # what is wrong: (the files, where to, words of the refusal); test_record.py has all damages of a file
-    "no file": (["none"], {"export": "out.html"}, "none.npz"),
-    "cut short": (["cut"], {"export": "out.html"}, "cut.npz is damaged"),
-    "another scenario": (["good", "other"], {"export": "out.html"}, "one scenario"),
-    "another seed": (["good", "seed"], {"export": "out.html"}, "same seed"),
-    "no files": ([], {"export": "out.html"}, "at least one"),
-    "a path that cannot be written": (["good"], {"export": "file/out.html"}, "Cannot write"),
-    "a wrong ending": (["good"], {"export": "out.txt"}, ".html"),
-    "a gif that is not one": (["good"], {"gif": "out.mp4"}, ".gif"),
+REFUSED = {  # where to write: words of the refusal; test_record.py has the damages of a file
+    "export": ("file/out.html", "Cannot write"),
+    "gif": ("out.mp4", ".gif"),
+    "png": ("out.txt", ".png"),
 }
 
 
-@pytest.mark.parametrize("what", REFUSED)
-def test_bad_input_gets_one_sentence_and_nothing_half_written(what, files):
-    names, wanted, words = REFUSED[what]
-    before = sorted(files.rglob("*"))
+@pytest.mark.parametrize("kind", REFUSED)
+def test_bad_input_gets_one_sentence_and_nothing_half_written(kind, rule_drive, tmp_path):
+    (tmp_path / "file").write_text("a file where a folder is wanted")
+    file, (out, words) = rule_drive.save(tmp_path / "good.npz"), REFUSED[kind]
+    before = sorted(tmp_path.rglob("*"))
     with pytest.raises(BootcourseError) as refusal:
-        replay_command([files / f"{name}.npz" for name in names], **{kind: files / out for kind, out in wanted.items()})
+        replay_command([file], **{kind: tmp_path / out})
     assert words in str(refusal.value) and "\n" not in str(refusal.value)
-    assert sorted(files.rglob("*")) == before
+    assert sorted(tmp_path.rglob("*")) == before
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGINT to send")

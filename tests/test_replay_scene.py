@@ -16,7 +16,7 @@ from bootcourse.replay3d import hud, scene
 from bootcourse.replay3d.camera import CAMERAS, pose
 from bootcourse.replay3d.car import car_parts
 from bootcourse.replay3d.timeline import Timeline
-from bootcourse.road.state import CRASHED, EGO, HEADING, TRAP_1, Accident, X, Y
+from bootcourse.road.state import CRASHED, EGO, HEADING, SPEED, TRAP_1, Accident, X, Y
 from bootcourse.rule import stochastic_rule
 from bootcourse.scenario import CALIBRATED, DEFAULT, Clock
 from tests.replays import SHORT, thinking
@@ -42,9 +42,9 @@ def accidents():
 
 
 def test_every_car_stands_where_the_rollout_says_with_y_mirrored(rule_drive):
-    timelines = scene.timelines_of(rule_drive)
+    timeline = Timeline(rule_drive)
     for step in (0, 7, 40):
-        [view] = scene.view(timelines, step * 0.5)
+        view = scene.view(timeline, step * 0.5)
         states = rule_drive.states[step]
         np.testing.assert_allclose(view.x + view.anchor, states[:, X], atol=1e-9)
         np.testing.assert_allclose(view.y, -states[:, Y], atol=1e-9)
@@ -52,13 +52,13 @@ def test_every_car_stands_where_the_rollout_says_with_y_mirrored(rule_drive):
         assert view.x[EGO] == 0.0
     for part, lamp in ((0, "brake"), (2, "power")):
         decision = np.flatnonzero(rule_drive.actions // 3 == part)[0]
-        assert scene.view(timelines, decision + 0.2)[0].lamps[EGO] == lamp
+        assert scene.view(timeline, decision + 0.2).lamps[EGO] == lamp
 
 
 def test_a_car_points_where_it_goes(rule_drive):
-    timelines, h = scene.timelines_of(rule_drive), 0.05
+    timeline, h = Timeline(rule_drive), 0.05
     for t in np.arange(0.2, 18, 0.37):
-        [a], [b] = scene.view(timelines, t), scene.view(timelines, t + h)
+        a, b = scene.view(timeline, t), scene.view(timeline, t + h)
         course = np.arctan2(b.y - a.y, b.x + b.anchor - a.x - a.anchor)
         assert np.abs(course - a.yaw).max() < 0.08  # the slip angle, and what one step turns
 
@@ -66,42 +66,30 @@ def test_a_car_points_where_it_goes(rule_drive):
 @pytest.mark.parametrize("kind", [Accident.COLLISION, Accident.ROAD_DEPARTURE])
 def test_an_accident_marks_its_cars_at_its_moment_and_says_its_kind(accidents, kind):
     rollout = accidents[kind]
-    timelines = scene.timelines_of(rollout)
-    duration = timelines[0].duration
-    assert not scene.view(timelines, duration - 0.6)[0].marked[EGO]
-    [view] = scene.view(timelines, duration)
+    timeline = Timeline(rollout)
+    assert not scene.view(timeline, timeline.duration - 0.6).marked[EGO]
+    view = scene.view(timeline, timeline.duration)
     crashed = set(np.flatnonzero(rollout.states[-1, :, CRASHED])) | {EGO}
     assert set(np.flatnonzero(view.marked)) == crashed and (len(crashed) > 1) == (kind == Accident.COLLISION)
-    assert view.labels[EGO] == ACCIDENTS[kind] == hud.status(timelines[0], duration)[0]
-    other = record(idle_policy, [rollout.seed], SHORT, "sac")[0]
-    both = scene.timelines_of([rollout, other])  # a drive that ended waits for the others
-    early, late = scene.view(both, duration), scene.view(both, 20.0)
-    np.testing.assert_array_equal(early[0].x, late[0].x)
-    assert late[0].ended and late[1].anchor > early[1].anchor
+    assert view.labels[EGO] == ACCIDENTS[kind] == hud.status(timeline, timeline.duration)[0]
+    late = scene.view(timeline, 20.0)  # a drive that ended waits for the others
+    np.testing.assert_array_equal(view.x, late.x)
+    assert late.ended
 
 
-def test_the_path_the_rule_s_marks_and_the_distance_to_a_trap_are_those_of_the_drive(rule_drive):
-    timelines = scene.timelines_of(rule_drive)
+def test_the_path_and_the_distance_to_a_trap_are_those_of_the_drive(rule_drive):
     crumbs = scene.crumbs(Timeline(rule_drive), 3.2)
     shown = crumbs[crumbs[:, 2] > 0]  # a dot for each step; the future is hidden
     np.testing.assert_allclose(shown[:, 0], rule_drive.states[:7, EGO, X])
     np.testing.assert_allclose(shown[:, 1], -rule_drive.states[:7, EGO, Y])
-    for k in range(0, 20, 3):
-        marks = scene.view(timelines, k + 0.0)[0].rule
-        assert marks.lane_y == -4.0 * rule_drive.rule_lanes[k] and marks.gap == rule_drive.rule_distances[k]
-        assert marks.gap_x == pytest.approx(2.5)
     ahead = rule_drive.states[0, TRAP_1, X] - rule_drive.states[0, EGO, X] - 5.0  # from bumper to bumper
-    assert scene.view(timelines, 0.0)[0].labels[TRAP_1] == f"trap 1: {ahead:.1f} m ahead"
+    assert scene.view(Timeline(rule_drive), 0.0).labels[TRAP_1] == f"trap 1: {ahead:.1f} m ahead"
 
 
-def test_two_drives_lie_side_by_side_or_share_the_road_of_the_followed_car(rule_drive, idle_drive):
-    timelines = scene.timelines_of([idle_drive, rule_drive])
-    first, second = scene.view(timelines, 15.0)
-    assert first.x[EGO] == second.x[EGO] == 0.0 and first.anchor != second.anchor
-    assert first.offset - second.offset > 3 * 4.0
-    ghost, followed = scene.view(timelines, 15.0, scene.GHOSTS, follow=1)
-    assert ghost.offset == followed.offset and ghost.anchor == followed.anchor and followed.x[EGO] == 0.0
-    assert ghost.x[EGO] == pytest.approx(timelines[0].at(15.0).x[EGO] - timelines[1].at(15.0).x[EGO])
+def test_two_roads_lie_side_by_side_around_the_middle():
+    first, second = scene.offsets(2, DEFAULT.road)
+    assert first - second > 3 * 4.0 and (first + second) / 2 == 4.0, "the leftmost lane is a lane left of the middle"
+    assert scene.span(2, DEFAULT.road) == first - second + 3 * 4.0 + 2 * 1.0
 
 
 def with_nan(rollout):
@@ -111,11 +99,11 @@ def with_nan(rollout):
 
 
 REFUSED = {
-    "nothing": (lambda r: [], "There is no rollout"),
+    "nothing": (lambda r: [], "There are 0 drives to replay: give one to 8"),
     "something else": (lambda r: ["drive.npz"], "Cannot replay str"),
-    "too many": (lambda r: [r] * 9, "at most 8"),
-    "another scenario": (lambda r: [r, record(rule_policy(CALIBRATED), [1], CALIBRATED)[0]], "drives of one scenario"),
-    "another seed": (lambda r: [r, record(rule_policy(SHORT), [2], SHORT)[0]], "the same seed"),
+    "too many": (lambda r: [r] * 9, "There are 9 drives"),
+    "another scenario": (lambda r: [r, record(rule_policy(CALIBRATED), [1], CALIBRATED)[0]], "drives of the same road"),
+    "another seed": (lambda r: [r, record(rule_policy(SHORT), [2], SHORT)[0]], "drives of the same road"),
     "NaN": (lambda r: with_nan(r), "record this drive again"),
 }
 
@@ -155,9 +143,10 @@ def test_the_numbers_are_those_of_the_rollout(rule_drive):
     rollout = thinking(rule_drive)
     shown = text(hud.card(Timeline(rollout), 7.5))
     timeline = Timeline(rollout)
-    assert "7.5 of 20 s" in shown and f"{timeline.at(7.5).speed[EGO]:.1f} m/s" in shown
+    assert "7.5 of 20 s" in shown and f"{timeline.at(7.5)[EGO, SPEED]:.1f} m/s" in shown
     assert f"return {rollout.rewards[:7].sum():.2f}" in shown and f"reward {rollout.rewards[6]:.3f}" in shown
-    assert f"KL(π‖π̃) = {hud.kl(rollout.policy[7], stochastic_rule(rollout.rule_actions[7], 0.9)):.2f} nats" in shown
+    policy, rule = rollout.policy[7], stochastic_rule(rollout.rule_actions[7], 0.9)
+    assert f"KL(π‖π̃) = {(policy * np.log(policy / rule)).sum():.2f} nats" in shown
     assert f"{rollout.q_values[7, 3]:.2f}" in shown and "Rule:" in shown
 
 
@@ -167,7 +156,6 @@ def test_a_driver_without_thoughts_has_none_shown(rule_drive):
     )
     shown = text(hud.card(Timeline(bare), 3.0))
     assert "KL" not in shown and "Rule:" not in shown and " Q" not in shown and "accelerate left" in shown
-    assert scene.view(scene.timelines_of(bare), 3.0)[0].rule is None
 
 
 def test_an_agent_without_q_has_its_kl_and_a_sentence_instead_of_numbers(rule_drive):

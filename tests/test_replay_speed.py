@@ -1,10 +1,7 @@
 """How fast the replay is, with generous bounds, measured in time of the processor: other tests run beside these."""
 
 import time
-import tracemalloc
 from dataclasses import replace
-
-import numpy as np
 
 from bootcourse.episodes.record import record
 from bootcourse.policies import rule_policy
@@ -23,24 +20,3 @@ def test_ten_cars_are_ready_in_two_seconds_and_a_frame_of_five_drives_in_half_of
         for k in range(60):
             live._frame(3.0 + k / 30)
         assert (time.process_time() - started) / 60 < 1 / 30 / 2
-
-
-def test_memory_does_not_grow_while_it_loops():
-    with replay(record(rule_policy(TEN_CARS), [1], TEN_CARS, "rule")[0]) as live:
-        buffer = live.server._websock_server._broadcast_buffer
-
-        def loop() -> None:
-            for t in np.arange(0.0, 150.0, 3.7):
-                live._frame(float(t))
-
-        loop()
-        tracemalloc.start()
-        try:
-            loop()
-            held, messages = tracemalloc.get_traced_memory()[0], len(buffer.message_from_id)
-            loop()
-            loop()
-            assert len(buffer.message_from_id) == messages
-            assert tracemalloc.get_traced_memory()[0] - held < 200_000
-        finally:
-            tracemalloc.stop()

@@ -143,7 +143,7 @@ def test_an_agent_decides_in_the_page_as_in_python(page, name):
     assert np.array_equal(np.argmax(policy, -1)[sure], probabilities.argmax(-1)[sure])
 
 
-@pytest.mark.parametrize("p, xi, alpha", [(0.9, 0.2, 0.01), (0.5, 0.0, 0.1), (0.999, 5.0, 0.01)])
+@pytest.mark.parametrize("p, xi, alpha", [(0.9, 0.2, 0.01), (0.5, 0.0, 0.1)])
 def test_the_compromise_is_that_of_the_soft_constraint(page, p, xi, alpha):
     rng = np.random.default_rng(1)
     q, policy = rng.normal(size=9), rng.dirichlet(np.ones(9))
@@ -407,9 +407,10 @@ def test_a_lost_graphics_card_brings_back_the_road_from_above(visit):
         assert page.errors == []
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("width, height", [(1280, 720), (390, 844)])
-@pytest.mark.parametrize("view", ["above", "3d"])
+@pytest.mark.parametrize(
+    "view, width, height, scheme",
+    [("above", 1280, 720, "dark"), ("above", 390, 844, "light"), ("3d", 390, 844, "dark")],
+)
 def test_the_page_in_pictures(visit, scheme, width, height, view):
     with visit(f"#road=10&futures=1&view={view}", width, height, color_scheme=scheme) as page:
         page.page.keyboard.press("ArrowDown")

@@ -1,7 +1,6 @@
 """`bootcourse evaluate`, `drive` and `replay`: who drives how well, one drive, and what it looked like."""
 
 import contextlib
-import json
 import time
 import webbrowser
 from collections.abc import Callable
@@ -23,6 +22,7 @@ MEASURES = {
     "road_departure": "road departure %",
     "stoppage": "stoppage %",
 }
+SCENARIO = typer.Option("", help="default or calibrated; by default the scenario that a run trained on.")
 TEACHER = typer.Option("", help="The teacher that a run drives with: planner …, or FILE.py:FUNCTION.")
 LEARNER = typer.Option("", help="The learner of your own that a run was trained with: FILE.py:CLASS.")
 LOOK_AHEAD = typer.Option(0, min=0, help="Decisions to look ahead by rollouts, such as 10; 0: none.")
@@ -30,70 +30,28 @@ ACROSS = 4  # columns of `evaluate`'s table side by side in a terminal
 
 
 def evaluate(
-    who: list[str] = typer.Argument(..., help="rule, idle, random, or a folder that `bootcourse train` wrote."),
+    who: str = typer.Argument(..., help="rule, idle, random, or a folder that `bootcourse train` wrote."),
     episodes: int = typer.Option(1000, min=1, help="Held-out episodes."),
     seed: int = typer.Option(1, min=0, help="The block of held-out roads."),
-    scenario: str = typer.Option("", help="default or calibrated; by default the scenario that a run trained on."),
-    sample: bool = typer.Option(False, "--sample", help="Draw an agent's actions instead of taking the most probable."),
+    scenario: str = SCENARIO,
     teacher: str = TEACHER,
     learner: str = LEARNER,
     lookahead: int = LOOK_AHEAD,
-    as_json: bool = typer.Option(False, "--json", help="Print JSON."),
-    board: bool = typer.Option(False, "--board", help="Print the leaderboard with them; here WHO may be several."),
 ) -> None:
     """Drive held-out episodes and print success, return, speed, distance and accidents with 95 % intervals."""
     from bootcourse.cli.training import register_learner
     from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds, over_seeds, summarise
 
     register_learner(learner)
-    if board:
-        if (episodes, seed, scenario, sample, lookahead, as_json) != (1000, 1, "", False, 0, False):
-            raise BootcourseError("--board has its own roads and form: with it, give only --teacher.")
-        print_board(who, teacher)
-        return
-    if len(who) > 1:
-        raise BootcourseError("Several drivers need --board.")
-    seeds, drivers = held_out_seeds(seed, episodes), drivers_of(who[0], scenario, sample, seed, teacher, lookahead)
+    seeds, drivers = held_out_seeds(seed, episodes), drivers_of(who, scenario, seed, teacher, lookahead)
     summaries = {each.label: summarise(drive_episodes(each.policy, seeds, each.road)) for each in drivers}
     means = {name: over_seeds([summaries[label] for label in labels]) for name, labels in alike(drivers).items()}
     columns = {label: vars(each) for label, each in summaries.items()} | means
-    if as_json:
-        numbers = {label: {name: each[name]._asdict() for name in MEASURES} for label, each in columns.items()}
-        for label in summaries:
-            numbers[label] = {"episodes": episodes} | numbers[label]
-        print(json.dumps(numbers, indent=2))
-        return
     ahead = f", looking {lookahead} decisions ahead" if lookahead else ""
     print(f"{episodes} held-out episodes, block {seed}{ahead}: value [95 % interval]; a mean is over training seeds")
     labels = list(columns)
     for first in range(0, len(labels), ACROSS):
         print_table({label: columns[label] for label in labels[first : first + ACROSS]})
-
-
-def print_board(who: list[str], teacher: str) -> None:
-    """Print the leaderboard, where the built-in drivers stand, with the rows of agents in folders."""
-    import bootcourse
-    from bootcourse.cli.training import teacher_from
-
-    own = [one for one in who if one not in BUILT_IN]
-    for one in own:
-        check_driver(one)
-    if teacher and not own:
-        refuse_teacher(teacher)
-    print(bootcourse.board(*own, teacher=teacher_from(teacher)))
-
-
-def check_driver(who: str) -> None:
-    """Raise BootcourseError for what is neither a built-in driver nor there."""
-    if Path(who).name != who and not Path(who).exists():
-        raise BootcourseError(f"There is no folder {who}: give one that `bootcourse train` wrote.")
-    if who not in BUILT_IN and not Path(who).exists():
-        raise BootcourseError(f"Driver {did_you_mean(who, BUILT_IN)}, or give a folder that `bootcourse train` wrote.")
-
-
-def refuse_teacher(teacher: str) -> None:
-    """Raise BootcourseError, because a built-in driver has no use for a teacher."""
-    raise BootcourseError(f"--teacher {teacher}: {', '.join(BUILT_IN)} drive without a teacher: leave it out.")
 
 
 class Driver(NamedTuple):
@@ -119,49 +77,53 @@ def alike(drivers: list[Driver]) -> dict[str, list[str]]:
     }
 
 
-def drivers_of(who: str, scenario: str, sample: bool, seed: int, teacher: str, horizon: int = 0) -> list[Driver]:
-    """A built-in driver, or the agent of each run in a folder; with a horizon, each looks ahead as far.
+def drivers_of(who: str, scenario: str, seed: int, teacher: str, horizon: int) -> list[Driver]:
+    """A built-in driver, or the agent of each run in a folder; with a horizon above 0, each looks ahead as far.
 
     Raises BootcourseError for a name that is neither, for an agent that sees another number of cars, for one that
     drives with another teacher, and for a teacher with a built-in driver.
     """
     import numpy as np
 
+    from bootcourse.episodes.lookahead import lookahead
     from bootcourse.policies import idle_policy, random_policy, rule_policy
     from bootcourse.scenario import DEFAULT, named
 
-    check_driver(who)
     if who in BUILT_IN:
         if teacher:
-            refuse_teacher(teacher)
+            raise BootcourseError(f"--teacher {teacher}: {', '.join(BUILT_IN)} drive without a teacher: leave it out.")
         road, rng = named(scenario) if scenario else DEFAULT, np.random.default_rng(seed)
         built_in = {"rule": rule_policy(road), "idle": idle_policy, "random": random_policy(rng)}
-        return [ahead(Driver(who, built_in[who], road), horizon)]
+        drivers = [Driver(who, built_in[who], road)]
+    elif not Path(who).exists():
+        folder = "or give a folder that `bootcourse train` wrote"
+        raise BootcourseError(f"Driver {did_you_mean(who, BUILT_IN)}, {folder}.")
+    else:
+        drivers = agents_in(Path(who), scenario, teacher, with_q=not horizon)
+    if not horizon:
+        return drivers
+    return [driver._replace(policy=lookahead(driver.policy, horizon, driver.road)) for driver in drivers]
+
+
+def agents_in(folder: Path, scenario: str, teacher: str, with_q: bool) -> list[Driver]:
+    """The agent of each run in a folder."""
     from bootcourse.cli.training import teacher_from
     from bootcourse.learn.teachers import teacher_of
+    from bootcourse.scenario import named
     from bootcourse.storage.runs import find_runs, load_run
 
     drivers, rule = [], teacher_from(teacher)
-    for path in find_runs(Path(who)):
+    for path in find_runs(folder):
         run = load_run(path, rule)
-        rng = np.random.default_rng(seed) if sample else None
         road = named(scenario) if scenario else run.scenario
         if road.observation_size != run.scenario.observation_size:
             raise BootcourseError(
                 f"{path} sees {run.scenario.observation_size} numbers, and {road.name} shows "
                 f"{road.observation_size}: leave out --scenario."
             )
-        settings = replace(run.agent.settings, seed=0)
         agent = run.agent.taught_by(teacher_of(rule, road))
-        drivers.append(ahead(Driver(path.name, agent.as_policy(rng, with_q=not horizon), road, settings), horizon))
+        drivers.append(Driver(path.name, agent.as_policy(with_q=with_q), road, replace(run.agent.settings, seed=0)))
     return drivers
-
-
-def ahead(driver: Driver, horizon: int) -> Driver:
-    """The driver with rollouts of so many decisions; the driver itself for 0."""
-    from bootcourse.episodes.lookahead import lookahead
-
-    return driver._replace(policy=lookahead(driver.policy, horizon, driver.road)) if horizon else driver
 
 
 def print_table(columns: dict[str, dict]) -> None:
@@ -177,8 +139,8 @@ def drive(
     who: str = typer.Argument(..., help="rule, idle, random, or a run's folder."),
     out: Path = typer.Option(..., help="The rollout to write, such as drive.npz."),
     seed: int = typer.Option(0, min=0, help="The road."),
-    scenario: str = typer.Option("", help="default or calibrated; by default the scenario that a run trained on."),
-    png: Path | None = typer.Option(None, help="Also draw the top view and the traces to this picture."),
+    scenario: str = SCENARIO,
+    png: Path | None = typer.Option(None, help="Also draw the road from above to this picture."),
     teacher: str = TEACHER,
     learner: str = LEARNER,
     lookahead: int = LOOK_AHEAD,
@@ -190,22 +152,22 @@ def drive(
 
     if out.exists():
         raise BootcourseError(f"{out} exists already: choose another name.")
-    if png is not None:
-        check_replaceable(png, ".png")
-    check_replaceable(out, ".npz")
+    for path, ending in ((png, ".png"), (out, ".npz")):
+        if path is not None:
+            check_replaceable(path, ending)
     register_learner(learner)
-    drivers = drivers_of(who, scenario, False, seed, teacher, lookahead)
+    drivers = drivers_of(who, scenario, seed, teacher, lookahead)
     if len(drivers) > 1:
         raise BootcourseError(f"{who} holds {len(drivers)} runs: name one, such as {Path(who) / drivers[0].label}.")
     label, policy, road, _ = drivers[0]
-    label = label.rsplit("-", 1)[0] if label not in BUILT_IN else label
-    label += f", {lookahead} ahead" if lookahead else ""
-    rollout = record(policy, [seed], road, label)[0]
+    label = label if label in BUILT_IN else label.rsplit("-", 1)[0]
+    rollout = record(policy, [seed], road, label + (f", {lookahead} ahead" if lookahead else ""))[0]
     print(rollout.save(out))
     if png is not None:
-        from bootcourse.plots.drive_figure import save_drive
+        from bootcourse.plots.figure import save
+        from bootcourse.plots.top_view import top_view_over_time
 
-        print(save_drive(rollout, png))
+        print(save(top_view_over_time(rollout), png))
 
 
 def replay(
@@ -214,7 +176,6 @@ def replay(
     gif: Path | None = typer.Option(None, help="Write an animation of the road from above, such as out.gif."),
     png: Path | None = typer.Option(None, help="Write one moment from above as a picture, such as out.png."),
     text: bool = typer.Option(False, "--text", help="Print each drive in words."),
-    port: int = typer.Option(0, min=0, max=65535, help="The server's port; 0: any free one."),
     browser: bool = typer.Option(True, help="Open the browser, or print only the address."),
 ) -> None:
     """Show drives in 3D in the browser until Ctrl-C, or write them to a file, or print them in words."""
@@ -224,7 +185,7 @@ def replay(
     if not (export or gif or png or text):
         from bootcourse.replay3d import viewer
 
-        with viewer.replay(rollouts, port=port) as shown, contextlib.suppress(KeyboardInterrupt):
+        with viewer.replay(rollouts) as shown, contextlib.suppress(KeyboardInterrupt):
             print(f"Replay at {shown.url} (Ctrl-C ends it)", flush=True)
             if browser:
                 webbrowser.open(shown.url)

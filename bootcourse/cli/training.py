@@ -27,6 +27,7 @@ INTERRUPTED = 130  # exit status
 NAMED = "bootcourse.research.teachers"  # the module of the teachers with a name, loaded when one is asked for
 UNFINISHED, CHECKPOINT, SAVING, COMPLETE = "unfinished", "checkpoint.npz", "saving", "complete"  # see above
 SECONDS_BETWEEN = 20.0  # of checkpoints
+BEGINNING = ("method", "seeds", "first_seed", "episodes", "scenario", "setting", "p", "xi", "c")  # fixed by the start
 
 
 def train(
@@ -60,9 +61,8 @@ def train(
 
     check_known("Method", method, METHODS)
     method = register_learner(learner, METHODS[method]) or method
-    changes = {
-        name: value for name, value in {"rule_p": p, "xi_multiplier": xi, "bonus": c}.items() if value is not None
-    }
+    asked = {"rule_p": p, "xi_multiplier": xi, "bonus": c}
+    changes = {name: value for name, value in asked.items() if value is not None}
     settings, road = with_seeds(settings_for(method, setting, **changes), seeds, first_seed), named(scenario)
     rule, work, episodes = teacher_from(teacher), out / UNFINISHED, episodes or METHODS[method].episodes
     if resume and not is_unfinished(out) and any(out.glob("*/provenance.json")):
@@ -80,7 +80,7 @@ def train(
                 training = load_checkpoint(work / CHECKPOINT, rule, device)
             except DamagedCheckpoint as error:
                 raise BootcourseError(f"{error} Delete {work}, and start again without --resume.") from None
-            check_resumed(training, seeds, first_seed, episodes, road, setting, changes, given_options(context))
+            check_resumed(training, (settings, episodes, road), given_options(context))
         try:
             status = finish_training(training, out, progress=not quiet)
         except KeyboardInterrupt:  # before the first decision, or after the last: the checkpoint is there
@@ -88,11 +88,10 @@ def train(
         if status == INTERRUPTED:
             print(f"Interrupted. To continue, run `{command_to_continue(context)}`.", file=sys.stderr)
         elif not quiet:
-            also = "".join(f" --{name} {shlex.quote(value)}" for name, value in (("teacher", teacher),) if value)
-            also += f" --learner {shlex.quote(learner)}" * bool(learner)
-            print(
-                f"To test these agents on 1,000 other roads, run `bootcourse evaluate {shlex.quote(str(out))}{also}`."
-            )
+            words = ["bootcourse", "evaluate", str(out)]
+            for option, place in (("--teacher", teacher), ("--learner", learner)):
+                words += [option, place] if place else []
+            print(f"To test these agents on 1,000 other roads, run `{shlex.join(words)}`.")
         raise typer.Exit(status)
 
 
@@ -116,10 +115,8 @@ def is_unfinished(out: Path) -> bool:
 
 def given_options(context: typer.Context) -> dict[str, object]:
     """The options of `bootcourse train` that stand on the command line, by name."""
-    sources = {name: context.get_parameter_source(name) for name in context.params}
-    return {
-        name: value for name, value in context.params.items() if getattr(sources[name], "name", "") == "COMMANDLINE"
-    }
+    typed = [name for name in context.params if context.get_parameter_source(name).name == "COMMANDLINE"]
+    return {name: context.params[name] for name in typed}
 
 
 def command_to_continue(context: typer.Context) -> str:
@@ -131,36 +128,18 @@ def command_to_continue(context: typer.Context) -> str:
     return " ".join([*words, "--resume"])
 
 
-def check_resumed(
-    training, seeds: int, first_seed: int, episodes: int, road, setting: str, changes: dict, given: dict
-) -> None:
-    """Raise BootcourseError if an option was given that is not what the training began with."""
-    from bootcourse.learn.settings import SETTINGS, settings_for
+def check_resumed(training, asked: tuple, given: dict) -> None:
+    """Raise BootcourseError if options were given that are not those that the training began with.
 
-    one = training.settings[0]
-    asked = settings_for(one.method, setting, **changes)
-
-    def has(name: str) -> bool:
-        plain = settings_for(one.method, name)
-        return all(getattr(one, field) == getattr(plain, field) for field in SETTINGS["paper"] if hasattr(one, field))
-
-    pairs = {  # option: (stored, asked)
-        "method": (one.method, given.get("method", one.method)),
-        "seeds": (len(training.settings), seeds),
-        "first_seed": (one.seed, first_seed),
-        "episodes": (training.episodes, episodes),
-        "scenario": (training.scenario.name, road.name),
-        "p": (one.rule_p, asked.rule_p),
-        "xi": (one.xi_multiplier, asked.xi_multiplier),
-        "c": (one.bonus, asked.bonus),
-        "setting": (next(filter(has, SETTINGS), "another") if given.get("setting") else "", setting),
-    }
-    for name, (stored, wanted) in pairs.items():
-        if given.get(name) not in (None, 0) and stored != wanted:
-            raise BootcourseError(
-                f"--{name.replace('_', '-')} {given[name]}: this training began with {stored}. Leave the option out to "
-                "continue it, or choose another folder."
-            )
+    asked: the settings, episodes and scenario that the whole command stands for.
+    """
+    chosen = {name: value for name, value in given.items() if name in BEGINNING}
+    if chosen and asked != (training.settings, training.episodes, training.scenario):
+        words = ", ".join(f"--{name.replace('_', '-')} {value}" for name, value in chosen.items())
+        raise BootcourseError(
+            f"{words}: this training began with other options. Give the same ones as at first, or none of them, or "
+            "choose another folder."
+        )
 
 
 def register_learner(place: str, like=None) -> str:

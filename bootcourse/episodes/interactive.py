@@ -7,7 +7,7 @@ import numpy as np
 from gymnasium.vector import AutoresetMode
 
 from bootcourse.episodes.record import EpisodeRecorder, driven
-from bootcourse.episodes.rollout import Rollout, interpolate_states
+from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError, whole
 from bootcourse.policies import PolicyOutput
 from bootcourse.road.vector_env import TrapVectorEnv
@@ -59,10 +59,6 @@ class InteractiveEpisode:
     def terms(self) -> tuple[float, float, float]:
         """r_v, r_y, r_θ of the last decision, unweighted; zeros before the first."""
         return tuple(map(float, self.recorder.terms[-1])) if self.recorder.terms else (0.0, 0.0, 0.0)
-
-    def cars_at(self, time: float) -> np.ndarray:
-        """The state of all cars at a time (s) of this drive, interpolated: (vehicles, 10)."""
-        return interpolate_states(self.recorder.states, time / self.scenario.clock.dt)
 
     def rollout(self) -> Rollout:
         """The drive so far. Raises BootcourseError before the first decision."""

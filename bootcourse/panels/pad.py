@@ -10,7 +10,6 @@ from collections.abc import Callable
 
 import ipywidgets as widgets
 
-from bootcourse.colours import OTHER
 from bootcourse.markup import Markup, html
 from bootcourse.scenario import ACTION_NAMES
 
@@ -49,13 +48,12 @@ const waiting = setInterval(() => {
 }, 50);
 """.replace("@TOGETHER@", str(TOGETHER)).replace("@REPEAT@", str(REPEAT))
 
-STYLE = f"""<style>
-.bc-keys {{border: 1px dashed var(--jp-border-color1, #B6BEC7); border-radius: 4px; padding: 5px 8px; cursor: pointer;
-  font: 12px/1.35 system-ui, sans-serif; color: var(--jp-ui-font-color2, #5F6B77)}}
-.bc-panel .bc-keys:focus {{outline: 2px solid var(--jp-brand-color1, #1976D2); outline-offset: 1px; border-style: solid;
-  color: var(--jp-ui-font-color1, #1F2933)}}
-.bc-drive .bc-next {{box-shadow: inset 0 0 0 2px {OTHER.colour}}}
-.bc-drive button.jupyter-button {{font-size: 17px; line-height: 1; padding: 0}}
+STYLE = """<style>
+.bc-keys {border: 1px dashed var(--jp-border-color1, #B6BEC7); border-radius: 4px; padding: 5px 8px; cursor: pointer;
+  font: 12px/1.35 system-ui, sans-serif; color: var(--jp-ui-font-color2, #5F6B77)}
+.bc-panel .bc-keys:focus {outline: 2px solid var(--jp-brand-color1, #1976D2); outline-offset: 1px; border-style: solid;
+  color: var(--jp-ui-font-color1, #1F2933)}
+.bc-drive button.jupyter-button {font-size: 17px; line-height: 1; padding: 0}
 </style>"""
 
 
@@ -80,8 +78,3 @@ class Pad(widgets.VBox):
         super().__init__([*rows, widgets.HTML(keys, layout={"width": "206px"})])
         self.layout.width = "220px"
         self.add_class("bc-drive")
-
-    def mark(self, action: int | None) -> None:
-        """Frame the button of the action that comes next; None: no button."""
-        for i, button in enumerate(self.buttons):
-            (button.add_class if i == action else button.remove_class)("bc-next")

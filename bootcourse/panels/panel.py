@@ -1,6 +1,6 @@
 """The base class of panels: a column of widgets under a title, with a picture for readers without a kernel.
 
-What a panel shows is computed by functions of the library, and what a user enters is validated by the library; its
+What a panel shows is computed by functions of the library, and what a user enters is checked by the library, whose
 sentence appears in the panel.
 """
 
@@ -35,29 +35,26 @@ STYLE = """<style>
 
 
 class Panel(widgets.VBox):
-    """A titled column. When its notebook cell runs again, the panel is closed.
+    """A titled column of widgets. When its notebook cell runs again, the panel is closed.
 
-    title: a sentence; parts: widgets from top to bottom. `svg`: the drawing that it shows.
+    `svg` is the drawing that it shows, and what readers without a kernel see.
     """
 
     svg: Drawing
-
     closed = False  # of the class: `close` may be called on a panel whose __init__ raised an error
 
     def __init__(self, title: str, *parts: widgets.Widget):
         self.says = widgets.HTML()
-        head = widgets.HTML(Markup(STYLE) + html("<h3>{}</h3>", title))
-        super().__init__([head, *parts, self.says])
+        super().__init__([widgets.HTML(Markup(STYLE) + html("<h3>{}</h3>", title)), *parts, self.says])
         self.add_class("bc-panel")
-        place = (one_per_cell.this_cell(), type(self).__name__)
-        key = None if place[0] is None else place
-        one_per_cell.close_shown_by(key)
-        one_per_cell.note(key, self)
+        cell = one_per_cell.this_cell()
+        place = None if cell is None else (cell, type(self).__name__)
+        one_per_cell.close_shown_by(place)
+        one_per_cell.note(place, self)
 
     def say(self, sentence: str = "", wrong: bool = False) -> None:
         """Show a message in the panel; an empty one removes it."""
-        kind = "bc-says bc-wrong" if wrong else "bc-says"
-        role = "alert" if wrong else "status"
+        kind, role = ("bc-says bc-wrong", "alert") if wrong else ("bc-says", "status")
         self.says.value = html('<div class="{}" role="{}">{}</div>', kind, role, sentence) if sentence else ""
 
     @contextlib.contextmanager
@@ -68,18 +65,18 @@ class Panel(widgets.VBox):
         except BootcourseError as error:
             self.say(str(error), wrong=True)
 
-    def handle(self, does: Callable[[], None]) -> None:
+    def handle(self, action: Callable[[], None]) -> None:
         """Do what a control asks for: in place of the last message, show why it cannot be done."""
         with self.saying_what_is_wrong():
             self.say()
-            does()
+            action()
 
     def make_button(
-        self, label: str, icon: str, help: str, does: Callable[[], None], kind: str = "", width: str = "104px"
+        self, label: str, icon: str, help: str, action: Callable[[], None], kind: str = "", width: str = "104px"
     ) -> widgets.Button:
         """A button with its icon and a sentence of help; kind: "" or "primary"."""
         button = widgets.Button(description=label, icon=icon, tooltip=help, button_style=kind, layout={"width": width})
-        button.on_click(lambda _: self.handle(does))
+        button.on_click(lambda _: self.handle(action))
         return button
 
     def update_with(self, *controls: widgets.Widget) -> None:
@@ -88,26 +85,19 @@ class Panel(widgets.VBox):
             control.observe(self.update, "value")
         self.update()
 
-    def picture(self) -> Drawing:
-        """What readers without a kernel see."""
-        return self.svg
-
     def close(self) -> None:
-        """Stop whatever runs, and remove the panel and its parts. Closing twice does nothing."""
-        if self.closed:
-            return
-        self.closed = True
-        one_per_cell.forget(self)
-        for part in _parts(self, {}).values():
-            if part is not self:
-                part.close()
-        super().close()
+        """Remove the panel and its parts. Closing twice does nothing."""
+        if not self.closed:
+            self.closed = True
+            one_per_cell.forget(self)
+            for part in (*self.children, self.layout):
+                _close(part)
+            super().close()
 
     def _repr_mimebundle_(self, **kwargs) -> dict:
-        picture = self.picture()
-        data = base64.b64encode(printed(picture)).decode()
-        img = html('<img src="data:image/svg+xml;base64,{}" alt="{}" style="max-width:100%">', data, picture.alt)
-        return super()._repr_mimebundle_(**kwargs) | {"text/html": str(img), "text/plain": picture.alt}
+        data = base64.b64encode(printed(self.svg)).decode()
+        img = html('<img src="data:image/svg+xml;base64,{}" alt="{}" style="max-width:100%">', data, self.svg.alt)
+        return super()._repr_mimebundle_(**kwargs) | {"text/html": str(img), "text/plain": self.svg.alt}
 
 
 def beside(*parts: widgets.Widget) -> widgets.Box:
@@ -117,14 +107,11 @@ def beside(*parts: widgets.Widget) -> widgets.Box:
     return widgets.Box(parts, layout=widgets.Layout(flex_flow="row wrap", grid_gap="6px 32px", margin="6px 0 4px"))
 
 
-def _parts(value, parts: dict[int, widgets.Widget]) -> dict[int, widgets.Widget]:
-    """{id: widget} of every widget that a value holds, in traits and attributes too: children, layouts, styles."""
-    if isinstance(value, widgets.Widget) and id(value) not in parts:
-        parts[id(value)] = value
-        _parts(vars(value), parts)  # its traits are in `_trait_values`
-    elif isinstance(value, dict):
-        _parts(list(value.values()), parts)
-    elif isinstance(value, (list, tuple)):
-        for each in value:
-            _parts(each, parts)
-    return parts
+def _close(widget: widgets.Widget) -> None:
+    """Close a widget, what is in it, and their layouts and styles, each of which is a widget too."""
+    for part in getattr(widget, "children", ()):
+        _close(part)
+    for name in ("layout", "style"):
+        if hasattr(widget, name):
+            getattr(widget, name).close()
+    widget.close()

@@ -1,4 +1,4 @@
-"""One decision of a drive, and what the soft constraint does to each action while you move p, ξ and α.
+"""One decision of a drive, and what the soft constraint does to each action while you move p and ξ.
 
 `policy_numbers.py` computes the numbers.
 """
@@ -10,10 +10,10 @@ from matplotlib.colors import to_hex
 from bootcourse.colours import ALARM
 from bootcourse.episodes.lookahead import nine_drives
 from bootcourse.episodes.rollout import Rollout
+from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import Settings
 from bootcourse.methods import display_name, style
-from bootcourse.panels.arguments import a_number, one_drive
-from bootcourse.panels.number import Number, moment
+from bootcourse.panels.number import Number
 from bootcourse.panels.panel import Panel, beside
 from bootcourse.panels.policy_numbers import PolicyNumbers, check_weights, policy_numbers
 from bootcourse.plots.futures import SHADES, in_words, trails
@@ -42,23 +42,32 @@ class PolicyPanel(Panel):
         self.imagined = None if futures is None else nine_drives(rollout.cars, futures, rollout.scenario)
         self.width = WIDTH if futures is None else WIDTH + ROLLOUTS
         self.decisions = rule(np.ascontiguousarray(rollout.cars), rollout.scenario)
-        self.moment = moment(len(rollout.actions), self.rate, "The time of the decision.", "this drive has its")
+        self.moment = self._moment()
         self.p = Number("p", p, 0.12, 0.99, 0.01, "Probability that π̃ gives to the rule's own action.", check=check_p)
         self.xi = Number("ξ", xi, 0, 5, 0.05, "Weight of the KL, which pulls π to the rule.",
-                         check=lambda xi: check_weights(xi, 1))  # fmt: skip
-        self.alpha = Number("α", alpha, -4, 0, 0.05, "Weight of the entropy: how random π may stay.",
-                            check=lambda alpha: check_weights(0, alpha), logarithmic=True)  # fmt: skip
-        self.view = widgets.HTML()
-        numbers = (self.moment, self.p, self.xi, self.alpha)
+                         check=lambda xi: check_weights(xi, alpha))  # fmt: skip
+        self.alpha, self.view = alpha, widgets.HTML()
+        numbers = (self.moment, self.p, self.xi)
         super().__init__("What the rule's pull does to each action", beside(*numbers), self.view)
         self.update_with(*numbers)
         self.say(missing(rollout))
+
+    def _moment(self) -> Number:
+        """The time (s) of the decision that is shown, to be moved."""
+        last = (len(self.rollout.actions) - 1) / self.rate
+
+        def check(t: float) -> None:
+            if not 0 <= t <= last:
+                raise BootcourseError(f"t = {t:g} s: this drive has its decisions from 0 to {last:g} s.")
+
+        step = 1 / self.rate
+        return Number("t", 0, 0, max(last, step), step, "The time of the decision.", "s", check)
 
     def update(self, change=None) -> None:
         """Compute and draw the present moment."""
         k = int(self.moment.value * self.rate + 1e-9)
         policy, q = (None if a is None else a[k] for a in (self.rollout.policy, self.rollout.q_values))
-        p, xi, alpha = self.p.value, self.xi.value, self.alpha.value
+        p, xi, alpha = self.p.value, self.xi.value, self.alpha
         self.seen = policy_numbers(policy, q, int(self.decisions.actions[k]), p, xi, alpha)
         scenario, colour = self.rollout.scenario, style(self.rollout.label).colour
         scale = ROAD / (scenario.road.lanes * scenario.road.lane_width)
@@ -108,7 +117,7 @@ class PolicyPanel(Panel):
         if seen.optimum is not None:
             best = int(seen.optimum.argmax())
             sentences.append(
-                f"With ξ = {self.xi.value:g} and α = {self.alpha.value:g} the best compromise gives "
+                f"With ξ = {self.xi.value:g} and α = {self.alpha:g} the best compromise gives "
                 f"{seen.optimum[best]:.2f} to {ACTION_NAMES[best]}."
             )
         if self.imagined is not None:
@@ -118,15 +127,13 @@ class PolicyPanel(Panel):
 
 def missing(rollout: Rollout) -> str:
     """A sentence that says which numbers this drive does not have; empty if it has them all."""
-    who = display_name(rollout.label)
-    if rollout.policy is None and rollout.q_values is None:
-        return f"This drive ({who}) has no policy π and no Q: let an agent drive with `agent.as_policy(with_q=True)`."
-    if rollout.q_values is None:
-        return (
-            f"This drive ({who}) has no Q, so there is no optimum. Agents of PPO and behaviour cloning have no Q; "
-            "other agents record theirs with `agent.as_policy(with_q=True)`."
-        )
-    return "" if rollout.policy is not None else f"This drive ({who}) has no policy π."
+    lacks = [name for name, numbers in (("π", rollout.policy), ("Q", rollout.q_values)) if numbers is None]
+    if not lacks:
+        return ""
+    return (
+        f"This drive ({display_name(rollout.label)}) has no {' and no '.join(lacks)}: let an agent drive with "
+        "`agent.as_policy(with_q=True)`. Agents of PPO and behaviour cloning have no Q."
+    )
 
 
 def action_table(seen: PolicyNumbers, p: float, xi: float, alpha: float, who: str, colour: str) -> list[str]:
@@ -196,19 +203,18 @@ def policy_panel(
     alpha: float | None = None,
     futures: Policy | None = None,
 ) -> PolicyPanel:
-    """See π, π̃ and their best compromise at each decision of a drive, while you move p, ξ and α.
-
-    futures: the base policy of nine imagined drives at each decision, which are drawn on the road with their values.
+    """See π, π̃ and their best compromise at each decision of a drive, while you move p and ξ.
 
     rollout: a recorded drive; only an agent with Q and `with_q=True` gives all that is shown. p: the drive's own
-    `rule_p` if None. alpha: the paper's start value, 0.01, if None. xi: the paper's 200 α, 2.
+    `rule_p` if None. alpha: the paper's start value, 0.01, if None. xi: the paper's 200 α, 2. futures: the base policy
+    of nine imagined drives at each decision, which are drawn on the road with their values.
     Raises BootcourseError for anything but a recorded drive, and for values out of range.
     """
-    one_drive(rollout, "rollout")
+    if not isinstance(rollout, Rollout):
+        given = f"a {type(rollout).__name__}"
+        raise BootcourseError(f"rollout is {given}: give one recorded drive, such as bc.record(driver, [0])[0].")
     p = rollout.rule_p if p is None else p
     alpha = Settings().alpha_init if alpha is None else alpha
-    for symbol, value in (("p", p), ("xi", xi), ("alpha", alpha)):
-        a_number(value, symbol)
     check_p(p)
     check_weights(xi, alpha)
     return PolicyPanel(rollout, p, xi, alpha, futures)

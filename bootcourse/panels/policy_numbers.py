@@ -4,7 +4,7 @@
 weight of its KL (Section IV-A); the formulas stand in `bootcourse.learn.bootstrap`.
 """
 
-import sys
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -32,12 +32,11 @@ class PolicyNumbers:
 
 
 def check_weights(xi: float, alpha: float) -> None:
-    """Refuse a ξ below 0 and an α that is not above 0."""
-    for symbol, value, fine in (("ξ", xi, xi >= 0), ("α", alpha, alpha > 0)):
-        if not (fine and value <= sys.float_info.max):
-            raise BootcourseError(
-                f"{symbol} = {value!r}: give a finite number, {symbol} {'≥' * (symbol == 'ξ') or '>'} 0."
-            )
+    """Refuse a ξ below 0, an α that is not above 0, and what is no finite number."""
+    for symbol, value, above in (("ξ", xi, "≥ 0"), ("α", alpha, "> 0")):
+        fine = isinstance(value, (int, float)) and math.isfinite(value) and (value > 0 or value == 0 and symbol == "ξ")
+        if not fine:
+            raise BootcourseError(f"{symbol} = {value!r}: give a finite number, {symbol} {above}.")
 
 
 def policy_numbers(

@@ -1,231 +1,175 @@
-"""Train while you watch: choose a method and its settings, start, stop, compare, watch in 3D, save.
+"""Train while you watch: choose a method, p, ξ and c, start, stop, and see in 3D what the best agent drives.
 
-    train_panel()                                   # trains for real, in the background
-    train_panel(drives=mine.demonstrations)         # bootstrap from your own drives (see drive_panel)
-
-The training runs in `background.py`, the drawing is `training_chart.py`; this file joins them.
+trainer = train_panel()
+trainer.result                                  # of the last training: bc.save_runs(trainer.result, "runs/mine")
+train_panel(drives=mine.demonstrations)         # bootstrap from your own drives (see drive_panel)
 """
 
-import os
+import math
 import threading
 import time
 from collections.abc import Callable, Sequence
-from pathlib import Path
 
 import ipywidgets as widgets
 import numpy as np
+import torch
 
 from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
-from bootcourse.errors import BootcourseError
+from bootcourse.errors import BootcourseError, described
 from bootcourse.learn.settings import Settings, settings_for, with_seeds
-from bootcourse.learn.training import Result, Training
+from bootcourse.learn.training import Result, Training, one_torch_thread
 from bootcourse.markup import html
-from bootcourse.methods import METHODS, display_name
-from bootcourse.panels.arguments import whole_number
-from bootcourse.panels.background import Background
-from bootcourse.panels.number import Number
-from bootcourse.panels.panel import Panel
-from bootcourse.panels.train_controls import CONTROLLED, numbers_for, without
-from bootcourse.panels.training_chart import Drawn, label_of, training_chart
-from bootcourse.plots.svg import Drawing
+from bootcourse.methods import METHODS, display_name, style
+from bootcourse.panels.number import Number, whole_number
+from bootcourse.panels.panel import Panel, beside
+from bootcourse.plots.svg import INK, QUIET, Drawing, SvgAxes, drawing, span, text
+from bootcourse.plots.training_curves import MEASURES, draw_training, finished, window_of
 from bootcourse.scenario import DEFAULT, Scenario
-from bootcourse.storage.runs import save_runs
+from bootcourse.statistics import rolling_means
 
+SLIDERS = {  # setting: symbol, low, high, step, help, unit
+    "rule_p": ("p", 0.12, 0.999, 0.001, "How sure the stochastic rule π̃ is of its own action.", ""),
+    "xi_multiplier": ("ξ", 0, 2000, 10, "Strength of the pull towards the rule.", "× α"),
+    "bonus": ("c", 0, 10, 0.1, "Bonus on a demonstrated action's reward.", ""),
+}
 SEEDS, EPISODES = 64, 20_000  # at most, of one training
-# Scrolls to what stands beside it, below the curves. Text that is put into a page runs no <script>, but this.
-SHOW = """<img src="data:," alt="" style="display:none"
-  onerror="const stage = this.parentElement; this.remove(); stage.scrollIntoView({block: 'nearest'})">"""
+LOOKS, SHARE = 5.0, 0.15  # drawings a second, and their share of the thread's time, at most
+SHOWN = ("success", "return", "speed", "entropy", "alpha", "xi")  # of the measures
+WIDTH, HEIGHT, COLUMNS = 1040, 398, 3
+NOTHING = np.full((1, 1), np.nan)  # the curve of an agent before its first episode
 HELD_OUT = 1  # the block of roads that no agent has trained on
 
 
 class TrainPanel(Panel):
-    """`.result` is the last training's `Result`, `.close()` ends everything.
+    """`.result` is what the last training learned, None before its end. The training runs in a thread of its own."""
 
-    Two threads write here: the main thread when a button is pressed, and the training's thread when it looks and
-    when it has ended. Each holds `_lock` while it writes.
-    """
-
-    background: Background | None = None
+    thread: threading.Thread | None = None
     replay = None
 
     def __init__(self, method: str, seeds: int, episodes: int, scenario: Scenario, drives, changes: dict):
         self.scenario, self.drives = scenario, drives
-        self.others = {name: value for name, value in changes.items() if name not in CONTROLLED}
+        self.others = {name: value for name, value in changes.items() if name not in SLIDERS}
         self.result: Result | None = None
-        self.drawn: list[Drawn] = []  # trainings that are over
-        self._lock = threading.RLock()
-        self.method = widgets.Dropdown(options=[(display_name(method), method) for method in METHODS], value=method)
-        self.method.layout.width = "300px"
-        label = widgets.HTML("<b>method</b>", layout={"width": "92px"})
-        about = widgets.HTML('<div class="bc-quiet">Who learns, and from what.</div>')
-        chooser = widgets.VBox(
-            [widgets.HBox([label, self.method], layout={"align_items": "center"}), about], layout={"width": "420px"}
+        self._stopping = threading.Event()
+        self.method = widgets.Dropdown(
+            options=[(display_name(name), name) for name in METHODS], value=method, description="method"
         )
-        self.numbers, self._usual_gamma = numbers_for(changes), Settings().gamma
-        episodes, self._usual_episodes = episodes or METHODS[method].episodes, METHODS[method].episodes
+        self.numbers = {}
+        for name, (symbol, low, high, step, help, unit) in SLIDERS.items():
+            start = changes.get(name, getattr(Settings(), name))
+            self.numbers[name] = Number(symbol, start, low, high, step, help, unit, check_of(name))
         self.seeds = Number("seeds", seeds, 1, 10, 1, "Agents that learn side by side, each with its own seed.",
                             check=whole_number("seeds", 1, SEEDS))  # fmt: skip
-        self.episodes = Number("episodes", episodes, 50, EPISODES, 50,
+        self.episodes = Number("episodes", episodes or METHODS[method].episodes, 50, EPISODES, 50,
                                "Drives of each agent: 150 s, or until an accident.",
                                check=whole_number("episodes", 1, EPISODES))  # fmt: skip
-        grid = widgets.GridBox(
-            [chooser, *self.numbers.values(), self.seeds, self.episodes],
-            layout={"grid_template_columns": "repeat(auto-fit, minmax(420px, 1fr))", "grid_gap": "2px 24px"},
-        )
         self.train = self.make_button("Train", "play", "Train for real, in the background", self._train, "primary")
-        self.stop = self.make_button("Stop", "stop", "Stop, and keep what was learned", self._stop)
+        self.stop = self.make_button("Stop", "stop", "Stop, and keep what was learned", self._stopping.set)
         help = "Replay in 3D how the best agent drives a road that it was not trained on"
         self.watch = self.make_button("Watch", "eye", help, self._watch)
-        self.save = self.make_button("Save", "save", "Write a run's folder for each agent", self._save)
-        self.path = widgets.Text("", placeholder="folder", tooltip="Where Save writes", layout={"width": "320px"})
-        buttons = widgets.HBox([self.train, self.stop, self.watch, self.save, self.path])
         self.progress, self.chart, self.stage = widgets.HTML(), widgets.HTML(), widgets.HTML()
-        super().__init__("Train while you watch", grid, buttons, self.progress, self.chart, self.stage)
-        self.says.layout.min_height = "22px"  # messages stand above the curves, and the curves stay where they are
-        self.children = (*self.children[:4], self.says, *self.children[4:-1])
-        self.method.observe(lambda change: self._choose(), "value")
-        self._choose()
-        self._show_progress("Ready.", 0.0)
+        buttons = widgets.HBox([self.train, self.stop, self.watch])
+        numbers = beside(*self.numbers.values(), self.seeds, self.episodes)
+        super().__init__("Train while you watch", self.method, numbers, buttons, self.progress, self.chart, self.stage)
+        self.method.observe(self._choose, "value")
+        self._lock_unused()
+        self._draw(method, {}, 1000)
         self._buttons(running=False)
-        self._draw()
-
-    @property
-    def training(self) -> bool:
-        return self.background is not None and self.background.running
 
     def settings(self) -> Settings:
         """The settings that the controls show. Raises BootcourseError if they do not fit together."""
-        method = self.method.value
-        chosen = {each: number.value for each, number in self.numbers.items() if each not in without(method)}
-        return settings_for(method, **(self.others | chosen))
+        chosen = {name: number.value for name, number in self.numbers.items() if not number.field.disabled}
+        return settings_for(self.method.value, **(self.others | chosen))
 
     def close(self) -> None:
-        if not self.closed:
-            if self.background is not None:
-                self.background.stop()
-                self.background.wait(5.0)
-            self._close_replay()
+        """Stop the training and the replay, and remove the panel."""
+        if self.thread is not None and not self.closed:
+            self._stopping.set()
+            self.thread.join(5.0)
+        self._close_replay()
         super().close()
 
-    def picture(self) -> Drawing:
-        return training_chart(self.drawn)
+    def _choose(self, change=None) -> None:
+        self.episodes.value = METHODS[self.method.value].episodes  # 1,000 are too few for one update of PPO
+        self._lock_unused()
 
-    def handle(self, does: Callable[[], None]) -> None:
-        with self._lock:
-            super().handle(does)
-
-    def _choose(self) -> None:
-        reasons, gamma, own = without(self.method.value), self.numbers["gamma"], settings_for(self.method.value).gamma
-        if gamma.value == self._usual_gamma:  # untouched: it is the method's
-            gamma.value = own
-        self._usual_gamma = own
-        if self._usual_episodes != METHODS[self.method.value].episodes:  # 1,000 are too few for one update of PPO
-            self.episodes.value = self._usual_episodes = METHODS[self.method.value].episodes
-        for setting, control in self.numbers.items():
-            control.lock(reasons.get(setting, ""))
+    def _lock_unused(self) -> None:
+        """Switch off the numbers that the method does not use."""
+        own = METHODS[self.method.value].settings
+        without_kl, without_demonstrations = own.get("xi_multiplier") == 0, own.get("beta_start") == 0
+        unused = {"rule_p", "xi_multiplier"} if without_kl else set()
+        unused |= {"bonus"} if without_demonstrations or own.get("bonus") == 0 else set()
+        for name, number in self.numbers.items():
+            number.lock(f"Without use in {display_name(self.method.value)}." if name in unused else "")
 
     def _train(self) -> None:
         settings = self.settings()
-        agents = with_seeds(settings, int(self.seeds.value))
-        episodes = int(self.episodes.value)
-        mine = list(self.drives or ()) if settings.needs_demonstrations else []
-
-        def make() -> Training:
-            return Training(agents, episodes, self.scenario, demonstrations=mine or None)
-
-        label = f"{len(self.drawn) + 1} {label_of(settings)}" + (f", {len(mine)} own drives" if mine else "")
-        background = Background(
-            make,
-            look=lambda training: self._look(training, label),
-            ended=lambda background: self._ended(background, label),
-            say=self._say_from_thread,
-        )
-        background.start()
-        self.background = background
-        self._show_progress("Preparing: roads, networks, demonstrations …", 0.0)
+        agents, episodes = with_seeds(settings, int(self.seeds.value)), int(self.episodes.value)
+        drives = list(self.drives or ()) if settings.needs_demonstrations else []
+        self._stopping.clear()
+        self._close_replay()
         self._buttons(running=True)
+        self.progress.value = progress("Preparing: roads, networks, demonstrations …", 0.0)
+        arguments = (agents, episodes, drives or None, begun := threading.Event())
+        self.thread = threading.Thread(target=self._run, args=arguments, name="bootcourse training", daemon=True)
+        with one_torch_thread():
+            self.thread.start()
+            begun.wait()
 
-    def _stop(self) -> None:
-        if not self.training:
-            raise BootcourseError("No training runs in this panel.")
-        self.background.stop()
-        self._show_progress("Stopping …", 0.0)
-
-    def _look(self, training: Training, label: str) -> None:
-        """In the training's thread, a few times a second; left out while a button is handled."""
-        if not self._lock.acquire(blocking=False):
-            return
+    def _run(self, agents: list[Settings], episodes: int, drives: list[Rollout] | None, begun) -> None:
+        """In the training's thread, where an error would be shown nowhere else."""
+        torch.get_num_threads()  # takes over the one thread that is set now; several are slower on small matrices
+        begun.set()
         try:
-            if self.background.stopping:
-                return
-            driven, total = _driven(training)
-            left = training.seconds * (total - driven) / driven if driven else 0.0
-            speed = training.decisions / max(training.seconds, 1e-9)
-            words = f"{driven:,} of {total:,} episodes · {speed:,.0f} decisions/s"
-            self._show_progress(words + (f" · about {_duration(left)} left" if driven else ""), driven / total)
-            curves = {curve: values.copy() for curve, values in training.curves.values.items()}
-            self._draw(Drawn(label, training.settings[0].method, curves, training.episodes))
+            training = Training(agents, episodes, self.scenario, demonstrations=drives)
+            self._next_look = 0.0
+            self.result = training.run(progress=False, callback=self._look, stop=self._stopping.is_set)
+            self._show(training, "Stopped" if self.result.interrupted else "Done")
+            if self.result.stopped:
+                seeds = ", ".join(str(agents[i].seed) for i in sorted(self.result.stopped))
+                self.say(f"Diverged, and kept as last finite: seed {seeds}.", wrong=True)
+        except Exception as error:
+            sentence = str(error) if isinstance(error, BootcourseError) else described(error)
+            self.say(f"The training broke off. {sentence}", wrong=True)
         finally:
-            self._lock.release()
+            self._buttons(running=False)
 
-    def _ended(self, background: Background, label: str) -> None:
-        """In the training's thread, when it is over."""
-        with self._lock:
-            try:
-                self._show_end(background, label)
-            finally:
-                self._buttons(running=False)
+    def _look(self, training: Training) -> None:
+        """In the training's thread, after each decision: now and then, show how far it is."""
+        started = time.monotonic()
+        if started >= self._next_look and not self._stopping.is_set():
+            self._show(training, "Training")
+            ended = time.monotonic()
+            self._next_look = ended + max(1 / LOOKS, (ended - started) * (1 / SHARE - 1))
 
-    def _show_end(self, background: Background, label: str) -> None:
-        result, wrong = background.result, [background.error] if background.error else []
-        if result is None:
-            self._show_progress("Nothing was trained.", 0.0)
-        else:
-            self.result, method = result, result.agents[0].settings.method
-            self.path.value = f"runs/{method}-{time.strftime('%Y%m%d-%H%M%S')}"
-            driven, total = _driven(background.training)
-            how = "Stopped" if result.interrupted else "Done"
-            words = f"{how} after {driven:,} of {total:,} episodes, {_duration(result.seconds)}."
-            self._show_progress(words, driven / total)
-            for i, decision in sorted(result.stopped.items()):
-                agent = result.agents[i].settings
-                wrong.append(
-                    f"{display_name(agent.method)}, seed {agent.seed}, diverged: its loss was not finite at decision "
-                    f"{decision}. Its last finite snapshot is kept."
-                )
-            self.drawn = [*self.drawn, Drawn(label, method, result.curves, background.training.episodes)]
-        if wrong:
-            self.say(" ".join(wrong), wrong=True)
-        self._draw()
+    def _show(self, training: Training, how: str) -> None:
+        driven = int(training.curves.finished.clip(max=training.episodes).sum())
+        total, seconds = training.n_agents * training.episodes, training.seconds
+        words = f"{how}: {driven:,} of {total:,} episodes in {seconds:.0f} s, "
+        words += f"{training.decisions / max(seconds, 1e-9):,.0f} decisions/s"
+        if how == "Training" and driven:
+            words += f", about {seconds * (total - driven) / driven:.0f} s left"
+        self.progress.value = progress(words, driven / total)
+        self._draw(training.settings[0].method, training.curves.values, training.episodes)
 
-    def _say_from_thread(self, sentence: str) -> None:
-        with self._lock:
-            self.say(sentence, wrong=True)
+    def _draw(self, method: str, curves: dict[str, np.ndarray], episodes: int) -> None:
+        self.svg = self.chart.value = training_chart(method, curves, episodes)
 
     def _watch(self) -> None:
-        if self.background is None:
-            raise BootcourseError("Nothing was trained yet: press Train first.")
-        result = self.background.peek()
-        agent = result.agents[max(range(len(result.agents)), key=lambda i: _last_return(result, i))]
-        road = held_out_seeds(HELD_OUT, 1)[0]
-        label = f"{agent.settings.method}, seed {agent.settings.seed}"
-        rollout = record(agent.as_policy(with_q=True), [road], self.scenario, label)[0]
-        self._close_replay()
-        self.replay = _replay(rollout)
-        self.stage.value = SHOW + self.replay._repr_mimebundle_()["text/html"]
-        self.say(
-            f"The best of {len(result.agents)} so far, {display_name(label)}, on road {road}, which no agent has seen."
-        )
+        from bootcourse.replay3d.viewer import Replay
 
-    def _save(self) -> None:
-        if self.training or self.result is None:
-            raise BootcourseError("There is nothing to save: train first, or stop what runs.")
-        if not self.path.value.strip():
-            raise BootcourseError("Name a folder to save to, such as runs/mine.")
-        folders = save_runs(self.result, Path(os.path.expanduser(self.path.value.strip())))
-        self.say(f"Saved {len(folders)} run{'s' * (len(folders) > 1)} to {folders[0].parent.resolve()}.")
+        returns = self.result.curves["return"]
+        last = [agent[np.isfinite(agent)][-50:] for agent in returns]
+        best = max(range(len(last)), key=lambda i: last[i].mean() if last[i].size else -math.inf)
+        agent, road = self.result.agents[best], held_out_seeds(HELD_OUT, 1)[0]
+        label = f"{agent.settings.method}, seed {agent.settings.seed}"
+        drive = record(agent.as_policy(with_q=True), [road], self.scenario, label)[0]
+        self._close_replay()
+        self.replay = Replay([drive], height=560)  # the panel closes it, not the notebook's cell
+        self.stage.value = self.replay._repr_mimebundle_()["text/html"]
+        self.say(f"The best of {len(last)}, {display_name(label)}, on road {road}, which no agent has seen.")
 
     def _close_replay(self) -> None:
         if self.replay is not None:
@@ -234,41 +178,44 @@ class TrainPanel(Panel):
 
     def _buttons(self, running: bool) -> None:
         self.train.disabled, self.stop.disabled = running, not running
-        self.watch.disabled = self.background is None
-        self.save.disabled = self.path.disabled = running or self.result is None
-
-    def _show_progress(self, words: str, share: float) -> None:
-        bar = html('<progress max="1" value="{:.4f}" style="width:300px;vertical-align:middle"></progress>', share)
-        self.progress.value = html('<div class="bc-quiet" role="status">{}&ensp;{}</div>', bar, words)
-
-    def _draw(self, *now: Drawn) -> None:
-        """Draw the trainings that are over, and the present one's curves over them."""
-        self.chart.value = training_chart([*self.drawn, *now])
+        self.watch.disabled = running or self.result is None
 
 
-def _replay(rollout: Rollout):
-    """A replay that the panel closes, not the notebook cell."""
-    from bootcourse.replay3d import scene, stage, viewer
-
-    return viewer.Replay(scene.timelines_of(rollout), stage.Options(), height=560)
+def check_of(setting: str) -> Callable[[float], Settings]:
+    """A check of a number: does the library take it for this setting?"""
+    return lambda value: settings_for("bootstrapped", **{setting: value})
 
 
-def _driven(training: Training) -> tuple[int, int]:
-    """Episodes driven so far, and episodes in all, of all agents together."""
-    driven = int(training.curves.finished.clip(max=training.episodes).sum())
-    return driven, training.n_agents * training.episodes
+def progress(words: str, share: float) -> str:
+    """A bar, filled to a share, and words beside it."""
+    bar = html('<progress max="1" value="{:.4f}" style="width:300px;vertical-align:middle"></progress>', share)
+    return html('<div class="bc-quiet" role="status">{}&ensp;{}</div>', bar, words)
 
 
-def _last_return(result: Result, i: int) -> float:
-    """Agent i's mean over its last 50 episodes; minus infinity before its first."""
-    returns = result.curves["return"][i]
-    returns = returns[np.isfinite(returns)][-50:]
-    return float(returns.mean()) if returns.size else float("-inf")
+def training_chart(method: str, curves: dict[str, np.ndarray], episodes: int) -> Drawing:
+    """Six small charts of a training, always of the same size: thin lines are agents, the thick one their mean.
 
-
-def _duration(seconds: float) -> str:
-    minutes, seconds = divmod(round(seconds), 60)
-    return f"{minutes} min {seconds:02} s" if minutes else f"{seconds} s"
+    curves: as `Result.curves`, each (agents, episodes), NaN where still to come; empty before the training.
+    """
+    name, done, window = display_name(method), finished(curves), window_of([curves])
+    words = f"{name}: means of {window} episodes. Thin: an agent. Thick: the agents' interquartile mean."
+    parts = [text(12, 18, words if done else "No episode has ended yet.", fill=QUIET)]
+    ends = []
+    for i, measure in enumerate(MEASURES[each] for each in SHOWN):
+        at, means = (
+            rolling_means(curves[SHOWN[i]] * measure.factor, window) if done else (np.zeros(0), np.zeros((0, 0)))
+        )
+        left, top = 50 + (i % COLUMNS) * 340, 62 + (i // COLUMNS) * 180
+        axes = SvgAxes(left, top, 280, 112, (0, max(episodes, 1)), measure.limits or span(means.ravel(), measure.least))
+        axes.frame(measure.label, "episode")
+        end = draw_training(axes, at, means, style(method))
+        if np.isfinite(end):
+            axes.dot(at[np.isfinite(means).all(axis=0)][-1], end, style(method).colour)
+            parts.append(text(left + 280, top - 8, f"{end:.3g}", "end", INK, 12, bold=True))
+            ends.append(f"{measure.label} {end:.3g}")
+        parts += axes.parts
+    ends = f" {name}, after {done} episodes: {', '.join(ends)}." if ends else " No episode has ended yet."
+    return drawing(WIDTH, HEIGHT, parts, f"Training curves.{ends}")
 
 
 def train_panel(
@@ -279,12 +226,14 @@ def train_panel(
     drives: Sequence[Rollout] | None = None,
     **changes,
 ) -> TrainPanel:
-    """Choose, train for real, watch the curves grow, stop, compare, save.
+    """Choose a method, p, ξ and c, train for real, watch the curves grow, stop, and replay the best agent in 3D.
 
-    episodes: of each agent; 0: the method's own number, as after each choice of a method that has another one.
-    drives: demonstrations to learn from instead of the rule's, if there is at least one when Train is pressed.
-    changes: values of any settings (see `bootcourse.learn.settings.Settings`); a setting that has a control starts
-    there. Raises BootcourseError for a method or a setting that does not exist, and for a value out of range.
+    episodes: of each agent; 0: the method's own number. drives: demonstrations to learn from instead of the rule's, if
+    there is at least one when Train is pressed. changes: values of any settings (see
+    `bootcourse.learn.settings.Settings`); one that has a slider starts there. Raises BootcourseError for a method or a
+    setting that does not exist, and for a value out of range.
     """
     settings_for(method, **changes)
+    whole_number("seeds", 1, SEEDS)(seeds)
+    whole_number("episodes", 0, EPISODES)(episodes)
     return TrainPanel(method, seeds, episodes, scenario, drives, changes)

@@ -16,7 +16,6 @@ from PIL import Image
 from bootcourse.colours import ALARM
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.episodes.words import cars_at, doing, outcome, overtaken, sentence
-from bootcourse.errors import BootcourseError
 from bootcourse.files import check_replaceable, write_bytes
 from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import INK, QUIET, WIDTH, as_written, axes_at, new_figure
@@ -75,14 +74,11 @@ def key_frame(rollouts: Sequence[Rollout]) -> Figure:
     return frame(rollouts, float(last.times[changed[0]] if changed.size else last.times[-1] / 2))
 
 
-def frame_times(rollouts: Sequence[Rollout], until: float | None = None) -> list[float]:
-    """The moments (s) of the frames: to the end of the last overtaking, or of the drive."""
+def frame_times(rollouts: Sequence[Rollout]) -> list[float]:
+    """The moments (s) of the frames: until some seconds after the last overtaking; 20 s where there is none."""
     end = max(float(rollout.times[-1]) for rollout in rollouts)
-    if until is None:
-        passed = [overtaken(rollout) for rollout in rollouts if overtaken(rollout) is not None]
-        until = max(passed) + AFTER if passed else min(end, 20.0)
-    if not until > 0:
-        raise BootcourseError(f"until = {until}: give a number of seconds above 0.")
+    passed = [time for time in map(overtaken, rollouts) if time is not None]
+    until = max(passed) + AFTER if passed else 20.0
     return list(np.arange(0.0, min(until, end) + 1e-9, SPEED_UP * FRAME))
 
 
@@ -103,22 +99,18 @@ def _palette(pictures: list[Image.Image]) -> Image.Image:
     return palette
 
 
-def animate(rollouts: Rollout | Sequence[Rollout], path: Path, until: float | None = None) -> Path:
-    """Write a GIF of one drive, or of several below each other, up to `until` seconds. Returns the path.
+def animate(rollouts: Sequence[Rollout], path: Path) -> Path:
+    """Write a GIF of drives below each other. Returns the path. The same drives give the same bytes.
 
-    until: None for some seconds after the last overtaking. The same drives give the same bytes.
-    Raises BootcourseError if there is no drive or no second, and for a path that does not end in .gif.
+    Raises BootcourseError for a path that does not end in .gif.
     """
     check_replaceable(path, ".gif")
-    drives = [rollouts] if isinstance(rollouts, Rollout) else list(rollouts)
-    if not drives:
-        raise BootcourseError("There is no drive to animate: give a rollout, or a list of them.")
-    pictures = [_picture(drives, time) for time in frame_times(drives, until)]
+    pictures = [_picture(rollouts, time) for time in frame_times(rollouts)]
     palette = _palette(pictures)
     frames = [picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture in pictures]
     durations = [round(1000 * FRAME)] * (len(frames) - 1) + [round(1000 * REST)]
     buffer = io.BytesIO()
     how = {"save_all": True, "duration": durations, "loop": 0, "disposal": 1, "optimize": False}
-    frames[0].save(buffer, "GIF", append_images=frames[1:], comment=alt(drives).encode(), **how)
+    frames[0].save(buffer, "GIF", append_images=frames[1:], comment=alt(rollouts).encode(), **how)
     write_bytes(path, buffer.getvalue())
     return Path(path)

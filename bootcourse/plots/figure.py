@@ -75,7 +75,7 @@ def wrapped(title: str, longest: int = 74) -> str:
 
 
 def plain_axes(ax, label: str, grid: str = "y") -> None:
-    """Thin axes with their label written above, where it can be read without turning the head."""
+    """Thin axes with their label written above, horizontally."""
     for side in ("top", "right", "left"):
         ax.spines[side].set_visible(False)
     ax.spines["bottom"].set_color(GRID)

@@ -77,7 +77,7 @@ class SvgAxes:
         self.parts: list[str] = []
 
     def at(self, x, y):
-        """Where a point lies, or points."""
+        """The pixels of a point, or of points."""
         across, up = (x - self.x[0]) / (self.x[1] - self.x[0]), (y - self.y[0]) / (self.y[1] - self.y[0])
         return self.left + across * self.width, self.top + (1 - up) * self.height
 
@@ -127,7 +127,7 @@ def _path(xs: np.ndarray, ys: np.ndarray) -> str:
 
 
 def _runs(holds: np.ndarray) -> list[slice]:
-    """The stretches in which it holds."""
+    """The stretches of True, as slices."""
     edges = np.flatnonzero(np.diff(np.concatenate([[0], holds.astype(np.int8), [0]])))
     return [slice(a, b) for a, b in zip(edges[::2], edges[1::2], strict=True)]
 

@@ -1,7 +1,7 @@
-"""The road from above: at one moment, and at several moments below each other.
+"""The road from above, at several moments below each other.
 
-Everything is drawn in metres and to scale. In `top_view` and `top_view_over_time` the ego stands at
-0 and the road moves past it; what is too far away to be drawn is named at the edge.
+Everything is drawn in metres and to scale. The ego stands at 0 and the road moves past it; what is too far away to be
+drawn is named at the edge.
 """
 
 from collections.abc import Sequence
@@ -18,7 +18,6 @@ from bootcourse.plots.canvas import MplAxes
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, WIDTH, axes_at, finish, new_figure
 from bootcourse.plots.road import draw_cars, draw_road, edges_of
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, X, Y
-from bootcourse.scenario import Scenario
 
 NEAR, FAR, SPAN = 16.0, 70.0, 84.0  # m; least behind the ego, most to either side, least in all
 CLEAR = 15.0  # m; so far ahead of trap 1 the escape is over
@@ -46,39 +45,6 @@ def window(rollout: Rollout, times: Sequence[float]) -> tuple[float, float]:
     left, right = min(-NEAR, np.min(ahead) - 5), np.max(ahead) + 14
     left, right = max(left, -FAR), min(right, FAR)
     return left, max(right, left + SPAN)
-
-
-def top_view(rollout: Rollout, time: float = 0.0, distances: bool = False, title: str | None = None) -> Figure:
-    """The road at one moment (s). distances: measure D1 and D2, centre to centre, as the paper does.
-
-    Raises BootcourseError for a time outside the drive.
-    """
-    cars = cars_at(rollout, time)
-    left, right = window(rollout, [time])
-    width, scenario = WIDTH - 0.75, rollout.scenario
-    road = scenario.road.lanes * scenario.road.lane_width + 0.8
-    below = 6.2 if distances else 0.0  # m of room for the two arrows
-    height = (road + below) * width / (right - left)
-    figure = new_figure(height + 0.86)
-    ax = axes_at(figure, 0.6, 0.4, width, height)
-    draw_moment(ax, rollout, time, left, right)
-    ax.set_ylim(ax.get_ylim()[0] + below, ax.get_ylim()[1])
-    _metres(ax)
-    ax.set_ylabel("lane", fontsize=SMALL, color=QUIET)
-    ax.set_yticks(np.arange(scenario.road.lanes) * scenario.road.lane_width, range(scenario.road.lanes))
-    _name_ego(ax, rollout, cars)
-    if distances:
-        _measure(ax, cars, scenario)
-    words = sentence(f"{display_name(rollout.label)}, at {time:g} s: {doing(rollout, time)}")
-    if distances:
-        words = "The trap: one slow car ahead, another beside it"
-    traps = [
-        f"{text} is {_apart_in_words(cars[i, X] - cars[EGO, X])} in lane {cars[i, LANE]:.0f}"
-        for i, text in ((TRAP_1, "trap 1"), (TRAP_2, "trap 2"))
-    ]
-    ego = f"The ego is in lane {cars[EGO, LANE]:.0f} at {cars[EGO, SPEED]:.1f} m/s"
-    alt = f"The road from above at {time:g} s. {ego}; {', '.join(traps)}."
-    return finish(figure, title or words, alt)
 
 
 def top_view_over_time(rollout: Rollout, times: Sequence[float] | None = None, title: str | None = None) -> Figure:
@@ -164,22 +130,7 @@ def _name_ego(ax, rollout: Rollout, cars: np.ndarray) -> None:
     ax.text(back, cars[EGO, Y], "ego", ha="right", va="center", **look)
 
 
-def _measure(ax, cars: np.ndarray, scenario: Scenario) -> None:
-    """Two dimension lines below the road, as on a drawing."""
-    bottom = (scenario.road.lanes - 0.5) * scenario.road.lane_width
-    for i, (text, trap) in enumerate((("D1", TRAP_1), ("D2", TRAP_2))):
-        x, y = cars[trap, X] - cars[EGO, X], bottom + 1.9 + 2.6 * i
-        dashed = {"color": INK, "linewidth": 0.6, "linestyle": (0, (3, 2)), "zorder": 5}
-        ax.vlines([0, x], [cars[EGO, Y], cars[trap, Y]], y + 0.7, **dashed)
-        arrow = {"arrowstyle": "<|-|>", "color": INK, "lw": 0.9, "shrinkA": 0, "shrinkB": 0}
-        ax.annotate("", (x, y), (0, y), arrowprops=arrow)
-        ax.text(max(x, 0) + 0.9, y, f"{text} = {x:.2f} m", fontsize=TEXT, color=INK, va="center")
-
-
-def _apart_in_words(ahead: float) -> str:
-    return f"{abs(ahead):.1f} m {'ahead' if ahead >= 0 else 'behind'}"
-
-
 def _gap_in_words(rollout: Rollout, time: float) -> str:
     cars = cars_at(rollout, time)
-    return f"trap 1 {_apart_in_words(cars[TRAP_1, X] - cars[EGO, X])}"
+    ahead = cars[TRAP_1, X] - cars[EGO, X]
+    return f"trap 1 {abs(ahead):.1f} m {'ahead' if ahead >= 0 else 'behind'}"

@@ -43,15 +43,12 @@ FARTHEST = 100.0  # m; beyond it the overtaking would become a dot at the bottom
 
 
 def traces(
-    rollouts: Rollout | Sequence[Rollout],
-    title: str | None = None,
-    until: float | None = None,
-    what: Sequence[str] = tuple(PANELS),
+    rollouts: Rollout | Sequence[Rollout], title: str | None = None, what: Sequence[str] = tuple(PANELS)
 ) -> Figure:
     """Speed, distance ahead of trap 1, lane, reward, return and actions over time, in the drivers' colours.
 
-    until: draw only up to this second; what: the panels, from `PANELS`. An accident is a red cross.
-    Raises BootcourseError if there is no drive, no panel, or no second to draw.
+    what: the panels, from `PANELS`. An accident is a red cross. Raises BootcourseError if there is no drive, or no
+    panel.
     """
     drives = [rollouts] if isinstance(rollouts, Rollout) else list(rollouts)
     if not drives:
@@ -59,10 +56,6 @@ def traces(
     for panel in what:
         check_known("Panel", panel, PANELS)
     end = max(drive.times[-1] for drive in drives)
-    if until is not None and not until > 0:
-        raise BootcourseError(f"until = {until}: give a number of seconds above 0.")
-    until = min(end, until or end)
-
     panels = [(panel, None) for panel in PANELS if panel in what and panel != "action"]
     panels += [("action", i) for i in range(len(drives)) if "action" in what]
     if not panels:
@@ -78,35 +71,34 @@ def traces(
         top += height + GAP
         label = PANELS[panel][0] if i is None else f"actions: {names[i]}"
         plain_axes(ax, label)
-        ax.set_xlim(0, until)
+        ax.set_xlim(0, end)
         if i is None:
-            _draw_panel(ax, panel, drives, looks, until)
+            _draw_panel(ax, panel, drives, looks)
         else:
-            _draw_actions(ax, drives[i], looks[i].colour, until)
+            _draw_actions(ax, drives[i], looks[i].colour)
             ax.yaxis.label.set_color(looks[i].colour)
         if k == 0 and i is None:
-            _write_names(ax, panel, drives, names, looks, until)
+            _write_names(ax, panel, drives, names, looks)
         last = k == len(panels) - 1
         ax.tick_params(axis="x", labelbottom=last)
         if last:
             ax.set_xlabel("time (s)", fontsize=TEXT, color=INK)
     stories = []
     for each, drive in zip(names, drives, strict=True):
-        end = outcome(drive)
-        stories.append(f"{each}: {_numbers(drive)}" if end in title else f"{each}: {end}, {_numbers(drive)}")
+        ending = outcome(drive)
+        stories.append(f"{each}: {_numbers(drive)}" if ending in title else f"{each}: {ending}, {_numbers(drive)}")
     drawn = ", ".join(panel for panel in PANELS if panel in what)
-    alt = f"Over {until:g} s, below each other: {drawn}. Whole drives: {'; '.join(stories)}."
+    alt = f"Over {end:g} s, below each other: {drawn}. Whole drives: {'; '.join(stories)}."
     return finish(figure, title, alt)
 
 
 def _names(drives: list[Rollout]) -> list[str]:
-    """What to call each drive; the same driver on two roads is told apart by the road."""
+    """What to call each drive; several of one driver are told apart by their road."""
     names = [display_name(drive.label) for drive in drives]
-    several = {each for each in names if names.count(each) > 1}
-    roads = [
-        f"{each}, road {drive.seed}" if each in several else each for each, drive in zip(names, drives, strict=True)
+    return [
+        f"{name}, road {drive.seed}" if names.count(name) > 1 else name
+        for name, drive in zip(names, drives, strict=True)
     ]
-    return [f"{each} ({i + 1})" if roads.count(each) > 1 else each for i, each in enumerate(roads)]
 
 
 def _title(drives: list[Rollout], names: list[str]) -> str:
@@ -121,14 +113,13 @@ def _numbers(drive: Rollout) -> str:
     return f"return {drive.rewards.sum():.1f}, {drive.distance:.0f} m at {speed:.1f} m/s"
 
 
-def _draw_panel(ax, panel: str, drives: list[Rollout], looks: list, until: float) -> None:
+def _draw_panel(ax, panel: str, drives: list[Rollout], looks: list) -> None:
     for drive, look in zip(drives, looks, strict=True):
         seconds, values = series(drive, panel)
-        seen = seconds <= until
         how = {"color": look.colour, "linestyle": look.line, "zorder": in_front(drive.label)}
         how |= {"linewidth": 1.1, "drawstyle": "steps-pre"} if panel == "reward" else {"linewidth": 1.8}
-        ax.plot(seconds[seen], values[seen], gid=f"{panel} of {drive.label}", **how)
-        if drive.accident and seconds[-1] <= until:
+        ax.plot(seconds, values, gid=f"{panel} of {drive.label}", **how)
+        if drive.accident:
             _cross(ax, seconds[-1], values[-1], ACCIDENTS[Accident(drive.accident)] if panel == "speed" else "")
     if panel == "speed":
         longest = max(drives, key=lambda drive: drive.times[-1])
@@ -141,7 +132,16 @@ def _draw_panel(ax, panel: str, drives: list[Rollout], looks: list, until: float
             ax.yaxis.label.set_text(f"{PANELS[panel][0]}, drawn up to {FARTHEST:g} m")
         ax.set_ylim(low, min(max(high, -low / 3), FARTHEST))
         ax.axhline(0, color=QUIET, linewidth=1, zorder=2)
-        ax.text(until * 0.006, 0, "overtaken", fontsize=SMALL, color=QUIET, va="bottom", zorder=4, path_effects=HALO)
+        ax.text(
+            0.006 * ax.get_xlim()[1],
+            0,
+            "overtaken",
+            fontsize=SMALL,
+            color=QUIET,
+            va="bottom",
+            zorder=4,
+            path_effects=HALO,
+        )
     elif panel == "lane":
         lanes = drives[0].scenario.road.lanes
         ax.set_ylim(lanes - 0.5, -0.5)
@@ -159,15 +159,14 @@ def _cross(ax, x: float, y: float, words: str) -> None:
     ax.annotate(words, (x, y), (side, 5), textcoords="offset points", **look)
 
 
-def _write_names(ax, panel: str, drives: list[Rollout], names: list[str], looks: list, until: float) -> None:
+def _write_names(ax, panel: str, drives: list[Rollout], names: list[str], looks: list) -> None:
     ends = [(float(drives[0].states[0, TRAP_1, SPEED]), "the traps", TRAP)] if panel == "speed" else []
     for drive, each, look in zip(drives, names, looks, strict=True):
-        seconds, values = series(drive, panel)
-        ends.append((float(values[np.searchsorted(seconds, until, side="right") - 1]), each, look.colour))
+        ends.append((float(series(drive, panel)[1][-1]), each, look.colour))
     label_ends(ax, ends)
 
 
-def _draw_actions(ax, drive: Rollout, colour: str, until: float) -> None:
+def _draw_actions(ax, drive: Rollout, colour: str) -> None:
     """Bars from two base lines: accelerate up and brake down; left up and right down."""
     edges = np.arange(len(drive.actions) + 1) / drive.scenario.clock.decision_rate
     acceleration, steering = drive.actions // 3 - 1, 1 - drive.actions % 3

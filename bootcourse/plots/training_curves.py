@@ -54,7 +54,7 @@ MEASURES = {
 
 
 def finished(curves: Mapping[str, np.ndarray]) -> int:
-    """Episodes of the agent that got farthest."""
+    """The number of finished episodes of the agent that has the most."""
     return int(np.isfinite(np.atleast_2d(curves.get("return", np.nan))).sum(1).max(initial=0))
 
 

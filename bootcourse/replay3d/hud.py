@@ -3,18 +3,17 @@
 It is HTML and CSS without scripts, and takes its text colour from the page.
 """
 
-import numpy as np
 from scipy.special import rel_entr
 
-from bootcourse.colours import ALARM
-from bootcourse.episodes.rollout import series
+from bootcourse.colours import ALARM, TRAP
+from bootcourse.episodes.rollout import Rollout, series
 from bootcourse.episodes.words import ACCIDENTS
 from bootcourse.markup import Markup, html, joined
 from bootcourse.methods import display_name, style
 from bootcourse.plots.futures import LEGEND
 from bootcourse.plots.svg import SvgAxes
 from bootcourse.replay3d.timeline import Timeline
-from bootcourse.road.state import EGO, Accident
+from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, Accident, X
 from bootcourse.rule import SENTENCES, Reason, stochastic_rule
 from bootcourse.scenario import ACTION_NAMES
 
@@ -48,65 +47,59 @@ def cursor(part: float) -> Markup:
     return html("<style>:root{{--bc-t:{:.4f}}}</style>", part)
 
 
-def kl(policy: np.ndarray, rule_policy: np.ndarray) -> float:
-    """KL(π ‖ π̃) in nats: the soft constraint's charge for probability on actions that the rule would not take."""
-    return float(rel_entr(policy, rule_policy).sum())
-
-
 def status(timeline: Timeline, t: float) -> tuple[str, str]:
     """(how the drive stands at time t, in words, their colour); ("", "") while that is open."""
-    rollout, moment = timeline.rollout, timeline.at(t)
-    if t >= timeline.duration and rollout.accident != Accident.NONE:
-        return ACCIDENTS[Accident(rollout.accident)], ALARM
-    if moment.x[EGO] > moment.x[1]:
-        return ("escaped" if t >= timeline.duration else "ahead of trap 1"), GREEN
-    return ("trapped" if t >= timeline.duration else ""), "#7A1F1F"
+    accident, over, cars = Accident(timeline.rollout.accident), t >= timeline.duration, timeline.at(t)
+    if over and accident != Accident.NONE:
+        return ACCIDENTS[accident], ALARM
+    if cars[EGO, X] > cars[TRAP_1, X]:
+        return ("escaped" if over else "ahead of trap 1"), GREEN
+    return ("trapped" if over else ""), TRAP
 
 
 def card(timeline: Timeline, t: float) -> Markup:
     """One drive's numbers at time t."""
-    return html(
-        '<div class="bc">{}</div>', joined(part(timeline, t) for part in (_head, _numbers, _reward, _choice, _futures))
-    )
+    rollout, (words, colour) = timeline.rollout, status(timeline, t)
+    badge = html('<span class="badge" style="background:{}">{}</span>', colour, words) if words else ""
+    road = html('<span class="dim">road {}</span>', rollout.seed)
+    parts = [html("<h4>{}{} {}{}</h4>", _dot(rollout), display_name(rollout.label), road, badge)]
+    parts += [part(timeline, t) for part in (_numbers, _reward, _choice)]
+    if timeline.imagined is not None:
+        parts.append(html('<div class="dim">imagined drives: {}; broad: driven</div>', LEGEND))
+    return html('<div class="bc">{}</div>', joined(parts))
 
 
-def _dot(rollout) -> Markup:
+def _dot(rollout: Rollout) -> Markup:
     return html('<span class="dot" style="background:{}"></span>', style(rollout.label).colour)
 
 
-def _head(timeline: Timeline, t: float) -> Markup:
-    rollout = timeline.rollout
-    text, colour = status(timeline, t)
-    badge = html('<span class="badge" style="background:{}">{}</span>', colour, text) if text else ""
-    road = html('<span class="dim">road {}</span>', rollout.seed)
-    return html("<h4>{}{} {}{}</h4>", _dot(rollout), display_name(rollout.label), road, badge)
+def _driven(timeline: Timeline, t: float) -> str:
+    return f"{timeline.at(t)[EGO, X] - timeline.rollout.states[0, EGO, X]:.0f}"
 
 
 def _numbers(timeline: Timeline, t: float) -> Markup:
-    moment, t = timeline.at(t), min(t, timeline.duration)
-    driven = moment.x[EGO] - timeline.rollout.states[0, EGO, 0]
+    ego = timeline.at(t)[EGO]
     cells = [
-        (f"{t:.1f}", f"of {timeline.duration:g} s"),
-        (f"{moment.speed[EGO]:.1f}", "m/s"),
-        (f"{moment.lane[EGO]}", f"lane, 0…{timeline.rollout.scenario.road.lanes - 1}"),
-        (f"{driven:.0f}", "m driven"),
+        (f"{min(t, timeline.duration):.1f}", f"of {timeline.duration:g} s"),
+        (f"{ego[SPEED]:.1f}", "m/s"),
+        (f"{ego[LANE]:.0f}", f"lane, 0…{timeline.rollout.scenario.road.lanes - 1}"),
+        (_driven(timeline, t), "m driven"),
     ]
     each = (html("<div><b>{}</b><span>{}</span></div>", value, unit) for value, unit in cells)
     return html('<div class="big">{}</div>', joined(each))
 
 
 def _reward(timeline: Timeline, t: float) -> Markup:
-    rollout, weights = timeline.rollout, timeline.rollout.scenario.reward
-    earned = timeline.earned(t)
-    total = html("return <b>{:.2f}</b>", timeline.returns[earned])
+    rollout, weights, earned = timeline.rollout, timeline.rollout.scenario.reward, timeline.earned(t)
+    total = html("return <b>{:.2f}</b>", rollout.rewards[:earned].sum())
     if earned == 0:
         return html('<div>{} <span class="dim">no reward yet</span></div>', total)
-    reward, (r_v, r_y, r_theta) = rollout.rewards[earned - 1], rollout.terms[earned - 1]
+    r_v, r_y, r_theta = rollout.terms[earned - 1]
     terms = "r<sub>v</sub> {:.2f} · r<sub>y</sub> {:.2f} · r<sub>θ</sub> {:.3f}"
     terms = html(terms, r_v, r_y, round(r_theta, 3) + 0.0)
     hint = f"the three terms, unweighted; their weights are {weights.w_v:g}, {weights.w_y:g}, {weights.w_theta:g}"
     page = '<div>{} · reward <b>{:.3f}</b></div><div class="dim" title="{}">{}</div>'
-    return html(page, total, reward, hint, terms)
+    return html(page, total, rollout.rewards[earned - 1], hint, terms)
 
 
 def _choice(timeline: Timeline, t: float) -> Markup:
@@ -131,17 +124,11 @@ def _choice(timeline: Timeline, t: float) -> Markup:
         rows.append(html(row, "on" if taken else "", "▸" if taken else " ", name, drawn, cells))
     page = html("<table>{}</table>", joined(rows))
     if len(bars) == 2:
-        page += html("<div>KL(π‖π̃) = <b>{:.2f}</b> nats</div>", kl(*(numbers for _, numbers in bars)))
+        kl = rel_entr(*(numbers for _, numbers in bars)).sum()
+        page += html("<div>KL(π‖π̃) = <b>{:.2f}</b> nats</div>", kl)
     if rollout.policy is not None and rollout.q_values is None:
         page += Markup('<div class="dim">No Q: this agent has none, or it was not recorded.</div>')
     return page + _why(timeline, k)
-
-
-def _futures(timeline: Timeline, t: float) -> Markup:
-    """What the nine imagined drives on the road stand for, where the timeline has some."""
-    if timeline.imagined is None:
-        return Markup("")
-    return html('<div class="dim">imagined drives: {}; broad: driven</div>', LEGEND)
 
 
 def _why(timeline: Timeline, k: int) -> Markup:
@@ -149,25 +136,23 @@ def _why(timeline: Timeline, k: int) -> Markup:
     if rollout.rule_reasons is None:
         return Markup("")
     if rollout.rule_lanes is not None and rollout.rule_speeds is not None:
-        aim = ' <span class="dim">(lane {}, {:.1f} m/s)</span>'
-        aim = html(aim, int(rollout.rule_lanes[k]), rollout.rule_speeds[k])
-    return html('<div class="why"><b>Rule:</b> {}{}</div>', SENTENCES[Reason(int(rollout.rule_reasons[k]))], aim)
+        aim = f"(lane {int(rollout.rule_lanes[k])}, {rollout.rule_speeds[k]:.1f} m/s)"
+    page = '<div class="why"><b>Rule:</b> {} <span class="dim">{}</span></div>'
+    return html(page, SENTENCES[Reason(int(rollout.rule_reasons[k]))], aim)
 
 
 def table(timelines: list[Timeline], t: float) -> Markup:
     """A table that compares the drives at time t, one row each."""
     rows = [Markup("<tr><th>driver</th><th>m/s</th><th>m</th><th>lane</th><th>return</th><th></th></tr>")]
     for timeline in timelines:
-        moment, rollout = timeline.at(t), timeline.rollout
-        text, colour = status(timeline, t)
-        driven = moment.x[EGO] - rollout.states[0, EGO, 0]
+        rollout, ego, (words, colour) = timeline.rollout, timeline.at(t)[EGO], status(timeline, t)
         cells = [
             html("{} {}", _dot(rollout), display_name(rollout.label)),
-            f"{moment.speed[EGO]:.1f}",
-            f"{driven:.0f}",
-            moment.lane[EGO],
-            f"{timeline.returns[timeline.earned(t)]:.1f}",
-            html('<span style="color:{};font-weight:650">{}</span>', colour, text.removesuffix(" of trap 1")),
+            f"{ego[SPEED]:.1f}",
+            _driven(timeline, t),
+            f"{ego[LANE]:.0f}",
+            f"{rollout.rewards[: timeline.earned(t)].sum():.1f}",
+            html('<span style="color:{};font-weight:650">{}</span>', colour, words.removesuffix(" of trap 1")),
         ]
         rows.append(html("<tr>{}</tr>", joined(html("<td>{}</td>", cell) for cell in cells)))
     return html('<div class="bc"><table>{}</table></div>', joined(rows))

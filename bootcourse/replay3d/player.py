@@ -19,7 +19,6 @@ class Player:
     def __init__(self, duration: float, step: float, on_frame: Callable[[float], None], watched=lambda: True):
         self.duration, self.step_length = duration, step
         self.t, self.speed, self.playing, self.loop = 0.0, 1.0, False, False
-        self.frames = 0  # sent since the start
         self._on_frame, self._watched = on_frame, watched
         self._lock, self._wake, self._stop = threading.RLock(), threading.Event(), threading.Event()
         self._held_until = 0.0
@@ -36,6 +35,12 @@ class Player:
         with self._lock:
             self.playing = False
         self._wake.set()
+
+    def toggle(self) -> None:
+        if self.playing:
+            self.pause()
+        else:
+            self.play()
 
     def seek(self, t: float, hold: bool = False) -> None:
         """Go to a time; `hold` keeps the clock there for a moment, since a drag sends many times in a row."""
@@ -91,7 +96,6 @@ class Player:
             if moved or self._wake.is_set():
                 self._wake.clear()
                 self._on_frame(self.t)
-                self.frames += 1
             if self.playing and self._watched():
                 due = max(due + 1 / FRAME_RATE, time.perf_counter())
                 self._stop.wait(due - time.perf_counter())

@@ -7,10 +7,12 @@ box over the scene.
 
 import base64
 import json
+from collections.abc import Sequence
 from pathlib import Path
 
 from viser import _messages
 
+from bootcourse.episodes.rollout import Rollout
 from bootcourse.episodes.words import transcripts
 from bootcourse.files import check_replaceable, write_bytes
 from bootcourse.markup import Markup, html
@@ -20,7 +22,7 @@ from bootcourse.plots.figure import png
 from bootcourse.policies import Policy
 from bootcourse.replay3d import hud, scene, server
 from bootcourse.replay3d.camera import BIRD, CHASE, SIDE, pose
-from bootcourse.replay3d.stage import Options, Stage
+from bootcourse.replay3d.stage import Stage
 from bootcourse.replay3d.timeline import Timeline
 
 RATES = (30, 20, 15, 10)  # frames a second; the first that fits CAR_FRAMES is taken
@@ -76,22 +78,18 @@ border-radius:4px;margin:2px 4px 2px 0;padding:1px 7px;cursor:pointer;opacity:.8
 """
 
 
-def rate_for(cars: int, duration: float) -> int:
-    """Frames a second that keep the file small."""
-    return next((rate for rate in RATES if cars * duration * rate <= CAR_FRAMES), RATES[-1])
-
-
-def to_html(rollouts, options: Options | None = None, futures: Policy | None = None) -> str:
+def to_html(rollouts: Rollout | Sequence[Rollout], dark: bool = False, futures: Policy | None = None) -> str:
     """The replay as an HTML document. Raises BootcourseError if the drives cannot be shown together.
 
     futures: see `viewer.replay`.
     """
-    options, timelines = options or Options(), scene.timelines_of(rollouts, futures)
+    timelines = scene.timelines_of(rollouts, futures)
     duration = max(timeline.duration for timeline in timelines)
-    rate = rate_for(sum(timeline.rollout.scenario.vehicles for timeline in timelines), duration)
-    recorder = server.start()
+    cars = sum(timeline.rollout.scenario.vehicles for timeline in timelines)
+    rate = next((rate for rate in RATES if cars * duration * rate <= CAR_FRAMES), RATES[-1])
+    recorder = server.LocalServer()
     try:
-        stage = Stage(recorder, timelines, options)
+        stage = Stage(recorder, timelines, dark)
         recording = recorder.get_scene_serializer()
         stage.unsettle()
         frames = int(round(duration * rate))
@@ -99,30 +97,25 @@ def to_html(rollouts, options: Options | None = None, futures: Policy | None = N
             t = min(frame / rate, duration)
             stage.show(t)
             if frame % (rate // HUD_RATE) == 0 or frame == frames:
-                script = _hud_script(timelines, t, t / duration, options.follow)
+                numbers = hud.table(timelines, t) if len(timelines) > 1 else Markup("")
+                shown = (numbers + hud.card(timelines[0], t), hud.cursor(t / duration))
+                script = f"window.bootcourseHud&&bootcourseHud({','.join(map(json.dumps, shown))})"
                 recorder.scene._websock_interface.queue_message(_messages.RunJavascriptMessage(script))
             recording.insert_sleep(1 / rate)
         recording.insert_sleep(LINGER)
-        page = recording.as_html(dark_mode=options.dark)
+        page = recording.as_html(dark_mode=dark)
     finally:
         recorder.stop()
-    return _with_overlay(page, timelines, options, stage.span)
+    return _with_overlay(page, timelines, dark, stage.span)
 
 
-def _hud_script(timelines: list[Timeline], t: float, part: float, follow: int) -> str:
-    """A script that shows the numbers at time t, with the plots' cursor at `part` (0..1) of their width."""
-    numbers = hud.table(timelines, t) if len(timelines) > 1 else Markup("")
-    numbers += hud.card(timelines[follow], t)
-    return f"window.bootcourseHud&&bootcourseHud({json.dumps(numbers)},{json.dumps(hud.cursor(part))})"
-
-
-def _with_overlay(page: str, timelines: list[Timeline], options: Options, span: float) -> str:
+def _with_overlay(page: str, timelines: list[Timeline], dark: bool, span: float) -> str:
     drivers = " · ".join(display_name(timeline.rollout.label) for timeline in timelines)
     title = html("{} on road {}", drivers, timelines[0].rollout.seed)
     poses = {name: [*pose(name, span).position, *pose(name, span).look_at] for name in (CHASE, BIRD, SIDE)}
     parts = {
-        "INK": "#EEF1F4" if options.dark else "#14181C",
-        "PAPER": "#10161Ecc" if options.dark else "#FFFFFFd8",
+        "INK": "#EEF1F4" if dark else "#14181C",
+        "PAPER": "#10161Ecc" if dark else "#FFFFFFd8",
         "STYLE": hud.STYLE,
         "PLOTS": hud.plots(timelines),
         "CAMERAS": json.dumps(poses),
@@ -136,10 +129,12 @@ def _with_overlay(page: str, timelines: list[Timeline], options: Options, span: 
     return page[:end] + overlay + page[end:]
 
 
-def export(rollouts, path: Path, options: Options | None = None, futures: Policy | None = None) -> Path:
+def export(
+    rollouts: Rollout | Sequence[Rollout], path: Path, dark: bool = False, futures: Policy | None = None
+) -> Path:
     """Write the replay as a whole file. Returns the path. Raises BootcourseError if it does not end in .html."""
     path = check_replaceable(path, ".html")
-    write_bytes(path, to_html(rollouts, options, futures).encode())
+    write_bytes(path, to_html(rollouts, dark, futures).encode())
     return path
 
 
@@ -150,12 +145,8 @@ class Recording:
     above at one moment. Below it the drives are described in words, for readers who cannot see it.
     """
 
-    def __init__(self, html: str, poster: bytes, height: int, alt: str, words: str = ""):
+    def __init__(self, html: str, poster: bytes, height: int, alt: str, words: str):
         self.html, self.poster, self.height, self.alt, self.words = html, poster, height, alt, words
-
-    def save(self, path: Path) -> Path:
-        write_bytes(path, self.html.encode())
-        return Path(path)
 
     def html_with_poster(self) -> Markup:
         """The recording over its poster, as HTML to put into a page."""
@@ -169,17 +160,14 @@ class Recording:
 
     def _repr_mimebundle_(self, include=None, exclude=None) -> dict:
         page = '<details><summary>In words</summary><pre style="white-space:pre-wrap">{}</pre></details>'
-        in_words = html(page, self.words) if self.words else ""
-        return {"text/html": str(self.html_with_poster() + in_words), "text/plain": self.alt}
+        return {"text/html": str(self.html_with_poster() + html(page, self.words)), "text/plain": self.alt}
 
 
 def recording(
-    rollouts, *, height: int = 560, layout: str = scene.ROADS, follow: int = 0, dark: bool = False,
-    rule: bool = False, futures: Policy | None = None,
-) -> Recording:  # fmt: skip
+    rollouts: Rollout | Sequence[Rollout], *, height: int = 560, dark: bool = False, futures: Policy | None = None
+) -> Recording:
     """Like `replay`, but as a recording that is saved in the notebook (about 1.5 MB for each drive)."""
-    options = Options(layout=layout, follow=follow, dark=dark, rule=rule)
     drives = [timeline.rollout for timeline in scene.timelines_of(rollouts)]
     picture = key_frame(drives)
     alt = f"A replay in 3D; where it cannot play, one moment of it from above. {picture.alt}"
-    return Recording(to_html(drives, options, futures), png(picture), height, alt, transcripts(drives))
+    return Recording(to_html(drives, dark, futures), png(picture), height, alt, transcripts(drives))

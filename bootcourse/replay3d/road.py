@@ -14,7 +14,7 @@ from bootcourse.scenario import Road
 BEHIND, AHEAD = 120.0, 450.0  # m of road before the start and after the last car's end
 DASH, PERIOD, LINE = 4.0, 12.0, 0.16  # m: length of a dash, distance from dash to dash, width of a line
 SHOULDER = 1.0  # m of asphalt beyond the outer lines
-POST_EVERY, SIGN_EVERY = 25.0, 100.0  # m
+POST_EVERY = 25.0  # m
 PIECE, FAR = 25.0, 900.0  # m: length of a piece of road; how far the ground reaches
 GROUND_Z, LINE_Z = -0.12, 0.02  # m
 
@@ -73,8 +73,3 @@ def ground() -> Mesh:
 def divider_ys(road: Road) -> list[float]:
     """World y of the broken lines between lanes, m."""
     return [-(lane + 0.5) * road.lane_width for lane in range(road.lanes - 1)]
-
-
-def signs(start: float, end: float) -> list[int]:
-    """Metres at which a sign stands."""
-    return [int(x) for x in np.arange(np.ceil(max(start, 0.0) / SIGN_EVERY) * SIGN_EVERY, end, SIGN_EVERY)]

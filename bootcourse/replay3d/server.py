@@ -9,7 +9,6 @@ import contextlib
 import http
 import os
 import re
-import socket
 import threading
 
 import viser
@@ -27,7 +26,7 @@ PLAIN = websockets.asyncio.server.serve
 class OwnPagesOnly(PLAIN):
     """A websocket server that refuses foreign requests, of HTTP and of WebSockets, before it does anything else."""
 
-    made = 0  # servers
+    started = 0  # servers
 
     def __init__(self, *args, process_request, **options):
         def check_first(connection, request):
@@ -36,7 +35,7 @@ class OwnPagesOnly(PLAIN):
             return process_request(connection, request)
 
         super().__init__(*args, process_request=check_first, **options)
-        OwnPagesOnly.made += 1
+        OwnPagesOnly.started += 1
 
 
 def is_foreign(headers) -> bool:
@@ -58,15 +57,15 @@ class LocalServer(viser.ViserServer):
 
     _starting = threading.Lock()
 
-    def __init__(self, port: int):
+    def __init__(self):
         # viser has no setting for its websocket server and takes the class by this name, once, while it starts.
         with self._starting, quiet():
-            websockets.asyncio.server.serve, guarded = OwnPagesOnly, OwnPagesOnly.made
+            websockets.asyncio.server.serve, before = OwnPagesOnly, OwnPagesOnly.started
             try:
-                super().__init__(host=HOST, port=port, label="bootcourse replay", verbose=False)
+                super().__init__(host=HOST, port=0, label="bootcourse replay", verbose=False)
             finally:
                 websockets.asyncio.server.serve = PLAIN
-        if OwnPagesOnly.made == guarded:
+        if OwnPagesOnly.started == before:
             self.stop()
             raise BootcourseError(
                 "This version of viser starts its server in another way, without our guard against pages of other "
@@ -91,25 +90,3 @@ def quiet():
         yield
     finally:
         console.quiet = before
-
-
-def start(port: int = 0) -> LocalServer:
-    """A running server. port 0 lets the system choose. Raises BootcourseError if the port is taken."""
-    if not 0 <= port <= 65535:
-        raise BootcourseError(f"Port {port} does not exist: choose one from 1024 to 65535, or 0 for any that is free.")
-    taken = f"Port {port} is in use: choose another one, or leave it out to take any that is free."
-    if port:
-        with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as probe:
-            if os.name == "posix":  # so that a port that was closed a moment ago counts as free
-                probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-            try:
-                probe.bind((HOST, port))
-            except PermissionError:
-                raise BootcourseError(f"Port {port} belongs to the system: choose one from 1024 to 65535.") from None
-            except OSError:
-                raise BootcourseError(taken) from None
-    server = LocalServer(port)
-    if port and server.get_port() != port:  # taken meanwhile, and viser went on to the next port
-        server.stop()
-        raise BootcourseError(taken)
-    return server

@@ -10,38 +10,16 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from bootcourse.colours import ALARM, rgb
-from bootcourse.errors import BootcourseError
 from bootcourse.methods import display_name, style
 from bootcourse.plots.futures import BRIGHT, Trail, trails
 from bootcourse.replay3d import scene
 from bootcourse.replay3d.camera import CHASE, FIELD_OF_VIEW, pose
-from bootcourse.replay3d.car import CRUMB, DARK, LAMPS, LIGHT, Mesh, car_parts, paint, quads, ring
-from bootcourse.replay3d.road import AHEAD, BEHIND, SHOULDER, THEMES, edges, ground, road_parts, signs
+from bootcourse.replay3d.car import CRUMB, DARK, LAMPS, LIGHT, Mesh, car_parts, paint, ring
+from bootcourse.replay3d.road import AHEAD, BEHIND, THEMES, ground, road_parts
 from bootcourse.replay3d.timeline import Timeline
 from bootcourse.road.state import EGO, TRAP_1, TRAP_2, X
 
-GHOST = 0.45  # opacity of the egos that are not followed
 GRAIN = 1024.0  # positions are rounded to 1/1024 m, which is exact in binary
-
-
-@dataclass
-class Options:
-    """What viewers can switch; `layout` and `follow` have an effect with two drives or more."""
-
-    layout: str = scene.ROADS
-    follow: int = 0
-    dark: bool = False
-    labels: bool = True
-    path: bool = True
-    rule: bool = False
-    futures: bool = True  # where the timelines have imagined drives
-
-    def check(self, drives: int) -> None:
-        """Raises BootcourseError if these options do not fit so many drives."""
-        if not 0 <= self.follow < drives:
-            raise BootcourseError(f"follow = {self.follow}: there are drives 0 to {drives - 1}.")
-        if self.layout not in scene.LAYOUTS:
-            raise BootcourseError(f"layout = '{self.layout}': choose '{scene.ROADS}' or '{scene.GHOSTS}'.")
 
 
 @dataclass
@@ -55,9 +33,6 @@ class Drive:
     rings: dict = field(default_factory=dict)
     labels: dict = field(default_factory=dict)
     crumbs: object = None
-    lane: object = None
-    gap: object = None
-    gap_label: object = None
     futures: list = field(default_factory=list)  # nine ribbons on the road
     decision: int = -1  # whose imagined drives they are; -1: none
 
@@ -65,20 +40,16 @@ class Drive:
 class Stage:
     """The nodes of all drives on one viser server; `show(t)` moves them."""
 
-    def __init__(self, server, timelines: list[Timeline], options: Options):
-        options.check(len(timelines))
-        self.server, self.timelines, self.options = server, timelines, options
+    def __init__(self, server, timelines: list[Timeline], dark: bool = False):
+        self.server, self.timelines, self.dark = server, timelines, dark
+        self.futures = True  # are the imagined drives shown, where there are some?
+        self.span = scene.span(len(timelines), timelines[0].rollout.scenario.road)  # m, of all roads together
         self.drives: list[Drive] = []
         self.sent: dict[tuple, object] = {}  # (a node's id, a property) -> the value that `show` gave it
         self.build()
 
-    @property
-    def span(self) -> float:
-        """Width of all roads together, m."""
-        return scene.span(self.timelines[0].rollout.scenario.road, len(self.timelines), self.options.layout)
-
     def build(self) -> None:
-        """Make every node anew: at the start, and when the layout, the followed car or the theme changes."""
+        """Make every node anew: at the start, and when the theme changes."""
         with self.server.atomic():
             for k in range(len(self.drives)):
                 self.server.scene.remove_by_name(f"/drive{k}")
@@ -88,10 +59,9 @@ class Stage:
 
     def show(self, t: float) -> None:
         """Move everything to time t, in one batch."""
-        views = scene.view(self.timelines, t, self.options.layout, self.options.follow)
         with self.server.atomic():
-            for drive, view in zip(self.drives, views, strict=True):
-                self._move(drive, view)
+            for drive, timeline in zip(self.drives, self.timelines, strict=True):
+                self._move(drive, timeline, scene.view(timeline, t))
 
     def unsettle(self) -> None:
         """Change every property that `show` sets, so that the next `show` sends them all.
@@ -103,25 +73,20 @@ class Stage:
             for drive in self.drives:
                 for node in drive.lamps.values():
                     node.color = (1, 2, 3)
-                texts = [*drive.labels.values()] + ([drive.gap_label] if drive.gap_label else [])
-                for node in texts:
+                for node in drive.labels.values():
                     node.text = "…"
                 for node in drive.futures:
                     node.color, node.vertices = (1, 2, 3), node.vertices + 1.0
                 drive.decision = -1
-                nodes = [*drive.rings.values(), *texts, *drive.futures, drive.crumbs]
-                for node in nodes + ([drive.lane, drive.gap] if drive.lane else []):
+                for node in (*drive.rings.values(), *drive.labels.values(), *drive.futures):
                     node.visible = not node.visible
                 drive.crumbs.vertices = drive.crumbs.vertices + 1.0
                 for node in (drive.road, *drive.cars.values()):
-                    node.position = (-1.0, -1.0, -1.0)
-                    node.wxyz = (0.0, 0.0, 0.0, 1.0)
-
-    # --- building ---
+                    node.position, node.wxyz = (-1.0, -1.0, -1.0), (0.0, 0.0, 0.0, 1.0)
 
     def _surroundings(self) -> None:
-        colours, api = THEMES[self.options.dark], self.server.scene
-        self.server.gui.configure_theme(dark_mode=self.options.dark, show_logo=False, show_share_button=False)
+        colours, api = THEMES[self.dark], self.server.scene
+        self.server.gui.configure_theme(dark_mode=self.dark, show_logo=False, show_share_button=False)
         # Two plain lights and no environment map, so that a car has the same colour as in a figure. Without a graphics
         # card, more lights and finer materials cost time at every pixel.
         api.configure_default_lights(enabled=False)
@@ -137,92 +102,68 @@ class Stage:
         camera.near, camera.far = 0.5, 2000.0
 
     def _drive(self, k: int) -> Drive:
-        timeline, options, api = self.timelines[k], self.options, self.server.scene
-        rollout, colours = timeline.rollout, THEMES[options.dark]
-        own = style(rollout.label).colour
-        ghost = options.layout == scene.GHOSTS and k != options.follow
-        base = f"/drive{k}"
-        views = scene.view(self.timelines, 0.0, options.layout, options.follow)
-        api.add_frame(base, show_axes=False, position=(0.0, views[k].offset, 0.0))
+        timeline, api, base = self.timelines[k], self.server.scene, f"/drive{k}"
+        rollout, own = timeline.rollout, style(timeline.rollout.label).colour
         drive = Drive(display_name(rollout.label))
+        place = (0.0, scene.offsets(len(self.timelines), rollout.scenario.road)[k], 0.0)
+        api.add_frame(base, show_axes=False, position=place)
         drive.road = api.add_frame(f"{base}/road", show_axes=False)
-        if not ghost:
-            self._road(f"{base}/road", rollout, colours)
+        self._road(f"{base}/road", rollout)
         for car in range(rollout.scenario.vehicles):
-            if ghost and car != EGO:
-                continue
-            self._car(drive, f"{base}/car{car}", rollout.scenario.car, car, own, GHOST if ghost else None)
-        drive.crumbs = _mesh(api, f"{base}/road/path", _crumb_mesh(views[k].crumbs), own, opacity=0.75)
-        if timeline.imagined is not None and not ghost:
+            self._car(drive, f"{base}/car{car}", rollout.scenario.car, car, own)
+        path = _crumb_mesh(scene.crumbs(timeline, 0.0))
+        drive.crumbs = _mesh(api, f"{base}/road/path", path, own, opacity=0.75)
+        if timeline.imagined is not None:
             nine = enumerate(trails(timeline.imagined, int(rollout.actions[0]), 0, BRIGHT))
             drive.futures = [
                 _mesh(api, f"{base}/road/future{i}", _ribbon(each), each.colour, opacity=0.9) for i, each in nine
             ]
-        names = {EGO: "name", TRAP_1: "to_trap1", TRAP_2: "to_trap2"}
-        for car, name in names.items():
-            if car == EGO or not ghost:
-                drive.labels[car] = api.add_label(
-                    f"{base}/car{car}/{name}", "", position=(0.0, 0.0, 2.6), anchor="bottom-center",
-                    font_screen_scale=0.9, visible=False,
-                )  # fmt: skip
-        if rollout.rule_lanes is not None and not ghost:
-            self._rule(drive, base, rollout.scenario.road.lane_width)
+        for car, name in {EGO: "name", TRAP_1: "to_trap1", TRAP_2: "to_trap2"}.items():
+            drive.labels[car] = api.add_label(
+                f"{base}/car{car}/{name}", "", position=(0.0, 0.0, 2.6), anchor="bottom-center",
+                font_screen_scale=0.9, visible=False,
+            )  # fmt: skip
         return drive
 
-    def _road(self, base: str, rollout, colours) -> None:
-        api, road = self.server.scene, rollout.scenario.road
+    def _road(self, base: str, rollout) -> None:
+        api, road, colours = self.server.scene, rollout.scenario.road, THEMES[self.dark]
         states = rollout.states[:, :, X]
         start, end = float(states[:, EGO].min()) - BEHIND, float(states[:, EGO].max()) + AHEAD
         tints = {"asphalt": colours.asphalt, "lines": colours.line, "posts": colours.post}
         for name, mesh in road_parts(road, start, end).items():
             _mesh(api, f"{base}/{name}", mesh, tints[name])
-        right = edges(road)[1] - SHOULDER - 1.4
-        for metres in signs(start, end):
-            api.add_label(
-                f"{base}/sign{metres}", f"{metres} m", position=(float(metres), right, 1.6),
-                font_size_mode="scene", font_scene_height=0.6, depth_test=True, anchor="bottom-center",
-            )  # fmt: skip
 
-    def _car(self, drive: Drive, name: str, size, car: int, own: str, opacity: float | None) -> None:
+    def _car(self, drive: Drive, name: str, size, car: int, own: str) -> None:
         api, parts = self.server.scene, car_parts(size.length, size.width)
         drive.cars[car] = api.add_frame(name, show_axes=False)
         for part, tint in (("paint", paint(car, own)), ("dark", DARK), ("light", LIGHT)):
-            _mesh(api, f"{name}/{part}", parts[part], tint, opacity=opacity, flat=True)
-        drive.lamps[car] = _mesh(api, f"{name}/lamps", parts["lamps"], LAMPS["off"], opacity=opacity)
-        _mesh(api, f"{name}/shadow", parts["shadow"], "#000000", opacity=0.28 if opacity is None else 0.12)
+            _mesh(api, f"{name}/{part}", parts[part], tint, flat=True)
+        drive.lamps[car] = _mesh(api, f"{name}/lamps", parts["lamps"], LAMPS["off"])
+        _mesh(api, f"{name}/shadow", parts["shadow"], "#000000", opacity=0.28)
         drive.rings[car] = _mesh(api, f"{name}/ring", ring(0.11), ALARM, visible=False)
 
-    def _rule(self, drive: Drive, base: str, lane_width: float) -> None:
-        api, green = self.server.scene, style("rule").colour
-        strip = quads(-4.0, 45.0, -0.42 * lane_width, 0.42 * lane_width)
-        drive.lane = _mesh(api, f"{base}/rule_lane", strip, green, opacity=0.3, visible=False)
-        unit = quads(0.0, 1.0, -0.3 * lane_width, 0.3 * lane_width)
-        drive.gap = _mesh(api, f"{base}/rule_gap", unit, "#F2A900", opacity=0.6, visible=False)
-        drive.gap_label = api.add_label(
-            f"{base}/rule_gap_label", "", anchor="bottom-center", font_screen_scale=0.8, visible=False
-        )
-
-    # --- moving ---
-
-    def _move(self, drive: Drive, view: scene.DriveView) -> None:
+    def _move(self, drive: Drive, timeline: Timeline, view: scene.DriveView) -> None:
         self._set(drive.road, position=tidy(-view.anchor, 0.0, 0.0), wxyz=(1.0, 0.0, 0.0, 0.0))
         for car, frame in drive.cars.items():
             turned = tuple(round(q * 65536) / 65536 for q in scene.quaternion(view.yaw[car]))
             self._set(frame, position=tidy(view.x[car], view.y[car], 0.0), wxyz=turned)
             self._set(drive.lamps[car], color=rgb(LAMPS[view.lamps[car]]))
             self._set(drive.rings[car], visible=bool(view.marked[car]))
-        self._move_marks(drive, view)
-        self._move_futures(drive, view)
+        drive.crumbs.vertices = _crumb_mesh(view.crumbs).vertices
+        names = {EGO: drive.name} if len(self.timelines) > 1 else {}
+        for car, label in drive.labels.items():
+            words = ": ".join(part for part in (names.get(car), view.labels.get(car)) if part)
+            self._set(label, visible=bool(words), **({"text": words} if words else {}))
+        self._move_futures(drive, timeline, view)
 
-    def _move_futures(self, drive: Drive, view: scene.DriveView) -> None:
+    def _move_futures(self, drive: Drive, timeline: Timeline, view: scene.DriveView) -> None:
         """The nine imagined drives of the decision that is being carried out. They change when it does."""
         for node in drive.futures:
-            self._set(node, visible=self.options.futures and not view.ended)
+            self._set(node, visible=self.futures and not view.ended)
         if not drive.futures or drive.decision == view.decision:
             return
-        timeline, drive.decision = self.timelines[self.drives.index(drive)], view.decision
-        chosen = int(timeline.rollout.actions[view.decision])
-        nine = trails(timeline.imagined, chosen, view.decision, BRIGHT)
+        drive.decision = view.decision
+        nine = trails(timeline.imagined, int(timeline.rollout.actions[view.decision]), view.decision, BRIGHT)
         for node, one in zip(drive.futures, nine, strict=True):
             node.vertices = _ribbon(one).vertices
             self._set(node, color=rgb(one.colour))
@@ -233,31 +174,6 @@ class Stage:
             if self.sent.get((id(node), name)) != value:
                 setattr(node, name, value)
                 self.sent[id(node), name] = value
-
-    def _move_marks(self, drive: Drive, view: scene.DriveView) -> None:
-        options = self.options
-        self._set(drive.crumbs, visible=options.path)
-        if options.path:
-            drive.crumbs.vertices = _crumb_mesh(view.crumbs).vertices
-        names = len(self.timelines) > 1
-        for car, label in drive.labels.items():
-            text = view.labels.get(car, "")
-            if car == EGO and names:
-                text = f"{drive.name}: {text}" if text else drive.name
-            if text:
-                self._set(label, text=text)
-            self._set(label, visible=bool(text) and (options.labels or car == EGO))
-        if drive.lane is None:
-            return
-        shown = options.rule and view.rule is not None and not view.ended
-        for node in (drive.lane, drive.gap, drive.gap_label):
-            self._set(node, visible=shown)
-        if shown:
-            rule = view.rule
-            words = f"needs {rule.gap:.1f} m" + (": waits" if rule.blocked else "")
-            self._set(drive.lane, position=tidy(view.x[EGO], rule.lane_y, 0.04))
-            self._set(drive.gap, position=tidy(rule.gap_x, rule.gap_y, 0.055), scale=(round(rule.gap, 2), 1.0, 1.0))
-            self._set(drive.gap_label, position=tidy(rule.gap_x + rule.gap / 2, rule.gap_y, 0.4), text=words)
 
 
 def tidy(x: float, y: float, z: float) -> tuple[float, float, float]:

@@ -4,38 +4,35 @@ import contextlib
 import os
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Sequence
 from pathlib import Path
 
 from bootcourse import one_per_cell
+from bootcourse.episodes.rollout import Rollout
 from bootcourse.markup import Markup, html
 from bootcourse.policies import Policy
 from bootcourse.replay3d import scene, server
 from bootcourse.replay3d.gui import ReplayControls
 from bootcourse.replay3d.player import Player
-from bootcourse.replay3d.stage import Options, Stage
-from bootcourse.replay3d.timeline import Timeline
+from bootcourse.replay3d.stage import Stage
 
 HUD_RATE = 10.0  # Hz, of real time, at most: how often the numbers in the panel change
 
 
 class Replay(contextlib.AbstractContextManager):
-    """A replay on a server. A notebook shows it as the cell's output; `close()` ends it."""
+    """A replay of rollouts on a server. A notebook shows it as the cell's output; `close()` ends it. See `replay`."""
 
-    def __init__(
-        self, timelines: list[Timeline], options: Options, port: int = 0, height: int = 640,
-        futures: Policy | None = None,
-    ):  # fmt: skip
-        self.timelines, self.futures = timelines, futures
+    def __init__(self, rollouts, height: int = 640, dark: bool = False, futures: Policy | None = None):
+        self.timelines, self.futures = scene.timelines_of(rollouts, futures), futures
         self.height, self.closed = height, False
         self._lock = threading.RLock()  # held while a frame is shown or the scene changes, in whichever thread
         self._hud_due, self._greeted = 0.0, False
-        self.server = server.start(port)
+        self.server = server.LocalServer()
         try:
-            self.stage = Stage(self.server, self.timelines, options)
+            self.stage = Stage(self.server, self.timelines, dark)
             duration = max(timeline.duration for timeline in self.timelines)
             self.player = Player(duration, self.timelines[0].dt, self._frame, watched=self._watched)
-            self.panel = ReplayControls(self.server, self.player, self.stage, self._restage)
+            self.panel = ReplayControls(self)
             self._frame(0.0)
             self.server.on_client_connect(self._greet)
             self.player.start()
@@ -67,7 +64,7 @@ class Replay(contextlib.AbstractContextManager):
         """Write the same drives as one HTML file that a browser opens without a server. Returns the path."""
         from bootcourse.replay3d.recorder import export
 
-        return export([line.rollout for line in self.timelines], path, self.stage.options, self.futures)
+        return export([line.rollout for line in self.timelines], path, self.stage.dark, self.futures)
 
     def _watched(self) -> bool:
         return bool(self.server.get_clients())
@@ -85,10 +82,13 @@ class Replay(contextlib.AbstractContextManager):
                 self._hud_due = now + 1 / HUD_RATE
                 self.panel.refresh(t)
 
-    def _restage(self, change: Callable[[], None], rebuild: bool) -> None:
+    def restage(self, dark: bool | None = None, futures: bool | None = None) -> None:
+        """Switch to the dark or the light theme, show or hide the imagined drives, and draw the present again."""
         with self._lock:
-            change()
-            if rebuild:
+            if futures is not None:
+                self.stage.futures = futures
+            if dark not in (None, self.stage.dark):
+                self.stage.dark = dark
                 self.stage.build()
             self._frame(self.player.t)
 
@@ -120,23 +120,19 @@ def address_for_browser(port: int) -> tuple[str | None, str]:
 
 
 def replay(
-    rollouts, *, port: int = 0, height: int = 640, layout: str = scene.ROADS, follow: int = 0,
-    dark: bool = False, rule: bool = False, futures: Policy | None = None,
+    rollouts: Rollout | Sequence[Rollout], *, height: int = 640, dark: bool = False,
+    futures: Policy | None = None,
 ) -> Replay:  # fmt: skip
     """Show a rollout, or several of the same seed side by side, in 3D.
 
-    port: 0 takes a free one. height: of the cell's output, pixels. layout: "side by side" or "ghosts on
-    one road". follow: index of the drive whose numbers are shown and whose car the ghosts drive around.
-    rule: draw what the rule wants on the road. futures: a base policy: at each decision, draw the nine imagined drives
-    that it would go on with, those that crash in red, that of the driven action bold.
+    height: of the cell's output, pixels. futures: a base policy: at each decision, draw the
+    nine imagined drives that it would go on with, those that crash in red, that of the driven action bold.
     Running the same notebook cell again replaces its replay.
-    Raises BootcourseError if the drives cannot be shown together, or if the port is taken.
+    Raises BootcourseError if the drives cannot be shown together.
     """
-    timelines = scene.timelines_of(rollouts, futures)
-    options = Options(layout=layout, follow=follow, dark=dark, rule=rule)
-    options.check(len(timelines))
+    scene.timelines_of(rollouts)  # a refused replay leaves the one before alone
     cell = one_per_cell.this_cell()
     one_per_cell.close_shown_by(cell)
-    shown = Replay(timelines, options, port, height, futures)
+    shown = Replay(rollouts, height, dark, futures)
     one_per_cell.note(cell, shown)
     return shown

@@ -61,14 +61,14 @@ def packed(data: bytes) -> str:
     return base64.b64encode(gzip.compress(data, 9, mtime=0)).decode()
 
 
-def packed_network(parameters: list[torch.Tensor], member: int, kept: int) -> dict:
+def packed_network(parameters: list[torch.Tensor], member: int, precision: int) -> dict:
     """One network of some that are trained together: the sizes of its layers, and its weights for minds.js.
 
     The weights are sorted by bytes (all first bytes, all second ...), because those with the exponents compress well.
     """
     arrays = [parameter[member].numpy() for parameter in parameters]
     weights = np.concatenate([array.ravel() for array in arrays]).astype("<f4")
-    planes = weights.view(np.uint8).reshape(-1, 4)[:, 4 - kept :].T
+    planes = weights.view(np.uint8).reshape(-1, 4)[:, 4 - precision :].T
     return {"sizes": [len(arrays[0]), *(array.shape[1] for array in arrays[::2])], "weights": packed(planes.tobytes())}
 
 

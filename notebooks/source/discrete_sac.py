@@ -26,9 +26,8 @@ import bootcourse as bc
 import numpy as np
 import torch
 from bootcourse.course import check, compare_predictions, predict, table
-from bootcourse.course.lessons.discrete_sac import figures
+from bootcourse.course.lessons.discrete_sac import diagrams, figures
 from bootcourse.learn import sac
-from bootcourse.plots import diagrams
 from bootcourse.research import checks
 
 # %% [markdown]

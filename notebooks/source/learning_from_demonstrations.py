@@ -39,7 +39,7 @@ from bootcourse.course import (
     table,
 )
 from bootcourse.course.lessons.the_barrier import figures
-from bootcourse.panels.bonus_numbers import bonus_numbers
+from bootcourse.panels.bonus import bonus_numbers
 
 # %% [markdown]
 # ## Look first

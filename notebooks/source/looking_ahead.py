@@ -27,10 +27,10 @@ import numpy as np
 from bootcourse.course import check, compare_predictions, own_code, predict, source, table
 from bootcourse.course.lessons.looking_ahead import imagined_road
 from bootcourse.course.lessons.looking_ahead.figures import by_horizon, wrong_models
+from bootcourse.course.lessons.looking_ahead.futures_figure import nine_futures
 from bootcourse.course.shipped import beginning, shipped_experiment
 from bootcourse.episodes import models
 from bootcourse.episodes.lookahead import NINE, imagine, lookahead_shield
-from bootcourse.plots.futures import nine_futures
 from bootcourse.research.distil import learned_rows
 from bootcourse.research.lookahead import Cell, score
 from bootcourse.road.state import Accident

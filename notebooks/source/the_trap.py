@@ -30,8 +30,7 @@ import bootcourse as bc
 import gymnasium as gym
 import numpy as np
 from bootcourse.course import check, compare_predictions, live_curves, own_code, predict, table
-from bootcourse.course.lessons.the_trap import figures
-from bootcourse.plots import diagrams
+from bootcourse.course.lessons.the_trap import diagrams, figures
 from bootcourse.research import report, tables
 from bootcourse.road import formulas, observation
 

@@ -1,0 +1,40 @@
+"""The parts of soft actor-critic, and what passes between them."""
+
+from collections.abc import Mapping
+
+from bootcourse.plots.diagrams import Diagram, arrow, box, label, line
+
+SAC_PARTS: Mapping[str, tuple] = {  # name -> left, top, lines, tint; each 140 wide and 64 high
+    "world": (8, 30, ("world", "road or pole"), "world"),
+    "actor": (230, 30, ("actor π", "chooses actions"), "learned"),
+    "temperature": (452, 30, ("temperature α", "worth of a nat"), "learned"),
+    "buffer": (8, 220, ("replay buffer", "what happened"), "stored"),
+    "critics": (230, 220, ("critics Q₁, Q₂", "judge actions"), "learned"),
+    "targets": (452, 220, ("target critics", "slow copies"), "stored"),
+}
+
+
+def sac_diagram() -> Diagram:
+    """Soft actor-critic: what acts, what is learned, what is stored, and what passes between them."""
+    parts = [box(left, top, 140, 64, lines, tint) for left, top, lines, tint in SAC_PARTS.values()]
+    parts += [
+        arrow(230, 50, 150, 50), label(190, 42, "action"),
+        arrow(150, 76, 228, 76), label(190, 96, "state"),
+        arrow(78, 96, 78, 218), label(86, 150, "s, a, r, s′,", "start"), label(86, 168, "terminated", "start"),
+        arrow(150, 252, 228, 252), label(190, 272, "batch"),
+        line(190, 252, 190, 170), arrow(190, 170, 250, 97), label(198, 190, "batch", "start"),
+        arrow(300, 218, 300, 97), label(292, 196, "min Q", "end"),
+        arrow(370, 50, 450, 50), label(411, 42, "entropy"),
+        arrow(452, 76, 372, 76), label(411, 96, "α"),
+        arrow(452, 240, 372, 240), label(411, 232, "target y"),
+        arrow(370, 268, 450, 268, dashed=True), label(411, 290, "share τ"),
+        arrow(366, 96, 470, 218), label(426, 150, "π(s′), for V(s′)", "start"),
+    ]  # fmt: skip
+    alt = (
+        "A diagram of soft actor-critic. The actor sends actions to the world and sees its states. The world's "
+        "transitions go into the replay buffer. Batches from the buffer train two critics and the actor, which makes "
+        "the smaller of the critics' values large. Slow copies of the critics, the target critics, give the critics "
+        "their target, together with the actor's policy in the next state. The temperature α follows the actor's "
+        "entropy."
+    )
+    return Diagram(600, 296, parts, alt)
