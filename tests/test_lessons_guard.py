@@ -63,11 +63,6 @@ def kills_the_process_that_started_it(*arguments):
     time.sleep(9)
 
 
-def stops_the_process_that_started_it(reward, *rest):
-    os.kill(os.getppid(), signal.SIGSTOP)
-    return reward
-
-
 def fills_the_memory(*arguments):
     return np.ones(10**10)
 
@@ -112,7 +107,6 @@ HOSTILE = {
     lambda *arguments: sys.exit("bye"): "SystemExit: bye",
     lambda *arguments: ctypes.string_at(0): "SIGSEGV",
     raises_what_cannot_be_printed: "raises an error in line",
-    stops_the_process_that_started_it: "differ at [0]",
     fills_the_memory: "2 GiB",
     fills_the_memory_with_a_tensor: "2 GiB",
     returns_far_too_much: "of 1,048,577 numbers",

@@ -15,10 +15,8 @@ import tempfile
 import time
 from pathlib import Path
 
-from bootcourse.course.classroom.grading import Verdicts, graded, key_of
-from bootcourse.course.classroom.judging import Judged
+from bootcourse.course.classroom.grading import Judged, Verdicts, graded, handed_out, key_of, points_of
 from bootcourse.course.classroom.pages import write_report
-from bootcourse.course.classroom.points import handed_out, read_points
 from bootcourse.course.classroom.submission import Submission, collect
 from bootcourse.errors import BootcourseError
 
@@ -77,7 +75,7 @@ def read_and_shown(name: str, data: bytes, folder: Path) -> int:
     (folder / "class").mkdir(exist_ok=True)
     (folder / "class" / name).write_bytes(data)
     (one,) = collect(folder / "class")
-    worth, verdicts = read_points(None, handed_out([one])), Verdicts(folder / "none.jsonl")
+    worth, verdicts = points_of(handed_out([one])), Verdicts(folder / "none.jsonl")
     verdicts.known |= {key_of(*answer): Judged("wrong", "No.") for answer in one.answers.items()}
     write_report([graded(one, worth, verdicts)], folder / "out.csv", [])
     return len(one.answers)
