@@ -29,8 +29,8 @@ from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.settings import settings_for
 from bootcourse.methods import METHODS
 from bootcourse.policies import idle_policy, plan_policy, rule_policy
-from bootcourse.research import report
 from bootcourse.research import clocks as study_clocks
+from bootcourse.research import report
 from bootcourse.research.clocks import pattern
 from bootcourse.research.paper import EPISODES, PRINTED
 from bootcourse.research.results import KINDS, Results
