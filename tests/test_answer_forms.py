@@ -149,9 +149,9 @@ def test_who_fills_a_cell_with_commands_stops_nobody_else(monkeypatch):
 
 
 def test_damaged_submissions_stop_no_class():
-    answered, failed = failures(60, seed=0)  # more of them: python -m tests.hostile.submissions
+    answered, failed = failures(60, seed=0)
     assert answered and failed == []
 
 
 def test_forged_reports_stop_no_judge():
-    assert reports.failures(60, seed=0) == []  # more of them: python -m tests.hostile.reports
+    assert reports.failures(60, seed=0) == []

@@ -35,11 +35,6 @@ def test_it_has_the_lessons_a_page_and_no_solution(folder):
         assert {name.removeprefix("course/") for name in file.namelist() if name[-1] != "/"} == names
 
 
-def test_its_lock_holds_only_what_a_student_needs(folder):
-    lock = (folder / "environment.lock").read_text()
-    assert "-r environment.lock\n" in lock and "\njupyterlab==" in lock and "\npytest==" not in lock
-
-
 def test_solutions_are_closed_in_it_until_the_lecturer_opens_them_and_hints_are_not(folder, monkeypatch):
     monkeypatch.chdir(folder / "notebooks")
     with pytest.raises(BootcourseError, match="Solutions are closed"):

@@ -2,16 +2,15 @@
 
 import linecache
 
-import numpy as np
 import pytest
 import torch
 
 from bootcourse.course import check, own_code
 from bootcourse.course.lessons import registry
-from bootcourse.course.own_learner import LATER, OwnReplay, OwnSAC, own_learner, parts_of
+from bootcourse.course.own_learner import LATER, OwnReplay, OwnSAC, own_learner
 from bootcourse.episodes.evaluate import evaluate
 from bootcourse.errors import BootcourseError
-from bootcourse.learn.learner import SACLearner, learner_for
+from bootcourse.learn.learner import learner_for
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
 
@@ -79,15 +78,6 @@ def test_an_answer_that_passes_is_kept_with_all_that_it_uses_and_found_again_in_
     assert [path.name for path in (tmp_path / "answers").iterdir()] == ["critic_target.py"]
 
 
-def test_a_class_is_kept_too():
-    own_code.keep("ReplayBuffer", cell(BUFFER)["ReplayBuffer"])
-    own_code._own.clear()
-    own_code.load()
-    buffer = own_code._own["ReplayBuffer"](3)
-    buffer.add(torch.ones(2))
-    assert buffer.sample(3, np.random.default_rng(0)).shape == (3, 2)
-
-
 def test_an_answer_that_does_not_pass_and_the_library_s_own_are_not_kept(tmp_path):
     check.critic_target(cell(RIGHT.replace("ONE = 1", "ONE = 2"))["critic_target"])
     check.critic_target(registry()["critic_target"].solution)
@@ -122,18 +112,6 @@ def test_no_file_and_no_part_is_said(capsys):
 # It trains ------------------------------------------------------------------------------------------
 
 
-def test_without_a_part_of_one_s_own_the_library_trains(capsys):
-    made = own_code.training([settings_for("sac")])
-    assert type(made.learner) is SACLearner and type(made) is Training
-    assert capsys.readouterr().out.startswith("Training with our soft_value, our critic_target")
-
-
-def test_a_part_of_one_s_own_trains_on_the_cpu_alone():
-    own_code.use(cell(RIGHT)["critic_target"])
-    with pytest.raises(BootcourseError, match=r"^Your own code trains on the CPU: leave out device='cuda'\.$"):
-        own_code.training([settings_for("sac")], device="cuda")
-
-
 def test_a_part_of_one_s_own_replaces_the_library_s_and_a_line_says_so(capsys):
     own_code.use(cell(RIGHT)["critic_target"])
     made = own_code.training(with_seeds(settings_for("sac", learning_starts=16, batch=16, hidden=(8,)), 2))
@@ -152,13 +130,6 @@ def test_a_buffer_in_float64_is_refused_by_the_comparison_and_by_the_training():
     training = own_code.training([settings_for("sac", learning_starts=16, batch=16, hidden=(8,))])
     with pytest.raises(BootcourseError, match="^Your `ReplayBuffer` gives rows in float64: training needs float32"):
         training.run(progress=False, stop=lambda: training.updates >= 2)
-
-
-def test_a_target_in_float64_trains():
-    own_code.use(cell(RIGHT.replace("t.ones(())", "t.ones(1).double()"))["critic_target"])
-    training = own_code.training([settings_for("sac", learning_starts=16, batch=16, hidden=(8,))])
-    training.run(progress=False, stop=lambda: training.updates >= 2)
-    assert training.learner.critics[0].dtype == torch.float32 and training.updates >= 2
 
 
 @pytest.mark.parametrize("method", ["sac", "soft", "margin_soft", "cql", "gail", "rlpd", "ibrl"])
@@ -186,35 +157,6 @@ def test_the_solutions_make_the_library_s_update_of_ppo_and_begin_as_the_clone(l
         training.run(progress=False, stop=lambda training=training: training.updates >= 2)
     for ours, theirs in zip(mine.learner.actor, library.learner.actor, strict=True):
         assert torch.allclose(ours, theirs, atol=1e-6)
-
-
-def test_the_solution_shrinks_the_guide_of_jump_start_rl_as_the_library_does():
-    small = {"hidden": (8,), "guide_decisions": 12, "stages": 4, "window": 2, "tolerance": 0.5}
-    settings = with_seeds(settings_for("jsrl", **small), 2)
-    own_code._own.update(solutions())
-    mine, library = own_code.training(settings, 12), Training(settings, 12)
-    for training in (mine, library):
-        training.run(progress=False)
-    assert mine.learner.stage.tolist() == library.learner.stage.tolist() and mine.learner.stage.max() > 0
-    assert torch.equal(mine.learner.returns, library.learner.returns)
-
-
-def test_a_later_part_replaces_the_earlier_ones_where_there_is_a_constraint():
-    sac, soft = [settings_for("sac")], [settings_for("soft")]
-    target = {"constrained_target": None, "critic_target": None}
-    assert "constrained_target" not in parts_of(sac, target)
-    assert "critic_target" not in parts_of(soft, target) and "critic_target" in parts_of(soft, {"critic_target": None})
-    assert "mixed_batch" in parts_of([settings_for("demos")], {}) and "margin_loss" in parts_of(
-        [settings_for("margin")], {}
-    )
-
-
-def test_a_buffer_of_one_s_own_gives_a_batch_for_each_agent():
-    made = OwnReplay({}, with_seeds(settings_for("sac", buffer_size=64), 2), 26, None)
-    made.add(torch.arange(2.0)[:, None, None].expand(2, 3, 57))
-    batch = made.sample(5, np.zeros(2), [np.random.default_rng(i) for i in range(2)])
-    assert batch.states.shape == (2, 5, 26) and batch.rewards.tolist() == [[0] * 5, [1] * 5]
-    assert not batch.is_demonstration.any()
 
 
 def test_a_method_without_parts_is_refused_in_one_sentence():
@@ -278,8 +220,3 @@ def test_the_whole_method_made_of_solutions_escapes_as_the_library_s_does():
     assert isinstance(made.learner, OwnSAC) and isinstance(made.replay, OwnReplay)
     agents = made.run(progress=False, stop=lambda: made.updates >= 1500).agents
     assert sum(evaluate(agent.as_policy(), 60).success.value >= 0.95 for agent in agents) >= 3
-
-
-def test_a_part_that_raises_is_named():
-    own_code.use(cell("def critic_target(*all):\n    return 1 / 0")["critic_target"])
-    assert own_code.compare().details == ("critic_target raises ZeroDivisionError: division by zero",)

@@ -1,14 +1,10 @@
-"""Forge the reports of answers, thousands of them, and see whether one of them stops the judge.
-
-    python -m tests.hostile.reports [--cases 2000] [--seed 0]
+"""Forge the reports of answers, and see whether one of them stops the judge.
 
 An answer can find the function that sends its report and send its own. No process is started here: the judge is given
 reports that are right in part, of other types and shapes, with numbers that are too large or no numbers.
 """
 
-import argparse
 import random
-import sys
 from unittest.mock import patch
 
 import numpy as np
@@ -69,17 +65,3 @@ def failures(cases: int, seed: int) -> list[str]:
             except Exception as error:  # what this command looks for
                 lines.append(f"{number} {exercise.name}: {type(error).__name__} {error}"[:300])
     return lines
-
-
-def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("--cases", type=int, default=2000)
-    parser.add_argument("--seed", type=int, default=0)
-    asked = parser.parse_args()
-    lines = failures(asked.cases, asked.seed)
-    print(*lines, f"{asked.cases} reports, {len(lines)} failures", sep="\n")
-    return 1 if lines else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -18,7 +18,6 @@ from tools.course.instructor import together
 from tools.course.products import out_of_date, solved_file, student_file
 from tools.course.source import Cell, arguments_of, body, function_in
 
-LONGEST_CELL = 25  # lines
 SHORTEST_ALT = 40  # letters: what a reader should see does not fit into fewer
 
 
@@ -29,13 +28,10 @@ def problems(path: Path) -> list[str]:
     except ValueError as error:
         return [f"{error}."]
     wrong = [
-        *of_length(cells),
-        *of_imports(cells),
         *of_exercises(cells, path.stem),
         *of_predictions(cells, path.stem),
         *of_references(cells),
         *of_minutes(cells),
-        *of_lists(cells),
     ]
     if wrong:
         return wrong
@@ -47,31 +43,11 @@ def begins(text: str) -> str:
     return f"The cell that begins with `{text.strip().splitlines()[0]}`"
 
 
-def of_length(cells: list[Cell]) -> list[str]:
-    long = [cell for cell in cells if cell.is_code and len(cell.solved.splitlines()) > LONGEST_CELL]
-    return [f"{begins(cell.solved)} is longer than {LONGEST_CELL} lines." for cell in long]
-
-
-def of_imports(cells: list[Cell]) -> list[str]:
-    """All imports stand in the first code cell."""
-    later = [cell for cell in cells if cell.is_code][1:]
-    imports = any(re.search(r"^(?:from|import) ", cell.solved, re.M) for cell in later)
-    return ["A later cell imports something: do it in the first."] * imports
-
-
 def of_minutes(cells: list[Cell]) -> list[str]:
     """The lesson's time is the sum of what its sections and exercises take."""
     said = [int(each) for cell in cells for each in re.findall(r"^\*\*Time\*\* (\d+) minutes", cell.text, re.M)]
     talk, work = together(cells)
     return [] if said == [talk + work] else [f"**Time** says {said}, and the rows add up to {talk + work} minutes."]
-
-
-def of_lists(cells: list[Cell]) -> list[str]:
-    """No second line of a paragraph begins a list by accident ("1."), and each row of a table is one line."""
-    text = "\n".join(cell.text + "\n" for cell in cells if not cell.is_code)
-    wrong = [f"The line `{line[:60]}` begins a list by accident." for line in re.findall(r"\w\n(1\. .*)", text)]
-    cut = re.findall(r"^(\|.*[^|\s])$", text, re.M)
-    return wrong + [f"The row `{row[:60]}` of a table goes on in the next line." for row in cut]
 
 
 # Exercises ------------------------------------------------------------------------------------------
