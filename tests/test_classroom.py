@@ -95,7 +95,7 @@ def test_submit_puts_answers_and_predictions_into_one_file_that_is_read_as_it_wa
 
 def submission(**fields) -> dict:
     """The content of a file that `submit` writes."""
-    return {"format": Submission.FORMAT, "exercises": fingerprint(), "made": "2030-01-01"} | fields
+    return {"format": Submission.FORMAT, "exercises": fingerprint(), "time": "2030-01-01"} | fields
 
 
 NO_SUBMISSION = {
@@ -135,7 +135,7 @@ def test_no_command_replaces_a_file_that_it_did_not_write(case, bootcourse, fold
     taken, command = TAKEN[case]
     name = {"name": "李"} if case == "another student's" else {}
     for path in {"class/ada.json", taken}:
-        (folder.parent / path).write_text(json.dumps(submission(made="by me", **name)))
+        (folder.parent / path).write_text(json.dumps(submission(time="by me", **name)))
     answer = bootcourse(*command)
     assert answer.status == 2 and len(answer.err.strip().splitlines()) == 1, answer.err
     assert "by me" in (folder.parent / taken).read_text()

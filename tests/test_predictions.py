@@ -112,4 +112,3 @@ def test_the_end_of_a_lesson_compares_and_escapes_what_a_student_wrote():
     shown = compare_predictions("the_barrier", {1: "it `stays`", 2: 31.25, 3: "traps", 4: "nothing"}).data
     assert "What does it do? | it stays | it `stays` |" in shown and "How far? | 80 m | 31.25 m |" in shown
     assert "<script" not in shown and "&lt;script&gt;" in shown and "3 of 4 predictions" in shown
-

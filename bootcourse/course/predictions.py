@@ -77,10 +77,10 @@ def predictions(folder: Path | None = None) -> dict[str, dict]:
     path = Path(folder or "") / FILE
     if not path.exists():
         return {}
-    kept = read_json(path, dict[str, dict])
-    if not all("answer" in one for one in kept.values()):
+    entries = read_json(path, dict[str, dict])
+    if not all("answer" in one for one in entries.values()):
         raise BootcourseError(f"{path} is damaged: a prediction has no answer. Delete it, or restore it from a copy.")
-    return kept
+    return entries
 
 
 def commit(question: Question, answer: object) -> dict:
@@ -93,10 +93,10 @@ def commit(question: Question, answer: object) -> dict:
         "time": datetime.now(UTC).isoformat(timespec="seconds"),
     }
     with alone_with(FILE):  # another notebook may have written since
-        kept = predictions()
-        if question.name not in kept:
-            write_json(FILE, kept | {question.name: one})
-    return kept.get(question.name, one)
+        entries = predictions()
+        if question.name not in entries:
+            write_json(FILE, entries | {question.name: one})
+    return entries.get(question.name, one)
 
 
 def predict(
@@ -116,10 +116,10 @@ def predict(
     return Note(committed(commit(asked, answer), asked.read(answer)))
 
 
-def committed(kept: dict, wanted: object = None) -> str:
+def committed(entry: dict, wanted: object = None) -> str:
     """The sentence after a commitment; `wanted` is what was asked to be kept now, if that is something else."""
-    shown = worded(kept["answer"], kept.get("unit"))
-    if wanted not in (None, kept["answer"]):
+    shown = worded(entry["answer"], entry.get("unit"))
+    if wanted not in (None, entry["answer"]):
         return f"You have committed to “{shown}” before, and the first prediction stays."
     return f"You predict: {shown}. The end of the lesson compares."
 

@@ -52,7 +52,7 @@ class Judged(msgspec.Struct, frozen=True):
 MISSING = Judged("missing")
 
 
-class Kept(msgspec.Struct, frozen=True):
+class Line(msgspec.Struct, frozen=True):
     """A line of the file of verdicts."""
 
     key: str  # see `key_of`
@@ -73,15 +73,15 @@ class Verdicts:
         check_own(path, '{"key":')
         for line in path.read_bytes().splitlines() if path.exists() else ():
             try:
-                kept = msgspec.json.decode(line, type=Kept)
+                entry = msgspec.json.decode(line, type=Line)
             except (msgspec.MsgspecError, RecursionError, UnicodeDecodeError):
                 continue
-            self.known[kept.key] = kept.judged
+            self.known[entry.key] = entry.judged
 
     def add(self, key: str, judged: Judged) -> None:
         self.known[key] = judged
         with self.path.open("ab") as file:
-            file.write(msgspec.json.encode(Kept(key, judged)) + b"\n")
+            file.write(msgspec.json.encode(Line(key, judged)) + b"\n")
 
 
 def judge_all(submissions: Sequence[Submission], wanted: Sequence[str], verdicts: Verdicts, workers: int) -> list[str]:

@@ -128,8 +128,8 @@ def feedback(graduate: Graduate) -> Markup:
         ]
         parts.append(table(heading, ("exercise", "points", "the check says"), rows))
     parts.append(bullets("What could not be read", own.problems))
-    if own.made:
-        parts.append(html("<p><small>Made {}.</small></p>", own.made))
+    if own.time:
+        parts.append(html("<p><small>Made {}.</small></p>", own.time))
     return page(f"Feedback for {own.name or own.student}", *parts)
 
 
