@@ -14,7 +14,6 @@ project = html_title = "bootcourse"
 extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx_design", "sphinxcontrib.bibtex"]
 bibtex_bibfiles, bibtex_reference_style = ["references.bib"], "author_year"
 html_theme = "furo"
-exclude_patterns = ["front/*"]  # parts of the front page
 html_static_path = ["style.css", "wide.js"]
 html_css_files = ["style.css"]
 html_js_files = ["wide.js"]

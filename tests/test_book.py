@@ -6,7 +6,6 @@ import shutil
 import pytest
 
 from bootcourse.course.lessons import LESSONS, stem
-from bootcourse.research.sweep import load_sweep, nearest_setting
 from tests.browser import ARTEFACTS, is_blank, needs_browser, open_browser
 from tools import book
 from tools.course import claims
@@ -134,23 +133,6 @@ def test_a_replay_plays_in_the_book(made, new_page):
     frame.wait_for_function("before => document.querySelector('#bc-numbers .big b').textContent !== before", arg=before)
     picture = page.page.locator("iframe").first.screenshot(path=ARTEFACTS / "book-replay.png")
     assert not is_blank(picture) and page.errors == []
-    page.page.close()
-
-
-@needs_browser
-def test_the_front_page_s_sliders_answer_to_the_keyboard_with_what_the_study_measured(made, new_page):
-    page = new_page()
-    page.page.goto((made / "index.html").as_uri())
-    said = page.page.inner_text("#bc-sweep-says")
-    paper = nearest_setting(load_sweep())
-    assert f"Success {100 * paper.mean('success').value:.0f} %" in said and f"{len(paper.results)} agents" in said
-    page.page.focus("#bc-xi")
-    page.page.keyboard.press("Home")
-    assert "Without ξ, p makes no difference" in page.page.inner_text("#bc-sweep-says")
-    without = nearest_setting(load_sweep(), xi_multiplier=0.0)
-    assert f"Success {100 * without.mean('success').value:.0f} %" in page.page.inner_text("#bc-sweep-says")
-    assert page.page.locator("#bc-sweep-chart circle").count() == 2 * len(without.results)
-    assert page.errors == []
     page.page.close()
 
 

@@ -3,6 +3,7 @@
 nbval executes the student's notebooks; test_course.py holds both to their sources.
 """
 
+import re
 from pathlib import Path
 
 import nbformat
@@ -46,3 +47,11 @@ def test_a_lesson_says_what_one_will_be_able_to_do_and_what_one_now_knows(notebo
 def test_a_notebook_names_no_place_on_the_machine_that_made_it(notebook):
     text = nbformat.writes(notebook)
     assert str(NOTEBOOKS.parent) not in text and (str(Path.home()) == "/" or str(Path.home()) not in text)
+
+
+def test_a_picture_says_what_a_reader_should_see(notebook):
+    data = [output.get("data", {}) for cell in notebook.cells for output in cell.get("outputs", [])]
+    assert not any(kind.startswith("image/") for each in data for kind in each), "JupyterLab drops their alt text"
+    pictures = [tag for each in data for tag in re.findall(r"<img [^>]*>", each.get("text/html", ""))]
+    assert [tag[:80] for tag in pictures if not re.search(r'alt="[^"]{40,}"', tag)] == []
+    assert not any(re.search(r"!\[\s*\]\(", cell.source) for cell in notebook.cells if cell.cell_type == "markdown")

@@ -6,7 +6,7 @@ import pytest
 
 from bootcourse.course.lessons import LESSONS, number, stem
 from tools import book
-from tools.course import claims, front_page
+from tools.course import claims
 from tools.course.known import minutes
 from tools.course.numbering import resolved
 
@@ -59,7 +59,6 @@ def test_each_of_twenty_questions_has_an_answer_and_five_points():
 
 @pytest.mark.parametrize("edition", ["student", "instructor"])
 def test_the_exam_and_what_leads_to_solutions_are_in_the_instructor_s_edition_alone(edition, tmp_path, monkeypatch):
-    monkeypatch.setattr(front_page, "fill", lambda folder: None)
     monkeypatch.setattr(claims, "claims_page", lambda: "# Claims\n")
     monkeypatch.setattr("bootcourse.web.build.main", lambda arguments: None)
     book.gather(tmp_path / "source", edition)

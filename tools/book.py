@@ -27,7 +27,7 @@ SOLVED = re.compile(r"\[([^]]*)\]\(\.\./solved/([^)]*)\)")
 def gather(to: Path, edition: str = "student") -> None:
     """Put all that the book is made of into the folder `to`. edition: student, or instructor with the solutions."""
     from bootcourse.web import build as drive_page
-    from tools.course import front_page, paper_map
+    from tools.course import paper_map
     from tools.course.claims import claims_page, fill_in
     from tools.course.numbering import resolved
 
@@ -36,7 +36,6 @@ def gather(to: Path, edition: str = "student") -> None:
     shutil.copytree(ROOT / "assets/report", to / "report")
     shutil.copytree(ROOT / "assets/readme", to / "pictures")
     shutil.copy(ROOT / "assets/checks.md", to)
-    front_page.fill(to / "front")
     drive_page.main(["--out", str(to / "whole/trap.html")])
     if edition != "instructor":
         (to / "teaching/exam.md").unlink()

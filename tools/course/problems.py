@@ -1,4 +1,4 @@
-"""What is wrong with a lesson, as sentences: its exercises, predictions, names of code, pictures, freshness.
+"""What is wrong with a lesson, as sentences: its exercises, predictions, names of code, freshness.
 
 That no link is dead is for the book's build to find.
 """
@@ -10,15 +10,11 @@ import re
 import textwrap
 from pathlib import Path
 
-import nbformat
-
 from bootcourse.course.lessons import registry, stem
 from tools.course.claims import filled
 from tools.course.instructor import together
-from tools.course.products import out_of_date, solved_file, student_file
+from tools.course.products import out_of_date
 from tools.course.source import Cell, arguments_of, body, function_in
-
-SHORTEST_ALT = 40  # letters: what a reader should see does not fit into fewer
 
 
 def problems(path: Path) -> list[str]:
@@ -35,8 +31,7 @@ def problems(path: Path) -> list[str]:
     ]
     if wrong:
         return wrong
-    late = [f"{target.parent.name}/{target.name} is out of date: run make notebooks." for target in out_of_date(path)]
-    return late or of_pictures(path)
+    return [f"{target.parent.name}/{target.name} is out of date: run make notebooks." for target in out_of_date(path)]
 
 
 def begins(text: str) -> str:
@@ -148,27 +143,3 @@ def exists(name: str) -> bool:
     except (ImportError, AttributeError):
         return False
     return True
-
-
-# Pictures -------------------------------------------------------------------------------------------
-
-
-def of_pictures(path: Path) -> list[str]:
-    """Every picture says what a reader should see, in the text and in the outputs."""
-    wrong = []
-    for file in (student_file(path), solved_file(path)):
-        for cell in nbformat.read(file, as_version=4).cells if file.exists() else []:
-            text = cell.source if cell.cell_type == "markdown" else ""
-            if re.search(r"!\[\s*\]\(", text):
-                wrong.append(f"{begins(text)} has a picture without alt text.")
-            for output in cell.get("outputs", []):
-                if not has_alt(output.get("data", {})):
-                    wrong.append(f"{begins(cell.source)} shows a picture without alt text.")
-    return wrong
-
-
-def has_alt(data: dict) -> bool:
-    if any(kind.startswith("image/") for kind in data):
-        return False  # JupyterLab drops the alt text of these: bootcourse.plots.figure.show keeps it
-    tags = re.findall(r"<img [^>]*>", data.get("text/html", ""))
-    return all(re.search(rf'alt="[^"]{{{SHORTEST_ALT},}}"', tag) for tag in tags)
