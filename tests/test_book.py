@@ -49,14 +49,6 @@ def test_every_lesson_has_its_pages(made):
     assert [name for name in dict.fromkeys(listed) if name != stem("start")] == FILES[1:]
 
 
-@needs_browser
-def test_the_search_shows_what_stands_around_a_word(made, new_page):
-    found = new_page()
-    found.page.goto(f"{(made / 'search.html').as_uri()}?q=barrier")
-    found.page.wait_for_selector("#search-results p.context", timeout=30_000)
-    assert "barrier" in found.page.inner_text("#search-results p.context").lower() and found.errors == []
-
-
 @pytest.mark.parametrize("path", sources(), ids=lambda path: path.stem)
 def test_what_a_lesson_cites_is_in_the_bibliography(path):
     known = re.findall(r"eprint = \{([\d.]+)\}", (book.ROOT / "book/references.bib").read_text(encoding="utf-8"))

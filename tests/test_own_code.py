@@ -94,13 +94,6 @@ def test_an_answer_that_uses_what_no_file_holds_trains_in_its_notebook_alone(tmp
     assert "critic_target" in own_code._own and not (tmp_path / "answers").exists()
 
 
-def test_a_file_that_does_not_run_is_one_sentence_with_the_remedy(tmp_path):
-    (tmp_path / "answers").mkdir()
-    (tmp_path / "answers/critic_target.py").write_text("def critic_target(:\n")
-    with pytest.raises(BootcourseError, match=r"critic_target.py does not run \(SyntaxError.*delete the file"):
-        own_code.load()
-
-
 def test_no_file_and_no_part_is_said(capsys):
     own_code.load()
     assert capsys.readouterr().out == f"{own_code.NONE}\n" and own_code.compare().sentence == own_code.NONE

@@ -36,16 +36,6 @@ def test_a_click_keeps_the_answer_with_its_question_and_the_time_and_locks_the_f
     assert form.field.disabled and form.button.disabled and "You predict: it stays." in words(form)
 
 
-def test_what_a_reader_without_widgets_sees_does_not_depend_on_what_is_kept():
-    before = ask()._repr_mimebundle_()
-    ask(answer="it stays")
-    after = ask()._repr_mimebundle_()
-    assert [before[kind] for kind in ("text/html", "text/plain")] == [
-        after[kind] for kind in ("text/html", "text/plain")
-    ]
-    assert "<li>it stays</li>" in before["text/html"] and "it escapes / it stays" in before["text/plain"]
-
-
 def test_the_first_answer_stays():
     ask(answer="it stays")
     again = ask(answer="it escapes")
@@ -87,12 +77,6 @@ def test_what_is_no_answer_is_refused_in_one_sentence(how, sentence):
     with pytest.raises(BootcourseError, match=sentence):
         predict(**{"name": "the_barrier.1", **how})
     assert predictions() == {}
-
-
-def test_the_form_says_what_is_wrong_and_keeps_nothing():
-    form = ask()
-    form.button.click()
-    assert "choose an answer" in words(form) and not form.field.disabled and predictions() == {}
 
 
 def test_a_damaged_file_is_named_and_not_overwritten():

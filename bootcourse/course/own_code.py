@@ -18,7 +18,7 @@ from bootcourse.course import answer_files
 from bootcourse.course.answer_files import PARTS
 from bootcourse.course.judge import judge
 from bootcourse.course.lessons import registry
-from bootcourse.course.own_learner import ALONE, BUFFER, own_learner, part, parts_of
+from bootcourse.course.own_learner import own_learner, part, parts_of
 from bootcourse.course.verdict import Verdict
 from bootcourse.errors import BootcourseError, check_known
 from bootcourse.learn.learner import SACLearner, learner_for
@@ -26,8 +26,8 @@ from bootcourse.learn.replay_buffer import Batch
 from bootcourse.learn.settings import Settings, settings_for
 from bootcourse.learn.training import Training
 
-APART = {name for names in ALONE.values() for name in names}  # parts of other learners than SAC
-APART |= {"advantages", "clipped_loss", "ppo_loss", "rollout_values", "update", "train"}
+COMPARED = ("soft_value", "critic_target", "critic_loss", "actor_loss", "temperature_loss", "soft_constraint",
+            "constrained_loss", "constrained_target", "margin_loss")  # parts of SAC's update  # fmt: skip
 NONE = "No part is yours yet: agents train with the library's own."
 TOLERANCE = 1e-3  # relative difference of a loss or a gradient; rounding gives about 1e-6
 _own: dict[str, Callable] = {}  # the student's parts in this kernel
@@ -100,8 +100,8 @@ LOSSES = {
 def compare() -> Verdict:
     """Whether each of the student's parts makes the same update as the library's, on one batch; if not, which differs.
 
-    Losses and gradients are compared. The buffer's parts, which draw at random, and those of `APART` go through
-    their checks again.
+    Losses and gradients are compared. Parts that are not `COMPARED`, because they draw at random or belong to another
+    learner, go through their checks again.
     """
     mine = [name for name in PARTS if name in _own]
     if not mine:
@@ -115,7 +115,7 @@ def compare() -> Verdict:
 
 def difference(name: str) -> str:
     """What differs if this one part is the student's and all others are ours; "" if nothing does."""
-    if name in (*BUFFER, *APART):
+    if name not in COMPARED:
         verdict = judge(registry()[name], _own[name])
         return "" if verdict.passed else f"{name}: {verdict.sentence}"
     try:

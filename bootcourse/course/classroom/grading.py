@@ -99,7 +99,7 @@ def judge_all(submissions: Sequence[Submission], wanted: Sequence[str], verdicts
         environment = surroundings(folder)
         holds = barriers(folder, environment)
         pool = ProcessPoolExecutor(
-            min(workers, len(todo)), multiprocessing.get_context("spawn"), begin, (folder, environment, bool(holds))
+            min(workers, len(todo), 60), multiprocessing.get_context("spawn"), begin, (folder, environment, bool(holds))
         )
         try:
             asked = {pool.submit(judged, *pair, LONGER * registry()[pair[0]].seconds): pair for pair in todo}
