@@ -129,7 +129,7 @@ def test_a_long_answer_is_read_in_a_time_that_grows_with_its_length(case):
     assert "luck" in read(SLOW[case]).texts()  # within the clock's ten seconds
 
 
-def test_who_fills_a_cell_with_commands_stops_nobody_else(monkeypatch):
+def test_a_cell_full_of_commands_stops_no_other_student(monkeypatch):
     answers = msgspec.convert({"cells": [{"cell_type": "code", "source": "!ls\n" * 400}] * 2}, Notebook)
     with pytest.raises(BootcourseError, match="too long to read"):
         Answers(answers, Clock(0.2))

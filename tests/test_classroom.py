@@ -157,9 +157,9 @@ ATTACKS = {
     "makes memory that outlives it": "import ctypes\nif ctypes.CDLL(None).shmget(5, 2**20, 0o1777) < 0:\n    1 / 0",
     "makes files without a name": "import os\nos.memfd_create('x')",
     "looks into its judge": "import os\nopen(f'/proc/{{os.getppid()}}/mem', 'rb')",
-    "forges its report": "import sys\nframe = sys._getframe()\nwhile 'send' not in frame.f_locals:\n"
-    "    frame = frame.f_back\nfrom bootcourse.course.runner import Report\n"
-    "frame.f_locals['send'](Report(changed=(9, 9), is_last=True))",
+    "forges its report": "import sys\nframe = sys._getframe()\nwhile 'connection' not in frame.f_locals:\n"
+    "    frame = frame.f_back\nfrom bootcourse.course.runner import Report, encoder\n"
+    "frame.f_locals['connection'].send_bytes(encoder.encode(Report(changed=(9, 9))))",
     "detaches": "import os\nif os.fork() == 0:\n    os.setsid()\n    while True:\n        pass\n1 / 0",
     "reads": "raise ValueError(open({mine!r}).read())",
     "makes readable": "import os\nos.chmod({mine!r}, 0o777)",
