@@ -17,7 +17,7 @@ html_theme = "furo"
 html_static_path = ["style.css", "wide.js"]
 html_css_files = ["style.css"]
 html_js_files = ["wide.js"]
-html_extra_path = ["whole"]  # pages that are whole already: the slides
+html_extra_path = ["whole"]  # a page that is whole already: the drive
 html_show_sphinx = html_show_copyright = html_show_sourcelink = html_copy_source = False
 html_math_renderer = "mathml"
 nb_execution_mode = "off"  # the notebooks are shown as they were executed

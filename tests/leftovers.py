@@ -8,27 +8,16 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
-# Runs in the notebook's kernel. Linux says which ports and children are a process's own, elsewhere only threads count.
+# Runs in the notebook's kernel. Linux says which children a process has; a server has a thread.
 SURVEY = """
 def survey():
-    import os, threading
+    import threading
     from pathlib import Path
     threads = [(type(t).__name__, t.name) for t in threading.enumerate()]
-    own, ports, children = Path("/proc/self"), [], []
-    if own.exists():
-        sockets = set()
-        for place in (own / "fd").iterdir():
-            try:
-                sockets.add(os.readlink(place))
-            except OSError:  # the folder that is being listed
-                continue
-        for line in [line for kind in ("tcp", "tcp6") for line in (own / "net" / kind).read_text().splitlines()[1:]]:
-            part = line.split()
-            if part[3] == "0A" and f"socket:[{part[9]}]" in sockets:
-                ports.append(int(part[1].rpartition(":")[2], 16))
-        for task in (own / "task").iterdir():
-            children += (task / "children").read_text().split()
-    return {"threads": threads, "ports": sorted(set(ports)), "children": sorted(map(int, children))}
+    children, own = [], Path("/proc/self/task")
+    for task in own.iterdir() if own.exists() else ():
+        children += (task / "children").read_text().split()
+    return {"threads": threads, "children": sorted(map(int, children))}
 """
 ASK = f"(lambda names: (exec({SURVEY!r}, names), names['survey']())[1])({{}})"
 HARMLESS = {"TMonitor", "HistorySavingThread", "GarbageCollectorThread"}  # of tqdm, of IPython, of the kernel's sockets
@@ -36,7 +25,7 @@ PATIENCE = 5.0  # s that what was closed has to end
 
 
 def survey(kernel) -> dict:
-    """What the kernel of nbval holds now: threads, ports that it listens on, child processes."""
+    """What the kernel of nbval holds now: threads, also those of a server, and child processes."""
     sent = kernel.kc.execute("", silent=True, store_history=False, user_expressions={"found": ASK})
     kernel.await_idle(sent, 30)
     while True:
@@ -60,7 +49,6 @@ def left_behind(before: dict, after: dict) -> list[str]:
     """What is there that was not, as sentences."""
     new = [f"the thread {name} ({kind})" for kind, name in after["threads"]
            if (kind, name) not in before["threads"] and kind not in HARMLESS]  # fmt: skip
-    new += [f"a server on port {port}" for port in after["ports"] if port not in before["ports"]]
     children = [child for child in after["children"] if child not in before["children"] and not serves_checks(child)]
     return new + [f"the process {child}" for child in children]
 

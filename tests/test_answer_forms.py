@@ -4,15 +4,17 @@ import subprocess
 import sys
 
 import msgspec
+import numpy as np
 import pytest
 
 from bootcourse.course import answer_files, runner
 from bootcourse.course.classroom.answers import LONGEST, Answers, Clock, Notebook
-from bootcourse.course.judge import judge
+from bootcourse.course.judge import judge, outcomes
 from bootcourse.course.lessons import registry
+from bootcourse.course.runner import Report, decoder, encoder
+from bootcourse.course.values import Plain
 from bootcourse.errors import BootcourseError
 from tests.answers import RIGHT, here
-from tests.hostile import reports
 from tests.hostile.submissions import failures
 
 HEAD, LUCK = "def luck(good, decisions, tries):\n    ", "return 1 - (1 - (good / n) ** decisions) ** tries"
@@ -24,36 +26,25 @@ FORMS = {  # the cells of a notebook whose answer is right
     "% and ! in a string": [HEAD + "n = len('''\n%s\n!xyzabc''' % 12) - 2\n    " + LUCK],
     "a lambda": ["luck = lambda good, decisions, tries: 1 - (1 - (good / 9) ** decisions) ** tries"],
     "an alias": [OTHER, "luck = mine\ncheck.luck(luck)"],
-    "a stub, then an alias": [HEAD + "...\n\ncheck.luck(luck)", OTHER + "\nluck = mine"],
     "another name in the check": [OTHER, "check.luck(mine)"],
     "a lambda in the check": ["check.luck(lambda good, decisions, tries: 1 - (1 - (good / 9) ** decisions) ** tries)"],
     "a function that makes it": [f"def make(n):\n    {INSIDE}\n    return luck", "luck = make(9)\ncheck.luck(luck)"],
     "partial": ["import functools\n" + OTHER.replace("(good,", "(n, good,", 1).replace("9", "n"),
                 "luck = functools.partial(mine, 9)\ncheck.luck(luck)"],
     "under if": [f"if True:\n    {INSIDE}"],
-    "under try": [f"try:\n    {INSIDE}\nexcept ValueError:\n    pass"],
     "an indented cell": [f"    {INSIDE}\n    check.luck(luck)"],
-    "with prompts": [">>> " + NINE.replace("\n", "\n... ")],
     "x = !ls": [f"x = !ls\n{NINE}"],
-    "!ls": [f"!ls -l (a\n{NINE}"],
-    "help before it": [f"len?\n{NINE}"],
     "help behind it": [f"{NINE}\nlen??"],
-    "%time": [f"%time x = 1\n{NINE}"],
     "%%time": [f"%%time\n{NINE}"],
     "%%capture": [f"%%capture out\n{NINE}"],
     "a star import": ["from math import *", HEAD + "return -expm1(tries * log1p(-(good / 9) ** decisions))"],
     "k += 1": ["n = 8", "n += 1", HEAD + LUCK],
-    "n = n + 1": ["n = 8", "n = n + 1", HEAD + LUCK],
     "an item": ["k = {}", "k['a'] = 9", HEAD + LUCK.replace("n)", "k['a'])")],
     "an attribute": ["import types\nk = types.SimpleNamespace()", "k.a = 9", HEAD + LUCK.replace("n)", "k.a)")],
-    "append": ["k = []", "k.append(9)", HEAD + LUCK.replace("n)", "k[0])")],
     "a loop": ["k = [0] * 3", "for i in range(3):\n    k[i] = 9", HEAD + LUCK.replace("n)", "k[2])")],
     "global": ["def set_up():\n    global n\n    n = 9", "set_up()", HEAD + LUCK],
     "a form feed": [HEAD + "n = len('x\x0cyzabcde')\n    " + LUCK],
     "another end of line": [HEAD + "n = len('x\u2028yzabcde')\n    " + LUCK],
-    "line ends of Windows": [NINE.replace("\n", "\r\n")],
-    "two statements on a line": ["import math; n = 9", HEAD.replace("\n    ", " ") + LUCK],
-    "several names at once": ["m, n = 8, 9", HEAD + LUCK],
     "a helper below": [HEAD + LUCK.replace("n)", "one())"), "def one():\n    return 9"],
     "a constant between it and its check": ["n = 1", HEAD + LUCK, "n = 9", "check.luck(luck)"],
     "a constant that changes after the check": ["n = 9", f"{HEAD}{LUCK}\ncheck.luck(luck)", "n = 0"],
@@ -61,13 +52,9 @@ FORMS = {  # the cells of a notebook whose answer is right
     "a broken cell below": [f"{NINE}\ncheck.luck(luck)", "def luck(good, decisions:\n    return"],
     "what a function makes, without a check": [f"def make():\n    {INSIDE.replace(chr(10), chr(10) + '    ')}\n"
                                                "    return luck", "luck = make()"],
-    "setattr": ["import types\nk = types.SimpleNamespace()", "setattr(k, 'a', 9)", HEAD + LUCK.replace("n)", "k.a)")],
     "its own attribute": [HEAD + LUCK.replace("n)", "luck.n)"), "luck.n = 9"],
     "a class with __call__": [f"class Luck:\n    n = 9\n    def __call__(self, good, decisions, tries):\n        "
                               f"{LUCK.replace('n)', 'self.n)')}", "luck = Luck()\ncheck.luck(luck)"],
-    "match": ["match 3:\n    case 3:\n        n = 9", HEAD + LUCK],
-    "with": ["import contextlib\nwith contextlib.suppress(ValueError):\n    n = 9", HEAD + LUCK],
-    "a walrus": ["(n := 9)", HEAD + LUCK],
     "another form of a letter": ["\ufb01 = 9", HEAD + LUCK.replace("n)", "fi)")],
     "decorated": ["import functools", f"@functools.cache\n{NINE}"],
 }  # fmt: skip
@@ -142,16 +129,32 @@ def test_a_long_answer_is_read_in_a_time_that_grows_with_its_length(case):
     assert "luck" in read(SLOW[case]).texts()  # within the clock's ten seconds
 
 
-def test_who_fills_a_cell_with_commands_stops_nobody_else(monkeypatch):
+def test_a_cell_full_of_commands_stops_no_other_student(monkeypatch):
     answers = msgspec.convert({"cells": [{"cell_type": "code", "source": "!ls\n" * 400}] * 2}, Notebook)
     with pytest.raises(BootcourseError, match="too long to read"):
         Answers(answers, Clock(0.2))
 
 
 def test_damaged_submissions_stop_no_class():
-    answered, failed = failures(60, seed=0)  # more of them: python -m tests.hostile.submissions
+    answered, failed = failures(60, seed=0)
     assert answered and failed == []
 
 
-def test_forged_reports_stop_no_judge():
-    assert reports.failures(60, seed=0) == []  # more of them: python -m tests.hostile.reports
+SOLUTION = outcomes(registry()["critic_loss"], registry()["critic_loss"].solution)
+FORGED = [
+    Report(SOLUTION * 2),
+    Report(SOLUTION[:-1]),
+    Report(SOLUTION, changed=(-1, 99)),
+    Report(SOLUTION[:1], error=("E" * 5000, "t" * 9000, 10**12)),
+    Report([Plain("x" * 5000)] * len(SOLUTION), printed="p" * 9000),
+    Report([Plain("list", parts=())] * len(SOLUTION)),
+    Report([Plain("tuple", parts=(Plain("tensor", np.full((2, 3), np.nan)), Plain("text")))] * len(SOLUTION)),
+]
+
+
+@pytest.mark.parametrize("report", FORGED)
+def test_an_answer_that_sends_its_own_report_stops_no_judge(report, monkeypatch):
+    monkeypatch.setattr(runner, "run", lambda *arguments, **more: decoder.decode(encoder.encode(report)))
+    verdict = judge(registry()["critic_loss"], "def critic_loss(q_pair, action, target):\n    return 1\n")
+    assert verdict.kind in ("wrong", "did_not_run")
+    assert max(map(len, (verdict.sentence, *verdict.details))) <= 2000

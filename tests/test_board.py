@@ -1,7 +1,5 @@
 """The leaderboard: its numbers by hand, what stands on it, and what a user enters."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -14,10 +12,8 @@ from bootcourse.errors import BootcourseError
 from bootcourse.learn.teachers import course_rule
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import Estimate
-from bootcourse.storage.assets import FOLDER
 
 IDLE_EARNS = 23.4375  # on every road
-PAYLOAD = "\x1b[2J\n\"'><img src=x onerror=alert(1)>"
 
 
 def drives(returns, success, accident) -> Episodes:
@@ -50,15 +46,15 @@ def test_a_row_is_what_one_computes_by_hand():
         drives([30.0, 30.0], [0, 1], [1, 2]),
         drives([50.0, 30.0], [0, 0], [0, 0]),
     ]
-    row = row_of("plain SAC", agents, decisions=187_654)
+    row = row_of("plain SAC", agents)
     assert (row.returns.value, row.success.value, row.accidents.value) == (25, 5 / 8, 3 / 8)
-    assert 10 <= row.returns.low < 25 < row.returns.high <= 40 and row.cells[-1] == "188,000"
+    assert 10 <= row.returns.low < 25 < row.returns.high <= 40
 
 
-def test_one_driver_has_the_intervals_of_its_roads_and_no_training():
+def test_one_driver_has_the_intervals_of_its_roads():
     row = row_of("rule", [drives([1.0, 2.0, 3.0], [1, 1, 1], [0, 0, 0])])
     assert row.returns.high - 2 == pytest.approx(4.302653 / np.sqrt(3), abs=1e-5)  # Student's t with 2 degrees
-    assert row.cells == ["rule", "2.0 [-0.5, 4.5]", "100 [29, 100]", "0 [0, 71]", "–"]  # Clopper-Pearson
+    assert row.cells == ["rule", "2.0 [-0.5, 4.5]", "100 [29, 100]", "0 [0, 71]"]  # Clopper-Pearson
 
 
 def test_the_highest_return_stands_first_and_one_s_own_rule_and_policy_are_marked(few_roads):
@@ -72,14 +68,8 @@ def test_the_highest_return_stands_first_and_one_s_own_rule_and_policy_are_marke
 
 def test_the_table_is_narrow_whatever_stands_in_it():
     all_of_them = Estimate(1.0, 1.0, 1.0)
-    text = repr(Board((Row("m" * 99, Estimate(140.0, 139.0, 141.0), all_of_them, all_of_them, 9_990_000.0),)))
+    text = repr(Board((Row("m" * 99, Estimate(140.0, 139.0, 141.0), all_of_them, all_of_them),)))
     assert max(map(len, text.splitlines())) <= 100 and len(text.split("\n\n")[1].splitlines()) <= 3
-
-
-def test_a_name_from_somebody_else_s_file_is_only_text():
-    table = Board((Row(PAYLOAD, Estimate(1.0, 1.0, 1.0), own=True),))
-    assert "<img" not in table._repr_html_() and "&lt;img src=" in table._repr_html_()
-    assert "\x1b" not in repr(table) and repr(table).splitlines()[1].startswith("> ")
 
 
 def test_every_method_of_the_study_and_other_ways_has_its_row(monkeypatch):
@@ -87,25 +77,15 @@ def test_every_method_of_the_study_and_other_ways_has_its_row(monkeypatch):
     rows = {row.method: row for row in module.shipped_rows.__wrapped__()}
     assert {"planner", "rule controller", "random driver", "bootstrapped SAC", "CQL", "IBRL"} <= rows.keys()
     assert rows["idle driver"].returns.value == pytest.approx(IDLE_EARNS) and rows["planner"].success is None
-    exact = [np.nansum(bc.load_run(FOLDER / "runs" / f"soft-{i}").curves["decisions"]) for i in range(5)]
-    assert rows["soft constraint only"].decisions == pytest.approx(np.mean(exact), rel=0.1)  # five of the ten agents
 
 
 def test_agents_that_differ_in_their_seed_share_a_row_and_others_do_not(few_roads, training, tmp_path):
     (together,) = own_rows(training, course_rule)
-    assert together.decisions == pytest.approx(training.curves["decisions"].sum(axis=1).mean())
     bc.save_runs(training, tmp_path)
     (stored,) = own_rows(tmp_path, course_rule)
-    assert (stored.returns, stored.decisions) == (together.returns, together.decisions)
+    assert stored.returns == together.returns
     bc.save_runs(bc.Training([bc.settings_for("sac", gamma=0.9, seed=7)], 1).run(progress=False), tmp_path)
     assert [row.method for row in own_rows(str(tmp_path), course_rule)] == [f"plain SAC, {tmp_path}"] * 2
-
-
-def test_agents_that_see_another_number_of_cars_are_refused(few_roads, tmp_path):
-    narrow = replace(DEFAULT, sight=replace(DEFAULT.sight, neighbours=2))
-    bc.save_runs(bc.Training([bc.settings_for("bc")], 1, narrow).run(progress=False), tmp_path)
-    with pytest.raises(BootcourseError, match="sees 16 numbers, and the board's road shows 26"):
-        bc.board(tmp_path)
 
 
 def test_agents_that_drive_with_a_teacher_of_one_s_own_are_entered_with_it(few_roads, tmp_path):

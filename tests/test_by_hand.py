@@ -9,7 +9,7 @@ from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout, interpolate_states
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.demonstrations import FIRST_SEED, collect, demonstration_rows
-from bootcourse.learn.settings import settings_for, with_seeds
+from bootcourse.learn.settings import settings_for
 from bootcourse.learn.training import Training
 from bootcourse.policies import plan_policy, rule_policy
 from bootcourse.scenario import ACTION_NAMES, CALIBRATED, DEFAULT, IDLE
@@ -41,15 +41,6 @@ def test_an_accident_ends_the_drive_where_it_happened():
         drive.decide(IDLE)
 
 
-def test_a_drive_that_is_not_over_makes_a_rollout_too(tmp_path):
-    drive = InteractiveEpisode(0)
-    with pytest.raises(BootcourseError, match="Nothing was driven"):
-        drive.rollout()
-    drive.decide(IDLE)
-    assert same(Rollout.load(drive.rollout().save(tmp_path / "mine.npz")), drive.rollout())
-    assert drive.time == 1.0 and drive.actions == [IDLE]
-
-
 @pytest.mark.parametrize("nonsense", [-1, 9, 1.5, "left", True, None])
 def test_an_action_that_is_none_is_refused_and_changes_nothing(nonsense):
     drive = InteractiveEpisode(0)
@@ -78,15 +69,6 @@ def test_only_an_accident_is_an_end_without_a_future():
     n = 2 * DEFAULT.observation_size
     assert demonstration_rows([crash])[-1, n + 2] == 1 and demonstration_rows([crash])[:-1, n + 2].sum() == 0
     assert demonstration_rows(record(rule_policy(DEFAULT), [3]))[:, n + 2].sum() == 0
-
-
-def test_an_agent_learns_from_the_drives_that_it_is_given():
-    drives = record(rule_policy(DEFAULT), [5])
-    training = Training(with_seeds(settings_for("bootstrapped", **SMALL), 2), episodes=2, demonstrations=drives)
-    rows = demonstration_rows(drives)
-    assert training.replay.demonstrations == len(rows) and torch.equal(training.replay.table[: len(rows)], rows)
-    result = training.run(progress=False)
-    assert np.isfinite(result.curves["return"]).all() and not result.stopped
 
 
 def test_what_cannot_be_bootstrapped_is_refused():

@@ -1,23 +1,26 @@
-"""A class: answers are read without running a notebook, judged in a closed process, told in a table and pages."""
+"""A class: answers are read without running a notebook, judged in closed processes, and shown in a table and pages."""
 
 import csv
+import functools
 import json
 import os
 import socket
 import sys
 import tempfile
+from pathlib import Path
 
 import msgspec
 import pytest
 
 from bootcourse.cli import main
+from bootcourse.course import runner
 from bootcourse.course.classroom import grading
 from bootcourse.course.classroom.answers import LONGEST, Answers, Clock, Notebook, unfinished
-from bootcourse.course.classroom.grading import Verdicts, identical, judge_all
-from bootcourse.course.classroom.judging import Judge
-from bootcourse.course.classroom.points import handed_out, read_lessons, read_points
-from bootcourse.course.classroom.sandbox import HOLDS
-from bootcourse.course.classroom.submission import Submission, collect, fingerprint, from_notebooks
+from bootcourse.course.classroom.commands import read_lessons
+from bootcourse.course.classroom.grading import Verdicts, handed_out, judge_all
+from bootcourse.course.classroom.sandbox import HOLDS, shut_in
+from bootcourse.course.classroom.submission import Submission, collect, fingerprint
+from bootcourse.course.judge import judge
 from bootcourse.course.lessons import number, registry
 from bootcourse.errors import BootcourseError
 from tools.course.source import NOTEBOOKS
@@ -52,25 +55,6 @@ def answers_in(notebook: Notebook) -> dict[str, str]:
 
 
 # Answers --------------------------------------------------------------------------------------------
-
-
-def test_an_answer_comes_with_what_it_uses_of_other_cells_and_with_nothing_else():
-    mine = notebook(
-        cell("import math\nimport numpy as np\nfrom bootcourse.course import check\n%time\nlaunch_missiles()"),
-        cell("SHARE = 9\n\ndef once(good, decisions):\n    return (good / SHARE) ** decisions"),
-        cell("def luck(good, decisions, tries):\n    return 0"),
-        cell("def luck(good, decisions, tries):\n    return -np.expm1(tries * np.log1p(-once(good, decisions)))\n"
-             "check.luck(luck)"),
-    )  # fmt: skip
-    text, space = answers_in(read(mine))[NAME], {}
-    assert not any(word in text for word in ("math", "missiles", "check", "return 0"))
-    exec(text, space)
-    assert space[NAME](3, 2, 1) == pytest.approx(1 / 9)
-
-
-def test_a_cell_that_is_not_python_is_kept_as_it_is_for_the_judge_to_say_so():
-    text = answers_in(read(notebook(cell("def luck(good, decisions, tries:\n    return 1\n\ncheck.luck(luck)"))))[NAME]
-    assert text.startswith("def luck(good, decisions, tries:") and "check." not in text
 
 
 @pytest.mark.parametrize("path", sorted(NOTEBOOKS.glob("solved/*.ipynb")), ids=lambda path: path.stem)
@@ -109,45 +93,17 @@ def test_submit_puts_answers_and_predictions_into_one_file_that_is_read_as_it_wa
     assert [each.answers for each in collect(folder.parent)][-1] == one.answers, "a folder with the file in it"
 
 
-def test_a_folder_a_notebook_and_files_with_the_line_ends_of_windows_are_read_alike(folder):
-    (folder.parent / "grace.ipynb").write_bytes((folder / "05_the_barrier.ipynb").read_bytes())
-    for path in [*folder.glob("answers/*"), *folder.glob("*.ipynb")]:
-        path.write_bytes(path.read_bytes().replace(b"\n", b"\r\n").replace(b"\\n", b"\\r\\n"))
-    grace, mine = collect(folder.parent)
-    assert set(mine.written) == {NAME, "decode"} and set(grace.written) == {NAME}
-    assert mine.answers[NAME].split() == grace.answers[NAME].split()
-
-
-def test_submit_refuses_a_folder_without_notebooks_and_an_empty_name(bootcourse, folder, tmp_path):
-    (tmp_path / "none").mkdir()
-    assert "holds no notebook" in bootcourse("submit", tmp_path / "none", "--name", "A").err
-    assert "The name is empty" in bootcourse("submit", folder, "--name", " ").err
-
-
-def test_a_damaged_notebook_is_a_problem_and_not_the_end(folder):
-    (folder / "06_demonstrations.ipynb").write_text('{"cells": [')
-    (folder / "answers/predictions.json").write_text("[]")
-    (folder / "07_long.ipynb").write_text(json.dumps(notebook(cell("x" * (LONGEST + 1)))))
-    made = from_notebooks(folder)
-    assert NAME in made.answers and made.predictions == {}
-    assert [problem.partition(" is damaged")[0] for problem in made.problems] == [
-        "06_demonstrations.ipynb", "07_long.ipynb", "answers/predictions.json"]  # fmt: skip
-
-
 def submission(**fields) -> dict:
     """The content of a file that `submit` writes."""
-    return {"format": Submission.FORMAT, "exercises": fingerprint(), "made": "2030-01-01"} | fields
+    return {"format": Submission.FORMAT, "exercises": fingerprint(), "time": "2030-01-01"} | fields
 
 
 NO_SUBMISSION = {
     "half a file": '{"format": "bootcourse subm',
-    "a list": "[]",
     "very deep": "[" * 100_000,
     "another format": '{"format": "other"}',
-    "no text": "\x00\xff",
     "an answer that is a number": json.dumps(submission(answers={NAME: 3})),
     "an answer without an end": json.dumps(submission(answers={NAME: "x" * (LONGEST + 1)})),
-    "a list as name": json.dumps(submission(name=["Ada"])),
     "a prediction without an answer": json.dumps(submission(predictions={"5.1": {}})),
 }
 
@@ -159,32 +115,14 @@ def test_what_is_no_submission_has_a_problem_that_names_the_file_and_no_answers(
     assert (one.student, one.answers) == ("ada", {}) and one.problems[0].startswith("ada.json")
 
 
-def test_everything_in_the_folder_of_a_class_is_somebody_s_and_is_named_if_it_is_not_read(tmp_path):
-    (tmp_path / "several").mkdir()
-    for place, made in {
-        "ada.json": "2030-01-01",
-        "several/a.json": "2030-01-02",
-        "several/b.json": "2030-01-01",
-    }.items():
-        (tmp_path / place).write_text(json.dumps(submission(made=made, answers={NAME: made})))
-    (tmp_path / "grace.pdf").write_text("%PDF")
-    (tmp_path / "link.json").symlink_to(tmp_path / "ada.json")
-    one = {each.student: each for each in collect(tmp_path)}
-    assert "was not read" in one["grace"].problems[0] and "was not read" in one["link"].problems[0]
-    assert one["several"].answers[NAME] == "2030-01-02"
-
-
 TAKEN = {  # a file of the user's, and the command that would replace it
     "a notebook": ("mine/1.ipynb", ["submit", "mine", "--name", "Ada", "--out", "mine/1.ipynb"]),
     "another student's": ("submission-李.json", ["submit", "mine", "--name", "王", "--out", "submission-李.json"]),
-    "a submission": ("class/ada.json", ["grade", "class", "--out", "class/ada.json"]),
     "a table among submissions": ("class/ada.json", ["grade", "class", "--out", "class/ada.csv"]),
     "a thesis": ("thesis.md", ["grade", "class", "--out", "thesis.md"]),
     "a table": ("pts.csv", ["grade", "class", "--out", "pts.csv"]),
-    "a page": ("pts.html", ["grade", "class", "--out", "pts.csv"]),
     "verdicts": ("pts-verdicts.jsonl", ["grade", "class", "--out", "pts.csv"]),
     "a page of somebody": ("pts-pages/ada.html", ["grade", "class", "--out", "pts.csv"]),
-    "the whole disk": ("thesis.md", ["grade", "class", "--out", "/"]),
     "an archive": ("course.zip", ["handout", "course", "--lessons", "5"]),
 }  # fmt: skip
 
@@ -197,16 +135,10 @@ def test_no_command_replaces_a_file_that_it_did_not_write(case, bootcourse, fold
     taken, command = TAKEN[case]
     name = {"name": "李"} if case == "another student's" else {}
     for path in {"class/ada.json", taken}:
-        (folder.parent / path).write_text(json.dumps(submission(made="by me", **name)))
+        (folder.parent / path).write_text(json.dumps(submission(time="by me", **name)))
     answer = bootcourse(*command)
     assert answer.status == 2 and len(answer.err.strip().splitlines()) == 1, answer.err
     assert "by me" in (folder.parent / taken).read_text()
-
-
-def test_two_students_with_names_in_chinese_have_two_files(bootcourse, folder):
-    for name in ("李明", "王芳", "王芳"):
-        assert bootcourse("submit", folder, "--name", name).status == 0
-    assert len(list(folder.glob("submission-*.json"))) == 2
 
 
 # Judging --------------------------------------------------------------------------------------------
@@ -225,9 +157,9 @@ ATTACKS = {
     "makes memory that outlives it": "import ctypes\nif ctypes.CDLL(None).shmget(5, 2**20, 0o1777) < 0:\n    1 / 0",
     "makes files without a name": "import os\nos.memfd_create('x')",
     "looks into its judge": "import os\nopen(f'/proc/{{os.getppid()}}/mem', 'rb')",
-    "forges its report": "import sys\nframe = sys._getframe()\nwhile 'send' not in frame.f_locals:\n"
-    "    frame = frame.f_back\nfrom bootcourse.course.runner import Report\n"
-    "frame.f_locals['send'](Report(changed=(9, 9), is_last=True))",
+    "forges its report": "import sys\nframe = sys._getframe()\nwhile 'connection' not in frame.f_locals:\n"
+    "    frame = frame.f_back\nfrom bootcourse.course.runner import Report, encoder\n"
+    "frame.f_locals['connection'].send_bytes(encoder.encode(Report(changed=(9, 9))))",
     "detaches": "import os\nif os.fork() == 0:\n    os.setsid()\n    while True:\n        pass\n1 / 0",
     "reads": "raise ValueError(open({mine!r}).read())",
     "makes readable": "import os\nos.chmod({mine!r}, 0o777)",
@@ -235,39 +167,23 @@ ATTACKS = {
     "talks to a program": "import socket\nsocket.socket(socket.AF_UNIX).connect({listener!r})",
     "fills the disk": "for k in range(200):\n    open(str(k), 'wb').write(bytes(2**20))",
     "writes a long file": "open('long', 'wb').write(bytes(2**25))",
-    "changes compiled code": "import os\nopen(os.environ['NUMBA_CACHE_DIR'] + '/x', 'w')",
+    "changes compiled code": "from bootcourse.road import compiled\nopen(compiled.CACHE_FOLDER / 'x', 'w')",
     "cheats": "import os, sys\nsys.stdout.write('{{\"kind\": \"passed\"}}')\nos.write(1, b'passed')",
 }
 
 
-@pytest.fixture(scope="module")
-def judge(tmp_path_factory):
-    """It starts in a folder in which somebody has handed in a module."""
-    folder = tmp_path_factory.mktemp("handed_in")
-    for name in ("numpy", "bootcourse", "msgspec"):
-        (folder / name).mkdir()
-        (folder / name / "__init__.py").write_text(f"open({str(folder / 'ran')!r}, 'w')")
-    judge = Judge()
-    with pytest.MonkeyPatch.context() as patch:
-        patch.chdir(folder)
-        patch.syspath_prepend("")
-        patch.syspath_prepend(folder)
-        judge.start()
-    assert not (folder / "ran").exists()
-    yield judge
-    judge.close()
-
-
-def test_a_right_answer_passes_and_a_known_mistake_gets_its_sentence(judge):
-    assert judge.ask(NAME, RIGHT, 10).kind == "passed"
-    mistake = judge.ask(NAME, ONE_TRY, 10)
-    assert mistake.is_known and mistake.sentence in [each.says for each in registry()[NAME].mistakes]
-    broken = judge.ask(NAME, RIGHT.replace("return 1", "retrun 1"), 10)
-    assert not broken.is_known and "line 2, `retrun 1" in broken.sentence
+@pytest.fixture
+def holds(tmp_path):
+    """Answers are shut in as when a class is graded. What holds on this system."""
+    with pytest.MonkeyPatch.context() as patch, tempfile.TemporaryDirectory() as folder:
+        runner.stop()
+        patch.setattr(runner, "SHUT_IN", functools.partial(shut_in, Path(folder)))
+        yield grading.barriers(folder, grading.surroundings(folder))
+        runner.stop()
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux shuts the process in")
-def test_on_linux_nothing_outside_is_reached_and_the_next_answer_is_judged(judge, tmp_path):
+def test_on_linux_nothing_outside_is_reached_and_the_next_answer_is_judged(holds, tmp_path):
     (tmp_path / "mine.txt").write_text("mine")
     said, kept = {}, (tmp_path / "mine.txt").stat()
     with socket.create_server(("127.0.0.1", 0)) as listener, socket.socket(socket.AF_UNIX) as other:
@@ -276,27 +192,22 @@ def test_on_linux_nothing_outside_is_reached_and_the_next_answer_is_judged(judge
         given = {"pid": os.getpid(), "port": listener.getsockname()[1], "folder": str(tmp_path),
                  "listener": address, "mine": str(tmp_path / "mine.txt")}  # fmt: skip
         for what, lines in ATTACKS.items():
-            verdict = judge.ask(NAME, body(lines.format(target=str(tmp_path / "theirs"), **given)), 10)
+            text = body(lines.format(target=str(tmp_path / "theirs"), **given))
+            verdict = judge(registry()[NAME], text, 10)
             said[what] = verdict.sentence
             assert verdict.kind != "passed" and os.environ["PATH"][:20] not in str(verdict), what
-        if set(judge.holds) == set(HOLDS):
+        if set(holds) == set(HOLDS):
             assert [path.name for path in tmp_path.iterdir()] == ["mine.txt"]
             assert (tmp_path / "mine.txt").stat()[:9] == kept[:9]
             assert "No space left" in said["fills the disk"] and "File too large" in said["writes a long file"]
-            for what in ("reads", "makes readable", "dates", "talks to a program", "changes compiled code", "forks",
-                         "starts a program", "makes files without a name", "looks into its judge"):  # fmt: skip
+            refused = "reads", "makes readable", "dates", "talks to a program", "changes compiled code", "forks"
+            for what in (*refused, "kills", "starts a program", "makes files without a name"):
                 assert "PermissionError" in said[what], said[what]
             assert "ZeroDivisionError" in said["makes memory that outlives it"]
             listener.settimeout(0.1)
             with pytest.raises(TimeoutError):
                 listener.accept()
-    assert judge.ask(NAME, RIGHT, 10).kind == "passed"
-
-
-def test_a_process_that_dies_is_started_anew(judge):
-    judge.ask(NAME, RIGHT, 10)
-    judge.process.kill()
-    assert judge.ask(NAME, RIGHT, 10).kind == "passed"
+    assert judge(registry()[NAME], RIGHT, 10).passed
 
 
 # Grading --------------------------------------------------------------------------------------------
@@ -306,11 +217,10 @@ def test_a_process_that_dies_is_started_anew(judge):
 def graded(tmp_path_factory):
     """A small class, graded once: its folder."""
     folder = tmp_path_factory.mktemp("class")
-    twin = dict.fromkeys(("luck", "learn_chain", "bearable_risk"), RIGHT)
     asked = {"5.1": {"question": f"How many? {SCRIPT}", "answer": SCRIPT}}
     students = {
-        "ada": submission(answers=twin, predictions=asked),
-        "Åke & co": submission(answers={name: text.replace("\n", "\n\n") for name, text in twin.items()}),
+        "ada": submission(answers={NAME: RIGHT}, predictions=asked),
+        "Åke & co": submission(answers={NAME: RIGHT}),
         "mistaken": submission(
             answers={NAME: ONE_TRY}, right=[NAME], name="=1+1", exercises="older", predictions=asked
         ),
@@ -318,16 +228,20 @@ def graded(tmp_path_factory):
         "mallory": submission(answers={NAME: body(f"raise ValueError('{SCRIPT}')")}, name=f"<b>M {SCRIPT}"),
     }
     (folder / "class/empty").mkdir(parents=True)
+    for name in ("numpy", "bootcourse", "multiprocessing"):  # modules that somebody has handed in
+        (folder / "class" / name).mkdir()
+        (folder / "class" / name / "__init__.py").write_text(f"open({str(folder / 'ran')!r}, 'w')")
     (folder / "class/damaged.json").write_text("{")
     for student, content in students.items():
         (folder / f"class/{student}.json").write_text(json.dumps(content))
     with pytest.MonkeyPatch.context() as patch:
-        arguments = ["grade", folder / "class", "--out", folder / "grades.csv", "--lessons", LESSON, "--workers", "1"]
+        arguments = ["grade", ".", "--out", folder / "grades.csv", "--lessons", LESSON, "--workers", "1"]
+        patch.chdir(folder / "class")
         patch.setattr(sys, "argv", ["bootcourse", *map(str, arguments)])
         patch.setattr(grading, "LONGER", 0.5)
         with pytest.raises(SystemExit) as ended:
             main()
-    assert not ended.value.code
+    assert not ended.value.code and not (folder / "ran").exists()
     return folder
 
 
@@ -342,7 +256,7 @@ def test_each_student_is_graded_whatever_the_others_do(graded):
 def test_the_page_about_the_class_says_what_to_look_at_and_escapes_what_students_wrote(graded):
     text = (graded / "grades.html").read_text(encoding="utf-8")
     for part in (
-        "made with another version", "did not run: <code>luck</code>", "identical in all but spaces",
+        "made with another version", "did not run: <code>luck</code>",
         "right in the notebook, not here: <code>luck</code>",
         "damaged.json is damaged", "no answer written", "grades-pages/%C3%85ke%20%26%20co.html", "How many?",
         "Answers were judged", "(2)",
@@ -363,31 +277,6 @@ def test_a_grading_goes_on_where_it_was_stopped(graded, tmp_path):
     verdicts = Verdicts(tmp_path / "v.jsonl")
     assert len(verdicts.known) == len(lines.splitlines())
     assert judge_all(collect(graded / "class"), [NAME], verdicts, 1) == []
-
-
-def test_twins_are_found_and_who_wrote_little_is_not():
-    text = dict.fromkeys(("a", "b", "c"), RIGHT)
-    spaced = {name: RIGHT.replace("\n", "\n\n") for name in text}
-    each = [Submission(student=s, answers=a) for s, a in (("1", text), ("2", spaced), ("3", {"a": RIGHT}))]
-    assert identical([*each, Submission(student="4", answers={"a": RIGHT})]) == [["1", "2"]]
-
-
-def test_points_are_the_difficulty_unless_the_file_says_otherwise(tmp_path):
-    assert read_points(None, {int(LESSON)})[NAME] == registry()[NAME].difficulty
-    (tmp_path / "p.toml").write_text("default = 2\n[exercises]\nluck = 5.5\n")
-    points = read_points(tmp_path / "p.toml")
-    assert points[NAME] == 5.5 and points["decode"] == 2 and len(points) == len(registry())
-
-
-@pytest.mark.parametrize(
-    "text, sentence",
-    [("[exercises]\nluk = 1", "did you mean 'luck'"), ("[exercises]\nluck = -1", ">= 0"),
-     ("points = 3", "unknown field `points`"), ("= 3", "p.toml is damaged"), ("default = true", "Expected")],
-)  # fmt: skip
-def test_a_wrong_file_of_points_gets_one_sentence(tmp_path, text, sentence):
-    (tmp_path / "p.toml").write_text(text)
-    with pytest.raises(BootcourseError, match=sentence):
-        read_points(tmp_path / "p.toml")
 
 
 def test_a_class_is_graded_over_the_lessons_that_were_handed_out():

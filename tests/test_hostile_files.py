@@ -66,7 +66,7 @@ def formats(tmp_path_factory) -> dict[str, Format]:
     shutil.copy(FOLDER / MANIFEST, folder / MANIFEST)
     made = {"provenance": provenance(seconds=1.5), "sha256": {}}
     write_sealed(folder / "job" / "job.json", {"format": JOB, "asked": {}} | made)
-    handout = {"format": Handout.FORMAT, "lessons": [5], "solutions": True, "files": {}, "cells": {}}
+    handout = {"format": Handout.FORMAT, "lessons": [5], "solutions": True, "files": {}}
     write_json(folder / "handout.json", handout)
     answers = folder / "answers" / "predictions.json"
     write_json(answers, {"5.1": {"question": "How many?", "choices": [], "unit": "", "answer": 2.5, "time": ""}})

@@ -11,7 +11,6 @@ from bootcourse.course.exercise import exercise as exercise_of
 from bootcourse.course.exercise import logits
 from bootcourse.course.judge import judge, outcomes
 from bootcourse.course.lessons import registry
-from bootcourse.course.verdict import Verdict
 from bootcourse.errors import BootcourseError
 from tests.answers import RIGHT, WRONG, here, one_sentence
 
@@ -59,13 +58,6 @@ def test_the_solution_gives_what_was_worked_out_by_hand(exercise):
         assert values.same(answer, values.plain(by_hand), exercise.tolerance), values.numbers(answer)
 
 
-def test_an_exercise_has_many_cases_and_right_and_wrong_answers():
-    assert set(RIGHT) | set(WRONG) <= set(EXERCISES)
-    for name, exercise in EXERCISES.items():
-        assert len(exercise.all_arguments) >= 20 and len(exercise.mistakes) >= 3, name
-        assert RIGHT[name] and WRONG[name] and len(WRONG[name]) + len(exercise.mistakes) >= 5, name
-
-
 def test_hints_come_one_by_one_and_the_solution_when_asked():
     for name, exercise in EXERCISES.items():
         check._hints_given.clear()
@@ -76,15 +68,15 @@ def test_hints_come_one_by_one_and_the_solution_when_asked():
 
 
 # The engine, on a few exercises -------------------------------------------------------------------
-# A number, an array, a loss, how well an answer drives, and a verdict in the exercise's own words stand for all.
+# A number, a loss, and how well an answer drives stand for all.
 
 
-@pytest.fixture(params=["target_speed", "decode", "cloning_loss", "my_rule", "diagnose"])
+@pytest.fixture(params=["target_speed", "cloning_loss", "my_rule"])
 def one(request):
     return EXERCISES[request.param]
 
 
-@pytest.mark.parametrize("body", ["...", "pass", "return None", "raise NotImplementedError", "'''What it does.'''"])
+@pytest.mark.parametrize("body", ["...", "raise NotImplementedError", "'''What it does.'''"])
 def test_an_untouched_stub_fails_politely(one, body):
     space = {}
     exec(f"def {one.call}:\n    {body}", space)
@@ -106,11 +98,6 @@ def test_raising_is_said_in_one_sentence_with_the_line(one):
     verdict = judge(one, raises)
     assert "`return 1 / (len(arguments) - len(arguments))`: ZeroDivisionError" in verdict.sentence
     assert verdict.kind == "did_not_run" and one_sentence(verdict)
-
-
-def test_a_wrong_number_of_arguments_is_said_in_one_sentence(one):
-    verdict = judge(one, lambda only, *, too: only)
-    assert f"the check calls `{one.call}`" in verdict.sentence and one_sentence(verdict)
 
 
 @pytest.mark.parametrize("name", ["decode", "cloning_loss", "my_rule"])  # the others ask for no array
@@ -161,25 +148,9 @@ def test_an_answer_that_is_wrong_in_no_known_way_is_shown_its_first_case():
     assert {"gamma = 0.8", "reward = [1, -10]", "yours = [6, -5]", "right = [9, -10]"} <= set(verdict.details)
 
 
-def test_truth_values_are_shown_as_true_and_false():
-    verdict = check.guide_shrinks(lambda returns, best, window, tolerance: False)
-    assert {"yours = False", "right = True"} <= set(verdict.details)
-
-
 def test_an_answer_that_is_right_in_all_but_one_case_does_not_pass():
     seen = itertools.count()
     assert not judge(TARGET, lambda *given: TARGET.solution(*given) + (next(seen) == 40)).passed
-
-
-def test_an_answer_that_writes_every_result_into_one_tensor_is_judged_by_what_it_returned():
-    buffer = torch.zeros(100).double()
-
-    def reuse(*arguments):
-        right = TARGET.solution(*arguments)
-        buffer[: len(right)] = right
-        return buffer[: len(right)]
-
-    assert judge(TARGET, reuse).passed
 
 
 def test_strict_raises_what_does_not_pass_and_only_that():
@@ -202,11 +173,6 @@ def test_a_misspelt_exercise_is_one_sentence_with_the_nearest_name():
 def test_markup_in_a_message_is_shown_and_not_obeyed():
     verdict = check.critic_target(evil)
     assert "<script>" not in verdict._repr_mimebundle_()["text/html"] and "<script>" in repr(verdict)
-
-
-def test_code_and_stressed_words_look_so_in_a_notebook():
-    html = Verdict("wrong", "The *rule* counts in `x * y * z`, not 2 * 3 * 4.")._repr_mimebundle_()["text/html"]
-    assert "The <em>rule</em> counts in <code>x * y * z</code>, not 2 * 3 * 4." in html
 
 
 def entropy_of(log_pi):
@@ -241,7 +207,3 @@ def SLOPES(log_pi, q):
 def test_of_a_loss_the_slopes_are_compared_through_the_logits(answer, words):
     verdict = judge(SLOPES, answer)
     assert (verdict.passed if words == "" else words in verdict.sentence) and one_sentence(verdict), verdict
-
-
-def test_check_offers_its_exercises_for_completion():
-    assert {"hint", "solution", *registry()} <= set(dir(check))

@@ -6,19 +6,15 @@ import functools
 import io
 import os
 import random
-import signal
 import sys
 import threading
 import time
 from contextlib import redirect_stdout
-from pathlib import Path
 
 import cloudpickle
-import nbformat
 import numpy as np
 import pytest
 import torch
-from nbclient import NotebookClient
 
 from bootcourse.course import check, runner, values
 from bootcourse.course.judge import judge
@@ -58,22 +54,8 @@ def raises_what_cannot_be_printed(*arguments):
     raise Unprintable
 
 
-def kills_the_process_that_started_it(*arguments):
-    os.kill(os.getppid(), signal.SIGKILL)
-    time.sleep(9)
-
-
-def stops_the_process_that_started_it(reward, *rest):
-    os.kill(os.getppid(), signal.SIGSTOP)
-    return reward
-
-
 def fills_the_memory(*arguments):
     return np.ones(10**10)
-
-
-def fills_the_memory_with_a_tensor(*arguments):
-    return torch.ones(10**10)
 
 
 def returns_far_too_much(reward, *rest):
@@ -112,9 +94,7 @@ HOSTILE = {
     lambda *arguments: sys.exit("bye"): "SystemExit: bye",
     lambda *arguments: ctypes.string_at(0): "SIGSEGV",
     raises_what_cannot_be_printed: "raises an error in line",
-    stops_the_process_that_started_it: "differ at [0]",
     fills_the_memory: "2 GiB",
-    fills_the_memory_with_a_tensor: "2 GiB",
     returns_far_too_much: "of 1,048,577 numbers",
     leaves_threads_and_processes_behind: "differ at [0]",
     forges_its_report: "too much to compare",
@@ -138,29 +118,11 @@ def test_whatever_an_answer_does_is_one_sentence_and_leaves_nothing_behind(answe
     assert judge(TARGET, TARGET.solution).passed
 
 
-@pytest.mark.skipif(not runner.FORKS, reason="needs a fork")
-def test_an_answer_that_kills_the_process_that_started_it_ends_with_it(tmp_path):
-    def answer(*arguments):
-        (tmp_path / "pid").write_text(str(os.getpid()))
-        kills_the_process_that_started_it()
-
-    assert "crash" in judge(TARGET, answer).sentence
-    pid = int((tmp_path / "pid").read_text())
-    status = Path(f"/proc/{pid}/status")
-    assert not status.exists() or "State:\tZ" in status.read_text()
-
-
 def test_without_a_fork_each_answer_has_a_new_process(monkeypatch):
     runner.stop()
     monkeypatch.setattr(runner, "FORKS", False)
     assert "stopped after 0.5 s" in judge(TARGET, holds_the_interpreter, 0.5).sentence
     runner.stop()
-
-
-def test_what_cannot_be_sent_to_another_process_is_refused_in_one_sentence():
-    lock = threading.Lock()
-    verdict = check.critic_target(lambda *arguments: lock)
-    assert "make it inside the function" in verdict.sentence and one_sentence(verdict)
 
 
 RIGHT_TEXT = "import torch\n\ndef critic_target(r, t, v, gamma):\n    return r + gamma * (1 - t) * v\n"
@@ -200,12 +162,9 @@ def test_a_cache_no_return_a_stub_that_is_begun_a_path_and_float64_are_what_they
 
 
 TEXTS = [
-    (RIGHT_TEXT, "passed", "Right."),
     (RIGHT_TEXT.replace("(1 - t)", "t"), "wrong", "inverted"),
     (RIGHT_TEXT.replace("* v", "* w"), "did_not_run", "line 4, `return r + gamma * (1 - t) * w`: NameError"),
-    (RIGHT_TEXT.replace("(r, t, v", "(r, t"), "wrong", "the check calls"),
     ("def critic_target(r, t, v, gamma):\n    ...", "todo", "Nothing to check yet"),
-    ("critic_target = 3", "wrong", "this is a number"),
     ("x =", "did_not_run", "line 1, `x =`: SyntaxError"),
     ("", "wrong", "no function `critic_target`"),
 ]
@@ -218,11 +177,6 @@ def test_a_text_is_judged_like_a_function(text, kind, words, monkeypatch):
     assert verdict.kind == kind and words in verdict.sentence and one_sentence(verdict), verdict
 
 
-@pytest.mark.parametrize("text, words", [("while True: pass", "after 0.5 s"), ("import os; os._exit(1)", "code 1")])
-def test_a_text_that_does_not_define_anything_is_stopped_too(text, words):
-    assert words in judge(TARGET, text, 0.5).sentence
-
-
 @pytest.mark.parametrize("seconds, waited, left", [(6, 0.1, 6), (6, 4, 4), (6, 30, 3), (1, 30, 1), (90, 30, 90)])
 def test_a_check_takes_ten_seconds_at_most_unless_the_exercise_needs_more(seconds, waited, left):
     assert runner.time_left(seconds, waited) == left
@@ -233,25 +187,5 @@ def test_what_a_function_prints_is_kept_short_and_shown_with_what_is_wrong():
         print("reward is", reward.tolist())
         return reward
 
-    assert "printed: reward is [1.0, -10.0]" in check.critic_target(chatty).details[-1]
-    assert len(judge(TARGET, endless, 0.2).details[-1]) < 600
-
-
-# In a notebook's kernel ---------------------------------------------------------------------------
-
-
-def test_a_kernel_outlives_what_an_answer_does_and_shows_its_line():
-    cells = [
-        "import os, threading\nfrom bootcourse.course import check\nbefore = threading.active_count()",
-        "check.critic_target(lambda *a: os._exit(1))",
-        "def f(*a):\n    x = 1\n    return x + 'a'\ncheck.critic_target(f)",
-        "def f(reward, *a):\n    ...\n\n\ncheck.critic_target(f)",
-        "print('alive', threading.active_count() - before)",
-    ]
-    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in cells])
-    NotebookClient(notebook, timeout=60).execute()
-    said = [cell.outputs[0] for cell in notebook.cells[1:]]
-    assert "exit code 1" in said[0].data["text/plain"] and "✗" in said[0].data["text/html"]
-    assert "in line 3, `return x + 'a'`: TypeError" in said[1].data["text/plain"]
-    assert "Nothing to check yet" in said[2].data["text/plain"]
-    assert said[3].text == "alive 0\n"
+    said = check.critic_target(chatty).details[-1]
+    assert "printed: reward is [1.0, -10.0]" in said and len(said) < 600

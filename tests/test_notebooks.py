@@ -3,16 +3,13 @@
 nbval executes the student's notebooks; test_course.py holds both to their sources.
 """
 
+import re
 from pathlib import Path
 
 import nbformat
 import pytest
 
-from bootcourse import one_per_cell
-from bootcourse.course import check
 from bootcourse.course.lessons import stem
-from bootcourse.learn.training import Training
-from tests.solved import cells_to_run, code_of
 from tools.course.numbering import NOTEBOOKS
 
 SOLVED = sorted(NOTEBOOKS.glob("solved/*.ipynb"))
@@ -52,36 +49,9 @@ def test_a_notebook_names_no_place_on_the_machine_that_made_it(notebook):
     assert str(NOTEBOOKS.parent) not in text and (str(Path.home()) == "/" or str(Path.home()) not in text)
 
 
-# Solved ---------------------------------------------------------------------------------------------
-
-
-def execute(cells: list[str]) -> None:
-    """Run cells one after the other, as a kernel would. Raises what a cell raises, and where a check fails."""
-    space = {"__name__": "__main__"}
-    try:
-        for cell in cells:
-            exec(compile(cell, "a cell", "exec"), space)
-    finally:
-        check.strict(False)
-        for shown in one_per_cell.running():  # a prediction's form
-            shown.close()
-
-
-@pytest.fixture
-def short_trainings(monkeypatch):
-    """A training ends after 500 updates. What the course's code learns in a whole one, nbval sees."""
-    whole = Training.run
-
-    def run(training, *arguments, stop=None, **more):
-        return whole(training, *arguments, stop=lambda: training.updates >= 500 or bool(stop and stop()), **more)
-
-    monkeypatch.setattr(Training, "run", run)
-
-
-@pytest.mark.usefixtures("short_trainings")
-@pytest.mark.parametrize("path", SOLVED, ids=lambda path: path.stem)
-def test_in_a_solved_notebook_every_check_passes_and_what_uses_a_solution_runs(path, monkeypatch):
-    monkeypatch.chdir(path.parent)
-    cells = cells_to_run(code_of(path), code_of(path.parent.parent / path.name))
-    assert any(cell.startswith("check.strict()") for cell in cells) and sum("\ncheck." in cell for cell in cells) > 0
-    execute(cells)
+def test_a_picture_says_what_a_reader_should_see(notebook):
+    data = [output.get("data", {}) for cell in notebook.cells for output in cell.get("outputs", [])]
+    assert not any(kind.startswith("image/") for each in data for kind in each), "JupyterLab drops their alt text"
+    pictures = [tag for each in data for tag in re.findall(r"<img [^>]*>", each.get("text/html", ""))]
+    assert [tag[:80] for tag in pictures if not re.search(r'alt="[^"]{40,}"', tag)] == []
+    assert not any(re.search(r"!\[\s*\]\(", cell.source) for cell in notebook.cells if cell.cell_type == "markdown")

@@ -6,7 +6,7 @@ import pytest
 
 from bootcourse.course.lessons import LESSONS, number, stem
 from tools import book
-from tools.course import claims, front_page, slides
+from tools.course import claims
 from tools.course.known import minutes
 from tools.course.numbering import resolved
 
@@ -57,19 +57,9 @@ def test_each_of_twenty_questions_has_an_answer_and_five_points():
     assert [sum(map(int, re.findall(r"\([a-d]\)\s(\d)", rubric))) for rubric in rubrics] == [5] * 20
 
 
-def test_what_the_exam_quotes_from_the_report_stands_there():
-    report = (book.ROOT / "assets/report/report.md").read_text(encoding="utf-8")
-    quoted = re.search(r"^### 3\..*?^### 4\.", EXAM, re.M | re.S)[0]
-    quotes = re.findall(r"^(\| [a-z].*?\| \d\.\d\d) \|$", quoted, re.M)
-    assert len(quotes) == 4 and all(f"\n{row} [" in report.split("## Scenario: calibrated")[0] for row in quotes)
-
-
 @pytest.mark.parametrize("edition", ["student", "instructor"])
 def test_the_exam_and_what_leads_to_solutions_are_in_the_instructor_s_edition_alone(edition, tmp_path, monkeypatch):
-    monkeypatch.setattr(book, "replays", lambda: "# Replays\n")
-    monkeypatch.setattr(front_page, "fill", lambda folder: None)
     monkeypatch.setattr(claims, "claims_page", lambda: "# Claims\n")
-    monkeypatch.setattr(slides, "fill", lambda folder: None)
     monkeypatch.setattr("bootcourse.web.build.main", lambda arguments: None)
     book.gather(tmp_path / "source", edition)
     pages = [tmp_path / "source" / name for name in ("index.md", *(f"teaching/{p.name}" for p in TEACHING.iterdir()))]

@@ -27,7 +27,7 @@ SOLVED = re.compile(r"\[([^]]*)\]\(\.\./solved/([^)]*)\)")
 def gather(to: Path, edition: str = "student") -> None:
     """Put all that the book is made of into the folder `to`. edition: student, or instructor with the solutions."""
     from bootcourse.web import build as drive_page
-    from tools.course import paper_map, slides
+    from tools.course import paper_map
     from tools.course.claims import claims_page, fill_in
     from tools.course.numbering import resolved
 
@@ -36,7 +36,6 @@ def gather(to: Path, edition: str = "student") -> None:
     shutil.copytree(ROOT / "assets/report", to / "report")
     shutil.copytree(ROOT / "assets/readme", to / "pictures")
     shutil.copy(ROOT / "assets/checks.md", to)
-    slides.fill(to)
     drive_page.main(["--out", str(to / "whole/trap.html")])
     if edition != "instructor":
         (to / "teaching/exam.md").unlink()
@@ -56,7 +55,6 @@ def gather(to: Path, edition: str = "student") -> None:
         # The solved notebooks are not in the book: the page has the solutions itself, and says where they lie.
         text = SOLVED.sub(r"\1 (`notebooks/solved/\2`)", page.read_text(encoding="utf-8"))
         (to / "lessons/instructor" / page.name).write_text(text, encoding="utf-8")
-    (to / "replays.md").write_text(replays(), encoding="utf-8")
     (to / "claims.md").write_text(claims_page(), encoding="utf-8")
 
 
@@ -67,23 +65,6 @@ def add_drive(notebook: Path, address: str) -> None:
     text = f'{frame} style="width: 100%; height: 880px; border: 0"></iframe>'
     content["cells"].insert(1, {"cell_type": "markdown", "id": "trap", "metadata": {}, "source": [text]})
     notebook.write_text(json.dumps(content), encoding="utf-8")
-
-
-def replays() -> str:
-    """A page with every drive that ships: to play, and in words."""
-    from bootcourse.episodes.rollout import Rollout
-    from bootcourse.episodes.words import outcome, sentence, transcript
-    from bootcourse.methods import display_name
-    from bootcourse.replay3d import recording
-    from bootcourse.storage.assets import FOLDER
-
-    parts = ["# Replays", "Every drive that ships with the course, to play and to turn with the mouse, and in words."]
-    for path in sorted((FOLDER / "rollouts").glob("*.npz")):
-        drive = Rollout.load(path)
-        shown = recording([drive], height=480).html_with_poster()
-        parts += [f"## {sentence(display_name(drive.label))}: {outcome(drive)}", f"```{{raw}} html\n{shown}\n```"]
-        parts.append("\n".join(f"- {line}" for line in transcript(drive)))
-    return "\n\n".join(parts) + "\n"
 
 
 def build(source: Path, html: Path) -> int:

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 from bootcourse.course.predictions import compare_predictions, predict
 
-__all__ = ["code_of", "compare_predictions", "predict", "source", "table", "text_of"]
+__all__ = ["compare_predictions", "predict", "source", "table"]
 
 
 def table(headings: Sequence[str], rows: Sequence[Sequence[str]], below: str = ""):
@@ -23,9 +23,13 @@ def table(headings: Sequence[str], rows: Sequence[Sequence[str]], below: str = "
 def source(module: str, *names: str):
     """The library's own code of some functions, or of a "Class.method", as a notebook output: it is what runs.
 
-    It is folded, since it may be the answer to an exercise.
+    It is folded, since it may be the answer to an exercise. A compiled function holds its Python.
     """
-    code = code_of(*(operator.attrgetter(name)(importlib.import_module(module)) for name in names))
+    from IPython.display import Code
+
+    parts = [operator.attrgetter(name)(importlib.import_module(module)) for name in names]
+    texts = [textwrap.dedent(inspect.getsource(getattr(part, "py_func", part))).rstrip() for part in parts]
+    code = Code("\n\n".join(texts), language="python")
     listed = ", ".join(f"<code>{name}</code>" for name in names)
     html = f"<details><summary>{module}: {listed}</summary>{code._repr_html_()}</details>"
     return Folded(html, f"{module}: {', '.join(names)}\n\n{code.data}")
@@ -42,15 +46,3 @@ class Folded:
 
     def __repr__(self) -> str:
         return self.text
-
-
-def code_of(*functions):
-    """The code of functions at hand, as a notebook output."""
-    from IPython.display import Code
-
-    return Code("\n\n".join(text_of(function) for function in functions), language="python")
-
-
-def text_of(function) -> str:
-    """A function's code; a compiled function holds its Python."""
-    return textwrap.dedent(inspect.getsource(getattr(function, "py_func", function))).rstrip()

@@ -29,40 +29,40 @@ HEAD = '"""Your `{0}`, which passed its check. Without this file, the library\'s
 
 def write(name: str, answer: Callable) -> Path:
     """Keep an answer. Returns its file. Raises BootcourseError if it cannot be kept."""
-    found = {}
-    collect(answer, found)
-    imports = sorted(text for text in found.values() if text.startswith(("import ", "from ")))
-    rest = [text for text in found.values() if text not in imports]
+    texts = {}
+    collect(answer, texts)
+    imports = sorted(text for text in texts.values() if text.startswith(("import ", "from ")))
+    rest = [text for text in texts.values() if text not in imports]
     path = FOLDER / f"{name}.py"
     write_bytes(path, ("\n\n\n".join([HEAD.format(name), "\n".join(imports), *rest]) + "\n").encode())
     return path
 
 
-def collect(answer: Callable, found: dict[str, str]) -> None:
+def collect(answer: Callable, texts: dict[str, str]) -> None:
     """Put the answer's text into `found`, {name: text}, after the texts of all that it uses of its notebook."""
     text, space = definition(answer), a_function(answer).__globals__
-    for name in sorted(names_used(text) - set(vars(builtins)) - set(found) - {answer.__name__}):
+    for name in sorted(names_used(text) - set(vars(builtins)) - set(texts) - {answer.__name__}):
         value = space.get(name)
         if isinstance(value, ModuleType):
-            found[name] = f"import {value.__name__} as {name}".replace(f"import {name} as {name}", f"import {name}")
+            texts[name] = f"import {value.__name__} as {name}".replace(f"import {name} as {name}", f"import {name}")
         elif isinstance(value, (FunctionType, type)) and value.__module__ == answer.__module__:
-            collect(value, found)
+            collect(value, texts)
         elif callable(value) and hasattr(value, "__name__"):
-            found[name] = f"from {value.__module__} import {value.__name__} as {name}"
+            texts[name] = f"from {value.__module__} import {value.__name__} as {name}"
         elif isinstance(value, CONSTANTS) and name in space:
-            found[name] = f"{name} = {value!r}"
+            texts[name] = f"{name} = {value!r}"
         else:
             raise BootcourseError(f"`{answer.__name__}` uses `{name}`, which a file cannot hold: compute it inside.")
-    found[answer.__name__] = text
+    texts[answer.__name__] = text
 
 
 def a_function(answer: Callable) -> FunctionType:
     """The answer itself, or a method of a class. Raises BootcourseError if there is none."""
     inside = [answer, *vars(answer).values()] if isinstance(answer, type) else [answer]
-    found = [each for each in inside if isinstance(each, FunctionType)]
-    if not found:
+    functions = [each for each in inside if isinstance(each, FunctionType)]
+    if not functions:
         raise BootcourseError(f"`{answer.__name__}` has no text: write it with `def` in a cell.")
-    return found[0]
+    return functions[0]
 
 
 def definition(answer: Callable) -> str:

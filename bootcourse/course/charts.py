@@ -116,11 +116,11 @@ def _short(value: float) -> str:
 
 def _shades(labels: list[str]) -> list[str]:
     """A colour for each label: its method's; of two that would look alike, the second is black, the third grey."""
-    found = []
+    colours = []
     for label in labels:
         own = style(label).colour
-        found.append(next(c for c in (own, INK, QUIET, "#B8BEC6") if c not in found))
-    return found
+        colours.append(next(c for c in (own, INK, QUIET, "#B8BEC6") if c not in colours))
+    return colours
 
 
 def histogram(values: np.ndarray, label: str, title: str) -> Figure:

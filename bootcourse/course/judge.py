@@ -43,6 +43,7 @@ from bootcourse.course.values import (
 from bootcourse.course.verdict import Verdict
 
 LONGEST = 2000  # characters of a line that a verdict shows
+FORGED = "Your function ended its own check: return the answer instead."  # it sent a report of its own
 
 
 def judge(exercise: Exercise, answer: Callable | str, seconds: float | None = None) -> Verdict:
@@ -99,32 +100,30 @@ def is_unfinished(report: runner.Report, answer: Callable | str) -> bool:
 
 def not_answered(exercise: Exercise, answer: Callable | str, report: runner.Report) -> Verdict | None:
     """The verdict on a function that did not answer every case, or changed its arguments; None if it did well."""
-    cases = exercise.all_arguments
-    here = given(exercise, cases[min(len(report.answers), len(cases) - 1)])
-    nothing = [case for case, value in enumerate(report.answers) if value.kind == "NoneType"]
+    cases, answers, parts = exercise.all_arguments, report.answers, 1 + len(exercise.slopes)
+    nothing = [case for case, value in enumerate(answers) if value.kind == "NoneType"]
     if report.refused:
         return Verdict("wrong", report.refused)
-    if nothing and len(nothing) == len(report.answers):
+    if report.ended != "":
+        return Verdict("did_not_run", end_in_words(report.ended, report.seconds))
+    if len(answers) > len(cases) or report.error is None and len(answers) < len(cases):
+        return Verdict("wrong", FORGED)
+    if nothing and len(nothing) == len(answers):
         return Verdict("wrong", "Your function returns nothing: end it with `return` and what the exercise asks for.")
     if nothing:
         sentence = "Your function returns nothing in this case: look for a branch without `return`."
         return Verdict("wrong", sentence, given(exercise, cases[nothing[0]]))
     if report.error is not None:
+        here = given(exercise, cases[min(len(answers), len(cases) - 1)])
         if report.error[0] == NotAsAsked.__name__:
             return Verdict("wrong", report.error[1], here)
         return Verdict("did_not_run", error_in_words(answer, *report.error), here)
-    if report.ended != "":
-        return Verdict("did_not_run", end_in_words(report.ended, report.seconds), here)
     if report.changed is not None:
         names = exercise.case_names
         argument = names[report.changed[1] % len(names)]
         return Verdict("wrong", f"Your function changes its argument `{argument}`, which the caller still needs: "
                                 "compute a new value instead of writing into it.")  # fmt: skip
-    parts = 1 + len(exercise.slopes)
-    if len(report.answers) < len(cases) or parts > 1 and any(len(each.parts or ()) != parts for each in report.answers):
-        # only a function that forges what its process sends
-        return Verdict("wrong", "Your function ended its own check: return the answer instead.")
-    return None
+    return Verdict("wrong", FORGED) if parts > 1 and any(len(each.parts or ()) != parts for each in answers) else None
 
 
 def error_in_words(answer: Callable | str, kind: str, text: str, line: int | None) -> str:

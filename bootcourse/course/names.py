@@ -11,21 +11,21 @@ def names_made(text: str) -> set[str]:
     Empty if it is not Python.
     """
     try:
-        todo, made = list(ast.parse(text).body), set()
+        todo, names = list(ast.parse(text).body), set()
     except SyntaxError:
         return set()
     while todo:
         node = todo.pop()
         if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)):
-            made.add(node.name)
+            names.add(node.name)
             continue
         if isinstance(node, (ast.Import, ast.ImportFrom)):
-            made |= {(alias.asname or alias.name).partition(".")[0] for alias in node.names}
+            names |= {(alias.asname or alias.name).partition(".")[0] for alias in node.names}
         if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
-            made.add(node.id)
+            names.add(node.id)
         if not isinstance(node, (ast.Lambda, ast.ListComp, ast.DictComp, ast.SetComp, ast.GeneratorExp)):
             todo += ast.iter_child_nodes(node)
-    return made
+    return names
 
 
 def names_changed(text: str) -> set[str]:

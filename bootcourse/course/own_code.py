@@ -18,7 +18,7 @@ from bootcourse.course import answer_files
 from bootcourse.course.answer_files import PARTS
 from bootcourse.course.judge import judge
 from bootcourse.course.lessons import registry
-from bootcourse.course.own_learner import ALONE, BUFFER, own_learner, part, parts_of
+from bootcourse.course.own_learner import own_learner, part, parts_of
 from bootcourse.course.verdict import Verdict
 from bootcourse.errors import BootcourseError, check_known
 from bootcourse.learn.learner import SACLearner, learner_for
@@ -26,8 +26,8 @@ from bootcourse.learn.replay_buffer import Batch
 from bootcourse.learn.settings import Settings, settings_for
 from bootcourse.learn.training import Training
 
-APART = {name for names in ALONE.values() for name in names}  # parts of other learners than SAC
-APART |= {"advantages", "clipped_loss", "ppo_loss", "rollout_values", "update", "train"}
+COMPARED = ("soft_value", "critic_target", "critic_loss", "actor_loss", "temperature_loss", "soft_constraint",
+            "constrained_loss", "constrained_target", "margin_loss")  # parts of SAC's update  # fmt: skip
 NONE = "No part is yours yet: agents train with the library's own."
 TOLERANCE = 1e-3  # relative difference of a loss or a gradient; rounding gives about 1e-6
 _own: dict[str, Callable] = {}  # the student's parts in this kernel
@@ -56,10 +56,10 @@ def keep(name: str, answer: Callable) -> str:
 
 def load() -> None:
     """Run the parts' files in `answers/`, use them, print which. Raises BootcourseError if one does not run."""
-    found = [name for name in PARTS if (answer_files.FOLDER / f"{name}.py").is_file()]
-    for name in found:
+    stored = [name for name in PARTS if (answer_files.FOLDER / f"{name}.py").is_file()]
+    for name in stored:
         _own[name] = answer_files.read(name)
-    print(f"Found in {answer_files.FOLDER}: {whose(found)}.".replace("`", "") if found else NONE)
+    print(f"Found in {answer_files.FOLDER}: {whose(stored)}.".replace("`", "") if stored else NONE)
 
 
 def whose(names: Sequence[str]) -> str:
@@ -100,14 +100,14 @@ LOSSES = {
 def compare() -> Verdict:
     """Whether each of the student's parts makes the same update as the library's, on one batch; if not, which differs.
 
-    Losses and gradients are compared. The buffer's parts, which draw at random, and those of `APART` go through
-    their checks again.
+    Losses and gradients are compared. Parts that are not `COMPARED`, because they draw at random or belong to another
+    learner, go through their checks again.
     """
     mine = [name for name in PARTS if name in _own]
     if not mine:
         return Verdict("todo", NONE)
-    found = {name: difference(name) for name in mine}
-    wrong = {name: words for name, words in found.items() if words}
+    differences = {name: difference(name) for name in mine}
+    wrong = {name: words for name, words in differences.items() if words}
     if not wrong:
         return Verdict("passed", f"Your learner makes the same update as ours. Compared: {whose(mine)}.")
     return Verdict("wrong", f"Something is wrong with {whose(list(wrong))}.", tuple(wrong.values()))
@@ -115,7 +115,7 @@ def compare() -> Verdict:
 
 def difference(name: str) -> str:
     """What differs if this one part is the student's and all others are ours; "" if nothing does."""
-    if name in (*BUFFER, *APART):
+    if name not in COMPARED:
         verdict = judge(registry()[name], _own[name])
         return "" if verdict.passed else f"{name}: {verdict.sentence}"
     try:
@@ -136,14 +136,15 @@ def update(own: dict[str, Callable]) -> dict[str, torch.Tensor]:
         settings_for("bootstrapped", xi_multiplier=1.0, **changes),
         settings_for("bootstrapped", seed=1, xi_multiplier=0.4, gamma=0.95, rule_p=0.7, target_entropy=0.6, **changes),
     ]
-    made = own_learner(own, agents, 26, 9) if own else SACLearner(agents, 26, 9)
-    terms = made.losses(batch_with_everything(len(agents)))
+    learner = own_learner(own, agents, 26, 9) if own else SACLearner(agents, 26, 9)
+    terms = learner.losses(batch_with_everything(len(agents)))
     sum(terms[name] for name in LOSSES).sum().backward()
-    found = {words: terms[name].detach() for name, words in LOSSES.items()}
-    for owner, parameters in (("actor's", made.actor), ("critics'", made.critics), ("temperature's", [made.log_alpha])):
+    numbers = {words: terms[name].detach() for name, words in LOSSES.items()}
+    tensors = {"actor's": learner.actor, "critics'": learner.critics, "temperature's": [learner.log_alpha]}
+    for owner, parameters in tensors.items():
         slopes = [torch.zeros_like(each) if each.grad is None else each.grad for each in parameters]
-        found[f"the {owner} gradient"] = torch.cat([slope.flatten() for slope in slopes])
-    return found
+        numbers[f"the {owner} gradient"] = torch.cat([slope.flatten() for slope in slopes])
+    return numbers
 
 
 def batch_with_everything(agents: int, size: int = 64) -> Batch:

@@ -42,9 +42,9 @@ class PredictionForm(Panel):
         text = widgets.HTML(Markup(STYLE) + keys)  # the question stands above, in the lesson and in the call
         super().__init__(f"Prediction {question.number}", text, self.field, self.button)
         with self.saying_what_is_wrong():
-            kept = predictions().get(question.name)
-            if kept is not None:
-                self._lock(kept)
+            entry = predictions().get(question.name)
+            if entry is not None:
+                self._lock(entry)
 
     def _field(self) -> widgets.Widget:
         name = f"Prediction {self.question.number}"
@@ -61,13 +61,13 @@ class PredictionForm(Panel):
         """Keep the answer. Raises BootcourseError if it is not accepted."""
         self._lock(commit(self.question, self.field.value))
 
-    def _lock(self, kept: dict) -> None:
+    def _lock(self, entry: dict) -> None:
         if not self.question.choices:
-            self.field.value = str(kept["answer"])
-        elif kept["answer"] in self.question.choices:  # the question may have changed since
-            self.field.value = kept["answer"]
+            self.field.value = str(entry["answer"])
+        elif entry["answer"] in self.question.choices:  # the question may have changed since
+            self.field.value = entry["answer"]
         self.field.disabled = self.button.disabled = True
-        self.say(committed(kept))
+        self.say(committed(entry))
 
     def _repr_mimebundle_(self, **kwargs) -> dict:
         """The same in every notebook, whatever is kept."""

@@ -13,7 +13,6 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from bootcourse.course.lessons import LESSONS, number
-from bootcourse.course.verdict import marked
 from bootcourse.errors import BootcourseError, check_known
 from bootcourse.files import alone_with, read_json, write_json
 from bootcourse.markup import html
@@ -78,10 +77,10 @@ def predictions(folder: Path | None = None) -> dict[str, dict]:
     path = Path(folder or "") / FILE
     if not path.exists():
         return {}
-    kept = read_json(path, dict[str, dict])
-    if not all("answer" in one for one in kept.values()):
+    entries = read_json(path, dict[str, dict])
+    if not all("answer" in one for one in entries.values()):
         raise BootcourseError(f"{path} is damaged: a prediction has no answer. Delete it, or restore it from a copy.")
-    return kept
+    return entries
 
 
 def commit(question: Question, answer: object) -> dict:
@@ -94,10 +93,10 @@ def commit(question: Question, answer: object) -> dict:
         "time": datetime.now(UTC).isoformat(timespec="seconds"),
     }
     with alone_with(FILE):  # another notebook may have written since
-        kept = predictions()
-        if question.name not in kept:
-            write_json(FILE, kept | {question.name: one})
-    return kept.get(question.name, one)
+        entries = predictions()
+        if question.name not in entries:
+            write_json(FILE, entries | {question.name: one})
+    return entries.get(question.name, one)
 
 
 def predict(
@@ -117,10 +116,10 @@ def predict(
     return Note(committed(commit(asked, answer), asked.read(answer)))
 
 
-def committed(kept: dict, wanted: object = None) -> str:
+def committed(entry: dict, wanted: object = None) -> str:
     """The sentence after a commitment; `wanted` is what was asked to be kept now, if that is something else."""
-    shown = worded(kept["answer"], kept.get("unit"))
-    if wanted not in (None, kept["answer"]):
+    shown = worded(entry["answer"], entry.get("unit"))
+    if wanted not in (None, entry["answer"]):
         return f"You have committed to “{shown}” before, and the first prediction stays."
     return f"You predict: {shown}. The end of the lesson compares."
 
@@ -137,15 +136,19 @@ def compare_predictions(lesson: str, answers: Mapping[int, object]):
     lesson: its name; answers: {1: what the lesson found for the prediction LESSON.1, in words or a number}. Raises
     BootcourseError for no lesson, and for a damaged file.
     """
+    from bootcourse.course import table
+
     check_known("The lesson", lesson, LESSONS)
     predicted, rows = predictions(), []
     for place, result in answers.items():
         one = predicted.get(f"{lesson}.{place}")
         if one is not None:
             unit = one.get("unit")
-            answer = worded(one["answer"], unit), worded(result, unit if isinstance(result, (int, float)) else None)
-            rows.append((f"{number(lesson)}.{place}", one.get("question", ""), *answer))
-    return Comparison(tuple(rows), len(answers)) if rows else Note(NOTHING)
+            both = worded(one["answer"], unit), worded(result, unit if isinstance(result, (int, float)) else None)
+            cells = f"{number(lesson)}.{place}", one.get("question", ""), *both
+            rows.append([str(html("{}", cell)) for cell in cells])
+    below = f"You committed to {len(rows)} of {len(answers)} predictions."
+    return table(("", "question", "you predicted", "the lesson found"), rows, below) if rows else Note(NOTHING)
 
 
 @dataclass(frozen=True)
@@ -159,30 +162,3 @@ class Note:
 
     def _repr_html_(self) -> str:
         return str(html('<div role="status">{}</div>', self.sentence))
-
-
-@dataclass(frozen=True)
-class Comparison:
-    """Rows of (number, question, predicted, found), and how many predictions the lesson asked for."""
-
-    rows: tuple[tuple[str, str, str, str], ...]
-    asked: int
-
-    HEADINGS = ("", "question", "you predicted", "the lesson found")
-
-    @property
-    def below(self) -> str:
-        return f"You committed to {len(self.rows)} of {self.asked} predictions."
-
-    def __repr__(self) -> str:
-        return "\n".join(
-            [*(f"{n} {q}\n    you predicted: {p}\n    the lesson found: {f}" for n, q, p, f in self.rows), self.below]
-        )
-
-    def _repr_html_(self) -> str:
-        head = "".join(f'<th scope="col" style="text-align: left">{heading}</th>' for heading in self.HEADINGS)
-        left = "text-align: left; vertical-align: top; white-space:"
-        first, other = f'<td style="{left} nowrap">', f'<td style="{left} normal; overflow-wrap: anywhere">'
-        rows = [f"{first}{row[0]}</td>" + "".join(f"{other}{marked(p)}</td>" for p in row[1:]) for row in self.rows]
-        body = "".join(f"<tr>{row}</tr>" for row in rows)
-        return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table><div>{self.below}</div>"

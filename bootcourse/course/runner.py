@@ -2,7 +2,7 @@
 
 On Linux the process is a fork of a clean, warm one (`multiprocessing`'s forkserver), elsewhere a new one; one waits
 ahead for the next check. Nothing that the function changes there outlives the check; endless loops, crashes,
-`os._exit`, threads and prints end with it. What comes back are messages of plain numbers, never a pickle.
+`os._exit`, threads and prints end with it. What comes back is a message of plain numbers, never a pickle.
 
 What is guarded: time, everywhere. Memory, on Linux only. Files, network and other processes, only where `SHUT_IN` is
 set, as the grading of a class does: in a notebook the function runs with your rights.
@@ -44,7 +44,7 @@ WALL = 8  # seconds after which a check is over, its start included, if that tak
 LEAST = 3  # seconds that a function has in any case
 SLACK = 5  # seconds after which the process ends by itself
 LONGEST_PRINT = 500  # characters of a function's prints that are shown
-LONGEST_MESSAGE, MOST_SENT = 2**24, 2**26  # bytes of one message, and of all
+LONGEST_MESSAGE = 2**26  # bytes
 PR_SET_PDEATHSIG = 1  # of Linux's prctl: the signal that a process gets when its parent ends
 READY = b"ready"
 PRELOADED = ["bootcourse.course.preloaded"]
@@ -58,23 +58,15 @@ NOT_SENT = (
 
 
 class Report(msgspec.Struct):
-    """What the function did, case by case, up to the first case that raised an error or took too long."""
+    """What the function did, case by case, up to the first case that raised an error."""
 
     answers: list[Plain] = []
     refused: str = ""  # why it cannot be called at all
     error: tuple[str, str, int | None] | None = None  # (type, text, line of the student's file)
     changed: tuple[int, int] | None = None  # (case, index of the argument) of the first argument changed in place
-    ended: str | int = ""  # "time", "size", or how the process ended before its time: an exit code, minus a signal
     printed: str = ""
+    ended: str | int = ""  # "time", "size", or how the process ended before its time: an exit code, minus a signal
     seconds: float = 0.0  # that it had
-    is_last: bool = False
-
-    def add(self, message: "Report") -> None:
-        """Take over what a message of the process says."""
-        self.answers += message.answers
-        self.refused, self.error = message.refused, message.error
-        self.changed = self.changed or message.changed
-        self.printed = (self.printed + message.printed)[:LONGEST_PRINT]
 
 
 # Here -------------------------------------------------------------------------------------------------
@@ -129,7 +121,7 @@ def run(
         if not process.process.is_alive():
             process = Process()
         try:
-            return process.work(packed(exercise), job, seconds, begin, times * len(exercise.all_arguments))
+            return process.work(packed(exercise), job, seconds, begin)
         finally:  # also after the notebook's stop button
             process.end()
             with contextlib.suppress(BootcourseError):  # the next check says so
@@ -151,73 +143,44 @@ class Process:
         context.set_forkserver_preload(PRELOADED)
         self.connection, theirs = context.Pipe()
         self.process = context.Process(target=serve, args=(theirs, SHUT_IN), daemon=True)
-        self.error: Exception | None = None
         main, sys.modules["__main__"] = sys.modules["__main__"], types.ModuleType("__main__")
         try:  # `multiprocessing` would run the script in `__main__` again
-            starting = threading.Thread(target=self.start, daemon=True)  # it waits for its server without a limit
-            starting.start()
-            starting.join(START)
-        finally:
-            sys.modules["__main__"] = main
-        if starting.is_alive() or self.error:
-            end_server()
-            raise broken(self.error or "its server does not answer")
-        theirs.close()
-
-    def start(self) -> None:
-        try:
             self.process.start()
         except (OSError, EOFError) as error:
-            self.error = error
+            raise broken(error) from None
+        finally:
+            sys.modules["__main__"] = main
+        theirs.close()
 
-    def work(self, exercise: bytes, job: bytes, seconds: float, begin: float, most: int) -> Report:
-        """The report on a job. begin: when the check began; most: how many answers it can rightly have."""
-        report, sent = Report(), 0
+    def work(self, exercise: bytes, job: bytes, seconds: float, begin: float) -> Report:
+        """The report on a job. begin: when the check began."""
         try:
             self.connection.send_bytes(exercise)
             if not self.connection.poll(START) or self.connection.recv_bytes() != READY:
                 raise broken("it did not answer")
             self.connection.send_bytes(job)
-            now = time.monotonic()
-            report.seconds = time_left(seconds, now - begin)
-            end = now + report.seconds
-            while self.connection.poll(max(0.0, end - time.monotonic())):
-                data = self.connection.recv_bytes(LONGEST_MESSAGE)
-                sent += len(data)
-                report.add(message := decoder.decode(data))
-                if sent > MOST_SENT or len(report.answers) > most:
-                    return Report(ended="size")
-                if message.is_last:
-                    return report
-            report.ended = "time"
+            seconds = time_left(seconds, time.monotonic() - begin)
+            if not self.connection.poll(seconds):
+                return Report(ended="time", seconds=seconds)
+            report = decoder.decode(self.connection.recv_bytes(LONGEST_MESSAGE))
+            report.ended = ""  # this is said here alone
+            return report
         except (EOFError, OSError, msgspec.MsgspecError) as error:  # it ended, or somebody else wrote
             self.process.join(1)
-            report.ended = "size" if "bad message length" in str(error) else self.process.exitcode or 0
-        return report
+            return Report(ended="size" if "bad message length" in str(error) else self.process.exitcode or 0)
 
     def end(self) -> None:
-        """Kill it, with all processes that it started; a server that the answer stopped goes on."""
+        """Kill it, with all processes that it started."""
         with contextlib.suppress(ProcessLookupError, PermissionError, AttributeError):  # AttributeError: Windows
             os.killpg(self.process.pid, signal.SIGKILL)
         self.process.kill()
         self.process.join(1)
-        if self.process.is_alive():
-            end_server()
         self.connection.close()
 
 
 def time_left(seconds: float, waited: float) -> float:
     """The seconds that a function has, whose process took `waited` seconds to start."""
     return seconds if seconds > WALL else min(seconds, max(LEAST, WALL - waited))
-
-
-def end_server() -> None:
-    """Kill the process that forks the others, which is stopped or stuck; the next check starts another."""
-    server = forkserver._forkserver._forkserver_pid if FORKS else None
-    if server is not None:
-        with contextlib.suppress(ProcessLookupError, ChildProcessError):
-            os.kill(server, signal.SIGKILL)
-            os.waitid(os.P_PID, server, os.WEXITED | os.WNOWAIT)  # `multiprocessing` sees it, too
 
 
 def broken(why: object) -> BootcourseError:
@@ -247,6 +210,8 @@ def serve(connection, shut_in: Callable | None) -> None:
         os.closerange(3, connection.fileno())
         os.closerange(connection.fileno() + 1, 1024)  # what belongs to `multiprocessing`
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+    if shut_in is not None:
+        shut_in()
     torch.set_num_threads(1)
     with contextlib.suppress(EOFError):  # nobody needs it any more
         exercise = connection.recv_bytes()
@@ -255,9 +220,7 @@ def serve(connection, shut_in: Callable | None) -> None:
         job = connection.recv_bytes()
         if FORKS:
             limit_memory()
-        if shut_in is not None:
-            shut_in()
-        work(exercise, job, lambda message: connection.send_bytes(encoder.encode(message)))
+        connection.send_bytes(encoder.encode(work(exercise, job)))
         time.sleep(START)  # it is killed: nothing that the function left to do at the end is done
 
 
@@ -269,40 +232,36 @@ def limit_memory() -> None:
     resource.setrlimit(resource.RLIMIT_AS, (size + MEMORY, size + MEMORY))
 
 
-class Printed(io.TextIOBase):
-    """Sends on the beginning of what is printed."""
-
-    def __init__(self, send: Callable[[Report], None]):
-        self.send, self.room = send, LONGEST_PRINT
+class Printed(io.StringIO):
+    """The beginning of what is printed."""
 
     def write(self, text: str) -> int:
-        begin, self.room = PATH.sub(r"\1", text[: self.room]), max(0, self.room - len(text))
-        if begin:
-            self.send(Report(printed=begin))
+        super().write(text[: LONGEST_PRINT - self.tell()])
         return len(text)
 
 
-def work(exercise: bytes, job: bytes, send: Callable[[Report], None]) -> None:
-    """Send, message by message, what the student's function answers in each case, and which argument it changed."""
-    last, answer = Report(is_last=True), None
+def work(exercise: bytes, job: bytes) -> Report:
+    """What the student's function answers in each case, and which argument it changed."""
+    report, answer = Report(), None
     outcome, cases, *asked = pickle.loads(exercise)
-    sys.stdout = sys.stderr = Printed(send)
+    sys.stdout = sys.stderr = printed = Printed()
     try:
         answer, times, seconds = pickle.loads(job)
         faulthandler.dump_traceback_later(seconds + SLACK, exit=True, file=open(os.devnull, "w"))
         warnings.simplefilter("ignore")
         if isinstance(answer, str):
             answer = defined_in(answer, asked[0])
-        last.refused = why_not_called(answer, *asked)
+        report.refused = why_not_called(answer, *asked)
         copies = [case for _ in range(times) for case in pickle.loads(exercise)[1]]
-        for number, (case, copy) in enumerate(zip(cases * times, copies, strict=True) if not last.refused else ()):
-            value = plain(outcome(answer, *copy))
+        for number, (case, copy) in enumerate(zip(cases * times, copies, strict=True) if not report.refused else ()):
+            report.answers.append(plain(outcome(answer, *copy)))
             pairs = enumerate(zip(map(plain, copy), map(plain, case), strict=True))
             changed = next(((number, place) for place, pair in pairs if not same(*pair, nan_too=True)), None)
-            send(Report(answers=[value], changed=changed))
+            report.changed = report.changed or changed
     except BaseException as error:  # also SystemExit and KeyboardInterrupt
-        last.error = in_words(error, answer)
-    send(last)
+        report.error = in_words(error, answer)
+    report.printed = PATH.sub(r"\1", printed.getvalue())
+    return report
 
 
 def defined_in(source: str, name: str):

@@ -44,10 +44,10 @@ def shipped_experiment(name: str) -> dict[str, Results]:
 
     Raises BootcourseError if it does not ship.
     """
-    found = experiment(name)
-    if not found:
+    results = experiment(name)
+    if not results:
         raise BootcourseError(f"No results of the experiment '{name}' ship: copy {FOLDER.name} from the course again.")
-    return found
+    return results
 
 
 def shipped_teachers(study: Path | str = "") -> Cells:

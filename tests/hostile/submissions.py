@@ -1,24 +1,17 @@
-"""Hand in thousands of damaged submissions and notebooks, and see whether one of them stops the class.
-
-    python -m tests.hostile.submissions [--cases 2000] [--seed 0]
+"""Hand in damaged submissions and notebooks, and see whether one of them stops the class.
 
 Each is a valid one with a few changes: a value of another type, a text that is cut, repeated or strange, a byte that
-is lost. They are read, given the verdict "wrong", and shown on the pages; answers are not executed. Printed are the
-cases that raised an error or took longer than twenty seconds.
+is lost. They are read, given the verdict "wrong", and shown on the pages; answers are not executed.
 """
 
-import argparse
 import json
 import random
-import sys
 import tempfile
 import time
 from pathlib import Path
 
-from bootcourse.course.classroom.grading import Verdicts, graded, key_of
-from bootcourse.course.classroom.judging import Judged
+from bootcourse.course.classroom.grading import Judged, Verdicts, graded, handed_out, key_of, points_of
 from bootcourse.course.classroom.pages import write_report
-from bootcourse.course.classroom.points import handed_out, read_points
 from bootcourse.course.classroom.submission import Submission, collect
 from bootcourse.errors import BootcourseError
 
@@ -31,7 +24,7 @@ NOTEBOOK = {
     "metadata": {}, "nbformat": 4,
 }  # fmt: skip
 HANDED_IN = {
-    "format": Submission.FORMAT, "name": "Ada", "made": "2030-01-01", "lessons": ["traffic"],
+    "format": Submission.FORMAT, "name": "Ada", "time": "2030-01-01", "lessons": ["traffic"],
     "exercises": "a", "answers": {"luck": CELL}, "right": ["luck"], "problems": ["a"],
     "predictions": {"the_barrier.1": {"answer": 3.5, "question": "Why?", "unit": "m"}},
 }  # fmt: skip
@@ -77,7 +70,7 @@ def read_and_shown(name: str, data: bytes, folder: Path) -> int:
     (folder / "class").mkdir(exist_ok=True)
     (folder / "class" / name).write_bytes(data)
     (one,) = collect(folder / "class")
-    worth, verdicts = read_points(None, handed_out([one])), Verdicts(folder / "none.jsonl")
+    worth, verdicts = points_of(handed_out([one])), Verdicts(folder / "none.jsonl")
     verdicts.known |= {key_of(*answer): Judged("wrong", "No.") for answer in one.answers.items()}
     write_report([graded(one, worth, verdicts)], folder / "out.csv", [])
     return len(one.answers)
@@ -99,17 +92,3 @@ def failures(cases: int, seed: int) -> tuple[int, list[str]]:
             if (seconds := time.monotonic() - begin) > PATIENCE:
                 lines.append(f"{number} {name}: {seconds:.0f} s")
     return answered, lines
-
-
-def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("--cases", type=int, default=2000)
-    parser.add_argument("--seed", type=int, default=0)
-    asked = parser.parse_args()
-    answered, lines = failures(asked.cases, asked.seed)
-    print(*lines, f"{asked.cases} cases, {answered} with an answer that was read, {len(lines)} failures", sep="\n")
-    return 1 if lines else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

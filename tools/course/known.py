@@ -4,7 +4,6 @@ What takes long to load or to drive is kept for the next expression.
 """
 # ruff: noqa: F401 (what is imported here is for the expressions)
 
-import dataclasses
 import math
 import re
 from functools import cache
@@ -22,32 +21,25 @@ from bootcourse.course.lessons.the_barrier.chain import leaving
 from bootcourse.course.lessons.the_second_trap import ppo_kinds, second_trap
 from bootcourse.course.lessons.traffic import simulation as traffic
 from bootcourse.course.lessons.your_teacher import example_teachers, taught_agents
-from bootcourse.course.lessons.your_teacher.driven_out import OUT, drive_out
-from bootcourse.course.own_learner import parts_of
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
-from bootcourse.episodes.words import overtaken
-from bootcourse.errors import BootcourseError
 from bootcourse.files import read_arrays
 from bootcourse.learn import bootstrap, sac
 from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.settings import settings_for
-from bootcourse.learn.teachers import teacher_policy, toward
 from bootcourse.methods import METHODS
-from bootcourse.policies import idle_policy, plan_policy, random_policy, rule_policy, stochastic_rule_policy
-from bootcourse.research import beyond, report
+from bootcourse.policies import idle_policy, plan_policy, rule_policy
 from bootcourse.research import clocks as study_clocks
-from bootcourse.research.checks import CHECKS
+from bootcourse.research import report
 from bootcourse.research.clocks import pattern
-from bootcourse.research.paper import EPISODES, PRINTED, paper_interval
-from bootcourse.research.planner import Search, discounted_values, plan_episodes
+from bootcourse.research.paper import EPISODES, PRINTED
 from bootcourse.research.results import KINDS, Results
-from bootcourse.research.teachers import LATE, TEACHERS
+from bootcourse.research.teachers import LATE
 from bootcourse.road import formulas, observation
 from bootcourse.road.formulas import centring_reward, speed_reward
-from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, Accident, X, Y
-from bootcourse.rule import HEADING_COST, Reason, stochastic_rule, target_speed
-from bootcourse.scenario import ACTION_NAMES, CALIBRATED, DEFAULT, N_ACTIONS, RULE_P
+from bootcourse.road.state import EGO, SPEED, TRAP_1, TRAP_2, Accident, X, Y
+from bootcourse.rule import Reason, target_speed
+from bootcourse.scenario import ACTION_NAMES, DEFAULT, N_ACTIONS, RULE_P
 from bootcourse.statistics import ESCAPES, escapes, improvement, interval, iqm, rate
 from bootcourse.storage.assets import FOLDER
 from tools.course.source import read, sources
@@ -91,18 +83,6 @@ def bound() -> np.ndarray:
 def by_rule(road: int = ROAD):
     """The rule's drive on one road."""
     return record(rule_policy(DEFAULT), [road])[0]
-
-
-NO_BRAKING = [3, 3, 5, 3, 5, 5, 5, 3, 7, 7, 7, 7, 7]  # the trap's plan, which changes lanes behind trap 2 at once
-
-
-@cache
-def without_braking() -> tuple[np.ndarray, np.ndarray]:
-    """That plan on the held-out roads: D2 (m), and whether it gets out, each (roads,)."""
-    plan = plan_policy([ACTION_NAMES[action] for action in NO_BRAKING])
-    drives = record(plan, held_out_seeds(1, roads()))
-    starts = np.array([drive.states[0, TRAP_2, X] - drive.states[0, EGO, X] for drive in drives])
-    return starts, np.array([drive.success for drive in drives])
 
 
 @cache

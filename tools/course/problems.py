@@ -1,4 +1,4 @@
-"""What is wrong with a lesson, as sentences: its exercises, predictions, names of code, pictures, freshness.
+"""What is wrong with a lesson, as sentences: its exercises, predictions, names of code, freshness.
 
 That no link is dead is for the book's build to find.
 """
@@ -10,16 +10,11 @@ import re
 import textwrap
 from pathlib import Path
 
-import nbformat
-
 from bootcourse.course.lessons import registry, stem
 from tools.course.claims import filled
 from tools.course.instructor import together
-from tools.course.products import out_of_date, solved_file, student_file
+from tools.course.products import out_of_date
 from tools.course.source import Cell, arguments_of, body, function_in
-
-LONGEST_CELL = 25  # lines
-SHORTEST_ALT = 40  # letters: what a reader should see does not fit into fewer
 
 
 def problems(path: Path) -> list[str]:
@@ -29,34 +24,18 @@ def problems(path: Path) -> list[str]:
     except ValueError as error:
         return [f"{error}."]
     wrong = [
-        *of_length(cells),
-        *of_imports(cells),
         *of_exercises(cells, path.stem),
         *of_predictions(cells, path.stem),
         *of_references(cells),
         *of_minutes(cells),
-        *of_lists(cells),
     ]
     if wrong:
         return wrong
-    late = [f"{target.parent.name}/{target.name} is out of date: run make notebooks." for target in out_of_date(path)]
-    return late or of_pictures(path)
+    return [f"{target.parent.name}/{target.name} is out of date: run make notebooks." for target in out_of_date(path)]
 
 
 def begins(text: str) -> str:
     return f"The cell that begins with `{text.strip().splitlines()[0]}`"
-
-
-def of_length(cells: list[Cell]) -> list[str]:
-    long = [cell for cell in cells if cell.is_code and len(cell.solved.splitlines()) > LONGEST_CELL]
-    return [f"{begins(cell.solved)} is longer than {LONGEST_CELL} lines." for cell in long]
-
-
-def of_imports(cells: list[Cell]) -> list[str]:
-    """All imports stand in the first code cell."""
-    later = [cell for cell in cells if cell.is_code][1:]
-    imports = any(re.search(r"^(?:from|import) ", cell.solved, re.M) for cell in later)
-    return ["A later cell imports something: do it in the first."] * imports
 
 
 def of_minutes(cells: list[Cell]) -> list[str]:
@@ -64,14 +43,6 @@ def of_minutes(cells: list[Cell]) -> list[str]:
     said = [int(each) for cell in cells for each in re.findall(r"^\*\*Time\*\* (\d+) minutes", cell.text, re.M)]
     talk, work = together(cells)
     return [] if said == [talk + work] else [f"**Time** says {said}, and the rows add up to {talk + work} minutes."]
-
-
-def of_lists(cells: list[Cell]) -> list[str]:
-    """No second line of a paragraph begins a list by accident ("1."), and each row of a table is one line."""
-    text = "\n".join(cell.text + "\n" for cell in cells if not cell.is_code)
-    wrong = [f"The line `{line[:60]}` begins a list by accident." for line in re.findall(r"\w\n(1\. .*)", text)]
-    cut = re.findall(r"^(\|.*[^|\s])$", text, re.M)
-    return wrong + [f"The row `{row[:60]}` of a table goes on in the next line." for row in cut]
 
 
 # Exercises ------------------------------------------------------------------------------------------
@@ -172,27 +143,3 @@ def exists(name: str) -> bool:
     except (ImportError, AttributeError):
         return False
     return True
-
-
-# Pictures -------------------------------------------------------------------------------------------
-
-
-def of_pictures(path: Path) -> list[str]:
-    """Every picture says what a reader should see, in the text and in the outputs."""
-    wrong = []
-    for file in (student_file(path), solved_file(path)):
-        for cell in nbformat.read(file, as_version=4).cells if file.exists() else []:
-            text = cell.source if cell.cell_type == "markdown" else ""
-            if re.search(r"!\[\s*\]\(", text):
-                wrong.append(f"{begins(text)} has a picture without alt text.")
-            for output in cell.get("outputs", []):
-                if not has_alt(output.get("data", {})):
-                    wrong.append(f"{begins(cell.source)} shows a picture without alt text.")
-    return wrong
-
-
-def has_alt(data: dict) -> bool:
-    if any(kind.startswith("image/") for kind in data):
-        return False  # JupyterLab drops the alt text of these: bootcourse.plots.figure.show keeps it
-    tags = re.findall(r"<img [^>]*>", data.get("text/html", ""))
-    return all(re.search(rf'alt="[^"]{{{SHORTEST_ALT},}}"', tag) for tag in tags)

@@ -133,14 +133,14 @@ def segments(text: str, nodes: list[ast.stmt]) -> list[str]:
     """The text of each statement with the comment behind it. A line ends as Python sees it, at "\\n" alone."""
     whole = text.encode()
     lines = whole.split(b"\n")
-    starts, found = [0, *accumulate(len(line) + 1 for line in lines)], []
+    starts, texts = [0, *accumulate(len(line) + 1 for line in lines)], []
     for node in nodes:
         first = min((node, *getattr(node, "decorator_list", ())), key=lambda part: part.lineno)
         begin = starts[first.lineno - 1] + (node.col_offset if first is node else 0)
         rest = lines[node.end_lineno - 1][node.end_col_offset :]
         comment = len(rest) if rest.lstrip().startswith(b"#") else 0
-        found.append(whole[begin : starts[node.end_lineno - 1] + node.end_col_offset + comment].decode())
-    return found
+        texts.append(whole[begin : starts[node.end_lineno - 1] + node.end_col_offset + comment].decode())
+    return texts
 
 
 # Answers --------------------------------------------------------------------------------------------
@@ -185,7 +185,7 @@ class Answers:
             touching = self.touched.get(name, [])
             defined = [place for place in touching if self.statements[place].defines(name, name in checked)]
             defined = defined or [place for place in touching if self.statements[place].defines(name, True)]
-            ways += [self.made({name}, self.end_of(name, place)) for place in defined[-1:]]
+            ways += [self.text_of({name}, self.end_of(name, place)) for place in defined[-1:]]
             broken = [self.statements[place] for place in touching if self.statements[place].node is None]
             ways = [way for way in (*ways, *(one.text for one in broken[-1:])) if way.strip()]
             if ways:
@@ -200,12 +200,12 @@ class Answers:
     def checked(self, name: str, place: int) -> str:
         """The answer that the check at this place was given; "" if the notebook does not say what it was."""
         given = self.statements[place].checks[name]
-        text = self.made(names_used(given), place + 1)
+        text = self.text_of(names_used(given), place + 1)
         if given == name:
             return text
         return f"{text}\n{name} = {given}\n" if text or not given.isidentifier() else ""
 
-    def made(self, names: set[str], end: int) -> str:
+    def text_of(self, names: set[str], end: int) -> str:
         """The statements that make these names as they are before a place, and what these statements use."""
         taken, walked = set(self.touched.get("*", [])), set()
         todo = [(name, end) for name in names] + [(name, 0) for place in taken for name in self.statements[place].uses]

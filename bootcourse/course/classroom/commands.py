@@ -1,12 +1,14 @@
 """Commands for a class: handout, submit, grade."""
 
 import os
+import re
 import sys
 from pathlib import Path
 
 import typer
 
 from bootcourse.cli.training import INTERRUPTED
+from bootcourse.errors import BootcourseError
 
 
 def submit(
@@ -28,19 +30,17 @@ def submit(
 def grade(
     folder: Path = typer.Argument(..., help="A file or a folder for each student: submissions or notebooks."),
     out: Path = typer.Option(Path("grades.csv"), help="The table to write; more is written beside it."),
-    points: Path | None = typer.Option(None, help="A TOML file with the points; by default an exercise's difficulty."),
     lessons: str = typer.Option("", help="Only these lessons, such as 2-7; by default those that were handed out."),
     workers: int = typer.Option(0, min=0, help="Answers judged at once; 0: one for each core."),
 ) -> None:
     """Judge every answer of a class again; write tables, a page for each student and one for the class."""
-    from bootcourse.course.classroom.grading import Verdicts, graded, judge_all
+    from bootcourse.course.classroom.grading import Verdicts, graded, handed_out, judge_all, points_of
     from bootcourse.course.classroom.pages import check_places, write_report
-    from bootcourse.course.classroom.points import handed_out, read_lessons, read_points
     from bootcourse.course.classroom.submission import collect
 
     check_places(out, folder)
     submissions, chosen = collect(folder), read_lessons(lessons)
-    worth = read_points(points, chosen or handed_out(submissions))
+    worth = points_of(chosen or handed_out(submissions))
     verdicts = Verdicts(out.with_name(f"{out.stem}-verdicts.jsonl"))
     try:
         holds = judge_all(submissions, list(worth), verdicts, workers or os.cpu_count() or 1)
@@ -55,11 +55,10 @@ def handout(
     folder: Path = typer.Argument(..., help="The folder to write; FOLDER.zip is written beside it."),
     lessons: str = typer.Option("", help="Only these lessons, such as 2-7 or 1,5,7."),
     solutions: bool | None = typer.Option(None, help="Let `check.solution` show solutions; by default it does not."),
-    update: bool = typer.Option(False, "--update", help="Bring this handout up to date; what students wrote stays."),
+    update: bool = typer.Option(False, "--update", help="Bring this handout up to date; what was changed stays."),
 ) -> None:
     """Write what students get: lessons, the kit, a lock and one page, without solutions."""
     from bootcourse.course.classroom import handout
-    from bootcourse.course.classroom.points import read_lessons
 
     chosen = read_lessons(lessons)
     if update:
@@ -67,3 +66,18 @@ def handout(
     else:
         said = handout.write(folder, chosen, bool(solutions))
     print(*said, sep="\n")
+
+
+def read_lessons(text: str) -> set[int] | None:
+    """ "2-7" or "1,5,7" as numbers; "" is None, all lessons. Raises BootcourseError for what is no lesson."""
+    from bootcourse.course.lessons import LESSONS
+
+    if not text:
+        return None
+    parts = [re.fullmatch(r"(\d{1,4})(?:-(\d{1,4}))?", part.strip()) for part in text.split(",")]
+    numbers = {n for part in parts if part for n in range(int(part[1]), int(part[2] or part[1]) + 1)}
+    if not numbers or not all(parts):
+        raise BootcourseError(f"--lessons {text}: give numbers of lessons, such as 2-7 or 1,5,7.")
+    if max(numbers) >= len(LESSONS):
+        raise BootcourseError(f"--lessons {text}: there is no lesson {max(numbers)}, the last is {len(LESSONS) - 1}.")
+    return numbers

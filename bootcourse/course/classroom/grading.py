@@ -1,32 +1,58 @@
 """Judge every answer of a class again, in parallel, and keep each verdict: a grading can be stopped and resumed.
 
-Two students with the same text get the same verdict from one judging.
+Answers are judged by processes that start in an empty folder; each answer runs in a process of its own again, shut in
+by `sandbox.py`. Two students with the same text get the same verdict from one judging.
 """
 
+import functools
 import hashlib
-import threading
-from collections import defaultdict
+import json
+import multiprocessing
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+from collections import Counter
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import chdir
 from dataclasses import dataclass
 from pathlib import Path
 
 import msgspec
 from tqdm import tqdm
 
-from bootcourse.course.classroom.judging import Judge, Judged
+import bootcourse
+from bootcourse.course import runner
+from bootcourse.course.classroom.sandbox import shut_in
 from bootcourse.course.classroom.submission import Submission, fingerprint
-from bootcourse.course.lessons import registry
+from bootcourse.course.judge import judge
+from bootcourse.course.lessons import LESSONS, number, registry
 from bootcourse.episodes.evaluate import drive_episodes
+from bootcourse.errors import BootcourseError
 from bootcourse.files import check_own
 from bootcourse.policies import rule_policy
 from bootcourse.scenario import DEFAULT
 
 LONGER = 3  # times an exercise's own limit: here the imports count, too, and all cores are busy
-MISSING = Judged("missing", "")
+PASSED_ON = ("PATH", "LANG", "LC_ALL", "SYSTEMROOT", "PYTHONPATH", "NUMBA_CACHE_DIR")  # of the environment
 
 
-class Kept(msgspec.Struct, frozen=True):
+class Judged(msgspec.Struct, frozen=True):
+    """What the check says about an answer."""
+
+    kind: str  # of a Verdict: passed, wrong, did_not_run or todo; or missing
+    sentence: str = ""
+    details: tuple[str, ...] = ()
+    is_known: bool = False  # is it one of the exercise's known mistakes?
+
+
+MISSING = Judged("missing")
+
+
+class Line(msgspec.Struct, frozen=True):
     """A line of the file of verdicts."""
 
     key: str  # see `key_of`
@@ -42,54 +68,95 @@ class Verdicts:
     """The verdicts so far, one JSON line each in a file that only grows; a line that was cut is judged again."""
 
     def __init__(self, path: Path):
-        self.path, self.lock = path, threading.Lock()
+        self.path = path.absolute()
         self.known: dict[str, Judged] = {}
         check_own(path, '{"key":')
         for line in path.read_bytes().splitlines() if path.exists() else ():
             try:
-                kept = msgspec.json.decode(line, type=Kept)
+                entry = msgspec.json.decode(line, type=Line)
             except (msgspec.MsgspecError, RecursionError, UnicodeDecodeError):
                 continue
-            self.known[kept.key] = kept.judged
+            self.known[entry.key] = entry.judged
 
     def add(self, key: str, judged: Judged) -> None:
-        with self.lock:
-            self.known[key] = judged
-            if judged.kind == "unjudged":
-                return  # the next grading tries again
-            with self.path.open("ab") as file:
-                file.write(msgspec.json.encode(Kept(key, judged)) + b"\n")
+        self.known[key] = judged
+        with self.path.open("ab") as file:
+            file.write(msgspec.json.encode(Line(key, judged)) + b"\n")
 
 
 def judge_all(submissions: Sequence[Submission], wanted: Sequence[str], verdicts: Verdicts, workers: int) -> list[str]:
-    """Judge what has no verdict yet. Returns what shut the judging processes in; [] if there was nothing to judge.
+    """Judge what has no verdict yet. Returns what shut the answers in; [] if there was nothing to judge.
 
-    Raises BootcourseError if no process starts.
+    Raises BootcourseError if a process that judges does not start, or ends.
     """
     answers = {(name, text) for one in submissions for name, text in one.answers.items() if name in wanted}
     todo = [pair for pair in sorted(answers) if key_of(*pair) not in verdicts.known]
     if not todo:
         return []
-    drive_episodes(rule_policy(DEFAULT), [0])  # compiles the road, of which each judging process gets a copy
-    judges = [Judge() for _ in range(min(workers, len(todo)))]
-
-    def judge(name: str, text: str) -> set[str]:
-        mine = judges.pop()  # there is one for each thread
+    drive_episodes(rule_policy(DEFAULT), [0])  # compiles the road, if nobody has yet
+    # A folder in which somebody works, or whose files were handed in, is not one to start Python in.
+    with tempfile.TemporaryDirectory(prefix="bootcourse-judge-", ignore_cleanup_errors=True) as folder, chdir(folder):
+        environment = surroundings(folder)
+        holds = barriers(folder, environment)
+        pool = ProcessPoolExecutor(
+            min(workers, len(todo), 60), multiprocessing.get_context("spawn"), begin, (folder, environment, bool(holds))
+        )
         try:
-            verdicts.add(key_of(name, text), mine.ask(name, text, LONGER * registry()[name].seconds))
-            return set(mine.holds)
-        finally:
-            judges.append(mine)
+            asked = {pool.submit(judged, *pair, LONGER * registry()[pair[0]].seconds): pair for pair in todo}
+            for done in tqdm(as_completed(asked), total=len(asked), desc="answers", unit=""):
+                verdicts.add(key_of(*asked[done]), done.result())
+        except BrokenProcessPool:
+            raise BootcourseError("A process that judges has ended: start the same command again to go on.") from None
+        finally:  # also after Ctrl-C: each process finishes its answer
+            pool.shutdown(cancel_futures=True)
+    return holds
 
-    pool = ThreadPoolExecutor(len(judges))
-    try:
-        asked = [pool.submit(judge, *pair) for pair in todo]
-        done = tqdm(as_completed(asked), total=len(asked), desc="answers", unit="")
-        return sorted(set.intersection(*(each.result() for each in done)))
-    finally:  # also after Ctrl-C: each judge finishes its answer
-        pool.shutdown(cancel_futures=True)
-        for each in judges:
-            each.close()
+
+def surroundings(folder: str) -> dict[str, str]:
+    """What the processes that judge know of this one's environment."""
+    known = {name: os.environ[name] for name in PASSED_ON if name in os.environ}
+    known["PYTHONPATH"] = os.pathsep.join(filter(None, [known.get("PYTHONPATH"), str(package_folder())]))
+    return known | dict.fromkeys(("HOME", "TMPDIR", "TEMP", "TMP", "MPLCONFIGDIR"), folder) | {"OMP_NUM_THREADS": "1"}
+
+
+def package_folder() -> Path:
+    return Path(bootcourse.__file__).resolve().parents[1]
+
+
+def barriers(folder: str, environment: dict[str, str]) -> list[str]:
+    """What shuts an answer in on this system: tried by a process that then ends."""
+    command = [sys.executable, "-P", "-m", "bootcourse.course.classroom.sandbox", folder]
+    tried = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    return json.loads(tried.stdout) if tried.returncode == 0 else []
+
+
+def begin(folder: str, environment: dict[str, str], is_shut_in: bool) -> None:
+    """In a process that judges: what it knows is what the processes that run answers know."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the process that started it
+    os.environ.clear()
+    os.environ.update(environment)
+    runner.SHUT_IN = functools.partial(shut_in, Path(folder)) if is_shut_in else None
+
+
+def judged(exercise: str, source: str, seconds: float) -> Judged:
+    """In a process that judges: the verdict on an answer."""
+    verdict = judge(registry()[exercise], source, seconds)
+    return Judged(verdict.kind, verdict.sentence, verdict.details, verdict.mistake is not None)
+
+
+# Points ---------------------------------------------------------------------------------------------
+
+
+def points_of(lessons: set[int] | None) -> dict[str, int]:
+    """Exercise -> points, its difficulty, of these lessons (None: of all)."""
+    chosen = registry().items()
+    return {name: each.difficulty for name, each in chosen if lessons is None or int(each.lesson[:2]) in lessons}
+
+
+def handed_out(submissions: Sequence[Submission]) -> set[int] | None:
+    """The lessons that most submissions were given, as numbers; None if they do not say."""
+    given = Counter(frozenset(one.lessons) & set(LESSONS) for one in submissions)
+    return next(({number(lesson) for lesson in lessons} for lessons, _ in given.most_common() if lessons), None)
 
 
 @dataclass(frozen=True)
@@ -98,30 +165,20 @@ class Graduate:
 
     submission: Submission
     verdicts: dict[str, Judged]
-    worth: dict[str, float]  # the points of each exercise
+    worth: dict[str, int]  # the points of each exercise
 
     @property
-    def points(self) -> dict[str, float]:
+    def points(self) -> dict[str, int]:
         """Those of each exercise that the student gets."""
         return {name: self.worth[name] * (judged.kind == "passed") for name, judged in self.verdicts.items()}
 
     @property
-    def total(self) -> float:
+    def total(self) -> int:
         return sum(self.points.values())
 
 
-def graded(submission: Submission, worth: dict[str, float], verdicts: Verdicts) -> Graduate:
+def graded(submission: Submission, worth: dict[str, int], verdicts: Verdicts) -> Graduate:
     """A student's verdicts, once `judge_all` has judged the answers."""
     answers = submission.answers
-    judged = {name: verdicts.known[key_of(name, answers[name])] if name in answers else MISSING for name in worth}
-    return Graduate(submission, judged, worth)
-
-
-def identical(submissions: Sequence[Submission]) -> list[list[str]]:
-    """The groups of students whose written answers, three or more, are the same in all but spaces."""
-    groups = defaultdict(list)
-    for one in submissions:
-        if len(one.written) >= 3:
-            bare = sorted((name, "".join(text.split())) for name, text in one.written.items())
-            groups[tuple(bare)].append(one.student)
-    return [students for students in groups.values() if len(students) > 1]
+    each = {name: verdicts.known[key_of(name, answers[name])] if name in answers else MISSING for name in worth}
+    return Graduate(submission, each, worth)

@@ -1,10 +1,9 @@
 """What a lecturer hands out: some lessons with the kit that they need, a lock and one page, and no solutions in reach.
 
-`handout.json` says which files and cells were handed out, so that an update knows what a student has changed.
+`handout.json` says which files were handed out, so that an update knows what a student has changed.
 """
 
-import itertools
-import json
+import hashlib
 import shutil
 from pathlib import Path
 from typing import ClassVar
@@ -13,11 +12,10 @@ import msgspec
 from msgspec import Struct
 
 import bootcourse
-from bootcourse.course.classroom.merge import hashed, merge, texts
 from bootcourse.course.edition import HANDOUT
 from bootcourse.course.lessons import LESSONS, number
 from bootcourse.errors import BootcourseError
-from bootcourse.files import read_bytes, read_json, write_bytes, write_json
+from bootcourse.files import read_bytes, read_json, write_bytes
 
 KIT = Path(bootcourse.__file__).resolve().parent.parent
 COPIED = ("bootcourse", "assets", "tools/install.sh", "pyproject.toml", "Makefile", "LICENSE")
@@ -26,11 +24,10 @@ COPIED = ("bootcourse", "assets", "tools/install.sh", "pyproject.toml", "Makefil
 class Handout(Struct):
     """The content of `handout.json`."""
 
-    FORMAT: ClassVar[str] = "bootcourse handout 2"
+    FORMAT: ClassVar[str] = "bootcourse handout 3"
 
     solutions: bool  # may `check.solution` show them?
     files: dict[str, str]  # name -> `hashed`
-    cells: dict[str, dict[str, str]]  # notebook -> `texts`
     format: str = FORMAT
 
 
@@ -80,57 +77,44 @@ def write(folder: Path, lessons: set[int] | None, solutions: bool) -> list[str]:
 def update(folder: Path, lessons: set[int] | None, solutions: bool | None) -> list[str]:
     """Bring a handout up to date. Returns what was done, a sentence a file. Raises BootcourseError if it is none.
 
-    What a student wrote in a notebook stays; another file that was changed is kept as NAME.yours. Without lessons,
-    they stay as they are.
+    A file that a student changed stays as it is; the new version is written beside it. Without lessons, they stay as
+    they are.
     """
     if not (folder / HANDOUT).is_file():
         raise BootcourseError(f"{folder} is no handout: it has no {HANDOUT}. Leave out --update to write a new one.")
     old = read_json(folder / HANDOUT, Handout, "restore it from the handout's zip file")
-    before = {Path(name).stem.partition("_")[2] for name in old.cells}  # notebooks/05_the_barrier.ipynb -> the_barrier
-    lessons = lessons or {number(lesson) for lesson in before if lesson in LESSONS}
-    parts = content(lessons, old.solutions if solutions is None else solutions)
-    return [said for name, data in parts.items() for said in place(folder / name, name, data, old)]
-
-
-def place(path: Path, name: str, data: bytes, old: Handout) -> list[str]:
-    """Put one file of an update in its place. Returns a sentence if anything of it is a student's, or is new."""
-    if not path.exists():
+    before = {Path(name).stem.partition("_")[2] for name in old.files}  # notebooks/05_the_barrier.ipynb -> the_barrier
+    parts = content(
+        lessons or {number(lesson) for lesson in before if lesson in LESSONS},
+        old.solutions if solutions is None else solutions,
+    )
+    said = []
+    for name, data in parts.items():
+        path = folder / name
+        mine = read_bytes(path) if path.exists() else None
+        if mine not in (None, data) and name != HANDOUT and hashed(mine) != old.files.get(name):
+            path = path.with_name(f"{path.stem}.new-{hashed(data)[:6]}{path.suffix}")
+            said.append(f"{name}: yours stays; the new version is {path.name}.")
+            if path.exists():  # from an update before, and perhaps worked in since
+                continue
+        elif mine is None and path.suffix == ".ipynb":
+            said.append(f"{name}: new.")
         write_bytes(path, data)
-        return [f"{name}: new."] if path.suffix == ".ipynb" else []
-    mine = read_bytes(path)
-    if mine == data or name == HANDOUT or hashed(mine) == old.files.get(name):
-        write_bytes(path, data)
-        return [f"{name}: replaced; nobody had changed it."] if mine != data and path.suffix == ".ipynb" else []
-    if path.suffix == ".ipynb":
-        try:
-            merged, said = merge(read_json(path, dict), old.cells.get(name, {}), json.loads(data))
-        except (BootcourseError, KeyError, TypeError, AttributeError):
-            new = spare(path.with_suffix(".new.ipynb"), data)
-            return [f"{name}: damaged, and left as it is; the new version is {new}."]
-        write_json(path, merged)
-        return [f"{name}: {said}"]
-    yours = spare(path.with_name(f"{path.name}.yours"), mine)
-    write_bytes(path, data)
-    return [f"{name}: replaced; the one that was here is {yours}."]
+    return said
 
 
-def spare(path: Path, data: bytes) -> str:
-    """Write to this file, or beside it if it holds something else. Returns the file's name."""
-    free = (path.with_stem(f"{path.stem}-{count}") if count > 1 else path for count in itertools.count(1))
-    path = next(each for each in free if not each.exists() or each.is_file() and read_bytes(each) == data)
-    write_bytes(path, data)
-    return path.name
+def hashed(data: bytes) -> str:
+    return hashlib.sha256(data).hexdigest()[:16]
 
 
 def content(lessons: set[int] | None, solutions: bool) -> dict[str, bytes]:
     """{name: data} of every file of a handout. Raises BootcourseError where the notebooks are not installed."""
-    files, cells, titles = {}, {}, []
+    files, titles = {}, []
     for path in sorted((KIT / "notebooks").glob("[0-9][0-9]_*.ipynb")):
         if lessons is None or int(path.name[:2]) in lessons:
-            notebook = read_json(path, dict)
             name = f"notebooks/{path.name}"
-            files[name], cells[name] = read_bytes(path), texts(notebook)
-            title = "".join(notebook["cells"][0]["source"]).partition("\n")[0].lstrip("# ")
+            files[name] = read_bytes(path)
+            title = "".join(read_json(path, dict)["cells"][0]["source"]).partition("\n")[0].lstrip("# ")
             titles.append(f"- [{title}]({name})")
     if not files:
         raise BootcourseError(f"{KIT}/notebooks has none of these lessons: install the course as its README says.")
@@ -143,5 +127,5 @@ def content(lessons: set[int] | None, solutions: bool) -> dict[str, bytes]:
         lessons="\n".join(titles),
         solutions='`check.solution("NAME")` shows a solution.' if solutions else "solutions are closed.",
     ).encode()
-    record = Handout(solutions, {name: hashed(data) for name, data in files.items()}, cells)
+    record = Handout(solutions, {name: hashed(data) for name, data in files.items()})
     return files | {HANDOUT: msgspec.json.format(msgspec.json.encode(record), indent=1)}

@@ -13,8 +13,7 @@ from itertools import groupby
 from pathlib import Path
 from urllib.parse import quote
 
-from bootcourse.course.classroom.grading import MISSING, Graduate, identical
-from bootcourse.course.classroom.judging import Judged
+from bootcourse.course.classroom.grading import MISSING, Graduate, Judged
 from bootcourse.course.classroom.sandbox import HOLDS
 from bootcourse.course.classroom.submission import fingerprint
 from bootcourse.course.lessons import registry
@@ -33,7 +32,6 @@ td:last-child {overflow-wrap: anywhere; min-width: 9em} code, pre {font: 13px/1.
 pre {white-space: pre-wrap; margin: 4px 0}</style>"""
 MADE_BY = '<meta name="generator" content="bootcourse">'
 WORDS = {"missing": "not handed in", "todo": "not written"}
-TO_LOOK_AT = {"did_not_run": "did not run", "unjudged": "could not be judged, grade again"}
 MOST = 12  # different answers to a prediction that are listed
 
 
@@ -130,8 +128,8 @@ def feedback(graduate: Graduate) -> Markup:
         ]
         parts.append(table(heading, ("exercise", "points", "the check says"), rows))
     parts.append(bullets("What could not be read", own.problems))
-    if own.made:
-        parts.append(html("<p><small>Made {}.</small></p>", own.made))
+    if own.time:
+        parts.append(html("<p><small>Made {}.</small></p>", own.time))
     return page(f"Feedback for {own.name or own.student}", *parts)
 
 
@@ -207,15 +205,12 @@ def to_look_at(graduates: Sequence[Graduate], link: dict[str, Markup]) -> list[M
             sentences.append("made with another version of the exercises.")
         if not own.written:
             sentences.append("no answer written.")
-        for kind, words in TO_LOOK_AT.items():
-            names = [name for name, judged in one.verdicts.items() if judged.kind == kind]
-            sentences += [html("{}: {}.", words, code(names))] * bool(names)
+        if stopped := [name for name, judged in one.verdicts.items() if judged.kind == "did_not_run"]:
+            sentences.append(html("did not run: {}.", code(stopped)))
         elsewhere = [name for name in own.right if one.verdicts.get(name, MISSING).kind not in ("passed", "missing")]
         if elsewhere:
             sentences.append(html("right in the notebook, not here: {}.", code(elsewhere)))
         items += [html("{}: {}", link[own.student], sentence) for sentence in sentences]
-    for group in identical([one.submission for one in graduates]):
-        items.append(html("{}: identical in all but spaces.", joined((link[student] for student in group), ", ")))
     return items
 
 

@@ -1,13 +1,14 @@
-"""Shut a process in before it runs what strangers wrote: no network, few files, no other process.
+"""Shut the process of an answer in before it runs what a stranger wrote: no network, few files, no other process.
 
-On Linux, without root: a user, network, process and mount namespace (unshare(2)), and Landlock (landlock(7)). The
-process that judges may write beneath one folder, and read Python, this package and the system. The process of an answer
-has less: `shut_in_answer` lets it write beneath a small folder in memory alone, start no process, open no socket and
-use no right of root. Elsewhere, and where the system forbids it, nothing of this applies: `shut_in` says what does.
+On Linux, without root: a user, network, process and mount namespace (unshare(2)), Landlock (landlock(7)) and a filter
+of system calls (seccomp(2)). The process may read Python, this package and the system, and write beneath a small folder
+in memory; it starts no process, opens no socket and has no right of root. Elsewhere, and where the system forbids it,
+nothing of this applies: `python -m bootcourse.course.classroom.sandbox FOLDER` prints what does.
 """
 
 import contextlib
 import ctypes
+import json
 import os
 import platform
 import signal
@@ -16,6 +17,8 @@ import tempfile
 from pathlib import Path
 
 import numba
+
+from bootcourse.road.compiled import CACHE_FOLDER
 
 NEWNS, NEWIPC, NEWUSER, NEWPID, NEWNET = 0x20000, 0x8000000, 0x10000000, 0x20000000, 0x40000000  # sched.h
 THREAD = 0x10000
@@ -28,7 +31,6 @@ SCOPES = 0b11  # of its sixth: abstract sockets, and signals to processes outsid
 FILE = 0b100_0000_0000_0110  # what a rule about a single file may permit: write, read, truncate
 SYSTEM = ("/usr", "/lib", "/lib64", "/bin", "/etc", "/opt", "/proc", "/sys", "/dev")
 PACKAGE = Path(__file__).resolve().parents[2]
-SCRATCH = "scratch"
 NOTHING_SPECIAL, ROOM = 0b1110, b"size=64m,nr_inodes=4k"  # no programs, devices, rights of others in that folder
 LARGEST, MOST = 2**24, 256  # bytes of a file, and threads, of an answer; the latter not as root
 ALLOWED, FAILS, UNKNOWN = 0x7FFF0000, 0x00050001, 0x00050026  # of a filter: go on; fail with EPERM; with ENOSYS
@@ -48,6 +50,8 @@ REFUSED = {  # system calls by number, on these processors, see asm/unistd.h
     "utime, setxattr, removexattr": ((132, 235, 261, 280, 188, 189, 190, 197, 198, 199, 463, 466, 469),
                                      (88, 5, 6, 7, 14, 15, 16, 463, 466, 469)),
     "fork, vfork, unshare, setns": ((57, 58, 272, 308), (97, 268)),
+    "kill and its kin, setpgid, setsid": ((62, 109, 112, 129, 200, 234, 297, 424),
+                                          (129, 154, 157, 138, 130, 131, 240, 424)),
     "ptrace, process_vm_readv, process_vm_writev": ((101, 310, 311), (117, 270, 271)),
     "keys": ((248, 249, 250), (217, 218, 219)),
     "memory and queues of several processes": ((29, 64, 68, 240, 319, 447), (194, 190, 186, 180, 279, 447)),
@@ -56,14 +60,13 @@ REFUSED = {  # system calls by number, on these processors, see asm/unistd.h
 
 
 def shut_in(folder: Path) -> list[str]:
-    """Shut this process in; it may write beneath `folder` alone. Returns what holds: see `HOLDS`.
+    """Shut this process in; it may write beneath a new folder in `folder` alone. Returns what holds: see `HOLDS`.
 
-    Call it while there is one thread. It may return in a child: the parent then waits and ends as the child does.
+    Call it while there is one thread. It returns in a child: the parent waits, and ends as the child does.
     """
     if sys.platform != "linux":
         return []
-    libc, holds, scratch = ctypes.CDLL(None, use_errno=True), [], folder / SCRATCH
-    scratch.mkdir()
+    libc, holds, scratch = ctypes.CDLL(None, use_errno=True), [], Path(tempfile.mkdtemp(dir=folder))
     user, group = os.getuid(), os.getgid()
     if libc.unshare(NEWUSER | NEWNET | NEWPID | NEWNS | NEWIPC) == 0:
         holds += ["network", "processes"]
@@ -75,25 +78,18 @@ def shut_in(folder: Path) -> list[str]:
         limit("RLIMIT_NPROC", MOST)  # of these processes alone: others of the same user are not in the namespace
         become_first(libc)
         libc.mount(b"proc", b"/proc", b"proc", NOTHING_SPECIAL, None)  # not where a container hides parts of it
-    if restrict_files(libc, folder):
-        holds.append("files")
-    child = os.fork()  # can the process of an answer be shut in?
-    if not child:
-        os._exit(0 if shut_in_answer(folder) else 1)
-    return [*holds, "calls"] if os.waitpid(child, 0)[1] == 0 else holds
-
-
-def shut_in_answer(folder: Path) -> bool:
-    """The same for the process of one answer, which may write beneath folder/scratch alone: see `REFUSED`."""
-    libc, scratch = ctypes.CDLL(None, use_errno=True), folder / SCRATCH
     limit("RLIMIT_FSIZE", LARGEST)
     limit("RLIMIT_CORE", 0)
     os.environ |= dict.fromkeys(("HOME", "TMPDIR", "TEMP", "TMP", "MPLCONFIGDIR"), str(scratch))
     tempfile.tempdir = None
     numba.core.caching.Cache.save_overload = lambda *arguments: None  # what it compiles, nobody else executes
     os.chdir(scratch)
-    shut = restrict_files(libc, scratch) & refuse_calls(libc)
-    return shut & (libc.capset((ctypes.c_uint32 * 2)(CAPABILITIES), (ctypes.c_uint32 * 6)()) == 0)  # root's rights
+    if restrict_files(libc, scratch):
+        holds.append("files")
+    no_rights = libc.capset((ctypes.c_uint32 * 2)(CAPABILITIES), (ctypes.c_uint32 * 6)()) == 0  # of root
+    if refuse_calls(libc) and no_rights:
+        holds.append("calls")
+    return holds
 
 
 def limit(what: str, most: int) -> None:
@@ -108,9 +104,10 @@ def become_first(libc: ctypes.CDLL) -> None:
     """Go on as the first process of the new namespace: when it ends, all that were started in it are killed."""
     child = os.fork()
     if child:
-        for descriptor in (0, 1):
-            os.close(descriptor)
-        os._exit(max(0, os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])))
+        code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+        if code < 0:  # minus the signal that ended it
+            os.kill(os.getpid(), -code)
+        os._exit(code)
     libc.prctl(DEATH_SIGNAL, signal.SIGKILL, 0, 0, 0)
 
 
@@ -131,7 +128,15 @@ def restrict_files(libc: ctypes.CDLL, folder: Path) -> bool:
     if ruleset < 0:
         return False
     kit = PACKAGE.parent  # of its source tree, which may hold anything, the package and the results alone
-    places = {*SYSTEM, *filter(None, sys.path), sys.prefix, sys.base_prefix, str(PACKAGE), str(kit / "assets")}
+    places = {
+        *SYSTEM,
+        *filter(None, sys.path),
+        sys.prefix,
+        sys.base_prefix,
+        str(PACKAGE),
+        str(kit / "assets"),
+        str(CACHE_FOLDER),
+    }
     if (kit / "pyproject.toml").exists():
         places -= {str(kit)}
         allow(libc, ruleset, str(kit), LIST)
@@ -187,3 +192,7 @@ def refuse_calls(libc: ctypes.CDLL) -> bool:
     program = Filter(len(steps), (Step * len(steps))(*steps))
     libc.prctl(NO_NEW_PRIVS, 1, 0, 0, 0)
     return libc.prctl(SECCOMP, 2, ctypes.byref(program), 0, 0) == 0
+
+
+if __name__ == "__main__":
+    print(json.dumps(shut_in(Path(sys.argv[1]))))

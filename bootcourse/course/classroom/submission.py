@@ -46,12 +46,12 @@ class Prediction(Struct, frozen=True):
 class Submission(Struct, frozen=True, kw_only=True):
     """A student's work: the content of the file that `submit` writes, or of a notebook or a folder of notebooks."""
 
-    FORMAT: ClassVar[str] = "bootcourse submission 2"
+    FORMAT: ClassVar[str] = "bootcourse submission 3"
 
     format: str = FORMAT
     student: str = ""  # the name of the file or folder, which the student did not choose
     name: Words = ""  # what the student gave as name
-    made: Words = ""  # the time, UTC
+    time: Words = ""  # UTC
     exercises: Words = ""  # `fingerprint()` of the kit that made it
     lessons: Annotated[tuple[Words, ...], Many] = ()  # the names of those whose notebooks the student has
     answers: Annotated[dict[Words, Answer], Many] = {}  # exercise -> text
@@ -92,7 +92,7 @@ def submit(folder: Path, name: str, out: Path | None) -> tuple[Path, Submission]
         if old.name != name:
             raise BootcourseError(f"{path} is the submission of {old.name or 'nobody'}: choose another, with --out.")
     now = datetime.now(UTC).isoformat(timespec="seconds")
-    submission = replace(from_notebooks(folder), name=name, made=now, exercises=fingerprint())
+    submission = replace(from_notebooks(folder), name=name, time=now, exercises=fingerprint())
     write_json(path, to_builtins(submission))
     return path, submission
 
@@ -176,7 +176,7 @@ def read(path: Path, student: str) -> Submission:
                 raise BootcourseError(f"{path} was not read: it is no .json file, no notebook and no folder.")
             written = [path] if path.is_file() else filter(is_submission, files(path, "*.json"))
             each = [read_json(file, Submission, ASK) for file in written if file.suffix == ".json"]
-            latest = max(each, key=lambda one: one.made) if each else from_notebooks(path)
+            latest = max(each, key=lambda one: one.time) if each else from_notebooks(path)
             return replace(latest, student=student)
     except BootcourseError as error:
         return Submission(student=student, problems=(within(path.parent, error),))

@@ -8,8 +8,10 @@ import functools
 import importlib
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from bootcourse.course.exercise import Exercise
+if TYPE_CHECKING:
+    from bootcourse.course.exercise import Exercise
 
 COURSE = (
     "start",
@@ -49,8 +51,10 @@ def stem(lesson: str) -> str:
 
 
 @functools.cache
-def registry() -> dict[str, Exercise]:
+def registry() -> "dict[str, Exercise]":
     """name -> exercise, in the order of the lessons and of the files' lines: every `Exercise` of NAME/exercises.py."""
+    from bootcourse.course.exercise import Exercise  # loads torch, which a lesson's number does not need
+
     exercises = {}
     for lesson in LESSONS:
         if not (Path(__file__).parent / lesson / "exercises.py").exists():
