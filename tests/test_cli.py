@@ -92,7 +92,7 @@ def no_lane(cars, scenario):
 def takes_one(cars):
     return 4
 """
-FIRST_ROAD = "failed on the road with seed 17179869184, at decision 0: it"
+FIRST_ROAD = "failed with the ego at x = 0.0 m, y = 8.0 m, 10.0 m/s: it"
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ import numpy as np
 from gymnasium.spaces import Box, Discrete
 from gymnasium.vector import AutoresetMode, SyncVectorEnv, VectorEnv
 
-from bootcourse.errors import BootcourseError, naming
+from bootcourse.errors import BootcourseError
 from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, Scenario
@@ -37,36 +37,24 @@ class Step(NamedTuple):
 def steps(policy: Policy, env: VectorEnv, seeds: Sequence[int] | int) -> Iterator[Step]:
     """Drive one episode on each road of `env`, reset with `seeds`; yields each decision until all are over.
 
-    A policy with a method `reset(roads)` is reset first. A rule's RuleFailed names the road's seed and the decision.
+    A policy with a method `reset(roads)` is reset first.
     """
     if hasattr(policy, "reset"):
         policy.reset(env.num_envs)
     on_the_trap = hasattr(env, "cars")
     observations, _ = env.reset(seed=seeds)
-    running, decisions = np.ones(env.num_envs, dtype=bool), np.zeros(env.num_envs, dtype=np.int64)
+    running = np.ones(env.num_envs, dtype=bool)
     while running.any():
         cars = env.cars.copy() if on_the_trap else observations
-        with naming(place(seeds, decisions)):
-            output = policy(observations, cars)
+        output = policy(observations, cars)
         seen, rewards, terminated, truncated, infos = env.step(output.actions)
         reached = reached_observations(seen, infos)
-        decisions += running
         yield Step(
             running, observations, cars, output, rewards, terminated, truncated, reached,
             reached_cars(env, reached, infos), infos,
         )  # fmt: skip
         running = running & ~(terminated | truncated)
         observations = seen
-
-
-def place(seeds: Sequence[int] | int, decisions: np.ndarray) -> Callable[[int], str]:
-    """For `errors.naming`: a road's seed, and how many decisions were made on it, (roads,)."""
-
-    def words(road: int) -> str:
-        seed = seeds[road] if np.iterable(seeds) else seeds + road
-        return f"on the road with seed {seed}, at decision {decisions[road]}"
-
-    return words
 
 
 def reached_observations(observations: np.ndarray, infos: dict) -> np.ndarray:

@@ -7,9 +7,9 @@ import torch
 from gymnasium.vector import VectorEnv
 from torch import Tensor
 
-from bootcourse.episodes.driving import one_episode_each, place, steps
+from bootcourse.episodes.driving import one_episode_each, steps
 from bootcourse.episodes.rollout import Rollout
-from bootcourse.errors import BootcourseError, naming
+from bootcourse.errors import BootcourseError
 from bootcourse.learn.replay_buffer import encode_transitions
 from bootcourse.learn.teachers import Rule, all_roads, course_rule, teacher_of
 from bootcourse.policies import Policy, PolicyOutput
@@ -35,7 +35,7 @@ def collect(
     For the stochastic rule give `stochastic_rule_policy`.)
     """
     env = one_episode_each(episodes, scenario, make_env)
-    rows, mu, decisions = [], None, np.zeros(episodes, dtype=np.int64)
+    rows, mu = [], None
     teach = teacher_of(teacher or no_teacher, scenario, int(env.single_action_space.n))
 
     def follow_teacher(observations, cars):
@@ -43,11 +43,8 @@ def collect(
 
     for step in steps(policy or follow_teacher, env, first_seed):
         if mu is None:
-            with naming(place(first_seed, decisions)):
-                mu = teach(step.cars)
-        decisions += step.running
-        with naming(place(first_seed, decisions)):
-            next_mu = teach(step.next_cars)
+            mu = teach(step.cars)
+        next_mu = teach(step.next_cars)
         seen = step.observations, step.next_observations
         each = encode_transitions(*seen, step.output.actions, step.rewards, step.terminated, mu, next_mu)
         rows.append(each[step.running])
@@ -77,8 +74,7 @@ def demonstration_rows(rollouts: Sequence[Rollout], teacher: Rule = course_rule)
 def _rows(rollout: Rollout, teacher: Rule) -> Tensor:
     decisions, per_decision = len(rollout.actions), rollout.scenario.clock.steps
     at = np.minimum(np.arange(decisions + 1) * per_decision, len(rollout.states) - 1)
-    with naming(lambda decision: f"on the road with seed {rollout.seed}, at decision {decision}"):
-        mu = teacher_of(teacher, rollout.scenario)(np.ascontiguousarray(rollout.states[at]))
+    mu = teacher_of(teacher, rollout.scenario)(np.ascontiguousarray(rollout.states[at]))
     terminated = np.zeros(decisions)
     terminated[-1] = rollout.accident != 0
     seen = rollout.observations

@@ -26,7 +26,7 @@ from torch import Tensor
 
 from bootcourse.episodes.driving import TRAP, copies_of, environment_id, reached_cars, reached_observations
 from bootcourse.episodes.rollout import Rollout
-from bootcourse.errors import BootcourseError, naming, whole
+from bootcourse.errors import BootcourseError, whole
 from bootcourse.learn.agent import Agent, sample_actions
 from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.curves import Curves
@@ -186,12 +186,7 @@ class Training:
         """The teacher's actions in the present states, (envs,); zeros where it is not asked."""
         if not self.asks:
             return np.zeros(self.env.num_envs, dtype=np.int64)
-        with naming(lambda road: f"on {self._road(road)}, at decision {self.curves.running[1][road]:.0f}"):
-            return self._teach(self.env.cars if self.on_the_trap else self.states)
-
-    def _road(self, road: int) -> str:
-        what = "road" if self.on_the_trap else "copy"
-        return f"{what} {road % self.envs_per_agent} of agent {road // self.envs_per_agent} in training"
+        return self._teach(self.env.cars if self.on_the_trap else self.states)
 
     def step(self) -> None:
         """One decision in every environment, and the updates that follow it."""
@@ -212,8 +207,7 @@ class Training:
         self.rule_actions = self.taught()
         reached_rule_actions = self.rule_actions.copy()
         if done.any() and self.asks:  # these roads are already reset: μ(s') is of the old episode's last state
-            with naming(lambda i: f"on {self._road(np.flatnonzero(done)[i])}, at an episode's end"):
-                reached_rule_actions[done] = self._teach(reached_cars(self.env, reached, infos)[done])
+            reached_rule_actions[done] = self._teach(reached_cars(self.env, reached, infos)[done])
         rows = encode_transitions(decided_in, reached, actions, rewards, terminated, taught, reached_rule_actions)
         self.replay.add(rows.view(*shape, -1), done.reshape(shape))
         self.decisions += len(actions)
