@@ -4,13 +4,10 @@
 course; in `CALIBRATED` the traps drive at the speed that the paper's results suggest.
 """
 
-import json
 import math
-from dataclasses import asdict, dataclass, field, fields
+from dataclasses import dataclass, field, fields
 
-import msgspec
-
-from bootcourse.errors import BootcourseError, check_known, require
+from bootcourse.errors import check_known, require
 from bootcourse.limits import Range, check_limits, limited
 
 N_ACTIONS = 9  # 3 accelerations x 3 steering angles † (Equation 8)
@@ -237,18 +234,6 @@ class Scenario:
     def observation_size(self) -> int:
         """Numbers in an observation: 6 of the ego, 5 of each neighbour (26 by default)."""
         return 6 + 5 * self.sight.neighbours
-
-    def to_json(self) -> str:
-        """The scenario as JSON text, for `from_json`."""
-        return json.dumps(asdict(self), sort_keys=True)
-
-    @classmethod
-    def from_json(cls, text: str) -> "Scenario":
-        """A scenario from `to_json`'s text. Raises BootcourseError for other text or an invalid number."""
-        try:
-            return msgspec.json.decode(text, type=cls)
-        except msgspec.MsgspecError as error:
-            raise BootcourseError(f"This is not a scenario that bootcourse wrote ({error}).") from None
 
 
 DEFAULT = Scenario()

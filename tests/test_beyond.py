@@ -9,18 +9,16 @@ from bootcourse.course.shipped import shipped_experiment
 from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.research import beyond, equal_decisions
-from bootcourse.research.beyond import at_budget, decisions_until, learner_rows, lengths
+from bootcourse.research.beyond import at_budget, decisions_until, learner_rows
 from bootcourse.research.equal_decisions import (
     BUDGETS,
     CHOSEN,
     TRIES,
     budget_rows,
     by_method,
-    search_rows,
     seconds_rows,
     trained_and_tested,
     tried,
-    tries,
 )
 from bootcourse.research.results import Results, agent_entries
 
@@ -35,12 +33,6 @@ DECISIONS = np.array([[5, 10, 20, 40, 80, 160], [1, 2, 3, 4, 5, 6], [1] * 6, [7,
 )
 def test_the_decisions_are_counted_up_to_the_first_window_with_enough_successes(share, window, expected):
     assert decisions_until(SUCCESS, DECISIONS, share, window).tolist() == expected
-
-
-def test_a_length_is_recorded_or_follows_from_distance_and_speed_or_is_not_known():
-    assert lengths({"decisions": np.ones((1, 2))}).tolist() == [[1, 1]]
-    assert lengths({"distance": np.array([[300.0]]), "speed": np.array([[10.0]])}).tolist() == [[30]]
-    assert lengths({"success": np.ones((1, 2))}) is None
 
 
 def test_the_table_counts_agents_and_says_how_many_learned_the_way_out():
@@ -111,14 +103,6 @@ def test_a_row_counts_the_agents_of_all_jobs_that_made_so_many_decisions():
     assert len(headings) == 6
 
 
-def test_the_search_has_a_mean_for_each_try():
-    agents = [agent for one in tries("ppo") for agent in with_seeds(one, 2, 500)]
-    results = invented(agents, [1.0, 3.0, 10.0, 20.0, 5.0, 5.0])
-    assert tried(results) == {"32 roads at once": 2, "64 roads at once": 15, "128 roads at once": 5}
-    headings, (row,) = search_rows({"ppo": results})
-    assert len(row) == len(headings) and row[2] == "64 roads at once: 15.0"
-
-
 def test_every_method_has_as_many_tries_and_only_usable_seeds():
     assert {len(each) for each in TRIES.values()} == {3}
     used = range(equal_decisions.FIRST_SEARCH_SEED, equal_decisions.FIRST_SEARCH_SEED + equal_decisions.SEARCH_SEEDS)
@@ -139,10 +123,3 @@ def test_the_return_after_equal_seconds_follows_from_what_a_decision_takes():
     _, (row,) = seconds_rows({"ibrl": replace(results, curves=curves)})
     assert equal_decisions.SECONDS == 5
     assert row == ["IBRL", "50,000", "1.00 [1.00, 1.00]"]  # the 500 episodes of the first half
-
-
-def test_a_method_without_so_many_decisions_has_no_row_there():
-    results = invented(with_seeds(settings_for("rlpd"), 2), [100.0, 100.0])
-    measured = {name: each for name, each in results.measured.items() if name.endswith("_100000")}
-    _, rows = budget_rows({"rlpd": replace(results, measured=measured)})
-    assert [row[0] for row in rows] == ["100,000"] and equal_decisions.last_of("rlpd", 0) == 200_000

@@ -25,7 +25,6 @@ from bootcourse.files import (
     write_arrays,
     write_bytes,
 )
-from bootcourse.storage.sealed import read_sealed, write_sealed
 
 CHANGES = {"open", "os.rename", "os.remove"}  # audit events of what changes files
 
@@ -201,18 +200,3 @@ def test_a_file_that_would_fill_the_memory_is_refused_before_it_is_unpacked(tmp_
 def test_what_is_not_json_is_refused(tmp_path, text):
     (tmp_path / "a.json").write_bytes(text)
     assert "restore it from a copy" in refusal(read_json, tmp_path / "a.json")
-
-
-def test_a_flipped_bit_of_a_sealed_file_is_noticed(tmp_path):
-    path, content = tmp_path / "sealed.json", {"format": "a format", "made": {"seed": 3, "seconds": 1.5}, "by": "ä"}
-    write_sealed(path, content)
-    whole = path.read_bytes()
-    for place in range(len(whole)):
-        for bit in range(8):
-            flipped = bytearray(whole)
-            flipped[place] ^= 1 << bit
-            path.write_bytes(flipped)
-            try:
-                assert read_sealed(path, "a format") == content  # one space became another
-            except BootcourseError as error:
-                assert "sealed.json" in str(error)

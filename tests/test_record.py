@@ -1,7 +1,6 @@
 """Recording, saving and loading drives, and what happens when a file or a disk is damaged."""
 
 import json
-import os
 from dataclasses import fields, replace
 
 import numpy as np
@@ -97,7 +96,7 @@ NAN_REWARDS = np.full(10, np.nan)
         ({"rewards": np.zeros(9)}, "rewards have shape (9,), not (10,)"),
         ({"rewards": None}, "incomplete"),
         ({"rewards": np.array(["a"] * 10)}, "rewards"),
-        ({"policy": np.full((10, 9), np.inf)}, "policy hold NaN, infinity"),
+        ({"policy": np.full((10, 9), np.inf)}, "policy hold NaN or a number outside"),
         ({"actions": np.zeros(0, np.int64)}, "no decisions"),
         ({"actions": np.full(10, 9)}, "outside 0..8"),
         ({"actions": np.full(10, 4.5)}, "actions"),
@@ -106,7 +105,7 @@ NAN_REWARDS = np.full(10, np.nan)
         ({"accident": 7}, "accident"),
         ({"label": None}, "missing required field `label`"),
         ({"rule_p": None}, "missing required field `rule_p`"),
-        ({"scenario": {"road": {"lanes": 0}}}, "written by another version"),
+        ({"scenario": {"road": {"lanes": 0}}}, "Road.lanes = 0"),
         ({"surprise": np.zeros(3)}, "surprise"),
         ({"format": "bootcourse rollout 99"}, f"this version reads '{Header.FORMAT}'"),
         ({"header": np.array("{")}, "Input data was truncated"),
@@ -120,29 +119,3 @@ def test_a_damaged_rollout_is_refused_in_one_sentence(rollout, tmp_path, damages
     assert words in refusal(path)
     with pytest.raises(BootcourseError, match="rewards hold NaN"):
         replace(rollout, rewards=NAN_REWARDS)  # it cannot even be made
-
-
-def test_a_pickled_array_is_refused_and_never_run(rollout, tmp_path):
-    class Trap:
-        def __reduce__(self):
-            return (os.mkdir, (str(tmp_path / "sprung"),))
-
-    path = rollout.save(tmp_path / "drive.npz")
-    damage(path, rewards=np.array([Trap()], dtype=object))
-    assert "damaged" in refusal(path)
-    np.save(tmp_path / "bare.npy", np.array([Trap()], dtype=object), allow_pickle=True)
-    refusal(tmp_path / "bare.npy")
-    assert not (tmp_path / "sprung").exists()
-
-
-def test_a_file_that_is_cut_short_something_else_or_nowhere_is_refused(rollout, tmp_path):
-    data = rollout.save(tmp_path / "cut.npz").read_bytes()
-    for share in (0.0, 0.5, 0.99):
-        (tmp_path / "cut.npz").write_bytes(data[: int(share * len(data))])
-        assert "record it again" in refusal(tmp_path / "cut.npz")
-    (tmp_path / "text.npz").write_text("hello")
-    np.savez(tmp_path / "others.npz", weights=np.zeros(3))
-    assert "damaged" in refusal(tmp_path / "text.npz")
-    assert "not a rollout" in refusal(tmp_path / "others.npz")
-    assert "is not there" in refusal(tmp_path / "nowhere.npz")
-    assert "a folder" in refusal(tmp_path)

@@ -40,12 +40,6 @@ def test_what_is_no_seed_is_refused_in_one_sentence(place, seed):
         PLACES[place](seed)
 
 
-def test_the_road_of_a_numpy_seed_is_that_of_the_same_python_seed():
-    roads, compiled = gym.make("bootcourse:Trap-v0"), gym.make_vec("bootcourse:Trap-v0", num_envs=1)
-    for env in (roads, compiled):
-        np.testing.assert_array_equal(env.reset(seed=np.uint8(7))[0], env.reset(seed=7)[0])
-
-
 def test_an_agent_of_numpy_numbers_is_that_of_pythons():
     given = bc.settings_for("sac", seed=np.int64(3), gamma=np.float32(0.5), batch=np.int32(64))
     assert given == bc.settings_for("sac", seed=3, gamma=0.5, batch=64)
