@@ -86,33 +86,22 @@ def compare(
             one = entry(seeds) if callable(entry) else None
         if not isinstance(one, Training):
             raise BootcourseError(f"'{name}' is {entry!r:.80}: give settings, or a function seeds -> Training.")
-        results[name] = result = one.run(progress)
+        result, held_out = one.run(progress), held_out_seeds(1, tests)
+        if one.updates:
+            policies = [agent.as_policy() for agent in result.agents]
+            results[name] = result
+            tested[name] = [drive_episodes(drive, held_out, one.scenario, make_env=one.make_env) for drive in policies]
         if result.interrupted:
-            warnings.warn(_interrupted(name, one, [other for other in entries if other not in results]), stacklevel=2)
-        if not one.updates and result.interrupted:
+            missing = [f"'{other}'" for other in entries if other not in results]
+            driven = int(np.minimum(one.curves.finished, one.episodes).min())
+            rest = f" There is no row for {', '.join(missing)}." if missing else ""
+            warnings.warn(f"'{name}' was interrupted after {driven} of {one.episodes} episodes.{rest}", stacklevel=2)
             break
         if not one.updates:
             raise BootcourseError(f"'{name}' made no update in {one.episodes} episodes: give more episodes.")
-        held_out = held_out_seeds(1, tests)
-        policies = [agent.as_policy() for agent in result.agents]
-        tested[name] = [drive_episodes(drive, held_out, one.scenario, make_env=one.make_env) for drive in policies]
-        if result.interrupted:
-            break
     if not tested:
-        raise BootcourseError(
-            "The first training was interrupted before its first update: there is nothing to compare."
-        )
-    return Comparison({name: results[name] for name in tested}, tested)
-
-
-def _interrupted(name: str, training: Training, untrained: list[str]) -> str:
-    """What an interrupt leaves of a comparison, in a sentence."""
-    driven = int(np.minimum(training.curves.finished, training.episodes).min())
-    row = (
-        f"its row is of agents after {driven} of {training.episodes} episodes" if training.updates else "it has no row"
-    )
-    rest = f" Not trained: {', '.join(untrained)}." if untrained else ""
-    return f"'{name}' was interrupted: {row}.{rest}"
+        raise BootcourseError("The first training was interrupted before its first update: nothing can be compared.")
+    return Comparison(results, tested)
 
 
 def _bracketed(scores: np.ndarray) -> str:

@@ -66,8 +66,8 @@ def formats(tmp_path_factory) -> dict[str, Format]:
     drive = record(rule_policy(DEFAULT), [1], DEFAULT, "rule")[0].save(folder / "drive.npz")
     save_results(load_results(FOLDER / "study-default.npz").pick(range(3)), folder / "results.npz", provenance())
     shutil.copy(FOLDER / MANIFEST, folder / MANIFEST)
-    made = {"provenance": provenance(seconds=1.5), "sha256": {}}
-    write_sealed(folder / "job" / "job.json", {"format": JOB, "asked": {}} | made)
+    contents = {"provenance": provenance(seconds=1.5), "sha256": {}}
+    write_sealed(folder / "job" / "job.json", {"format": JOB, "asked": {}} | contents)
     handout = {"format": Handout.FORMAT, "lessons": [5], "solutions": True, "files": {}, "cells": {}}
     write_json(folder / "handout.json", handout)
     answers = folder / "answers" / "predictions.json"

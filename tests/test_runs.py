@@ -59,10 +59,10 @@ def test_weights_that_are_not_numbers_are_refused_even_with_the_right_hash(run):
     weights = load_file(run / "weights.safetensors")
     weights["actor.0"][0, 0, 0] = np.nan
     save_file(weights, run / "weights.safetensors")
-    made = json.loads((run / "provenance.json").read_text())
-    made["sha256"]["weights.safetensors"] = sha256(run / "weights.safetensors")
-    del made["seal"]
-    write_sealed(run / "provenance.json", made)
+    stored = json.loads((run / "provenance.json").read_text())
+    stored["sha256"]["weights.safetensors"] = sha256(run / "weights.safetensors")
+    del stored["seal"]
+    write_sealed(run / "provenance.json", stored)
     with pytest.raises(BootcourseError, match="NaN or infinity"):
         load_run(run)
 

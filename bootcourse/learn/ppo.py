@@ -184,8 +184,8 @@ class PPOLearner(Learner):
         advantage = self.advantages(decisions.rewards, values, next_values, decisions.terminated, replay.ended)
         states, actions = agents_first(decisions.states), agents_first(decisions.actions)
         log_pi = sac.log_policy(mlp(self.actor, states)).gather(-1, actions[..., None])[..., 0]
-        kept = states.clone(), actions.clone()  # of one agent they are views, which the next drives overwrite
-        replay.columns = Minibatch(*kept, log_pi, agents_first(advantage), agents_first(advantage + values))
+        copies = states.clone(), actions.clone()  # of one agent they are views, which the next drives overwrite
+        replay.columns = Minibatch(*copies, log_pi, agents_first(advantage), agents_first(advantage + values))
         replay.drawn = 0
 
     def state_values(self, states: Tensor) -> Tensor:
