@@ -13,7 +13,6 @@ from bootcourse.research.beyond import at_budget, decisions_until, learner_rows
 from bootcourse.research.equal_decisions import (
     BUDGETS,
     CHOSEN,
-    TRIES,
     budget_rows,
     by_method,
     seconds_rows,
@@ -101,13 +100,6 @@ def test_a_row_counts_the_agents_of_all_jobs_that_made_so_many_decisions():
     assert rows[0] == ["100,000", "IBRL", "2 of 3", "100.00 [100.00, 100.00]", "25.0", "100.0"]
     assert [row[:3:2] for row in rows[1:]] == [["200,000", "2 of 3"], ["800,000", "1 of 2"]]
     assert len(headings) == 6
-
-
-def test_every_method_has_as_many_tries_and_only_usable_seeds():
-    assert {len(each) for each in TRIES.values()} == {3}
-    used = range(equal_decisions.FIRST_SEARCH_SEED, equal_decisions.FIRST_SEARCH_SEED + equal_decisions.SEARCH_SEEDS)
-    assert equal_decisions.SEEDS <= min(used)
-    assert not set(equal_decisions.SEARCH_ROADS) & set(held_out_seeds(equal_decisions.HELD_OUT, equal_decisions.TESTS))
 
 
 def test_the_chosen_settings_are_those_that_earned_most_in_the_search_that_ships():

@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 
 from bootcourse import files
-from bootcourse.cli.driving import drive
 from bootcourse.errors import BootcourseError
 from bootcourse.files import (
     MEMBERS,
@@ -129,13 +128,6 @@ def test_a_picture_replaces_a_picture_and_nothing_else(tmp_path):
     assert "does not end in .png or .svg" in refusal(check_replaceable, tmp_path / "thesis.tex", ".png", ".svg")
     for name in ("old.png", "new.png"):
         assert check_replaceable(tmp_path / name, ".png") == tmp_path / name
-
-
-def test_a_drive_is_refused_before_it_begins_if_its_picture_has_another_ending(tmp_path):
-    for name in ("thesis.tex", "q.npz"):
-        with pytest.raises(BootcourseError, match="does not end in .png"):
-            drive("rule", tmp_path / "q.npz", 0, "", tmp_path / name)
-    assert list(tmp_path.iterdir()) == []
 
 
 # Reading --------------------------------------------------------------------------------------------

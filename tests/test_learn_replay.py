@@ -54,13 +54,6 @@ def test_the_oldest_is_overwritten_and_nothing_else():
         assert set(batch.rewards[agent].tolist()) == {1000.0 * agent + k for k in range(18, 28)}
 
 
-def test_every_transition_is_drawn_equally_often():
-    replay = ReplayBuffer(1, 10, INPUTS)
-    replay.add(numbered(1, 10, 0))
-    counts = torch.bincount(replay.sample(20_000, np.zeros(1), generators(0)).rewards[0].long(), minlength=10)
-    assert (counts - 2000).abs().max() < 5 * (2000 * 0.9) ** 0.5
-
-
 @pytest.mark.parametrize(("beta", "demonstrations"), [(0.0, 0), (0.3, 19), (0.5, 32), (0.6, 38), (0.65, 42), (1.0, 64)])
 def test_the_share_of_demonstrations_is_beta_of_the_batch(beta, demonstrations):
     replay = ReplayBuffer(2, 50, INPUTS, numbered(1, 20, 500)[0])

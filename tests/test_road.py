@@ -1,6 +1,5 @@
 """`gym.make` and `gym.make_vec`: what gymnasium, other libraries and a user's mistakes may expect of them."""
 
-import multiprocessing
 import warnings
 from dataclasses import replace
 
@@ -8,7 +7,7 @@ import gymnasium as gym
 import numpy as np
 import pytest
 from gymnasium.utils.env_checker import check_env
-from gymnasium.vector import AsyncVectorEnv, AutoresetMode, VectorEnv
+from gymnasium.vector import AutoresetMode, VectorEnv
 
 import bootcourse  # noqa: F401  registers the road
 from bootcourse.errors import BootcourseError
@@ -113,24 +112,7 @@ def test_rendered_frames_are_not_blank():
     assert first.std() > 5 and (first != later).any()
 
 
-# In other processes, under another library
-
-
-def test_the_road_works_in_a_spawned_subprocess():
-    before = multiprocessing.active_children()
-    envs = AsyncVectorEnv([_spawned], context="spawn")
-    try:
-        observations, _ = envs.reset(seed=7)
-        assert (observations[0] == make().reset(seed=7)[0]).all()
-        _, rewards, *_ = envs.step(np.array([IDLE]))
-        assert rewards[0] == pytest.approx(0.15625)
-    finally:
-        envs.close()
-    assert set(multiprocessing.active_children()) <= set(before)
-
-
-def _spawned():
-    return gym.make("bootcourse:Trap-v0")
+# Under another library
 
 
 def test_it_trains_unmodified_under_stable_baselines3():

@@ -181,39 +181,34 @@ def test_a_changed_formula_anywhere_in_the_package_is_compiled_again(tmp_path):
 
 
 WITHOUT_A_PLACE = """
-import os, tempfile
+import os
 from pathlib import Path
-if {no_temporary}:
-    tempfile.mkdtemp = lambda **_: open("/nowhere/at/all")
 from bootcourse import doctor
 from bootcourse.road.compiled import CACHE_FOLDER
 from bootcourse.road.formulas import wrap_to_pi
 assert wrap_to_pi(0.5) == 0.5
 (finding,) = doctor.cache()
 print(finding.level, finding.remedy)
-if CACHE_FOLDER:
-    assert list(CACHE_FOLDER.rglob("*.nbc")) and CACHE_FOLDER.parent == Path(os.environ["NUMBA_CACHE_DIR"])
-    print(oct(CACHE_FOLDER.parent.stat().st_mode)[-3:], CACHE_FOLDER.parent)
+assert list(CACHE_FOLDER.rglob("*.nbc")) and CACHE_FOLDER.parent == Path(os.environ["NUMBA_CACHE_DIR"])
+print(oct(CACHE_FOLDER.parent.stat().st_mode)[-3:], CACHE_FOLDER.parent)
 """
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="the user's cache is named by XDG_CACHE_HOME")
-@pytest.mark.parametrize("no_temporary", [False, True])
-def test_where_nothing_can_be_kept_the_road_compiles_for_this_process_alone(no_temporary, tmp_path):
+def test_where_nothing_can_be_kept_the_road_compiles_for_this_process_alone(tmp_path):
     shutil.copytree(PACKAGE, tmp_path / "bootcourse", ignore=shutil.ignore_patterns("__pycache__"))
     in_the_way = tmp_path / "bootcourse" / "__pycache__"
     in_the_way.write_text("a file, where a folder should be")  # stops the superuser too
     home = {"PYTHONPATH": str(tmp_path), "XDG_CACHE_HOME": str(in_the_way), "HOME": str(in_the_way)}
     environment = os.environ | home | {"PYTHONDONTWRITEBYTECODE": "1", "TMPDIR": str(tmp_path)}
     environment.pop("NUMBA_CACHE_DIR", None)
-    program = [sys.executable, "-c", WITHOUT_A_PLACE.format(no_temporary=no_temporary)]
+    program = [sys.executable, "-c", WITHOUT_A_PLACE]
     done = subprocess.run(program, cwd=tmp_path, env=environment, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert done.stderr.startswith("Every start compiles the road again") and done.stderr.count("\n") == 1
     assert done.stdout.startswith("note Make one of them writable, or set NUMBA_CACHE_DIR")
-    if not no_temporary:
-        mode, folder = done.stdout.splitlines()[1].split(" ", 1)
-        assert mode == "700" and not Path(folder).exists()
+    mode, folder = done.stdout.splitlines()[1].split(" ", 1)
+    assert mode == "700" and not Path(folder).exists()
 
 
 def test_every_file_with_a_compiled_function_is_among_those_that_decide():

@@ -153,11 +153,6 @@ def test_cars_of_another_road_and_a_p_outside_its_range_are_refused_in_one_sente
 # The tracker
 
 
-@pytest.mark.parametrize(("speed", "action"), [(13.0, 7), (14.4, 7), (14.6, 4), (15.4, 4), (15.6, 1), (17.0, 1)])
-def test_it_accelerates_or_brakes_only_when_that_brings_the_speed_closer(speed, action):
-    assert rule(road((0.0, 1, speed)), DEFAULT).actions[0] == action
-
-
 def test_it_steers_back_to_the_centre_and_straightens_a_skewed_car():
     cars = np.concatenate([road((0.0, 1, 15.0)) for _ in range(4)])
     cars[0, EGO, Y] += 1.8

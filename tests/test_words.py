@@ -50,7 +50,8 @@ def test_a_collision_names_the_other_car(crash):
 
 def test_doing_nothing_is_told_in_a_few_lines(idle):
     sentences = transcript(idle)
-    assert len(sentences) < 12 and "still behind trap 1 after 150 s" in sentences[-1] and "Return 23.4 over 1500 m" in sentences[-1]
+    assert len(sentences) < 12 and "still behind trap 1 after 150 s" in sentences[-1]
+    assert "Return 23.4 over 1500 m" in sentences[-1]
 
 
 def test_patience_is_in_seconds_whatever_the_decision_rate():

@@ -27,6 +27,7 @@ from bootcourse.scenario import DEFAULT, N_ACTIONS, Scenario
 
 Rule = Callable[..., int]  # one road's cars (vehicles, 10) and the scenario -> an action, 0..8
 Teacher = Callable[[np.ndarray], np.ndarray]  # cars (roads, vehicles, 10) -> actions (roads,)
+ALL = "in a call for all roads"  # where such a rule failed
 
 
 def ahead(cars: np.ndarray, lane: int, scenario: Scenario = DEFAULT) -> tuple[float, float]:
@@ -81,13 +82,16 @@ def teacher_of(my_rule: Rule, scenario: Scenario | None = DEFAULT, n_actions: in
     def failed(how: str, state: np.ndarray, where: str = "") -> RuleFailed:
         return RuleFailed(name, how, where or _place(state, scenario), state)
 
-    def teach_all(cars: np.ndarray) -> np.ndarray:
+    def ask(state: np.ndarray, where: str = ""):
         try:
-            actions = np.asarray(my_rule(cars, *given))
+            return my_rule(state, *given)
         except (Exception, SystemExit) as error:  # your rule may raise anything
             if ours:
                 raise
-            raise failed(f"raised {described(error)}", cars, ALL) from error
+            raise failed(f"raised {described(error)}", state, where) from error
+
+    def teach_all(cars: np.ndarray) -> np.ndarray:
+        actions = np.asarray(ask(cars, ALL))
         if actions.shape != (len(cars),) or actions.dtype.kind not in "iu":
             answered = f"actions of shape {actions.shape} and type {actions.dtype}"
             raise failed(f"returned {answered}, but {len(cars)} roads need a whole number each", cars, ALL)
@@ -98,10 +102,7 @@ def teacher_of(my_rule: Rule, scenario: Scenario | None = DEFAULT, n_actions: in
     def teach_each(cars: np.ndarray) -> np.ndarray:
         actions = np.empty(len(cars), dtype=np.int64)
         for road, state in enumerate(cars):
-            try:
-                action = my_rule(state.copy(), *given)
-            except (Exception, SystemExit) as error:
-                raise failed(f"raised {described(error)}", state) from error
+            action = ask(state.copy())  # your rule may write into it
             if not is_action(action, n_actions):
                 remedy = ": give int(...) of it" if isinstance(action, (bool, np.bool_, np.ndarray)) else ""
                 raise failed(f"returned {action!r:.80}, but {an_action_is}{remedy}", state)
@@ -109,9 +110,6 @@ def teacher_of(my_rule: Rule, scenario: Scenario | None = DEFAULT, n_actions: in
         return actions
 
     return teach_all if getattr(my_rule, "answers_for_all_roads", False) else teach_each
-
-
-ALL = "in a call for all roads"
 
 
 def _place(state: np.ndarray, scenario: Scenario | None) -> str:
