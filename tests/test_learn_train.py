@@ -108,7 +108,7 @@ def test_an_agent_that_has_driven_its_episodes_stays_as_it_was():
     result = training.run(progress=False)
     for i, weight in snapshots.items():
         assert torch.equal(result.agents[i].actor[0], weight)
-        assert not torch.equal(training.agent(i).actor[0], weight)  # though its seat goes on
+        assert not torch.equal(training.agent(i).actor[0], weight)
 
 
 def after(steps: int, act):
@@ -184,7 +184,7 @@ def test_actions_are_drawn_as_often_as_the_policy_says():
     assert sample_actions(policy[None, ::-1], np.array([0.0]))[0] == 1  # nor before the first
 
 
-def test_an_agent_thinks_what_its_learner_does_and_drives_by_its_most_probable_action_or_draws_one(undisturbed):
+def test_an_agent_has_its_learner_s_policy_and_q_and_drives_by_its_most_probable_action_or_draws_one(undisturbed):
     training, agent = training_of("sac", "soft"), undisturbed.agents[1]
     learner, seen = training.learner, torch.randn(2, 50, INPUTS)
     values = learner.q_values(learner.critics, seen).detach()

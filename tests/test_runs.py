@@ -86,13 +86,9 @@ def replaced(run, name: str, **entries) -> None:
         ("config.json", {"settings": {"method": "bootstrapped", "hidden": [64]}}, "weights.safetensors is incomplete"),
         ("config.json", {"settings": {"method": "sac", "invented_later": 1}}, "no invented_later"),
         ("config.json", {"settings": {"method": "bootstrapped", "gamma": 10**400}}, "gamma"),
-        ("config.json", {"settings": []}, "`$.settings`"),
         ("config.json", {"episodes": 13}, "curves.npz"),
-        ("config.json", {"alpha": "<b>"}, "`$.alpha`"),
         ("config.json", {"comment": "x"}, "comment"),
         ("provenance.json", {"sha256": []}, "`$.sha256`"),
-        ("provenance.json", {"seed": -1}, "`$.seed`"),
-        ("provenance.json", {"teacher": 3}, "`$.teacher`"),
     ],
 )
 def test_a_wrong_entry_of_a_run_is_named_even_with_the_right_hash(run, name, entries, words):
@@ -104,15 +100,6 @@ def test_a_wrong_entry_of_a_run_is_named_even_with_the_right_hash(run, name, ent
 
 def test_a_folder_without_a_run_says_how_to_train_one(tmp_path):
     with pytest.raises(BootcourseError, match="bootcourse train"):
-        find_runs(tmp_path)
-
-
-def test_the_runs_of_a_folder_are_found_beside_a_folder_with_others(tmp_path):
-    for place in ("mine/sac-0", "mine/older/sac-0"):
-        (tmp_path / place).mkdir(parents=True)
-        (tmp_path / place / "config.json").write_text("{}")
-    assert find_runs(tmp_path / "mine") == [tmp_path / "mine" / "sac-0"]
-    with pytest.raises(BootcourseError, match=r"holds no run itself: name a folder in it, such as .*mine\.$"):
         find_runs(tmp_path)
 
 

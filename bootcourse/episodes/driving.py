@@ -11,7 +11,7 @@ import numpy as np
 from gymnasium.spaces import Box, Discrete
 from gymnasium.vector import AutoresetMode, SyncVectorEnv, VectorEnv
 
-from bootcourse.errors import BootcourseError
+from bootcourse.errors import require
 from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, Scenario
@@ -91,28 +91,27 @@ def copies_of(make_env: Callable[[int], VectorEnv], n: int) -> VectorEnv:
     observations this library cannot learn with.
     """
     wanted = "give a function of n, such as lambda n: gym.make_vec('MountainCar-v0', n)"
-    if not callable(make_env):
-        raise BootcourseError(f"make_env = {make_env!r:.80}: {wanted}.")
+    require(callable(make_env), f"make_env = {make_env!r:.80}: {wanted}.")
     env = make_env(n)
-    if not isinstance(env, VectorEnv) or env.num_envs != n:
-        copies = f" of {env.num_envs} copies" if isinstance(env, VectorEnv) else ""
-        raise BootcourseError(f"make_env({n}) returned {env!r:.80}{copies}: {wanted}.")
-    name = environment_id(env)
-    actions, observations = env.single_action_space, env.single_observation_space
-    if not isinstance(actions, Discrete) or actions.start != 0:
-        discrete = " gymnasium.wrappers.DiscretizeAction(env, bins=5) makes them of a Box." * isinstance(actions, Box)
-        raise BootcourseError(f"{name} has actions of {actions}: this library learns Discrete(n), from 0.{discrete}")
-    if len(observations.shape or ()) != 1:
-        raise BootcourseError(f"{name} shows {observations}: flatten it to a vector, as with FlattenObservation.")
-    if env.metadata.get("autoreset_mode") is AutoresetMode.SAME_STEP:
-        return env
-    if type(env) is SyncVectorEnv:
-        env.close()
-        return SyncVectorEnv(env.env_fns, autoreset_mode=AutoresetMode.SAME_STEP)
-    raise BootcourseError(
-        f"{name} does not restart an episode in the step that ends it: make it with vectorization_mode='sync', or "
-        "with vector_kwargs={'autoreset_mode': 'SameStep'}."
+    is_right = isinstance(env, VectorEnv) and env.num_envs == n
+    require(is_right, f"make_env({n}) returned {env!r:.80}, no vector environment of {n} copies: {wanted}.")
+    name, actions, observations = environment_id(env), env.single_action_space, env.single_observation_space
+    discrete = " gymnasium.wrappers.DiscretizeAction(env, bins=5) makes them of a Box." * isinstance(actions, Box)
+    require(
+        isinstance(actions, Discrete) and actions.start == 0,
+        f"{name} has actions of {actions}: this library learns Discrete(n), from 0.{discrete}",
     )
+    is_vector = len(observations.shape or ()) == 1
+    require(is_vector, f"{name} shows {observations}: flatten it to a vector, as with FlattenObservation.")
+    if type(env) is SyncVectorEnv and env.metadata.get("autoreset_mode") is not AutoresetMode.SAME_STEP:
+        env.close()
+        env = SyncVectorEnv(env.env_fns, autoreset_mode=AutoresetMode.SAME_STEP)
+    require(
+        env.metadata.get("autoreset_mode") is AutoresetMode.SAME_STEP,
+        f"{name} does not restart an episode in the step that ends it: make it with vectorization_mode='sync', or "
+        "with vector_kwargs={'autoreset_mode': 'SameStep'}.",
+    )
+    return env
 
 
 def environment_id(env: VectorEnv) -> str:

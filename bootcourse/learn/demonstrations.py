@@ -9,10 +9,11 @@ from torch import Tensor
 
 from bootcourse.episodes.driving import one_episode_each, steps
 from bootcourse.episodes.rollout import Rollout
-from bootcourse.errors import BootcourseError
+from bootcourse.errors import BootcourseError, require
 from bootcourse.learn.replay_buffer import encode_transitions
+from bootcourse.learn.settings import Settings
 from bootcourse.learn.teachers import Rule, all_roads, course_rule, teacher_of
-from bootcourse.policies import Policy, PolicyOutput
+from bootcourse.policies import Policy, PolicyOutput, stochastic_policy
 from bootcourse.scenario import DEFAULT, Scenario
 
 FIRST_SEED = 2**34  # seed of the first demonstration's road; training and held-out roads have other seeds
@@ -79,3 +80,40 @@ def _rows(rollout: Rollout, teacher: Rule) -> Tensor:
     terminated[-1] = rollout.accident != 0
     seen = rollout.observations
     return encode_transitions(seen[:-1], seen[1:], rollout.actions, rollout.rewards, terminated, mu[:-1], mu[1:])
+
+
+def demonstrations_for(
+    settings: Sequence[Settings],
+    given: Sequence[Rollout] | Tensor | None,
+    teacher: Rule | None,
+    scenario: Scenario | None = DEFAULT,
+    make_env: Callable[[int], VectorEnv] | None = None,
+) -> Tensor | None:
+    """The rows that agents with these settings train with, (transitions, row); None if no agent needs any.
+
+    given: recorded drives, or rows, instead of the teacher's. Raises BootcourseError for drives that nobody uses, or of
+    another scenario, and for a teacher that is missing.
+    """
+    shared = settings[0]
+    if not any(s.needs_demonstrations for s in settings):
+        require(given is None, f"Method '{shared.method}' uses no demonstrations: choose one that does.")
+        return None
+    if isinstance(given, Tensor):
+        return given
+    if given is not None:
+        is_here = not given or given[0].scenario == scenario
+        require(is_here, "The demonstrations are of another scenario: train with their scenario.")
+        return demonstration_rows(given, teacher)
+    missing = f"Method '{shared.method}' needs demonstrations of this environment: give them, or teacher=my_rule."
+    require(teacher is not None, missing)
+    policy = None
+    if shared.stochastic_demonstrations:
+        require(
+            len({s.rule_p for s in settings}) == 1,
+            "Agents that train side by side share their demonstrations, so with stochastic_demonstrations "
+            "they need the same rule_p: train these apart.",
+        )
+        n_actions = int(one_episode_each(1, scenario, make_env).single_action_space.n)
+        decide = teacher_of(teacher, scenario, n_actions)
+        policy = stochastic_policy(decide, np.random.default_rng(0), shared.rule_p, n_actions)
+    return collect(shared.demonstration_episodes, scenario, policy, teacher, make_env)

@@ -9,7 +9,7 @@ from functools import partial
 
 import numpy as np
 
-from bootcourse.errors import BootcourseError, check_known, did_you_mean, whole
+from bootcourse.errors import BootcourseError, check_known, require, whole
 from bootcourse.limits import check_limits, limited
 from bootcourse.methods import METHODS
 from bootcourse.scenario import check_p
@@ -73,11 +73,9 @@ class Settings:
         lacks = {name for name, value in METHODS[self.method].settings.items() if value == 0}
         lacks |= {"xi_fixed"} if "xi_multiplier" in lacks else set()
         for name in sorted(lacks):
-            if (getattr(self, name) or 0) > 0:
-                raise BootcourseError(
-                    f"{name} = {getattr(self, name)!r}, but method '{self.method}' is defined by doing without: "
-                    f"write settings_for('{self.method}'), or choose a method that has it."
-                )
+            value, without = getattr(self, name), f"method '{self.method}' is defined by doing without"
+            remedy = f"write settings_for('{self.method}'), or choose a method that has it"
+            require(not value or value < 0, f"{name} = {value!r}, but {without}: {remedy}.")
 
     @property
     def needs_demonstrations(self) -> bool:
@@ -121,11 +119,7 @@ def settings_for(method: str, setting: str = "quick", **changes) -> Settings:
         raise BootcourseError(f"Method '{method}' has no setting '{setting}': leave it out.")
     known = [f.name for f in fields(kind)]
     for name in changes:
-        if name not in known:
-            if owners := [f"'{other}'" for other in METHODS if name in {f.name for f in fields(settings_class(other))}]:
-                has = "has it" if len(owners) == 1 else "have it"
-                raise BootcourseError(f"Method '{method}' has no {name}: {', '.join(owners)} {has}.")
-            raise BootcourseError(f"Setting {did_you_mean(name, known)}.")
+        check_known(f"Setting of '{method}'", name, known)
     return kind(method=method, **(METHODS[method].settings | SETTINGS[setting] | changes))
 
 

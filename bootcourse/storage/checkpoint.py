@@ -19,9 +19,10 @@ from bootcourse.errors import BootcourseError, RuleFailed
 from bootcourse.files import decoding, parse, read_arrays, write_arrays
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.learner import learner_for
+from bootcourse.learn.running import device_named
 from bootcourse.learn.settings import stored_settings
 from bootcourse.learn.teachers import Rule, course_rule, teacher_name
-from bootcourse.learn.training import Training, device_named
+from bootcourse.learn.training import Training
 from bootcourse.methods import METHODS
 from bootcourse.scenario import Scenario
 
