@@ -6,6 +6,7 @@ import pytest
 from gymnasium.vector import AutoresetMode
 
 import bootcourse  # noqa: F401  registers the road
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.errors import BootcourseError
 from bootcourse.policies import rule_policy
 from bootcourse.road.state import EGO, HEADING, LANE, SPEED, TARGET_LANE, TRAP_1, TRAP_2, Accident, X, Y
@@ -32,17 +33,6 @@ def road(ego: tuple, **others: tuple) -> np.ndarray:
     for row, (x, lane, speed) in {EGO: ego, **{int(name[1:]): place for name, place in others.items()}}.items():
         cars[0, row, [X, Y, LANE, TARGET_LANE, SPEED]] = [x, 4.0 * lane, lane, lane, speed]
     return cars
-
-
-def drive(driver, episodes: int, seed: int, scenario: Scenario = DEFAULT):
-    """Whole episodes on the compiled road: (success, accident, distance), each (episodes,)."""
-    env = gym.make_vec(
-        "bootcourse:Trap-v0", num_envs=episodes, scenario=scenario, autoreset_mode=AutoresetMode.DISABLED
-    ).unwrapped
-    observations, _ = env.reset(seed=seed)
-    while not env.asleep.all():
-        observations, *_, infos = env.step(driver(observations, env.cars).actions)
-    return infos["is_success"], infos["accident"], infos["distance"]
 
 
 # The target speed
@@ -182,16 +172,15 @@ def test_from_anywhere_in_a_lane_it_comes_to_its_middle_and_stays_there(speed, o
 
 
 def test_over_1000_held_out_episodes_the_rule_always_escapes_and_never_has_an_accident():
-    success, accident, distance = drive(rule_policy(DEFAULT), episodes=1000, seed=1_000_000)
-    assert success.all()
-    assert (accident == Accident.NONE).all()
-    assert 1600 <= distance.mean() <= 1850, "the paper: 1727 m"
+    episodes = drive_episodes(rule_policy(DEFAULT), held_out_seeds(1, 1000))
+    assert episodes.success.all() and (episodes.accident == Accident.NONE).all()
+    assert 1600 <= episodes.distance.mean() <= 1850, "the paper: 1727 m"
 
 
 def test_it_has_no_accident_behind_the_calibrated_traps_or_on_four_lanes():
     for scenario in (CALIBRATED, Scenario(road=Road(lanes=4)), Scenario(road=Road(lanes=2))):
-        _, accident, _ = drive(rule_policy(scenario), episodes=200, seed=2_000_000, scenario=scenario)
-        assert (accident == Accident.NONE).all()
+        episodes = drive_episodes(rule_policy(scenario), held_out_seeds(2, 200), scenario)
+        assert (episodes.accident == Accident.NONE).all()
 
 
 def test_it_escapes_by_the_backward_gap():
