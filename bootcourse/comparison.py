@@ -74,7 +74,8 @@ def compare(
     begins with a method's has its colour, any other one of its own. episodes: of training. tests: episodes that test an
     agent. make_env and training: further arguments of `Training`, such as teacher.
     An interrupt ends the comparison: the agents in training are tested as they are, and a warning says what is missing.
-    Raises BootcourseError for no entries, for one that is neither, and for an interrupt before the first update.
+    Raises BootcourseError if there are no entries, if an entry is neither, and if the first training is interrupted
+    before its first update.
     """
     if not entries or not isinstance(entries, Mapping):
         raise BootcourseError(f'There is nothing to compare in {entries!r:.80}: give {{"mine": settings}}.')

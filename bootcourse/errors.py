@@ -13,7 +13,7 @@ class BootcourseError(ValueError):
 
 
 class RuleFailed(BootcourseError):
-    """A user's rule raised an exception, which is the `__cause__`, or returned what is no action.
+    """A user's rule raised an exception, which is the `__cause__`, or returned something that is not an action.
 
     state: what the rule was asked about, so that it can be asked again: cars (vehicles, 10) or an observation off the
     trap; all roads at once for a rule that answers for all of them.

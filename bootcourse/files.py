@@ -148,7 +148,7 @@ def decoding(path: Path, remedy: str = COPY):
         raise BootcourseError(f"{path}: {str(error)[:LONGEST]}") from None
     except msgspec.ValidationError as error:
         raise BootcourseError(f"{path} is damaged or of another version ({_in_short(error)}): {remedy}.") from None
-    except Exception as error:  # zlib, zipfile, numpy, safetensors, memory, recursion ...: nobody has the whole list
+    except Exception as error:  # of zlib, zipfile, numpy, safetensors, memory, recursion ...: no list is complete
         raise BootcourseError(f"{path} is damaged or cut short ({_in_short(error)}): {remedy}.") from None
 
 

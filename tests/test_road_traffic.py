@@ -1,4 +1,4 @@
-"""The traffic: when a driver changes lane, and that nobody does so into a ditch or into another car."""
+"""The traffic: when a driver changes lane, and that no car leaves the road or touches another."""
 
 from dataclasses import replace
 

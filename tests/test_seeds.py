@@ -1,4 +1,4 @@
-"""Seeds: every place that takes one takes NumPy's numbers too, and refuses what is no seed in one sentence."""
+"""Seeds: every place that takes one accepts NumPy's numbers and refuses other values in one sentence."""
 
 import gymnasium as gym
 import numpy as np

@@ -87,8 +87,8 @@ def copies_of(make_env: Callable[[int], VectorEnv], n: int) -> VectorEnv:
     """make_env(n), with same-step autoreset: an episode that ends is restarted in the same call of `step`.
 
     `gym.make_vec` makes environments that restart in the next call. A `SyncVectorEnv` is made again. Raises
-    BootcourseError for another, for what is no vector environment of n copies, and for one whose actions or
-    observations this library cannot learn with.
+    BootcourseError if make_env(n) is not a vector environment of n copies, if it cannot restart in the same call, and
+    if this library cannot learn with its actions or observations.
     """
     wanted = "give a function of n, such as lambda n: gym.make_vec('MountainCar-v0', n)"
     require(callable(make_env), f"make_env = {make_env!r:.80}: {wanted}.")

@@ -55,7 +55,7 @@ def collect(
 
 @all_roads
 def no_teacher(states: np.ndarray, *_) -> np.ndarray:
-    """The actions in the rows where nobody teaches: zeros, which no method without a teacher uses."""
+    """The teacher's actions in the rows if there is no teacher: zeros, which the methods without a teacher ignore."""
     return np.zeros(len(states), dtype=np.int64)
 
 
@@ -91,8 +91,8 @@ def demonstrations_for(
 ) -> Tensor | None:
     """The rows that agents with these settings train with, (transitions, row); None if no agent needs any.
 
-    given: recorded drives, or rows, instead of the teacher's. Raises BootcourseError for drives that nobody uses, or of
-    another scenario, and for a teacher that is missing.
+    given: recorded drives, or rows, instead of the teacher's. Raises BootcourseError if no agent uses them, if they are
+    of another scenario, and if the teacher is missing.
     """
     shared = settings[0]
     if not any(s.needs_demonstrations for s in settings):

@@ -141,10 +141,10 @@ def _save_run(path: Path, agent: Agent, curves: dict[str, np.ndarray], result: R
 
 
 def load_run(path: Path, teacher: Rule | None = None, environment: str = TRAP) -> Run:
-    """Read and check a run. teacher: the one that it trained with, for a method whose agents drive with it.
+    """Read and check a run. teacher: its teacher in training, which the agents of some methods need to drive.
 
-    environment: the id of the one that it trained in. Raises BootcourseError, with the file and the remedy, if a file
-    is missing or damaged, or for another teacher or environment.
+    environment: the id of the environment that it trained in. Raises BootcourseError, with the file and the remedy, if
+    a file is missing or damaged, or for another teacher or environment.
     """
     path = Path(path)
     if not (path / "provenance.json").is_file():
