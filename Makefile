@@ -6,7 +6,7 @@
 # make book   the lessons as pages that need no server, in build/book/html  (EDITION=instructor: with solutions)
 # make notebooks  execute the lessons' sources again and write the notebooks, solved and not, and the instructor's pages
 # make doctor what is right and wrong with this machine
-# make lock   resolve environment.lock, student.lock and bench.lock again
+# make lock   resolve environment.lock and student.lock again
 # make clean  remove .venv and the caches
 #
 # PYTHON=python3.12 make lab   uses another Python, 3.11 or newer
@@ -46,7 +46,7 @@ check: .venv/installed
 test: .venv/installed
 	@$(WITH_PATH) OMP_NUM_THREADS=1 $(BIN)/python -m pytest @tests/all.txt $(PYTEST)
 
-bench: .venv/bench
+bench: .venv/installed
 	@OMP_NUM_THREADS=1 $(BIN)/python -m tests.bench
 
 notebooks: .venv/installed
@@ -72,8 +72,4 @@ clean:
 	@$(PYTHON) -m venv .venv \
 		|| { echo "Python cannot make .venv: on Debian or Ubuntu, apt install python3-venv, then run make again"; exit 1; }
 	@sh tools/install.sh $(BIN)/python
-	@touch $@
-
-.venv/bench: .venv/installed bench.lock
-	@$(PIP) install --no-deps --require-hashes --no-build-isolation -r bench.lock
 	@touch $@

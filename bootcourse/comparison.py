@@ -74,7 +74,8 @@ def compare(
     begins with a method's has its colour, any other one of its own. episodes: of training. tests: episodes that test an
     agent. make_env and training: further arguments of `Training`, such as teacher.
     An interrupt ends the comparison: the agents in training are tested as they are, and a warning says what is missing.
-    Raises BootcourseError for no entries, for one that is neither, and for an interrupt before the first update.
+    Raises BootcourseError if there are no entries, if an entry is neither, and if the first training is interrupted
+    before its first update.
     """
     if not entries or not isinstance(entries, Mapping):
         raise BootcourseError(f'There is nothing to compare in {entries!r:.80}: give {{"mine": settings}}.')
@@ -86,33 +87,22 @@ def compare(
             one = entry(seeds) if callable(entry) else None
         if not isinstance(one, Training):
             raise BootcourseError(f"'{name}' is {entry!r:.80}: give settings, or a function seeds -> Training.")
-        results[name] = result = one.run(progress)
+        result, held_out = one.run(progress), held_out_seeds(1, tests)
+        if one.updates:
+            policies = [agent.as_policy() for agent in result.agents]
+            results[name] = result
+            tested[name] = [drive_episodes(drive, held_out, one.scenario, make_env=one.make_env) for drive in policies]
         if result.interrupted:
-            warnings.warn(_interrupted(name, one, [other for other in entries if other not in results]), stacklevel=2)
-        if not one.updates and result.interrupted:
+            missing = [f"'{other}'" for other in entries if other not in results]
+            driven = int(np.minimum(one.curves.finished, one.episodes).min())
+            rest = f" There is no row for {', '.join(missing)}." if missing else ""
+            warnings.warn(f"'{name}' was interrupted after {driven} of {one.episodes} episodes.{rest}", stacklevel=2)
             break
         if not one.updates:
             raise BootcourseError(f"'{name}' made no update in {one.episodes} episodes: give more episodes.")
-        held_out = held_out_seeds(1, tests)
-        policies = [agent.as_policy() for agent in result.agents]
-        tested[name] = [drive_episodes(drive, held_out, one.scenario, make_env=one.make_env) for drive in policies]
-        if result.interrupted:
-            break
     if not tested:
-        raise BootcourseError(
-            "The first training was interrupted before its first update: there is nothing to compare."
-        )
-    return Comparison({name: results[name] for name in tested}, tested)
-
-
-def _interrupted(name: str, training: Training, untrained: list[str]) -> str:
-    """What an interrupt leaves of a comparison, in a sentence."""
-    driven = int(np.minimum(training.curves.finished, training.episodes).min())
-    row = (
-        f"its row is of agents after {driven} of {training.episodes} episodes" if training.updates else "it has no row"
-    )
-    rest = f" Not trained: {', '.join(untrained)}." if untrained else ""
-    return f"'{name}' was interrupted: {row}.{rest}"
+        raise BootcourseError("The first training was interrupted before its first update: nothing can be compared.")
+    return Comparison(results, tested)
 
 
 def _bracketed(scores: np.ndarray) -> str:

@@ -1,10 +1,8 @@
-"""The exceptions for user mistakes, suggestions for misspelt words, and the check of a whole number."""
+"""The exceptions for user mistakes, suggestions for misspelt words, and small checks."""
 
+import difflib
 import operator
-from collections.abc import Callable, Collection
-from contextlib import contextmanager
-
-FEW = 40  # choices that a message lists
+from collections.abc import Collection
 
 
 class BootcourseError(ValueError):
@@ -15,33 +13,18 @@ class BootcourseError(ValueError):
 
 
 class RuleFailed(BootcourseError):
-    """A user's rule raised an exception, which is the `__cause__`, or returned what is no action.
+    """A user's rule raised an exception, which is the `__cause__`, or returned something that is not an action.
 
-    name: the rule's; how: "raised ..." or "returned ..."; road: the index, among those that the rule was asked about,
-    of the road where it failed; None for a rule that answers for all roads in one call.
+    state: what the rule was asked about, so that it can be asked again: cars (vehicles, 10) or an observation off the
+    trap; all roads at once for a rule that answers for all of them.
     """
 
-    def __init__(self, name: str, how: str, road: int | None):
-        super().__init__(name, how, road)
-        self.name, self.how, self.road = name, how, road
-        self.where = "in a call for all roads" if road is None else f"on road {road}"
+    def __init__(self, name: str, how: str, where: str, state):
+        super().__init__(name, how, where, state)
+        self.sentence, self.state = f"Your rule '{name}' failed {where}: it {how}.", state
 
     def __str__(self) -> str:
-        return f"Your rule '{self.name}' failed {self.where}: it {self.how}."
-
-
-@contextmanager
-def naming(place: Callable[[int], str]):
-    """A `RuleFailed` of the block says where: place(road) is "on the road with seed 7, at decision 12" or the like.
-
-    Decisions count from 0: at decision k the ego has made k decisions.
-    """
-    try:
-        yield
-    except RuleFailed as error:
-        if error.road is not None:
-            error.where = place(error.road)
-        raise
+        return self.sentence
 
 
 def described(error: BaseException) -> str:
@@ -54,8 +37,6 @@ FEW = 40  # choices that a message lists
 
 def did_you_mean(word: str, choices) -> str:
     """A clause for an error message: `word` is unknown, the most similar choice, and the others if they are few."""
-    import difflib
-
     choices = [str(choice) for choice in choices]
     close = difflib.get_close_matches(str(word), choices, n=1, cutoff=0.4)
     hint = f"did you mean '{close[0]}'? Choose" if close else "choose"
@@ -63,6 +44,12 @@ def did_you_mean(word: str, choices) -> str:
         near = ", ".join(difflib.get_close_matches(str(word), choices, n=6, cutoff=0))
         return f"'{word}' is unknown: {hint} one of {len(choices)}, such as {near}"
     return f"'{word}' is unknown: {hint} from {', '.join(choices)}"
+
+
+def require(holds: bool, sentence: str) -> None:
+    """Raise BootcourseError with this sentence unless the condition holds."""
+    if not holds:
+        raise BootcourseError(sentence)
 
 
 def check_known(called: str, word: str, choices: Collection[str]) -> None:

@@ -148,7 +148,7 @@ def decoding(path: Path, remedy: str = COPY):
         raise BootcourseError(f"{path}: {str(error)[:LONGEST]}") from None
     except msgspec.ValidationError as error:
         raise BootcourseError(f"{path} is damaged or of another version ({_in_short(error)}): {remedy}.") from None
-    except Exception as error:  # zlib, zipfile, numpy, safetensors, memory, recursion ...: nobody has the whole list
+    except Exception as error:  # of zlib, zipfile, numpy, safetensors, memory, recursion ...: no list is complete
         raise BootcourseError(f"{path} is damaged or cut short ({_in_short(error)}): {remedy}.") from None
 
 
@@ -195,15 +195,16 @@ def read_arrays(path: Path, remedy: str = COPY) -> dict[str, np.ndarray]:
 
     Raises BootcourseError if it is missing, damaged, holds pickles, or would unpack to more than it can rightly hold.
     """
-    with open_regular(path, LARGEST_ARRAYS) as file, decoding(path, remedy), zipfile.ZipFile(file) as archive:
-        members = archive.infolist()
-        names = [member.filename.removesuffix(".npy") for member in members]
+    with open_regular(path, LARGEST_ARRAYS) as file, decoding(path, remedy):
+        members = zipfile.ZipFile(file).infolist()
         declared = sum(member.file_size for member in members)
         if len(members) > MEMBERS or declared > os.fstat(file.fileno()).st_size + UNPACKED:
             raise ValueError(f"it declares {len(members):,} arrays of {declared:,} bytes")
-        if len(set(names)) < len(names) or {member.compress_type for member in members} - PACKED:
-            raise ValueError("numpy would not write it like this")
-        return {name: _array(archive.read(member)) for name, member in zip(names, members, strict=True)}
+        if {member.compress_type for member in members} - PACKED:
+            raise ValueError("numpy would not pack it like this")
+        file.seek(0)
+        with np.load(file, allow_pickle=False) as arrays:
+            return {name: arrays[name] for name in arrays.files}
 
 
 def check_arrays(arrays: dict[str, np.ndarray], shapes: dict[str, tuple], path: Path, remedy: str = COPY) -> None:
@@ -214,19 +215,6 @@ def check_arrays(arrays: dict[str, np.ndarray], shapes: dict[str, tuple], path: 
         array = arrays[name]
         if array.shape != shape or array.dtype.kind not in "biuf":
             raise BootcourseError(f"{path}: {name} is {array.dtype} {array.shape}, not numbers {shape}: {remedy}.")
-
-
-def _array(data: bytes) -> np.ndarray:
-    """The array of a member. Its header is checked before numpy makes room for what it declares."""
-    stream = io.BytesIO(data)
-    if np.lib.format.read_magic(stream) != (1, 0):
-        raise ValueError("an array has an unknown version")
-    shape, by_columns, dtype = np.lib.format.read_array_header_1_0(stream)
-    if dtype.kind not in "biufU" or not dtype.isnative:
-        raise ValueError(f"an array of {dtype}")
-    if math.prod(shape) * dtype.itemsize != len(data) - stream.tell():
-        raise ValueError(f"an array that should have the shape {shape}")
-    return np.ndarray(shape, dtype, bytearray(data[stream.tell() :]), order="F" if by_columns else "C")
 
 
 def read_tensors(path: Path, remedy: str = COPY) -> dict[str, np.ndarray]:

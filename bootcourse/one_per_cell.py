@@ -1,18 +1,6 @@
 """Closing a notebook cell's replay or panel, with its server and threads, when the cell runs again."""
 
-import threading
-from typing import Protocol
-
-
-class Closable(Protocol):
-    """A replay or a panel."""
-
-    def close(self) -> None:
-        """Stop its server and threads."""
-
-
-_shown: dict[object, Closable] = {}  # cell -> what it shows
-_lock = threading.Lock()
+_shown: dict[object, object] = {}  # cell -> the replay or panel that it shows, which has a method `close`
 
 
 def this_cell() -> str | None:
@@ -28,26 +16,22 @@ def this_cell() -> str | None:
 
 def close_shown_by(cell: object) -> None:
     """Close the replay or panel that this cell (or this place in a cell with several) showed when it last ran."""
-    with _lock:
-        before = _shown.pop(cell, None)
-    if before is not None:
+    if (before := _shown.pop(cell, None)) is not None:
         before.close()
 
 
-def note(cell: object, shown: Closable) -> None:
+def note(cell: object, shown: object) -> None:
     """Register the replay or panel that a cell shows."""
-    with _lock:
-        _shown[cell if cell is not None else object()] = shown
+    _shown[cell if cell is not None else object()] = shown
 
 
-def forget(shown: Closable) -> None:
+def forget(shown: object) -> None:
     """Remove a closed replay or panel from the register."""
-    with _lock:
-        for cell in [cell for cell, other in _shown.items() if other is shown]:
-            del _shown[cell]
+    for cell, other in list(_shown.items()):
+        if other is shown:
+            _shown.pop(cell, None)
 
 
-def running() -> list[Closable]:
+def running() -> list:
     """All open replays and panels of this process."""
-    with _lock:
-        return list(_shown.values())
+    return list(_shown.values())

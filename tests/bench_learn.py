@@ -1,14 +1,12 @@
 """How fast the learner is: `python -m tests.bench_learn`, or `make bench` for the road too.
 
 Milliseconds per update of one agent, two hidden layers of 64 and batches of 64, on one thread: ours with 16 agents
-side by side, the part of it that no implementation can leave out, a plain loop of one agent, and d3rlpy's discrete
-SAC. All take turns in one run and each counts its best turn, so that the ratios hold on a busy machine too. Ours is
-judged by its ratio to the matrix products. How much slower the two loops are depends on what a call of torch costs on
-a machine, so that is reported and not judged.
+side by side, the part of it that no implementation can leave out, and a plain loop of one agent. All take turns in one
+run and each counts its best turn, so that the ratios hold on a busy machine too. Ours is judged by its ratio to the
+matrix products. How much slower the plain loop is depends on what a call of torch costs on a machine, so that is
+reported and not judged.
 """
 
-import contextlib
-import io
 import time
 from collections.abc import Callable
 from itertools import pairwise
@@ -102,36 +100,6 @@ def plain() -> Callable[[], None]:
     return update
 
 
-def d3rlpy_sac() -> Callable[[], None] | None:
-    """d3rlpy's own update of plain discrete SAC; drawing the batch is not counted. None if it is not installed."""
-    try:
-        with contextlib.redirect_stderr(io.StringIO()):  # it imports the old gym, which says so at length
-            from d3rlpy.algos import DiscreteSACConfig
-            from d3rlpy.dataset import TransitionMiniBatch
-            from d3rlpy.models.encoders import VectorEncoderFactory
-    except ImportError:
-        return None
-    s, rng, inputs = settings_for("sac"), np.random.default_rng(0), DEFAULT.observation_size
-    encoder = VectorEncoderFactory(list(s.hidden))
-    config = DiscreteSACConfig(
-        actor_learning_rate=s.actor_lr, critic_learning_rate=s.critic_lr, temp_learning_rate=s.alpha_lr,
-        actor_encoder_factory=encoder, critic_encoder_factory=encoder, batch_size=s.batch, gamma=s.gamma,
-        initial_temperature=s.alpha_init,
-    )  # fmt: skip
-    algorithm = config.create(device="cpu:0")
-    algorithm.create_impl((inputs,), N_ACTIONS)
-
-    def numbers(width):
-        return rng.normal(size=(s.batch, width)).astype(np.float32)
-
-    actions = rng.integers(N_ACTIONS, size=(2, s.batch, 1)).astype(np.float32)
-    ones = np.ones((s.batch, 1), dtype=np.float32)
-    batch = TransitionMiniBatch(
-        numbers(inputs), actions[0], numbers(1), numbers(inputs), actions[1], 0 * ones, ones, transitions=[]
-    )
-    return lambda: algorithm.update(batch)
-
-
 def milliseconds(contestants: dict, turns: int, calls: int = 20) -> dict:
     """Processor time of one call of each, in ms: they take turns of `calls` calls, and each counts its best."""
     best = dict.fromkeys(contestants, np.inf)
@@ -146,23 +114,16 @@ def milliseconds(contestants: dict, turns: int, calls: int = 20) -> dict:
 
 
 def table(turns: int = 25) -> list[Row]:
-    """Our update beside its parts and beside the other loops."""
+    """Our update beside its parts and beside the plain loop."""
     contestants = {"ours": ours(AGENTS), "products": products(AGENTS), "networks": networks(AGENTS), "plain": plain()}
-    if (theirs := d3rlpy_sac()) is not None:
-        contestants["d3rlpy"] = theirs
     best, unit = milliseconds(contestants, turns), "ms per agent-update"
     mine, least = best["ours"] / AGENTS, best["products"] / AGENTS
-    rows = [
+    return [
         Row(f"matrix products alone, {AGENTS} agents", least, unit),
         Row("with biases, ReLUs and gradients", best["networks"] / AGENTS, unit, best["networks"] / best["products"]),
         Row(f"batched learner, {AGENTS} agents", mine, unit, mine / least, most=MOST),
         Row("plain eager loop, 1 agent, beside ours", best["plain"], unit, best["plain"] / mine),
     ]
-    if theirs is None:
-        print("d3rlpy is not installed, so it is left out: `make bench` installs it.")
-    else:
-        rows.append(Row("d3rlpy's DiscreteSAC, 1 agent, beside ours", best["d3rlpy"], unit, best["d3rlpy"] / mine))
-    return rows
 
 
 def main() -> None:

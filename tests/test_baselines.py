@@ -30,14 +30,6 @@ def learner(method: str, seeds: int = 2, **changes) -> SACLearner:
     return learner_for(with_seeds(settings_for(method, **changes), seeds), 26)
 
 
-def copies(tensors) -> list[torch.Tensor]:
-    return [tensor.detach().clone() for tensor in tensors]
-
-
-def same(before, after) -> bool:
-    return all(torch.equal(b, a) for b, a in zip(before, after, strict=True))
-
-
 def test_the_cloning_loss_is_the_mean_of_minus_log_pi_of_what_the_demonstrator_did():
     log_pi = torch.randn(2, 4, 9).log_softmax(-1)
     actions = torch.randint(9, (2, 4))
@@ -95,14 +87,6 @@ def test_a_clone_learns_what_was_done_and_dagger_what_the_teacher_would_have_don
         assert (after[..., learned] / after[..., other] > pi[..., learned] / pi[..., other]).all()
 
 
-@pytest.mark.parametrize("method", ["cql", "cql_sac"])
-def test_switching_off_the_conservative_term_changes_the_very_first_update(method):
-    with_it, without = learner(method), learner(method, cql_weight=0.0)
-    for one in (with_it, without):
-        one.update(a_batch())
-    assert not same(with_it.critics, without.critics)
-
-
 def test_cql_drives_by_the_softmax_of_its_first_critic_over_alpha():
     one, batch = learner("cql", alpha_init=0.5), a_batch()
     one.update(batch)
@@ -110,47 +94,12 @@ def test_cql_drives_by_the_softmax_of_its_first_critic_over_alpha():
     torch.testing.assert_close(one.probabilities(batch.states), (q / 0.5).softmax(-1))
 
 
-def test_cql_lowers_what_the_data_did_not_do_against_what_it_did():
-    one, batch = learner("cql"), a_batch(demonstrations=6)
-
-    def gap():
-        q = one.q_values(one.critics, batch.states)
-        return (q.logsumexp(-1) - q.gather(-1, batch.actions.unsqueeze(-1)).squeeze(-1)).mean()
-
-    before = gap()
-    for _ in range(50):
-        one.update(batch)
-    assert gap() < before
-
-
-def test_the_discriminator_learns_to_tell_the_two_halves_apart():
-    one, batch = learner("gail", discriminator_lr=3e-3), a_batch(batch=32, demonstrations=16)
-    losses = [one.update(batch)["discriminator_loss"].mean().item() for _ in range(200)]
-    assert losses[0] == pytest.approx(2 * math.log(2), abs=0.2) and losses[-1] < 0.6 * losses[0]
-
-
 def test_gail_never_looks_at_the_road_s_reward():
     first, second = learner("gail"), learner("gail")
     first.update(a_batch())
     second.update(a_batch()._replace(rewards=torch.full((2, 6), 1e3)))
-    assert same([*first.critics, *first.actor], [*second.critics, *second.actor])
-
-
-def test_gail_s_generator_learns_from_its_own_half_alone():
-    batch = a_batch()
-    changed = batch.next_states.clone()
-    changed[:, :3] += 1.0  # the demonstrations' s', which the discriminator does not see either
-    first, second = learner("gail"), learner("gail")
-    first.update(batch)
-    second.update(batch._replace(next_states=changed))
-    assert same([*first.critics, *first.actor], [*second.critics, *second.actor])
-
-
-def test_a_step_of_the_discriminator_leaves_the_actor_and_the_critics_alone():
-    one = learner("gail", actor_lr=0.0, critic_lr=0.0, alpha_lr=0.0)
-    before, judge = copies([*one.actor, *one.critics]), copies(one.discriminator)
-    one.update(a_batch())
-    assert same(before, [*one.actor, *one.critics]) and not same(judge, one.discriminator)
+    pairs = zip([*first.critics, *first.actor], [*second.critics, *second.actor], strict=True)
+    assert all(torch.equal(one, other) for one, other in pairs)
 
 
 def test_a_batch_that_gail_cannot_halve_is_refused():
@@ -163,11 +112,8 @@ def test_a_batch_that_gail_cannot_halve_is_refused():
 )
 def test_the_demonstrations_share_of_a_batch_stays_where_it_starts(method, share):
     training = Training([settings_for(method, demonstration_episodes=2, learning_starts=16)], 10)
+    training.step()
     for finished in (0, 5000):
         training.curves.finished[:] = finished
-        batch = training.replay.sample(64, training.beta, training.sample_rngs) if training.replay.size else None
-        if batch is None:
-            for _ in range(4):
-                training.step()
-            batch = training.replay.sample(64, training.beta, training.sample_rngs)
+        batch = training.replay.sample(64, training.beta, training.sample_rngs)
         assert batch.is_demonstration.mean().item() == share

@@ -67,8 +67,8 @@ def numbers(agent: Agent) -> list[float]:
 
 
 def alike(method: str, training: Training) -> bool:
-    found, expected = numbers(training.agent(1)), json.loads(EXPECTED.read_text())[method]
-    return np.allclose(found, expected, rtol=TOLERANCE, atol=TOLERANCE)
+    actual, expected = numbers(training.agent(1)), json.loads(EXPECTED.read_text())[method]
+    return np.allclose(actual, expected, rtol=TOLERANCE, atol=TOLERANCE)
 
 
 def weights(agent: Agent) -> list[torch.Tensor]:
@@ -114,5 +114,5 @@ def test_a_drive_of_a_method_without_critics_has_no_q(method, folder):
 
 
 if __name__ == "__main__":
-    found = {method: [round(number, 5) for number in numbers(trained(method).agent(1))] for method in METHODS}
-    EXPECTED.write_text(json.dumps(found) + "\n")
+    actual = {method: [round(number, 5) for number in numbers(trained(method).agent(1))] for method in METHODS}
+    EXPECTED.write_text(json.dumps(actual) + "\n")

@@ -37,13 +37,6 @@ def test_an_evaluation_agrees_with_recorded_drives_of_the_same_roads():
         assert episodes.speed[i] == pytest.approx(rollout.distance / 150)
 
 
-def test_episodes_driven_in_small_groups_are_the_same_episodes():
-    seeds = held_out_seeds(3, 25)
-    together = drive_episodes(rule_policy(DEFAULT), seeds)
-    apart = drive_episodes(rule_policy(DEFAULT), seeds, together=7)
-    np.testing.assert_array_equal(together.returns, apart.returns)
-
-
 def test_the_kinds_of_accident_are_counted_apart():
     episodes = drive_episodes(random_policy(np.random.default_rng(0)), held_out_seeds(1, 300))
     result = summarise(episodes)

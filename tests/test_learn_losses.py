@@ -1,4 +1,4 @@
-"""Every loss against sums that spell it out for one state, and against numbers worked by hand."""
+"""Every loss against numbers worked by hand. (test_learn_learner.py compares them with the textbook's.)"""
 
 import math
 from types import SimpleNamespace
@@ -30,66 +30,6 @@ def drawn() -> SimpleNamespace:
 
 def close(ours, expected):
     torch.testing.assert_close(ours, torch.as_tensor(expected, dtype=ours.dtype), atol=1e-5, rtol=1e-5)
-
-
-def rule(chosen: int, action: int) -> float:
-    return 0.9 if action == chosen else 0.1 / 8
-
-
-def mean(pi, q) -> float:
-    return sum(share * value for share, value in zip(pi, q, strict=True))
-
-
-SPELLED_OUT = {  # what is computed for a batch, and the same for one state: log π, π, Q, a_E, α, the constraint
-    "the soft value": (
-        lambda d: sac.soft_value(d.log_pi, d.q, d.alpha, d.constraint),
-        lambda log, pi, q, chosen, alpha, constraint: mean(pi, q) - alpha * mean(pi, log) - constraint,
-    ),
-    "the KL to the rule": (
-        lambda d: bootstrap.kl_to_rule(d.log_pi, d.chosen, P),
-        lambda log, pi, q, chosen, *_: sum(pi[a] * (log[a] - math.log(rule(chosen, a))) for a in range(ACTIONS)),
-    ),
-    "the KL from the rule": (
-        lambda d: bootstrap.kl_from_rule(d.log_pi, d.chosen, P),
-        lambda log, pi, q, chosen, *_: sum(
-            rule(chosen, a) * (math.log(rule(chosen, a)) - log[a]) for a in range(ACTIONS)
-        ),
-    ),
-    "the large margin": (
-        lambda d: bootstrap.large_margin_loss(d.q, d.chosen),
-        lambda log, pi, q, chosen, *_: max(q[a] + (a != chosen) for a in range(ACTIONS)) - q[chosen],
-    ),
-    "the paper's filter": (
-        lambda d: bootstrap.paper_q_filter(d.q, d.chosen),
-        lambda log, pi, q, chosen, *_: float(max(q) == q[chosen]),
-    ),
-    "the usual filter": (
-        lambda d: bootstrap.q_filter(d.q, d.chosen, d.log_pi),
-        lambda log, pi, q, chosen, *_: float(q[chosen] > mean(pi, q)),
-    ),
-}
-
-
-@pytest.mark.parametrize("name", SPELLED_OUT)
-def test_a_batch_is_computed_as_each_of_its_states_is(name, drawn):
-    of_batch, of_state = SPELLED_OUT[name]
-    if name == "the paper's filter":
-        drawn.chosen[:, ::2] = drawn.q.argmax(-1)[:, ::2]  # on in every second state
-    expected = torch.zeros(AGENTS, BATCH)
-    for i in range(AGENTS):
-        for j in range(BATCH):
-            log, chosen = drawn.log_pi[i, j].tolist(), int(drawn.chosen[i, j])
-            state = (
-                log,
-                np.exp(log),
-                drawn.q[i, j].tolist(),
-                chosen,
-                float(drawn.alpha[i]),
-                float(drawn.constraint[i, j]),
-            )
-            expected[i, j] = of_state(*state)
-    close(of_batch(drawn), expected)
-    assert len(expected.unique()) > 1
 
 
 def sure(action: int) -> torch.Tensor:

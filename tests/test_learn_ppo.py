@@ -18,8 +18,8 @@ def steps(*numbers):
 
 def test_an_advantage_is_the_discounted_sum_of_the_surprises():
     zeros = torch.zeros(3)
-    found = advantages(steps(1.0, 2.0, 4.0), zeros, zeros, zeros, zeros, GAMMA, lam=0.5)
-    assert found.tolist() == [1 + (2 + 4 / 4) / 4, 2 + 4 / 4, 4]
+    gained = advantages(steps(1.0, 2.0, 4.0), zeros, zeros, zeros, zeros, GAMMA, lam=0.5)
+    assert gained.tolist() == [1 + (2 + 4 / 4) / 4, 2 + 4 / 4, 4]
 
 
 def test_nothing_follows_an_accident_and_a_time_limit_is_worth_its_last_state():
@@ -28,14 +28,6 @@ def test_nothing_follows_an_accident_and_a_time_limit_is_worth_its_last_state():
     assert accident.tolist() == [0 + 0 - 1, 0.5 * 10 - 1]
     out_of_time = advantages(steps(0.0, 0.0), values, next_values, steps(0.0, 0.0), steps(1.0, 0.0), GAMMA, lam=1.0)
     assert out_of_time.tolist() == [0.5 * 10 - 1, 0.5 * 10 - 1]  # and no surprise of the next episode
-
-
-def test_with_lambda_1_an_advantage_is_the_return_less_the_value():
-    rewards, values = torch.randn(6), torch.randn(7)
-    zeros = torch.zeros(6)
-    found = advantages(rewards, values[:6], values[1:], zeros, zeros, GAMMA, lam=1.0)
-    returns = [float(sum(0.5**k * rewards[t + k] for k in range(6 - t)) + 0.5 ** (6 - t) * values[6]) for t in range(6)]
-    assert torch.allclose(found, torch.tensor(returns) - values[:6], atol=1e-6)
 
 
 @pytest.mark.parametrize(
@@ -50,9 +42,9 @@ def test_with_lambda_1_an_advantage_is_the_return_less_the_value():
 )
 def test_the_objective_is_clipped_where_a_step_would_go_too_far(ratio, advantage, loss, slope):
     ratio = torch.tensor([ratio], requires_grad=True)
-    found = clipped_loss(ratio, torch.tensor([advantage]), clip=0.2)
-    found.backward()
-    assert found.item() == pytest.approx(loss) and bool(ratio.grad.abs() > 0) is slope
+    clipped = clipped_loss(ratio, torch.tensor([advantage]), clip=0.2)
+    clipped.backward()
+    assert clipped.item() == pytest.approx(loss) and bool(ratio.grad.abs() > 0) is slope
 
 
 @pytest.mark.parametrize("batch, minibatches", [(16, 2), (20, 2), (31, 2), (40, 1)])
@@ -64,14 +56,6 @@ def test_an_epoch_draws_every_decision_of_an_agent_once(batch, minibatches):
     for _ in range(2):
         drawn = torch.cat([buffer.sample(batch, np.zeros(2), generators).actions for _ in range(minibatches)], dim=1)
         assert torch.equal(drawn.sort(dim=1).values, numbers) and not torch.equal(drawn, numbers)
-
-
-@pytest.mark.parametrize("batch", [31, 20, 40])
-def test_a_minibatch_of_what_is_left_trains_as_well(batch):
-    training = Training(with_seeds(settings_for("ppo", **SMALL | {"batch": batch, "buffer_size": 40}), 2), 4)
-    while training.updates < 4:
-        training.step()
-    assert not training.stopped and all(loss.isfinite().all() for loss in training.losses.values())
 
 
 def test_a_training_updates_in_rounds_after_a_number_of_decisions():
@@ -89,16 +73,6 @@ def test_both_learning_rates_fall_to_0_if_they_are_told_to():
         training.step()
         seen.append([group["lr"] for group in training.learner.optimiser.param_groups])
     assert seen[7::8] == [[1e-3, 2e-3], [5e-4, 1e-3], [0.0, 0.0]]
-
-
-def test_an_agent_learns_the_same_alone_and_beside_others():
-    alone = Training(with_seeds(settings_for("ppo", **SMALL), 1, first=5), episodes=10)
-    beside = Training(with_seeds(settings_for("ppo", **SMALL), 3, first=4), episodes=10)
-    for _ in range(8):
-        alone.step()
-        beside.step()
-    for mine, other in zip(alone.agent(0).actor, beside.agent(1).actor, strict=True):
-        assert torch.allclose(mine, other, atol=1e-5)
 
 
 def test_a_clone_begins_with_the_teacher_s_actions():

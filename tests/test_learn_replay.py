@@ -8,7 +8,6 @@ from bootcourse.errors import BootcourseError
 from bootcourse.learn.demonstrations import collect
 from bootcourse.learn.replay_buffer import ReplayBuffer, encode_transitions
 from bootcourse.scenario import DEFAULT
-from tests.bench_learn import random_rows
 
 INPUTS = DEFAULT.observation_size
 
@@ -55,13 +54,6 @@ def test_the_oldest_is_overwritten_and_nothing_else():
         assert set(batch.rewards[agent].tolist()) == {1000.0 * agent + k for k in range(18, 28)}
 
 
-def test_every_transition_is_drawn_equally_often():
-    replay = ReplayBuffer(1, 10, INPUTS)
-    replay.add(numbered(1, 10, 0))
-    counts = torch.bincount(replay.sample(20_000, np.zeros(1), generators(0)).rewards[0].long(), minlength=10)
-    assert (counts - 2000).abs().max() < 5 * (2000 * 0.9) ** 0.5
-
-
 @pytest.mark.parametrize(("beta", "demonstrations"), [(0.0, 0), (0.3, 19), (0.5, 32), (0.6, 38), (0.65, 42), (1.0, 64)])
 def test_the_share_of_demonstrations_is_beta_of_the_batch(beta, demonstrations):
     replay = ReplayBuffer(2, 50, INPUTS, numbered(1, 20, 500)[0])
@@ -70,19 +62,6 @@ def test_the_share_of_demonstrations_is_beta_of_the_batch(beta, demonstrations):
     assert batch.is_demonstration.sum(1).tolist() == [demonstrations, 32]
     from_demonstrations = (batch.rewards >= 500) & (batch.rewards < 1000)
     assert torch.equal(from_demonstrations, batch.is_demonstration.bool())
-
-
-def test_what_an_agent_draws_depends_on_its_own_generator_alone():
-    together, alone = ReplayBuffer(3, 50, INPUTS), ReplayBuffer(1, 50, INPUTS)
-    rows = random_rows(150, np.random.default_rng(0)).view(3, 50, -1)
-    together.add(rows)
-    alone.add(rows[1:2])
-    first = together.sample(32, np.zeros(3), generators(7, 8, 9))
-    again = together.sample(32, np.zeros(3), generators(7, 8, 9))
-    single = alone.sample(32, np.zeros(1), generators(8))
-    for name in first._fields:
-        assert torch.equal(getattr(first, name), getattr(again, name))
-        assert torch.equal(getattr(first, name)[1:2], getattr(single, name))
 
 
 def test_beta_without_demonstrations_is_refused():

@@ -9,10 +9,8 @@ import torch
 from gymnasium.vector import AutoresetMode
 
 from bootcourse.learn.agent import sample_actions
-from bootcourse.learn.curves import NAMES
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import FIRST_SEED, Training
-from bootcourse.methods import ABLATION
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.rule import rule
 from bootcourse.scenario import DEFAULT, IDLE
@@ -32,10 +30,6 @@ def always(training: Training, action: int) -> Training:
     with torch.no_grad():
         training.learner.actor[-1][:, :, action] += 1000.0
     return training
-
-
-def same(first: dict, second: dict) -> bool:
-    return all(np.array_equal(first[name], second[name], equal_nan=True) for name in NAMES)
 
 
 def rows_of(training: Training, steps: int) -> torch.Tensor:
@@ -84,39 +78,10 @@ def test_the_idle_policys_curves_are_those_worked_out_by_hand():
     np.testing.assert_allclose(curves["entropy"], 0, atol=1e-12)
 
 
-def test_every_method_trains_beside_every_other_and_notes_its_own_coefficients():
-    training = training_of(*ABLATION, beta_episodes=10, alpha_init=0.02)
-    result = training.run(progress=False)
-    assert set(result.curves) == set(NAMES) and not result.interrupted
-    for values in result.curves.values():
-        assert values.shape == (6, 12) and np.isfinite(values).all()
-    assert ((result.curves["entropy"] >= 0) & (result.curves["entropy"] <= np.log(9))).all()
-    for i, s in enumerate(training.settings):
-        np.testing.assert_allclose(result.curves["xi"][i], s.xi_multiplier * result.curves["alpha"][i], rtol=1e-5)
-        assert result.curves["alpha"][i, 0] > result.curves["alpha"][i, -1]  # target entropy -1: it can only fall
-        assert result.curves["beta"][i, -1] == 0 and result.curves["beta"][i, 0] == s.beta_start
-    assert training.replay.demonstrations == 3 * DECISIONS
-
-
-def test_beta_falls_with_the_agents_own_finished_episodes():
-    training = training_of("bootstrapped", "sac", learning_starts=10**6)
-    training.curves.finished[:] = [500, 900]
-    np.testing.assert_allclose(training.beta, [0.3, 0.0])
-
-
 @pytest.fixture(scope="module")
 def undisturbed():
     """What two agents learn in twelve episodes."""
     return training_of("bootstrapped", "sac").run(progress=False)
-
-
-def test_the_same_seeds_give_the_same_curves_and_others_give_others(undisturbed):
-    first, second = undisturbed, training_of("bootstrapped", "sac").run(progress=False)
-    assert same(first.curves, second.curves)
-    for one, other in zip(first.agents, second.agents, strict=True):
-        assert all(torch.equal(a, b) for a, b in zip(one.actor, other.actor, strict=True))
-    other = Training(with_seeds(settings_for("bootstrapped", **QUICK), 2, first=7), 12).run(progress=False)
-    assert not same(first.curves, other.curves)
 
 
 def count_updates(training: Training) -> list[int]:
@@ -138,12 +103,12 @@ def test_an_agent_that_has_driven_its_episodes_stays_as_it_was():
     training = training_of("sac", "soft", "bootstrapped", episodes=5)
     while not training.finished_agents:
         training.step()
-    kept = {i: agent.actor[0].clone() for i, agent in training.finished_agents.items()}
-    assert len(kept) < 3
+    snapshots = {i: agent.actor[0].clone() for i, agent in training.finished_agents.items()}
+    assert len(snapshots) < 3
     result = training.run(progress=False)
-    for i, weight in kept.items():
+    for i, weight in snapshots.items():
         assert torch.equal(result.agents[i].actor[0], weight)
-        assert not torch.equal(training.agent(i).actor[0], weight)  # though its seat goes on
+        assert not torch.equal(training.agent(i).actor[0], weight)
 
 
 def after(steps: int, act):
@@ -158,18 +123,14 @@ def after(steps: int, act):
     return callback
 
 
-def raise_interrupt():
-    raise KeyboardInterrupt
-
-
 def press_ctrl_c():
     os.kill(os.getpid(), signal.SIGINT)
 
 
-@pytest.mark.parametrize("interrupt", [raise_interrupt, press_ctrl_c])
-def test_an_interrupt_returns_what_was_learned_so_far(interrupt):
+@pytest.mark.skipif(os.name == "nt", reason="a process cannot press Ctrl-C for itself on Windows")
+def test_an_interrupt_returns_what_was_learned_so_far():
     training = training_of("bootstrapped", "sac", episodes=500)
-    result = training.run(progress=False, callback=after(60, interrupt))
+    result = training.run(progress=False, callback=after(60, press_ctrl_c))
     assert result.interrupted and len(result.agents) == 2 and result.seconds > 0
     finished = training.curves.finished
     assert (finished > 0).all() and (finished < 500).all()
@@ -194,7 +155,9 @@ def test_a_training_interrupted_in_the_middle_of_a_step_goes_on_as_if_nothing_ha
     interruptions = 0
     while (result := training.run(progress=False)).interrupted and not training.done:
         interruptions += 1
-    assert interruptions >= 2 and same(result.curves, undisturbed.curves)
+    assert interruptions >= 2
+    for name, values in undisturbed.curves.items():
+        np.testing.assert_array_equal(result.curves[name], values, err_msg=name)
     assert all(torch.equal(a, b) for a, b in zip(result.agents[0].actor, undisturbed.agents[0].actor, strict=True))
 
 
@@ -221,7 +184,7 @@ def test_actions_are_drawn_as_often_as_the_policy_says():
     assert sample_actions(policy[None, ::-1], np.array([0.0]))[0] == 1  # nor before the first
 
 
-def test_an_agent_thinks_what_its_learner_does_and_drives_by_its_most_probable_action_or_draws_one(undisturbed):
+def test_an_agent_has_its_learner_s_policy_and_q_and_drives_by_its_most_probable_action_or_draws_one(undisturbed):
     training, agent = training_of("sac", "soft"), undisturbed.agents[1]
     learner, seen = training.learner, torch.randn(2, 50, INPUTS)
     values = learner.q_values(learner.critics, seen).detach()
@@ -239,11 +202,9 @@ def test_an_agent_thinks_what_its_learner_does_and_drives_by_its_most_probable_a
     assert 0 < (drawn == choice.actions).mean() < 1
 
 
-def test_two_bootstrapped_agents_escape_within_250_episodes_and_two_of_plain_sac_do_not():
-    settings = [s for method in ("bootstrapped", "sac") for s in with_seeds(settings_for(method), 2, first=2)]
-    success = Training(settings, 250).run(progress=False).curves["success"][:, -50:].mean(1)
-    assert success[:2].mean() >= 0.8, f"bootstrapped {success[:2]}"
-    assert success[2:].max() <= 0.1, f"sac {success[2:]}"
+def test_two_agents_of_the_paper_s_method_escape_within_250_episodes():
+    training = Training(with_seeds(settings_for("bootstrapped"), 2, first=2), 250)
+    assert training.run(progress=False).curves["success"][:, -50:].mean() >= 0.8
 
 
 def test_a_training_counts_tiny_numbers_as_zero_and_nothing_does_so_afterwards():
@@ -272,11 +233,18 @@ def poison(training: Training) -> None:
 @pytest.mark.filterwarnings("ignore:sac, seed 1")
 def test_an_agent_with_a_loss_that_is_not_finite_keeps_finite_weights_its_run_says_so_and_the_others_go_on(tmp_path):
     training = trained_a_little()
-    poison(training)
+    save_checkpoint(training, tmp_path / "before.npz")
+    resumed = load_checkpoint(tmp_path / "before.npz")
+    for each in (training, resumed):
+        poison(each)
+    resumed.step()
+    save_checkpoint(resumed, tmp_path / "after.npz")
+    assert load_checkpoint(tmp_path / "after.npz").stopped == {1: 52}
     with pytest.warns(UserWarning, match="sac, seed 1: its loss was not finite at decision 52; it stops there"):
         result = training.run(progress=False)
     alone = trained_a_little().run(progress=False)
     frozen = result.agents[1]
+    assert torch.equal(frozen.actor[0], resumed.finished_agents[1].actor[0])
     assert result.stopped == {1: 52} and np.isnan(result.curves["return"][1, -1])
     assert all(torch.isfinite(weights).all() for weights in (*frozen.actor, *frozen.critics)) and frozen.alpha > 0
     for agent in (0, 2):
@@ -284,16 +252,3 @@ def test_an_agent_with_a_loss_that_is_not_finite_keeps_finite_weights_its_run_sa
         assert torch.equal(result.agents[agent].actor[0], alone.agents[agent].actor[0])
     decisions = [load_run(path).provenance["stopped_at_decision"] for path in save_runs(result, tmp_path)]
     assert decisions == [None, 52, None]
-
-
-@pytest.mark.filterwarnings("ignore:sac, seed 1")
-def test_a_checkpoint_remembers_who_was_stopped_and_the_last_finite_snapshots(tmp_path):
-    training = trained_a_little()
-    save_checkpoint(training, tmp_path / "before.npz")
-    resumed = load_checkpoint(tmp_path / "before.npz")
-    for each in (training, resumed):
-        poison(each)
-        each.step()
-    assert torch.equal(training.finished_agents[1].actor[0], resumed.finished_agents[1].actor[0])
-    save_checkpoint(training, tmp_path / "after.npz")
-    assert load_checkpoint(tmp_path / "after.npz").stopped == {1: 52}

@@ -1,13 +1,9 @@
 """The registry of methods: a method of one's own takes one learner and one entry, and is then like any other."""
 
-import inspect
-
 import numpy as np
 import pytest
 import torch
-from typer.testing import CliRunner
 
-from bootcourse.cli import app
 from bootcourse.colours import Style
 from bootcourse.episodes.evaluate import evaluate
 from bootcourse.errors import BootcourseError
@@ -82,16 +78,6 @@ def test_a_method_of_one_s_own_trains_is_saved_evaluated_drawn_and_offered(toy, 
     panel.close()
 
 
-def test_its_learner_is_the_one_that_trains(toy):
-    mine, usual = (Training([settings_for(method, xi_multiplier=0.0, **SMALL)], 30) for method in (toy, "demos"))
-    assert type(mine.learner) is WithoutEntropy and type(usual.learner) is SACLearner
-    for training in (mine, usual):
-        while training.updates < 20:
-            training.step()
-    first, second = (training.learner.critics[0].detach().numpy() for training in (mine, usual))
-    assert not np.array_equal(first, second)
-
-
 def test_a_learner_decides_with_the_teacher_s_actions_and_the_age_of_each_episode(monkeypatch):
     monkeypatch.setitem(METHODS, "toy", Method("toy", Style("#117733"), {"xi_multiplier": 0.0}, LateFollower))
     training, done = Training(with_seeds(settings_for("toy", **SMALL), 2), 3, teacher=always_faster), False
@@ -131,14 +117,6 @@ def test_such_an_agent_is_not_loaded_with_another_teacher_and_does_not_drive_wit
         agent.taught_by(None).as_policy()
     with pytest.raises(BootcourseError, match="give them"):
         agent.probabilities(np.zeros((2, 26)))
-
-
-def test_the_command_line_takes_the_teacher_of_such_a_run(follower, tmp_path):
-    (tmp_path / "mine.py").write_text(inspect.getsource(always_faster))
-    evaluate_it = ["evaluate", str(follower), "--episodes", "3"]
-    assert CliRunner().invoke(app, evaluate_it).exit_code == 1
-    answer = CliRunner().invoke(app, [*evaluate_it, "--teacher", f"{tmp_path / 'mine.py'}:always_faster"])
-    assert "collision %              100.0 [" in answer.output, answer.output
 
 
 def test_a_training_that_goes_on_without_its_method_asks_for_the_learner(tmp_path, monkeypatch):

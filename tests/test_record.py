@@ -1,20 +1,18 @@
 """Recording, saving and loading drives, and what happens when a file or a disk is damaged."""
 
 import json
-import os
 from dataclasses import fields, replace
 
-import gymnasium as gym
 import numpy as np
 import pytest
 
 import bootcourse  # noqa: F401  registers the road
-from bootcourse.episodes.record import record, record_on_highway_env
+from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Header, Rollout
 from bootcourse.errors import BootcourseError
-from bootcourse.policies import PolicyOutput, rule_policy, stochastic_rule_policy
+from bootcourse.policies import PolicyOutput, stochastic_rule_policy
 from bootcourse.road.state import EGO, Accident, X
-from bootcourse.scenario import CALIBRATED, DEFAULT, Clock
+from bootcourse.scenario import DEFAULT, Clock
 
 SHORT = replace(DEFAULT, clock=Clock(decisions=12))
 
@@ -42,25 +40,6 @@ def differing_fields(a: Rollout, b: Rollout, tolerance: float = 0.0) -> list[str
 
 
 # Recording
-
-
-@pytest.mark.parametrize("scenario", [DEFAULT, CALIBRATED], ids=lambda scenario: scenario.name)
-def test_both_roads_record_the_same_drive_of_the_rule(scenario):
-    env = gym.make("bootcourse:Trap-v0", scenario=scenario)
-    compiled = record(rule_policy(scenario), [10, 11], scenario, label="rule")[1]
-    reference = record_on_highway_env(rule_policy(scenario), 11, env, label="rule")
-    assert differing_fields(compiled, reference, tolerance=1e-9) == []
-
-
-def test_both_roads_record_the_same_crash_with_the_same_number_of_simulation_steps():
-    def accelerate(observations, cars):
-        return PolicyOutput(np.full(len(observations), 7))
-
-    env = gym.make("bootcourse:Trap-v0")
-    for seed, compiled in zip(range(6), record(accelerate, range(6)), strict=True):
-        reference = record_on_highway_env(accelerate, seed, env)
-        assert compiled.accident == Accident.COLLISION
-        assert differing_fields(compiled, replace(reference, label="driver"), tolerance=1e-9) == []
 
 
 def test_a_rollout_tells_the_whole_drive(rollout):
@@ -116,17 +95,14 @@ NAN_REWARDS = np.full(10, np.nan)
         ({"rewards": NAN_REWARDS}, "rewards hold NaN"),
         ({"rewards": np.zeros(9)}, "rewards have shape (9,), not (10,)"),
         ({"rewards": None}, "incomplete"),
-        ({"rewards": np.array(["a"] * 10)}, "rewards"),
-        ({"policy": np.full((10, 9), np.inf)}, "policy hold NaN, infinity"),
+        ({"policy": np.full((10, 9), np.inf)}, "policy hold NaN or a number outside"),
         ({"actions": np.zeros(0, np.int64)}, "no decisions"),
         ({"actions": np.full(10, 9)}, "outside 0..8"),
         ({"actions": np.full(10, 4.5)}, "actions"),
         ({"states": np.zeros((3, 9, 10))}, "simulation steps"),
-        ({"states": np.array(0.0)}, "states"),
         ({"accident": 7}, "accident"),
-        ({"label": None}, "missing required field `label`"),
         ({"rule_p": None}, "missing required field `rule_p`"),
-        ({"scenario": {"road": {"lanes": 0}}}, "written by another version"),
+        ({"scenario": {"road": {"lanes": 0}}}, "Road.lanes = 0"),
         ({"surprise": np.zeros(3)}, "surprise"),
         ({"format": "bootcourse rollout 99"}, f"this version reads '{Header.FORMAT}'"),
         ({"header": np.array("{")}, "Input data was truncated"),
@@ -140,29 +116,3 @@ def test_a_damaged_rollout_is_refused_in_one_sentence(rollout, tmp_path, damages
     assert words in refusal(path)
     with pytest.raises(BootcourseError, match="rewards hold NaN"):
         replace(rollout, rewards=NAN_REWARDS)  # it cannot even be made
-
-
-def test_a_pickled_array_is_refused_and_never_run(rollout, tmp_path):
-    class Trap:
-        def __reduce__(self):
-            return (os.mkdir, (str(tmp_path / "sprung"),))
-
-    path = rollout.save(tmp_path / "drive.npz")
-    damage(path, rewards=np.array([Trap()], dtype=object))
-    assert "damaged" in refusal(path)
-    np.save(tmp_path / "bare.npy", np.array([Trap()], dtype=object), allow_pickle=True)
-    refusal(tmp_path / "bare.npy")
-    assert not (tmp_path / "sprung").exists()
-
-
-def test_a_file_that_is_cut_short_something_else_or_nowhere_is_refused(rollout, tmp_path):
-    data = rollout.save(tmp_path / "cut.npz").read_bytes()
-    for share in (0.0, 0.5, 0.99):
-        (tmp_path / "cut.npz").write_bytes(data[: int(share * len(data))])
-        assert "record it again" in refusal(tmp_path / "cut.npz")
-    (tmp_path / "text.npz").write_text("hello")
-    np.savez(tmp_path / "others.npz", weights=np.zeros(3))
-    assert "damaged" in refusal(tmp_path / "text.npz")
-    assert "not a rollout" in refusal(tmp_path / "others.npz")
-    assert "is not there" in refusal(tmp_path / "nowhere.npz")
-    assert "a folder" in refusal(tmp_path)

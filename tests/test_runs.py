@@ -2,7 +2,7 @@
 
 import json
 import shutil
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 import numpy as np
 import pytest
@@ -13,7 +13,6 @@ from bootcourse.files import sha256, write_json
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
 from bootcourse.scenario import DEFAULT, Sight
-from bootcourse.storage.checkpoint import load_checkpoint, save_checkpoint
 from bootcourse.storage.runs import find_runs, load_run, save_runs
 from bootcourse.storage.sealed import write_sealed
 
@@ -41,18 +40,6 @@ def test_a_run_reads_back_as_it_was_written(result, run):
     assert back.provenance["seed"] == 0 and "torch" in back.provenance
 
 
-@pytest.mark.parametrize("name", ["config.json", "weights.safetensors", "curves.npz", "provenance.json"])
-def test_a_missing_cut_or_changed_file_of_a_run_is_named(run, name):
-    data = (run / name).read_bytes()
-    (run / name).unlink()
-    with pytest.raises(BootcourseError, match="is not there|is not a run"):
-        load_run(run)
-    for damaged in (data[: len(data) // 2], data.replace(b"0", b"1", 1)):
-        (run / name).write_bytes(damaged)
-        with pytest.raises(BootcourseError, match=f"{name} is damaged"):
-            load_run(run)
-
-
 def test_what_cannot_be_saved_or_asked_is_refused_with_a_sentence(result, run, tmp_path):
     twice = replace(result, agents=result.agents[:1] * 2)
     refused = [
@@ -72,10 +59,10 @@ def test_weights_that_are_not_numbers_are_refused_even_with_the_right_hash(run):
     weights = load_file(run / "weights.safetensors")
     weights["actor.0"][0, 0, 0] = np.nan
     save_file(weights, run / "weights.safetensors")
-    made = json.loads((run / "provenance.json").read_text())
-    made["sha256"]["weights.safetensors"] = sha256(run / "weights.safetensors")
-    del made["seal"]
-    write_sealed(run / "provenance.json", made)
+    stored = json.loads((run / "provenance.json").read_text())
+    stored["sha256"]["weights.safetensors"] = sha256(run / "weights.safetensors")
+    del stored["seal"]
+    write_sealed(run / "provenance.json", stored)
     with pytest.raises(BootcourseError, match="NaN or infinity"):
         load_run(run)
 
@@ -94,18 +81,14 @@ def replaced(run, name: str, **entries) -> None:
     ("name", "entries", "words"),
     [
         ("config.json", {"format": "bootcourse run 99"}, "this version reads 'bootcourse run 1'"),
-        ("config.json", {"scenario": json.loads(replace(DEFAULT, sight=Sight(neighbours=6)).to_json())}, "actor.0"),
+        ("config.json", {"scenario": asdict(replace(DEFAULT, sight=Sight(neighbours=6)))}, "actor.0"),
         ("config.json", {"settings": {"method": "bootstrapped", "hidden": [32, 32]}}, "actor.0"),
         ("config.json", {"settings": {"method": "bootstrapped", "hidden": [64]}}, "weights.safetensors is incomplete"),
         ("config.json", {"settings": {"method": "sac", "invented_later": 1}}, "no invented_later"),
         ("config.json", {"settings": {"method": "bootstrapped", "gamma": 10**400}}, "gamma"),
-        ("config.json", {"settings": []}, "`$.settings`"),
         ("config.json", {"episodes": 13}, "curves.npz"),
-        ("config.json", {"alpha": "<b>"}, "`$.alpha`"),
         ("config.json", {"comment": "x"}, "comment"),
         ("provenance.json", {"sha256": []}, "`$.sha256`"),
-        ("provenance.json", {"seed": -1}, "`$.seed`"),
-        ("provenance.json", {"teacher": 3}, "`$.teacher`"),
     ],
 )
 def test_a_wrong_entry_of_a_run_is_named_even_with_the_right_hash(run, name, entries, words):
@@ -118,23 +101,6 @@ def test_a_wrong_entry_of_a_run_is_named_even_with_the_right_hash(run, name, ent
 def test_a_folder_without_a_run_says_how_to_train_one(tmp_path):
     with pytest.raises(BootcourseError, match="bootcourse train"):
         find_runs(tmp_path)
-
-
-def test_the_runs_of_a_folder_are_found_beside_a_folder_with_others(tmp_path):
-    for place in ("mine/sac-0", "mine/older/sac-0"):
-        (tmp_path / place).mkdir(parents=True)
-        (tmp_path / place / "config.json").write_text("{}")
-    assert find_runs(tmp_path / "mine") == [tmp_path / "mine" / "sac-0"]
-    with pytest.raises(BootcourseError, match=r"holds no run itself: name a folder in it, such as .*mine\.$"):
-        find_runs(tmp_path)
-
-
-def test_a_damaged_checkpoint_is_refused(tmp_path):
-    path = tmp_path / "checkpoint.npz"
-    save_checkpoint(small_training(), path)
-    path.write_bytes(path.read_bytes()[:5000])
-    with pytest.raises(BootcourseError, match="is damaged or cut short.*begin again"):
-        load_checkpoint(path)
 
 
 def test_a_run_that_cannot_be_written_leaves_nothing_behind(result, tmp_path, monkeypatch):

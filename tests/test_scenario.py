@@ -1,7 +1,6 @@
 """The scenario: impossible numbers are refused in one sentence, and a scenario survives the disk."""
 
 import dataclasses
-import json
 import math
 
 import pytest
@@ -10,7 +9,6 @@ from bootcourse.errors import BootcourseError
 from bootcourse.scenario import (
     CALIBRATED,
     DEFAULT,
-    SCENARIOS,
     Car,
     Clock,
     Ego,
@@ -18,64 +16,36 @@ from bootcourse.scenario import (
     Road,
     Rule,
     Scenario,
-    Sight,
     Traffic,
     Traps,
     check_p,
     named,
 )
 
-NAN = math.nan
-
 IMPOSSIBLE = [
     # (what is made, words that its sentence must hold: the field and the value)
-    (lambda: Road(lanes=0), "Road.lanes = 0"),
-    (lambda: Road(lanes=1), "2 to 8 lanes"),
+    (lambda: Road(lanes=1), "Road.lanes = 1: give a whole number of 2 or more, at most 8."),
     (lambda: Road(lanes=2.5), "Road.lanes = 2.5: give a whole number"),
-    (lambda: Road(lane_width=0.0), "Road.lane_width = 0.0"),
-    (lambda: Road(lane_width=1e300), "Road.lane_width = 1e+300"),
-    (lambda: Traffic(a_max=12.0), "Traffic.a_max = 12.0"),
-    (lambda: Road(length=-1.0), "Road.length = -1.0"),
-    (lambda: Road(speed_limit=NAN), "Road.speed_limit = nan: give a finite number"),
-    (lambda: Clock(decisions=0), "Clock.decisions = 0"),
+    (lambda: Road(lane_width=0.0), "Road.lane_width = 0.0: give a finite number above 0, at most 100."),
+    (lambda: Road(speed_limit=math.nan), "Road.speed_limit = nan: give a finite number"),
     (lambda: Clock(simulation_rate=3, decision_rate=2), "3 Hz is not a multiple of the decision rate (2 Hz)"),
-    (lambda: Clock(simulation_rate=2.0), "Clock.simulation_rate = 2.0: give a whole number"),
     (lambda: Clock(decision_rate=True), "Clock.decision_rate = True"),
-    (lambda: Car(length=0.0), "Car.length = 0.0"),
     (lambda: Car(width="2"), "Car.width = '2'"),
     (lambda: Ego(speed=0.5), "Ego.speed = 0.5 m/s must lie above min_speed (1.0)"),
     (lambda: Ego(speed=30.0), "not above max_speed (25.0)"),
-    (lambda: Ego(min_speed=-1.0), "Ego.min_speed = -1.0"),
-    (lambda: Ego(acceleration=0.0), "Ego.acceleration = 0.0"),
-    (lambda: Ego(steering=math.pi / 2), "Ego.steering = 1.57"),
-    (lambda: Traps(speed=0.0), "Traps.speed = 0.0"),
     (lambda: Traps(d1=(16.44, 14.80)), "Traps.d1 = (16.44, 14.8): give (low, high), low first"),
     (lambda: Traps(d1=15.0), "Traps.d1 = 15.0: give (low, high)"),
     (lambda: Traps(d2=(4.06, 15.0)), "D2 must be the shorter distance"),
-    (lambda: Traps(d2=(-4.0, 7.0)), "Traps.d2 = (-4.0, 7.0): it cannot be negative"),
-    (lambda: Traffic(cars=-1), "Traffic.cars = -1"),
-    (lambda: Traffic(cars=41), "Traffic.cars = 41"),
-    (lambda: Traffic(spacing=(-0.5, 1.5)), "Traffic.spacing = (-0.5, 1.5): it cannot be negative"),
+    (lambda: Traffic(spacing=(-0.5, 1.5)), "Traffic.spacing = (-0.5, 1.5): give a finite number of 0 or more"),
     (lambda: Traffic(speed=(11.0, math.inf)), "Traffic.speed = (11.0, inf): give a finite number"),
-    (lambda: Traffic(b=0.0), "Traffic.b = 0.0"),
-    (lambda: Traffic(tau_heading=0.0), "Traffic.tau_heading = 0.0"),
-    (lambda: Traffic(politeness=-0.1), "Traffic.politeness = -0.1"),
-    (lambda: Reward(w_v=-1.5), "Reward.w_v = -1.5"),
     (lambda: Reward(w_v=0.0, w_y=0.0, w_theta=0.0), "at least one weight must be above 0"),
-    (lambda: Sight(neighbours=0), "Sight.neighbours = 0"),
-    (lambda: Sight(neighbours=1.5), "Sight.neighbours = 1.5: give a whole number"),
-    (lambda: Sight(distance=-200.0), "Sight.distance = -200.0"),
     (lambda: Rule(v_max=6.0), "Rule.v_max = 6.0 m/s must be above v_min (6.0)"),
-    (lambda: Rule(n=1), "Rule.n = 1"),
-    (lambda: Rule(n=10**12), "Rule.n = 1000000000000: the grid of target speeds needs 2 to 1000 values"),
     (lambda: check_p(1 - 1e-9), "is 1 in single precision"),
-    (lambda: Rule(floor=0.0), "Rule.floor = 0.0"),
     (lambda: check_p(1.0), "p = 1.0 is outside [1/9, 1)"),
     (lambda: check_p(0.1), "p = 0.1 is outside [1/9, 1)"),
-    (lambda: check_p(NAN), "p = nan is outside [1/9, 1)"),
+    (lambda: check_p(math.nan), "p = nan is outside [1/9, 1)"),
     (lambda: check_p("0.9"), "p = '0.9' is outside [1/9, 1)"),
     (lambda: Scenario(road=3), "Scenario.road = 3: expected Road"),
-    (lambda: Scenario(name=None), "Scenario.name = None"),
     (lambda: Scenario(road=Road(length=1000.0)), "Road.length = 1000.0 m is shorter than"),
     (lambda: Scenario(traps=Traps(d1=(4.0, 5.0), d2=(1.0, 2.0))), "trap 1 would start inside the ego"),
     (lambda: Scenario(car=Car(width=4.0)), "Car.width = 4.0 m does not fit a lane of 4.0 m"),
@@ -108,44 +78,6 @@ def test_the_default_scenario_has_the_papers_numbers():
 def test_the_calibrated_scenario_differs_only_in_its_traps():
     assert CALIBRATED.traps.speed == 10.9
     assert dataclasses.replace(CALIBRATED, name="default", traps=Traps()) == DEFAULT
-
-
-@pytest.mark.parametrize("scenario", SCENARIOS.values(), ids=SCENARIOS)
-def test_a_scenario_survives_json(scenario):
-    assert Scenario.from_json(scenario.to_json()) == scenario
-    other = dataclasses.replace(scenario, traffic=Traffic(cars=0, spacing=(0.7, 0.9)), rule=Rule(t_safe=0.5))
-    assert Scenario.from_json(other.to_json()) == other
-
-
-def edited(**parts) -> str:
-    data = json.loads(DEFAULT.to_json())
-    for part, values in parts.items():
-        data[part] = {**data[part], **values} if isinstance(values, dict) else values
-    return json.dumps(data)
-
-
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("{", "not a scenario that bootcourse wrote"),
-        ("[]", "not a scenario that bootcourse wrote"),
-        ("[1]", "not a scenario that bootcourse wrote"),
-        ("5", "not a scenario that bootcourse wrote"),
-        ("{}", "Scenario has no car"),
-        (edited(road=3), "not a scenario that bootcourse wrote"),
-        (edited(road={"bends": 2}), "Road has no field bends"),
-        (edited(road={"lanes": 0}), "Road.lanes = 0"),
-        (edited(road={"lanes": None}), "Road.lanes = None"),
-        (edited(traps={"d1": [1, 2, 3]}), "Traps.d1"),
-        (edited(traps={"d1": {"low": 1}}), "Traps.d1"),
-        (edited(ego={"speed": "fast"}), "Ego.speed = 'fast'"),
-        (edited(name=["a"]), "Scenario.name"),
-    ],
-)
-def test_json_that_is_no_scenario_is_refused_in_one_sentence(text, words):
-    with pytest.raises(BootcourseError) as refusal:
-        Scenario.from_json(text)
-    assert words in str(refusal.value) and "\n" not in str(refusal.value)
 
 
 def test_a_scenario_cannot_be_changed_behind_ones_back():

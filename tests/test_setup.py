@@ -19,7 +19,7 @@ from bootcourse.storage import assets
 from tests.jupyterlab import CALM
 
 ROOT = Path(__file__).resolve().parent.parent
-LOCKS = ("environment.lock", "student.lock", "bench.lock")
+LOCKS = ("environment.lock", "student.lock")
 
 
 def requirements(lock: str) -> list[str]:
@@ -55,7 +55,6 @@ def test_everything_that_pyproject_asks_for_is_in_the_lock():
     assert "bootcourse[book]" in extras["test"]
     asked = project["dependencies"] + extras["test"] + extras["book"]
     assert {re.match(r"[\w-]+", requirement)[0] for requirement in asked} - {"bootcourse"} <= locked
-    assert "d3rlpy" in {line.partition("==")[0] for line in requirements("bench.lock")}
 
 
 def test_the_students_lock_is_the_part_of_the_lock_that_the_lessons_need():

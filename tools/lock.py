@@ -1,9 +1,8 @@
-"""Write environment.lock, student.lock and bench.lock again: `make lock`.
+"""Write environment.lock and student.lock again: `make lock`.
 
 uv resolves pyproject.toml for every platform at once. Two things are then changed. On Linux torch is
 the CPU build, which only torch's own index has, and the CUDA packages that its other build asks for
 are left out. student.lock is the part of environment.lock that the lessons need, without the tests and the book.
-bench.lock keeps only what environment.lock does not have.
 """
 
 import re
@@ -35,17 +34,13 @@ TORCH_CPU = {
 }
 
 
-def resolve(extra: str | None, overrides: str = "", keep: Path | None = None) -> list[str]:
+def resolve(extra: str | None, keep: Path | None = None) -> list[str]:
     """The locked requirements for one extra, or for none, each with its hashes in one string."""
-    with tempfile.TemporaryDirectory() as folder:
-        override_file = Path(folder, "overrides.txt")
-        override_file.write_text(overrides)
-        command = [sys.executable, "-m", "uv", "pip", "compile", "pyproject.toml", "--universal"]
-        command += ["--extra", extra] if extra else []
-        command += ["--python-version", "3.11", "--generate-hashes", "--no-annotate", "--no-header", "--quiet"]
-        command += ["--override", str(override_file)]
-        command += ["--constraint", str(keep)] if keep else []
-        text = subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True).stdout
+    command = [sys.executable, "-m", "uv", "pip", "compile", "pyproject.toml", "--universal"]
+    command += ["--extra", extra] if extra else []
+    command += ["--python-version", "3.11", "--generate-hashes", "--no-annotate", "--no-header", "--quiet"]
+    command += ["--constraint", str(keep)] if keep else []
+    text = subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True).stdout
     return re.split(r"\n(?=\w)", text.strip())
 
 
@@ -88,13 +83,8 @@ def main() -> None:
         keep = Path(folder, "keep.txt")
         keep.write_text("\n".join(pin(requirement) for requirement in locked if name(requirement) != "torch"))
         lessons = {name(requirement) for requirement in resolve(None, keep=keep)}
-        # d3rlpy pins gymnasium 1.0.0 but runs with the one that we have.
-        more = resolve("bench", overrides="gymnasium>=1.1\n", keep=keep)
     student = [requirement for requirement in locked if name(requirement) in lessons]
     write(ROOT / "student.lock", "needs for its lessons", student)
-    have = {pin(requirement) for requirement in locked}
-    more = [r for r in more if pin(r) not in have and name(r) != "torch" and not CUDA.match(r)]
-    write(ROOT / "bench.lock", "needs on top of environment.lock for `make bench`", more)
 
 
 if __name__ == "__main__":

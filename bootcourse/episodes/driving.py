@@ -11,7 +11,7 @@ import numpy as np
 from gymnasium.spaces import Box, Discrete
 from gymnasium.vector import AutoresetMode, SyncVectorEnv, VectorEnv
 
-from bootcourse.errors import BootcourseError, naming
+from bootcourse.errors import require
 from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, Scenario
@@ -37,36 +37,24 @@ class Step(NamedTuple):
 def steps(policy: Policy, env: VectorEnv, seeds: Sequence[int] | int) -> Iterator[Step]:
     """Drive one episode on each road of `env`, reset with `seeds`; yields each decision until all are over.
 
-    A policy with a method `reset(roads)` is reset first. A rule's RuleFailed names the road's seed and the decision.
+    A policy with a method `reset(roads)` is reset first.
     """
     if hasattr(policy, "reset"):
         policy.reset(env.num_envs)
     on_the_trap = hasattr(env, "cars")
     observations, _ = env.reset(seed=seeds)
-    running, decisions = np.ones(env.num_envs, dtype=bool), np.zeros(env.num_envs, dtype=np.int64)
+    running = np.ones(env.num_envs, dtype=bool)
     while running.any():
         cars = env.cars.copy() if on_the_trap else observations
-        with naming(place(seeds, decisions)):
-            output = policy(observations, cars)
+        output = policy(observations, cars)
         seen, rewards, terminated, truncated, infos = env.step(output.actions)
         reached = reached_observations(seen, infos)
-        decisions += running
         yield Step(
             running, observations, cars, output, rewards, terminated, truncated, reached,
             reached_cars(env, reached, infos), infos,
         )  # fmt: skip
         running = running & ~(terminated | truncated)
         observations = seen
-
-
-def place(seeds: Sequence[int] | int, decisions: np.ndarray) -> Callable[[int], str]:
-    """For `errors.naming`: a road's seed, and how many decisions were made on it, (roads,)."""
-
-    def words(road: int) -> str:
-        seed = seeds[road] if np.iterable(seeds) else seeds + road
-        return f"on the road with seed {seed}, at decision {decisions[road]}"
-
-    return words
 
 
 def reached_observations(observations: np.ndarray, infos: dict) -> np.ndarray:
@@ -99,32 +87,31 @@ def copies_of(make_env: Callable[[int], VectorEnv], n: int) -> VectorEnv:
     """make_env(n), with same-step autoreset: an episode that ends is restarted in the same call of `step`.
 
     `gym.make_vec` makes environments that restart in the next call. A `SyncVectorEnv` is made again. Raises
-    BootcourseError for another, for what is no vector environment of n copies, and for one whose actions or
-    observations this library cannot learn with.
+    BootcourseError if make_env(n) is not a vector environment of n copies, if it cannot restart in the same call, and
+    if this library cannot learn with its actions or observations.
     """
     wanted = "give a function of n, such as lambda n: gym.make_vec('MountainCar-v0', n)"
-    if not callable(make_env):
-        raise BootcourseError(f"make_env = {make_env!r:.80}: {wanted}.")
+    require(callable(make_env), f"make_env = {make_env!r:.80}: {wanted}.")
     env = make_env(n)
-    if not isinstance(env, VectorEnv) or env.num_envs != n:
-        copies = f" of {env.num_envs} copies" if isinstance(env, VectorEnv) else ""
-        raise BootcourseError(f"make_env({n}) returned {env!r:.80}{copies}: {wanted}.")
-    name = environment_id(env)
-    actions, observations = env.single_action_space, env.single_observation_space
-    if not isinstance(actions, Discrete) or actions.start != 0:
-        discrete = " gymnasium.wrappers.DiscretizeAction(env, bins=5) makes them of a Box." * isinstance(actions, Box)
-        raise BootcourseError(f"{name} has actions of {actions}: this library learns Discrete(n), from 0.{discrete}")
-    if len(observations.shape or ()) != 1:
-        raise BootcourseError(f"{name} shows {observations}: flatten it to a vector, as with FlattenObservation.")
-    if env.metadata.get("autoreset_mode") is AutoresetMode.SAME_STEP:
-        return env
-    if type(env) is SyncVectorEnv:
-        env.close()
-        return SyncVectorEnv(env.env_fns, autoreset_mode=AutoresetMode.SAME_STEP)
-    raise BootcourseError(
-        f"{name} does not restart an episode in the step that ends it: make it with vectorization_mode='sync', or "
-        "with vector_kwargs={'autoreset_mode': 'SameStep'}."
+    is_right = isinstance(env, VectorEnv) and env.num_envs == n
+    require(is_right, f"make_env({n}) returned {env!r:.80}, no vector environment of {n} copies: {wanted}.")
+    name, actions, observations = environment_id(env), env.single_action_space, env.single_observation_space
+    discrete = " gymnasium.wrappers.DiscretizeAction(env, bins=5) makes them of a Box." * isinstance(actions, Box)
+    require(
+        isinstance(actions, Discrete) and actions.start == 0,
+        f"{name} has actions of {actions}: this library learns Discrete(n), from 0.{discrete}",
     )
+    is_vector = len(observations.shape or ()) == 1
+    require(is_vector, f"{name} shows {observations}: flatten it to a vector, as with FlattenObservation.")
+    if type(env) is SyncVectorEnv and env.metadata.get("autoreset_mode") is not AutoresetMode.SAME_STEP:
+        env.close()
+        env = SyncVectorEnv(env.env_fns, autoreset_mode=AutoresetMode.SAME_STEP)
+    require(
+        env.metadata.get("autoreset_mode") is AutoresetMode.SAME_STEP,
+        f"{name} does not restart an episode in the step that ends it: make it with vectorization_mode='sync', or "
+        "with vector_kwargs={'autoreset_mode': 'SameStep'}.",
+    )
+    return env
 
 
 def environment_id(env: VectorEnv) -> str:

@@ -12,7 +12,7 @@ from bootcourse.errors import BootcourseError, whole
 from bootcourse.policies import PolicyOutput
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.rule import rule
-from bootcourse.scenario import ACTION_NAMES, DEFAULT, N_ACTIONS, Scenario
+from bootcourse.scenario import DEFAULT, N_ACTIONS, Scenario
 
 
 class InteractiveEpisode:
@@ -29,15 +29,13 @@ class InteractiveEpisode:
         """Drive one decision. Raises BootcourseError for an action outside 0..8, or after the end of the episode."""
         if self.over:
             raise BootcourseError("This drive is over: start another.")
-        if isinstance(action, bool) or not isinstance(action, (int, np.integer)) or not 0 <= action < N_ACTIONS:
-            raise BootcourseError(f"Action {action!r}: give a whole number, 0 ({ACTION_NAMES[0]}) to {N_ACTIONS - 1}.")
-        output = PolicyOutput(np.array([action]))
-        self.recorder.add_decision(output, rule(self.env.cars, self.scenario))
+        whole(action, "action", N_ACTIONS - 1)
+        output, by_rule = PolicyOutput(np.array([action])), rule(self.env.cars, self.scenario)
         observations, rewards, terminated, truncated, infos = self.env.step(output.actions)
         self.accident = int(infos["accident"][0])
         terms = [float(infos[name][0]) for name in ("r_v", "r_y", "r_theta")]
         states = driven(self.env.trace[0], self.accident)
-        self.recorder.add_outcome(states, observations[0], rewards[0], terms)
+        self.recorder.add(output, by_rule, states, observations[0], rewards[0], terms, road=0)
         self.over = bool(terminated[0] or truncated[0])
 
     @property

@@ -1,4 +1,4 @@
-"""Recording a policy's episodes as `Rollout`s, on the compiled road or on highway-env."""
+"""Recording a policy's episodes on the compiled road as `Rollout`s."""
 
 from collections.abc import Sequence
 
@@ -7,7 +7,7 @@ from gymnasium.vector import AutoresetMode
 
 from bootcourse.episodes.driving import steps
 from bootcourse.episodes.rollout import Rollout
-from bootcourse.errors import naming, whole
+from bootcourse.errors import whole
 from bootcourse.files import provenance
 from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.road.vector_env import TrapVectorEnv
@@ -24,17 +24,17 @@ class EpisodeRecorder:
         self.policy, self.q_values = [], []  # empty for policies without π or Q
         self.rule = []  # the rule's decisions: a value of each field of `RuleDecisions`
 
-    def add_decision(self, output: PolicyOutput, by_rule: RuleDecisions, road: int = 0) -> None:
-        """Record the policy's decision on a road, and the rule's."""
+    def add(self, output: PolicyOutput, by_rule: RuleDecisions, states, observation, reward, terms, road: int) -> None:
+        """Record a decision on a road, the policy's and the rule's, and its outcome.
+
+        The outcome: the state after each simulation step, the next observation, r, and (r_v, r_y, r_θ).
+        """
         self.actions.append(output.actions[road])
         if output.policy is not None:
             self.policy.append(output.policy[road])
         if output.q_values is not None:
             self.q_values.append(output.q_values[road])
         self.rule.append([values[road] for values in vars(by_rule).values()])
-
-    def add_outcome(self, states: Sequence, observation: np.ndarray, reward: float, terms: Sequence[float]) -> None:
-        """Record its outcome: the state after each simulation step, the next observation, r, and (r_v, r_y, r_θ)."""
         self.states.extend(np.array(state) for state in states)
         self.observations.append(np.array(observation, dtype=np.float32))
         self.rewards.append(reward)
@@ -86,10 +86,10 @@ def record(
         by_rule = rule(step.cars, scenario)
         terms = np.stack([step.infos[name] for name in ("r_v", "r_y", "r_theta")], axis=1)
         for road in np.flatnonzero(step.running):
-            recorders[road].add_decision(step.output, by_rule, road)
             accidents[road] = step.infos["accident"][road]
             states = driven(env.trace[road], accidents[road])
-            recorders[road].add_outcome(states, step.next_observations[road], step.rewards[road], terms[road])
+            outcome = states, step.next_observations[road], step.rewards[road], terms[road]
+            recorders[road].add(step.output, by_rule, *outcome, road)
     each = zip(recorders, seeds, accidents, strict=True)
     return [recorder.rollout(scenario, label, seed, accident, rule_p) for recorder, seed, accident in each]
 
@@ -100,21 +100,3 @@ def driven(trace: np.ndarray, accident: int) -> np.ndarray:
         return trace
     repeats = [bool((trace[step] == trace[step - 1]).all()) for step in range(1, len(trace))]
     return trace[: len(trace) - sum(repeats)]
-
-
-def record_on_highway_env(policy: Policy, seed: int, env, label: str = "driver") -> Rollout:
-    """Drive one episode on `env`, a `TrapEnv` made by gym.make; the `Rollout` is the same as on the compiled road."""
-    road, scenario = env.unwrapped, env.unwrapped.scenario
-    if hasattr(policy, "reset"):
-        policy.reset(1)
-    observation, info = env.reset(seed=seed)
-    recorder, over = EpisodeRecorder(road.cars(), observation), False
-    while not over:
-        cars = road.cars()[None]
-        with naming(lambda _: f"on the road with seed {seed}, at decision {len(recorder.rewards)}"):
-            output = policy(observation[None], cars)
-        recorder.add_decision(output, rule(cars, scenario))
-        observation, reward, terminated, truncated, info = env.step(int(output.actions[0]))
-        recorder.add_outcome(road.trace, observation, reward, list(info["rewards"].values()))
-        over = terminated or truncated
-    return recorder.rollout(scenario, label, seed, info["accident"])

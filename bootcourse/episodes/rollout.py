@@ -8,7 +8,7 @@ from typing import Annotated, Any, ClassVar
 import msgspec
 import numpy as np
 
-from bootcourse.errors import BootcourseError, whole
+from bootcourse.errors import BootcourseError, require, whole
 from bootcourse.files import decoding, parse, read_arrays, write_arrays
 from bootcourse.road.state import COLUMNS, EGO, HEADING, SPEED, TRAP_1, Accident, X, Y
 from bootcourse.rule import Reason
@@ -27,7 +27,7 @@ class Header(msgspec.Struct, forbid_unknown_fields=True):
 
     FORMAT: ClassVar[str] = "bootcourse rollout 1"
     format: str
-    scenario: dict[str, Any]  # checked by `Scenario.from_json`
+    scenario: Scenario
     label: Annotated[str, msgspec.Meta(max_length=LONGEST_LABEL)]
     seed: Annotated[int, msgspec.Meta(ge=0, le=2**63 - 1)]
     accident: Accident
@@ -64,18 +64,14 @@ class Rollout:
 
     def __post_init__(self):
         check_p(self.rule_p, "rule_p")
-        _check(
-            isinstance(self.label, str) and len(self.label) <= LONGEST_LABEL,
-            f"label = {self.label!r:.80}: give a text of at most {LONGEST_LABEL} characters.",
-        )
+        require(len(self.label) <= LONGEST_LABEL, f"label = {self.label:.80}: give at most {LONGEST_LABEL} characters.")
         whole(self.seed, "seed")
-        _check(self.accident in set(Accident), f"This rollout's accident {self.accident!r:.80} is unknown.")
-        arrays = {name: getattr(self, name) for name in (*REQUIRED, *OPTIONAL)}
-        arrays = {name: array for name, array in arrays.items() if array is not None or name in REQUIRED}
-        for name, array in arrays.items():
-            _check_kind(name, array)
-        steps, decisions = len(self.states) - 1, len(self.actions)
-        _check(decisions > 0, "This rollout has no decisions: record it again.")
+        require(self.accident in set(Accident), f"This rollout's accident {self.accident!r:.80} is unknown.")
+        for name in (*REQUIRED, *OPTIONAL):
+            if name in REQUIRED or getattr(self, name) is not None:
+                _check_array(name, getattr(self, name))
+        steps, decisions, per_decision = len(self.states) - 1, len(self.actions), self.scenario.clock.steps
+        require(decisions > 0, "This rollout has no decisions: record it again.")
         shapes = {
             "states": (steps + 1, self.scenario.vehicles, COLUMNS),
             "observations": (decisions + 1, self.scenario.observation_size),
@@ -83,10 +79,11 @@ class Rollout:
             "policy": (decisions, N_ACTIONS),
             "q_values": (decisions, N_ACTIONS),
         }
-        for name, array in arrays.items():
-            _check_numbers(name, array, shapes.get(name, (decisions,)))
-        per_decision = self.scenario.clock.steps
-        _check(
+        for name in (*REQUIRED, *OPTIONAL):
+            array, shape = getattr(self, name), shapes.get(name, (decisions,))
+            is_right = array is None or array.shape == shape
+            require(is_right, f"This rollout's {name} have shape {np.shape(array)}, not {shape}: record it again.")
+        require(
             (decisions - 1) * per_decision < steps <= decisions * per_decision,
             f"This rollout has {steps} simulation steps for {decisions} decisions: record it again.",
         )
@@ -135,7 +132,6 @@ class Rollout:
         with decoding(path, RECORD_AGAIN):
             header = msgspec.structs.asdict(parse(str(arrays.pop("header")), Header, path, RECORD_AGAIN))
             del header["format"]
-            header["scenario"] = Scenario.from_json(json.dumps(header["scenario"]))
             return cls(**header, **arrays)
 
 
@@ -174,28 +170,12 @@ def interpolate_states(states, step: float) -> np.ndarray:
     return moved
 
 
-def _check_kind(name: str, array) -> None:
-    whole = name in HIGHEST
-    _check(
-        isinstance(array, np.ndarray) and array.ndim > 0 and array.dtype.kind in ("iu" if whole else "iuf"),
-        f"This rollout's {name} are not {'whole ' * whole}numbers in a row: record it again.",
-    )
-
-
-def _check_numbers(name: str, array: np.ndarray, shape: tuple[int, ...]) -> None:
-    _check(array.shape == shape, f"This rollout's {name} have shape {array.shape}, not {shape}: record it again.")
-    _check(
-        bool((np.abs(array) <= LARGEST).all()),
-        f"This rollout's {name} hold NaN, infinity or a number above {LARGEST:g}: record it again.",
-    )
-    if name in HIGHEST or name == "policy":
-        high = HIGHEST.get(name, 1 + 1e-6)  # float32 probabilities are rounded
-        _check(
-            bool(((array >= 0) & (array <= high)).all()),
-            f"This rollout's {name} hold a number outside 0..{high:g}: record it again.",
-        )
-
-
-def _check(holds: bool, sentence: str) -> None:
-    if not holds:
-        raise BootcourseError(sentence)
+def _check_array(name: str, array) -> None:
+    """Raise BootcourseError unless it is an array of finite numbers, whole and in range where they are numbers of
+    actions, lanes or reasons, or probabilities."""
+    kinds = "iu" if name in HIGHEST else "iuf"
+    is_array = isinstance(array, np.ndarray) and array.ndim > 0 and array.dtype.kind in kinds
+    require(is_array, f"This rollout's {name} are not {'whole ' * (name in HIGHEST)}numbers in a row: record it again.")
+    low, high = (0, HIGHEST[name]) if name in HIGHEST else (0, 1 + 1e-6) if name == "policy" else (-LARGEST, LARGEST)
+    is_within = bool(((array >= low) & (array <= high)).all())  # float32 probabilities are rounded
+    require(is_within, f"This rollout's {name} hold NaN or a number outside {low:g}..{high:g}: record it again.")

@@ -116,7 +116,7 @@ def _state(rollout: Rollout, time: float) -> str:
     """The ego's speed and place at a time (s): "10.0 m/s, right lane; 16 m behind trap 1, beside trap 2."."""
     cars = cars_at(rollout, time)
     traps = ((TRAP_1, "trap 1"), (TRAP_2, "trap 2"))
-    places = ", ".join(f"{_place(cars[trap, X] - cars[EGO, X])} {its_name}" for trap, its_name in traps)
+    places = ", ".join(f"{_place(cars[trap, X] - cars[EGO, X])} {name}" for trap, name in traps)
     return f"{cars[EGO, SPEED]:.1f} m/s, {_lane(rollout, time)} lane; {places}."
 
 

@@ -24,9 +24,14 @@ class Agent:
     teach: Callable[[np.ndarray], np.ndarray] | None = None  # μ, for a method that drives with it: see `taught_by`
 
     @property
+    def kind(self) -> type:
+        """The class of its learner, which says how its networks decide."""
+        return METHODS[self.settings.method].learner_class()
+
+    @property
     def needs_teacher(self) -> bool:
         """Whether the agent needs its teacher to drive."""
-        return METHODS[self.settings.method].learner_class().needs_teacher
+        return self.kind.needs_teacher
 
     def taught_by(self, teach: Callable[[np.ndarray], np.ndarray]) -> "Agent":
         """The agent with a teacher (see `teachers.teacher_of`): cars (roads, vehicles, 10) -> μ(s) (roads,)."""
@@ -46,16 +51,13 @@ class Agent:
             raise BootcourseError(f"Method '{self.settings.method}' decides with its teacher's actions: give them.")
         rule_actions = np.zeros(len(observations)) if rule_actions is None else rule_actions
         states, taught = _tensor(observations, torch.float32), _tensor(rule_actions, torch.int64)
-        kind = METHODS[self.settings.method].learner_class()
-        return kind.driving_policy(self.actor, self.critics, states, taught)[0].numpy()
+        return self.kind.driving_policy(self.actor, self.critics, states, taught)[0].numpy()
 
     @torch.no_grad()
     def q_values(self, observations: np.ndarray) -> np.ndarray | None:
         """Q(s,a), mostly the smaller of two critics': (batch, observation) -> (batch, 9); None without critics."""
-        if not self.critics:
-            return None
-        kind = METHODS[self.settings.method].learner_class()
-        return kind.q_values(self.critics, _tensor(observations, torch.float32))[0].numpy()
+        states = _tensor(observations, torch.float32)
+        return self.kind.q_values(self.critics, states)[0].numpy() if self.critics else None
 
     def as_policy(self, rng: np.random.Generator | None = None, with_q: bool = False) -> Policy:
         """The agent as a policy: its most probable action or, with an rng, an action drawn from π.

@@ -51,11 +51,10 @@ class Curves:
                 "accident": ended["accident"][road],
                 "entropy": entropy / decisions,
                 "decisions": decisions,
+                **{name: each[agent] for name, each in now.items()},
             }
             for name, value in values.items():
                 self.values[name][agent, episode] = value
-            for name, value in now.items():
-                self.values[name][agent, episode] = value[agent]
 
     def recent(self, name: str, window: int = 100) -> np.ndarray:
         """The mean of each agent's last `window` episodes, (agents,); NaN before the first episode."""

@@ -5,7 +5,6 @@ its absorbing states: a discriminator learns to distinguish demonstrations from 
 SAC maximises a reward that is high for transitions classified as demonstrations. The road's reward is not used.
 """
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -18,7 +17,7 @@ from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.networks import init_mlp, mlp
 from bootcourse.learn.protocol import generators_of
 from bootcourse.learn.replay_buffer import Batch
-from bootcourse.learn.settings import Settings, check_range, shared
+from bootcourse.learn.settings import Settings, shared
 from bootcourse.scenario import N_ACTIONS
 
 
@@ -26,12 +25,8 @@ from bootcourse.scenario import N_ACTIONS
 class GAILSettings(Settings):
     """The settings of GAIL. Half of a batch must be demonstrations."""
 
-    discriminator_lr: float = shared(3e-4)  # § learning rate of the discriminator
-    gradient_penalty: float = shared(1.0)  # § weight of its gradient penalty
-
-    def __post_init__(self):
-        super().__post_init__()
-        check_range(self, 0.0, math.inf, "discriminator_lr", "gradient_penalty")
+    discriminator_lr: float = shared(3e-4, low=0)  # § learning rate of the discriminator
+    gradient_penalty: float = shared(1.0, low=0)  # § weight of its gradient penalty
 
 
 def discriminator_loss(expert_logits: Tensor, own_logits: Tensor) -> Tensor:

@@ -9,7 +9,6 @@ We judge it by the training episodes that began with it, in which the agent's ac
 again after each step, and the agent learns from nothing but these episodes, the teacher's part of them included.
 """
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -19,7 +18,7 @@ import torch.nn.functional as F
 from torch import Tensor
 
 from bootcourse.learn.learner import SACLearner
-from bootcourse.learn.settings import Settings, check_range, shared
+from bootcourse.learn.settings import Settings, shared
 from bootcourse.scenario import N_ACTIONS
 
 
@@ -27,16 +26,10 @@ from bootcourse.scenario import N_ACTIONS
 class JSRLSettings(Settings):
     """The settings of jump-start RL."""
 
-    guide_decisions: int = shared(60)  # § h at first: the rule is ahead of trap 1 after a median of 58 s
-    stages: int = shared(10)  # § in how many equal steps h shrinks to 0
-    window: int = shared(20)  # § episodes in the moving average of returns
-    tolerance: float = shared(0.05)  # § β: how far this average may lie below the best so far, as a share of the best
-
-    def __post_init__(self):
-        super().__post_init__()
-        check_range(self, 0, math.inf, "guide_decisions", whole=True)
-        check_range(self, 1, math.inf, "stages", "window", whole=True)
-        check_range(self, 0.0, math.inf, "tolerance")
+    guide_decisions: int = shared(60, low=0)  # § h at first: the rule is ahead of trap 1 after a median of 58 s
+    stages: int = shared(10, low=1)  # § in how many equal steps h shrinks to 0
+    window: int = shared(20, low=1)  # § episodes in the moving average of returns
+    tolerance: float = shared(0.05, low=0)  # § β: how far this average may lie below the best, as a share of it
 
 
 def guide_decisions(stage: int, stages: int, longest: int) -> int:

@@ -10,7 +10,6 @@ Many agents side by side, as in learner.py: the first axis of every parameter is
 value network V(s) takes their place in training.
 """
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -24,7 +23,7 @@ from bootcourse.learn import sac
 from bootcourse.learn.networks import init_mlp, mlp
 from bootcourse.learn.protocol import Learner, adam, check_shared, generators_of, per_agent, total_loss
 from bootcourse.learn.replay_buffer import decode_transitions
-from bootcourse.learn.settings import Settings, check_range, shared
+from bootcourse.learn.settings import Settings, shared
 from bootcourse.scenario import N_ACTIONS
 
 
@@ -32,21 +31,14 @@ from bootcourse.scenario import N_ACTIONS
 class PPOSettings(Settings):
     """The settings of PPO, which shares γ, the network and the roads with the other methods. All are our choice §."""
 
-    horizon: int = shared(32)  # decisions on every road between two rounds of updates
-    epochs: int = shared(4)  # passes over these decisions
-    clip: float = shared(0.2)  # ε: how far the ratio of new to old probabilities counts
-    gae_lambda: float = shared(0.95)  # λ of the advantages
-    entropy_weight: float = shared(0.01)  # of the entropy bonus
-    anneal_decisions: int | None = shared(None)  # of each agent, until both learning rates are 0; None: they stay
-    cloning_updates: int = shared(0)  # before the first drive: clone the teacher; 0 for PPO alone
-    label_smoothing: float = shared(0.1)  # of the cloned actions
-
-    def __post_init__(self):
-        super().__post_init__()
-        check_range(self, 1, math.inf, "horizon", "epochs", "anneal_decisions", whole=True)
-        check_range(self, 0, math.inf, "cloning_updates", whole=True)
-        check_range(self, 0.0, 1.0, "clip", "gae_lambda", "label_smoothing")
-        check_range(self, 0.0, math.inf, "entropy_weight")
+    horizon: int = shared(32, low=1)  # decisions on every road between two rounds of updates
+    epochs: int = shared(4, low=1)  # passes over these decisions
+    clip: float = shared(0.2, low=0, high=1)  # ε: how far the ratio of new to old probabilities counts
+    gae_lambda: float = shared(0.95, low=0, high=1)  # λ of the advantages
+    entropy_weight: float = shared(0.01, low=0)  # of the entropy bonus
+    anneal_decisions: int | None = shared(None, low=1)  # of each agent, until the learning rates are 0; None: never
+    cloning_updates: int = shared(0, low=0)  # before the first drive: clone the teacher; 0 for PPO alone
+    label_smoothing: float = shared(0.1, low=0, high=1)  # of the cloned actions
 
     @property
     def needs_demonstrations(self) -> bool:
@@ -192,8 +184,8 @@ class PPOLearner(Learner):
         advantage = self.advantages(decisions.rewards, values, next_values, decisions.terminated, replay.ended)
         states, actions = agents_first(decisions.states), agents_first(decisions.actions)
         log_pi = sac.log_policy(mlp(self.actor, states)).gather(-1, actions[..., None])[..., 0]
-        kept = states.clone(), actions.clone()  # of one agent they are views, which the next drives overwrite
-        replay.columns = Minibatch(*kept, log_pi, agents_first(advantage), agents_first(advantage + values))
+        copies = states.clone(), actions.clone()  # of one agent they are views, which the next drives overwrite
+        replay.columns = Minibatch(*copies, log_pi, agents_first(advantage), agents_first(advantage + values))
         replay.drawn = 0
 
     def state_values(self, states: Tensor) -> Tensor:

@@ -10,7 +10,6 @@ Where we differ: the actor and the temperature take a step at every update, not 
 normalisation has no gain and offset of its own to learn.
 """
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -19,9 +18,10 @@ import torch
 import torch.nn.functional as F
 from torch import Tensor
 
+from bootcourse.errors import whole
 from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.replay_buffer import Batch
-from bootcourse.learn.settings import Settings, check_range, shared
+from bootcourse.learn.settings import Settings, shared
 from bootcourse.scenario import N_ACTIONS
 
 
@@ -29,13 +29,14 @@ from bootcourse.scenario import N_ACTIONS
 class RLPDSettings(Settings):
     """The settings of RLPD, whose authors have 10 critics and make 20 updates for each decision."""
 
-    critics: int = shared(5)  # § in the ensemble
-    target_critics: int = shared(2)  # ‡ of them, drawn for each update, smallest value in the target; the authors' code
+    critics: int = shared(5, low=1)  # § in the ensemble
+    target_critics: int = shared(
+        2, low=1
+    )  # ‡ of them, drawn for each update, smallest value in the target; authors' code
 
     def __post_init__(self):
         super().__post_init__()
-        check_range(self, 1, math.inf, "critics", whole=True)
-        check_range(self, 1, self.critics, "target_critics", whole=True)
+        whole(self.target_critics, "target_critics", self.critics)
 
 
 def normalised_mlp(parameters: Sequence[Tensor], x: Tensor) -> Tensor:

@@ -4,23 +4,18 @@
 choice.
 """
 
-import math
-import sys
-from dataclasses import dataclass, field, fields, replace
-from typing import get_args
+from dataclasses import dataclass, fields, replace
+from functools import partial
 
 import numpy as np
 
-from bootcourse.errors import BootcourseError, check_known, did_you_mean, whole
+from bootcourse.errors import BootcourseError, check_known, require, whole
+from bootcourse.limits import check_limits, limited
 from bootcourse.methods import METHODS
 from bootcourse.scenario import check_p
 
 MAX_SEED = 8_000_000  # the roads of a larger training seed would be those of the demonstrations (see training.py)
-
-
-def shared(default):
-    """A field that must be equal for all agents that train side by side."""
-    return field(default=default, metadata={"shared": True})
+shared = partial(limited, shared=True)  # a field that must be equal for all agents that train side by side
 
 
 @dataclass(frozen=True)
@@ -31,32 +26,32 @@ class Settings:
     """
 
     method: str = "bootstrapped"
-    seed: int = 0
-    gamma: float = 0.8  # † discount factor γ
+    seed: int = limited(0, low=0, high=MAX_SEED)
+    gamma: float = limited(0.8, low=0, high=1)  # † discount factor γ
     target_entropy: float = -1.0  # nats † η; a categorical policy's entropy is never negative
-    alpha_init: float = 0.01  # † initial entropy coefficient α
-    xi_multiplier: float = 200.0  # † ξ = 200 α; 0 switches the soft constraint off
-    xi_fixed: float | None = None  # § a constant ξ; None: ξ follows α
+    alpha_init: float = limited(0.01, above=0)  # † initial entropy coefficient α
+    xi_multiplier: float = limited(200.0, low=0)  # † ξ = 200 α; 0 switches the soft constraint off
+    xi_fixed: float | None = limited(None, low=0)  # § a constant ξ; None: ξ follows α
     kl_in_target: bool = True  # ‡ the paper's KL is part of the return, so it is in the critic's target too
     rule_p: float = 0.9  # † p of the stochastic rule π̃
-    beta_start: float = 0.6  # † initial share of demonstrations in a batch; 0: no demonstrations
-    beta_episodes: int | None = 1000  # † episodes until that share is 0; None: it stays
+    beta_start: float = limited(0.6, low=0, high=1)  # † initial share of demonstrations in a batch; 0: none
+    beta_episodes: int | None = limited(1000, low=1)  # † episodes until that share is 0; None: it stays
     bonus: float = 2.0  # † c, added to a demonstration's reward
-    margin: float = 0.0  # weight of the large-margin loss; 0 switches it off
+    margin: float = limited(0.0, low=0)  # weight of the large-margin loss; 0 switches it off
     paper_q_filter: bool = True  # † the printed Q-filter; False: the usual one
-    cql_weight: float = 0.0  # § weight of CQL's conservative term; 0 switches it off
+    cql_weight: float = limited(0.0, low=0)  # § weight of CQL's conservative term; 0 switches it off
     # The same for all agents that train side by side:
     hidden: tuple = shared((64, 64))  # § neurons in each hidden layer
-    actor_lr: float = shared(5e-4)  # † α_a
-    critic_lr: float = shared(1e-3)  # † α_c
-    alpha_lr: float = shared(1e-3)  # †
-    batch: int = shared(64)  # † N
+    actor_lr: float = shared(5e-4, low=0)  # † α_a
+    critic_lr: float = shared(1e-3, low=0)  # † α_c
+    alpha_lr: float = shared(1e-3, low=0)  # †
+    batch: int = shared(64, low=1)  # † N
     buffer_size: int = shared(50_000)  # † D, transitions
-    tau: float = shared(0.005)  # § the target critics' step towards the critics at each update (Polyak averaging)
-    envs_per_agent: int = shared(4)  # § roads that each agent drives at the same time
-    updates: int = shared(1)  # § updates after each decision on these roads
-    learning_starts: int = shared(256)  # § decisions before the first update
-    demonstration_episodes: int = shared(200)  # † episodes
+    tau: float = shared(0.005, low=0, high=1)  # § the target critics' step towards the critics (Polyak averaging)
+    envs_per_agent: int = shared(4, low=1)  # § roads that each agent drives at the same time
+    updates: int = shared(1, low=1)  # § updates after each decision on these roads
+    learning_starts: int = shared(256, low=0)  # § decisions before the first update
+    demonstration_episodes: int = shared(200, low=1)  # † episodes
     stochastic_demonstrations: bool = shared(False)  # ‡ of π̃, as printed, some would fail (demonstrations.py)
 
     def __post_init__(self):
@@ -64,20 +59,9 @@ class Settings:
             if isinstance(value, np.generic):  # a number of NumPy's
                 object.__setattr__(self, name, value.item())
         check_known("Method", self.method, METHODS)
+        check_limits(self)
         check_p(self.rule_p, "rule_p")
-        check_range(self, 0.0, 1.0, "gamma", "beta_start", "tau")
-        check_range(self, 0.0, math.inf, "xi_multiplier", "xi_fixed", "margin", "cql_weight")
-        check_range(self, 0.0, math.inf, "actor_lr", "critic_lr", "alpha_lr")
-        check_range(self, 1e-12, math.inf, "alpha_init")
-        check_range(self, -math.inf, math.inf, "target_entropy", "bonus")
-        check_range(self, 1, math.inf, "beta_episodes", "batch", "envs_per_agent", "updates", whole=True)
-        check_range(self, 1, math.inf, "demonstration_episodes", whole=True)
-        check_range(self, 0, math.inf, "learning_starts", whole=True)
-        check_range(self, 0, MAX_SEED, "seed", whole=True)
-        check_range(self, max(self.batch, self.envs_per_agent), math.inf, "buffer_size", whole=True)
-        for name in ("kl_in_target", "paper_q_filter", "stochastic_demonstrations"):
-            if not isinstance(getattr(self, name), bool):
-                raise BootcourseError(f"{name} = {getattr(self, name)!r}: give True or False.")
+        whole(self.buffer_size, "buffer_size", low=max(self.batch, self.envs_per_agent))
         sizes = self.hidden if isinstance(self.hidden, (tuple, list)) else ()
         if not sizes or any(not isinstance(size, int) or size < 1 for size in sizes):
             raise BootcourseError(f"hidden = {self.hidden!r}: give the layers' sizes, such as (64, 64).")
@@ -89,11 +73,9 @@ class Settings:
         lacks = {name for name, value in METHODS[self.method].settings.items() if value == 0}
         lacks |= {"xi_fixed"} if "xi_multiplier" in lacks else set()
         for name in sorted(lacks):
-            if (getattr(self, name) or 0) > 0:
-                raise BootcourseError(
-                    f"{name} = {getattr(self, name)!r}, but method '{self.method}' is defined by doing without: "
-                    f"write settings_for('{self.method}'), or choose a method that has it."
-                )
+            value, without = getattr(self, name), f"method '{self.method}' is defined by doing without"
+            remedy = f"write settings_for('{self.method}'), or choose a method that has it"
+            require(not value or value < 0, f"{name} = {value!r}, but {without}: {remedy}.")
 
     @property
     def needs_demonstrations(self) -> bool:
@@ -114,20 +96,6 @@ def settings_class(method: str) -> type[Settings]:
 def shared_fields(kind: type[Settings]) -> tuple[str, ...]:
     """The settings that must be equal for all agents that train side by side."""
     return tuple(f.name for f in fields(kind) if f.metadata.get("shared"))
-
-
-def check_range(settings: Settings, low: float, high: float, *names: str, whole: bool = False) -> None:
-    """Raise BootcourseError unless these settings are numbers in low..high, or None where their type allows it."""
-    optional = {f.name for f in fields(settings) if type(None) in get_args(f.type)}
-    for name in names:
-        value = getattr(settings, name)
-        if value is None and name in optional:
-            continue
-        is_number = isinstance(value, int if whole else (int, float)) and not isinstance(value, bool)
-        if not is_number or not abs(value) <= sys.float_info.max or not low <= value <= high:
-            limits = [f"of {low:g} or more"] * (low > -math.inf) + [f"at most {high:,.12g}"] * (high < math.inf)
-            wanted = " ".join(["whole number" if whole else "finite number", ", ".join(limits)]).strip()
-            raise BootcourseError(f"{name} = {value!r}: give a {wanted}.")
 
 
 # Named settings. The defaults are quick: a quarter of an update for each decision. Those of "paper" make eight times as
@@ -151,11 +119,7 @@ def settings_for(method: str, setting: str = "quick", **changes) -> Settings:
         raise BootcourseError(f"Method '{method}' has no setting '{setting}': leave it out.")
     known = [f.name for f in fields(kind)]
     for name in changes:
-        if name not in known:
-            if owners := [f"'{other}'" for other in METHODS if name in {f.name for f in fields(settings_class(other))}]:
-                has = "has it" if len(owners) == 1 else "have it"
-                raise BootcourseError(f"Method '{method}' has no {name}: {', '.join(owners)} {has}.")
-            raise BootcourseError(f"Setting {did_you_mean(name, known)}.")
+        check_known(f"Setting of '{method}'", name, known)
     return kind(method=method, **(METHODS[method].settings | SETTINGS[setting] | changes))
 
 

@@ -21,12 +21,13 @@ import numpy as np
 from bootcourse.errors import BootcourseError, RuleFailed, described
 from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.road.constants import constants
-from bootcourse.road.state import EGO, LANE, SPEED, X
+from bootcourse.road.state import EGO, LANE, SPEED, X, Y
 from bootcourse.rule import rule, track
 from bootcourse.scenario import DEFAULT, N_ACTIONS, Scenario
 
 Rule = Callable[..., int]  # one road's cars (vehicles, 10) and the scenario -> an action, 0..8
 Teacher = Callable[[np.ndarray], np.ndarray]  # cars (roads, vehicles, 10) -> actions (roads,)
+ALL = "in a call for all roads"  # where such a rule failed
 
 
 def ahead(cars: np.ndarray, lane: int, scenario: Scenario = DEFAULT) -> tuple[float, float]:
@@ -78,33 +79,44 @@ def teacher_of(my_rule: Rule, scenario: Scenario | None = DEFAULT, n_actions: in
     name = getattr(my_rule, "__name__", type(my_rule).__name__)
     ours = str(getattr(my_rule, "__module__", "")).startswith("bootcourse.")  # its exception is a bug: it passes
 
-    def answer(cars: np.ndarray, road: int | None):
+    def failed(how: str, state: np.ndarray, where: str = "") -> RuleFailed:
+        return RuleFailed(name, how, where or _place(state, scenario), state)
+
+    def ask(state: np.ndarray, where: str = ""):
         try:
-            return my_rule(cars, *given)
+            return my_rule(state, *given)
         except (Exception, SystemExit) as error:  # your rule may raise anything
             if ours:
                 raise
-            raise RuleFailed(name, f"raised {described(error)}", road) from error
+            raise failed(f"raised {described(error)}", state, where) from error
 
-    def teach(cars: np.ndarray) -> np.ndarray:
-        if getattr(my_rule, "answers_for_all_roads", False):
-            actions = np.asarray(answer(cars, None))
-            if actions.shape != (len(cars),) or actions.dtype.kind not in "iu":
-                answered = f"actions of shape {actions.shape} and type {actions.dtype}"
-                raise RuleFailed(name, f"returned {answered}, but {len(cars)} roads need a whole number each", None)
-            for road in np.flatnonzero((actions < 0) | (actions >= n_actions))[:1]:
-                raise RuleFailed(name, f"returned {actions[road]}, but {an_action_is}", int(road))
-            return actions
+    def teach_all(cars: np.ndarray) -> np.ndarray:
+        actions = np.asarray(ask(cars, ALL))
+        if actions.shape != (len(cars),) or actions.dtype.kind not in "iu":
+            answered = f"actions of shape {actions.shape} and type {actions.dtype}"
+            raise failed(f"returned {answered}, but {len(cars)} roads need a whole number each", cars, ALL)
+        for road in np.flatnonzero((actions < 0) | (actions >= n_actions))[:1]:
+            raise failed(f"returned {actions[road]}, but {an_action_is}", cars[road])
+        return actions
+
+    def teach_each(cars: np.ndarray) -> np.ndarray:
         actions = np.empty(len(cars), dtype=np.int64)
-        for road, vehicles in enumerate(cars):
-            action = answer(vehicles.copy(), road)
+        for road, state in enumerate(cars):
+            action = ask(state.copy())  # your rule may write into it
             if not is_action(action, n_actions):
                 remedy = ": give int(...) of it" if isinstance(action, (bool, np.bool_, np.ndarray)) else ""
-                raise RuleFailed(name, f"returned {action!r:.80}, but {an_action_is}{remedy}", road)
+                raise failed(f"returned {action!r:.80}, but {an_action_is}{remedy}", state)
             actions[road] = action
         return actions
 
-    return teach
+    return teach_all if getattr(my_rule, "answers_for_all_roads", False) else teach_each
+
+
+def _place(state: np.ndarray, scenario: Scenario | None) -> str:
+    """The state of one road in which a rule failed, in words."""
+    if scenario is None:
+        return f"for the observation {np.array2string(state, precision=3)}"
+    return f"with the ego at x = {state[EGO, X]:.1f} m, y = {state[EGO, Y]:.1f} m, {state[EGO, SPEED]:.1f} m/s"
 
 
 def is_action(action, n_actions: int = N_ACTIONS) -> bool:

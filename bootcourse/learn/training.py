@@ -10,13 +10,10 @@ The agents differ in seed and settings; they share the teacher and the demonstra
 notebook's stop button) ends `run` early, with the agents as trained so far.
 """
 
-import signal
-import threading
 import time
 import warnings
 from collections import Counter
 from collections.abc import Callable, Sequence
-from contextlib import contextmanager
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -26,18 +23,18 @@ from torch import Tensor
 
 from bootcourse.episodes.driving import TRAP, copies_of, environment_id, reached_cars, reached_observations
 from bootcourse.episodes.rollout import Rollout
-from bootcourse.errors import BootcourseError, naming, whole
+from bootcourse.errors import BootcourseError, whole
 from bootcourse.learn.agent import Agent, sample_actions
 from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.curves import Curves
-from bootcourse.learn.demonstrations import collect, demonstration_rows
+from bootcourse.learn.demonstrations import demonstrations_for
 from bootcourse.learn.learner import learner_for
 from bootcourse.learn.protocol import Learner, move_to
 from bootcourse.learn.replay_buffer import encode_transitions
+from bootcourse.learn.running import device_named, interrupt_after_step, one_torch_thread
 from bootcourse.learn.settings import Settings
 from bootcourse.learn.teachers import Rule, course_rule, teacher_name, teacher_of
 from bootcourse.methods import display_name
-from bootcourse.policies import stochastic_policy
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, Scenario, check_p
 
@@ -114,7 +111,8 @@ class Training:
         if device != "cpu":
             move_to(self.learner, device_named(device))
         self._set_teacher(course_rule if teacher is None and self.on_the_trap else teacher)
-        self.replay = self.learner.make_buffer(size, self._demonstration_rows(demonstrations))
+        rows = demonstrations_for(self.settings, demonstrations, self.teacher, self.scenario, make_env)
+        self.replay = self.learner.make_buffer(size, rows)
         self.curves = Curves(self.n_agents, self.envs_per_agent, self.episodes)
         streams = [np.random.SeedSequence([s.seed]).spawn(2) for s in settings]
         self.act_rngs = [np.random.default_rng(act) for act, _ in streams]
@@ -145,33 +143,6 @@ class Training:
         self._teach = None if teacher is None else teacher_of(teacher, self.scenario, self.n_actions)
         self.asks = teacher is not None and (bool(asking) or not getattr(teacher, "is_slow", False))
 
-    def _demonstration_rows(self, given: Sequence[Rollout] | Tensor | None) -> Tensor | None:
-        """The demonstrations for the replay buffer, (transitions, row); None if no agent needs any."""
-        shared = self.settings[0]
-        if not any(s.needs_demonstrations for s in self.settings):
-            if given is not None:
-                raise BootcourseError(f"Method '{shared.method}' uses no demonstrations: choose one that does.")
-            return None
-        if isinstance(given, Tensor):
-            return given
-        if given is not None:
-            if given and given[0].scenario != self.scenario:
-                raise BootcourseError("The demonstrations are of another scenario: train with their scenario.")
-            return demonstration_rows(given, self.teacher)
-        if self.teacher is None:
-            raise BootcourseError(
-                f"Method '{shared.method}' needs demonstrations of this environment: give them, or teacher=my_rule."
-            )
-        policy = None
-        if shared.stochastic_demonstrations:
-            if len({s.rule_p for s in self.settings}) > 1:
-                raise BootcourseError(
-                    "Agents that train side by side share their demonstrations, so with stochastic_demonstrations "
-                    "they need the same rule_p: train these apart."
-                )
-            policy = stochastic_policy(self._teach, np.random.default_rng(0), shared.rule_p, self.n_actions)
-        return collect(shared.demonstration_episodes, self.scenario, policy, self.teacher, self.make_env)
-
     @property
     def beta(self) -> np.ndarray:
         """Each agent's present share of demonstrations in a batch, (agents,)."""
@@ -186,12 +157,7 @@ class Training:
         """The teacher's actions in the present states, (envs,); zeros where it is not asked."""
         if not self.asks:
             return np.zeros(self.env.num_envs, dtype=np.int64)
-        with naming(lambda road: f"on {self._road(road)}, at decision {self.curves.running[1][road]:.0f}"):
-            return self._teach(self.env.cars if self.on_the_trap else self.states)
-
-    def _road(self, road: int) -> str:
-        what = "road" if self.on_the_trap else "copy"
-        return f"{what} {road % self.envs_per_agent} of agent {road // self.envs_per_agent} in training"
+        return self._teach(self.env.cars if self.on_the_trap else self.states)
 
     def step(self) -> None:
         """One decision in every environment, and the updates that follow it."""
@@ -212,8 +178,7 @@ class Training:
         self.rule_actions = self.taught()
         reached_rule_actions = self.rule_actions.copy()
         if done.any() and self.asks:  # these roads are already reset: μ(s') is of the old episode's last state
-            with naming(lambda i: f"on {self._road(np.flatnonzero(done)[i])}, at an episode's end"):
-                reached_rule_actions[done] = self._teach(reached_cars(self.env, reached, infos)[done])
+            reached_rule_actions[done] = self._teach(reached_cars(self.env, reached, infos)[done])
         rows = encode_transitions(decided_in, reached, actions, rewards, terminated, taught, reached_rule_actions)
         self.replay.add(rows.view(*shape, -1), done.reshape(shape))
         self.decisions += len(actions)
@@ -258,7 +223,7 @@ class Training:
         started, before = time.perf_counter(), self.seconds
         total, unit = (self.n_agents * self.episodes, "episode") if updates is None else (updates, "update")
         bar = progress_bar(shown=progress, total=total, unit=unit)
-        with one_torch_thread(), bar, _interrupt_after_step() as interrupted:
+        with one_torch_thread(), bar, interrupt_after_step() as interrupted:
             try:
                 while not (self.done or interrupted.is_set()):
                     if (stop is not None and stop()) or (updates is not None and self.updates >= updates):
@@ -292,54 +257,3 @@ class Training:
 def _success(curves: Curves) -> str:
     rates = curves.recent("success")
     return "success " + " ".join("-" if np.isnan(rate) else f"{100 * rate:.0f}%" for rate in rates[:10])
-
-
-def device_named(name: str) -> torch.device:
-    """torch's device of that name. Raises BootcourseError if torch does not find it."""
-    try:
-        return torch.zeros(1, device=name).device
-    except (RuntimeError, AssertionError, TypeError):  # an unknown name; a CUDA that this torch was built without
-        raise BootcourseError(f'device = {name!r}: torch does not find it here. Give "cpu".') from None
-
-
-@contextmanager
-def one_torch_thread():
-    """On the main thread, set torch to one thread (several are slower on small matrices), and restore it afterwards.
-
-    A background thread that is started inside this context also computes on one core, because a new thread inherits
-    the number that was set last. Called in a background thread, this changes no number of threads.
-
-    Numbers below 1e-38 count as 0 meanwhile: as α fades, gradients and Adam's averages get that small, and arithmetic
-    on such numbers made updates take up to twice as long.
-    """
-    before = torch.get_num_threads()
-    on_main_thread = threading.current_thread() is threading.main_thread()
-    if on_main_thread:
-        torch.set_num_threads(1)
-    torch.set_flush_denormal(True)
-    try:
-        yield
-    finally:
-        torch.set_flush_denormal(False)
-        if on_main_thread:
-            torch.set_num_threads(before)
-
-
-@contextmanager
-def _interrupt_after_step():
-    """Set an event at the first interrupt, so that the step ends and the training can resume; raise at the second."""
-    interrupted = threading.Event()
-
-    def interrupt(signum, frame):
-        if interrupted.is_set():
-            raise KeyboardInterrupt
-        interrupted.set()
-
-    if threading.current_thread() is not threading.main_thread():  # only the main thread receives interrupts
-        yield interrupted
-        return
-    before = signal.signal(signal.SIGINT, interrupt)
-    try:
-        yield interrupted
-    finally:
-        signal.signal(signal.SIGINT, before if before is not None else signal.default_int_handler)

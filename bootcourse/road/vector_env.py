@@ -22,8 +22,7 @@ class TrapVectorEnv(VectorEnv):
     observation (num_envs, 26) float32; action (num_envs,) in 0..8; reward (num_envs,) float64. Road i, reset with
     `seed`, is the same as `TrapEnv` reset with `seed + i`. An episode that ends is restarted in the same step
     (same-step autoreset); its last observation is infos["final_obs"], its last infos are infos["final_info"]. With
-    `autoreset_mode=AutoresetMode.DISABLED` the road stands still, with reward 0, until it is reset by
-    `reset(options={"reset_mask": ...})`.
+    `autoreset_mode=AutoresetMode.DISABLED` the road stands still, with reward 0, until all are reset.
 
     `cars` (num_envs, vehicles, 10) is the true state (columns in `bootcourse.road.state`), `final_cars` the state
     before the last autoreset. With `record=True`, `trace` (num_envs, steps, vehicles, 10) is the state after each
@@ -36,18 +35,13 @@ class TrapVectorEnv(VectorEnv):
         scenario: Scenario = DEFAULT,
         autoreset_mode: AutoresetMode = AutoresetMode.SAME_STEP,
         record: bool = False,
-        render_mode: str | None = None,
     ):
-        if not isinstance(num_envs, (int, np.integer)) or num_envs < 1:
-            raise BootcourseError(f"num_envs = {num_envs!r}: give a whole number of roads, 1 or more.")
         if not isinstance(scenario, Scenario):
             raise BootcourseError(f"scenario = {scenario!r}: give a bootcourse.scenario.Scenario.")
         if autoreset_mode not in (AutoresetMode.SAME_STEP, AutoresetMode.DISABLED):
             raise BootcourseError(f"autoreset_mode = {autoreset_mode!r}: the compiled road has SAME_STEP and DISABLED.")
-        if render_mode is not None:
-            raise BootcourseError("The compiled road draws nothing: render with gym.make('bootcourse:Trap-v0').")
         self.metadata = {"autoreset_mode": autoreset_mode, "render_modes": []}
-        self.num_envs, self.scenario, self.render_mode = int(num_envs), scenario, None
+        self.num_envs, self.scenario = whole(num_envs, "num_envs", low=1), scenario
         low, high = bounds(scenario)
         self.single_observation_space = gym.spaces.Box(low, high, dtype=np.float32)
         self.single_action_space = gym.spaces.Discrete(N_ACTIONS)
@@ -62,36 +56,29 @@ class TrapVectorEnv(VectorEnv):
         self.trace = np.zeros((n, steps, vehicles, self.cars.shape[2])) if record else twin.NO_TRACE
         self.decisions = np.zeros(n, dtype=np.int64)
         self.asleep = np.ones(n, dtype=bool)  # roads that stand still
-        self.placed = np.zeros(n, dtype=bool)  # roads that were reset
+        self.was_reset = False
         self._uniforms = twin.uniforms_needed(vehicles)
         self._generators = [seeding.np_random()[0] for _ in range(n)]
         self._rewards, self._terms = np.zeros(n), np.zeros((n, 3))
         self._accidents = np.zeros(n, dtype=np.int64)
 
     def reset(self, *, seed: int | Sequence[int | None] | None = None, options: dict | None = None):
-        """Reset all roads, or those of options["reset_mask"] (num_envs,) bool. Road i has seed `seed + i` or `seed[i]`.
+        """Reset all roads; road i has the seed `seed + i` or `seed[i]`. options: none are known.
 
         Returns observations (num_envs, 26) and infos. Raises BootcourseError, before any road is reset, for a wrong
-        seed, number of seeds, or mask.
+        seed or number of seeds.
         """
-        mask = np.ones(self.num_envs, dtype=bool)
-        if options and "reset_mask" in options:
-            mask = np.asarray(options["reset_mask"], dtype=bool)
-            if mask.shape != (self.num_envs,):
-                raise BootcourseError(
-                    f"reset_mask has shape {mask.shape}: give one value for each road ({self.num_envs})."
-                )
-            if not (mask | self.placed).all():
-                raise BootcourseError("reset_mask leaves out roads that were never reset: reset all of them first.")
         if seed is not None:
             seeds = seeds_of(seed, self.num_envs)
             super().reset(seed=seeds[0])
-            for i in np.flatnonzero(mask):
-                if seeds[i] is not None:
-                    self._generators[i] = seeding.np_random(seeds[i])[0]
-        self._start(mask)
-        self._rewards[mask], self._terms[mask], self._accidents[mask] = 0.0, 0.0, 0
-        return self.observe(), self._infos(mask)
+            for i, each in enumerate(seeds):
+                if each is not None:
+                    self._generators[i] = seeding.np_random(each)[0]
+        everywhere = np.ones(self.num_envs, dtype=bool)
+        self._start(everywhere)
+        self._rewards[:], self._terms[:], self._accidents[:] = 0.0, 0.0, 0
+        self.was_reset = True
+        return self.observe(), self._infos(everywhere)
 
     def step(self, actions):
         """One decision on every road, actions (num_envs,).
@@ -104,7 +91,7 @@ class TrapVectorEnv(VectorEnv):
             raise BootcourseError(f"{received}: give {self.num_envs} whole numbers.")
         if actions.min() < 0 or actions.max() >= N_ACTIONS:
             raise BootcourseError(f"Action {int(actions[(actions < 0) | (actions >= N_ACTIONS)][0])} is outside 0..8.")
-        if not self.placed.all():
+        if not self.was_reset:
             raise BootcourseError("There are no cars on these roads yet: call env.reset(seed=0) before env.step.")
         self._rewards[self.asleep], self._terms[self.asleep] = 0.0, 0.0
         twin.decide(
@@ -135,7 +122,7 @@ class TrapVectorEnv(VectorEnv):
         for i in np.flatnonzero(mask):
             twin.place(self._generators[i].random(self._uniforms), self.constants, self.cars[i])
         self.decisions[mask] = 0
-        self.asleep[mask], self.placed[mask] = False, True
+        self.asleep[mask] = False
 
     def _restart(self, done: np.ndarray, observations: np.ndarray, infos: dict) -> dict:
         final_obs = np.full(self.num_envs, None, dtype=object)

@@ -4,22 +4,25 @@ A training that is resumed from it gives the same results as an uninterrupted on
 """
 
 import json
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 import torch
-from msgspec import Meta, MsgspecError, Struct
+from msgspec import Meta, Struct
+from torch import Tensor
 
 from bootcourse.errors import BootcourseError, RuleFailed
 from bootcourse.files import decoding, parse, read_arrays, write_arrays
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.learner import learner_for
-from bootcourse.learn.protocol import Learner
+from bootcourse.learn.running import device_named
 from bootcourse.learn.settings import stored_settings
 from bootcourse.learn.teachers import Rule, course_rule, teacher_name
-from bootcourse.learn.training import Training, device_named
+from bootcourse.learn.training import Training
 from bootcourse.methods import METHODS
 from bootcourse.scenario import Scenario
 
@@ -37,7 +40,7 @@ class Header(Struct, forbid_unknown_fields=True):
     FORMAT: ClassVar[str] = "bootcourse checkpoint 3"
     format: str
     settings: list[dict[str, Any]]  # checked by `Settings`
-    scenario: dict[str, Any]  # checked by `Scenario`
+    scenario: Scenario
     episodes: Annotated[int, Meta(ge=1)]
     teacher: str
     rngs: list[dict[str, Any]]  # checked by NumPy
@@ -60,7 +63,7 @@ def save_checkpoint(training: Training, path: Path) -> None:
     header = {
         "format": Header.FORMAT,
         "settings": [asdict(settings) for settings in training.settings],
-        "scenario": json.loads(training.scenario.to_json()),
+        "scenario": asdict(training.scenario),
         "episodes": training.episodes,
         "teacher": teacher_name(training.teacher),
         "rngs": [rng.bit_generator.state for rng in _generators(training)],
@@ -70,7 +73,15 @@ def save_checkpoint(training: Training, path: Path) -> None:
         "snapshots": {name: sorted(agents) for name, agents in _snapshots(training).items()},
         "stopped": sorted(training.stopped.items()),
     }
-    write_arrays(path, {**state_of(training), "header": np.array(json.dumps(header))}, compress=False)
+    arrays = {name: _numpy(values) for name, values in _in_place(training).items()}
+    arrays |= {f"replay.{name}": values for name, values in training.replay.state().items()}
+    for i, moments in training.learner.optimiser.state_dict()["state"].items():
+        arrays |= {f"optimiser.{i}.{name}": _numpy(values) for name, values in moments.items()}
+    for name, agents in _snapshots(training).items():
+        for i, agent in agents.items():
+            parts = [*agent.actor, *agent.critics, torch.tensor(agent.alpha, dtype=torch.float64)]
+            arrays |= {f"{name}.{i}.{k}": part.numpy() for k, part in enumerate(parts)}
+    write_arrays(path, {**arrays, "header": np.array(json.dumps(header))}, compress=False)
 
 
 def load_checkpoint(path: Path, teacher: Rule = course_rule, device: str = "cpu") -> Training:
@@ -80,68 +91,47 @@ def load_checkpoint(path: Path, teacher: Rule = course_rule, device: str = "cpu"
     known here, for a device that torch does not find, and, as RuleFailed, for a teacher that fails.
     """
     device_named(device)
-    try:
+    with _reading(path):
         arrays = read_arrays(path, BEGIN_AGAIN)
+        header = parse(str(arrays.pop("header")), Header, path, BEGIN_AGAIN)
+    if unknown := sorted({str(stored.get("method")) for stored in header.settings} - METHODS.keys()):
+        own = "add the --learner FILE.py:CLASS it began with"
+        raise BootcourseError(f"{path} learns with {unknown[0]!r:.80}: {own}.")
+    if (name := teacher_name(teacher)) != header.teacher:
+        raise BootcourseError(f"{path} began with the teacher '{header.teacher}', not '{name}': give the same teacher.")
+    with _reading(path):
+        settings = [stored_settings(stored) for stored in header.settings]
+        rows = torch.from_numpy(arrays["replay.demonstrations"])
+        demonstrations = rows if len(rows) else None
+        training = Training(settings, header.episodes, header.scenario, teacher, demonstrations, device=device)
+        _restore(training, header, arrays)
+    return training
+
+
+@contextmanager
+def _reading(path: Path) -> Iterator[None]:
+    """Whatever the block raises on a checkpoint becomes a DamagedCheckpoint, apart from a teacher's failure."""
+    try:
         with decoding(path, BEGIN_AGAIN):
-            header = parse(str(arrays.pop("header")), Header, path, BEGIN_AGAIN)
-            unknown = sorted({str(stored.get("method")) for stored in header.settings} - METHODS.keys())
-            if teacher_name(teacher) == header.teacher and not unknown:
-                return _restored(header, arrays, teacher, device)
+            yield
     except RuleFailed:
         raise
     except BootcourseError as error:
         raise DamagedCheckpoint(str(error)) from None
-    if unknown:
-        raise BootcourseError(f"{path} learns with {unknown[0]!r:.80}: add the --learner FILE.py:CLASS it began with.")
-    raise BootcourseError(
-        f"{path} began with the teacher '{header.teacher}', not '{teacher_name(teacher)}': give the same teacher."
-    )
-
-
-def state_of(training: Training) -> dict[str, np.ndarray]:
-    """The arrays of a checkpoint."""
-    arrays = {f"learner.{name}": _numpy(tensor) for name, tensor in _tensors(training.learner).items()}
-    for i, parameter in enumerate(_parameters(training.learner)):
-        for name, values in training.learner.optimiser.state.get(parameter, {}).items():
-            arrays[f"optimiser.{i}.{name}"] = _numpy(values)
-    arrays |= {f"replay.{name}": values for name, values in training.replay.state().items()}
-    arrays |= _driven(training)
-    for name, agents in _snapshots(training).items():
-        for i, agent in agents.items():
-            parts = [*agent.actor, *agent.critics, torch.tensor(agent.alpha, dtype=torch.float64)]
-            arrays |= {f"{name}.{i}.{k}": part.numpy() for k, part in enumerate(parts)}
-    return arrays
-
-
-def _restored(header: Header, arrays: dict[str, np.ndarray], teacher: Rule, device: str) -> Training:
-    settings = [stored_settings(stored) for stored in header.settings]
-    scenario = Scenario.from_json(json.dumps(header.scenario))
-    try:
-        rows = torch.from_numpy(arrays["replay.demonstrations"])
-        training = Training(settings, header.episodes, scenario, teacher, rows if len(rows) else None, device=device)
-        _restore(training, header, arrays)
-    except RuleFailed:
-        raise
-    except (KeyError, ValueError, TypeError, AttributeError, IndexError, RuntimeError, MsgspecError) as error:
-        raise DamagedCheckpoint(f"the state does not fit the settings: {error}") from None
-    return training
 
 
 def _restore(training: Training, header: Header, arrays: dict[str, np.ndarray]) -> None:
-    learner = training.learner
     with torch.no_grad():
-        for name, tensor in _tensors(learner).items():
-            tensor.copy_(_like(arrays[f"learner.{name}"], tensor))
-    for i, parameter in enumerate(_parameters(learner)):
-        for name in ("step", "exp_avg", "exp_avg_sq"):  # Adam's
-            if f"optimiser.{i}.{name}" in arrays:
-                like = parameter if name != "step" else torch.zeros(())
-                values = _like(arrays[f"optimiser.{i}.{name}"], like).clone()
-                learner.optimiser.state[parameter][name] = values.to(parameter.device)
-    replay = {name.partition(".")[2]: values for name, values in arrays.items() if name.startswith("replay.")}
-    training.replay.restore(replay)
-    for name, values in _driven(training).items():
-        values[:] = _like(arrays[name], values)
+        for name, values in _in_place(training).items():
+            values[...] = _like(arrays[name], values)
+    training.replay.restore({name.removeprefix("replay."): arrays[name] for name in arrays if "replay." in name})
+    moments = {}  # of Adam, {parameter's number: {name: tensor}}
+    for name, values in arrays.items():
+        if name.startswith("optimiser."):
+            _, i, moment = name.split(".")
+            moments.setdefault(int(i), {})[moment] = torch.from_numpy(values)
+    optimiser = training.learner.optimiser
+    optimiser.load_state_dict(optimiser.state_dict() | {"state": moments})
     for rng, state in zip(_generators(training), header.rngs, strict=True):
         rng.bit_generator.state = state
     training.decisions, training.updates, training.seconds = header.decisions, header.updates, header.seconds
@@ -156,12 +146,14 @@ def _restore(training: Training, header: Header, arrays: dict[str, np.ndarray]) 
     training.states, training.rule_actions = training.env.observe(), training.taught()
 
 
-def _driven(training: Training) -> dict[str, np.ndarray]:
-    """The arrays of the roads and the curves."""
+def _in_place(training: Training) -> dict[str, Tensor | np.ndarray]:
+    """The learner's tensors and the arrays of the roads and the curves, which are written back where they are."""
     env, curves = training.env, training.curves
-    arrays = {"env.cars": env.cars, "env.decisions": env.decisions}
-    arrays |= {f"curves.{name}": values for name, values in curves.values.items()}
-    return arrays | {"curves.finished": curves.finished, "curves.running": curves.running}
+    tensors = training.learner.tensors().items()
+    values = {f"learner.{name}.{i}": tensor for name, many in tensors for i, tensor in enumerate(many)}
+    values |= {f"curves.{name}": numbers for name, numbers in curves.values.items()}
+    roads = {"env.cars": env.cars, "env.decisions": env.decisions}
+    return values | roads | {"curves.finished": curves.finished, "curves.running": curves.running}
 
 
 def _snapshots(training: Training) -> dict[str, dict[int, Agent]]:
@@ -172,21 +164,13 @@ def _generators(training: Training) -> list[np.random.Generator]:
     return [*training.act_rngs, *training.sample_rngs, *training.env._generators]
 
 
-def _parameters(learner: Learner) -> list[torch.Tensor]:
-    return [parameter for group in learner.optimiser.param_groups for parameter in group["params"]]
+def _numpy(values: Tensor | np.ndarray) -> np.ndarray:
+    return values.detach().cpu().numpy() if isinstance(values, Tensor) else values
 
 
-def _tensors(learner: Learner) -> dict[str, torch.Tensor]:
-    return {f"{name}.{i}": tensor for name, tensors in learner.tensors().items() for i, tensor in enumerate(tensors)}
-
-
-def _numpy(tensor: torch.Tensor) -> np.ndarray:
-    return tensor.detach().cpu().numpy()
-
-
-def _like(stored: np.ndarray, present):
-    """An array of the checkpoint as what it replaces, array or tensor. Raises ValueError if shape or type differ."""
-    values = torch.from_numpy(stored) if isinstance(present, torch.Tensor) else stored
+def _like(stored: np.ndarray, present: Tensor | np.ndarray) -> Tensor | np.ndarray:
+    """An array of the checkpoint as what it replaces. Raises ValueError if shape or type differ."""
+    values = torch.from_numpy(stored) if isinstance(present, Tensor) else stored
     if values.shape != present.shape or values.dtype != present.dtype:
         raise ValueError(f"{tuple(values.shape)} {values.dtype} instead of {tuple(present.shape)} {present.dtype}")
     return values

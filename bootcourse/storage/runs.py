@@ -1,12 +1,11 @@
 """A run: one trained agent in a folder, written completely or not at all, and checked when it is read.
 
-config.json          settings, environment and its sizes, scenario, episodes
+config.json          settings, environment, scenario, episodes
 weights.safetensors  actor, critics
 curves.npz           the curves of the training episodes (`bootcourse.learn.curves`)
 provenance.json      versions, git commit, seconds, the hash of the three files above, and its own
 """
 
-import json
 import os
 import shutil
 import subprocess
@@ -20,6 +19,7 @@ import numpy as np
 import torch
 from msgspec import Meta, Struct, convert
 from safetensors.torch import save
+from torch import Tensor
 
 from bootcourse.episodes.driving import TRAP
 from bootcourse.errors import BootcourseError
@@ -45,8 +45,6 @@ from bootcourse.methods import METHODS
 from bootcourse.scenario import N_ACTIONS, Scenario
 from bootcourse.storage.sealed import read_sealed, write_sealed
 
-FORMAT = "bootcourse run 1"
-Size = Annotated[int, Meta(ge=1, le=100_000)]
 UNFINISHED = "unfinished"  # the folder of a training that is not over, beside the runs
 HASHED = ("config.json", "weights.safetensors", "curves.npz")
 TRAIN_AGAIN = "train this run again, or restore it from a copy"
@@ -55,14 +53,13 @@ TRAIN_AGAIN = "train this run again, or restore it from a copy"
 class Config(Struct, forbid_unknown_fields=True):
     """config.json."""
 
-    FORMAT: ClassVar[str] = FORMAT
+    FORMAT: ClassVar[str] = "bootcourse run 1"
     format: str
     settings: dict[str, Any]  # checked by `Settings`
-    scenario: dict[str, Any] | None  # checked by `Scenario`; None off the trap
+    scenario: Scenario | None  # None off the trap
     episodes: Annotated[int, Meta(ge=1)]
     alpha: Annotated[float, Meta(ge=0)]
     environment: str = TRAP  # see `environment_id`
-    sizes: tuple[Size, Size] | None = None  # of an observation, and the number of actions; on the trap the scenario's
 
 
 class Provenance(Struct):
@@ -110,15 +107,13 @@ def save_runs(result: Result, folder: Path) -> list[Path]:
 
 
 def _save_run(path: Path, agent: Agent, curves: dict[str, np.ndarray], result: Result, stopped: int | None) -> None:
-    episodes = len(curves["return"])
     config = {
-        "format": FORMAT,
+        "format": Config.FORMAT,
         "settings": asdict(agent.settings),
-        "scenario": result.scenario and json.loads(result.scenario.to_json()),
-        "episodes": episodes,
+        "scenario": result.scenario and asdict(result.scenario),
+        "episodes": len(curves["return"]),
         "alpha": agent.alpha,
         "environment": result.environment,
-        "sizes": (agent.actor[0].shape[1], agent.actor[-1].shape[2]),
     }
     weights = {f"actor.{i}": tensor for i, tensor in enumerate(agent.actor)}
     weights |= {f"critics.{i}": tensor for i, tensor in enumerate(agent.critics)}
@@ -146,10 +141,10 @@ def _save_run(path: Path, agent: Agent, curves: dict[str, np.ndarray], result: R
 
 
 def load_run(path: Path, teacher: Rule | None = None, environment: str = TRAP) -> Run:
-    """Read and check a run. teacher: the one that it trained with, for a method whose agents drive with it.
+    """Read and check a run. teacher: its teacher in training, which the agents of some methods need to drive.
 
-    environment: the id of the one that it trained in. Raises BootcourseError, with the file and the remedy, if a file
-    is missing or damaged, or for another teacher or environment.
+    environment: the id of the environment that it trained in. Raises BootcourseError, with the file and the remedy, if
+    a file is missing or damaged, or for another teacher or environment.
     """
     path = Path(path)
     if not (path / "provenance.json").is_file():
@@ -164,42 +159,40 @@ def load_run(path: Path, teacher: Rule | None = None, environment: str = TRAP) -
     if (method := config.settings.get("method")) not in METHODS:
         own = "if it is a learner of your own, add the --learner FILE.py:CLASS that it was trained with"
         raise BootcourseError(f"{path} was trained with {method!r:.80}, which is no method here: {own}.")
+    if (there := config.environment) != environment:
+        raise BootcourseError(f"{path} was trained in {there}, not in {environment}: give environment={there!r}.")
     with decoding(path / "config.json", TRAIN_AGAIN):
         settings = stored_settings(config.settings)
-        scenario = Scenario.from_json(json.dumps(config.scenario)) if config.environment == TRAP else None
-        size, n_actions = (scenario.observation_size, N_ACTIONS) if scenario else config.sizes
-    if config.environment != environment:
-        there = config.environment
-        raise BootcourseError(f"{path} was trained in {there}, not in {environment}: give environment={there!r}.")
     curves = read_arrays(path / "curves.npz", TRAIN_AGAIN)
-    check_arrays(
-        curves, dict.fromkeys(curves.keys() & set(NAMES), (config.episodes,)), path / "curves.npz", TRAIN_AGAIN
-    )
-    kind = METHODS[settings.method].learner_class()
-    shapes = _shapes(settings, size, n_actions, kind.n_critics(settings))
-    weights = read_tensors(path / "weights.safetensors", TRAIN_AGAIN)
-    check_arrays(weights, shapes, path / "weights.safetensors", TRAIN_AGAIN)
-    if not all(np.isfinite(values).all() for values in weights.values()):
-        raise BootcourseError(f"{path / 'weights.safetensors'} holds NaN or infinity: {TRAIN_AGAIN}.")
-    actor, critics = (
-        [torch.from_numpy(weights[name]) for name in shapes if name.startswith(part)] for part in ("actor", "critics")
-    )
-    teacher = course_rule if teacher is None and scenario else teacher
-    taught = None if teacher is None else teacher_of(teacher, scenario, n_actions)
+    shapes = dict.fromkeys(curves.keys() & set(NAMES), (config.episodes,))
+    check_arrays(curves, shapes, path / "curves.npz", TRAIN_AGAIN)
+    actor, critics = _read_weights(path / "weights.safetensors", settings, config.scenario)
+    teacher = course_rule if teacher is None and config.scenario else teacher
+    taught = None if teacher is None else teacher_of(teacher, config.scenario, actor[-1].shape[2])
     agent = Agent(settings, actor, critics, config.alpha, taught)
     if agent.needs_teacher and stored.teacher != teacher_name(teacher):
         raise BootcourseError(
             f"{path} drives with the teacher '{stored.teacher}', not '{teacher_name(teacher)}': give the same teacher."
         )
-    return Run(agent, curves, scenario, record)
+    return Run(agent, curves, config.scenario, record)
 
 
-def _shapes(settings: Settings, size: int, n_actions: int, critics: int) -> dict[str, tuple[int, int, int]]:
-    """The shapes of an agent's weights and biases (see networks.py), by their names in the file."""
-    layers = list(pairwise((size, *settings.hidden, n_actions)))
+def _read_weights(path: Path, settings: Settings, scenario: Scenario | None) -> tuple[list[Tensor], list[Tensor]]:
+    """The actor and the critics of a file, of the shapes of networks.py. Raises BootcourseError for others."""
+    weights = read_tensors(path, TRAIN_AGAIN)
+    with decoding(path, TRAIN_AGAIN):
+        inputs, outputs = weights["actor.0"].shape[1], weights[f"actor.{2 * len(settings.hidden)}"].shape[2]
+    if scenario:
+        inputs, outputs = scenario.observation_size, N_ACTIONS
+    layers = list(pairwise((inputs, *settings.hidden, outputs)))
     rows = [(inputs, outputs) for n_in, outputs in layers for inputs in (n_in, 1)]
-    parts = (("actor", 1), ("critics", critics))
-    return {f"{part}.{i}": (n, *row) for part, n in parts if n for i, row in enumerate(rows)}
+    networks = (("actor", 1), ("critics", METHODS[settings.method].learner_class().n_critics(settings)))
+    shapes = {f"{name}.{i}": (n, *row) for name, n in networks if n for i, row in enumerate(rows)}
+    check_arrays(weights, shapes, path, TRAIN_AGAIN)
+    if not all(np.isfinite(values).all() for values in weights.values()):
+        raise BootcourseError(f"{path} holds NaN or infinity: {TRAIN_AGAIN}.")
+    tensors = {name: torch.from_numpy(weights[name]) for name in shapes}
+    return tuple([tensor for key, tensor in tensors.items() if key.startswith(name)] for name, _ in networks)
 
 
 def find_runs(folder: Path) -> list[Path]:

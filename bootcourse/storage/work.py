@@ -5,9 +5,6 @@ operating system holds the lock until the process ends, also when that is killed
 take care yourself to start only one process.)
 """
 
-import json
-import os
-import platform
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -16,11 +13,11 @@ from pathlib import Path
 from filelock import FileLock, Timeout
 
 from bootcourse.errors import BootcourseError
-from bootcourse.files import remove_temporary, write_json
+from bootcourse.files import remove_temporary
 from bootcourse.learn.training import Training
 from bootcourse.storage.checkpoint import save_checkpoint
 
-LOCK, HOLDER = ".lock", ".holder.json"
+LOCK = ".lock"
 
 
 @contextmanager
@@ -37,28 +34,19 @@ def locked(folder: Path, what: str = "study") -> Iterator[None]:
         lock.acquire(timeout=0)
     except Timeout:
         raise BootcourseError(
-            f"Another {what}{_holder(folder)} is at work in {folder}: wait for it, or choose another folder."
+            f"Another {what} is at work in {folder}: wait for it, or choose another folder."
         ) from None
     except OSError as error:
         raise BootcourseError(f"Cannot write {folder}: {error.strerror}. Choose another folder.") from None
     try:
         remove_temporary(folder)
-        write_json(folder / HOLDER, {"pid": os.getpid(), "host": platform.node(), "since": time.strftime("%F %T")})
         yield
     finally:
-        (folder / HOLDER).unlink(missing_ok=True)
         lock.release()
         with suppress(OSError):  # another process may begin in this moment
             if all(path.name == LOCK for path in folder.iterdir()):
                 (folder / LOCK).unlink(missing_ok=True)
                 folder.rmdir()
-
-
-def _holder(folder: Path) -> str:
-    with suppress(OSError, ValueError, KeyError, TypeError):
-        who = json.loads((folder / HOLDER).read_text())
-        return f" (process {who['pid']} on {who['host']}, since {who['since']})"
-    return ""
 
 
 class Checkpoints:

@@ -78,7 +78,7 @@ def scenario_data(scenario: Scenario) -> dict:
         "record": base64.b64encode(constants(scenario).tobytes()).decode(),
         "vehicles": scenario.vehicles,
         "uniforms": uniforms_needed(scenario.vehicles),
-        "observation": scenario.sight.numbers,
+        "observation": scenario.observation_size,
         "lanes": scenario.road.lanes,
         "laneWidth": scenario.road.lane_width,
         "steps": scenario.clock.steps,
