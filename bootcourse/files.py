@@ -6,6 +6,7 @@ and whatever a damaged file makes a library raise becomes one sentence that name
 """
 
 import contextlib
+import dataclasses
 import functools
 import hashlib
 import importlib.metadata
@@ -180,7 +181,23 @@ def parse(text: str | bytes, kind: type[Kind], path: Path, remedy: str = COPY) -
             raise BootcourseError(
                 f"{path} has the format {value.get('format')!r:.40}, this version reads '{wanted}': {remedy}."
             )
-        return msgspec.convert(value, kind)
+        built = msgspec.convert(value, kind)
+        _want_all_fields(value, built)
+        return built
+
+
+def _want_all_fields(value: Any, built: Any) -> None:
+    """A file names each field of a dataclass: none takes its default unseen. Raises BootcourseError."""
+    if dataclasses.is_dataclass(built):
+        names = {field.name for field in dataclasses.fields(built)}
+        if different := sorted(names ^ set(value)):
+            raise BootcourseError(f"{type(built).__name__} in another version has other fields: {different[0]!r:.40}.")
+    elif isinstance(built, msgspec.Struct):
+        names = set(built.__struct_fields__) & set(value)
+    else:
+        return
+    for name in names:
+        _want_all_fields(value[name], getattr(built, name))
 
 
 def write_arrays(path: Path, arrays: dict[str, np.ndarray], compress: bool = True) -> None:

@@ -90,6 +90,19 @@ def test_an_answer_that_does_not_pass_and_the_library_s_own_are_not_kept(tmp_pat
     assert not own_code._own and not (tmp_path / "answers").exists()
 
 
+def test_later_cells_use_an_answer_that_is_no_part_of_an_agent(tmp_path, capsys):
+    text = "def bearable_risk(stay, escape, crash):\n    return min(1, max(0, (escape - stay) / (escape - crash)))\n"
+    answer = cell(text)["bearable_risk"]
+    assert own_code.yours_or_ours("bearable_risk") is registry()["bearable_risk"].solution
+    assert check.bearable_risk(answer).passed
+    assert own_code.yours_or_ours("bearable_risk", doing="Judging") is answer
+    assert capsys.readouterr().out.splitlines() == [
+        "Training with our bearable_risk.",
+        "Judging with your bearable_risk.",
+    ]
+    assert not (tmp_path / "answers").exists()
+
+
 def test_an_answer_that_uses_what_no_file_holds_trains_in_its_notebook_alone(tmp_path):
     text = RIGHT.replace("ONE = 1", "ONE = torch.ones(())")
     assert "uses `ONE`, which a file cannot hold" in check.critic_target(cell(text)["critic_target"]).footer

@@ -1,7 +1,7 @@
 """Recording, saving and loading drives, and what happens when a file or a disk is damaged."""
 
 import json
-from dataclasses import fields, replace
+from dataclasses import asdict, fields, replace
 
 import numpy as np
 import pytest
@@ -15,6 +15,7 @@ from bootcourse.road.state import EGO, Accident, X
 from bootcourse.scenario import DEFAULT, Clock
 
 SHORT = replace(DEFAULT, clock=Clock(decisions=12))
+AS_STORED = asdict(DEFAULT)  # a scenario in a file
 
 
 def brake(observations, cars) -> PolicyOutput:
@@ -102,7 +103,9 @@ NAN_REWARDS = np.full(10, np.nan)
         ({"states": np.zeros((3, 9, 10))}, "simulation steps"),
         ({"accident": 7}, "accident"),
         ({"rule_p": None}, "missing required field `rule_p`"),
-        ({"scenario": {"road": {"lanes": 0}}}, "Road.lanes = 0"),
+        ({"scenario": AS_STORED | {"road": {"lanes": 0}}}, "Road.lanes = 0"),
+        ({"scenario": {}}, "Scenario in another version has other fields"),
+        ({"scenario": AS_STORED | {"moon": 1}}, "other fields: 'moon'"),
         ({"surprise": np.zeros(3)}, "surprise"),
         ({"format": "bootcourse rollout 99"}, f"this version reads '{Header.FORMAT}'"),
         ({"header": np.array("{")}, "Input data was truncated"),

@@ -64,7 +64,7 @@ def _check(exercise: Exercise, answer: Callable) -> Verdict:
     verdict = judge(exercise, answer)
     if _strict and not verdict.passed:
         raise NotPassed(f"{exercise.name}: {verdict}")
-    if verdict.passed and not _strict and exercise.name in PARTS:
+    if verdict.passed and not _strict and (exercise.name in PARTS or "bootcourse.course.own_code" in sys.modules):
         from bootcourse.course import own_code
 
         verdict = replace(verdict, footer=own_code.keep(exercise.name, answer))

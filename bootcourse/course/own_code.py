@@ -11,6 +11,7 @@ these files, and only a cell of a notebook calls it. `own_learner.py` puts the p
 
 import functools
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import torch
 
@@ -41,13 +42,16 @@ def use(answer: Callable) -> None:
 
 
 def keep(name: str, answer: Callable) -> str:
-    """An answer has passed its check: use it, and keep it for later lessons. Returns a sentence, "" for no part.
+    """An answer has passed its check: later cells use it, see `yours_or_ours`. Returns a sentence, "" for no part.
 
-    Only what a notebook defines is a student's: a function of the library is not kept.
+    A part is also kept for later lessons. Only what a notebook defines is a student's: a function of the library is
+    not kept.
     """
-    if name not in PARTS or answer.__module__ != "__main__" or getattr(answer, "__name__", "") != name:
+    if answer.__module__ != "__main__" or getattr(answer, "__name__", "") != name:
         return ""
-    use(answer)
+    _own[name] = answer
+    if name not in PARTS:
+        return ""
     try:
         return f"From here on, agents train with your `{name}`. It is kept in {answer_files.write(name, answer)}."
     except BootcourseError as error:
@@ -82,10 +86,14 @@ def training(settings: Sequence[Settings], episodes: int = 1000, **more) -> Trai
     return mine
 
 
-def yours_or_ours(name: str, doing: str = "Training") -> Callable:
-    """The student's part, or the exercise's solution, for what is no learner's; prints what is done with whose."""
-    print(f"{doing} with {whose([name])}.".replace("`", ""))
-    return part(_own, name)
+def yours_or_ours(*names: str, doing: str = "Training") -> Any:
+    """The student's answer to an exercise if it passed its check, else the solution; of several exercises a list.
+
+    Prints what is done with whose: "Training with your `update`, our `train`."
+    """
+    print(f"{doing} with {whose(names)}.".replace("`", ""))
+    answers = [part(_own, name) for name in names]
+    return answers[0] if len(names) == 1 else answers
 
 
 # Do they make the same update? -----------------------------------------------------------------------

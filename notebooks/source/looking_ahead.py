@@ -149,7 +149,7 @@ source("bootcourse.episodes.lookahead", "imagine")
 predict("looking_ahead.2", "Accidents with the look-ahead", unit=f"of {len(roads)} drives")
 
 # %%
-values_of = own_code.yours_or_ours("rollout_values", "Driving")
+values_of = own_code.yours_or_ours("rollout_values", doing="Driving")
 improved = imagined_road.driver(values_of, agent, horizon=10)
 ahead = bc.drive_episodes(improved, roads)
 rows = []

@@ -189,7 +189,7 @@ def on_road(road):
     return gets_out
 
 
-planner = own_code.yours_or_ours("find_plan", "Planning")
+planner = own_code.yours_or_ours("find_plan", doing="Planning")
 plan = [bc.ACTION_NAMES[a] for a in planner(on_road(7), np.random.default_rng(0))]
 drive = bc.record(bc.plan_policy(plan + [("accelerate straight", 5)]), [7], label="planner")[0]
 title = "This plan gets out of road 7 without a brake"
@@ -531,7 +531,7 @@ check.bearable_risk(bearable_risk)
 # 3 s; the last column is the answer of your exercise:
 
 # %% tags=["hide-input"]
-bearable, rows = own_code.yours_or_ours("bearable_risk", "Judging attempts"), []
+bearable, rows = own_code.yours_or_ours("bearable_risk", doing="Judging attempts"), []
 for gamma in (1.0, 0.95, 0.8):
     stay, leave = (gamma ** np.arange(150) @ drive.rewards for drive in (idle, escape))
     crash = gamma ** np.arange(4) @ [*escape.rewards[:3], -10]

@@ -141,9 +141,8 @@ check.ReplayBuffer(ReplayBuffer)
 
 # %%
 own_code.load()
-soft_value, critic_target, critic_loss, actor_loss, temperature_loss = (
-    own_code.yours_or_ours(name, "Update")
-    for name in ("soft_value", "critic_target", "critic_loss", "actor_loss", "temperature_loss")
+soft_value, critic_target, critic_loss, actor_loss, temperature_loss = own_code.yours_or_ours(
+    "soft_value", "critic_target", "critic_loss", "actor_loss", "temperature_loss"
 )
 
 # %% [markdown]
@@ -180,7 +179,7 @@ check.train(train)
 
 # %%
 PUSHES = 8_000
-loop, step, buffer = map(own_code.yours_or_ours, ("train", "update", "ReplayBuffer"))
+loop, step, buffer = own_code.yours_or_ours("train", "update", "ReplayBuffer")
 agent, step = by_hand.SAC(seed=0), by_hand.Watched(step)
 loop(agent, checks.cartpole(), buffer(50_000), step, PUSHES, np.random.default_rng(0))
 balanced = by_hand.balanced(agent)
