@@ -39,9 +39,9 @@ from bootcourse.research import planner, report
 # ## Look first
 #
 # How well could anybody drive here? A planner searches: at each second it extends the drives that
-# it has kept by each of the nine actions, and keeps the best 50 of the new drives. It computes what
-# the other cars will do, while an agent gets {{ DEFAULT.observation_size }} numbers about the
-# present. So its return says what is possible on this road, and not what an agent can reach.
+# it has kept by each of the nine actions, and keeps the best 50 of the new drives. It knows what
+# the other cars will do, an agent gets {{ DEFAULT.observation_size }} numbers about the present: so
+# its return says what is possible on this road, and not what an agent can reach.
 # <!-- claim: DEFAULT.clock.decision_rate == 1 and N_ACTIONS == 9 -->
 
 # %%
@@ -60,8 +60,7 @@ bc.show(bc.top_view_over_time(planned, times=[0, 2, 4, 6, 8, 12], title=title))
 
 # %% [markdown]
 # **See.** The planner's car does not fall back: it accelerates and changes lane between the two
-# traps, since it knows where both will be. The rule takes longer and keeps larger gaps. Both earn
-# more than the car that stays.
+# traps, since it knows where both will be. The rule takes longer and keeps larger gaps.
 # <!-- claim: planned(50, 1.0) > by_rule().rewards.sum() > idle().rewards.sum() -->
 
 # %% [markdown] tags=["instructor"] minutes=3
@@ -73,7 +72,7 @@ bc.show(bc.top_view_over_time(planned, times=[0, 2, 4, 6, 8, 12], title=title))
 #
 # Six agents learn with the SAC of lesson [[discrete_sac]], from their own drives alone. Three have
 # the paper's discount, γ = {{ SETTINGS.gamma }}. Three look further ahead, γ = 0.95. Each gets
-# {{ easier.UPDATES | , }} updates, and then drives 200 roads. (The ■ button stops the training.)
+# {{ easier.UPDATES | , }} updates, and then drives 200 roads.
 #
 # > **Predict.** Of ten agents with γ = {{ SETTINGS.gamma }} that trained for longer, lesson
 # > [[the_trap]] has shown, {{ escaped('sac') }} escapes. How many of the three that look further
@@ -242,7 +241,7 @@ table(headings, rows, below=f"In 5,000 attempts. {on_the_road}")
 # <!-- claim: (by_chance().accident[by_chance().success] > 0).all() -->
 # <!-- claim: by_chance().returns[by_chance().success].max() < 0 < idle().rewards.sum() -->
 #
-# Steering at random for 150 s is no fair picture of an attempt. Here are four kinds, and the rule,
+# That is no fair picture of an attempt. Here are four kinds, and the rule,
 # on {{ len(tested('stays').ahead) }} roads:
 #
 # - *random for 150 s*: one of the nine actions each second;
@@ -251,8 +250,8 @@ table(headings, rows, below=f"In 5,000 attempts. {on_the_road}")
 # - *one plan, then accelerates*: right for 1 s, left for 4 s, right for 3 s, then faster. It looks
 #   at nothing.
 #
-# > **Predict.** Which of these attempts are worth more, on average, than staying? Think of γ = 0.8
-# > first, then of γ = 0.95. An accident costs 10, in the first seconds.
+# > **Predict.** Which of these attempts are worth more, on average, than staying? An accident costs
+# > 10.
 
 # %%
 choices = [
@@ -293,10 +292,10 @@ bc.show(figures.worth(outcomes, title))
 # <!-- claim: (tested(FOUR).ahead & ~tested(FOUR).accident).mean() > 0.02 -->
 # <!-- claim: (by_chance().accident > 0).all() -->
 #
-# Which of the two keeps agents in? Two easier roads help to find out. With *a lane keeper* an
+# Which of the two keeps agents in? Two easier roads help. With *a lane keeper* an
 # action names a lane and a speed, and a controller steers the car there. With *a later start* an
 # episode begins after the plan's {{ easier.LATER }} seconds of steering: on the free lane, behind
-# the traps and as fast as they are. What is an attempt worth there?
+# the traps and as fast as they are.
 
 # %%
 few, rows = bc.held_out_seeds(7, 100), []
@@ -337,9 +336,8 @@ for kind, results in shipped.shipped_experiment("easier").items():
         stays, crash = (success < 0.05) & (accident < 0.05), accident > 0.5
         rows.append([kind, gamma, won, stays.sum(), crash.sum(), f"{returns.max():.1f}"])
 headings = ["ten agents each", "γ", "escape", "stay, hardly an accident", "crash on most"]
-below = (
-    "η = 1: the target entropy is 1. An agent can escape and crash later: success on 95 % counts."
-)
+below = "Escape: ahead of trap 1 at the end of 95 % of the drives, crashed or not. "
+below += "η = 1: the target entropy is 1."
 table([*headings, "highest return"], rows, below=below)
 
 # %% [markdown]
@@ -350,10 +348,10 @@ table([*headings, "highest return"], rows, below=below)
 # <!-- claim: easy('a lane keeper').escapers('sac') == easy('a later start').escapers('sac') == 0
 #   and min(safe('a lane keeper'), safe('a later start')) > 10 -->
 #
-# Or is an agent too certain too soon? With the paper's target entropy its temperature falls at each
-# update (lesson [[discrete_sac]]), here to {{ temperature() | .3f }} or less. With η = 1 it stays
-# undecided, and {{ easy('a later start, η = 1').escapers('sac') }} of twenty escape. So here is the
-# road as it is, with another η, another γ, or both:
+# Or is an agent too certain too soon? With the paper's target entropy its temperature falls to {{
+# temperature() | .3f }} or less here (lesson [[discrete_sac]]). With η = 1 it stays undecided, and
+# {{ easy('a later start, η = 1').escapers('sac') }} of twenty escape. So here is the road as it is,
+# with another η, another γ, or both:
 # <!-- claim: temperature() < 0.01 -->
 
 # %% tags=["hide-input"]
@@ -471,7 +469,7 @@ check.learn_chain(learn_chain)
 # | B | 0.1 | 0.95 | |
 # | C | 0.5 | 0.8 | |
 # | D | 1 | 0.8 | |
-# | E | 0.1 | 0.8 | the way out, replayed after each decision |
+# | E | 0.1 | 0.8 | the way out |
 #
 # > **Predict.** In which of the five kinds do more than half of the thirty learn to leave?
 
@@ -489,11 +487,11 @@ rows = [
 table(["", "ε", "γ", "demonstration", "learn to leave"], rows)
 
 # %% [markdown]
-# **Explain.** In A none leaves, although leaving is worth more than twice as much as staying. In
-# state 0 staying has paid, so Q(0, 0) rises. In states 1 to 3 going *back* is then worth γ Q(0, 0),
-# and going on still 0, where Q began: the greedy action leads back, and it takes four random
-# decisions in a row to get through, each right with a probability of ε / 2. A longer view does not
-# help (B): none of the thirty has been on the free road, so its value is not known.
+# **Explain.** In A none leaves, although leaving is worth more than twice as much. In state 0
+# staying has paid, so Q(0, 0) rises. In states 1 to 3 going *back* is then worth γ Q(0, 0), and
+# going on still 0, where Q began: the greedy action leads back, and it takes four random decisions
+# in a row to get through, each right with a probability of ε / 2. A longer view does not help (B):
+# none of the thirty has been on the free road, so its value is not known.
 # <!-- claim: leaving(0.1, 0.8) == leaving(0.1, 0.95) == 0 and 0.8**4 > 2 * 0.16 -->
 # <!-- claim: free_road_seen(0.1, 0.8) == free_road_seen(0.1, 0.95) == 0 -->
 #
@@ -535,12 +533,12 @@ bc.show(bc.training_curves(curves, title, constants={"rule": level}))
 #
 # 1. Most plain SAC agents stay behind trap 1 or crash: {{ len(of('sac')) - escaped('sac') }} of the
 #    study's {{ len(of('sac')) }} do not escape.
-# 2. On the road as it is staying is worth more, at γ = 0.8, than each attempt that we drove, even
-#    the rule's; at γ = 0.95 only the skilled ones pay. From a later start a skilled drive pays at
-#    both, and still none of twenty agents finds it: attempts at random crash.
+# 2. At γ = 0.8 staying is worth more than each attempt that we drove on the road as it is; at γ =
+#    0.95 only the skilled ones pay. From a later start a skilled drive pays at both, and still none
+#    of twenty agents finds it: attempts at random crash.
 # <!-- claim: all(tested(kind).values(0.8).mean() < tested('stays').values(0.8).mean() for kind in
 #   KINDS_OF_ATTEMPTS) and not tested("the rule's way").accident.any() -->
-# 3. Leaving can pay at γ = 0.8, also for an agent: those with the soft constraint do it.
+# 3. Leaving can pay at γ = 0.8: agents with the soft constraint do it.
 # <!-- claim: discounted_scores('soft').min() > discounted(idle(), 0.8) -->
 # 4. Bootstrapping moves a value back one state at a time, from states that were visited. In front
 #    of a barrier the greedy actions lead back.
