@@ -418,7 +418,7 @@ table(headings, rows, below)
 #   (second_pays(by_rule().states[6, EGO, SPEED]) + 2 * math.log(RULE_P)) / (1 - 0.8) < 0.15625 -->
 #
 # In the program of lesson [[discrete_sac]], `bootcourse/learn/textbook.py`, the KL stands in two
-# places: in the critic's target and in the actor's loss.
+# places:
 
 # %% tags=["nbval-ignore-output"]
 source("bootcourse.learn.textbook", "TextbookSAC.critic_target", "TextbookSAC.actor_loss")
@@ -481,7 +481,7 @@ table(["ξ", "seed", "its likeliest action is the rule's"], rows, "In the states
 own_code.compare()
 
 # %% [markdown]
-# So far this is the beginning of a training. The study has trained ten agents of each kind for
+# The study has trained ten agents of each kind for
 # {{ of('soft').sizes[1] | , }} episodes.
 #
 # > **Predict.** Which kind earns more on held-out roads, after training? The rule earns
@@ -504,9 +504,8 @@ drawn = {name: bc.statistics.iqm(each, 0) for name, each in zip(kinds, earned, s
 drawn["rule"] = np.full(len(middle), rule_test.returns.value)
 looks = [charts.Style("#56B4E9", "--"), charts.Style("#1F2933"), charts.Style("#009E73")]
 title = "With ξ fixed no agent earns more than the rule; with a fading ξ most earn far more"
-figure = charts.lines(
-    middle, drawn, title, "training episode", "return in training (thin: agents)", looks=looks
-)
+x_label, y_label = "training episode", "return in training (thin: agents)"
+figure = charts.lines(middle, drawn, title, x_label, y_label, limits=(-15, 140), looks=looks)
 for each, look in zip(earned, looks, strict=False):
     figure.axes[0].plot(middle, each.T, color=look.colour, linewidth=0.7, alpha=0.5)
 bc.show(figure)
@@ -527,7 +526,7 @@ table([*headings, "accidents, %"], rows, below="1,000 held-out roads each.")
 # **Explain.** A constraint that stays makes a second rule: all ten agents earn a little less than
 # the rule, with few accidents, as Round 3 says they should. A constraint that fades lets most
 # agents earn more than twice as much, at a risk: accidents are four times as frequent, and two of
-# ten get out on none of the roads, although one of these still did in most of its last training
+# ten get out on hardly any road, although one of these still did in most of its last training
 # episodes. (In training agents draw their actions from π, in the test they take the likeliest: so
 # those with a fixed ξ earn more there than in the figure.)
 # <!-- claim: ((of('soft').scores('success') < 0.01) & (in_training('soft', -50, None) >

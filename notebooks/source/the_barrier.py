@@ -342,11 +342,12 @@ table([*headings, "highest return"], rows, below=below)
 
 # %% [markdown]
 # **Explain.** The delay is not needed to keep agents in. From the later start the way out pays at
-# both discounts, and it is one skilled action away; yet none of the twenty escapes, and
-# {{ safe('a later start') }} keep the traps' speed. With a lane keeper {{ safe('a lane keeper') }}
-# stay. What both roads share with the first is that attempts at random mostly crash.
-# <!-- claim: easy('a lane keeper').escapers('sac') == easy('a later start').escapers('sac') == 0
-#   and min(safe('a lane keeper'), safe('a later start')) > 10 -->
+# both discounts, and it is one skilled action away; yet none of the twenty gets out on any of 200
+# roads, and {{ safe('a later start') }} keep the traps' speed. With a lane keeper {{ safe('a lane
+# keeper') }} stay. What both roads share with the first is that attempts at random mostly crash.
+# <!-- claim: easy('a lane keeper').escapers('sac') == 0 -->
+# <!-- claim: easy('a later start').scores('success').max() == 0 -->
+# <!-- claim: min(safe('a lane keeper'), safe('a later start')) > 10 -->
 #
 # Or is an agent too certain too soon? With the paper's target entropy its temperature falls to {{
 # temperature() | .3f }} or less here (lesson [[discrete_sac]]). With η = 1 it stays undecided, and
@@ -390,8 +391,8 @@ table(
 # %% [markdown]
 # ## Round 4: what gets a learner across a barrier of five states?
 #
-# Here is a world that keeps the detour and leaves out the rest, a **chain** of five states. You
-# start in the trap, and after 20 decisions the time is up. What each action does, and what it pays:
+# A **chain** of five states keeps the detour and leaves out the rest. You
+# start in the trap, and after 20 decisions the time is up. What each action does and pays:
 #
 # | | state 0, the trap | states 1, 2, 3 | state 4, the free road |
 # |---|---|---|---|
@@ -549,7 +550,7 @@ bc.show(bc.training_curves(curves, title, constants={"rule": level}))
 # - Start the chain's Q at 5 instead of 0 (*optimistic initial values*). Which of A to D leave now,
 #   and why? What would the same optimism cost on the road?
 # - Demonstrations got all thirty across the chain. What could be different on the road?
-# - Which of the three explanations could ten times as much training refute, and by what outcome?
+# - Which of the three explanations could ten times as much training refute?
 #
 # **Read on**: [the rule](the_rule.ipynb) that helps. Ecoffet et al., *First return, then explore*
 # (arXiv 2004.12919); Haarnoja et al., *Soft Actor-Critic* (arXiv 1801.01290).
