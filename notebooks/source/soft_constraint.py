@@ -18,9 +18,8 @@
 # - derive the best compromise between a learner's Q and what the rule says;
 # - write the two losses that the pull enters, and show what happens if the pull does not fade.
 #
-# **Time** 80 minutes in two sittings (a good place for the break is after Round 3); running it
-# takes about one minute. **You need** the rule of lesson [[the_rule]], and actor, critic and soft
-# value from lesson [[discrete_sac]].
+# **Time** 73 minutes; running it takes about one minute. **You need** the rule of lesson
+# [[the_rule]], and actor, critic and soft value from lesson [[discrete_sac]].
 
 # %%
 import math
@@ -54,16 +53,16 @@ does = torch.tensor([int(first_drive.rule_actions[0])])
 rule_tilde = bc.bootstrap.log_stochastic_rule(does, torch.tensor(0.9)).exp()[0].tolist()
 own_pi = newborn.probabilities(first_drive.observations[:1])[0].tolist()
 title = f"The rule would {bc.ACTION_NAMES[does.item()]}; the untrained agent has no preference"
-bc.show(charts.action_bars({"agent": own_pi, "rule": rule_tilde}, title))
+bc.show(charts.action_bars({"soft, untrained": own_pi, "rule": rule_tilde}, title))
 
 # %% [markdown]
 # The rule gets out of the trap and is slow afterwards. So the agent should follow it at first, and
-# still be able to find something better. This lesson builds a pull that does this: what it costs to
-# ignore the rule, which compromise is best, where the pull enters the losses, and how it fades.
+# still be able to find something better. This lesson builds such a **pull** towards the rule, the
+# *soft constraint*: a penalty of ξ for each nat by which the policy differs from π̃.
 #
-# The agents of this lesson train with the parts that you wrote in lesson [[discrete_sac]], if they
-# have passed their checks there. The next cell looks for them. It runs the files in the folder
-# `answers`, which hold your own code; no other cell of this lesson does that.
+# The agents of this lesson train with the parts of lesson [[discrete_sac]] that you wrote and that
+# passed their checks. The next cell runs the files in the folder `answers`, which hold your own
+# code; no other cell of this lesson does that.
 # <!-- claim: len(re.findall('\nown_code.load()', code_of('soft_constraint'))) == 1 -->
 
 # %%
@@ -83,8 +82,7 @@ own_code.load()
 # $$ \tilde\pi(a|s) = p \text{ if } a = \mu(s), \qquad \tfrac{1-p}{8} \text{ otherwise} $$
 #
 # Call $-\log \tilde\pi(a|s)$ the **price** of an action. Its unit is the **nat**, the unit of the
-# natural logarithm. An action that π̃ takes with probability 1 costs 0 nats; one that it takes with
-# probability $1/e$ costs 1.
+# natural logarithm: probability 1 costs 0 nats, probability $1/e$ costs 1.
 #
 # > **Predict.** Raise p from 0.9 to 0.99. Any other action than the rule's becomes ten times as
 # > unlikely. Does its price grow by a factor of 10, of 2, or of about 1.5?
@@ -97,16 +95,17 @@ predict(
 )
 
 # %%
+rows = []
 for p in (0.5, 0.9, 0.99, 0.999):
-    own, other = -math.log(p), -math.log((1 - p) / 8)
-    print(f"p = {p:5}: the rule's own action {own:.3f} nats, any other {other:.2f} nats")
+    rows.append([p, f"{-math.log(p):.3f}", f"{-math.log((1 - p) / 8):.2f}"])
+table(["p", "price of the rule's action (nats)", "of any other (nats)"], rows)
 
 # %% [markdown]
-# **See.** From p = {{ RULE_P }} on, the price of the other actions grows by $\log 10$, about 2.3
-# nats, from line to line. The rule names the same action in each line, so it has not become better.
-# What has changed is p, and with it the price of doing something else.
+# **See.** A tenth of the probability costs $\log 10$, about 2.3 nats, more. The rule names the same
+# action in each line, so it has not become better. What has changed is the price of doing something
+# else.
 #
-# **Exercise (5 min, ●○○).** Write $\log\tilde\pi$ for a batch of states.
+# **Exercise (3 min, ●○○).** Write $\log\tilde\pi$ for a batch of states.
 
 
 # %%
@@ -151,9 +150,12 @@ rule_says = torch.tensor([bc.ACTION_NAMES.index("keep left")])
 sure = torch.full((1, 9), 1e-12).scatter(1, rule_says[:, None], 1.0)
 elsewhere = torch.full((1, 9), 1e-12).scatter(1, torch.tensor([[7]]), 1.0)
 even = torch.full((1, 9), 1 / 9)
-for words, pi in (("agrees", sure), (bc.ACTION_NAMES[7], elsewhere), ("undecided", even)):
+policies = {"keep left": sure, "accelerate straight": elsewhere, "nothing": even}
+rows = []
+for words, pi in policies.items():
     kl = bc.bootstrap.kl_to_rule(pi.log(), rule_says, torch.tensor(0.9)).item()
-    print(f"{words:20} KL = {kl:.3f} nats")
+    rows.append([words, f"{kl:.3f}"])
+table(["the agent is sure of", "its KL (nats)"], rows)
 
 # %% [markdown]
 # **Explain.** A policy that is sure of another action pays the full price of that action. A policy
@@ -161,9 +163,9 @@ for words, pi in (("agrees", sure), (bc.ACTION_NAMES[7], elsewhere), ("undecided
 # π̃, which gives that action a probability of {{ 100 * RULE_P | .0f }} %. So the constraint also
 # charges for being surer than π̃.
 #
-# The order of the two matters. $D_\mathrm{KL}(\tilde\pi \| \pi)$ is large if the agent gives a
-# small probability to an action that π̃ takes often. Ours is large if the agent gives a large
-# probability to an action that π̃ takes seldom.
+# The order of the two matters. Ours, the *reverse* KL, is large if the agent gives a large
+# probability to an action that π̃ takes seldom. The *forward* KL, $D_\mathrm{KL}(\tilde\pi \|
+# \pi)$, is large if the agent gives a small probability to an action that π̃ takes often.
 #
 # **Exercise (5 min, ●●○).** Write the KL for a batch of states.
 
@@ -234,8 +236,7 @@ check.regularised_policy(regularised_policy)
 #
 # </details>
 #
-# Is it really the best? Test the algebra: let an optimiser look for something better, starting from
-# a policy that is even.
+# Is it really the best? Let an optimiser look for something better, starting from an even policy.
 
 # %%
 q = torch.tensor([[0.2, 0.1, 0.0, 0.6, 0.4, 0.1, 0.3, 1.2, 0.2]])
@@ -254,33 +255,32 @@ print(f"largest difference of a probability: {(logits.softmax(-1) - best).abs().
 
 # %% tags=["hide-input"]
 alone = (q / alpha).softmax(-1)[0].tolist()
-title = "Q would accelerate, the rule keeps left; the compromise gives both a share"
-bc.show(
-    charts.action_bars(
-        {"Q alone": alone, "rule": log_rule.exp()[0].tolist(), "both": best[0].tolist()}, title
-    )
-)
+title = "Q accelerates, the rule keeps left; the best π does both"
+pi = {"sac, Q alone": alone, "rule": log_rule.exp()[0].tolist(), "soft, best": best[0].tolist()}
+bc.show(charts.action_bars(pi, title))
 
 # %% [markdown]
-# When does the rule's action become the most probable one? It has a **head start** of
-# $\xi \log \frac{8p}{1-p}$ in Q over each other action: the difference of two prices, times ξ.
+# Read the objective once more. The KL is $-\mathcal{H} - \sum_a \pi \log\tilde\pi$, so it is SAC's
+# objective with the reward $r + \xi\log\tilde\pi(a|s)$ and the temperature α + ξ. **The soft
+# constraint is SAC with another reward and another temperature**: it pays each decision that is the
+# rule's $\xi \log \frac{8p}{1-p}$ more than any other, and it values entropy more at the same time.
+# That payment is the **head start** of the rule's action: the difference of two prices, times ξ.
 #
 # > **Predict.** With p = 0.9 and the paper's first ξ = 2, how large is that head start? Compare it
-# > with the most that one second on the road can pay, which is 1.5/1.6 + 0.05/1.6, about 1.
+# > with the most that one second on the road can pay, about 1.
 
 # %%
-predict(
-    "soft_constraint.4", "The head start, in seconds of the best reward", ["0.5", "2", "9", "40"]
-)
+choices = ["half as large", "twice", "9 times", "40 times"]
+predict("soft_constraint.4", "Compared with the best reward of a second it is", choices)
 
 # %%
 step = math.log(8 * 0.9 / 0.1)
-for xi in (2.0, 0.2, 0.02, 0.002):
-    print(f"ξ = {xi:5}: a head start of {xi * step:.3f}")
+rows = [[xi, f"{xi * step:.3f}"] for xi in (2.0, 0.2, 0.02, 0.002)]
 best_second = bc.formulas.weighted_reward(
     bc.formulas.speed_reward(15.0), bc.formulas.centring_reward(0.0), 0.0, 1.5, 0.05, 0.05
 )
-print(f"the best second pays {best_second:.2f}; γ = 0.8 counts about {1 / (1 - 0.8):.0f} of them")
+below = f"The best second pays {best_second:.2f}; γ = 0.8 counts about {1 / (1 - 0.8):.0f} of them."
+table(["ξ", "head start, in Q"], rows, below)
 
 # %% tags=["hide-input"]
 strengths = np.geomspace(0.002, 5, 100)
@@ -291,23 +291,24 @@ probability = {
 }
 tie = float((q[0, 7] - q[0, rule_says.item()]) / step)
 title = f"Against a lead of 0.6 in Q, the rule takes over at ξ = {tie:.2f}"
-bc.show(charts.lines(strengths, probability, title, "ξ (α = 0.01)", "probability", logarithmic="x"))
+looks = [charts.Style("#009E73"), charts.Style("#5F6B77")]  # the rule's, and a neutral one
+x_label = "ξ (α = 0.01)"
+bc.show(charts.lines(strengths, probability, title, x_label, "probability", "x", looks=looks))
 
 # %% [markdown]
-# **Explain.** At ξ = 2 the head start is larger than the discounted rewards of the best drive that
-# this road allows, so a higher speed does not outweigh the rule. An accident would (it pays
-# {{ DEFAULT.reward.accident }}), but the rule has none on the held-out roads. So while ξ is near 2,
-# the best policy is close to π̃, whatever a higher speed earns. At ξ = 0.002 the head start is
-# below 0.01: the rule decides where the values of two actions are almost equal. In the study ξ
-# falls from 2 to far below 0.002.
+# **Explain.** While ξ is near 2 the best policy is close to π̃, whatever a higher speed earns: the
+# head start of one second is larger than the discounted rewards of the best drive, and the KL of
+# later seconds adds to it. An accident would outweigh it ({{ DEFAULT.reward.accident }}), but the
+# rule has none on the held-out roads. At ξ = 0.002 the rule decides where the values of two actions
+# are almost equal. In the study ξ falls from 2 to far below 0.002.
 # <!-- claim: second_pays(15) / (1 - 0.8) < 2 * math.log(8 * 0.9 / 0.1) < -DEFAULT.reward.accident
 #   and accidents('rule') == 0 -->
 # <!-- claim: 0.002 * math.log(8 * 0.9 / 0.1) < 0.01 -->
 # <!-- claim: all(SETTINGS.xi_multiplier * run.curves['alpha'][-1] < 0.0002
 #   for run in shipped_runs('soft')) -->
 #
-# Now move the numbers yourself: the untrained agent drives, and you see its π, the rule's π̃, and
-# the best compromise of this round (*optimum*). Set ξ to 0, and back to 2.
+# Move the numbers yourself: the untrained agent's π, the rule's π̃, and the best compromise
+# (*optimum*). Set ξ to 0, and back to 2.
 
 # %%
 bc.panels.policy_panel(first_drive)
@@ -342,9 +343,9 @@ check.constrained_loss(constrained_loss)
 
 # %% [markdown]
 # **The critics'**: their target follows from the same sum over time. The paper's text does not
-# write it out, and it is easy to get wrong.
+# write it out.
 #
-# **Exercise (20 min, ●●●).** Derive the target, then write it. Begin on paper: which seconds
+# **Exercise (15 min, ●●●).** Derive the target, then write it. Begin on paper: which seconds
 # does $Q(s,a)$ count, if a has been taken already? In which states does the policy choose after
 # that, and so pay a KL and earn an entropy? Then put the whole target into code: the smaller of two
 # critics, the entropy, the KL, the end of an episode.
@@ -393,29 +394,31 @@ predict(
 
 # %%
 idle = bc.record(bc.idle_policy, [ROAD], label="idle")[0]
+by_rule = bc.record(bc.rule_policy(bc.DEFAULT), range(8), label="rule")
+falls_back = by_rule[0].rewards[3]  # a second behind the traps
 agrees = np.mean(idle.rule_actions == idle.actions)
-wants = bc.ACTION_NAMES[np.bincount(idle.rule_actions).argmax()]
-print(f"the rule agrees with idling in {100 * agrees:.0f} % of the seconds; mostly: {wants}")
-price, pay, gamma = math.log(8 / 0.1), idle.rewards.mean(), 0.8
+other, same, gamma, rows = math.log(8 / 0.1), -math.log(0.9), 0.8, []
 for xi in (0.0, 0.02, 0.2, 2.0):
-    second = pay - xi * price
-    print(f"ξ = {xi:4}: a second is worth {second:6.3f}, all of them {second / (1 - gamma):7.2f}")
+    seconds = idle.rewards.mean() - xi * other, falls_back - xi * same
+    rows.append([xi, *(f"{each:.2f}" for s in seconds for each in (s, s / (1 - gamma)))])
+headings = ["ξ", "following: a second", "all of them", "as the rule: a second", "all of them"]
+below = f"The rule agrees with following in {100 * agrees:.0f} % of its seconds. A crash pays −10."
+table(headings, rows, below)
 
 # %% [markdown]
-# **Explain.** Without the KL in the target, following is worth a little, and more than a crash.
-# With the KL and ξ = 2 it is worth less than a crash, since each second of it differs from what the
-# rule would do. Then why not crash at once? Because a third way is better than both: to do what the
-# rule does. At the {{ by_rule().states[6, EGO, SPEED] | g }} m/s at which it falls back, a second
-# pays {{ second_pays(by_rule().states[6, EGO, SPEED]) | .2f }}, and to be sure of the rule's action
-# costs {{ -2 * math.log(RULE_P) | .2f }}: such seconds for ever are worth {{
-# (second_pays(by_rule().states[6, EGO, SPEED]) + 2 * math.log(RULE_P)) / (1 - 0.8) | .1f }}. So the
-# KL does more than pull towards the rule's next action: through the critic it raises the cost of
-# futures in which the rule would have acted differently.
+# **Explain.** Without the KL in the target following is worth a little, and more than a crash. With
+# it and ξ = 2 it is worth less, since the rule would do something else in each second. Then why not
+# crash at once? A third way is better than both: to be sure of the rule's action costs 0.21 a
+# second, so falling back as the rule does, for ever, is worth {{ (second_pays(by_rule().states[6,
+# EGO, SPEED]) + 2 * math.log(RULE_P)) / (1 - 0.8) | .1f }}. So the KL does more than pull towards
+# the next action: through the critic it raises the cost of futures in which the rule would have
+# acted differently.
+# <!-- claim: round(-2 * math.log(RULE_P), 2) == 0.21 -->
 # <!-- claim: (0.15625 - 2 * math.log(8 / 0.1)) / (1 - 0.8) < DEFAULT.reward.accident < -1 <
 #   (second_pays(by_rule().states[6, EGO, SPEED]) + 2 * math.log(RULE_P)) / (1 - 0.8) < 0.15625 -->
 #
 # In the program of lesson [[discrete_sac]], `bootcourse/learn/textbook.py`, the KL stands in two
-# places: in the critic's target and in the actor's loss.
+# places:
 
 # %% tags=["nbval-ignore-output"]
 source("bootcourse.learn.textbook", "TextbookSAC.critic_target", "TextbookSAC.actor_loss")
@@ -430,64 +433,55 @@ source("bootcourse.learn.textbook", "TextbookSAC.critic_target", "TextbookSAC.ac
 #
 # The paper couples the pull to the temperature: $\xi = {{ SETTINGS.xi_multiplier }}\,\alpha$. It
 # starts at α = {{ SETTINGS.alpha_init }}, so ξ = {{ SETTINGS.xi_multiplier * SETTINGS.alpha_init
-# }}, and α falls: with a target entropy of {{ SETTINGS.target_entropy }} it falls at each update
-# (lesson [[discrete_sac]]). Adam changes log α by about its learning rate, {{ SETTINGS.alpha_lr }},
-# at each update while the gradients stay the same. Train four agents with the soft constraint and
-# without demonstrations: two whose ξ fades, two whose ξ stays at 2.
+# }}, and with a target entropy of {{ SETTINGS.target_entropy }} α falls at each update (lesson
+# [[discrete_sac]]). Train four agents with the soft constraint and without demonstrations: two
+# whose ξ fades, two whose ξ stays at 2.
 
 # %%
 UPDATES, EVERY = 5000, 250
-fading = bc.with_seeds(bc.settings_for("soft"), 2)
-agents = fading + bc.with_seeds(bc.settings_for("soft", xi_fixed=2.0), 2)
-by_rule = bc.record(bc.rule_policy(bc.DEFAULT), range(8), label="rule")
-seen = np.concatenate([drive.observations[:-1] for drive in by_rule])
-answers = np.concatenate([drive.rule_actions for drive in by_rule])
-notes = {"updates": [], "xi": [], "alike": []}
+agents = bc.with_seeds(bc.settings_for("soft"), 2)
+agents += bc.with_seeds(bc.settings_for("soft", xi_fixed=2.0), 2)
+noted = {}  # {update: ξ of the two that fade}
 
 
 def note(training):
-    """Every 250 updates: each agent's ξ, and how often its likeliest action is the rule's."""
-    if training.updates % EVERY or training.updates in notes["updates"]:
-        return
-    likeliest = [training.agent(i).probabilities(seen).argmax(-1) for i in range(len(agents))]
-    notes["updates"].append(training.updates)
-    notes["alike"].append([100 * np.mean(actions == answers) for actions in likeliest])
-    notes["xi"].append(200 * training.learner.log_alpha.detach().exp().numpy())
+    """Every 250 updates: the first two agents' ξ."""
+    if training.updates % EVERY == 0:
+        noted[training.updates] = 200 * training.learner.log_alpha.detach().exp().numpy()[:2]
 
 
-# %%
 training = own_code.training(agents, episodes=5000)
 result = training.run(callback=note, stop=lambda: training.updates > UPDATES)
 print(f"{result.seconds:.0f} s; episodes of each agent: {training.curves.finished.tolist()}")
 
 # %%
-updates, xi = np.array(notes["updates"]), np.array(notes["xi"]).T
-its = bc.settings_for("soft")
-fastest = its.alpha_init * 200 * np.exp(-its.alpha_lr * updates)
+updates, xi = np.array(list(noted)), np.array(list(noted.values())).T
 tenth = updates[np.argmax(xi[0] <= xi[0, 0] / 10)]
-named = {"soft, measured": xi[:2], "as fast as Adam can": fastest}
 title = f"ξ is a tenth of its start after about {tenth:,} updates"
-bc.show(charts.lines(updates, named, title, "update", "ξ = 200 α", logarithmic="y"))
+bc.show(charts.lines(updates, {"soft": xi}, title, "update", "ξ = 200 α", logarithmic="y"))
+
+# %%
+seen = np.concatenate([drive.observations[:-1] for drive in by_rule])
+answers = np.concatenate([drive.rule_actions for drive in by_rule])
+rows = []
+for agent, name in zip(result.agents, ["fades"] * 2 + ["stays at 2"] * 2, strict=True):
+    alike = np.mean(agent.probabilities(seen).argmax(-1) == answers)
+    rows.append([name, agent.settings.seed, f"{100 * alike:.0f} %"])
+table(["ξ", "seed", "its likeliest action is the rule's"], rows, "In the states of eight drives.")
 
 # %% [markdown]
-# **See.** At first ξ falls at full speed, then more slowly: the gradient of the temperature's loss,
-# $\alpha (\mathcal{H} - \eta)$, shrinks as α falls, and Adam divides it by an average over about
-# the last thousand, which were larger. With an entropy of 0 the tenth would come after
-# {{ cooling_updates(0.1) | , }} updates (lesson [[discrete_sac]]). In episodes: for the
-# {{ len(tenth_of_xi('soft')) }} agents of the study that ship, ξ is a tenth of its start after
-# {{ tenth_of_xi('soft').min() }} to {{ tenth_of_xi('soft').max() }}.
-# <!-- claim: cooling_updates(0.1) > 1.5 * math.log(10) / SETTINGS.alpha_lr -->
+# **See.** ξ falls fast at first, then more slowly: the gradient of the temperature's loss, $\alpha
+# (\mathcal{H} - \eta)$, shrinks as α falls, and Adam divides it by an average over about the last
+# thousand gradients, which were larger. In the study ξ is a tenth of its start after {{
+# tenth_of_xi('soft').min() }} to {{ tenth_of_xi('soft').max() }} episodes. Do your parts make the
+# same update as ours?
 # <!-- claim: tenth_of_xi('soft').max() < SETTINGS.beta_episodes / 2 -->
 
 # %%
-alike = np.array(notes["alike"]).T
-fades, stays = (alike[part, -1].mean() for part in (slice(2), slice(2, 4)))
-title = f"ξ stays: {stays:.0f} % of the likeliest actions are the rule's. ξ fades: {fades:.0f} %"
-named = {"soft, ξ fades": alike[:2], "ξ stays at 2": alike[2:]}
-bc.show(charts.lines(updates, named, title, "update", "likeliest action is the rule's (%)"))
+own_code.compare()
 
 # %% [markdown]
-# So far this is the beginning of a training. The study has trained ten agents of each kind for
+# The study has trained ten agents of each kind for
 # {{ of('soft').sizes[1] | , }} episodes.
 #
 # > **Predict.** Which kind earns more on held-out roads, after training? The rule earns
@@ -500,17 +494,21 @@ predict("soft_constraint.6", "The higher return has", choices)
 # %%
 study = shipped.shipped_results()
 kinds = {"soft, ξ fades": study.of("soft")}
-kinds["ξ stays at 2"] = shipped.shipped_experiment("ablations")["ξ stays at 2"]
-window = 50  # training episodes that are averaged
-earned = {name: r.curves["return"].astype(float) for name, r in kinds.items()}
-earned = {name: each.reshape(len(each), -1, window).mean(2) for name, each in earned.items()}
-middle = np.arange(earned["ξ stays at 2"].shape[1]) * window + window / 2
+kinds["soft, ξ stays at 2"] = shipped.shipped_experiment("ablations")["ξ stays at 2"]
 rule_test = bc.evaluate(bc.rule_policy(bc.DEFAULT), 1000, seed=1)
+window = 50  # training episodes that are averaged
+earned = [each.curves["return"].astype(float) for each in kinds.values()]
+earned = [each.reshape(len(each), -1, window).mean(2) for each in earned]
+middle = np.arange(earned[0].shape[1]) * window + window / 2
+drawn = {name: bc.statistics.iqm(each, 0) for name, each in zip(kinds, earned, strict=True)}
+drawn["rule"] = np.full(len(middle), rule_test.returns.value)
+looks = [charts.Style("#56B4E9", "--"), charts.Style("#1F2933"), charts.Style("#009E73")]
 title = "With ξ fixed no agent earns more than the rule; with a fading ξ most earn far more"
-marks = {"rule": rule_test.returns.value}
-looks = [charts.Style("#56B4E9"), charts.Style("#1F2933")]
-words = "return in training"
-bc.show(charts.lines(middle, earned, title, "training episode", words, marks=marks, looks=looks))
+x_label, y_label = "training episode", "return in training (thin: agents)"
+figure = charts.lines(middle, drawn, title, x_label, y_label, limits=(-15, 140), looks=looks)
+for each, look in zip(earned, looks, strict=False):
+    figure.axes[0].plot(middle, each.T, color=look.colour, linewidth=0.7, alpha=0.5)
+bc.show(figure)
 
 # %%
 rows = []
@@ -518,39 +516,36 @@ for name, r in kinds.items():
     low, half, high = np.percentile(r.scores("returns"), [0, 50, 100])
     crashed = 100 * r.episodes("accident").mean()
     numbers = (f"{half:.0f} ({low:.0f} to {high:.0f})", f"{crashed:.1f}")
-    rows.append([name, f"{r.escapers('soft')} of {len(r)}", *numbers])
+    kind = name.removeprefix("soft, ")
+    rows.append([kind, f"{r.escapers('soft')} of {len(r)}", *numbers])
 rows.append(["rule", "", f"{rule_test.returns.value:.0f}", "0"])
 headings = ["after training", "agents that escape", "return: median (lowest to highest)"]
 table([*headings, "accidents, %"], rows, below="1,000 held-out roads each.")
 
 # %% [markdown]
-# **Explain.** A constraint that stays makes a second rule: each of the ten agents earns {{
-# stays().scores('returns').min() | .0f }} to {{ stays().scores('returns').max() | .0f }}, the rule
-# {{ of('rule').scores('returns').mean() | .0f }}, with few accidents. This is what the objective of
-# Round 3 asks for: at ξ = 2 the head start is larger than what a higher speed can earn. A
-# constraint that fades lets an agent go beyond the rule: {{ beyond_the_rule() }} of ten earn more
-# than twice as much. The price is risk. {{ stays().escapers('soft') }} of ten escape of either
-# kind; but the other two with a fixed ξ still get out on {{ 100 *
-# stays().scores('success').min() | .0f }} % of the roads or more, and the other two whose ξ faded
-# on none. They also have more accidents. (In training agents draw their actions from π. In the test
-# they take the likeliest one, so the agents with a fixed ξ earn more there than in the figure.)
+# **Explain.** A constraint that stays makes a second rule: all ten agents earn a little less than
+# the rule, with few accidents, as Round 3 says they should. A constraint that fades lets most
+# agents earn more than twice as much, at a risk: accidents are four times as frequent, and two of
+# ten get out on hardly any road, although one of these still did in most of its last training
+# episodes. (In training agents draw their actions from π, in the test they take the likeliest: so
+# those with a fixed ξ earn more there than in the figure.)
+# <!-- claim: ((of('soft').scores('success') < 0.01) & (in_training('soft', -50, None) >
+#   0.5)).sum() == 1 -->
+# <!-- claim: accidents('soft') > 4 * stays().episodes('accident').mean() -->
+# <!-- claim: beyond_the_rule() > 5 -->
 # <!-- claim: stays().escapers('soft') == escaped('soft') == 8 and
 #   sorted(of('soft').scores('success'))[1] < 0.01 < 0.85 < stays().scores('success').min() -->
 # <!-- claim: len(stays()) == len(of('soft')) == 10 and stays().sizes == of('soft').sizes -->
 # <!-- claim: stays().scores('returns').max() < of('rule').scores('returns').mean() -->
 # <!-- claim: stays().episodes('accident').mean() < 0.05 < accidents('soft') -->
 #
-# Do your parts make the same update as ours?
-
-# %%
-own_code.compare()
-
-# %% [markdown]
-# Now look into a decision of the trained agent.
-
-# %%
-drive = bc.record(result.agents[0].as_policy(with_q=True), [ROAD], label="soft")[0]
-bc.panels.policy_panel(drive, xi=round(float(xi[0, -1]), 3), alpha=round(result.agents[0].alpha, 6))
+# Must ξ fade to 0, or would a small ξ do that stays? α falls until the policy's entropy has come
+# down to the target η. With η = 1 that is early: three such agents of the study earn {{
+# with_target(1).min() | .0f }} to {{ with_target(1).max() | .0f }}, as with a fixed ξ. With η = 0.3
+# they earn {{ with_target(0.3).min() | .0f }} to {{ with_target(0.3).max() | .0f }}, as with one
+# that fades. So it need not reach 0; how small is small enough, no run here tests.
+# <!-- claim: with_target(1).max() < of('rule').scores('returns').mean() -->
+# <!-- claim: with_target(0.3).min() > 2 * of('rule').scores('returns').mean() -->
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Ask before the last figure what an agent with ξ = 2 could do better than the rule, and what each
@@ -562,21 +557,22 @@ bc.panels.policy_panel(drive, xi=round(float(xi[0, -1]), 3), alpha=round(result.
 #
 # 1. A rule becomes a distribution by one number, p; the price of an action is minus the logarithm
 #    of its probability.
-# 2. The KL from π̃ is what a policy pays for actions that the rule would not take.
+# 2. The KL from π̃ is what a policy pays for actions that the rule would not take, and for being
+#    surer than π̃.
 # 3. The best compromise is softmax((Q + ξ log π̃) / (α + ξ)): the rule has a head start of ξ log
-#    (8p / (1 − p)) in Q.
+#    (8p / (1 − p)) in Q. It is SAC with the reward r + ξ log π̃ and the temperature α + ξ.
 # 4. The KL belongs in the actor's loss and in the critics' target. In the target it lowers the
 #    value of staying in the trap.
-# 5. With ξ fixed at 2 the study's agents end near the rule's return. With ξ =
-#    {{ SETTINGS.xi_multiplier }} α, which fades within a few thousand updates, most earn more than
-#    twice as much, some lose the way out, and accidents are more frequent.
+# 5. With ξ fixed at 2 the study's agents end near the rule's return. With ξ = {{
+#    SETTINGS.xi_multiplier }} α, which fades, most earn more than twice as much, some lose the way
+#    out, and accidents are more frequent.
 # <!-- claim: 5 < beyond_the_rule() < 10 and of('soft').scores('success').min() < 0.01 -->
 #
 # %%
 kl_alone = "less than a crash, but only with the KL"
 compare_predictions(
     "soft_constraint",
-    {1: "about 1.5", 2: "the same one, but not 0", 3: "proportional to the root of π̃", 4: "9"}
+    {1: "about 1.5", 2: "the same one, but not 0", 3: "proportional to the root of π̃", 4: "9 times"}
     | {5: kl_alone, 6: "those whose ξ fades"},
 )
 
@@ -588,10 +584,9 @@ compare_predictions(
 # - ξ stays at 2. What does the agent's critic expect on the free road, and why does a higher speed
 #   not look better to it?
 #
-# **Read on**: the KL as a price on leaving a teacher: Huang et al., *Efficient Deep Reinforcement
-# Learning with Imitative Expert Priors for Autonomous Driving* (arXiv 2103.10690). Why a softmax
-# is what solves such problems: Levine, *Reinforcement Learning and Control as Probabilistic
-# Inference* (arXiv 1805.00909).
+# **Read on**: Huang et al., *Efficient Deep Reinforcement Learning with Imitative Expert Priors for
+# Autonomous Driving* (arXiv 2103.10690), with the KL as a price on leaving a teacher; Levine,
+# *Reinforcement Learning and Control as Probabilistic Inference* (arXiv 1805.00909).
 
 # %% [markdown] tags=["instructor"] minutes=2
 # *Answers to the three questions.* **p and ξ:** p moves π̃ itself, the policy that has a KL of 0; ξ

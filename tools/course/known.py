@@ -153,18 +153,6 @@ def rule_drives() -> list:
     return record(rule_policy(DEFAULT), range(60))
 
 
-@cache
-def cooling_updates(part: float) -> int:
-    """After how many of Adam's steps α is this part of its start if η = −1 and the entropy stays 0."""
-    log_alpha = torch.zeros(1, dtype=torch.float64, requires_grad=True)
-    optimiser, steps = torch.optim.Adam([log_alpha], lr=SETTINGS.alpha_lr), 0
-    while log_alpha.item() > math.log(part):
-        log_alpha.grad = log_alpha.detach().exp() * (0 - SETTINGS.target_entropy)
-        optimiser.step()
-        steps += 1
-    return steps
-
-
 def in_training(method: str, first: int, last: int | None) -> np.ndarray:
     """Each agent's success in some of its training episodes, (agents,)."""
     return of(method).curves["success"][:, first:last].mean(axis=1)

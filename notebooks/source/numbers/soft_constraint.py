@@ -1,5 +1,6 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
+import numpy as np
 from bootcourse.research.results import Results
 from tools.course.known import of, shipped_experiment
 
@@ -12,3 +13,8 @@ def stays() -> Results:
 def beyond_the_rule() -> int:
     """How many of the ten agents whose ξ fades earn more than twice as much as the rule."""
     return int((of("soft").scores("returns") > 2 * of("rule").scores("returns").mean()).sum())
+
+
+def with_target(entropy: float) -> np.ndarray:
+    """The returns of the study's agents with the soft constraint and another target entropy, (agents,)."""
+    return shipped_experiment("sensitivity")[f"target entropy {entropy:g}"].of("soft").scores("returns")

@@ -5,11 +5,11 @@ from functools import cache
 import numpy as np
 from bootcourse.course.lessons.the_barrier import attempts, chain, easier
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
-from bootcourse.policies import PolicyOutput, random_policy
+from bootcourse.policies import random_policy
 from bootcourse.research.planner import Search, discounted_values, plan_episodes
 from bootcourse.research.results import Results
-from bootcourse.road.state import EGO, LANE
 from bootcourse.scenario import DEFAULT
+from bootcourse.statistics import ESCAPES
 from tools.course.known import ROAD, idle, of, shipped_experiment, shipped_runs
 
 
@@ -76,12 +76,44 @@ def temperature() -> float:
     return max(float(row[np.isfinite(row)][-1]) for each in alphas for row in each)
 
 
+AT_ONCE, ONE_FIRST = "accelerates at once", "1 random action, then accelerates"
+AT_RANDOM = (("a lane keeper", "at random"), ("a later start", "at random"))
+
+
 @cache
-def from_later_start() -> float:
-    """The share of 200 roads on which a lane keeper that goes to 15 m/s gets out unhurt from the later start."""
+def easier_outcomes(road: str) -> dict[str, attempts.Outcome]:
+    """What came of the lesson's drives on its 100 roads, made easier."""
+    roads, make_env = held_out_seeds(7, 100), easier.KINDS[road][0]
+    return {name: attempts.drive(each, roads, make_env) for name, each in easier.drivers(road, len(roads)).items()}
 
-    def accelerates(observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
-        return PolicyOutput(attempts.keep_lane(cars, np.full(len(cars), attempts.FAST), cars[:, EGO, LANE]))
 
-    drives = drive_episodes(accelerates, held_out_seeds(1, 200), make_env=easier.LaterStart)
-    return float(np.mean(drives.success & (drives.accident == 0)))
+def easier_outcome(road: str, name: str) -> attempts.Outcome:
+    """One of them."""
+    return easier_outcomes(road)[name]
+
+
+def worth_of(road: str, name: str, gamma: float) -> float:
+    """What a drive on an easier road is worth, on average."""
+    return float(easier_outcome(road, name).values(gamma).mean())
+
+
+@cache
+def changed_agents(method: str) -> np.ndarray:
+    """Which agents of a method escape with another γ, another target entropy or both, (agents,)."""
+    varied = shipped_experiment("sensitivity").items()
+    scores = [each.of(method).scores("success") for what, each in varied if "γ" in what or "entropy" in what]
+    return np.concatenate(scores) >= ESCAPES
+
+
+def optimistic(explore: float, start: float, walks: int = 30) -> int:
+    """How many of the chain's learners leave at γ = 0.8 if Q begins at `start` instead of 0."""
+    left = 0
+    for seed in range(walks):
+        q, s = np.full((chain.STATES, 2), float(start)), 0
+        for t, chance in enumerate(chain.chances(explore, 1000, seed)):
+            s = 0 if t % chain.EPISODE == 0 else s
+            a = int(q[s].argmax()) if chance < 0 else chance
+            q[s, a] += 0.3 * (chain.REWARD[s, a] + 0.8 * q[chain.NEXT[s, a]].max() - q[s, a])
+            s = chain.NEXT[s, a]
+        left += bool(q[0, 1] > q[0, 0])
+    return left

@@ -7,7 +7,7 @@ import numpy as np
 from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.policies import rule_policy
-from bootcourse.road.state import EGO, LANE, X
+from bootcourse.road.state import EGO, LANE, SPEED, X
 from bootcourse.scenario import DEFAULT
 
 
@@ -30,3 +30,11 @@ def median_distance(roads: int = 20) -> float:
             if cars[EGO, LANE] == 0:
                 distances.append(ahead.min() - cars[EGO, X] if len(ahead) else np.inf)
     return float(np.median(distances))
+
+
+@cache
+def above_14(n: int, roads: int = 40) -> float:
+    """In which share of its seconds the rule with n speeds drives faster than 14 m/s, over its first roads."""
+    driver = rule_policy(dataclasses.replace(DEFAULT, rule=dataclasses.replace(DEFAULT.rule, n=n)))
+    speeds = [drive.states[:: DEFAULT.clock.steps, EGO, SPEED] for drive in record(driver, range(roads))]
+    return float(np.mean(np.concatenate(speeds) > 14))

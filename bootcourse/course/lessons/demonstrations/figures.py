@@ -8,11 +8,11 @@ from matplotlib.figure import Figure
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.methods import style
 from bootcourse.plots.canvas import MplAxes
-from bootcourse.plots.figure import INK, SMALL, TEXT, finish, new_figure, plain_axes
+from bootcourse.plots.figure import INK, TEXT, finish, new_figure, plain_axes
 from bootcourse.plots.road import draw_road, edges_of
 from bootcourse.road.state import EGO, TRAP_1, X, Y
 
-NOISY = "#D55E00"
+UNSURE = "#6CC3A0"  # the stochastic rule: the rule's green, lighter
 
 
 def where_they_were(drives: dict[str, Sequence[Rollout]], seconds: float, title: str) -> Figure:
@@ -26,11 +26,11 @@ def where_they_were(drives: dict[str, Sequence[Rollout]], seconds: float, title:
         for drive in some:
             states = drive.states[: int(seconds / drive.scenario.clock.dt) + 1]
             path = np.column_stack([states[:, EGO, X] - states[:, TRAP_1, X], states[:, EGO, Y]])
-            ax.plot(*path.T, color=style("rule").colour if k == 0 else NOISY, linewidth=0.7, alpha=0.35)
+            ax.plot(*path.T, color=style("rule").colour if k == 0 else UNSURE, linewidth=0.8, alpha=0.45)
             places.append(path)
-        plain_axes(ax, f"lane: {name}", grid="")
+        plain_axes(ax, name, grid="")
         lanes, (top, edge) = range(scenario.road.lanes), edges_of(scenario.road)
-        ax.set_yticks(np.array(lanes) * scenario.road.lane_width, lanes)
+        ax.set_yticks(np.array(lanes) * scenario.road.lane_width, [f"lane {lane}" for lane in lanes])
         ax.set(xlim=(-60, 15), ylim=(edge + 0.6, top - 0.6))
         last = k == len(drives) - 1
         ax.tick_params(axis="x", labelbottom=last)
@@ -46,20 +46,22 @@ def where_they_were(drives: dict[str, Sequence[Rollout]], seconds: float, title:
 
 def clones(measured: dict[str, np.ndarray], title: str) -> Figure:
     """How clones drive: name -> (seeds, 3) shares of agreement, success and accidents; a dot for each seed."""
-    figure = new_figure(0.95 + 0.42 * len(measured))
+    figure = new_figure(1.1 + 0.55 * len(measured))
     alt_parts = {name: [] for name in measured}
     height = figure.get_figheight()
     for k, label in enumerate(("agree with their data (%)", "success (%)", "have an accident (%)")):
-        ax = figure.add_axes((0.25 + 0.255 * k, 0.45 / height, 0.215, 1 - 1.15 / height))
+        ax = figure.add_axes((0.27 + 0.245 * k, 0.4 / height, 0.21, 1 - 1.2 / height))
         for row, (name, values) in enumerate(measured.items()):
             shares = 100 * values[:, k]
             ax.plot(shares, np.full(len(shares), row), "o", color=style("bc").colour, markersize=5, alpha=0.55)
-            ax.plot(shares.mean(), row, "|", color=NOISY, markersize=15, markeredgewidth=2)
+            ax.plot(shares.mean(), row, "|", color=INK, markersize=15, markeredgewidth=2)
+            ax.text(shares.mean(), row - 0.32, f"{shares.mean():.0f}", fontsize=TEXT, color=INK, ha="center")
             alt_parts[name].append(f"{shares.mean():.0f} % {label.split('(')[0].strip()}")
         plain_axes(ax, label, grid="x")
-        ax.set_yticks(range(len(measured)), list(measured) if k == 0 else [""] * len(measured))
-        ax.tick_params(axis="y", labelcolor=INK, labelsize=SMALL)
-        ax.set_ylim(len(measured) - 0.5, -0.5)
+        names = [name.replace(", ", ",\n").replace("stochastic ", "stochastic\n") for name in measured]
+        ax.set_yticks(range(len(measured)), names if k == 0 else [""] * len(measured))
+        ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
+        ax.set_ylim(len(measured) - 0.5, -0.6)
         ax.set_xlim(-4, 104)
-    words = "; ".join(f"{name}: on average {', '.join(parts)}" for name, parts in alt_parts.items())
+    words = "; ".join(f"clones of {name}: on average {', '.join(parts)}" for name, parts in alt_parts.items())
     return finish(figure, title, f"A dot for each clone, a bar for their mean. {words}.")

@@ -23,7 +23,7 @@ def rule_cases(rng):
 
 
 @exercise(
-    "log π̃(a|s), Section IV-A, Equation of the stochastic rule", minutes=5, difficulty=1, cases=rule_cases,
+    "log π̃(a|s), Section IV-A, Equation of the stochastic rule", minutes=3, difficulty=1, cases=rule_cases,
     worked=[
         ((torch.tensor([3]), 0.9), torch.tensor([[math.log(0.0125)] * 3 + [math.log(0.9)] + [math.log(0.0125)] * 5])),
     ],
@@ -215,7 +215,7 @@ Q_PAIR = torch.tensor([[2.0] * 4 + [9.0] * 5, [5.0] * 4 + [2.0] * 5])[:, None].e
 
 
 @exercise(
-    "y = r + γ (1 - terminated) (V(s') - ξ D_KL(s')), from Equation 15", minutes=20, difficulty=3, cases=target_cases,
+    "y = r + γ (1 - terminated) (V(s') - ξ D_KL(s')), from Equation 15", minutes=15, difficulty=3, cases=target_cases,
     worked=[
         # all actions alike, min Q = 2: V = 2 + 0.5 log 9 - 2 · 0.25; it goes on: 1 + 0.8 V; it ended: -10
         ((torch.tensor([1.0, -10.0]), torch.tensor([0.0, 1.0]), EVEN, Q_PAIR, torch.tensor([0.25, 0.25]),

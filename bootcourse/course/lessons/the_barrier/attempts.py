@@ -1,10 +1,10 @@
 """Attempts to leave the trap, from chance to a plan, and what each kind of attempt is worth."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from gymnasium.vector import AutoresetMode
+from gymnasium.vector import AutoresetMode, VectorEnv
 
 from bootcourse.episodes.driving import steps
 from bootcourse.learn.teachers import toward
@@ -65,9 +65,9 @@ def random_wishes(rng: np.random.Generator) -> Policy:
     return decide
 
 
-def drive(policy: Policy, seeds: Sequence[int]) -> Outcome:
-    """One drive on the road of each seed."""
-    env = TrapVectorEnv(len(seeds), DEFAULT, AutoresetMode.DISABLED)  # after an episode's end its reward is 0
+def drive(policy: Policy, seeds: Sequence[int], make_env: Callable[..., VectorEnv] = TrapVectorEnv) -> Outcome:
+    """One drive on the road of each seed. make_env: the roads, such as those of easier.py."""
+    env = make_env(len(seeds), DEFAULT, AutoresetMode.DISABLED)  # after an episode's end its reward is 0
     rewards, accident = [], np.zeros(len(seeds), dtype=bool)
     for step in steps(policy, env, list(seeds)):
         rewards.append(step.rewards)

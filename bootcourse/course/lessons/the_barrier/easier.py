@@ -9,19 +9,21 @@ not fall to 0, either. Each kind has ten agents with the paper's γ and ten that
 themselves, as those of the lesson's first round do.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from bootcourse.course.lessons.the_barrier.attempts import PLAN, keep_lane
+from bootcourse.course.lessons.the_barrier.attempts import PLAN, ThenAccelerate, keep_lane
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
+from bootcourse.policies import PlanPolicy, Policy, idle_policy, random_policy
 from bootcourse.research.jobs import Interrupted, orphaned, tested_arrays
 from bootcourse.research.plan import LessonExperiment
 from bootcourse.research.teachers import RULE
 from bootcourse.road import twin
 from bootcourse.road.state import EGO, LANE, SPEED
 from bootcourse.road.vector_env import TrapVectorEnv
+from bootcourse.scenario import N_ACTIONS
 
 SEEDS, GAMMAS = 10, (0.8, 0.95)
 UPDATES = 2_000  # as the agents of the lesson have
@@ -65,6 +67,21 @@ KINDS: dict[str, tuple[Callable, dict]] = {  # what makes the roads, and the set
     "a later start, η = 1": (LaterStart, {"target_entropy": 1.0}),
 }
 EXPERIMENT = LessonExperiment(f"{__name__}:train_kind", {kind: {"kind": kind} for kind in KINDS})
+
+WISHES = [3, *[1] * 8, *[5] * 6]  # of the lane keeper: slower for 1 s, to the left for 8 s, faster for 6 s
+
+
+def drivers(kind: str, roads: int, seed: int = 0) -> Mapping[str, Policy]:
+    """Whom the lesson lets drive on the roads of a kind: who stays, who acts at random, who is skilled."""
+    rng = np.random.default_rng(seed)
+    if kind == "a lane keeper":
+        return {"stays": idle_policy, "at random": random_policy(rng), "one plan": PlanPolicy(WISHES)}
+    return {
+        "stays": idle_policy,
+        "at random": random_policy(rng),
+        "1 random action, then accelerates": ThenAccelerate(rng.integers(N_ACTIONS, size=(1, roads))),
+        "accelerates at once": ThenAccelerate([]),
+    }
 
 
 def train_kind(kind: str) -> dict[str, np.ndarray]:

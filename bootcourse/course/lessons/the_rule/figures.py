@@ -1,14 +1,17 @@
-"""Figures of the rule: when it changes lane, and its reasons."""
+"""Figures of the rule: when it changes lane, its reasons, and why it is slow."""
+
+from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from bootcourse.colours import ALARM, Style
 from bootcourse.course.charts import lines
+from bootcourse.episodes.evaluate import Episodes
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.episodes.words import sentence
 from bootcourse.methods import style
-from bootcourse.plots.figure import INK, TEXT, finish, new_figure, plain_axes
+from bootcourse.plots.figure import INK, QUIET, TEXT, axes_at, finish, new_figure, one_axes, plain_axes
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, X
 from bootcourse.rule import SENTENCES, Reason, safety_distance
 
@@ -43,19 +46,65 @@ def when_to_change(drive: Rollout) -> Figure:
     return figure
 
 
-def reasons_over_time(rollout: Rollout, title: str) -> Figure:
-    """What the rule gives as its reason at each decision of a drive."""
-    figure = new_figure(2.6)
-    ax = figure.add_axes((0.34, 0.2, 0.63, 0.6))
-    rate = rollout.scenario.clock.decision_rate
-    used = [reason for reason in Reason if (rollout.rule_reasons == reason).any()]
-    for row, reason in enumerate(used):
-        decisions = np.flatnonzero(rollout.rule_reasons == reason)
-        ax.broken_barh([(k / rate, 1 / rate) for k in decisions], (row - 0.35, 0.7), color=style("rule").colour)
-    ax.set_yticks(range(len(used)), [sentence(SENTENCES[reason]) for reason in used])
-    ax.invert_yaxis()
-    plain_axes(ax, "", grid="x")
-    ax.tick_params(axis="y", labelcolor=INK)
-    ax.set_xlabel("time (s)", fontsize=TEXT, color=INK)
-    shares = ", ".join(f"{SENTENCES[r]} {np.mean(rollout.rule_reasons == r):.0%}" for r in used)
+def reasons_over_time(rollout: Rollout, title: str, enlarged: float = 15.0) -> Figure:
+    """What the rule gives as its reason at each decision; the first seconds are drawn wider than the others."""
+    rate, reasons = rollout.scenario.clock.decision_rate, rollout.rule_reasons
+    used = [Reason(reason) for reason in dict.fromkeys(reasons.tolist())]  # in the order in which they come
+    height = 0.3 * len(used)
+    figure = new_figure(height + 1.2)
+    for left, first, last in ((2.45, 0, enlarged), (4.75, enlarged, rollout.times[-1])):
+        ax = axes_at(figure, left, 0.65, 2.1, height)
+        for row, reason in enumerate(used):
+            bars = [(k / rate, 1 / rate) for k in np.flatnonzero(reasons == reason)]
+            ax.broken_barh(bars, (row - 0.35, 0.7), color=style("rule").colour)
+        ax.set_yticks(range(len(used)), [sentence(SENTENCES[reason]) for reason in used] if first == 0 else [])
+        ax.set(xlim=(first, last), ylim=(len(used) - 0.5, -0.5))
+        plain_axes(ax, "", grid="x")
+        ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
+        ax.set_xlabel("time (s)", fontsize=TEXT, color=INK)
+    shares = ", ".join(f"{SENTENCES[r]} {np.mean(reasons == r):.0%}" for r in used)
     return finish(figure, title, f"Share of the decisions: {shares}.")
+
+
+def against_sight(sights: Sequence[float], driven: Sequence[Episodes], title: str) -> Figure:
+    """The rule's mean return against how far it sees (m); a red cross where it has accidents."""
+    returns = np.array([each.returns.mean() for each in driven])
+    crashed = np.array([np.mean(each.accident > 0) for each in driven])
+    figure, ax = one_axes(3.2, title, "how far the rule sees (m)", "return of an episode")
+    ax.plot(sights, returns, "o-", color=style("rule").colour, linewidth=2, markersize=5)
+    ax.set_ylim(0, 1.2 * returns.max())
+    words = {"textcoords": "offset points", "fontsize": TEXT}
+    for x, y, share in zip(sights, returns, crashed, strict=True):
+        if not share:
+            ax.annotate(f"{y:.0f}", (x, y), (0, 8), ha="center", color=INK, **words)
+        else:
+            ax.plot(x, y, "X", color=ALARM, markersize=9, zorder=3)
+            crashes = f"{y:.0f}: accidents on\n{100 * share:.0f} % of the roads"
+            ax.annotate(crashes, (x, y), (10, -18), color=ALARM, **words)
+    listed = (f"{x} m: {y:.0f}, {share:.0%}" for x, y, share in zip(sights, returns, crashed, strict=True))
+    return finish(figure, title, f"Sight, return and share of roads with an accident: {'; '.join(listed)}.")
+
+
+def speed_and_distance(drive: Rollout, title: str, first: int = 30) -> Figure:
+    """From a second on: the rule's speed, and the next car ahead in its lane, with a line where its sight ends."""
+    sight, steps = drive.scenario.sight.distance, drive.scenario.clock.steps
+    states = drive.states[first * drive.scenario.clock.decision_rate * steps :: steps]
+    seconds, distances = first + np.arange(len(states)) / drive.scenario.clock.decision_rate, []
+    for cars in states:
+        ahead = cars[(cars[:, LANE] == cars[EGO, LANE]) & (cars[:, X] > cars[EGO, X]), X]
+        distances.append(ahead.min() - cars[EGO, X] if len(ahead) else np.nan)
+    figure, colour = new_figure(4.0), style("rule").colour
+    speed, distance = axes_at(figure, 0.6, 0.75, 6.2, 1.1), axes_at(figure, 0.6, 2.3, 6.2, 1.2)
+    for ax, label, values in (
+        (speed, "speed (m/s)", states[:, EGO, SPEED]),
+        (distance, "next car ahead (m)", distances),
+    ):
+        ax.plot(seconds, values, color=colour, linewidth=1.8)
+        plain_axes(ax, label)
+        ax.set_xlim(first, seconds[-1])
+    distance.set_ylim(0.93 * sight, 1.05 * sight)
+    distance.axhline(sight, color=QUIET, linewidth=1, linestyle=(0, (4, 2)))
+    distance.text(seconds[-1], 1.03 * sight, f"its sight ends, {sight:g} m", fontsize=TEXT, color=QUIET, ha="right")
+    distance.set_xlabel("time (s)", fontsize=TEXT, color=INK)
+    seen = np.nanmedian(distances)
+    return finish(figure, title, f"From {first} s on the next car is at a median distance of {seen:.0f} m.")
