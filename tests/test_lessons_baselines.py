@@ -10,7 +10,7 @@ from bootcourse.course.lessons.imitation.figures import (
     agents_of,
     as_the_rule_would,
     believed,
-    half_escape,
+    half_success,
     still_going,
     success_around,
     updates_made,
@@ -65,11 +65,11 @@ def test_updates_are_counted_from_the_seconds_that_the_episodes_lasted():
     assert updates_made(results([[10, 150], [2, 4]])) == pytest.approx(np.array([[5, 80], [1, 3]]))
 
 
-def test_half_of_the_last_drives_escape_from_the_episode_that_makes_it_half():
+def test_half_of_the_last_drives_succeed_from_the_episode_that_makes_it_half():
     success = np.zeros((3, 4 * WINDOW))
     success[0, WINDOW:] = 1
     success[1, :WINDOW:2] = 1
-    assert half_escape(success).tolist() == [WINDOW, WINDOW // 2, 0]
+    assert half_success(success).tolist() == [WINDOW, WINDOW // 2, 0]
 
 
 def test_the_success_around_an_update_is_that_of_the_episodes_next_to_it():

@@ -3,7 +3,7 @@
 from functools import cache
 
 import numpy as np
-from bootcourse.course.lessons.imitation.figures import half_escape, updates_made
+from bootcourse.course.lessons.imitation.figures import half_success, updates_made
 from bootcourse.storage.assets import FOLDER
 from tools.course.known import of
 
@@ -17,10 +17,10 @@ def checked(row: int, column: str) -> str:
 
 
 def slower(axis: str) -> float:
-    """How many times CQL's episodes, or updates, GAIL needs until half of its drives escape: of the medians."""
+    """How many times CQL's episodes, or updates, GAIL needs until half of its drives succeed: of the medians."""
     medians = []
     for method in ("gail", "cql"):
-        at = half_escape(of(method).curves["success"])
+        at = half_success(of(method).curves["success"])
         needed = at if axis == "episodes" else np.take_along_axis(updates_made(of(method)), at[:, None] - 1, 1)[:, 0]
         medians.append(np.median(needed[at > 0]))
     return float(medians[0] / medians[1])
