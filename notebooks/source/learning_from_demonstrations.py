@@ -278,8 +278,6 @@ check.large_margin_loss(large_margin_loss)
 # in states where the critic gives another action a higher value. The paper's condition for *on* is
 #
 # $$ Q(s,a_E) \ge \max_a Q(s,a). $$
-#
-# So it is off if the expert's action has the second largest Q of nine.
 
 # %% [markdown]
 # **Exercise (3 min, ●○○).** Write the filter as it is printed.
@@ -339,7 +337,7 @@ bc.show(figures.margin_bars(q, bc.ACTION_NAMES.index("brake straight")))
 predict(
     "learning_from_demonstrations.5",
     "After 1,000 updates the filter is on in",
-    ["under 10 %", "10 to 20 %", "over 20 %"],
+    ["under 10 %", "about 10 %", "over 20 %"],
 )
 
 # %%
@@ -497,7 +495,6 @@ table([*headings, "states in which the demonstrated action has the largest Q"], 
 # Lines 2 and 3 are your `mixed_batch`, line 4 is `constrained_target`, line 5 `constrained_loss`.
 # `bootcourse/learn/textbook.py` is the box as a program. Do your parts make the same update as
 # ours? One at a time is put into our learner, and losses and gradients on one batch are compared.
-# What draws at random goes through its check again.
 
 # %%
 own_code.compare()

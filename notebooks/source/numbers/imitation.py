@@ -4,8 +4,10 @@ from functools import cache
 
 import numpy as np
 from bootcourse.course.lessons.imitation.figures import half_success, updates_made
+from bootcourse.course.lessons.imitation.reachable_entropy import REACHABLE, UPDATES, by_entropy  # noqa: F401
 from bootcourse.storage.assets import FOLDER
-from tools.course.known import of
+from scipy import stats
+from tools.course.known import of, shipped_experiment
 
 
 @cache
@@ -24,3 +26,14 @@ def slower(axis: str) -> float:
         needed = at if axis == "episodes" else np.take_along_axis(updates_made(of(method)), at[:, None] - 1, 1)[:, 0]
         medians.append(np.median(needed[at > 0]))
     return float(medians[0] / medians[1])
+
+
+def with_entropy(entropy: float):
+    """The GAIL agents that were trained with this target entropy (nats), beside others with another."""
+    return by_entropy(shipped_experiment("reachable-entropy")["gail"])[entropy]
+
+
+def accidents_p() -> float:
+    """The exact rank-sum p of these agents' accidents: a reachable target entropy against -1."""
+    first, second = (with_entropy(each).scores("accident") for each in (-1.0, REACHABLE))
+    return float(stats.mannwhitneyu(first, second, method="exact").pvalue)
