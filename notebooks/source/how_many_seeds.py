@@ -24,7 +24,7 @@
 # %%
 import bootcourse as bc
 import numpy as np
-import scipy
+import scipy.stats
 from bootcourse.course import check, compare_predictions, predict, shipped, table
 from bootcourse.course.lessons.how_many_seeds import figures as figures_seeds
 from bootcourse.research import figures, paper, report, results, tables
