@@ -19,7 +19,8 @@ def study(
     name: str = typer.Argument(
         "default",
         help="default, calibrated or paper; sweep; sensitivity, clocks, ablations, longer-view or teachers; "
-        "beyond-search or beyond; elsewhere; look-ahead or distil; bug-hunt, students, second-trap or easier.",
+        "beyond-search or beyond; elsewhere; look-ahead or distil; bug-hunt, students, second-trap, easier or "
+        "reachable-entropy.",
     ),
     out: Path = typer.Option(..., help="The study's folder: new, or that of a study to continue; all may share one."),
     seeds: int = typer.Option(0, min=0, help="Training seeds of each method; 0: the study's own number."),
@@ -42,7 +43,7 @@ def study(
     numbers. teachers: what a teacher is worth. beyond: methods that the paper does not train, at equal numbers of
     decisions, with the settings that beyond-search found. elsewhere: does a teacher help on other problems?
     look-ahead: agents with rollouts, and with wrong models. distil: do networks learn what the look-ahead does?
-    bug-hunt, students, second-trap and easier: the agents of four lessons.
+    bug-hunt, students, second-trap, easier and reachable-entropy: the agents of six lessons.
     """
     from bootcourse.research import plan
     from bootcourse.research.report import write_report

@@ -237,6 +237,7 @@ LESSON_EXPERIMENTS = {  # "module:name" of a LessonExperiment, imported when it 
     "students": "bootcourse.course.lessons.your_teacher.taught_agents:EXPERIMENT",
     "second-trap": "bootcourse.course.lessons.the_second_trap.ppo_kinds:EXPERIMENT",
     "easier": "bootcourse.course.lessons.the_barrier.easier:EXPERIMENT",
+    "reachable-entropy": "bootcourse.course.lessons.imitation.reachable_entropy:EXPERIMENT",
     "elsewhere": "bootcourse.research.elsewhere:EXPERIMENT",  # of no lesson, but a function of its own too
     "beyond-search": "bootcourse.research.equal_decisions:SEARCH",
     "beyond": "bootcourse.research.equal_decisions:EXPERIMENT",

@@ -32,7 +32,8 @@ CURVES = ("success", "return", "speed", "distance", "accident", "entropy")  # th
 VARIED_CURVES = ("success", "return", "xi", "decisions")  # of the experiments
 FEWER_CURVES = {"sweep": ("success", "return"), "teachers": ("success", "decisions"),
                 "beyond-search": (), "beyond": ("return", "decisions"),
-                "elsewhere": ("success", "return"), "easier": ("success", "alpha")}  # many agents  # fmt: skip
+                "elsewhere": ("success", "return"), "easier": ("success", "alpha"),
+                "reachable-entropy": ()}  # many agents  # fmt: skip
 RUNS = 5  # training seeds whose weights ship; curves and scores ship of all
 BUILD = "bootcourse assets build --study DIR"
 STUDY = f"bootcourse study --out DIR && {BUILD}"
