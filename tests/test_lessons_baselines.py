@@ -15,6 +15,7 @@ from bootcourse.course.lessons.imitation.figures import (
     success_around,
     updates_made,
 )
+from bootcourse.course.lessons.imitation.reachable_entropy import REACHABLE, by_entropy
 from bootcourse.course.shipped import (
     shipped_agents,
     shipped_bound,
@@ -92,3 +93,15 @@ def test_the_bound_that_ships_is_of_the_roads_that_the_agents_were_tested_on():
 def test_what_was_changed_one_number_at_a_time_ships_with_the_agents_of_the_ablation():
     varied = shipped_experiment("sensitivity")
     assert varied and all("bootstrapped" in results.methods for results in varied.values())
+
+
+def test_agents_with_a_reachable_target_entropy_ship_beside_agents_that_differ_from_them_in_it_alone():
+    varied = shipped_experiment("reachable-entropy")
+    assert set(varied) == {"gail", "cql_sac"}
+    for method, both in varied.items():
+        unreachable, reachable = by_entropy(both).values()
+        assert {agent["target_entropy"] for agent in unreachable.agents} == {-1.0}
+        assert {agent["target_entropy"] for agent in reachable.agents} == {REACHABLE}
+        pairs = zip(unreachable.agents, reachable.agents, strict=True)
+        assert all(first | {"target_entropy": REACHABLE} == second for first, second in pairs)
+        assert len(reachable.of(method)) == 5 and 0 < REACHABLE < np.log(9)

@@ -190,9 +190,9 @@ bc.show(figures_seeds.powers(((0.8, 0.3), (0.8, 0.6)), (3, 5, 8, 10, 12, 15, 20,
 # **See.** Ten against ten find even this large difference in
 # {{ 100 * power(0.8, 0.3, 10) | .0f }} % of the studies; {{ enough(0.8, 0.3) }} agents of each are
 # the fewest with a power of 80 %. A smaller difference, 80 against 60 %, needs far more than the
-# table's 25. So the KL's place is *not* cleared as a reason: ten agents hardly could have shown
+# figure's 30. So the KL's place is *not* cleared as a reason: ten agents hardly could have shown
 # that it matters.
-# <!-- claim: power(0.8, 0.3, 10) < 0.5 and power(0.8, 0.6, 25) < 0.4 -->
+# <!-- claim: power(0.8, 0.3, 10) < 0.5 and power(0.8, 0.6, 30) < 0.4 -->
 #
 # ### Many comparisons
 #
