@@ -378,7 +378,7 @@ print(f"episodes of each agent: {training.curves.finished.tolist()}")
 # %% tags=["hide-input"]
 loss = torch.stack([each["discriminator_loss"] for each in noted]).T.numpy()
 smooth = loss[:, : len(noted) // 50 * 50].reshape(len(agents), -1, 50).mean(-1)
-updates, marks = np.arange(smooth.shape[1]) * 50, {"it cannot tell (D = ½)": 2 * np.log(2)}
+updates, marks = np.arange(smooth.shape[1]) * 50, {"guessing: D = ½": 2 * np.log(2)}
 title = "The lower the loss, the better the discriminator recognises its agent"
 words = "discriminator's loss"
 bc.show(charts.lines(updates, {"gail": smooth}, title, "update", words, marks=marks))
@@ -402,7 +402,7 @@ table(["200 roads", "success, %", "collisions, %", "road departures, %", "return
 
 # %%
 choices = ["fewer", "about as many", "more than twice as many"]
-predict("imitation.5", "Paid log D, in as many updates each agent drives episodes", choices)
+predict("imitation.4", "Paid log D, in as many updates each agent drives episodes", choices)
 
 
 # %%
@@ -414,7 +414,7 @@ training = bc.Training(agents, episodes=20_000, make_learner=PaysLogD)
 other = training.run(stop=lambda: training.updates >= 2500)
 rows = []
 for words, each in (("−log (1 − D)", result), ("log D", other)):
-    curves = [curve[np.isfinite(curve)] for curve in each.curves["accident"]]
+    curves = [curve[np.isfinite(curve)] > 0 for curve in each.curves["accident"]]
     counts = [len(curve) for curve in curves]
     last = [100 * curve[-50:].mean() for curve in curves]
     rows.append([words, *counts, *(f"{share:.0f}" for share in last)])
@@ -423,7 +423,8 @@ table(headings, rows)
 
 # %% [markdown]
 # **See.** (Yours will differ.) Paid log D, the agents learn to end their drives early, by an
-# accident, so as many decisions make many more episodes. Nothing but the reward's sign has changed.
+# accident, so as many decisions make many more episodes. Nothing but the reward has
+# changed.
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Before the training, ask what the loss will do if the agent becomes as good as the rule, and what
@@ -438,7 +439,7 @@ table(headings, rows)
 
 # %%
 choices = ["CQL", "GAIL", "about as many"]
-predict("imitation.4", "Fewer updates until half of the drives succeed", choices)
+predict("imitation.5", "Fewer updates until half of the drives succeed", choices)
 
 # %%
 bc.show(figures_baselines.success_in_training(study))
@@ -501,8 +502,8 @@ compare_predictions(
         1: f"{escaping} of ten",
         2: "−log (1 − D)",
         3: round(100 * ahead),
-        4: "CQL",
-        5: f"{rows[1][1]:,} and {rows[1][2]:,} instead of {rows[0][1]:,} and {rows[0][2]:,}",
+        4: f"{rows[1][1]:,} and {rows[1][2]:,} instead of {rows[0][1]:,} and {rows[0][2]:,}",
+        5: "CQL",
     },
 )
 
