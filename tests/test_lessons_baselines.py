@@ -11,9 +11,8 @@ from bootcourse.course.lessons.imitation.figures import (
     success_around,
     updates_made,
 )
-from bootcourse.course.shipped import (
-    shipped_drive,
-)
+from bootcourse.course.lessons.imitation.reachable_entropy import REACHABLE, by_entropy
+from bootcourse.course.shipped import shipped_drive, shipped_experiment
 from bootcourse.research.results import Results
 
 
@@ -47,3 +46,15 @@ def test_the_success_around_an_update_is_that_of_the_episodes_next_to_it():
 def test_the_figure_says_which_share_of_the_drives_ended_early():
     figure = still_going(results([[150, 150.0001, 20, 149.5], [150, 150, 150, 150]]), methods=("gail",))
     assert "25.0 % of GAIL's" in figure.alt and "50, 100 at 150" in figure.alt
+
+
+def test_agents_with_a_reachable_target_entropy_ship_beside_agents_that_differ_from_them_in_it_alone():
+    varied = shipped_experiment("reachable-entropy")
+    assert set(varied) == {"gail", "cql_sac"}
+    for method, both in varied.items():
+        unreachable, reachable = by_entropy(both).values()
+        assert {agent["target_entropy"] for agent in unreachable.agents} == {-1.0}
+        assert {agent["target_entropy"] for agent in reachable.agents} == {REACHABLE}
+        pairs = zip(unreachable.agents, reachable.agents, strict=True)
+        assert all(first | {"target_entropy": REACHABLE} == second for first, second in pairs)
+        assert len(reachable.of(method)) == 5 and 0 < REACHABLE < np.log(9)

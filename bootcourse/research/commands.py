@@ -19,7 +19,8 @@ def study(
     name: str = typer.Argument(
         "default",
         help="default, calibrated or paper; sensitivity, clocks, ablations, longer-view or teachers; "
-        "beyond-search or beyond; elsewhere; checks; look-ahead or distil; bug-hunt, students, second-trap or easier.",
+        "beyond-search or beyond; elsewhere; checks; look-ahead or distil; bug-hunt, students, second-trap, easier or "
+        "reachable-entropy.",
     ),
     out: Path = typer.Option(..., help="The study's folder: new, or that of a study to continue; all may share one."),
     seeds: int = typer.Option(0, min=0, help="Training seeds of each method; 0: the study's own number."),
@@ -41,8 +42,8 @@ def study(
     ablation, varied. longer-view: its method with other numbers. teachers: what a teacher is worth. beyond: methods
     that the paper does not train, at equal numbers of decisions, with the settings of beyond-search. elsewhere: does a
     teacher help on other problems? checks: do our learners reach published figures? look-ahead: agents with rollouts,
-    and with wrong models. distil: do networks learn what the look-ahead does? bug-hunt, students, second-trap and
-    easier: the agents of four lessons.
+    and with wrong models. distil: do networks learn what the look-ahead does? bug-hunt, students, second-trap, easier
+    and reachable-entropy: the agents of five lessons.
     """
     from bootcourse.research import checks, plan
     from bootcourse.research.report import write_report

@@ -154,6 +154,7 @@ EXPERIMENTS = {  # "module:name" of each, imported when it is used
     "students": "bootcourse.course.lessons.your_teacher.taught_agents:EXPERIMENT",
     "second-trap": "bootcourse.course.lessons.the_second_trap.ppo_kinds:EXPERIMENT",
     "easier": "bootcourse.course.lessons.the_barrier.easier:EXPERIMENT",
+    "reachable-entropy": "bootcourse.course.lessons.imitation.reachable_entropy:EXPERIMENT",
 }
 
 

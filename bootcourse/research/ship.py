@@ -33,7 +33,8 @@ CURVES = ("success", "return", "speed", "distance", "accident", "entropy")  # th
 VARIED_CURVES = ("success", "return", "xi", "decisions")  # of an `Experiment`
 FEWER_CURVES = {"teachers": ("success", "decisions"),
                 "beyond-search": (), "beyond": ("return", "decisions"),
-                "elsewhere": ("success", "return"), "easier": ("success", "alpha")}  # many agents  # fmt: skip
+                "elsewhere": ("success", "return"), "easier": ("success", "alpha"),
+                "reachable-entropy": ()}  # many agents  # fmt: skip
 RUNS = 5  # training seeds whose weights ship; curves and scores ship of all
 PICTURES = "readme", "python -m bootcourse.plots.readme_picture"  # what no study makes, and the command that does
 

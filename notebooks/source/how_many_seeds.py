@@ -24,7 +24,7 @@
 # %%
 import bootcourse as bc
 import numpy as np
-import scipy
+import scipy.stats
 from bootcourse.course import check, compare_predictions, predict, shipped, table
 from bootcourse.course.lessons.how_many_seeds import figures as figures_seeds
 from bootcourse.research import figures, paper, report, results, tables
@@ -39,10 +39,12 @@ from bootcourse.research import figures, paper, report, results, tables
 
 # %%
 for agent in (bc.shipped_agents("sac")[i] for i in (0, 3)):
-    drive = bc.record(agent.as_policy(), [10], label=f"seed {agent.settings.seed}")[0]
-    end = drive.times[-1]
-    bc.show(bc.top_view_over_time(drive, times=[0, bc.overtaken(drive) or end / 2, end]))
-    print(f"seed {agent.settings.seed}: return {drive.rewards.sum():.0f} after {end:.0f} s")
+    drive = bc.record(agent.as_policy(), [10], label=f"sac, seed {agent.settings.seed}")[0]
+    end, passed = drive.times[-1], bc.overtaken(drive)
+    words = f"is ahead of trap 1 after {passed:.0f} s" if passed else "stays behind trap 1"
+    words += f" and earns {drive.rewards.sum():.0f}"
+    title = f"Plain SAC, seed {agent.settings.seed}, {words}"
+    bc.show(bc.top_view_over_time(drive, times=[passed or end], title=title))
 
 # %% [markdown]
 # Had you trained the second one alone, you would write that plain SAC leaves the trap. Of our ten,
@@ -54,12 +56,13 @@ for agent in (bc.shipped_agents("sac")[i] for i in (0, 3)):
 # demonstrations. That makes four methods: neither (plain SAC), each alone, and both. You know our
 # counts from the last lessons. What are they worth?
 #
-# > **Predict.** Eight of ten agents with the soft constraint alone escape. You train a hundred
-# > more. At least how many of them will escape? Name the highest number that you would bet on.
+# > **Predict.** Eight of ten agents with the soft constraint alone escape. You train very many
+# > more. At least what share of them will escape? Name the highest share on which you would bet 39
+# > to 1.
 # <!-- claim: escaped('soft') == 8 and len(of('soft')) == 10 -->
 
 # %%
-predict("how_many_seeds.1", "At least so many of the next hundred escape", unit="of 100")
+predict("how_many_seeds.1", "At least this share of very many more escapes", unit="%")
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Ask how many of them have published or handed in a figure with one training behind each line.
@@ -117,20 +120,19 @@ for method in methods:
     luck = scipy.stats.fisher_exact([[won.sum(), (~won).sum()], [one, 1 - one]]).pvalue
     rows.append([bc.display_name(method), tables.k_of_n(won), f"{printed:g} %", f"{luck:.2f}"])
 theirs = f"the paper's success, {paper.EPISODES} drives"
-table(["", "agents that escape (95 %)", theirs, "p, if one agent drove them"], rows)
+table(["", "agents that escape (95 %)", theirs, "p against ours, if one agent drove all"], rows)
 
 # %% [markdown]
 # **See.** Two rows look opposite: the soft constraint alone, and the demonstrations alone. Do they
 # contradict the paper? Its rates count test episodes, about {{ EPISODES }} by its printed
 # deviations, and it does not say how many agents drove them. Twenty drives of one agent say how
-# that agent drives. Of how often training succeeds they are *one* sample, not twenty.
+# that agent drives. They are *one* sample, not twenty, of how often training succeeds.
 #
-# The last column takes the paper's row as one agent. If its trainings succeed as often as ours, how
-# probable is a difference at least this large? That is the *p value* of Fisher's exact test:
-# {{ with_one_agent('soft') | .2f }} and {{ with_one_agent('demos') | .2f }}. The second comes from
-# the most extreme result that there is, one of one against none of ten, and still is not below
-# 0.05. So with one agent behind a row this test cannot find a difference, whatever happens: such a
-# row can neither contradict our ten nor agree with them.
+# A row with one agent behind it can neither contradict our ten nor agree with them. The last column
+# takes the paper's row as one agent, and asks: if its trainings succeed as often as ours, how
+# probable is a difference at least this large? That is the *p value* of Fisher's exact test. Even
+# the most extreme case, one of one against none of ten, has a p of
+# {{ with_one_agent('demos') | .2f }}, so this test cannot find a difference, whatever happens.
 # <!-- claim: 0.05 < with_one_agent('demos') < with_one_agent('soft') and escaped('soft') > 5 and
 #   escaped('demos') == 0 and abs(with_one_agent('demos') - 1 / 11) < 1e-9 -->
 
@@ -182,32 +184,33 @@ def power(first, second, shown):
 check.power(power)
 
 # %%
-# NBVAL_CHECK_OUTPUT
-rows = []
-for n in (5, 10, 15, 20, 25):
-    of_100 = [100 * bc.statistics.power(*rates, n) for rates in ((0.8, 0.3), (0.8, 0.6))]
-    rows.append([n, *(f"{each:.0f} %" for each in of_100)])
-table(["agents of each", "power for 80 against 30 %", "for 80 against 60 %"], rows)
+bc.show(figures_seeds.powers(((0.8, 0.3), (0.8, 0.6)), (3, 5, 8, 10, 12, 15, 20, 25, 30)))
 
 # %% [markdown]
 # **See.** Ten against ten find even this large difference in
 # {{ 100 * power(0.8, 0.3, 10) | .0f }} % of the studies; {{ enough(0.8, 0.3) }} agents of each are
 # the fewest with a power of 80 %. A smaller difference, 80 against 60 %, needs far more than the
-# table's 25. So the KL's place is *not* cleared as a reason: ten agents hardly could have shown
+# figure's 30. So the KL's place is *not* cleared as a reason: ten agents hardly could have shown
 # that it matters.
-# <!-- claim: power(0.8, 0.3, 10) < 0.5 and power(0.8, 0.6, 25) < 0.4 -->
+# <!-- claim: power(0.8, 0.3, 10) < 0.5 and power(0.8, 0.6, 30) < 0.4 -->
+#
+# ### Many comparisons
 #
 # A second error waits at the other side. If twelve independent comparisons have no true difference
 # behind them, at least one p is below 0.05 with a chance of {{ 100 * (1 - 0.95**12) | .0f }} %.
 # This is **multiplicity**: one p of 0.03 among a dozen is a hint. Say beforehand which comparison
-# counts; or multiply each p by the number of comparisons (Bonferroni). Better still, multiply the
-# smallest p by their number, the next by one less, and so on; no p may then be below the one before
-# it (Holm):
+# counts; or multiply each p by the number of comparisons (Bonferroni). *Holm's* way finds more:
+#
+# 1. Sort the p values, the smallest first.
+# 2. Multiply the first by their number n, the second by n − 1, and so on.
+# 3. If one comes out below the one before it, replace it by that one.
 
 # %%
 # NBVAL_CHECK_OUTPUT
-p = np.sort([0.030, 0.004, 0.040])  # of three comparisons
-print("after Holm:", np.maximum.accumulate(p * [3, 2, 1]).round(3))
+p, times = np.sort([0.030, 0.004, 0.040]), np.array([3, 2, 1])  # of three comparisons
+after = np.maximum.accumulate(p * times)
+rows = [[f"{a:.3f}", t, f"{b:.3f}"] for a, t, b in zip(p, times, after, strict=True)]
+table(["p", "times", "after Holm"], rows)
 
 # %% [markdown] tags=["instructor"] minutes=6
 # Let each group name a difference that it would care about, and look up the number of agents.
@@ -244,16 +247,19 @@ returns = np.sort(study.of("bootstrapped").scores("returns"))
 worse = np.append(returns[:-1], returns[0])  # the best agent earns what the worst one earns
 numbers = {"mean": np.mean, "median": np.median, "IQM": bc.statistics.iqm}
 falls = {name: float(f(returns) - f(worse)) for name, f in numbers.items()}
-print("bootstrapped agents:", ", ".join(f"{each:.0f}" for each in returns))
-print(
-    "; ".join(f"{name} {f(returns):.1f}, falls by {falls[name]:.1f}" for name, f in numbers.items())
-)
+rows = [
+    [name, f"{f(returns):.1f}", f"{f(worse):.1f}", f"{falls[name]:.1f}"]
+    for name, f in numbers.items()
+]
+below = "The agents' returns: " + ", ".join(f"{each:.0f}" for each in returns) + "."
+headings = ["bootstrapped agents", "return", "if the best crashed, too", "falls by"]
+table(headings, rows, below=below)
 
 # %% [markdown]
 # **See.** The IQM falls most. It leaves out two agents at each end, so the third low agent counts
 # already, and a fourth takes the place of a high one among the six that are left. An IQM resists an
-# outlier or two; it does not resist a second group. And it describes no agent here: the nearest one
-# earns {{ nearest_to_iqm('bootstrapped') | .0f }} more or less. That is why our tables also count
+# outlier or two; it does not resist a second group. And no agent earns what it says: the nearest
+# return is {{ nearest_to_iqm('bootstrapped') | .0f }} away. That is why our tables also count
 # agents.
 # <!-- claim: (lambda r, w: iqm(r) - iqm(w) > r.mean() - w.mean() > np.median(r) - np.median(w))(
 #   np.sort(of('bootstrapped').scores('returns')),
@@ -262,7 +268,7 @@ print(
 #   (of('bootstrapped').scores('returns') < 60).sum() == 3 -->
 #
 # > **Predict.** Somebody repeats the study of the bootstrapped agents with ten other seeds. By how
-# > much might their mean return differ from ours: by 2, by 10, by 40?
+# > much might their mean return differ from ours: by 2, by 10, by 50?
 
 # %%
 predict(
@@ -311,7 +317,7 @@ bc.show(figures.final_scores(study, methods))
 # <!-- claim: of('soft').scores('returns').mean() < interval(of('soft').scores('returns')[:3],
 #   np.mean).low -->
 #
-# The diamonds are the paper's returns. Where ours are higher, agents drive faster than the rule,
+# Where our returns are higher than the paper's (the diamonds), agents drive faster than the rule,
 # and that has a price:
 # <!-- claim: all(of(m).scores('returns').mean() > PRINTED[m]['returns'].mean and
 #   of(m).scores('speed').mean() > of('rule').scores('speed').mean() and accidents(m) >
@@ -411,12 +417,12 @@ words += "holds 0." if effect.low <= 0 <= effect.high else "does not hold 0."
 table(["success, %", "IQM", "the agents, sorted"], rows, below=words)
 
 # %% [markdown]
-# **Explain.** (Yours will differ from ours.) You may say only whether these five learned earlier,
-# with these settings, and how far the difference may be off. You may not say that the bonus is
-# useless or needed: after 20,000 updates it is another question. And be careful with the interval:
-# of five scores the IQM leaves out the highest and the lowest, and with so few agents a bootstrap
-# interval is often too short. If it just misses 0, train ten more. How many would settle it? Round
-# 2 tells you before you start.
+# **Explain.** (Yours will differ from ours.) The result covers these settings and 150 episodes: it
+# says which group learned earlier, and how uncertain that difference is. It does not say whether
+# the bonus is needed; after 20,000 updates that is another question. And be careful with the
+# interval: of five scores the IQM leaves out the highest and the lowest, and with so few agents a
+# bootstrap interval is often too short. If it just misses 0, train ten more. How many would settle
+# it? Round 2 tells you before you start.
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Give each group another number to change, and collect the results on the board: one row for each

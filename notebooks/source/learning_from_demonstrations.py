@@ -38,7 +38,7 @@ from bootcourse.course import (
     shipped,
     table,
 )
-from bootcourse.course.lessons.the_barrier import figures
+from bootcourse.course.lessons.learning_from_demonstrations import figures
 from bootcourse.panels.bonus import bonus_numbers
 
 # %% [markdown]
@@ -55,10 +55,12 @@ stays = bc.record(bc.idle_policy, roads, label="idle")
 each = bonus_numbers(by_rule[10], stays[10], bc.settings_for("bootstrapped"))
 named = {"rule": each.plain[:60], "idle, stays behind": each.trapped[:60]}
 title = "At first the rule's way out is worth less than staying behind, later more"
-bc.show(charts.lines(np.arange(60), named, title, "second of the drive", "discounted return"))
+label = "discounted return from this second on"
+bc.show(charts.lines(np.arange(60), named, title, "second of the drive", label))
 
 # %% [markdown]
-# So pay the learner a **bonus** c for each second that is demonstrated, on top of the reward.
+# (The peaks are the seconds in which the rule speeds up: lesson [[the_rule]].) So pay the learner a
+# **bonus** c for each second that is demonstrated, on top of the reward.
 #
 # > **Predict.** How large must c be for the rule's way to be worth more from the start: 0.005,
 # > 0.05, 0.5 or 5?
@@ -110,14 +112,16 @@ predict(
 )
 
 # %%
+rows = []
 for episode in (0, 250, 500, 999, 2000):
     beta = bc.bootstrap.demonstration_share(episode, 0.6, 1000)
-    print(f"episode {episode:4}: β = {beta:.3f}, {round(64 * beta):2} of 64 rows are the rule's")
-bc.show(figures.fading(bc.settings_for("bootstrapped")))
+    rows.append([f"{episode:,}", f"{beta:.3f}", round(64 * beta)])
+table(["episode", "β", "of 64 rows are the rule's"], rows)
 
 # %% [markdown]
 # **Explain.** These rows do not push the actor towards the rule's actions. They teach the critic
-# what the rule's actions led to.
+# what the rule's actions led to. An action that the critic values more becomes likelier, so
+# demonstrations reach the actor only through Q.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Draw a batch as a row of 64 boxes. Shade the rule's after 0, 500 and 1,000 episodes.
@@ -153,13 +157,19 @@ check.mixed_batch(mixed_batch)
 # How large must c be? On 20 roads:
 
 # %%
+rows = []
 for gamma in (0.8, 0.9, 0.95):
     settings = bc.settings_for("bootstrapped", gamma=gamma)
     seen = [bonus_numbers(d, i, settings) for d, i in zip(by_rule, stays, strict=True)]
     better = sum(each.plain[0] > each.trapped[0] for each in seen)
     needed = max(each.crossing.max() for each in seen)
-    words = f"γ = {gamma}: the rule's way is worth more on {better:2} of {len(seen)} roads"
-    print(f"{words}; a bonus of {needed:.3f} makes it so on all, at every second")
+    rows.append([gamma, f"{better} of {len(seen)}", f"{needed:.3f}"])
+headings = [
+    "γ",
+    "roads on which the rule's way is worth more",
+    "c that makes it so at every second",
+]
+table(headings, rows)
 
 # %% [markdown]
 # **See.** On each of the 20 roads a bonus of 0.06 a second is enough at γ = {{ SETTINGS.gamma }}.
@@ -177,22 +187,27 @@ predict(
 )
 
 # %%
-drive, idle = by_rule[10], stays[10]
+rows = []
 for c in (0.0, 0.05, 0.5, 2.0):
-    each = bonus_numbers(drive, idle, bc.settings_for("bootstrapped", bonus=c))
-    values = f"the rule's way {each.augmented[0]:5.2f}, staying {each.trapped[0]:.2f}"
-    print(f"c = {c:4}: {values}; the bonus adds {c * each.weight[0]:5.2f} = c / (1 - γ)")
+    each = bonus_numbers(by_rule[10], stays[10], bc.settings_for("bootstrapped", bonus=c))
+    values = (each.augmented[0], each.trapped[0], c * each.weight[0])
+    rows.append([c, *(f"{value:.2f}" for value in values)])
+table(["c", "the rule's way", "staying", "the bonus adds c / (1 − γ)"], rows)
 
 # %%
 bc.panels.bonus_panel()
 
 # %% [markdown]
-# **Explain.** (In the panel the thick line is the rule's drive with the bonus, the dashed one
-# without it.) If each second from now on is demonstrated, c = {{ SETTINGS.bonus }} adds {{
-# SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f }} to the return: as much as an accident costs. The
-# rule's own rewards differ by tenths, so the bonus decides which action looks best. The critic's
-# values need not rise by that much: in the learner's own rows the same actions are paid no bonus.
-# Round 5 measures it. When β is 0, the critic has to unlearn what the bonus added.
+# **Explain.** c = {{ SETTINGS.bonus }} is more than thirty times what is needed. If each second
+# from now on is demonstrated, it adds {{ SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f }} to the
+# return: as much as an accident costs, while the rule's own rewards differ by tenths. So in the
+# *target* of a demonstrated row the bonus outweighs the rewards. (In the panel the thick line is
+# the rule's drive with the bonus, the dashed one without it.)
+#
+# That does not yet make the demonstrated action the best one for the critic: in the learner's own
+# rows the same actions are paid no bonus, and the other actions' values may rise, too. Round 5
+# measures both. And when β is 0, the critic has to unlearn what the bonus added.
+# <!-- claim: SETTINGS.bonus > 30 * 0.06 -->
 # <!-- claim: round(SETTINGS.bonus / (1 - SETTINGS.gamma)) == 10 -->
 # <!-- claim: math.isclose(SETTINGS.bonus / (1 - SETTINGS.gamma), -DEFAULT.reward.accident) -->
 # <!-- claim: demonstration_share(1000, 0.6, 1000) == 0 -->
@@ -263,15 +278,6 @@ check.large_margin_loss(large_margin_loss)
 # in states where the critic gives another action a higher value. The paper's condition for *on* is
 #
 # $$ Q(s,a_E) \ge \max_a Q(s,a). $$
-#
-# > **Predict.** The expert's action has the second largest Q of nine. Is the loss on or off?
-
-# %%
-predict(
-    "learning_from_demonstrations.5",
-    "For the second largest Q of nine the loss is",
-    ["on", "off", "on in half of the states"],
-)
 
 # %% [markdown]
 # **Exercise (3 min, ●○○).** Write the filter as it is printed.
@@ -315,20 +321,24 @@ check.margin_loss(margin_loss)
 
 # %% tags=["hide-input"]
 q = [0.2, 1.1, 0.3, 0.6, 0.9, 0.4, 0.5, 1.4, 0.1]
-expert = bc.ACTION_NAMES.index("brake straight")
-margin = [value + (action != expert) for action, value in enumerate(q)]
-qs, who, even = torch.tensor([q]), torch.tensor([expert]), torch.full((1, 9), 1 / 9).log()
-print(f"J_E = {bc.bootstrap.large_margin_loss(qs, who).item():.2f}", end="; ")
-print(f"printed filter {bc.bootstrap.paper_q_filter(qs, who).item():.0f}", end=", ")
-print(f"usual filter for an even policy {bc.bootstrap.q_filter(qs, who, even).item():.0f}")
-title = "The expert brakes, with the second largest Q: the loss would lift it, the filter is off"
-bc.show(charts.action_bars({"Q": q, "Q + l": margin}, title, "value"))
+bc.show(figures.margin_bars(q, bc.ACTION_NAMES.index("brake straight")))
 
 # %% [markdown]
 # How often is the printed filter on? Train two learners with the margin, and two without it as a
 # control. All four have the soft constraint and demonstrations without a bonus. Ask their critics,
 # before the first update and as they learn, about the first 20 seconds of the rule's drives: the
 # way out.
+#
+# > **Predict.** Before the first update the rule's action has the largest of nine random values by
+# > chance, in about a ninth of the states. In which share of these states is the filter on after
+# > 1,000 updates, for the learners with the margin?
+
+# %%
+predict(
+    "learning_from_demonstrations.5",
+    "After 1,000 updates the filter is on in",
+    ["under 10 %", "about 10 %", "over 20 %"],
+)
 
 # %%
 way = np.concatenate([drive.observations[:20] for drive in by_rule])
@@ -349,25 +359,18 @@ def ask(training):
 control = bc.with_seeds(bc.settings_for("bootstrapped", bonus=0.0), 2)
 training = bc.Training(bc.with_seeds(bc.settings_for("margin_soft"), 2) + control, episodes=20_000)
 training.run(callback=ask, updates=ASKED[-1] + 1)
-rows = [
-    [
-        f"{update:,}",
-        ", ".join(f"{on:.0f}" for on in four[:2]),
-        ", ".join(f"{on:.0f}" for on in four[2:]),
-    ]
-    for update, four in switched_on.items()
-]
-table(["after updates", "on with the margin, % (two seeds)", "without it, %"], rows)
+rows = [[f"{update:,}", *(f"{on:.0f}" for on in four)] for update, four in switched_on.items()]
+headings = ["filter on, %, after updates", "with the margin, seed 0", "seed 1"]
+table([*headings, "without it, seed 0", "seed 1"], rows)
 
 # %% [markdown]
-# **Explain.** (Yours will differ.) The filter that looked useless on paper is on in almost half of
-# these states soon after the start. But in our runs the margin loss itself switched it on: after
-# 250 updates the control has it on in about as many states as before the first. The loss raises a
-# lead wherever it finds one. Later the critic's own targets give the rule's action the largest Q in
-# some states, too.
+# **Explain.** (Yours will differ.) In our runs the filter, which looked useless on paper, is soon
+# on in almost half of these states, because the margin loss itself raises the leads that it finds:
+# in the control, without the loss, it stays about as rare as at the start for 250 updates. Later
+# the critic's own targets give the rule's action the largest Q in some states, too.
 #
-# In our study neither method works without the soft constraint: none of the ten agents with the
-# margin and none of the ten with the bonus escapes (success on at least {{ 100 * ESCAPES | .0f }} %
+# **Does it work?** In our study neither the margin nor the bonus works without the soft constraint:
+# none of ten agents each escapes (success on at least {{ 100 * ESCAPES | .0f }} %
 # of the {{ roads() | , }} held-out roads). Lesson [[how_many_seeds]] counts the others.
 # <!-- claim: {len(of(m)) for m in ('margin', 'demos')} == {10} -->
 # <!-- claim: escaped('margin') == 0 and escaped('demos') == 0 -->
@@ -383,7 +386,8 @@ table(["after updates", "on with the margin, % (two seeds)", "without it, %"], r
 # Four learners with demonstrations, side by side: two with c = {{ SETTINGS.bonus }}, two with c = 0
 # as a control. They learn without the soft constraint, and β stays at {{ SETTINGS.beta_start }}, so
 # that c is the only difference. We read from their critics, on the way out, the mean Q of the
-# demonstrated action, of its best rival, and of all eight others.
+# demonstrated action and of the eight others, and how often the demonstrated action's is the
+# largest.
 # <!-- claim: settings_for('demos').xi_multiplier == 0 and settings_for('demos').xi_fixed is None
 #   -->
 #
@@ -402,20 +406,19 @@ UPDATES, EVERY = 4000, 200
 agents = bc.with_seeds(bc.settings_for("demos", beta_episodes=None), 2)
 agents += bc.with_seeds(bc.settings_for("demos", beta_episodes=None, bonus=0.0), 2)
 places = rule_did.numpy()[:, None]
-noted = {"update": [], "expert": [], "rival": [], "others": []}
+noted = {"update": [], "expert": [], "others": [], "largest": []}
 
 
 def note(training):
-    """Every 200 updates: mean Q of what the rule did, of the best other action, of all others."""
+    """Every 200 updates: mean Q of what the rule did, of the others; how often it is largest."""
     if training.updates % EVERY or training.updates in noted["update"]:
         return
-    values = {"update": training.updates, "expert": [], "rival": [], "others": []}
+    values = {"update": training.updates, "expert": [], "others": [], "largest": []}
     for i in range(len(agents)):
         q = training.agent(i).q_values(way)
         values["expert"].append(np.take_along_axis(q, places, 1).mean())
         values["others"].append((q.sum(1).mean() - values["expert"][-1]) / 8)
-        np.put_along_axis(q, places, -np.inf, 1)
-        values["rival"].append(q.max(1).mean())
+        values["largest"].append(100 * np.mean(q.argmax(1) == places[:, 0]))
     for name, value in values.items():
         noted[name].append(value)
 
@@ -426,35 +429,42 @@ result = training.run(callback=note, updates=UPDATES + 1)
 print(f"{result.seconds:.0f} s; episodes of each: {training.curves.finished.tolist()}")
 
 # %%
-expert, rival, others = (np.array(noted[name]).T for name in ("expert", "rival", "others"))
+expert, others, largest = (np.array(noted[name]).T for name in ("expert", "others", "largest"))
 lead = expert - others
 looks = [charts.Style("#E69F00"), charts.Style("#5F6B77", "--")]
-title = f"c = 2 leads by {lead[:2, -1].mean():.1f} in the end, c = 0 by {lead[2:, -1].mean():.1f}"
-label = "lead of the demonstrated action over the mean of the others, in Q"
-named = {"c = 2": lead[:2], "c = 0": lead[2:]}
-bc.show(charts.lines(noted["update"], named, title, "update", label, looks=looks))
+title = (
+    f"A bonus of 2 gives the demonstrated action a lead of about {lead[:2, -1].mean():.1f}, not 10"
+)
+named, label = {"c = 2": lead[:2], "c = 0": lead[2:]}, "lead over the mean of the others, in Q"
+marks = {"what c = 2 adds to the return": 10.0}
+figure = charts.lines(noted["update"], named, title, "update", label, looks=looks, marks=marks)
+bc.show(figure)
 
 # %%
 rows = []
 for i, agent in enumerate(result.agents):
-    numbers = (expert[i].max(), expert[i, -1], rival[i, -1], others[i, -1])
+    numbers = (expert[i].max(), expert[i, -1], others[i, -1])
     words = f"c = {agent.settings.bonus:g}, seed {agent.settings.seed}"
-    rows.append([words, *(f"{number:.2f}" for number in numbers)])
-table(["mean Q", "demonstrated, highest", "at the end", "best rival", "mean of the others"], rows)
+    rows.append([words, *(f"{number:.2f}" for number in numbers), f"{largest[i, -1]:.0f} %"])
+headings = ["mean Q", "demonstrated, highest", "at the end", "others, at the end"]
+table([*headings, "states in which the demonstrated action has the largest Q"], rows)
 
 # %% [markdown]
-# **Explain.** (Yours will differ.) In our runs c = {{ SETTINGS.bonus }} raised the demonstrated
-# actions' Q far above the control's, in one critic almost to {{ SETTINGS.bonus / (1 -
-# SETTINGS.gamma) | .0f }}. But the other actions rose, too, so the lead over their mean grew by
-# much less than that. With two seeds each we see this, and not how large the lead is. (The *best*
-# rival may be above the demonstrated action: the best of eight uncertain values is often one that
-# is too high by luck.)
+# **See.** (Yours will differ.) The bonus gives the demonstrated actions a much higher Q than the
+# control has. But the other actions' Q rises with it, so the lead is far from {{ SETTINGS.bonus /
+# (1
+# - SETTINGS.gamma) | .0f }}. And a high mean is not yet the highest value: compare the last column.
+# The bonus does *not* decide which action looks best to these critics. With two seeds each we see
+# this, and not how large the effects are.
 #
-# Does the raised value last? Five `demos` agents of the study ship with their critics. After
-# training, long after β has reached 0, the mean Q of the rule's actions on the way out lies between
-# {{ demonstrated_q().min() | .1f }} and {{ demonstrated_q().max() | .1f }}: little or nothing of
-# the bonus is left.
-# <!-- claim: len(demonstrated_q()) == 5 and demonstrated_q().max() < 2 -->
+# **Does the raised value last?** Five `demos` agents of the study ship with their critics. After
+# training, long after β has reached 0, little or nothing of the bonus is left: the mean Q of the
+# rule's actions on the way out lies between {{ demonstrated_q().min() | .1f }} and
+# {{ demonstrated_q().max() | .1f }}, and they have the largest Q in
+# {{ 100 * demonstrated_largest('demos').min() | .0f }} to
+# {{ 100 * demonstrated_largest('demos').max() | .0f }} % of these states.
+# <!-- claim: len(demonstrated_q()) == 5 and demonstrated_q().max() < 2 and
+#   demonstrated_largest('demos').max() < 0.3 -->
 #
 # The paper's method has a second ingredient, the soft constraint of lesson [[soft_constraint]].
 
@@ -485,7 +495,6 @@ table(["mean Q", "demonstrated, highest", "at the end", "best rival", "mean of t
 # Lines 2 and 3 are your `mixed_batch`, line 4 is `constrained_target`, line 5 `constrained_loss`.
 # `bootcourse/learn/textbook.py` is the box as a program. Do your parts make the same update as
 # ours? One at a time is put into our learner, and losses and gradients on one batch are compared.
-# What draws at random goes through its check again.
 
 # %%
 own_code.compare()
@@ -519,22 +528,22 @@ for words, driver in [*named, ("rule", bc.rule_policy(bc.DEFAULT))]:
 table(["", "success, %", "return", "accidents, %"], rows)
 
 # %%
-yours = bc.record(result.agents[0].as_policy(), [10], label="bootstrapped, trained here")[0]
+yours = bc.record(result.agents[0].as_policy(), [10], label="bootstrapped, here")[0]
 ours = bc.record(
-    bc.shipped_agents("bootstrapped")[0].as_policy(), [10], label="bootstrapped, shipped"
+    bc.shipped_agents("bootstrapped")[0].as_policy(), [10], label="bootstrapped, study"
 )
 bc.recording([shipped.beginning(drive, 60) for drive in (yours, *ours)], height=480)
 
 # %% [markdown]
 # **See.** (Yours will differ.) In our run these agents had learned the rule's way after 2,500
-# updates and earned no more than the rule. In the replay, the first of them is on the left. On the
-# right is an agent of our study on the same road, with many times as many updates. The study's ten
+# updates and earned no more than the rule. In the replay the first of them comes first, and then an
+# agent of our study on the same road, with many times as many updates. The study's ten
 # agents with both aids earn {{ of('bootstrapped').scores('returns').mean() | .0f }} on average, the
 # rule {{ of('rule').scores('returns').mean() | .0f }}.
 # <!-- claim: len(of('bootstrapped')) == 10 -->
 #
 # **Try.** Plant a mistake in one part: copy it into a new cell, change a sign, and call
-# `own_code.use` with it. Which part does the comparison name? (Lesson [[bug_hunt]].)
+# `own_code.use` with it. Which part does the comparison name?
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Put the box on the wall. While the agents train, let somebody name for each of its six lines what
@@ -548,7 +557,8 @@ bc.recording([shipped.beginning(drive, 60) for drive in (yours, *ours)], height=
 #    of Round 2.
 # 3. c = {{ SETTINGS.bonus }} raises a demonstrated drive's discounted return by c / (1 − γ)
 #    = {{ SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f }}. In the critics the values of actions that
-#    were not demonstrated rise, too, so the lead is much smaller.
+#    were not demonstrated rise, too: the lead is much smaller, and in many states another action
+#    still has the largest Q.
 # 4. The large-margin loss moves the Q of the expert's action and of its best rival, and is 0 from a
 #    lead of {{ settings_for('margin').margin | .0f }} on.
 # 5. The printed Q-filter is on only where the expert's action has the largest Q already. With it,
@@ -560,7 +570,13 @@ bc.recording([shipped.beginning(drive, 60) for drive in (yours, *ours)], height=
 # %%
 compare_predictions(
     "learning_from_demonstrations",
-    {1: "0.05", 2: "19", 3: "10", 4: "4", 5: "off"}
+    {
+        1: "0.05",
+        2: "19",
+        3: "10",
+        4: "4",
+        5: " and ".join(f"{on:.0f} %" for on in switched_on[1000][:2]),
+    }
     | {6: f"{lead[0, -1]:.1f} and {lead[1, -1]:.1f}", 7: str(sum(ahead[:-1]))},
 )
 

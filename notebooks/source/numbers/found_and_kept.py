@@ -76,6 +76,12 @@ def keeping_p(method: str) -> float:
     return float(stats.fisher_exact([[each.kept, each.found - each.kept] for each in (ends, stays)]).pvalue)
 
 
+def kept_of(method: str, stays: bool) -> str:
+    """ "6 of 7": of the agents that found the way out, how many keep it if β never ends, or ends at 1,000."""
+    counted = way(ablations()["β for ever"] if stays else of_all(), method)
+    return f"{counted.kept} of {counted.found}"
+
+
 def stratified_p(pairs: list[tuple[Counted, Counted]], which: str) -> float:
     """The exact p of a difference between the first and the second group, compared within each pair.
 
@@ -141,6 +147,20 @@ def holm() -> dict[str, float]:
     return corrected
 
 
-def surviving() -> int:
-    """How many stay below 0.05."""
-    return sum(p < 0.05 for p in holm().values())
+def p_of(*names: str) -> str:
+    """These p values as a table's cells."""
+    return " | ".join(_short(p_values()[name]) for name in names)
+
+
+def after_holm(*names: str) -> str:
+    """The same, corrected."""
+    return " | ".join(_short(holm()[name]) for name in names)
+
+
+def _short(p: float) -> str:
+    return f"{p:.2f}" if p >= 0.1 else f"{p:.3f}" if p >= 0.001 else "< 0.001"
+
+
+def kept_against(first: tuple[Results, str], second: tuple[Results, str]) -> str:
+    """ "2 against 10": how many agents of two groups keep the way out."""
+    return f"{way(*first).kept} against {way(*second).kept}"

@@ -3,9 +3,11 @@
 from functools import cache
 
 import numpy as np
-from bootcourse.course.lessons.imitation.figures import half_escape, updates_made
+from bootcourse.course.lessons.imitation.figures import half_success, updates_made
+from bootcourse.course.lessons.imitation.reachable_entropy import REACHABLE, UPDATES, by_entropy  # noqa: F401
 from bootcourse.storage.assets import FOLDER
-from tools.course.known import of
+from scipy import stats
+from tools.course.known import of, shipped_experiment
 
 
 @cache
@@ -17,10 +19,21 @@ def checked(row: int, column: str) -> str:
 
 
 def slower(axis: str) -> float:
-    """How many times CQL's episodes, or updates, GAIL needs until half of its drives escape: of the medians."""
+    """How many times CQL's episodes, or updates, GAIL needs until half of its drives succeed: of the medians."""
     medians = []
     for method in ("gail", "cql"):
-        at = half_escape(of(method).curves["success"])
+        at = half_success(of(method).curves["success"])
         needed = at if axis == "episodes" else np.take_along_axis(updates_made(of(method)), at[:, None] - 1, 1)[:, 0]
         medians.append(np.median(needed[at > 0]))
     return float(medians[0] / medians[1])
+
+
+def with_entropy(entropy: float):
+    """The GAIL agents that were trained with this target entropy (nats), beside others with another."""
+    return by_entropy(shipped_experiment("reachable-entropy")["gail"])[entropy]
+
+
+def accidents_p() -> float:
+    """The exact rank-sum p of these agents' accidents: a reachable target entropy against -1."""
+    first, second = (with_entropy(each).scores("accident") for each in (-1.0, REACHABLE))
+    return float(stats.mannwhitneyu(first, second, method="exact").pvalue)

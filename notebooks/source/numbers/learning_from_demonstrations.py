@@ -12,8 +12,20 @@ def demonstrated_q() -> np.ndarray:
 
     The mean over the first 20 seconds of the rule's drives on 20 roads.
     """
+    values, did = _way_out("demos")
+    return np.array([each[np.arange(len(did)), did].mean() for each in values])
+
+
+@cache
+def demonstrated_largest(method: str) -> np.ndarray:
+    """In which share of these states the rule's action has the largest Q, for the shipped agents, (agents,)."""
+    values, did = _way_out(method)
+    return np.array([np.mean(each.argmax(1) == did) for each in values])
+
+
+def _way_out(method: str) -> tuple[list[np.ndarray], np.ndarray]:
+    """What the shipped agents of a method think of each action there, [(states, 9)], and what the rule did."""
     drives = rule_drives()[:20]
     seen = np.concatenate([drive.observations[:20] for drive in drives])
     did = np.concatenate([drive.actions[:20] for drive in drives])
-    values = [run.agent.q_values(seen) for run in shipped_runs("demos")]
-    return np.array([each[np.arange(len(did)), did].mean() for each in values])
+    return [run.agent.q_values(seen) for run in shipped_runs(method)], did

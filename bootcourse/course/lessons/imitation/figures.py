@@ -5,11 +5,13 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
+from bootcourse.colours import INK
 from bootcourse.course.charts import lines
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.learner import SACLearner
+from bootcourse.methods import display_name, style
 from bootcourse.research.results import Results
 from bootcourse.road.state import EGO, TRAP_1, X
 from bootcourse.scenario import N_ACTIONS
@@ -76,7 +78,7 @@ def updates_made(results: Results) -> np.ndarray:
     return np.cumsum(seconds, axis=1) * np.array(each)[:, None]
 
 
-def half_escape(success: np.ndarray) -> np.ndarray:
+def half_success(success: np.ndarray) -> np.ndarray:
     """The middle of the first `WINDOW` episodes in a row of which half succeeded, counted from 1; 0 without one.
 
     success (agents, episodes) -> (agents,).
@@ -93,27 +95,47 @@ def success_around(success: np.ndarray, updates: np.ndarray, budget: float) -> n
     return np.array([own[max(0, i - half) : i + half].mean() for own, i in zip(success, places, strict=True)])
 
 
-def escapes_in_training(results: Results, methods: Sequence[str] = ("bc", "cql", "gail")) -> Figure:
-    """The share of escapes in training, a mean of each method's agents over the last `WINDOW` episodes."""
-    named = {}
+def success_in_training(results: Results, methods: Sequence[str] = ("bc", "cql", "gail")) -> Figure:
+    """Success in training against the update, a mean of each method's agents; a dot where half of the drives succeed.
+
+    The dot is at the median of the agents' updates.
+    """
+    named, halves = {}, {}
+    budgets = np.unique(np.geomspace(100, 20_000, 60).round())
     for method in methods:
-        success = results.of(method).curves["success"]
-        at, means = rolling_means(success, WINDOW, 40)
-        named[method] = 100 * means.mean(axis=0)
-    title = "CQL and the clones escape first; GAIL needs more episodes"
-    return lines(at, named, title, "training episode", f"escapes, last {WINDOW} episodes, %", limits=(0, 101))
+        of, label = results.of(method), display_name(method)
+        success, updates = of.curves["success"], updates_made(of)
+        named[label] = 100 * np.array([success_around(success, updates, budget) for budget in budgets]).mean(axis=1)
+        at = half_success(success)
+        halves[label] = float(np.median(np.take_along_axis(updates, at[:, None] - 1, 1)[at > 0]))
+    order = sorted(halves, key=halves.get)
+    first, last = (f"{halves[label]:,.0f}" for label in (order[0], order[-1]))
+    title = f"Half of the drives succeed after {first} updates of {order[0]}, {last} of {order[-1]}"
+    looks = [style(method) for method in methods]
+    words = f"success, {WINDOW} episodes (%)"
+    figure = lines(budgets, named, title, "update", words, "x", limits=(0, 101), looks=looks)
+    for method, label in zip(methods, named, strict=True):
+        figure.axes[0].plot(halves[label], 50, "o", color=style(method).colour, mec=INK, ms=7, zorder=5)
+    return figure
 
 
 def still_going(results: Results, methods: Sequence[str] = ("bc", "cql", "gail"), single: str = "gail") -> Figure:
-    """The share of test drives that have not ended, over time: a mean for each method, every agent of one."""
+    """The share of test drives that have not ended, over time: a mean for each method, thin lines for one's agents."""
     longest = round(float((results.tested["distance"] / results.tested["speed"]).max()))
-    seconds, named, ended = np.arange(longest + 1), {}, []
+    seconds, named, looks, ended = np.arange(longest + 1), {}, [], []
     for method in methods:
         tested, label = results.of(method).tested, SHORT.get(method, method)
         going = 100 * ((tested["distance"] / tested["speed"])[..., None] >= seconds - 0.25).mean(axis=1)
-        named[f"{label}: each agent" if method == single else f"{label}: mean"] = (
-            going if method == single else going.mean(axis=0)
-        )
+        if method == single:
+            named[""] = going
+            looks.append(style(method)._replace(marker=None))
+        named[label] = going.mean(axis=0)
+        looks.append(style(method)._replace(marker=None))
         ended.append(f"{100 - going[:, -1].mean():.1f} % of {label}'s")
-    title = f"Drives that end before their time: {', '.join(ended)}"
-    return lines(seconds, named, title, "second of the drive", "test drives that still go on, %", limits=(0, 101))
+    title = f"An accident ends {', '.join(ended[::-1])} drives"
+    words = "test drives that still go on (%); thin: GAIL's agents"
+    figure = lines(seconds, named, title, "second of the drive", words, limits=(0, 101), looks=looks)
+    for line in figure.axes[0].lines[len(methods) - 1 : -1]:
+        line.set(alpha=0.5, linewidth=0.8)
+    figure.axes[0].lines[-1].set_linewidth(3)
+    return figure

@@ -1,0 +1,34 @@
+"""The figure of the lesson on demonstrations: what the margin adds in one state, and why the filter is off there."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from bootcourse.methods import style
+from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, finish, one_axes
+from bootcourse.scenario import ACTION_NAMES
+
+
+def margin_bars(q: Sequence[float], expert: int, margin: float = 1.0) -> Figure:
+    """The Q of the nine actions, (9,), with the margin on all but the expert's, whose bar is coloured."""
+    q, others = np.asarray(q), np.arange(len(ACTION_NAMES)) != expert
+    short = q.max() - q[expert]
+    title = f"The expert's action is {short:.1f} short of the largest Q: the printed filter is off"
+    figure, ax = one_axes(3.5, title, "", "value")
+    at, colour = np.arange(len(q)), style("demos").colour
+    ax.bar(at, q, width=0.7, color=np.where(others, "#B8BEC6", colour))
+    ax.bar(at[others], margin, width=0.7, bottom=q[others], color="none", edgecolor=QUIET, linestyle=(0, (2, 2)))
+    for x, value in zip(at, q, strict=True):
+        ax.annotate(f"{value:.1f}", (x, 0.04), ha="center", va="bottom", fontsize=SMALL, color=INK)
+    for height, words in ((q.max(), "the largest Q"), ((q + margin * others).max(), "the largest Q + l")):
+        ax.axhline(height, color=QUIET, linewidth=1, linestyle=(0, (1, 2)), zorder=0)
+        ax.annotate(words, (-0.45, height), (0, 2), textcoords="offset points", fontsize=TEXT, color=INK)
+    ax.annotate("the expert's", (expert, q[expert] + 0.03), ha="center", va="bottom", fontsize=TEXT, color=INK)
+    ax.set_xticks(at, [action.replace(" ", "\n") for action in ACTION_NAMES], fontsize=SMALL)
+    ax.set(xlim=(-0.5, len(q) - 0.5), ylim=(0, 1.12 * (q + margin * others).max()))
+    named = ", ".join(f"{action} {value:.1f}" for action, value in zip(ACTION_NAMES, q, strict=True))
+    alt = (
+        f"Bars of Q: {named}. The expert's is {ACTION_NAMES[expert]}; all others have the margin of {margin:g} on top."
+    )
+    return finish(figure, title, alt)
