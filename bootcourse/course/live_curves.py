@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 
 from bootcourse.learn.curves import by_label
 from bootcourse.learn.training import Training
+from bootcourse.methods import display_name
 from bootcourse.plots.figure import Picture
 from bootcourse.plots.training_curves import WINDOW, training_curves
 
@@ -60,6 +61,9 @@ class LiveCurves:
             self.note(training)
         labels = self.labels or [settings.method for settings in training.settings]
         curves = {measure: np.stack([means[measure] for means in self.means], axis=1) for measure in MEASURES}
-        ahead = int((training.curves.recent("success", WINDOW) > 0.5).sum())
-        title = f"After {training.updates:,} updates {ahead} of {len(labels)} agents end most episodes ahead of trap 1"
-        return training_curves(by_label(labels, curves), title, updates=np.array(self.updates))
+        each = by_label(labels, curves)
+        shares = [
+            f"{display_name(label)} in {100 * np.nanmean(of['success'][:, -1]):.0f} %" for label, of in each.items()
+        ]
+        title = f"After {training.updates:,} updates, ahead of trap 1 at the end of an episode: {', '.join(shares)}"
+        return training_curves(each, title, updates=np.array(self.updates))

@@ -147,8 +147,11 @@ def compare_predictions(lesson: str, answers: Mapping[int, object]):
             both = worded(one["answer"], unit), worded(result, unit if isinstance(result, (int, float)) else None)
             cells = f"{number(lesson)}.{place}", one.get("question", ""), *both
             rows.append([str(html("{}", cell)) for cell in cells])
+    if not rows:
+        results = (f"{number(lesson)}.{place}: {worded(result)}" for place, result in answers.items())
+        return Note(f"{NOTHING} The answers are: {'; '.join(results)}.")
     below = f"You committed to {len(rows)} of {len(answers)} predictions."
-    return table(("", "question", "you predicted", "the lesson found"), rows, below) if rows else Note(NOTHING)
+    return table(("", "question", "you predicted", "the lesson found"), rows, below)
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ from bootcourse.files import check_replaceable, write_bytes
 from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import INK, QUIET, WIDTH, as_written, axes_at, new_figure
 from bootcourse.plots.top_view import draw_moment
-from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, X
+from bootcourse.road.state import EGO, SPEED, TRAP_1, X
 
 SPEED_UP = 3.0  # the clip is so many times faster than the road
 FRAME = 0.07  # s of clip that a frame is shown
@@ -65,13 +65,10 @@ def alt(rollouts: Sequence[Rollout]) -> str:
 
 
 def key_frame(rollouts: Sequence[Rollout]) -> Figure:
-    """The `frame` at the moment that says most of the last drive: its accident, else its first new lane, else half."""
+    """The `frame` at the moment that says most of the last drive: its accident, else its overtaking, else half."""
     last = rollouts[-1]
-    if last.accident:
-        return frame(rollouts, float(last.times[-1]))
-    lanes = last.states[:, EGO, LANE]
-    changed = np.flatnonzero(lanes != lanes[0])
-    return frame(rollouts, float(last.times[changed[0]] if changed.size else last.times[-1] / 2))
+    end = float(last.times[-1])
+    return frame(rollouts, end if last.accident else overtaken(last) or end / 2)
 
 
 def frame_times(rollouts: Sequence[Rollout]) -> list[float]:

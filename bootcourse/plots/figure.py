@@ -65,7 +65,7 @@ def finish(figure: Figure, title: str, alt: str) -> Figure:
     return figure
 
 
-def wrapped(title: str, longest: int = 74) -> str:
+def wrapped(title: str, longest: int = 68) -> str:
     """A title that is too long for one line gets two, of about the same length."""
     if len(title) <= longest or "\n" in title:
         return title

@@ -29,6 +29,7 @@ from bootcourse.statistics import band, iqm, rolling_means
 
 WINDOW = 50  # episodes in a rolling mean
 POINTS = 100  # at most so many episodes are drawn
+FEW = 5  # fewer agents have a mean, and neither interquartile mean nor interval
 
 
 class Measure(NamedTuple):
@@ -64,7 +65,7 @@ def window_of(curves: Sequence[Mapping[str, np.ndarray]]) -> int:
 
 
 def draw_training(canvas: Canvas, at: np.ndarray, means: np.ndarray, look: Style, seeds: bool = True) -> float:
-    """Thin lines for the seeds, a thick one for their interquartile mean as far as all of them got.
+    """Thin lines for the seeds, a thick one for their interquartile mean (of a few: mean) as far as all of them got.
 
     at (points,), means (seeds, points): what `rolling_means` returns; without `seeds` it is faint, an earlier
     training behind the last. Returns where the thick line ends, NaN where there is none.
@@ -74,16 +75,16 @@ def draw_training(canvas: Canvas, at: np.ndarray, means: np.ndarray, look: Style
     whole = np.isfinite(means).all(axis=0)
     if not whole.any():
         return float("nan")
-    middle = iqm(means[:, whole], axis=0)
+    middle = (np.mean if len(means) < FEW else iqm)(means[:, whole], axis=0)
     width, opacity = (max(1.8, look.width), 1.0) if seeds else (1.1, 0.5)
     canvas.line(at[whole], middle, look.colour, width, look.line, opacity)
     return float(middle[-1])
 
 
 def draw_band(canvas: Canvas, at: np.ndarray, means: np.ndarray, colour: str) -> None:
-    """The 95 % bootstrap interval over seeds of that interquartile mean, where there are two seeds or more."""
+    """The 95 % bootstrap interval over seeds of that interquartile mean, where there are not too few seeds."""
     whole = np.isfinite(means).all(axis=0)
-    if len(means) > 1 and whole.any():
+    if len(means) >= FEW and whole.any():
         _, low, high = band(means[:, whole])
         canvas.fill([*at[whole], *at[whole][::-1]], [*high, *low[::-1]], colour, 0.15)
 
@@ -100,7 +101,7 @@ def training_curves(
 
     curves: {method: `Result.curves`}, whose measures are (agents, episodes), NaN where an interrupt came
     first. Thin lines are agents, the thick one their interquartile mean (up to where every agent got), the
-    band its 95 % bootstrap interval over agents, where there are two or more.
+    band its 95 % bootstrap interval over agents. Of fewer than `FEW` agents the thick line is the mean, without a band.
     constants: {"rule": {"return": 49.0}}: horizontal lines. paper: {method: {"success": 0.95}}: the
     paper's numbers, as open diamonds at the right. updates (points,): the curves are (agents, points), means of the
     last episodes that were noted after these updates, and are drawn over them. Raises BootcourseError if no episode was
@@ -128,7 +129,9 @@ def training_curves(
         points = {method: _points(curves, method, measure, window, updates) for method in curves}
         ends[measure] = _draw(ax, measure, points, looks, constants, paper)
     each = "each episode" if window == 1 else f"over the last {window} episodes"
-    words = f"Thin: agents. Thick: their interquartile mean with its 95 % interval. All {each}."
+    few = all(len(np.atleast_2d(_values(curves, method, measures[0]))) < FEW for method in curves)
+    thick = "mean" if few else "interquartile mean with its 95 % interval"
+    words = f"Thin: agents. Thick: their {thick}. All {each}."
     words += " Diamonds: the paper's test results." * bool(paper)
     figure.text(0.012, 0.1 / total, words, fontsize=SMALL, color=QUIET)
     return finish(figure, title, _alt(curves, ends, "episodes" if updates is None else "updates"))
