@@ -279,7 +279,7 @@ groups = taught_agents.reference()
 shown = dict(groups)
 shown[f"racer, {taught_agents.LONG:,}"] = taught_agents.longer()
 shown[f"yours: {mine.__name__}"] = learned
-title = "Students of teachers that get out escape, those of timid and reckless do not"
+title = "Most students of teachers that get out escape; of timid and reckless none does"
 bc.show(figures.students(shown, title))
 
 # %% [markdown]

@@ -35,7 +35,7 @@ def students(groups: Mapping[str, Mapping[str, np.ndarray]], title: str) -> Figu
         success = np.sort(100 * group["success"])
         _dots(ax, success, place, colour, success >= 100 * ESCAPES)
         escape = f"{(success >= 100 * ESCAPES).sum()} of {len(success)}"
-        numbers = (escape, f"{group['returns'].mean():.0f}", f"{100 * group['accident'].mean():.0f}")
+        numbers = (escape, f"{round(group['returns'].mean())}", f"{100 * group['accident'].mean():.0f}")
         _beside(ax, numbers, place)
         alt_parts.append(f"{name}: {escape} escape, return {numbers[1]}, accidents in {numbers[2]} %")
     _beside(ax, ("escape", "return", "accidents, %"), -0.75, QUIET)
