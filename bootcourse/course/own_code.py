@@ -27,7 +27,7 @@ from bootcourse.learn.settings import Settings, settings_for
 from bootcourse.learn.training import Training
 
 APART = {name for names in ALONE.values() for name in names}  # parts of other learners than SAC
-APART |= {"advantages", "clipped_loss", "ppo_loss", "rollout_values", "update", "train"}
+APART |= {"advantages", "clipped_loss", "ppo_loss", "rollout_values", "shield", "update", "train"}
 NONE = "No part is yours yet: agents train with the library's own."
 TOLERANCE = 1e-3  # relative difference of a loss or a gradient; rounding gives about 1e-6
 _own: dict[str, Callable] = {}  # the student's parts in this kernel
