@@ -93,10 +93,7 @@ shown = {
 }
 smooth = np.ones(window) / window
 named = {name: np.convolve(v.mean(axis=0), smooth, "valid") for name, v in shown.items()}
-at, title = (
-    np.arange(window, 151),
-    "RLPD's episodes are short at first; later more of them end ahead",
-)
+at, title = np.arange(window, 151), "RLPD's episodes are short at first; later more end ahead"
 bc.show(figures.one_above_the_other(at, named, title, "training episode", "rlpd"))
 
 # %% [markdown]
