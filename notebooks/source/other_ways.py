@@ -304,8 +304,7 @@ table(["return in the search", *tried["ppo"]], ppos)
 # | bootstrapped SAC | γ = {{ SETTINGS.gamma }}, c = {{ SETTINGS.bonus | g }} | γ = {{
 # equal_decisions.GAMMA }}, c = {{
 # equal_decisions.COMMON['bootstrapped']['bonus'] }}; β fades over {{
-# equal_decisions.COMMON['bootstrapped']['beta_episodes'] }} episodes; c and β
-# were set by hand, before the search |
+# equal_decisions.COMMON['bootstrapped']['beta_episodes'] }} episodes; both set by hand |
 #
 # > **Predict.** IBRL may take the rule's action in each state, and the rule alone has no accident.
 # > In how many of its drives does IBRL have one, after {{ FIRST | , }} decisions?

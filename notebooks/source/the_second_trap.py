@@ -69,8 +69,8 @@ for name, success, returns in (
 table(["", "ahead of trap 1 in the end, %", "return"], rows)
 
 # %% [markdown]
-# The agents end behind trap 1, as a car that keeps straight does. Yet they earn about what the rule
-# earns, which gets out, and about twice as much as the car that keeps straight.
+# The agents end behind trap 1, as a car that keeps straight does. Yet they earn twice as much, and
+# about what the rule earns, which gets out.
 # <!-- claim: (ppo('alone')['success'] < 0.05).all() -->
 # <!-- claim: ppo('alone')['returns'].mean() > 1.8 * idle().rewards.sum() and
 #   abs(ppo('alone')['returns'].mean() / of('rule').scores('returns')[0] - 1) < 0.25 -->
@@ -412,11 +412,9 @@ for kind, name in names.items():
 table(["PPO, paid", "agents that escape", "the road's return", "accidents, %"], rows)
 
 # %% [markdown]
-# **See.** With the potential {{ ppo_escapes('shaped') }} of {{ ppo_agents() }} agents escape,
-# after as many decisions as the others. On the road's terms they earn {{
-# ppo('shaped')['returns'].mean() | .0f }} on average, those without a potential {{
-# ppo('alone')['returns'].mean() | .0f }}: the second trap again. Their return still rose when
-# training ended, but none was ahead in its last 300 episodes.
+# **See.** The second trap again: with the potential {{ ppo_escapes('shaped') }} of {{ ppo_agents()
+# }} agents escape, after as many decisions as the others. Their return still rose when training
+# ended, but none was ahead in its last 300 episodes.
 # <!-- claim: ppo_escapes('shaped') == 0 and ppo_kinds.KINDS['shaped'].decisions ==
 #   ppo_kinds.KINDS['alone'].decisions and abs(ppo('shaped')['returns'].mean() /
 #   ppo('alone')['returns'].mean() - 1) < 0.15 -->
