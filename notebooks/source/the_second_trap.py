@@ -140,7 +140,7 @@ table(["", "mean speed, m/s", "mean r_v", "r_v at the mean speed", "gap"], rows)
 # others, with γ = {{ later_ppo().agents[0]['gamma'] }} and as many decisions, do not escape either
 # (lesson [[other_ways]]). No agent that ships has trained longer. Two that we trained for 4,000,000
 # decisions, which do not ship, drove behind trap 1 on all 200 roads, too, and earned more than the
-# rule; the last line of this lesson says how to repeat it.
+# rule; the end of this lesson says how to repeat it.
 # <!-- claim: later_ppo_out() == 0 and len(later_ppo()) == 10 and LAST ==
 #   ppo_kinds.KINDS['alone'].decisions -->
 # <!-- claim: (ppo('alone')['escapes'][:, -1] == 0).all() and ppo('alone')['curve'][:, -1].mean() >
@@ -556,6 +556,6 @@ compare_predictions(
 # Wiewiora (2003), *Potential-Based Shaping and Q-Value Initialization are Equivalent*.
 #
 # **Try**: five times as many decisions, `ppo_kinds.train(training, 4_000_000)` with a new training,
-# a minute or more; or other steps, such as `bc.settings_for("ppo", actor_lr=2e-4, epochs=1)`. What do
-# the three readings say, and does an agent leave? `bc.board("runs/mine")` puts your own agents
+# a minute or more; or other steps, `bc.settings_for("ppo", actor_lr=2e-4, epochs=1)`. What do the
+# three readings say, and does an agent leave? `bc.board("runs/mine")` puts your own agents
 # among the methods of the course. Next: [looking ahead](looking_ahead.ipynb).
