@@ -283,8 +283,8 @@ title = "Most students of teachers that get out escape; of timid and reckless no
 bc.show(figures.students(shown, title))
 
 # %% [markdown]
-# **See.** Students of a teacher that gets out escape, and those of one that does not get out stay
-# in the trap. Of the racer's students {{ student_escapes('racer') }} of ten escape. With *drawn*
+# **See.** Most students of a teacher that gets out escape, and none of those of `timid` and
+# `reckless`. Of the racer's students {{ student_escapes('racer') }} of ten escape. With *drawn*
 # actions each of these ten succeeds on {{ 100 * students('racer')['drawn'].min() | .0f }} % or
 # more: all have found the way out.
 # <!-- claim: min(student_escapes(n) for n in ('the rule', 'the rule, 30 m')) == 10 and
