@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bootcourse.course.lessons.your_teacher.figures import teacher_value
+from bootcourse.course.lessons.your_teacher.figures import learners
 from bootcourse.course.shipped import shipped_teachers
 from bootcourse.errors import BootcourseError
 from bootcourse.files import write_json
@@ -60,10 +60,9 @@ def test_the_table_has_a_row_for_each_cell_with_teachers_from_bad_to_perfect(wor
 
 
 def test_the_figure_has_a_dot_for_each_agent_and_says_what_it_shows(worth):
-    for name in QUANTITIES:
-        figure = teacher_value(worth, name)
-        dots = [len(each.get_offsets()) for ax in figure.axes for each in ax.collections]
-        assert sum(dots) == 40 and "planner, RLPD" in figure.alt and "nan" not in figure.alt
+    figure = learners(worth, "Learners of three teachers")
+    dots = [len(each.get_offsets()) for ax in figure.axes for each in ax.collections]
+    assert sum(dots) == 40 and "planner, RLPD" in figure.alt and "nan" not in figure.alt
 
 
 def test_a_study_s_folder_is_read_and_one_without_such_jobs_says_what_to_run(tmp_path):

@@ -16,7 +16,7 @@
 # **What you will be able to do**
 # - find out from a drive how an agent earns a lot and still misses its goal, and what pays for it;
 # - write PPO, its advantages and its loss, train an agent with it, and read its health;
-# - tell what a change of the reward can repair: what is best, or what is found.
+# - say what two changes of the reward did, and why.
 #
 # **Time** 60 minutes; running it takes about one minute. **It builds on** the reward (lesson
 # [[the_trap]]), the barrier ([[the_barrier]]) and demonstrations ([[demonstrations]]).
@@ -25,8 +25,9 @@
 import bootcourse as bc
 import numpy as np
 import torch
+from bootcourse.colours import INK, OTHER, QUIET, Style
 from bootcourse.course import charts, check, compare_predictions, own_code, predict, table
-from bootcourse.course.lessons.the_second_trap import ppo_kinds, second_trap
+from bootcourse.course.lessons.the_second_trap import figures, ppo_kinds, second_trap
 from bootcourse.learn import ppo
 from bootcourse.methods import style
 from bootcourse.road.state import EGO, SPEED
@@ -36,9 +37,22 @@ from bootcourse.road.state import EGO, SPEED
 #
 # The learner of the paper trains for minutes. The compiled road could drive much more in that time,
 # so here is a learner that drives hundreds of roads at once: PPO, *proximal policy optimisation*.
-# {{ ppo_agents() }} agents were trained with it, alone, without a rule or demonstrations. They
-# ship with the course, and were tested on {{ len(ppo_kinds.ROADS) }} roads that are new to
-# them.
+# Ten agents were trained with it, alone, without a rule or demonstrations. This is one of them.
+# <!-- claim: ppo_agents() == 10 -->
+
+# %%
+ROAD = 10
+drive = bc.record(ppo_kinds.agent_of("alone").as_policy(), [ROAD], label="ppo")[0]
+title = "PPO alone sprints and falls back, again and again, and does not pass trap 1"
+bc.show(bc.traces(drive, title=title, what=("speed", "distance")))
+
+# %% [markdown]
+# The agent brakes and falls back, up to {{ -ppo_gap().min() | .0f }} m behind trap 1. Then it
+# accelerates to {{ ppo_speeds().max() | .1f }} m/s, drives on until it is close, brakes to {{
+# ppo_speeds()[40:].min() | .1f }} m/s, and begins again. It is not stuck: it has learned to drive
+# like that. And it is not the only one:
+# <!-- claim: ppo_gap().min() < -40 and ppo_speeds().max() > 13.5 and ppo_speeds()[40:].min() < 7
+#   and not ppo_drive().success -->
 
 # %%
 groups = ppo_kinds.reference()
@@ -55,47 +69,16 @@ for name, success, returns in (
 table(["", "ahead of trap 1 in the end, %", "return"], rows)
 
 # %% [markdown]
-# The agents end behind trap 1, as a car that keeps straight does. Yet they earn about what the rule
-# earns, which gets out, and about twice as much as the car that keeps straight.
+# The agents end behind trap 1, as a car that keeps straight does. Yet they earn twice as much, and
+# about what the rule earns, which gets out.
 # <!-- claim: (ppo('alone')['success'] < 0.05).all() -->
 # <!-- claim: ppo('alone')['returns'].mean() > 1.8 * idle().rewards.sum() and
 #   abs(ppo('alone')['returns'].mean() / of('rule').scores('returns')[0] - 1) < 0.25 -->
-#
-# > **Predict.** Trap 1 drives {{ DEFAULT.traps.speed | g }} m/s for {{ DEFAULT.clock.decisions }}
-# > seconds, and the agents stay behind it. How do they earn twice as much as a car that follows it?
-
-# %%
-choices = [
-    "they follow trap 1 more closely",
-    "they fall back and then drive fast",
-    "they drive fast between two lanes",
-    "they overtake and let themselves be overtaken again",
-]
-predict("the_second_trap.1", "They earn more because", choices)
 
 # %% [markdown] tags=["instructor"] minutes=3
-# Do not play the recording before everybody has committed. Ask for a sketch of the speed over time:
-# those who draw a constant line should say at which speed, and why the agent is not ahead then.
-
-# %%
-ROAD = 10
-drive = bc.record(ppo_kinds.agent_of("alone").as_policy(), [ROAD], label="an agent")[0]
-
-# %% tags=["nbval-ignore-output"]
-bc.recording([drive], height=360)
-
-# %%
-title = "PPO alone: slow, fast, slow, and behind trap 1 in the end"
-bc.show(bc.traces(drive, title=title, what=("speed", "distance", "reward")))
+# Ask what a car that cannot pass trap 1 may still choose, before anybody says "the speed".
 
 # %% [markdown]
-# **See.** The agent brakes and falls back, up to {{ -ppo_gap().min() | .0f }} m behind trap 1. Then
-# it accelerates to {{ ppo_speeds().max() | .1f }} m/s, drives on until it is close, brakes to {{
-# ppo_speeds()[40:].min() | .1f }} m/s, and begins again. It is not stuck: it has learned to drive
-# like that.
-# <!-- claim: ppo_gap().min() < -40 and ppo_speeds().max() > 13.5 and ppo_speeds()[40:].min() < 7
-#   and not ppo_drive().success -->
-#
 # ## Round 1: what pays for it
 #
 # A driver that stays behind trap 1 to the end cannot be faster than trap 1 *on average*, apart from
@@ -108,7 +91,7 @@ bc.show(bc.traces(drive, title=title, what=("speed", "distance", "reward")))
 
 # %%
 choices = ["about half", "the same", "about twice as much", "almost four times as much"]
-predict("the_second_trap.2", "Changing between 5 and 15 m/s earns", choices)
+predict("the_second_trap.1", "Changing between 5 and 15 m/s earns", choices)
 
 # %% tags=["hide-input"]
 v = np.linspace(5, 15, 101)
@@ -116,7 +99,7 @@ pays = np.array([bc.formulas.speed_reward(each) for each in v])
 chord = (v - 5) / 10
 named = {"5 and 15 m/s in turn": chord, "a steady speed": pays}
 title = "Two speeds in turn earn more than a steady one"
-looks, words = (style("ppo"), style("idle")), ("mean speed (m/s)", "speed reward of a second")
+looks, words = (Style(QUIET, "--"), Style(INK)), ("mean speed (m/s)", "speed reward of a second")
 bc.show(charts.lines(v, named, title, *words, looks=looks))
 
 # %% [markdown]
@@ -141,17 +124,25 @@ table(["", "mean speed, m/s", "mean r_v", "r_v at the mean speed", "gap"], rows)
 
 # %% [markdown]
 # **Explain.** The agent is slower on average than the car that keeps straight, and its speed pays
-# more than twice as much. The gap makes the difference. Is that **reward hacking**, earning a
-# reward in a way that was not meant? Ask what the agent maximises: the discounted sum with γ = {{
-# settings_for('ppo').gamma | g }}. By this measure its drive is worth {{ discounted(ppo_drive(),
-# settings_for('ppo').gamma) | .0f }} at the start, and the drive of `careful`, a rule that gets
-# out and then drives on at about 15 m/s, {{ discounted(careful_drive(),
-# settings_for('ppo').gamma) | .0f }}. So the reward prefers the drive that was meant, by far, and
-# the agent has not found it. Its return in training still rose when training ended, but by
-# driving behind trap 1 better: at the end none of the {{ ppo_agents() }} agents was ahead in any
-# of its last 300 episodes. Whether longer training leaves it, no run here tests. It looks like a
-# **local optimum**, a way to drive that small changes do not improve, and the convex reward makes
-# it a comfortable one. We call it the second trap, and its return says "as good as the rule".
+# more than twice as much: that is Jensen's gap.
+#
+# **Is this reward hacking**, earning a reward in a way that was not meant? Not by the agent's own
+# objective, the discounted sum with γ = {{ settings_for('ppo').gamma | g }} (PPO's γ here; the
+# paper's is {{ SETTINGS.gamma }}). Its drive is worth {{ discounted(ppo_drive(),
+# settings_for('ppo').gamma) | .0f }} at the start, and that of `careful`, a rule of lesson
+# [[your_teacher]] that gets out, {{ discounted(careful_drive(), settings_for('ppo').gamma) | .0f
+# }}. The reward prefers the drive that was meant, by far, and the agent has not found it.
+#
+# **Is it a trap?** None of the {{ ppo_agents() }} agents was ahead in any of its last 300 training
+# episodes. Their return still rose, by driving behind trap 1 better. It looks like a **local
+# optimum**, a way to drive that small changes do not improve; we call it the second trap. How far
+# that is shown: these agents had {{ ppo_kinds.KINDS['alone'].decisions | , }} decisions. Ten
+# others, with γ = {{ later_ppo().agents[0]['gamma'] }} and as many decisions, do not escape either
+# (lesson [[other_ways]]). No agent that ships has trained longer. Two that we trained for 4,000,000
+# decisions, which do not ship, drove behind trap 1 on all 200 roads, too, and earned more than the
+# rule; the end of this lesson says how to repeat it.
+# <!-- claim: later_ppo_out() == 0 and len(later_ppo()) == 10 and LAST ==
+#   ppo_kinds.KINDS['alone'].decisions -->
 # <!-- claim: (ppo('alone')['escapes'][:, -1] == 0).all() and ppo('alone')['curve'][:, -1].mean() >
 #   ppo('alone')['curve'][:, -3].mean() -->
 # <!-- claim: discounted(careful_drive(), settings_for('ppo').gamma) > 2 * discounted(ppo_drive(),
@@ -173,7 +164,10 @@ table(["", "mean speed, m/s", "mean r_v", "r_v at the mean speed", "gap"], rows)
 # $$ \nabla_\theta\, \mathrm{E}[R] = \mathrm{E}\big[\nabla_\theta \log \pi(a)\; R\big] $$
 #
 # for one decision that pays R, because ∇π = π ∇ log π. So a mean over *drawn* actions is enough.
-# (On the road each decision has its own factor ∇ log π(a_t|s_t), and its R is what follows it.)
+# For a whole drive, log of its probability is a sum over its decisions: each has its own factor
+# ∇ log π(a_t|s_t). Rewards that came *before* a decision do not depend on it and drop out, so its R
+# is what follows it.
+#
 # Here are three actions that pay 10, 11 and 12, and a policy that takes each with probability ⅓.
 # Subtracting a **baseline** from R, such as the mean 11, changes the gradient's mean by nothing,
 # since E[∇ log π] = 0.
@@ -183,11 +177,13 @@ table(["", "mean speed, m/s", "mean r_v", "r_v at the mean speed", "gap"], rows)
 pays, rng = np.array([10.0, 11.0, 12.0]), np.random.default_rng(0)
 drawn = rng.integers(3, size=100_000)
 grad_log = np.eye(3)[drawn] - 1 / 3  # of log π(a) with respect to the three logits
-print("exact gradient:", np.round((pays - pays.mean()) / 3, 2))
+rows = [["exact", "", *(f"{g:.2f}" for g in (pays - pays.mean()) / 3), "0"]]
 for baseline in (0.0, 11.0):
     each = grad_log * (pays[drawn] - baseline)[:, None]
-    mean, spread = np.round(each.mean(0), 2), each.std(0).mean()
-    print(f"baseline {baseline:2.0f}: mean {mean}, spread {spread:.2f}")
+    means = (f"{round(g, 2) + 0.0:.2f}" for g in each.mean(0))
+    rows.append(["drawn", f"{baseline:.0f}", *means, f"{each.std(0).mean():.2f}"])
+logits = [f"gradient, logit {i + 1}" for i in range(3)]
+table(["", "baseline", *logits, "spread"], rows)
 
 # %% [markdown]
 # Both means agree with the exact gradient up to noise, and the baseline makes the spread more
@@ -245,7 +241,7 @@ check.advantages(advantages)
 
 # %%
 choices = ["yes, it makes the action rarer", "yes, likelier", "no, it is clipped"]
-predict("the_second_trap.3", "Does it still change the policy?", choices)
+predict("the_second_trap.2", "Does it still change the policy?", choices)
 
 # %% [markdown]
 # **Exercise (8 min, ●●○).** Write the loss. Its gradient is checked, too.
@@ -263,13 +259,8 @@ def clipped_loss(ratio, advantage, clip):
 check.clipped_loss(clipped_loss)
 
 # %%
-# NBVAL_CHECK_OUTPUT
-for ratio, advantage in ((1.5, 2.0), (0.5, 2.0), (1.5, -2.0), (0.5, -2.0)):
-    leaf = torch.tensor([ratio], requires_grad=True)
-    loss = ppo.clipped_loss(leaf, torch.tensor([advantage]), 0.2)
-    gradient = torch.autograd.grad(loss.sum(), leaf)[0].item()
-    way = "stays" if gradient == 0 else "gets rarer" if gradient > 0 else "gets likelier"
-    print(f"r = {ratio}, A = {advantage:4}: gradient {gradient:4.1f}, the action {way}")
+title = "PPO stops paying once a ratio has moved by 0.2 in the direction that pays"
+bc.show(figures.hinges(ppo.clipped_loss, 0.2, title))
 
 # %% [markdown]
 # **The whole loss.** V learns by squared error, which counts half. Its target is R = A_t + V(s_t),
@@ -309,12 +300,13 @@ rate = training.decisions / training.seconds
 print(f"{training.decisions:,} decisions in {training.seconds:.0f} s: {rate:,.0f} a second")
 
 # %% tags=["hide-input"]
-count = min(len(alone["at"][0]), len(mine.at))
-named = {"the ones that ship": alone["curve"][:, :count], "yours": mine.returns[:count]}
-title = "PPO alone learns to earn what keeping straight earns"
-words, looks = {"keeping straight": float(nobody.returns.mean())}, (style("ppo"), style("sac"))
-axes = ("decisions", "return of a training episode")
-bc.show(charts.lines(alone["at"][0][:count], named, title, *axes, marks=words, looks=looks))
+curve = np.full(len(alone["at"][0]), np.nan)
+curve[: len(mine.at)] = mine.returns[: len(curve)]
+named = {"the ten of the course": alone["curve"], "yours": curve}
+title = "PPO alone first learns to earn what keeping straight earns, then to sprint"
+words, looks = {"keeping straight": float(nobody.returns.mean())}, (style("ppo"), OTHER)
+axes = ("decisions (thousands)", "return of a training episode")
+bc.show(charts.lines(alone["at"][0] / 1000, named, title, *axes, marks=words, looks=looks))
 
 # %% tags=["nbval-ignore-output"]
 rows = [
@@ -326,39 +318,31 @@ rows = [
 table(["decisions", "KL, nats", "clipped, %", "explained variance"], rows[::3])
 
 # %% [markdown]
-# Three numbers say whether PPO is healthy, whatever the return. The **KL** from the policy before a
-# round of updates to the one after it should be small: if it jumps, the steps are too large. The
-# **clip fraction** is the share of decisions that have reached the limit. The **explained
-# variance** of the returns by V is 1 for a perfect V and 0 for one that is the same everywhere.
+# Three numbers say whether PPO is healthy, whatever the return:
+# - the **KL** from the policy before a round of updates to the one after it: a few hundredths of a
+#   nat at most, or the steps are too large;
+# - the **clip fraction**, the share of decisions that have reached the limit: usually 10 to 20 %;
+# - the **explained variance** of the returns by V: 1 for a perfect V, 0 for a constant one.
 #
-# Usual are a KL of at most a few hundredths of a nat and a clip fraction of at most 30 %.
-#
-# **See.** Read your table by these numbers. The {{ ppo_agents() }} agents of round 3 that are
-# paid a potential have the same setting, and their readings ship: in the second half of their
-# training the median KL is {{ ppo_health('kl') | .3f }} nats, the clip fraction {{ 100 *
-# ppo_health('clipped') | .0f }} %, the explained variance {{ ppo_health('explained') | .2f }}. So
-# the steps are not too large, and V knows what comes. None of the three says what the agent does
-# on the road.
+# The agents of round 3 that are paid a potential have the same setting, and their readings ship: in
+# the second half of training {{ ppo_health('kl') | .3f }} nats, {{ 100 * ppo_health('clipped') |
+# .0f }} % and {{ ppo_health('explained') | .2f }} in the median. They are healthy, and none of the
+# three numbers says what an agent does on the road.
 # <!-- claim: 0 < ppo_health('kl') < 0.05 and 0.05 < ppo_health('clipped') < 0.3 and
 #   ppo_health('explained') > 0.8 -->
 
 # %% tags=["nbval-ignore-output"]
-print(f"yours is ahead of trap 1 in {100 * mine.escapes[-1]:.0f} % of its last training episodes")
 your_drive = bc.record(mine.agent.as_policy(), [ROAD], label="your agent")[0]
-bc.show(bc.traces(your_drive, title="Your agent", what=("speed", "distance")))
+title = f"Your agent ends {'ahead of' if your_drive.success else 'behind'} trap 1 on this road"
+bc.show(bc.traces(your_drive, title=title, what=("speed", "distance")))
 
 # %% [markdown]
-# After 500,000 decisions the median agent that ships earns in training about what keeping
-# straight earns. After {{ ppo_kinds.KINDS['alone'].decisions | , }} the {{ ppo_agents() }} earn {{
-# ppo('alone')['curve'][:, -1].min() | .0f }} to {{ ppo('alone')['curve'][:, -1].max() | .0f }}.
-# Each of them was ahead of trap 1 in some episodes while it learned: at one time in {{ 100 *
-# ppo('alone')['escapes'].max(1).min() | .1f }} to {{ 100 * ppo('alone')['escapes'].max(1).max() |
-# .1f }} % of its last 300. At the end none of them was, in any of its last 300. So PPO was ahead at
-# times (a crash after overtaking counts), and then learned something else.
+# **See.** PPO was ahead at times, and then learned something else. In its best 300 episodes each of
+# the ten agents was ahead of trap 1 in {{ 100 * ppo('alone')['escapes'].max(1).min() | .1f }} to {{
+# 100 * ppo('alone')['escapes'].max(1).max() | .1f }} % (a crash after overtaking counts), in its
+# last 300 in none.
 # <!-- claim: (ppo('alone')['escapes'].max(1) > 0).all() and
 #   (ppo('alone')['escapes'][:, -1] == 0).all() -->
-# <!-- claim: abs(np.median(ppo('alone')['curve'][:, 9]) / idle().rewards.sum() - 1) < 0.1 and
-#   round(ppo('alone')['at'][0][9], -4) == 500_000 and len(ppo('alone')['curve']) == 10 -->
 # <!-- claim: (ppo('alone')['curve'][:, -1] > idle().rewards.sum()).all() -->
 
 # %% [markdown] tags=["instructor"] minutes=10
@@ -379,7 +363,7 @@ bc.show(bc.traces(your_drive, title="Your agent", what=("speed", "distance")))
 
 # %%
 choices = ["it leaves", "it drives steadily behind trap 1", "it falls back and sprints as before"]
-predict("the_second_trap.4", "With the concave reward", choices)
+predict("the_second_trap.3", "With the concave reward", choices)
 
 # %%
 concave = bc.record(ppo_kinds.agent_of("concave").as_policy(), [ROAD])[0]
@@ -389,7 +373,8 @@ speeds = {
 }
 title = "Paid by the concave reward, PPO drives steadily, and stays"
 seconds = np.arange(1, 1 + len(speeds["the road's reward"]))
-bc.show(charts.lines(seconds, speeds, title, "time (s)", "speed (m/s)"))
+looks = (style("ppo"), Style(QUIET))
+bc.show(charts.lines(seconds, speeds, title, "time (s)", "speed (m/s)", looks=looks))
 
 # %% [markdown]
 # **See.** The sprints are gone. None of the {{ ppo_agents() }} agents that ship escapes. On the
@@ -407,7 +392,8 @@ bc.show(charts.lines(seconds, speeds, title, "time (s)", "speed (m/s)"))
 # A **potential** Φ(s) is a number for each state that says how promising it looks. The *shaping
 # reward* F = γ Φ(s') − Φ(s) pays for its change. Add it up over a drive, discounted: the terms
 # between the first and the last cancel, so a detour earns nothing, and the best policy stays the
-# best if Φ is 0 at the end (Ng, Harada and Russell 1999). Our potential is {{
+# best if Φ is 0 at the end (Ng, Harada and Russell 1999). When the time is over, PPO counts V of
+# the last state: for it the drive goes on, and no Φ is left over. Our potential is {{
 # second_trap.PER_LANE | g }} for each lane that the car has come to the left, and 0 after an
 # accident.
 #
@@ -415,35 +401,33 @@ bc.show(charts.lines(seconds, speeds, title, "time (s)", "speed (m/s)"))
 # > {{ ppo_agents() }} agents escape?
 
 # %%
-predict("the_second_trap.5", "With the potential escape", ["none", "some of them", "all of them"])
+predict("the_second_trap.4", "With the potential escape", ["none", "some of them", "all of them"])
 
 # %% tags=["hide-input"]
 names = {"alone": "the road's reward", "concave": "concave", "shaped": "the potential, too"}
 rows = []
 for kind, name in names.items():
     group = groups[kind]
-    each = ", ".join(f"{100 * s:.0f}" for s in np.sort(group["success"]))
+    escape = f"{(group['success'] >= bc.statistics.ESCAPES).sum()} of {len(group['success'])}"
     means = [f"{group['returns'].mean():.1f}", f"{100 * group['accident'].mean():.1f}"]
-    rows.append([name, each, *means])
-table(["PPO, paid", "each agent's escapes, %, sorted", "the road's return", "accidents, %"], rows)
+    rows.append([name, escape, *means])
+table(["PPO, paid", "agents that escape", "the road's return", "accidents, %"], rows)
 
 # %% [markdown]
-# **See.** With the potential {{ ppo_escapes('shaped') }} of {{ ppo_agents() }} agents escape,
-# after as many decisions as the others. On the road's terms they earn {{
-# ppo('shaped')['returns'].mean() | .0f }} on average, those without a potential {{
-# ppo('alone')['returns'].mean() | .0f }}: the second trap again. Their return still rose when
-# training ended, but none was ahead in its last 300 episodes.
+# **See.** The second trap again: with the potential {{ ppo_escapes('shaped') }} of {{ ppo_agents()
+# }} agents escape, after as many decisions as the others. Their return still rose when training
+# ended, but none was ahead in its last 300 episodes.
 # <!-- claim: ppo_escapes('shaped') == 0 and ppo_kinds.KINDS['shaped'].decisions ==
 #   ppo_kinds.KINDS['alone'].decisions and abs(ppo('shaped')['returns'].mean() /
 #   ppo('alone')['returns'].mean() - 1) < 0.15 -->
 # <!-- claim: (ppo('shaped')['escapes'][:, -1] == 0).all() and ppo('shaped')['curve'][:,
 #   -1].mean() > ppo('shaped')['curve'][:, -3].mean() -->
 #
-# **Explain.** V learns the potential, too. Once V is lower by Φ, each δ is what it was without F,
-# and so are the advantages: a potential works like another start of V (Wiewiora 2003). It changes
-# what is tried at first. This one grows with every metre to the left, so it pays for a move to
-# the left at once, where trap 2 stands. We tried one potential; another may do better. Can you
-# write one that pays for falling back first?
+# **Explain.** A potential changes only the beginning. As soon as V has learned it, V is lower by Φ,
+# F cancels in each δ, and the advantages are what they were without it: shaping acts like another
+# initial V (Wiewiora 2003). Ours pays for a move to the left at once, where trap 2 stands. It is
+# one potential; one that pays for falling back first may do better. So this is no verdict on
+# shaping.
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Let them argue: is a potential not a teacher, too? Somebody who knows the way out wrote it. Let
@@ -464,7 +448,7 @@ table(["PPO, paid", "each agent's escapes, %, sorted", "the road's return", "acc
 
 # %%
 choices = ["in less than half", "in about three quarters", "in nearly all"]
-predict("the_second_trap.6", "It does as the rule would", choices)
+predict("the_second_trap.5", "It does as the rule would", choices)
 
 # %% tags=["nbval-ignore-output"]
 training = own_code.training([ppo_kinds.settings_of("cloned")], MOST)
@@ -475,14 +459,14 @@ print(f"{100 * found.success.value:.0f} %, return {found.returns.value:.1f}")
 
 # %% tags=["hide-input"]
 numbers = (by_rule.returns.mean(), 100 * np.mean(by_rule.accident > 0), 100)
-rows = [["the rule", f"{100 * by_rule.success.mean():.0f}", *(f"{each:.1f}" for each in numbers)]]
+rows = [["the rule", "–", *(f"{each:.1f}" for each in numbers)]]
 for kind, name in (("alone", "PPO alone"), ("cloned", "PPO after cloning")):
     group = groups[kind]
-    each = ", ".join(f"{100 * s:.0f}" for s in np.sort(group["success"]))
+    each = f"{(group['success'] >= bc.statistics.ESCAPES).sum()} of {len(group['success'])}"
     numbers = (group["returns"].mean(), 100 * group["accident"].mean(), 100 * group["alike"].mean())
     rows.append([name, each, *(f"{value:.1f}" for value in numbers)])
 headings = [
-    "each agent's escapes, %, sorted",
+    "agents that escape",
     "return",
     "accidents, %",
     "does as the rule would, %",
@@ -490,7 +474,7 @@ headings = [
 table(["", *headings], rows)
 
 # %%
-kinds = {"alone": "alone", "ppo_cloned": "cloned"}
+kinds = {"ppo": "alone", "ppo_cloned": "cloned"}
 fast = {
     m: bc.record(ppo_kinds.agent_of(k).as_policy(), [ROAD], label=m)[0] for m, k in kinds.items()
 }
@@ -499,12 +483,13 @@ bc.show(bc.traces(list(fast.values()), title=title, what=("speed", "distance", "
 
 # %% [markdown]
 # **See.** All {{ ppo_agents() }} cloned agents that ship escape, after {{
-# ppo_kinds.KINDS['cloned'].decisions | , }} decisions, fewer than the others had. (Other lessons
-# have agents of this name with other numbers of decisions, so with other returns.) They earn {{
+# ppo_kinds.KINDS['cloned'].decisions | , }} decisions, fewer than the others had. They earn {{
 # ppo('cloned')['returns'].mean() | .0f }} on average, about twice what the rule earns, and do
 # what the rule would do in {{ 100 * ppo('cloned')['alike'].mean() | .0f }} % of their decisions.
 # They are not safe: {{ 100 * ppo('cloned')['accident'].mean() | .1f }} % of their drives end in
-# an accident, and none of the rule's drives on the same roads does.
+# an accident, and none of the rule's drives on the same roads does. (Lesson [[looking_ahead]] has
+# agents that trained longer, and crash less often.)
+# <!-- claim: long_accidents() < ppo('cloned')['accident'].mean() -->
 # <!-- claim: ppo_escapes('cloned') == ppo_agents() and ppo('cloned')['returns'].mean() > 1.8 *
 #   of('rule').scores('returns')[0] and ppo('cloned')['accident'].mean() > 0 -->
 # <!-- claim: not drive_episodes(rule_policy(DEFAULT), ppo_kinds.ROADS).accident.any() and
@@ -513,9 +498,7 @@ bc.show(bc.traces(list(fast.values()), title=title, what=("speed", "distance", "
 # **Explain.** What was the rule for? It was not a model of good driving: it earns about half of
 # what the cloned agents earn, and in most of their decisions they do something else. It put the
 # learner on the other side of the barrier. From there on the reward was enough: speed pays more on
-# a free road than behind trap 1, and PPO found out how. That is the paper's idea in its shortest
-# form. The soft constraint and the demonstrations of lessons [[soft_constraint]] and
-# [[demonstrations]] do the same for a learner that needs an aid for longer.
+# a free road than behind trap 1. That is the paper's idea in its shortest form.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask which of the course's figures would have looked the same for the second trap: those that
@@ -539,7 +522,7 @@ bc.show(bc.traces(list(fast.values()), title=title, what=("speed", "distance", "
 # **Three questions to think about**
 # - Which number, printed beside the return during training, would have shown the second trap?
 # - With the concave reward the agents stay in the first trap. Is that better than the second?
-# - Could cloning a *bad* driver have worked as well? Which of the four teachers of lesson
+# - Could cloning a *bad* driver have worked as well? Which of the teachers of lesson
 #   [[your_teacher]]?
 
 # %%
@@ -549,12 +532,11 @@ how_many = "all of them" if escape.all() else "some of them" if escape.any() els
 compare_predictions(
     "the_second_trap",
     {
-        1: "they fall back and then drive fast",
-        2: "almost four times as much",
-        3: "yes, it makes the action rarer",
-        4: "it drives steadily behind trap 1",
-        5: how_many,
-        6: f"in {100 * alike:.0f} % of its decisions",
+        1: "almost four times as much",
+        2: "yes, it makes the action rarer",
+        3: "it drives steadily behind trap 1",
+        4: how_many,
+        5: f"in {100 * alike:.0f} % of its decisions",
     },
 )
 
@@ -573,7 +555,7 @@ compare_predictions(
 # rolls in and shrinks: Uchendu et al., *Jump-Start Reinforcement Learning* (arXiv 2204.02372).
 # Wiewiora (2003), *Potential-Based Shaping and Q-Value Initialization are Equivalent*.
 #
-# **Try**: other steps, such as `bc.settings_for("ppo", actor_lr=2e-4, epochs=1)`. What do the
-# three readings say, and does an agent leave? `bc.board()` shows the methods of the course on the
-# same {{ roads() | , }} roads, by return, and `bc.board("runs/mine")` puts your own agents among
-# them. Next: [looking ahead](looking_ahead.ipynb), which makes agents safer without training.
+# **Try**: five times as many decisions, `ppo_kinds.train(training, 4_000_000)` with a new training,
+# a minute or more; or other steps, `bc.settings_for("ppo", actor_lr=2e-4, epochs=1)`. What do the
+# three readings say, and does an agent leave? `bc.board("runs/mine")` puts your own agents
+# among the methods of the course. Next: [looking ahead](looking_ahead.ipynb).

@@ -4,7 +4,7 @@ import itertools
 
 import numpy as np
 
-from tests.answers import equivalent, right, right_lines, wrong, wrong_lines
+from tests.answers import right, right_lines, wrong, wrong_lines
 
 right_lines("""end_error
     row by row: errors = [row[a] - r for row, a, r, over in zip(q, actions, rewards, terminated, strict=True) if over]
@@ -53,30 +53,6 @@ wrong_lines("""diagnose
     in words: TRUE[agent].replace("_", " ")  # the six names are
     five of them: {letter: TRUE[letter] for letter in "ABCDE"}[agent]  # raises an error
     another answer each time: list(TRUE.values())[next(CALLS) % 6]
-""")
-
-right_lines("""fixed_loss
-    in one line: (log_pi.exp() * ((alpha + xi) * log_pi - q.detach() - xi * log_rule)).sum(-1).mean()
-    with no grad: fixed = q.clone().detach()
-        pi = log_pi.exp()
-        value = torch.einsum("na,na->n", pi, fixed) - alpha * (pi * log_pi).sum(1)
-        kl = (pi * log_pi).sum(1) - (pi * log_rule).sum(1)
-        (xi * kl - value).mean()
-    with torch's own: policy = torch.distributions.Categorical(logits=log_pi)
-        kl = torch.distributions.kl_divergence(policy, torch.distributions.Categorical(logits=log_rule))
-        -((policy.probs * q.detach()).sum(-1) + alpha * policy.entropy() - xi * kl).mean()
-""")
-
-
-FLAT = "the mean of a change of log π under π is 0"
-equivalent("fixed_loss", "alpha * log_pi  ->  alpha * log_pi.detach()", FLAT)
-equivalent("fixed_loss", "log_pi - log_rule  ->  log_pi.detach() - log_rule", FLAT)
-
-
-wrong_lines("""fixed_loss
-    everything detached: solution(log_pi.detach(), q, log_rule, alpha, xi)  # no gradient reaches `log_pi`
-    summed over the batch: solution(log_pi, q, log_rule, alpha, xi) * (len(q) + 1)
-    the value itself: -solution(log_pi, q, log_rule, alpha, xi)
 """)
 
 
@@ -135,11 +111,6 @@ wrong_lines("""unmasks
     drawn anew each time: rng = np.random.default_rng()
         rng.random() < 0.5  # differently each time
     the answers inverted: not solution(target)  # the other way round
-""")
-
-wrong_lines("""fixed_loss
-    the sign inside: kl = (log_pi.exp() * (log_rule - log_pi)).sum(1)
-        -((log_pi.exp() * (q.detach() - alpha * log_pi)).sum(1) - xi * kl).mean()  # inside the KL
 """)
 
 wrong_lines("""diagnose

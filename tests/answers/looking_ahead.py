@@ -1,9 +1,9 @@
-"""Answers to the exercise of the lesson on looking ahead."""
+"""Answers to the exercises of the lesson on looking ahead."""
 
 import numpy as np
 
 from bootcourse.course.lessons.looking_ahead import imagined_road
-from tests.answers import right, wrong, wrong_lines
+from tests.answers import right, right_lines, wrong, wrong_lines
 
 
 @right("rollout_values")
@@ -83,4 +83,26 @@ wrong_lines("""rollout_values
     the best action: solution(cars, policy, horizon).argmax(axis=1)
     a fixed horizon: solution(cars, policy, 10)
     discounted: 0.8 * solution(cars, policy, horizon)
+""")
+
+
+@right("shield")
+def one_road_at_a_time(actions, values, accidents):
+    chosen = []
+    for action, nine, ends in zip(actions, values, accidents, strict=True):
+        chosen.append(int(np.argmax(nine)) if ends[action] else int(action))
+    return np.array(chosen)
+
+
+right_lines("""shield
+    by take_along_axis: np.where(np.take_along_axis(accidents, actions[:, None], 1)[:, 0], values.argmax(1), actions)
+    by a mask: (lambda bad: bad * values.argmax(1) + (1 - bad) * actions)(accidents[range(len(actions)), actions] * 1)
+""")
+
+wrong_lines("""shield
+    the worst: np.where(accidents[np.arange(len(actions)), actions], values.argmin(1), actions)
+    always the base: actions
+    brakes: np.where(accidents[np.arange(len(actions)), actions], 1, actions)
+    the first road alone: solution(actions, values, accidents)[:1]
+    by a low value: np.where(values[np.arange(len(actions)), actions] < 1, values.argmax(1), actions)
 """)

@@ -3,8 +3,11 @@
 from functools import cache
 
 import numpy as np
-from bootcourse.episodes.lookahead import HORIZON
+from bootcourse.course import shipped as course
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
+from bootcourse.episodes.lookahead import HORIZON, lookahead
 from bootcourse.episodes.models import MODELS
+from bootcourse.policies import idle_policy, random_policy
 from bootcourse.research import distil
 from bootcourse.research.beyond import lengths
 from bootcourse.research.lookahead import MANY, ROADS, Cell, Score, score
@@ -74,3 +77,18 @@ def decided(teacher: str, method: str) -> float:
 def escaping(teacher: str, method: str) -> int:
     """How many of these escape."""
     return shipped_teachers()[teacher, method].escapers(method)
+
+
+@cache
+def five_accidents() -> list[int]:
+    """The accidents of each bootstrapped agent that ships on the lesson's 40 roads."""
+    roads = held_out_seeds(15, 40)
+    agents = course.shipped_agents("bootstrapped")
+    return [int((drive_episodes(agent.as_policy(), roads).accident > 0).sum()) for agent in agents]
+
+
+@cache
+def ahead_of_twenty(base: str) -> int:
+    """How many of 20 drives with rollouts of "idle" or "random" end ahead of trap 1."""
+    policy = idle_policy if base == "idle" else random_policy(np.random.default_rng(0))
+    return int(drive_episodes(lookahead(policy), held_out_seeds(15, 40)[:20]).success.sum())

@@ -12,8 +12,8 @@ from bootcourse.research.beyond import at_budget
 from bootcourse.research.equal_decisions import BUDGETS, by_method, tried
 from bootcourse.research.results import Results, found  # noqa: F401
 from bootcourse.scenario import DEFAULT
-from bootcourse.statistics import ESCAPES, Estimate, interval
-from tools.course.known import shipped_experiment, shipped_teachers
+from bootcourse.statistics import ESCAPES, Estimate, difference, interval
+from tools.course.known import shipped_experiment, shipped_teachers, varied
 
 FIRST, SECOND, LAST = BUDGETS
 
@@ -47,6 +47,26 @@ def score_at(method: str, budget: int = FIRST) -> Estimate:
 def middle(method: str, budget: int = FIRST) -> float:
     """The interquartile mean of these agents' returns."""
     return score_at(method, budget).value
+
+
+def less(method: str, other: str) -> Estimate:
+    """The interquartile mean of a method's returns less the other's, after the second budget."""
+    return difference(at(method, "returns", SECOND), at(other, "returns", SECOND))
+
+
+def changed_sacs() -> list[Results]:
+    """Plain SAC's agents of the experiment `sensitivity` with another γ or η, a group for each change."""
+    return [results.of("sac") for name, results in varied().items() if name.startswith(("γ", "target"))]
+
+
+def plain_sacs() -> int:
+    """How many they are."""
+    return sum(map(len, changed_sacs()))
+
+
+def plain_sacs_out() -> int:
+    """How many of them escape."""
+    return sum(results.escapers("sac") for results in changed_sacs())
 
 
 def lowest() -> str:

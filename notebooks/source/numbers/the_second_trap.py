@@ -7,9 +7,14 @@ from bootcourse.course.lessons.the_second_trap import ppo_kinds
 from bootcourse.course.lessons.your_teacher.example_teachers import careful
 from bootcourse.episodes.record import record
 from bootcourse.learn.teachers import teacher_policy
+from bootcourse.research.equal_decisions import BUDGETS, at, by_method
+from bootcourse.research.lookahead import Cell
+from bootcourse.research.results import Results, experiment
 from bootcourse.road.state import EGO, SPEED, TRAP_1, X
 from bootcourse.statistics import ESCAPES
-from tools.course.known import ROAD
+from tools.course.known import ROAD, shipped_experiment
+
+LAST = BUDGETS[-1]
 
 
 def ppo(kind: str) -> dict:
@@ -54,3 +59,19 @@ def ppo_gap(kind: str = "alone") -> np.ndarray:
 def careful_drive(road: int = ROAD):
     """The drive of the example teacher `careful` on one road."""
     return record(teacher_policy(careful), [road])[0]
+
+
+def later_ppo() -> Results:
+    """PPO's agents of the comparison at equal decisions."""
+    return by_method(shipped_experiment("beyond"))["ppo"]
+
+
+def later_ppo_out() -> int:
+    """How many of them escape after the last budget."""
+    return int((at(later_ppo(), "success", LAST) >= ESCAPES).sum())
+
+
+def long_accidents() -> float:
+    """Accidents in each drive of the agents of PPO after cloning that look ahead in another lesson, alone."""
+    measured = experiment("look-ahead")[Cell("ppo_cloned", "alone").name].measured
+    return float(measured["accidents"].sum() / measured["roads"].sum())

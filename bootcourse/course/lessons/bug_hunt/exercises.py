@@ -1,11 +1,8 @@
 """Exercises of the bug hunt."""
 
-import math
-
 import numpy as np
-import torch
 
-from bootcourse.course.exercise import exercise, logits
+from bootcourse.course.exercise import exercise
 from bootcourse.course.lessons.bug_hunt import target_probe
 
 
@@ -105,55 +102,6 @@ def diagnose(agent):
         "F": "no_stop",
     }
     return bugs[agent]
-
-
-EVEN = torch.full((1, 9), -math.log(9))
-ONE_TO_NINE = torch.arange(1.0, 10.0)[None]
-
-
-def loss_cases(rng):
-    """No rule (ξ = 0), no entropy (α = 0), one state; then 40 at random."""
-    for size, alpha, xi in ((3, 0.2, 0.0), (3, 0.0, 1.0), (1, 0.1, 2.0), *((n, 0.1, 0.7) for n in range(1, 41))):
-        log_pi = torch.tensor(rng.normal(0, 2, (min(size, 6), 9))).log_softmax(-1)
-        rule = torch.full(log_pi.shape, 0.0125)
-        rule[torch.arange(len(rule)), torch.tensor(rng.integers(0, 9, len(rule)))] = 0.9
-        yield log_pi, torch.tensor(rng.normal(0, 3, log_pi.shape)), rule.log(), alpha, xi
-
-
-FLIPPED = "pi * (log_pi - log_rule) -> log_rule.exp() * (log_rule - log_pi)"
-
-
-@exercise(
-    "-E[Σ π (Q - α log π) - ξ D_KL(π ‖ π̃)], Q held fixed",
-    minutes=6, difficulty=2, cases=loss_cases, slopes=[logits("log_pi"), "q"],
-    worked=[
-        # π even, Q = 1 to 9, π̃ = π, α = 0.5, ξ = 1: V = 5 + 0.5 log 9; slopes in the logits: -π (Q - 5)
-        ((EVEN, ONE_TO_NINE, EVEN, 0.5, 1.0),
-         (torch.tensor(-(5 + 0.5 * math.log(9))), (5 - ONE_TO_NINE) / 9, torch.zeros(1, 9))),
-    ],
-    hints=(
-        "Which of the two networks may this loss change?",
-        "`q.detach()`; and the KL is weighed by π: `(pi * (log_pi - log_rule)).sum(-1)`.",
-    ),
-    mistakes={
-        (FLIPPED, "q.detach() -> q"):
-            "Both bugs are still there: the gradient flows into Q, and the KL is the other way round.",
-        "q.detach() -> q":
-            "The KL is right. But a gradient still flows into Q: the actor's step would change the critic.",
-        FLIPPED:
-            "The stop-gradient is right. But your KL is weighed by the rule: it has to be weighed by π.",
-        ("q.detach() -> q", "pi = log_pi.exp() -> log_pi = log_pi.detach(); pi = log_pi.exp()"):
-            "You detached the policy, which this loss should change. Detach Q.",
-        "- xi -> + xi":
-            "You reward leaving the rule: your loss falls as the KL grows. Look at the signs, inside the KL "
-            "(log π - log π̃) and before ξ.",
-    },
-)  # fmt: skip
-def fixed_loss(log_pi, q, log_rule, alpha, xi):
-    pi = log_pi.exp()
-    kl = (pi * (log_pi - log_rule)).sum(-1)
-    value = (pi * (q.detach() - alpha * log_pi)).sum(-1) - xi * kl
-    return -value.mean()
 
 
 unmasks = target_probe.unmasks

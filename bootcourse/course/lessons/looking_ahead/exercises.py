@@ -1,4 +1,4 @@
-"""The exercise of the lesson on looking ahead: the value of each action by rollouts."""
+"""Exercises of the lesson on looking ahead: the value of each action by rollouts, and the shield."""
 
 import numpy as np
 
@@ -102,3 +102,55 @@ def rollout_values(cars, policy, horizon):
             alive &= ~crashed
         values[:, action] += alive * imagined_road.worth(imagined[:, 0, 3])
     return values
+
+
+NINE_VALUES = np.array([[5.0, -3.0, 7.0, 1.0, 0.0, 2.0, -1.0, 4.0, 3.0]])
+SECOND_CRASHES = np.array([[False, True] + [False] * 4 + [True] + [False] * 2])
+
+
+def shield_cases(rng):
+    """The base's action safe, or not, or all nine not; several roads; the best one is the base's; then 30 at random."""
+    everywhere = np.ones((1, 9), dtype=bool)
+    yield np.array([6]), NINE_VALUES, SECOND_CRASHES
+    yield np.array([2]), NINE_VALUES, SECOND_CRASHES
+    yield np.array([1]), NINE_VALUES - 20, everywhere
+    yield np.array([2]), NINE_VALUES - 20, everywhere
+    yield np.array([1, 0, 1]), np.tile(NINE_VALUES, (3, 1)), np.tile(SECOND_CRASHES, (3, 1))
+    for _ in range(30):
+        roads = int(rng.integers(1, 7))
+        accidents = rng.random((roads, 9)) < rng.choice([0.1, 0.5, 0.9])
+        values = np.where(accidents, rng.uniform(-10, 10, (roads, 9)), rng.uniform(100, 160, (roads, 9)))
+        yield rng.integers(0, 9, roads), values, accidents
+
+
+@exercise(
+    "the base policy's action, unless its imagined drive ends in an accident: then the best of the nine",
+    minutes=8, difficulty=2, cases=shield_cases,
+    worked=[
+        ((np.array([0]), NINE_VALUES, SECOND_CRASHES), np.array([0])),  # safe: it stays, although 2 is worth more
+        ((np.array([1]), NINE_VALUES, SECOND_CRASHES), np.array([2])),  # 1 ends in an accident: the best is 2
+    ],
+    hints=(
+        "First, for each road, one question: does the drive of the base's own action end in an accident?",
+        "`accidents[np.arange(len(actions)), actions]` answers it, and `np.where` chooses between two actions.",
+    ),
+    mistakes={
+        "np.where(danger, values.argmax(axis=1), actions) -> values.argmax(axis=1)":
+            "You take the best action everywhere: these are the full rollouts. The shield keeps the base's action "
+            "where its drive ends well.",
+        "accidents[np.arange(len(actions)), actions] -> accidents.any(axis=1)":
+            "You overrule the base wherever *any* of the nine drives ends in an accident. Only the drive of its own "
+            "action counts.",
+        "accidents[np.arange(len(actions)), actions] -> accidents.all(axis=1)":
+            "You overrule the base only where all nine drives end in an accident: look at the drive of its own action.",
+        "np.where(danger, values.argmax(axis=1), actions) -> np.where(danger, actions, values.argmax(axis=1))":
+            "The two are exchanged: you keep the base's action where it ends in an accident.",
+        "values.argmax(axis=1) -> accidents.argmin(axis=1)":
+            "You take the first action without an accident. Take the best of the nine by their values.",
+        "values.argmax(axis=1) -> values.max(axis=1)":
+            "This is the best *value*. Return an action, 0 to 8, for each road.",
+    },
+)  # fmt: skip
+def shield(actions, values, accidents):
+    danger = accidents[np.arange(len(actions)), actions]
+    return np.where(danger, values.argmax(axis=1), actions)

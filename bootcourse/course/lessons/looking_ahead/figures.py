@@ -14,7 +14,7 @@ from bootcourse.episodes.lookahead import HORIZON
 from bootcourse.episodes.models import MODELS
 from bootcourse.errors import BootcourseError
 from bootcourse.methods import display_name, style
-from bootcourse.plots.figure import GRID, INK, QUIET, SMALL, TEXT, finish, new_figure, plain_axes
+from bootcourse.plots.figure import GRID, INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, plain_axes
 from bootcourse.research.lookahead import CLOSELY, FORM_NAMES, FORMS, HORIZONS, Cell, Score, score
 from bootcourse.research.results import Results
 
@@ -36,41 +36,28 @@ def double_line(ax: Axes, x: Sequence[float], y: Sequence[float], colour: str) -
     ax.plot(x, y, color="white", linewidth=1.6, solid_capstyle="butt", zorder=2.6)
 
 
-def by_horizon(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
-    """Return, accidents and time of a decision against the horizon; 0 is the base policy alone.
-
-    Raises BootcourseError if the base policy alone or its rollouts were not computed.
-    """
-    of = {h: Cell(base, "rollouts" if h else "alone", horizon=h or HORIZON) for h in (0, *sorted((*HORIZONS, HORIZON)))}
-    reached = {h: one for h, cell in of.items() if (one := score(cells, cell))}
-    _check_computed(reached, (0, HORIZON), base)
-    figure, colour, at = new_figure(3.7, 9.6), style(base).colour, list(reached)
-    returns = np.array([one.returns for one in reached.values()])
-    rates = 1000 * np.array([one.accident_rate for one in reached.values()])
-    times = np.array([[one.milliseconds] * 3 for one in reached.values()])
-    labels = {"return": returns, "accidents in 1,000 drives": rates, "ms of one core for a decision": times}
-    for left, (label, estimates) in zip((0.05, 0.385, 0.72), labels.items(), strict=True):
-        ax = figure.add_axes((left, 0.15, 0.265, 0.58))
-        plain_axes(ax, label)
-        ax.set_xlabel("decisions ahead; 0: alone", fontsize=TEXT, color=INK)
-        if label.startswith("accidents"):
-            _accident_axis(ax, "y")
-        middle, low, high = estimates.T
-        double_line(ax, at, middle, colour)
-        ax.errorbar(at, middle, [middle - low, high - middle], fmt="o", color=colour, ms=5, lw=1.3, zorder=3)
-        ax.set_xticks(at)
-    few = [f"{h}" for h, one in reached.items() if one.roads != reached[0].roads]
-    roads = f"{reached[0].roads:,} roads each" + (f", {reached[int(few[0])].roads} at {', '.join(few)}" if few else "")
-    figure.text(0.99, 0.93, f"{reached[0].agents} agents, {roads}", ha="right", fontsize=SMALL, color=QUIET)
-    before, after = (f"{reached[h].accidents:,} accidents in {reached[h].drives:,} drives" for h in (0, HORIZON))
-    title = f"{display_name(base)}: {before} alone, {after} with rollouts of {HORIZON} decisions"
-    numbers = (
-        f"{h}: return {one.returns.value:.1f}, accidents {1000 * one.accident_rate.value:.1f} "
-        f"({one.agents} agents, {one.roads:,} roads each), {one.milliseconds:.2f} ms"
-        for h, one in reached.items()
-    )
-    alt = f"Return, accidents in 1,000 drives and time against how many decisions are imagined. {'; '.join(numbers)}."
-    return finish(figure, title, alt)
+def by_horizon(cells: dict[str, Results], base: str, title: str) -> Figure:
+    """Two panels over the number of decisions that a base policy's agents look ahead; 0: the agents alone."""
+    figure, colour = new_figure(3.6), style(base).colour
+    of = {h: score(cells, Cell(base, "rollouts" if h else "alone", horizon=h or HORIZON))
+          for h in (0, *sorted((*HORIZONS, HORIZON)))}  # fmt: skip
+    measures = {
+        "return": [one.returns for one in of.values()],
+        "accidents in 1,000 drives": [[1000 * value for value in one.accident_rate] for one in of.values()],
+    }
+    alt_parts = []
+    for left, (words, estimates) in zip((0.45, 3.95), measures.items(), strict=True):
+        ax = axes_at(figure, left, 0.95, 2.85, 2.05)
+        plain_axes(ax, words)
+        middle, low, high = np.array(estimates).T
+        double_line(ax, list(of), middle, colour)
+        ax.errorbar(list(of), middle, [middle - low, high - middle], fmt="o", color=colour, ms=5, lw=1.3, zorder=3)
+        ax.set_xticks(list(of), ["alone", *map(str, list(of)[1:])])
+        ax.xaxis.set_minor_locator(NullLocator())
+        ax.set_xlabel("decisions ahead", fontsize=TEXT, color=INK)
+        ax.set_ylim((0, 1.1 * high.max()) if words.startswith("accidents") else (low.min() - 2, high.max() + 2))
+        alt_parts.append(f"{words}: {', '.join(f'{m:.1f} at {h}' for h, m in zip(of, middle, strict=True))}")
+    return finish(figure, title, f"{'; '.join(alt_parts)}.")
 
 
 def _check_computed(there: Container, wanted: Sequence, base: str) -> None:

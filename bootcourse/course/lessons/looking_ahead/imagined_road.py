@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from bootcourse.episodes.lookahead import worth_of_speed
+from bootcourse.episodes.lookahead import nine_drives, worth_of_speed
 from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.road.branching import advance
 from bootcourse.road.constants import constants
@@ -48,5 +48,16 @@ def driver(values_of: Callable, policy: Policy, horizon: int) -> Policy:
     def drive(observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
         values = values_of(cars, decide, horizon)
         return PolicyOutput(values.argmax(axis=1), q_values=values)
+
+    return drive
+
+
+def shielded(shield: Callable, policy: Policy, horizon: int) -> Policy:
+    """A policy under a shield: shield(actions, values, accidents) -> actions, each of the roads' nine drives."""
+
+    def drive(observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
+        imagined = nine_drives(cars, policy, DEFAULT, horizon)
+        actions = policy(observations, cars).actions
+        return PolicyOutput(np.asarray(shield(actions, imagined.values, imagined.accidents != 0)))
 
     return drive

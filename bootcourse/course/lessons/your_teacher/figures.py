@@ -1,129 +1,104 @@
-"""What a teacher is worth, each agent as a dot."""
+"""What teachers are worth: each of their students as a dot."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 from bootcourse.course.shipped import shipped_bound
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
-from bootcourse.errors import check_known
 from bootcourse.learn.teachers import teacher_policy
 from bootcourse.methods import display_name, style
-from bootcourse.plots.figure import (
-    INK,
-    QUIET,
-    SMALL,
-    TEXT,
-    finish,
-    new_figure,
-    plain_axes,
-)
-from bootcourse.research.beyond import at_budget
+from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, plain_axes
 from bootcourse.research.jobs import HELD_OUT
-from bootcourse.research.teacher_worth import QUANTITIES, TAUGHT, Cells, in_words
+from bootcourse.research.teacher_worth import TAUGHT, Cells
 from bootcourse.research.teachers import PLANNER, TEACHERS
+from bootcourse.statistics import ESCAPES
 
-ROW, HEAD, FOOT, NAMES = 0.42, 0.85, 0.6, 1.75  # inches
+HEAD, FOOT = 0.75, 0.55  # inches, above and below the rows of a figure
 
 
-def teacher_value(computed: Cells, quantity: str, own: Mapping[str, float] | None = None, title: str = "") -> Figure:
-    """A dot for each agent; the bar is the estimate of `QUANTITIES`, the line its 95 % interval over seeds.
+def students(groups: Mapping[str, Mapping[str, np.ndarray]], title: str) -> Figure:
+    """Each student's success as a dot, a row for each group; beside it how many escape, return and accidents.
 
-    computed: what `shipped_teachers` returns; quantity: one of `QUANTITIES`; own: of the teachers themselves, a green
-    line in each row; title: by default the lowest and the highest cell. An agent that does not reach a number of
-    decisions is an open dot at the right edge. Raises BootcourseError for another quantity.
+    groups: {teacher, or "alone": what `taught_agents.tested` says of its students, each (agents,)}.
     """
-    check_known("Quantity", quantity, QUANTITIES)
-    shown = QUANTITIES[quantity]
-    values = {place: shown.of_agents(results) for place, results in computed.items()}
-    estimates = {place: shown.estimate(each) for place, each in values.items()}
-    rows = [teacher for teacher in TEACHERS if any(teacher == each for each, _ in computed)]
-    methods = [method for method in TAUGHT if any(method == each for _, each in computed)]
-    height, (low, high) = HEAD + ROW * len(rows) + FOOT, _limits(values.values(), shown.logarithmic)
-    figure, across = new_figure(height, 9.0), (8.9 - NAMES) / len(methods)
-    for column, method in enumerate(methods):
-        place = ((NAMES + column * across) / 9, FOOT / height, (across - 0.2) / 9, ROW * len(rows) / height)
-        ax, colour = figure.add_axes(place), style(method).colour
-        plain_axes(ax, display_name(method), grid="x")
-        for row, teacher in enumerate(rows):
+    row = 0.42
+    figure = new_figure(HEAD + row * len(groups) + FOOT)
+    ax = axes_at(figure, 1.45, HEAD, 3.2, row * len(groups))
+    ax.axvline(100 * ESCAPES, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
+    alt_parts = []
+    for place, (name, group) in enumerate(groups.items()):
+        colour = style("sac" if name == "alone" else "bootstrapped").colour
+        success = np.sort(100 * group["success"])
+        _dots(ax, success, place, colour, success >= 100 * ESCAPES)
+        escape = f"{(success >= 100 * ESCAPES).sum()} of {len(success)}"
+        numbers = (escape, f"{round(group['returns'].mean())}", f"{100 * group['accident'].mean():.0f}")
+        _beside(ax, numbers, place)
+        alt_parts.append(f"{name}: {escape} escape, return {numbers[1]}, accidents in {numbers[2]} %")
+    _beside(ax, ("escape", "return", "accidents, %"), -0.75, QUIET)
+    _finish_axes(ax, list(groups), f"success of a student (%); filled: {100 * ESCAPES:.0f} % or more, it escapes")
+    ax.set_xlim(-2, 102)
+    return finish(figure, title, f"A dot for each student. {'; '.join(alt_parts)}.")
+
+
+def learners(computed: Cells, title: str) -> Figure:
+    """Each agent's return as a dot, a row for each learner below its teacher, whose own return is a green line.
+
+    computed: as `shipped_teachers` returns them; what was not run has no row.
+    """
+    teachers = [teacher for teacher in TEACHERS if any(teacher == each for each, _ in computed)]
+    row, heads, labels, place, alt_parts = 0.24, {}, {}, 0, []
+    for teacher in teachers:
+        heads[place] = teacher
+        for method in TAUGHT:
             if (teacher, method) in computed:
-                _draw(ax, row, values[teacher, method], estimates[teacher, method], colour, high)
-                if own is not None:
-                    green = style("rule").colour
-                    ax.plot([own[teacher]] * 2, [row - 0.45, row + 0.45], color=green, linewidth=2.5, zorder=2)
-            else:
-                ax.text(0.5, row, "not run", transform=ax.get_yaxis_transform(), ha="center", va="center",
-                        fontsize=SMALL, color=QUIET)  # fmt: skip
-        if shown.logarithmic:
-            ax.set_xscale("log")
-            ax.xaxis.set_major_locator(LogLocator(subs=(1,) if high > 50 * low else (1, 2, 5)))
-            ax.xaxis.set_minor_locator(NullLocator())
-            ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-        ax.set(xlim=(low, high), ylim=(len(rows) - 0.5, -0.5))
-        ax.set_yticks(range(len(rows)), [TEACHERS[row].words if column == 0 else "" for row in rows])
-        ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
-    words = f"{shown.label}. Dots: agents; bar and line: their estimate and its 95 % interval"
-    words += "; open dots at the right: not reached." * (quantity == "decisions") or "."
-    figure.text(0.012, 0.12 / height, words[0].upper() + words[1:], fontsize=SMALL, color=QUIET)
-    words += " Green line: the teacher itself." * (own is not None)
-    alt_parts = [f"{_named(place)}: {' '.join(in_words(each)).strip()}" for place, each in estimates.items()]
-    return finish(figure, title or _title(shown.label, estimates), f"{words} {'; '.join(alt_parts)}.")
+                place += 1
+                labels[place] = teacher, method
+        place += 1
+    figure, own = new_figure(HEAD + row * place + FOOT), own_returns(teachers)
+    ax = axes_at(figure, 1.75, HEAD, 4.2, row * place)
+    for at, (teacher, method) in labels.items():
+        agents = computed[teacher, method]
+        fills = agents.scores("success") >= ESCAPES
+        _dots(ax, agents.scores("returns"), at, style(method).colour, fills, 0.24)
+        escape = f"{agents.escapers(method)} of {len(agents)}"
+        _beside(ax, (f"{escape} escape",), at)
+        mean = agents.scores("returns").mean()
+        alt_parts.append(f"{TEACHERS[teacher].words}, {display_name(method)}: {escape} escape, mean return {mean:.0f}")
+    for at, teacher in heads.items():
+        last = at + sum(each == teacher for each, _ in labels.values())
+        ax.plot([own[teacher]] * 2, [at + 0.5, last + 0.5], color=style("rule").colour, linewidth=2.5, zorder=2)
+        ax.text(-0.4, at, TEACHERS[teacher].words, transform=ax.get_yaxis_transform(), fontsize=TEXT,
+                fontweight="bold", color=INK, va="center")  # fmt: skip
+    words = "return of an agent after training; filled: it escapes; green line: its teacher's own return"
+    _finish_axes(ax, [display_name(method) for _, method in labels.values()], words, list(labels))
+    ax.set_ylim(place - 0.5, -0.5)
+    return finish(figure, title, f"A dot for each agent. {'; '.join(alt_parts)}.")
 
 
-def _draw(ax, row: int, values: np.ndarray, estimate, colour: str, edge: float) -> None:
-    """The agents of a cell, their estimate and its interval; what is infinite stands at the edge."""
-    places = row + np.linspace(-0.28, 0.28, len(values)) if len(values) > 1 else [row]
-    fills = np.where(np.isfinite(values), colour, "white")
-    shown = np.minimum(values, edge)
-    ax.scatter(shown, places, s=14, c=fills, edgecolors=colour, linewidths=0.9, alpha=0.8, zorder=3, clip_on=False)
-    value, low, high = np.minimum(estimate, edge)
-    ax.plot([low, high], [row, row], color=INK, linewidth=1, zorder=4)
-    ax.plot([value, value], [row - 0.32, row + 0.32], color=INK, linewidth=2, zorder=4)
+def _dots(ax: Axes, values: np.ndarray, place: float, colour: str, filled: np.ndarray, spread: float = 0.28) -> None:
+    order = np.argsort(values)
+    fills = [colour if each else "white" for each in np.asarray(filled)[order]]
+    places = place + np.linspace(-spread, spread, len(values)) if len(values) > 1 else [place]
+    look = {"edgecolors": colour, "linewidths": 1.1, "zorder": 3, "clip_on": False}
+    ax.scatter(np.asarray(values)[order], places, s=18, c=fills, **look)
 
 
-def _limits(values, logarithmic: bool) -> tuple[float, float]:
-    """The range of the axes: all finite values and a little air, from 0 where none is negative."""
-    each = np.concatenate(list(values))
-    each = each[np.isfinite(each)] if np.isfinite(each).any() else np.ones(1)
-    if logarithmic:
-        return each.min() / 1.5, each.max() * 2
-    air = 0.06 * (np.ptp(each) or 1.0)
-    return (each.min() - air if each.min() < 0 else -air), each.max() + air
+def _beside(ax: Axes, cells: tuple[str, ...], place: float, colour: str = INK) -> None:
+    """Write cells to the right of a row, at fixed places."""
+    for column, words in enumerate(cells):
+        at = (1.04 + 0.2 * column, place)
+        ax.annotate(words, at, xycoords=("axes fraction", "data"), va="center", fontsize=SMALL, color=colour)
 
 
-def _named(place: tuple[str, str]) -> str:
-    return f"{TEACHERS[place[0]].words}, {display_name(place[1])}"
-
-
-def _title(label: str, estimates: dict) -> str:
-    """The lowest and the highest cell, as a sentence."""
-    finite = {place: each.value for place, each in estimates.items() if np.isfinite(each.value)}
-    name = label[0].upper() + label[1:]
-    if not finite:
-        return f"{name}: not reached in half of the agents of any cell"
-    ends = [min(finite, key=finite.get), max(finite, key=finite.get)]
-    low, high = (f"{in_words(estimates[place])[0]} ({_named(place)})" for place in ends)
-    return f"{name}: from {low} to {high}"
-
-
-def equal_table(computed: Cells, budgets: Sequence[tuple[str, int]]) -> tuple[list[str], list[list[str]]]:
-    """(headings, rows): how often each teacher's agents were ahead in training, in %, at equal numbers of decisions.
-
-    budgets: (method, decisions) of each column. A cell is a mean over agents, see `at_budget`; "–" where an agent's
-    training was shorter.
-    """
-    rows = []
-    for teacher in dict.fromkeys(teacher for teacher, _ in computed):
-        row = [TEACHERS[teacher].words]
-        for method, decisions in budgets:
-            results = computed.get((teacher, method))
-            ahead = np.nan if results is None else 100 * at_budget(results.curves, decisions, "success").mean()
-            row.append("–" if np.isnan(ahead) else f"{ahead:.0f}")
-        rows.append(row)
-    columns = [f"{display_name(method)}, {decisions / 1000:g} thousand" for method, decisions in budgets]
-    return ["ahead in training, %, after so many decisions", *columns], rows
+def _finish_axes(ax: Axes, names: list[str], words: str, places: list[float] | None = None) -> None:
+    plain_axes(ax, "", grid="x")
+    ax.set_yticks(range(len(names)) if places is None else places, names)
+    ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
+    ax.set_ylim(len(names) - 0.5, -0.5)
+    ax.set_xlabel(words, fontsize=SMALL, color=INK)
 
 
 def own_returns(teachers: Iterable[str]) -> dict[str, float]:
