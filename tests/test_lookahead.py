@@ -234,6 +234,10 @@ def test_every_model_drives_every_form(name):
     [
         (lambda: lookahead(idle_policy, 0), "horizon = 0: give a whole number from 1 to 1,000"),
         (lambda: lookahead(idle_policy, models=[]), "give at least one model"),
+        (lambda: lookahead(None), "policy = None cannot drive: give a function of"),
+        (lambda: lookahead_shield(lambda cars, scenario: 4), "or, for a rule, teacher_policy"),
+        (lambda: drive_episodes(lambda observations: 4, ROADS), "give a function of"),
+        (lambda: lookahead(bc.shipped_agents("soft")[0]), "give its policy, agent.as_policy"),
         (lambda: Model(noise=-1.0), "cannot be negative"),
         (lambda: Model(keep=True, time_gap=2.0), "want nothing else. Leave out keep"),
         (lambda: Model(drawn=3, desired_speed=1.0), "drawn around the true ones. Leave out drawn"),

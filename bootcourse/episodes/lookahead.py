@@ -18,7 +18,7 @@ import numpy as np
 
 from bootcourse.episodes.models import EXACT, Model
 from bootcourse.errors import BootcourseError, whole
-from bootcourse.policies import Policy, PolicyOutput
+from bootcourse.policies import Policy, PolicyOutput, check_policy
 from bootcourse.road.branching import advance, future_worth
 from bootcourse.road.constants import constants
 from bootcourse.road.observation import observe_all
@@ -116,7 +116,8 @@ class LookAhead:
     """
 
     def __init__(self, policy: Policy, horizon: int, scenario: Scenario, models: Sequence[Model], seed: int):
-        self.policy, self.horizon, self.scenario = policy, whole(horizon, "horizon", 1000, low=1), scenario
+        self.policy, self.scenario = check_policy(policy), scenario
+        self.horizon = whole(horizon, "horizon", 1000, low=1)
         self.models, self.seed = tuple(models), whole(seed, "seed")
         if not self.models:
             raise BootcourseError("models is empty: give at least one model, such as models=(EXACT,).")
@@ -205,7 +206,7 @@ def lookahead(
     policy: an agent's, a rule's, a plan, your own. horizon: decisions of an imagined drive, the first included.
     scenario: of the roads that it drives. models: what it imagines; of several, the worst case counts. seed: of what
     the models draw. Of equal values the first action is taken. About 0.15 ms for each decision on a free core.
-    Raises BootcourseError for a horizon outside 1..1000, and without a model.
+    Raises BootcourseError for what is no policy, for a horizon outside 1..1000, and without a model.
     """
     return LookAhead(policy, horizon, scenario, models, seed)
 
