@@ -254,6 +254,15 @@ def test_a_mistake_is_one_sentence(mistake, sentence):
         mistake()
 
 
+def test_a_rule_that_fails_in_an_imagined_drive_says_so():
+    def slow_alone(cars, scenario):
+        return 4 if cars[0, 3] < 11 else None  # the real roads begin with 10 m/s
+
+    policy = lookahead(bc.teacher_policy(slow_alone))
+    with pytest.raises(BootcourseError, match="failed at decision 1 of an imagined drive: it returned None"):
+        drive_episodes(policy, ROADS)
+
+
 def test_evaluate_and_drive_look_ahead_on_the_command_line(bootcourse, tmp_path):
     answer = bootcourse("evaluate", "idle", "--episodes", 2, "--lookahead", 3)
     assert answer.status == 0 and "looking 3 decisions ahead" in answer.out

@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from bootcourse.episodes.models import EXACT, Model
-from bootcourse.errors import BootcourseError, whole
+from bootcourse.errors import BootcourseError, RuleFailed, whole
 from bootcourse.policies import Policy, PolicyOutput, check_policy
 from bootcourse.road.branching import advance, future_worth
 from bootcourse.road.constants import constants
@@ -59,7 +59,7 @@ def imagine(
     for decision in range(horizon):
         if decision > 0:
             observe_all(states, constants(scenario), observations)
-            actions = follow(observations, states).actions
+            actions = _imagined_actions(follow, observations, states, decision)
         values += advance(states, actions, accidents, scenario)
         places.append(states[:, EGO, X : Y + 1].copy())
     values += np.where(accidents == 0, np.interp(states[:, EGO, SPEED], *worth_of_speed(scenario)), 0.0)
@@ -93,6 +93,15 @@ def worth_of_speed(scenario: Scenario) -> tuple[np.ndarray, np.ndarray]:
     A drive without an accident is so worth more than any that ends in one, whenever that is.
     """
     return future_worth(scenario, scenario.clock.decisions, 1.0)[-1]
+
+
+def _imagined_actions(policy: Policy, observations: np.ndarray, states: np.ndarray, decision: int) -> np.ndarray:
+    """The policy's actions on imagined roads, (roads * branches,). A rule's RuleFailed says that they are imagined."""
+    try:
+        return policy(observations, states).actions
+    except RuleFailed as error:
+        error.road, error.where = None, f"at decision {decision} of an imagined drive"
+        raise
 
 
 def _in_branches(policy: Policy, branches: int) -> Policy:
