@@ -201,8 +201,8 @@ table(headings, rows)
 bc.show(compared.figure(f"{problem.name}, the systematic teacher, five seeds"))
 
 # %% [markdown]
-# Five seeds and a short training decide little. The study has ten seeds, and three to five times as
-# many episodes: `bootcourse study elsewhere`.
+# Five seeds and a short training decide little. The study has three to five times as many episodes,
+# and ten seeds (of Lunar lander five): `bootcourse study elsewhere`.
 
 # %% tags=["hide-input"]
 bc.show(figure(cells))
