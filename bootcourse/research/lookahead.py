@@ -39,6 +39,7 @@ BASES = {"ppo_cloned": 10, "bootstrapped": 10, "soft": 5, "sac": 10, "demos": 5,
 CLOSELY = ("ppo_cloned", "bootstrapped")  # the base policies whose model is varied
 HORIZONS = (3, 6, 15)
 ROADS, MANY = 1000, 10_000  # held-out roads of an agent: mostly, and of the safest
+FEW, FEWER = 300, 100  # of long computations
 SHIPPING = 10  # agents of a base policy of which not all ship elsewhere: their actors ship with this experiment
 
 
@@ -74,11 +75,12 @@ def cells() -> list[Cell]:
     plain = [Cell(base, form, agents) for form in ("alone", "shield") for base, agents in BASES.items()]
     closely = [Cell(base, agents=BASES[base]) for base in ("ppo_cloned", "rule", "bootstrapped", "sac")]
     shields = [Cell("ppo_cloned", "shield", model=model) for model in wrong]
-    horizons = [Cell("ppo_cloned", horizon=horizon) for horizon in HORIZONS]
-    others = [Cell(base, agents=BASES[base]) for base in ("soft", "demos", "bc")]
+    horizons = [Cell("ppo_cloned", roads=FEWER, horizon=horizon) for horizon in HORIZONS]
+    others = [Cell(base, agents=BASES[base], roads=FEWER) for base in ("soft", "demos", "bc")]
     rollouts = [Cell("ppo_cloned", model=model) for model in wrong]
     most = [Cell("ppo_cloned", "shield", roads=MANY)]
-    most += [Cell("bootstrapped", form, model=model) for form in ("shield", "rollouts") for model in wrong]
+    most += [Cell("bootstrapped", "shield", roads=FEW, model=model) for model in wrong]
+    most += [Cell("bootstrapped", roads=ROADS if model == wrong[0] else FEW, model=model) for model in wrong]
     return [*plain, *closely, *shields, *horizons, *others, *rollouts, *most]
 
 
