@@ -5,6 +5,7 @@ the rule uses the cars, which are the true state (off the trap, the observations
 also has a method `reset(roads)`, which `episodes/driving.py` calls before each episode.
 """
 
+import inspect
 import itertools
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
@@ -25,6 +26,24 @@ class PolicyOutput(NamedTuple):
 
 
 Policy = Callable[[np.ndarray, np.ndarray], PolicyOutput]
+
+
+def check_policy(policy: Policy) -> Policy:
+    """The policy itself. Raises BootcourseError for an agent, for a rule, and for what is no function."""
+    if hasattr(policy, "as_policy"):
+        raise BootcourseError("An agent cannot drive by itself: give its policy, agent.as_policy().")
+    try:
+        signature = inspect.signature(policy)
+        signature.bind(None, None)
+        drives = next(iter(signature.parameters)) != "cars"  # the first argument of a rule
+    except (TypeError, ValueError):  # no function, or one of other arguments
+        drives = False
+    if not drives:
+        raise BootcourseError(
+            f"policy = {policy!r:.80} cannot drive: give a function of (observations, cars), such as agent.as_policy() "
+            "or, for a rule, teacher_policy(my_rule)."
+        )
+    return policy
 
 
 def idle_policy(observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:

@@ -91,6 +91,7 @@ REFUSED = [
         ("Taxi-v4", r"Taxi-v4 shows Discrete\(500\): flatten it to a vector"),
     )],
     (lambda: training_of("bc", teacher=None), "needs demonstrations of this environment: give them, or teacher"),
+    (lambda: bc.Training(bc.settings_for("sac")), "one agent's settings: give a list of them, such as with_seeds"),
     (lambda: training_of("soft", rule_p=0.3), r"rule_p = 0.3 is outside \[1/3, 1\)"),
     (lambda: bc.compare({}), "nothing to compare"),
     (lambda: bc.compare({"x": 3}), "'x' is 3: give settings"),

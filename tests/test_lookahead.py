@@ -14,7 +14,7 @@ from bootcourse.course.shipped import beginning
 from bootcourse.episodes.evaluate import drive_episodes
 from bootcourse.episodes.lookahead import imagine, lookahead, lookahead_shield, rollout_values, worth_of_speed
 from bootcourse.episodes.models import FAR_BEHIND, MODELS, Model
-from bootcourse.errors import BootcourseError
+from bootcourse.errors import BootcourseError, RuleFailed
 from bootcourse.plots.futures import trails
 from bootcourse.policies import PlanPolicy, PolicyOutput, idle_policy, plan_policy, rule_policy
 from bootcourse.replay3d.recorder import to_html
@@ -204,6 +204,10 @@ def test_every_model_drives_every_form(name):
     [
         (lambda: lookahead(idle_policy, 0), "horizon = 0: give a whole number from 1 to 1,000"),
         (lambda: lookahead(idle_policy, models=[]), "give at least one model"),
+        (lambda: lookahead(None), "policy = None cannot drive: give a function of"),
+        (lambda: lookahead_shield(lambda cars, scenario: 4), "or, for a rule, teacher_policy"),
+        (lambda: drive_episodes(lambda observations: 4, ROADS), "give a function of"),
+        (lambda: lookahead(bc.shipped_agents("soft")[0]), "give its policy, agent.as_policy"),
         (lambda: Model(noise=-1.0), "cannot be negative"),
         (lambda: Model(keep=True, time_gap=2.0), "want nothing else. Leave out keep"),
         (lambda: Model(drawn=3, desired_speed=1.0), "drawn around the true ones. Leave out drawn"),
@@ -218,6 +222,16 @@ def test_every_model_drives_every_form(name):
 def test_a_mistake_is_one_sentence(mistake, sentence):
     with pytest.raises(BootcourseError, match=sentence):
         mistake()
+
+
+def test_a_rule_that_fails_in_an_imagined_drive_gives_the_imagined_state():
+    def slow_alone(cars, scenario):
+        return 4 if cars[0, 3] < 11 else None  # the real roads begin with 10 m/s
+
+    policy = lookahead(bc.teacher_policy(slow_alone))
+    with pytest.raises(RuleFailed, match="it returned None") as failed:
+        drive_episodes(policy, ROADS)
+    assert failed.value.state[0, SPEED] >= 11
 
 
 def test_evaluate_and_drive_look_ahead_on_the_command_line(bootcourse, tmp_path):

@@ -12,7 +12,7 @@ from gymnasium.spaces import Box, Discrete
 from gymnasium.vector import AutoresetMode, SyncVectorEnv, VectorEnv
 
 from bootcourse.errors import require
-from bootcourse.policies import Policy, PolicyOutput
+from bootcourse.policies import Policy, PolicyOutput, check_policy
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, Scenario
 
@@ -37,9 +37,9 @@ class Step(NamedTuple):
 def steps(policy: Policy, env: VectorEnv, seeds: Sequence[int] | int) -> Iterator[Step]:
     """Drive one episode on each road of `env`, reset with `seeds`; yields each decision until all are over.
 
-    A policy with a method `reset(roads)` is reset first.
+    A policy with a method `reset(roads)` is reset first. Raises BootcourseError for what is no policy.
     """
-    if hasattr(policy, "reset"):
+    if hasattr(check_policy(policy), "reset"):
         policy.reset(env.num_envs)
     on_the_trap = hasattr(env, "cars")
     observations, _ = env.reset(seed=seeds)

@@ -18,7 +18,7 @@ import numpy as np
 
 from bootcourse.episodes.models import EXACT, Model
 from bootcourse.errors import BootcourseError, whole
-from bootcourse.policies import Policy, PolicyOutput
+from bootcourse.policies import Policy, PolicyOutput, check_policy
 from bootcourse.road.branching import advance, future_worth
 from bootcourse.road.constants import constants
 from bootcourse.road.observation import observe_all
@@ -113,7 +113,7 @@ class LookAhead:
 
     Its output has the base policy's π, and the nine values as Q. Of the last decision, for pictures and counts:
     `imagined`, the nine imagined drives on each road, and `overruled` (roads,) bool, whether the action is not the
-    base policy's. Raises BootcourseError for a horizon outside 1..1000, and without a model.
+    base policy's. Raises BootcourseError for what is no policy, for a horizon outside 1..1000, and without a model.
     """
 
     def __init__(
@@ -124,7 +124,8 @@ class LookAhead:
         models: Sequence[Model] = (EXACT,),
         seed: int = 0,
     ):
-        self.policy, self.horizon, self.scenario = policy, whole(horizon, "horizon", 1000, low=1), scenario
+        self.policy, self.scenario = check_policy(policy), scenario
+        self.horizon = whole(horizon, "horizon", 1000, low=1)
         self.models, self.seed = tuple(models), whole(seed, "seed")
         if not self.models:
             raise BootcourseError("models is empty: give at least one model, such as models=(EXACT,).")

@@ -98,6 +98,10 @@ class Training:
     ):
         if not settings:
             raise BootcourseError("There are no agents: give the settings of at least one.")
+        if isinstance(settings, Settings):
+            raise BootcourseError(
+                "These are one agent's settings: give a list of them, such as with_seeds(settings, 4)."
+            )
         self.episodes = whole(episodes, "episodes", MOST_EPISODES, low=1)
         self.settings, self.make_env = list(settings), make_env
         self.n_agents, self.envs_per_agent = len(settings), settings[0].envs_per_agent

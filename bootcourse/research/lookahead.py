@@ -87,7 +87,7 @@ def cells() -> list[Cell]:
     rollouts = [Cell("ppo_cloned", model=model) for model in wrong]
     most = [Cell("ppo_cloned", "shield", roads=MANY)]
     most += [Cell("bootstrapped", "shield", roads=FEW, model=model) for model in wrong]
-    most += [Cell("bootstrapped", roads=FEW, model=model) for model in wrong]
+    most += [Cell("bootstrapped", roads=ROADS if model == wrong[0] else FEW, model=model) for model in wrong]
     return [*plain, *closely, *shields, *horizons, *others, *rollouts, *most]
 
 

@@ -17,6 +17,7 @@ from tools.course.known import shipped_teachers
 
 NOISE, LATE = "places off by 1 m, speeds by 0.5 m/s", "everything a second late"
 OTHERS_LATE = "the others a second late"
+KEEPING, GAPS = "others keep speed and lane", "twice the time gap"
 
 
 @cache
