@@ -97,8 +97,8 @@ def decode(actions):
 check.decode(decode)
 
 # %% [markdown]
-# You can also write a plan: a list of actions in words, each with its number of seconds. When the
-# plan ends, the car keeps its speed and its direction.
+# You can also write a plan: actions in words, each with its number of seconds. When it ends, the
+# car keeps its speed and its direction.
 
 # %%
 my_plan = [("keep left", 2), ("keep right", 2)]  # change it, and run the cell again
@@ -208,12 +208,10 @@ for road in (7, ROAD):
 table(["road", "plans that get out unhurt", "the first of them"], rows)
 
 # %% [markdown]
-# **Explain.** There are ways out without a brake on both roads, also on road {{ ROAD }}, where the
-# way backwards looked like the only one. But few plans find one, and a plan that works on one road
-# need not work on the next. Trap 2 starts {{ DEFAULT.traps.d2[0] }} to {{ DEFAULT.traps.d2[1] }} m
-# ahead of you, from centre to centre, and a car is {{ DEFAULT.car.length }} m long. Here are three
-# plans of our choice on the same 400 roads; "far" roads are those on which trap 2 starts a car's
-# length ahead or more:
+# **Explain.** There are ways out without a brake on both roads. But few plans find one, and a plan
+# that works on one road need not work on the next: trap 2 starts {{ DEFAULT.traps.d2[0] }} to {{
+# DEFAULT.traps.d2[1] }} m ahead of you, from centre to centre. Here are three plans of our choice
+# on the same 400 roads; "far" roads are those on which trap 2 starts a car's length ahead or more:
 
 # %%
 after = [("accelerate straight", 5)]
@@ -256,13 +254,12 @@ bc.show(diagrams.agent_loop(observation="26 numbers", action="one of nine", rewa
 # %% [markdown]
 # The observation is {{ DEFAULT.observation_size }} numbers: six about the ego, then five about each
 # of the four nearest cars within {{ DEFAULT.sight.distance }} m. A missing car is five zeros. Each
-# number is divided by a fixed scale, so that it is of order one; multiply by the scale, and you
-# have metres and metres per second.
+# number is divided by a fixed scale, so that it is of order one.
 #
-# `presence` is 1 for a car that is there. `x` is the ego's place along the road and `y` its place
-# across: y is 0 in the middle of the left lane and grows to the *right*. `v_lon` and `v_lat` are
-# its speeds along and across the road, and `d_e` is how far it is off the middle of its lane. `dx`,
-# `dy`, `dv_lon` and `dv_lat` are places and speeds of another car, measured from the ego.
+# `x` is the ego's place along the road and `y` its place across: y is 0 in the middle of the left
+# lane and grows to the *right*. `v_lon` and `v_lat` are its speeds, `d_e` is how far it is off the
+# middle of its lane. `dx`, `dy`, `dv_lon` and `dv_lat` are places and speeds of another car,
+# measured from the ego; `presence` is 1 for a car that is there.
 # <!-- claim: sum(not name.startswith('car') for name in observation.names(DEFAULT)) == 6 -->
 # <!-- claim: sum(name.startswith('car 1') for name in observation.names(DEFAULT)) == 5 -->
 # <!-- claim: DEFAULT.sight.neighbours == 4 -->
@@ -384,8 +381,7 @@ print(f"return {idle.rewards.sum():.4f}, distance {idle.distance:.0f} m, success
 # </details>
 #
 # **Explain.** Remember {{ idle().rewards.sum() | .1f }}: a learner that ends near it has probably
-# learned to stay where it is. Doing nothing is a *fixed point*: each second is like the one before,
-# and it pays a little.
+# learned to stay where it is.
 # <!-- claim: np.ptp(idle().rewards) < 1e-9 and idle().rewards.min() > 0 -->
 
 # %% [markdown] tags=["instructor"] minutes=6
@@ -436,12 +432,11 @@ for drive, who in ((before, "Untrained"), (after, f"After {training.updates:,} u
 # lines have risen from −9.5? Which agents have success? If an agent's return has risen without
 # success, it now survives longer behind the traps.
 #
-# One short training of two agents says little. In our study {{ len(of('sac')) }} agents of each
-# kind learned, each on {{ of('sac').curves['success'].shape[1] | , }} roads, and then each drove
-# {{ roads() | , }} **held-out** roads, which were not used in training. Agents of one kind differ
-# only in their **seed**, the number from which all chance in their training is drawn. An agent
-# **escapes** if it succeeds on at least {{ 100 * ESCAPES | .0f }} % of the held-out roads. This is
-# the meaning of the word in the whole course.
+# Two agents say little. In our study {{ len(of('sac')) }} agents of each kind learned, each on
+# {{ of('sac').curves['success'].shape[1] | , }} roads, and then each drove {{ roads() | , }}
+# **held-out** roads, which were not used in training. Agents of one kind differ only in their
+# **seed**, the number from which all chance in their training is drawn. In the whole course, an
+# agent **escapes** if it succeeds on at least {{ 100 * ESCAPES | .0f }} % of the held-out roads.
 # <!-- claim: len(of('sac')) == len(of('bootstrapped')) -->
 #
 # > **Predict.** How many of the {{ len(of('sac')) }} agents of plain SAC escape?
