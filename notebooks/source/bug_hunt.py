@@ -438,8 +438,8 @@ source(
 # 1. A curve of success or return can look right with a broken part behind it.
 # 2. A probe asks one part of a learner something whose answer is known. Compare with a healthy
 #    agent.
-# 3. At an accident the right Q is {{ DEFAULT.reward.accident }}; on this road, a promise far above
-#    {{ 1 / (1 - SETTINGS.gamma) | .0f }} is wrong.
+# 3. At an accident the right Q is {{ DEFAULT.reward.accident }}; on this road, without a bonus, a
+#    promise far above {{ 1 / (1 - SETTINGS.gamma) | .0f }} is wrong.
 # 4. No gradient passes through a draw among nine actions. Without the stop-gradient, the actor's
 #    loss changes the critic.
 # 5. Small functions with hand-worked cases find in milliseconds what training can hide.

@@ -359,7 +359,7 @@ table(["entropy H", "α with η = −1", "α with η = 0.66"], rows)
 # three tenths of the largest entropy: there α turns, as a thermostat should.
 #
 # Why then −1? For *continuous* actions a rule of thumb sets η to minus the dimension of the action,
-# and −1 is right for an action that is a single number. There an entropy can be negative, since a
+# which gives −1 for an action that is a single number. There an entropy can be negative, since a
 # density can be larger than one.
 # <!-- claim: 0 - SETTINGS.target_entropy == 1 -->
 

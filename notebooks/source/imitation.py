@@ -312,12 +312,12 @@ headings, rows = figures_baselines.followers(pupils, bc.held_out_seeds(11, 24))
 table(headings, rows)
 
 # %% [markdown]
-# **Explain.** A clone learns the rule's own action in each state. The discriminator only decides
-# whether a second looks like one of the rule's, and many seconds do: in the last table GAIL's
-# agents do what the rule would in fewer seconds than the clones. The demonstrations contain no
-# accident, so they do not show what one costs. GAIL loses by an accident what the seconds after it
-# would have paid, and γ = {{ settings_for('gail').gamma }} counts about five of them. We have not
-# tested this reading. The paper's success rate hides such accidents: a car that leaves the road
+# **Explain.** A clone is trained on the rule's own action in each state. The discriminator only
+# decides whether a second looks like one of the rule's, and many seconds do: in the last table
+# GAIL's agents do what the rule would in fewer seconds than the clones. The demonstrations contain
+# no accident, so they do not show what one costs. GAIL loses by an accident what the seconds after
+# it would have paid, and γ = {{ settings_for('gail').gamma }} counts about five of them. We have
+# not tested this reading. The paper's success rate hides such accidents: a car that leaves the road
 # *after* overtaking counts as a success.
 # <!-- claim: round(1 / (1 - settings_for('gail').gamma)) == 5 -->
 # <!-- claim: drive_episodes(rule_policy(DEFAULT), range(200)).accident.max() == 0 -->
@@ -464,10 +464,11 @@ bc.show(figures_baselines.success_in_training(study))
 #   settings_for('gail').envs_per_agent -->
 #
 # **Explain.** Next to a badly trained baseline a new method looks good. So check a baseline where
-# its authors have published what can be reached, before you believe a table in which it loses. The
+# others have published what can be reached, before you believe a table in which it loses. The
 # command `bootcourse study checks` trains the very classes of this course on CartPole and Acrobot;
-# our last run ships as `assets/checks.md`. GAIL's authors reach {{ checked(3, 'published') }} on a
-# CartPole of fixed length, and so do our agents.
+# our last run ships as `assets/checks.md`. The authors of the library *imitation* reach {{
+# checked(3, 'published') }} with GAIL on a CartPole of fixed length, and so do our agents. (There γ
+# is 0.99 and η can be reached; the study's GAIL has neither.)
 # <!-- claim: checked(3, 'learner').startswith('GAIL') and checked(3, 'reached') == 'yes' -->
 
 # %% [markdown] tags=["instructor"] minutes=6

@@ -121,7 +121,8 @@ table(["episode", "β", "of 64 rows are the rule's"], rows)
 # %% [markdown]
 # **Explain.** These rows do not push the actor towards the rule's actions. They teach the critic
 # what the rule's actions led to. An action that the critic values more becomes likelier, so
-# demonstrations reach the actor only through Q.
+# demonstrations reach the actor through Q, and through the states in which it is trained; with a
+# soft constraint the KL is charged in these states, too.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Draw a batch as a row of 64 boxes. Shade the rule's after 0, 500 and 1,000 episodes.

@@ -395,10 +395,10 @@ table(["the imagined road", *headings], rows, f"On {len(few)} roads each.")
 bc.show(wrong_models(study))
 
 # %% [markdown]
-# **See.** The shield bears a wrong model better. It has fewer accidents than the agents alone with
-# {{ better('ppo_cloned', 'shield') }} of {{ len(MODELS) - 1 }} wrong models, the rollouts with {{
-# better('ppo_cloned', 'rollouts') }}. (Point estimates; the picture shows the intervals.) A view of
-# only the four visible cars costs little.
+# **See.** With PPO's agents the shield bears a wrong model better. It has fewer accidents than the
+# agents alone with {{ better('ppo_cloned', 'shield') }} of {{ len(MODELS) - 1 }} wrong models, the
+# rollouts with {{ better('ppo_cloned', 'rollouts') }}. (Point estimates; the picture shows the
+# intervals.) A view of only the four visible cars costs little.
 # <!-- claim: better('ppo_cloned', 'shield') > better('ppo_cloned', 'rollouts') -->
 # <!-- claim: per_thousand('ppo_cloned', model='only the four visible cars') < 1 -->
 #

@@ -410,7 +410,7 @@ bc.show(figures.shares_of_the_bound(study, compared, bound, marks | {"the planne
 #   of('cql').scores('returns').max()).mean() > 0.5 and of('bootstrapped').scores('collision').max()
 #   > 0.9 -->
 #
-# **Explain.** CQL earns a little more than its teacher and no more: it uses the rewards, but its
+# **Explain.** CQL earns a little more than its teacher and no more: it may use the rewards, but its
 # term lowers the value of whatever was not demonstrated. None of the ten clones earns more than the
 # rule. (Elsewhere a clone can beat its teacher: if a teacher errs at random, its clone may learn
 # the most frequent action and leave out the errors. This teacher does not err at random.) The

@@ -188,7 +188,7 @@ table(["", "baseline", *logits, "spread"], rows)
 # %% [markdown]
 # Both means agree with the exact gradient up to noise, and the baseline makes the spread more
 # than ten times smaller: so many fewer drives are needed. PPO is this, with two additions: a
-# baseline V(s) that is learned, and a limit on how far one batch of drives may change the policy.
+# baseline V(s) that is learned, and a loss that stops paying for larger changes of the policy.
 # It drives its roads for {{ settings_for('ppo').horizon }} seconds, learns from these decisions,
 # and deletes them.
 #
@@ -321,7 +321,8 @@ table(["decisions", "KL, nats", "clipped, %", "explained variance"], rows[::3])
 # Three numbers say whether PPO is healthy, whatever the return:
 # - the **KL** from the policy before a round of updates to the one after it: a few hundredths of a
 #   nat at most, or the steps are too large;
-# - the **clip fraction**, the share of decisions that have reached the limit: usually 10 to 20 %;
+# - the **clip fraction**, the share of decisions that have reached the limit: 10 to 30 % in our
+#   trainings;
 # - the **explained variance** of the returns by V: 1 for a perfect V, 0 for a constant one.
 #
 # The agents of round 3 that are paid a potential have the same setting, and their readings ship: in

@@ -195,9 +195,10 @@ bc.show(figures.cartpole_strip(drives, "The trained agent, on the same start"))
 
 # %% [markdown]
 # **See.** (Yours will differ from another machine's.) The untrained agent falls sooner than chance
-# would, since its most probable push is nearly always the same one. Train again with `seed=1`
-# before you judge: one agent is one sample. Is the update made of your parts the same as the
-# library's, which trains many agents at once?
+# would, since its most probable push is nearly always the same one. (The trained agent's drive
+# begins in a state that is none of the ten tests'.) Train again with `seed=1` before you judge: one
+# agent is one sample. Is the update made of your parts the same as the library's, which trains many
+# agents at once?
 
 # %%
 own_code.compare()
@@ -279,9 +280,10 @@ for words, fallen_too in (("as before", False), ("and rows of fallen states", Tr
 table(["rows, all with terminated = 0", "Q after 4,000 pushes"], rows, "One agent of each kind.")
 
 # %% [markdown]
-# **Explain.** With these rows the estimate stays below {{ 1 / (1 - 0.99) | .0f }}, where it belongs
-# if nothing ends, although the same network learns estimates from estimates on the same old rows.
-# (These three are the *deadly triad* of Sutton and Barto, chapter 11: together they *can* diverge.)
+# **Explain.** With these rows the estimate stays low for as long as we trained, although the same
+# network learns estimates from estimates on the same old rows. (One agent of each kind: train
+# longer and see whether it stops at {{ 1 / (1 - 0.99) | .0f }}, where it belongs if nothing ends.
+# These three are the *deadly triad* of Sutton and Barto, chapter 11: together they *can* diverge.)
 # A target that reads values which no row corrects comes back in lesson [[offline_learning]].
 
 # %% [markdown] tags=["instructor"] minutes=8
@@ -299,18 +301,6 @@ table(["rows, all with terminated = 0", "Q after 4,000 pushes"], rows, "One agen
 # 4. Without (1 − terminated) the targets read values of fallen states, which no row corrects; the
 #    critic diverges, and no error says so. Look at Q while an agent learns.
 # 5. Three agents, trained this shortly, do not show that a part is useless.
-
-# %% [markdown]
-# ## What you now know
-#
-# 1. The soft value is the mean of Q under the policy plus α times its entropy; its best policy is
-#    softmax(Q / α).
-# 2. The critics are fitted to r + γ (1 − terminated) V(s'), held fixed; an episode that ran out of
-#    time is not terminated.
-# 3. The actor's loss is minus the soft value, with Q held fixed.
-# 4. The temperature is a thermostat for the entropy, which over a list of actions is 0 or more:
-#    with η = {{ SETTINGS.target_entropy }} α falls at each update.
-# 5. The buffer gives rows of earlier policies: SAC learns off-policy.
 
 # %%
 worst = left_out.KINDS[1 + scores[1:].mean(1).argmin()]

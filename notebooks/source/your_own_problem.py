@@ -213,8 +213,11 @@ bc.show(figures.agents(scores, title))
 # %% [markdown]
 # **See.** Where the dots of two rows overlap, five agents do not show which method is better. The
 # study, `bootcourse study elsewhere`, has ten for most problems, and three to five times as many
-# episodes. The figure measures return: 0 is what plain SAC earns on this problem, 100 % the best
-# that any method earns with any teacher.
+# episodes. The figure measures return: 100 % is the best that any method earns with any teacher,
+# and 0 is plain SAC with the paper's η = −1 and as many *episodes*. Episodes are no equal budget:
+# on CartPole those of plain SAC are short, so half of its agents had fewer than 5,000 decisions,
+# the agents with the soft constraint about 80,000. So the figure compares ways to use a teacher; it
+# does not say what SAC alone can do (lesson [[update_and_loop]]).
 
 # %% tags=["hide-input"]
 bc.show(figures.gap(cells, "No way to use a teacher is best on all six problems"))
@@ -359,8 +362,8 @@ table(["DoorKey, success in %", *headings], rows, below)
 # demonstrations alone fail: an agent can step back and walk the shown way again, and about half of
 # its decisions earn 2. We think that this is what happens.
 #
-# **Why not on MountainCar?** There the limit is 1, and the bonus of 2 is above it, too. But a drive
-# of MountainCar hardly ever returns to the same state, so its demonstrations hold no circle to
+# **Why not on MountainCar?** There the limit is 1, and the bonus of 2 is above it, too. We think
+# that its drives hardly return to the same state, so that its demonstrations hold no circle to
 # learn from.
 # <!-- claim: score('doorkey', 'good', 'demonstrations') < 0.1 -->
 

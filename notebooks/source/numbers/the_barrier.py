@@ -77,6 +77,7 @@ def temperature() -> float:
 
 
 AT_ONCE, ONE_FIRST = "accelerates at once", "1 random action, then accelerates"
+ONCE = "accelerates once, then nothing"
 AT_RANDOM = (("a lane keeper", "at random"), ("a later start", "at random"))
 
 

@@ -80,6 +80,7 @@ def drivers(kind: str, roads: int, seed: int = 0) -> Mapping[str, Policy]:
         "stays": idle_policy,
         "at random": random_policy(rng),
         "1 random action, then accelerates": ThenAccelerate(rng.integers(N_ACTIONS, size=(1, roads))),
+        "accelerates once, then nothing": PlanPolicy([7]),
         "accelerates at once": ThenAccelerate([]),
     }
 
