@@ -19,8 +19,8 @@
 # - test a target and a value in milliseconds, without training.
 #
 # **Time** 60 minutes; running it takes under one minute. **It builds on** the losses of lesson
-# [[discrete_sac]], the soft constraint ([[soft_constraint]]) and learning from demonstrations
-# ([[learning_from_demonstrations]]).
+# [[discrete_sac]], the update of lesson [[update_and_loop]], the soft constraint
+# ([[soft_constraint]]) and learning from demonstrations ([[learning_from_demonstrations]]).
 
 # %%
 import bootcourse as bc
@@ -56,8 +56,8 @@ bc.show(charts.lines(seconds, named, title, *words, looks=looks))
 # <!-- claim: (lambda h: record(h.agent('E').as_policy(), [ROAD])[0].rewards.sum() >
 #   record(h.agent('healthy').as_policy(), [ROAD])[0].rewards.sum())(hunt()) -->
 #
-# > **Predict.** Six bugs: here are their names. Which of them will keep the agents from *success*
-# > in training, that is, from ending ahead of trap 1?
+# > **Predict.** Six bugs: here are their names. With how many of them do the agents still *succeed*
+# > in training, that is, end ahead of trap 1 in most episodes? Say which, before you count.
 # >
 # > - `flipped_kl`: the KL divergence is taken the other way round;
 # > - `no_end`: (1 − terminated) is missing in the critic's target;

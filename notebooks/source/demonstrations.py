@@ -355,9 +355,10 @@ table(["ε", *(f"T = {seconds} s" for seconds in times)], rows, below="Share wit
 #
 # **Explain.** The clones' errors lead to more errors, but not for ever.
 #
-# - *They compound:* from about 10 s on the clones differ from the rule far more often in their own
-#   states than in the rule's. So do the study's clones, trained with many times as many updates:
-#   {{ unlike_the_rule()[0] | .0f }} decisions of a drive against {{ unlike_the_rule()[1] | .0f }}.
+# - *They compound*, which shows in the states, not in the growth with T: from about 10 s on the
+#   clones differ from the rule far more often in their own states than in the rule's. So do the
+#   study's clones, trained with many times as many updates: {{ unlike_the_rule()[0] | .0f }}
+#   decisions of a drive against {{ unlike_the_rule()[1] | .0f }}.
 # <!-- claim: unlike_the_rule()[0] > 2 * unlike_the_rule()[1] -->
 # - *They do not reach the worst case:* twice the length brings less than twice as many, also if
 #   each decision after an accident counts as wrong. The worst case would bring four times as many.

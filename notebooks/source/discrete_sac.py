@@ -105,7 +105,7 @@ for words, pi in (
 ):
     h = sac.entropy(torch.tensor([pi]).double().log()).item()
     rows.append([words, f"{h:.3f}", f"{np.exp(h):.2f}"])
-table(["policy", "entropy (nats)", "as undecided as so many equally likely actions"], rows)
+table(["policy", "entropy (nats)", "as undecided as this many equally likely actions"], rows)
 
 # %% [markdown]
 # **See.** The entropy lies between 0 and the logarithm of the number of actions. It is **never
@@ -352,11 +352,11 @@ for h in (most, 1.0, 0.1, 0.0):
 table(["entropy H", "α with η = −1", "α with η = 0.66"], rows)
 
 # %% [markdown]
-# **Explain.** With η = −1 the thermostat does not turn: the entropy of a policy over a list of
-# actions is 0 or more, so $\mathcal{H} - \eta$ is at least 1 in every state, and α falls at each
-# update. As α falls, the best policy softmax(Q / α) becomes sure of one action: the agent explores
-# less and less. How fast, lesson [[soft_constraint]] measures. The second η of the cell, 0.66, is
-# three tenths of the largest entropy: there α turns, as a thermostat should.
+# **Explain.** With η = −1 the thermostat turns in one direction only: the entropy of a policy over
+# a list of actions is 0 or more, so $\mathcal{H} - \eta$ is at least 1 in every state, and α falls
+# at each update. As α falls, the best policy softmax(Q / α) becomes sure of one action: the agent
+# explores less and less. How fast, lesson [[soft_constraint]] measures. The second η of the cell,
+# 0.66, is three tenths of the largest entropy: there α turns, as a thermostat should.
 #
 # Why then −1? For *continuous* actions a rule of thumb sets η to minus the dimension of the action,
 # which gives −1 for an action that is a single number. There an entropy can be negative, since a
@@ -384,8 +384,8 @@ compare_predictions("discrete_sac", {1: 0.0, 2: "1.44", 3: "1 and 50.5", 4: "fal
 # %% [markdown]
 # **Three questions to think about**
 # - What would η = log 9 do to an agent on the road?
-# - The target holds V(s'), which the critics estimate. What if they estimate it ten times too
-#   high at first: does the error stay?
+# - The target holds V(s'), which the critics estimate. Suppose that it is ten times too high at
+#   first. Does the error stay?
 # - V takes the smaller of two critics. What would happen with the larger?
 #
 # **Read on**: Haarnoja et al., *Soft Actor-Critic* (arXiv 1801.01290), and its second version with

@@ -317,8 +317,8 @@ bc.show(figures.final_scores(study, methods))
 # <!-- claim: of('soft').scores('returns').mean() < interval(of('soft').scores('returns')[:3],
 #   np.mean).low -->
 #
-# Where our returns are higher than the paper's (the diamonds), agents drive faster than the rule,
-# and that has a price:
+# Where our returns are higher than the paper's (the diamonds), agents drive faster than the rule.
+# Does that have a price?
 # <!-- claim: all(of(m).scores('returns').mean() > PRINTED[m]['returns'].mean and
 #   of(m).scores('speed').mean() > of('rule').scores('speed').mean() and accidents(m) >
 #   accidents('rule') for m in ('soft', 'bootstrapped')) -->
@@ -421,8 +421,8 @@ table(["success, %", "IQM", "the agents, sorted"], rows, below=words)
 # says which group learned earlier, and how uncertain that difference is. It does not say whether
 # the bonus is needed; after 20,000 updates that is another question. And be careful with the
 # interval: of five scores the IQM leaves out the highest and the lowest, and with so few agents a
-# bootstrap interval is often too short. If it just misses 0, train ten more. How many would settle
-# it? Round 2 tells you before you start.
+# bootstrap interval is often too short. Do not add agents because it just misses 0: fix their
+# number beforehand (Round 2 says how many would settle it) and train a new set.
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Give each group another number to change, and collect the results on the board: one row for each

@@ -73,8 +73,8 @@ table(["", "in the end", "return"], rows)
 # the rule itself. We add behaviour cloning, the plainest way to learn from a teacher, and a
 # yardstick: the best return that a planner found on each road. We call it the **bound**: a better
 # drive may exist, but none of the study's agents has beaten it on any of the {{ roads() | , }} test
-# roads. This lesson takes the two methods that *imitate*
-# apart, BC and GAIL; lesson [[offline_learning]] does the same with CQL.
+# roads. This lesson takes apart the two methods that *imitate*, BC and GAIL; lesson
+# [[offline_learning]] does the same with CQL.
 # <!-- claim: (shipped_results().episodes('returns') < bound()).all() -->
 # <!-- claim: sum(method in PRINTED for method in ('cql', 'gail', 'sac', 'rule', 'bc')) == 4 -->
 #

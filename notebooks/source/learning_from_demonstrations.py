@@ -23,7 +23,7 @@
 #
 # **Time** 75 minutes; running it takes about one minute. **You need** the critic's target of lesson
 # [[discrete_sac]], the demonstrations of lesson [[demonstrations]], and for the last round the
-# parts of lessons [[discrete_sac]] and [[soft_constraint]].
+# parts of lessons [[discrete_sac]], [[update_and_loop]] and [[soft_constraint]].
 
 # %%
 import bootcourse as bc
@@ -90,7 +90,7 @@ own_code.load()
 # ## Round 1: how do demonstrations get into a batch?
 #
 # For each update a learner draws a batch of {{ SETTINGS.batch }} rows from its replay buffer
-# (lesson [[discrete_sac]]). Now there is a second table, with the rule's drives in it.
+# (lesson [[update_and_loop]]). Now there is a second table, with the rule's drives in it.
 
 # %%
 demonstrations = bc.collect(200)
@@ -478,7 +478,8 @@ table([*headings, "states in which the demonstrated action has the largest Q"], 
 #
 # You now have all of its parts. (Equations and sections are the paper's.)
 #
-# > **SAC with a rule's help.** Take the algorithm of lesson [[discrete_sac]] and change six lines:
+# > **SAC with a rule's help.** Take the algorithm of lesson [[update_and_loop]] and change six
+# > lines:
 # >
 # > 1. *Before the first decision:* the rule drives {{ SETTINGS.demonstration_episodes }} episodes.
 # >    Their rows are the demonstrations (Section IV-B).
@@ -537,10 +538,13 @@ bc.recording([shipped.beginning(drive, 60) for drive in (yours, *ours)], height=
 
 # %% [markdown]
 # **See.** (Yours will differ.) In our run these agents had learned the rule's way after 2,500
-# updates and earned no more than the rule. In the replay the first of them comes first, and then an
-# agent of our study on the same road, with many times as many updates. The study's ten
-# agents with both aids earn {{ of('bootstrapped').scores('returns').mean() | .0f }} on average, the
-# rule {{ of('rule').scores('returns').mean() | .0f }}.
+# updates and earned no more than the rule. The upper replay shows the first of these agents, the
+# lower one an agent of our study on the same road, with many times as many updates. Of the study's
+# ten agents with both aids {{ escaped('bootstrapped') }} escape, and earn {{
+# of('bootstrapped').scores('returns')[of('bootstrapped').scores('success') >= ESCAPES].min() | .0f
+# }} or more; the others earn {{ of('bootstrapped').scores('returns')[of('bootstrapped').scores(
+# 'success') < ESCAPES].max() | .0f }} or less. (The rule earns {{
+# of('rule').scores('returns').mean() | .0f }} with our sight of 200 m.)
 # <!-- claim: len(of('bootstrapped')) == 10 -->
 #
 # **Try.** Plant a mistake in one part: copy it into a new cell, change a sign, and call

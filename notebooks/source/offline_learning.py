@@ -253,7 +253,7 @@ table(headings, rows)
 # term Q-learning values the best untried action highest, and promises far more than it then earns:
 # each target contains a guess that was chosen because it is high, and the guesses raise each other
 # (compare with the dotted line of what the rule earns). In our runs its drives end in accidents.
-# With the term both agents promise a little less than they earn, and take the way out.
+# With the term both agents promise less than they earn, and take the way out.
 # Data, network and number of updates are the same: one term decides.
 #
 # **Explain.** What does the term do to the car? Compare it with the cloning loss of lesson
@@ -439,7 +439,7 @@ bc.show(figures.shares_of_the_bound(study, compared, bound, marks | {"the planne
 # <!-- claim: len(of('cql')) == escaped('cql') == 10 and of('cql').scores('returns').min() >
 #   of('rule').scores('returns')[0] -->
 # 2. Without the term, offline Q-learning trusts guesses about actions that the data do not hold,
-#    and promises far more than it earns. With it, our agents promised a little less than they
+#    and promises far more than it earns. With it, our agents promised less than they
 #    earned.
 # 3. Two methods have the name CQL. Of one, ten of our ten agents escape, and of the other none; a
 #    target entropy that can be reached freed one of five.

@@ -167,7 +167,9 @@ bc.show(bc.traces([ahead_first], title="The best drive of your agent", what=("sp
 # %% [markdown]
 # **See.** (Yours will differ.) Read your two shares so. If the first is much larger, the agent has
 # kept the rule's way out, and drives on by itself. If both are small, its critic overrules the rule
-# nearly everywhere, and the rule is there for the few states in which Q finds nothing better.
+# nearly everywhere, and the rule is there for the few states in which Q finds nothing better. If
+# the second is the larger, it has found a way out of its own, and does as the rule does on the free
+# road.
 #
 # **Explain.** A strong KL or bonus that stays keeps the agent near the teacher, also where the
 # teacher is wrong, because it pulls at what the agent may do. This choice

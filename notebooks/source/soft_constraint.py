@@ -60,9 +60,9 @@ bc.show(charts.action_bars({"soft, untrained": own_pi, "rule": rule_tilde}, titl
 # still be able to find something better. This lesson builds such a **pull** towards the rule, the
 # *soft constraint*: a penalty of ξ for each nat by which the policy differs from π̃.
 #
-# The agents of this lesson train with the parts of lesson [[discrete_sac]] that you wrote and that
-# passed their checks. The next cell runs the files in the folder `answers`, which hold your own
-# code; no other cell of this lesson does that.
+# The agents of this lesson train with the parts of lessons [[discrete_sac]] and [[update_and_loop]]
+# that you wrote and that passed their checks. The next cell runs the files in the folder `answers`,
+# which hold your own code; no other cell of this lesson does that.
 # <!-- claim: len(re.findall('\nown_code.load()', code_of('soft_constraint'))) == 1 -->
 
 # %%
@@ -417,7 +417,7 @@ table(headings, rows, below)
 # <!-- claim: (0.15625 - 2 * math.log(8 / 0.1)) / (1 - 0.8) < DEFAULT.reward.accident < -1 <
 #   (second_pays(by_rule().states[6, EGO, SPEED]) + 2 * math.log(RULE_P)) / (1 - 0.8) < 0.15625 -->
 #
-# In the program of lesson [[discrete_sac]], `bootcourse/learn/textbook.py`, the KL stands in two
+# In the program of lesson [[update_and_loop]], `bootcourse/learn/textbook.py`, the KL stands in two
 # places:
 
 # %% tags=["nbval-ignore-output"]
@@ -525,10 +525,11 @@ table([*headings, "accidents, %"], rows, below="1,000 held-out roads each.")
 # %% [markdown]
 # **Explain.** A constraint that stays makes a second rule: all ten agents earn a little less than
 # the rule, with few accidents, as Round 3 says they should. A constraint that fades lets most
-# agents earn more than twice as much, at a risk: accidents are four times as frequent, and two of
-# ten get out on hardly any road, although one of these still did in most of its last training
-# episodes. (In training agents draw their actions from π, in the test they take the likeliest: so
-# those with a fixed ξ earn more there than in the figure.)
+# agents earn more than twice as much, at a risk: accidents are four times as frequent, because one
+# agent crashes in nearly all of its drives, and two of ten get out on hardly any road, although one
+# of these still did in most of its last training episodes. (In training agents draw their actions
+# from π; in the test they take the likeliest. That is why those with a fixed ξ earn more in the
+# table than in the figure.)
 # <!-- claim: ((of('soft').scores('success') < 0.01) & (in_training('soft', -50, None) >
 #   0.5)).sum() == 1 -->
 # <!-- claim: accidents('soft') > 4 * stays().episodes('accident').mean() -->

@@ -42,8 +42,8 @@ bc.recording([shipped.beginning(trapped, 30), shipped.beginning(escape, 30)], he
 
 # %% [markdown]
 # Each second pays for speed, most of all at {{ max(np.arange(0, 25, 0.5), key=speed_reward) }} m/s,
-# and an accident costs what about a minute behind the traps earns. Why does a program that learns
-# stay behind slow cars, although the left lane is free? That is the question of this course.
+# and an accident costs about as much as a minute behind the traps earns. Why does a program that
+# learns stay behind slow cars, although the left lane is free? That is the question of this course.
 
 # %% [markdown]
 # ## Drive it yourself

@@ -309,10 +309,10 @@ headings = ["the road", "the drive", "accidents", "worth at γ = 0.8", "at γ = 
 table(headings, rows, below=f"{len(few)} roads each.")
 
 # %% [markdown]
-# **See.** The later start takes the delay away: at both discounts who accelerates at once earns
-# much more than who stays. Neither road takes the crashes away: nine in ten of the random drives or
-# more end in an accident, and at γ = 0.8 one random action before the right drive makes it worth
-# less than staying.
+# **See.** The later start takes the delay away: at both discounts a car that accelerates at once
+# earns much more than one that stays. Neither road takes the crashes away: nine in ten of the
+# random drives or more end in an accident, and at γ = 0.8 one random action before the right drive
+# makes it worth less than staying.
 # <!-- claim: all(worth_of('a later start', AT_ONCE, g) > 4 * worth_of('a later start', 'stays', g)
 #   for g in (0.8, 0.95)) -->
 # <!-- claim: min(easier_outcome(*each).accident.mean() for each in AT_RANDOM) >= 0.9 -->
@@ -382,10 +382,10 @@ table(
 
 # %% [markdown]
 # **So what keeps agents in?** On the road as it is staying is worth more, at γ = 0.8, than each
-# attempt of the figure. Changed alone, discount, target entropy, steering and start free hardly any
-# agent, nor do γ and η together. So no single one of these changes is enough, and what keeps agents
-# in we have not found: their own draws after a good action are a suspect. With the rule as a soft
-# constraint each of the {{ len(changed_agents('soft')) }} escapes.
+# attempt of the figure. Changing only the discount, the target entropy, the steering or the start
+# frees hardly any agent; nor does changing γ and η together. So no single one of these changes is
+# enough, and what keeps agents in we have not found: their own draws after a good action are a
+# suspect. With the rule as a soft constraint each of the {{ len(changed_agents('soft')) }} escapes.
 # <!-- claim: not changed_agents('sac').any() and changed_agents('soft').all() and
 #   len(changed_agents('sac')) == 18 -->
 

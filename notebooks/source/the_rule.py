@@ -281,7 +281,7 @@ bc.show(charts.histogram(episodes.returns, "return of an episode", title))
 # <!-- claim: of('rule').scores('returns').max() < 150 * second_pays(15) / 2 -->
 
 # %%
-title = "In the left lane the rule's speed rises and falls like a saw"
+title = "In the left lane the rule's speed is a sawtooth"
 bc.show(bc.traces([drive], title=title, what=("speed",)))
 
 # %% [markdown]

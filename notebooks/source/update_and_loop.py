@@ -189,16 +189,15 @@ title = f"After {PUSHES:,} pushes your agent balances the pole for {balanced:.0f
 bc.show(charts.lines(pushes, learned, title, "pushes in training", "pushes balanced in a test"))
 
 # %%
-rows, _ = checks.data(by_hand.policy(agent), checks.cartpole, 1, seed=0)
-drives[f"trained: {len(rows)} pushes"] = rows[:, :4].numpy()
-bc.show(figures.cartpole_strip(drives, "The trained agent, on the same start"))
+rows, _ = checks.data(by_hand.policy(agent), checks.cartpole, 1, seed=checks.TEST_SEED)
+trained = {f"trained: {len(rows)} pushes": rows[:, :4].numpy()}
+bc.show(figures.cartpole_strip(trained, "The trained agent, on a start of the test"))
 
 # %% [markdown]
-# **See.** (Yours will differ from another machine's.) The untrained agent falls sooner than chance
-# would, since its most probable push is nearly always the same one. (The trained agent's drive
-# begins in a state that is none of the ten tests'.) Train again with `seed=1` before you judge: one
-# agent is one sample. Is the update made of your parts the same as the library's, which trains many
-# agents at once?
+# **See.** (Yours will differ from another machine's.) The untrained agent lets the pole fall sooner
+# than a random driver does, since its most probable push is nearly always the same one. Train again
+# with `seed=1` before you judge: one agent is one sample, and ten starts are not all starts. Is the
+# update made of your parts the same as the library's, which trains many agents at once?
 
 # %%
 own_code.compare()

@@ -178,7 +178,8 @@ table(["MountainCar, success in %", *headings], rows)
 # about 70 % of its episodes is chance. Of 25 labels of alike states the majority is then right in
 # {{ 100 * majority_right(0.7, 25) | .0f }} %. In the region of a systematic error it is right in 0
 # %, of one label or a thousand. So ask of your teacher first: which kind is it? If its errors are
-# random, clone it, and compare everything else with the clone.
+# random, clone it first, and compare everything else with the clone: it comes close to the rule
+# without its errors, which is enough if that rule is good, and not if it is weak.
 
 # %% [markdown]
 # ## Round 3: which one wins?
@@ -380,8 +381,9 @@ table(["DoorKey, success in %", *headings], rows, below)
 #    of {{ len(varied()['target entropy 0.3'].of('sac')) }} plain agents escape with η = 0.3.)
 # <!-- claim: score('doorkey', 'good', 'soft') >
 #   score('doorkey', 'good', 'SAC, η = 0.3 log |A|') -->
-# 2. **Is the teacher's error random or systematic?** Random, and states do not come back: clone it.
-#    Systematic: try the soft constraint, and ask first whether the teacher comes near the reward.
+# 2. **Is the teacher's error random or systematic?** Random, and states do not come back: clone it,
+#    and go on if the rule without its errors is weak (CartPole). Systematic: try the soft
+#    constraint, and ask first whether the teacher comes near the reward.
 # 3. **Is c larger than the reward can bear?** Compute the limit. Above it, take c = 0.
 # 4. **Is cloning enough?** Put the clone into every table.
 # 5. **Do states come back?** Then test drawn actions, too: the order of methods can change.

@@ -266,7 +266,7 @@ for seed in range(SEEDS):
     shares = [100 * learned[what][seed] for what in ("success", "drawn", "accident")]
     rows.append([seed, *(f"{share:.0f}" for share in shares), f"{learned['returns'][seed]:.1f}"])
 headings = ["student", "success, %", "with drawn actions, %", "accidents, %", "return"]
-table(headings, rows, f"Three students of {mine.__name__}.")
+table(headings, rows, "Three students of the rule that round 2 ended with.")
 
 # %% [markdown]
 # Now ten students of each teacher, and ten agents that learned alone, with the same number of
@@ -278,7 +278,7 @@ table(headings, rows, f"Three students of {mine.__name__}.")
 groups = taught_agents.reference()
 shown = dict(groups)
 shown[f"racer, {taught_agents.LONG:,}"] = taught_agents.longer()
-shown[f"yours: {mine.__name__}"] = learned
+shown["round 2's rule"] = learned
 title = "Most students of teachers that get out escape; of timid and reckless none does"
 bc.show(figures.students(shown, title))
 
