@@ -142,8 +142,10 @@ def notebooks_in(folder: Path) -> list[Path]:
 
 
 def files(folder: Path, pattern: str) -> list[Path]:
-    """The files below a folder, in the order of their names; links are left out."""
-    return [path for path in sorted(folder.rglob(pattern)) if path.is_file() and not path.is_symlink()]
+    """The files below a folder, in the order of their names; what a link leads to is left out."""
+    here = folder.resolve()
+    found = [path for path in sorted(folder.rglob(pattern)) if path.is_file()]
+    return [path for path in found if path.resolve() == here / path.relative_to(folder)]
 
 
 def within(folder: Path, error: BootcourseError) -> str:
@@ -164,8 +166,10 @@ def collect(folder: Path) -> list[Submission]:
     places = [path for path in sorted(Path(folder).iterdir()) if path.name[0] != "."]
     if not any(path.is_dir() or path.suffix in KINDS for path in places):
         raise BootcourseError(f"{folder} holds no submissions: put in a .json file, a notebook or a folder a student.")
-    stems = [path.name if path.is_dir() else path.stem for path in places]
-    return [read(path, stem if stems.count(stem) == 1 else path.name) for path, stem in zip(places, stems, strict=True)]
+    names = [path.name if path.is_dir() else path.stem for path in places]
+    while len(set(names)) < len(names):  # such as of ada.ipynb and the folder ada
+        names = [path.name if names.count(name) > 1 else name for path, name in zip(places, names, strict=True)]
+    return [read(path, name) for path, name in zip(places, names, strict=True)]
 
 
 def read(path: Path, student: str) -> Submission:
