@@ -94,6 +94,11 @@ def test_submit_puts_answers_and_predictions_into_one_file_that_is_read_as_it_wa
     assert [each.answers for each in collect(folder.parent)][-1] == one.answers, "a folder with the file in it"
 
 
+def test_submit_makes_no_folder_of_a_wrong_name(bootcourse, tmp_path):
+    answer = bootcourse("submit", tmp_path / "nowhere", "--name", "Ada")
+    assert answer.status == 2 and "is not there: give the folder" in answer.err and not any(tmp_path.iterdir())
+
+
 def submission(**fields) -> dict:
     """The content of a file that `submit` writes."""
     return {"format": Submission.FORMAT, "exercises": fingerprint(), "time": "2030-01-01"} | fields

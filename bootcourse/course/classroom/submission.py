@@ -78,7 +78,8 @@ def fingerprint() -> str:
 def submit(folder: Path, name: str, out: Path | None) -> tuple[Path, Submission]:
     """Write a submission. Returns its file and what it holds.
 
-    Raises BootcourseError for an empty name or folder, and for a file that is not this student's own submission.
+    Raises BootcourseError for an empty name, for no folder or one without notebooks, and for a file that is not this
+    student's own submission.
     """
     name = " ".join(name.split())[:100]
     short = re.sub(r"[\W_]+", "-", name).strip("-").lower()[:40] or "mine"
@@ -87,6 +88,8 @@ def submit(folder: Path, name: str, out: Path | None) -> tuple[Path, Submission]
         raise BootcourseError("The name is empty: give your name or student number, as in --name 'Ada Lovelace'.")
     if path.suffix != ".json":
         raise BootcourseError(f"--out {path}: give a file that ends in .json.")
+    if not folder.exists():
+        raise BootcourseError(f"{folder} is not there: give the folder with your notebooks.")
     if os.path.lexists(path):
         old = read_json(path, Submission, "choose another name for the file, with --out")
         if old.name != name:
